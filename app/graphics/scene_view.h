@@ -1,0 +1,77 @@
+// Everything that one picture shows: a plain snapshot, so that the renderer knows neither device nor exercise.
+//
+// Frame T, metres, z up, newtons. The renderer (renderer.h) draws it to an image; the head-up display reads `hud`.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptics/quantities.h"
+#include "tissue/mesh/triangle_surface.h"
+
+namespace trocar {
+
+/// Disc on the tissue that the trainee is to touch.
+struct TargetMark {
+  Vec3 centre_T = Vec3::Zero();
+  Vec3 normal_T = Vec3::UnitZ();
+  double radius_m = 0.003;
+  enum class State : std::uint8_t { kWaiting, kLit, kDone } state = State::kWaiting;
+};
+
+/// One force bar: value, wanted band, hard limit, highest value so far.
+struct ForceBar {
+  std::string label;
+  double value_n = 0, peak_n = 0;
+  double band_low_n = 0, band_high_n = 0;
+  double limit_n = 0;      ///< hatched zone starts here
+  double full_scale_n = 0;
+};
+
+struct HudStep {
+  std::string text;
+  enum class State : std::uint8_t { kOpen, kCurrent, kDone } state = State::kOpen;
+};
+
+struct HudRow {
+  std::string name, value, unit;
+};
+
+struct Hud {
+  std::string trainee;     ///< "Trainee: T-expert"
+  std::string title;       ///< "E02 Surface touch - L1"
+  double elapsed_s = 0, limit_s = 0;
+  std::vector<ForceBar> bars;
+  std::vector<HudStep> steps;
+  std::vector<HudRow> rows;      ///< "So far"
+  std::vector<HudRow> device;    ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
+  std::string toast, toast_hint; ///< at most one message; empty when none
+  bool toast_warning = false;
+  std::string credit;            ///< organ's origin and licence; says "synthetic" for phantoms
+};
+
+struct Camera {
+  Vec3 eye_T = Vec3(0, -0.1, 0.1);
+  Vec3 look_at_T = Vec3::Zero();
+  Vec3 up_T = Vec3::UnitZ();
+  double diagonal_fov_deg = 70;
+};
+
+struct SceneView {
+  std::shared_ptr<const TriangleSurface> organ;  ///< already in T; shared between frames
+  std::string material;                          ///< selects the tissue look: "liver", "gallbladder", ...
+  std::vector<TargetMark> targets;
+  Pose X_TI;                       ///< instrument tip, z along the shaft towards the tip
+  double shaft_radius_m = 0.0025, shaft_length_m = 0.30;
+  double jaw_opening_m = 0;
+  std::optional<Vec3> dimple_T;    ///< surface point under the tip while touching
+  Vec3 dimple_normal_T = Vec3::UnitZ();
+  double dimple_depth_m = 0;       ///< drawn as a local dent with whitening
+  Camera camera;
+  Hud hud;
+};
+
+}  // namespace trocar

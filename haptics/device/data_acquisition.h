@@ -1,0 +1,52 @@
+// The device seam: encoder counts in, DAC codes out. The only header that controller and plant share besides
+// quantities.h.
+//
+// One call of read() is one SYNC: it latches all encoders at one instant. write() sets the codes that the DACs take
+// at the NEXT SYNC (one period of delay). Back-ends: SimulatedDaq, ReplayDaq; real boards implement the same class.
+// Thread: haptic task only. No call allocates, locks or throws.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+/// Digital inputs, one bit each.
+enum DigitalInput : std::uint32_t {
+  kDeadman = 1u << 0,     ///< operator's enabling switch closed
+  kHomeBeam = 1u << 1,    ///< infrared beam of the home jig received
+  kHandFault = 1u << 2,   ///< simulated back-end only: the hand produced a non-finite command
+};
+
+struct DaqSample {
+  std::array<std::int32_t, kChannels> counts{};  ///< quadrature counters, wrapping at 32 bit
+  std::uint8_t valid = 0x7F;                     ///< bit i: channel i was latched correctly
+  std::uint32_t elapsed_periods = 1;             ///< SYNC periods since the previous read (1 unless one was missed)
+  std::uint32_t digital_in = 0;                  ///< DigitalInput bits
+};
+
+struct DacFrame {
+  std::array<std::int32_t, kChannels> codes{};  ///< signed, full scale +-(2^(bits-1) - 1) = +-10 V
+};
+
+struct DaqCapabilities {
+  const char* name = "";       ///< "simulated", "replay", ...
+  double rate_hz = 1000;       ///< SYNC rate
+  int dac_bits = 16;
+};
+
+class DataAcquisition {
+ public:
+  virtual ~DataAcquisition() = default;
+  virtual DaqCapabilities capabilities() const noexcept = 0;
+  /// Waits for nothing: in lockstep it advances the back-end by one period, then latches.
+  virtual DaqSample read() noexcept = 0;
+  /// Codes for the next SYNC; all channels change at once.
+  virtual void write(const DacFrame& frame) noexcept = 0;
+  /// Enables or inhibits all amplifiers. Inhibited amplifiers deliver no current whatever the codes.
+  virtual void arm(bool enabled) noexcept = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,48 @@
+// The hand as the rest of the program meets it: what it perceives and what it intends. A hand never sets the pose of
+// the stylus; its intent pulls the stylus through the impedance of hand_model.h.
+//
+// Frames: theatre T (what a person sees on the screen); the session turns an intent into device coordinates through
+// the inverse of the exercise's instrument map. Rate: hands are asked at 1 kHz. Must not allocate.
+#pragma once
+
+#include <cstdint>
+
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+/// What the exercise asks for at this moment, as the screen shows it.
+enum class Cue : std::uint8_t { kNone, kWait, kReach, kPress, kGrip, kRelease, kFinished };
+
+/// What a person senses: delayed and noisy, nothing of the world that is not on the screen or in the fingers.
+struct Percept {
+  double t_s = 0;
+  bool device_ready = false;           ///< the loop is active and holds the stylus weight
+  Vec3 tip_T = Vec3::Zero();           ///< seen position of the instrument tip (delayed, noisy), m
+  Mat3 R_TI = Mat3::Identity();        ///< seen orientation of the instrument
+  double felt_force_n = 0;             ///< felt magnitude of the contact force (noisy)
+  double felt_grip_n = 0;              ///< felt pinch force
+  double jaw_opening_m = 0;            ///< proprioception of the fingers
+  Cue cue = Cue::kNone;
+  std::int32_t target_index = -1;      ///< which target is lit; changes when the next one lights
+  Vec3 target_T = Vec3::Zero();        ///< centre of the lit target (m)
+  Vec3 target_normal_T = Vec3::UnitZ();///< outward surface normal at the target
+  double target_radius_m = 0;
+  double band_low_n = 0, band_high_n = 0;  ///< wanted force as shown on the force bar
+  double shown_force_n = 0;            ///< reading of the force bar; NaN when the bar is hidden
+};
+
+/// Where the hand wants the instrument to be.
+struct HandIntent {
+  Pose X_TI;                    ///< wanted pose of the instrument tip in the theatre
+  double jaw_opening_m = 0.02;  ///< wanted opening of the fingers at the pads
+};
+
+class Hand {
+ public:
+  virtual ~Hand() = default;
+  /// Called once a millisecond of loop time. @param dt_s time since the previous call, s.
+  virtual HandIntent update(const Percept& percept, double dt_s) = 0;
+};
+
+}  // namespace trocar

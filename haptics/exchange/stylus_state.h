@@ -1,0 +1,53 @@
+// What one haptic tick publishes to the rest of the program: the instrument in the theatre and what it feels.
+//
+// All positions in the theatre frame T (m), all forces in scene newtons ("virtual", before the force scale kappa)
+// unless the name says otherwise. Written by the haptic task only; read through Latest<> or Ring<>.
+#pragma once
+
+#include <cstdint>
+
+#include "haptics/fault.h"
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+/// States of the device loop (reference: safety chain of the device documentation, docs/device_and_safety.md).
+enum class LoopState : std::uint8_t { kUnhomed, kHomed, kActive, kFault };
+
+constexpr const char* loop_state_name(LoopState state) {
+  switch (state) {
+    case LoopState::kUnhomed: return "unhomed";
+    case LoopState::kHomed: return "homed";
+    case LoopState::kActive: return "active";
+    case LoopState::kFault: return "fault";
+  }
+  return "unknown";
+}
+
+struct StylusState {
+  std::uint64_t tick = 0;
+  double t_s = 0;  ///< loop time, s
+  LoopState loop = LoopState::kUnhomed;
+  Fault fault;
+
+  Pose X_TI;                  ///< instrument (tip) in the theatre
+  Twist V_TI_T;               ///< its velocity, linear part at the tip, expressed in T
+  Wrench F_I_T;               ///< scene wrench ON the instrument, moment about the tip, expressed in T; virtual N
+  Vec3 rendered_force_T = Vec3::Zero();  ///< force delivered to the hand after kappa, passivity and limits, N
+
+  double jaw_opening_m = 0;   ///< gap between the jaw pads
+  double grip_force_n = 0;    ///< virtual force with which the jaws squeeze what is between them, >= 0
+  double rendered_grip_n = 0; ///< grip force delivered to the fingers
+
+  bool contact = false;       ///< instrument touches the tissue
+  bool tip_contact = false;   ///< the touching part is the tip sphere (not the shaft)
+  Vec3 contact_point_T = Vec3::Zero();   ///< undeformed surface point under the deepest contact (the proxy's foot)
+  Vec3 contact_normal_T = Vec3::UnitZ(); ///< outward unit normal there
+  double depth_m = 0;         ///< indentation, >= 0
+
+  bool saturated = false;        ///< the torque budget cut the contact force this tick
+  bool passivity_active = false; ///< the passivity law changed the force this tick
+  double energy_j = 0;           ///< observer: energy absorbed by the loop so far minus returned, J
+};
+
+}  // namespace trocar

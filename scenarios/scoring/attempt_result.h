@@ -1,0 +1,68 @@
+// The outcome of one attempt, as printed by `trocar run --json`, stored in the database and shown in reports.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/scoring/trace.h"
+
+namespace trocar {
+
+struct Metric {
+  std::string name;
+  std::optional<double> value;  ///< empty when undefined (never 0 in its place)
+  std::string unit;
+};
+
+struct Subscore {
+  std::string name;
+  double value = 0;             ///< 0..1
+  double weight = 0;
+  std::optional<double> raw;    ///< the metric's value
+  std::string unit;
+  double full_at = 0, zero_at = 0;
+  bool gate = false;
+};
+
+/// What scoring alone computes from trace, events and rubric.
+struct Grade {
+  AttemptStatus status = AttemptStatus::kAborted;
+  std::optional<double> score;  ///< 0..100; empty when void, aborted or fault
+  bool passed = false;
+  std::string grade;            ///< "expert", "proficient", "pass", "below pass", "not graded"
+  std::vector<Subscore> subscores;
+  std::vector<std::string> caps;  ///< each cap applied, with its reason
+  std::vector<Metric> metrics;
+};
+
+/// Loop quality of the attempt (the device receipt).
+struct DeviceReceipt {
+  std::string backend;
+  double rate_hz = 0;
+  std::uint64_t ticks = 0, overruns = 0;
+  double saturated_contact_share = 0;  ///< of contact ticks
+  double passivity_active_share = 0;   ///< of contact ticks
+  double min_energy_j = 0;
+  double kappa = 1;
+  std::string fault;                   ///< empty when none
+};
+
+struct AttemptResult {
+  std::string uuid;
+  std::string exercise_id, exercise_version, level;
+  std::int64_t seed = 0;
+  int board = 0;
+  std::string trainee, hand;
+  Grade grade;
+  std::vector<Event> events;
+  DeviceReceipt device;
+  std::string organ_name, organ_source, organ_sha256;
+  bool organ_synthetic = false;
+  std::string organ_credit;            ///< licence and origin, shown wherever the organ is
+  std::string rubric_sha256, recording_sha256, recording_path;
+  std::string state_hash;              ///< 16 hexadecimal digits
+  std::string started_utc;             ///< ISO 8601, wall clock, informative only
+};
+
+}  // namespace trocar

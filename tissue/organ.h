@@ -1,0 +1,32 @@
+// An organ as the simulator loads it: a TOML manifest and the binary PLY surface beside it (design: interface, Files).
+//
+// Frame of the surface: RAS patient axes (x right, y anterior, z superior), metres, origin as in the image.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tissue/mesh/triangle_surface.h"
+
+namespace trocar {
+
+struct Organ {
+  std::string name;            ///< "liver"
+  std::string material;        ///< name of the material, "liver"
+  TriangleSurface surface;     ///< closed, outward, m
+  bool synthetic = false;      ///< made by our own phantom: must be shown wherever the organ is shown
+  bool cut_at_border = false;  ///< the image ended inside the organ; the cap is flat and not anatomy
+  std::string modality;        ///< "CT", "MR", "surface"
+  std::string source_file;     ///< name of the file it was made from (no directories)
+  std::string source_sha256;   ///< of that file
+  std::string licence;         ///< SPDX-like key or text; "unknown" when nobody said
+  std::string credit;          ///< one line to show with the organ
+  std::string sha256;          ///< of the surface file's bytes: identifies the organ in records
+  std::filesystem::path manifest;
+};
+
+/// Reads NAME.organ.toml and the surface it names.
+/// @throws InputError naming file and place: missing file, unknown key, wrong hash, surface open or empty.
+Organ load_organ(const std::filesystem::path& manifest);
+
+}  // namespace trocar
