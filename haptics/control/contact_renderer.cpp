@@ -1,0 +1,152 @@
+#include "haptics/control/contact_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/control/segment_triangle.h"
+
+namespace trocar {
+namespace {
+
+constexpr int kMaxSteps = 10;         // of half a radius: 12 mm a tick at r = 2.5 mm
+constexpr int kSweeps = 4;            // pushes a step over all near triangles
+constexpr double kArrived = 1e-7;     // m, remaining slide at which the proxy rests
+constexpr double kTouchSlack = 2e-6;  // m, a triangle this near to the radius counts as touching
+constexpr double kSameNormal = 0.9998;  // cosine of 1.1 deg: contacts closer than this are one
+constexpr double kSamePoint = 5e-4;   // m
+
+}  // namespace
+
+ContactResult ContactRenderer::update(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch) {
+  return law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, velocity_T, patch);
+}
+
+ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) const {
+  ContactResult result;
+  double nearest = -1;
+  const PatchTriangle* triangle = nullptr;
+  for (int i = 0; i < patch.count; ++i) {
+    const Vec3 point = closest_point_on_triangle(X_TI.p, patch.triangle[i].vertex);
+    const double distance = (point - X_TI.p).norm();
+    if (nearest < 0 || distance < nearest) {
+      nearest = distance;
+      triangle = &patch.triangle[i];
+      result.point_T = point;
+    }
+  }
+  if (!triangle || (X_TI.p - result.point_T).dot(triangle->normal) >= 0) return result;
+  result.contact = result.tip_contact = true;
+  result.depth_m = nearest;
+  result.normal_T = triangle->normal;
+  result.F_I_T.force = patch.stiffness_n_per_m * (result.point_T - X_TI.p);
+  result.F_I_T.moment = (result.point_T - X_TI.p).cross(result.F_I_T.force);
+  result.stored_j = 0.5 * patch.stiffness_n_per_m * nearest * nearest;
+  return result;
+}
+
+ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch) {
+  const Vec3 goal = X_TI.p;
+  backwards_ = X_TI.R.col(2) * -shape_.shaft_length_m;
+  if (!started_) {
+    proxy_ = goal;
+    started_ = true;
+  }
+  gather(goal, patch);
+  touch_count_ = 0;
+  project(patch);  // the shaft may have turned into the surface
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const Vec3 step = slide(goal - proxy_);
+    const double length = step.norm();
+    if (length < kArrived) break;
+    proxy_ += step * std::min(1.0, 0.5 * shape_.radius_m / length);
+    project(patch);
+  }
+
+  ContactResult result;
+  const Vec3 y = proxy_ - goal;
+  if (touch_count_ == 0 || y.norm() < kArrived) return result;
+  share_out(y);
+  const double approach = -velocity_T.dot(y.normalized());
+  const double damping = std::max(0.0, 1 + 1.5 * patch.damping_s_per_m * approach);
+  const Touch* largest = &touch_[0];
+  for (int i = 0; i < touch_count_; ++i) {
+    const Touch& t = touch_[i];
+    const Vec3 force = patch.stiffness_n_per_m * damping * t.share * t.normal;
+    result.F_I_T.force += force;
+    result.F_I_T.moment += (t.point - proxy_).cross(force);
+    if (t.share > largest->share) largest = &t;
+  }
+  if (largest->share <= 0) return result;
+  result.contact = true;
+  result.tip_contact = largest->at_tip;
+  result.point_T = largest->point;
+  result.normal_T = y.normalized();
+  result.depth_m = y.norm();
+  result.stored_j = 0.5 * patch.stiffness_n_per_m * y.squaredNorm();
+  return result;
+}
+
+void ContactRenderer::gather(const Vec3& goal, const ContactPatch& patch) {
+  // Everything within reach of the proxy on its way to the goal; nearest kept first by index order of the patch.
+  const double reach = 2 * shape_.radius_m + (goal - proxy_).norm();
+  near_count_ = 0;
+  const Vec3 axis = backwards_ / shape_.shaft_length_m;
+  for (int i = 0; i < patch.count && near_count_ < kMaxNear; ++i) {
+    const auto& v = patch.triangle[i].vertex;
+    const Vec3 centre = (v[0] + v[1] + v[2]) / 3;
+    const double size = std::sqrt(std::max({(v[0] - centre).squaredNorm(), (v[1] - centre).squaredNorm(),
+                                            (v[2] - centre).squaredNorm()}));
+    const Vec3 offset = centre - proxy_;
+    const double along = std::clamp(offset.dot(axis), 0.0, shape_.shaft_length_m);
+    if ((offset - axis * along).norm() <= reach + size) near_[near_count_++] = i;
+  }
+}
+
+void ContactRenderer::project(const ContactPatch& patch) {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    touch_count_ = 0;
+    double deepest = 0;
+    for (int i = 0; i < near_count_; ++i) {
+      const PatchTriangle& triangle = patch.triangle[near_[i]];
+      const ClosestPair pair = closest_segment_triangle(proxy_, proxy_ + backwards_, triangle.vertex);
+      if (pair.distance > shape_.radius_m + kTouchSlack) continue;
+      // On the axis itself the direction is undefined: the surface's own normal leads out.
+      Vec3 normal = triangle.normal;
+      if (pair.distance > 1e-9) normal = (pair.on_segment - pair.on_triangle) / pair.distance;
+      const double inside = shape_.radius_m - pair.distance;
+      if (inside > 0) proxy_ += inside * normal;
+      deepest = std::max(deepest, inside);
+      add_touch({normal, pair.on_triangle, pair.along == 0});
+    }
+    if (deepest < kArrived) return;
+  }
+}
+
+void ContactRenderer::add_touch(const Touch& touch) {
+  for (int i = 0; i < touch_count_; ++i) {
+    if (touch_[i].normal.dot(touch.normal) > kSameNormal && (touch_[i].point - touch.point).norm() < kSamePoint) return;
+  }
+  if (touch_count_ < kMaxContacts) touch_[touch_count_++] = touch;
+}
+
+Vec3 ContactRenderer::slide(Vec3 step) const {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int i = 0; i < touch_count_; ++i) step -= std::min(0.0, step.dot(touch_[i].normal)) * touch_[i].normal;
+  }
+  return step;
+}
+
+void ContactRenderer::share_out(const Vec3& y) {
+  // Gauss-Seidel on min |sum share_i n_i - y|^2 with share_i >= 0.
+  Vec3 rest = y;
+  for (int i = 0; i < touch_count_; ++i) touch_[i].share = 0;
+  for (int sweep = 0; sweep < 20; ++sweep) {
+    for (int i = 0; i < touch_count_; ++i) {
+      const double before = touch_[i].share;
+      touch_[i].share = std::max(0.0, before + rest.dot(touch_[i].normal));
+      rest -= (touch_[i].share - before) * touch_[i].normal;
+    }
+  }
+}
+
+}  // namespace trocar

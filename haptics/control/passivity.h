@@ -1,0 +1,69 @@
+// Passivity of the rendered force: exact energy observer and the budgeted law along the contact direction.
+//
+// The force held during a period does work on the true displacement: E(k) = E(k-1) - tau_r(k-1-d)^T dq(k), tau_r what
+// was really applied. (The thesis pairs force and backward difference of the same tick and cannot see the energy that
+// sampling creates, docs/thesis_errata.md.) Budget, in joules:
+//   B(k) = min(cap, B(k-1) + absorbed + 1/2 b v^2 T + 1/2 fc |v| T - (stored(k) - stored(k-1)))
+// While B >= 0 the wanted force passes. While B < 0 the force may change only by beta dx with
+//   beta = clamp((F_wanted - F)/dx, -eta - |eta + kappa|, -eta + |eta + kappa|), eta = F/dx, kappa = b/(T/2 + Td)
+// (increment bounding, after Kim and Ryu 2010) and a bounded damping is added; the force never pulls.
+// One budget for the arm, one for the pinch. Thread: haptic task; no allocation.
+#pragma once
+
+#include <cstdint>
+
+namespace trocar {
+
+enum class PassivityLaw : std::uint8_t { kOff, kBudgeted };
+
+/// What the law may assume of the device at the tip; half of the identified friction is counted.
+struct PassivityParameters {
+  PassivityLaw law = PassivityLaw::kBudgeted;
+  double period_s = 1e-3;
+  double delay_s = 1e-3;               ///< Td beyond the hold: one period of the seam
+  double viscous_n_s_per_m = 0.3;      ///< b at the tip [assumed, reference 3.4]
+  double coulomb_n = 0.06;             ///< fc at the tip [assumed, reference 3.4]
+  double effective_mass_kg = 0.127;    ///< at the tip, mid workspace [computed from the device's values]
+  double velocity_lag_s = 4e-3;        ///< of the estimator
+  double dead_band_m_s = 0.005;        ///< FOAW is zero at rest
+  double credit_cap_j = 0.5e-3;
+  double debt_decay_s = 0.2;
+  double recovery_n_per_s = 100;       ///< how fast the full force may return when the budget recovers
+  double fade_debt_j = 0.05;           ///< debt that fades the force to a fifth
+  double fault_debt_j = 0.15;          ///< debt that is a fault
+};
+
+/// One scalar contact: what happened in the last period.
+struct ContactWork {
+  double wanted_n = 0;     ///< force that the contact law asks for, >= 0
+  double absorbed_j = 0;   ///< -tau_applied . dq of the last period
+  double dx_m = 0;         ///< displacement against the force, positive pressing in
+  double speed_m_s = 0;    ///< estimated speed of pressing in
+  double stored_j = 0;     ///< energy that the rendered spring holds now (kappa applied)
+};
+
+class PassivityController {
+ public:
+  explicit PassivityController(const PassivityParameters& parameters) : p_(parameters) {}
+
+  /// @return force to render, N, 0 <= result.
+  double update(const ContactWork& work);
+  void reset();
+
+  double energy_j() const { return energy_; }          ///< observer: absorbed minus returned since reset
+  double min_energy_j() const { return min_energy_; }
+  double budget_j() const { return budget_; }
+  bool active() const { return active_; }              ///< the law changed the force in the last update
+  bool debt_fault() const { return p_.law != PassivityLaw::kOff && -budget_ > p_.fault_debt_j; }
+
+ private:
+  void settle_budget(const ContactWork& work);
+  double bounded(const ContactWork& work) const;
+
+  PassivityParameters p_;
+  double energy_ = 0, min_energy_ = 0, budget_ = 0, stored_ = 0, force_ = 0;
+  int free_ticks_ = 0;
+  bool active_ = false;
+};
+
+}  // namespace trocar
