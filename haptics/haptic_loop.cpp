@@ -108,7 +108,7 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   w << F.force, F.moment;
   contact.torque.head<kArmJoints>() = motion.arm.J_WS.transpose() * w;
   contact.torque[kPinchChannel] = contact.grip.force_n;
-  contact.force_n = F.force.norm();
+  if (contact.tissue.damping_factor > 0) contact.spring_n = F.force.norm() / contact.tissue.damping_factor;
   return contact;
 }
 
@@ -116,11 +116,11 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
   const ChannelVector dq = motion.q - last_q_;
   last_q_ = motion.q;
   ContactWork arm;
-  arm.wanted_n = contact.force_n;
+  arm.wanted_n = contact.spring_n;
   arm.absorbed_j = -acting_contact_.head<kArmJoints>().dot(dq.head<kArmJoints>());
   arm.stored_j = config_.map.force_scale * contact.tissue.stored_j;
-  if (contact.force_n > 0) {
-    const JointVector unit = contact.torque.head<kArmJoints>() / contact.force_n;
+  if (contact.spring_n > 0) {
+    const JointVector unit = contact.torque.head<kArmJoints>() / (contact.spring_n * contact.tissue.damping_factor);
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
   }
@@ -133,7 +133,7 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
 
   ChannelVector passive = contact.torque;
   const double force = arm_passivity_.update(arm);
-  if (contact.force_n > 0) passive.head<kArmJoints>() *= force / contact.force_n;
+  if (contact.spring_n > 0) passive.head<kArmJoints>() *= force / contact.spring_n;
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
   return passive;
 }

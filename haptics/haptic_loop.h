@@ -34,7 +34,7 @@ struct HapticLoopConfig {
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityParameters passivity;        ///< arm; period_s is set from the rate
   PassivityParameters pinch_passivity = pinch_defaults();
-  FrictionParameters friction;
+  FrictionFeedForward friction;
   SafetyLimits safety;
   double torque_rate = 100;             ///< N m/s a joint
   double pinch_force_rate = 500;        ///< N/s
@@ -65,7 +65,7 @@ class HapticLoop {
     ContactResult tissue;
     GripResult grip;
     ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, before passivity
-    double force_n = 0;                            ///< magnitude asked at the stylus
+    double spring_n = 0;                           ///< spring force asked at the stylus, without damping
   };
 
   Motion measure(const DaqSample& in) noexcept;

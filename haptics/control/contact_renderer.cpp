@@ -10,8 +10,11 @@ namespace {
 
 constexpr int kMaxSteps = 10;         // of half a radius: 12 mm a tick at r = 2.5 mm
 constexpr int kSweeps = 4;            // pushes a step over all near triangles
+constexpr int kShareSweeps = 30;
+constexpr double kIdleTravel = 1e-3;  // m a period, beyond what the instrument itself moves
 constexpr double kArrived = 1e-7;     // m, remaining slide at which the proxy rests
-constexpr double kTouchSlack = 2e-6;  // m, a triangle this near to the radius counts as touching
+constexpr double kSlideSlack = 2e-7;  // m beyond the radius within which a triangle stops the slide
+constexpr double kShareSlack = 1e-5;  // m beyond the radius within which a triangle may carry force
 constexpr double kSameNormal = 0.9998;  // cosine of 1.1 deg: contacts closer than this are one
 constexpr double kSamePoint = 5e-4;   // m
 
@@ -48,26 +51,33 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_
   const Vec3 goal = X_TI.p;
   backwards_ = X_TI.R.col(2) * -shape_.shaft_length_m;
   if (!started_) {
-    proxy_ = goal;
+    proxy_ = last_goal_ = goal;
     started_ = true;
   }
-  gather(goal, patch);
+  // The proxy may travel this far in one period, so triangles further away need no look.
+  double allowance = kIdleTravel + 1.5 * (goal - last_goal_).norm();
+  last_goal_ = goal;
+  gather(shape_.radius_m + allowance, patch);
   touch_count_ = 0;
-  project(patch);  // the shaft may have turned into the surface
-  for (int i = 0; i < kMaxSteps; ++i) {
-    const Vec3 step = slide(goal - proxy_);
+  project(patch, kSlideSlack);  // the shaft may have turned into the surface
+  for (int i = 0; i < kMaxSteps && allowance > kArrived; ++i) {
+    const Vec3 step = -share_out(proxy_ - goal);  // what no contact opposes
     const double length = step.norm();
     if (length < kArrived) break;
-    proxy_ += step * std::min(1.0, 0.5 * shape_.radius_m / length);
-    project(patch);
+    const double travel = std::min({length, 0.5 * shape_.radius_m, allowance});
+    proxy_ += step * (travel / length);
+    allowance -= travel;
+    project(patch, kSlideSlack);
   }
+  // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.
+  project(patch, kShareSlack);
 
   ContactResult result;
   const Vec3 y = proxy_ - goal;
   if (touch_count_ == 0 || y.norm() < kArrived) return result;
   share_out(y);
   const double approach = -velocity_T.dot(y.normalized());
-  const double damping = std::max(0.0, 1 + 1.5 * patch.damping_s_per_m * approach);
+  const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * patch.damping_s_per_m * approach);
   const Touch* largest = &touch_[0];
   for (int i = 0; i < touch_count_; ++i) {
     const Touch& t = touch_[i];
@@ -86,9 +96,7 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_
   return result;
 }
 
-void ContactRenderer::gather(const Vec3& goal, const ContactPatch& patch) {
-  // Everything within reach of the proxy on its way to the goal; nearest kept first by index order of the patch.
-  const double reach = 2 * shape_.radius_m + (goal - proxy_).norm();
+void ContactRenderer::gather(double reach, const ContactPatch& patch) {
   near_count_ = 0;
   const Vec3 axis = backwards_ / shape_.shaft_length_m;
   for (int i = 0; i < patch.count && near_count_ < kMaxNear; ++i) {
@@ -102,14 +110,14 @@ void ContactRenderer::gather(const Vec3& goal, const ContactPatch& patch) {
   }
 }
 
-void ContactRenderer::project(const ContactPatch& patch) {
+void ContactRenderer::project(const ContactPatch& patch, double slack) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     touch_count_ = 0;
     double deepest = 0;
     for (int i = 0; i < near_count_; ++i) {
       const PatchTriangle& triangle = patch.triangle[near_[i]];
       const ClosestPair pair = closest_segment_triangle(proxy_, proxy_ + backwards_, triangle.vertex);
-      if (pair.distance > shape_.radius_m + kTouchSlack) continue;
+      if (pair.distance > shape_.radius_m + slack) continue;
       // On the axis itself the direction is undefined: the surface's own normal leads out.
       Vec3 normal = triangle.normal;
       if (pair.distance > 1e-9) normal = (pair.on_segment - pair.on_triangle) / pair.distance;
@@ -129,24 +137,22 @@ void ContactRenderer::add_touch(const Touch& touch) {
   if (touch_count_ < kMaxContacts) touch_[touch_count_++] = touch;
 }
 
-Vec3 ContactRenderer::slide(Vec3 step) const {
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (int i = 0; i < touch_count_; ++i) step -= std::min(0.0, step.dot(touch_[i].normal)) * touch_[i].normal;
-  }
-  return step;
-}
-
-void ContactRenderer::share_out(const Vec3& y) {
-  // Gauss-Seidel on min |sum share_i n_i - y|^2 with share_i >= 0.
+Vec3 ContactRenderer::share_out(const Vec3& y) {
+  // Hildreth's Gauss-Seidel on min |sum share_i n_i - y|^2, share_i >= 0; the rest is the projection of y on the
+  // directions that no contact opposes.
   Vec3 rest = y;
   for (int i = 0; i < touch_count_; ++i) touch_[i].share = 0;
-  for (int sweep = 0; sweep < 20; ++sweep) {
+  for (int sweep = 0; sweep < kShareSweeps; ++sweep) {
+    double change = 0;
     for (int i = 0; i < touch_count_; ++i) {
       const double before = touch_[i].share;
       touch_[i].share = std::max(0.0, before + rest.dot(touch_[i].normal));
       rest -= (touch_[i].share - before) * touch_[i].normal;
+      change = std::max(change, std::abs(touch_[i].share - before));
     }
+    if (change < kArrived) break;
   }
+  return rest;
 }
 
 }  // namespace trocar

@@ -29,7 +29,8 @@ struct ToolShape {
 };
 
 struct ContactResult {
-  Wrench F_I_T;                   ///< on the instrument, moment about the tip
+  Wrench F_I_T;                   ///< spring and damping, on the instrument, moment about the tip
+  double damping_factor = 1;      ///< F_I_T = factor * spring part, >= 0
   bool contact = false;
   bool tip_contact = false;       ///< the largest contact force acts on the tip sphere
   Vec3 point_T = Vec3::Zero();    ///< surface point under the largest contact
@@ -62,19 +63,18 @@ class ContactRenderer {
 
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
   ContactResult proxy_law(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
-  void gather(const Vec3& goal, const ContactPatch& patch);
-  /// Pushes the proxy out of the near triangles and lists the touching ones.
-  void project(const ContactPatch& patch);
+  void gather(double reach, const ContactPatch& patch);
+  /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
+  void project(const ContactPatch& patch, double slack);
   void add_touch(const Touch& touch);
-  /// The part of a step that leaves all listed contacts closed or opening.
-  Vec3 slide(Vec3 step) const;
-  /// Splits y among the contacts, all shares >= 0.
-  void share_out(const Vec3& y);
+  /// Splits y among the contacts, all shares >= 0. @return the part of y that no contact carries.
+  Vec3 share_out(const Vec3& y);
 
   ContactLaw law_;
   ToolShape shape_;
   bool started_ = false;
   Vec3 proxy_ = Vec3::Zero();      ///< tip centre of the proxy, T
+  Vec3 last_goal_ = Vec3::Zero();  ///< tip of the instrument one period ago, T
   Vec3 backwards_ = Vec3::UnitZ(); ///< from the tip along the shaft, times its length
   std::array<std::int32_t, kMaxNear> near_{};
   int near_count_ = 0;

@@ -10,13 +10,13 @@
 
 namespace trocar {
 
-struct FrictionParameters {
+struct FrictionFeedForward {
   double share = 0.5;
   double knee_rad_s = 0.3;       ///< v0
   double dead_band_rad_s = 0.02;
 };
 
-inline JointVector friction_torque(const DeviceModel& model, const FrictionParameters& p, const JointVector& qd) {
+inline JointVector friction_torque(const DeviceModel& model, const FrictionFeedForward& p, const JointVector& qd) {
   JointVector torque;
   for (int i = 0; i < kArmJoints; ++i) {
     const double moving = std::abs(qd[i]) > p.dead_band_rad_s ? 1 : 0;

@@ -1,12 +1,14 @@
-// Passivity of the rendered force: exact energy observer and the budgeted law along the contact direction.
+// Passivity of the rendered force: exact energy observer and a budget that pays for stored energy.
 //
 // The force held during a period does work on the true displacement: E(k) = E(k-1) - tau_r(k-1-d)^T dq(k), tau_r what
 // was really applied. (The thesis pairs force and backward difference of the same tick and cannot see the energy that
-// sampling creates, docs/thesis_errata.md.) Budget, in joules:
-//   B(k) = min(cap, B(k-1) + absorbed + 1/2 b v^2 T + 1/2 fc |v| T - (stored(k) - stored(k-1)))
-// While B >= 0 the wanted force passes. While B < 0 the force may change only by beta dx with
+// sampling creates, docs/thesis_errata.md.) Budget, in joules, R the energy that the displayed spring holds:
+//   B(k) = min(cap, B(k-1) + absorbed + 1/2 (b v^2 + fc |v|) T - (R(k) - R(k-1))),  R = stored * displayed / wanted
+// The full spring force passes while B stays >= 0; otherwise the largest affordable force, but never less than
+// increment bounding allows: F changes by beta dx with
 //   beta = clamp((F_wanted - F)/dx, -eta - |eta + kappa|, -eta + |eta + kappa|), eta = F/dx, kappa = b/(T/2 + Td)
-// (increment bounding, after Kim and Ryu 2010) and a bounded damping is added; the force never pulls.
+// (after Kim and Ryu 2010); in debt a bounded damping is added. The force never pulls.
+// Why R and not the full spring's energy: docs/decisions/0003-passivity-budget.md.
 // One budget for the arm, one for the pinch. Thread: haptic task; no allocation.
 #pragma once
 
@@ -35,11 +37,11 @@ struct PassivityParameters {
 
 /// One scalar contact: what happened in the last period.
 struct ContactWork {
-  double wanted_n = 0;     ///< force that the contact law asks for, >= 0
+  double wanted_n = 0;     ///< spring force that the contact law asks for, >= 0
   double absorbed_j = 0;   ///< -tau_applied . dq of the last period
   double dx_m = 0;         ///< displacement against the force, positive pressing in
   double speed_m_s = 0;    ///< estimated speed of pressing in
-  double stored_j = 0;     ///< energy that the rendered spring holds now (kappa applied)
+  double stored_j = 0;     ///< energy that the wanted spring holds now (kappa applied)
 };
 
 class PassivityController {
@@ -57,11 +59,16 @@ class PassivityController {
   bool debt_fault() const { return p_.law != PassivityLaw::kOff && -budget_ > p_.fault_debt_j; }
 
  private:
-  void settle_budget(const ContactWork& work);
+  double affordable(const ContactWork& work, double income_j) const;
   double bounded(const ContactWork& work) const;
+  double damping(double speed_m_s) const;
+  void forget_in_free_space(const ContactWork& work);
 
   PassivityParameters p_;
-  double energy_ = 0, min_energy_ = 0, budget_ = 0, stored_ = 0, force_ = 0;
+  double energy_ = 0, min_energy_ = 0, budget_ = 0;
+  double held_ = 0;      ///< R, J
+  double spring_ = 0;    ///< displayed spring force, N
+  double missing_ = 0;   ///< wanted minus displayed spring force, N
   int free_ticks_ = 0;
   bool active_ = false;
 };

@@ -26,14 +26,18 @@ struct PlatformWeight {
   Vec3 home_W;  ///< centre of mass in W' at the home pose, m
 };
 
+/// Six equal arm joints and the pinch slide: 8 mm pulley, low-friction small motor of the same electrical scale
+/// [assumed].
+inline std::array<Transmission, kChannels> nominal_transmissions() {
+  std::array<Transmission, kChannels> transmission;
+  transmission.fill(Transmission{});
+  transmission[kPinchChannel].ratio = 0.008;
+  transmission[kPinchChannel].max_motor_torque = 0.080;
+  return transmission;
+}
+
 struct DeviceModel {
-  std::array<Transmission, kChannels> transmission = [] {
-    std::array<Transmission, kChannels> t{};
-    // Pinch slide: 8 mm pulley, low-friction small motor of the same electrical scale [assumed].
-    t[kPinchChannel].ratio = 0.008;
-    t[kPinchChannel].max_motor_torque = 0.080;
-    return t;
-  }();
+  std::array<Transmission, kChannels> transmission = nominal_transmissions();
   std::array<PlatformWeight, 3> platform_weights{{{3.21, {0, -0.0125, 0.0095}},    // wrist motors [T table 4.1]
                                                   {0.20, {0, 0, -0.073}},          // link l1 [T table 4.1]
                                                   {1.61, {0, 0.0125, -0.146}}}};   // elbow motor [T table 4.1]
