@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "haptics/control/segment_triangle.h"
 
@@ -140,6 +141,10 @@ void ContactRenderer::add_touch(const Touch& touch) {
 Vec3 ContactRenderer::share_out(const Vec3& y) {
   // Hildreth's Gauss-Seidel on min |sum share_i n_i - y|^2, share_i >= 0; the rest is the projection of y on the
   // directions that no contact opposes.
+  // The contact best aligned with y comes first: of the near-parallel ones on a smooth surface it is the true one.
+  for (int i = 1; i < touch_count_; ++i) {
+    if (touch_[i].normal.dot(y) > touch_[0].normal.dot(y)) std::swap(touch_[0], touch_[i]);
+  }
   Vec3 rest = y;
   for (int i = 0; i < touch_count_; ++i) touch_[i].share = 0;
   for (int sweep = 0; sweep < kShareSweeps; ++sweep) {
