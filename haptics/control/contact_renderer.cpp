@@ -125,7 +125,7 @@ void ContactRenderer::project(const ContactPatch& patch, double slack) {
       const double inside = shape_.radius_m - pair.distance;
       if (inside > 0) proxy_ += inside * normal;
       deepest = std::max(deepest, inside);
-      add_touch({normal, pair.on_triangle, pair.along == 0});
+      add_touch({normal, pair.on_triangle, pair.distance, pair.along == 0});
     }
     if (deepest < kArrived) return;
   }
@@ -133,7 +133,10 @@ void ContactRenderer::project(const ContactPatch& patch, double slack) {
 
 void ContactRenderer::add_touch(const Touch& touch) {
   for (int i = 0; i < touch_count_; ++i) {
-    if (touch_[i].normal.dot(touch.normal) > kSameNormal && (touch_[i].point - touch.point).norm() < kSamePoint) return;
+    if (touch_[i].normal.dot(touch.normal) > kSameNormal && (touch_[i].point - touch.point).norm() < kSamePoint) {
+      if (touch.distance < touch_[i].distance) touch_[i] = touch;  // the nearer one is the surface's true foot
+      return;
+    }
   }
   if (touch_count_ < kMaxContacts) touch_[touch_count_++] = touch;
 }

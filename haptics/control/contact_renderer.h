@@ -57,6 +57,7 @@ class ContactRenderer {
 
   struct Touch {
     Vec3 normal, point;  ///< unit from surface to axis; surface point
+    double distance;     ///< from the axis, m
     bool at_tip;
     double share = 0;    ///< part of y carried, m
   };
