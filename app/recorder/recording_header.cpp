@@ -1,0 +1,48 @@
+#include "app/recorder/recording_header.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/recorder/tick_codec.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::json;
+
+Json channel_schema() {
+  Json channels = Json::array();
+  for (const RecordedChannel& channel : recorded_channels()) {
+    channels.push_back({{"name", channel.name}, {"unit", channel.unit}, {"quantum", channel.quantum}});
+  }
+  return channels;
+}
+
+void check_rate(double rate_hz) {
+  if (!(rate_hz > 0 && rate_hz <= 1e6)) throw InputError("recording: the rate must lie in (0, 1e6] Hz");
+}
+
+}  // namespace
+
+std::string encode_header(const RecordingHeader& header) {
+  check_rate(header.rate_hz);
+  try {
+    return Json{{"rate_hz", header.rate_hz}, {"channels", channel_schema()}, {"session", header.session}}.dump();
+  } catch (const Json::exception& error) {
+    throw InputError(std::string("recording: the header text is not UTF-8: ") + error.what());
+  }
+}
+
+RecordingHeader decode_header(std::string_view payload) {
+  try {
+    const Json json = Json::parse(payload);
+    if (json.at("channels") != channel_schema()) throw InputError("its channels differ from those of this program");
+    RecordingHeader header{json.at("session").get<std::string>(), json.at("rate_hz").get<double>()};
+    check_rate(header.rate_hz);
+    return header;
+  } catch (const Json::exception& error) {
+    throw InputError(std::string("its header is not readable: ") + error.what());
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,10 @@
+# Recording: codec, container, crash behaviour; and its benchmark.
+trocar_test(test_recording
+  SOURCES recording_codec_test.cpp recording_damage_test.cpp recording_disk_test.cpp recording_samples.cpp
+  LINK trocar_recorder trocar_digest)
+
+find_package(benchmark QUIET)
+if(benchmark_FOUND)
+  add_executable(bench_recording ${PROJECT_SOURCE_DIR}/tests/bench/recording_bench.cpp recording_samples.cpp)
+  target_link_libraries(bench_recording PRIVATE trocar_options trocar_recorder benchmark::benchmark)
+endif()
