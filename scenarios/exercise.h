@@ -40,6 +40,7 @@ struct TargetLayout {
 struct GripTask {
   double block_thickness_m = 0, block_stiffness_n_per_m = 0;
   double low_n = 0, high_n = 0, hold_s = 0;
+  double excess_n = 0;                 ///< GRIP_EXCESS above this
 };
 
 struct Exercise {
@@ -47,7 +48,7 @@ struct Exercise {
   std::string number;                  ///< "E02"
   std::string goal;                    ///< one line for briefing and report
   double time_limit_s = 0;
-  double start_sphere_m = 0, start_hold_s = 0;  ///< READY -> ARMED -> RUN
+  double start_sphere_m = 0, start_hold_s = 0;  ///< radius; time in it: READY -> ARMED -> RUN
   Vec3 start_above_m = Vec3::Zero();   ///< start sphere's centre relative to the region's centre
   TargetLayout layout;
   double hold_s = 0;                   ///< time in band that completes a target

@@ -29,4 +29,9 @@ struct Organ {
 /// @throws InputError naming file and place: missing file, unknown key, wrong hash, surface open or empty.
 Organ load_organ(const std::filesystem::path& manifest);
 
+/// The manifest meant by a user: a path to one, or the name of an organ that ships ("phantom-liver").
+/// @param assets root of the shipped assets; organs lie in its folder `organs`
+/// @throws InputError listing the names that there are
+std::filesystem::path find_organ(const std::string& name_or_path, const std::filesystem::path& assets);
+
 }  // namespace trocar

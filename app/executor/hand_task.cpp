@@ -1,0 +1,67 @@
+#include "app/executor/hand_task.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "haptics/kinematics/device_geometry.h"
+#include "scenarios/cue_percept.h"
+
+namespace trocar {
+namespace {
+
+constexpr std::uint64_t kSensesSeed = 0x5e45e5;  // the senses' own stream, apart from the hand's decisions
+constexpr double kEyeErrorPeriod_s = 0.020;
+
+}  // namespace
+
+HandTask::HandTask(const Scene& scene, const HapticTask& haptic, const Director& director, std::unique_ptr<Hand> hand,
+                   SimulatedDaq& daq)
+    : scene_(scene),
+      haptic_(haptic),
+      director_(director),
+      hand_(std::move(hand)),
+      daq_(daq),
+      random_(static_cast<std::uint64_t>(scene.setup.seed) ^ kSensesSeed),
+      past_(std::max<std::size_t>(1, static_cast<std::size_t>(kEyeDelay_s * scene.loop.daq.rate_hz)),
+            scene.loop.map.instrument_pose(home_pose())) {}
+
+Pose HandTask::see(std::uint64_t tick) {
+  // The oldest entry is what the eye reports; the newest state takes its place.
+  Pose& slot = past_[tick % past_.size()];
+  const Pose seen = slot;
+  if (tick > 0) slot = haptic_.record().stylus.X_TI;
+  return seen;
+}
+
+Percept HandTask::perceive(std::uint64_t tick) {
+  const StylusState& state = haptic_.record().stylus;
+  const double rate = scene_.loop.daq.rate_hz;
+  active_ticks_ = state.loop == LoopState::kActive ? active_ticks_ + 1 : 0;
+  const auto redraw = static_cast<std::uint64_t>(kEyeErrorPeriod_s * rate);
+  if (tick % redraw == 0) {
+    for (int axis = 0; axis < 3; ++axis) eye_error_[axis] = kEyeError_m * random_.normal();
+  }
+  Percept percept;
+  percept.t_s = static_cast<double>(tick) / rate;
+  percept.device_ready = static_cast<double>(active_ticks_) > kReadyAfter_s * rate;
+  const Pose seen = see(tick);
+  percept.tip_T = seen.p + eye_error_;
+  percept.R_TI = seen.R;
+  const double per_scene_newton = scene_.loop.map.force_scale * scene_.loop.map.motion_scale;
+  const double felt = state.rendered_force_T.norm() / per_scene_newton;
+  percept.felt_force_n = std::max(0.0, felt + kTouchError_n * random_.normal());
+  percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
+  percept.jaw_opening_m = daq_.sense().jaw_opening_m;
+  const bool bar = scene_.level.force_display == "always";
+  percept.shown_force_n = bar ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
+  show_cue(director_.status(), director_.board(), scene_.setup.exercise, scene_.level, percept);
+  return percept;
+}
+
+void HandTask::run(std::uint64_t tick) {
+  const HandIntent intent = hand_->update(perceive(tick), 1 / scene_.loop.daq.rate_hz);
+  daq_.set_hand_intent(scene_.loop.map.stylus_pose(intent.X_TI), intent.jaw_opening_m);
+}
+
+}  // namespace trocar

@@ -1,0 +1,46 @@
+// The hand task: gives a scripted hand its percept, late and noisy, and hands its intent to the simulated device.
+//
+// What is seen lags by 150 ms and errs by 0.3 mm, felt forces err by 0.03 N: design choices, named here. The force felt is
+// what the device really pushes back with, in scene newtons. Nothing of the world goes to the hand but the Percept.
+// Thread: the executor's.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/executor/haptic_task.h"
+#include "app/executor/task.h"
+#include "app/scene.h"
+#include "scenarios/hands/hand_random.h"
+
+namespace trocar {
+
+class HandTask final : public Task {
+ public:
+  static constexpr double kEyeDelay_s = 0.150;
+  static constexpr double kEyeError_m = 0.3e-3;       ///< SD on each axis, redrawn every 20 ms
+  static constexpr double kTouchError_n = 0.03;       ///< SD
+  static constexpr double kReadyAfter_s = 1.1;        ///< the lamp lights when the soft start is over
+
+  HandTask(const Scene& scene, const HapticTask& haptic, const Director& director, std::unique_ptr<Hand> hand,
+           SimulatedDaq& daq);
+
+  std::uint32_t period() const override { return 1; }
+  void run(std::uint64_t tick) override;
+
+ private:
+  Percept perceive(std::uint64_t tick);
+  Pose see(std::uint64_t tick);
+
+  const Scene& scene_;
+  const HapticTask& haptic_;
+  const Director& director_;
+  std::unique_ptr<Hand> hand_;
+  SimulatedDaq& daq_;
+  HandRandom random_;
+  std::vector<Pose> past_;          ///< ring over the eye's delay
+  Vec3 eye_error_ = Vec3::Zero();
+  std::uint64_t active_ticks_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,34 @@
+// Runs tasks in fixed order in simulated time: same input, same bytes, whatever the machine does.
+//
+// Within one tick the tasks run in the order in which they were added. Thread: one.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "app/executor/task.h"
+
+namespace trocar {
+
+class LockstepExecutor {
+ public:
+  /// The task must outlive the executor.
+  void add(Task& task) { tasks_.push_back(&task); }
+
+  /// Runs ticks until `finished` says so (asked after each tick). @return ticks run.
+  std::uint64_t run(const std::function<bool()>& finished) {
+    std::uint64_t tick = 0;
+    do {
+      for (Task* task : tasks_) {
+        if (tick % task->period() == 0) task->run(tick);
+      }
+      ++tick;
+    } while (!finished());
+    return tick;
+  }
+
+ private:
+  std::vector<Task*> tasks_;
+};
+
+}  // namespace trocar

@@ -1,0 +1,41 @@
+// 64-bit hash over everything that a run computes: two runs of one build agree if and only if their ticks and tissue
+// frames do. Not cryptographic. Mixing step of splitmix64 (Steele, Lea and Flood, OOPSLA 2014).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include "haptics/exchange/contact_patch.h"
+#include "haptics/exchange/tick_record.h"
+#include "scenarios/director.h"
+
+namespace trocar {
+
+class StateHash {
+ public:
+  void add(std::uint64_t word) {
+    state_ ^= word + 0x9e3779b97f4a7c15u + (state_ << 6) + (state_ >> 2);
+    state_ = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9u;
+    state_ = (state_ ^ (state_ >> 27)) * 0x94d049bb133111ebu;
+    state_ ^= state_ >> 31;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  template <typename Derived>
+  void add(const Eigen::MatrixBase<Derived>& values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) add(static_cast<double>(values.reshaped()[i]));
+  }
+
+  void add(const TickRecord& record);
+  void add(const ContactPatch& patch);
+  void add(const DirectorStatus& status);
+
+  std::uint64_t value() const { return state_; }
+  /// 16 hexadecimal digits.
+  std::string hex() const;
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,242 @@
+#include "app/graphics/hud_column.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace trocar {
+namespace {
+
+/// What is shown and how tightly: from roomy to dense until the column holds it.
+struct Plan {
+  double pitch = 1.34;     ///< line pitch of lists, in body sizes
+  double gap = 0.75;       ///< between sections
+  int bars = 0, steps = 0, rows = 0;
+  int step_lines = 2;      ///< of steps that are not the current one
+  bool device_as_rows = true;
+  int device_lines = 2;    ///< of the flowing form
+};
+
+std::string number(double value, int decimals) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+std::string short_number(double value) {
+  std::string text = number(value, 2);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+class Column {
+ public:
+  Column(HudPen& pen, const Hud& hud, const HudFrame& frame) : pen_(pen), hud_(hud), frame_(frame), body_(frame.body) {
+    box_ = {frame.width - frame.column_width, frame.top, frame.column_width, frame.height - frame.top};
+    x_ = box_.x + frame.px(14);
+    room_ = box_.width - frame.px(28);
+    choose_plan();
+  }
+
+  void lay() {
+    pen_.column(box_);
+    pen_.shape(HudShape::Kind::kPanel, box_);
+    y_ = box_.y + 0.4 * body_;
+    lay_bars();
+    lay_steps();
+    lay_rows();
+    lay_device();
+  }
+
+ private:
+  double line() const { return plan_.pitch * body_; }
+  double heading_height() const { return 1.45 * body_; }
+  double bar_height() const { return (1.40 + 1.15 + 1.35 + 0.35) * body_; }
+  double icon_room() const { return 1.5 * body_; }
+
+  int step_lines(std::size_t i) {
+    const int limit = hud_.steps[i].state == HudStep::State::kCurrent ? 2 : plan_.step_lines;
+    return static_cast<int>(pen_.fonts().wrapped(hud_.steps[i].text, body_, false, room_ - icon_room(), limit).size());
+  }
+
+  /// First and one past the last step shown: a window that holds the current one.
+  std::pair<std::size_t, std::size_t> step_window() const {
+    const std::size_t n = hud_.steps.size(), shown = static_cast<std::size_t>(plan_.steps);
+    std::size_t current = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (hud_.steps[i].state != HudStep::State::kOpen) current = i;
+    const std::size_t first = std::min(current > 0 ? current - 1 : 0, n - shown);
+    return {first, first + shown};
+  }
+
+  std::string device_flow() const {
+    std::string flow;
+    for (const HudRow& row : hud_.device)
+      flow += (flow.empty() ? "" : " \u00b7 ") + row.name + " " + row.value + (row.unit.empty() ? "" : " " + row.unit);
+    return flow;
+  }
+
+  double needed() {
+    double sum = 0.6 * body_;
+    if (plan_.bars > 0) sum += heading_height() + plan_.bars * bar_height();
+    if (plan_.steps > 0) {
+      sum += plan_.gap * body_ + heading_height();
+      const auto [first, last] = step_window();
+      for (std::size_t i = first; i < last; ++i) sum += step_lines(i) * line();
+    }
+    if (plan_.rows > 0) {
+      const bool cut = plan_.rows < static_cast<int>(hud_.rows.size());
+      sum += plan_.gap * body_ + heading_height() + (plan_.rows + (cut ? 1 : 0)) * line();
+    }
+    if (!hud_.device.empty()) {
+      if (plan_.device_as_rows) sum += heading_height() + plan_.gap * body_ + static_cast<double>(hud_.device.size()) * line();
+      else if (plan_.device_lines > 0) sum += plan_.gap * body_ + plan_.device_lines * line();
+    }
+    return sum;
+  }
+
+  void choose_plan() {
+    plan_.bars = static_cast<int>(hud_.bars.size());
+    plan_.steps = static_cast<int>(hud_.steps.size());
+    plan_.rows = static_cast<int>(hud_.rows.size());
+    const auto full = [this] { return needed() > box_.height; };
+    if (full()) plan_.step_lines = 1;
+    if (full()) plan_.device_as_rows = false;
+    if (full()) plan_.pitch = 1.19, plan_.gap = 0.35;
+    while (full() && plan_.rows > 4) --plan_.rows;
+    while (full() && plan_.steps > 2) --plan_.steps;
+    while (full() && plan_.device_lines > 0) --plan_.device_lines;
+    while (full() && plan_.rows > 0) --plan_.rows;
+    while (full() && plan_.steps > 0) --plan_.steps;
+    while (full() && plan_.bars > 0) --plan_.bars;
+  }
+
+  void heading(const std::string& words) {
+    pen_.text(words, x_, y_ + 1.05 * body_, body_, true, HudInk::kHeading, room_);
+    y_ += heading_height();
+  }
+
+  void lay_bars() {
+    if (plan_.bars == 0) return;
+    heading("Force");
+    for (int i = 0; i < plan_.bars; ++i) lay_bar(hud_.bars[static_cast<std::size_t>(i)]);
+  }
+
+  void lay_bar(const ForceBar& bar) {
+    const double baseline = y_ + 1.02 * body_;
+    const HudBar::Level level = force_level(bar);
+    const HudInk ink = level == HudBar::Level::kOverLimit ? HudInk::kAlarm
+                       : level == HudBar::Level::kAbove   ? HudInk::kCaution
+                       : level == HudBar::Level::kInBand  ? HudInk::kGood
+                                                          : HudInk::kText;
+    double right = pen_.text_right(number(bar.value_n, 2) + " N", x_ + room_, baseline, body_, true, ink);
+    if (level != HudBar::Level::kBelow) {
+      const HudShape::Kind kind = level == HudBar::Level::kInBand ? HudShape::Kind::kTick
+                                  : level == HudBar::Level::kAbove ? HudShape::Kind::kUp : HudShape::Kind::kWarning;
+      right -= 1.35 * body_;
+      pen_.shape(kind, {right, y_ + 0.18 * body_, 1.05 * body_, 1.05 * body_});
+    }
+    pen_.text(bar.label, x_, baseline, body_, false, HudInk::kText, right - 0.4 * body_ - x_);
+    y_ += 1.40 * body_;
+    const double scale = std::max({bar.full_scale_n, 1.1 * bar.limit_n, bar.band_high_n, 1e-9});
+    const auto share = [&](double n) { return std::clamp(n / scale, 0.0, 1.0); };
+    pen_.bar({{x_, y_, room_, 1.15 * body_}, share(bar.value_n), share(bar.peak_n), share(bar.band_low_n),
+              share(bar.band_high_n), bar.limit_n > 0 ? share(bar.limit_n) : 1.0, level});
+    y_ += 1.15 * body_;
+    lay_bar_legend(bar);
+    y_ += 1.35 * body_ + 0.35 * body_;
+  }
+
+  /// One line under the bar: band left, peak in the middle, limit right; never on top of each other.
+  void lay_bar_legend(const ForceBar& bar) {
+    const double baseline = y_ + 1.10 * body_, space = 0.5 * body_;
+    double right = x_ + room_;
+    if (bar.limit_n > 0)
+      right = pen_.text_right("limit " + short_number(bar.limit_n), right, baseline, body_, false, HudInk::kDim) - space;
+    const std::string range = bar.band_high_n > 0 ? short_number(bar.band_low_n) + "\u2013" + short_number(bar.band_high_n) : "";
+    const std::string peak = "peak " + number(bar.peak_n, 1);
+    const double peak_width = pen_.width(peak, body_, false);
+    double left = x_;
+    if (!range.empty()) {
+      const double free = right - left - peak_width - space;
+      const std::string band = pen_.width("band " + range, body_, false) <= free ? "band " + range : range;
+      left = pen_.text(band, x_, baseline, body_, false, HudInk::kDim, right - left) + space;
+    }
+    if (right - left >= peak_width)
+      pen_.text(peak, left + 0.5 * (right - left - peak_width), baseline, body_, false, HudInk::kText, peak_width + 1);
+  }
+
+  void lay_steps() {
+    if (plan_.steps == 0) return;
+    y_ += plan_.gap * body_;
+    const auto done = std::count_if(hud_.steps.begin(), hud_.steps.end(), [](const HudStep& s) { return s.state == HudStep::State::kDone; });
+    heading("Steps  " + std::to_string(done) + "/" + std::to_string(hud_.steps.size()));
+    const auto [first, last] = step_window();
+    for (std::size_t i = first; i < last; ++i) {
+      const HudStep& step = hud_.steps[i];
+      const bool current = step.state == HudStep::State::kCurrent;
+      const HudShape::Kind kind = step.state == HudStep::State::kDone ? HudShape::Kind::kTick
+                                  : current                           ? HudShape::Kind::kCurrent : HudShape::Kind::kOpen;
+      pen_.shape(kind, {x_, y_ + 0.10 * body_, 1.05 * body_, 1.05 * body_});
+      const int limit = current ? 2 : plan_.step_lines;
+      for (const std::string& words : pen_.fonts().wrapped(step.text, body_, false, room_ - icon_room(), limit)) {
+        pen_.text(words, x_ + icon_room(), y_ + 0.98 * body_, body_, false, current ? HudInk::kText : HudInk::kDim, room_ - icon_room());
+        y_ += line();
+      }
+    }
+  }
+
+  void row(const HudRow& row, bool striped) {
+    if (striped) pen_.shape(HudShape::Kind::kStripe, {x_ - 0.3 * body_, y_, room_ + 0.6 * body_, line()});
+    const double baseline = y_ + 0.5 * line() + 0.36 * body_;
+    const std::string value = row.unit.empty() ? row.value : row.value + " " + row.unit;
+    // 60 % of the width to the name; a short value gives the rest away.
+    const double value_room = std::max(0.4 * room_, room_ - pen_.width(row.name, body_, false) - 0.5 * body_);
+    const std::string shown = pen_.fonts().fitted(value, body_, false, value_room);
+    const double left = pen_.text_right(shown, x_ + room_, baseline, body_, false, HudInk::kText);
+    pen_.text(row.name, x_, baseline, body_, false, HudInk::kDim, left - 0.4 * body_ - x_);
+    y_ += line();
+  }
+
+  void lay_rows() {
+    if (plan_.rows == 0) return;
+    y_ += plan_.gap * body_;
+    heading("So far");
+    for (int i = 0; i < plan_.rows; ++i) row(hud_.rows[static_cast<std::size_t>(i)], i % 2 == 0);
+    const int left_out = static_cast<int>(hud_.rows.size()) - plan_.rows;
+    if (left_out > 0) {
+      pen_.text("+ " + std::to_string(left_out) + " more after the run", x_, y_ + 0.98 * body_, body_, false, HudInk::kDim, room_);
+      y_ += line();
+    }
+  }
+
+  void lay_device() {
+    if (hud_.device.empty() || (!plan_.device_as_rows && plan_.device_lines == 0)) return;
+    y_ += plan_.gap * body_;
+    if (plan_.device_as_rows) {
+      heading("Device");
+      for (std::size_t i = 0; i < hud_.device.size(); ++i) row(hud_.device[i], i % 2 == 0);
+      return;
+    }
+    for (const std::string& words : pen_.fonts().wrapped(device_flow(), body_, false, room_, plan_.device_lines)) {
+      pen_.text(words, x_, y_ + 0.98 * body_, body_, false, HudInk::kDim, room_);
+      y_ += line();
+    }
+  }
+
+  HudPen& pen_;
+  const Hud& hud_;
+  const HudFrame& frame_;
+  int body_;
+  HudBox box_;
+  double x_ = 0, room_ = 0, y_ = 0;
+  Plan plan_;
+};
+
+}  // namespace
+
+void lay_column(HudPen& pen, const Hud& hud, const HudFrame& frame) { Column(pen, hud, frame).lay(); }
+
+}  // namespace trocar

@@ -1,0 +1,114 @@
+#include "app/graphics/hud_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/graphics/hud_column.h"
+
+namespace trocar {
+namespace {
+
+std::string clock_text(double seconds) {
+  const int whole = std::isfinite(seconds) ? static_cast<int>(std::clamp(seconds, 0.0, 359999.0)) : 0;
+  std::array<char, 24> text{};
+  std::snprintf(text.data(), text.size(), "%02d:%02d", whole / 60, whole % 60);
+  return text.data();
+}
+
+void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
+  const HudBox bar{0, 0, static_cast<double>(frame.width), frame.top};
+  pen.shape(HudShape::Kind::kPanel, bar);
+  const int big = frame.px(26), body = frame.body;
+  const double margin = frame.px(14), baseline = 0.5 * frame.top + 0.36 * big;
+  double right = frame.width - margin;
+  if (hud.limit_s > 0) right = pen.text_right("/ " + clock_text(hud.limit_s), right, baseline, body, false, HudInk::kDim) - frame.px(8);
+  const bool late = hud.limit_s > 0 && hud.elapsed_s > 0.9 * hud.limit_s;
+  right = pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true, late ? HudInk::kCaution : HudInk::kText);
+  const double room = right - 2 * margin;
+  const double title_wish = pen.width(hud.title, frame.px(20), true);
+  const double trainee_wish = pen.width(hud.trainee, body, false);
+  const double trainee_room = std::min(trainee_wish, std::max(0.3 * room, room - title_wish - 2 * margin));
+  const double used = pen.text(hud.trainee, margin, baseline, body, false, HudInk::kDim, trainee_room);
+  const double title_x = hud.trainee.empty() ? margin : used + 1.6 * margin;
+  pen.text(hud.title, title_x, baseline, frame.px(20), true, HudInk::kText, right - margin - title_x);
+}
+
+void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame) {
+  if (hud.toast.empty()) return;
+  const bool two = !hud.toast_hint.empty();
+  const double pad = frame.px(12), icon = frame.px(34);
+  const double line = 1.25 * frame.body, height = 2 * pad + line * (two ? 2 : 1);
+  const double wish = std::max(pen.width(hud.toast, frame.body, true), pen.width(hud.toast_hint, frame.body, false));
+  const double width = std::min(wish + 3.5 * pad + icon, frame.scene.width - 2 * pad);
+  const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - width), frame.scene.y + frame.scene.height - height - pad, width, height};
+  pen.shape(HudShape::Kind::kToast, box);
+  pen.shape(hud.toast_warning ? HudShape::Kind::kWarning : HudShape::Kind::kInfo,
+            {box.x + pad, box.y + 0.5 * (height - icon), icon, icon});
+  const double x = box.x + 2 * pad + icon, room = box.right() - pad - x, first = box.y + pad + 0.95 * frame.body;
+  pen.text(hud.toast, x, first, frame.body, true, HudInk::kText, room);
+  if (two) pen.text(hud.toast_hint, x, first + line, frame.body, false, HudInk::kDim, room);
+}
+
+}  // namespace
+
+bool hud_is_empty(const Hud& hud) {
+  return hud.trainee.empty() && hud.title.empty() && hud.bars.empty() && hud.steps.empty() && hud.rows.empty() &&
+         hud.device.empty();
+}
+
+HudFrame::HudFrame(const Hud& hud, int w, int h, double text_scale) : width(w), height(h) {
+  scale = h / 720.0 * std::clamp(text_scale, 1.0, 2.0);
+  body = std::max(px(18), 18);
+  empty = hud_is_empty(hud);
+  bottom = hud.credit.empty() ? 0.0 : std::round(1.7 * body);
+  top = empty ? 0.0 : std::round(2.5 * body);
+  const bool has_column = !(hud.bars.empty() && hud.steps.empty() && hud.rows.empty() && hud.device.empty());
+  column_width = has_column ? std::round(std::min(17.8 * body, 0.44 * w)) : 0.0;
+  scene = {0, static_cast<int>(top), w - static_cast<int>(column_width), h - static_cast<int>(top + bottom)};
+}
+
+int HudFrame::px(double at_720) const { return static_cast<int>(std::lround(at_720 * scale)); }
+
+PixelRect hud_scene_window(const Hud& hud, int width, int height, double text_scale) {
+  return HudFrame(hud, width, height, text_scale).scene;
+}
+
+HudBar::Level force_level(const ForceBar& bar) {
+  if (bar.limit_n > 0 && bar.value_n >= bar.limit_n) return HudBar::Level::kOverLimit;
+  if (bar.band_high_n > 0 && bar.value_n > bar.band_high_n) return HudBar::Level::kAbove;
+  if (bar.band_high_n > 0 && bar.value_n >= bar.band_low_n && bar.value_n > 0) return HudBar::Level::kInBand;
+  return HudBar::Level::kBelow;
+}
+
+HudLayout layout_hud(const Hud& hud, int width, int height, double text_scale, FontSet& fonts) {
+  const HudFrame frame(hud, width, height, text_scale);
+  HudLayout layout;
+  HudPen pen(layout, fonts);
+  if (!frame.empty) lay_top_bar(pen, hud, frame);
+  if (frame.column_width > 0) lay_column(pen, hud, frame);
+  if (!hud.credit.empty()) {
+    const double margin = frame.px(14), strip = frame.scene.width;
+    pen.shape(HudShape::Kind::kPanel, {0, height - frame.bottom, strip, frame.bottom});
+    pen.text(hud.credit, margin, height - frame.bottom * 0.5 + 0.34 * frame.body, frame.body, false, HudInk::kDim, strip - 2 * margin);
+  }
+  lay_toast(pen, hud, frame);
+  return layout;
+}
+
+double HudPen::text(const std::string& words, double x, double baseline, int size, bool bold, HudInk ink, double room) {
+  const std::string shown = fonts_.fitted(words, size, bold, room);
+  if (shown.empty()) return x;
+  const double w = fonts_.width(shown, size, bold);
+  layout_.texts.push_back({shown, {x, baseline - fonts_.ascent(size), w, fonts_.line_height(size)}, baseline, size, bold, ink});
+  return x + w;
+}
+
+double HudPen::text_right(const std::string& words, double right, double baseline, int size, bool bold, HudInk ink) {
+  const double x = right - fonts_.width(words, size, bold);
+  text(words, x, baseline, size, bold, ink, right - x + 1);
+  return x;
+}
+
+}  // namespace trocar

@@ -1,0 +1,27 @@
+// Where the theatre lies in the device's workspace, and how much of a scene force the device can render there.
+//
+// The board region's centre (T's origin) is put where the arm is good: a search over the workspace with the home
+// orientation kept gave this point the largest force that every posture of a 100 x 80 x 70 mm box can render, joint
+// margin >= 8 deg, det A >= 0.3 (docs/decisions/0004-placement.md).
+#pragma once
+
+#include "haptics/control/instrument_map.h"
+#include "haptics/device/device_model.h"
+#include "scenarios/exercise.h"
+
+namespace trocar {
+
+/// Registration of a level with direct mapping: T is W' turned by half a turn about z (the stylus then points away from
+/// the trainee, towards +y of T), and the shaft is inclined to the stylus axis so that it comes from above.
+/// @throws InputError when the level asks for a mapping that this build does not have.
+InstrumentMap place_theatre(const ExerciseLevel& level);
+
+/// Force that the device can render at the region's 5th percentile beyond gravity, N, along the approach axis (T's z).
+double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout);
+
+/// kappa of a level: the number that it gives, or for "auto" the largest value <= 1 for which `soft_force_n` is rendered
+/// at the 5th percentile of the region.
+double force_scale(const ExerciseLevel& level, const InstrumentMap& map, const DeviceModel& device,
+                   const TargetLayout& layout, double soft_force_n);
+
+}  // namespace trocar

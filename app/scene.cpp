@@ -1,0 +1,109 @@
+#include "app/scene.h"
+
+#include <cstdlib>
+
+#include <nlohmann/json.hpp>
+
+#include "app/placement.h"
+#include "haptics/input_error.h"
+#include "scenarios/board_layout.h"
+#include "scenarios/exercise_loader.h"
+#include "tissue/organ_catalogue.h"
+
+namespace trocar {
+namespace {
+
+constexpr int kFormat = 1;
+constexpr const char* kUnreadable = ": the recording's setup cannot be read: ";
+
+const char* law_name(ContactLaw law) { return law == ContactLaw::kThesis ? "thesis" : "proxy"; }
+const char* law_name(PassivityLaw law) { return law == PassivityLaw::kOff ? "off" : "budgeted"; }
+
+}  // namespace
+
+AssetRoots find_assets() {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> roots;
+  if (const char* named = std::getenv("TROCAR_ASSETS")) roots.emplace_back(named);
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) roots.push_back(program.parent_path().parent_path() / "share" / "trocar");
+  roots.emplace_back(TROCAR_SOURCE_DIR);
+  std::string looked;
+  for (const fs::path& root : roots) {
+    // Installed, exercises and hands lie together under the share folder; in the source tree under scenarios.
+    for (const fs::path& scripts : {root, root / "scenarios"}) {
+      if (fs::is_directory(scripts / "exercises") && fs::is_directory(root / "assets" / "shaders")) {
+        return {scripts / "exercises", scripts / "hands", root / "assets" / "organs", root / "assets"};
+      }
+    }
+    looked += "\n  " + root.string();
+  }
+  throw EnvironmentError("the program's exercises and assets were not found; looked in" + looked);
+}
+
+Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq) {
+  Scene scene;
+  scene.setup = setup;
+  scene.level = find_level(setup.exercise, setup.level);
+  scene.organ = load_organ(find_organ(setup.organ, assets.organs));
+  scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, setup.exercise.layout));
+  scene.board = lay_out_board(scene.organ_T, setup.exercise, setup.board);
+
+  scene.loop.daq = daq;
+  scene.loop.map = place_theatre(scene.level);
+  scene.loop.map.force_scale = force_scale(scene.level, scene.loop.map, scene.loop.device, setup.exercise.layout,
+                                           setup.exercise.soft_force_n);
+  scene.loop.contact_law = setup.contact_law;
+  scene.loop.passivity.law = setup.passivity_law;
+  scene.loop.pinch_passivity.law = setup.passivity_law;
+  return scene;
+}
+
+std::string scene_json(const Scene& scene) {
+  const AttemptSetup& s = scene.setup;
+  const nlohmann::json json = {
+      {"format", kFormat},
+      {"exercise", {{"text", s.exercise.text}, {"file", s.exercise.file.filename().string()}, {"level", s.level}}},
+      {"organ",
+       {{"reference", s.organ},
+        {"sha256", scene.organ.sha256},
+        {"name", scene.organ.name},
+        {"synthetic", scene.organ.synthetic},
+        {"credit", scene.organ.credit}}},
+      {"hand", s.hand},
+      {"seed", s.seed},
+      {"board", s.board},
+      {"rate_hz", scene.loop.daq.rate_hz},
+      {"dac_bits", scene.loop.daq.dac_bits},
+      {"contact_law", law_name(s.contact_law)},
+      {"passivity_law", law_name(s.passivity_law)},
+      {"force_scale", scene.loop.map.force_scale}};
+  return json.dump();
+}
+
+RecordedSetup parse_scene_json(const std::string& text, const std::string& name) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    if (json.at("format").get<int>() != kFormat) throw InputError(name + kUnreadable + "unknown format");
+    RecordedSetup out;
+    AttemptSetup& s = out.setup;
+    const auto& exercise = json.at("exercise");
+    s.exercise = parse_exercise(exercise.at("text").get<std::string>(), exercise.at("file").get<std::string>());
+    s.level = exercise.at("level").get<std::string>();
+    s.organ = json.at("organ").at("reference").get<std::string>();
+    out.organ_sha256 = json.at("organ").at("sha256").get<std::string>();
+    s.hand = json.at("hand").get<std::string>();
+    s.seed = json.at("seed").get<std::int64_t>();
+    s.board = json.at("board").get<int>();
+    s.rate_hz = json.at("rate_hz").get<double>();
+    s.contact_law = json.at("contact_law").get<std::string>() == "thesis" ? ContactLaw::kThesis : ContactLaw::kProxy;
+    s.passivity_law =
+        json.at("passivity_law").get<std::string>() == "off" ? PassivityLaw::kOff : PassivityLaw::kBudgeted;
+    return out;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(name + kUnreadable + error.what());
+  }
+}
+
+}  // namespace trocar

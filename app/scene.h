@@ -1,0 +1,63 @@
+// One attempt, set up: everything that is fixed before the loop starts, and its text in the recording.
+//
+// The same setup drives a live attempt, a replay and a picture: they differ only in back-end and executor.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "haptics/control/contact_renderer.h"
+#include "haptics/device/simulated_daq.h"
+#include "haptics/haptic_loop.h"
+#include "scenarios/director.h"
+#include "scenarios/exercise.h"
+#include "tissue/organ.h"
+
+namespace trocar {
+
+/// Where the program finds what it ships.
+struct AssetRoots {
+  std::filesystem::path exercises, hands, organs, shaders;
+};
+
+/// Finds the assets of an installed or a just built program. @throws EnvironmentError naming the places looked at.
+AssetRoots find_assets();
+
+struct AttemptSetup {
+  Exercise exercise;
+  std::string level = "L1";
+  std::string organ;                   ///< manifest path or name of a shipped organ, as given
+  std::string hand;                    ///< name or script; empty in a replay
+  std::int64_t seed = 1;
+  int board = 0;
+  double rate_hz = 1000;
+  ContactLaw contact_law = ContactLaw::kProxy;
+  PassivityLaw passivity_law = PassivityLaw::kBudgeted;
+  std::vector<InjectedFault> faults;   ///< simulated back-end only
+};
+
+/// The setup resolved: organ placed, board laid out, loop configured.
+struct Scene {
+  AttemptSetup setup;
+  ExerciseLevel level;
+  Organ organ;
+  TriangleSurface organ_T;
+  Board board;
+  HapticLoopConfig loop;
+};
+
+/// @param daq rate and DAC bits of the back-end. @throws InputError.
+Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq);
+
+/// Text for the recording's header: JSON with all that a replay and a regrade need (exercise embedded, organ by hash).
+std::string scene_json(const Scene& scene);
+
+/// The setup written by scene_json(). @param name of the recording, for messages. @throws InputError.
+struct RecordedSetup {
+  AttemptSetup setup;
+  std::string organ_sha256;
+};
+RecordedSetup parse_scene_json(const std::string& json, const std::string& name);
+
+}  // namespace trocar

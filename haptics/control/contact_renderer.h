@@ -1,0 +1,86 @@
+// Contact of the instrument with the tissue patch: the force of the local elasticity on tip sphere and shaft.
+//
+// The instrument is a capsule (tip sphere, shaft). A proxy of it, displaced by y without rotation, is kept outside the
+// surface: it moves towards the instrument in steps under half a radius and is pushed out of every triangle nearer
+// than the radius, so it can never change sides (side memory). At rest y is the shortest displacement that frees the
+// capsule and F = k y; the moment is that of the contact forces about the tip (virtual work of V = k |y|^2 / 2, so the
+// law is conservative). The radius rounds convex edges: the normal turns continuously. Damping multiplies the force by
+// 1 + 1.5 c v, v the approach speed, bounded below by 0: it never pulls (Hunt and Crossley 1975, exponent 1).
+// Zilles and Salisbury 1995 (god-object), Ortega, Redon and Coquillart 2007 (6-DOF god-object).
+//
+// The thesis' law (nearest point, F = k x, M = (p_contact - p_origin) x F) is kept as a selectable baseline.
+// Frame T. Thread: haptic task; no allocation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "haptics/exchange/contact_patch.h"
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+enum class ContactLaw : std::uint8_t { kProxy, kThesis };
+
+/// The instrument's shape: a capsule whose end sphere is centred on the tip.
+struct ToolShape {
+  double radius_m = 0.0025;       ///< 5 mm instrument
+  double shaft_length_m = 0.30;   ///< from the tip backwards along -z of I
+};
+
+struct ContactResult {
+  Wrench F_I_T;                   ///< spring and damping, on the instrument, moment about the tip
+  double damping_factor = 1;      ///< F_I_T = factor * spring part, >= 0
+  bool contact = false;
+  bool tip_contact = false;       ///< the largest contact force acts on the tip sphere
+  Vec3 point_T = Vec3::Zero();    ///< surface point under the largest contact
+  Vec3 normal_T = Vec3::UnitZ();  ///< direction of the force
+  double depth_m = 0;             ///< |y|
+  double stored_j = 0;            ///< k |y|^2 / 2
+};
+
+class ContactRenderer {
+ public:
+  explicit ContactRenderer(ContactLaw law, ToolShape shape = {}) : law_(law), shape_(shape) {}
+
+  /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
+  void reset() { started_ = false; }
+
+  /// One period. @param X_TI instrument pose; @param velocity_T of its tip, m/s.
+  ContactResult update(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
+
+  const ToolShape& shape() const { return shape_; }
+
+ private:
+  static constexpr int kMaxNear = 96;      ///< triangles considered in one tick
+  static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
+
+  struct Touch {
+    Vec3 normal, point;  ///< unit from surface to axis; surface point
+    double distance;     ///< from the axis, m
+    bool at_tip;
+    double share = 0;    ///< part of y carried, m
+  };
+
+  ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
+  ContactResult proxy_law(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
+  void gather(double reach, const ContactPatch& patch);
+  /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
+  void project(const ContactPatch& patch, double slack);
+  void add_touch(const Touch& touch);
+  /// Splits y among the contacts, all shares >= 0. @return the part of y that no contact carries.
+  Vec3 share_out(const Vec3& y);
+
+  ContactLaw law_;
+  ToolShape shape_;
+  bool started_ = false;
+  Vec3 proxy_ = Vec3::Zero();      ///< tip centre of the proxy, T
+  Vec3 last_goal_ = Vec3::Zero();  ///< tip of the instrument one period ago, T
+  Vec3 backwards_ = Vec3::UnitZ(); ///< from the tip along the shaft, times its length
+  std::array<std::int32_t, kMaxNear> near_{};
+  int near_count_ = 0;
+  std::array<Touch, kMaxContacts> touch_{};
+  int touch_count_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,44 @@
+// Heat of one motor: two-node model, winding and case.
+//
+// C_w dTw/dt = I^2 R (1 + a (Tw - 25)) - (Tw - Tc)/R_wc; C_c dTc/dt = (Tw - Tc)/R_wc - (Tc - 25)/R_ca.
+// Values of the 24 V, 20 W graphite motor; thermal ones from memory [M], hence named here and configurable.
+// Thread: haptic task; no allocation.
+#pragma once
+
+namespace trocar {
+
+struct MotorHeatParameters {
+  double resistance_ohm = 2.32;         ///< [T table 3.1]
+  double winding_to_case_k_per_w = 3.1; ///< [M]
+  double case_to_air_k_per_w = 14;      ///< [M]
+  double winding_time_s = 12.4;         ///< [M]
+  double case_time_s = 612;             ///< [M]
+  double copper_per_k = 0.0039;         ///< [M]
+  double ambient_c = 25;
+  double warn_c = 100, fade_c = 110, cut_c = 120;  ///< winding; limit of the motor is 125 C [M]
+};
+
+class MotorHeat {
+ public:
+  explicit MotorHeat(const MotorHeatParameters& p = {}) : p_(p), winding_(p.ambient_c), case_(p.ambient_c) {}
+
+  void update(double current_a, double dt_s) {
+    const double loss = current_a * current_a * p_.resistance_ohm * (1 + p_.copper_per_k * (winding_ - p_.ambient_c));
+    const double flow = (winding_ - case_) / p_.winding_to_case_k_per_w;
+    winding_ += (loss - flow) * dt_s * p_.winding_to_case_k_per_w / p_.winding_time_s;
+    case_ += (flow - (case_ - p_.ambient_c) / p_.case_to_air_k_per_w) * dt_s * p_.case_to_air_k_per_w / p_.case_time_s;
+  }
+  double winding_c() const { return winding_; }
+  /// 1 below the fade temperature, 0 at the cut-off, linear between.
+  double share() const {
+    if (winding_ <= p_.fade_c) return 1;
+    return winding_ >= p_.cut_c ? 0 : (p_.cut_c - winding_) / (p_.cut_c - p_.fade_c);
+  }
+  bool cut() const { return winding_ >= p_.cut_c; }
+
+ private:
+  MotorHeatParameters p_;
+  double winding_, case_;
+};
+
+}  // namespace trocar

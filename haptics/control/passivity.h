@@ -1,0 +1,76 @@
+// Passivity of the rendered force: exact energy observer and a budget that pays for stored energy.
+//
+// The force held during a period does work on the true displacement: E(k) = E(k-1) - tau_r(k-1-d)^T dq(k), tau_r what
+// was really applied. (The thesis pairs force and backward difference of the same tick and cannot see the energy that
+// sampling creates, docs/thesis_errata.md.) Budget, in joules, R the energy that the displayed spring holds:
+//   B(k) = min(cap, B(k-1) + absorbed + 1/2 (b v^2 + fc |v|) T - (R(k) - R(k-1))),  R = stored * displayed / wanted
+// The full spring force passes while B stays >= 0; otherwise the largest affordable force, but never less than
+// increment bounding allows: F changes by beta dx with
+//   beta = clamp((F_wanted - F)/dx, -eta - |eta + kappa|, -eta + |eta + kappa|), eta = F/dx, kappa = b/(T/2 + Td)
+// (after Kim and Ryu 2010); in debt a bounded damping is added. The force never pulls.
+// Why R and not the full spring's energy: docs/decisions/0003-passivity-budget.md.
+// One budget for the arm, one for the pinch. Thread: haptic task; no allocation.
+#pragma once
+
+#include <cstdint>
+
+namespace trocar {
+
+enum class PassivityLaw : std::uint8_t { kOff, kBudgeted };
+
+/// What the law may assume of the device at the tip; half of the identified friction is counted.
+struct PassivityParameters {
+  PassivityLaw law = PassivityLaw::kBudgeted;
+  double period_s = 1e-3;
+  double delay_s = 1e-3;               ///< Td beyond the hold: one period of the seam
+  double viscous_n_s_per_m = 0.3;      ///< b at the tip [assumed, reference 3.4]
+  double coulomb_n = 0.06;             ///< fc at the tip [assumed, reference 3.4]
+  double effective_mass_kg = 0.127;    ///< at the tip, mid workspace [computed from the device's values]
+  double velocity_lag_s = 4e-3;        ///< of the estimator
+  double dead_band_m_s = 0.005;        ///< FOAW is zero at rest
+  double credit_cap_j = 0.5e-3;
+  double debt_decay_s = 0.2;
+  double recovery_n_per_s = 100;       ///< how fast the full force may return when the budget recovers
+  double fade_debt_j = 0.05;           ///< debt that fades the force to a fifth
+  double fault_debt_j = 0.15;          ///< debt that is a fault
+};
+
+/// One scalar contact: what happened in the last period.
+struct ContactWork {
+  double wanted_n = 0;     ///< spring force that the contact law asks for, >= 0
+  double absorbed_j = 0;   ///< -tau_applied . dq of the last period
+  double dx_m = 0;         ///< displacement against the force, positive pressing in
+  double speed_m_s = 0;    ///< estimated speed of pressing in
+  double stored_j = 0;     ///< energy that the wanted spring holds now (kappa applied)
+};
+
+class PassivityController {
+ public:
+  explicit PassivityController(const PassivityParameters& parameters) : p_(parameters) {}
+
+  /// @return force to render, N, 0 <= result.
+  double update(const ContactWork& work);
+  void reset();
+
+  double energy_j() const { return energy_; }          ///< observer: absorbed minus returned since reset
+  double min_energy_j() const { return min_energy_; }
+  double budget_j() const { return budget_; }
+  bool active() const { return active_; }              ///< the law changed the force in the last update
+  bool debt_fault() const { return p_.law != PassivityLaw::kOff && -budget_ > p_.fault_debt_j; }
+
+ private:
+  double affordable(const ContactWork& work, double income_j) const;
+  double bounded(const ContactWork& work) const;
+  double damping(double speed_m_s) const;
+  void forget_in_free_space(const ContactWork& work);
+
+  PassivityParameters p_;
+  double energy_ = 0, min_energy_ = 0, budget_ = 0;
+  double held_ = 0;      ///< R, J
+  double spring_ = 0;    ///< displayed spring force, N
+  double missing_ = 0;   ///< wanted minus displayed spring force, N
+  int free_ticks_ = 0;
+  bool active_ = false;
+};
+
+}  // namespace trocar

@@ -1,0 +1,125 @@
+// Back-end of the seam with a simulated device and hand behind it.
+//
+// Timing, exactly. read() k is SYNC k: the plant runs one period under the codes in force since SYNC k-1, the
+// encoders are latched, then the codes written last become those in force. So what is written after read() k acts
+// from SYNC k+1 to SYNC k+2 and shows first in the counts of read() k+2: one period of delay, plus
+// extra_delay_periods where configured.
+// The device starts clamped in its jig, a little off the exact home pose, amplifiers inhibited. The jig opens when the
+// amplifiers have been armed for kJigReleaseS without a break; it does not close again. arm(false) takes the
+// current away at once and forgets the codes in force.
+// Digital inputs: deadman closed while a hand holds the stylus, home beam received while in the jig, hand fault
+// while the hand's intent is not finite (it then exerts nothing).
+// Thread: haptic task only. read, write, arm and the hand's calls neither allocate, lock nor throw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "haptics/device/data_acquisition.h"
+#include "haptics/device/device_plant.h"
+#include "haptics/device/hand_model.h"
+#include "haptics/device/plant_parameters.h"
+
+namespace trocar {
+
+inline constexpr double kJigReleaseS = 0.050;
+inline constexpr int kMaxExtraDelayPeriods = 63;
+
+/// A failure that happens inside the back-end, where the controller cannot know of it.
+enum class InjectedFaultKind : std::uint8_t {
+  kEncoderJump,     ///< the channel's counter gains `value` counts, once
+  kEncoderStuck,    ///< the channel's counter keeps its number for duration_s
+  kChannelInvalid,  ///< the channel's valid bit is down for duration_s
+  kDacStuck,        ///< the channel's DAC keeps its code for duration_s
+  kMissedSync,      ///< `value` SYNCs pass unread: elapsed_periods is 1 + value, once
+  kHandNaN,         ///< the hand's intent is NaN for duration_s
+  kHandLetsGo,      ///< the hand leaves the stylus for duration_s
+};
+
+struct InjectedFault {
+  InjectedFaultKind kind = InjectedFaultKind::kEncoderJump;
+  double at_s = 0;        ///< time of the SYNC from which it shows
+  double duration_s = 0;  ///< s; 0 means for good
+  int channel = 0;
+  double value = 0;
+};
+
+struct SimulatedDaqConfig {
+  double rate_hz = 1000;     ///< 1000, 2000 or 4000
+  double substep_s = 50e-6;  ///< longest sub-step of the plant
+  int dac_bits = 16;
+  int extra_delay_periods = 0;  ///< further whole periods between write and DAC, for studies
+  std::uint64_t seed = 1;       ///< true parameters and tremor
+  std::optional<PlantParameters> plant;  ///< exact device instead of one drawn by the seed
+  HandParameters hand;
+  std::vector<InjectedFault> faults;
+};
+
+/// What the simulated person senses of the device, true values in W'.
+struct HandSense {
+  Pose X_BS;                              ///< stylus
+  Vec3 force_on_hand = Vec3::Zero();      ///< N, mean over the last period
+  double force_on_finger_n = 0;           ///< N, mean over the last period, positive opens the fingers
+  double jaw_opening_m = 0;
+  bool amplifiers_enabled = false;
+  bool in_jig = true;
+};
+
+class SimulatedDaq final : public DataAcquisition {
+ public:
+  /// @throws std::invalid_argument when a rate, bit count, delay, channel or time is out of range.
+  explicit SimulatedDaq(const SimulatedDaqConfig& config);
+
+  DaqCapabilities capabilities() const noexcept override;
+  DaqSample read() noexcept override;
+  void write(const DacFrame& frame) noexcept override;
+  void arm(bool enabled) noexcept override;
+
+  /// Intent of the hand for the coming period: stylus pose in W', jaw opening in m. The first one takes hold.
+  void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept;
+  void set_hand_parameters(const HandParameters& parameters) noexcept { hand_.set_parameters(parameters); }
+  void release_hand() noexcept { hand_.let_go(); }
+  HandSense sense() const noexcept;
+
+  /// Time of the last SYNC, s.
+  double time_s() const noexcept { return static_cast<double>(sync_) * period_s_; }
+  /// The device itself: for tests and studies only, never for a controller.
+  const DevicePlant& plant() const noexcept { return plant_; }
+
+ private:
+  struct FaultState {
+    InjectedFault fault;
+    bool fired = false;
+  };
+
+  bool lasts(const FaultState& state, double now) const noexcept;
+  void latch_codes() noexcept;
+  void apply_volts() noexcept;
+  void advance_period() noexcept;
+  void apply_faults_before() noexcept;
+  void apply_faults_after(DaqSample& sample) noexcept;
+  std::uint32_t missed_syncs() noexcept;
+  std::int32_t count(int channel, double output) const noexcept;
+
+  SimulatedDaqConfig config_;
+  double period_s_, substep_s_;
+  int substeps_;
+  DevicePlant plant_;
+  HandModel hand_;
+  std::vector<FaultState> faults_;
+
+  std::uint64_t sync_ = 0;
+  DacFrame written_, in_force_;
+  std::array<DacFrame, kMaxExtraDelayPeriods + 1> delayed_{};  ///< ring of frames on their way to the DAC
+  std::size_t delay_head_ = 0;
+  double armed_for_s_ = 0;
+  bool armed_ = false;
+  std::array<std::int32_t, kChannels> jump_{}, last_counts_{};
+  std::array<bool, kChannels> dac_stuck_{};
+  Vec3 force_on_hand_ = Vec3::Zero();
+  double force_on_finger_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,25 @@
+// One haptic tick, complete: what came in, what went out, what was decided. The recorder, the state hash and the bench
+// read it. Units as in the fields' types; joint quantities in rad, N m (pinch: m, N).
+#pragma once
+
+#include "haptics/device/data_acquisition.h"
+#include "haptics/exchange/stylus_state.h"
+
+namespace trocar {
+
+struct TickRecord {
+  DaqSample in;
+  DacFrame out;
+  bool amplifiers_armed = false;
+  ChannelVector q = ChannelVector::Zero();
+  ChannelVector qd = ChannelVector::Zero();
+  ChannelVector torque = ChannelVector::Zero();  ///< total asked of the motors
+  double det_a = 1;
+  double winding_c = 25;       ///< hottest motor winding by the model
+  double contact_scale = 1;    ///< < 1: torque budget cut the contact force
+  double stored_j = 0;
+  double min_energy_j = 0;     ///< lowest value of the arm's energy observer so far
+  StylusState stylus;
+};
+
+}  // namespace trocar

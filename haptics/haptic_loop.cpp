@@ -1,0 +1,227 @@
+#include "haptics/haptic_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/control/gravity.h"
+#include "haptics/kinematics/inverse_kinematics.h"
+
+namespace trocar {
+
+DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRecord& record) noexcept {
+  const Motion motion = measure(in);                              // counts -> angles -> ArmState -> rates -> twist
+  const Contact contact = feel(motion, patch);                    // instrument -> tissue, pinch -> tau = J^T F
+  const ChannelVector passive = make_passive(motion, contact);    // budget, fed with what was applied one tick ago
+  const LimitedTorque torque = share_out(motion, passive);        // springs, gravity, contact, friction: who gets it
+  watch(motion, torque);                                          // faults, heat
+  const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless ACTIVE
+  publish(in, motion, contact, torque, out, record);
+  ++tick_;
+  return out;
+}
+
+PassivityParameters HapticLoopConfig::pinch_defaults() {
+  PassivityParameters p;
+  p.viscous_n_s_per_m = 1.0;  // slide and finger pads [assumed]
+  p.coulomb_n = 0.04;         // [assumed]
+  p.effective_mass_kg = 0.02; // jaw and finger [assumed]
+  return p;
+}
+
+namespace {
+
+PassivityParameters with_period(PassivityParameters p, double period_s) {
+  p.period_s = period_s;
+  p.delay_s = period_s;  // the seam's: codes act at the next SYNC
+  return p;
+}
+
+ChannelVector torque_limits(const DeviceModel& model) {
+  ChannelVector limit;
+  for (int i = 0; i < kChannels; ++i) limit[i] = max_joint_torque(model.transmission[i]);
+  return limit;
+}
+
+ChannelVector torque_rates(const HapticLoopConfig& config) {
+  ChannelVector rate = ChannelVector::Constant(config.torque_rate);
+  rate[kPinchChannel] = config.pinch_force_rate;
+  return rate;
+}
+
+}  // namespace
+
+HapticLoop::HapticLoop(const HapticLoopConfig& config)
+    : config_(config),
+      period_s_(1 / config.daq.rate_hz),
+      contact_(config.contact_law, config.tool),
+      arm_passivity_(with_period(config.passivity, period_s_)),
+      pinch_passivity_(with_period(config.pinch_passivity, period_s_)),
+      limiter_(torque_limits(config.device), torque_rates(config), period_s_),
+      supervisor_(config.safety, period_s_) {
+  home_ << home_angles(), config.device.pinch_home_m;
+  for (const Transmission& t : config.device.transmission) velocity_.emplace_back(count_size(t), period_s_);
+  gravity_torque(config_.device, arm_state(home_.head<kArmJoints>()));  // makes the constants of both models now
+}
+
+void HapticLoop::reset_fault() noexcept { supervisor_.reset_fault(); }
+
+HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
+  if (!counting_) {
+    counts_.reset(in.counts);
+    counting_ = true;
+  }
+  const auto delta = counts_.advance(in.counts);
+  supervisor_.observe(tick_, in, delta);
+  if (supervisor_.just_homed()) {
+    counts_.reset(in.counts);
+    take_home();
+  }
+  Motion motion;
+  motion.q = joint_positions(config_.device, counts_.total(), home_);
+  for (int i = 0; i < kChannels; ++i) motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
+  motion.arm = arm_state(motion.q.head<kArmJoints>());
+  const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
+  motion.X_TI = config_.map.instrument_pose(motion.arm.X_WS);
+  motion.V_TI_T = config_.map.instrument_twist(motion.arm.X_WS, {twist.head<3>(), twist.tail<3>()});
+  periods_ += in.elapsed_periods;
+  return motion;
+}
+
+void HapticLoop::take_home() noexcept {
+  for (VelocityEstimator& estimator : velocity_) estimator.reset();
+  contact_.reset();
+  arm_passivity_.reset();
+  pinch_passivity_.reset();
+  last_q_ = home_;
+}
+
+HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& patch) noexcept {
+  Contact contact;
+  if (supervisor_.state() != LoopState::kActive) {
+    contact_.reset();
+    return contact;
+  }
+  contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T.linear, patch);
+  contact.grip = grip_block(patch.grip, motion.q[kPinchChannel]);
+  const Wrench F = config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.F_I_T);
+  Vec6 w;
+  w << F.force, F.moment;
+  contact.torque.head<kArmJoints>() = motion.arm.J_WS.transpose() * w;
+  contact.torque[kPinchChannel] = contact.grip.force_n;
+  if (contact.tissue.damping_factor > 0) contact.spring_n = F.force.norm() / contact.tissue.damping_factor;
+  return contact;
+}
+
+ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& contact) noexcept {
+  const ChannelVector dq = motion.q - last_q_;
+  last_q_ = motion.q;
+  ContactWork arm;
+  arm.wanted_n = contact.spring_n;
+  arm.absorbed_j = -acting_contact_.head<kArmJoints>().dot(dq.head<kArmJoints>());
+  arm.stored_j = config_.map.force_scale * contact.tissue.stored_j;
+  if (contact.spring_n > 0) {
+    const JointVector unit = contact.torque.head<kArmJoints>() / (contact.spring_n * contact.tissue.damping_factor);
+    arm.dx_m = -unit.dot(dq.head<kArmJoints>());
+    arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
+  }
+  ContactWork pinch;
+  pinch.wanted_n = contact.grip.force_n;
+  pinch.absorbed_j = -acting_contact_[kPinchChannel] * dq[kPinchChannel];
+  pinch.dx_m = -dq[kPinchChannel];
+  pinch.speed_m_s = -motion.qd[kPinchChannel];
+  pinch.stored_j = contact.grip.stored_j;
+
+  ChannelVector passive = contact.torque;
+  const double force = arm_passivity_.update(arm);
+  if (contact.spring_n > 0) passive.head<kArmJoints>() *= force / contact.spring_n;
+  passive[kPinchChannel] = pinch_passivity_.update(pinch);
+  return passive;
+}
+
+LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& contact_torque) noexcept {
+  if (supervisor_.state() != LoopState::kActive) {
+    limiter_.reset();
+    return {};
+  }
+  double share = supervisor_.ramp() * singularity_share(motion.arm.det_a);
+  for (const MotorHeat& heat : heat_) share = std::min(share, heat.share());
+  const JointVector qd = motion.qd.head<kArmJoints>();
+  TorqueShares shares;
+  shares.springs = limit_spring_torque(motion.q.head<kArmJoints>(), qd);
+  shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
+  shares.contact = share * contact_torque;
+  if (arm_passivity_.budget_j() >= 0) {
+    shares.friction.head<kArmJoints>() = share * friction_torque(config_.device, config_.friction, qd);
+  }
+  return limiter_.update(shares);
+}
+
+void HapticLoop::watch(const Motion& motion, const LimitedTorque& torque) noexcept {
+  for (int i = 0; i < kChannels; ++i) {
+    const Transmission& t = config_.device.transmission[i];
+    heat_[i].update(torque.total[i] * t.ratio / t.torque_constant, period_s_);
+    if (heat_[i].cut()) supervisor_.raise(FaultCode::kOverheat, tick_, i, heat_[i].winding_c());
+    if (!std::isfinite(torque.total[i])) supervisor_.raise(FaultCode::kNonFinite, tick_, i, torque.total[i]);
+    if (i < kArmJoints && std::abs(motion.qd[i]) > config_.safety.max_joint_rate) {
+      supervisor_.raise(FaultCode::kOverspeed, tick_, i, motion.qd[i]);
+    }
+  }
+  if (supervisor_.state() == LoopState::kActive && motion.arm.det_a < config_.safety.fault_det_a) {
+    supervisor_.raise(FaultCode::kSingular, tick_, -1, motion.arm.det_a);
+  }
+  if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
+}
+
+DacFrame HapticLoop::to_codes(const LimitedTorque& torque) noexcept {
+  acting_contact_ = applied_contact_;  // what the DACs held during the period that begins now
+  if (!supervisor_.armed()) {
+    applied_contact_.setZero();
+    limiter_.reset();
+    return {};
+  }
+  const DacFrame out = dac_codes(config_.device, torque.total, config_.daq.dac_bits);
+  // What quantisation left is charged to the contact: the observer sees the codes, not the wish.
+  applied_contact_ = torque.contact + (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total);
+  return out;
+}
+
+void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contact& contact, const LimitedTorque& torque,
+                         const DacFrame& out, TickRecord& record) const noexcept {
+  record.in = in;
+  record.out = out;
+  record.amplifiers_armed = supervisor_.armed();
+  record.q = motion.q;
+  record.qd = motion.qd;
+  record.torque = supervisor_.armed() ? torque.total : ChannelVector::Zero();
+  record.det_a = motion.arm.det_a;
+  record.winding_c = 0;
+  for (const MotorHeat& heat : heat_) record.winding_c = std::max(record.winding_c, heat.winding_c());
+  record.contact_scale = torque.contact_scale;
+  record.stored_j = contact.tissue.stored_j;
+  record.min_energy_j = arm_passivity_.min_energy_j();
+
+  StylusState& s = record.stylus;
+  s.tick = tick_;
+  s.t_s = static_cast<double>(periods_) * period_s_;
+  s.loop = supervisor_.state();
+  s.fault = supervisor_.fault();
+  s.X_TI = motion.X_TI;
+  s.V_TI_T = motion.V_TI_T;
+  s.F_I_T = contact.tissue.F_I_T;
+  s.jaw_opening_m = motion.q[kPinchChannel];
+  s.grip_force_n = contact.grip.force_n;
+  s.rendered_grip_n = torque.contact[kPinchChannel];
+  const double asked = contact.torque.head<kArmJoints>().norm();
+  const double left = asked > 0 ? torque.contact.head<kArmJoints>().norm() / asked : 0;
+  s.rendered_force_T = config_.map.force_scale * config_.map.motion_scale * left * contact.tissue.F_I_T.force;
+  s.contact = contact.tissue.contact;
+  s.tip_contact = contact.tissue.tip_contact;
+  s.contact_point_T = contact.tissue.point_T;
+  s.contact_normal_T = contact.tissue.normal_T;
+  s.depth_m = contact.tissue.depth_m;
+  s.saturated = torque.contact_scale < 1 && s.contact;
+  s.passivity_active = arm_passivity_.active();
+  s.energy_j = arm_passivity_.energy_j();
+}
+
+}  // namespace trocar

@@ -1,0 +1,98 @@
+// The haptic loop: one function, tick(), from encoder counts to DAC codes. Read haptic_loop.cpp first.
+//
+// Every stage is a const model plus a small mutable state; ONE kinematic state serves velocity, force, gravity and
+// passivity. Time comes in with the counts (elapsed periods): the tick reads no clock, takes no lock, allocates
+// nothing, does no I/O and throws nothing. Frames and units: docs/frames_and_units.md. Thread: haptic task.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "haptics/control/contact_renderer.h"
+#include "haptics/control/friction.h"
+#include "haptics/control/instrument_map.h"
+#include "haptics/control/motor_heat.h"
+#include "haptics/control/passivity.h"
+#include "haptics/control/pinch_channel.h"
+#include "haptics/control/supervisor.h"
+#include "haptics/control/torque_limiter.h"
+#include "haptics/control/velocity_estimator.h"
+#include "haptics/device/data_acquisition.h"
+#include "haptics/device/device_model.h"
+#include "haptics/device/transmission.h"
+#include "haptics/exchange/contact_patch.h"
+#include "haptics/exchange/tick_record.h"
+#include "haptics/kinematics/hybrid_arm.h"
+
+namespace trocar {
+
+struct HapticLoopConfig {
+  DaqCapabilities daq;                  ///< rate and DAC bits of the back-end
+  DeviceModel device;
+  InstrumentMap map;
+  ToolShape tool;
+  ContactLaw contact_law = ContactLaw::kProxy;
+  PassivityParameters passivity;        ///< arm; period_s is set from the rate
+  PassivityParameters pinch_passivity = pinch_defaults();
+  FrictionFeedForward friction;
+  SafetyLimits safety;
+  double torque_rate = 100;             ///< N m/s a joint
+  double pinch_force_rate = 500;        ///< N/s
+
+  static PassivityParameters pinch_defaults();
+};
+
+class HapticLoop {
+ public:
+  explicit HapticLoop(const HapticLoopConfig& config);
+
+  /// One period. @param in latched sample; @param patch newest tissue patch; @param record filled with everything.
+  /// @return codes for the next SYNC; record.amplifiers_armed says whether the amplifiers may be enabled.
+  DacFrame tick(const DaqSample& in, const ContactPatch& patch, TickRecord& record) noexcept;
+
+  /// Operator's act: leaves FAULT, back to UNHOMED.
+  void reset_fault() noexcept;
+  const HapticLoopConfig& config() const { return config_; }
+
+ private:
+  struct Motion {
+    ArmState arm;
+    ChannelVector q, qd;
+    Pose X_TI;
+    Twist V_TI_T;
+  };
+  struct Contact {
+    ContactResult tissue;
+    GripResult grip;
+    ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, before passivity
+    double spring_n = 0;                           ///< spring force asked at the stylus, without damping
+  };
+
+  Motion measure(const DaqSample& in) noexcept;
+  Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
+  ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
+  LimitedTorque share_out(const Motion& motion, const ChannelVector& contact_torque) noexcept;
+  void watch(const Motion& motion, const LimitedTorque& torque) noexcept;
+  DacFrame to_codes(const LimitedTorque& torque) noexcept;
+  void publish(const DaqSample& in, const Motion& motion, const Contact& contact, const LimitedTorque& torque,
+               const DacFrame& out, TickRecord& record) const noexcept;
+  void take_home() noexcept;
+
+  HapticLoopConfig config_;
+  double period_s_;
+  ChannelVector home_;
+  std::uint64_t tick_ = 0, periods_ = 0;
+  CountAccumulator counts_;
+  bool counting_ = false;
+  std::vector<VelocityEstimator> velocity_;  ///< one a channel, sized once
+  ContactRenderer contact_;
+  PassivityController arm_passivity_, pinch_passivity_;
+  TorqueLimiter limiter_;
+  Supervisor supervisor_;
+  std::array<MotorHeat, kChannels> heat_;
+  ChannelVector applied_contact_ = ChannelVector::Zero();   ///< asked last tick: acts during the next period
+  ChannelVector acting_contact_ = ChannelVector::Zero();    ///< acted during the period just ended
+  ChannelVector last_q_ = ChannelVector::Zero();
+};
+
+}  // namespace trocar

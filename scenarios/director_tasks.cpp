@@ -1,0 +1,122 @@
+#include "scenarios/director_tasks.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kRearmShare = 0.8, kRearmTime = 0.2;  // of the limit; s (reference: shared events of the catalogue)
+constexpr double kHoldGrace = 0.1;           // s out of the band that only pause the hold
+constexpr double kNewContactAfter = 0.2;     // s without contact before a contact counts as new: bouncing is one contact
+constexpr double kCollisionForce = 2.0;      // N of the shaft on the tissue
+constexpr double kLimitRearm = 0.5;          // s
+constexpr double kJawClearance = 0.001;      // m that the jaws must be wider than the block before it is offered
+constexpr double kGripTouch = 0.05;          // N
+
+}  // namespace
+
+void EventLog::add(const std::string& type, Severity severity, std::int32_t object, double value,
+                   const std::string& unit) {
+  events.push_back({t_s, type, severity, object, value, unit, tip_T});
+}
+
+SafetyWatch::SafetyWatch(const Exercise& exercise)
+    : excess_(exercise.hard_force_n, kRearmShare * exercise.hard_force_n, kRearmTime),
+      critical_(exercise.critical_force_n, kRearmShare * exercise.critical_force_n, kRearmTime),
+      collision_(kCollisionForce, kRearmShare * kCollisionForce, kRearmTime),
+      limit_(0.5, 0.5, kLimitRearm) {}
+
+void SafetyWatch::update(const StylusState& state, double dt_s, std::int32_t object, EventLog& log) {
+  const double force = state.F_I_T.force.norm();
+  peak_n_ = std::max(peak_n_, force);
+  if (excess_.update(force, dt_s)) {
+    ++excess_count_;
+    log.add("EXCESS_FORCE", Severity::kMajor, object, force, "N");
+  }
+  if (critical_.update(force, dt_s)) log.add("CRITICAL_FORCE", Severity::kCritical, object, force, "N");
+  const double shaft_force = state.contact && !state.tip_contact ? force : 0;
+  if (collision_.update(shaft_force, dt_s)) log.add("TOOL_COLLISION", Severity::kMinor, object, force, "N");
+  if (limit_.update(state.saturated ? 1 : 0, dt_s))
+    log.add("DEVICE_LIMIT", Severity::kInfo, object, state.rendered_force_T.norm(), "N");
+}
+
+DiscTask::DiscTask(const Exercise& exercise, const ExerciseLevel& level, const std::vector<Target>& targets)
+    : wrong_place_m_(exercise.layout.wrong_place_m),
+      band_low_n_(level.band_low_n),
+      band_high_n_(level.band_high_n),
+      targets_(targets),
+      hold_(exercise.hold_s, kHoldGrace) {}
+
+void DiscTask::begin(EventLog& log) { light(log); }
+
+void DiscTask::light(EventLog& log) {
+  hold_.reset();
+  touched_ = on_disc_ = false;
+  lit_at_s_ = log.t_s;
+  if (!finished()) log.add("TARGET_LIT", Severity::kInfo, index_);
+}
+
+void DiscTask::judge_contact(const StylusState& state, bool new_contact, EventLog& log) {
+  const Target& target = targets_[static_cast<std::size_t>(index_)];
+  const double distance = (state.contact_point_T - target.centre_T).norm();
+  const double outside = distance - target.radius_m;
+  if (new_contact && outside > wrong_place_m_) {
+    ++wrong_places_;
+    since_wrong_place_s_ = 0;
+    log.add("WRONG_PLACE", Severity::kMinor, index_, outside, "m");
+  }
+  if (!touched_ && outside <= wrong_place_m_) {
+    touched_ = true;
+    log.add("TARGET_TOUCHED", Severity::kInfo, index_, distance, "m");
+  }
+  on_disc_ = outside <= wrong_place_m_ / 2;
+}
+
+void DiscTask::update(const StylusState& state, double dt_s, EventLog& log) {
+  if (finished()) return;
+  since_wrong_place_s_ += dt_s;
+  touching_ = state.contact && state.tip_contact;
+  on_disc_ = false;
+  if (touching_) judge_contact(state, free_s_ >= kNewContactAfter, log);
+  free_s_ = touching_ ? 0 : free_s_ + dt_s;
+  const double force = state.F_I_T.force.norm();
+  const bool wanted = on_disc_ && force >= band_low_n_ && force <= band_high_n_;
+  if (!hold_.update(wanted, dt_s)) return;
+  log.add("TARGET_HELD", Severity::kInfo, index_, log.t_s - lit_at_s_, "s");
+  ++index_;
+  light(log);
+}
+
+SqueezeTask::SqueezeTask(const GripTask& task, std::int32_t object)
+    : task_(task),
+      object_(object),
+      hold_(task.hold_s, kHoldGrace),
+      excess_(task.excess_n, kRearmShare * task.excess_n, kRearmTime) {}
+
+GripBlock SqueezeTask::block() const {
+  if (!offered_ || finished_) return {};
+  return {task_.block_thickness_m, task_.block_stiffness_n_per_m};
+}
+
+void SqueezeTask::update(const StylusState& state, double dt_s, EventLog& log) {
+  if (finished_) return;
+  if (!offered_) {
+    if (state.jaw_opening_m < task_.block_thickness_m + kJawClearance) return;
+    offered_ = true;
+    offered_at_s_ = log.t_s;
+    log.add("GRIP_OFFERED", Severity::kInfo, object_, task_.block_thickness_m, "m");
+    return;
+  }
+  const double grip = state.grip_force_n;
+  if (!touched_ && grip > kGripTouch) {
+    touched_ = true;
+    log.add("GRIP_TOUCHED", Severity::kInfo, object_, grip, "N");
+  }
+  if (excess_.update(grip, dt_s)) {
+    ++excess_count_;
+    log.add("GRIP_EXCESS", Severity::kMajor, object_, grip, "N");
+  }
+  if (!hold_.update(grip >= task_.low_n && grip <= task_.high_n, dt_s)) return;
+  finished_ = true;
+  log.add("GRIP_HELD", Severity::kInfo, object_, log.t_s - offered_at_s_, "s");
+}
+
+}  // namespace trocar

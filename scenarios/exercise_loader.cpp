@@ -1,0 +1,222 @@
+#include "scenarios/exercise_loader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <openssl/evp.h>
+
+#include "haptics/input_error.h"
+#include "scenarios/scoring/metrics.h"
+#include "scenarios/strict_toml.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kMilli = 1e-3;
+
+std::string sha256_of(const std::string& bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
+    throw EnvironmentError("SHA-256 is not available");
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    text += kDigits[digest[i] >> 4];
+    text += kDigits[digest[i] & 15];
+  }
+  return text;
+}
+
+void read_start(StrictTable table, Exercise& exercise) {
+  exercise.start_sphere_m = table.number("radius_mm", 1, 50) * kMilli;
+  exercise.start_hold_s = table.number("hold_s", 0, 10);
+  exercise.start_above_m = table.vector("above_mm", -200, 200) * kMilli;
+  table.finish();
+}
+
+void read_targets(StrictTable table, Exercise& exercise) {
+  TargetLayout& layout = exercise.layout;
+  layout.count = table.integer("count", 1, 100);
+  layout.radius_m = table.number("diameter_mm", 1, 50) / 2 * kMilli;
+  const auto [x, y] = table.pair("region_mm", 10, 500);
+  layout.region_x_m = x * kMilli;
+  layout.region_y_m = y * kMilli;
+  layout.relief_m = table.number("relief_mm", 0, 200) * kMilli;
+  layout.min_spacing_m = table.number("min_spacing_mm", 0, 200) * kMilli;
+  layout.max_slope_rad = table.number("max_slope_deg", 1, 80) * M_PI / 180;
+  layout.wrong_place_m = table.number("wrong_place_mm", 0, 50) * kMilli;
+  exercise.retract_height_m = table.number("retract_mm", 0, 100) * kMilli;
+  if (layout.min_spacing_m < 2 * layout.radius_m) table.fail("min_spacing_mm", "'min_spacing_mm' lets discs overlap");
+  table.finish();
+}
+
+void read_surface(StrictTable table, Exercise& exercise) {
+  exercise.surface_stiffness_n_per_m = table.number("stiffness_n_per_m", 1, 5000);
+  exercise.surface_damping_s_per_m = table.number("damping_s_per_m", 0, 50);
+  table.finish();
+}
+
+void read_force(StrictTable table, Exercise& exercise) {
+  exercise.soft_force_n = table.number("soft_n", 0.01, 100);
+  exercise.hard_force_n = table.number("hard_n", 0.01, 100);
+  exercise.critical_force_n = table.number("critical_n", 0.01, 100);
+  if (exercise.hard_force_n < exercise.soft_force_n) table.fail("hard_n", "'hard_n' must not be below 'soft_n'");
+  if (exercise.critical_force_n <= exercise.hard_force_n)
+    table.fail("critical_n", "'critical_n' must be above 'hard_n'");
+  table.finish();
+}
+
+void read_grip(StrictTable table, GripTask& grip) {
+  grip.block_thickness_m = table.number("block_thickness_mm", 0.5, 50) * kMilli;
+  grip.block_stiffness_n_per_m = table.number("block_stiffness_n_per_m", 10, 5000);
+  grip.low_n = table.number("low_n", 0, 50);
+  grip.high_n = table.number("high_n", 0, 50);
+  grip.excess_n = table.number("excess_n", 0, 100);
+  grip.hold_s = table.number("hold_s", 0.05, 30);
+  if (grip.high_n <= grip.low_n) table.fail("high_n", "'high_n' must be above 'low_n'");
+  if (grip.excess_n <= grip.high_n) table.fail("excess_n", "'excess_n' must be above 'high_n'");
+  if (grip.high_n / grip.block_stiffness_n_per_m > grip.block_thickness_m)
+    table.fail("block_thickness_mm", "the block is too thin to be squeezed with 'high_n'");
+  table.finish();
+}
+
+ExerciseLevel read_level(StrictTable table) {
+  ExerciseLevel level;
+  level.name = table.text("name");
+  level.mapping = table.choice("mapping", {"direct", "fulcrum"}) == "direct" ? Mapping::kDirect : Mapping::kFulcrum;
+  level.motion_scale = table.number("motion_scale", 0.1, 10);
+  level.force_scale = table.number_or_word("force_scale", 0.01, 1, "auto", -1);
+  const auto [low, high] = table.pair("band_n", 0.01, 50);
+  level.band_low_n = low;
+  level.band_high_n = high;
+  if (high <= low) table.fail("band_n", "'band_n' must be [low, high] with low below high");
+  level.force_display = table.choice("force_display", {"always", "band", "after"});
+  table.finish();
+  return level;
+}
+
+double anchor(StrictTable& table, const std::string& key, std::optional<double> expert_time_s) {
+  const std::string scaled = key + "_expert_times";
+  if (!table.has(scaled)) return table.number(key, -1e6, 1e6);
+  if (table.has(key)) table.fail(scaled, "'" + scaled + "' and '" + key + "' exclude each other");
+  if (!expert_time_s) table.fail(scaled, "'" + scaled + "' needs 'expert_time_s' in [rubric]");
+  return table.number(scaled, 0, 100) * *expert_time_s;
+}
+
+SubscoreRule read_rule(StrictTable table, std::optional<double> expert_time_s) {
+  SubscoreRule rule;
+  rule.name = table.text("name");
+  std::vector<std::string> metrics;
+  for (const MetricDefinition& definition : metric_catalogue()) metrics.emplace_back(definition.name);
+  rule.metric = table.choice("metric", metrics);
+  rule.weight = table.number("weight", 0, 1);
+  rule.gate = table.flag_or("gate", false);
+  rule.gate_below = table.number_or("gate_below", 0, 1, 0.5);
+  rule.full_at = anchor(table, "full_at", expert_time_s);
+  rule.zero_at = anchor(table, "zero_at", expert_time_s);
+  if (rule.full_at == rule.zero_at) table.fail("metric", "sub-score '" + rule.name + "': 'full_at' equals 'zero_at'");
+  table.finish();
+  return rule;
+}
+
+Rubric read_rubric(StrictTable table) {
+  Rubric rubric;
+  std::optional<double> expert_time_s;
+  if (table.has("expert_time_s")) expert_time_s = table.number("expert_time_s", 1, 3600);
+  rubric.pass_at = table.number("pass_at", 0, 100);
+  rubric.proficient_at = table.number("proficient_at", rubric.pass_at, 100);
+  rubric.expert_at = table.number("expert_at", rubric.proficient_at, 100);
+  rubric.gate_cap = table.number("gate_cap", 0, rubric.pass_at);
+  rubric.critical_cap = table.number("critical_cap", 0, rubric.pass_at);
+  rubric.unfinished_cap = table.number("unfinished_cap", 0, rubric.pass_at);
+  double sum = 0;
+  for (StrictTable& rule : table.tables("subscores")) {
+    rubric.subscores.push_back(read_rule(rule, expert_time_s));
+    sum += rubric.subscores.back().weight;
+  }
+  if (std::abs(sum - 1) > 1e-9)
+    table.fail("subscores", "weights of the sub-scores sum to " + std::to_string(sum) + ", not to 1");
+  table.finish();
+  return rubric;
+}
+
+bool level_known(const std::vector<ExerciseLevel>& levels, const std::string& name) {
+  return std::any_of(levels.begin(), levels.end(), [&](const ExerciseLevel& l) { return l.name == name; });
+}
+
+}  // namespace
+
+Exercise parse_exercise(const std::string& text, const std::filesystem::path& file) {
+  StrictTable document = StrictTable::parse(text, file.string());
+  Exercise exercise;
+  exercise.file = file;
+  exercise.text = text;
+  exercise.id = document.text("id");
+  exercise.number = document.text("number");
+  exercise.version = document.text("version");
+  exercise.title = document.text("title");
+  exercise.goal = document.text("goal");
+  exercise.time_limit_s = document.number("time_limit_s", 1, 3600);
+  exercise.hold_s = document.number("hold_s", 0.05, 60);
+  read_start(document.table("start"), exercise);
+  read_targets(document.table("targets"), exercise);
+  read_surface(document.table("surface"), exercise);
+  read_force(document.table("force"), exercise);
+  read_grip(document.table("grip"), exercise.grip);
+  for (StrictTable& table : document.tables("levels")) {
+    const ExerciseLevel level = read_level(table);
+    if (level_known(exercise.levels, level.name)) table.fail("name", "level '" + level.name + "' stands twice");
+    if (level.band_high_n > exercise.hard_force_n) table.fail("band_n", "'band_n' reaches above 'hard_n'");
+    exercise.levels.push_back(level);
+  }
+  exercise.rubric = read_rubric(document.table("rubric"));
+  exercise.rubric.sha256 = sha256_of(text);
+  document.finish();
+  return exercise;
+}
+
+Exercise load_exercise(const std::filesystem::path& file) {
+  return parse_exercise(read_text_file(file.string()), file);
+}
+
+std::vector<Exercise> list_exercises(const std::filesystem::path& exercises_dir) {
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(exercises_dir, error)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  if (error) throw InputError(exercises_dir.string() + ": cannot be read as a folder of exercises");
+  std::sort(files.begin(), files.end());
+  std::vector<Exercise> exercises;
+  for (const auto& file : files) exercises.push_back(load_exercise(file));
+  std::stable_sort(exercises.begin(), exercises.end(),
+                   [](const Exercise& a, const Exercise& b) { return a.number < b.number; });
+  return exercises;
+}
+
+Exercise find_exercise(const std::string& id_or_path, const std::filesystem::path& exercises_dir) {
+  if (id_or_path.ends_with(".toml")) return load_exercise(id_or_path);
+  std::vector<std::string> known;
+  for (Exercise& exercise : list_exercises(exercises_dir)) {
+    if (exercise.id == id_or_path || exercise.number == id_or_path) return std::move(exercise);
+    known.push_back(exercise.id);
+  }
+  const std::string near = nearest_word(id_or_path, known);
+  throw InputError("unknown exercise '" + id_or_path + "': known are " + joined(known) +
+                   (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
+const ExerciseLevel& find_level(const Exercise& exercise, const std::string& name) {
+  std::vector<std::string> known;
+  for (const ExerciseLevel& level : exercise.levels) {
+    if (level.name == name) return level;
+    known.push_back(level.name);
+  }
+  throw InputError("exercise '" + exercise.id + "' has no level '" + name + "': known are " + joined(known));
+}
+
+}  // namespace trocar

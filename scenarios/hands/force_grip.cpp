@@ -1,0 +1,45 @@
+#include "scenarios/hands/force_grip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+namespace {
+
+constexpr double kThinkAgainAfter = 0.7;  // s outside the band
+constexpr double kBiasFade = 0.6, kSpreadFade = 0.8;
+constexpr double kWanderTime = 0.5;       // s, correlation time of the force wander
+constexpr double kWanderShare = 0.3;      // of the CV
+constexpr double kSmallestGoal = 0.05;    // N
+
+}  // namespace
+
+void ForceGrip::begin(double low_n, double high_n, HandRandom& random) {
+  low_n_ = low_n;
+  high_n_ = high_n;
+  outside_s_ = wander_ = 0;
+  thoughts_ = 0;
+  draw_goal(random);
+}
+
+void ForceGrip::draw_goal(HandRandom& random) {
+  const double bias = 1 + (tuning_.bias - 1) * std::pow(kBiasFade, thoughts_);
+  const double cv = tuning_.cv * std::pow(kSpreadFade, thoughts_);
+  goal_n_ = std::max(kSmallestGoal, (low_n_ + high_n_) / 2 * bias * (1 + cv * random.normal()));
+}
+
+double ForceGrip::speed(double felt_n, double dt_s, HandRandom& random) {
+  outside_s_ = felt_n >= low_n_ && felt_n <= high_n_ ? 0 : outside_s_ + dt_s;
+  if (outside_s_ > kThinkAgainAfter) {
+    outside_s_ = 0;
+    ++thoughts_;
+    draw_goal(random);
+  }
+  const double rate = dt_s / kWanderTime;  // Ornstein-Uhlenbeck of unit variance
+  wander_ += -rate * wander_ + std::sqrt(2 * rate) * random.normal();
+  const double goal = goal_n_ * (1 + kWanderShare * tuning_.cv * wander_);
+  const double speed = tuning_.crossover_rad_per_s * (goal - felt_n) / tuning_.expected_stiffness_n_per_m;
+  return std::clamp(speed, -tuning_.fastest_mps, tuning_.fastest_mps);
+}
+
+}  // namespace trocar

@@ -1,0 +1,76 @@
+#include "scenarios/hands/hand_script.h"
+
+#include <algorithm>
+
+#include "haptics/input_error.h"
+#include "scenarios/strict_toml.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kMilli = 1e-3;
+
+HandSkill read_skill(StrictTable table) {
+  HandSkill skill;
+  skill.speed_factor = table.number("speed_factor", 0.1, 20);
+  skill.aim_lateral_m = table.number("aim_lateral_mm", 0, 50) * kMilli;
+  skill.aim_depth_m = table.number("aim_depth_mm", 0, 50) * kMilli;
+  skill.tremor_m = table.number("tremor_mm", 0, 5) * kMilli;
+  skill.pause_s = table.number("pause_s", 0, 10);
+  skill.force_bias = table.number("force_bias", 0, 10);
+  skill.force_cv = table.number("force_cv", 0, 2);
+  skill.path_bulge = table.number("path_bulge", 0, 1);
+  skill.max_corrections = table.integer("max_corrections", 0, 20);
+  skill.hover_m = table.number("hover_mm", 0, 30) * kMilli;
+  skill.approach_speed_mps = table.number("approach_speed_mm_per_s", 1, 500) * kMilli;
+  skill.reaction_s = table.number_or("reaction_s", 0.05, 2, skill.reaction_s);
+  skill.population_cv = table.number_or("population_cv", 0, 1, 0);
+  table.finish();
+  return skill;
+}
+
+ScriptedMove read_move(StrictTable table) {
+  ScriptedMove move;
+  move.to_m = table.vector("to_mm", -1000, 1000) * kMilli;
+  move.relative_to_ready = table.choice_or("from", {"theatre", "ready"}, "theatre") == "ready";
+  move.seconds = table.number("seconds", 0.01, 600);
+  move.hold_s = table.number_or("hold_s", 0, 3600, 0);
+  move.jaw_m = table.number_or("jaw_mm", -20, 60, 20) * kMilli;
+  table.finish();
+  return move;
+}
+
+}  // namespace
+
+HandScript parse_hand_script(const std::string& text, const std::string& file) {
+  StrictTable document = StrictTable::parse(text, file);
+  HandScript script;
+  script.name = document.text("name");
+  const std::string kind = document.choice("kind", {"skilled", "waypoints", "idle"});
+  if (kind == "skilled") {
+    script.kind = HandKind::kSkilled;
+    script.skill = read_skill(document.table("skill"));
+  } else if (kind == "waypoints") {
+    script.kind = HandKind::kWaypoints;
+    for (const StrictTable& move : document.tables("move")) script.moves.push_back(read_move(move));
+  }
+  document.finish();
+  return script;
+}
+
+HandScript load_hand_script(const std::filesystem::path& file) {
+  return parse_hand_script(read_text_file(file.string()), file.string());
+}
+
+std::vector<std::string> list_hands(const std::filesystem::path& hands_dir) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(hands_dir, error)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  if (error) throw InputError(hands_dir.string() + ": cannot be read as a folder of hands");
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace trocar

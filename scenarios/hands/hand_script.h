@@ -1,0 +1,57 @@
+// A hand as read from TOML: the skill of a simulated person, fixed waypoints, or nothing at all.
+//
+// Strict: unknown keys, wrong types, numbers out of range or not finite are refused with line and column.
+// Lengths m, times s inside; the file uses _mm keys. Thread: loading only.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+/// What tells people apart (reference: scripted trainees of the training catalogue).
+struct HandSkill {
+  double speed_factor = 1;          ///< multiplies every movement time
+  double aim_lateral_m = 0;         ///< SD of the end point across the approach, at 60 mm of travel
+  double aim_depth_m = 0;           ///< SD along the approach
+  double tremor_m = 0;              ///< RMS of the 9 Hz tremor of the intent
+  double pause_s = 0;               ///< between seeing the next target and moving
+  double force_bias = 1;            ///< first force aimed at / middle of the band
+  double force_cv = 0;              ///< coefficient of variation of the force aimed at
+  double path_bulge = 0;            ///< sideways deviation / distance
+  int max_corrections = 0;          ///< looks and corrections before touching
+  double hover_m = 0;               ///< height over the target at which the reach ends
+  double approach_speed_mps = 0;    ///< from there to the tissue, before speed_factor
+  double reaction_s = 0.17;         ///< voluntary reaction 150-200 ms
+  double population_cv = 0;         ///< spread between persons: each parameter times a log-normal of this CV
+};
+
+/// One straight minimum-jerk move of a fixed script.
+struct ScriptedMove {
+  Vec3 to_m = Vec3::Zero();         ///< goal of the tip
+  bool relative_to_ready = false;   ///< to_m counts from where the tip was when the device became ready; else from T
+  double seconds = 0;               ///< duration of the move
+  double hold_s = 0;                ///< rest at its end
+  double jaw_m = 0.02;              ///< jaw opening at its end
+};
+
+enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kIdle };
+
+struct HandScript {
+  std::string name;
+  HandKind kind = HandKind::kIdle;
+  HandSkill skill;
+  std::vector<ScriptedMove> moves;
+};
+
+/// @throws InputError "FILE:LINE:COLUMN: message".
+HandScript load_hand_script(const std::filesystem::path& file);
+HandScript parse_hand_script(const std::string& text, const std::string& file);
+
+/// Names of the scripts of a folder, sorted. @throws InputError when it cannot be read.
+std::vector<std::string> list_hands(const std::filesystem::path& hands_dir);
+
+}  // namespace trocar

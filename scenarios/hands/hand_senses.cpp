@@ -1,0 +1,43 @@
+#include "scenarios/hands/hand_senses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+namespace {
+
+HandTask task_of(const Percept& percept) {
+  switch (percept.cue) {
+    case Cue::kWait: return {HandTask::Kind::kStart, -1};
+    case Cue::kReach:
+    case Cue::kPress:
+    case Cue::kRelease: return {HandTask::Kind::kDisc, percept.target_index};
+    case Cue::kGrip: return {HandTask::Kind::kGrip, -1};
+    case Cue::kFinished: return {HandTask::Kind::kFinished, -1};
+    case Cue::kNone: break;
+  }
+  return {};
+}
+
+}  // namespace
+
+double LateSignal::update(double value, double dt_s) {
+  const int slots = std::clamp(static_cast<int>(std::lround(delay_s_ / std::max(dt_s, 1e-6))), 0, kSlots - 1);
+  ring_[static_cast<std::size_t>(head_)] = value;
+  const double late = ring_[static_cast<std::size_t>((head_ + kSlots - slots) % kSlots)];
+  head_ = (head_ + 1) % kSlots;
+  value_ += (late - value_) * std::min(1.0, dt_s / smooth_s_);
+  return value_;
+}
+
+void HandSenses::update(const Percept& percept, double pause_s, double dt_s) {
+  touch_.update(percept.felt_force_n, dt_s);
+  grip_.update(percept.felt_grip_n, dt_s);
+  force_.update(std::isfinite(percept.shown_force_n) ? percept.shown_force_n : percept.felt_force_n, dt_s);
+  const HandTask now = task_of(percept);
+  noticed_for_s_ = now == seen_ ? noticed_for_s_ + dt_s : 0;
+  seen_ = now;
+  if (noticed_for_s_ >= reaction_s_ + pause_s) task_ = seen_;
+}
+
+}  // namespace trocar

@@ -1,0 +1,48 @@
+// What a hand makes of its percept: forces late and smoothed, and a cue noticed only after the reaction time.
+// Fixed memory; does not allocate.
+#pragma once
+
+#include <array>
+
+#include "haptics/device/hand.h"
+
+namespace trocar {
+
+/// A signal that arrives `delay_s` later, smoothed over `smooth_s`.
+class LateSignal {
+ public:
+  LateSignal(double delay_s, double smooth_s) : delay_s_(delay_s), smooth_s_(smooth_s) {}
+  double update(double value, double dt_s);
+  double value() const { return value_; }
+
+ private:
+  static constexpr int kSlots = 512;
+  std::array<double, kSlots> ring_{};
+  double delay_s_, smooth_s_, value_ = 0;
+  int head_ = 0;
+};
+
+/// What the person is busy with; reaching, pressing and easing off one disc are one task.
+struct HandTask {
+  enum class Kind : std::uint8_t { kNothing, kStart, kDisc, kGrip, kFinished } kind = Kind::kNothing;
+  std::int32_t target = -1;
+  bool operator==(const HandTask&) const = default;
+};
+
+class HandSenses {
+ public:
+  explicit HandSenses(double reaction_s) : reaction_s_(reaction_s) {}
+  void update(const Percept& percept, double pause_s, double dt_s);
+  /// The task that has been noticed and thought over.
+  const HandTask& task() const { return task_; }
+  double force_n() const { return force_.value(); }   ///< contact force as judged for control (bar, else fingers)
+  double touch_n() const { return touch_.value(); }   ///< contact force as felt, quick, for noticing contact
+  double grip_n() const { return grip_.value(); }
+
+ private:
+  double reaction_s_, noticed_for_s_ = 0;
+  HandTask task_, seen_;
+  LateSignal force_{0.12, 0.05}, touch_{0.06, 0.02}, grip_{0.08, 0.04};
+};
+
+}  // namespace trocar

@@ -1,0 +1,20 @@
+// A hand by name or from a script file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "haptics/device/hand.h"
+#include "scenarios/hands/hand_script.h"
+
+namespace trocar {
+
+/// @param name_or_script a name of hands_dir ("expert") or a path to a .toml file. @param seed of everything random.
+/// @throws InputError listing the known names, or from the script.
+std::unique_ptr<Hand> make_hand(const std::string& name_or_script, std::uint64_t seed,
+                                const std::filesystem::path& hands_dir);
+std::unique_ptr<Hand> make_hand(const HandScript& script, std::uint64_t seed);
+
+}  // namespace trocar

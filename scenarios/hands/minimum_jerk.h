@@ -1,0 +1,34 @@
+// Minimum-jerk reaching (Flash and Hogan, J Neurosci 5:1688, 1985) and the reach of a surgeon: withdraw, cross, come
+// down, each a minimum-jerk movement, overlapping in time. Frame T, m, s.
+#pragma once
+
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+/// 10 s^3 - 15 s^4 + 6 s^5, 0 before s = 0, 1 after s = 1.
+double minimum_jerk(double s);
+
+/// Movement time of a reach: k (0.12 + 0.11 log2(2 D / W + 1)) s.
+double reach_time_s(double distance_m, double width_m, double speed_factor);
+
+class ReachPlan {
+ public:
+  struct Shape {
+    double lift_m = 0;          ///< withdrawal along +z, undone at the end
+    Vec3 bulge = Vec3::Zero();  ///< sideways deviation at half way, m
+    double lift_time_s = 0;     ///< up, and again down; 0 with lift_m = 0
+    double travel_time_s = 0.1;
+  };
+  ReachPlan() = default;
+  ReachPlan(const Vec3& from, const Vec3& to, const Shape& shape);
+  Vec3 at(double t_s) const;
+  double duration_s() const { return duration_s_; }
+
+ private:
+  Vec3 from_ = Vec3::Zero(), to_ = Vec3::Zero();
+  Shape shape_;
+  double travel_start_s_ = 0, descent_start_s_ = 0, duration_s_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,195 @@
+#include "scenarios/hands/skilled_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trocar {
+namespace {
+
+constexpr double kTremorHz = 9;
+constexpr double kAimReference = 0.060;     // m of travel at which the aim error has its nominal size
+constexpr double kAimFloor = 0.15;
+constexpr double kLift = 0.012;             // m of withdrawal before crossing
+constexpr double kLookTime = 0.16;          // s: the eyes are that late
+constexpr double kTouchForce = 0.12;        // N that counts as feeling the tissue
+constexpr double kLongestDescent = 0.030;   // m below the hover point before looking again
+constexpr double kSideGain = 1.2;           // 1/s, sideways correction while pressing
+constexpr double kSideDeadBand = 0.0010;    // m
+constexpr double kAsideTime = 0.5;          // s beside the target before lifting off to try again
+constexpr double kOpenJaw = 0.020;          // m
+constexpr double kTightestJaw = -0.010;     // m of intent: the fingers press beyond what they hold
+constexpr double kClosingSpeed = 0.012;     // m/s until the block is felt
+constexpr double kGripTouch = 0.08;         // N
+
+}  // namespace
+
+HandSkill SkilledHand::drawn_person(const HandSkill& skill, HandRandom& random) {
+  HandSkill person = skill;
+  if (skill.population_cv <= 0) return person;
+  for (double* value : {&person.speed_factor, &person.aim_lateral_m, &person.aim_depth_m, &person.tremor_m,
+                        &person.pause_s, &person.force_bias, &person.force_cv, &person.path_bulge})
+    *value *= random.log_normal(skill.population_cv);
+  return person;
+}
+
+SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
+    : random_(seed),
+      skill_(drawn_person(skill, random_)),
+      senses_(skill_.reaction_s),
+      press_({100, 3, 0.04, skill_.force_bias, skill_.force_cv}),
+      squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv}),
+      jaw_m_(kOpenJaw) {
+  for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
+}
+
+Vec3 SkilledHand::tremor(double t_s) const {
+  const double amplitude = skill_.tremor_m * std::sqrt(2.0 / 3.0);  // RMS over the three axes together is tremor_m
+  const double angle = 2 * std::numbers::pi * kTremorHz * t_s;
+  return amplitude * Vec3(std::sin(angle + tremor_phase_.x()), std::sin(angle + tremor_phase_.y()),
+                          std::sin(angle + tremor_phase_.z()));
+}
+
+Vec3 SkilledHand::sideways_error(const Percept& percept) const {
+  const Vec3 error = percept.target_T - percept.tip_T;
+  return error - percept.target_normal_T * error.dot(percept.target_normal_T);
+}
+
+/// Plans a movement of the intent such that the SEEN tip would arrive at the goal.
+void SkilledHand::reach(const Percept& percept, const Vec3& goal_T, bool lift) {
+  const Vec3 way = goal_T - percept.tip_T;
+  const double distance = way.norm(), k = skill_.speed_factor;
+  ReachPlan::Shape shape;
+  shape.travel_time_s = std::max(0.05, reach_time_s(distance, 2 * percept.target_radius_m, k));
+  if (lift) {
+    const double sunk = std::max(0.0, percept.tip_T.z() - intent_T_.z());  // the intent lies in the tissue
+    shape.lift_m = kLift + std::min(sunk, kLift);
+    shape.lift_time_s = reach_time_s(kLift, 2 * percept.target_radius_m, k);
+  }
+  const Vec3 across = Vec3::UnitZ().cross(way);
+  if (across.norm() > 1e-6)
+    shape.bulge = across.normalized() * (skill_.path_bulge * distance * (random_.uniform() < 0.5 ? -1 : 1));
+  const double noise = std::sqrt(std::min(1.0, distance / kAimReference) + kAimFloor);
+  const Vec3 n = percept.target_normal_T;
+  const Vec3 side = n.unitOrthogonal();
+  const Vec3 error = noise * (skill_.aim_lateral_m * (side * random_.normal() + n.cross(side) * random_.normal()) +
+                              skill_.aim_depth_m * n * random_.normal());
+  const Vec3 offset = lift ? Vec3::Zero() : Vec3(intent_T_ - percept.tip_T);  // how far the tip hangs behind
+  plan_ = ReachPlan(intent_T_, goal_T + offset + error, shape);
+  step_ = Step::kReach;
+  in_step_s_ = 0;
+}
+
+void SkilledHand::reach_target(const Percept& percept, bool lift) {
+  const double hover = task_.kind == HandTask::Kind::kDisc ? skill_.hover_m : 0;
+  reach(percept, percept.target_T + percept.target_normal_T * hover, lift);
+}
+
+void SkilledHand::begin_task(const Percept& percept) {
+  corrections_ = 0;
+  in_step_s_ = 0;
+  switch (task_.kind) {
+    case HandTask::Kind::kStart: return reach_target(percept, false);
+    case HandTask::Kind::kDisc: return reach_target(percept, true);
+    case HandTask::Kind::kGrip:
+      squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
+      [[fallthrough]];
+    case HandTask::Kind::kFinished:
+      plan_ = ReachPlan(intent_T_, intent_T_ + Vec3(0, 0, 2 * kLift), {0, Vec3::Zero(), 0, 0.5 * skill_.speed_factor});
+      step_ = task_.kind == HandTask::Kind::kGrip ? Step::kSqueeze : Step::kReach;
+      return;
+    case HandTask::Kind::kNothing: step_ = Step::kStill;
+  }
+}
+
+void SkilledHand::start_pressing(const Percept& percept) {
+  press_.begin(percept.band_low_n, percept.band_high_n, random_);
+  aside_s_ = 0;
+  in_step_s_ = 0;
+  step_ = Step::kPress;
+}
+
+/// Felt the tissue before it was meant to: press when about on target, else withdraw and try again.
+void SkilledHand::on_unexpected_touch(const Percept& percept) {
+  if (task_.kind != HandTask::Kind::kDisc) return;
+  if (sideways_error(percept).norm() <= percept.target_radius_m) return start_pressing(percept);
+  reach_target(percept, true);
+}
+
+void SkilledHand::look(const Percept& percept) {
+  if (in_step_s_ < kLookTime + 0.05 * skill_.speed_factor) return;
+  const bool disc = task_.kind == HandTask::Kind::kDisc;
+  const Vec3 error = disc ? sideways_error(percept) : Vec3(percept.target_T - percept.tip_T);
+  const double allowed = disc ? percept.target_radius_m : 0.6 * percept.target_radius_m;
+  if (error.norm() > allowed && (corrections_ < skill_.max_corrections || !disc)) {
+    ++corrections_;
+    return reach_target(percept, false);
+  }
+  in_step_s_ = 0;
+  step_ = disc ? Step::kDescend : Step::kLook;
+}
+
+void SkilledHand::descend(const Percept& percept, double dt_s) {
+  const double speed = skill_.approach_speed_mps / skill_.speed_factor;
+  intent_T_ -= percept.target_normal_T * speed * dt_s;
+  if (senses_.touch_n() > kTouchForce) return start_pressing(percept);
+  if (speed * in_step_s_ > kLongestDescent) reach_target(percept, true);
+}
+
+void SkilledHand::press(const Percept& percept, double dt_s) {
+  intent_T_ -= percept.target_normal_T * press_.speed(senses_.force_n(), dt_s, random_) * dt_s;
+  const Vec3 error = sideways_error(percept);
+  const double distance = error.norm();
+  if (distance > kSideDeadBand) intent_T_ += error * (kSideGain * (1 - kSideDeadBand / distance) * dt_s);
+  aside_s_ = distance > percept.target_radius_m + kSideDeadBand ? aside_s_ + dt_s : 0;
+  if (aside_s_ > kAsideTime * skill_.speed_factor) reach_target(percept, true);
+}
+
+void SkilledHand::squeeze(const Percept& percept, double dt_s) {
+  if (in_step_s_ <= plan_.duration_s()) {
+    intent_T_ = plan_.at(in_step_s_);
+    return;
+  }
+  const bool felt = senses_.grip_n() > kGripTouch;
+  const double closing = felt ? squeeze_.speed(senses_.grip_n(), dt_s, random_) : kClosingSpeed / skill_.speed_factor;
+  jaw_m_ = std::clamp(jaw_m_ - closing * dt_s, std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
+}
+
+HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
+  if (!is_ready_) {
+    if (!seen_ || percept.device_ready) ready_ = {percept.R_TI, percept.tip_T};
+    seen_ = true;
+    is_ready_ = percept.device_ready;
+    intent_T_ = ready_.p;
+    return {ready_, jaw_m_};
+  }
+  time_s_ += dt_s;
+  in_step_s_ += dt_s;
+  senses_.update(percept, skill_.pause_s, dt_s);
+  if (!(senses_.task() == task_)) {
+    task_ = senses_.task();
+    begin_task(percept);
+  }
+  switch (step_) {
+    case Step::kStill: break;
+    case Step::kReach:
+      intent_T_ = plan_.at(in_step_s_);
+      if (in_step_s_ > plan_.duration_s()) {
+        in_step_s_ = 0;
+        step_ = task_.kind == HandTask::Kind::kFinished ? Step::kStill : Step::kLook;
+      } else if (in_step_s_ > 0.5 * plan_.duration_s() && senses_.touch_n() > kTouchForce) {
+        on_unexpected_touch(percept);
+      }
+      break;
+    case Step::kLook:
+      if (senses_.touch_n() > kTouchForce) on_unexpected_touch(percept);
+      if (step_ == Step::kLook) look(percept);
+      break;
+    case Step::kDescend: descend(percept, dt_s); break;
+    case Step::kPress: press(percept, dt_s); break;
+    case Step::kSqueeze: squeeze(percept, dt_s); break;
+  }
+  return {{ready_.R, intent_T_ + tremor(time_s_)}, jaw_m_};
+}
+
+}  // namespace trocar

@@ -1,0 +1,54 @@
+// A simulated person at the exercise: sees late and noisily, reaches in minimum-jerk movements, looks and corrects,
+// comes down onto the tissue, presses until the felt force is what it wants, withdraws, and finally squeezes the block.
+//
+// Knows nothing but its Percept. Its intent pulls the stylus through the impedance of the hand, so while pressing the
+// intent lies inside the tissue. Frame T, m, N. Orientation: kept as seen when the device became ready.
+// Thread: the session's, 1 kHz; does not allocate.
+#pragma once
+
+#include "haptics/device/hand.h"
+#include "scenarios/hands/force_grip.h"
+#include "scenarios/hands/hand_random.h"
+#include "scenarios/hands/hand_script.h"
+#include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/minimum_jerk.h"
+
+namespace trocar {
+
+class SkilledHand : public Hand {
+ public:
+  SkilledHand(const HandSkill& skill, std::uint64_t seed);
+  HandIntent update(const Percept& percept, double dt_s) override;
+
+ private:
+  enum class Step : std::uint8_t { kStill, kReach, kLook, kDescend, kPress, kSqueeze };
+
+  static HandSkill drawn_person(const HandSkill& skill, HandRandom& random);
+  void begin_task(const Percept& percept);
+  void reach(const Percept& percept, const Vec3& goal_T, bool lift);
+  void reach_target(const Percept& percept, bool lift);
+  void look(const Percept& percept);
+  void descend(const Percept& percept, double dt_s);
+  void press(const Percept& percept, double dt_s);
+  void squeeze(const Percept& percept, double dt_s);
+  void on_unexpected_touch(const Percept& percept);
+  void start_pressing(const Percept& percept);
+  Vec3 sideways_error(const Percept& percept) const;
+  Vec3 tremor(double t_s) const;
+
+  HandRandom random_;
+  HandSkill skill_;
+  HandSenses senses_;
+  ForceGrip press_, squeeze_;
+  ReachPlan plan_;
+  HandTask task_;
+  Step step_ = Step::kStill;
+  Pose ready_;                  ///< pose seen when the device became ready
+  Vec3 intent_T_ = Vec3::Zero();
+  Vec3 tremor_phase_ = Vec3::Zero();
+  double jaw_m_, time_s_ = 0, in_step_s_ = 0, aside_s_ = 0;
+  int corrections_ = 0;
+  bool seen_ = false, is_ready_ = false;
+};
+
+}  // namespace trocar

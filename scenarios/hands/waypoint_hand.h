@@ -1,0 +1,29 @@
+// A hand that follows a fixed list of straight minimum-jerk moves and then stays; with an empty list it holds still.
+// For tests and studies. Frame T, m. Thread: the session's; does not allocate after construction.
+#pragma once
+
+#include <vector>
+
+#include "haptics/device/hand.h"
+#include "scenarios/hands/hand_script.h"
+
+namespace trocar {
+
+class WaypointHand : public Hand {
+ public:
+  explicit WaypointHand(std::vector<ScriptedMove> moves) : moves_(std::move(moves)) {}
+  HandIntent update(const Percept& percept, double dt_s) override;
+
+ private:
+  Vec3 goal(const ScriptedMove& move) const;
+
+  std::vector<ScriptedMove> moves_;
+  HandIntent intent_;
+  Vec3 ready_T_ = Vec3::Zero(), from_T_ = Vec3::Zero();
+  double from_jaw_m_ = 0;
+  bool seen_ = false, ready_ = false;
+  std::size_t index_ = 0;
+  double in_move_s_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,46 @@
+// The metric table: name, unit and definition of every number that an attempt is described by (docs/scoring.md).
+//
+// compute_metrics sees only the graded window (START to the end event). A metric that is not defined for the attempt
+// is empty, never 0. Pure: same trace, events and context in, same bits out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/scoring/attempt_result.h"
+#include "scenarios/scoring/scoring_context.h"
+#include "scenarios/scoring/trace.h"
+
+namespace trocar {
+
+struct MetricDefinition {
+  std::string_view name, unit, meaning;
+};
+
+/// All metrics, in the order of the table.
+const std::vector<MetricDefinition>& metric_catalogue();
+/// nullptr when unknown.
+const MetricDefinition* find_metric(std::string_view name);
+
+/// Part of a trace with start <= t <= end.
+Trace cut_trace(const Trace& trace, double start_s, double end_s);
+
+/// Every metric of the catalogue, in its order. @param trace strictly increasing finite times (integrity.h).
+std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>& events,
+                                    const ScoringContext& context);
+
+/// Start and end of the graded window: START event to DONE or TIMEOUT event (last sample when there is none).
+/// Empty without a START event.
+std::optional<std::pair<double, double>> graded_window(const Trace& trace, const std::vector<Event>& events);
+
+// The groups that compute_metrics asks, each filling its own names.
+using MetricSink = std::vector<Metric>;
+void add_motion_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
+                        MetricSink& sink);
+void add_force_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
+                       MetricSink& sink);
+void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
+
+}  // namespace trocar

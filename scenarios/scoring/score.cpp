@@ -1,0 +1,95 @@
+#include "scenarios/scoring/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "scenarios/scoring/integrity.h"
+#include "scenarios/scoring/metrics.h"
+
+namespace trocar {
+namespace {
+
+std::string short_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+const Metric* metric_named(const std::vector<Metric>& metrics, const std::string& name) {
+  const auto it = std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.name == name; });
+  return it == metrics.end() ? nullptr : &*it;
+}
+
+/// Lowers the score to a cap and writes down why. A cap is listed even when the score lies below it already.
+void apply_cap(Grade& grade, double cap, const std::string& reason) {
+  grade.score = std::min(*grade.score, cap);
+  grade.caps.push_back(reason + ": at most " + short_text(cap));
+}
+
+void apply_caps(Grade& grade, const Rubric& rubric, const ScoringContext& context) {
+  for (std::size_t k = 0; k < rubric.subscores.size(); ++k) {
+    const SubscoreRule& rule = rubric.subscores[k];
+    if (rule.gate && grade.subscores[k].value < rule.gate_below)
+      apply_cap(grade, rubric.gate_cap, "safety: " + rule.name + " below " + short_text(rule.gate_below));
+  }
+  const Metric* critical = metric_named(grade.metrics, "critical_events");
+  if (critical && critical->value.value_or(0) > 0) apply_cap(grade, rubric.critical_cap, "critical event");
+  if (context.outcome != AttemptStatus::kTimeout) return;
+  const double share = context.objects_total > 0 ? 1.0 * context.objects_done / context.objects_total : 0;
+  apply_cap(grade, rubric.unfinished_cap * std::clamp(share, 0.0, 1.0),
+            "not finished: " + std::to_string(context.objects_done) + " of " + std::to_string(context.objects_total));
+}
+
+std::string grade_name(double score, const Rubric& rubric) {
+  if (score >= rubric.expert_at) return "expert";
+  if (score >= rubric.proficient_at) return "proficient";
+  return score >= rubric.pass_at ? "pass" : "below pass";
+}
+
+Grade void_grade(const std::string& reason) {
+  Grade grade;
+  grade.status = AttemptStatus::kVoid;
+  grade.grade = "not graded";
+  grade.caps.push_back("void: " + reason);
+  return grade;
+}
+
+}  // namespace
+
+double subscore_value(const SubscoreRule& rule, const std::optional<double>& metric) {
+  if (!metric || !std::isfinite(*metric)) return 0;
+  return std::clamp((*metric - rule.zero_at) / (rule.full_at - rule.zero_at), 0.0, 1.0);
+}
+
+Grade score_attempt(const Trace& trace, const std::vector<Event>& events, const Rubric& rubric,
+                    const ScoringContext& context) {
+  Grade grade;
+  grade.status = context.outcome;
+  grade.grade = "not graded";
+  if (context.outcome != AttemptStatus::kCompleted && context.outcome != AttemptStatus::kTimeout) {
+    if (integrity_fault(trace, events).empty()) grade.metrics = compute_metrics(trace, events, context);
+    return grade;
+  }
+  if (const std::string fault = integrity_fault(trace, events); !fault.empty()) return void_grade(fault);
+  if (context.outcome == AttemptStatus::kCompleted && !graded_window(trace, events))
+    return void_grade("completed without a START event");
+
+  grade.metrics = compute_metrics(trace, events, context);
+  double total = 0;
+  for (const SubscoreRule& rule : rubric.subscores) {
+    const Metric* metric = metric_named(grade.metrics, rule.metric);
+    const std::optional<double> raw = metric ? metric->value : std::nullopt;
+    const double value = subscore_value(rule, raw);
+    total += rule.weight * value;
+    grade.subscores.push_back({rule.name, value, rule.weight, raw, metric ? metric->unit : "", rule.full_at,
+                               rule.zero_at, rule.gate});
+  }
+  grade.score = 100 * total;
+  apply_caps(grade, rubric, context);
+  grade.passed = grade.caps.empty() && context.outcome == AttemptStatus::kCompleted && *grade.score >= rubric.pass_at;
+  grade.grade = grade.caps.empty() ? grade_name(*grade.score, rubric) : "below pass";
+  return grade;
+}
+
+}  // namespace trocar

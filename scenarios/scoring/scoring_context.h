@@ -1,0 +1,32 @@
+// What scoring must know of the exercise besides trace, events and rubric: bands, limits, the ideal path.
+//
+// Made from an exercise by scenarios/scoring_context.h and stored in the recording, so that a recording can be
+// regraded alone. Frame T, SI units.
+#pragma once
+
+#include <vector>
+
+#include "haptics/quantities.h"
+#include "scenarios/scoring/trace.h"
+
+namespace trocar {
+
+struct ScoringContext {
+  AttemptStatus outcome = AttemptStatus::kAborted;
+  double time_limit_s = 0;
+  double band_low_n = 0, band_high_n = 0;            ///< wanted contact force
+  double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
+  double grip_low_n = 0, grip_high_n = 0;            ///< wanted grip force
+  double retract_height_m = 0;                       ///< of the ideal path between targets, along approach_T
+  Vec3 approach_T = Vec3::UnitZ();                   ///< direction in which the instrument withdraws
+  std::vector<Vec3> waypoints;                       ///< start, then the targets that were held, in lit order
+  int objects_total = 0, objects_done = 0;
+
+  bool operator==(const ScoringContext&) const = default;
+};
+
+/// Length of the ideal path: from each waypoint up by the retract height, across, and down to the next; the first leg
+/// starts in the air and has no ascent. 0 for fewer than two waypoints.
+double ideal_path_length(const ScoringContext& context);
+
+}  // namespace trocar

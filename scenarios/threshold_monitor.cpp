@@ -1,0 +1,29 @@
+#include "scenarios/threshold_monitor.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+bool ThresholdMonitor::update(double value, double dt_s) {
+  if (!fired_) {
+    below_s_ = 0;
+    fired_ = value > enter_;
+    return fired_;
+  }
+  below_s_ = value < leave_ ? below_s_ + dt_s : 0;
+  if (below_s_ >= rearm_s_) fired_ = false;
+  return false;
+}
+
+bool HoldTimer::update(bool inside, double dt_s) {
+  if (inside) {
+    outside_s_ = 0;
+    held_s_ = std::min(wanted_s_, held_s_ + dt_s);
+  } else {
+    outside_s_ += dt_s;
+    if (outside_s_ > grace_s_) held_s_ = 0;
+  }
+  return held_s_ >= wanted_s_ - 1e-9;
+}
+
+}  // namespace trocar

@@ -1,0 +1,37 @@
+// Turns a signal into single events: fires on entry above a level, re-arms after a time below a lower one.
+//
+// EXCESS_FORCE: enter F > F_hard, re-arm below 0.8 F_hard for 0.2 s, so that a trembling force counts once.
+#pragma once
+
+namespace trocar {
+
+class ThresholdMonitor {
+ public:
+  /// @param enter fires above this. @param leave, rearm_s: armed again after rearm_s below `leave`.
+  ThresholdMonitor(double enter, double leave, double rearm_s) : enter_(enter), leave_(leave), rearm_s_(rearm_s) {}
+  /// @returns true in the one update in which the signal enters. @param dt_s time since the previous update.
+  bool update(double value, double dt_s);
+  bool above() const { return fired_; }
+
+ private:
+  double enter_, leave_, rearm_s_;
+  double below_s_ = 0;
+  bool fired_ = false;
+};
+
+/// Continuous time inside a band: short excursions pause the count, longer ones reset it.
+class HoldTimer {
+ public:
+  /// @param wanted_s complete after this. @param grace_s excursion that is forgiven (not counted).
+  HoldTimer(double wanted_s, double grace_s) : wanted_s_(wanted_s), grace_s_(grace_s) {}
+  /// @returns true once the wanted time is reached.
+  bool update(bool inside, double dt_s);
+  void reset() { held_s_ = outside_s_ = 0; }
+  double progress() const { return held_s_ / wanted_s_; }
+
+ private:
+  double wanted_s_, grace_s_;
+  double held_s_ = 0, outside_s_ = 0;
+};
+
+}  // namespace trocar

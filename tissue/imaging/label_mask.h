@@ -1,0 +1,35 @@
+// One organ cut out of a label map: the largest part, cavities filled, with what was lost and where the image cut it.
+//
+// Parts hang together over voxel faces (6 neighbours), and so does the background whose enclosed pieces are cavities.
+// Thread: any.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tissue/imaging/label_volume.h"
+
+namespace trocar {
+
+struct LabelMask {
+  std::array<int, 3> size{};            ///< of the box cut out, margin included
+  std::array<int, 3> first{};           ///< index in the label map of the box's voxel (0, 0, 0); may be negative
+  std::vector<std::uint8_t> inside;     ///< 1 inside, i fastest; the margin is 0, so a cut organ gets a flat cap
+  std::size_t label_voxels = 0;         ///< voxels that carry the label
+  std::vector<std::size_t> lost_parts;  ///< voxels of each smaller part, largest first
+  std::vector<std::size_t> cavities;    ///< voxels of each cavity that was filled, largest first
+  std::size_t kept_voxels = 0;          ///< voxels inside the mask
+  std::size_t border_voxels = 0;        ///< kept voxels in the outermost slices of the label map
+
+  std::size_t offset(int i, int j, int k) const {
+    return static_cast<std::size_t>(i) +
+           static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+  }
+};
+
+/// @param margin empty voxels round the organ's bounding box, >= 1
+/// @throws InputError when no voxel carries the label, or fewer than 8 hang together
+LabelMask cut_out_label(const LabelVolume& volume, int label, int margin);
+
+}  // namespace trocar

@@ -1,0 +1,33 @@
+// What the numbers of a label map mean: named tables, because one number means different organs in different tables.
+//
+// Source: the class maps of TotalSegmentator (v1 "total", v2 "total", "total_mr"), abdomen only. Thread: constant data.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trocar {
+
+struct LabelName {
+  int number;
+  std::string_view name;
+};
+
+struct LabelTable {
+  std::string_view name;
+  std::span<const LabelName> labels;
+
+  std::optional<int> number_of(std::string_view label) const;
+  std::optional<std::string_view> name_of(int number) const;
+};
+
+inline constexpr std::string_view kDefaultLabelTable = "totalsegmentator-v1";
+
+/// @throws InputError listing the known tables
+const LabelTable& label_table(std::string_view name);
+std::vector<std::string> label_table_names();
+
+}  // namespace trocar

@@ -1,0 +1,59 @@
+// The NIfTI-1 header, read and judged by ourselves before any library sees the file.
+//
+// Layout: nifti1.h (NIfTI-1.1, 348 bytes). Voxel (i, j, k) counts from 0, its centre lies at index_to_ras_mm * (i, j, k)
+// in the RAS patient frame (x right, y anterior, z superior), millimetres. A signed header alone is no proof of data: the
+// length of the voxel block is measured too, through the inflater for .nii.gz.
+// Thread: any, not the tick (file I/O).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace trocar {
+
+/// NIfTI-1 data type codes that hold one real number a voxel.
+enum class NiftiType : std::int16_t {
+  kUint8 = 2,
+  kInt16 = 4,
+  kInt32 = 8,
+  kFloat32 = 16,
+  kFloat64 = 64,
+  kInt8 = 256,
+  kUint16 = 512,
+  kUint32 = 768,
+};
+
+struct NiftiHeader {
+  std::array<int, 3> size{};          ///< voxels along i, j, k
+  NiftiType type = NiftiType::kUint8;
+  bool swapped = false;               ///< stored in the other byte order
+  bool gzip = false;
+  double data_offset = 352;           ///< bytes before the first voxel
+  double slope = 1;                   ///< value = slope * stored + intercept; slope 0 in the file means 1
+  double intercept = 0;
+  Eigen::Affine3d index_to_ras_mm = Eigen::Affine3d::Identity();
+  std::string frame_source;           ///< "sform 2" or "qform 1": which transform placed the image
+  std::vector<std::string> notes;     ///< what was odd but usable, one sentence each
+
+  std::size_t voxel_count() const;
+  /// Edge lengths of one voxel, mm.
+  Eigen::Vector3d spacing_mm() const;
+};
+
+/// Largest volume accepted: 2^28 voxels (a 512 x 512 x 1024 series).
+inline constexpr std::size_t kMaxVoxels = std::size_t{1} << 28;
+
+/// Judges the 348 header bytes alone.
+/// @param file name used in messages
+/// @throws InputError "FILE: field: what is wrong"
+NiftiHeader parse_nifti_header(const std::array<unsigned char, 348>& bytes, const std::string& file);
+
+/// Extension (.nii, .nii.gz) and signature, header, and presence of every voxel byte.
+/// @throws InputError naming file and field
+NiftiHeader read_nifti_header(const std::filesystem::path& path);
+
+}  // namespace trocar

@@ -1,0 +1,120 @@
+#include "tissue/mesh/surface_check.h"
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+namespace trocar {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
+
+std::vector<Point> points_of(const TriangleSurface& surface) {
+  std::vector<Point> points;
+  for (const Vec3& p : surface.vertices) points.emplace_back(p.x(), p.y(), p.z());
+  return points;
+}
+
+std::vector<std::vector<std::size_t>> soup_of(const TriangleSurface& surface) {
+  std::vector<std::vector<std::size_t>> soup;
+  for (const auto& [a, b, c] : surface.triangles)
+    soup.push_back({static_cast<std::size_t>(a), static_cast<std::size_t>(b), static_cast<std::size_t>(c)});
+  return soup;
+}
+
+Mesh to_cgal(const TriangleSurface& surface) {
+  Mesh mesh;
+  for (const Point& point : points_of(surface)) mesh.add_vertex(point);
+  const auto vertex = [](std::int32_t index) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(index)); };
+  for (const auto& [a, b, c] : surface.triangles)
+    if (mesh.add_face(vertex(a), vertex(b), vertex(c)) == Mesh::null_face())
+      throw std::invalid_argument("the surface is not an oriented manifold");
+  return mesh;
+}
+
+struct Sample {
+  double distance_m;
+  double area_m2;
+};
+
+/// Centroid and edge midpoints of each triangle, each standing for a quarter of its area; nearest first.
+std::vector<Sample> sorted_samples(const TriangleSurface& from, const Tree& to) {
+  std::vector<Sample> samples;
+  samples.reserve(from.triangles.size() * 4);
+  for (const auto& triangle : from.triangles) {
+    std::array<Vec3, 3> p;
+    for (std::size_t n = 0; n < 3; ++n) p[n] = from.vertices[static_cast<std::size_t>(triangle[n])];
+    const double quarter = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 8;
+    for (const Vec3& q : {Vec3((p[0] + p[1] + p[2]) / 3), Vec3((p[0] + p[1]) / 2), Vec3((p[1] + p[2]) / 2), Vec3((p[2] + p[0]) / 2)})
+      samples.push_back({std::sqrt(to.squared_distance(Point(q.x(), q.y(), q.z()))), quarter});
+  }
+  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.distance_m < b.distance_m; });
+  return samples;
+}
+
+}  // namespace
+
+std::size_t count_self_intersections(const TriangleSurface& surface) {
+  const Mesh mesh = to_cgal(surface);
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  pmp::self_intersections(mesh, std::back_inserter(pairs));
+  return pairs.size();
+}
+
+std::size_t orient_outward(TriangleSurface& surface) {
+  auto points = points_of(surface);
+  auto soup = soup_of(surface);
+  if (!pmp::orient_polygon_soup(points, soup) || points.size() != surface.vertices.size())
+    throw std::invalid_argument("orient_outward: the surface is not manifold");
+  Mesh mesh;
+  pmp::polygon_soup_to_polygon_mesh(points, soup, mesh);
+  if (!CGAL::is_closed(mesh)) throw std::invalid_argument("orient_outward: the surface is open");
+  pmp::orient_to_bound_a_volume(mesh);
+  std::size_t turned = 0;
+  for (const auto face : mesh.faces()) {
+    std::array<std::int32_t, 3> triangle{};
+    std::size_t n = 0;
+    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
+    auto& old = surface.triangles[face.idx()];
+    const auto first = std::find(triangle.begin(), triangle.end(), old[0]);
+    std::rotate(triangle.begin(), first, triangle.end());
+    turned += triangle == old ? 0 : 1;
+    old = triangle;
+  }
+  return turned;
+}
+
+SurfaceDistance distance_from_to(const TriangleSurface& from, const TriangleSurface& to) {
+  const Mesh mesh = to_cgal(to);
+  Tree tree(mesh.faces().begin(), mesh.faces().end(), mesh);
+  tree.accelerate_distance_queries();
+  const std::vector<Sample> samples = sorted_samples(from, tree);
+  double area = 0;
+  for (const Sample& sample : samples) area += sample.area_m2;
+  SurfaceDistance result;
+  double below = 0;
+  for (const Sample& sample : samples) {
+    result.mean_m += sample.distance_m * sample.area_m2 / area;
+    if (below < 0.99 * area) result.p99_m = sample.distance_m;
+    below += sample.area_m2;
+  }
+  result.max_m = samples.empty() ? 0 : samples.back().distance_m;
+  return result;
+}
+
+}  // namespace trocar
