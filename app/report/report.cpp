@@ -40,7 +40,7 @@ std::string subscore_row(const Subscore& s) {
   return "<tr><td>" + name + "</td><td><span class=\"bar\"><i" + (share < 0.5 ? " class=\"low\"" : "") + " style=\"width:" + fixed_text(100 * share, 1) + "%\"></i></span></td>" +
          cell(fixed_text(100 * s.value, 0) + " %", " class=\"n\"") + cell(quantity_text(s.raw, s.unit), " class=\"n\"") +
          cell(quantity_text(s.full_at, s.unit), " class=\"n\"") + cell(quantity_text(s.zero_at, s.unit), " class=\"n\"") +
-         cell(fixed_text(100 * s.weight, 0), " class=\"n\"") + cell("\u2212" + fixed_text(points_lost(s), 1), " class=\"n\"") + "</tr>";
+         cell(fixed_text(100 * s.weight, 0), " class=\"n\"") + cell(points_lost(s) < 0.05 ? "0" : "\u2212" + fixed_text(points_lost(s), 1), " class=\"n\"") + "</tr>";
 }
 
 std::string subscores_html(const Grade& grade) {
@@ -141,7 +141,7 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
   page += "<div class=\"head\"><h1>" + title + " \u00b7 " + escape_html(result.level) + "</h1><p class=\"dim\">" + escape_html(result.trainee) + "</p></div>\n";
   if (!context.goal.empty()) page += "<p class=\"dim\">Goal: " + escape_html(context.goal) + "</p>\n";
   page += verdict_html(result, context);
-  page += "<div class=\"two\"><div>" + picture_html(context) + "</div><div>" + summary_html(result, context) + "</div></div>\n";
+  page += "<div class=\"two\"><div class=\"shot\">" + picture_html(context) + "</div><div>" + summary_html(result, context) + "</div></div>\n";
   page += subscores_html(result.grade);
   page += "<section><h2>Force against time</h2>" + force_plot_svg(trace, result.events, context.band) + "</section>\n";
   page += "<div class=\"two\"><section><h2>Events</h2>" + events_html(result, start) + "</section><section><h2>Tip path from above</h2>" +

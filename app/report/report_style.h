@@ -16,7 +16,7 @@ p{margin:4px 0}
 .verdict .word{font-size:1.7rem;font-weight:700;white-space:nowrap}
 .verdict .reason{font-size:1.08rem;font-weight:600;overflow-wrap:anywhere}
 .verdict .score{font-size:2rem;font-weight:700;text-align:right;white-space:nowrap}
-.verdict .score small{font-size:.9rem;font-weight:400}
+.verdict .score{line-height:1.15}.verdict .score small{font-size:.9rem;font-weight:400}
 .pass{border-color:#00785a;background:#eef8f4}.pass .word{color:#006a4e}
 .notyet{border-color:#b04a00;background:#fdf4ec}.notyet .word{color:#9c4100}
 .notgraded{border-color:#5b6570;background:#f3f4f6}
@@ -43,11 +43,13 @@ tr:nth-child(even) td{background:#f6f7f9}
 .major td{font-weight:600}
 .key{display:flex;flex-wrap:wrap;gap:4px 16px;font-size:.9rem}
 .key b{display:inline-block;width:20px;margin-right:6px;vertical-align:middle}
+.tag{margin-right:4px}
 .mono{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:.82rem;overflow-wrap:anywhere}
 footer{margin-top:20px;padding-top:8px;border-top:2px solid #d9dee4;font-size:.88rem;color:#3d4750}
-@media (max-width:760px){.two,.verdict{grid-template-columns:1fr}.metrics{columns:1}.verdict .score{text-align:left}}
+@media screen and (max-width:760px){.two,.verdict{grid-template-columns:1fr}.metrics{columns:1}.verdict .score{text-align:left}}
 @page{size:A4;margin:11mm 12mm}
-@media print{body{padding:0;max-width:none;font-size:10.5px;line-height:1.32}h2{margin:9px 0 3px;break-after:avoid}section,.verdict,tr,svg,img{break-inside:avoid}
+@media print{html{font-size:10px}body{padding:0;max-width:none;font-size:10px;line-height:1.28}h2{margin:7px 0 2px;break-after:avoid}p{margin:1px 0}footer{margin-top:7px;padding-top:3px;font-size:8.5px}.tag{margin-right:4px}
+.mono{font-size:7.6px}.two{grid-template-columns:minmax(0,1.7fr) minmax(0,1fr)}.shot{width:86%}section,.verdict,tr,svg,img,.two{break-inside:avoid}
 .verdict{margin:6px 0;padding:7px 12px}.two{gap:14px}.metrics{columns:3;column-gap:18px}td,th{padding:1px 6px 1px 0}.bar{height:9px;margin-top:3px}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";

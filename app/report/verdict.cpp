@@ -7,7 +7,11 @@
 namespace trocar {
 namespace {
 
-bool is_time(const Subscore& s) { return s.name.find("time") != std::string::npos || s.name.find("duration") != std::string::npos || s.name == "speed"; }
+/// The score for being quick; "time in band" and the like are accuracy.
+bool is_time(const Subscore& s) {
+  return s.name == "time" || s.name == "task_time" || s.name == "duration" || s.name == "speed" || s.name.starts_with("time_to") ||
+         s.name.starts_with("time to");
+}
 
 int rank(const Subscore& s) { return s.gate ? 0 : is_time(s) ? 2 : 1; }
 

@@ -7,6 +7,7 @@
 #include "app/graphics/instrument_model.h"
 #include "app/graphics/organ_scene.h"
 #include "app/graphics/picture_mesh.h"
+#include "app/graphics/scope_optics.h"
 #include "app/graphics/solid_noise.h"
 #include "tests/support/procedural_scene.h"
 

@@ -87,10 +87,14 @@ TEST_F(PictureTest, TargetsShowTheirStateWhereTheOpticsPutThem) {
   for (const TargetMark& mark : view.targets) {
     const auto at = optics.project(mark.centre_T);
     ASSERT_TRUE(at);
-    const int half = 28;
+    const int half = mark.state == TargetMark::State::kLit ? 28 : 13;
     const int y = count_near(image, *at, half, yellow), g = count_near(image, *at, half, green), b = count_near(image, *at, half, blue);
-    if (mark.state == TargetMark::State::kLit) EXPECT_GT(y, 120) << g << " " << b;
-    if (mark.state == TargetMark::State::kDone) EXPECT_GT(g, 60) << y << " " << b;
+    if (mark.state == TargetMark::State::kLit) {
+      EXPECT_GT(y, 120) << g << " " << b;
+    }
+    if (mark.state == TargetMark::State::kDone) {
+      EXPECT_GT(g, 60) << y << " " << b;
+    }
     if (mark.state == TargetMark::State::kWaiting) {
       EXPECT_GT(b, 15) << y << " " << g;
       EXPECT_LT(y + g, b);
