@@ -72,4 +72,12 @@ std::string of_file(const std::filesystem::path& file) {
   return stream.hex();
 }
 
+std::string of_readable_file(const std::filesystem::path& file) {
+  try {
+    return of_file(file);
+  } catch (const EnvironmentError&) {
+    return "";
+  }
+}
+
 }  // namespace trocar::digest

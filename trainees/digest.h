@@ -32,4 +32,7 @@ std::string of_bytes(std::string_view bytes);
 /// @throws EnvironmentError naming the file when it cannot be read.
 std::string of_file(const std::filesystem::path& file);
 
+/// The same, but "" when the file cannot be read.
+std::string of_readable_file(const std::filesystem::path& file);
+
 }  // namespace trocar::digest

@@ -31,6 +31,9 @@ std::string tissue_look(const std::string& material) {
   return "LOOK_FLESH";
 }
 
+/// The gallbladder lies on the liver; everything else on fat.
+std::string bed_look(const std::string& material) { return material == "gallbladder" ? "LOOK_LIVER" : "LOOK_FAT"; }
+
 std::string mark_look(TargetMark::State state) {
   switch (state) {
     case TargetMark::State::kWaiting: return "MARK_WAITING";
@@ -102,7 +105,8 @@ Renderer::Impl::Impl(HeadlessContext& ctx, const std::filesystem::path& asset_ro
   const std::vector<std::uint8_t> texels = solid_noise_texture(kNoiseSize);
   glBindTexture(GL_TEXTURE_3D, noise.id());
   glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, kNoiseSize, kNoiseSize, kNoiseSize, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glGenerateMipmap(GL_TEXTURE_3D);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     glTexParameteri(GL_TEXTURE_3D, axis, GL_REPEAT);
@@ -211,7 +215,7 @@ void Renderer::Impl::scene_pass(const SceneView& view, const ScopeOptics& optics
   defines.push_back(tissue_look(view.material));
   bind("tissue", "tissue", defines);
   organ->gpu.draw();
-  bind("tissue", "tissue", {"LOOK_FAT"});
+  bind("tissue", "tissue", {bed_look(view.material)});
   organ->fat.draw();
   bind("tissue", "tissue", {"LOOK_WALL"});
   organ->cavity.draw();

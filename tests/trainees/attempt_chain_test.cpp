@@ -1,0 +1,78 @@
+// The hash chain shows what triggers cannot forbid: a file changed by someone who dropped the triggers.
+#include <sqlite3.h>
+
+#include "tests/trainees/store_samples.h"
+
+namespace trocar {
+namespace {
+
+class AttemptChain : public TemporaryFolder {
+ protected:
+  AttemptChain() : file_(folder_ / "t.db") {
+    Database database(file_);
+    for (int i = 0; i < 4; ++i) store_attempt(database, sample_start(), sample_result(70 + i));
+  }
+  /// What check() says after the change, with the triggers out of the way.
+  std::string after(const std::string& sql) {
+    const char* triggers[] = {"attempt_no_update", "attempt_no_delete",    "attempt_keeps_identity", "metric_no_update",
+                              "event_no_delete",   "subscore_no_update",   "exercise_version_no_update",
+                              "event_no_update",   "score_cap_no_update",  "metric_no_delete", "subscore_no_delete",
+                              "score_cap_no_delete"};
+    for (const char* trigger : triggers) {
+      EXPECT_EQ(run_outside(file_, std::string("DROP TRIGGER ") + trigger), "");
+    }
+    EXPECT_EQ(run_outside(file_, sql), "") << sql;
+    std::string problems;
+    for (const std::string& problem : Database(file_).check()) problems += problem + "\n";
+    return problems;
+  }
+  std::filesystem::path file_;
+};
+
+TEST_F(AttemptChain, IsSoundWhenUntouched) { EXPECT_TRUE(Database(file_).check().empty()); }
+
+TEST_F(AttemptChain, ShowsAChangedScore) {
+  EXPECT_NE(after("UPDATE attempt SET score = 99 WHERE id = 2").find("was changed after it was finished"),
+            std::string::npos);
+}
+
+TEST_F(AttemptChain, ShowsAChangedStatus) {
+  EXPECT_NE(after("UPDATE attempt SET status = 'void' WHERE id = 4").find("was changed"), std::string::npos);
+}
+
+TEST_F(AttemptChain, ShowsAChangeInTheLastDigitOfAMetric) {
+  EXPECT_NE(after("UPDATE metric SET value = value + 1e-15 WHERE attempt_id = 1 AND name = 'peak_force'"), "");
+}
+
+TEST_F(AttemptChain, ShowsARemovedEvent) {
+  EXPECT_NE(after("DELETE FROM event WHERE attempt_id = 3 AND position = 1").find("was changed"), std::string::npos);
+}
+
+TEST_F(AttemptChain, ShowsAChangedSubscoreAndCap) {
+  EXPECT_NE(after("UPDATE subscore SET weight = 1 WHERE attempt_id = 1 AND position = 0;"
+                  "UPDATE score_cap SET reason = '' WHERE attempt_id = 2"),
+            "");
+}
+
+TEST_F(AttemptChain, ShowsARemovedAttempt) {
+  const std::string problems = after(
+      "DELETE FROM event WHERE attempt_id = 2; DELETE FROM metric WHERE attempt_id = 2;"
+      "DELETE FROM subscore WHERE attempt_id = 2; DELETE FROM score_cap WHERE attempt_id = 2;"
+      "DELETE FROM attempt WHERE id = 2");
+  EXPECT_NE(problems.find("attempts 2 to 2 are missing"), std::string::npos) << problems;
+}
+
+TEST_F(AttemptChain, ShowsAnAttemptThatNoLongerFollows) {
+  EXPECT_NE(after("UPDATE attempt SET prev_hash = 'x' WHERE id = 3").find("does not follow"), std::string::npos);
+}
+
+TEST_F(AttemptChain, ShowsAChangedExercise) {
+  EXPECT_NE(after("UPDATE exercise_version SET toml = 'easier'").find("exercise surface-touch"), std::string::npos);
+}
+
+TEST_F(AttemptChain, ABrokenReferenceIsReported) {
+  EXPECT_NE(after("DELETE FROM trainee").find("points to nothing in trainee"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar

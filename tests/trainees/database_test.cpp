@@ -1,0 +1,171 @@
+// Opening: new, existing, missing, foreign, damaged, newer, busy, full, two at once.
+#include "trainees/database.h"
+
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/trainees/store_samples.h"
+#include "trainees/trainee_store.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+using DatabaseFile = TemporaryFolder;
+
+TEST_F(DatabaseFile, IsMadeWithItsFolderAtTheNewestSchema) {
+  const Database database(folder_ / "a" / "b" / "t.db");
+  EXPECT_EQ(database.schema_version(), shipped_migrations().back().version);
+  EXPECT_TRUE(fs::exists(folder_ / "a" / "b" / "t.db"));
+  EXPECT_EQ(database.migration().from, 0);
+  EXPECT_TRUE(database.migration().backup.empty());
+  EXPECT_TRUE(database.check().empty());
+}
+
+TEST_F(DatabaseFile, KeepsWhatWasStored) {
+  {
+    Database database(folder_ / "t.db");
+    store_attempt(database, sample_start(), sample_result());
+  }
+  Database database(folder_ / "t.db", OpenMode::kExisting);
+  EXPECT_EQ(AttemptStore(database).list().size(), 1u);
+  EXPECT_TRUE(database.check().empty());
+}
+
+TEST_F(DatabaseFile, MissingIsAnEnvironmentErrorWhereItMustExist) {
+  const auto open = [&] { Database database(folder_ / "none.db", OpenMode::kExisting); };
+  EXPECT_NE(message_of<EnvironmentError>(open).find("none.db: there is no database yet"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "none.db"));
+}
+
+TEST_F(DatabaseFile, AFolderThatCannotBeMadeOrOpenedIsAnEnvironmentError) {
+  std::ofstream(folder_ / "plain") << "x";
+  EXPECT_NE(message_of<EnvironmentError>([&] { Database(folder_ / "plain" / "sub" / "t.db"); }).find("t.db"),
+            std::string::npos);
+  EXPECT_THROW(Database{folder_}, EnvironmentError);
+  EXPECT_THROW(Database{"/proc/trocar/t.db"}, EnvironmentError);
+}
+
+TEST_F(DatabaseFile, WhatIsNoDatabaseIsAnInputError) {
+  std::ofstream(folder_ / "text.db") << std::string(5000, 'z');
+  const std::string message = message_of<InputError>([&] { Database(folder_ / "text.db"); });
+  EXPECT_NE(message.find("text.db: is not a database"), std::string::npos) << message;
+}
+
+TEST_F(DatabaseFile, AnotherProgramsDatabaseIsLeftAlone) {
+  ASSERT_EQ(run_outside(folder_ / "other.db", "CREATE TABLE song (title TEXT)"), "");
+  const std::string message = message_of<InputError>([&] { Database(folder_ / "other.db"); });
+  EXPECT_NE(message.find("other.db: is a database of another program"), std::string::npos) << message;
+  EXPECT_EQ(run_outside(folder_ / "other.db", "INSERT INTO song VALUES ('x')"), "");
+}
+
+TEST_F(DatabaseFile, ANewerSchemaIsRefusedAndNotTouched) {
+  { Database database(folder_ / "t.db"); }
+  ASSERT_EQ(run_outside(folder_ / "t.db", "PRAGMA user_version = 99"), "");
+  const std::string message = message_of<InputError>([&] { Database(folder_ / "t.db"); });
+  EXPECT_NE(message.find("newer trocar (schema 99"), std::string::npos) << message;
+}
+
+TEST_F(DatabaseFile, DamagedPagesAreFound) {
+  {
+    Database database(folder_ / "t.db");
+    for (int i = 0; i < 200; ++i) TraineeStore(database).ensure_trainee("T" + std::to_string(i));
+  }
+  std::fstream file(folder_ / "t.db", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(4096);
+  file << std::string(20000, '\x7f');
+  file.close();
+  std::string found = message_of<InputError>([&] {
+    const Database database(folder_ / "t.db");
+    if (!database.check().empty()) throw InputError("check: " + database.check().front());
+  });
+  EXPECT_NE(found, "");
+}
+
+TEST_F(DatabaseFile, WaitsForAWriterButNotForEver) {
+  Database holder(folder_ / "t.db");
+  sqlite3_exec(holder.connection(), "BEGIN IMMEDIATE", nullptr, nullptr, nullptr);
+  Database second(folder_ / "t.db", OpenMode::kExisting, 50);
+  const std::string message =
+      message_of<EnvironmentError>([&] { TraineeStore(second).ensure_trainee("T-late"); });
+  EXPECT_NE(message.find("t.db"), std::string::npos) << message;
+  EXPECT_NE(message.find("another program"), std::string::npos) << message;
+  sqlite3_exec(holder.connection(), "COMMIT", nullptr, nullptr, nullptr);
+  EXPECT_EQ(TraineeStore(second).ensure_trainee("T-late").code, "T-late");
+}
+
+TEST_F(DatabaseFile, AFullDiskIsAnEnvironmentErrorAndCostsNothingStored) {
+  Database database(folder_ / "t.db");
+  store_attempt(database, sample_start(), sample_result());
+  sqlite3_exec(database.connection(), "PRAGMA max_page_count = 1", nullptr, nullptr, nullptr);
+  AttemptStart big = sample_start();
+  big.exercise_text = std::string(100000, '#');
+  const std::string message = message_of<EnvironmentError>([&] { AttemptStore(database).begin_attempt(big); });
+  EXPECT_NE(message.find("full"), std::string::npos) << message;
+  EXPECT_EQ(AttemptStore(database).list().size(), 1u);
+  EXPECT_TRUE(database.check().empty());
+}
+
+TEST_F(DatabaseFile, ManyProgramsMayMakeItAtOnce) {
+  constexpr int kPrograms = 6;
+  for (int program = 0; program < kPrograms; ++program) {
+    if (fork() == 0) {
+      try {
+        Database database(folder_ / "t.db");
+        store_attempt(database, sample_start("T" + std::to_string(program)), sample_result());
+        _exit(0);
+      } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        _exit(1);
+      }
+    }
+  }
+  for (int program = 0; program < kPrograms; ++program) {
+    int status = 0;
+    wait(&status);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  }
+  Database database(folder_ / "t.db");
+  EXPECT_EQ(AttemptStore(database).list().size(), 6u);
+  EXPECT_TRUE(database.check().empty());
+}
+
+TEST_F(DatabaseFile, BackupIsAWholeCopyAndNeverOverwrites) {
+  Database database(folder_ / "t.db");
+  store_attempt(database, sample_start(), sample_result());
+  database.backup(folder_ / "copies" / "t.backup");
+  EXPECT_NE(message_of<InputError>([&] { database.backup(folder_ / "copies" / "t.backup"); }).find("exists already"),
+            std::string::npos);
+  Database copy(folder_ / "copies" / "t.backup", OpenMode::kExisting);
+  EXPECT_TRUE(copy.check().empty());
+  EXPECT_EQ(AttemptStore(copy).list().size(), 1u);
+  std::ofstream(folder_ / "plain") << "x";
+  EXPECT_THROW(database.backup(folder_ / "plain" / "t.backup"), EnvironmentError);
+}
+
+TEST(DatabaseInMemory, NeedsNoFileAndRecordsNothing) {
+  Database database(":memory:");
+  const AttemptId id = store_attempt(database, sample_start(), sample_result());
+  EXPECT_TRUE(id.recording.empty());
+  EXPECT_TRUE(database.check().empty());
+}
+
+TEST(DatabasePath, FollowsTheDesktopConvention) {
+  const std::string home = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
+  setenv("XDG_DATA_HOME", "/data", 1);
+  EXPECT_EQ(default_database_path(), "/data/trocar/trocar.db");
+  setenv("XDG_DATA_HOME", "relative", 1);
+  setenv("HOME", "/home/x", 1);
+  EXPECT_EQ(default_database_path(), "/home/x/.local/share/trocar/trocar.db");
+  unsetenv("XDG_DATA_HOME");
+  unsetenv("HOME");
+  EXPECT_THROW(default_database_path(), EnvironmentError);
+  if (!home.empty()) setenv("HOME", home.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace trocar

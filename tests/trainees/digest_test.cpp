@@ -1,0 +1,40 @@
+// SHA-256 against the published examples.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "haptics/input_error.h"
+#include "tests/trainees/store_samples.h"
+#include "trainees/digest.h"
+
+namespace trocar {
+namespace {
+
+using DigestFile = TemporaryFolder;
+
+TEST(Digest, MatchesThePublishedExamples) {  // FIPS 180-2, appendix B; the empty message from NIST's example values
+  EXPECT_EQ(digest::of_bytes("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(digest::of_bytes(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(digest::of_bytes("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+TEST(Digest, AStreamMayBeAskedOnTheWay) {
+  digest::Stream stream;
+  stream.update("a");
+  EXPECT_EQ(stream.hex(), digest::of_bytes("a"));
+  stream.update("bc");
+  EXPECT_EQ(stream.hex(), digest::of_bytes("abc"));
+}
+
+TEST_F(DigestFile, EqualsTheDigestOfItsBytes) {
+  const std::string bytes(200001, 'x');
+  std::ofstream(folder_ / "a") << bytes;
+  EXPECT_EQ(digest::of_file(folder_ / "a"), digest::of_bytes(bytes));
+  EXPECT_THROW(digest::of_file(folder_ / "missing"), EnvironmentError);
+  EXPECT_EQ(digest::of_readable_file(folder_ / "a"), digest::of_bytes(bytes));
+  EXPECT_EQ(digest::of_readable_file(folder_ / "missing"), "");
+}
+
+}  // namespace
+}  // namespace trocar

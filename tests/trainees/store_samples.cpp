@@ -1,0 +1,70 @@
+#include "tests/trainees/store_samples.h"
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+namespace trocar {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  static int count = 0;
+  folder_ = fs::temp_directory_path() / ("trocar_store_" + std::to_string(getpid()) + "_" + std::to_string(++count));
+  fs::create_directories(folder_);
+}
+
+TemporaryFolder::~TemporaryFolder() { fs::remove_all(folder_); }
+
+AttemptStart sample_start(const std::string& trainee) {
+  AttemptStart start;
+  start.trainee = trainee;
+  start.exercise_id = "surface-touch";
+  start.exercise_version = "1.0";
+  start.exercise_text = "id = \"surface-touch\"\n";
+  start.level = "L1";
+  start.seed = -7;
+  start.board = 3;
+  start.hand = "expert";
+  start.organ_name = "liver";
+  start.organ_source = "phantom.mha";
+  start.organ_sha256 = std::string(64, 'a');
+  start.organ_credit = "Synthetic phantom, CC0-1.0";
+  start.organ_synthetic = true;
+  return start;
+}
+
+AttemptResult sample_result(double score) {
+  AttemptResult result;
+  result.grade.status = AttemptStatus::kCompleted;
+  result.grade.score = score;
+  result.grade.passed = score >= 75;
+  result.grade.grade = score >= 75 ? "pass" : "below pass";
+  result.grade.metrics = {{"time", 41.5, "s"}, {"peak_force", 2.0 + score / 100, "N"}, {"tremor", std::nullopt, "mm"}};
+  result.grade.subscores = {{"force", 0.8125, 0.6, 2.6, "N", 2.0, 6.0, true}, {"time", 1.0 / 3, 0.4, {}, "s", 30, 90, false}};
+  result.grade.caps = {"critical event: EXCESS_FORCE at 12.0 s"};
+  result.events = {{1.0 / 3, "TARGET_HELD", Severity::kInfo, 2, 1.25, "N", Vec3(0.1, -0.2, 1e-17)},
+                   {0.5, "EXCESS_FORCE", Severity::kCritical, -1, 6.5, "N", Vec3::Zero()}};
+  result.device = {"simulated", 1000, 60000, 2, 0.01, 0.02, -1e-9, 0.5, ""};
+  result.state_hash = "0123456789abcdef";
+  return result;
+}
+
+AttemptId store_attempt(Database& database, const AttemptStart& start, const AttemptResult& result) {
+  AttemptStore store(database);
+  const AttemptId id = store.begin_attempt(start);
+  store.finish_attempt(id, result);
+  return id;
+}
+
+std::string run_outside(const fs::path& database, const std::string& sql) {
+  sqlite3* connection = nullptr;
+  char* message = nullptr;
+  sqlite3_open(database.c_str(), &connection);
+  sqlite3_exec(connection, sql.c_str(), nullptr, nullptr, &message);
+  const std::string error = message == nullptr ? "" : message;
+  sqlite3_free(message);
+  sqlite3_close(connection);
+  return error;
+}
+
+}  // namespace trocar

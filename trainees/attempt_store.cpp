@@ -1,0 +1,247 @@
+#include "trainees/attempt_store.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "haptics/input_error.h"
+#include "trainees/attempt_chain.h"
+#include "trainees/attempt_identity.h"
+#include "trainees/attempt_rows.h"
+#include "trainees/digest.h"
+#include "trainees/process_identity.h"
+#include "trainees/sqlite_handle.h"
+#include "trainees/trainee_store.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShortestName = 4;
+
+constexpr const char* kSummaryColumns =
+    "SELECT a.id, a.uuid, t.code, exercise_id, level, hand, started_utc, seed, board, status, score, passed, grade,"
+    " organ_synthetic FROM attempt a JOIN trainee t ON t.id = a.trainee_id";
+
+AttemptSummary summary_of(const sql::Statement& row) {
+  AttemptSummary summary;
+  summary.row = row.integer(0);
+  summary.uuid = row.text(1);
+  summary.trainee = row.text(2);
+  summary.exercise_id = row.text(3);
+  summary.level = row.text(4);
+  summary.hand = row.text(5);
+  summary.started_utc = row.text(6);
+  summary.seed = row.integer(7);
+  summary.board = static_cast<int>(row.integer(8));
+  summary.status = row.text(9);
+  summary.score = row.optional_real(10);
+  summary.passed = row.integer(11) != 0;
+  summary.grade = row.text(12);
+  summary.organ_synthetic = row.integer(13) != 0;
+  return summary;
+}
+
+AttemptStatus status_of(const std::string& name) {
+  for (const AttemptStatus status : {AttemptStatus::kCompleted, AttemptStatus::kTimeout, AttemptStatus::kAborted,
+                                     AttemptStatus::kFault, AttemptStatus::kVoid}) {
+    if (name == status_name(status)) return status;
+  }
+  throw InputError("database: the attempt is still " + name);
+}
+
+/// trocar.db -> trocar.recordings/UUID.trec
+fs::path recording_beside(const Database& database, const std::string& uuid) {
+  if (database.in_memory()) return {};
+  return database.file().parent_path() / (database.file().stem().string() + ".recordings") / (uuid + ".trec");
+}
+
+void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t trainee, const std::string& stored_recording,
+                    const AttemptId& id) {
+  sql::Statement version(connection, "INSERT INTO exercise_version VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  version.bind(id.rubric_sha256).bind(start.exercise_id).bind(start.exercise_version).bind(start.exercise_text).run();
+  const ProcessIdentity owner = this_process();
+  sql::Statement insert(connection,
+                        "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed,"
+                        " board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc,"
+                        " owner_pid, owner_boot, owner_start, recording_path, status)"
+                        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
+  insert.bind(id.uuid).bind(trainee).bind(start.exercise_id).bind(start.exercise_version).bind(id.rubric_sha256);
+  insert.bind(start.level).bind(start.seed).bind(start.board).bind(start.hand).bind(start.organ_name);
+  insert.bind(start.organ_source).bind(start.organ_sha256).bind(start.organ_synthetic).bind(start.organ_credit);
+  insert.bind(id.started_utc).bind(owner.pid).bind(owner.boot).bind(owner.start).bind(stored_recording).run();
+}
+
+void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording) {
+  sql::Statement update(connection,
+                        "UPDATE attempt SET finished_utc = ?, score = ?, passed = ?, grade = ?, recording_path = ?,"
+                        " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
+                        " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
+                        " kappa = ?, device_fault = ? WHERE id = ?");
+  const DeviceReceipt& device = result.device;
+  update.bind(utc_now()).bind(result.grade.score).bind(result.grade.passed).bind(result.grade.grade);
+  update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
+  update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
+  update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
+  update.bind(row).run();
+}
+
+constexpr const char* kResultColumns =
+    "SELECT a.uuid, exercise_id, exercise_version, level, seed, board, t.code, hand, status, score, passed, grade,"
+    " device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share, passivity_active_share,"
+    " min_energy_j, kappa, device_fault, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit,"
+    " rubric_sha256, recording_sha256, recording_path, state_hash, started_utc"
+    " FROM attempt a JOIN trainee t ON t.id = a.trainee_id WHERE a.id = ?";
+
+DeviceReceipt receipt_of(const sql::Statement& row) {
+  DeviceReceipt device;
+  device.backend = row.text(12);
+  device.rate_hz = row.real(13);
+  device.ticks = static_cast<std::uint64_t>(row.integer(14));
+  device.overruns = static_cast<std::uint64_t>(row.integer(15));
+  device.saturated_contact_share = row.real(16);
+  device.passivity_active_share = row.real(17);
+  device.min_energy_j = row.real(18);
+  device.kappa = row.real(19);
+  device.fault = row.text(20);
+  return device;
+}
+
+AttemptResult result_of(const sql::Statement& row, const fs::path& database) {
+  AttemptResult result;
+  result.uuid = row.text(0);
+  result.exercise_id = row.text(1);
+  result.exercise_version = row.text(2);
+  result.level = row.text(3);
+  result.seed = row.integer(4);
+  result.board = static_cast<int>(row.integer(5));
+  result.trainee = row.text(6);
+  result.hand = row.text(7);
+  result.grade.status = status_of(row.text(8));
+  result.grade.score = row.optional_real(9);
+  result.grade.passed = row.integer(10) != 0;
+  result.grade.grade = row.text(11);
+  result.device = receipt_of(row);
+  result.organ_name = row.text(21);
+  result.organ_source = row.text(22);
+  result.organ_sha256 = row.text(23);
+  result.organ_synthetic = row.integer(24) != 0;
+  result.organ_credit = row.text(25);
+  result.rubric_sha256 = row.text(26);
+  result.recording_sha256 = row.text(27);
+  result.recording_path = located_recording(database, row.text(28)).string();
+  result.state_hash = row.text(29);
+  result.started_utc = row.text(30);
+  return result;
+}
+
+void check_name(std::string_view name) {
+  const auto allowed = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || c == '-'; };
+  if (name.size() < kShortestName || !std::all_of(name.begin(), name.end(), allowed)) {
+    throw InputError("attempt \"" + std::string(name) + "\": give \"latest\" or at least " +
+                     std::to_string(kShortestName) + " characters of its identifier, from the beginning or the end");
+  }
+}
+
+}  // namespace
+
+AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
+  sqlite3* connection = database_->connection();
+  AttemptId id;
+  id.uuid = make_uuid();
+  id.recording = start.recording.value_or(recording_beside(*database_, id.uuid));
+  id.rubric_sha256 = digest::of_bytes(start.exercise_text);
+  id.started_utc = utc_now();
+  sql::Transaction transaction(connection);
+  const Trainee trainee = TraineeStore(*database_).ensure_trainee(start.trainee);
+  insert_attempt(connection, start, trainee.id, stored_recording_path(database_->file(), id.recording), id);
+  sql::Statement row(connection, "SELECT id FROM attempt WHERE uuid = ?");
+  row.bind(id.uuid).step();
+  id.row = row.integer(0);
+  transaction.commit();
+  return id;
+}
+
+void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& result) {
+  sqlite3* connection = database_->connection();
+  if (!result.rubric_sha256.empty() && result.rubric_sha256 != id.rubric_sha256) {
+    throw std::invalid_argument("the result was graded by another rubric than the attempt began with");
+  }
+  const fs::path recording = result.recording_path.empty() ? id.recording : fs::path(result.recording_path);
+  sql::Transaction transaction(connection);
+  {
+    sql::Statement status(connection, "SELECT status FROM attempt WHERE id = ? AND uuid = ?");
+    if (!status.bind(id.row).bind(id.uuid).step()) throw InputError("attempt " + id.uuid + ": not in this database");
+    if (status.text(0) != "running") {
+      throw InputError("attempt " + id.uuid + ": is already " + status.text(0) + " and cannot be finished again");
+    }
+  }
+  insert_attempt_rows(connection, id.row, result);
+  update_attempt(connection, id.row, result, stored_recording_path(database_->file(), recording));
+  seal_attempt(connection, id.row, result.grade.status);
+  transaction.commit();
+}
+
+AttemptResult AttemptStore::load(std::int64_t row) const {
+  sqlite3* connection = database_->connection();
+  sql::Statement attempt(connection, kResultColumns);
+  if (!attempt.bind(row).step()) throw InputError("attempt " + std::to_string(row) + ": not in this database");
+  AttemptResult result = result_of(attempt, database_->file());
+  read_attempt_rows(connection, row, result);
+  return result;
+}
+
+AttemptSummary AttemptStore::find(std::string_view name) const {
+  if (name == "latest") {
+    if (const auto newest = latest()) return *newest;
+    throw InputError("there is no attempt yet");
+  }
+  check_name(name);
+  sql::Statement rows(database_->connection(),
+                      std::string(kSummaryColumns) + " WHERE a.uuid LIKE ?1 || '%' OR a.uuid LIKE '%' || ?1 LIMIT 2");
+  if (!rows.bind(name).step()) throw InputError("attempt " + std::string(name) + ": not in this database");
+  const AttemptSummary found = summary_of(rows);
+  if (rows.step()) throw InputError("attempt " + std::string(name) + ": several begin or end so; give more of it");
+  return found;
+}
+
+std::vector<AttemptSummary> AttemptStore::list(const AttemptFilter& filter) const {
+  sql::Statement rows(database_->connection(), std::string(kSummaryColumns) +
+                                                   " WHERE (?1 = '' OR t.code = ?1) AND (?2 = '' OR exercise_id = ?2)"
+                                                   " ORDER BY a.id DESC LIMIT ?3");
+  rows.bind(filter.trainee).bind(filter.exercise_id).bind(filter.limit > 0 ? filter.limit : -1);
+  std::vector<AttemptSummary> attempts;
+  while (rows.step()) attempts.push_back(summary_of(rows));
+  return attempts;
+}
+
+std::optional<AttemptSummary> AttemptStore::latest(const std::string& trainee) const {
+  const auto newest = list({trainee, "", 1});
+  if (newest.empty()) return std::nullopt;
+  return newest.front();
+}
+
+std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const {
+  sql::Statement row(database_->connection(), "SELECT toml FROM exercise_version WHERE sha256 = ?");
+  if (!row.bind(rubric_sha256).step()) throw InputError("exercise version " + rubric_sha256 + ": not in this database");
+  return row.text(0);
+}
+
+std::vector<std::string> AttemptStore::check_recordings() const {
+  std::vector<std::string> problems;
+  sql::Statement rows(database_->connection(), "SELECT uuid, recording_path, recording_sha256 FROM attempt"
+                                               " WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
+  while (rows.step()) {
+    const fs::path file = located_recording(database_->file(), rows.text(1));
+    const std::string name = "recording " + file.string() + " of attempt " + rows.text(0);
+    std::error_code error;
+    if (file.empty() || !fs::is_regular_file(file, error)) {
+      problems.push_back(name + " is missing");
+    } else if (digest::of_readable_file(file) != rows.text(2)) {
+      problems.push_back(name + " was changed or cannot be read");
+    }
+  }
+  return problems;
+}
+
+}  // namespace trocar

@@ -1,0 +1,98 @@
+// Attempts: begun before the loop starts, finished in one transaction, never changed afterwards.
+//
+//   AttemptId id = store.begin_attempt(start);   // status "running"
+//   ... run, record to id.recording, score ...
+//   store.finish_attempt(id, result);            // result, events, metrics, sub-scores, hash: all or nothing
+//
+// An attempt whose process dies in between is ended as aborted when the database is next opened. Thread: that of the
+// Database, never the haptic task.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/scoring/attempt_result.h"
+#include "trainees/database.h"
+
+namespace trocar {
+
+/// What is known before the loop starts.
+struct AttemptStart {
+  std::string trainee;                 ///< code, created when new
+  std::string exercise_id, exercise_version;
+  std::string exercise_text;           ///< bytes of the exercise file; their sha256 is the rubric's
+  std::string level;
+  std::int64_t seed = 0;
+  int board = 0;
+  std::string hand;
+  std::string organ_name, organ_source, organ_sha256, organ_credit;
+  bool organ_synthetic = false;
+  /// Where it is recorded. Not given: beside the database (none when in memory). Empty: not recorded.
+  std::optional<std::filesystem::path> recording;
+};
+
+struct AttemptId {
+  std::int64_t row = 0;
+  std::string uuid;
+  std::filesystem::path recording;     ///< file to record to, empty when none
+  std::string rubric_sha256;           ///< of the exercise's bytes
+  std::string started_utc;
+};
+
+/// One line of a list.
+struct AttemptSummary {
+  std::int64_t row = 0;
+  std::string uuid, trainee, exercise_id, level, hand, started_utc;
+  std::int64_t seed = 0;
+  int board = 0;
+  std::string status;                  ///< status_name(), or "running"
+  std::optional<double> score;
+  bool passed = false;
+  std::string grade;
+  bool organ_synthetic = false;
+};
+
+/// Empty fields do not filter.
+struct AttemptFilter {
+  std::string trainee, exercise_id;
+  int limit = 0;                       ///< newest so many; 0: all
+};
+
+class AttemptStore {
+ public:
+  explicit AttemptStore(Database& database) : database_(&database) {}
+
+  /// @throws InputError for a bad trainee code, EnvironmentError when the database cannot take it.
+  AttemptId begin_attempt(const AttemptStart& start);
+
+  /// Writes the result. What the attempt began with (trainee, exercise, organ, seed) is not taken from `result`; its
+  /// recording_path replaces the one at the beginning when given.
+  /// @throws InputError when the attempt is not running (finished before, or aborted by recovery).
+  void finish_attempt(const AttemptId& id, const AttemptResult& result);
+
+  /// The stored result, equal to what was finished. @throws InputError: unknown, or still running.
+  AttemptResult load(std::int64_t row) const;
+  AttemptResult load(std::string_view name) const { return load(find(name).row); }
+
+  /// Attempt by "latest", or by a beginning or an end of its UUID of at least 4 characters.
+  /// @throws InputError when none or several match.
+  AttemptSummary find(std::string_view name) const;
+  /// Newest first.
+  std::vector<AttemptSummary> list(const AttemptFilter& filter = {}) const;
+  std::optional<AttemptSummary> latest(const std::string& trainee = "") const;
+
+  /// Exercise file as it stood for an attempt. @throws InputError when unknown.
+  std::string exercise_text(const std::string& rubric_sha256) const;
+
+  /// Recordings that finished attempts name but that are missing or changed, one line each.
+  std::vector<std::string> check_recordings() const;
+
+ private:
+  Database* database_;
+};
+
+}  // namespace trocar

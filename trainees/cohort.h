@@ -1,0 +1,31 @@
+// The group at a glance: for every trainee, exercise and level what was tried and reached. Thread: that of the Database.
+//
+// Only completed and timed-out attempts are graded; means and the best run over those. Levels are kept apart: a best
+// score over L1 and L3 together would compare nothing.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trainees/database.h"
+
+namespace trocar {
+
+/// Metrics that the overview takes means of (docs/scoring.md).
+inline constexpr const char* kPeakForceMetric = "peak_force";
+inline constexpr const char* kTimeMetric = "time";
+
+struct CohortRow {
+  std::string trainee, exercise_id, level;
+  int attempts = 0;                    ///< finished, graded or not
+  int graded = 0, passes = 0;
+  std::optional<double> best, last;    ///< scores, 0..100
+  std::optional<double> mean_peak_force_n, mean_time_s;  ///< empty when no graded attempt has the metric
+  std::string last_utc;                ///< start of the newest attempt
+};
+
+/// Rows by trainee code, exercise and level. @param trainee only this code; empty: all.
+std::vector<CohortRow> cohort(Database& database, const std::string& trainee = "");
+
+}  // namespace trocar

@@ -1,0 +1,104 @@
+#include "trainees/database.h"
+
+#include <sqlite3.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "haptics/input_error.h"
+#include "trainees/attempt_chain.h"
+#include "trainees/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& file) {
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) throw EnvironmentError(file.string() + ": its folder cannot be created: " + error.message());
+}
+
+}  // namespace
+
+fs::path default_database_path() {
+  const char* data = std::getenv("XDG_DATA_HOME");
+  if (data != nullptr && fs::path(data).is_absolute()) return fs::path(data) / "trocar" / "trocar.db";
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || *home == '\0') throw EnvironmentError("no place for the database: set HOME or give --db FILE");
+  return fs::path(home) / ".local" / "share" / "trocar" / "trocar.db";
+}
+
+void Database::Close::operator()(sqlite3* connection) const { sqlite3_close_v2(connection); }
+
+Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms) {
+  if (file != ":memory:") file_ = fs::absolute(file).lexically_normal();
+  open(mode, busy_timeout_ms);
+  sqlite3_busy_timeout(connection_.get(), busy_timeout_ms);
+  migration_ = migrate(connection_.get(), file_, shipped_migrations());
+  if (!in_memory()) enter_wal(busy_timeout_ms);
+  sql::execute(connection_.get(), "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON");
+  recovered_ = recover_dead_attempts(connection_.get(), file_);
+}
+
+Database::~Database() = default;
+Database::Database(Database&&) noexcept = default;
+
+void Database::open(OpenMode mode, int busy_timeout_ms) {
+  if (!in_memory() && mode == OpenMode::kExisting && !fs::exists(file_)) {
+    throw EnvironmentError(file_.string() + ": there is no database yet; the first attempt or trainee makes it");
+  }
+  if (!in_memory() && mode == OpenMode::kCreate) make_folder(file_);
+  sqlite3* raw = nullptr;
+  const std::string name = in_memory() ? ":memory:" : file_.string();
+  const int code = sqlite3_open_v2(name.c_str(), &raw, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  connection_.reset(raw);
+  if (code != SQLITE_OK) throw EnvironmentError(name + ": cannot be opened: " + sqlite3_errstr(code));
+  sqlite3_busy_timeout(raw, busy_timeout_ms);
+  if (sqlite3_db_readonly(raw, "main") == 1) throw EnvironmentError(name + ": is not writable");
+}
+
+void Database::enter_wal(int busy_timeout_ms) {
+  // Switching needs the file alone and does not always wait by itself; another program may be switching right now.
+  using Clock = std::chrono::steady_clock;
+  const auto give_up = Clock::now() + std::chrono::milliseconds(busy_timeout_ms);
+  while (sql::query_text(connection_.get(), "PRAGMA journal_mode") != "wal") {
+    const int code = sqlite3_exec(connection_.get(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+    const bool busy = (code & 0xFF) == SQLITE_BUSY || (code & 0xFF) == SQLITE_LOCKED;
+    if (code != SQLITE_OK && (!busy || Clock::now() > give_up)) {
+      sql::raise(connection_.get(), code, "cannot switch to a write-ahead log");
+    }
+    if (code == SQLITE_OK && sql::query_text(connection_.get(), "PRAGMA journal_mode") != "wal") {
+      throw EnvironmentError(file_.string() + ": this file system allows no write-ahead log");
+    }
+    if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+int Database::schema_version() const {
+  return static_cast<int>(sql::query_integer(connection_.get(), "PRAGMA user_version"));
+}
+
+std::vector<std::string> Database::check() const {
+  std::vector<std::string> problems;
+  sql::Statement integrity(connection_.get(), "PRAGMA integrity_check");
+  while (integrity.step()) {
+    if (integrity.text(0) != "ok") problems.push_back("integrity: " + integrity.text(0));
+  }
+  sql::Statement references(connection_.get(), "PRAGMA foreign_key_check");
+  while (references.step()) {
+    problems.push_back("reference: row " + references.text(1) + " of " + references.text(0) + " points to nothing in " +
+                       references.text(2));
+  }
+  for (const std::string& problem : check_chain(connection_.get())) problems.push_back("hash chain: " + problem);
+  return problems;
+}
+
+void Database::backup(const fs::path& to) const {
+  make_folder(fs::absolute(to));
+  copy_database(connection_.get(), to);
+}
+
+}  // namespace trocar

@@ -1,0 +1,67 @@
+// The database of trainees and attempts: one SQLite file in WAL mode, opened, migrated and repaired on construction.
+//
+// Opening creates the file and its folder, migrates an older schema (after a backup beside it) and marks attempts that
+// died with their process as aborted (attempt_recovery.h). synchronous = NORMAL: what is committed survives kill -9; a
+// power cut may cost the last commits, never the database. Two programs at once work; writers wait for each other.
+// Thread: one Database belongs to one thread.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trainees/attempt_recovery.h"
+#include "trainees/migrations.h"
+
+struct sqlite3;
+
+namespace trocar {
+
+/// $XDG_DATA_HOME/trocar/trocar.db, else ~/.local/share/trocar/trocar.db. @throws EnvironmentError without HOME.
+std::filesystem::path default_database_path();
+
+enum class OpenMode : std::uint8_t {
+  kCreate,    ///< made when missing
+  kExisting,  ///< a missing file is an EnvironmentError
+};
+
+class Database {
+ public:
+  /// @param file path, or ":memory:" for one that vanishes with the object.
+  /// @param busy_timeout_ms how long to wait for another program's write.
+  /// @throws EnvironmentError: cannot be opened or written, folder not creatable, disk full, busy too long.
+  /// @throws InputError: not a database, another program's database, a newer schema, damaged.
+  explicit Database(const std::filesystem::path& file, OpenMode mode = OpenMode::kCreate, int busy_timeout_ms = 5000);
+  ~Database();
+  Database(Database&&) noexcept;
+
+  bool in_memory() const { return file_.empty(); }
+  /// Absolute path, empty when in memory.
+  const std::filesystem::path& file() const { return file_; }
+  int schema_version() const;
+  const MigrationReport& migration() const { return migration_; }
+  /// Attempts found dead and marked as aborted when this object was made.
+  const std::vector<RecoveredAttempt>& recovered() const { return recovered_; }
+
+  /// Problems of the file, its references and its hash chain, one line each; empty when sound.
+  std::vector<std::string> check() const;
+  /// Consistent copy. @throws InputError when `to` exists, EnvironmentError when it cannot be written.
+  void backup(const std::filesystem::path& to) const;
+
+  sqlite3* connection() const { return connection_.get(); }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* connection) const;
+  };
+  void open(OpenMode mode, int busy_timeout_ms);
+  void enter_wal(int busy_timeout_ms);
+
+  std::filesystem::path file_;
+  std::unique_ptr<sqlite3, Close> connection_;
+  MigrationReport migration_;
+  std::vector<RecoveredAttempt> recovered_;
+};
+
+}  // namespace trocar

@@ -1,0 +1,42 @@
+// Schema versions of the database and the way from one to the next. Internal to trainees/ and its tests.
+//
+// PRAGMA user_version holds the schema version, PRAGMA application_id marks the file as ours. A migration is SQL that
+// leads from version-1 to version; an older database is copied beside itself before the first step.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+struct sqlite3;
+
+namespace trocar {
+
+inline constexpr int kApplicationId = 0x54524352;  // "TRCR"
+
+struct Migration {
+  int version;      ///< the schema version that it leads to; 1, 2, 3, ...
+  const char* sql;
+};
+
+/// Migrations of this program, in order.
+std::span<const Migration> shipped_migrations();
+
+struct MigrationReport {
+  int from = 0, to = 0;              ///< equal when nothing was to do; from is 0 for a new database
+  std::filesystem::path backup;      ///< copy made before migrating; empty for a new database or when nothing was done
+};
+
+/// Brings the database to the newest version of `migrations`, all steps in one transaction.
+/// @param file the database's file, empty when in memory (no backup then).
+/// @throws InputError: another application's database, or a schema newer than this program knows.
+MigrationReport migrate(sqlite3* connection, const std::filesystem::path& file, std::span<const Migration> migrations);
+
+/// Copies the whole database, consistent even while others write. @throws InputError when `to` exists already,
+/// EnvironmentError when it cannot be written.
+void copy_database(sqlite3* from, const std::filesystem::path& to);
+
+/// The schema's first version (schema_v1.cpp).
+extern const char* const kSchemaV1;
+
+}  // namespace trocar

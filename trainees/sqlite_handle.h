@@ -1,0 +1,83 @@
+// SQLite's C interface behind RAII: statements, transactions, errors. Internal to trainees/.
+//
+// Every failure becomes an exception that names the database: InputError for what the file or the data are (not a
+// database, damaged, constraint), EnvironmentError for what the machine refuses (cannot open, read-only, full, busy).
+// Thread: one connection belongs to one thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace trocar::sql {
+
+/// Throws the exception that stands for SQLite's result `code` on `connection` (which may be null).
+[[noreturn]] void raise(sqlite3* connection, int code, std::string_view doing);
+
+/// Runs statements that return nothing of interest.
+void execute(sqlite3* connection, const char* sql);
+
+class Statement {
+ public:
+  Statement(sqlite3* connection, std::string_view sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  // Binds the next parameter; NaN and empty optionals are stored as NULL.
+  Statement& bind(std::int64_t value);
+  Statement& bind(int value) { return bind(static_cast<std::int64_t>(value)); }
+  Statement& bind(bool value) { return bind(static_cast<std::int64_t>(value)); }
+  Statement& bind(std::uint64_t value) { return bind(static_cast<std::int64_t>(value)); }
+  Statement& bind(double value);
+  Statement& bind(const std::optional<double>& value);
+  Statement& bind(std::string_view value);
+  Statement& bind(const std::string& value) { return bind(std::string_view(value)); }
+  Statement& bind(const char* value) { return bind(std::string_view(value)); }
+  Statement& bind_null();
+
+  /// Advances to the next row. @returns false when there is none.
+  bool step();
+  /// Runs to the end and makes the statement ready for new parameters.
+  void run();
+
+  int columns() const;
+  bool is_null(int column) const;
+  std::int64_t integer(int column) const;
+  double real(int column) const;                       ///< NULL reads as NaN
+  std::optional<double> optional_real(int column) const;
+  std::string text(int column) const;                  ///< NULL reads as ""
+  /// The value with its type, for hashing: n; i<decimal>; r<16 hex digits of the bits>; t<length>:<bytes>.
+  std::string canonical(int column) const;
+
+ private:
+  void check(int code);
+
+  sqlite3* connection_;
+  sqlite3_stmt* statement_ = nullptr;
+  int next_parameter_ = 1;
+};
+
+/// The single integer that a query gives.
+std::int64_t query_integer(sqlite3* connection, std::string_view sql);
+std::string query_text(sqlite3* connection, std::string_view sql);
+
+/// BEGIN IMMEDIATE; rolled back unless committed.
+class Transaction {
+ public:
+  explicit Transaction(sqlite3* connection);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  sqlite3* connection_;
+  bool open_ = true;
+};
+
+}  // namespace trocar::sql
