@@ -96,7 +96,7 @@ TEST_F(PictureTest, TargetsShowTheirStateWhereTheOpticsPutThem) {
       EXPECT_GT(g, 60) << y << " " << b;
     }
     if (mark.state == TargetMark::State::kWaiting) {
-      EXPECT_GT(b, 15) << y << " " << g;
+      EXPECT_GT(b, 25) << y << " " << g;
       EXPECT_LT(y + g, b);
     }
   }
