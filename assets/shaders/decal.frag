@@ -43,10 +43,11 @@ void main() {
   tint = mix(tint, vec3(0.95), 1.0 - smoothstep(0.11 - soft, 0.11 + soft, tick));
 #else
   tint = vec3(0.13, 0.50, 1.0);
-  float turn = fract(atan(p.y, p.x) * 8.0 / 6.2831853);
-  float dash = smoothstep(0.10, 0.16, turn) * (1.0 - smoothstep(0.84, 0.90, turn));
-  ink = band(r, 0.84, 1.0, soft) * dash;
-  halo = band(r, 0.76, 1.08, soft) * 0.75;
+  float turn = fract(atan(p.y, p.x) * 6.0 / 6.2831853);
+  float dash = smoothstep(0.06, 0.12, turn) * (1.0 - smoothstep(0.88, 0.94, turn));
+  float inner = min(0.80, 1.0 - 2.2 * soft);  // two pixels wide at least, also far away and seen obliquely
+  ink = band(r, inner, 1.0, 0.6 * soft) * dash;
+  halo = band(r, inner - 0.09, 1.09, soft) * 0.75;
 #endif
   float side = 1.0 - smoothstep(1.2, 1.8, abs(height));  // not on the organ's far side
   vec3 to_lamp = lamp.xyz - v_position;
