@@ -153,8 +153,8 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   id.rubric_sha256 = digest::of_bytes(start.exercise_text);
   id.started_utc = utc_now();
   sql::Transaction transaction(connection);
-  const Trainee trainee = TraineeStore(*database_).ensure_trainee(start.trainee);
-  insert_attempt(connection, start, trainee.id, stored_recording_path(database_->file(), id.recording), id);
+  const std::int64_t trainee = TraineeStore(*database_).ensure_id(start.trainee);
+  insert_attempt(connection, start, trainee, stored_recording_path(database_->file(), id.recording), id);
   sql::Statement row(connection, "SELECT id FROM attempt WHERE uuid = ?");
   row.bind(id.uuid).step();
   id.row = row.integer(0);

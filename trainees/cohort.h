@@ -12,9 +12,9 @@
 
 namespace trocar {
 
-/// Metrics that the overview takes means of (docs/scoring.md).
-inline constexpr const char* kPeakForceMetric = "peak_force";
-inline constexpr const char* kTimeMetric = "time";
+/// Metrics that the overview takes means of, by their names in the catalogue of scenarios/scoring/metrics.h.
+inline constexpr const char* kPeakForceMetric = "force_max_n";
+inline constexpr const char* kTimeMetric = "time_s";
 
 struct CohortRow {
   std::string trainee, exercise_id, level;

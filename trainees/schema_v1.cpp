@@ -90,8 +90,7 @@ CREATE TABLE metric (
   name       TEXT NOT NULL,
   value      REAL,
   unit       TEXT NOT NULL,
-  PRIMARY KEY (attempt_id, position),
-  UNIQUE (attempt_id, name)
+  PRIMARY KEY (attempt_id, name)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE subscore (
@@ -105,8 +104,7 @@ CREATE TABLE subscore (
   full_at    REAL,
   zero_at    REAL,
   gate       INTEGER NOT NULL CHECK (gate IN (0, 1)),
-  PRIMARY KEY (attempt_id, position),
-  UNIQUE (attempt_id, name)
+  PRIMARY KEY (attempt_id, name)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE score_cap (

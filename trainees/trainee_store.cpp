@@ -42,12 +42,20 @@ Trainee trainee_of(const sql::Statement& row) {
 }  // namespace
 
 Trainee TraineeStore::ensure_trainee(const std::string& code) {
+  ensure_id(code);
+  return find(code).value();
+}
+
+std::int64_t TraineeStore::ensure_id(const std::string& code) {
   check_code(code);
-  if (const auto known = find(code)) return *known;
+  sql::Statement known(connection_, "SELECT id FROM trainee WHERE code = ?");
+  if (known.bind(code).step()) return known.integer(0);
   sql::Statement insert(connection_,
                         "INSERT INTO trainee (uuid, code, created_utc) VALUES (?, ?, ?) ON CONFLICT (code) DO NOTHING");
   insert.bind(make_uuid()).bind(code).bind(utc_now()).run();
-  return find(code).value();
+  sql::Statement added(connection_, "SELECT id FROM trainee WHERE code = ?");
+  added.bind(code).step();
+  return added.integer(0);
 }
 
 std::optional<Trainee> TraineeStore::find(const std::string& code) const {

@@ -92,6 +92,7 @@ struct Renderer::Impl {
   void draw_instrument_parts(Program& program, const SceneView& view);
   void shadow_pass(const SceneView& view);
   void scene_pass(const SceneView& view, const ScopeOptics& optics);
+  void tissue_pass(const SceneView& view, const ScopeOptics& optics);
   void decal_pass(const SceneView& view, const ScopeOptics& optics, const std::vector<std::string>& dimple);
   void glow_pass();
   void post_pass(const SceneView& view, const ScopeOptics& optics, const PixelRect& window);
@@ -208,8 +209,16 @@ void Renderer::Impl::scene_pass(const SceneView& view, const ScopeOptics& optics
   glEnable(GL_CULL_FACE);
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  // Nothing outside the round field is ever seen.
+  const int half = static_cast<int>(std::ceil(optics.circle_radius() / picture.width * scene.width)) + 2;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(std::max(0, scene.width / 2 - half), 0, std::min(scene.width, 2 * half), scene.height);
   draw_instrument_parts(bind("instrument", "instrument"), view);
-  if (!organ) return;
+  if (organ) tissue_pass(view, optics);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Impl::tissue_pass(const SceneView& view, const ScopeOptics& optics) {
   const std::vector<std::string> dimple = has_dimple(view) ? std::vector<std::string>{"DIMPLED"} : std::vector<std::string>{};
   std::vector<std::string> defines = dimple;
   defines.push_back(tissue_look(view.material));

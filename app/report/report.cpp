@@ -141,9 +141,9 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
   page += "<div class=\"head\"><h1>" + title + " \u00b7 " + escape_html(result.level) + "</h1><p class=\"dim\">" + escape_html(result.trainee) + "</p></div>\n";
   if (!context.goal.empty()) page += "<p class=\"dim\">Goal: " + escape_html(context.goal) + "</p>\n";
   page += verdict_html(result, context);
-  page += "<div class=\"two\"><div class=\"shot\">" + picture_html(context) + "</div><div>" + summary_html(result, context) + "</div></div>\n";
+  page += "<div class=\"two top\"><div>" + picture_html(context) + "</div><div>" + summary_html(result, context) + "</div></div>\n";
   page += subscores_html(result.grade);
-  page += "<section><h2>Force against time</h2>" + force_plot_svg(trace, result.events, context.band) + "</section>\n";
+  page += "<section class=\"force\"><h2>Force against time</h2>" + force_plot_svg(trace, result.events, context.band) + "</section>\n";
   page += "<div class=\"two\"><section><h2>Events</h2>" + events_html(result, start) + "</section><section><h2>Tip path from above</h2>" +
           path_plot_svg(trace, result.events, context.band) + path_key() + "</section></div>\n";
   page += metrics_html(result.grade);

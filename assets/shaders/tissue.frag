@@ -8,40 +8,42 @@ out vec4 colour;
 uniform sampler3D u_noise;
 uniform sampler2DShadow u_shadow;
 
-// Vessels run where smooth noise passes its middle value; a second noise lets them thin out and end.
-float vessels(vec3 at, float thin, float where) {
-  float q = textureLod(u_noise, at, 2.0).w;
-  float core = 1.0 - abs(2.0 * q - 1.0) * thin;
-  return smoothstep(0.0, 0.6, core) * smoothstep(0.44, 0.60, where);
+// Vessels run where smooth noise passes its middle value. Its gradient (rgb) keeps their width even and ends them where
+// the noise is flat; a second noise thins them out.
+float vessels(vec3 at, float width, float where) {
+  vec4 q = textureLod(u_noise, at, 2.0);
+  float slope = length(q.xyz * 2.0 - 1.0);
+  float off = abs(q.w - 0.5) / (slope + 0.02);
+  return (1.0 - smoothstep(0.3 * width, width, off)) * smoothstep(0.10, 0.25, slope) * smoothstep(0.42, 0.60, where);
 }
 
 vec3 albedo(vec4 coarse, vec4 middle, vec4 fine, vec3 rest_mm) {
   vec4 broad = textureLod(u_noise, rest_mm * 0.0083 + 0.57, 1.0);
 #if defined(LOOK_LIVER)
-  vec3 c = mix(vec3(0.225, 0.034, 0.021), vec3(0.335, 0.060, 0.034), smoothstep(0.25, 0.75, broad.w));
-  c = mix(c, vec3(0.385, 0.092, 0.056), 0.55 * smoothstep(0.40, 0.78, coarse.w));
+  vec3 c = mix(vec3(0.205, 0.029, 0.017), vec3(0.300, 0.049, 0.028), smoothstep(0.25, 0.75, broad.w));
+  c = mix(c, vec3(0.350, 0.076, 0.046), 0.55 * smoothstep(0.40, 0.78, coarse.w));
   c *= 0.80 + 0.24 * middle.w + 0.20 * fine.w;
   return c;
 #elif defined(LOOK_GALLBLADDER)
-  vec3 c = mix(vec3(0.235, 0.275, 0.135), vec3(0.47, 0.42, 0.235), smoothstep(0.30, 0.70, broad.w));
+  vec3 c = mix(vec3(0.255, 0.255, 0.125), vec3(0.48, 0.385, 0.215), smoothstep(0.30, 0.70, broad.w));
   c = mix(c, vec3(0.50, 0.29, 0.19), 0.40 * smoothstep(0.45, 0.80, coarse.w));
   c *= 0.90 + 0.2 * middle.w;
-  float v = max(vessels(rest_mm * 0.011 + 0.03 * coarse.xyz, 16.0, coarse.w), 0.6 * vessels(rest_mm * 0.026 + 0.41, 13.0, broad.w));
+  float v = max(vessels(rest_mm * 0.011 + 0.03 * coarse.xyz, 0.050, coarse.w), 0.6 * vessels(rest_mm * 0.026 + 0.41, 0.060, broad.w));
   return mix(c, vec3(0.30, 0.035, 0.025), 0.62 * v);
 #elif defined(LOOK_WALL)
   vec3 c = mix(vec3(0.43, 0.105, 0.075), vec3(0.60, 0.235, 0.165), smoothstep(0.30, 0.75, broad.w));
   c = mix(c, vec3(0.68, 0.40, 0.28), 0.30 * smoothstep(0.45, 0.8, coarse.w));
-  float v = vessels(rest_mm * 0.0052 + 0.02 * coarse.xyz + 0.23, 22.0, coarse.w);
+  float v = vessels(rest_mm * 0.0052 + 0.02 * coarse.xyz + 0.23, 0.050, coarse.w);
   return mix(c, vec3(0.25, 0.025, 0.03), 0.55 * v);
 #elif defined(LOOK_FAT)
   vec3 c = mix(vec3(0.60, 0.295, 0.055), vec3(0.78, 0.50, 0.14), smoothstep(0.28, 0.70, broad.w));
   c = mix(c, vec3(0.80, 0.60, 0.25), 0.5 * smoothstep(0.42, 0.78, coarse.w));
   c *= 0.88 + 0.24 * middle.w;
-  float v = vessels(rest_mm * 0.0075 + 0.02 * coarse.xyz + 0.61, 20.0, coarse.w);
+  float v = vessels(rest_mm * 0.0075 + 0.02 * coarse.xyz + 0.61, 0.055, coarse.w);
   return mix(c, vec3(0.46, 0.07, 0.03), 0.60 * v);
 #else
   vec3 c = mix(vec3(0.44, 0.135, 0.105), vec3(0.58, 0.25, 0.19), smoothstep(0.25, 0.75, broad.w));
-  float v = max(vessels(rest_mm * 0.0095 + 0.03 * coarse.xyz + 0.31, 16.0, coarse.w), 0.5 * vessels(rest_mm * 0.022 + 0.11, 13.0, broad.w));
+  float v = max(vessels(rest_mm * 0.0095 + 0.03 * coarse.xyz + 0.31, 0.050, coarse.w), 0.5 * vessels(rest_mm * 0.022 + 0.11, 0.060, broad.w));
   return mix(c * (0.85 + 0.3 * middle.w), vec3(0.30, 0.03, 0.03), 0.55 * v);
 #endif
 }
@@ -57,7 +59,7 @@ const vec2 kRough = vec2(0.15, 0.08);
 const vec3 kWet = vec3(1.8, 2.6, 0.6);
 #elif defined(LOOK_LIVER)
 const vec2 kRough = vec2(0.20, 0.11);
-const vec3 kWet = vec3(1.7, 2.6, 0.9);
+const vec3 kWet = vec3(1.25, 2.4, 0.9);
 #else
 const vec2 kRough = vec2(0.24, 0.15);
 const vec3 kWet = vec3(1.7, 2.2, 0.6);
@@ -84,11 +86,16 @@ float contact_shade() {
 
 void main() {
   vec3 rest_mm = v_rest * 1000.0;
+  vec4 coarse = textureLod(u_noise, rest_mm * 0.021, 0.0);
+#if defined(LOOK_WALL) || defined(LOOK_FAT)
+  vec4 middle = textureLod(u_noise, rest_mm * 0.083 + 0.37, 1.0);
+  vec4 fine = vec4(0.5);
+#else
+  vec4 middle = textureLod(u_noise, rest_mm * 0.083 + 0.37, 0.0);
   float footprint_mm = length(fwidth(rest_mm));
   float sharp = 1.0 - smoothstep(0.25, 1.1, footprint_mm);  // the finest octave fades before it streaks
-  vec4 coarse = texture(u_noise, rest_mm * 0.021);
-  vec4 middle = texture(u_noise, rest_mm * 0.083 + 0.37);
-  vec4 fine = mix(vec4(0.5), texture(u_noise, rest_mm * 0.31 + 0.11), sharp);
+  vec4 fine = mix(vec4(0.5), textureLod(u_noise, rest_mm * 0.31 + 0.11, 1.0), sharp);
+#endif
   vec3 base = albedo(coarse, middle, fine, rest_mm);
 
   vec3 n = normalize(v_normal);
@@ -107,7 +114,7 @@ void main() {
   float pale = press * exp(-0.62 * reach);
   float flush = press * exp(-0.5 * (reach - 5.0) * (reach - 5.0) / 4.0);
   float grey = dot(base, vec3(0.4, 0.35, 0.25));
-  base = mix(base, vec3(0.72, 0.47, 0.38) * (0.45 + 1.2 * grey), 0.85 * pale);  // blood pressed out
+  base = mix(base, max(vec3(0.72, 0.47, 0.38) * (0.45 + 1.2 * grey), 1.15 * base), 0.85 * pale);  // blood pressed out
   base *= 1.0 - vec3(0.10, 0.30, 0.30) * flush;                                  // and into the rim
   film = 1.0 - 0.5 * pale;
 #endif

@@ -96,7 +96,7 @@ TEST_F(PictureTest, TargetsShowTheirStateWhereTheOpticsPutThem) {
       EXPECT_GT(g, 60) << y << " " << b;
     }
     if (mark.state == TargetMark::State::kWaiting) {
-      EXPECT_GT(b, 15) << y << " " << g;
+      EXPECT_GE(b, 8) << y << " " << g;  // the farthest one is 30 x 8 px, seen obliquely
       EXPECT_LT(y + g, b);
     }
   }
@@ -115,12 +115,24 @@ TEST_F(PictureTest, StatesDifferInShapeNotOnlyInColour) {
   SceneView without = view;
   without.targets.clear();
   const Image tissue = renderer.render(without, kWidth, kHeight);
-  const int waiting = changed(painted(TargetMark::State::kWaiting), tissue, 24);
-  const int lit = changed(painted(TargetMark::State::kLit), tissue, 24);
-  const int done = changed(painted(TargetMark::State::kDone), tissue, 24);
-  EXPECT_GT(waiting, 200);
-  EXPECT_GT(done, 2 * waiting);  // filled disc against broken ring
-  EXPECT_GT(lit, 1.5 * waiting); // second ring
+  const ScopeOptics optics(view.camera, {0, 0, kWidth, kHeight});
+  const auto at = [&](double radii) {  // on the surface's tangent, along the picture's horizontal
+    return *optics.project(view.targets[0].centre_T + radii * view.targets[0].radius_m * optics.right());
+  };
+  const auto covers = [&](const Image& image, double radii) {
+    const Pixel a = mean_at(image, at(radii), 1), b = mean_at(tissue, at(radii), 1);
+    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) > 40;
+  };
+  const Image waiting = painted(TargetMark::State::kWaiting), lit = painted(TargetMark::State::kLit), done = painted(TargetMark::State::kDone);
+  EXPECT_FALSE(covers(waiting, 0));   // a ring: the tissue shows through
+  EXPECT_FALSE(covers(waiting, 0.5));
+  EXPECT_TRUE(covers(lit, 0));        // a dot in the middle, free between
+  EXPECT_FALSE(covers(lit, 0.5));
+  EXPECT_TRUE(covers(lit, 0.9));
+  EXPECT_TRUE(covers(done, 0.5));     // filled
+  EXPECT_FALSE(covers(done, 1.35));
+  EXPECT_FALSE(covers(waiting, 1.35));
+  EXPECT_GT(changed(lit, tissue, 24), 1.3 * changed(waiting, tissue, 24));  // the outer ring
 }
 
 TEST_F(PictureTest, LitTargetPulsesWithTime) {

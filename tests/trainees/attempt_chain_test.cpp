@@ -41,7 +41,7 @@ TEST_F(AttemptChain, ShowsAChangedStatus) {
 }
 
 TEST_F(AttemptChain, ShowsAChangeInTheLastDigitOfAMetric) {
-  EXPECT_NE(after("UPDATE metric SET value = value + 1e-15 WHERE attempt_id = 1 AND name = 'peak_force'"), "");
+  EXPECT_NE(after("UPDATE metric SET value = value + 1e-15 WHERE attempt_id = 1 AND name = 'force_max_n'"), "");
 }
 
 TEST_F(AttemptChain, ShowsARemovedEvent) {

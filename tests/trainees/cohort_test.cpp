@@ -10,7 +10,7 @@ AttemptResult without_score(AttemptStatus status) {
   result.grade.status = status;
   result.grade.score.reset();
   result.grade.passed = false;
-  result.grade.metrics = {{"peak_force", 99, "N"}};
+  result.grade.metrics = {{"force_max_n", 99, "N"}};
   return result;
 }
 

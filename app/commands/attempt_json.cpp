@@ -1,0 +1,99 @@
+#include "app/commands/attempt_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json subscores(const Grade& grade) {
+  Json list = Json::array();
+  for (const Subscore& row : grade.subscores) {
+    list.push_back({{"name", row.name},
+                    {"value", number(row.value)},
+                    {"weight", number(row.weight)},
+                    {"raw", number(row.raw)},
+                    {"unit", row.unit},
+                    {"full_at", number(row.full_at)},
+                    {"zero_at", number(row.zero_at)},
+                    {"gate", row.gate}});
+  }
+  return list;
+}
+
+Json events(const AttemptResult& result) {
+  Json list = Json::array();
+  for (const Event& event : result.events) {
+    list.push_back({{"t_s", number(event.t_s)},
+                    {"type", event.type},
+                    {"severity", severity_name(event.severity)},
+                    {"object", event.object < 0 ? Json(nullptr) : Json(event.object)},
+                    {"value", number(event.value)},
+                    {"unit", event.unit},
+                    {"tip_m", {number(event.tip_T.x()), number(event.tip_T.y()), number(event.tip_T.z())}}});
+  }
+  return list;
+}
+
+Json metrics(const Grade& grade) {
+  Json table = Json::object();
+  for (const Metric& metric : grade.metrics) {
+    table[metric.name] = {{"value", number(metric.value)}, {"unit", metric.unit}};
+  }
+  return table;
+}
+
+Json device(const DeviceReceipt& receipt) {
+  return {{"backend", receipt.backend},
+          {"rate_hz", number(receipt.rate_hz)},
+          {"ticks", receipt.ticks},
+          {"overruns", receipt.overruns},
+          {"saturated_contact_share", number(receipt.saturated_contact_share)},
+          {"passivity_active_share", number(receipt.passivity_active_share)},
+          {"min_energy_j", number(receipt.min_energy_j)},
+          {"kappa", number(receipt.kappa)},
+          {"fault", receipt.fault.empty() ? Json(nullptr) : Json(receipt.fault)}};
+}
+
+}  // namespace
+
+std::string attempt_json(const AttemptResult& result) {
+  const Json json = {{"exercise",
+                      {{"id", result.exercise_id},
+                       {"version", result.exercise_version},
+                       {"level", result.level},
+                       {"seed", result.seed},
+                       {"board", result.board}}},
+                     {"trainee", result.trainee},
+                     {"hand", result.hand},
+                     {"status", status_name(result.grade.status)},
+                     {"score", number(result.grade.score)},
+                     {"passed", result.grade.passed},
+                     {"grade", result.grade.grade},
+                     {"subscores", subscores(result.grade)},
+                     {"caps", result.grade.caps},
+                     {"events", events(result)},
+                     {"metrics", metrics(result.grade)},
+                     {"device", device(result.device)},
+                     {"organ",
+                      {{"name", result.organ_name},
+                       {"source", result.organ_source},
+                       {"sha256", result.organ_sha256},
+                       {"synthetic", result.organ_synthetic},
+                       {"credit", result.organ_credit}}},
+                     {"rubric_sha256", result.rubric_sha256},
+                     {"recording_sha256", result.recording_sha256},
+                     {"state_hash", result.state_hash},
+                     {"attempt",
+                      {{"uuid", result.uuid},
+                       {"started_utc", result.started_utc},
+                       {"recording", result.recording_path}}}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace trocar

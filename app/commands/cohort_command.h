@@ -1,0 +1,19 @@
+// `trocar cohort`: who tried what, how often, how well. InputError and EnvironmentError leave as they are.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+namespace trocar {
+
+struct CohortOptions {
+  std::filesystem::path database;  ///< empty: the default path
+  std::string trainee;             ///< empty: all
+  bool json = false;
+};
+
+/// @return exit code 0
+int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace trocar

@@ -1,0 +1,24 @@
+// `trocar db check|backup|migrate`. InputError and EnvironmentError leave as they are.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+namespace trocar {
+
+struct DbOptions {
+  std::filesystem::path database;  ///< empty: the default path
+  std::filesystem::path output;    ///< of backup; empty: DATABASE.TIME.backup beside it
+  bool json = false;               ///< of check
+};
+
+/// File, references, hash chain, exercise versions and the recordings' digests.
+/// @return exit code 0 when sound, 2 when anything is not; the problems are the result.
+int db_check(const DbOptions& options, std::ostream& out, std::ostream& err);
+/// @return exit code 0; the copy's path is the result. Never overwrites (InputError).
+int db_backup(const DbOptions& options, std::ostream& out, std::ostream& err);
+/// Brings the database to this program's schema, which every command does by itself, and says so.
+/// @return exit code 0
+int db_migrate(const DbOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace trocar

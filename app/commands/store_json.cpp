@@ -1,0 +1,74 @@
+#include "app/commands/store_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json json_of(const Trainee& trainee) {
+  return {{"code", trainee.code},         {"uuid", trainee.uuid},     {"created_utc", trainee.created_utc},
+          {"attempts", trainee.attempts}, {"passes", trainee.passes}, {"last_utc", trainee.last_utc}};
+}
+
+Json json_of(const AttemptSummary& attempt) {
+  return {{"uuid", attempt.uuid},
+          {"started_utc", attempt.started_utc},
+          {"exercise", attempt.exercise_id},
+          {"level", attempt.level},
+          {"board", attempt.board},
+          {"seed", attempt.seed},
+          {"hand", attempt.hand},
+          {"status", attempt.status},
+          {"score", number(attempt.score)},
+          {"passed", attempt.passed},
+          {"grade", attempt.grade},
+          {"organ_synthetic", attempt.organ_synthetic}};
+}
+
+Json json_of(const CohortRow& row) {
+  return {{"trainee", row.trainee},
+          {"exercise", row.exercise_id},
+          {"level", row.level},
+          {"attempts", row.attempts},
+          {"graded", row.graded},
+          {"passes", row.passes},
+          {"best", number(row.best)},
+          {"last", number(row.last)},
+          {"mean_peak_force_n", number(row.mean_peak_force_n)},
+          {"mean_time_s", number(row.mean_time_s)},
+          {"last_utc", row.last_utc}};
+}
+
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+template <class Rows>
+Json array_of(const Rows& rows) {
+  Json list = Json::array();
+  for (const auto& row : rows) list.push_back(json_of(row));
+  return list;
+}
+
+}  // namespace
+
+std::string trainees_json(const std::vector<Trainee>& trainees) { return text_of(array_of(trainees)); }
+
+std::string trainee_json(const Trainee& trainee, const std::vector<AttemptSummary>& attempts) {
+  Json json = json_of(trainee);
+  json["history"] = array_of(attempts);
+  return text_of(json);
+}
+
+std::string cohort_json(const std::vector<CohortRow>& rows) { return text_of(array_of(rows)); }
+
+std::string problems_json(const Database& database, const std::vector<std::string>& problems) {
+  return text_of({{"database", database.file().string()},
+                  {"schema", database.schema_version()},
+                  {"sound", problems.empty()},
+                  {"problems", problems}});
+}
+
+}  // namespace trocar

@@ -1,0 +1,72 @@
+#include "app/commands/trainee_command.h"
+
+#include <ostream>
+
+#include "app/commands/open_database.h"
+#include "app/commands/store_json.h"
+#include "app/commands/text_table.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+using Align = TextTable::Align;
+
+void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& out) {
+  TextTable table({{"started (UTC)"}, {"exercise"}, {"level"}, {"board", Align::kRight}, {"hand"}, {"status"},
+                   {"score", Align::kRight}, {"grade"}, {"organ"}, {"attempt"}});
+  for (const AttemptSummary& attempt : attempts) {
+    table.add({cell_time(attempt.started_utc), attempt.exercise_id, attempt.level, std::to_string(attempt.board),
+               attempt.hand, attempt.status, cell(attempt.score, 1), attempt.grade,
+               attempt.organ_synthetic ? "synthetic" : "", attempt.uuid});
+  }
+  table.print(out);
+}
+
+}  // namespace
+
+int trainee_add(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kCreate, err);
+  TraineeStore store(database);
+  if (const auto known = store.find(options.code)) err << "trainee " << known->code << " exists already\n";
+  const Trainee trainee = store.ensure_trainee(options.code);
+  if (options.json) {
+    out << trainee_json(trainee, {});
+  } else {
+    out << trainee.code << "  " << trainee.uuid << '\n';
+  }
+  return 0;
+}
+
+int trainee_list(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const std::vector<Trainee> trainees = TraineeStore(database).list();
+  if (options.json) {
+    out << trainees_json(trainees);
+    return 0;
+  }
+  TextTable table({{"trainee"}, {"attempts", Align::kRight}, {"passes", Align::kRight}, {"last (UTC)"}, {"since (UTC)"}});
+  for (const Trainee& trainee : trainees) {
+    table.add({trainee.code, std::to_string(trainee.attempts), std::to_string(trainee.passes),
+               cell_time(trainee.last_utc), cell_time(trainee.created_utc)});
+  }
+  table.print(out);
+  return 0;
+}
+
+int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const auto trainee = TraineeStore(database).find(options.code);
+  if (!trainee) throw InputError(database.file().string() + ": no trainee \"" + options.code + "\"");
+  const auto attempts = AttemptStore(database).list({trainee->code, "", options.limit});
+  if (options.json) {
+    out << trainee_json(*trainee, attempts);
+    return 0;
+  }
+  out << trainee->code << "  " << trainee->uuid << "  since " << cell_time(trainee->created_utc) << " UTC\n"
+      << trainee->attempts << " attempts, " << trainee->passes << " passed\n";
+  if (!attempts.empty()) print_attempts(attempts, out << '\n');
+  return 0;
+}
+
+}  // namespace trocar
