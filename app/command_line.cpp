@@ -1,0 +1,245 @@
+#include "app/command_line.h"
+
+#include <functional>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/bench_command.h"
+#include "app/commands/cohort_command.h"
+#include "app/commands/db_command.h"
+#include "app/commands/demo_command.h"
+#include "app/commands/device_command.h"
+#include "app/commands/exercises_command.h"
+#include "app/commands/organ_import.h"
+#include "app/commands/organ_info.h"
+#include "app/commands/organ_phantom.h"
+#include "app/commands/organ_render.h"
+#include "app/commands/recording_command.h"
+#include "app/commands/run_command.h"
+#include "app/commands/trainee_command.h"
+#include "app/scene.h"
+#include "haptics/input_error.h"
+#include "tissue/organ.h"
+
+namespace trocar {
+namespace {
+
+/// Options of every subcommand, and the one that was chosen.
+struct CommandLine {
+  CLI::App app{"Trocar: laparoscopic surgery training simulator round a 6-DOF haptic device"};
+  std::function<int()> chosen;
+
+  RunOptions run;
+  RecordingOptions recording;
+  DemoOptions demo;
+  bool headless = false;
+  BenchOptions bench;
+  ExercisesOptions exercises;
+  std::vector<std::string> check_subjects;
+  std::string check_organ = "phantom-liver";
+  std::filesystem::path table_in, table_out;
+  OrganImportOptions import;
+  OrganInfoOptions info;
+  OrganRenderOptions render;
+  OrganPhantomOptions phantom;
+  std::string organ;
+  TraineeOptions trainee;
+  CohortOptions cohort;
+  DbOptions db;
+
+  /// A subcommand that runs `action` when chosen.
+  CLI::App* add(CLI::App& parent, const char* name, const char* help, std::function<int()> action) {
+    CLI::App* command = parent.add_subcommand(name, help);
+    command->callback([this, action = std::move(action)] { chosen = action; });
+    return command;
+  }
+  /// A group of subcommands.
+  CLI::App* group(const char* name, const char* help) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command->require_subcommand(1);
+    return command;
+  }
+};
+
+void add_run(CommandLine& c) {
+  CLI::App* run = c.add(c.app, "run", "One scripted, headless attempt (lockstep), recorded, graded and stored",
+                        [&c] { return run_command(c.run, std::cout, std::cerr); });
+  run->add_option("exercise", c.run.exercise, "Exercise id, number or FILE.toml")->required();
+  run->add_option("--hand", c.run.hand, "expert, intermediate, novice, clumsy, speed-runner, heavy-handed, idle, or SCRIPT.toml")->required();
+  run->add_option("--level", c.run.level, "Level")->capture_default_str();
+  run->add_option("--seed", c.run.seed, "Seed of everything random")->capture_default_str();
+  run->add_option("--board", c.run.board, "Practice board 0-19 (default: an unseen one drawn by the seed)");
+  run->add_option("--trainee", c.run.trainee, "Trainee code, created when new")->capture_default_str();
+  run->add_option("--db", c.run.database, "Database file, or :memory:");
+  run->add_option("--organ", c.run.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  run->add_option("--record", c.run.record, "Recording file (default: beside the database)");
+  run->add_option("--frames", c.run.frames, "Folder for PNG frames");
+  run->add_option("--fps", c.run.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
+  run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
+  run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
+  run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted or off")->capture_default_str();
+  run->add_option("--inject", c.run.injections, "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, channel-invalid, dac-stuck, missed-sync, hand-nan, hand-lets-go");
+  run->add_flag("--json", c.run.json, "Result as JSON on stdout");
+}
+
+void add_recordings(CommandLine& c) {
+  CLI::App* replay = c.add(c.app, "replay", "Run the loop again from a recording",
+                           [&c] { return replay_command(c.recording, std::cout, std::cerr); });
+  replay->add_flag("--verify", c.recording.verify, "Compare the state hash with the recorded one");
+  replay->add_option("--frames", c.recording.frames, "Folder for PNG frames");
+  replay->add_option("--fps", c.recording.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
+  replay->add_option("--organ", c.recording.organ, "Where the recorded organ lies now");
+  CLI::App* score = c.add(c.app, "score", "Grade again from the raw record",
+                          [&c] { return score_command(c.recording, std::cout, std::cerr); });
+  score->add_option("--rubric", c.recording.rubric, "Exercise file whose rubric to use instead");
+  score->add_flag("--json", c.recording.json, "Result as JSON on stdout");
+  for (CLI::App* command : {replay, score}) {
+    command->add_option("recording", c.recording.subject, "Recording file or attempt (UUID part, 'latest')")->required();
+    command->add_option("--db", c.recording.database, "Database file");
+  }
+}
+
+void add_first_contact(CommandLine& c) {
+  CLI::App* demo = c.add(c.app, "demo", "The whole chain once: picture, score, report",
+                         [&c] { return demo_command(c.demo, std::cout, std::cerr); });
+  demo->add_flag("--headless", c.headless, "Without a window (this version has none)");
+  demo->add_option("--out", c.demo.output, "Folder")->capture_default_str();
+  demo->add_option("--organ", c.demo.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  CLI::App* bench = c.add(c.app, "bench", "What one tick costs, by stage",
+                          [&c] { return bench_command(c.bench, std::cout, std::cerr); });
+  bench->add_option("--organ", c.bench.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  bench->add_flag("--json", c.bench.json, "As JSON");
+  c.add(c.app, "version", "Version of the program", [] {
+    std::cout << "trocar " TROCAR_VERSION "\n";
+    return 0;
+  });
+}
+
+void add_catalogue(CommandLine& c) {
+  CLI::App* exercises = c.add(c.app, "exercises", "The catalogue of exercises",
+                              [&c] { return exercises_command(c.exercises, std::cout, std::cerr); });
+  exercises->add_flag("--json", c.exercises.json, "As JSON");
+  exercises->add_option("--explain", c.exercises.explain, "Say what a metric means");
+  CLI::App* check = c.add(c.app, "check", "Validate exercises and prove their boards reachable", [&c] {
+    return check_command(c.check_subjects, c.check_organ, std::cout, std::cerr);
+  });
+  check->add_option("exercise", c.check_subjects, "Exercise ids or files")->required();
+  check->add_option("--organ", c.check_organ, "Organ to lay the boards on")->capture_default_str();
+}
+
+void add_device(CommandLine& c) {
+  CLI::App* device = c.group("device", "Models of the device");
+  CLI::App* eval = c.add(*device, "eval", "Pose, twist, torques, gravity, conditioning of joint angles",
+                         [&c] { return device_eval(c.table_in, c.table_out, std::cerr); });
+  CLI::App* ik = c.add(*device, "ik", "Every inverse kinematic candidate of stylus poses",
+                       [&c] { return device_ik(c.table_in, c.table_out, std::cerr); });
+  for (CLI::App* command : {eval, ik}) {
+    command->add_option("--csv", c.table_in, "Input table")->required();
+    command->add_option("--out", c.table_out, "Output table")->required();
+  }
+}
+
+void add_organ_import(CommandLine& c, CLI::App& organ) {
+  CLI::App* import = c.add(organ, "import", "An organ from a label map (NIfTI) or a surface (PLY)",
+                           [&c] { return organ_import(c.import, std::cout, std::cerr); });
+  import->add_option("input", c.import.input, "Label map .nii or .nii.gz, volume with --labels, or .ply")->required();
+  import->add_option("--labels", c.import.labels, "Label map of the volume");
+  import->add_option("--label", c.import.label, "Label number or name");
+  import->add_option("--triangles", c.import.triangles, "Triangles aimed at")->capture_default_str();
+  import->add_option("--unit", c.import.unit, "Length unit of a surface: mm, cm or m");
+  import->add_option("-o,--output", c.import.output, "NAME of the organ files")->required();
+  import->add_option("--name", c.import.name, "Name of the organ");
+  import->add_option("--material", c.import.material, "Material name");
+  import->add_option("--modality", c.import.modality, "CT or MR");
+  import->add_option("--licence", c.import.licence, "Licence of the source")->capture_default_str();
+  import->add_option("--credit", c.import.credit, "One line to show with the organ");
+  import->add_flag("--json", c.import.json, "Report as JSON");
+}
+
+void add_organ(CommandLine& c) {
+  CLI::App* organ = c.group("organ", "Organs from images and surfaces");
+  add_organ_import(c, *organ);
+  const auto manifest = [&c] { return find_organ(c.organ, find_assets().organs); };
+  CLI::App* info = c.add(*organ, "info", "What an organ is and how good its surface", [&c, manifest] {
+    c.info.manifest = manifest();
+    return organ_info(c.info, std::cout, std::cerr);
+  });
+  info->add_flag("--json", c.info.json, "As JSON");
+  CLI::App* render = c.add(*organ, "render", "A picture of an organ", [&c, manifest] {
+    c.render.manifest = manifest();
+    return organ_render(c.render, find_assets().shaders, std::cout, std::cerr);
+  });
+  render->add_option("-o,--output", c.render.output, "PNG file")->required();
+  render->add_option("--width", c.render.width, "px")->capture_default_str();
+  render->add_option("--height", c.render.height, "px")->capture_default_str();
+  for (CLI::App* command : {info, render}) {
+    command->add_option("organ", c.organ, "NAME.organ.toml or a shipped organ")->required();
+  }
+  CLI::App* phantom = c.add(*organ, "phantom", "The synthetic abdominal CT phantom and its organs",
+                            [&c] { return organ_phantom(c.phantom, std::cout, std::cerr); });
+  phantom->add_option("--out", c.phantom.out, "Folder")->required();
+  phantom->add_option("--seed", c.phantom.seed, "Seed of the noise")->capture_default_str();
+  phantom->add_flag("--json", c.phantom.json, "Report as JSON");
+}
+
+void add_trainees(CommandLine& c) {
+  CLI::App* trainee = c.group("trainee", "Trainees of a database");
+  CLI::App* add = c.add(*trainee, "add", "Add a trainee", [&c] { return trainee_add(c.trainee, std::cout, std::cerr); });
+  CLI::App* list = c.add(*trainee, "list", "All trainees", [&c] { return trainee_list(c.trainee, std::cout, std::cerr); });
+  CLI::App* show = c.add(*trainee, "show", "One trainee's attempts", [&c] { return trainee_show(c.trainee, std::cout, std::cerr); });
+  for (CLI::App* command : {add, show}) command->add_option("code", c.trainee.code, "Trainee code")->required();
+  show->add_option("--limit", c.trainee.limit, "Newest attempts listed, 0: all")->capture_default_str();
+  for (CLI::App* command : {add, list, show}) {
+    command->add_option("--db", c.trainee.database, "Database file");
+    command->add_flag("--json", c.trainee.json, "As JSON");
+  }
+  CLI::App* cohort = c.add(c.app, "cohort", "Who tried what, how often, how well",
+                           [&c] { return cohort_command(c.cohort, std::cout, std::cerr); });
+  cohort->add_option("--db", c.cohort.database, "Database file");
+  cohort->add_option("--trainee", c.cohort.trainee, "One trainee only");
+  cohort->add_flag("--json", c.cohort.json, "As JSON");
+}
+
+void add_db(CommandLine& c) {
+  CLI::App* db = c.group("db", "The database itself");
+  CLI::App* check = c.add(*db, "check", "File, references, hash chain, recordings", [&c] { return db_check(c.db, std::cout, std::cerr); });
+  check->add_flag("--json", c.db.json, "As JSON");
+  CLI::App* backup = c.add(*db, "backup", "Consistent copy", [&c] { return db_backup(c.db, std::cout, std::cerr); });
+  backup->add_option("-o,--out", c.db.output, "File (default: beside the database)");
+  CLI::App* migrate = c.add(*db, "migrate", "Bring to this program's schema", [&c] { return db_migrate(c.db, std::cout, std::cerr); });
+  for (CLI::App* command : {check, backup, migrate}) command->add_option("--db", c.db.database, "Database file");
+}
+
+int fail(const std::exception& error, int code) {
+  std::cerr << "trocar: " << error.what() << '\n';
+  return code;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CommandLine c;
+  c.app.require_subcommand(1);
+  for (auto* add : {add_run, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db}) {
+    add(c);
+  }
+  try {
+    c.app.parse(argc, argv);
+    return c.chosen();
+  } catch (const CLI::ParseError& error) {
+    return c.app.exit(error) == 0 ? 0 : 2;
+  } catch (const InputError& error) {
+    return fail(error, 2);
+  } catch (const EnvironmentError& error) {
+    return fail(error, 3);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(error, 3);
+  } catch (const std::bad_alloc& error) {
+    return fail(error, 3);
+  } catch (const std::exception& error) {
+    return fail(error, 2);
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,160 @@
+#include "app/commands/bench_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <functional>
+#include <iomanip>
+#include <memory>
+#include <ostream>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/run_command.h"
+#include "app/recorder/recording_reader.h"
+#include "app/session.h"
+#include "haptics/control/gravity.h"
+#include "haptics/kinematics/hybrid_arm.h"
+#include "tissue/collision/patch_extraction.h"
+
+namespace trocar {
+namespace {
+
+/// CPU time of this thread: what the budgets are stated in.
+double cpu_now_us() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
+}
+
+struct Timing {
+  std::string stage;
+  std::vector<double> us;
+
+  double percentile(double share) {
+    std::sort(us.begin(), us.end());
+    return us[std::min(us.size() - 1, static_cast<std::size_t>(share * static_cast<double>(us.size())))];
+  }
+};
+
+/// Times `work` for each tick of the run.
+Timing time_each(const std::string& stage, std::size_t count, const std::function<void(std::size_t)>& work) {
+  Timing timing{stage, {}};
+  timing.us.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double before = cpu_now_us();
+    work(i);
+    timing.us.push_back(cpu_now_us() - before);
+  }
+  return timing;
+}
+
+/// What the loop saw and computed during the attempt, for feeding single stages.
+struct Captured {
+  std::vector<DaqSample> samples;
+  std::vector<TickRecord> records;
+};
+
+Captured capture(const Scene& scene, const Recording& recording) {
+  Captured captured;
+  for (const RecordedTick& row : recording.ticks) captured.samples.push_back(device_input(row));
+  HapticLoop loop(scene.loop);
+  PatchExtraction extraction(scene.organ_T);
+  auto patch = std::make_unique<ContactPatch>();
+  patch->stiffness_n_per_m = scene.setup.exercise.surface_stiffness_n_per_m;
+  for (std::size_t i = 0; i < captured.samples.size(); ++i) {
+    TickRecord& record = captured.records.emplace_back();
+    loop.tick(captured.samples[i], *patch, record);
+    if (i % 10 == 0) extraction.extract(record.stylus.X_TI, scene.loop.tool, *patch);
+  }
+  return captured;
+}
+
+std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
+  const std::size_t count = run.samples.size();
+  PatchExtraction extraction(scene.organ_T);
+  auto patch = std::make_unique<ContactPatch>();
+  patch->stiffness_n_per_m = scene.setup.exercise.surface_stiffness_n_per_m;
+  ContactRenderer contact(scene.loop.contact_law, scene.loop.tool);
+  HapticLoop loop(scene.loop);
+  auto record = std::make_unique<TickRecord>();
+  std::vector<ArmState> arms(count);
+  std::vector<Timing> timings;
+  timings.push_back(time_each("kinematics, Jacobian", count, [&](std::size_t i) {
+    arms[i] = arm_state(run.records[i].q.head<kArmJoints>());
+  }));
+  double sink = 0;
+  timings.push_back(time_each("gravity", count, [&](std::size_t i) {
+    sink += gravity_torque(scene.loop.device, arms[i])[0];
+  }));
+  const auto refresh = [&](std::size_t i) {
+    if (i % 10 == 0) extraction.extract(run.records[i].stylus.X_TI, scene.loop.tool, *patch);
+  };
+  timings.push_back(time_each("patch (every 10th tick)", count / 10, [&](std::size_t i) { refresh(10 * i); }));
+  Timing touch{"contact", {}}, tick{"whole tick", {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    refresh(i);
+    const StylusState& s = run.records[i].stylus;
+    const double start = cpu_now_us();
+    sink += contact.update(s.X_TI, s.V_TI_T.linear, *patch).depth_m;
+    const double middle = cpu_now_us();
+    loop.tick(run.samples[i], *patch, *record);
+    tick.us.push_back(cpu_now_us() - middle);
+    touch.us.push_back(middle - start);
+  }
+  timings.push_back(std::move(touch));
+  timings.push_back(std::move(tick));
+  timings.push_back(time_each("the clock itself", count, [](std::size_t) {}));
+  if (sink == 0.123456789) timings.clear();  // keeps the optimiser from dropping the stages
+  return timings;
+}
+
+}  // namespace
+
+int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err) {
+  const AssetRoots assets = find_assets();
+  RunOptions run;
+  run.exercise = "surface-touch";
+  run.hand = options.hand;
+  run.organ = options.organ;
+  const Scene scene = build_scene(attempt_setup(run, assets), assets, {"simulated", run.rate_hz, 16});
+  err << "trocar: one attempt on the simulated plant, then each stage over its ticks; CPU time of the thread\n";
+  MemorySink memory;
+  RecordingWriter writer(memory, scene_json(scene), scene.loop.daq.rate_hz);
+  const auto wall = std::chrono::steady_clock::now();
+  const SessionOutcome outcome = run_session(scene, assets, writer);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  const double simulated = static_cast<double>(outcome.device.ticks) / outcome.device.rate_hz;
+
+  const Recording recording = parse_recording(memory.bytes(), "bench");
+  nlohmann::ordered_json json;
+  json["organ_triangles"] = scene.organ_T.triangles.size();
+  json["ticks"] = outcome.device.ticks;
+  json["wall_s_per_simulated_s"] = seconds / simulated;
+  json["times_real_time"] = simulated / seconds;
+  json["recording_bytes_per_60_s"] = static_cast<double>(memory.bytes().size()) * 60 / simulated;
+  for (Timing& timing : time_stages(scene, capture(scene, recording))) {
+    json["stages_us"][timing.stage] = {
+        {"median", timing.percentile(0.5)}, {"p99", timing.percentile(0.99)}, {"p99.9", timing.percentile(0.999)}};
+  }
+  if (options.json) {
+    out << json.dump(2) << '\n';
+    return 0;
+  }
+  out << std::fixed << std::setprecision(2) << "organ " << scene.organ.name << ", " << json["organ_triangles"]
+      << " triangles, " << outcome.device.ticks << " ticks\n\n"
+      << "stage                       median      p99    p99.9  us CPU\n";
+  for (const auto& [stage, row] : json["stages_us"].items()) {
+    out << std::left << std::setw(24) << stage << std::right;
+    for (const char* key : {"median", "p99", "p99.9"}) out << std::setw(10) << row[key].get<double>();
+    out << '\n';
+  }
+  out << "\nwall seconds per simulated second  " << std::setprecision(4) << seconds / simulated << "  ("
+      << std::setprecision(1) << simulated / seconds << " x real time, plant and hand included)\n"
+      << "recording                          " << std::setprecision(3)
+      << static_cast<double>(memory.bytes().size()) / 1048576 * 60 / simulated << " MiB a minute\n";
+  return 0;
+}
+
+}  // namespace trocar
