@@ -8,7 +8,6 @@
 #include "haptics/input_error.h"
 #include "scenarios/board_layout.h"
 #include "scenarios/exercise_loader.h"
-#include "tissue/organ_catalogue.h"
 
 namespace trocar {
 namespace {

@@ -14,6 +14,10 @@ namespace trocar {
 
 class StateHash {
  public:
+  StateHash() = default;
+  /// A hash read from a recording, for printing.
+  explicit StateHash(std::uint64_t value) : state_(value) {}
+
   void add(std::uint64_t word) {
     state_ ^= word + 0x9e3779b97f4a7c15u + (state_ << 6) + (state_ >> 2);
     state_ = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9u;

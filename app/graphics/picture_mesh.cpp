@@ -148,6 +148,8 @@ std::vector<float> bake_openness(const TriangleSurface& surface) {
 
 PictureMesh build_picture_mesh(const TriangleSurface& surface, std::size_t max_triangles) {
   TriangleSurface fine = surface;
+  if (fine.volume_m3() < 0)  // inside out: culling would show the far wall
+    for (auto& triangle : fine.triangles) std::swap(triangle[1], triangle[2]);
   while (!fine.triangles.empty() && fine.triangles.size() * 4 <= max_triangles) fine = subdivide_curved(fine);
   const std::vector<float> openness = bake_openness(fine);
   const std::vector<Vec3> normals = fine.vertex_normals();

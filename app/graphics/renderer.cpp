@@ -31,6 +31,9 @@ std::string tissue_look(const std::string& material) {
   return "LOOK_FLESH";
 }
 
+/// The gallbladder lies on the liver; everything else on fat.
+std::string bed_look(const std::string& material) { return material == "gallbladder" ? "LOOK_LIVER" : "LOOK_FAT"; }
+
 std::string mark_look(TargetMark::State state) {
   switch (state) {
     case TargetMark::State::kWaiting: return "MARK_WAITING";
@@ -89,6 +92,7 @@ struct Renderer::Impl {
   void draw_instrument_parts(Program& program, const SceneView& view);
   void shadow_pass(const SceneView& view);
   void scene_pass(const SceneView& view, const ScopeOptics& optics);
+  void tissue_pass(const SceneView& view, const ScopeOptics& optics);
   void decal_pass(const SceneView& view, const ScopeOptics& optics, const std::vector<std::string>& dimple);
   void glow_pass();
   void post_pass(const SceneView& view, const ScopeOptics& optics, const PixelRect& window);
@@ -102,7 +106,8 @@ Renderer::Impl::Impl(HeadlessContext& ctx, const std::filesystem::path& asset_ro
   const std::vector<std::uint8_t> texels = solid_noise_texture(kNoiseSize);
   glBindTexture(GL_TEXTURE_3D, noise.id());
   glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, kNoiseSize, kNoiseSize, kNoiseSize, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
-  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glGenerateMipmap(GL_TEXTURE_3D);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     glTexParameteri(GL_TEXTURE_3D, axis, GL_REPEAT);
@@ -204,14 +209,22 @@ void Renderer::Impl::scene_pass(const SceneView& view, const ScopeOptics& optics
   glEnable(GL_CULL_FACE);
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  // Nothing outside the round field is ever seen.
+  const int half = static_cast<int>(std::ceil(optics.circle_radius() / picture.width * scene.width)) + 2;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(std::max(0, scene.width / 2 - half), 0, std::min(scene.width, 2 * half), scene.height);
   draw_instrument_parts(bind("instrument", "instrument"), view);
-  if (!organ) return;
+  if (organ) tissue_pass(view, optics);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Impl::tissue_pass(const SceneView& view, const ScopeOptics& optics) {
   const std::vector<std::string> dimple = has_dimple(view) ? std::vector<std::string>{"DIMPLED"} : std::vector<std::string>{};
   std::vector<std::string> defines = dimple;
   defines.push_back(tissue_look(view.material));
   bind("tissue", "tissue", defines);
   organ->gpu.draw();
-  bind("tissue", "tissue", {"LOOK_FAT"});
+  bind("tissue", "tissue", {bed_look(view.material)});
   organ->fat.draw();
   bind("tissue", "tissue", {"LOOK_WALL"});
   organ->cavity.draw();

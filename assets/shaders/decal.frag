@@ -29,7 +29,7 @@ void main() {
   float ink, halo;
   vec3 tint;
 #if defined(MARK_LIT)
-  tint = vec3(0.95, 0.78, 0.03);
+  tint = vec3(1.0, 0.84, 0.03);
   float grow = 1.34 + 0.16 * sin(axis.w * 6.2831853);
   ink = max(band(r, 0.80, 1.0, soft), band(r, grow, grow + 0.13, soft));
   ink = max(ink, band(r, -1.0, 0.14, soft));
@@ -42,16 +42,17 @@ void main() {
   float tick = min(stroke(p, vec2(-0.48, 0.02), vec2(-0.12, -0.38)), stroke(p, vec2(-0.12, -0.38), vec2(0.52, 0.42)));
   tint = mix(tint, vec3(0.95), 1.0 - smoothstep(0.11 - soft, 0.11 + soft, tick));
 #else
-  tint = vec3(0.28, 0.66, 0.93);
-  float turn = fract(atan(p.y, p.x) * 8.0 / 6.2831853);
-  float dash = smoothstep(0.10, 0.16, turn) * (1.0 - smoothstep(0.84, 0.90, turn));
-  ink = band(r, 0.84, 1.0, soft) * dash;
-  halo = band(r, 0.76, 1.08, soft) * 0.75;
+  tint = vec3(0.13, 0.50, 1.0);
+  float turn = fract(atan(p.y, p.x) * 6.0 / 6.2831853);
+  float dash = smoothstep(0.06, 0.12, turn) * (1.0 - smoothstep(0.88, 0.94, turn));
+  float inner = min(0.80, 1.0 - 2.2 * soft);  // two pixels wide at least, also far away and seen obliquely
+  ink = band(r, inner, 1.0, 0.6 * soft) * dash;
+  halo = band(r, inner - 0.09, 1.09, soft) * 0.75;
 #endif
   float side = 1.0 - smoothstep(1.2, 1.8, abs(height));  // not on the organ's far side
   vec3 to_lamp = lamp.xyz - v_position;
   float n_l = max(dot(normalize(v_normal), normalize(to_lamp)), 0.0);
-  float power = mix(lamp_power(to_lamp), 0.75, 0.5) * (0.45 + 0.55 * n_l);
+  float power = (0.58 + 0.30 * min(lamp_power(to_lamp), 1.0)) * (0.6 + 0.4 * n_l);  // lit from within: hue holds near and far
   float cover = max(0.92 * ink, 0.55 * halo) * side;
   colour = vec4(power * mix(vec3(0.006), tint, ink), cover);
 }

@@ -28,5 +28,7 @@ float schlick(float f0, float v_h) {
 float lamp_power(vec3 to_lamp) {
   float d2_mm = dot(to_lamp, to_lamp) * 1e6;
   float c = max(dot(-normalize(to_lamp), axis.xyz), 0.0);
-  return lamp.w * c * c * c * c / (d2_mm + 60.0);
+  // Beyond the working distance the camera's gain and light thrown back by the walls soften the fall.
+  float plain = lamp.w * c * c * c * c / (d2_mm + 60.0);
+  return plain < 1.0 ? pow(plain, 0.72) : pow(plain, 0.80);
 }

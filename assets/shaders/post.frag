@@ -19,7 +19,8 @@ void main() {
   vec2 d = (px - u_circle.xy) / u_circle.z;
   float r = length(d);
   float inside = 1.0 - smoothstep(1.0 - 3.0 / u_circle.z, 1.0, r);
-  vec2 notch = vec2(abs(d.x) / 0.030, (d.y - 0.945) / 0.050);
+  float top = min(1.0, (u_size.y - u_circle.y) / u_circle.z);  // of the field as far as the frame shows it
+  vec2 notch = vec2(abs(d.x) / 0.022, (d.y - top + 0.040) / 0.040);
   if (r >= 1.0) {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     return;
@@ -46,6 +47,6 @@ void main() {
   h ^= h >> 16; h *= 0x85EBCA6Bu; h ^= h >> 13; h *= 0xC2B2AE35u; h ^= h >> 16;
   c += (float(h & 1023u) / 1023.0 - 0.5) * 0.022;
 #endif
-  float tooth = step(notch.x, 1.0 - notch.y) * step(0.0, notch.y);
+  float tooth = step(notch.x, notch.y) * step(0.0, notch.y);
   colour = vec4(c * inside * (1.0 - tooth), 1.0);
 }

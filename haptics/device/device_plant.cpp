@@ -18,7 +18,9 @@ std::array<T, kChannels> per_channel(const PlantParameters& p, std::index_sequen
   }
 }
 
-Mat3 point_inertia(double mass, const Vec3& r) { return mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose()); }
+Mat3 point_inertia(double mass, const Vec3& r) {
+  return mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+}
 
 bool finite(const ExternalLoad& load) {
   return load.stylus_B.force.allFinite() && load.stylus_B.moment.allFinite() && std::isfinite(load.jaw_force_n);

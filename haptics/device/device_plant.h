@@ -35,9 +35,9 @@ enum class PlantStatus : std::uint8_t {
 
 /// Motion of stylus and jaw, for the hand and for tests.
 struct StylusMotion {
-  Pose X_BS;        ///< stylus in W'
-  Twist V_BS;       ///< its velocity at the stylus origin, in W'
-  double jaw = 0;   ///< opening, m
+  Pose X_BS;       ///< stylus in W'
+  Twist V_BS;      ///< its velocity at the stylus origin, in W'
+  double jaw = 0;  ///< opening, m
   double jaw_rate = 0;
 };
 
@@ -68,10 +68,10 @@ class DevicePlant {
   /// Loads that the motors deliver at the outputs now, N m (N for the pinch).
   ChannelVector motor_loads() const noexcept;
 
-  Mat6 mass_matrix() const noexcept;        ///< in nu, rotors included
-  double energy() const noexcept;           ///< kinetic and potential of the arm, J
-  JointVector holding_torque() const;       ///< joint torque that carries the weight, N m
-  Mat6 joint_jacobian() const;              ///< d(twist in W')/d(joint rates), linear rows first
+  Mat6 mass_matrix() const noexcept;   ///< in nu, rotors included
+  double energy() const noexcept;      ///< kinetic and potential of the arm, J
+  JointVector holding_torque() const;  ///< joint torque that carries the weight, N m
+  Mat6 joint_jacobian() const;         ///< d(twist in W')/d(joint rates), linear rows first
   const PlantParameters& parameters() const noexcept { return p_; }
 
  private:

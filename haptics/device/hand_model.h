@@ -33,9 +33,9 @@ struct HandParameters {
   double finger_stiffness = 400;  ///< N/m
   double finger_damping = 6;      ///< N s/m
   double finger_limit_n = 15;
-  double force_limit_n = 40;      ///< what a hand can exert on a pen, assumption
+  double force_limit_n = 40;  ///< what a hand can exert on a pen, assumption
   double moment_limit_nm = 2;
-  double tremor_m = 1e-4;         ///< amplitude of the sum over 8 to 12 Hz, each axis; 0 switches it off
+  double tremor_m = 1e-4;  ///< amplitude of the sum over 8 to 12 Hz, each axis; 0 switches it off
 };
 
 HandParameters hand_parameters(GripPreset grip);

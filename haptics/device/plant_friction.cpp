@@ -26,7 +26,8 @@ void PlantFriction::advance(double v_new, double dt) noexcept {
 }
 
 ResistanceLine stop_resistance(const StopParameters& stop, double position, double v_old) noexcept {
-  const double beyond = position > stop.upper ? position - stop.upper : (position < stop.lower ? position - stop.lower : 0.0);
+  const double beyond =
+      position > stop.upper ? position - stop.upper : (position < stop.lower ? position - stop.lower : 0.0);
   if (beyond == 0.0) return {};
   const double spring = stop.stiffness * beyond;
   const bool pushes = (spring + stop.damping * v_old) * beyond > 0;  // the damper may not glue the link to the stop

@@ -13,8 +13,9 @@ constexpr double kRoot6 = kRoot2 * kRoot3;
 // R_P_P': exact roots.
 const Mat3& platform_rotation() {
   static const Mat3 R = (Mat3() << -1 / kRoot3, -1 / kRoot6, -1 / kRoot2,  //
-                         -1 / kRoot3, -1 / kRoot6, 1 / kRoot2,            //
-                         -1 / kRoot3, 2 / kRoot6, 0).finished();
+                         -1 / kRoot3, -1 / kRoot6, 1 / kRoot2,             //
+                         -1 / kRoot3, 2 / kRoot6, 0)
+                            .finished();
   return R;
 }
 
@@ -49,7 +50,8 @@ Mat6 pose_jacobian(const PlantKinematics& k) {
 const Mat3& base_rotation_WB() {
   static const Mat3 R = (Mat3() << 1 / kRoot2, 1 / kRoot6, -1 / kRoot3,  //
                          0, -2 / kRoot6, -1 / kRoot3,                    //
-                         -1 / kRoot2, 1 / kRoot6, -1 / kRoot3).finished();
+                         -1 / kRoot2, 1 / kRoot6, -1 / kRoot3)
+                            .finished();
   return R;
 }
 

@@ -21,14 +21,14 @@ struct PlantConfiguration {
 
 /// Everything geometric about one configuration.
 struct PlantKinematics {
-  Mat3 R_WP, R_W6;           ///< platform, stylus
-  Vec3 p4, p6;               ///< elbow, stylus origin, m
-  Vec3 z4, z6;               ///< elbow (and first wrist) axis, roll axis
-  Vec3 shoulder;             ///< th1..th3, rad
-  Mat3 W;                    ///< columns: passive axes
-  Mat3 UxW;                  ///< columns: U_i x W_i
-  Vec3 b;                    ///< (U_i x W_i) . V_i, the distance from a shoulder lock-up, 1 at best
-  Mat3 Sp;                   ///< shoulder rates = Sp omega_p
+  Mat3 R_WP, R_W6;  ///< platform, stylus
+  Vec3 p4, p6;      ///< elbow, stylus origin, m
+  Vec3 z4, z6;      ///< elbow (and first wrist) axis, roll axis
+  Vec3 shoulder;    ///< th1..th3, rad
+  Mat3 W;           ///< columns: passive axes
+  Mat3 UxW;         ///< columns: U_i x W_i
+  Vec3 b;           ///< (U_i x W_i) . V_i, the distance from a shoulder lock-up, 1 at best
+  Mat3 Sp;          ///< shoulder rates = Sp omega_p
 };
 
 /// Rotation from W' to W: columns are W' axes in W.

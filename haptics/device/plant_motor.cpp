@@ -20,7 +20,8 @@ double PlantMotor::advance(double volts, double output_rate, double dt) noexcept
     decay_ = std::exp(-dt / tau_);
   }
   const double back_emf = torque_constant_ * output_rate / ratio_;
-  // A motor driven faster than its no-load speed has no headroom on one side: current falls to what is left, not past 0.
+  // A motor driven faster than its no-load speed has no headroom on one side: current falls to what is left, not past
+  // 0.
   const double highest = std::clamp((bus_ - back_emf) / resistance_, 0.0, limit_);
   const double lowest = std::clamp((-bus_ - back_emf) / resistance_, -limit_, 0.0);
   const double wanted = std::clamp(gain_ * volts, lowest, highest);

@@ -18,19 +18,19 @@ constexpr double kRotorInertia = 10.3e-7;   // kg m2 (10.3 g cm2) [F]
 constexpr double kCapstanRatio = 0.23;      // joint radian per motor radian [T]
 
 // Amplifier 12A8 in current mode.
-constexpr double kAmplifierGain = 0.431;     // A/V: +-10 V is +-4.31 A, 100 mN m at the motor [C] from [T]
-constexpr double kAmplifierPeak = 12.0;      // A [T]
-constexpr double kAmplifierTau = 0.08e-3;    // s, bandwidth 2 kHz [M]
-constexpr double kBusVoltage = 24.0;         // V, the motor's nominal voltage [T]; supply itself an assumption
+constexpr double kAmplifierGain = 0.431;   // A/V: +-10 V is +-4.31 A, 100 mN m at the motor [C] from [T]
+constexpr double kAmplifierPeak = 12.0;    // A [T]
+constexpr double kAmplifierTau = 0.08e-3;  // s, bandwidth 2 kHz [M]
+constexpr double kBusVoltage = 24.0;       // V, the motor's nominal voltage [T]; supply itself an assumption
 
 // Joint friction at the output of the capstan.
 constexpr double kMotorCoulomb = 0.037 * kTorqueConstant / kCapstanRatio;  // 3.7 mN m from the no-load current [C]
-constexpr double kCableFactor = 2.0;            // cable and bearings, 1.5 to 3: assumption
-constexpr double kJointViscous = 5e-3;          // N m s/rad, 2e-3 to 1e-2: assumption
-constexpr double kStribeckRatio = 1.3;          // assumption
-constexpr double kStribeckSpeed = 0.05;         // rad/s, assumption
-constexpr double kBristleAngle = 1e-3;          // rad, assumption (standard LuGre form)
-constexpr double kBristleDampingInertia = 1e-3; // kg m2, of the order of the arm seen by a joint: assumption
+constexpr double kCableFactor = 2.0;                                       // cable and bearings, 1.5 to 3: assumption
+constexpr double kJointViscous = 5e-3;                                     // N m s/rad, 2e-3 to 1e-2: assumption
+constexpr double kStribeckRatio = 1.3;                                     // assumption
+constexpr double kStribeckSpeed = 0.05;                                    // rad/s, assumption
+constexpr double kBristleAngle = 1e-3;                                     // rad, assumption (standard LuGre form)
+constexpr double kBristleDampingInertia = 1e-3;  // kg m2, of the order of the arm seen by a joint: assumption
 
 // End stops: hard rubber, assumption. 300 N m/rad gives way 2 deg under the strongest hand.
 constexpr double kStopStiffness = 300.0;
@@ -43,8 +43,8 @@ ChannelParameters arm_channel(double lower_deg, double upper_deg) {
   c.rotor_inertia = kRotorInertia;
   c.ratio = kCapstanRatio;
   c.amplifier_gain = kAmplifierGain;
-  c.friction = {kMotorCoulomb * kCableFactor, kStribeckRatio, kStribeckSpeed,
-                kBristleAngle,                kBristleDampingInertia, kJointViscous};
+  c.friction = {kMotorCoulomb * kCableFactor, kStribeckRatio, kStribeckSpeed, kBristleAngle,
+                kBristleDampingInertia,       kJointViscous};
   c.stop = {lower_deg * kDegree, upper_deg * kDegree, kStopStiffness, kStopDamping};
   return c;
 }
@@ -86,7 +86,7 @@ PlantParameters nominal_parameters() {
   p.dac_full_scale = 10.0;  // V [T]
   p.amplifier_time_constant = kAmplifierTau;
   p.current_limit = kAmplifierPeak;
-  p.counts_per_turn = 2000;  // 500 lines, quadrature [T]
+  p.counts_per_turn = 2000;                                       // 500 lines, quadrature [T]
   for (int i = 0; i < 3; ++i) p.channel[i] = arm_channel(0, 90);  // limits: Table 2.4 [T]
   p.channel[3] = arm_channel(-120, 0);
   p.channel[4] = arm_channel(-160, 0);

@@ -49,29 +49,29 @@ struct ChannelParameters {
 
 /// Point mass that turns with the platform, placed by its position in W' at the home pose.
 struct PlatformMass {
-  double mass = 0;                   ///< kg
-  Vec3 position_home = Vec3::Zero(); ///< m, in W'
+  double mass = 0;                    ///< kg
+  Vec3 position_home = Vec3::Zero();  ///< m, in W'
 };
 
 struct PlantParameters {
-  double gravity = 0;                ///< m/s2
-  double link1 = 0, link2 = 0;       ///< m
+  double gravity = 0;                             ///< m/s2
+  double link1 = 0, link2 = 0;                    ///< m
   std::array<PlatformMass, 3> platform_masses{};  ///< wrist motors, link 1, elbow motor
-  double platform_inertia = 0;       ///< kg m2, isotropic about the centre of rotation, legs included
-  double stylus_mass = 0;            ///< kg, link 2 and stylus, lumped
-  Vec3 stylus_com = Vec3::Zero();    ///< m, centre of that mass in the stylus frame
-  Vec3 stylus_inertia = Vec3::Zero();///< kg m2, principal, about the centre of mass, stylus axes
-  double jaw_mass = 0;               ///< kg, jaw and finger pads
+  double platform_inertia = 0;                    ///< kg m2, isotropic about the centre of rotation, legs included
+  double stylus_mass = 0;                         ///< kg, link 2 and stylus, lumped
+  Vec3 stylus_com = Vec3::Zero();                 ///< m, centre of that mass in the stylus frame
+  Vec3 stylus_inertia = Vec3::Zero();             ///< kg m2, principal, about the centre of mass, stylus axes
+  double jaw_mass = 0;                            ///< kg, jaw and finger pads
 
-  double bus_voltage = 0;            ///< V
-  double dac_full_scale = 0;         ///< V
-  double amplifier_time_constant = 0;///< s
-  double current_limit = 0;          ///< A, the amplifier's peak
-  double counts_per_turn = 0;        ///< quadrature counts per motor revolution
+  double bus_voltage = 0;              ///< V
+  double dac_full_scale = 0;           ///< V
+  double amplifier_time_constant = 0;  ///< s
+  double current_limit = 0;            ///< A, the amplifier's peak
+  double counts_per_turn = 0;          ///< quadrature counts per motor revolution
   std::array<ChannelParameters, kChannels> channel{};
 
   JointVector jig_error = JointVector::Zero();  ///< rad, how far the jig holds the joints from the exact home pose
-  double jig_jaw_opening = 0;        ///< m, opening at which the jig holds the jaws
+  double jig_jaw_opening = 0;                   ///< m, opening at which the jig holds the jaws
 };
 
 /// The device as its documents describe it.

@@ -10,7 +10,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kTimeSlack = 1e-9;  // s, against rounding of k * period
+constexpr double kTimeSlack = 1e-9;                             // s, against rounding of k * period
 constexpr std::uint64_t kTremorStream = 0x9E3779B97F4A7C15ull;  // keeps the tremor's draws apart from the device's
 
 void require(bool holds, const std::string& what) {
@@ -21,11 +21,14 @@ const SimulatedDaqConfig& checked(const SimulatedDaqConfig& c) {
   require(c.rate_hz == 1000 || c.rate_hz == 2000 || c.rate_hz == 4000, "rate_hz is 1000, 2000 or 4000");
   require(c.substep_s > 0 && c.substep_s <= 250e-6, "substep_s lies in (0, 250e-6]");
   require(c.dac_bits >= 8 && c.dac_bits <= 24, "dac_bits lies in 8 to 24");
-  require(c.extra_delay_periods >= 0 && c.extra_delay_periods <= kMaxExtraDelayPeriods, "extra_delay_periods is 0 to 63");
+  require(c.extra_delay_periods >= 0 && c.extra_delay_periods <= kMaxExtraDelayPeriods,
+          "extra_delay_periods is 0 to 63");
   for (const InjectedFault& f : c.faults) {
     require(f.channel >= 0 && f.channel < kChannels, "fault channel is 0 to 6");
-    require(std::isfinite(f.at_s) && f.at_s >= 0 && f.duration_s >= 0 && std::isfinite(f.value), "fault times and value");
-    require(f.kind != InjectedFaultKind::kMissedSync || (f.value >= 1 && f.value <= 1000), "missed SYNCs are 1 to 1000");
+    require(std::isfinite(f.at_s) && f.at_s >= 0 && f.duration_s >= 0 && std::isfinite(f.value),
+            "fault times and value");
+    require(f.kind != InjectedFaultKind::kMissedSync || (f.value >= 1 && f.value <= 1000),
+            "missed SYNCs are 1 to 1000");
   }
   return c;
 }
@@ -181,12 +184,13 @@ void SimulatedDaq::apply_faults_after(DaqSample& sample) noexcept {
     }
   }
   for (int i = 0; i < kChannels; ++i) {
-    sample.counts[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(sample.counts[i]) +
-                                                 static_cast<std::uint32_t>(jump_[i]));
+    sample.counts[i] =
+        static_cast<std::int32_t>(static_cast<std::uint32_t>(sample.counts[i]) + static_cast<std::uint32_t>(jump_[i]));
   }
   for (const FaultState& state : faults_) {
     const InjectedFault& f = state.fault;
-    if (f.kind == InjectedFaultKind::kEncoderStuck && lasts(state, now)) sample.counts[f.channel] = last_counts_[f.channel];
+    if (f.kind == InjectedFaultKind::kEncoderStuck && lasts(state, now))
+      sample.counts[f.channel] = last_counts_[f.channel];
   }
 }
 

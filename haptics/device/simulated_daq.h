@@ -50,8 +50,8 @@ struct SimulatedDaqConfig {
   double rate_hz = 1000;     ///< 1000, 2000 or 4000
   double substep_s = 50e-6;  ///< longest sub-step of the plant
   int dac_bits = 16;
-  int extra_delay_periods = 0;  ///< further whole periods between write and DAC, for studies
-  std::uint64_t seed = 1;       ///< true parameters and tremor
+  int extra_delay_periods = 0;           ///< further whole periods between write and DAC, for studies
+  std::uint64_t seed = 1;                ///< true parameters and tremor
   std::optional<PlantParameters> plant;  ///< exact device instead of one drawn by the seed
   HandParameters hand;
   std::vector<InjectedFault> faults;
@@ -59,9 +59,9 @@ struct SimulatedDaqConfig {
 
 /// What the simulated person senses of the device, true values in W'.
 struct HandSense {
-  Pose X_BS;                              ///< stylus
-  Vec3 force_on_hand = Vec3::Zero();      ///< N, mean over the last period
-  double force_on_finger_n = 0;           ///< N, mean over the last period, positive opens the fingers
+  Pose X_BS;                          ///< stylus
+  Vec3 force_on_hand = Vec3::Zero();  ///< N, mean over the last period
+  double force_on_finger_n = 0;       ///< N, mean over the last period, positive opens the fingers
   double jaw_opening_m = 0;
   bool amplifiers_enabled = false;
   bool in_jig = true;

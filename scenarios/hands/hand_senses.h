@@ -35,6 +35,8 @@ class HandSenses {
   void update(const Percept& percept, double pause_s, double dt_s);
   /// The task that has been noticed and thought over.
   const HandTask& task() const { return task_; }
+  /// What the screen asks for now, perhaps not noticed yet.
+  const HandTask& seen() const { return seen_; }
   double force_n() const { return force_.value(); }   ///< contact force as judged for control (bar, else fingers)
   double touch_n() const { return touch_.value(); }   ///< contact force as felt, quick, for noticing contact
   double grip_n() const { return grip_.value(); }

@@ -155,6 +155,15 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
   jaw_m_ = std::clamp(jaw_m_ - closing * dt_s, std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
 }
 
+/// Until the next cue is noticed the person still attends to the old target.
+Percept SkilledHand::attend(const Percept& percept) {
+  if (senses_.seen() == task_) attended_ = percept;
+  Percept view = attended_;
+  view.tip_T = percept.tip_T;
+  view.jaw_opening_m = percept.jaw_opening_m;
+  return view;
+}
+
 HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
   if (!is_ready_) {
     if (!seen_ || percept.device_ready) ready_ = {percept.R_TI, percept.tip_T};
@@ -168,8 +177,13 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
   senses_.update(percept, skill_.pause_s, dt_s);
   if (!(senses_.task() == task_)) {
     task_ = senses_.task();
-    begin_task(percept);
+    begin_task(attend(percept));
   }
+  act(attend(percept), dt_s);
+  return {{ready_.R, intent_T_ + tremor(time_s_)}, jaw_m_};
+}
+
+void SkilledHand::act(const Percept& percept, double dt_s) {
   switch (step_) {
     case Step::kStill: break;
     case Step::kReach:
@@ -189,7 +203,6 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     case Step::kPress: press(percept, dt_s); break;
     case Step::kSqueeze: squeeze(percept, dt_s); break;
   }
-  return {{ready_.R, intent_T_ + tremor(time_s_)}, jaw_m_};
 }
 
 }  // namespace trocar

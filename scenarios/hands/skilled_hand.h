@@ -24,6 +24,8 @@ class SkilledHand : public Hand {
   enum class Step : std::uint8_t { kStill, kReach, kLook, kDescend, kPress, kSqueeze };
 
   static HandSkill drawn_person(const HandSkill& skill, HandRandom& random);
+  Percept attend(const Percept& percept);
+  void act(const Percept& percept, double dt_s);
   void begin_task(const Percept& percept);
   void reach(const Percept& percept, const Vec3& goal_T, bool lift);
   void reach_target(const Percept& percept, bool lift);
@@ -42,6 +44,7 @@ class SkilledHand : public Hand {
   ForceGrip press_, squeeze_;
   ReachPlan plan_;
   HandTask task_;
+  Percept attended_;            ///< target and band that the person works on
   Step step_ = Step::kStill;
   Pose ready_;                  ///< pose seen when the device became ready
   Vec3 intent_T_ = Vec3::Zero();

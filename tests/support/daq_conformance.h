@@ -19,9 +19,9 @@ namespace trocar::test {
 
 struct DaqUnderTest {
   DataAcquisition& daq;
-  std::function<void()> before_read;           ///< whatever must happen before each read (a hand's intent)
-  std::function<ChannelVector()> true_outputs; ///< true joint angles and jaw opening, when known
-  std::function<ChannelVector()> motor_loads;  ///< loads that the motors deliver now, when known
+  std::function<void()> before_read;            ///< whatever must happen before each read (a hand's intent)
+  std::function<ChannelVector()> true_outputs;  ///< true joint angles and jaw opening, when known
+  std::function<ChannelVector()> motor_loads;   ///< loads that the motors deliver now, when known
 };
 
 inline DaqSample read_once(const DaqUnderTest& t) {

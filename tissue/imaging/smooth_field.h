@@ -23,7 +23,7 @@ struct ScalarField {
 };
 
 struct SmoothingWidths {
-  double broad = 0.7;  ///< voxels; where the organ is thick
+  double broad = 0.8;  ///< voxels; where the organ is thick
   double thin = 0.4;   ///< voxels; where it is thinner than three voxels
 };
 

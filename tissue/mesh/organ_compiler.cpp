@@ -1,5 +1,6 @@
 #include "tissue/mesh/organ_compiler.h"
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -8,13 +9,13 @@
 #include "tissue/imaging/smooth_field.h"
 #include "tissue/mesh/isosurface.h"
 #include "tissue/mesh/remesh.h"
+#include "tissue/mesh/surface_fit.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kMlPerM3 = 1e6;
 constexpr int kRemeshIterations = 5;
-constexpr int kAttempts = 4;                ///< finer meshes tried when remeshing leaves self-intersections
 constexpr double kVolumeTolerance = 1e-4;   ///< relative; the budget is 1e-2
 // Mean triangle area of a remeshed surface over that of the equilateral triangle of the wanted edge (measured on the
 // shipped organs); a second pass with the count of the first corrects what is left.
@@ -48,11 +49,6 @@ LevelSurface surface_of_volume(const ScalarField& field, const Vec3& spacing_m, 
   return best;
 }
 
-double edge_for(const TriangleSurface& surface, int triangles) {
-  const double area = surface_area_m2(surface) / triangles / kAreaRatio;
-  return std::sqrt(area * 4 / std::sqrt(3.0));
-}
-
 void round_to_float(TriangleSurface& surface) {
   for (Vec3& vertex : surface.vertices) vertex = vertex.cast<float>().cast<double>();
 }
@@ -76,25 +72,37 @@ struct Remeshed {
   std::size_t self_intersections = 0;
 };
 
-/// Remeshes to about `triangles`, corrects the volume, and goes finer when the result cuts itself.
+/// What one attempt of remeshing does; later attempts are gentler, then finer.
+struct Attempt {
+  double edge_scale;
+  int fit_sweeps;
+};
+constexpr std::array<Attempt, 5> kAttempts{{{1, 4}, {1, 1}, {1, 0}, {0.85, 0}, {0.72, 0}}};
+
+/// Edge length that gives about `triangles`, found by one trial.
+double calibrated_edge(const TriangleSurface& source, int triangles) {
+  const double edge = std::sqrt(surface_area_m2(source) / triangles / kAreaRatio * 4 / std::sqrt(3.0));
+  const auto count = static_cast<double>(remeshed(source, edge, kRemeshIterations).triangles.size());
+  return edge * std::sqrt(count / triangles);
+}
+
+/// Remeshes to about `triangles`, fits, corrects the volume, and tries again when the result cuts itself.
 Remeshed remesh_to(const TriangleSurface& source, int triangles, double volume_m3, std::vector<std::string>& repairs) {
-  double edge = edge_for(source, triangles);
+  const double edge = calibrated_edge(source, triangles);
   Remeshed result;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    result.surface = remeshed(source, edge, kRemeshIterations);
-    const double ratio = static_cast<double>(result.surface.triangles.size()) / triangles;
-    if (attempt == 0 && std::abs(ratio - 1) > 0.02) result.surface = remeshed(source, edge *= std::sqrt(ratio), kRemeshIterations);
+  for (const Attempt& attempt : kAttempts) {
+    result.surface = fitted(remeshed(source, edge * attempt.edge_scale, kRemeshIterations), source, attempt.fit_sweeps);
     const double shift = correct_volume(result.surface, volume_m3);
     round_to_float(result.surface);
     result.self_intersections = count_self_intersections(result.surface);
+    const std::string what = "remeshed to an edge of " + fixed(edge * attempt.edge_scale * 1e3, 2) + " mm, fitted in " +
+                             std::to_string(attempt.fit_sweeps) + " sweeps, moved " + fixed(shift * 1e3, 3) +
+                             " mm along the normals to keep the volume";
     if (result.self_intersections == 0) {
-      repairs.push_back("remeshed to an edge of " + fixed(edge * 1e3, 2) + " mm, then moved " + fixed(shift * 1e3, 3) +
-                        " mm along the normals to keep the volume");
-      return result;
+      repairs.push_back(what);
+      break;
     }
-    repairs.push_back("edge " + fixed(edge * 1e3, 2) + " mm left " + std::to_string(result.self_intersections) +
-                      " self-intersections");
-    edge *= 0.85;
+    repairs.push_back(what + ": " + std::to_string(result.self_intersections) + " self-intersections, not kept");
   }
   return result;
 }

@@ -52,16 +52,24 @@ struct Sample {
   double area_m2;
 };
 
-/// Centroid and edge midpoints of each triangle, each standing for a quarter of its area; nearest first.
+constexpr std::size_t kDenseTriangles = 20000;  ///< from here on a triangle is small enough for one sample
+
+/// Centroid and, on coarse surfaces, edge midpoints of each triangle, sharing its area; nearest first.
 std::vector<Sample> sorted_samples(const TriangleSurface& from, const Tree& to) {
   std::vector<Sample> samples;
-  samples.reserve(from.triangles.size() * 4);
+  auto nearest = to.any_reference_point_and_id();  // neighbouring samples follow each other: the last answer is a good guess
+  const auto measure = [&](const Vec3& q, double area) {
+    const Point query(q.x(), q.y(), q.z());
+    nearest = to.closest_point_and_primitive(query, nearest);
+    samples.push_back({std::sqrt(CGAL::squared_distance(query, nearest.first)), area});
+  };
   for (const auto& triangle : from.triangles) {
     std::array<Vec3, 3> p;
     for (std::size_t n = 0; n < 3; ++n) p[n] = from.vertices[static_cast<std::size_t>(triangle[n])];
-    const double quarter = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 8;
-    for (const Vec3& q : {Vec3((p[0] + p[1] + p[2]) / 3), Vec3((p[0] + p[1]) / 2), Vec3((p[1] + p[2]) / 2), Vec3((p[2] + p[0]) / 2)})
-      samples.push_back({std::sqrt(to.squared_distance(Point(q.x(), q.y(), q.z()))), quarter});
+    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+    const bool dense = from.triangles.size() >= kDenseTriangles;
+    measure((p[0] + p[1] + p[2]) / 3, dense ? area : area / 4);
+    for (std::size_t n = 0; n < 3 && !dense; ++n) measure((p[n] + p[(n + 1) % 3]) / 2, area / 4);
   }
   std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.distance_m < b.distance_m; });
   return samples;
@@ -102,7 +110,6 @@ std::size_t orient_outward(TriangleSurface& surface) {
 SurfaceDistance distance_from_to(const TriangleSurface& from, const TriangleSurface& to) {
   const Mesh mesh = to_cgal(to);
   Tree tree(mesh.faces().begin(), mesh.faces().end(), mesh);
-  tree.accelerate_distance_queries();
   const std::vector<Sample> samples = sorted_samples(from, tree);
   double area = 0;
   for (const Sample& sample : samples) area += sample.area_m2;

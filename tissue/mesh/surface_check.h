@@ -22,7 +22,7 @@ struct SurfaceDistance {
   double max_m = 0;
 };
 
-/// Sampled on the centroid and the edge midpoints of every triangle of `from`, exact to each sample.
+/// Sampled on every triangle of `from` (centroid; edge midpoints too when the surface is coarse), exact at each sample.
 SurfaceDistance distance_from_to(const TriangleSurface& from, const TriangleSurface& to);
 
 }  // namespace trocar

@@ -79,13 +79,15 @@ TEST_P(HandGrip, HoldsTheDeviceStillAtManyPoses) {
     EXPECT_LT(m.V_BS.linear.norm(), 1e-3) << "pose " << n;
     EXPECT_LT(m.V_BS.angular.norm(), 1e-2);
     // What is still pulled is held by friction: no joint carries more than its breakaway.
-    for (int i = 0; i < kArmJoints; ++i) EXPECT_LT(std::abs(tau[i]), 1.3 * p.channel[i].friction.coulomb) << "joint " << i;
+    for (int i = 0; i < kArmJoints; ++i)
+      EXPECT_LT(std::abs(tau[i]), 1.3 * p.channel[i].friction.coulomb) << "joint " << i;
     EXPECT_NEAR(m.jaw, 0.015, 0.2e-3);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Grips, HandGrip,
-                         ::testing::Values(GripPreset::kFingertip, GripPreset::kLight, GripPreset::kNormal, GripPreset::kFirm));
+                         ::testing::Values(GripPreset::kFingertip, GripPreset::kLight, GripPreset::kNormal,
+                                           GripPreset::kFirm));
 
 TEST(HandModel, GripStiffensFromFingertipToFirm) {
   double last = 0;

@@ -107,7 +107,9 @@ TEST(PlantDynamics, WrenchAndMotorsBalanceByVirtualWork) {
   test::idealise_drive(p);
   DevicePlant plant(p);
   PlantRandom random(24);
-  const auto pose = [&](const JointVector& x) { return stylus_pose(evaluate_kinematics(configuration_at(x), p.link1, p.link2)); };
+  const auto pose = [&](const JointVector& x) {
+    return stylus_pose(evaluate_kinematics(configuration_at(x), p.link1, p.link2));
+  };
   for (int n = 0; n < 30; ++n) {
     const JointVector q = test::random_joints(random);
     const Vec3 force = test::random_vector(random, 2.0), moment = test::random_vector(random, 0.2);
@@ -131,7 +133,8 @@ double swing_drift(const PlantParameters& p, const JointVector& q, const JointVe
   plant.place(q, 0.02);
   const double floor = plant.energy();
   plant.set_joint_rates(qd);
-  const double start = plant.energy(), scale = start - floor;  // the motion's own energy, not the arbitrary potential zero
+  const double start = plant.energy(),
+               scale = start - floor;  // the motion's own energy, not the arbitrary potential zero
   double worst = 0;
   const int steps = static_cast<int>(seconds / kStep);
   for (int n = 0; n < steps; ++n) {

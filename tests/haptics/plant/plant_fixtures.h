@@ -48,7 +48,8 @@ inline JointVector random_joints(PlantRandom& random, double margin_deg = 10) {
     q[3] = -(margin_deg + (120 - 2 * margin_deg) * random.unit()) * kDegree;
     q[4] = -(margin_deg + (160 - 2 * margin_deg) * random.unit()) * kDegree;
     q[5] = random.symmetric(std::numbers::pi);
-    const double det = std::sin(q[0]) * std::sin(q[1]) * std::sin(q[2]) + std::cos(q[0]) * std::cos(q[1]) * std::cos(q[2]);
+    const double det =
+        std::sin(q[0]) * std::sin(q[1]) * std::sin(q[2]) + std::cos(q[0]) * std::cos(q[1]) * std::cos(q[2]);
     if (det > 0.3) return q;
   }
 }

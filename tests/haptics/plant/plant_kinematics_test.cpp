@@ -67,7 +67,8 @@ TEST(PlantKinematics, DeterminantOfTheShoulderIsTheKnownClosedForm) {
     const PlantKinematics k = at(q);
     Mat3 A;
     for (int i = 0; i < 3; ++i) A.row(i) = k.W.col(i).cross(k.R_WP.col(i)).transpose();
-    const double closed = std::sin(q[0]) * std::sin(q[1]) * std::sin(q[2]) + std::cos(q[0]) * std::cos(q[1]) * std::cos(q[2]);
+    const double closed =
+        std::sin(q[0]) * std::sin(q[1]) * std::sin(q[2]) + std::cos(q[0]) * std::cos(q[1]) * std::cos(q[2]);
     EXPECT_NEAR(A.determinant(), closed, 1e-13);
   }
 }

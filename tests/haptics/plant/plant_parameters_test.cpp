@@ -28,7 +28,8 @@ TEST(PlantParameters, DrawsStayWithinTheirStatedBounds) {
     const PlantParameters p = draw_parameters(seed);
     for (std::size_t i = 0; i < p.platform_masses.size(); ++i) {
       EXPECT_NEAR(p.platform_masses[i].mass / nominal.platform_masses[i].mass, 1.0, 0.03);
-      EXPECT_LE((p.platform_masses[i].position_home - nominal.platform_masses[i].position_home).cwiseAbs().maxCoeff(), 0.5e-3);
+      EXPECT_LE((p.platform_masses[i].position_home - nominal.platform_masses[i].position_home).cwiseAbs().maxCoeff(),
+                0.5e-3);
     }
     EXPECT_LE(p.jig_error.cwiseAbs().maxCoeff(), 0.05 * std::numbers::pi / 180);
     for (const ChannelParameters& c : p.channel) {

@@ -33,7 +33,8 @@ TEST(PlantRest, WeightBelowFrictionDoesNotCreep) {
   const PlantParameters p = nominal_parameters();
   DevicePlant plant(p);
   plant.enable_amplifiers(true);
-  plant.command_volts(test::volts_for(p, 0.75 * plant.holding_torque()));  // a quarter of the weight is left to friction
+  plant.command_volts(
+      test::volts_for(p, 0.75 * plant.holding_torque()));  // a quarter of the weight is left to friction
   run(plant, 3.0);
   const Vec3 start = plant.motion().X_BS.p;
   run(plant, 2.0);

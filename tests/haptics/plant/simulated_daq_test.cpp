@@ -60,7 +60,8 @@ TEST(SimulatedDaqConformance, CountsFollowMotion) {
   SimulatedDaq daq({});
   daq.arm(true);
   ChannelVector per_output;
-  for (int i = 0; i < kChannels; ++i) per_output[i] = 2000 / (2 * std::numbers::pi) / daq.plant().parameters().channel[i].ratio;
+  for (int i = 0; i < kChannels; ++i)
+    per_output[i] = 2000 / (2 * std::numbers::pi) / daq.plant().parameters().channel[i].ratio;
   test::expect_counts_follow_motion(under_test(daq), 2000, per_output);
 }
 

@@ -1,0 +1,48 @@
+// From a moment of a session to a picture: camera, target marks, instrument and head-up display.
+//
+// Knows the scene and the director; the renderer knows neither. Thread: that of the renderer.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "app/graphics/image.h"
+#include "app/graphics/scene_view.h"
+#include "app/session.h"
+
+namespace trocar {
+
+/// What one picture of the running attempt shows. @param trainee code, shown in the top bar.
+SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T,
+                       const std::string& trainee);
+
+/// Renders an attempt as it runs: every 1/fps s of loop time into DIR/frame_00001.png, or single pictures on demand.
+class AttemptPainter {
+ public:
+  /// @throws EnvironmentError without EGL, font or shaders.
+  AttemptPainter(const Scene& scene, const AssetRoots& assets, std::string trainee, int width = 1280, int height = 720);
+  ~AttemptPainter();
+
+  Image paint(const SessionView& view);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes numbered frames. Call observe() at the tissue rate.
+class FrameWriter {
+ public:
+  /// @param directory made when missing. @throws EnvironmentError.
+  FrameWriter(AttemptPainter& painter, std::filesystem::path directory, double fps);
+  void observe(const SessionView& view);
+  int written() const { return written_; }
+
+ private:
+  AttemptPainter& painter_;
+  std::filesystem::path directory_;
+  double period_s_, next_s_ = 0;
+  int written_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,90 @@
+#include "app/commands/demo_command.h"
+
+#include <fstream>
+#include <optional>
+#include <ostream>
+
+#include "app/attempt_picture.h"
+#include "app/commands/attempt_json.h"
+#include "app/commands/run_command.h"
+#include "app/report/report.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+constexpr int kPictureTarget = 6;       // half way: discs done, lit and waiting are all in view
+constexpr double kPictureHold = 0.5;    // of the hold, so that the force bar stands in its band
+
+/// Takes the one picture of the demo as soon as the moment has come.
+class Photographer {
+ public:
+  Photographer(const Scene& scene, const AssetRoots& assets, const std::string& trainee)
+      : painter_(scene, assets, trainee) {}
+  void observe(const SessionView& view) {
+    const DirectorStatus& status = view.director.status();
+    if (picture_ || status.targets_done < kPictureTarget || status.hold_progress < kPictureHold) return;
+    picture_ = painter_.paint(view);
+  }
+  const std::optional<Image>& picture() const { return picture_; }
+
+ private:
+  AttemptPainter painter_;
+  std::optional<Image> picture_;
+};
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.flush();
+  if (!out) throw EnvironmentError(file.string() + ": cannot be written");
+}
+
+ReportContext report_context(const Scene& scene, const std::filesystem::path& picture) {
+  const Exercise& exercise = scene.setup.exercise;
+  ReportContext context;
+  context.exercise_number = exercise.number;
+  context.exercise_title = exercise.title;
+  context.goal = exercise.goal;
+  context.band = {scene.level.band_low_n, scene.level.band_high_n, exercise.hard_force_n};
+  context.pass_mark = exercise.rubric.pass_at;
+  context.time_limit_s = exercise.time_limit_s;
+  context.picture = picture;
+  context.program_version = TROCAR_VERSION;
+  return context;
+}
+
+}  // namespace
+
+int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& err) {
+  const AssetRoots assets = find_assets();
+  std::error_code error;
+  std::filesystem::create_directories(options.output, error);
+  if (error) throw EnvironmentError(options.output.string() + ": cannot be made: " + error.message());
+
+  RunOptions run;
+  run.exercise = "surface-touch";
+  run.hand = "expert";
+  run.organ = options.organ;
+  run.trainee = "demo-expert";
+  run.database = options.output / "demo.db";
+  run.record = options.output / "recording.trec";
+  const AttemptSetup setup = attempt_setup(run, assets);
+  const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
+  Photographer photographer(scene, assets, run.trainee);
+  const AttemptResult result =
+      run_attempt(run, scene, assets, err, [&](const SessionView& view) { photographer.observe(view); });
+
+  const auto picture = options.output / "picture.png", score = options.output / "score.json",
+             report = options.output / "report.html";
+  if (photographer.picture()) write_png(picture, *photographer.picture());
+  write_text(score, attempt_json(result));
+  const Recording recording = read_recording(run.record);
+  write_report(report, result, rebuild_trace(recording.ticks, recording.rate_hz),
+               report_context(scene, photographer.picture() ? picture : std::filesystem::path{}));
+  print_result(result, out);
+  out << "picture  " << picture.string() << "\nscore    " << score.string() << "\nreport   " << report.string() << '\n';
+  return exit_code(result);
+}
+
+}  // namespace trocar

@@ -1,0 +1,17 @@
+// `trocar demo --headless`: the whole chain once, for someone who has just built the program: picture, score, report.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+namespace trocar {
+
+struct DemoOptions {
+  std::filesystem::path output = "demo";
+  std::string organ = "phantom-liver";
+};
+
+/// Leaves picture.png, score.json, report.html, recording.trec and demo.db in the folder. @return exit code.
+int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace trocar

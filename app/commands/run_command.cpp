@@ -1,0 +1,220 @@
+#include "app/commands/run_command.h"
+
+#include <charconv>
+#include <iomanip>
+#include <map>
+#include <ostream>
+
+#include "app/attempt_picture.h"
+#include "app/commands/attempt_json.h"
+#include "app/commands/open_database.h"
+#include "haptics/input_error.h"
+#include "scenarios/exercise_loader.h"
+#include "scenarios/hands/make_hand.h"
+#include "trainees/attempt_store.h"
+
+namespace trocar {
+namespace {
+
+constexpr int kUnseenBoards = 1000;  // boards of graded runs are drawn by the seed from here on; 0-19 are for practice
+
+const std::map<std::string, InjectedFaultKind>& injection_kinds() {
+  static const std::map<std::string, InjectedFaultKind> kinds{
+      {"encoder-jump", InjectedFaultKind::kEncoderJump}, {"encoder-stuck", InjectedFaultKind::kEncoderStuck},
+      {"channel-invalid", InjectedFaultKind::kChannelInvalid}, {"dac-stuck", InjectedFaultKind::kDacStuck},
+      {"missed-sync", InjectedFaultKind::kMissedSync}, {"hand-nan", InjectedFaultKind::kHandNaN},
+      {"hand-lets-go", InjectedFaultKind::kHandLetsGo}};
+  return kinds;
+}
+
+double number_in(const std::string& text, const std::string& whole) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw InputError("--inject " + whole + ": '" + text + "' is not a number");
+  }
+  return value;
+}
+
+template <typename T>
+T one_of(const std::string& option, const std::string& name, const std::map<std::string, T>& choices) {
+  if (const auto found = choices.find(name); found != choices.end()) return found->second;
+  std::string known;
+  for (const auto& [choice, unused] : choices) known += (known.empty() ? "" : ", ") + choice;
+  throw InputError(option + " " + name + ": unknown; known are " + known);
+}
+
+AttemptStart start_of(const RunOptions& options, const Scene& scene) {
+  AttemptStart start;
+  start.trainee = options.trainee;
+  start.exercise_id = scene.setup.exercise.id;
+  start.exercise_version = scene.setup.exercise.version;
+  start.exercise_text = scene.setup.exercise.text;
+  start.level = scene.level.name;
+  start.seed = scene.setup.seed;
+  start.board = scene.setup.board;
+  start.hand = scene.setup.hand;
+  start.organ_name = scene.organ.name;
+  start.organ_source = scene.organ.source_file;
+  start.organ_sha256 = scene.organ.sha256;
+  start.organ_credit = scene.organ.credit;
+  start.organ_synthetic = scene.organ.synthetic;
+  if (!options.record.empty()) start.recording = options.record;
+  return start;
+}
+
+AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const SessionOutcome& outcome,
+                        const Recording& recording) {
+  AttemptResult result;
+  result.uuid = id.uuid;
+  result.started_utc = id.started_utc;
+  result.exercise_id = start.exercise_id;
+  result.exercise_version = start.exercise_version;
+  result.level = start.level;
+  result.seed = start.seed;
+  result.board = start.board;
+  result.trainee = start.trainee;
+  result.hand = start.hand;
+  result.organ_name = start.organ_name;
+  result.organ_source = start.organ_source;
+  result.organ_sha256 = start.organ_sha256;
+  result.organ_credit = start.organ_credit;
+  result.organ_synthetic = start.organ_synthetic;
+  result.rubric_sha256 = id.rubric_sha256;
+  result.recording_sha256 = recording.sha256;
+  result.recording_path = id.recording.string();
+  result.state_hash = outcome.state_hash_hex;
+  result.grade = grade_recording(recording, id.recording.empty() ? "recording" : id.recording.string());
+  result.events = recording.events;
+  result.device = outcome.device;
+  fill_shares(recording, result.device);
+  return result;
+}
+
+/// Runs into a file or into memory and reads the recording back: what is graded is what was written.
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
+                                                    const std::filesystem::path& file, const SessionObserver& observe) {
+  const std::string header = scene_json(scene);
+  if (file.empty()) {
+    MemorySink memory;
+    RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
+    SessionOutcome outcome = run_session(scene, assets, writer, observe);
+    return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
+  }
+  RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
+  SessionOutcome outcome = run_session(scene, assets, writer, observe);
+  return {std::move(outcome), read_recording(file)};
+}
+
+void say_beginning(const Scene& scene, std::ostream& err) {
+  err << "trocar: " << scene.setup.exercise.number << ' ' << scene.setup.exercise.title << ", " << scene.level.name
+      << ", board " << scene.setup.board << ", hand " << scene.setup.hand << ", organ " << scene.organ.name
+      << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant\n";
+}
+
+}  // namespace
+
+InjectedFault parse_injection(const std::string& text) {
+  const auto at = text.find('@');
+  if (at == std::string::npos) throw InputError("--inject " + text + ": KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION]");
+  std::string head = text.substr(0, at), when = text.substr(at + 1);
+  InjectedFault fault;
+  if (const auto plus = when.find('+'); plus != std::string::npos) {
+    fault.duration_s = number_in(when.substr(plus + 1), text);
+    when.resize(plus);
+  }
+  fault.at_s = number_in(when, text);
+  fault.value = 1000;  // counts of a jump, SYNCs missed: enough to be a fault
+  if (const auto colon = head.find(':'); colon != std::string::npos) {
+    std::string channel = head.substr(colon + 1);
+    head.resize(colon);
+    if (const auto second = channel.find(':'); second != std::string::npos) {
+      fault.value = number_in(channel.substr(second + 1), text);
+      channel.resize(second);
+    }
+    fault.channel = static_cast<int>(number_in(channel, text));
+  }
+  fault.kind = one_of("--inject", head, injection_kinds());
+  if (fault.channel < 0 || fault.channel >= kChannels) throw InputError("--inject " + text + ": channels are 0 to 6");
+  return fault;
+}
+
+AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) {
+  AttemptSetup setup;
+  setup.exercise = find_exercise(options.exercise, assets.exercises);
+  setup.level = options.level;
+  setup.organ = options.organ;
+  setup.hand = options.hand;
+  setup.seed = options.seed;
+  if (options.board && (*options.board < 0 || *options.board > 19)) {
+    throw InputError("--board " + std::to_string(*options.board) + ": practice boards are 0 to 19");
+  }
+  setup.board = options.board ? *options.board : kUnseenBoards + static_cast<int>(options.seed % 1000000);
+  setup.rate_hz = options.rate_hz;
+  setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
+                                         {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});
+  setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law,
+                                             {{"budgeted", PassivityLaw::kBudgeted}, {"off", PassivityLaw::kOff}});
+  for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));
+  return setup;
+}
+
+AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const AssetRoots& assets, std::ostream& err,
+                          const SessionObserver& observe) {
+  make_hand(options.hand, 0, assets.hands);  // a wrong hand is refused before anything is stored
+  Database database = open_database(options.database, OpenMode::kCreate, err);
+  AttemptStore store(database);
+  const AttemptStart start = start_of(options, scene);
+  const AttemptId id = store.begin_attempt(start);
+  say_beginning(scene, err);
+  const auto [outcome, recording] = record_session(scene, assets, id.recording, observe);
+  const AttemptResult result = result_of(start, id, outcome, recording);
+  store.finish_attempt(id, result);
+  if (outcome.patch_triangles_dropped > 0) {
+    err << "trocar: " << outcome.patch_triangles_dropped
+        << " triangles near the tool did not fit into contact patches: the surface is too fine\n";
+  }
+  return result;
+}
+
+int exit_code(const AttemptResult& result) {
+  if (result.grade.status == AttemptStatus::kFault) return 4;
+  return result.grade.passed ? 0 : 1;
+}
+
+void print_result(const AttemptResult& result, std::ostream& out) {
+  const Grade& grade = result.grade;
+  out << std::fixed << std::setprecision(1);
+  out << "status   " << status_name(grade.status) << '\n';
+  out << "score    ";
+  if (grade.score) out << *grade.score << "  (" << grade.grade << ")\n";
+  else out << "none  (" << grade.grade << ")\n";
+  for (const Subscore& s : grade.subscores) {
+    out << "  " << std::left << std::setw(16) << s.name << std::right << std::setw(5) << 100 * s.value << " %  weight "
+        << std::setw(4) << 100 * s.weight << " %" << (s.gate ? "  safety gate" : "") << '\n';
+  }
+  for (const std::string& cap : grade.caps) out << "cap      " << cap << '\n';
+  if (!result.device.fault.empty()) out << "fault    " << result.device.fault << '\n';
+  out << "hash     " << result.state_hash << '\n';
+  out << "attempt  " << result.uuid << '\n';
+}
+
+int run_command(const RunOptions& options, std::ostream& out, std::ostream& err) {
+  const AssetRoots assets = find_assets();
+  const AttemptSetup setup = attempt_setup(options, assets);
+  const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
+  AttemptResult result;
+  if (options.frames.empty()) {
+    result = run_attempt(options, scene, assets, err, {});
+  } else {
+    AttemptPainter painter(scene, assets, options.trainee);
+    FrameWriter frames(painter, options.frames, options.fps);
+    result = run_attempt(options, scene, assets, err, [&](const SessionView& view) { frames.observe(view); });
+    err << "trocar: " << frames.written() << " frames in " << options.frames.string() << '\n';
+  }
+  if (options.json) out << attempt_json(result);
+  else print_result(result, out);
+  return exit_code(result);
+}
+
+}  // namespace trocar

@@ -1,0 +1,55 @@
+// The session: the one place that knows all modules. Runs an attempt, replays a recording, grades either.
+//
+// Live, headless and replay differ only in back-end and executor. A grade is always made from the DECODED recording, so
+// what is stored and what a regrade computes agree to the bit. Thread: one (lockstep).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/recorder/recording_reader.h"
+#include "app/recorder/recording_writer.h"
+#include "app/scene.h"
+#include "scenarios/scoring/attempt_result.h"
+
+namespace trocar {
+
+/// Called at the tissue rate with what a picture or a progress line needs; may be empty.
+struct SessionView {
+  const Scene& scene;
+  const TickRecord& record;
+  const Director& director;
+  double t_s;
+};
+using SessionObserver = std::function<void(const SessionView&)>;
+
+/// What one run of the loop leaves behind, before grading.
+struct SessionOutcome {
+  AttemptStatus status = AttemptStatus::kAborted;
+  std::vector<Event> events;
+  DeviceReceipt device;
+  std::uint64_t state_hash = 0;
+  std::string state_hash_hex;
+  std::uint64_t patch_triangles_dropped = 0;
+};
+
+/// A live attempt on the simulated device with a scripted hand. @param writer receives every tick and is closed.
+SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
+                           const SessionObserver& observe = {});
+
+/// The same loop fed with the recorded device input. @param scene built from the recording's own setup.
+SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe = {});
+
+/// Configuration of the simulated back-end of a setup.
+SimulatedDaqConfig simulated_device(const AttemptSetup& setup);
+
+/// Grade of a recording by its own rubric, or by another exercise file's. The recording is enough: no organ, no device.
+/// @param rubric_of exercise whose rubric to use; nullptr: the one embedded in the recording.
+Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of = nullptr);
+
+/// Saturation and passivity shares, as the receipt states them, from the decoded trace.
+void fill_shares(const Recording& recording, DeviceReceipt& device);
+
+}  // namespace trocar

@@ -1,0 +1,185 @@
+// The shipped exercise loads; every mistake in a file is refused at its place and by its name.
+#include "scenarios/exercise_loader.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "haptics/input_error.h"
+#include "scenarios/strict_toml.h"
+
+namespace trocar {
+namespace {
+
+const std::filesystem::path kExercises = std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises";
+
+std::string shipped_text() { return read_text_file((kExercises / "surface-touch.toml").string()); }
+
+/// The shipped file with the first `from` replaced by `to`.
+std::string edited(const std::string& from, const std::string& to) {
+  std::string text = shipped_text();
+  const auto at = text.find(from);
+  if (at == std::string::npos) ADD_FAILURE() << "not in the file: " << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_exercise(text, "bad.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ExerciseLoader, ReadsTheShippedExercise) {
+  const Exercise e = load_exercise(kExercises / "surface-touch.toml");
+  EXPECT_EQ(e.id, "surface-touch");
+  EXPECT_EQ(e.number, "E02");
+  EXPECT_EQ(e.layout.count, 12);
+  EXPECT_DOUBLE_EQ(e.layout.radius_m, 0.003);
+  EXPECT_DOUBLE_EQ(e.layout.region_x_m, 0.100);
+  EXPECT_DOUBLE_EQ(e.layout.region_y_m, 0.080);
+  EXPECT_DOUBLE_EQ(e.layout.relief_m, 0.020);
+  EXPECT_DOUBLE_EQ(e.surface_stiffness_n_per_m, 150);
+  EXPECT_DOUBLE_EQ(e.hard_force_n, 1.5);
+  EXPECT_DOUBLE_EQ(e.critical_force_n, 4.7);
+  EXPECT_DOUBLE_EQ(e.time_limit_s, 120);
+  EXPECT_DOUBLE_EQ(e.hold_s, 1.0);
+  EXPECT_DOUBLE_EQ(e.grip.low_n, 0.73);
+  EXPECT_DOUBLE_EQ(e.grip.excess_n, 2.5);
+  ASSERT_EQ(e.levels.size(), 1u);
+  EXPECT_EQ(e.levels[0].mapping, Mapping::kDirect);
+  EXPECT_DOUBLE_EQ(e.levels[0].band_low_n, 0.4);
+  EXPECT_DOUBLE_EQ(e.levels[0].band_high_n, 0.8);
+  EXPECT_LT(e.levels[0].force_scale, 0) << "\"auto\" is left to the session";
+}
+
+TEST(ExerciseLoader, ReadsTheRubricWithTimesInUnitsOfTheExpert) {
+  const Exercise e = load_exercise(kExercises / "surface-touch.toml");
+  ASSERT_EQ(e.rubric.subscores.size(), 5u);
+  const SubscoreRule& time = e.rubric.subscores[0];
+  EXPECT_EQ(time.metric, "time_s");
+  EXPECT_NEAR(time.zero_at / time.full_at, 3.0 / 0.7, 1e-12);
+  double sum = 0;
+  int gates = 0;
+  for (const SubscoreRule& rule : e.rubric.subscores) {
+    sum += rule.weight;
+    gates += rule.gate;
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_EQ(gates, 2);
+}
+
+TEST(ExerciseLoader, HashesTheBytesOfTheFile) {
+  // printf abc | sha256sum: the published test vector, here through a file that cannot load, hence via two files.
+  const Exercise one = parse_exercise(shipped_text(), "a.toml"), same = parse_exercise(shipped_text(), "b.toml");
+  const Exercise other = parse_exercise(shipped_text() + "\n", "a.toml");
+  EXPECT_EQ(one.rubric.sha256.size(), 64u);
+  EXPECT_EQ(one.rubric.sha256, same.rubric.sha256);
+  EXPECT_NE(one.rubric.sha256, other.rubric.sha256);
+  EXPECT_EQ(one.text, shipped_text());
+}
+
+TEST(ExerciseLoader, RefusesASlipOfThePenAtItsLineAndColumn) {
+  const std::string message = refusal(edited("hold_s = 1.0  ", "hodl_s = 1.0  "));
+  EXPECT_EQ(message.rfind("bad.toml:10:1: ", 0), 0u) << message;
+  EXPECT_NE(message.find("'hodl_s'"), std::string::npos) << message;
+  EXPECT_NE(message.find("did you mean 'hold_s'?"), std::string::npos) << message;
+}
+
+TEST(ExerciseLoader, RefusesUnknownAndMissingKeys) {
+  EXPECT_NE(refusal(edited("[surface]", "[surface]\ncolour = 3")).find("unknown key 'colour'"), std::string::npos);
+  EXPECT_NE(refusal(edited("soft_n = 0.9", "")).find("missing key 'soft_n'"), std::string::npos);
+  EXPECT_NE(refusal(edited("[grip]", "[gripp]")).find("did you mean 'grip'?"), std::string::npos);
+}
+
+struct BadValue {
+  const char* from;
+  const char* to;
+  const char* message;
+};
+
+class ExerciseLoaderRefuses : public testing::TestWithParam<BadValue> {};
+
+TEST_P(ExerciseLoaderRefuses, NamingThePlaceAndTheKey) {
+  const std::string message = refusal(edited(GetParam().from, GetParam().to));
+  EXPECT_NE(message.find(GetParam().message), std::string::npos) << message;
+  EXPECT_EQ(message.rfind("bad.toml:", 0), 0u) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BadValues, ExerciseLoaderRefuses,
+    testing::Values(
+        BadValue{"hard_n = 1.5", "hard_n = \"1.5\"", "'hard_n' must be a number"},
+        BadValue{"hard_n = 1.5", "hard_n = nan", "'hard_n' must be finite"},
+        BadValue{"hard_n = 1.5", "hard_n = inf", "'hard_n' must be finite"},
+        BadValue{"hard_n = 1.5", "hard_n = -1", "'hard_n' = -1 is out of range"},
+        BadValue{"hard_n = 1.5", "hard_n = 0.5", "'hard_n' must not be below 'soft_n'"},
+        BadValue{"critical_n = 4.7", "critical_n = 1.2", "'critical_n' must be above 'hard_n'"},
+        BadValue{"count = 12", "count = 12.5", "'count' must be a whole number"},
+        BadValue{"count = 12", "count = 0", "'count' = 0 is out of range"},
+        BadValue{"region_mm = [100, 80]", "region_mm = [100]", "'region_mm' must be an array of 2 numbers"},
+        BadValue{"region_mm = [100, 80]", "region_mm = [100, nan]", "'region_mm' must be finite"},
+        BadValue{"min_spacing_mm = 14", "min_spacing_mm = 5", "lets discs overlap"},
+        BadValue{"band_n = [0.4, 0.8]", "band_n = [0.8, 0.4]", "'band_n' must be [low, high]"},
+        BadValue{"band_n = [0.4, 0.8]", "band_n = [0.4, 1.8]", "'band_n' reaches above 'hard_n'"},
+        BadValue{"mapping = \"direct\"", "mapping = \"diret\"", "did you mean 'direct'?"},
+        BadValue{"force_scale = \"auto\"", "force_scale = \"max\"", "must be a number or \"auto\""},
+        BadValue{"metric = \"wrong_places\"", "metric = \"wrong_place\"", "did you mean 'wrong_places'?"},
+        BadValue{"weight = 0.35", "weight = 0.36", "not to 1"},
+        BadValue{"expert_time_s = 37.5", "", "needs 'expert_time_s'"},
+        BadValue{"full_at = 0\nzero_at = 6", "full_at = 6\nzero_at = 6", "'full_at' equals 'zero_at'"},
+        BadValue{"gate = true", "gate = 1", "'gate' must be true or false"},
+        BadValue{"id = \"surface-touch\"", "id = \"\"", "'id' must not be empty"},
+        BadValue{"block_thickness_mm = 8", "block_thickness_mm = 2", "too thin"},
+        BadValue{"[[levels]]", "[levels]", "'levels' must be an array of tables"},
+        BadValue{"time_limit_s = 120", "time_limit_s = ", "bad.toml:9:"}));
+
+TEST(ExerciseLoader, RefusesALevelThatStandsTwice) {
+  const std::string level = "[[levels]]\nname = \"L1\"\nmapping = \"direct\"\nmotion_scale = 1\nforce_scale = 1\n"
+                            "band_n = [0.4, 0.8]\nforce_display = \"always\"\n\n";
+  EXPECT_NE(refusal(edited("[rubric]", level + "[rubric]")).find("stands twice"), std::string::npos);
+}
+
+TEST(ExerciseLoader, FindsByIdNumberAndPath) {
+  EXPECT_EQ(find_exercise("surface-touch", kExercises).number, "E02");
+  EXPECT_EQ(find_exercise("E02", kExercises).id, "surface-touch");
+  EXPECT_EQ(find_exercise((kExercises / "surface-touch.toml").string(), "/nowhere").id, "surface-touch");
+  EXPECT_EQ(list_exercises(kExercises).front().id, "surface-touch");
+}
+
+TEST(ExerciseLoader, ListsWhatItKnowsWhenAskedForSomethingElse) {
+  try {
+    find_exercise("surface-tuch", kExercises);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("known are surface-touch; did you mean 'surface-touch'?"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(find_exercise("x", kExercises / "missing"), InputError);
+  EXPECT_THROW(load_exercise(kExercises / "missing.toml"), InputError);
+}
+
+TEST(ExerciseLoader, ListsLevels) {
+  const Exercise e = load_exercise(kExercises / "surface-touch.toml");
+  EXPECT_EQ(find_level(e, "L1").name, "L1");
+  try {
+    find_level(e, "L9");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'L9': known are L1"), std::string::npos) << error.what();
+  }
+}
+
+TEST(NearestWord, OffersOnlyWhatIsNear) {
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+  EXPECT_EQ(nearest_word("expret", {"expert", "novice"}), "expert");
+  EXPECT_EQ(nearest_word("zebra", {"expert", "novice"}), "");
+}
+
+}  // namespace
+}  // namespace trocar
