@@ -32,7 +32,9 @@ struct Raster {
   Vec3 corner = Vec3::Zero();
   std::vector<double> z;      ///< NaN where the surface is missed or too steep
 
-  double at(int ix, int iy) const { return z[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix)]; }
+  double at(int ix, int iy) const {
+    return z[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix)];
+  }
 };
 
 Raster raster_of(const HeightField& field, double max_slope_rad) {
@@ -112,7 +114,8 @@ void order_targets(const HeightField& field, double retract_m, std::vector<Targe
     for (std::size_t j = 0; j < n; ++j) {
       const double distance = (targets[i].centre_T - targets[j].centre_T).norm();
       const auto row = static_cast<Eigen::Index>(i), col = static_cast<Eigen::Index>(j);
-      cost(row, col) = std::pow(distance - kWantedLeg, 2) + (leg_is_free(field, targets[i], targets[j], retract_m) ? 0 : 1);
+      const double blocked = leg_is_free(field, targets[i], targets[j], retract_m) ? 0 : 1;
+      cost(row, col) = std::pow(distance - kWantedLeg, 2) + blocked;
     }
   }
   std::vector<Eigen::Index> order(n);
@@ -163,7 +166,8 @@ Pose place_organ(const TriangleSurface& organ_RAS, const TargetLayout& layout) {
       }
     }
   }
-  if (best == 0) throw InputError("the organ has no surface that faces forward within the slope limit: no room for a board");
+  if (best == 0)
+    throw InputError("the organ has no surface that faces forward within the slope limit: no room for a board");
   return {turn.R, -centre};
 }
 

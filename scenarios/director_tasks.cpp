@@ -1,9 +1,11 @@
 #include "scenarios/director_tasks.h"
 
+#include <algorithm>
+
 namespace trocar {
 namespace {
 
-constexpr double kRearmShare = 0.8, kRearmTime = 0.2;  // of the limit; s (reference: shared events of the catalogue)
+constexpr double kRearmShare = 0.8, kRearmTime = 0.2;  // of the limit; s (shared events of the catalogue)
 constexpr double kHoldGrace = 0.1;           // s out of the band that only pause the hold
 constexpr double kNewContactAfter = 0.2;     // s without contact before a contact counts as new: bouncing is one contact
 constexpr double kCollisionForce = 2.0;      // N of the shaft on the tissue

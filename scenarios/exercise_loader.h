@@ -1,4 +1,4 @@
-// Exercises from TOML files, strictly: unknown, missing, mistyped or out-of-range keys are refused with line and column.
+// Exercises from TOML files, strictly: unknown, missing, mistyped or out-of-range keys are refused with their place.
 //
 // The file's bytes are kept in Exercise::text and hashed into Rubric::sha256: that hash is the rubric's version.
 // Thread: loading only.

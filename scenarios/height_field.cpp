@@ -58,8 +58,9 @@ std::optional<SurfacePoint> HeightField::top(double x, double y) const {
   std::optional<SurfacePoint> best;
   for (auto k = first_[cell]; k < first_[cell + 1]; ++k) {
     const auto& [ia, ib, ic] = surface_.triangles[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(k)])];
-    const Vec3 &a = surface_.vertices[static_cast<std::size_t>(ia)], &b = surface_.vertices[static_cast<std::size_t>(ib)],
-               &c = surface_.vertices[static_cast<std::size_t>(ic)];
+    const Vec3& a = surface_.vertices[static_cast<std::size_t>(ia)];
+    const Vec3& b = surface_.vertices[static_cast<std::size_t>(ib)];
+    const Vec3& c = surface_.vertices[static_cast<std::size_t>(ic)];
     const auto weights = barycentric(a, b, c, x, y);
     if (!weights) continue;
     const double z = weights->x() * a.z() + weights->y() * b.z() + weights->z() * c.z();

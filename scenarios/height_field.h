@@ -27,7 +27,9 @@ class HeightField {
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
  private:
-  std::size_t column(int ix, int iy) const { return static_cast<std::size_t>(iy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(ix); }
+  std::size_t column(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(columns_x_) + static_cast<std::size_t>(ix);
+  }
   int index_x(double x) const;
   int index_y(double y) const;
 

@@ -97,7 +97,7 @@ void StrictTable::fail(const std::string& key, const std::string& message) const
 
 namespace {
 
-/// The value of a key that must exist; a key that is nearly it, and not otherwise known, is taken for a slip of the pen.
+/// The value of a key that must exist; a key that is nearly it, and not otherwise known, is taken for a slip.
 const toml::node& required(const toml::table& table, const std::string& file, std::vector<std::string>& asked,
                            const std::string& key) {
   asked.push_back(key);
@@ -197,7 +197,8 @@ std::string StrictTable::choice_or(const std::string& key, const std::vector<std
 std::vector<double> StrictTable::numbers(const std::string& key, std::size_t count, double low, double high) {
   const toml::node& value = required(*node_->table, node_->file, node_->asked, key);
   const toml::array* array = value.as_array();
-  if (!array || array->size() != count) fail(key, "'" + key + "' must be an array of " + std::to_string(count) + " numbers");
+  if (!array || array->size() != count)
+    fail(key, "'" + key + "' must be an array of " + std::to_string(count) + " numbers");
   std::vector<double> result;
   for (const toml::node& element : *array)
     result.push_back(checked_number(element, node_->file, key, low, high));

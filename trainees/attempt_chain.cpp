@@ -46,8 +46,9 @@ void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus statu
   std::int64_t position = 1;
   std::string previous;
   {
-    sql::Statement last(connection, "SELECT chain_position, row_hash FROM attempt WHERE chain_position IS NOT NULL"
-                                    " ORDER BY chain_position DESC LIMIT 1");
+    sql::Statement last(connection,
+                        "SELECT chain_position, row_hash FROM attempt WHERE chain_position IS NOT NULL"
+                        " ORDER BY chain_position DESC LIMIT 1");
     if (last.step()) {
       position = last.integer(0) + 1;
       previous = last.text(1);
@@ -61,8 +62,9 @@ void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus statu
 
 std::vector<std::string> check_chain(sqlite3* connection) {
   std::vector<std::string> problems;
-  sql::Statement links(connection, "SELECT id, uuid, chain_position, prev_hash, row_hash, status FROM attempt"
-                                   " WHERE status <> 'running' ORDER BY chain_position");
+  sql::Statement links(connection,
+                       "SELECT id, uuid, chain_position, prev_hash, row_hash, status FROM attempt"
+                       " WHERE status <> 'running' ORDER BY chain_position");
   std::string previous;
   std::int64_t expected = 1;
   while (links.step()) {
@@ -83,7 +85,8 @@ std::vector<std::string> check_chain(sqlite3* connection) {
   sql::Statement versions(connection, "SELECT sha256, toml, exercise_id FROM exercise_version ORDER BY sha256");
   while (versions.step()) {
     if (digest::of_bytes(versions.text(1)) != versions.text(0)) {
-      problems.push_back("exercise " + versions.text(2) + ", version " + versions.text(0).substr(0, 12) + ", was changed");
+      problems.push_back("exercise " + versions.text(2) + ", version " + versions.text(0).substr(0, 12) +
+                         ", was changed");
     }
   }
   return problems;

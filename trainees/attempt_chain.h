@@ -1,9 +1,10 @@
 // The hash chain over finished attempts: a change to any of them, or a gap, shows. Internal to trainees/.
 //
-// row_hash_n = SHA-256("trocar-attempt-1\n" + row_hash_(n-1) + "\n" + n + "\n" + status + "\n" + content_n), where content
-// is every value of the attempt and of its events, metrics, sub-scores and caps with its type, in fixed order;
+// row_hash_n = SHA-256("trocar-attempt-1\n" + row_hash_(n-1) + "\n" + n + "\n" + status + "\n" + content_n), where
+// content is every value of the attempt and of its events, metrics, sub-scores and caps with its type, in fixed order;
 // row_hash_0 is empty. n counts finished attempts from 1. Later columns need a new version of the content. The chain
-// shows changes; it cannot show that the newest attempts were cut off, nor stop who recomputes it: it is not a signature.
+// shows changes; it cannot show that the newest attempts were cut off, nor stop who recomputes it: it is not a
+// signature.
 #pragma once
 
 #include <cstdint>

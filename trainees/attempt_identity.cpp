@@ -24,8 +24,9 @@ std::string make_uuid() {
   const unsigned high = random(), low = random();
   char text[40];
   std::snprintf(text, sizeof text, "%08llx-%04llx-7%03x-%04x-%04x%08x",
-                static_cast<unsigned long long>(milliseconds >> 16), static_cast<unsigned long long>(milliseconds & 0xFFFF),
-                fraction, 0x8000u | ((high >> 16) & 0x3FFFu), high & 0xFFFFu, low);
+                static_cast<unsigned long long>(milliseconds >> 16),
+                static_cast<unsigned long long>(milliseconds & 0xFFFF), fraction, 0x8000u | ((high >> 16) & 0x3FFFu),
+                high & 0xFFFFu, low);
   return text;
 }
 

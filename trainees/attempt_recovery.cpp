@@ -25,8 +25,8 @@ std::vector<RunningAttempt> running_attempts(sqlite3* connection) {
                       "SELECT a.id, a.uuid, t.code, recording_path, owner_pid, owner_boot, owner_start"
                       " FROM attempt a JOIN trainee t ON t.id = a.trainee_id WHERE status = 'running' ORDER BY a.id");
   while (rows.step()) {
-    attempts.push_back({rows.integer(0), rows.text(1), rows.text(2), rows.text(3),
-                        {rows.integer(4), rows.text(5), rows.integer(6)}});
+    attempts.push_back(
+        {rows.integer(0), rows.text(1), rows.text(2), rows.text(3), {rows.integer(4), rows.text(5), rows.integer(6)}});
   }
   return attempts;
 }
@@ -39,8 +39,9 @@ bool abort_attempt(sqlite3* connection, const RunningAttempt& attempt, const std
     sql::Statement again(connection, "SELECT 1 FROM attempt WHERE id = ? AND status = 'running'");
     if (!again.bind(attempt.id).step()) return false;
   }
-  sql::Statement update(connection, "UPDATE attempt SET finished_utc = ?, recording_path = ?, recording_sha256 = ?"
-                                    " WHERE id = ?");
+  sql::Statement update(connection,
+                        "UPDATE attempt SET finished_utc = ?, recording_path = ?, recording_sha256 = ?"
+                        " WHERE id = ?");
   update.bind(utc_now()).bind(recording).bind(sha256).bind(attempt.id).run();
   seal_attempt(connection, attempt.id, AttemptStatus::kAborted);
   transaction.commit();

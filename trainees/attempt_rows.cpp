@@ -42,8 +42,9 @@ void insert_grade(sqlite3* connection, std::int64_t attempt, const Grade& grade)
 
 std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {
   std::vector<Event> events;
-  sql::Statement rows(connection, "SELECT t_s, type, severity, object, value, unit, tip_x_m, tip_y_m, tip_z_m FROM event"
-                                  " WHERE attempt_id = ? ORDER BY position");
+  sql::Statement rows(connection,
+                      "SELECT t_s, type, severity, object, value, unit, tip_x_m, tip_y_m, tip_z_m FROM event"
+                      " WHERE attempt_id = ? ORDER BY position");
   rows.bind(attempt);
   while (rows.step()) {
     events.push_back({rows.real(0), rows.text(1), severity_of(rows.text(2)), static_cast<std::int32_t>(rows.integer(3)),
@@ -66,13 +67,14 @@ void read_attempt_rows(sqlite3* connection, std::int64_t attempt, AttemptResult&
   while (metrics.step()) {
     result.grade.metrics.push_back({metrics.text(0), metrics.optional_real(1), metrics.text(2)});
   }
-  sql::Statement subscores(connection, "SELECT name, value, weight, raw, unit, full_at, zero_at, gate FROM subscore"
-                                       " WHERE attempt_id = ? ORDER BY position");
+  sql::Statement subscores(connection,
+                           "SELECT name, value, weight, raw, unit, full_at, zero_at, gate FROM subscore"
+                           " WHERE attempt_id = ? ORDER BY position");
   subscores.bind(attempt);
   while (subscores.step()) {
-    result.grade.subscores.push_back({subscores.text(0), subscores.real(1), subscores.real(2), subscores.optional_real(3),
-                                      subscores.text(4), subscores.real(5), subscores.real(6),
-                                      subscores.integer(7) != 0});
+    result.grade.subscores.push_back({subscores.text(0), subscores.real(1), subscores.real(2),
+                                      subscores.optional_real(3), subscores.text(4), subscores.real(5),
+                                      subscores.real(6), subscores.integer(7) != 0});
   }
   sql::Statement caps(connection, "SELECT reason FROM score_cap WHERE attempt_id = ? ORDER BY position");
   caps.bind(attempt);

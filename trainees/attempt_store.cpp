@@ -56,16 +56,17 @@ fs::path recording_beside(const Database& database, const std::string& uuid) {
   return database.file().parent_path() / (database.file().stem().string() + ".recordings") / (uuid + ".trec");
 }
 
-void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t trainee, const std::string& stored_recording,
-                    const AttemptId& id) {
+void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t trainee,
+                    const std::string& stored_recording, const AttemptId& id) {
   sql::Statement version(connection, "INSERT INTO exercise_version VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING");
   version.bind(id.rubric_sha256).bind(start.exercise_id).bind(start.exercise_version).bind(start.exercise_text).run();
   const ProcessIdentity owner = this_process();
-  sql::Statement insert(connection,
-                        "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed,"
-                        " board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc,"
-                        " owner_pid, owner_boot, owner_start, recording_path, status)"
-                        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
+  sql::Statement insert(
+      connection,
+      "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed,"
+      " board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc,"
+      " owner_pid, owner_boot, owner_start, recording_path, status)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
   insert.bind(id.uuid).bind(trainee).bind(start.exercise_id).bind(start.exercise_version).bind(id.rubric_sha256);
   insert.bind(start.level).bind(start.seed).bind(start.board).bind(start.hand).bind(start.organ_name);
   insert.bind(start.organ_source).bind(start.organ_sha256).bind(start.organ_synthetic).bind(start.organ_credit);
@@ -73,11 +74,12 @@ void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t
 }
 
 void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording) {
-  sql::Statement update(connection,
-                        "UPDATE attempt SET finished_utc = ?, score = ?, passed = ?, grade = ?, recording_path = ?,"
-                        " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
-                        " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
-                        " kappa = ?, device_fault = ? WHERE id = ?");
+  sql::Statement update(
+      connection,
+      "UPDATE attempt SET finished_utc = ?, score = ?, passed = ?, grade = ?, recording_path = ?,"
+      " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
+      " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
+      " kappa = ?, device_fault = ? WHERE id = ?");
   const DeviceReceipt& device = result.device;
   update.bind(utc_now()).bind(result.grade.score).bind(result.grade.passed).bind(result.grade.grade);
   update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
@@ -229,8 +231,9 @@ std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const 
 
 std::vector<std::string> AttemptStore::check_recordings() const {
   std::vector<std::string> problems;
-  sql::Statement rows(database_->connection(), "SELECT uuid, recording_path, recording_sha256 FROM attempt"
-                                               " WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
+  sql::Statement rows(database_->connection(),
+                      "SELECT uuid, recording_path, recording_sha256 FROM attempt"
+                      " WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
   while (rows.step()) {
     const fs::path file = located_recording(database_->file(), rows.text(1));
     const std::string name = "recording " + file.string() + " of attempt " + rows.text(0);

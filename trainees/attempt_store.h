@@ -22,9 +22,9 @@ namespace trocar {
 
 /// What is known before the loop starts.
 struct AttemptStart {
-  std::string trainee;                 ///< code, created when new
+  std::string trainee;  ///< code, created when new
   std::string exercise_id, exercise_version;
-  std::string exercise_text;           ///< bytes of the exercise file; their sha256 is the rubric's
+  std::string exercise_text;  ///< bytes of the exercise file; their sha256 is the rubric's
   std::string level;
   std::int64_t seed = 0;
   int board = 0;
@@ -38,8 +38,8 @@ struct AttemptStart {
 struct AttemptId {
   std::int64_t row = 0;
   std::string uuid;
-  std::filesystem::path recording;     ///< file to record to, empty when none
-  std::string rubric_sha256;           ///< of the exercise's bytes
+  std::filesystem::path recording;  ///< file to record to, empty when none
+  std::string rubric_sha256;        ///< of the exercise's bytes
   std::string started_utc;
 };
 
@@ -49,7 +49,7 @@ struct AttemptSummary {
   std::string uuid, trainee, exercise_id, level, hand, started_utc;
   std::int64_t seed = 0;
   int board = 0;
-  std::string status;                  ///< status_name(), or "running"
+  std::string status;  ///< status_name(), or "running"
   std::optional<double> score;
   bool passed = false;
   std::string grade;
@@ -59,7 +59,7 @@ struct AttemptSummary {
 /// Empty fields do not filter.
 struct AttemptFilter {
   std::string trainee, exercise_id;
-  int limit = 0;                       ///< newest so many; 0: all
+  int limit = 0;  ///< newest so many; 0: all
 };
 
 class AttemptStore {

@@ -1,4 +1,5 @@
-// The group at a glance: for every trainee, exercise and level what was tried and reached. Thread: that of the Database.
+// The group at a glance: for every trainee, exercise and level what was tried and reached. Thread: that of the
+// Database.
 //
 // Only completed and timed-out attempts are graded; means and the best run over those. Levels are kept apart: a best
 // score over L1 and L3 together would compare nothing.
@@ -18,11 +19,11 @@ inline constexpr const char* kTimeMetric = "time_s";
 
 struct CohortRow {
   std::string trainee, exercise_id, level;
-  int attempts = 0;                    ///< finished, graded or not
+  int attempts = 0;  ///< finished, graded or not
   int graded = 0, passes = 0;
-  std::optional<double> best, last;    ///< scores, 0..100
+  std::optional<double> best, last;                      ///< scores, 0..100
   std::optional<double> mean_peak_force_n, mean_time_s;  ///< empty when no graded attempt has the metric
-  std::string last_utc;                ///< start of the newest attempt
+  std::string last_utc;                                  ///< start of the newest attempt
 };
 
 /// Rows by trainee code, exercise and level. @param trainee only this code; empty: all.

@@ -15,7 +15,7 @@ namespace trocar {
 inline constexpr int kApplicationId = 0x54524352;  // "TRCR"
 
 struct Migration {
-  int version;      ///< the schema version that it leads to; 1, 2, 3, ...
+  int version;  ///< the schema version that it leads to; 1, 2, 3, ...
   const char* sql;
 };
 
@@ -23,8 +23,8 @@ struct Migration {
 std::span<const Migration> shipped_migrations();
 
 struct MigrationReport {
-  int from = 0, to = 0;              ///< equal when nothing was to do; from is 0 for a new database
-  std::filesystem::path backup;      ///< copy made before migrating; empty for a new database or when nothing was done
+  int from = 0, to = 0;          ///< equal when nothing was to do; from is 0 for a new database
+  std::filesystem::path backup;  ///< copy made before migrating; empty for a new database or when nothing was done
 };
 
 /// Brings the database to the newest version of `migrations`, all steps in one transaction.

@@ -23,7 +23,8 @@ void raise(sqlite3* connection, int code, std::string_view doing) {
   const std::string detail = connection == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(connection);
   const std::string message = database_name(connection) + ": " + std::string(doing) + ": " + detail;
   switch (code & 0xFF) {
-    case SQLITE_NOTADB: throw InputError(database_name(connection) + ": is not a database");
+    case SQLITE_NOTADB:
+      throw InputError(database_name(connection) + ": is not a database");
     case SQLITE_CORRUPT:
     case SQLITE_CONSTRAINT:
     case SQLITE_MISMATCH:
@@ -113,8 +114,10 @@ std::string Statement::text(int column) const {
 
 std::string Statement::canonical(int column) const {
   switch (sqlite3_column_type(statement_, column)) {
-    case SQLITE_NULL: return "n;";
-    case SQLITE_INTEGER: return "i" + std::to_string(integer(column)) + ";";
+    case SQLITE_NULL:
+      return "n;";
+    case SQLITE_INTEGER:
+      return "i" + std::to_string(integer(column)) + ";";
     case SQLITE_FLOAT: {
       char hex[20];
       std::snprintf(hex, sizeof hex, "r%016llx;",

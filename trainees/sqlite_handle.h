@@ -48,9 +48,9 @@ class Statement {
   int columns() const;
   bool is_null(int column) const;
   std::int64_t integer(int column) const;
-  double real(int column) const;                       ///< NULL reads as NaN
+  double real(int column) const;  ///< NULL reads as NaN
   std::optional<double> optional_real(int column) const;
-  std::string text(int column) const;                  ///< NULL reads as ""
+  std::string text(int column) const;  ///< NULL reads as ""
   /// The value with its type, for hashing: n; i<decimal>; r<16 hex digits of the bits>; t<length>:<bytes>.
   std::string canonical(int column) const;
 

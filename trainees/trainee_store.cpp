@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kMaxCode = 32;
 
 constexpr const char* kSelect =
-    "SELECT t.id, t.uuid, t.code, t.created_utc, count(a.id), coalesce(sum(a.passed), 0), coalesce(max(a.started_utc), '')"
+    "SELECT t.id, t.uuid, t.code, t.created_utc, count(a.id), coalesce(sum(a.passed), 0), coalesce(max(a.started_utc), "
+    "'')"
     " FROM trainee t LEFT JOIN attempt a ON a.trainee_id = t.id AND a.status <> 'running'";
 
 void check_code(const std::string& code) {
@@ -22,7 +23,8 @@ void check_code(const std::string& code) {
   const auto allowed = [&](char c) { return letter_or_digit(c) || c == '.' || c == '-' || c == '_'; };
   if (code.empty() || code.size() > kMaxCode || !letter_or_digit(code[0]) ||
       !std::all_of(code.begin(), code.end(), allowed)) {
-    throw InputError("trainee code \"" + code + "\": give 1 to 32 letters, digits, '.', '-' or '_', beginning with a "
+    throw InputError("trainee code \"" + code +
+                     "\": give 1 to 32 letters, digits, '.', '-' or '_', beginning with a "
                      "letter or digit");
   }
 }

@@ -13,9 +13,9 @@ namespace trocar {
 struct Trainee {
   std::int64_t id = 0;
   std::string uuid, code, created_utc;
-  int attempts = 0;           ///< finished ones
+  int attempts = 0;  ///< finished ones
   int passes = 0;
-  std::string last_utc;       ///< start of the newest attempt, empty when none
+  std::string last_utc;  ///< start of the newest attempt, empty when none
 };
 
 class TraineeStore {

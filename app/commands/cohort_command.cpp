@@ -16,9 +16,17 @@ int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream
     out << cohort_json(rows);
     return 0;
   }
-  TextTable table({{"trainee"}, {"exercise"}, {"level"}, {"attempts", Align::kRight}, {"graded", Align::kRight},
-                   {"passes", Align::kRight}, {"best", Align::kRight}, {"last", Align::kRight},
-                   {"mean peak N", Align::kRight}, {"mean time s", Align::kRight}, {"last (UTC)"}});
+  TextTable table({{"trainee"},
+                   {"exercise"},
+                   {"level"},
+                   {"attempts", Align::kRight},
+                   {"graded", Align::kRight},
+                   {"passes", Align::kRight},
+                   {"best", Align::kRight},
+                   {"last", Align::kRight},
+                   {"mean peak N", Align::kRight},
+                   {"mean time s", Align::kRight},
+                   {"last (UTC)"}});
   for (const CohortRow& row : rows) {
     table.add({row.trainee, row.exercise_id, row.level, std::to_string(row.attempts), std::to_string(row.graded),
                std::to_string(row.passes), cell(row.best, 1), cell(row.last, 1), cell(row.mean_peak_force_n, 2),

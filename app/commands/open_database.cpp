@@ -13,7 +13,8 @@ Database open_database(const std::filesystem::path& file, OpenMode mode, std::os
   }
   for (const RecoveredAttempt& attempt : database.recovered()) {
     err << "attempt " << attempt.uuid << " of " << attempt.trainee << " was cut off and is now marked as aborted; "
-        << (attempt.recording.empty() ? "it left no recording" : "its recording is readable: " + attempt.recording.string())
+        << (attempt.recording.empty() ? "it left no recording"
+                                      : "its recording is readable: " + attempt.recording.string())
         << '\n';
   }
   return database;

@@ -13,8 +13,16 @@ namespace {
 using Align = TextTable::Align;
 
 void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& out) {
-  TextTable table({{"started (UTC)"}, {"exercise"}, {"level"}, {"board", Align::kRight}, {"hand"}, {"status"},
-                   {"score", Align::kRight}, {"grade"}, {"organ"}, {"attempt"}});
+  TextTable table({{"started (UTC)"},
+                   {"exercise"},
+                   {"level"},
+                   {"board", Align::kRight},
+                   {"hand"},
+                   {"status"},
+                   {"score", Align::kRight},
+                   {"grade"},
+                   {"organ"},
+                   {"attempt"}});
   for (const AttemptSummary& attempt : attempts) {
     table.add({cell_time(attempt.started_utc), attempt.exercise_id, attempt.level, std::to_string(attempt.board),
                attempt.hand, attempt.status, cell(attempt.score, 1), attempt.grade,
@@ -45,7 +53,8 @@ int trainee_list(const TraineeOptions& options, std::ostream& out, std::ostream&
     out << trainees_json(trainees);
     return 0;
   }
-  TextTable table({{"trainee"}, {"attempts", Align::kRight}, {"passes", Align::kRight}, {"last (UTC)"}, {"since (UTC)"}});
+  TextTable table(
+      {{"trainee"}, {"attempts", Align::kRight}, {"passes", Align::kRight}, {"last (UTC)"}, {"since (UTC)"}});
   for (const Trainee& trainee : trainees) {
     table.add({trainee.code, std::to_string(trainee.attempts), std::to_string(trainee.passes),
                cell_time(trainee.last_utc), cell_time(trainee.created_utc)});

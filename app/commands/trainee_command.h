@@ -1,4 +1,5 @@
-// `trocar trainee add|list|show`. Results on `out`, messages on `err`; InputError and EnvironmentError leave as they are.
+// `trocar trainee add|list|show`. Results on `out`, messages on `err`; InputError and EnvironmentError leave as they
+// are.
 #pragma once
 
 #include <filesystem>

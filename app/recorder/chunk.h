@@ -1,7 +1,8 @@
 // The container of a recording: magic and format version, then chunks {type, length, CRC-32, payload}.
 //
-// File = "TROCREC\n", u32 version, then chunks. Chunk = u32 type, u32 payload length, u32 CRC-32 (IEEE 802.3, over type,
-// length and payload), payload. All numbers little-endian. Nothing is ever rewritten, so a crash costs the tail only.
+// File = "TROCREC\n", u32 version, then chunks. Chunk = u32 type, u32 payload length, u32 CRC-32 (IEEE 802.3, over
+// type, length and payload), payload. All numbers little-endian. Nothing is ever rewritten, so a crash costs the tail
+// only.
 #pragma once
 
 #include <cstdint>

@@ -31,16 +31,16 @@ struct RecordedTick {
   std::uint64_t tick = 0;                        ///< loop tick; strictly increasing; time = tick / rate
   std::array<std::int32_t, kChannels> counts{};  ///< exact, wrapping at 32 bit
   std::uint32_t elapsed_periods = 1;
-  std::uint32_t digital_in = 0;                  ///< DigitalInput bits
-  std::array<std::int32_t, 3> tip{};             ///< um
-  std::array<std::int32_t, 3> shaft{};           ///< 1e-4
-  std::array<std::int32_t, 3> force{};           ///< mN, virtual
-  std::int32_t rendered = 0, grip = 0;           ///< mN
-  std::int32_t jaw_opening = 0;                  ///< um
-  std::uint8_t valid = 0x7F;                     ///< bit i: channel i latched correctly
-  std::uint8_t flags = 0;                        ///< RecordedFlag bits
-  std::uint8_t loop_state = 0;                   ///< LoopState
-  std::uint8_t phase = 0;                        ///< code that the session gives to the exercise's phase
+  std::uint32_t digital_in = 0;         ///< DigitalInput bits
+  std::array<std::int32_t, 3> tip{};    ///< um
+  std::array<std::int32_t, 3> shaft{};  ///< 1e-4
+  std::array<std::int32_t, 3> force{};  ///< mN, virtual
+  std::int32_t rendered = 0, grip = 0;  ///< mN
+  std::int32_t jaw_opening = 0;         ///< um
+  std::uint8_t valid = 0x7F;            ///< bit i: channel i latched correctly
+  std::uint8_t flags = 0;               ///< RecordedFlag bits
+  std::uint8_t loop_state = 0;          ///< LoopState
+  std::uint8_t phase = 0;               ///< code that the session gives to the exercise's phase
 
   bool operator==(const RecordedTick&) const = default;
 };

@@ -74,10 +74,15 @@ class Parser {
     if (recording_.end) return report(chunk.offset, "stands after the END");
     try {
       switch (chunk.type) {
-        case ChunkType::kHeader: return report(chunk.offset, "is a second header");
-        case ChunkType::kTicks: return accept_ticks(chunk);
-        case ChunkType::kEvents: return accept_events(chunk);
-        case ChunkType::kEnd: recording_.end = decode_end(chunk.payload); return;
+        case ChunkType::kHeader:
+          return report(chunk.offset, "is a second header");
+        case ChunkType::kTicks:
+          return accept_ticks(chunk);
+        case ChunkType::kEvents:
+          return accept_events(chunk);
+        case ChunkType::kEnd:
+          recording_.end = decode_end(chunk.payload);
+          return;
       }
     } catch (const InputError& error) {
       report(chunk.offset, std::string("cannot be decoded: ") + error.what());

@@ -17,7 +17,7 @@
 namespace trocar {
 
 struct Recording {
-  std::string session;              ///< the opaque text given to the writer
+  std::string session;  ///< the opaque text given to the writer
   double rate_hz = 0;
   std::vector<RecordedTick> ticks;  ///< ticks increase; they may skip only where `damage` or the device says so
   std::vector<Event> events;

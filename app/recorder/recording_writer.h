@@ -1,7 +1,7 @@
 // Writes an attempt's recording: one chunk of ticks a second, events with them, an END chunk when it is closed.
 //
-// What has been flushed survives kill -9; at most one second is lost. A writer that is destroyed without close() flushes
-// what it holds and leaves a readable recording without END. Thread: recorder task (never the haptic task).
+// What has been flushed survives kill -9; at most one second is lost. A writer that is destroyed without close()
+// flushes what it holds and leaves a readable recording without END. Thread: recorder task (never the haptic task).
 #pragma once
 
 #include <cstdint>

@@ -68,10 +68,14 @@ void gather_as(std::span<const RecordedTick> rows, std::size_t offset, Column& c
 
 void gather(std::span<const RecordedTick> rows, const RecordedChannel& channel, Column& column) {
   switch (channel.kind) {
-    case Kind::kInt32: return gather_as<std::int32_t>(rows, channel.offset, column);
-    case Kind::kUint32: return gather_as<std::uint32_t>(rows, channel.offset, column);
-    case Kind::kUint64: return gather_as<std::uint64_t>(rows, channel.offset, column);
-    case Kind::kUint8: return gather_as<std::uint8_t>(rows, channel.offset, column);
+    case Kind::kInt32:
+      return gather_as<std::int32_t>(rows, channel.offset, column);
+    case Kind::kUint32:
+      return gather_as<std::uint32_t>(rows, channel.offset, column);
+    case Kind::kUint64:
+      return gather_as<std::uint64_t>(rows, channel.offset, column);
+    case Kind::kUint8:
+      return gather_as<std::uint8_t>(rows, channel.offset, column);
   }
 }
 
@@ -88,10 +92,14 @@ void scatter_as(const Column& column, std::size_t offset, std::vector<RecordedTi
 
 void scatter(const Column& column, const RecordedChannel& channel, std::vector<RecordedTick>& rows) {
   switch (channel.kind) {
-    case Kind::kInt32: return scatter_as<std::int32_t>(column, channel.offset, rows);
-    case Kind::kUint32: return scatter_as<std::uint32_t>(column, channel.offset, rows);
-    case Kind::kUint64: return scatter_as<std::uint64_t>(column, channel.offset, rows);
-    case Kind::kUint8: return scatter_as<std::uint8_t>(column, channel.offset, rows);
+    case Kind::kInt32:
+      return scatter_as<std::int32_t>(column, channel.offset, rows);
+    case Kind::kUint32:
+      return scatter_as<std::uint32_t>(column, channel.offset, rows);
+    case Kind::kUint64:
+      return scatter_as<std::uint64_t>(column, channel.offset, rows);
+    case Kind::kUint8:
+      return scatter_as<std::uint8_t>(column, channel.offset, rows);
   }
 }
 

@@ -23,8 +23,8 @@ namespace trocar {
 struct RecordedChannel {
   enum class Kind : std::uint8_t { kInt32, kUint32, kUint64, kUint8 };
   std::string_view name, unit;
-  double quantum;       ///< value of one step of the stored whole number, in `unit`
-  std::size_t offset;   ///< of the field in RecordedTick
+  double quantum;      ///< value of one step of the stored whole number, in `unit`
+  std::size_t offset;  ///< of the field in RecordedTick
   Kind kind;
 };
 

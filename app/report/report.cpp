@@ -144,9 +144,9 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
   page += "<div class=\"two top\"><div>" + picture_html(context) + "</div><div>" + summary_html(result, context) + "</div></div>\n";
   page += subscores_html(result.grade);
   page += "<section class=\"force\"><h2>Force against time</h2>" + force_plot_svg(trace, result.events, context.band) + "</section>\n";
-  page += "<div class=\"two\"><section><h2>Events</h2>" + events_html(result, start) + "</section><section><h2>Tip path from above</h2>" +
+  page += "<div class=\"two path\"><div><section><h2>Events</h2>" + events_html(result, start) + "</section>" +
+          metrics_html(result.grade) + "</div><section><h2>Tip path from above</h2>" +
           path_plot_svg(trace, result.events, context.band) + path_key() + "</section></div>\n";
-  page += metrics_html(result.grade);
   page += "<div class=\"two\"><section><h2>Device</h2>" + device_html(result.device) + "</section><section><h2>Organ</h2>" + origin_html(result) + "</section></div>\n";
   return page + footer_html(result, context) + "</body></html>\n";
 }

@@ -181,11 +181,28 @@ void DevicePlant::kick(double dt, const ExternalLoad& load) noexcept {
   Mat6 A = M;  // M + dt S^T D S
   A.topLeftCorner<3, 3>() += dt * (k.Sp.transpose() * r.slope.head<3>().asDiagonal() * k.Sp);
   for (int i = 3; i < kArmJoints; ++i) A(i, i) += dt * r.slope[i];
-  const Vec6 nu_new = A.llt().solve(M * nu_ + dt * drive);
-  nu_dot_ = (nu_new - nu_) / dt;
-  nu_ = nu_new;
+  const Eigen::LLT<Mat6> factor(A);
+  const Vec6 nu_old = nu_;
+  nu_ = factor.solve(M * nu_old + dt * drive);
+  stop_legs(factor);
+  nu_dot_ = (nu_ - nu_old) / dt;
   const JointVector qd_new = to_joint_rates(k, nu_);
   for (int i = 0; i < kArmJoints; ++i) friction_[i].advance(qd_new[i], dt);
+}
+
+void DevicePlant::stop_legs(const Eigen::LLT<Mat6>& mass) noexcept {
+  const PlantKinematics& k = kinematics_;
+  for (int pass = 0; pass < 2; ++pass) {  // two legs can meet at once
+    for (int i = 0; i < 3; ++i) {
+      if (k.b[i] > p_.leg_stop) continue;
+      Vec6 n = Vec6::Zero();  // b_i' = n . nu
+      n.head<3>() = k.R_WP.col(i).cross(k.UxW.col(i));
+      const double closing = n.dot(nu_);
+      if (closing >= 0) continue;
+      const Vec6 kick_back = mass.solve(n);
+      nu_ -= kick_back * (closing / n.dot(kick_back));
+    }
+  }
 }
 
 void DevicePlant::step_pinch(double dt, double force) noexcept {

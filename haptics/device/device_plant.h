@@ -5,12 +5,15 @@
 // Rigid bodies: platform group (legs, wrist motors, link 1, elbow motor) and stylus group (link 2, stylus); Jr are the
 // rotors seen through the capstans. One step is drift - kick - drift: half a step of position, one velocity step with
 // everything evaluated there and friction, stops and viscous loss implicit, half a step of position. Second order.
-// The pinch is a body of its own on the same scheme.
+// Towards the corners of the shoulder's joint box a leg axis V_i turns into its motor axis U_i and the leg would lock
+// up (b_i = 0 in plant_kinematics.h). There the legs meet before: a hard stop without rebound at b_i = leg_stop. The
+// pinch is a body of its own on the same scheme.
 //
 // Frames: outside W' (base, z up), inside W. External wrench: on the stylus, moment about the stylus origin, in W'.
 // Thread: one owner; step() allocates nothing and does not throw.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <array>
 #include <cstdint>
 
@@ -86,6 +89,7 @@ class DevicePlant {
   Vec6 from_joint_loads(const PlantKinematics& k, const Vec6& tau) const noexcept;
   Resistances resist(const JointVector& q, const JointVector& qd, double dt) noexcept;
   void kick(double dt, const ExternalLoad& load) noexcept;
+  void stop_legs(const Eigen::LLT<Mat6>& mass) noexcept;
   void step_pinch(double dt, double force) noexcept;
   void refresh() noexcept;
 

@@ -82,31 +82,37 @@ void HandModel::set_intent(const Pose& X_BS, double jaw_opening_m, double period
     intent_ = Intent::kBroken;
     return;
   }
-  const Eigen::Quaterniond wanted = Eigen::Quaterniond(X_BS.R).normalized();
-  if (!holding()) {
-    from_ = X_BS.p;
-    from_turn_ = wanted;
-    jaw_from_ = jaw_opening_m;
-    step_.setZero();
-    turn_step_.setZero();
-    jaw_step_ = 0;
-    intent_ = Intent::kTaking;
-  } else {
-    const double share = std::min(1.0, elapsed_ / period_);
-    from_ += share * step_;
-    from_turn_ = (turn_by(share * turn_step_) * from_turn_).normalized();
-    jaw_from_ += share * jaw_step_;
-    step_ = X_BS.p - from_;
-    turn_step_ = rotation_vector(wanted * from_turn_.conjugate());
-    jaw_step_ = jaw_opening_m - jaw_from_;
+  wanted_ = X_BS.p;
+  wanted_turn_ = Eigen::Quaterniond(X_BS.R).normalized();
+  wanted_jaw_ = jaw_opening_m;
+  wanted_period_ = period_s;
+  if (intent_ != Intent::kHolding) {
+    intent_ = Intent::kTaking;  // starts at the stylus, which the next update shows
+    return;
   }
-  period_ = period_s;
+  const double share = std::min(1.0, elapsed_ / period_);
+  from_ += share * step_;
+  from_turn_ = (turn_by(share * turn_step_) * from_turn_).normalized();
+  jaw_from_ += share * jaw_step_;
+  plan();
+}
+
+void HandModel::plan() noexcept {
+  step_ = wanted_ - from_;
+  turn_step_ = rotation_vector(wanted_turn_ * from_turn_.conjugate());
+  jaw_step_ = wanted_jaw_ - jaw_from_;
+  period_ = std::max({wanted_period_, step_.norm() / p_.speed_limit, turn_step_.norm() / p_.turn_speed_limit,
+                      std::abs(jaw_step_) / p_.finger_speed_limit});
   elapsed_ = 0;
 }
 
 void HandModel::take_hold(const StylusMotion& tool) noexcept {
   hand_ = tool.X_BS.p;
   hand_rate_ = tool.V_BS.linear;
+  from_ = tool.X_BS.p;
+  from_turn_ = Eigen::Quaterniond(tool.X_BS.R).normalized();
+  jaw_from_ = tool.jaw;
+  plan();
   intent_ = Intent::kHolding;
 }
 

@@ -35,7 +35,11 @@ struct HandParameters {
   double finger_limit_n = 15;
   double force_limit_n = 40;  ///< what a hand can exert on a pen, assumption
   double moment_limit_nm = 2;
-  double tremor_m = 1e-4;  ///< amplitude of the sum over 8 to 12 Hz, each axis; 0 switches it off
+  // How fast a person can want to move: keeps a leap of the intent a movement. Assumption.
+  double speed_limit = 3.0;       ///< m/s
+  double turn_speed_limit = 20;   ///< rad/s
+  double finger_speed_limit = 1;  ///< m/s
+  double tremor_m = 1e-4;         ///< amplitude of the sum over 8 to 12 Hz, each axis; 0 switches it off
 };
 
 HandParameters hand_parameters(GripPreset grip);
@@ -47,9 +51,9 @@ class HandModel {
  public:
   HandModel(const HandParameters& parameters, std::uint64_t tremor_seed);
 
-  /// Wanted pose of the stylus in W' and wanted jaw opening, reached linearly over period_s. The first call takes
-  /// hold of the stylus where it is. A non-finite intent is a fault until a finite one follows; meanwhile the hand
-  /// exerts nothing, and it takes hold anew afterwards.
+  /// Wanted pose of the stylus in W' and wanted jaw opening, reached linearly over period_s or as much longer as the
+  /// speed limits ask. The first call takes hold of the stylus where it is. A non-finite intent is a fault until a
+  /// finite one follows; meanwhile the hand exerts nothing, and it takes hold anew afterwards.
   void set_intent(const Pose& X_BS, double jaw_opening_m, double period_s) noexcept;
   /// Lets go: no wrench until the next intent.
   void let_go() noexcept { intent_ = Intent::kNone; }
@@ -69,6 +73,7 @@ class HandModel {
   static constexpr int kWaves = 3;  ///< sinusoids an axis
 
   void take_hold(const StylusMotion& tool) noexcept;
+  void plan() noexcept;
   void tremble(Vec3& displacement, Vec3& velocity) const noexcept;
   Vec3 pull(const StylusMotion& tool, double share, double moving, double dt) noexcept;
   Vec3 turn(const StylusMotion& tool, double share, double moving) const noexcept;
@@ -76,7 +81,10 @@ class HandModel {
   HandParameters p_;
   std::array<std::array<Wave, kWaves>, 3> waves_;
   Intent intent_ = Intent::kNone;
-  // Intent moves from `from` by `step` (and turn vector `turn_`) over period_, share_ in [0, 1] of it done.
+  // The goal moves from `from_` by `step_` (and turn vector `turn_step_`) over period_, to the wanted pose.
+  Vec3 wanted_ = Vec3::Zero();
+  Eigen::Quaterniond wanted_turn_ = Eigen::Quaterniond::Identity();
+  double wanted_jaw_ = 0, wanted_period_ = 1e-3;
   Vec3 from_ = Vec3::Zero(), step_ = Vec3::Zero();
   Eigen::Quaterniond from_turn_ = Eigen::Quaterniond::Identity();
   Vec3 turn_step_ = Vec3::Zero();

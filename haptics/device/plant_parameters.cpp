@@ -72,9 +72,10 @@ void set_masses(PlantParameters& p) {
   p.platform_masses[1] = {0.20 / kGravity, {0.0, 0.0, -0.073}};      // link 1
   p.platform_masses[2] = {1.61 / kGravity, {0.0, 0.0125, -0.146}};   // elbow motor
   p.platform_inertia = 1e-4;                                         // kg m2, platform and legs: assumption
-  p.stylus_mass = 0.76 / kGravity;                                   // link 2 and stylus at the stylus origin [T]
-  p.stylus_inertia = {8e-5, 8e-5, 1e-5};                             // kg m2, a 12 cm pen with its pinch: assumption
-  p.jaw_mass = 0.020;                                                // kg, jaw and finger pads: assumption
+  p.leg_stop = 0.04;  // 2.3 deg before a leg locks up, below det A 0.05 where a controller faults: assumption
+  p.stylus_mass = 0.76 / kGravity;        // link 2 and stylus at the stylus origin [T]
+  p.stylus_inertia = {8e-5, 8e-5, 1e-5};  // kg m2, a 12 cm pen with its pinch: assumption
+  p.jaw_mass = 0.020;                     // kg, jaw and finger pads: assumption
 }
 
 }  // namespace

@@ -58,10 +58,11 @@ struct PlantParameters {
   double link1 = 0, link2 = 0;                    ///< m
   std::array<PlatformMass, 3> platform_masses{};  ///< wrist motors, link 1, elbow motor
   double platform_inertia = 0;                    ///< kg m2, isotropic about the centre of rotation, legs included
-  double stylus_mass = 0;                         ///< kg, link 2 and stylus, lumped
-  Vec3 stylus_com = Vec3::Zero();                 ///< m, centre of that mass in the stylus frame
-  Vec3 stylus_inertia = Vec3::Zero();             ///< kg m2, principal, about the centre of mass, stylus axes
-  double jaw_mass = 0;                            ///< kg, jaw and finger pads
+  double leg_stop = 0;                 ///< sine of the angle between a leg and its motor axis at which legs meet
+  double stylus_mass = 0;              ///< kg, link 2 and stylus, lumped
+  Vec3 stylus_com = Vec3::Zero();      ///< m, centre of that mass in the stylus frame
+  Vec3 stylus_inertia = Vec3::Zero();  ///< kg m2, principal, about the centre of mass, stylus axes
+  double jaw_mass = 0;                 ///< kg, jaw and finger pads
 
   double bus_voltage = 0;              ///< V
   double dac_full_scale = 0;           ///< V

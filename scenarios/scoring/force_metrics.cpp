@@ -62,9 +62,9 @@ std::vector<Window> windows_between(const std::vector<Event>& events, const std:
     const Event& event = events[i];
     if (event.type != opening || std::find(seen.begin(), seen.end(), event.object) != seen.end()) continue;
     seen.push_back(event.object);
-    const auto closed = std::find_if(events.begin() + static_cast<std::ptrdiff_t>(i), events.end(), [&](const Event& e) {
-      return e.type == closing && e.object == event.object;
-    });
+    const auto closed =
+        std::find_if(events.begin() + static_cast<std::ptrdiff_t>(i), events.end(),
+                     [&](const Event& e) { return e.type == closing && e.object == event.object; });
     windows.push_back({event.t_s, closed == events.end() ? end : closed->t_s});
   }
   return windows;

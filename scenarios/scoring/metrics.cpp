@@ -2,56 +2,63 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 namespace trocar {
 
+namespace {
+
+constexpr MetricDefinition kCatalogue[] = {
+    {"time_s", "s", "from START to the end of the attempt"},
+    {"path_m", "m", "length of the tip's path, filtered at 10 Hz and taken at 100 Hz"},
+    {"path_x_m", "m", "sum of the tip's motion along x of the theatre"},
+    {"path_y_m", "m", "sum of the tip's motion along y of the theatre"},
+    {"path_z_m", "m", "sum of the tip's motion along z of the theatre"},
+    {"ideal_path_m", "m", "start to each held target in turn, withdrawing by the retract height between them"},
+    {"economy", "1", "ideal path / path"},
+    {"path_ratio", "1", "path / ideal path"},
+    {"depth_path_m", "m", "sum of the tip's motion along the shaft (depth perception)"},
+    {"angular_path_deg", "deg", "angle swept by the shaft, taken at 10 Hz"},
+    {"speed_mean_mps", "m/s", "mean speed of the tip"},
+    {"speed_max_mps", "m/s", "highest speed of the tip"},
+    {"speed_peaks", "1", "local maxima of the speed that stand out by at least 5 mm/s"},
+    {"speed_peak_rate_hz", "1/s", "speed peaks per second"},
+    {"idle_share", "1", "share of time slower than 5 mm/s for at least 0.5 s"},
+    {"movements", "1", "stretches faster than 10 mm/s that last at least 0.5 s"},
+    {"sparc", "1", "spectral arc length of the speed, mean over movements; nearer 0 is smoother"},
+    {"ldlj", "1", "log dimensionless jerk (6 Hz filter), mean over movements; nearer 0 is smoother"},
+    {"normalised_jerk", "1", "sqrt(T^5 / (2 L^2) x integral of squared jerk), mean over movements; 19.0 is ideal"},
+    {"tremor_rms_m", "m", "displacement of the tip between 8 and 12 Hz, RMS, unfiltered trace"},
+    {"tremor_share", "1", "velocity power between 8 and 12 Hz / above 0.3 Hz"},
+    {"contact_time_s", "s", "time in contact with the tissue"},
+    {"force_max_n", "N", "largest contact force"},
+    {"force_mean_n", "N", "mean contact force over the time in contact"},
+    {"force_rms_n", "N", "root mean square of the contact force over the time in contact"},
+    {"force_sd_n", "N", "standard deviation of the contact force over the time in contact"},
+    {"impulse_ns", "N s", "integral of the contact force"},
+    {"impulse_max_ns", "N s", "integral of the contact force over the heaviest single contact"},
+    {"force_volume_n3", "N^3", "ellipsoid of the standard deviations of the force along its principal axes"},
+    {"soft_force_share", "1", "share of contact time above the soft force limit"},
+    {"force_rate_max_n_per_s", "N/s", "steepest change of the contact force, filtered at 20 Hz"},
+    {"in_band_share", "1", "share of the pressing time in which the force is in the wanted band"},
+    {"grip_max_n", "N", "largest grip force"},
+    {"grip_mean_n", "N", "mean grip force while gripping"},
+    {"grip_in_band_share", "1", "share of the squeezing time in which the grip is in the wanted band"},
+    {"regrasps", "1", "grasps after the first"},
+    {"saturated_contact_share", "1", "share of contact ticks in which the device could not give the force"},
+    {"passivity_active_share", "1", "share of contact ticks in which the passivity law changed the force"},
+    {"targets_held", "1", "targets held in the band for the wanted time"},
+    {"objects_done_share", "1", "objects done / objects of the exercise"},
+    {"wrong_places", "1", "contacts that began outside the lit target"},
+    {"excess_events", "1", "times that contact or grip went above its hard limit"},
+    {"critical_events", "1", "events of critical severity"},
+    {"tool_collisions", "1", "times that the shaft pressed on the tissue"},
+};
+
+}  // namespace
+
 const std::vector<MetricDefinition>& metric_catalogue() {
-  static const std::vector<MetricDefinition> catalogue = {
-      {"time_s", "s", "from START to the end of the attempt"},
-      {"path_m", "m", "length of the tip's path, filtered at 10 Hz and taken at 100 Hz"},
-      {"path_x_m", "m", "sum of the tip's motion along x of the theatre"},
-      {"path_y_m", "m", "sum of the tip's motion along y of the theatre"},
-      {"path_z_m", "m", "sum of the tip's motion along z of the theatre"},
-      {"ideal_path_m", "m", "start to each held target in turn, withdrawing by the retract height between them"},
-      {"economy", "1", "ideal path / path"},
-      {"path_ratio", "1", "path / ideal path"},
-      {"depth_path_m", "m", "sum of the tip's motion along the shaft (depth perception)"},
-      {"angular_path_deg", "deg", "angle swept by the shaft, taken at 10 Hz"},
-      {"speed_mean_mps", "m/s", "mean speed of the tip"},
-      {"speed_max_mps", "m/s", "highest speed of the tip"},
-      {"speed_peaks", "1", "local maxima of the speed that stand out by at least 5 mm/s"},
-      {"speed_peak_rate_hz", "1/s", "speed peaks per second"},
-      {"idle_share", "1", "share of time slower than 5 mm/s for at least 0.5 s"},
-      {"movements", "1", "stretches faster than 10 mm/s that last at least 0.5 s"},
-      {"sparc", "1", "spectral arc length of the speed, mean over movements; nearer 0 is smoother"},
-      {"ldlj", "1", "log dimensionless jerk (6 Hz filter), mean over movements; nearer 0 is smoother"},
-      {"normalised_jerk", "1", "sqrt(T^5 / (2 L^2) x integral of squared jerk), mean over movements; 19.0 is ideal"},
-      {"tremor_rms_m", "m", "displacement of the tip between 8 and 12 Hz, RMS, unfiltered trace"},
-      {"tremor_share", "1", "velocity power between 8 and 12 Hz / above 0.3 Hz"},
-      {"contact_time_s", "s", "time in contact with the tissue"},
-      {"force_max_n", "N", "largest contact force"},
-      {"force_mean_n", "N", "mean contact force over the time in contact"},
-      {"force_rms_n", "N", "root mean square of the contact force over the time in contact"},
-      {"force_sd_n", "N", "standard deviation of the contact force over the time in contact"},
-      {"impulse_ns", "N s", "integral of the contact force"},
-      {"impulse_max_ns", "N s", "integral of the contact force over the heaviest single contact"},
-      {"force_volume_n3", "N^3", "ellipsoid of the standard deviations of the force along its principal axes"},
-      {"soft_force_share", "1", "share of contact time above the soft force limit"},
-      {"force_rate_max_n_per_s", "N/s", "steepest change of the contact force, filtered at 20 Hz"},
-      {"in_band_share", "1", "share of the pressing time in which the force is in the wanted band"},
-      {"grip_max_n", "N", "largest grip force"},
-      {"grip_mean_n", "N", "mean grip force while gripping"},
-      {"grip_in_band_share", "1", "share of the squeezing time in which the grip is in the wanted band"},
-      {"regrasps", "1", "grasps after the first"},
-      {"saturated_contact_share", "1", "share of contact ticks in which the device could not give the force"},
-      {"passivity_active_share", "1", "share of contact ticks in which the passivity law changed the force"},
-      {"targets_held", "1", "targets held in the band for the wanted time"},
-      {"objects_done_share", "1", "objects done / objects of the exercise"},
-      {"wrong_places", "1", "contacts that began outside the lit target"},
-      {"excess_events", "1", "times that contact or grip went above its hard limit"},
-      {"critical_events", "1", "events of critical severity"},
-      {"tool_collisions", "1", "times that the shaft pressed on the tissue"},
-  };
+  static const std::vector<MetricDefinition> catalogue(std::begin(kCatalogue), std::end(kCatalogue));
   return catalogue;
 }
 

@@ -4,7 +4,7 @@
 //   a gate below its floor            S <= rubric.gate_cap
 //   an event of critical severity     S <= rubric.critical_cap
 //   not finished                      S <= rubric.unfinished_cap * objects done / objects
-// Aborted, fault and void attempts carry no number. Pure and deterministic: live scoring and regrading agree to the bit.
+// Aborted, fault and void attempts carry no number. Pure: live scoring and regrading agree to the bit.
 #pragma once
 
 #include <vector>

@@ -88,7 +88,8 @@ int count_peaks(const std::vector<double>& signal, double prominence) {
   while (i + 1 < signal.size()) {
     std::size_t plateau_end = i;
     while (plateau_end + 1 < signal.size() && signal[plateau_end + 1] == signal[i]) ++plateau_end;
-    const bool top = signal[i] > signal[i - 1] && plateau_end + 1 < signal.size() && signal[plateau_end + 1] < signal[i];
+    const bool falls = plateau_end + 1 < signal.size() && signal[plateau_end + 1] < signal[i];
+    const bool top = signal[i] > signal[i - 1] && falls;
     if (top) {
       const double base = std::max(flank_minimum(signal, i, -1), flank_minimum(signal, plateau_end, 1));
       if (signal[i] - base >= prominence) ++count;

@@ -130,8 +130,7 @@ TEST_F(RecordingDisk, AFailedRecordingTakesNothingMore) {
   } sink;
   RecordingWriter writer(sink, "s", 10);
   RecordedTick row;
-  EXPECT_THROW(
-      for (row.tick = 0; row.tick < 20; ++row.tick) writer.append(row), EnvironmentError);
+  EXPECT_THROW(for (row.tick = 0; row.tick < 20; ++row.tick) writer.append(row), EnvironmentError);
   EXPECT_THROW(writer.append(row), EnvironmentError);
   EXPECT_THROW(writer.close({}), EnvironmentError);
 }

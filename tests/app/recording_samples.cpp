@@ -84,7 +84,8 @@ std::vector<RecordedTick> arbitrary_ticks(std::size_t count, std::uint64_t seed)
     row.rendered = any();
     row.grip = any();
     row.jaw_opening = any();
-    for (auto* byte : {&row.valid, &row.flags, &row.loop_state, &row.phase}) *byte = static_cast<std::uint8_t>(random());
+    for (auto* byte : {&row.valid, &row.flags, &row.loop_state, &row.phase})
+      *byte = static_cast<std::uint8_t>(random());
   }
   return rows;
 }

@@ -158,11 +158,12 @@ TEST(AttemptJson, HasTheAgreedKeys) {
   result.hand = "expert";
   result.uuid = "u";
   const Json json = Json::parse(attempt_json(result));
-  for (const char* key : {"exercise", "trainee", "hand", "status", "score", "passed", "grade", "subscores", "caps", "events",
-                          "metrics", "device", "organ", "rubric_sha256", "recording_sha256", "state_hash"}) {
+  for (const char* key : {"exercise", "trainee", "hand", "status", "score", "passed", "grade", "subscores", "caps",
+                          "events", "metrics", "device", "organ", "rubric_sha256", "recording_sha256", "state_hash"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
-  EXPECT_EQ(json["exercise"], Json({{"id", "surface-touch"}, {"version", "1.0"}, {"level", "L1"}, {"seed", 42}, {"board", 0}}));
+  EXPECT_EQ(json["exercise"],
+            Json({{"id", "surface-touch"}, {"version", "1.0"}, {"level", "L1"}, {"seed", 42}, {"board", 0}}));
   EXPECT_EQ(json["status"], "completed");
   EXPECT_EQ(json["score"], 81.25);
   for (const char* key : {"name", "value", "weight", "raw", "unit", "full_at", "zero_at", "gate"}) {
@@ -173,8 +174,8 @@ TEST(AttemptJson, HasTheAgreedKeys) {
   EXPECT_EQ(json["events"][1]["severity"], "critical");
   EXPECT_TRUE(json["events"][1]["object"].is_null());
   EXPECT_EQ(json["metrics"]["time_s"], Json({{"value", 41.5}, {"unit", "s"}}));
-  for (const char* key : {"backend", "rate_hz", "ticks", "overruns", "saturated_contact_share", "passivity_active_share",
-                          "min_energy_j"}) {
+  for (const char* key : {"backend", "rate_hz", "ticks", "overruns", "saturated_contact_share",
+                          "passivity_active_share", "min_energy_j"}) {
     EXPECT_TRUE(json["device"].contains(key)) << key;
   }
   EXPECT_TRUE(json["organ"].contains("source") && json["organ"].contains("sha256"));

@@ -81,7 +81,8 @@ TEST(PlaceOrgan, IsNotMovedByWhereTheImageLay) {
   const Exercise exercise = shipped();
   const TriangleSurface organ = liver_like();
   const Pose shift{Mat3::Identity(), Vec3(0.31, -0.22, 0.55)};
-  const Pose direct = place_organ(organ, exercise.layout), moved = place_organ(organ.transformed(shift), exercise.layout);
+  const Pose direct = place_organ(organ, exercise.layout);
+  const Pose moved = place_organ(organ.transformed(shift), exercise.layout);
   EXPECT_LT(((moved * shift).p - direct.p).norm(), 1e-6);
 }
 

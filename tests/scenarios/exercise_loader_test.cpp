@@ -73,7 +73,6 @@ TEST(ExerciseLoader, ReadsTheRubricWithTimesInUnitsOfTheExpert) {
 }
 
 TEST(ExerciseLoader, HashesTheBytesOfTheFile) {
-  // printf abc | sha256sum: the published test vector, here through a file that cannot load, hence via two files.
   const Exercise one = parse_exercise(shipped_text(), "a.toml"), same = parse_exercise(shipped_text(), "b.toml");
   const Exercise other = parse_exercise(shipped_text() + "\n", "a.toml");
   EXPECT_EQ(one.rubric.sha256.size(), 64u);

@@ -14,10 +14,10 @@ class AttemptChain : public TemporaryFolder {
   }
   /// What check() says after the change, with the triggers out of the way.
   std::string after(const std::string& sql) {
-    const char* triggers[] = {"attempt_no_update", "attempt_no_delete",    "attempt_keeps_identity", "metric_no_update",
-                              "event_no_delete",   "subscore_no_update",   "exercise_version_no_update",
-                              "event_no_update",   "score_cap_no_update",  "metric_no_delete", "subscore_no_delete",
-                              "score_cap_no_delete"};
+    const char* triggers[] = {"attempt_no_update",          "attempt_no_delete",  "attempt_keeps_identity",
+                              "metric_no_update",           "event_no_delete",    "subscore_no_update",
+                              "exercise_version_no_update", "event_no_update",    "score_cap_no_update",
+                              "metric_no_delete",           "subscore_no_delete", "score_cap_no_delete"};
     for (const char* trigger : triggers) {
       EXPECT_EQ(run_outside(file_, std::string("DROP TRIGGER ") + trigger), "");
     }

@@ -64,8 +64,9 @@ TEST(AttemptStore, ReadsBackWhatWasFinished) {
   EXPECT_EQ(store.exercise_text(back.rubric_sha256), start.exercise_text);
   EXPECT_EQ(std::tie(back.level, back.seed, back.board, back.trainee, back.hand),
             std::tie(start.level, start.seed, start.board, start.trainee, start.hand));
-  EXPECT_EQ(std::tie(back.organ_name, back.organ_source, back.organ_sha256, back.organ_synthetic, back.organ_credit),
-            std::tie(start.organ_name, start.organ_source, start.organ_sha256, start.organ_synthetic, start.organ_credit));
+  EXPECT_EQ(
+      std::tie(back.organ_name, back.organ_source, back.organ_sha256, back.organ_synthetic, back.organ_credit),
+      std::tie(start.organ_name, start.organ_source, start.organ_sha256, start.organ_synthetic, start.organ_credit));
 }
 
 TEST(AttemptStore, KeepsAnAbsentScoreAbsentAndNotANumberUndefined) {
@@ -170,16 +171,29 @@ TEST_F(AttemptFile, AFinishedAttemptCannotBeChangedFromOutside) {
     id = store_attempt(database, sample_start(), sample_result());
   }
   const std::string changes[] = {
-      "UPDATE attempt SET score = 100", "UPDATE attempt SET status = 'running'", "DELETE FROM attempt",
-      "UPDATE event SET value = 0", "DELETE FROM event", "UPDATE metric SET value = 0", "DELETE FROM metric",
-      "UPDATE subscore SET value = 1", "DELETE FROM subscore", "DELETE FROM score_cap", "UPDATE score_cap SET reason = ''",
+      "UPDATE attempt SET score = 100",
+      "UPDATE attempt SET status = 'running'",
+      "DELETE FROM attempt",
+      "UPDATE event SET value = 0",
+      "DELETE FROM event",
+      "UPDATE metric SET value = 0",
+      "DELETE FROM metric",
+      "UPDATE subscore SET value = 1",
+      "DELETE FROM subscore",
+      "DELETE FROM score_cap",
+      "UPDATE score_cap SET reason = ''",
       "INSERT INTO event SELECT attempt_id, 99, t_s, type, severity, object, value, unit, 0, 0, 0 FROM event LIMIT 1",
-      "INSERT INTO metric VALUES (1, 99, 'luck', 1, '')", "INSERT OR REPLACE INTO metric VALUES (1, 0, 'time', 1, 's')",
+      "INSERT INTO metric VALUES (1, 99, 'luck', 1, '')",
+      "INSERT OR REPLACE INTO metric VALUES (1, 0, 'time', 1, 's')",
       "INSERT INTO subscore SELECT attempt_id, 99, 'luck', 1, 1, 1, '', 0, 0, 0 FROM subscore LIMIT 1",
-      "INSERT INTO score_cap VALUES (1, 99, 'x')", "UPDATE exercise_version SET toml = ''", "DELETE FROM exercise_version",
+      "INSERT INTO score_cap VALUES (1, 99, 'x')",
+      "UPDATE exercise_version SET toml = ''",
+      "DELETE FROM exercise_version",
       "INSERT OR REPLACE INTO attempt SELECT * FROM attempt",
-      "INSERT OR REPLACE INTO attempt (uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed, board,"
-      " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, owner_pid, owner_boot,"
+      "INSERT OR REPLACE INTO attempt (uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed, "
+      "board,"
+      " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, owner_pid, "
+      "owner_boot,"
       " owner_start, status) SELECT uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed, board,"
       " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, 1, '', 1, 'running'"
       " FROM attempt"};

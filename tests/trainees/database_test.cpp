@@ -90,8 +90,7 @@ TEST_F(DatabaseFile, WaitsForAWriterButNotForEver) {
   Database holder(folder_ / "t.db");
   sqlite3_exec(holder.connection(), "BEGIN IMMEDIATE", nullptr, nullptr, nullptr);
   Database second(folder_ / "t.db", OpenMode::kExisting, 50);
-  const std::string message =
-      message_of<EnvironmentError>([&] { TraineeStore(second).ensure_trainee("T-late"); });
+  const std::string message = message_of<EnvironmentError>([&] { TraineeStore(second).ensure_trainee("T-late"); });
   EXPECT_NE(message.find("t.db"), std::string::npos) << message;
   EXPECT_NE(message.find("another program"), std::string::npos) << message;
   sqlite3_exec(holder.connection(), "COMMIT", nullptr, nullptr, nullptr);

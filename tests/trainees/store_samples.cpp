@@ -39,8 +39,10 @@ AttemptResult sample_result(double score) {
   result.grade.score = score;
   result.grade.passed = score >= 75;
   result.grade.grade = score >= 75 ? "pass" : "below pass";
-  result.grade.metrics = {{"time_s", 41.5, "s"}, {"force_max_n", 2.0 + score / 100, "N"}, {"tremor", std::nullopt, "mm"}};
-  result.grade.subscores = {{"force", 0.8125, 0.6, 2.6, "N", 2.0, 6.0, true}, {"time", 1.0 / 3, 0.4, {}, "s", 30, 90, false}};
+  result.grade.metrics = {
+      {"time_s", 41.5, "s"}, {"force_max_n", 2.0 + score / 100, "N"}, {"tremor", std::nullopt, "mm"}};
+  result.grade.subscores = {{"force", 0.8125, 0.6, 2.6, "N", 2.0, 6.0, true},
+                            {"time", 1.0 / 3, 0.4, {}, "s", 30, 90, false}};
   result.grade.caps = {"critical event: EXCESS_FORCE at 12.0 s"};
   result.events = {{1.0 / 3, "TARGET_HELD", Severity::kInfo, 2, 1.25, "N", Vec3(0.1, -0.2, 1e-17)},
                    {0.5, "EXCESS_FORCE", Severity::kCritical, -1, 6.5, "N", Vec3::Zero()}};

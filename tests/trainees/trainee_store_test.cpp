@@ -27,7 +27,8 @@ TEST(TraineeStore, RefusesCodesThatAreNotPlain) {
   Database database(":memory:");
   TraineeStore store(database);
   for (const std::string code : {"", " ", "-x", ".x", "a b", "a/b", "a'b", "\xC3\xA4", "a\n"}) {
-    EXPECT_NE(message_of<InputError>([&] { store.ensure_trainee(code); }).find("trainee code"), std::string::npos) << code;
+    EXPECT_NE(message_of<InputError>([&] { store.ensure_trainee(code); }).find("trainee code"), std::string::npos)
+        << code;
   }
   EXPECT_THROW(store.ensure_trainee(std::string(33, 'a')), InputError);
   EXPECT_EQ(store.ensure_trainee(std::string(32, 'a')).code.size(), 32u);

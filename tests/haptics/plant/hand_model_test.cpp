@@ -153,11 +153,39 @@ TEST(HandModel, IntentIsReachedLinearlyOverThePeriod) {
   StylusMotion tool;
   hand.set_intent({}, 0.0, kPeriod);
   load_on_fixed_tool(hand, tool, kPeriod);
-  hand.set_intent({}, 0.001, kPeriod);
+  hand.set_intent({}, 0.0005, kPeriod);
   const double half = load_on_fixed_tool(hand, tool, kPeriod / 2).jaw_force_n;
-  EXPECT_NEAR(half, p.finger_stiffness * 0.0005 + p.finger_damping * 0.001 / kPeriod, 1e-9);
+  EXPECT_NEAR(half, p.finger_stiffness * 0.00025 + p.finger_damping * 0.0005 / kPeriod, 1e-9);
   const double after = load_on_fixed_tool(hand, tool, kPeriod).jaw_force_n;
-  EXPECT_NEAR(after, p.finger_stiffness * 0.001, 1e-9);
+  EXPECT_NEAR(after, p.finger_stiffness * 0.0005, 1e-9);
+}
+
+TEST(HandModel, LeapOfTheIntentBecomesAMovement) {
+  HandParameters p = steady_hand();
+  HandModel hand(p, 1);
+  hand.set_intent({}, 0.0, kPeriod);
+  load_on_fixed_tool(hand, {}, kPeriod);
+  hand.set_intent({Mat3::Identity(), Vec3(0, 0, 1)}, 0.0, kPeriod);  // a metre in a millisecond
+  const double early = load_on_fixed_tool(hand, {}, 0.01).stylus_B.force.norm();
+  EXPECT_LT(early, 5.0) << "at 3 m/s only 3 cm were covered";
+}
+
+TEST(HandModel, WildIntentsLeaveTheDeviceFinite) {
+  PlantRandom random(42);
+  for (const GripPreset grip : {GripPreset::kNormal, GripPreset::kFirm}) {
+    DevicePlant plant(nominal_parameters());
+    HandModel hand(steady_hand(grip), 1);
+    for (int k = 0; k < 5000; ++k) {
+      if (k % 200 == 0) {
+        const Vec3 axis = (test::random_vector(random, 1.0) + Vec3(0, 0, 1e-3)).normalized();
+        const Mat3 R(Eigen::AngleAxisd(random.symmetric(3.1), axis));
+        hand.set_intent({R, test::random_vector(random, 0.4)}, random.symmetric(0.1), kPeriod);
+      }
+      for (int n = 0; n < 20; ++n) plant.step(kStep, hand.update(plant.motion(), kStep));
+      ASSERT_TRUE(plant.outputs().allFinite()) << k << " ms";
+      ASSERT_LT(plant.rates().cwiseAbs().maxCoeff(), 2000.0) << k << " ms";
+    }
+  }
 }
 
 TEST(HandModel, TremorHasItsAmplitudeAndBand) {

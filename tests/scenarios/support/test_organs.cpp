@@ -35,7 +35,8 @@ TriangleSurface gallbladder_like() { return bumpy_ellipsoid(Vec3(0.016, 0.015, 0
 
 TriangleSurface box(const Vec3& size) {
   TriangleSurface surface;
-  for (int i = 0; i < 8; ++i) surface.vertices.emplace_back((i & 1) * size.x(), (i >> 1 & 1) * size.y(), (i >> 2) * size.z());
+  for (int i = 0; i < 8; ++i)
+    surface.vertices.emplace_back((i & 1) * size.x(), (i >> 1 & 1) * size.y(), (i >> 2) * size.z());
   surface.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                        {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return surface;
