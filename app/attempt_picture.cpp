@@ -120,7 +120,7 @@ SceneView attempt_view(const SessionView& view, const std::shared_ptr<const Tria
 
 struct AttemptPainter::Impl {
   Impl(const Scene& scene, const AssetRoots& assets, std::string trainee_in, int width_in, int height_in)
-      : renderer(context, assets.shaders),
+      : renderer(context, assets.assets),
         organ_T(std::make_shared<TriangleSurface>(scene.organ_T)),
         trainee(std::move(trainee_in)),
         width(width_in),

@@ -160,7 +160,7 @@ void add_organ_import(CommandLine& c, CLI::App& organ) {
 void add_organ(CommandLine& c) {
   CLI::App* organ = c.group("organ", "Organs from images and surfaces");
   add_organ_import(c, *organ);
-  const auto manifest = [&c] { return find_organ(c.organ, find_assets().organs); };
+  const auto manifest = [&c] { return find_organ(c.organ, find_assets().assets); };
   CLI::App* info = c.add(*organ, "info", "What an organ is and how good its surface", [&c, manifest] {
     c.info.manifest = manifest();
     return organ_info(c.info, std::cout, std::cerr);
@@ -168,7 +168,7 @@ void add_organ(CommandLine& c) {
   info->add_flag("--json", c.info.json, "As JSON");
   CLI::App* render = c.add(*organ, "render", "A picture of an organ", [&c, manifest] {
     c.render.manifest = manifest();
-    return organ_render(c.render, find_assets().shaders, std::cout, std::cerr);
+    return organ_render(c.render, find_assets().assets, std::cout, std::cerr);
   });
   render->add_option("-o,--output", c.render.output, "PNG file")->required();
   render->add_option("--width", c.render.width, "px")->capture_default_str();

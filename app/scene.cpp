@@ -33,7 +33,7 @@ AssetRoots find_assets() {
     // Installed, exercises and hands lie together under the share folder; in the source tree under scenarios.
     for (const fs::path& scripts : {root, root / "scenarios"}) {
       if (fs::is_directory(scripts / "exercises") && fs::is_directory(root / "assets" / "shaders")) {
-        return {scripts / "exercises", scripts / "hands", root / "assets" / "organs", root / "assets"};
+        return {scripts / "exercises", scripts / "hands", root / "assets"};
       }
     }
     looked += "\n  " + root.string();
@@ -45,7 +45,7 @@ Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const Daq
   Scene scene;
   scene.setup = setup;
   scene.level = find_level(setup.exercise, setup.level);
-  scene.organ = load_organ(find_organ(setup.organ, assets.organs));
+  scene.organ = load_organ(find_organ(setup.organ, assets.assets));
   scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, setup.exercise.layout));
   scene.board = lay_out_board(scene.organ_T, setup.exercise, setup.board);
 

@@ -18,7 +18,8 @@ namespace trocar {
 
 /// Where the program finds what it ships.
 struct AssetRoots {
-  std::filesystem::path exercises, hands, organs, shaders;
+  std::filesystem::path exercises, hands;
+  std::filesystem::path assets;        ///< holds organs/ and shaders/
 };
 
 /// Finds the assets of an installed or a just built program. @throws EnvironmentError naming the places looked at.
