@@ -50,7 +50,7 @@ footer{margin-top:20px;padding-top:8px;border-top:2px solid #d9dee4;font-size:.8
 @page{size:A4;margin:11mm 12mm}
 @media print{html{font-size:10px}body{padding:0;max-width:none;font-size:10px;line-height:1.28}h2{margin:7px 0 2px;break-after:avoid}p{margin:1px 0}footer{margin-top:7px;padding-top:3px;font-size:8.5px}.tag{margin-right:4px}
 .mono{font-size:7.6px}.two{grid-template-columns:minmax(0,1.9fr) minmax(0,1fr)}.two.top{grid-template-columns:minmax(0,1fr) minmax(0,1.15fr)}.force svg{width:80%;margin:0 auto}section,.verdict,tr,svg,img,.two{break-inside:avoid}
-.verdict{margin:4px 0;padding:5px 12px}.two{gap:14px}.metrics{columns:2;column-gap:14px}.path svg{width:88%}td,th{padding:1px 6px 1px 0}.bar{height:9px;margin-top:3px}
+.verdict{margin:4px 0;padding:5px 12px}.two{gap:14px}.metrics{columns:2;column-gap:14px}.path svg{width:78%}td,th{padding:1px 6px 1px 0}.bar{height:9px;margin-top:3px}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 

@@ -48,7 +48,8 @@ TEST(ForceClass, FollowsBandAndLimit) {
 std::vector<double> numbers(const std::string& svg, const std::string& attribute) {
   std::vector<double> out;
   const std::regex pattern(" " + attribute + "=\"(-?[0-9.]+)\"");
-  for (auto it = std::sregex_iterator(svg.begin(), svg.end(), pattern); it != std::sregex_iterator(); ++it) out.push_back(std::stod((*it)[1]));
+  for (auto it = std::sregex_iterator(svg.begin(), svg.end(), pattern); it != std::sregex_iterator(); ++it)
+    out.push_back(std::stod((*it)[1]));
   return out;
 }
 
@@ -67,7 +68,9 @@ TEST(ForcePlot, ShowsBandLimitGripAndEveryEvent) {
   EXPECT_NE(svg.find("grip force"), std::string::npos);
   EXPECT_NE(svg.find(">5!<"), std::string::npos);  // the excess force, number 5 of the list
   std::size_t dashed = 0;
-  for (std::size_t at = svg.find("stroke-dasharray"); at != std::string::npos; at = svg.find("stroke-dasharray", at + 1)) ++dashed;
+  for (std::size_t at = svg.find("stroke-dasharray"); at != std::string::npos;
+       at = svg.find("stroke-dasharray", at + 1))
+    ++dashed;
   EXPECT_EQ(dashed, sample_attempt().events.size());
 }
 
