@@ -116,11 +116,19 @@ fs::path stem_of(const std::string& output) {
   return stem;
 }
 
+/// Two names of one file: the surface would replace what it was made from.
+void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
+  std::error_code missing;
+  const fs::path ply = stem.string() + ".ply";
+  if (fs::equivalent(ply, options.input, missing)) throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
+}
+
 }  // namespace
 
 WrittenOrgan import_organ(const OrganImportOptions& options, std::ostream& err) {
   check_options(options);
   const fs::path stem = stem_of(options.output);
+  check_not_input(stem, options);
   OrganManifest manifest;
   const bool surface = options.input.ends_with(".ply");
   if (!surface && !options.unit.empty() && options.unit != "mm") throw InputError("--unit " + options.unit + ": label maps are in mm");

@@ -10,10 +10,11 @@
 
 namespace trocar {
 
-int organ_render(const OrganRenderOptions& options, const std::filesystem::path& asset_root, std::ostream& out, std::ostream& err) {
+int organ_render(const OrganRenderOptions& options, const std::filesystem::path& asset_root, std::ostream& out,
+                 std::ostream& err) {
   if (options.width < 320 || options.height < 240 || options.width > 7680 || options.height > 4320)
-    throw InputError("organ render: the size must lie between 320 x 240 and 7680 x 4320 pixels, not " + std::to_string(options.width) + " x " +
-                     std::to_string(options.height));
+    throw InputError("organ render: the size must lie between 320 x 240 and 7680 x 4320 pixels, not " +
+                     std::to_string(options.width) + " x " + std::to_string(options.height));
   const Organ organ = load_organ(options.manifest);
   HeadlessContext context;
   err << "drawing " << organ.name << " with " << context.info().renderer << "\n";

@@ -16,6 +16,7 @@ struct OrganRenderOptions {
 
 /// @return 0; the written path goes to `out`, progress to `err`.
 /// @throws InputError for a bad manifest or size, EnvironmentError without EGL or when the picture cannot be written.
-int organ_render(const OrganRenderOptions& options, const std::filesystem::path& asset_root, std::ostream& out, std::ostream& err);
+int organ_render(const OrganRenderOptions& options, const std::filesystem::path& asset_root, std::ostream& out,
+                 std::ostream& err);
 
 }  // namespace trocar

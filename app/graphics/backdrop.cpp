@@ -31,14 +31,17 @@ PictureMesh sheet(int rows, int columns, bool flip, const std::function<Sample(d
     for (int j = 0; j < columns; ++j) {
       const auto a = static_cast<std::uint32_t>(i * (columns + 1) + j), b = a + 1;
       const auto c = a + static_cast<std::uint32_t>(columns + 1), d = c + 1;
-      if (flip) mesh.indices.insert(mesh.indices.end(), {a, b, c, b, d, c});
-      else mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
+      if (flip)
+        mesh.indices.insert(mesh.indices.end(), {a, b, c, b, d, c});
+      else
+        mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
     }
   return mesh;
 }
 
 double unit_hash(int x, int y, int salt) {
-  return lattice_hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(salt)) / 4294967295.0;
+  return lattice_hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(salt)) /
+         4294967295.0;
 }
 
 /// Height of rounded lobes in 0..1 on a jittered unit lattice; creases run between them.
@@ -47,9 +50,11 @@ double lobes(double x, double y, int salt) {
   const int cx = static_cast<int>(std::floor(x)), cy = static_cast<int>(std::floor(y));
   for (int i = cx - 1; i <= cx + 1; ++i)
     for (int j = cy - 1; j <= cy + 1; ++j) {
-      const double dx = x - (i + 0.2 + 0.6 * unit_hash(i, j, salt)), dy = y - (j + 0.2 + 0.6 * unit_hash(i, j, salt + 1));
+      const double dx = x - (i + 0.2 + 0.6 * unit_hash(i, j, salt)),
+                   dy = y - (j + 0.2 + 0.6 * unit_hash(i, j, salt + 1));
       const double radius = 0.75 + 0.35 * unit_hash(i, j, salt + 2);
-      best = std::max(best, (0.7 + 0.3 * unit_hash(i, j, salt + 3)) * std::sqrt(std::max(0.0, 1 - (dx * dx + dy * dy) / (radius * radius))));
+      best = std::max(best, (0.7 + 0.3 * unit_hash(i, j, salt + 3)) *
+                                std::sqrt(std::max(0.0, 1 - (dx * dx + dy * dy) / (radius * radius))));
     }
   return best;
 }

@@ -37,14 +37,17 @@ void Canvas::blend(int x, int y, const Colour& colour, double coverage) {
 
 template <typename Coverage>
 void Canvas::fill(double x0, double y0, double x1, double y1, const Colour& colour, const Coverage& coverage) {
-  const int left = std::max(0, static_cast<int>(std::floor(x0)) - 1), right = std::min(image_.width - 1, static_cast<int>(std::ceil(x1)) + 1);
-  const int top = std::max(0, static_cast<int>(std::floor(y0)) - 1), low = std::min(image_.height - 1, static_cast<int>(std::ceil(y1)) + 1);
+  const int left = std::max(0, static_cast<int>(std::floor(x0)) - 1),
+            right = std::min(image_.width - 1, static_cast<int>(std::ceil(x1)) + 1);
+  const int top = std::max(0, static_cast<int>(std::floor(y0)) - 1),
+            low = std::min(image_.height - 1, static_cast<int>(std::ceil(y1)) + 1);
   for (int y = top; y <= low; ++y)
     for (int x = left; x <= right; ++x) blend(x, y, colour, coverage(x + 0.5, y + 0.5));
 }
 
 void Canvas::box(const HudBox& b, const Colour& colour, double corner) {
-  fill(b.x, b.y, b.right(), b.bottom(), colour, [&](double x, double y) { return edge(box_distance(x, y, b, corner)); });
+  fill(b.x, b.y, b.right(), b.bottom(), colour,
+       [&](double x, double y) { return edge(box_distance(x, y, b, corner)); });
 }
 
 void Canvas::frame(const HudBox& b, const Colour& colour, double corner, double thickness) {
@@ -75,9 +78,11 @@ void Canvas::triangle(double x0, double y0, double x1, double y1, double x2, dou
     return ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / std::max(std::hypot(bx - ax, by - ay), 1e-9);
   };
   const double turn = side(x2, y2, x0, y0, x1, y1) < 0 ? 1 : -1;  // distances positive outside
-  fill(std::min({x0, x1, x2}), std::min({y0, y1, y2}), std::max({x0, x1, x2}), std::max({y0, y1, y2}), colour, [&](double x, double y) {
-    return edge(std::max({turn * side(x, y, x0, y0, x1, y1), turn * side(x, y, x1, y1, x2, y2), turn * side(x, y, x2, y2, x0, y0)}));
-  });
+  fill(std::min({x0, x1, x2}), std::min({y0, y1, y2}), std::max({x0, x1, x2}), std::max({y0, y1, y2}), colour,
+       [&](double x, double y) {
+         return edge(std::max({turn * side(x, y, x0, y0, x1, y1), turn * side(x, y, x1, y1, x2, y2),
+                               turn * side(x, y, x2, y2, x0, y0)}));
+       });
 }
 
 void Canvas::hatch(const HudBox& b, double pitch, double thickness, const Colour& colour) {
@@ -88,11 +93,13 @@ void Canvas::hatch(const HudBox& b, double pitch, double thickness, const Colour
   });
 }
 
-void Canvas::text(const std::string& words, double x, double baseline, int size, bool bold, const Colour& colour, FontSet& fonts) {
+void Canvas::text(const std::string& words, double x, double baseline, int size, bool bold, const Colour& colour,
+                  FontSet& fonts) {
   double pen = x;
   for (const char32_t code : decode_utf8(words)) {
     const Glyph& glyph = fonts.glyph(code, size, bold);
-    const int left = static_cast<int>(std::lround(pen)) + glyph.left, top = static_cast<int>(std::lround(baseline)) - glyph.top;
+    const int left = static_cast<int>(std::lround(pen)) + glyph.left,
+              top = static_cast<int>(std::lround(baseline)) - glyph.top;
     for (int row = 0; row < glyph.height; ++row)
       for (int column = 0; column < glyph.width; ++column) {
         const int px = left + column, py = top + row;

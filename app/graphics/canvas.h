@@ -1,4 +1,5 @@
-// Anti-aliased shapes and text on an 8-bit picture, by the CPU: enough for a head-up display, the same on every machine.
+// Anti-aliased shapes and text on an 8-bit picture, by the CPU: enough for a head-up display, the same on every
+// machine.
 //
 // Pixels, y down; a pixel's centre is at +0.5. Coverage from signed distances. Thread: any.
 #pragma once
@@ -27,7 +28,8 @@ class Canvas {
   void triangle(double x0, double y0, double x1, double y1, double x2, double y2, const Colour& colour);
   /// 45-degree hatching inside a box. @param pitch,thickness px across the lines.
   void hatch(const HudBox& box, double pitch, double thickness, const Colour& colour);
-  void text(const std::string& words, double x, double baseline, int size, bool bold, const Colour& colour, FontSet& fonts);
+  void text(const std::string& words, double x, double baseline, int size, bool bold, const Colour& colour,
+            FontSet& fonts);
 
  private:
   template <typename Coverage>

@@ -38,10 +38,21 @@ int continuation_bytes(unsigned char lead) {
 std::string encode_utf8(char32_t c) {
   std::string out;
   const auto add = [&](unsigned byte) { out.push_back(static_cast<char>(byte)); };
-  if (c < 0x80) add(c);
-  else if (c < 0x800) { add(0xC0U | (c >> 6)); add(0x80U | (c & 0x3FU)); }
-  else if (c < 0x10000) { add(0xE0U | (c >> 12)); add(0x80U | ((c >> 6) & 0x3FU)); add(0x80U | (c & 0x3FU)); }
-  else { add(0xF0U | (c >> 18)); add(0x80U | ((c >> 12) & 0x3FU)); add(0x80U | ((c >> 6) & 0x3FU)); add(0x80U | (c & 0x3FU)); }
+  if (c < 0x80)
+    add(c);
+  else if (c < 0x800) {
+    add(0xC0U | (c >> 6));
+    add(0x80U | (c & 0x3FU));
+  } else if (c < 0x10000) {
+    add(0xE0U | (c >> 12));
+    add(0x80U | ((c >> 6) & 0x3FU));
+    add(0x80U | (c & 0x3FU));
+  } else {
+    add(0xF0U | (c >> 18));
+    add(0x80U | ((c >> 12) & 0x3FU));
+    add(0x80U | ((c >> 6) & 0x3FU));
+    add(0x80U | (c & 0x3FU));
+  }
   return out;
 }
 
@@ -72,7 +83,8 @@ struct FontSet::Faces {
     const std::array<const char*, 2> files = {"DejaVuSans.ttf", "DejaVuSans-Bold.ttf"};
     for (std::size_t i = 0; i < files.size(); ++i) {
       const std::filesystem::path path = find_font(files[i]);
-      if (FT_New_Face(library, path.c_str(), 0, &face[i])) throw EnvironmentError("font " + path.string() + " cannot be read");
+      if (FT_New_Face(library, path.c_str(), 0, &face[i]))
+        throw EnvironmentError("font " + path.string() + " cannot be read");
     }
   }
   Faces(const Faces&) = delete;
@@ -98,7 +110,8 @@ const Glyph& FontSet::glyph(char32_t code, int size, bool bold) {
   glyph.top = face->glyph->bitmap_top;
   glyph.advance = static_cast<double>(face->glyph->advance.x) / 64;
   for (int y = 0; y < glyph.height; ++y)
-    glyph.coverage.insert(glyph.coverage.end(), bitmap.buffer + y * bitmap.pitch, bitmap.buffer + y * bitmap.pitch + glyph.width);
+    glyph.coverage.insert(glyph.coverage.end(), bitmap.buffer + y * bitmap.pitch,
+                          bitmap.buffer + y * bitmap.pitch + glyph.width);
   return glyph;
 }
 

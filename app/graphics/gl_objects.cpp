@@ -12,13 +12,26 @@ namespace trocar {
 
 GlObject::GlObject(Kind kind, unsigned shader_stage) : kind_(kind) {
   switch (kind) {
-    case Kind::kNone: break;
-    case Kind::kBuffer: glGenBuffers(1, &id_); break;
-    case Kind::kVertexArray: glGenVertexArrays(1, &id_); break;
-    case Kind::kTexture: glGenTextures(1, &id_); break;
-    case Kind::kFramebuffer: glGenFramebuffers(1, &id_); break;
-    case Kind::kProgram: id_ = glCreateProgram(); break;
-    case Kind::kShader: id_ = glCreateShader(shader_stage); break;
+    case Kind::kNone:
+      break;
+    case Kind::kBuffer:
+      glGenBuffers(1, &id_);
+      break;
+    case Kind::kVertexArray:
+      glGenVertexArrays(1, &id_);
+      break;
+    case Kind::kTexture:
+      glGenTextures(1, &id_);
+      break;
+    case Kind::kFramebuffer:
+      glGenFramebuffers(1, &id_);
+      break;
+    case Kind::kProgram:
+      id_ = glCreateProgram();
+      break;
+    case Kind::kShader:
+      id_ = glCreateShader(shader_stage);
+      break;
   }
 }
 
@@ -34,13 +47,26 @@ GlObject& GlObject::operator=(GlObject&& other) noexcept {
 void GlObject::reset() {
   if (id_ == 0) return;
   switch (kind_) {
-    case Kind::kNone: break;
-    case Kind::kBuffer: glDeleteBuffers(1, &id_); break;
-    case Kind::kVertexArray: glDeleteVertexArrays(1, &id_); break;
-    case Kind::kTexture: glDeleteTextures(1, &id_); break;
-    case Kind::kFramebuffer: glDeleteFramebuffers(1, &id_); break;
-    case Kind::kProgram: glDeleteProgram(id_); break;
-    case Kind::kShader: glDeleteShader(id_); break;
+    case Kind::kNone:
+      break;
+    case Kind::kBuffer:
+      glDeleteBuffers(1, &id_);
+      break;
+    case Kind::kVertexArray:
+      glDeleteVertexArrays(1, &id_);
+      break;
+    case Kind::kTexture:
+      glDeleteTextures(1, &id_);
+      break;
+    case Kind::kFramebuffer:
+      glDeleteFramebuffers(1, &id_);
+      break;
+    case Kind::kProgram:
+      glDeleteProgram(id_);
+      break;
+    case Kind::kShader:
+      glDeleteShader(id_);
+      break;
   }
   id_ = 0;
 }
@@ -55,15 +81,18 @@ GlObject upload_indices(const std::vector<std::uint32_t>& indices) {
 }
 
 GpuMesh::GpuMesh(const PictureMesh& mesh)
-    : array_(GlObject::Kind::kVertexArray), vertices_(GlObject::Kind::kBuffer),
-      indices_(upload_indices(mesh.indices)), count_(static_cast<int>(mesh.indices.size())) {
+    : array_(GlObject::Kind::kVertexArray),
+      vertices_(GlObject::Kind::kBuffer),
+      indices_(upload_indices(mesh.indices)),
+      count_(static_cast<int>(mesh.indices.size())) {
   glBindVertexArray(array_.id());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.id());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(PictureVertex)),
                mesh.vertices.data(), GL_STATIC_DRAW);
   const auto attribute = [](GLuint index, GLint size, std::size_t offset) {
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(PictureVertex), reinterpret_cast<const void*>(offset));
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(PictureVertex),
+                          reinterpret_cast<const void*>(offset));
   };
   attribute(0, 3, offsetof(PictureVertex, position));
   attribute(1, 3, offsetof(PictureVertex, normal));
@@ -101,13 +130,15 @@ void Program::bind_block(const std::string& name, unsigned binding) const {
 
 std::string ShaderLibrary::read(const std::string& file) const {
   std::ifstream stream(folder_ / file);
-  if (!stream) throw EnvironmentError("cannot read shader " + (folder_ / file).string() + ": the installation is incomplete");
+  if (!stream)
+    throw EnvironmentError("cannot read shader " + (folder_ / file).string() + ": the installation is incomplete");
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
 }
 
-GlObject ShaderLibrary::compile(const std::string& file, unsigned stage, const std::vector<std::string>& defines) const {
+GlObject ShaderLibrary::compile(const std::string& file, unsigned stage,
+                                const std::vector<std::string>& defines) const {
   std::string source = "#version 330 core\n";
   for (const std::string& define : defines) source += "#define " + define + "\n";
   source += read("lighting.glsl") + "#line 1\n" + read(file);

@@ -71,7 +71,8 @@ class ShaderLibrary {
   explicit ShaderLibrary(std::filesystem::path asset_root) : folder_(std::move(asset_root) / "shaders") {}
   /// Program from NAME.vert and NAME.frag with the given defines; compiled at the first call.
   /// @throws EnvironmentError naming the file when it is missing or the driver refuses it.
-  Program& program(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines = {});
+  Program& program(const std::string& vertex, const std::string& fragment,
+                   const std::vector<std::string>& defines = {});
 
  private:
   GlObject compile(const std::string& file, unsigned stage, const std::vector<std::string>& defines) const;

@@ -25,7 +25,8 @@ bool library_present(const char* name) {
 
 // libepoxy ends the process when a library is missing, so it is looked for first.
 void require_libraries() {
-  if (!library_present("libEGL.so.1")) throw EnvironmentError(std::string("no picture: libEGL.so.1 not found") + kPackages);
+  if (!library_present("libEGL.so.1"))
+    throw EnvironmentError(std::string("no picture: libEGL.so.1 not found") + kPackages);
   if (!library_present("libGL.so.1") && !library_present("libOpenGL.so.0"))
     throw EnvironmentError(std::string("no picture: libGL.so.1 not found") + kPackages);
 }
@@ -60,9 +61,9 @@ std::vector<Device> list_devices() {
 
 EGLContext create_core_context(EGLDisplay display, EGLConfig config) {
   for (const auto& [major, minor] : {std::array<EGLint, 2>{4, 1}, std::array<EGLint, 2>{3, 3}}) {
-    const std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION, minor,
-                                              EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                              EGL_NONE};
+    const std::array<EGLint, 7> attributes = {
+        EGL_CONTEXT_MAJOR_VERSION,           major,   EGL_CONTEXT_MINOR_VERSION, minor, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
     if (context != EGL_NO_CONTEXT) return context;
   }
@@ -107,7 +108,8 @@ bool HeadlessContext::try_display(void* display, const std::string& platform) {
     return false;
   };
   if (!eglBindAPI(EGL_OPENGL_API)) return give_up("OpenGL");
-  const std::array<EGLint, 5> wanted = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
+  const std::array<EGLint, 5> wanted = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                                        EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, wanted.data(), &config, 1, &count) || count == 0) return give_up("config");
@@ -145,7 +147,8 @@ void HeadlessContext::fill_info(const std::string& platform) {
 void HeadlessContext::make_current() {
   if (eglGetCurrentContext() == context_) return;
   if (!eglMakeCurrent(display_, surface_, surface_, context_))
-    throw EnvironmentError("the OpenGL context cannot be made current on this thread (EGL error " + egl_error_text() + ")");
+    throw EnvironmentError("the OpenGL context cannot be made current on this thread (EGL error " + egl_error_text() +
+                           ")");
 }
 
 HeadlessContext::~HeadlessContext() {

@@ -10,10 +10,10 @@
 namespace trocar {
 
 struct ContextInfo {
-  std::string platform;  ///< "device 0", "surfaceless"
-  std::string renderer;  ///< GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string version;   ///< GL_VERSION
-  bool software = false; ///< drawn by the CPU
+  std::string platform;   ///< "device 0", "surfaceless"
+  std::string renderer;   ///< GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string version;    ///< GL_VERSION
+  bool software = false;  ///< drawn by the CPU
 };
 
 class HeadlessContext {

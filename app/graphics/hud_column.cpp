@@ -10,12 +10,12 @@ namespace {
 
 /// What is shown and how tightly: from roomy to dense until the column holds it.
 struct Plan {
-  double pitch = 1.34;     ///< line pitch of lists, in body sizes
-  double gap = 0.75;       ///< between sections
+  double pitch = 1.34;  ///< line pitch of lists, in body sizes
+  double gap = 0.75;    ///< between sections
   int bars = 0, steps = 0, rows = 0;
-  int step_lines = 2;      ///< of steps that are not the current one
+  int step_lines = 2;  ///< of steps that are not the current one
   bool device_as_rows = true;
-  int device_lines = 2;    ///< of the flowing form
+  int device_lines = 2;  ///< of the flowing form
 };
 
 std::string number(double value, int decimals) {
@@ -91,8 +91,10 @@ class Column {
       sum += plan_.gap * body_ + heading_height() + (plan_.rows + (cut ? 1 : 0)) * line();
     }
     if (!hud_.device.empty()) {
-      if (plan_.device_as_rows) sum += heading_height() + plan_.gap * body_ + static_cast<double>(hud_.device.size()) * line();
-      else if (plan_.device_lines > 0) sum += plan_.gap * body_ + plan_.device_lines * line();
+      if (plan_.device_as_rows)
+        sum += heading_height() + plan_.gap * body_ + static_cast<double>(hud_.device.size()) * line();
+      else if (plan_.device_lines > 0)
+        sum += plan_.gap * body_ + plan_.device_lines * line();
     }
     return sum;
   }
@@ -133,8 +135,9 @@ class Column {
                                                           : HudInk::kText;
     double right = pen_.text_right(number(bar.value_n, 2) + " N", x_ + room_, baseline, body_, true, ink);
     if (level != HudBar::Level::kBelow) {
-      const HudShape::Kind kind = level == HudBar::Level::kInBand ? HudShape::Kind::kTick
-                                  : level == HudBar::Level::kAbove ? HudShape::Kind::kUp : HudShape::Kind::kWarning;
+      const HudShape::Kind kind = level == HudBar::Level::kInBand  ? HudShape::Kind::kTick
+                                  : level == HudBar::Level::kAbove ? HudShape::Kind::kUp
+                                                                   : HudShape::Kind::kWarning;
       right -= 1.35 * body_;
       pen_.shape(kind, {right, y_ + 0.18 * body_, 1.05 * body_, 1.05 * body_});
     }
@@ -142,8 +145,13 @@ class Column {
     y_ += 1.40 * body_;
     const double scale = std::max({bar.full_scale_n, 1.1 * bar.limit_n, bar.band_high_n, 1e-9});
     const auto share = [&](double n) { return std::clamp(n / scale, 0.0, 1.0); };
-    pen_.bar({{x_, y_, room_, 1.15 * body_}, share(bar.value_n), share(bar.peak_n), share(bar.band_low_n),
-              share(bar.band_high_n), bar.limit_n > 0 ? share(bar.limit_n) : 1.0, level});
+    pen_.bar({{x_, y_, room_, 1.15 * body_},
+              share(bar.value_n),
+              share(bar.peak_n),
+              share(bar.band_low_n),
+              share(bar.band_high_n),
+              bar.limit_n > 0 ? share(bar.limit_n) : 1.0,
+              level});
     y_ += 1.15 * body_;
     lay_bar_legend(bar);
     y_ += 1.35 * body_ + 0.35 * body_;
@@ -154,8 +162,10 @@ class Column {
     const double baseline = y_ + 1.10 * body_, space = 0.5 * body_;
     double right = x_ + room_;
     if (bar.limit_n > 0)
-      right = pen_.text_right("limit " + short_number(bar.limit_n), right, baseline, body_, false, HudInk::kDim) - space;
-    const std::string range = bar.band_high_n > 0 ? short_number(bar.band_low_n) + "\u2013" + short_number(bar.band_high_n) : "";
+      right =
+          pen_.text_right("limit " + short_number(bar.limit_n), right, baseline, body_, false, HudInk::kDim) - space;
+    const std::string range =
+        bar.band_high_n > 0 ? short_number(bar.band_low_n) + "\u2013" + short_number(bar.band_high_n) : "";
     const std::string peak = "peak " + number(bar.peak_n, 1);
     const double peak_width = pen_.width(peak, body_, false);
     double left = x_;
@@ -171,18 +181,21 @@ class Column {
   void lay_steps() {
     if (plan_.steps == 0) return;
     y_ += plan_.gap * body_;
-    const auto done = std::count_if(hud_.steps.begin(), hud_.steps.end(), [](const HudStep& s) { return s.state == HudStep::State::kDone; });
+    const auto done = std::count_if(hud_.steps.begin(), hud_.steps.end(),
+                                    [](const HudStep& s) { return s.state == HudStep::State::kDone; });
     heading("Steps  " + std::to_string(done) + "/" + std::to_string(hud_.steps.size()));
     const auto [first, last] = step_window();
     for (std::size_t i = first; i < last; ++i) {
       const HudStep& step = hud_.steps[i];
       const bool current = step.state == HudStep::State::kCurrent;
       const HudShape::Kind kind = step.state == HudStep::State::kDone ? HudShape::Kind::kTick
-                                  : current                           ? HudShape::Kind::kCurrent : HudShape::Kind::kOpen;
+                                  : current                           ? HudShape::Kind::kCurrent
+                                                                      : HudShape::Kind::kOpen;
       pen_.shape(kind, {x_, y_ + 0.10 * body_, 1.05 * body_, 1.05 * body_});
       const int limit = current ? 2 : plan_.step_lines;
       for (const std::string& words : pen_.fonts().wrapped(step.text, body_, false, room_ - icon_room(), limit)) {
-        pen_.text(words, x_ + icon_room(), y_ + 0.98 * body_, body_, false, current ? HudInk::kText : HudInk::kDim, room_ - icon_room());
+        pen_.text(words, x_ + icon_room(), y_ + 0.98 * body_, body_, false, current ? HudInk::kText : HudInk::kDim,
+                  room_ - icon_room());
         y_ += line();
       }
     }
@@ -207,7 +220,8 @@ class Column {
     for (int i = 0; i < plan_.rows; ++i) row(hud_.rows[static_cast<std::size_t>(i)], i % 2 == 0);
     const int left_out = static_cast<int>(hud_.rows.size()) - plan_.rows;
     if (left_out > 0) {
-      pen_.text("+ " + std::to_string(left_out) + " more after the run", x_, y_ + 0.98 * body_, body_, false, HudInk::kDim, room_);
+      pen_.text("+ " + std::to_string(left_out) + " more after the run", x_, y_ + 0.98 * body_, body_, false,
+                HudInk::kDim, room_);
       y_ += line();
     }
   }

@@ -23,9 +23,11 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const int big = frame.px(26), body = frame.body;
   const double margin = frame.px(14), baseline = 0.5 * frame.top + 0.36 * big;
   double right = frame.width - margin;
-  if (hud.limit_s > 0) right = pen.text_right("/ " + clock_text(hud.limit_s), right, baseline, body, false, HudInk::kDim) - frame.px(8);
+  if (hud.limit_s > 0)
+    right = pen.text_right("/ " + clock_text(hud.limit_s), right, baseline, body, false, HudInk::kDim) - frame.px(8);
   const bool late = hud.limit_s > 0 && hud.elapsed_s > 0.9 * hud.limit_s;
-  right = pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true, late ? HudInk::kCaution : HudInk::kText);
+  right =
+      pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true, late ? HudInk::kCaution : HudInk::kText);
   const double room = right - 2 * margin;
   const double title_wish = pen.width(hud.title, frame.px(20), true);
   const double trainee_wish = pen.width(hud.trainee, body, false);
@@ -35,20 +37,31 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   pen.text(hud.title, title_x, baseline, frame.px(20), true, HudInk::kText, right - margin - title_x);
 }
 
+/// At most two lines of message and two of hint, over the lower edge of the picture.
 void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   if (hud.toast.empty()) return;
-  const bool two = !hud.toast_hint.empty();
-  const double pad = frame.px(12), icon = frame.px(34);
-  const double line = 1.25 * frame.body, height = 2 * pad + line * (two ? 2 : 1);
+  const double pad = frame.px(12), icon = frame.px(34), line = 1.25 * frame.body;
   const double wish = std::max(pen.width(hud.toast, frame.body, true), pen.width(hud.toast_hint, frame.body, false));
   const double width = std::min(wish + 3.5 * pad + icon, frame.scene.width - 2 * pad);
-  const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - width), frame.scene.y + frame.scene.height - height - pad, width, height};
+  const double room = width - 3 * pad - icon;
+  const auto message = pen.fonts().wrapped(hud.toast, frame.body, true, room, 2);
+  const auto hint = hud.toast_hint.empty() ? std::vector<std::string>{}
+                                           : pen.fonts().wrapped(hud.toast_hint, frame.body, false, room, 2);
+  const double height = 2 * pad + line * static_cast<double>(message.size() + hint.size());
+  const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - width), frame.scene.y + frame.scene.height - height - pad,
+                   width, height};
   pen.shape(HudShape::Kind::kToast, box);
   pen.shape(hud.toast_warning ? HudShape::Kind::kWarning : HudShape::Kind::kInfo,
             {box.x + pad, box.y + 0.5 * (height - icon), icon, icon});
-  const double x = box.x + 2 * pad + icon, room = box.right() - pad - x, first = box.y + pad + 0.95 * frame.body;
-  pen.text(hud.toast, x, first, frame.body, true, HudInk::kText, room);
-  if (two) pen.text(hud.toast_hint, x, first + line, frame.body, false, HudInk::kDim, room);
+  double baseline = box.y + pad + 0.95 * frame.body;
+  const auto write = [&](const std::vector<std::string>& lines, bool bold, HudInk ink) {
+    for (const std::string& words : lines) {
+      pen.text(words, box.x + 2 * pad + icon, baseline, frame.body, bold, ink, room);
+      baseline += line;
+    }
+  };
+  write(message, true, HudInk::kText);
+  write(hint, false, HudInk::kDim);
 }
 
 }  // namespace
@@ -91,7 +104,8 @@ HudLayout layout_hud(const Hud& hud, int width, int height, double text_scale, F
   if (!hud.credit.empty()) {
     const double margin = frame.px(14), strip = frame.scene.width;
     pen.shape(HudShape::Kind::kPanel, {0, height - frame.bottom, strip, frame.bottom});
-    pen.text(hud.credit, margin, height - frame.bottom * 0.5 + 0.34 * frame.body, frame.body, false, HudInk::kDim, strip - 2 * margin);
+    pen.text(hud.credit, margin, height - frame.bottom * 0.5 + 0.34 * frame.body, frame.body, false, HudInk::kDim,
+             strip - 2 * margin);
   }
   lay_toast(pen, hud, frame);
   return layout;
@@ -101,7 +115,8 @@ double HudPen::text(const std::string& words, double x, double baseline, int siz
   const std::string shown = fonts_.fitted(words, size, bold, room);
   if (shown.empty()) return x;
   const double w = fonts_.width(shown, size, bold);
-  layout_.texts.push_back({shown, {x, baseline - fonts_.ascent(size), w, fonts_.line_height(size)}, baseline, size, bold, ink});
+  layout_.texts.push_back(
+      {shown, {x, baseline - fonts_.ascent(size), w, fonts_.line_height(size)}, baseline, size, bold, ink});
   return x + w;
 }
 

@@ -24,8 +24,8 @@ enum class HudInk : std::uint8_t { kText, kDim, kHeading, kGood, kCaution, kAlar
 
 struct HudText {
   std::string text;
-  HudBox box;             ///< from ascent to descent
-  double baseline = 0;    ///< px
+  HudBox box;           ///< from ascent to descent
+  double baseline = 0;  ///< px
   int size = 0;
   bool bold = false;
   HudInk ink = HudInk::kText;
@@ -33,7 +33,17 @@ struct HudText {
 
 /// A filled rectangle or a symbol; symbols carry meaning by shape, colour only repeats it.
 struct HudShape {
-  enum class Kind : std::uint8_t { kPanel, kStripe, kToast, kTick, kCurrent, kOpen, kUp, kWarning, kInfo } kind = Kind::kPanel;
+  enum class Kind : std::uint8_t {
+    kPanel,
+    kStripe,
+    kToast,
+    kTick,
+    kCurrent,
+    kOpen,
+    kUp,
+    kWarning,
+    kInfo
+  } kind = Kind::kPanel;
   HudBox box;
 };
 
@@ -48,7 +58,7 @@ struct HudLayout {
   std::vector<HudShape> shapes;  ///< painted first, in order
   std::vector<HudBar> bars;
   std::vector<HudText> texts;
-  HudBox column;                 ///< the right column, empty when there is none
+  HudBox column;  ///< the right column, empty when there is none
 };
 
 /// True when nothing but the credit is to be shown.

@@ -7,17 +7,24 @@
 namespace trocar {
 namespace {
 
-constexpr Colour kSkyBlue{86, 180, 233, 1}, kBluishGreen{0, 158, 115, 1}, kOrange{230, 159, 0, 1}, kVermillion{225, 104, 20, 1};
+constexpr Colour kSkyBlue{86, 180, 233, 1}, kBluishGreen{0, 158, 115, 1}, kOrange{230, 159, 0, 1},
+    kVermillion{225, 104, 20, 1};
 constexpr Colour kWhite{240, 242, 245, 1}, kGrey{178, 184, 192, 1}, kDarkPanel{12, 14, 17, 1}, kTrack{38, 43, 50, 1};
 
 Colour ink_colour(HudInk ink) {
   switch (ink) {
-    case HudInk::kText: return kWhite;
-    case HudInk::kDim: return kGrey;
-    case HudInk::kHeading: return kSkyBlue;
-    case HudInk::kGood: return {40, 200, 150, 1};
-    case HudInk::kCaution: return kOrange;
-    case HudInk::kAlarm: return {255, 132, 60, 1};
+    case HudInk::kText:
+      return kWhite;
+    case HudInk::kDim:
+      return kGrey;
+    case HudInk::kHeading:
+      return kSkyBlue;
+    case HudInk::kGood:
+      return {40, 200, 150, 1};
+    case HudInk::kCaution:
+      return kOrange;
+    case HudInk::kAlarm:
+      return {255, 132, 60, 1};
   }
   return kWhite;
 }
@@ -40,7 +47,9 @@ void paint_symbol(Canvas& canvas, const HudShape& shape) {
       canvas.ring(x, y, r, 0.24 * r, kSkyBlue);
       canvas.triangle(x - 0.28 * r, y - 0.48 * r, x - 0.28 * r, y + 0.48 * r, x + 0.55 * r, y, kSkyBlue);
       break;
-    case HudShape::Kind::kOpen: canvas.ring(x, y, 0.92 * r, 0.2 * r, faded(kGrey, 0.8)); break;
+    case HudShape::Kind::kOpen:
+      canvas.ring(x, y, 0.92 * r, 0.2 * r, faded(kGrey, 0.8));
+      break;
     case HudShape::Kind::kUp:
       canvas.triangle(x - 0.9 * r, y + 0.2 * r, x + 0.9 * r, y + 0.2 * r, x, y - 0.9 * r, kOrange);
       canvas.box({x - 0.32 * r, y + 0.1 * r, 0.64 * r, 0.8 * r}, kOrange);
@@ -55,19 +64,26 @@ void paint_symbol(Canvas& canvas, const HudShape& shape) {
       canvas.disc(x, y - 0.42 * r, 0.14 * r, kWhite);
       canvas.line(x, y - 0.05 * r, x, y + 0.5 * r, 0.24 * r, kWhite);
       break;
-    default: break;
+    default:
+      break;
   }
 }
 
 void paint_shape(Canvas& canvas, const HudShape& shape) {
   switch (shape.kind) {
-    case HudShape::Kind::kPanel: canvas.box(shape.box, kDarkPanel); break;
-    case HudShape::Kind::kStripe: canvas.box(shape.box, {255, 255, 255, 0.055}, 3); break;
+    case HudShape::Kind::kPanel:
+      canvas.box(shape.box, kDarkPanel);
+      break;
+    case HudShape::Kind::kStripe:
+      canvas.box(shape.box, {255, 255, 255, 0.055}, 3);
+      break;
     case HudShape::Kind::kToast:
       canvas.box(shape.box, {10, 12, 15, 0.90}, 7);
       canvas.frame(shape.box, kGrey, 7, 2);
       break;
-    default: paint_symbol(canvas, shape); break;
+    default:
+      paint_symbol(canvas, shape);
+      break;
   }
 }
 
@@ -89,11 +105,13 @@ void paint_bar(Canvas& canvas, const HudBar& bar) {
                                                              : kSkyBlue;
   if (bar.value > 0) canvas.box(slice(0, bar.value, 0.26 * t.height), fill, 2);
   if (bar.band_high > bar.band_low)
-    for (const double share : {bar.band_low, bar.band_high}) canvas.box({at(share) - 1, t.y, 2, t.height}, {40, 200, 150, 1});
+    for (const double share : {bar.band_low, bar.band_high})
+      canvas.box({at(share) - 1, t.y, 2, t.height}, {40, 200, 150, 1});
   if (bar.limit < 1) canvas.box({at(bar.limit) - 1, t.y, 2, t.height}, kVermillion);
   if (bar.peak > 0) {
     canvas.box({at(bar.peak) - 1.5, t.y, 3, t.height}, kWhite);
-    canvas.triangle(at(bar.peak) - 0.24 * t.height, t.y, at(bar.peak) + 0.24 * t.height, t.y, at(bar.peak), t.y + 0.3 * t.height, kWhite);
+    canvas.triangle(at(bar.peak) - 0.24 * t.height, t.y, at(bar.peak) + 0.24 * t.height, t.y, at(bar.peak),
+                    t.y + 0.3 * t.height, kWhite);
   }
 }
 

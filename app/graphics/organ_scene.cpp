@@ -11,7 +11,8 @@ std::string credit_line(const Organ& organ) {
   std::string line = "Organ: " + organ.name;
   if (organ.synthetic && organ.credit.find("synthetic") == std::string::npos) line += " (synthetic)";
   if (!organ.credit.empty()) line += " \u00b7 " + organ.credit;
-  if (!organ.licence.empty() && organ.credit.find(organ.licence) == std::string::npos) line += " \u00b7 licence: " + organ.licence;
+  if (!organ.licence.empty() && organ.credit.find(organ.licence) == std::string::npos)
+    line += " \u00b7 licence: " + organ.licence;
   if (organ.cut_at_border) line += " \u00b7 cut at the image's border: the flat side is not anatomy";
   return line;
 }

@@ -96,7 +96,8 @@ class SolidGrid {
       for (int y = 0; y < kGrid; ++y)
         for (int x = 0; x < kGrid; ++x)
           solid_[index(x, y, z)] = (at(x - 2 * dx, y - 2 * dy, z - 2 * dz) + at(x + 2 * dx, y + 2 * dy, z + 2 * dz) +
-                                    4 * (at(x - dx, y - dy, z - dz) + at(x + dx, y + dy, z + dz)) + 6 * at(x, y, z)) / 16;
+                                    4 * (at(x - dx, y - dy, z - dz) + at(x + dx, y + dy, z + dz)) + 6 * at(x, y, z)) /
+                                   16;
   }
 
   double cell_ = 0;
@@ -114,7 +115,8 @@ TriangleSurface subdivide_curved(const TriangleSurface& surface) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> midpoints;
   const auto midpoint = [&](std::int32_t a, std::int32_t b) {
     const auto key = std::minmax(a, b);
-    const auto [place, inserted] = midpoints.try_emplace({key.first, key.second}, static_cast<std::int32_t>(fine.vertices.size()));
+    const auto [place, inserted] =
+        midpoints.try_emplace({key.first, key.second}, static_cast<std::int32_t>(fine.vertices.size()));
     if (inserted) {
       const auto first = static_cast<std::size_t>(key.first), second = static_cast<std::size_t>(key.second);
       const Vec3 flat = 0.5 * (surface.vertices[first] + surface.vertices[second]);
@@ -140,7 +142,8 @@ std::vector<float> bake_openness(const TriangleSurface& surface) {
   std::vector<float> openness(surface.vertices.size(), 1.0F);
   for (std::size_t i = 0; i < openness.size(); ++i) {
     double met = 0;
-    for (const double step : {2.2, 3.6, 5.5}) met += grid.density(surface.vertices[i] + normals[i] * (step * grid.cell()));
+    for (const double step : {2.2, 3.6, 5.5})
+      met += grid.density(surface.vertices[i] + normals[i] * (step * grid.cell()));
     openness[i] = static_cast<float>(std::clamp(1.0 - 0.75 * met, 0.0, 1.0));
   }
   return openness;

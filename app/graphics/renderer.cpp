@@ -36,9 +36,12 @@ std::string bed_look(const std::string& material) { return material == "gallblad
 
 std::string mark_look(TargetMark::State state) {
   switch (state) {
-    case TargetMark::State::kWaiting: return "MARK_WAITING";
-    case TargetMark::State::kLit: return "MARK_LIT";
-    case TargetMark::State::kDone: return "MARK_DONE";
+    case TargetMark::State::kWaiting:
+      return "MARK_WAITING";
+    case TargetMark::State::kLit:
+      return "MARK_LIT";
+    case TargetMark::State::kDone:
+      return "MARK_DONE";
   }
   return "MARK_WAITING";
 }
@@ -105,7 +108,8 @@ Renderer::Impl::Impl(HeadlessContext& ctx, const std::filesystem::path& asset_ro
   noise = GlObject(GlObject::Kind::kTexture);
   const std::vector<std::uint8_t> texels = solid_noise_texture(kNoiseSize);
   glBindTexture(GL_TEXTURE_3D, noise.id());
-  glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, kNoiseSize, kNoiseSize, kNoiseSize, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+  glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, kNoiseSize, kNoiseSize, kNoiseSize, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               texels.data());
   glGenerateMipmap(GL_TEXTURE_3D);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -118,7 +122,9 @@ Renderer::Impl::Impl(HeadlessContext& ctx, const std::filesystem::path& asset_ro
 
 void Renderer::Impl::ensure_surfaces(int width, int height) {
   if (picture.width == width && picture.height == height) return;
-  const auto scaled = [&](int length) { return std::max(16, static_cast<int>(std::lround(length * options.scene_scale))); };
+  const auto scaled = [&](int length) {
+    return std::max(16, static_cast<int>(std::lround(length * options.scene_scale)));
+  };
   const int w = scaled(width), h = scaled(height);
   scene = RenderSurface(RenderSurface::Use::kSceneColour, w, h);
   glow_a = RenderSurface(RenderSurface::Use::kGlow, std::max(1, w / kGlowDivisor), std::max(1, h / kGlowDivisor));
@@ -165,7 +171,8 @@ void Renderer::Impl::ensure_instrument(const SceneView& view) {
   jaw = GpuMesh(build_jaw(shaft_radius_m));
 }
 
-Program& Renderer::Impl::bind(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
+Program& Renderer::Impl::bind(const std::string& vertex, const std::string& fragment,
+                              std::vector<std::string> defines) {
   Program& program = shaders.program(vertex, fragment, defines);
   program.use();
   program.bind_block("Scene", 0);
@@ -219,7 +226,8 @@ void Renderer::Impl::scene_pass(const SceneView& view, const ScopeOptics& optics
 }
 
 void Renderer::Impl::tissue_pass(const SceneView& view, const ScopeOptics& optics) {
-  const std::vector<std::string> dimple = has_dimple(view) ? std::vector<std::string>{"DIMPLED"} : std::vector<std::string>{};
+  const std::vector<std::string> dimple =
+      has_dimple(view) ? std::vector<std::string>{"DIMPLED"} : std::vector<std::string>{};
   std::vector<std::string> defines = dimple;
   defines.push_back(tissue_look(view.material));
   bind("tissue", "tissue", defines);
@@ -231,7 +239,8 @@ void Renderer::Impl::tissue_pass(const SceneView& view, const ScopeOptics& optic
   decal_pass(view, optics, dimple);
 }
 
-void Renderer::Impl::decal_pass(const SceneView& view, const ScopeOptics& optics, const std::vector<std::string>& dimple) {
+void Renderer::Impl::decal_pass(const SceneView& view, const ScopeOptics& optics,
+                                const std::vector<std::string>& dimple) {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
@@ -266,7 +275,8 @@ void Renderer::Impl::glow_pass() {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   };
   Program& bright = bind("screen", "bright");
-  glUniform2f(bright.uniform("u_texel"), 1.0F / static_cast<float>(scene.width), 1.0F / static_cast<float>(scene.height));
+  glUniform2f(bright.uniform("u_texel"), 1.0F / static_cast<float>(scene.width),
+              1.0F / static_cast<float>(scene.height));
   draw(glow_a, scene.texture, bright);
   Program& blur = bind("screen", "blur");
   glUniform2f(blur.uniform("u_step"), 1.0F / static_cast<float>(glow_a.width), 0.0F);
@@ -277,13 +287,14 @@ void Renderer::Impl::glow_pass() {
 
 void Renderer::Impl::post_pass(const SceneView& view, const ScopeOptics& optics, const PixelRect& window) {
   picture.begin();
-  Program& post = bind("screen", "post", options.grain ? std::vector<std::string>{"WITH_GRAIN"} : std::vector<std::string>{});
+  Program& post =
+      bind("screen", "post", options.grain ? std::vector<std::string>{"WITH_GRAIN"} : std::vector<std::string>{});
   const auto f = [](double value) { return static_cast<float>(value); };
   glUniform1i(post.uniform("u_scene"), kSceneUnit);
   glUniform1i(post.uniform("u_glow"), kGlowUnit);
   glUniform2f(post.uniform("u_size"), f(window.width), f(window.height));
-  glUniform3f(post.uniform("u_circle"), f(optics.circle_x() - window.x), f(window.y + window.height - optics.circle_y()),
-              f(optics.circle_radius()));
+  glUniform3f(post.uniform("u_circle"), f(optics.circle_x() - window.x),
+              f(window.y + window.height - optics.circle_y()), f(optics.circle_radius()));
   glUniform2f(post.uniform("u_texel"), 1.0F / f(scene.width), 1.0F / f(scene.height));
   glUniform1f(post.uniform("u_barrel"), f(ScopeOptics::kBarrel));
   glUniform1f(post.uniform("u_frame"), f(std::fmod(std::floor(std::max(0.0, view.hud.elapsed_s) * 50), 65536.0)));
@@ -301,7 +312,8 @@ void Renderer::Impl::read_back(Image& image, const PixelRect& window) {
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
     throw std::runtime_error("OpenGL error " + std::to_string(error) + " while drawing a frame");
   for (int y = 0; y < window.height; ++y) {
-    const std::uint8_t* from = &rgba[static_cast<std::size_t>(window.height - 1 - y) * static_cast<std::size_t>(window.width) * 4];
+    const std::uint8_t* from =
+        &rgba[static_cast<std::size_t>(window.height - 1 - y) * static_cast<std::size_t>(window.width) * 4];
     std::uint8_t* to = image.pixel(window.x, window.y + y);
     for (int x = 0; x < window.width; ++x, from += 4, to += 3) std::memcpy(to, from, 3);
   }
@@ -317,7 +329,8 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 Image Renderer::render(const SceneView& view, int width, int height) {
   if (width < 320 || height < 240) throw std::invalid_argument("a picture needs at least 320 x 240 pixels");
-  if (!view.camera.eye_T.allFinite() || !view.camera.look_at_T.allFinite() || view.camera.eye_T == view.camera.look_at_T)
+  if (!view.camera.eye_T.allFinite() || !view.camera.look_at_T.allFinite() ||
+      view.camera.eye_T == view.camera.look_at_T)
     throw std::invalid_argument("the scope's pose is not finite or looks at its own lens");
   Impl& r = *impl_;
   r.context.make_current();

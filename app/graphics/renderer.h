@@ -14,9 +14,10 @@
 namespace trocar {
 
 struct RenderOptions {
-  double text_scale = 1;    ///< 1 to 2
-  double scene_scale = 1;   ///< resolution of the 3-D picture relative to its window, 0.4 to 1; below 1 is the soft preset
-  bool grain = true;        ///< sensor grain; off for picture tests
+  double text_scale = 1;  ///< 1 to 2
+  double scene_scale =
+      1;              ///< resolution of the 3-D picture relative to its window, 0.4 to 1; below 1 is the soft preset
+  bool grain = true;  ///< sensor grain; off for picture tests
 };
 
 class Renderer {

@@ -52,7 +52,8 @@ ScopeOptics::ScopeOptics(const Camera& camera, const PixelRect& window) : window
 Vec3 ScopeOptics::lamp() const { return eye_ + 0.010 * right() + 0.008 * up(); }
 
 Eigen::Matrix4f ScopeOptics::view_projection() const {
-  return clip_matrix(R_TC_, eye_, tan_half_ * 0.5 * window_.width / radius_, tan_half_ * 0.5 * window_.height / radius_);
+  return clip_matrix(R_TC_, eye_, tan_half_ * 0.5 * window_.width / radius_,
+                     tan_half_ * 0.5 * window_.height / radius_);
 }
 
 Eigen::Matrix4f ScopeOptics::lamp_projection() const { return clip_matrix(R_TC_, lamp(), kShadowTan, kShadowTan); }

@@ -8,13 +8,23 @@
 namespace trocar {
 namespace {
 
-constexpr std::array<std::array<float, 3>, 12> kGradients = {{{1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0},
-                                                              {1, 0, 1}, {-1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
-                                                              {0, 1, 1}, {0, -1, 1}, {0, 1, -1}, {0, -1, -1}}};
+constexpr std::array<std::array<float, 3>, 12> kGradients = {{{1, 1, 0},
+                                                              {-1, 1, 0},
+                                                              {1, -1, 0},
+                                                              {-1, -1, 0},
+                                                              {1, 0, 1},
+                                                              {-1, 0, 1},
+                                                              {1, 0, -1},
+                                                              {-1, 0, -1},
+                                                              {0, 1, 1},
+                                                              {0, -1, 1},
+                                                              {0, 1, -1},
+                                                              {0, -1, -1}}};
 
 float corner(int ix, int iy, int iz, float dx, float dy, float dz, int period) {
   const auto wrap = [period](int i) { return static_cast<std::uint32_t>(((i % period) + period) % period); };
-  const auto& g = kGradients[lattice_hash(wrap(ix), wrap(iy), wrap(iz) + static_cast<std::uint32_t>(period) * 131U) % 12U];
+  const auto& g =
+      kGradients[lattice_hash(wrap(ix), wrap(iy), wrap(iz) + static_cast<std::uint32_t>(period) * 131U) % 12U];
   return g[0] * dx + g[1] * dy + g[2] * dz;
 }
 
@@ -58,7 +68,8 @@ double gradient_noise(double x, double y, double z, int period) {
   const float u = fade(dx), v = fade(dy), w = fade(dz);
   const auto edge = [&](int j, int k) {
     return mix(corner(ix, iy + j, iz + k, dx, dy - static_cast<float>(j), dz - static_cast<float>(k), period),
-               corner(ix + 1, iy + j, iz + k, dx - 1, dy - static_cast<float>(j), dz - static_cast<float>(k), period), u);
+               corner(ix + 1, iy + j, iz + k, dx - 1, dy - static_cast<float>(j), dz - static_cast<float>(k), period),
+               u);
   };
   return mix(mix(edge(0, 0), edge(1, 0), v), mix(edge(0, 1), edge(1, 1), v), w);
 }

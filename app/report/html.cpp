@@ -38,13 +38,20 @@ std::string escape_html(const std::string& text) {
     const std::size_t length = sequence_length(text, i);
     const char c = text[i];
     const bool control = (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n') || c == 0x7F;
-    if (length == 0 || control) out += "\xEF\xBF\xBD";
-    else if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else if (c == '\'') out += "&#39;";
-    else out.append(text, i, length);
+    if (length == 0 || control)
+      out += "\xEF\xBF\xBD";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
+    else
+      out.append(text, i, length);
     i += length == 0 ? 1 : length;
   }
   return out;
@@ -108,10 +115,13 @@ std::string words_of(const std::string& identifier) {
   std::string out;
   for (const char c : identifier) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '_' || c == '-') out += ' ';
-    else out += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
+    if (c == '_' || c == '-')
+      out += ' ';
+    else
+      out += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
   }
-  if (!out.empty() && static_cast<unsigned char>(out[0]) < 0x80) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+  if (!out.empty() && static_cast<unsigned char>(out[0]) < 0x80)
+    out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
   return out;
 }
 

@@ -15,19 +15,23 @@ constexpr std::array<const char*, 4> kClassWidth = {"1.2", "2", "2.4", "3.4"};
 
 std::string px(double value) { return fixed_text(value, 1); }
 
-std::string attribute(const char* name, const std::string& value) { return std::string(" ") + name + "=\"" + value + "\""; }
+std::string attribute(const char* name, const std::string& value) {
+  return std::string(" ") + name + "=\"" + value + "\"";
+}
 
 std::string line(double x0, double y0, double x1, double y1, const std::string& style) {
-  return "<line" + attribute("x1", px(x0)) + attribute("y1", px(y0)) + attribute("x2", px(x1)) + attribute("y2", px(y1)) + " " + style + "/>";
+  return "<line" + attribute("x1", px(x0)) + attribute("y1", px(y0)) + attribute("x2", px(x1)) +
+         attribute("y2", px(y1)) + " " + style + "/>";
 }
 
 std::string rect(double x, double y, double w, double h, const std::string& style) {
-  return "<rect" + attribute("x", px(x)) + attribute("y", px(y)) + attribute("width", px(w)) + attribute("height", px(h)) + " " + style + "/>";
+  return "<rect" + attribute("x", px(x)) + attribute("y", px(y)) + attribute("width", px(w)) +
+         attribute("height", px(h)) + " " + style + "/>";
 }
 
 std::string label(double x, double y, const std::string& words, const char* anchor = "start", const char* extra = "") {
-  return "<text" + attribute("x", px(x)) + attribute("y", px(y)) + attribute("text-anchor", anchor) + " " + extra + ">" +
-         escape_html(words) + "</text>";
+  return "<text" + attribute("x", px(x)) + attribute("y", px(y)) + attribute("text-anchor", anchor) + " " + extra +
+         ">" + escape_html(words) + "</text>";
 }
 
 /// 1, 2 or 5 times a power of ten, giving about `count` steps.
@@ -69,8 +73,8 @@ class ForcePlot {
   }
 
   std::string draw(const std::vector<Event>& events, double start_s) const {
-    return zones() + axes() + trace(series_.grip_n, "#56b4e9", series_.gripped) + trace(series_.force_n, "#1d2630", true) +
-           marks(events, start_s) + legend();
+    return zones() + axes() + trace(series_.grip_n, "#56b4e9", series_.gripped) +
+           trace(series_.force_n, "#1d2630", true) + marks(events, start_s) + legend();
   }
 
  private:
@@ -79,7 +83,9 @@ class ForcePlot {
 
   std::string zones() const {
     std::string out;
-    if (band_.high_n > band_.low_n) out += rect(kLeft, y(band_.high_n), kRight - kLeft, y(band_.low_n) - y(band_.high_n), "fill=\"#009e73\" fill-opacity=\"0.17\"");
+    if (band_.high_n > band_.low_n)
+      out += rect(kLeft, y(band_.high_n), kRight - kLeft, y(band_.low_n) - y(band_.high_n),
+                  "fill=\"#009e73\" fill-opacity=\"0.17\"");
     if (band_.hard_n > 0) {
       out += rect(kLeft, kTop, kRight - kLeft, y(band_.hard_n) - kTop, "fill=\"url(#over)\"");
       out += line(kLeft, y(band_.hard_n), kRight, y(band_.hard_n), "stroke=\"#d55e00\" stroke-width=\"1.6\"");
@@ -91,9 +97,11 @@ class ForcePlot {
     std::string out;
     const double step_n = nice_step(top_n_, 5), step_s = nice_step(series_.t_end_s, 10);
     for (double n = 0; n <= top_n_; n += step_n)
-      out += line(kLeft, y(n), kRight, y(n), "stroke=\"#000\" stroke-opacity=\"0.12\"") + label(kLeft - 7, y(n) + 5, number_text(n), "end");
+      out += line(kLeft, y(n), kRight, y(n), "stroke=\"#000\" stroke-opacity=\"0.12\"") +
+             label(kLeft - 7, y(n) + 5, number_text(n), "end");
     for (double t = 0; t <= series_.t_end_s * 1.0001; t += step_s)
-      out += line(x(t), kBottom, x(t), kBottom + 5, "stroke=\"#555\"") + label(x(t), kBottom + 20, number_text(t), "middle");
+      out += line(x(t), kBottom, x(t), kBottom + 5, "stroke=\"#555\"") +
+             label(x(t), kBottom + 20, number_text(t), "middle");
     return out + label(kRight, kBottom + 40, "time, s", "end") + label(6, kTop - 8, "N");
   }
 
@@ -107,7 +115,8 @@ class ForcePlot {
       if (c.high > c.low) points += at + px(y(c.high)) + " ";
     }
     if (!points.empty()) points.pop_back();
-    return "<polyline fill=\"none\" stroke-width=\"1.3\" stroke-linejoin=\"round\"" + attribute("stroke", colour) + attribute("points", points) + "/>";
+    return "<polyline fill=\"none\" stroke-width=\"1.3\" stroke-linejoin=\"round\"" + attribute("stroke", colour) +
+           attribute("points", points) + "/>";
   }
 
   /// Numbers of the event list over the plot; neighbours go to a second and third row instead of on top of each other.
@@ -118,13 +127,15 @@ class ForcePlot {
       const double at = x(events[i].t_s - start_s);
       const bool severe = events[i].severity >= Severity::kMajor;
       const char* colour = severe ? "#d55e00" : "#0072b2";
-      out += line(at, kTop, at, kBottom, std::string("stroke-dasharray=\"2 3\" stroke-opacity=\"0.55\" stroke=\"") + colour + "\"");
+      out += line(at, kTop, at, kBottom,
+                  std::string("stroke-dasharray=\"2 3\" stroke-opacity=\"0.55\" stroke=\"") + colour + "\"");
       const std::string words = std::to_string(i + 1) + (severe ? "!" : "");
       const double half = 4.5 * static_cast<double>(words.size()) + 2;
       for (std::size_t row = 0; row < row_end.size(); ++row) {
         if (at - half < row_end[row]) continue;
         row_end[row] = at + half;
-        out += label(at, kTop - 6 - 17 * static_cast<double>(row), words, "middle", severe ? "fill=\"#b04a00\" font-weight=\"bold\"" : "fill=\"#00507e\"");
+        out += label(at, kTop - 6 - 17 * static_cast<double>(row), words, "middle",
+                     severe ? "fill=\"#b04a00\" font-weight=\"bold\"" : "fill=\"#00507e\"");
         break;
       }
     }
@@ -140,10 +151,14 @@ class ForcePlot {
       at += 42 + 7.6 * static_cast<double>(words.size());
     };
     entry(line(at, base - 5, at + 20, base - 5, "stroke=\"#1d2630\" stroke-width=\"2\""), "tissue force");
-    if (series_.gripped) entry(line(at, base - 5, at + 20, base - 5, "stroke=\"#56b4e9\" stroke-width=\"2\""), "grip force");
+    if (series_.gripped)
+      entry(line(at, base - 5, at + 20, base - 5, "stroke=\"#56b4e9\" stroke-width=\"2\""), "grip force");
     if (band_.high_n > band_.low_n)
-      entry(rect(at, base - 11, 20, 12, "fill=\"#009e73\" fill-opacity=\"0.25\""), "band " + number_text(band_.low_n) + " to " + number_text(band_.high_n) + " N");
-    if (band_.hard_n > 0) entry(rect(at, base - 11, 20, 12, "fill=\"url(#over)\" stroke=\"#d55e00\""), "over the limit of " + number_text(band_.hard_n) + " N");
+      entry(rect(at, base - 11, 20, 12, "fill=\"#009e73\" fill-opacity=\"0.25\""),
+            "band " + number_text(band_.low_n) + " to " + number_text(band_.high_n) + " N");
+    if (band_.hard_n > 0)
+      entry(rect(at, base - 11, 20, 12, "fill=\"url(#over)\" stroke=\"#d55e00\""),
+            "over the limit of " + number_text(band_.hard_n) + " N");
     return out;
   }
 
@@ -180,7 +195,8 @@ std::string path_lines(const Trace& trace, const PathFrame& frame, const ForceBa
     if (points.empty()) return;
     points.pop_back();
     const auto k = static_cast<std::size_t>(current);
-    out += "<polyline fill=\"none\" stroke-linecap=\"round\"" + attribute("stroke", kClassColour[k]) + attribute("stroke-width", kClassWidth[k]) + attribute("points", points) + "/>";
+    out += "<polyline fill=\"none\" stroke-linecap=\"round\"" + attribute("stroke", kClassColour[k]) +
+           attribute("stroke-width", kClassWidth[k]) + attribute("points", points) + "/>";
   };
   for (const TraceSample& sample : trace.samples) {
     if (!sample.tip_T.allFinite()) continue;
@@ -210,7 +226,8 @@ std::string path_ends(const Trace& trace, const PathFrame& frame) {
     const double x = frame.px_x(p.x()), y = frame.px_y(p.y());
     const bool right_half = x > 0.7 * kSide;
     return "<circle r=\"5\"" + attribute("cx", px(x)) + attribute("cy", px(y)) + " " + style + "/>" +
-           label(x + (right_half ? -9 : 9), y + (words == "end" ? 17 : -8), words, right_half ? "end" : "start", "font-weight=\"bold\"");
+           label(x + (right_half ? -9 : 9), y + (words == "end" ? 17 : -8), words, right_half ? "end" : "start",
+                 "font-weight=\"bold\"");
   };
   return mark(a, "fill=\"#fff\" stroke=\"#000\" stroke-width=\"2\"", "start") + mark(b, "fill=\"#000\"", "end");
 }
@@ -218,12 +235,14 @@ std::string path_ends(const Trace& trace, const PathFrame& frame) {
 std::string scale_bar(const PathFrame& frame) {
   const double length = nice_step((kSide - 2 * kMargin) / frame.scale, 4);
   const double x0 = kMargin, x1 = kMargin + length * frame.scale, y = kSide - 8;
-  return line(x0, y, x1, y, "stroke=\"#000\" stroke-width=\"2\"") + label(x1 + 6, y + 4, number_text(length * 1000) + " mm");
+  return line(x0, y, x1, y, "stroke=\"#000\" stroke-width=\"2\"") +
+         label(x1 + 6, y + 4, number_text(length * 1000) + " mm");
 }
 
 }  // namespace
 
-std::vector<ColumnRange> column_ranges(const std::vector<double>& t_s, const std::vector<double>& values, double t_end_s, int columns) {
+std::vector<ColumnRange> column_ranges(const std::vector<double>& t_s, const std::vector<double>& values,
+                                       double t_end_s, int columns) {
   std::vector<ColumnRange> ranges;
   for (std::size_t i = 0; i < t_s.size() && i < values.size(); ++i) {
     if (!std::isfinite(values[i]) || !std::isfinite(t_s[i])) continue;
@@ -244,15 +263,20 @@ int force_class(double force_n, const ForceBand& band) {
 std::string force_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceBand& band) {
   const Series series = series_of(trace);
   const double start = trace.samples.empty() ? 0 : trace.samples.front().t_s;
-  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) + "\" role=\"img\" aria-label=\"Force against time\">";
-  out += "<defs><pattern id=\"over\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
-         "<rect width=\"8\" height=\"8\" fill=\"#d55e00\" fill-opacity=\"0.10\"/>"
-         "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"8\" stroke=\"#d55e00\" stroke-width=\"2\" stroke-opacity=\"0.45\"/></pattern></defs>";
+  std::string out =
+      "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) + "\" role=\"img\" aria-label=\"Force against time\">";
+  out +=
+      "<defs><pattern id=\"over\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" "
+      "patternTransform=\"rotate(45)\">"
+      "<rect width=\"8\" height=\"8\" fill=\"#d55e00\" fill-opacity=\"0.10\"/>"
+      "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"8\" stroke=\"#d55e00\" stroke-width=\"2\" "
+      "stroke-opacity=\"0.45\"/></pattern></defs>";
   return out + ForcePlot(series, band).draw(events, start) + "</svg>";
 }
 
 std::string path_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceBand& band) {
-  std::string out = "<svg viewBox=\"0 0 " + px(kSide) + " " + px(kSide) + "\" role=\"img\" aria-label=\"Tip path from above\">";
+  std::string out =
+      "<svg viewBox=\"0 0 " + px(kSide) + " " + px(kSide) + "\" role=\"img\" aria-label=\"Tip path from above\">";
   out += rect(0.5, 0.5, kSide - 1, kSide - 1, "fill=\"#fff\" stroke=\"#c9ced4\"");
   if (trace.samples.empty()) return out + label(0.5 * kSide, 0.5 * kSide, "no samples", "middle") + "</svg>";
   const PathFrame frame = frame_path(trace);
@@ -260,7 +284,8 @@ std::string path_plot_svg(const Trace& trace, const std::vector<Event>& events, 
   for (std::size_t i = 0; i < events.size(); ++i) {
     const double x = frame.px_x(events[i].tip_T.x()), y = frame.px_y(events[i].tip_T.y());
     if (events[i].object < 0 || !events[i].tip_T.allFinite() || x < 0 || y < 0 || x > kSide || y > kSide) continue;
-    out += "<circle r=\"8\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.4\"" + attribute("cx", px(x)) + attribute("cy", px(y)) + "/>";
+    out += "<circle r=\"8\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.4\"" + attribute("cx", px(x)) +
+           attribute("cy", px(y)) + "/>";
   }
   return out + path_ends(trace, frame) + scale_bar(frame) + "</svg>";
 }

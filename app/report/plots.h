@@ -23,7 +23,8 @@ struct ColumnRange {
 };
 
 /// Reduces samples to one range a column. @param columns > 0. Non-finite values are left out.
-std::vector<ColumnRange> column_ranges(const std::vector<double>& t_s, const std::vector<double>& values, double t_end_s, int columns);
+std::vector<ColumnRange> column_ranges(const std::vector<double>& t_s, const std::vector<double>& values,
+                                       double t_end_s, int columns);
 
 /// How a force stands to the band: 0 none or below, 1 in band, 2 above, 3 at or above the hard limit.
 int force_class(double force_n, const ForceBand& band);

@@ -13,15 +13,15 @@
 namespace trocar {
 
 struct ReportContext {
-  std::string exercise_number;        ///< "E02"
-  std::string exercise_title;         ///< "Surface touch"
-  std::string goal;                   ///< one line
-  ForceBand band;                     ///< N
-  double pass_mark = 75;              ///< 0..100
-  double time_limit_s = 0;            ///< 0: none
-  std::filesystem::path picture;      ///< PNG of the attempt; empty: none
-  bool embed_picture = true;          ///< into the page (base64); false: relative link by file name
-  std::string program_version;        ///< "0.1.0"
+  std::string exercise_number;    ///< "E02"
+  std::string exercise_title;     ///< "Surface touch"
+  std::string goal;               ///< one line
+  ForceBand band;                 ///< N
+  double pass_mark = 75;          ///< 0..100
+  double time_limit_s = 0;        ///< 0: none
+  std::filesystem::path picture;  ///< PNG of the attempt; empty: none
+  bool embed_picture = true;      ///< into the page (base64); false: relative link by file name
+  std::string program_version;    ///< "0.1.0"
 };
 
 /// The whole page as UTF-8 text.
@@ -30,6 +30,7 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
 
 /// Writes report_page to a file.
 /// @throws EnvironmentError naming the file when it cannot be written.
-void write_report(const std::filesystem::path& path_html, const AttemptResult& result, const Trace& trace, const ReportContext& context);
+void write_report(const std::filesystem::path& path_html, const AttemptResult& result, const Trace& trace,
+                  const ReportContext& context);
 
 }  // namespace trocar

@@ -22,6 +22,7 @@ p{margin:4px 0}
 .notgraded{border-color:#5b6570;background:#f3f4f6}
 .two{display:grid;grid-template-columns:minmax(0,1.55fr) minmax(0,1fr);gap:22px;align-items:start}
 .two>*{min-width:0}
+.two.path{grid-template-columns:minmax(0,1.35fr) minmax(0,1fr)}
 img{width:100%;height:auto;display:block;border-radius:4px;background:#000}
 svg{width:100%;height:auto;display:block;font-size:14px}
 svg text{fill:#27313b}
@@ -47,10 +48,10 @@ tr:nth-child(even) td{background:#f6f7f9}
 .mono{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:.82rem;overflow-wrap:anywhere}
 footer{margin-top:20px;padding-top:8px;border-top:2px solid #d9dee4;font-size:.88rem;color:#3d4750}
 @media screen and (max-width:760px){.two,.verdict{grid-template-columns:1fr}.metrics{columns:1}.verdict .score{text-align:left}}
-@page{size:A4;margin:11mm 12mm}
+@page{size:A4;margin:7mm 12mm}
 @media print{html{font-size:10px}body{padding:0;max-width:none;font-size:10px;line-height:1.28}h2{margin:7px 0 2px;break-after:avoid}p{margin:1px 0}footer{margin-top:7px;padding-top:3px;font-size:8.5px}.tag{margin-right:4px}
-.mono{font-size:7.6px}.two{grid-template-columns:minmax(0,1.9fr) minmax(0,1fr)}.two.top{grid-template-columns:minmax(0,1fr) minmax(0,1.15fr)}.force svg{width:80%;margin:0 auto}section,.verdict,tr,svg,img,.two{break-inside:avoid}
-.verdict{margin:4px 0;padding:5px 12px}.two{gap:14px}.metrics{columns:2;column-gap:14px}.path svg{width:88%}td,th{padding:1px 6px 1px 0}.bar{height:9px;margin-top:3px}
+.mono{font-size:7.6px}.two{grid-template-columns:minmax(0,1.9fr) minmax(0,1fr)}.two.top{grid-template-columns:minmax(0,1fr) minmax(0,1.15fr)}.force svg{width:70%;margin:0 auto}section,.verdict,tr,svg,img{break-inside:avoid}
+.verdict{margin:4px 0;padding:5px 12px}.two{gap:14px}.metrics{columns:2;column-gap:14px}.two.path{grid-template-columns:minmax(0,1.3fr) minmax(0,1fr)}.path svg{width:56%;margin:0 auto}.path .facts td{font-size:9px}td,th{padding:1px 6px 1px 0}.bar{height:9px;margin-top:3px}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 

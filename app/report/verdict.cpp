@@ -9,8 +9,8 @@ namespace {
 
 /// The score for being quick; "time in band" and the like are accuracy.
 bool is_time(const Subscore& s) {
-  return s.name == "time" || s.name == "task_time" || s.name == "duration" || s.name == "speed" || s.name.starts_with("time_to") ||
-         s.name.starts_with("time to");
+  return s.name == "time" || s.name == "task_time" || s.name == "duration" || s.name == "speed" ||
+         s.name.starts_with("time_to") || s.name.starts_with("time to");
 }
 
 int rank(const Subscore& s) { return s.gate ? 0 : is_time(s) ? 2 : 1; }
@@ -34,12 +34,16 @@ const Subscore* costliest(const std::vector<Subscore>& ordered) {
 
 std::string ungraded_reason(const AttemptResult& result) {
   switch (result.grade.status) {
-    case AttemptStatus::kAborted: return "The attempt was stopped before its end, so it carries no score.";
+    case AttemptStatus::kAborted:
+      return "The attempt was stopped before its end, so it carries no score.";
     case AttemptStatus::kFault:
-      return "The device stopped with a fault" + (result.device.fault.empty() ? std::string() : " (" + result.device.fault + ")") +
+      return "The device stopped with a fault" +
+             (result.device.fault.empty() ? std::string() : " (" + result.device.fault + ")") +
              "; the attempt carries no score and is not the trainee's doing.";
-    case AttemptStatus::kVoid: return "The attempt is void: the recording or the device did not meet the conditions for grading.";
-    default: return "No score was computed for this attempt.";
+    case AttemptStatus::kVoid:
+      return "The attempt is void: the recording or the device did not meet the conditions for grading.";
+    default:
+      return "No score was computed for this attempt.";
   }
 }
 
@@ -52,11 +56,14 @@ std::string reason_of(const AttemptResult& result, double pass_mark, const std::
   }
   if (const Event* event = first_critical(result))
     return words_of(event->type) + " at " + fixed_text(event->t_s, 1) + " s" +
-           (event->unit.empty() ? "" : " (" + quantity_text(event->value, event->unit) + ")") + ": a critical event caps the score.";
+           (event->unit.empty() ? "" : " (" + quantity_text(event->value, event->unit) + ")") +
+           ": a critical event caps the score.";
   if (!grade.caps.empty()) return grade.caps.front() + ".";
   if (grade.status == AttemptStatus::kTimeout) return "The time limit was reached before the task was complete.";
   const std::string gap = fixed_text(*grade.score, 1) + " of 100, pass mark " + number_text(pass_mark) + ". ";
-  return worst ? gap + "The largest loss: " + short_of(*worst) + " (\u2212" + fixed_text(points_lost(*worst), 1) + " points)." : gap;
+  return worst ? gap + "The largest loss: " + short_of(*worst) + " (\u2212" + fixed_text(points_lost(*worst), 1) +
+                     " points)."
+               : gap;
 }
 
 }  // namespace
@@ -88,7 +95,8 @@ Verdict judge(const AttemptResult& result, double pass_mark) {
   if (!next) next = costliest(ordered);
   if (next) {
     const bool less = next->full_at < next->zero_at;
-    verdict.advice = std::string("Try next: ") + words_of(next->name) + (less ? " down to " : " up to ") + quantity_text(next->full_at, next->unit) +
+    verdict.advice = std::string("Try next: ") + words_of(next->name) + (less ? " down to " : " up to ") +
+                     quantity_text(next->full_at, next->unit) +
                      (next->raw ? " (now " + quantity_text(next->raw, next->unit) + ")" : "") + ".";
   }
   return verdict;

@@ -17,14 +17,20 @@ Hud crowded_hud() {
   hud.title = "E14 Mini cholecystectomy with unexpectedly long exercise title for every language \u00b7 exam";
   hud.limit_s = 5999;
   hud.bars[0].label = "Linkes Instrument, Kraft am Gewebe";
-  hud.bars[0].band_low_n = 0.75, hud.bars[0].band_high_n = 12.25, hud.bars[0].limit_n = 14.75, hud.bars[0].peak_n = 123.4;
+  hud.bars[0].band_low_n = 0.75, hud.bars[0].band_high_n = 12.25, hud.bars[0].limit_n = 14.75,
+  hud.bars[0].peak_n = 123.4;
   hud.steps.clear();
   for (int i = 0; i < 11; ++i)
-    hud.steps.push_back({"Step with a description that needs more than one line of the column, number " + std::to_string(i),
-                         i < 4 ? HudStep::State::kDone : i == 4 ? HudStep::State::kCurrent : HudStep::State::kOpen});
+    hud.steps.push_back(
+        {"Step with a description that needs more than one line of the column, number " + std::to_string(i),
+         i < 4    ? HudStep::State::kDone
+         : i == 4 ? HudStep::State::kCurrent
+                  : HudStep::State::kOpen});
   hud.rows.clear();
-  for (int i = 0; i < 16; ++i) hud.rows.push_back({"Kontaktverluste des rechten Instruments", "1234567.89 / 9999999.99", "mm/s"});
-  hud.device = {{"plant", "simulated plant with a long name", ""}, {"loop", "1000.00", "Hz"}, {"passivity", "active 12.3", "%"}};
+  for (int i = 0; i < 16; ++i)
+    hud.rows.push_back({"Kontaktverluste des rechten Instruments", "1234567.89 / 9999999.99", "mm/s"});
+  hud.device = {
+      {"plant", "simulated plant with a long name", ""}, {"loop", "1000.00", "Hz"}, {"passivity", "active 12.3", "%"}};
   hud.credit += hud.credit + hud.credit + hud.credit;
   hud.toast = "Too much pull on the cystic duct: 5.6 N while the limit of this level of the exercise is 5 N";
   hud.toast_hint = "Relax until the bar is green, then continue with the same step and do not hurry it.";
@@ -56,7 +62,8 @@ class HudLayoutTest : public ::testing::TestWithParam<Case> {
 TEST_P(HudLayoutTest, NoTwoTextsOverlap) {
   for (std::size_t i = 0; i < layout_.texts.size(); ++i)
     for (std::size_t j = i + 1; j < layout_.texts.size(); ++j)
-      EXPECT_FALSE(overlap(layout_.texts[i].box, layout_.texts[j].box)) << '"' << layout_.texts[i].text << "\" and \"" << layout_.texts[j].text << '"';
+      EXPECT_FALSE(overlap(layout_.texts[i].box, layout_.texts[j].box))
+          << '"' << layout_.texts[i].text << "\" and \"" << layout_.texts[j].text << '"';
 }
 
 TEST_P(HudLayoutTest, NothingLeavesThePicture) {
@@ -70,7 +77,8 @@ TEST_P(HudLayoutTest, NothingLeavesThePicture) {
 
 TEST_P(HudLayoutTest, TextIsNeverSmallerThanEighteenPixels) {
   ASSERT_FALSE(layout_.texts.empty());
-  for (const HudText& text : layout_.texts) EXPECT_GE(text.size, static_cast<int>(18 * scale_ * std::max(1.0, size_.second / 720.0)) - 1) << text.text;
+  for (const HudText& text : layout_.texts)
+    EXPECT_GE(text.size, static_cast<int>(18 * scale_ * std::max(1.0, size_.second / 720.0)) - 1) << text.text;
 }
 
 TEST_P(HudLayoutTest, BarsAndSymbolsKeepClearOfTexts) {
@@ -96,18 +104,21 @@ TEST_P(HudLayoutTest, BoxesHoldWhatTheFontDraws) {
 
 INSTANTIATE_TEST_SUITE_P(ScalesSizesContents, HudLayoutTest,
                          ::testing::Combine(::testing::Values(1.0, 1.5, 2.0),
-                                            ::testing::Values(std::pair(1280, 720), std::pair(1920, 1080), std::pair(1024, 768)),
+                                            ::testing::Values(std::pair(1280, 720), std::pair(1920, 1080),
+                                                              std::pair(1024, 768)),
                                             ::testing::Bool()));
 
 bool contains(const HudLayout& layout, const std::string& words) {
-  return std::any_of(layout.texts.begin(), layout.texts.end(), [&](const HudText& t) { return t.text.find(words) != std::string::npos; });
+  return std::any_of(layout.texts.begin(), layout.texts.end(),
+                     [&](const HudText& t) { return t.text.find(words) != std::string::npos; });
 }
 
 TEST(HudContent, TwelveRowsStandInFullAtOrdinaryScale) {
   FontSet fonts;
   Hud hud = testing_support::sample_hud();
   hud.rows.clear();
-  for (int i = 0; i < 12; ++i) hud.rows.push_back({"Measure " + std::string(1, static_cast<char>('A' + i)), std::to_string(i), "mm"});
+  for (int i = 0; i < 12; ++i)
+    hud.rows.push_back({"Measure " + std::string(1, static_cast<char>('A' + i)), std::to_string(i), "mm"});
   const HudLayout layout = layout_hud(hud, 1280, 720, 1, fonts);
   for (const HudRow& row : hud.rows) EXPECT_TRUE(contains(layout, row.name)) << row.name;
   for (const HudStep& step : hud.steps) EXPECT_TRUE(contains(layout, step.text.substr(0, 12))) << step.text;
@@ -119,7 +130,8 @@ TEST(HudContent, CutListsSayHowMuchIsMissingAndKeepTheCurrentStep) {
   const HudLayout layout = layout_hud(crowded_hud(), 1280, 720, 1, fonts);
   EXPECT_TRUE(contains(layout, "more after the run"));
   EXPECT_TRUE(contains(layout, "4/11"));
-  const auto current = std::count_if(layout.shapes.begin(), layout.shapes.end(), [](const HudShape& s) { return s.kind == HudShape::Kind::kCurrent; });
+  const auto current = std::count_if(layout.shapes.begin(), layout.shapes.end(),
+                                     [](const HudShape& s) { return s.kind == HudShape::Kind::kCurrent; });
   EXPECT_EQ(current, 1);
 }
 
@@ -128,7 +140,8 @@ TEST(HudContent, NameOfARowGetsSixtyPercent) {
   Hud hud = testing_support::sample_hud();
   hud.rows = {{"WWWWWWWWWWWWWWWWWWWWWWWWWWWWWWWW", "99999999999999999999999999", "mm"}};
   const HudLayout layout = layout_hud(hud, 1280, 720, 1, fonts);
-  const auto name = std::find_if(layout.texts.begin(), layout.texts.end(), [](const HudText& t) { return t.text.starts_with("WWW"); });
+  const auto name = std::find_if(layout.texts.begin(), layout.texts.end(),
+                                 [](const HudText& t) { return t.text.starts_with("WWW"); });
   ASSERT_NE(name, layout.texts.end());
   EXPECT_GT(name->box.width, 0.5 * layout.column.width);
   EXPECT_TRUE(name->text.ends_with("\u2026"));
@@ -137,7 +150,12 @@ TEST(HudContent, NameOfARowGetsSixtyPercent) {
 TEST(HudContent, ForceLevelsFollowBandAndLimit) {
   ForceBar bar{"", 0, 0, 1, 2, 5, 6};
   using L = HudBar::Level;
-  for (const auto& [force, level] : {std::pair(0.0, L::kBelow), {0.99, L::kBelow}, {1.0, L::kInBand}, {2.0, L::kInBand}, {2.01, L::kAbove}, {5.0, L::kOverLimit}}) {
+  for (const auto& [force, level] : {std::pair(0.0, L::kBelow),
+                                     {0.99, L::kBelow},
+                                     {1.0, L::kInBand},
+                                     {2.0, L::kInBand},
+                                     {2.01, L::kAbove},
+                                     {5.0, L::kOverLimit}}) {
     bar.value_n = force;
     EXPECT_EQ(force_level(bar), level) << force;
   }

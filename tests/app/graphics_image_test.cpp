@@ -67,8 +67,10 @@ TEST(Canvas, TriangleWorksInBothWindings) {
   for (const bool turned : {false, true}) {
     Image image(40, 40);
     Canvas canvas(image);
-    if (turned) canvas.triangle(5, 5, 5, 35, 35, 5, {255, 0, 0, 1});
-    else canvas.triangle(5, 5, 35, 5, 5, 35, {255, 0, 0, 1});
+    if (turned)
+      canvas.triangle(5, 5, 5, 35, 35, 5, {255, 0, 0, 1});
+    else
+      canvas.triangle(5, 5, 35, 5, 5, 35, {255, 0, 0, 1});
     EXPECT_EQ(image.pixel(12, 12)[0], 255);
     EXPECT_EQ(image.pixel(30, 30)[0], 0);
   }

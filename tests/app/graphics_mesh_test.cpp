@@ -23,7 +23,8 @@ Vec3 normal(const PictureVertex& v) { return {v.normal[0], v.normal[1], v.normal
 double agreement(const PictureMesh& mesh) {
   int good = 0, all = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const PictureVertex &a = mesh.vertices[mesh.indices[i]], &b = mesh.vertices[mesh.indices[i + 1]], &c = mesh.vertices[mesh.indices[i + 2]];
+    const PictureVertex &a = mesh.vertices[mesh.indices[i]], &b = mesh.vertices[mesh.indices[i + 1]],
+                        &c = mesh.vertices[mesh.indices[i + 2]];
     const Vec3 n = (position(b) - position(a)).cross(position(c) - position(a));
     if (n.norm() < 1e-14) continue;
     ++all;
@@ -123,7 +124,8 @@ TEST(Instrument, PartsFaceOutwardsAndKeepTheShaftsRadius) {
   EXPECT_GT(agreement(shaft), 0.99);
   EXPECT_GT(agreement(jaw), 0.97);
   for (const PictureVertex& v : shaft.vertices) EXPECT_LE(position(v).head<2>().norm(), 0.0025 + 1e-8);
-  for (const PictureVertex& v : jaw.vertices) EXPECT_GE(v.position[1], -1e-9F);  // the lower half belongs to the other jaw
+  for (const PictureVertex& v : jaw.vertices)
+    EXPECT_GE(v.position[1], -1e-9F);  // the lower half belongs to the other jaw
 }
 
 TEST(Backdrop, CavityFacesInwardsAndHoldsTheOrgan) {

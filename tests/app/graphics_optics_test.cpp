@@ -43,7 +43,8 @@ TEST(ScopeOptics, BarrelEnlargesTheMiddle) {
   const ScopeOptics optics(looking_down(), {0, 0, 800, 600});
   const double per_metre_middle = (optics.project(Vec3(0.001, 0, 0))->x() - 400) / 0.001;
   const double rim_at = 0.1 * std::tan(34 * std::numbers::pi / 180);
-  const double per_metre_rim = (optics.project(Vec3(rim_at, 0, 0))->x() - optics.project(Vec3(rim_at - 0.001, 0, 0))->x()) / 0.001;
+  const double per_metre_rim =
+      (optics.project(Vec3(rim_at, 0, 0))->x() - optics.project(Vec3(rim_at - 0.001, 0, 0))->x()) / 0.001;
   EXPECT_GT(per_metre_middle, 1.15 * per_metre_rim);
 }
 

@@ -41,8 +41,10 @@ Pixel mean_at(const Image& image, const Eigen::Vector2d& at, int half) {
 template <typename Wanted>
 int count_near(const Image& image, const Eigen::Vector2d& at, int half, const Wanted& wanted) {
   int n = 0;
-  for (int y = std::max(0, static_cast<int>(at.y()) - half); y <= std::min(image.height - 1, static_cast<int>(at.y()) + half); ++y)
-    for (int x = std::max(0, static_cast<int>(at.x()) - half); x <= std::min(image.width - 1, static_cast<int>(at.x()) + half); ++x)
+  for (int y = std::max(0, static_cast<int>(at.y()) - half);
+       y <= std::min(image.height - 1, static_cast<int>(at.y()) + half); ++y)
+    for (int x = std::max(0, static_cast<int>(at.x()) - half);
+         x <= std::min(image.width - 1, static_cast<int>(at.x()) + half); ++x)
       n += wanted(image.pixel(x, y));
   return n;
 }
@@ -50,7 +52,8 @@ int count_near(const Image& image, const Eigen::Vector2d& at, int half, const Wa
 int changed(const Image& a, const Image& b, int by) {
   int n = 0;
   for (std::size_t i = 0; i < a.rgb.size(); i += 3)
-    n += std::max({std::abs(a.rgb[i] - b.rgb[i]), std::abs(a.rgb[i + 1] - b.rgb[i + 1]), std::abs(a.rgb[i + 2] - b.rgb[i + 2])}) > by;
+    n += std::max({std::abs(a.rgb[i] - b.rgb[i]), std::abs(a.rgb[i + 1] - b.rgb[i + 1]),
+                   std::abs(a.rgb[i + 2] - b.rgb[i + 2])}) > by;
   return n;
 }
 
@@ -88,7 +91,8 @@ TEST_F(PictureTest, TargetsShowTheirStateWhereTheOpticsPutThem) {
     const auto at = optics.project(mark.centre_T);
     ASSERT_TRUE(at);
     const int half = mark.state == TargetMark::State::kLit ? 28 : 13;
-    const int y = count_near(image, *at, half, yellow), g = count_near(image, *at, half, green), b = count_near(image, *at, half, blue);
+    const int y = count_near(image, *at, half, yellow), g = count_near(image, *at, half, green),
+              b = count_near(image, *at, half, blue);
     if (mark.state == TargetMark::State::kLit) {
       EXPECT_GT(y, 120) << g << " " << b;
     }
@@ -123,13 +127,14 @@ TEST_F(PictureTest, StatesDifferInShapeNotOnlyInColour) {
     const Pixel a = mean_at(image, at(radii), 1), b = mean_at(tissue, at(radii), 1);
     return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) > 40;
   };
-  const Image waiting = painted(TargetMark::State::kWaiting), lit = painted(TargetMark::State::kLit), done = painted(TargetMark::State::kDone);
-  EXPECT_FALSE(covers(waiting, 0));   // a ring: the tissue shows through
+  const Image waiting = painted(TargetMark::State::kWaiting), lit = painted(TargetMark::State::kLit),
+              done = painted(TargetMark::State::kDone);
+  EXPECT_FALSE(covers(waiting, 0));  // a ring: the tissue shows through
   EXPECT_FALSE(covers(waiting, 0.5));
-  EXPECT_TRUE(covers(lit, 0));        // a dot in the middle, free between
+  EXPECT_TRUE(covers(lit, 0));  // a dot in the middle, free between
   EXPECT_FALSE(covers(lit, 0.5));
   EXPECT_TRUE(covers(lit, 0.9));
-  EXPECT_TRUE(covers(done, 0.5));     // filled
+  EXPECT_TRUE(covers(done, 0.5));  // filled
   EXPECT_FALSE(covers(done, 1.35));
   EXPECT_FALSE(covers(waiting, 1.35));
   EXPECT_GT(changed(lit, tissue, 24), 1.3 * changed(waiting, tissue, 24));  // the outer ring
@@ -199,8 +204,8 @@ TEST_F(PictureTest, PressingWhitensTheTissueUnderTheTip) {
   const ScopeOptics optics(view.camera, hud_scene_window(view.hud, kWidth, kHeight, 1));
   const auto at = optics.project(spot.centre_T - 0.0015 * spot.normal_T);
   const Pixel a = mean_at(rest, *at, 3), b = mean_at(pressed, *at, 3);
-  EXPECT_GT(b[1], a[1] + 12);                   // blood pressed out: green and blue rise
-  EXPECT_GT(b[1] / b[0], 1.2 * a[1] / a[0]);    // paler, not only brighter
+  EXPECT_GT(b[1], a[1] + 12);                 // blood pressed out: green and blue rise
+  EXPECT_GT(b[1] / b[0], 1.2 * a[1] / a[0]);  // paler, not only brighter
   view.dimple_depth_m = 0.003;
   const Image deeper = renderer.render(view, kWidth, kHeight);
   EXPECT_GT(changed(rest, deeper, 10), changed(rest, pressed, 10));
@@ -229,8 +234,8 @@ TEST_F(PictureTest, TissueLooksAreToldApart) {
     return mean_at(renderer.render(view, kWidth, kHeight), {kWidth / 2.0, kHeight / 2.0}, 40);
   };
   const Pixel liver = look("liver"), gallbladder = look("gallbladder"), other = look("spleen");
-  EXPECT_GT(liver[0], 1.6 * liver[1]);                    // red-brown
-  EXPECT_LT(gallbladder[0], 1.4 * gallbladder[1]);        // pale, greenish
+  EXPECT_GT(liver[0], 1.6 * liver[1]);              // red-brown
+  EXPECT_LT(gallbladder[0], 1.4 * gallbladder[1]);  // pale, greenish
   EXPECT_GT(std::abs(other[1] - liver[1]), 8);
 }
 

@@ -9,7 +9,9 @@
 namespace trocar {
 namespace {
 
-TEST(EscapeHtml, ReplacesEveryActiveCharacter) { EXPECT_EQ(escape_html("<a href=\"x\">'&'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;"); }
+TEST(EscapeHtml, ReplacesEveryActiveCharacter) {
+  EXPECT_EQ(escape_html("<a href=\"x\">'&'</a>"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+}
 
 TEST(EscapeHtml, KeepsWellFormedUtf8AndReplacesTheRest) {
   EXPECT_EQ(escape_html("J\u00f6rg \u20ac \U0001F600"), "J\u00f6rg \u20ac \U0001F600");
@@ -44,8 +46,15 @@ TEST(QuantityText, ShowsLengthsInMillimetresAndUndefinedAsSuch) {
 }
 
 TEST(Base64, AgreesWithTheVectorsOfRfc4648) {
-  const std::vector<std::pair<std::string, std::string>> vectors = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
-  for (const auto& [plain, coded] : vectors) EXPECT_EQ(base64({reinterpret_cast<const unsigned char*>(plain.data()), plain.size()}), coded);
+  const std::vector<std::pair<std::string, std::string>> vectors = {{"", ""},
+                                                                    {"f", "Zg=="},
+                                                                    {"fo", "Zm8="},
+                                                                    {"foo", "Zm9v"},
+                                                                    {"foob", "Zm9vYg=="},
+                                                                    {"fooba", "Zm9vYmE="},
+                                                                    {"foobar", "Zm9vYmFy"}};
+  for (const auto& [plain, coded] : vectors)
+    EXPECT_EQ(base64({reinterpret_cast<const unsigned char*>(plain.data()), plain.size()}), coded);
 }
 
 TEST(WordsOf, TurnsIdentifiersIntoWords) {

@@ -54,7 +54,8 @@ std::string nesting_fault(const std::string& page) {
 
 TEST(ReportPage, LeadsWithVerdictAndReason) {
   const std::string page = report_page(sample_attempt(), sample_trace(), context());
-  const std::size_t verdict = page.find("NOT YET"), reason = page.find("Safety gate peak force below half"), table = page.find("Where the points went");
+  const std::size_t verdict = page.find("NOT YET"), reason = page.find("Safety gate peak force below half"),
+                    table = page.find("Where the points went");
   ASSERT_NE(verdict, std::string::npos);
   EXPECT_LT(verdict, reason);
   EXPECT_LT(reason, table);
@@ -71,7 +72,8 @@ TEST(ReportPage, ShowsEverySubscoreWithAnchorsWeightAndLoss) {
     EXPECT_GT(at, last) << name << " out of order: safety first, time last";
     last = at;
   }
-  for (const char* words : {"5.61 N", ">2 N<", ">6 N<", ">30<", "\u221223.4", "safety gate below half"}) EXPECT_TRUE(has(page, words)) << words;
+  for (const char* words : {"5.61 N", ">2 N<", ">6 N<", ">30<", "\u221223.4", "safety gate below half"})
+    EXPECT_TRUE(has(page, words)) << words;
 }
 
 TEST(ReportPage, ListsEveryEventAndMetric) {
@@ -89,7 +91,9 @@ TEST(ReportPage, SaysSimulatedAndSyntheticAndCarriesTheHashes) {
   const std::string page = report_page(attempt, sample_trace(), context());
   EXPECT_TRUE(has(page, "on the simulated plant"));
   EXPECT_TRUE(has(page, "SYNTHETIC"));
-  for (const std::string& hash : {attempt.state_hash, attempt.rubric_sha256, attempt.recording_sha256, attempt.organ_sha256, attempt.uuid}) EXPECT_TRUE(has(page, hash)) << hash;
+  for (const std::string& hash :
+       {attempt.state_hash, attempt.rubric_sha256, attempt.recording_sha256, attempt.organ_sha256, attempt.uuid})
+    EXPECT_TRUE(has(page, hash)) << hash;
   AttemptResult hardware = attempt;
   hardware.device.backend = "mc4000";
   hardware.organ_synthetic = false;
@@ -102,11 +106,34 @@ TEST(ReportPage, EscapesWhateverComesFromOutside) {
   const std::string evil = "<script>alert('x')</script>\"&";
   AttemptResult attempt = sample_attempt();
   ReportContext c = context();
-  for (std::string* field : {&attempt.trainee, &attempt.hand, &attempt.level, &attempt.uuid, &attempt.exercise_id, &attempt.exercise_version, &attempt.organ_name, &attempt.organ_source,
-                             &attempt.organ_credit, &attempt.organ_sha256, &attempt.rubric_sha256, &attempt.recording_sha256, &attempt.state_hash, &attempt.started_utc,
-                             &attempt.device.backend, &attempt.device.fault, &attempt.grade.grade, &attempt.events[2].type, &attempt.events[2].unit, &attempt.grade.subscores[0].name,
-                             &attempt.grade.subscores[0].unit, &attempt.grade.metrics[0].name, &attempt.grade.metrics[0].unit, &attempt.grade.caps[0], &c.exercise_number,
-                             &c.exercise_title, &c.goal, &c.program_version})
+  for (std::string* field : {&attempt.trainee,
+                             &attempt.hand,
+                             &attempt.level,
+                             &attempt.uuid,
+                             &attempt.exercise_id,
+                             &attempt.exercise_version,
+                             &attempt.organ_name,
+                             &attempt.organ_source,
+                             &attempt.organ_credit,
+                             &attempt.organ_sha256,
+                             &attempt.rubric_sha256,
+                             &attempt.recording_sha256,
+                             &attempt.state_hash,
+                             &attempt.started_utc,
+                             &attempt.device.backend,
+                             &attempt.device.fault,
+                             &attempt.grade.grade,
+                             &attempt.events[2].type,
+                             &attempt.events[2].unit,
+                             &attempt.grade.subscores[0].name,
+                             &attempt.grade.subscores[0].unit,
+                             &attempt.grade.metrics[0].name,
+                             &attempt.grade.metrics[0].unit,
+                             &attempt.grade.caps[0],
+                             &c.exercise_number,
+                             &c.exercise_title,
+                             &c.goal,
+                             &c.program_version})
     *field = evil;
   c.picture = evil + ".png";
   c.embed_picture = false;
@@ -116,7 +143,8 @@ TEST(ReportPage, EscapesWhateverComesFromOutside) {
 }
 
 TEST(ReportPage, IsWellFormedInEveryOutcome) {
-  for (const AttemptStatus status : {AttemptStatus::kCompleted, AttemptStatus::kTimeout, AttemptStatus::kAborted, AttemptStatus::kFault, AttemptStatus::kVoid}) {
+  for (const AttemptStatus status : {AttemptStatus::kCompleted, AttemptStatus::kTimeout, AttemptStatus::kAborted,
+                                     AttemptStatus::kFault, AttemptStatus::kVoid}) {
     AttemptResult attempt = sample_attempt();
     attempt.grade.status = status;
     EXPECT_EQ(nesting_fault(report_page(attempt, sample_trace(), context())), "") << status_name(status);
@@ -126,10 +154,14 @@ TEST(ReportPage, IsWellFormedInEveryOutcome) {
 
 TEST(ReportPage, AsksNothingOfTheNetworkAndRunsNoScript) {
   const std::string page = report_page(sample_attempt(), sample_trace(), context());
-  for (const char* words : {"http:", "https:", "<script", "<link", "@import", "url(//", "src=\"//"}) EXPECT_FALSE(has(page, words)) << words;
+  for (const char* words : {"http:", "https:", "<script", "<link", "@import", "url(//", "src=\"//"})
+    EXPECT_FALSE(has(page, words)) << words;
 }
 
-TEST(ReportPage, SameInputSameBytes) { EXPECT_EQ(report_page(sample_attempt(), sample_trace(), context()), report_page(sample_attempt(), sample_trace(), context())); }
+TEST(ReportPage, SameInputSameBytes) {
+  EXPECT_EQ(report_page(sample_attempt(), sample_trace(), context()),
+            report_page(sample_attempt(), sample_trace(), context()));
+}
 
 TEST(ReportPage, EmbedsOrLinksThePicture) {
   const auto picture = std::filesystem::temp_directory_path() / "trocar_report_picture.png";

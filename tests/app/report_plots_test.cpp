@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
+#include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "app/report/plots.h"
 #include "tests/support/sample_attempt.h"
@@ -47,8 +49,13 @@ TEST(ForceClass, FollowsBandAndLimit) {
 /// All coordinates of one attribute.
 std::vector<double> numbers(const std::string& svg, const std::string& attribute) {
   std::vector<double> out;
-  const std::regex pattern(" " + attribute + "=\"(-?[0-9.]+)\"");
-  for (auto it = std::sregex_iterator(svg.begin(), svg.end(), pattern); it != std::sregex_iterator(); ++it) out.push_back(std::stod((*it)[1]));
+  const std::string key = " " + attribute + "=\"";
+  for (std::size_t at = svg.find(key); at != std::string::npos; at = svg.find(key, at + 1)) {
+    const char* begin = svg.c_str() + at + key.size();
+    char* end = nullptr;
+    const double value = std::strtod(begin, &end);
+    if (end != begin) out.push_back(value);
+  }
   return out;
 }
 
@@ -67,7 +74,9 @@ TEST(ForcePlot, ShowsBandLimitGripAndEveryEvent) {
   EXPECT_NE(svg.find("grip force"), std::string::npos);
   EXPECT_NE(svg.find(">5!<"), std::string::npos);  // the excess force, number 5 of the list
   std::size_t dashed = 0;
-  for (std::size_t at = svg.find("stroke-dasharray"); at != std::string::npos; at = svg.find("stroke-dasharray", at + 1)) ++dashed;
+  for (std::size_t at = svg.find("stroke-dasharray"); at != std::string::npos;
+       at = svg.find("stroke-dasharray", at + 1))
+    ++dashed;
   EXPECT_EQ(dashed, sample_attempt().events.size());
 }
 

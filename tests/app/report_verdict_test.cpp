@@ -25,7 +25,8 @@ TEST(Verdict, CapComesBeforeLostPoints) {
 TEST(Verdict, CriticalEventComesBeforeEverything) {
   AttemptResult attempt = sample_attempt();
   attempt.events.push_back({9.25, "PERFORATION", Severity::kCritical, 2, 8.4, "N", Vec3::Zero()});
-  EXPECT_NE(judge(attempt, 75).reason.find("Perforation at 9.2 s (8.4 N)"), std::string::npos) << judge(attempt, 75).reason;
+  EXPECT_NE(judge(attempt, 75).reason.find("Perforation at 9.2 s (8.4 N)"), std::string::npos)
+      << judge(attempt, 75).reason;
 }
 
 TEST(Verdict, TimeoutIsNamedWhenNothingWorseHappened) {
@@ -39,13 +40,17 @@ TEST(Verdict, PlainShortfallNamesTheCostliestPart) {
   AttemptResult attempt = sample_attempt();
   attempt.grade.caps.clear();
   attempt.grade.score = 71;
-  EXPECT_NE(judge(attempt, 75).reason.find("Peak force: 5.61 N, full marks at 2 N (\u221223.4 points)"), std::string::npos) << judge(attempt, 75).reason;
+  EXPECT_NE(judge(attempt, 75).reason.find("Peak force: 5.61 N, full marks at 2 N (\u221223.4 points)"),
+            std::string::npos)
+      << judge(attempt, 75).reason;
 }
 
 TEST(Verdict, UngradedAttemptsSayWhyAndCarryNoScore) {
   AttemptResult attempt = sample_attempt();
   attempt.grade.score.reset();
-  for (const auto& [status, word] : {std::pair(AttemptStatus::kAborted, "stopped"), {AttemptStatus::kFault, "overheat"}, {AttemptStatus::kVoid, "void"}}) {
+  for (const auto& [status, word] : {std::pair(AttemptStatus::kAborted, "stopped"),
+                                     {AttemptStatus::kFault, "overheat"},
+                                     {AttemptStatus::kVoid, "void"}}) {
     attempt.grade.status = status;
     attempt.device.fault = "overheat";
     const Verdict verdict = judge(attempt, 75);

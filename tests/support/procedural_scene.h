@@ -21,23 +21,29 @@ namespace trocar::testing_support {
 inline TriangleSurface icosphere(int levels) {
   const double g = std::numbers::phi;
   TriangleSurface s;
-  for (const Vec3& v : {Vec3(-1, g, 0), Vec3(1, g, 0), Vec3(-1, -g, 0), Vec3(1, -g, 0), Vec3(0, -1, g), Vec3(0, 1, g),
-                        Vec3(0, -1, -g), Vec3(0, 1, -g), Vec3(g, 0, -1), Vec3(g, 0, 1), Vec3(-g, 0, -1), Vec3(-g, 0, 1)})
+  for (const Vec3& v :
+       {Vec3(-1, g, 0), Vec3(1, g, 0), Vec3(-1, -g, 0), Vec3(1, -g, 0), Vec3(0, -1, g), Vec3(0, 1, g), Vec3(0, -1, -g),
+        Vec3(0, 1, -g), Vec3(g, 0, -1), Vec3(g, 0, 1), Vec3(-g, 0, -1), Vec3(-g, 0, 1)})
     s.vertices.push_back(v.normalized());
-  s.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                 {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  s.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                 {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < levels; ++level) {
     TriangleSurface fine;
     fine.vertices = s.vertices;
     std::map<std::pair<int, int>, std::int32_t> middle;
     const auto mid = [&](int a, int b) {
-      const auto [place, fresh] = middle.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(fine.vertices.size()));
-      if (fresh) fine.vertices.push_back((s.vertices[static_cast<std::size_t>(a)] + s.vertices[static_cast<std::size_t>(b)]).normalized());
+      const auto [place, fresh] =
+          middle.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(fine.vertices.size()));
+      if (fresh)
+        fine.vertices.push_back(
+            (s.vertices[static_cast<std::size_t>(a)] + s.vertices[static_cast<std::size_t>(b)]).normalized());
       return place->second;
     };
     for (const auto& [a, b, c] : s.triangles) {
       const std::int32_t ab = mid(a, b), bc = mid(b, c), ca = mid(c, a);
-      for (const auto& t : {std::array<std::int32_t, 3>{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) fine.triangles.push_back(t);
+      for (const auto& t : {std::array<std::int32_t, 3>{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+        fine.triangles.push_back(t);
     }
     s = std::move(fine);
   }
@@ -61,7 +67,8 @@ inline TriangleSurface lumpy_ellipsoid(const Vec3& half_axes, double lump = 0.06
 inline std::pair<Vec3, Vec3> top_of(const TriangleSurface& s, double x, double y) {
   Vec3 best(x, y, -1e9), normal = Vec3::UnitZ();
   for (const auto& [ia, ib, ic] : s.triangles) {
-    const Vec3 &a = s.vertices[static_cast<std::size_t>(ia)], &b = s.vertices[static_cast<std::size_t>(ib)], &c = s.vertices[static_cast<std::size_t>(ic)];
+    const Vec3 &a = s.vertices[static_cast<std::size_t>(ia)], &b = s.vertices[static_cast<std::size_t>(ib)],
+               &c = s.vertices[static_cast<std::size_t>(ic)];
     const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
     if (area <= 0) continue;  // faces down
     const double u = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) / area;
@@ -96,9 +103,14 @@ inline Hud sample_hud() {
   hud.limit_s = 120;
   hud.bars = {{"Tip force", 1.42, 2.31, 1.0, 2.0, 5.0, 6.0}, {"Grip force", 0.0, 0.6, 2.0, 4.0, 8.0, 10.0}};
   using S = HudStep::State;
-  hud.steps = {{"Hold the start sphere", S::kDone}, {"Touch five targets, 1 to 2 N for one second", S::kCurrent},
-               {"Grip the block gently", S::kOpen}, {"Return to the start", S::kOpen}};
-  hud.rows = {{"Targets", "2 / 5", ""}, {"Path length", "312", "mm"}, {"Wrong places", "0", ""}, {"Too much force", "1", "x"},
+  hud.steps = {{"Hold the start sphere", S::kDone},
+               {"Touch five targets, 1 to 2 N for one second", S::kCurrent},
+               {"Grip the block gently", S::kOpen},
+               {"Return to the start", S::kOpen}};
+  hud.rows = {{"Targets", "2 / 5", ""},
+              {"Path length", "312", "mm"},
+              {"Wrong places", "0", ""},
+              {"Too much force", "1", "x"},
               {"Time in band", "78", "%"}};
   hud.device = {{"plant", "simulated", ""}, {"loop", "1000", "Hz"}, {"passivity", "ok", ""}};
   hud.credit = "Organ: synthetic liver-like shape made by formula, no patient data";

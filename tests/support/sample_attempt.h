@@ -19,9 +19,11 @@ inline Trace sample_trace() {
     s.t_s = 2.0 + 0.001 * i;
     const int touch = i / 4000;
     const double phase = (i % 4000) / 4000.0, angle = 1.3 * touch + 2.2 * phase * phase;
-    s.tip_T = Vec3(0.03 * std::cos(angle) + 0.004 * touch, 0.025 * std::sin(angle), 0.02 * (1 - std::sin(std::numbers::pi * phase)));
+    s.tip_T = Vec3(0.03 * std::cos(angle) + 0.004 * touch, 0.025 * std::sin(angle),
+                   0.02 * (1 - std::sin(std::numbers::pi * phase)));
     const double press = phase > 0.45 && phase < 0.75 ? std::sin((phase - 0.45) / 0.30 * std::numbers::pi) : 0.0;
-    s.force_T = Vec3(0.1 * press, 0, (touch == 3 ? 5.6 : 1.5) * std::sqrt(press) + (press > 0 ? 0.06 * std::sin(0.9 * i) : 0.0));
+    s.force_T = Vec3(0.1 * press, 0,
+                     (touch == 3 ? 5.6 : 1.5) * std::sqrt(press) + (press > 0 ? 0.06 * std::sin(0.9 * i) : 0.0));
     s.contact = press > 0;
     s.grip_n = touch == 4 && phase > 0.8 ? 2.4 : 0;
     trace.samples.push_back(s);
@@ -43,16 +45,31 @@ inline AttemptResult sample_attempt(bool passed = false) {
   r.grade.score = passed ? 88.4 : 59.0;
   r.grade.passed = passed;
   r.grade.grade = passed ? "proficient" : "below pass";
-  r.grade.subscores = {{"time_to_complete", 0.62, 0.15, 47.2, "s", 30, 75, false}, {"path_ratio", 0.71, 0.20, 1.9, "1", 1.3, 3.4, false},
-                       {"peak_force", passed ? 0.95 : 0.22, 0.30, passed ? 2.2 : 5.61, "N", 2.0, 6.0, true}, {"time_in_band_share", 0.84, 0.20, 0.78, "1", 0.9, 0.3, false},
+  r.grade.subscores = {{"time_to_complete", 0.62, 0.15, 47.2, "s", 30, 75, false},
+                       {"path_ratio", 0.71, 0.20, 1.9, "1", 1.3, 3.4, false},
+                       {"peak_force", passed ? 0.95 : 0.22, 0.30, passed ? 2.2 : 5.61, "N", 2.0, 6.0, true},
+                       {"time_in_band_share", 0.84, 0.20, 0.78, "1", 0.9, 0.3, false},
                        {"wrong_places", 1.0, 0.15, 0.0, "count", 0, 3, false}};
   if (!passed) r.grade.caps = {"Safety gate peak force below half: total limited to 59"};
-  r.grade.metrics = {{"task_time", 47.2, "s"}, {"path_length", 0.612, "m"}, {"ideal_path_length", 0.322, "m"}, {"peak_force", 5.61, "N"}, {"mean_contact_force", 1.38, "N"},
-                     {"time_in_band_share", 0.78, "1"}, {"excess_force_events", 1, "count"}, {"excess_force_impulse", 0.83, "N s"}, {"wrong_places", 0, "count"},
-                     {"tip_speed_mean", 0.031, "m/s"}, {"spectral_arc_length", -4.21, "1"}, {"grip_peak", 2.4, "N"}, {"grip_hold_time", 1.02, "s"}, {"idle_share", {}, "1"},
-                     {"contact_time", 6.02, "s"}, {"retract_height_mean", 0.0183, "m"}};
+  r.grade.metrics = {{"task_time", 47.2, "s"},
+                     {"path_length", 0.612, "m"},
+                     {"ideal_path_length", 0.322, "m"},
+                     {"peak_force", 5.61, "N"},
+                     {"mean_contact_force", 1.38, "N"},
+                     {"time_in_band_share", 0.78, "1"},
+                     {"excess_force_events", 1, "count"},
+                     {"excess_force_impulse", 0.83, "N s"},
+                     {"wrong_places", 0, "count"},
+                     {"tip_speed_mean", 0.031, "m/s"},
+                     {"spectral_arc_length", -4.21, "1"},
+                     {"grip_peak", 2.4, "N"},
+                     {"grip_hold_time", 1.02, "s"},
+                     {"idle_share", {}, "1"},
+                     {"contact_time", 6.02, "s"},
+                     {"retract_height_mean", 0.0183, "m"}};
   const auto event = [&](double t, const char* type, Severity severity, int object, double value, const char* unit) {
-    Event e{t, type, severity, object, value, unit, Vec3(0.03 * std::cos(1.3 * object), 0.025 * std::sin(1.3 * object), 0)};
+    Event e{
+        t, type, severity, object, value, unit, Vec3(0.03 * std::cos(1.3 * object), 0.025 * std::sin(1.3 * object), 0)};
     r.events.push_back(e);
   };
   event(2.0, "RUN_START", Severity::kInfo, -1, 0, "");

@@ -31,7 +31,7 @@ std::size_t GzipStream::read(unsigned char* into, std::size_t count) {
     const int got = gzread(file, into + done, block);
     int code = Z_OK;
     const char* message = gzerror(file, &code);
-    if (got < 0 || (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR))
+    if (got < 0 || (code != Z_OK && code != Z_STREAM_END))
       throw InputError(name_ + ": data: damaged gzip stream (" + message + ")");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
@@ -39,16 +39,9 @@ std::size_t GzipStream::read(unsigned char* into, std::size_t count) {
   return done;
 }
 
-std::uint64_t GzipStream::skip(std::uint64_t count) {
-  std::vector<unsigned char> block(1 << 16);
-  std::uint64_t done = 0;
-  while (done < count) {
-    const std::size_t got = read(block.data(), std::min<std::uint64_t>(block.size(), count - done));
-    if (got == 0) break;
-    done += got;
-  }
-  if (done == count) read(block.data(), 1);  // one step further: zlib compares the checksum at the end of the member
-  return done;
+void GzipStream::finish_member() {
+  unsigned char beyond = 0;
+  read(&beyond, 1);  // one step further: zlib compares the checksum at the end of the member
 }
 
 std::string gzip_compressed(const std::string& bytes) {

@@ -18,9 +18,8 @@ class GzipStream {
   bool gzip() const { return gzip_; }
   /// Reads up to `count` decompressed bytes; fewer only at the end of the file.
   std::size_t read(unsigned char* into, std::size_t count);
-  /// Passes over up to `count` decompressed bytes and returns how many there were; at the end of a gzip file its
-  /// checksum has been verified.
-  std::uint64_t skip(std::uint64_t count);
+  /// To be called after the last wanted byte: proves the checksum that follows it in a gzip file.
+  void finish_member();
 
  private:
   struct Close {

@@ -187,6 +187,39 @@ void read_frame(const FieldReader& field, const std::string& file, NiftiHeader& 
     header.notes.push_back("sform and qform place the image up to " + text(shift) + " mm apart; the sform was used");
 }
 
+template <typename Real>
+bool all_finite(const std::vector<unsigned char>& block, std::size_t bytes, bool swapped) {
+  for (std::size_t offset = 0; offset + sizeof(Real) <= bytes; offset += sizeof(Real)) {
+    std::array<unsigned char, sizeof(Real)> raw;
+    std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(Real), raw.begin());
+    if (swapped) std::reverse(raw.begin(), raw.end());
+    if (!std::isfinite(std::bit_cast<Real>(raw))) return false;
+  }
+  return true;
+}
+
+/// Passes over the rest of the file: every byte must be there, and every real number finite (ITK would make it 0).
+void check_data(GzipStream& stream, const NiftiHeader& header, std::uint64_t wanted, const std::string& file) {
+  std::vector<unsigned char> block(1 << 16);
+  const auto gap = static_cast<std::size_t>(header.data_offset) - HeaderBytes{}.size();
+  std::uint64_t present = HeaderBytes{}.size();
+  for (std::size_t left = gap; left > 0;) {
+    const std::size_t got = stream.read(block.data(), std::min(left, block.size()));
+    if (got == 0) break;
+    left -= got, present += got;
+  }
+  while (present < wanted) {
+    const std::size_t got = stream.read(block.data(), std::min<std::uint64_t>(block.size(), wanted - present));
+    if (got == 0) refuse(file, "data", "the file ends after " + std::to_string(present) + " of " + std::to_string(wanted) + " bytes");
+    present += got;
+    const bool finite = header.type == NiftiType::kFloat32   ? all_finite<float>(block, got, header.swapped)
+                        : header.type == NiftiType::kFloat64 ? all_finite<double>(block, got, header.swapped)
+                                                             : true;
+    if (!finite) refuse(file, "data", "holds a voxel that is not a finite number");
+  }
+  stream.finish_member();
+}
+
 }  // namespace
 
 std::size_t NiftiHeader::voxel_count() const {
@@ -221,9 +254,7 @@ NiftiHeader read_nifti_header(const std::filesystem::path& path) {
   header.gzip = named_gzip;
   const auto wanted = static_cast<std::uint64_t>(header.data_offset) +
                       header.voxel_count() * static_cast<std::uint64_t>(bytes_of(header.type));
-  const std::uint64_t present = bytes.size() + stream.skip(wanted - bytes.size());
-  if (present < wanted)
-    refuse(file, "data", "the file ends after " + std::to_string(present) + " of " + std::to_string(wanted) + " bytes");
+  check_data(stream, header, wanted, file);
   return header;
 }
 

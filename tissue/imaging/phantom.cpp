@@ -146,7 +146,7 @@ double phantom_liver_mm(const Vec& p) {
 }
 
 CtPhantom make_phantom(const PhantomOptions& options) {
-  const Vec low(-175, -120, -110), high(175, 135, 115);
+  const Vec low(-175, -120, -120), high(175, 135, 115);
   CtPhantom phantom;
   LabelVolume& labels = phantom.labels;
   for (int axis = 0; axis < 3; ++axis)

@@ -6,11 +6,12 @@
 
 #include <array>
 #include <assimp/Importer.hpp>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "haptics/input_error.h"
+#include "tissue/mesh/organ_manifest.h"
+#include "tissue/mesh/ply_check.h"
 #include "tissue/mesh/surface_check.h"
 #include "tissue/mesh/topology.h"
 
@@ -21,15 +22,14 @@ constexpr std::array<std::pair<const char*, double>, 3> kUnits{{{"mm", 1e-3}, {"
 constexpr std::uintmax_t kMaxBytes = 512u << 20;
 constexpr double kWeldTolerance = 1e-6;  // of the bounding box's diagonal: float32 keeps 1e-7
 
-void check_signature(const std::filesystem::path& path) {
+void check_file(const std::filesystem::path& path) {
   const std::string file = path.string();
   if (!std::filesystem::is_regular_file(path)) throw InputError(file + ": no such file");
   if (path.extension() != ".ply") throw InputError(file + ": extension: surfaces are read from .ply");
   if (std::filesystem::file_size(path) > kMaxBytes) throw InputError(file + ": larger than 512 MiB");
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  std::getline(in, line);
-  if (line != "ply" && line != "ply\r") throw InputError(file + ": signature: does not start with \"ply\"");
+  const std::string bytes = read_bytes(path);
+  if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n")) throw InputError(file + ": signature: does not start with \"ply\"");
+  check_ply(bytes, file);
 }
 
 void add_mesh(const aiMesh& mesh, TriangleSurface& surface) {
@@ -108,7 +108,7 @@ double metres_per(const std::string& unit) {
 
 ImportedSurface import_surface(const std::filesystem::path& path, const std::string& unit) {
   const std::string file = path.string();
-  check_signature(path);
+  check_file(path);
   ImportedSurface result;
   result.surface = read_with_assimp(path);
   if (unit.empty()) throw InputError(file + ": PLY carries no unit, say --unit mm, cm or m: " + size_hint(result.surface));
