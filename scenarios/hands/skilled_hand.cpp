@@ -37,7 +37,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
     : random_(seed),
       skill_(drawn_person(skill, random_)),
       senses_(skill_.reaction_s),
-      press_({100, 3, 0.04, skill_.force_bias, skill_.force_cv}),
+      press_({60, 3, 0.04, skill_.force_bias, skill_.force_cv}),
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv}),
       jaw_m_(kOpenJaw) {
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
