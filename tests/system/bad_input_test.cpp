@@ -19,7 +19,8 @@ class BadInput : public SystemTest {
 
 constexpr const char* kTetrahedron =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n"
-    "property list uchar int vertex_indices\nend_header\n0 0 0\n100 0 0\n0 100 0\n0 0 100\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    "property list uchar int vertex_indices\nend_header\n0 0 0\n100 0 0\n0 100 0\n0 0 100\n3 0 2 1\n3 0 1 3\n3 0 3 "
+    "2\n3 1 2 3\n";
 
 TEST_F(BadInput, MissingFilesAreNamed) {
   expect_refusal({"run", "nowhere.toml", "--hand", dip(), "--db", ":memory:"}, 2, "nowhere.toml");
@@ -36,9 +37,12 @@ TEST_F(BadInput, MissingFilesAreNamed) {
 
 TEST_F(BadInput, UnknownNamesComeWithTheKnownOnes) {
   const std::string exercise = exercise_of(3, 12), hand = dip();
-  expect_refusal({"run", "juggling", "--hand", hand, "--db", ":memory:"}, 2, "unknown exercise 'juggling': known are surface-touch");
-  expect_refusal({"run", exercise, "--hand", "octopus", "--db", ":memory:"}, 2, "unknown hand 'octopus': known are clumsy, expert");
-  expect_refusal(short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2, "heart-of-gold: neither a file nor an organ that ships (phantom-gallbladder, phantom-liver)");
+  expect_refusal({"run", "juggling", "--hand", hand, "--db", ":memory:"}, 2,
+                 "unknown exercise 'juggling': known are surface-touch");
+  expect_refusal({"run", exercise, "--hand", "octopus", "--db", ":memory:"}, 2,
+                 "unknown hand 'octopus': known are clumsy, expert");
+  expect_refusal(short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2,
+                 "heart-of-gold: neither a file nor an organ that ships (phantom-gallbladder, phantom-liver)");
   expect_refusal(short_run({"--level", "L9", "--db", ":memory:"}), 2, "no level 'L9': known are L1");
   expect_refusal(short_run({"--inject", "gremlin@3", "--db", ":memory:"}), 2, "known are channel-invalid");
   expect_refusal(short_run({"--inject", "encoder-jump:7@3", "--db", ":memory:"}), 2, "channels are 0 to 6");
@@ -50,8 +54,10 @@ TEST_F(BadInput, ExerciseErrorsCarryLineAndColumn) {
     expect_refusal({"run", "bad.toml", "--hand", dip(), "--db", ":memory:"}, 2, message);
   };
   const std::string text = shipped_exercise();
-  const auto line = std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("time_limit_s")), '\n'));
-  refused("time_limit_s", "time_limits", "bad.toml:" + line + ":1: unknown key 'time_limits': did you mean 'time_limit_s'?");
+  const auto line = std::to_string(
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("time_limit_s")), '\n'));
+  refused("time_limit_s", "time_limits",
+          "bad.toml:" + line + ":1: unknown key 'time_limits': did you mean 'time_limit_s'?");
   refused("time_limit_s = 120", "time_limit_s = nan", "bad.toml:" + line + ":16: 'time_limit_s' must be finite");
   refused("time_limit_s = 120", "time_limit_s = \"soon\"", "bad.toml:" + line + ":16:");
   refused("time_limit_s = 120", "time_limit_s = ", "bad.toml:" + line + ":");
@@ -61,7 +67,8 @@ TEST_F(BadInput, AScriptThatIsNotFiniteOrMisspelledIsRefusedAtItsPlace) {
   folder_.write("nan.toml", replaced(kDip, "[0, 0, -6]", "[0, nan, -6]"));
   expect_refusal({"run", exercise_of(3, 12), "--hand", "nan.toml", "--db", ":memory:"}, 2, "nan.toml:4:");
   folder_.write("typo.toml", replaced(kDip, "seconds", "secnods"));
-  expect_refusal({"run", exercise_of(3, 12), "--hand", "typo.toml", "--db", ":memory:"}, 2, "typo.toml:6:1: unknown key 'secnods': did you mean 'seconds'?");
+  expect_refusal({"run", exercise_of(3, 12), "--hand", "typo.toml", "--db", ":memory:"}, 2,
+                 "typo.toml:6:1: unknown key 'secnods': did you mean 'seconds'?");
 }
 
 TEST_F(BadInput, ARefusedRunStoresNothing) {
@@ -90,7 +97,8 @@ TEST_F(BadInput, ATruncatedImageIsRefusedAndLeavesNoOrgan) {
 
 TEST_F(BadInput, ALabelWithoutVoxelsIsRefused) {
   folder_.write("map.nii", small_map());
-  expect_refusal({"organ", "import", "map.nii", "--label", "7", "-o", "x"}, 2, "label 7 marks no voxel; the map holds 5");
+  expect_refusal({"organ", "import", "map.nii", "--label", "7", "-o", "x"}, 2,
+                 "label 7 marks no voxel; the map holds 5");
   expect_refusal({"organ", "import", "map.nii", "--label", "spleen", "-o", "x"}, 2, "(spleen) marks no voxel");
   expect_refusal({"organ", "import", "map.nii", "--label", "flux capacitor", "-o", "x"}, 2, "--label flux capacitor");
   folder_.write("blank.nii", NiftiFixture({12, 12, 12}).bytes());
@@ -99,7 +107,8 @@ TEST_F(BadInput, ALabelWithoutVoxelsIsRefused) {
 
 TEST_F(BadInput, ASurfaceWithoutAUnitIsRefusedWithAGuess) {
   folder_.write("tetrahedron.ply", kTetrahedron);
-  expect_refusal({"organ", "import", "tetrahedron.ply", "-o", "x"}, 2, "tetrahedron.ply: PLY carries no unit, say --unit mm, cm or m");
+  expect_refusal({"organ", "import", "tetrahedron.ply", "-o", "x"}, 2,
+                 "tetrahedron.ply: PLY carries no unit, say --unit mm, cm or m");
   expect_refusal({"organ", "import", "tetrahedron.ply", "--unit", "furlong", "-o", "x"}, 2, "furlong");
   const Json organ = json_of({"organ", "import", "tetrahedron.ply", "--unit", "mm", "-o", "x", "--json"}, 0);
   EXPECT_NEAR(organ["volume_ml"].get<double>(), 1000.0 / 6, 1.7);

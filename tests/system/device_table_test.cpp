@@ -13,7 +13,8 @@ constexpr const char* kHeader = "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n";
 
 TEST_F(DeviceTable, ARaggedLineIsNamed) {
   folder_.write("q.csv", std::string(kHeader) + "0,0,0,0,0,0\n0,0,0,0,0\n");
-  expect_refusal({"device", "eval", "--csv", "q.csv", "--out", "o.csv"}, 2, "q.csv:3:1: 5 fields where the header has 6");
+  expect_refusal({"device", "eval", "--csv", "q.csv", "--out", "o.csv"}, 2,
+                 "q.csv:3:1: 5 fields where the header has 6");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "o.csv"));
 }
 
@@ -38,14 +39,16 @@ TEST_F(DeviceTable, AMissingColumnOrAnEmptyFileIsNamed) {
 
 TEST_F(DeviceTable, AMatrixThatIsNoRotationIsRefusedAtItsLine) {
   folder_.write("t.csv", "T00,T01,T02,T03,T10,T11,T12,T13,T20,T21,T22,T23\n2,0,0,0,0,1,0,0,0,0,1,0\n");
-  expect_refusal({"device", "ik", "--csv", "t.csv", "--out", "o.csv"}, 2, "t.csv:2:1: T00..T22 is not a rotation matrix");
+  expect_refusal({"device", "ik", "--csv", "t.csv", "--out", "o.csv"}, 2,
+                 "t.csv:2:1: T00..T22 is not a rotation matrix");
 }
 
 TEST_F(DeviceTable, EvaluationThenInversionFindsTheAnglesAgain) {
+  const double home[6] = {0.74, 0.83, 0.79, -0.6, -1.4, 1.5};  // inside the joint ranges, theta6 within [0, 2 pi)
   std::ostringstream angles;
   angles << kHeader;
   for (int i = 0; i < 20; ++i) {
-    for (int j = 0; j < 6; ++j) angles << (j ? "," : "") << 0.25 * std::sin(1.7 * i + 2.3 * j);
+    for (int j = 0; j < 6; ++j) angles << (j ? "," : "") << home[j] + 0.25 * std::sin(1.7 * i + 2.3 * j);
     angles << '\n';
   }
   folder_.write("q.csv", angles.str());
@@ -53,13 +56,15 @@ TEST_F(DeviceTable, EvaluationThenInversionFindsTheAnglesAgain) {
   const Outcome inverted = trocar({"device", "ik", "--csv", "pose.csv", "--out", "all.csv"});
   ASSERT_EQ(inverted.exit_code, 0) << inverted.err;
   const Table asked = read_table(folder_ / "q.csv"), found = read_table(folder_ / "all.csv");
-  EXPECT_EQ(found.columns, (Words{"row", "solution", "in_limits", "q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"}));
+  EXPECT_EQ(found.columns,
+            (Words{"row", "solution", "in_limits", "q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"}));
   for (std::size_t row = 0; row < asked.rows.size(); ++row) {
     double nearest = 1e9;
     for (const auto& candidate : found.rows) {
       if (candidate[0] != static_cast<double>(row)) continue;
       double distance = 0;
-      for (std::size_t j = 0; j < 6; ++j) distance = std::max(distance, std::abs(candidate[3 + j] - asked.rows[row][j]));
+      for (std::size_t j = 0; j < 6; ++j)
+        distance = std::max(distance, std::abs(candidate[3 + j] - asked.rows[row][j]));
       nearest = std::min(nearest, distance);
     }
     EXPECT_LT(nearest, 1e-9) << "row " << row;  // well-conditioned poses: a few hundred roundings

@@ -13,7 +13,7 @@ class Faults : public SystemTest {
     EXPECT_TRUE(json["score"].is_null());
     EXPECT_FALSE(json["passed"].get<bool>());
     const Json stored = json_of({"trainee", "show", "guest", "--db", "f.db", "--json"}, 0);
-    EXPECT_EQ(stored["attempts"][0]["status"], "fault") << stored;
+    EXPECT_EQ(stored["history"][0]["status"], "fault") << stored;
     return json;
   }
 };
@@ -23,7 +23,8 @@ using Machine = SystemTest;
 TEST_F(Faults, AnEncoderJumpEndsTheAttempt) {
   const Json json = faulty("encoder-jump:2@3");
   EXPECT_EQ(json["device"]["fault"], "encoder-jump");
-  EXPECT_NEAR(json["device"]["ticks"].get<double>(), 3100, 60) << "the loop is watched for a moment, then it ends";
+  EXPECT_GE(json["device"]["ticks"].get<int>(), 3000);
+  EXPECT_LE(json["device"]["ticks"].get<int>(), 3120) << "it ends a moment after the fault";
 }
 
 TEST_F(Faults, ANonFiniteHandEndsTheAttempt) {
@@ -34,9 +35,7 @@ TEST_F(Faults, ANonFiniteHandEndsTheAttempt) {
   }
 }
 
-TEST_F(Faults, AnInvalidChannelEndsTheAttempt) {
-  EXPECT_NE(faulty("channel-invalid:1@3")["device"]["fault"], nullptr);
-}
+TEST_F(Faults, AnInvalidChannelEndsTheAttempt) { EXPECT_NE(faulty("channel-invalid:1@3")["device"]["fault"], nullptr); }
 
 TEST_F(Faults, AFaultAlsoShowsInTheTextForPeople) {
   Words words = short_run({"--db", ":memory:", "--inject", "encoder-jump:2@3"});
@@ -69,9 +68,9 @@ TEST_F(Machine, AFullDiskIsTheMachinesFault) {
 TEST_F(Machine, ARunThatCouldNotBeRecordedLeavesNoGradedAttempt) {
   expect_refusal(short_run({"--db", "t.db", "--record", "/dev/full"}), 3, "No space left on device");
   const Json stored = json_of({"trainee", "show", "guest", "--db", "t.db", "--json"}, 0);
-  ASSERT_EQ(stored["attempts"].size(), 1u);
-  EXPECT_EQ(stored["attempts"][0]["status"], "aborted");
-  EXPECT_TRUE(stored["attempts"][0]["score"].is_null());
+  ASSERT_EQ(stored["history"].size(), 1u);
+  EXPECT_EQ(stored["history"][0]["status"], "aborted");
+  EXPECT_TRUE(stored["history"][0]["score"].is_null());
 }
 
 TEST_F(Machine, AFileThatIsNoDatabaseIsBadInputAndStaysAsItWas) {
@@ -90,7 +89,7 @@ TEST_F(Machine, ReadingWithoutADatabaseSaysThatThereIsNoneAndMakesNone) {
 TEST_F(Machine, TheDefaultDatabaseLiesInTheUsersDataFolder) {
   EXPECT_EQ(trocar(short_run()).exit_code, 1);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "data" / "trocar" / "trocar.db"));
-  EXPECT_EQ(json_of({"cohort", "--json"}, 0)["trainees"].size(), 1u);
+  EXPECT_EQ(json_of({"cohort", "--json"}, 0).size(), 1u);
 }
 
 TEST_F(Machine, MissingAssetsAreNamedWithThePlacesLookedAt) {

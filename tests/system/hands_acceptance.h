@@ -14,8 +14,8 @@ class HandsTest : public SystemTest {
   void expect_skill_to_show(const std::string& organ) const {
     std::map<std::string, std::unique_ptr<RunningProgram>> programs;
     for (const char* hand : {"expert", "novice", "clumsy", "idle"}) {
-      programs[hand] = std::make_unique<RunningProgram>(launch(
-          {"run", "surface-touch", "--hand", hand, "--organ", organ, "--db", ":memory:", "--json"}));
+      programs[hand] = std::make_unique<RunningProgram>(
+          launch({"run", "surface-touch", "--hand", hand, "--organ", organ, "--db", ":memory:", "--json"}));
     }
     std::map<std::string, double> score;
     for (auto& [hand, program] : programs) {

@@ -25,8 +25,10 @@ class Installed : public SystemTest {
 
 TEST_F(Installed, AllThatShipsIsThere) {
   const fs::path source = TROCAR_SOURCE_DIR;
-  const std::pair<const char*, const char*> folders[] = {
-      {"scenarios/exercises", "exercises"}, {"scenarios/hands", "hands"}, {"assets/organs", "assets/organs"}, {"assets/shaders", "assets/shaders"}};
+  const std::pair<const char*, const char*> folders[] = {{"scenarios/exercises", "exercises"},
+                                                         {"scenarios/hands", "hands"},
+                                                         {"assets/organs", "assets/organs"},
+                                                         {"assets/shaders", "assets/shaders"}};
   for (const auto& [from, to] : folders) {
     for (const auto& entry : fs::directory_iterator(source / from)) {
       const fs::path& path = entry.path();
@@ -42,14 +44,16 @@ TEST_F(Installed, AllThatShipsIsThere) {
 
 TEST_F(Installed, TheInstalledCopiesAreTheOnesInUse) {
   // Each kind of asset is given something that exists nowhere but in the prefix.
-  std::ofstream(share("exercises/surface-touch.toml")) << replaced(shipped_exercise(), "title = \"Surface touch\"", "title = \"Only here\"");
+  std::ofstream(share("exercises/surface-touch.toml"))
+      << replaced(shipped_exercise(), "title = \"Surface touch\"", "title = \"Only here\"");
   std::ofstream(share("hands/only-here.toml")) << kDip;
   fs::copy_file(share("assets/organs/phantom-liver.ply"), share("assets/organs/only-here.ply"));
-  std::ofstream(share("assets/organs/only-here.organ.toml"))
-      << replaced(file_bytes(share("assets/organs/phantom-liver.organ.toml")), "'phantom-liver.ply'", "'only-here.ply'");
+  std::ofstream(share("assets/organs/only-here.organ.toml")) << replaced(
+      file_bytes(share("assets/organs/phantom-liver.organ.toml")), "'phantom-liver.ply'", "'only-here.ply'");
   EXPECT_NE(installed({"exercises"}).out.find("Only here"), std::string::npos);
   EXPECT_EQ(trocar({"exercises"}).out.find("Only here"), std::string::npos);
-  const Words run{"run", exercise_of(3, 12), "--hand", "only-here", "--organ", "only-here", "--db", ":memory:", "--json"};
+  const Words run{"run",  exercise_of(3, 12), "--hand", "only-here", "--organ", "only-here",
+                  "--db", ":memory:",         "--json"};
   const Outcome there = installed(run);
   EXPECT_EQ(there.exit_code, 1) << there.err;
   EXPECT_EQ(trocar(run).exit_code, 2) << "the build's own program does not know that hand";

@@ -11,11 +11,30 @@ using OrganCommands = HandsTest;
 TEST_F(OrganCommands, PhantomThenImportComesRound) {
   const Json phantom = json_of({"organ", "phantom", "--out", "ct", "--json"}, 0);
   EXPECT_EQ(phantom["synthetic"], true);
-  const Json organ = json_of({"organ", "import", "ct/ct.nii.gz", "--labels", "ct/labels.nii.gz", "--label", "liver", "--triangles",
-                              "3000", "-o", "mine", "--json"}, 0);
-  for (const char* key : {"name", "surface", "vertices", "triangles", "closed", "manifold", "self_intersections", "components", "genus",
-                          "volume_ml", "label_volume_ml", "volume_error_pct", "distance_mm", "bbox_m", "cut_at_border", "lost",
-                          "repairs", "unit", "frame", "source", "licence"}) {
+  const Json organ = json_of({"organ", "import", "ct/ct.nii.gz", "--labels", "ct/labels.nii.gz", "--label", "liver",
+                              "--triangles", "3000", "-o", "mine", "--json"},
+                             0);
+  for (const char* key : {"name",
+                          "surface",
+                          "vertices",
+                          "triangles",
+                          "closed",
+                          "manifold",
+                          "self_intersections",
+                          "components",
+                          "genus",
+                          "volume_ml",
+                          "label_volume_ml",
+                          "volume_error_pct",
+                          "distance_mm",
+                          "bbox_m",
+                          "cut_at_border",
+                          "lost",
+                          "repairs",
+                          "unit",
+                          "frame",
+                          "source",
+                          "licence"}) {
     EXPECT_TRUE(organ.contains(key)) << key;
   }
   EXPECT_EQ(organ["name"], "liver");
@@ -27,13 +46,16 @@ TEST_F(OrganCommands, PhantomThenImportComesRound) {
   for (const char* key : {"name", "triangles", "closed", "manifold", "self_intersections", "genus", "bbox_m"}) {
     EXPECT_EQ(info[key], organ[key]) << key;
   }
-  EXPECT_EQ(json_of(short_run({"--organ", "mine.organ.toml", "--db", ":memory:"}), 1)["organ"]["source"], "labels.nii.gz");
+  EXPECT_EQ(json_of(short_run({"--organ", "mine.organ.toml", "--db", ":memory:"}), 1)["organ"]["source"],
+            "labels.nii.gz");
 }
 
 TEST_F(OrganCommands, TheShippedPhantomIsWhatTheCommandDraws) {
   ASSERT_EQ(trocar({"organ", "phantom", "--out", "ct"}).exit_code, 0);
-  for (const char* file : {"phantom-liver.ply", "phantom-liver.organ.toml", "phantom-gallbladder.ply"}) {
-    EXPECT_TRUE(file_bytes(folder_ / "ct" / file) == file_bytes(fs::path(TROCAR_SOURCE_DIR) / "assets/organs" / file)) << file;
+  for (const char* file :
+       {"phantom-liver.ply", "phantom-liver.organ.toml", "phantom-gallbladder.ply", "phantom-gallbladder.organ.toml"}) {
+    EXPECT_TRUE(file_bytes(folder_ / "ct" / file) == file_bytes(fs::path(TROCAR_SOURCE_DIR) / "assets/organs" / file))
+        << file;
   }
 }
 

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 class Pictures : public SystemTest {
  protected:
   void SetUp() override {
-    const Outcome probe = trocar({"organ", "render", "phantom-gallbladder", "-o", "probe.png", "--width", "64", "--height", "64"});
+    const Outcome probe =
+        trocar({"organ", "render", "phantom-gallbladder", "-o", "probe.png", "--width", "320", "--height", "240"});
     if (probe.exit_code == 3 && probe.err.find("EGL") != std::string::npos) {
       std::cerr << "SKIPPED: this machine draws no pictures: " << probe.err;
       GTEST_SKIP() << probe.err;
@@ -29,7 +30,8 @@ class Pictures : public SystemTest {
 
 TEST_F(Pictures, RenderingDoesNotReachTheResult) {
   Json plain = json_of(short_run({"--db", ":memory:", "--record", "plain.trec"}), 1);
-  Json drawn = json_of(short_run({"--db", ":memory:", "--record", "drawn.trec", "--frames", "frames", "--fps", "0.5"}), 1);
+  Json drawn =
+      json_of(short_run({"--db", ":memory:", "--record", "drawn.trec", "--frames", "frames", "--fps", "0.5"}), 1);
   EXPECT_EQ(plain["state_hash"], drawn["state_hash"]);
   EXPECT_EQ(plain["recording_sha256"], drawn["recording_sha256"]);
   plain.erase("attempt");
@@ -68,7 +70,8 @@ TEST_F(Pictures, TheDemoLeavesPictureScoreAndReport) {
   EXPECT_EQ(report.substr(0, 15), "<!DOCTYPE html>");
   EXPECT_NE(report.find("Surface touch"), std::string::npos);
   EXPECT_NE(report.find("synthetic"), std::string::npos) << "a synthetic organ is called one";
-  for (const char* file : {"picture.png", "score.json", "report.html"}) EXPECT_NE(demo.out.find(file), std::string::npos) << file;
+  for (const char* file : {"picture.png", "score.json", "report.html"})
+    EXPECT_NE(demo.out.find(file), std::string::npos) << file;
   EXPECT_EQ(trocar({"replay", "demo/recording.trec", "--verify"}).exit_code, 0);
   EXPECT_EQ(trocar({"demo", "--headless", "--out", "demo"}).exit_code, 0) << "twice in a row";
   EXPECT_FALSE(fs::exists(folder_ / "data")) << "the demo keeps to its folder";

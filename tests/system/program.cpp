@@ -23,8 +23,10 @@ std::map<std::string, std::string> environment_of(const Launch& launch) {
     if (equals != std::string::npos) merged[text.substr(0, equals)] = text.substr(equals + 1);
   }
   for (const auto& [name, value] : launch.environment) {
-    if (value.empty()) merged.erase(name);
-    else merged[name] = value;
+    if (value.empty())
+      merged.erase(name);
+    else
+      merged[name] = value;
   }
   return merged;
 }

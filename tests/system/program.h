@@ -17,9 +17,9 @@ struct Outcome {
 };
 
 struct Launch {
-  std::vector<std::string> arguments;                   ///< without the program's name
-  std::filesystem::path folder;                         ///< the child's working folder
-  std::map<std::string, std::string> environment;       ///< set on top of the test's own; "" removes
+  std::vector<std::string> arguments;              ///< without the program's name
+  std::filesystem::path folder;                    ///< the child's working folder
+  std::map<std::string, std::string> environment;  ///< set on top of the test's own; "" removes
   std::filesystem::path program = TROCAR_PROGRAM;
 };
 

@@ -59,9 +59,14 @@ TEST_F(Repeat, ReplayOfAnAttemptAndOfItsRecordingVerify) {
 TEST_F(Repeat, AFlippedByteIsFoundByItsChecksum) {
   recorded_run();
   const std::string whole = file_bytes(folder_ / "a.trec");
-  std::string damaged = whole;
-  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x10);
-  folder_.write("a.trec", damaged);
+  const auto damage = [&](std::size_t at) {
+    std::string bytes = whole;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
+    folder_.write("a.trec", bytes);
+  };
+  damage(100);
+  expect_refusal({"replay", "a.trec", "--verify"}, 2, "a.trec: its header (byte 12) is damaged");
+  damage(whole.size() * 9 / 10);
   expect_refusal({"replay", "a.trec", "--verify"}, 2, "CRC");
   expect_refusal({"score", "a.trec"}, 2, "CRC");
   expect_refusal({"replay", "latest", "--db", "t.db"}, 2, "a.trec");
@@ -81,7 +86,8 @@ TEST_F(Repeat, AnotherRecordingIsNotTakenForTheGradedOne) {
 
 TEST_F(Repeat, AnotherOrganIsRefusedAndTheSameOrganElsewhereIsTaken) {
   recorded_run();
-  expect_refusal({"replay", "a.trec", "--verify", "--organ", "phantom-gallbladder"}, 2, "not the organ of the recording");
+  expect_refusal({"replay", "a.trec", "--verify", "--organ", "phantom-gallbladder"}, 2,
+                 "not the organ of the recording");
   for (const char* part : {"phantom-liver.organ.toml", "phantom-liver.ply"}) {
     fs::copy_file(fs::path(TROCAR_SOURCE_DIR) / "assets/organs" / part, folder_ / part);
   }
@@ -107,7 +113,8 @@ TEST_F(Graded, ScoreOfAnAttemptEqualsTheStoredOne) {
 TEST_F(Graded, RegradingWithAnEditedRubricChangesTheGradeNotTheStore) {
   const Json run = json_of(expert({"--db", "t.db", "--record", "a.trec"}), 0);
   const std::string edited = replaced(file_bytes(folder_ / "short.toml"), "pass_at = 75", "pass_at = 84");
-  folder_.write("strict.toml", replaced(replaced(edited, "expert_time_s = 37.5", "expert_time_s = 2.0"), "weight = 0.15", "weight = 0.15"));
+  folder_.write("strict.toml", replaced(replaced(edited, "expert_time_s = 37.5", "expert_time_s = 2.0"),
+                                        "weight = 0.15", "weight = 0.15"));
   const Outcome strict = trocar({"score", "a.trec", "--rubric", "strict.toml", "--json"});
   const Json regraded = Json::parse(strict.out);
   EXPECT_LT(regraded["score"].get<double>(), run["score"].get<double>() - 5) << "no marks for time any more";
@@ -121,25 +128,28 @@ TEST_F(Graded, RegradingWithAnEditedRubricChangesTheGradeNotTheStore) {
 
 TEST_F(Graded, JsonHoldsEveryKeyThatOthersRelyOn) {
   const Json json = json_of(expert({"--db", ":memory:", "--trainee", "T-9", "--seed", "4"}), 0);
-  for (const char* key : {"exercise", "trainee", "hand", "status", "score", "passed", "grade", "subscores", "caps", "events",
-                          "metrics", "device", "organ", "rubric_sha256", "recording_sha256", "state_hash"}) {
+  for (const char* key : {"exercise", "trainee", "hand", "status", "score", "passed", "grade", "subscores", "caps",
+                          "events", "metrics", "device", "organ", "rubric_sha256", "recording_sha256", "state_hash"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   for (const char* key : {"id", "version", "level", "seed"}) EXPECT_TRUE(json["exercise"].contains(key)) << key;
-  for (const char* key : {"backend", "rate_hz", "ticks", "overruns", "saturated_contact_share", "passivity_active_share", "min_energy_j"}) {
+  for (const char* key : {"backend", "rate_hz", "ticks", "overruns", "saturated_contact_share",
+                          "passivity_active_share", "min_energy_j"}) {
     EXPECT_TRUE(json["device"].contains(key)) << key;
   }
   for (const char* key : {"source", "sha256"}) EXPECT_TRUE(json["organ"].contains(key)) << key;
   ASSERT_FALSE(json["subscores"].empty());
   double weights = 0;
   for (const Json& row : json["subscores"]) {
-    for (const char* key : {"name", "value", "weight", "raw", "unit", "full_at", "zero_at", "gate"}) EXPECT_TRUE(row.contains(key)) << key;
+    for (const char* key : {"name", "value", "weight", "raw", "unit", "full_at", "zero_at", "gate"})
+      EXPECT_TRUE(row.contains(key)) << key;
     weights += row["weight"].get<double>();
   }
   EXPECT_NEAR(weights, 1, 1e-12);
   ASSERT_FALSE(json["events"].empty());
   for (const char* key : {"t_s", "type", "severity"}) EXPECT_TRUE(json["events"][0].contains(key)) << key;
-  for (const auto& [name, metric] : json["metrics"].items()) EXPECT_TRUE(metric.contains("value") && metric.contains("unit")) << name;
+  for (const auto& [name, metric] : json["metrics"].items())
+    EXPECT_TRUE(metric.contains("value") && metric.contains("unit")) << name;
   EXPECT_EQ(json["exercise"]["seed"], 4);
   EXPECT_EQ(json["trainee"], "T-9");
   EXPECT_EQ(json["hand"], "expert");
@@ -158,7 +168,8 @@ TEST_F(Graded, EveryRateRunsAndReplays) {
 
 TEST_F(Graded, LawsOfTheBaselineRunAndReplayToo) {
   const Json proxy = json_of(expert({"--db", ":memory:"}), 0);
-  const Outcome thesis = trocar(expert({"--db", ":memory:", "--contact", "thesis", "--passivity", "off", "--record", "t.trec"}));
+  const Outcome thesis =
+      trocar(expert({"--db", ":memory:", "--contact", "thesis", "--passivity", "off", "--record", "t.trec"}));
   EXPECT_TRUE(thesis.exit_code == 0 || thesis.exit_code == 1) << thesis.err;
   EXPECT_NE(Json::parse(thesis.out)["state_hash"], proxy["state_hash"]);
   EXPECT_EQ(trocar({"replay", "t.trec", "--verify"}).exit_code, 0);

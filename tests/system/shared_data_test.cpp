@@ -33,7 +33,8 @@ TEST_F(SharedFolder, EvaluationAgreesWithEveryColumnOfTheReference) {
   for (std::size_t column = 0; column < expected.columns.size(); ++column) {
     const std::size_t other = found.at(expected.columns[column]);
     for (std::size_t row = 0; row < expected.rows.size(); ++row) {
-      EXPECT_NEAR(found.rows[row][other], expected.rows[row][column], 1e-9) << expected.columns[column] << ", row " << row;
+      EXPECT_NEAR(found.rows[row][other], expected.rows[row][column], 1e-9)
+          << expected.columns[column] << ", row " << row;
     }
   }
 }

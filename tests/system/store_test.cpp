@@ -12,22 +12,26 @@ TEST_F(Store, TwoRunsAtOnceBothEndInTheDatabase) {
   exercise_of(3, 12);
   dip();
   const auto words = [](const char* trainee, const char* recording) {
-    return Words{"run", "short.toml", "--hand", "dip.toml", "--json", "--db", "t.db", "--trainee", trainee, "--record", recording};
+    return Words{"run",  "short.toml", "--hand", "dip.toml", "--json", "--db",
+                 "t.db", "--trainee",  trainee,  "--record", recording};
   };
-  RunningProgram first(launch(words("T-1", "1.trec"))), second(launch(words("T-2", "2.trec"))), third(launch(words("T-1", "3.trec")));
+  RunningProgram first(launch(words("T-1", "1.trec"))), second(launch(words("T-2", "2.trec"))),
+      third(launch(words("T-1", "3.trec")));
   Json results[3];
   int index = 0;
   for (RunningProgram* program : {&first, &second, &third}) {
     const Outcome outcome = program->wait();
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_EQ(outcome.err.find("cut off"), std::string::npos) << "a running attempt was taken for a dead one: " << outcome.err;
+    EXPECT_EQ(outcome.err.find("cut off"), std::string::npos)
+        << "a running attempt was taken for a dead one: " << outcome.err;
     results[index++] = Json::parse(outcome.out);
   }
   EXPECT_EQ(results[0]["state_hash"], results[1]["state_hash"]) << "nothing of one run reaches another";
   const Json check = json_of({"db", "check", "--db", "t.db", "--json"}, 0);
-  const Json cohort = json_of({"cohort", "--db", "t.db", "--json"}, 0);
-  EXPECT_EQ(json_of({"trainee", "show", "T-1", "--db", "t.db", "--json"}, 0)["attempts"].size(), 2u);
-  EXPECT_EQ(json_of({"trainee", "show", "T-2", "--db", "t.db", "--json"}, 0)["attempts"].size(), 1u);
+  EXPECT_EQ(check["problems"].size(), 0u) << check;
+  EXPECT_EQ(json_of({"cohort", "--db", "t.db", "--json"}, 0).size(), 2u);
+  EXPECT_EQ(json_of({"trainee", "show", "T-1", "--db", "t.db", "--json"}, 0)["history"].size(), 2u);
+  EXPECT_EQ(json_of({"trainee", "show", "T-2", "--db", "t.db", "--json"}, 0)["history"].size(), 1u);
 }
 
 TEST_F(Store, AReaderDoesNotDisturbARunningAttempt) {
@@ -62,7 +66,8 @@ TEST_F(Store, TraineesAreMadeByTheirFirstAttemptAndListed) {
 TEST_F(Store, ABackupIsADatabaseOfItsOwn) {
   const Json run = json_of(short_run({"--db", "t.db", "--trainee", "T-1"}), 1);
   EXPECT_EQ(trocar({"db", "backup", "--db", "t.db", "--out", "b.db"}).exit_code, 0);
-  EXPECT_EQ(json_of({"trainee", "show", "T-1", "--db", "b.db", "--json"}, 0)["attempts"][0]["uuid"], run["attempt"]["uuid"]);
+  EXPECT_EQ(json_of({"trainee", "show", "T-1", "--db", "b.db", "--json"}, 0)["history"][0]["uuid"],
+            run["attempt"]["uuid"]);
   EXPECT_EQ(trocar({"db", "check", "--db", "b.db"}).exit_code, 0);
   EXPECT_NE(trocar({"db", "migrate", "--db", "b.db"}).out.find("up to date"), std::string::npos);
 }

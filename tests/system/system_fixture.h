@@ -44,7 +44,8 @@ class SystemTest : public ::testing::Test {
  protected:
   /// The program run in the test's folder; data of the user's home stay untouched.
   Launch launch(Words arguments) const {
-    return {std::move(arguments), folder_.path(), {{"XDG_DATA_HOME", (folder_ / "data").string()}, {"TROCAR_ASSETS", ""}}};
+    return {
+        std::move(arguments), folder_.path(), {{"XDG_DATA_HOME", (folder_ / "data").string()}, {"TROCAR_ASSETS", ""}}};
   }
   Outcome trocar(Words arguments) const { return run_program(launch(std::move(arguments))); }
 
@@ -65,7 +66,9 @@ class SystemTest : public ::testing::Test {
     EXPECT_EQ(outcome.out, "");
   }
 
-  std::string shipped_exercise() const { return file_bytes(TROCAR_SOURCE_DIR "/scenarios/exercises/surface-touch.toml"); }
+  std::string shipped_exercise() const {
+    return file_bytes(TROCAR_SOURCE_DIR "/scenarios/exercises/surface-touch.toml");
+  }
   /// Writes the shipped exercise with another limit. @return its name in the folder.
   std::string exercise_of(int seconds, int targets) const {
     std::string text = replaced(shipped_exercise(), "time_limit_s = 120", "time_limit_s = " + std::to_string(seconds));

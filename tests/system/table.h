@@ -23,7 +23,9 @@ struct Table {
 
 inline Table read_table(const std::filesystem::path& file) {
   Table table;
-  std::istringstream in(file_bytes(file));
+  std::string text = file_bytes(file);
+  std::erase(text, '\r');
+  std::istringstream in(text);
   std::string line, field;
   std::getline(in, line);
   for (std::istringstream fields(line); std::getline(fields, field, ',');) table.columns.push_back(field);

@@ -10,8 +10,9 @@ using Usage = SystemTest;
 
 const std::map<std::string, Words>& commands_and_flags() {
   static const std::map<std::string, Words> table{
-      {"run", {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--fps",
-               "--rate", "--contact", "--passivity", "--inject", "--json"}},
+      {"run",
+       {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--fps",
+        "--rate", "--contact", "--passivity", "--inject", "--json"}},
       {"replay", {"--frames", "--fps", "--verify", "--organ", "--db"}},
       {"score", {"--rubric", "--db", "--json"}},
       {"demo", {"--headless", "--out", "--organ"}},
@@ -51,7 +52,8 @@ TEST_F(Usage, HelpOfEverySubcommandNamesItsFlags) {
     const Outcome outcome = trocar(words);
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_EQ(outcome.err, "") << command;
-    for (const std::string& flag : flags) EXPECT_NE(outcome.out.find(flag), std::string::npos) << command << ' ' << flag;
+    for (const std::string& flag : flags)
+      EXPECT_NE(outcome.out.find(flag), std::string::npos) << command << ' ' << flag;
   }
 }
 
