@@ -48,6 +48,16 @@ ChannelVector torque_rates(const HapticLoopConfig& config) {
   return rate;
 }
 
+/// NaN or infinity anywhere in the patch: comparisons would swallow it and the force would silently vanish.
+bool is_finite(const ContactPatch& patch) {
+  double sum = patch.stiffness_n_per_m + patch.damping_s_per_m + patch.grip.thickness_m + patch.grip.stiffness_n_per_m;
+  for (int i = 0; i < patch.count; ++i) {
+    const PatchTriangle& t = patch.triangle[i];
+    sum += (t.vertex[0] + t.vertex[1] + t.vertex[2] + t.normal).sum();
+  }
+  return std::isfinite(sum);
+}
+
 }  // namespace
 
 HapticLoop::HapticLoop(const HapticLoopConfig& config)
@@ -99,6 +109,10 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   Contact contact;
   if (supervisor_.state() != LoopState::kActive) {
     contact_.reset();
+    return contact;
+  }
+  if (!is_finite(patch)) {
+    supervisor_.raise(FaultCode::kNonFinite, tick_, -1, patch.stiffness_n_per_m);
     return contact;
   }
   contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T.linear, patch);
@@ -159,9 +173,12 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& c
 void HapticLoop::watch(const Motion& motion, const LimitedTorque& torque) noexcept {
   for (int i = 0; i < kChannels; ++i) {
     const Transmission& t = config_.device.transmission[i];
+    if (!std::isfinite(torque.total[i])) {
+      supervisor_.raise(FaultCode::kNonFinite, tick_, i, torque.total[i]);
+      continue;  // the heat model must outlive the fault
+    }
     heat_[i].update(torque.total[i] * t.ratio / t.torque_constant, period_s_);
     if (heat_[i].cut()) supervisor_.raise(FaultCode::kOverheat, tick_, i, heat_[i].winding_c());
-    if (!std::isfinite(torque.total[i])) supervisor_.raise(FaultCode::kNonFinite, tick_, i, torque.total[i]);
     if (i < kArmJoints && std::abs(motion.qd[i]) > config_.safety.max_joint_rate) {
       supervisor_.raise(FaultCode::kOverspeed, tick_, i, motion.qd[i]);
     }
