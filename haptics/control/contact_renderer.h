@@ -54,6 +54,7 @@ class ContactRenderer {
  private:
   static constexpr int kMaxNear = 96;      ///< triangles considered in one tick
   static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
+  static constexpr int kMaxCarrying = 3;   ///< of them, those that can carry at once in space
 
   struct Touch {
     Vec3 normal, point;  ///< unit from surface to axis; surface point
@@ -68,8 +69,12 @@ class ContactRenderer {
   /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
   void project(const ContactPatch& patch, double slack);
   void add_touch(const Touch& touch);
+  /// The part of a wish that the touched triangles allow, each with the gap that is left before it.
+  Vec3 free_step(const Vec3& wish) const;
   /// Splits y among the contacts, all shares >= 0. @return the part of y that no contact carries.
   Vec3 share_out(const Vec3& y);
+  /// Least-squares shares of the carrying contacts; those that would pull are dropped.
+  void balance(const Vec3& y);
 
   ContactLaw law_;
   ToolShape shape_;
@@ -81,6 +86,8 @@ class ContactRenderer {
   int near_count_ = 0;
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
+  std::array<std::int32_t, kMaxCarrying> carrying_{};
+  int carrying_count_ = 0;
 };
 
 }  // namespace trocar
