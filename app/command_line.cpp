@@ -227,6 +227,11 @@ int run_command_line(int argc, char** argv) {
   try {
     c.app.parse(argc, argv);
     return c.chosen();
+  } catch (const CLI::RequiredError& error) {
+    // CLI11 asks for a subcommand before it looks at the word that is none.
+    const auto unknown = c.app.remaining(true);
+    if (!unknown.empty()) std::cerr << "trocar: not understood: " << unknown.front() << '\n';
+    return c.app.exit(error) == 0 ? 0 : 2;
   } catch (const CLI::ParseError& error) {
     return c.app.exit(error) == 0 ? 0 : 2;
   } catch (const InputError& error) {

@@ -14,6 +14,7 @@ namespace {
 
 const Vec3 kRegionCentre_W(0, -0.060, -0.215);  // m in W', see the header
 constexpr double kShaftIncline = 50 * kDegree;  // of the shaft below the stylus axis
+constexpr double kShaftYaw = 45 * kDegree;      // of the shaft to the trainee's left, so that it enters from the right
 constexpr double kLowestPercentile = 0.05;
 
 /// Largest force along `direction_W` that all joints can add to gravity, N.
@@ -40,7 +41,9 @@ InstrumentMap place_theatre(const ExerciseLevel& level) {
   map.motion_scale = level.motion_scale;
   map.X_TW.R = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitZ()).toRotationMatrix();
   map.X_TW.p = -(map.X_TW.R * (level.motion_scale * kRegionCentre_W));
-  map.X_SI.R = Eigen::AngleAxisd(-kShaftIncline, Vec3::UnitY()).toRotationMatrix();
+  // At home x of the stylus points up and y to the trainee's right.
+  map.X_SI.R = (Eigen::AngleAxisd(kShaftYaw, Vec3::UnitX()) * Eigen::AngleAxisd(-kShaftIncline, Vec3::UnitY()))
+                   .toRotationMatrix();
   return map;
 }
 

@@ -12,7 +12,8 @@
 namespace trocar {
 
 /// Registration of a level with direct mapping: T is W' turned by half a turn about z (the stylus then points away from
-/// the trainee, towards +y of T), and the shaft is inclined to the stylus axis so that it comes from above.
+/// the trainee, towards +y of T), and the shaft is turned against the stylus axis so that it comes from above and from the
+/// right, clear of the scope.
 /// @throws InputError when the level asks for a mapping that this build does not have.
 InstrumentMap place_theatre(const ExerciseLevel& level);
 

@@ -17,10 +17,12 @@ TriangleSurface load_surface(const OrganManifest& manifest, const std::filesyste
   const std::string bytes = read_bytes(path), file = path.string();
   TriangleSurface surface = parse_ply(bytes, file);
   const std::string hash = sha256_hex(bytes);
-  if (hash != manifest.surface_sha256) throw InputError(file + ": sha256 " + hash + " is not the manifest's: the file was changed");
+  if (hash != manifest.surface_sha256)
+    throw InputError(file + ": sha256 " + hash + " is not the manifest's: the file was changed");
   const SurfaceTopology facts = analyse_topology(surface);
   if (facts.triangles == 0) throw InputError(file + ": the surface is empty");
-  if (!facts.closed()) throw InputError(file + ": the surface is open (" + std::to_string(facts.boundary_edges) + " boundary edges)");
+  if (!facts.closed())
+    throw InputError(file + ": the surface is open (" + std::to_string(facts.boundary_edges) + " boundary edges)");
   if (!facts.manifold()) throw InputError(file + ": the surface is not an oriented manifold");
   if (surface.volume_m3() <= 0) throw InputError(file + ": the surface is inside out");
   return surface;
@@ -50,7 +52,8 @@ std::filesystem::path find_organ(const std::string& name_or_path, const std::fil
   if (std::filesystem::is_regular_file(name_or_path)) return name_or_path;
   const std::filesystem::path folder = assets / "organs";
   std::filesystem::path shipped = folder / (name_or_path + std::string(kOrganSuffix));
-  if (std::filesystem::path(name_or_path).filename() == name_or_path && std::filesystem::is_regular_file(shipped)) return shipped;
+  if (std::filesystem::path(name_or_path).filename() == name_or_path && std::filesystem::is_regular_file(shipped))
+    return shipped;
   std::vector<std::string> names;
   std::error_code missing;
   for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {
@@ -60,7 +63,8 @@ std::filesystem::path find_organ(const std::string& name_or_path, const std::fil
   std::sort(names.begin(), names.end());
   std::string known;
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-  throw InputError(name_or_path + ": neither a file nor an organ that ships (" + (known.empty() ? "none" : known) + ")");
+  throw InputError(name_or_path + ": neither a file nor an organ that ships (" + (known.empty() ? "none" : known) +
+                   ")");
 }
 
 }  // namespace trocar

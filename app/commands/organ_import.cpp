@@ -44,7 +44,8 @@ struct ChosenLabel {
   std::string table;  ///< "" when no table was used
 };
 
-ChosenLabel choose_label(const OrganImportOptions& options, const LabelVolume& volume, const std::string& file, std::ostream& err) {
+ChosenLabel choose_label(const OrganImportOptions& options, const LabelVolume& volume, const std::string& file,
+                         std::ostream& err) {
   const auto counts = volume.label_counts();
   const LabelTable& table = label_table(options.label_table);
   const auto number = whole_number(options.label);
@@ -63,7 +64,8 @@ ChosenLabel choose_label(const OrganImportOptions& options, const LabelVolume& v
   if (by_name || counts.size() > 1) {
     chosen.table = table.name;
     chosen.name = table.name_of(chosen.number).value_or("");
-    err << "label " << chosen.number << (chosen.name.empty() ? " has no name in the table " : " is \"" + chosen.name + "\" in the table ")
+    err << "label " << chosen.number
+        << (chosen.name.empty() ? " has no name in the table " : " is \"" + chosen.name + "\" in the table ")
         << chosen.table << ", which was assumed\n";
   }
   if (!counts.contains(chosen.number))
@@ -82,14 +84,17 @@ CompiledOrgan compile_map(const OrganImportOptions& options, OrganManifest& mani
   manifest.source.label = label.number;
   manifest.source.label_name = label.name;
   manifest.source.label_table = label.table;
-  manifest.source.modality = !options.modality.empty() ? options.modality : options.labels.empty() ? "unknown" : guess_modality(options.input);
+  manifest.source.modality = !options.modality.empty() ? options.modality
+                             : options.labels.empty()  ? "unknown"
+                                                       : guess_modality(options.input);
   manifest.name = !label.name.empty() ? label.name : plain_stem(map);
   return compile_label(volume, label.number, {options.triangles});
 }
 
 CompiledOrgan compile_ply(const OrganImportOptions& options, OrganManifest& manifest) {
   const fs::path path = options.input;
-  if (!options.labels.empty() || !options.label.empty()) throw InputError("--label and --labels go with a label map, not with " + options.input);
+  if (!options.labels.empty() || !options.label.empty())
+    throw InputError("--label and --labels go with a label map, not with " + options.input);
   const ImportedSurface source = import_surface(path, options.unit);
   manifest.source.file = path.filename().string();
   manifest.source.sha256 = sha256_file(path);
@@ -112,7 +117,8 @@ void check_options(const OrganImportOptions& options) {
 
 fs::path stem_of(const std::string& output) {
   fs::path stem = output.ends_with(kOrganSuffix) ? output.substr(0, output.size() - kOrganSuffix.size()) : output;
-  if (stem.filename().empty() || stem.filename() == "." || stem.filename() == "..") throw InputError("-o " + output + ": names a folder, not an organ");
+  if (stem.filename().empty() || stem.filename() == "." || stem.filename() == "..")
+    throw InputError("-o " + output + ": names a folder, not an organ");
   return stem;
 }
 
@@ -120,7 +126,8 @@ fs::path stem_of(const std::string& output) {
 void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
   std::error_code missing;
   const fs::path ply = stem.string() + ".ply";
-  if (fs::equivalent(ply, options.input, missing)) throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
+  if (fs::equivalent(ply, options.input, missing))
+    throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
 }
 
 }  // namespace
@@ -131,7 +138,8 @@ WrittenOrgan import_organ(const OrganImportOptions& options, std::ostream& err) 
   check_not_input(stem, options);
   OrganManifest manifest;
   const bool surface = options.input.ends_with(".ply");
-  if (!surface && !options.unit.empty() && options.unit != "mm") throw InputError("--unit " + options.unit + ": label maps are in mm");
+  if (!surface && !options.unit.empty() && options.unit != "mm")
+    throw InputError("--unit " + options.unit + ": label maps are in mm");
   CompiledOrgan organ = surface ? compile_ply(options, manifest) : compile_map(options, manifest, err);
   if (!options.name.empty()) manifest.name = options.name;
   manifest.material = options.material.empty() ? manifest.name : options.material;
@@ -141,14 +149,16 @@ WrittenOrgan import_organ(const OrganImportOptions& options, std::ostream& err) 
   manifest.mesh = std::move(organ.facts);
   write_organ(stem, manifest, organ.surface);
   if (manifest.mesh.self_intersections > 0)
-    err << "warning: the surface cuts itself in " << manifest.mesh.self_intersections << " places; try another --triangles\n";
+    err << "warning: the surface cuts itself in " << manifest.mesh.self_intersections
+        << " places; try another --triangles\n";
   if (manifest.mesh.cut_at_border()) err << "note: the image ends inside the organ; the flat cap is not anatomy\n";
   return {std::move(manifest), std::move(organ.surface)};
 }
 
 int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostream& err) {
   const WrittenOrgan organ = import_organ(options, err);
-  out << (options.json ? organ_json(organ.manifest, organ.surface.bounds()) : organ_text(organ.manifest, organ.surface.bounds()));
+  out << (options.json ? organ_json(organ.manifest, organ.surface.bounds())
+                       : organ_text(organ.manifest, organ.surface.bounds()));
   return 0;
 }
 

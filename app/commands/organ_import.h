@@ -12,20 +12,20 @@
 namespace trocar {
 
 struct OrganImportOptions {
-  std::string input;               ///< label map, or volume when `labels` is given, or .ply
-  std::string labels;              ///< label map that goes with the volume; "" when `input` is one
-  std::string label;               ///< number, or name in the label table; "" when the map holds one label only
+  std::string input;   ///< label map, or volume when `labels` is given, or .ply
+  std::string labels;  ///< label map that goes with the volume; "" when `input` is one
+  std::string label;   ///< number, or name in the label table; "" when the map holds one label only
   std::string label_table = "totalsegmentator-v1";
   int triangles = 6000;
-  std::string unit;                ///< of a .ply: "mm", "cm", "m"; label maps are millimetres
-  std::string output;              ///< NAME or NAME.organ.toml
+  std::string unit;    ///< of a .ply: "mm", "cm", "m"; label maps are millimetres
+  std::string output;  ///< NAME or NAME.organ.toml
   bool json = false;
-  std::string name;                ///< default: the label's name, or the stem of the file
+  std::string name;  ///< default: the label's name, or the stem of the file
   std::string licence = "unknown";
   std::string credit;
-  std::string material;            ///< default: the name
-  std::string modality;            ///< "CT", "MR"; default: guessed from the volume, "unknown" for a bare label map
-  bool synthetic = false;          ///< set for our own phantom
+  std::string material;    ///< default: the name
+  std::string modality;    ///< "CT", "MR"; default: guessed from the volume, "unknown" for a bare label map
+  bool synthetic = false;  ///< set for our own phantom
 };
 
 /// Compiles and writes the organ. @return exit code 0

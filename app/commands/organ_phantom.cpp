@@ -22,8 +22,8 @@ std::string readme(const PhantomOptions& options, const LabelVolume& labels) {
   const LabelTable& table = label_table(kDefaultLabelTable);
   std::ostringstream text;
   text << "# Synthetic CT phantom\n\nDrawn from analytic shapes by `trocar organ phantom --seed " << options.seed
-       << "`; no patient, no scanner. Licence " << kLicence << ".\n\n- ct.nii.gz: Hounsfield units, int16, voxels of " << options.voxel_mm
-       << " mm, RAS\n- labels.nii.gz: labels numbered as in the table " << table.name << ":\n\n";
+       << "`; no patient, no scanner. Licence " << kLicence << ".\n\n- ct.nii.gz: Hounsfield units, int16, voxels of "
+       << options.voxel_mm << " mm, RAS\n- labels.nii.gz: labels numbered as in the table " << table.name << ":\n\n";
   for (const auto& [number, voxels] : labels.label_counts())
     text << "  - " << number << " " << table.name_of(number).value_or("unnamed") << ", "
          << std::lround(static_cast<double>(voxels) * labels.voxel_volume_ml()) << " mL\n";
@@ -41,7 +41,8 @@ void write_volumes(const std::filesystem::path& folder, const PhantomOptions& op
   text.commit();
 }
 
-WrittenOrgan import_phantom_organ(const std::filesystem::path& folder, const std::string& label, int triangles, std::ostream& err) {
+WrittenOrgan import_phantom_organ(const std::filesystem::path& folder, const std::string& label, int triangles,
+                                  std::ostream& err) {
   OrganImportOptions import;
   import.input = (folder / "ct.nii.gz").string();
   import.labels = (folder / "labels.nii.gz").string();
@@ -62,10 +63,15 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
   nlohmann::ordered_json organs = nlohmann::ordered_json::array();
   for (const auto& [label, triangles] : {std::pair("liver", 6000), std::pair("gallbladder", 2000)}) {
     const WrittenOrgan organ = import_phantom_organ(options.out, label, triangles, err);
-    if (options.json) organs.push_back(nlohmann::ordered_json::parse(organ_json(organ.manifest, organ.surface.bounds())));
+    if (options.json)
+      organs.push_back(nlohmann::ordered_json::parse(organ_json(organ.manifest, organ.surface.bounds())));
     if (!options.json) out << organ_text(organ.manifest, organ.surface.bounds());
   }
-  const nlohmann::ordered_json report{{"synthetic", true}, {"seed", options.seed}, {"volume", "ct.nii.gz"}, {"labels", "labels.nii.gz"}, {"organs", organs}};
+  const nlohmann::ordered_json report{{"synthetic", true},
+                                      {"seed", options.seed},
+                                      {"volume", "ct.nii.gz"},
+                                      {"labels", "labels.nii.gz"},
+                                      {"organs", organs}};
   if (options.json) out << report.dump(2) << "\n";
   return 0;
 }

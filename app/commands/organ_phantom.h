@@ -1,4 +1,5 @@
-// `trocar organ phantom`: draws the synthetic CT phantom, writes it, and imports its liver and gallbladder from those files.
+// `trocar organ phantom`: draws the synthetic CT phantom, writes it, and imports its liver and gallbladder from those
+// files.
 //
 // DIR receives ct.nii.gz, labels.nii.gz, README.md, phantom-liver and phantom-gallbladder (.organ.toml, .ply).
 // Errors leave as EnvironmentError (exit code 3) when DIR cannot be written.

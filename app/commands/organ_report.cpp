@@ -1,7 +1,7 @@
 #include "app/commands/organ_report.h"
 
-#include <nlohmann/json.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace trocar {
@@ -16,10 +16,14 @@ double rounded(double value, double digits) {
 }
 
 Json distance_json(const SurfaceDistance& distance) {
-  return {{"mean", rounded(distance.mean_m * 1e3, 4)}, {"p99", rounded(distance.p99_m * 1e3, 4)}, {"max", rounded(distance.max_m * 1e3, 4)}};
+  return {{"mean", rounded(distance.mean_m * 1e3, 4)},
+          {"p99", rounded(distance.p99_m * 1e3, 4)},
+          {"max", rounded(distance.max_m * 1e3, 4)}};
 }
 
-Json corner_json(const Vec3& corner) { return {rounded(corner.x(), 6), rounded(corner.y(), 6), rounded(corner.z(), 6)}; }
+Json corner_json(const Vec3& corner) {
+  return {rounded(corner.x(), 6), rounded(corner.y(), 6), rounded(corner.z(), 6)};
+}
 
 Json source_json(const OrganSource& source) {
   Json json{{"file", source.file}, {"sha256", source.sha256}};
@@ -50,7 +54,8 @@ void add_mesh(Json& json, const MeshFacts& mesh) {
 
 Json lost_json(const std::vector<LostPart>& lost) {
   Json list = Json::array();
-  for (const LostPart& part : lost) list.push_back({{"kind", part.kind}, {"voxels", part.voxels}, {"volume_ml", rounded(part.volume_ml, 4)}});
+  for (const LostPart& part : lost)
+    list.push_back({{"kind", part.kind}, {"voxels", part.voxels}, {"volume_ml", rounded(part.volume_ml, 4)}});
   return list;
 }
 
@@ -58,7 +63,10 @@ Json lost_json(const std::vector<LostPart>& lost) {
 
 std::string organ_json(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds) {
   const MeshFacts& mesh = manifest.mesh;
-  Json json{{"name", manifest.name}, {"surface", manifest.surface}, {"surface_sha256", manifest.surface_sha256}, {"material", manifest.material}};
+  Json json{{"name", manifest.name},
+            {"surface", manifest.surface},
+            {"surface_sha256", manifest.surface_sha256},
+            {"material", manifest.material}};
   add_mesh(json, mesh);
   json["bbox_m"] = {corner_json(bounds.min()), corner_json(bounds.max())};
   json["cut_at_border"] = mesh.cut_at_border();
@@ -82,19 +90,23 @@ std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d&
   out.setf(std::ios::fixed);
   out.precision(2);
   out << manifest.name << (manifest.synthetic ? " (synthetic)" : "") << ", material " << manifest.material << "\n"
-      << "  surface    " << manifest.surface << ", " << mesh.topology.vertices << " vertices, " << mesh.topology.triangles << " triangles, "
-      << (mesh.topology.closed() ? "closed" : "OPEN") << ", " << (mesh.topology.manifold() ? "manifold" : "NOT MANIFOLD") << ", genus "
-      << mesh.topology.genus << ", " << mesh.self_intersections << " self-intersections\n"
+      << "  surface    " << manifest.surface << ", " << mesh.topology.vertices << " vertices, "
+      << mesh.topology.triangles << " triangles, " << (mesh.topology.closed() ? "closed" : "OPEN") << ", "
+      << (mesh.topology.manifold() ? "manifold" : "NOT MANIFOLD") << ", genus " << mesh.topology.genus << ", "
+      << mesh.self_intersections << " self-intersections\n"
       << "  volume     " << mesh.volume_ml << " mL";
   if (mesh.label_volume_ml) out << ", label " << *mesh.label_volume_ml << " mL (" << mesh.volume_error_pct << " %)";
   out << "\n  size       " << extent.x() << " x " << extent.y() << " x " << extent.z() << " mm\n"
-      << "  distance   mean " << mesh.distance.mean_m * 1e3 << ", p99 " << mesh.distance.p99_m * 1e3 << ", max " << mesh.distance.max_m * 1e3
-      << " mm from the original surface\n"
-      << "  source     " << manifest.source.file << " (" << manifest.source.modality << ", " << manifest.source.unit << "), sha256 "
-      << manifest.source.sha256.substr(0, 16) << "\n"
+      << "  distance   mean " << mesh.distance.mean_m * 1e3 << ", p99 " << mesh.distance.p99_m * 1e3 << ", max "
+      << mesh.distance.max_m * 1e3 << " mm from the original surface\n"
+      << "  source     " << manifest.source.file << " (" << manifest.source.modality << ", " << manifest.source.unit
+      << "), sha256 " << manifest.source.sha256.substr(0, 16) << "\n"
       << "  licence    " << manifest.licence << (manifest.credit.empty() ? "" : "; ") << manifest.credit << "\n";
-  if (mesh.cut_at_border()) out << "  CUT        the image ends inside the organ (" << mesh.border_voxels << " voxels): the flat cap is not anatomy\n";
-  for (const LostPart& part : mesh.lost) out << "  lost       " << part.kind << " of " << part.volume_ml << " mL (" << part.voxels << " voxels)\n";
+  if (mesh.cut_at_border())
+    out << "  CUT        the image ends inside the organ (" << mesh.border_voxels
+        << " voxels): the flat cap is not anatomy\n";
+  for (const LostPart& part : mesh.lost)
+    out << "  lost       " << part.kind << " of " << part.volume_ml << " mL (" << part.voxels << " voxels)\n";
   for (const std::string& repair : mesh.repairs) out << "  repair     " << repair << "\n";
   return out.str();
 }

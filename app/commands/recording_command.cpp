@@ -51,12 +51,13 @@ Subject find_subject(const RecordingOptions& options, std::ostream& err) {
 Scene recorded_scene(const RecordingOptions& options, const Subject& subject, const AssetRoots& assets) {
   RecordedSetup recorded = parse_scene_json(subject.recording.session, subject.file.string());
   if (!options.organ.empty()) recorded.setup.organ = options.organ;
-  const Scene scene = build_scene(recorded.setup, assets, {"replay", recorded.setup.rate_hz, 16});
-  if (scene.organ.sha256 != recorded.organ_sha256) {
-    throw InputError(scene.organ.manifest.string() +
+  // Before anything is laid out on it: another organ may well have no room for the board.
+  const Organ organ = load_organ(find_organ(recorded.setup.organ, assets.assets));
+  if (organ.sha256 != recorded.organ_sha256) {
+    throw InputError(organ.manifest.string() +
                      ": not the organ of the recording (its sha256 differs); name that one with --organ");
   }
-  return scene;
+  return build_scene(recorded.setup, assets, {"replay", recorded.setup.rate_hz, 16});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "app/commands/run_command.h"
 
 #include <charconv>
+#include <cmath>
 #include <iomanip>
 #include <map>
 #include <ostream>
@@ -30,7 +31,7 @@ const std::map<std::string, InjectedFaultKind>& injection_kinds() {
 double number_in(const std::string& text, const std::string& whole) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
     throw InputError("--inject " + whole + ": '" + text + "' is not a number");
   }
   return value;
@@ -42,6 +43,12 @@ T one_of(const std::string& option, const std::string& name, const std::map<std:
   std::string known;
   for (const auto& [choice, unused] : choices) known += (known.empty() ? "" : ", ") + choice;
   throw InputError(option + " " + name + ": unknown; known are " + known);
+}
+
+/// A board that no practice shows, for any seed: remainders of negative seeds are made positive.
+int unseen_board(std::int64_t seed) {
+  constexpr std::int64_t kBoards = 1000000;
+  return kUnseenBoards + static_cast<int>((seed % kBoards + kBoards) % kBoards);
 }
 
 AttemptStart start_of(const RunOptions& options, const Scene& scene) {
@@ -132,10 +139,14 @@ InjectedFault parse_injection(const std::string& text) {
       fault.value = number_in(channel.substr(second + 1), text);
       channel.resize(second);
     }
-    fault.channel = static_cast<int>(number_in(channel, text));
+    const double number = number_in(channel, text);
+    if (number != std::floor(number) || number < 0 || number >= kChannels) {
+      throw InputError("--inject " + text + ": channels are 0 to 6");
+    }
+    fault.channel = static_cast<int>(number);
   }
   fault.kind = one_of("--inject", head, injection_kinds());
-  if (fault.channel < 0 || fault.channel >= kChannels) throw InputError("--inject " + text + ": channels are 0 to 6");
+  if (fault.at_s < 0 || fault.duration_s < 0) throw InputError("--inject " + text + ": times must not be negative");
   return fault;
 }
 
@@ -149,7 +160,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   if (options.board && (*options.board < 0 || *options.board > 19)) {
     throw InputError("--board " + std::to_string(*options.board) + ": practice boards are 0 to 19");
   }
-  setup.board = options.board ? *options.board : kUnseenBoards + static_cast<int>(options.seed % 1000000);
+  setup.board = options.board ? *options.board : unseen_board(options.seed);
   setup.rate_hz = options.rate_hz;
   setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});

@@ -24,7 +24,10 @@ class TissueTask final : public Task {
     const StylusState& state = haptic_.record().stylus;
     director_.update(state);
     ContactPatch& patch = patch_.begin_publish(tick);
-    extraction_.extract(state.X_TI, scene_.loop.tool, patch);
+    // The jig lies beneath the board: the tissue is there from the moment the tip first rests at the start, in free space.
+    inserted_ = inserted_ || director_.status().phase != Phase::kReady;
+    patch.count = patch.dropped = 0;
+    if (inserted_) extraction_.extract(state.X_TI, scene_.loop.tool, patch);
     patch.stamp = ++frame_;
     patch.stiffness_n_per_m = scene_.setup.exercise.surface_stiffness_n_per_m;
     patch.damping_s_per_m = scene_.setup.exercise.surface_damping_s_per_m;
@@ -44,6 +47,7 @@ class TissueTask final : public Task {
   StateHash& hash_;
   PatchExtraction extraction_;
   std::uint64_t frame_ = 0, dropped_ = 0;
+  bool inserted_ = false;
 };
 
 }  // namespace trocar

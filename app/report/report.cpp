@@ -98,7 +98,7 @@ std::string summary_html(const AttemptResult& r, const ReportContext& context) {
 
 std::string events_html(const AttemptResult& result, double start_s) {
   std::string out =
-      "<table><thead><tr><th class=\"n\">#</th><th class=\"n\">t, s</th><th>Event</th><th>Weight</th><th "
+      "<table><thead><tr><th class=\"n\">#</th><th class=\"n\">t, s</th><th>Event</th><th>Severity</th><th "
       "class=\"n\">Value</th></tr></thead><tbody>";
   for (std::size_t i = 0; i < result.events.size(); ++i) {
     const Event& event = result.events[i];

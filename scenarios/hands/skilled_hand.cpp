@@ -17,7 +17,10 @@ constexpr double kLongestDescent = 0.030;   // m below the hover point before lo
 constexpr double kSideGain = 1.2;           // 1/s, sideways correction while pressing
 constexpr double kSideDeadBand = 0.0010;    // m
 constexpr double kAsideTime = 0.5;          // s beside the target before lifting off to try again
-constexpr double kOpenJaw = 0.020;          // m
+constexpr double kOpenJaw = 0.020;          // m, as taken from the jig and before squeezing
+constexpr double kClosedJaw = 0.002;        // m, while touching
+constexpr double kJawSpeed = 0.030;         // m/s of free opening and closing
+constexpr double kOpenEnough = 0.004;       // m short of open at which the fingers turn round
 constexpr double kTightestJaw = -0.010;     // m of intent: the fingers press beyond what they hold
 constexpr double kClosingSpeed = 0.012;     // m/s until the block is felt
 constexpr double kGripTouch = 0.08;         // N
@@ -37,7 +40,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
     : random_(seed),
       skill_(drawn_person(skill, random_)),
       senses_(skill_.reaction_s),
-      press_({100, 3, 0.04, skill_.force_bias, skill_.force_cv}),
+      press_({60, 3, 0.04, skill_.force_bias, skill_.force_cv}),
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv}),
       jaw_m_(kOpenJaw) {
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
@@ -93,6 +96,7 @@ void SkilledHand::begin_task(const Percept& percept) {
     case HandTask::Kind::kDisc: return reach_target(percept, true);
     case HandTask::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
+      opened_ = false;
       [[fallthrough]];
     case HandTask::Kind::kFinished:
       plan_ = ReachPlan(intent_T_, intent_T_ + Vec3(0, 0, 2 * kLift), {0, Vec3::Zero(), 0, 0.5 * skill_.speed_factor});
@@ -146,8 +150,10 @@ void SkilledHand::press(const Percept& percept, double dt_s) {
 }
 
 void SkilledHand::squeeze(const Percept& percept, double dt_s) {
-  if (in_step_s_ <= plan_.duration_s()) {
-    intent_T_ = plan_.at(in_step_s_);
+  if (in_step_s_ <= plan_.duration_s()) intent_T_ = plan_.at(in_step_s_);
+  if (!opened_) {
+    jaw_m_ = std::min(kOpenJaw, jaw_m_ + kJawSpeed * dt_s);
+    opened_ = in_step_s_ > plan_.duration_s() && percept.jaw_opening_m > kOpenJaw - kOpenEnough;
     return;
   }
   const bool felt = senses_.grip_n() > kGripTouch;
@@ -179,6 +185,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     task_ = senses_.task();
     begin_task(attend(percept));
   }
+  if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
   return {{ready_.R, intent_T_ + tremor(time_s_)}, jaw_m_};
 }

@@ -51,6 +51,7 @@ class SkilledHand : public Hand {
   Vec3 tremor_phase_ = Vec3::Zero();
   double jaw_m_, time_s_ = 0, in_step_s_ = 0, aside_s_ = 0;
   int corrections_ = 0;
+  bool opened_ = false;         ///< the jaws have been opened for the squeeze
   bool seen_ = false, is_ready_ = false;
 };
 

@@ -59,7 +59,7 @@ Grade void_grade(const std::string& reason) {
 
 double subscore_value(const SubscoreRule& rule, const std::optional<double>& metric) {
   if (!metric || !std::isfinite(*metric)) return 0;
-  return std::clamp((*metric - rule.zero_at) / (rule.full_at - rule.zero_at), 0.0, 1.0);
+  return std::clamp((*metric - rule.zero_at) / (rule.full_at - rule.zero_at), 0.0, 1.0) + 0.0;  // -0 becomes 0
 }
 
 Grade score_attempt(const Trace& trace, const std::vector<Event>& events, const Rubric& rubric,

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "scenarios/scoring/attempt_result.h"
 #include "scenarios/scoring/trace.h"
@@ -31,6 +32,54 @@ inline Trace sample_trace() {
   return trace;
 }
 
+inline Grade sample_grade(bool passed) {
+  Grade grade;
+  grade.status = AttemptStatus::kCompleted;
+  grade.score = passed ? 88.4 : 59.0;
+  grade.passed = passed;
+  grade.grade = passed ? "proficient" : "below pass";
+  grade.subscores = {{"time_to_complete", 0.62, 0.15, 47.2, "s", 30, 75, false},
+                     {"path_ratio", 0.71, 0.20, 1.9, "1", 1.3, 3.4, false},
+                     {"peak_force", passed ? 0.95 : 0.22, 0.30, passed ? 2.2 : 5.61, "N", 2.0, 6.0, true},
+                     {"time_in_band_share", 0.84, 0.20, 0.78, "1", 0.9, 0.3, false},
+                     {"wrong_places", 1.0, 0.15, 0.0, "count", 0, 3, false}};
+  if (!passed) grade.caps = {"Safety gate peak force below half: total limited to 59"};
+  grade.metrics = {{"task_time", 47.2, "s"},
+                   {"path_length", 0.612, "m"},
+                   {"ideal_path_length", 0.322, "m"},
+                   {"peak_force", 5.61, "N"},
+                   {"mean_contact_force", 1.38, "N"},
+                   {"time_in_band_share", 0.78, "1"},
+                   {"excess_force_events", 1, "count"},
+                   {"excess_force_impulse", 0.83, "N s"},
+                   {"wrong_places", 0, "count"},
+                   {"tip_speed_mean", 0.031, "m/s"},
+                   {"spectral_arc_length", -4.21, "1"},
+                   {"grip_peak", 2.4, "N"},
+                   {"grip_hold_time", 1.02, "s"},
+                   {"idle_share", {}, "1"},
+                   {"contact_time", 6.02, "s"},
+                   {"retract_height_mean", 0.0183, "m"}};
+  return grade;
+}
+
+inline std::vector<Event> sample_events() {
+  std::vector<Event> events;
+  const auto event = [&](double t, const char* type, Severity severity, int object, double value, const char* unit) {
+    Event e{
+        t, type, severity, object, value, unit, Vec3(0.03 * std::cos(1.3 * object), 0.025 * std::sin(1.3 * object), 0)};
+    events.push_back(e);
+  };
+  event(2.0, "RUN_START", Severity::kInfo, -1, 0, "");
+  for (int k = 0; k < 5; ++k) {
+    if (k == 3) event(2.0 + 4 * k + 2.1, "EXCESS_FORCE", Severity::kMajor, 3, 5.61, "N");
+    event(2.0 + 4 * k + 2.9, "TARGET_HELD", Severity::kInfo, k, 1.0, "s");
+  }
+  event(21.5, "GRIP_HELD", Severity::kInfo, -1, 2.4, "N");
+  event(21.99, "RUN_END", Severity::kInfo, -1, 0, "");
+  return events;
+}
+
 inline AttemptResult sample_attempt(bool passed = false) {
   AttemptResult r;
   r.uuid = "7f1c7a52-0000-4000-8000-000000000007";
@@ -41,44 +90,8 @@ inline AttemptResult sample_attempt(bool passed = false) {
   r.board = 3;
   r.trainee = "T-014";
   r.hand = "intermediate";
-  r.grade.status = AttemptStatus::kCompleted;
-  r.grade.score = passed ? 88.4 : 59.0;
-  r.grade.passed = passed;
-  r.grade.grade = passed ? "proficient" : "below pass";
-  r.grade.subscores = {{"time_to_complete", 0.62, 0.15, 47.2, "s", 30, 75, false},
-                       {"path_ratio", 0.71, 0.20, 1.9, "1", 1.3, 3.4, false},
-                       {"peak_force", passed ? 0.95 : 0.22, 0.30, passed ? 2.2 : 5.61, "N", 2.0, 6.0, true},
-                       {"time_in_band_share", 0.84, 0.20, 0.78, "1", 0.9, 0.3, false},
-                       {"wrong_places", 1.0, 0.15, 0.0, "count", 0, 3, false}};
-  if (!passed) r.grade.caps = {"Safety gate peak force below half: total limited to 59"};
-  r.grade.metrics = {{"task_time", 47.2, "s"},
-                     {"path_length", 0.612, "m"},
-                     {"ideal_path_length", 0.322, "m"},
-                     {"peak_force", 5.61, "N"},
-                     {"mean_contact_force", 1.38, "N"},
-                     {"time_in_band_share", 0.78, "1"},
-                     {"excess_force_events", 1, "count"},
-                     {"excess_force_impulse", 0.83, "N s"},
-                     {"wrong_places", 0, "count"},
-                     {"tip_speed_mean", 0.031, "m/s"},
-                     {"spectral_arc_length", -4.21, "1"},
-                     {"grip_peak", 2.4, "N"},
-                     {"grip_hold_time", 1.02, "s"},
-                     {"idle_share", {}, "1"},
-                     {"contact_time", 6.02, "s"},
-                     {"retract_height_mean", 0.0183, "m"}};
-  const auto event = [&](double t, const char* type, Severity severity, int object, double value, const char* unit) {
-    Event e{
-        t, type, severity, object, value, unit, Vec3(0.03 * std::cos(1.3 * object), 0.025 * std::sin(1.3 * object), 0)};
-    r.events.push_back(e);
-  };
-  event(2.0, "RUN_START", Severity::kInfo, -1, 0, "");
-  for (int k = 0; k < 5; ++k) {
-    if (k == 3) event(2.0 + 4 * k + 2.1, "EXCESS_FORCE", Severity::kMajor, 3, 5.61, "N");
-    event(2.0 + 4 * k + 2.9, "TARGET_HELD", Severity::kInfo, k, 1.0, "s");
-  }
-  event(21.5, "GRIP_HELD", Severity::kInfo, -1, 2.4, "N");
-  event(21.99, "RUN_END", Severity::kInfo, -1, 0, "");
+  r.grade = sample_grade(passed);
+  r.events = sample_events();
   r.device = {"simulated", 1000, 20000, 0, 0.012, 0.031, -0.0004, 0.62, ""};
   r.organ_name = "liver";
   r.organ_source = "phantom_ct.nrrd";

@@ -55,11 +55,31 @@ std::string refusal(const OrganImportOptions& options) {
 TEST(OrganImport, JsonHasEveryKeyOfTheInterface) {
   test::TemporaryFolder folder;
   const Outcome outcome = imported(options_for(write_map(folder, "liver.nii.gz", false), folder / "out"));
-  for (const char* key : {"name", "surface", "vertices", "triangles", "closed", "manifold", "self_intersections", "components", "genus", "volume_ml", "label_volume_ml",
-                          "volume_error_pct", "distance_mm", "bbox_m", "cut_at_border", "lost", "repairs", "unit", "frame", "source", "licence"})
+  for (const char* key : {"name",
+                          "surface",
+                          "vertices",
+                          "triangles",
+                          "closed",
+                          "manifold",
+                          "self_intersections",
+                          "components",
+                          "genus",
+                          "volume_ml",
+                          "label_volume_ml",
+                          "volume_error_pct",
+                          "distance_mm",
+                          "bbox_m",
+                          "cut_at_border",
+                          "lost",
+                          "repairs",
+                          "unit",
+                          "frame",
+                          "source",
+                          "licence"})
     EXPECT_TRUE(outcome.report.contains(key)) << key;
   for (const char* key : {"mean", "p99", "max"}) EXPECT_TRUE(outcome.report["distance_mm"][key].is_number()) << key;
-  for (const char* key : {"file", "sha256", "label", "modality"}) EXPECT_TRUE(outcome.report["source"].contains(key)) << key;
+  for (const char* key : {"file", "sha256", "label", "modality"})
+    EXPECT_TRUE(outcome.report["source"].contains(key)) << key;
   EXPECT_EQ(outcome.report["name"], "liver");
   EXPECT_EQ(outcome.report["surface"], "out.ply");
   EXPECT_EQ(outcome.report["closed"], true);
@@ -120,9 +140,10 @@ TEST(OrganImport, RefusalsLeaveNothingBehind) {
 
 TEST(OrganImport, SurfacesCarryNoLabelVolume) {
   test::TemporaryFolder folder;
-  OrganImportOptions options = options_for(folder.write("sac.ply", test::ascii_ply(test::sphere(Vec3::Zero(), 0.03, 3), 1e3)), folder / "sac");
+  OrganImportOptions options =
+      options_for(folder.write("sac.ply", test::ascii_ply(test::sphere(Vec3::Zero(), 0.03, 3), 1e3)), folder / "organ");
   EXPECT_CONTAINS(refusal(options), "--unit");
-  options.unit = "mm", options.output = (folder / "organ").string();
+  options.unit = "mm";
   const Json report = imported(options).report;
   EXPECT_TRUE(report["label_volume_ml"].is_null());
   EXPECT_TRUE(report["source"]["label"].is_null());
@@ -134,7 +155,8 @@ TEST(OrganImport, SurfacesCarryNoLabelVolume) {
 
 TEST(OrganImport, ReplacingTheInputIsRefused) {
   test::TemporaryFolder folder;
-  OrganImportOptions options = options_for(folder.write("sac.ply", test::ascii_ply(test::sphere(Vec3::Zero(), 0.03, 3), 1e3)), folder / "sac");
+  OrganImportOptions options =
+      options_for(folder.write("sac.ply", test::ascii_ply(test::sphere(Vec3::Zero(), 0.03, 3), 1e3)), folder / "sac");
   options.unit = "mm";
   EXPECT_CONTAINS(refusal(options), "would overwrite its input");
 }
@@ -163,7 +185,8 @@ TEST(OrganPhantom, MakesTheShippedOrgansByteForByte) {
   ASSERT_EQ(report["organs"].size(), 2U);
   for (const char* name : {"phantom-liver", "phantom-gallbladder"})
     for (const char* suffix : {".organ.toml", ".ply"})
-      EXPECT_EQ(read_bytes(folder / (std::string(name) + suffix)), read_bytes(kShipped / (std::string(name) + suffix))) << name << suffix;
+      EXPECT_EQ(read_bytes(folder / (std::string(name) + suffix)), read_bytes(kShipped / (std::string(name) + suffix)))
+          << name << suffix;
   EXPECT_CONTAINS(read_bytes(folder / "README.md"), "no patient");
   for (const Json& organ : report["organs"]) {
     EXPECT_EQ(organ["synthetic"], true);

@@ -29,11 +29,15 @@ class SharedData : public ::testing::Test {
     GTEST_SKIP() << "no shared data in " << data_;
   }
 
-  std::filesystem::path mask(const std::string& name) const { return data_ / "ct_abdomen_totalseg" / "masks_v1" / (name + ".nii.gz"); }
+  std::filesystem::path mask(const std::string& name) const {
+    return data_ / "ct_abdomen_totalseg" / "masks_v1" / (name + ".nii.gz");
+  }
 
-  Json import(const std::filesystem::path& input, const std::string& label, const std::string& unit = "", int triangles = 6000) {
+  Json import(const std::filesystem::path& input, const std::string& label, const std::string& unit = "",
+              int triangles = 6000) {
     OrganImportOptions options;
-    options.input = input.string(), options.label = label, options.unit = unit, options.triangles = triangles, options.json = true;
+    options.input = input.string(), options.label = label, options.unit = unit, options.triangles = triangles,
+    options.json = true;
     options.output = (folder_ / "organ").string();
     std::ostringstream out, err;
     EXPECT_EQ(organ_import(options, out, err), 0);
@@ -84,7 +88,8 @@ TEST_F(SharedData, SmallerOrgansKeepTheirVolume) {
 TEST_F(SharedData, KidneyCavitiesAreFilledAndNamed) {
   const Json report = import(mask("kidney_right"), "1");
   int filled = 0;
-  for (const Json& repair : report["repairs"]) filled += repair.get<std::string>().starts_with("filled a cavity") ? 1 : 0;
+  for (const Json& repair : report["repairs"])
+    filled += repair.get<std::string>().starts_with("filled a cavity") ? 1 : 0;
   EXPECT_EQ(filled, 2);
   EXPECT_NEAR(report["volume_error_pct"].get<double>(), 0, 1);
 }

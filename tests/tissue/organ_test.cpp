@@ -83,7 +83,9 @@ TEST(Organ, IsFoundByPathOrByName) {
   const auto file = folder.write("mine.organ.toml", "x");
   EXPECT_EQ(find_organ(file.string(), kAssets), file);
   EXPECT_EQ(find_organ("phantom-liver", kAssets), kAssets / "organs" / "phantom-liver.organ.toml");
-  const auto unknown = [](const std::string& name) { return test::message_of<InputError>([&] { find_organ(name, kAssets); }); };
+  const auto unknown = [](const std::string& name) {
+    return test::message_of<InputError>([&] { find_organ(name, kAssets); });
+  };
   EXPECT_CONTAINS(unknown("spleen"), "phantom-gallbladder, phantom-liver");
   EXPECT_CONTAINS(unknown("../organs/phantom-liver"), "neither a file");
   EXPECT_CONTAINS(test::message_of<InputError>([&] { find_organ("x", folder.path()); }), "none");

@@ -13,10 +13,10 @@ namespace trocar {
 
 struct ItkVolume {
   std::array<int, 3> size{};
-  std::array<double, 3> origin_mm{};               ///< LPS, centre of voxel (0, 0, 0)
+  std::array<double, 3> origin_mm{};  ///< LPS, centre of voxel (0, 0, 0)
   std::array<double, 3> spacing_mm{};
-  std::array<std::array<double, 3>, 3> direction{};///< [row][column], LPS
-  std::vector<double> values;                      ///< slope and intercept applied, i fastest
+  std::array<std::array<double, 3>, 3> direction{};  ///< [row][column], LPS
+  std::vector<double> values;                        ///< slope and intercept applied, i fastest
 };
 
 /// @throws InputError with ITK's description when it refuses the file

@@ -126,9 +126,11 @@ LabelMask cut_out_label(const LabelVolume& volume, int label, int margin) {
   const Parts parts = connected_parts(mask, 1);
   const auto largest = std::max_element(parts.voxels.begin(), parts.voxels.end());
   if (*largest < kFewestVoxels)
-    throw InputError("label " + std::to_string(label) + ": its largest part has only " + std::to_string(*largest) + " voxels");
+    throw InputError("label " + std::to_string(label) + ": its largest part has only " + std::to_string(*largest) +
+                     " voxels");
   mask.lost_parts = keep_part(mask, parts, static_cast<std::int32_t>(largest - parts.voxels.begin()), 1);
-  mask.cavities = keep_part(mask, connected_parts(mask, 0), 1, 0);  // the corner voxel lies in the margin: part 1 is outside
+  mask.cavities =
+      keep_part(mask, connected_parts(mask, 0), 1, 0);  // the corner voxel lies in the margin: part 1 is outside
   count_kept(mask, volume);
   return mask;
 }

@@ -24,7 +24,8 @@ struct LabelMask {
 
   std::size_t offset(int i, int j, int k) const {
     return static_cast<std::size_t>(i) +
-           static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+           static_cast<std::size_t>(size[0]) *
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
   }
 };
 

@@ -73,7 +73,8 @@ LabelVolume in_ras_order(LabelVolume volume) {
   const AxisOrder order = ras_order(volume.index_to_ras_mm.linear());
   LabelVolume result;
   result.notes = volume.notes;
-  for (std::size_t world = 0; world < 3; ++world) result.size[world] = volume.size[static_cast<std::size_t>(order.stored[world])];
+  for (std::size_t world = 0; world < 3; ++world)
+    result.size[world] = volume.size[static_cast<std::size_t>(order.stored[world])];
   result.index_to_ras_mm = reordered_frame(volume, order);
   result.labels.reserve(volume.labels.size());
   std::array<int, 3> index{}, stored{};
@@ -92,7 +93,8 @@ LabelVolume read_label_volume(const std::filesystem::path& path) {
   const NiftiHeader header = read_nifti_header(path);
   const ItkVolume image = read_itk_volume(path);
   if (image.size != header.size) throw InputError(path.string() + ": dim: ITK reads another size than the header says");
-  LabelVolume volume{.size = header.size, .labels = {}, .index_to_ras_mm = header.index_to_ras_mm, .notes = header.notes};
+  LabelVolume volume{
+      .size = header.size, .labels = {}, .index_to_ras_mm = header.index_to_ras_mm, .notes = header.notes};
   volume.labels.reserve(image.values.size());
   bool empty = true;
   for (std::size_t voxel = 0; voxel < image.values.size(); ++voxel) {

@@ -47,13 +47,17 @@ std::string text(double value) {
 int bytes_of(NiftiType type) {
   switch (type) {
     case NiftiType::kUint8:
-    case NiftiType::kInt8: return 1;
+    case NiftiType::kInt8:
+      return 1;
     case NiftiType::kInt16:
-    case NiftiType::kUint16: return 2;
+    case NiftiType::kUint16:
+      return 2;
     case NiftiType::kInt32:
     case NiftiType::kUint32:
-    case NiftiType::kFloat32: return 4;
-    case NiftiType::kFloat64: return 8;
+    case NiftiType::kFloat32:
+      return 4;
+    case NiftiType::kFloat64:
+      return 8;
   }
   return 0;
 }
@@ -61,7 +65,8 @@ int bytes_of(NiftiType type) {
 bool byte_order_swapped(const HeaderBytes& bytes, const std::string& file) {
   const auto plain = FieldReader(bytes, false).at<std::int32_t>(0);
   const auto swapped = FieldReader(bytes, true).at<std::int32_t>(0);
-  if (plain == 540 || swapped == 540) refuse(file, "sizeof_hdr", "540 is NIfTI-2; only NIfTI-1 is read, please convert");
+  if (plain == 540 || swapped == 540)
+    refuse(file, "sizeof_hdr", "540 is NIfTI-2; only NIfTI-1 is read, please convert");
   if (plain != 348 && swapped != 348) refuse(file, "sizeof_hdr", text(plain) + " instead of 348: not a NIfTI-1 file");
   return swapped == 348;
 }
@@ -153,7 +158,8 @@ void check_affine(const Eigen::Affine3d& affine, const std::string& field, const
   }
   // Float32 storage leaves 1e-6; a gantry tilt is 1e-1.
   const double skew = (axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (skew > 1e-4) refuse(file, field, "the axes are not at right angles (shear or gantry tilt, cosine " + text(skew) + ")");
+  if (skew > 1e-4)
+    refuse(file, field, "the axes are not at right angles (shear or gantry tilt, cosine " + text(skew) + ")");
 }
 
 double largest_corner_shift(const NiftiHeader& header, const Eigen::Affine3d& other) {
@@ -210,7 +216,9 @@ void check_data(GzipStream& stream, const NiftiHeader& header, std::uint64_t wan
   }
   while (present < wanted) {
     const std::size_t got = stream.read(block.data(), std::min<std::uint64_t>(block.size(), wanted - present));
-    if (got == 0) refuse(file, "data", "the file ends after " + std::to_string(present) + " of " + std::to_string(wanted) + " bytes");
+    if (got == 0)
+      refuse(file, "data",
+             "the file ends after " + std::to_string(present) + " of " + std::to_string(wanted) + " bytes");
     present += got;
     const bool finite = header.type == NiftiType::kFloat32   ? all_finite<float>(block, got, header.swapped)
                         : header.type == NiftiType::kFloat64 ? all_finite<double>(block, got, header.swapped)
@@ -246,7 +254,8 @@ NiftiHeader read_nifti_header(const std::filesystem::path& path) {
     refuse(file, "extension", "label maps and volumes are read from .nii and .nii.gz");
   GzipStream stream(path);
   if (stream.gzip() != named_gzip)
-    refuse(file, "extension", named_gzip ? "named .nii.gz, but the bytes are not gzip" : "named .nii, but the bytes are gzip");
+    refuse(file, "extension",
+           named_gzip ? "named .nii.gz, but the bytes are not gzip" : "named .nii, but the bytes are gzip");
   HeaderBytes bytes{};
   const std::size_t got = stream.read(bytes.data(), bytes.size());
   if (got < bytes.size()) refuse(file, "header", "the file ends after " + std::to_string(got) + " of 348 header bytes");

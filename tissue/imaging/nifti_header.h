@@ -1,9 +1,9 @@
 // The NIfTI-1 header, read and judged by ourselves before any library sees the file.
 //
-// Layout: nifti1.h (NIfTI-1.1, 348 bytes). Voxel (i, j, k) counts from 0, its centre lies at index_to_ras_mm * (i, j, k)
-// in the RAS patient frame (x right, y anterior, z superior), millimetres. A signed header alone is no proof of data: the
-// length of the voxel block is measured too, through the inflater for .nii.gz.
-// Thread: any, not the tick (file I/O).
+// Layout: nifti1.h (NIfTI-1.1, 348 bytes). Voxel (i, j, k) counts from 0, its centre lies at index_to_ras_mm * (i, j,
+// k) in the RAS patient frame (x right, y anterior, z superior), millimetres. A signed header alone is no proof of
+// data: the length of the voxel block is measured too, through the inflater for .nii.gz. Thread: any, not the tick
+// (file I/O).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -28,16 +28,16 @@ enum class NiftiType : std::int16_t {
 };
 
 struct NiftiHeader {
-  std::array<int, 3> size{};          ///< voxels along i, j, k
+  std::array<int, 3> size{};  ///< voxels along i, j, k
   NiftiType type = NiftiType::kUint8;
-  bool swapped = false;               ///< stored in the other byte order
+  bool swapped = false;  ///< stored in the other byte order
   bool gzip = false;
-  double data_offset = 352;           ///< bytes before the first voxel
-  double slope = 1;                   ///< value = slope * stored + intercept; slope 0 in the file means 1
+  double data_offset = 352;  ///< bytes before the first voxel
+  double slope = 1;          ///< value = slope * stored + intercept; slope 0 in the file means 1
   double intercept = 0;
   Eigen::Affine3d index_to_ras_mm = Eigen::Affine3d::Identity();
-  std::string frame_source;           ///< "sform 2" or "qform 1": which transform placed the image
-  std::vector<std::string> notes;     ///< what was odd but usable, one sentence each
+  std::string frame_source;        ///< "sform 2" or "qform 1": which transform placed the image
+  std::vector<std::string> notes;  ///< what was odd but usable, one sentence each
 
   std::size_t voxel_count() const;
   /// Edge lengths of one voxel, mm.

@@ -12,7 +12,9 @@
 namespace trocar {
 
 /// The bytes of a .nii.gz. @param values i fastest; size[0] * size[1] * size[2] of them
-std::string nifti_gz_bytes(const std::array<int, 3>& size, const Eigen::Affine3d& index_to_ras_mm, const std::vector<std::int16_t>& values);
-std::string nifti_gz_bytes(const std::array<int, 3>& size, const Eigen::Affine3d& index_to_ras_mm, const std::vector<std::uint16_t>& values);
+std::string nifti_gz_bytes(const std::array<int, 3>& size, const Eigen::Affine3d& index_to_ras_mm,
+                           const std::vector<std::int16_t>& values);
+std::string nifti_gz_bytes(const std::array<int, 3>& size, const Eigen::Affine3d& index_to_ras_mm,
+                           const std::vector<std::uint16_t>& values);
 
 }  // namespace trocar

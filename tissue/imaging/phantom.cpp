@@ -39,7 +39,9 @@ double trunk(const Vec& p, double inset) {
   return ellipsoid(Vec(p.x(), p.y(), 0), Vec(0, 8, 0), Vec(168 - inset, 118 - inset, 1000));
 }
 
-double spine(const Vec& p) { return joined(column(p, 0, -62, 21), ellipsoid(Vec(p.x(), p.y(), 0), Vec(0, -92, 0), Vec(9, 18, 1000)), 8); }
+double spine(const Vec& p) {
+  return joined(column(p, 0, -62, 21), ellipsoid(Vec(p.x(), p.y(), 0), Vec(0, -92, 0), Vec(9, 18, 1000)), 8);
+}
 double vena_cava(const Vec& p) { return column(p, 24, -36, 11); }
 double aorta(const Vec& p) { return column(p, -14, -32, 9.5); }
 
@@ -84,9 +86,9 @@ Tissue tissue_at(const Vec& p) {
   if (aorta(p) < 0) return {165, 7};
   if (vena_cava(p) < 0) return {140, 8};
   if (stomach(p) < 0) return {p.y() > 62 && p.z() > 20 ? -850.0 : 25.0, 6};
-  if (trunk(p, 28) > 0) return {58, 0};    // muscle and ribs' bed
+  if (trunk(p, 28) > 0) return {58, 0};  // muscle and ribs' bed
   if (below_diaphragm(p) > 0) return {-840, 0};
-  return {-95, 0};                         // fat round the organs
+  return {-95, 0};  // fat round the organs
 }
 
 /// Normal deviates by Box and Muller from a named generator: the same on every machine.
@@ -95,7 +97,8 @@ class Noise {
   explicit Noise(std::uint64_t seed) : engine_(seed) {}
 
   double operator()() {
-    const double u = (static_cast<double>(engine_() >> 11) + 1) * 0x1p-53, v = static_cast<double>(engine_() >> 11) * 0x1p-53;
+    const double u = (static_cast<double>(engine_() >> 11) + 1) * 0x1p-53,
+                 v = static_cast<double>(engine_() >> 11) * 0x1p-53;
     return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
   }
 
@@ -150,7 +153,8 @@ CtPhantom make_phantom(const PhantomOptions& options) {
   CtPhantom phantom;
   LabelVolume& labels = phantom.labels;
   for (int axis = 0; axis < 3; ++axis)
-    labels.size[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor((high[axis] - low[axis]) / options.voxel_mm)) + 1;
+    labels.size[static_cast<std::size_t>(axis)] =
+        static_cast<int>(std::floor((high[axis] - low[axis]) / options.voxel_mm)) + 1;
   labels.index_to_ras_mm.linear() = Eigen::Matrix3d::Identity() * options.voxel_mm;
   labels.index_to_ras_mm.translation() = low;
   Noise noise(options.seed);

@@ -1,8 +1,8 @@
 // A synthetic abdominal CT with its label map, drawn from analytic shapes: shippable, and made by nobody's patient.
 //
 // Shapes are implicit functions in the patient frame (RAS, mm, origin in front of the spine at the level of the porta
-// hepatis); sizes follow common textbook proportions of an adult. Portal venous phase. Labels are numbered as in the table
-// "totalsegmentator-v1". Thread: any.
+// hepatis); sizes follow common textbook proportions of an adult. Portal venous phase. Labels are numbered as in the
+// table "totalsegmentator-v1". Thread: any.
 #pragma once
 
 #include <array>

@@ -22,8 +22,9 @@ std::vector<float> gaussian_kernel(double sigma) {
 
 /// Convolves along one axis; beyond the box the field is 0.
 void convolve_axis(ScalarField& field, std::size_t axis, const std::vector<float>& kernel) {
-  const std::array<std::size_t, 3> strides{1, static_cast<std::size_t>(field.size[0]),
-                                           static_cast<std::size_t>(field.size[0]) * static_cast<std::size_t>(field.size[1])};
+  const std::array<std::size_t, 3> strides{
+      1, static_cast<std::size_t>(field.size[0]),
+      static_cast<std::size_t>(field.size[0]) * static_cast<std::size_t>(field.size[1])};
   const std::size_t stride = strides[axis];
   const int length = field.size[axis], radius = static_cast<int>(kernel.size() / 2);
   std::vector<float> line(static_cast<std::size_t>(length + 2 * radius), 0.0F);
@@ -33,7 +34,8 @@ void convolve_axis(ScalarField& field, std::size_t axis, const std::vector<float
       line[static_cast<std::size_t>(n + radius)] = field.values[start + static_cast<std::size_t>(n) * stride];
     for (int n = 0; n < length; ++n) {
       float sum = 0;
-      for (std::size_t tap = 0; tap < kernel.size(); ++tap) sum += kernel[tap] * line[static_cast<std::size_t>(n) + tap];
+      for (std::size_t tap = 0; tap < kernel.size(); ++tap)
+        sum += kernel[tap] * line[static_cast<std::size_t>(n) + tap];
       field.values[start + static_cast<std::size_t>(n) * stride] = sum;
     }
   }
@@ -60,7 +62,9 @@ ScalarField thin_parts(const LabelMask& mask) {
   const std::ptrdiff_t row = mask.size[0], slice = row * mask.size[1];
   const auto offsets = cube_offsets(thin, 2);
   std::vector<std::uint8_t> near_core(mask.inside.size(), 0);
-  const auto inside = [&](std::size_t voxel, std::ptrdiff_t step) { return mask.inside[voxel + static_cast<std::size_t>(step)] != 0; };
+  const auto inside = [&](std::size_t voxel, std::ptrdiff_t step) {
+    return mask.inside[voxel + static_cast<std::size_t>(step)] != 0;
+  };
   for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel) {
     if (mask.inside[voxel] == 0) continue;  // the margin keeps every inside voxel four steps from the box
     if (!(inside(voxel, -1) && inside(voxel, 1) && inside(voxel, -row) && inside(voxel, row) && inside(voxel, -slice) &&

@@ -1,8 +1,8 @@
 // A voxel mask as a smooth scalar field: about 1 inside, 0 outside, between them across the organ's surface.
 //
-// Gaussian of the mask, sigma in voxels along each axis (reference: tissue, 6 step 1). Where the mask is too thin to hold
-// a voxel with all six neighbours, a narrower Gaussian keeps it from melting away; the two fields are blended smoothly.
-// Thread: any.
+// Gaussian of the mask, sigma in voxels along each axis (reference: tissue, 6 step 1). Where the mask is too thin to
+// hold a voxel with all six neighbours, a narrower Gaussian keeps it from melting away; the two fields are blended
+// smoothly. Thread: any.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ struct ScalarField {
 
   std::size_t offset(int i, int j, int k) const {
     return static_cast<std::size_t>(i) +
-           static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+           static_cast<std::size_t>(size[0]) *
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
   }
 };
 

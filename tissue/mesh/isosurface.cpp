@@ -9,19 +9,33 @@ namespace {
 // A vertex keeps this share of the edge away from its ends: no triangle degenerates when a sample equals the level.
 constexpr double kEdgeMargin = 0.02;
 
-/// Corners of a cube are numbered by bits (1 = +i, 2 = +j, 4 = +k). Positively oriented tetrahedra of Kuhn's subdivision.
+/// Corners of a cube are numbered by bits (1 = +i, 2 = +j, 4 = +k). Positively oriented tetrahedra of Kuhn's
+/// subdivision.
 constexpr std::array<std::array<int, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 1, 7, 5}, {0, 2, 7, 3}, {0, 4, 7, 6}}};
 
 /// Even permutations that bring the inside corners to the front, by the bit pattern of inside corners.
-constexpr std::array<std::array<int, 4>, 16> kFront{{{0, 1, 2, 3}, {0, 1, 2, 3}, {1, 0, 3, 2}, {0, 1, 2, 3},
-                                                     {2, 3, 0, 1}, {0, 2, 3, 1}, {1, 2, 0, 3}, {3, 2, 1, 0},
-                                                     {3, 2, 1, 0}, {0, 3, 1, 2}, {1, 3, 2, 0}, {2, 3, 0, 1},
-                                                     {2, 3, 0, 1}, {1, 0, 3, 2}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
+constexpr std::array<std::array<int, 4>, 16> kFront{{{0, 1, 2, 3},
+                                                     {0, 1, 2, 3},
+                                                     {1, 0, 3, 2},
+                                                     {0, 1, 2, 3},
+                                                     {2, 3, 0, 1},
+                                                     {0, 2, 3, 1},
+                                                     {1, 2, 0, 3},
+                                                     {3, 2, 1, 0},
+                                                     {3, 2, 1, 0},
+                                                     {0, 3, 1, 2},
+                                                     {1, 3, 2, 0},
+                                                     {2, 3, 0, 1},
+                                                     {2, 3, 0, 1},
+                                                     {1, 0, 3, 2},
+                                                     {0, 1, 2, 3},
+                                                     {0, 1, 2, 3}}};
 
 class Marcher {
  public:
-  Marcher(const ScalarField& field, const Vec3& spacing, double level) : field_(field), spacing_(spacing), level_(level) {
+  Marcher(const ScalarField& field, const Vec3& spacing, double level)
+      : field_(field), spacing_(spacing), level_(level) {
     const auto slice = static_cast<std::size_t>(field.size[0]) * static_cast<std::size_t>(field.size[1]);
     for (auto& edges : edges_) edges.assign(slice * 7, -1);
     const std::ptrdiff_t row = field.size[0], layer = row * field.size[1];
@@ -112,7 +126,8 @@ void check_border(const ScalarField& field, double level) {
   for (int k = 0; k < field.size[2]; ++k)
     for (int j = 0; j < field.size[1]; ++j)
       for (int i = 0; i < field.size[0]; ++i) {
-        const bool inner = i > 0 && j > 0 && k > 0 && i + 1 < field.size[0] && j + 1 < field.size[1] && k + 1 < field.size[2];
+        const bool inner =
+            i > 0 && j > 0 && k > 0 && i + 1 < field.size[0] && j + 1 < field.size[1] && k + 1 < field.size[2];
         if (!inner && field.values[field.offset(i, j, k)] > level)
           throw std::invalid_argument("isosurface: the field is above the level on the border of its grid");
       }

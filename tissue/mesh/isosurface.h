@@ -1,8 +1,8 @@
 // The surface on which a sampled scalar field takes one value, by marching tetrahedra.
 //
-// Every cube of eight samples is cut into the six tetrahedra of Kuhn's subdivision, which agree on shared faces, so the result
-// is a closed manifold without self-intersections for any data that is below the level on the border of the grid.
-// Frame: sample (i, j, k) lies at spacing * (i, j, k); metres. Thread: any.
+// Every cube of eight samples is cut into the six tetrahedra of Kuhn's subdivision, which agree on shared faces, so the
+// result is a closed manifold without self-intersections for any data that is below the level on the border of the
+// grid. Frame: sample (i, j, k) lies at spacing * (i, j, k); metres. Thread: any.
 #pragma once
 
 #include "tissue/imaging/smooth_field.h"

@@ -24,12 +24,12 @@ struct MeshFacts {
   std::size_t self_intersections = 0;
   double volume_ml = 0;
   std::optional<double> label_volume_ml;  ///< every voxel that carries the label; absent for imported surfaces
-  double kept_volume_ml = 0;              ///< what the surface should enclose: label - lost + filled, or the source surface
-  double volume_error_pct = 0;            ///< of volume_ml against the label, or against the source surface
-  double kept_error_pct = 0;              ///< of volume_ml against kept_volume_ml
-  SurfaceDistance distance;               ///< from the mesh to the original: iso surface of the unsmoothed mask, or source
-  SurfaceDistance distance_back;          ///< from the original to the mesh: shows slits that were closed, tips cut off
-  std::size_t border_voxels = 0;          ///< kept voxels in the outermost slices: the cut face
+  double kept_volume_ml = 0;      ///< what the surface should enclose: label - lost + filled, or the source surface
+  double volume_error_pct = 0;    ///< of volume_ml against the label, or against the source surface
+  double kept_error_pct = 0;      ///< of volume_ml against kept_volume_ml
+  SurfaceDistance distance;       ///< from the mesh to the original: iso surface of the unsmoothed mask, or source
+  SurfaceDistance distance_back;  ///< from the original to the mesh: shows slits that were closed, tips cut off
+  std::size_t border_voxels = 0;  ///< kept voxels in the outermost slices: the cut face
   std::vector<LostPart> lost;
   std::vector<std::string> repairs;
 

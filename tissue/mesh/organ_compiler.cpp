@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMlPerM3 = 1e6;
 constexpr int kRemeshIterations = 5;
-constexpr double kVolumeTolerance = 1e-4;   ///< relative; the budget is 1e-2
+constexpr double kVolumeTolerance = 1e-4;  ///< relative; the budget is 1e-2
 // Mean triangle area of a remeshed surface over that of the equilateral triangle of the wanted edge (measured on the
 // shipped organs); a second pass with the count of the first corrects what is left.
 constexpr double kAreaRatio = 0.85;
@@ -29,7 +29,8 @@ std::string fixed(double value, int digits) {
   return out.str();
 }
 
-/// Iso surface whose largest piece encloses `volume`; the level is found by bisection (the volume falls with the level).
+/// Iso surface whose largest piece encloses `volume`; the level is found by bisection (the volume falls with the
+/// level).
 struct LevelSurface {
   TriangleSurface surface;
   double level = 0.5;
@@ -122,12 +123,15 @@ CompiledOrgan measured(Remeshed&& mesh, MeshFacts facts, double kept_m3, const T
 void report_mask(const LabelMask& mask, double voxel_ml, MeshFacts& facts) {
   facts.label_volume_ml = static_cast<double>(mask.label_voxels) * voxel_ml;
   facts.border_voxels = mask.border_voxels;
-  for (const std::size_t voxels : mask.lost_parts) facts.lost.push_back({"part", voxels, static_cast<double>(voxels) * voxel_ml});
-  if (!mask.lost_parts.empty()) facts.repairs.push_back("kept the largest of " + std::to_string(mask.lost_parts.size() + 1) + " parts");
+  for (const std::size_t voxels : mask.lost_parts)
+    facts.lost.push_back({"part", voxels, static_cast<double>(voxels) * voxel_ml});
+  if (!mask.lost_parts.empty())
+    facts.repairs.push_back("kept the largest of " + std::to_string(mask.lost_parts.size() + 1) + " parts");
   for (const std::size_t voxels : mask.cavities)
     facts.repairs.push_back("filled a cavity of " + std::to_string(voxels) + " voxels");
   if (mask.border_voxels > 0)
-    facts.repairs.push_back("closed the cut at the image border with a flat cap (" + std::to_string(mask.border_voxels) + " voxels)");
+    facts.repairs.push_back("closed the cut at the image border with a flat cap (" +
+                            std::to_string(mask.border_voxels) + " voxels)");
 }
 
 /// From the box of the mask, metres along its axes, to RAS metres.
@@ -150,12 +154,14 @@ void map_vertices(TriangleSurface& surface, const Eigen::Affine3d& transform) {
 CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileOptions& options) {
   const LabelMask mask = cut_out_label(volume, label, kSmoothingMargin);
   const Vec3 spacing_m = volume.index_to_ras_mm.linear().colwise().norm().transpose() * 1e-3;
-  const double voxel_ml = volume.voxel_volume_ml(), kept_m3 = static_cast<double>(mask.kept_voxels) * voxel_ml / kMlPerM3;
+  const double voxel_ml = volume.voxel_volume_ml(),
+               kept_m3 = static_cast<double>(mask.kept_voxels) * voxel_ml / kMlPerM3;
   MeshFacts facts;
   facts.repairs = volume.notes;
   report_mask(mask, voxel_ml, facts);
   LevelSurface smooth = surface_of_volume(smooth_field(mask, {}), spacing_m, kept_m3);
-  if (smooth.surface.triangles.empty()) throw InputError("label " + std::to_string(label) + " is too thin to give a surface");
+  if (smooth.surface.triangles.empty())
+    throw InputError("label " + std::to_string(label) + " is too thin to give a surface");
   for (const double lost : smooth.fallen_off_m3)
     facts.lost.push_back({"neck", static_cast<std::size_t>(std::llround(lost * kMlPerM3 / voxel_ml)), lost * kMlPerM3});
   facts.repairs.push_back("smoothed, iso level " + fixed(smooth.level, 4));

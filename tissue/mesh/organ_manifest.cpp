@@ -1,12 +1,12 @@
 #include "tissue/mesh/organ_manifest.h"
 
+#include <toml++/toml.h>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "haptics/input_error.h"
 #include "tissue/imaging/sha256.h"
@@ -66,7 +66,8 @@ void write_mesh(TomlWriter& out, const MeshFacts& mesh) {
   out.add("border_voxels", mesh.border_voxels);
   std::string lost, repairs;
   for (const LostPart& part : mesh.lost)
-    lost += "\n  {kind = " + quoted(part.kind) + ", voxels = " + std::to_string(part.voxels) + ", volume_ml = " + decimal(part.volume_ml, 4) + "},";
+    lost += "\n  {kind = " + quoted(part.kind) + ", voxels = " + std::to_string(part.voxels) +
+            ", volume_ml = " + decimal(part.volume_ml, 4) + "},";
   for (const std::string& repair : mesh.repairs) repairs += "\n  " + quoted(repair) + ",";
   out.raw("lost", "[" + lost + (lost.empty() ? "]" : "\n]"));
   out.raw("repairs", "[" + repairs + (repairs.empty() ? "]" : "\n]"));
@@ -88,7 +89,8 @@ class TableReader {
 
   int integer(std::string_view key) {
     const std::size_t number = count(key);
-    if (number > static_cast<std::size_t>(std::numeric_limits<int>::max())) refuse(*table_.get(key), std::string(key) + " is too large");
+    if (number > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      refuse(*table_.get(key), std::string(key) + " is too large");
     return static_cast<int>(number);
   }
 
@@ -114,7 +116,8 @@ class TableReader {
 
   void finish() const {
     for (const auto& [key, node] : table_)
-      if (!known_.contains(std::string(key.str()))) refuse(key.source(), "unknown key \"" + std::string(key.str()) + "\"");
+      if (!known_.contains(std::string(key.str())))
+        refuse(key.source(), "unknown key \"" + std::string(key.str()) + "\"");
   }
 
   [[noreturn]] void refuse(const toml::node& node, const std::string& what) const { refuse(node.source(), what); }
@@ -135,7 +138,8 @@ class TableReader {
   std::optional<T> value(std::string_view key, const std::string& kind) {
     const toml::node& node = required(key);
     const auto found = node.value<T>();
-    if (!found || (!std::is_same_v<T, double> && !node.value_exact<T>())) refuse(node, std::string(key) + " must be " + kind);
+    if (!found || (!std::is_same_v<T, double> && !node.value_exact<T>()))
+      refuse(node, std::string(key) + " must be " + kind);
     return found;
   }
 
@@ -198,7 +202,8 @@ OrganSource read_source(TableReader table) {
 }
 
 void expect(TableReader& table, const toml::table& root, std::string_view key, std::string_view wanted) {
-  if (table.text(key) != wanted) table.refuse(*root.get(key), std::string(key) + " must be \"" + std::string(wanted) + "\"");
+  if (table.text(key) != wanted)
+    table.refuse(*root.get(key), std::string(key) + " must be \"" + std::string(wanted) + "\"");
 }
 
 OrganManifest read_root(const toml::table& root, const std::string& file) {
@@ -253,7 +258,8 @@ OrganManifest parse_manifest(const std::string& text, const std::string& file) {
     return read_root(toml::parse(text, file), file);
   } catch (const toml::parse_error& error) {
     const auto& place = error.source().begin;
-    throw InputError(file, static_cast<int>(place.line), static_cast<int>(place.column), std::string(error.description()));
+    throw InputError(file, static_cast<int>(place.line), static_cast<int>(place.column),
+                     std::string(error.description()));
   }
 }
 
@@ -265,7 +271,8 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest, const TriangleSurface& surface) {
+std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
+                                  const TriangleSurface& surface) {
   const std::string bytes = ply_bytes(surface);
   manifest.surface = stem.filename().string() + ".ply";
   manifest.surface_sha256 = sha256_hex(bytes);

@@ -1,7 +1,7 @@
 // The manifest NAME.organ.toml: what an organ is, where it came from, and what is known about its surface.
 //
-// TOML, strict: unknown keys, missing keys and wrong types are refused with line and column. One manifest is one sequence of
-// bytes: no times, no paths, fixed decimals. Thread: any, not the tick.
+// TOML, strict: unknown keys, missing keys and wrong types are refused with line and column. One manifest is one
+// sequence of bytes: no times, no paths, fixed decimals. Thread: any, not the tick.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +13,20 @@
 namespace trocar {
 
 struct OrganSource {
-  std::string file;                ///< name without directories
-  std::string sha256;              ///< of that file
-  std::string modality;            ///< "CT", "MR", "surface", "unknown"
-  std::string unit;                ///< length unit of the source: "mm", "cm", "m"
-  std::optional<int> label;        ///< number in the label map
-  std::string label_name;          ///< "" when no table names it
-  std::string label_table;         ///< "" when none was needed
-
+  std::string file;          ///< name without directories
+  std::string sha256;        ///< of that file
+  std::string modality;      ///< "CT", "MR", "surface", "unknown"
+  std::string unit;          ///< length unit of the source: "mm", "cm", "m"
+  std::optional<int> label;  ///< number in the label map
+  std::string label_name;    ///< "" when no table names it
+  std::string label_table;   ///< "" when none was needed
 };
 
 struct OrganManifest {
   std::string name;
   std::string material;
   bool synthetic = false;
-  std::string surface;             ///< file name of the PLY beside the manifest
+  std::string surface;  ///< file name of the PLY beside the manifest
   std::string surface_sha256;
   std::string licence;
   std::string credit;
@@ -51,6 +50,7 @@ std::string read_bytes(const std::filesystem::path& path);
 /// @param stem path without the suffixes; its folder is made when missing
 /// @return path of the manifest
 /// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
-std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest, const TriangleSurface& surface);
+std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
+                                  const TriangleSurface& surface);
 
 }  // namespace trocar

@@ -32,8 +32,22 @@ struct Header {
 };
 
 std::size_t bytes_of(const std::string& type) {
-  for (const auto& [name, bytes] : {std::pair("char", 1), {"uchar", 1}, {"int8", 1}, {"uint8", 1}, {"short", 2}, {"ushort", 2}, {"int16", 2}, {"uint16", 2}, {"int", 4},
-                                    {"uint", 4}, {"int32", 4}, {"uint32", 4}, {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}})
+  for (const auto& [name, bytes] : {std::pair("char", 1),
+                                    {"uchar", 1},
+                                    {"int8", 1},
+                                    {"uint8", 1},
+                                    {"short", 2},
+                                    {"ushort", 2},
+                                    {"int16", 2},
+                                    {"uint16", 2},
+                                    {"int", 4},
+                                    {"uint", 4},
+                                    {"int32", 4},
+                                    {"uint32", 4},
+                                    {"float", 4},
+                                    {"float32", 4},
+                                    {"double", 8},
+                                    {"float64", 8}})
     if (type == name) return static_cast<std::size_t>(bytes);
   return 0;
 }
@@ -84,7 +98,8 @@ class HeaderParser {
 
   void element(std::istringstream& words) {
     Element element;
-    if (!(words >> element.name >> element.count) || element.count > kMaxElements) refuse("element count is no number up to 20 million");
+    if (!(words >> element.name >> element.count) || element.count > kMaxElements)
+      refuse("element count is no number up to 20 million");
     header_.elements.push_back(element);
   }
 
@@ -95,7 +110,8 @@ class HeaderParser {
     if (type == "list") {
       words >> count_type >> type;
       property.count_bytes = bytes_of(count_type);
-      if (property.count_bytes == 0 || property.count_bytes > 4 || count_type.starts_with("float")) refuse("no whole number counts this list");
+      if (property.count_bytes == 0 || property.count_bytes > 4 || count_type.starts_with("float"))
+        refuse("no whole number counts this list");
     }
     property.bytes = bytes_of(type);
     if (property.bytes == 0) refuse("unknown type " + type);
@@ -113,12 +129,14 @@ class HeaderParser {
 };
 
 [[noreturn]] void ends_early(const Element& element, std::uint64_t index, const std::string& file) {
-  throw InputError(file + ": the file ends at " + element.name + " " + std::to_string(index) + " of " + std::to_string(element.count));
+  throw InputError(file + ": the file ends at " + element.name + " " + std::to_string(index) + " of " +
+                   std::to_string(element.count));
 }
 
 std::uint64_t list_length(std::string_view raw, bool big_endian) {
   std::uint64_t length = 0;
-  for (std::size_t n = 0; n < raw.size(); ++n) length = length << 8 | static_cast<unsigned char>(raw[big_endian ? n : raw.size() - 1 - n]);
+  for (std::size_t n = 0; n < raw.size(); ++n)
+    length = length << 8 | static_cast<unsigned char>(raw[big_endian ? n : raw.size() - 1 - n]);
   return length;
 }
 
@@ -131,7 +149,9 @@ void check_binary(std::string_view data, const Header& header, const std::string
         if (property.count_bytes > 0) {
           if (data.size() - offset < property.count_bytes) ends_early(element, index, file);
           values = list_length(data.substr(offset, property.count_bytes), header.big_endian);
-          if (values > kMaxCorners) throw InputError(file + ": " + element.name + " " + std::to_string(index) + " lists " + std::to_string(values) + " values");
+          if (values > kMaxCorners)
+            throw InputError(file + ": " + element.name + " " + std::to_string(index) + " lists " +
+                             std::to_string(values) + " values");
           offset += property.count_bytes;
         }
         if (data.size() - offset < values * property.bytes) ends_early(element, index, file);
@@ -146,7 +166,8 @@ void check_line(const std::string& line, const Element& element, std::uint64_t i
   for (const Property& property : element.properties) {
     if (!(words >> value)) ends_early(element, index, file);
     if (property.count_bytes == 0) continue;
-    if (!(value >= 0 && value <= static_cast<double>(kMaxCorners))) throw InputError(file + ": " + element.name + " " + std::to_string(index) + ": bad list length");
+    if (!(value >= 0 && value <= static_cast<double>(kMaxCorners)))
+      throw InputError(file + ": " + element.name + " " + std::to_string(index) + ": bad list length");
     for (auto left = static_cast<std::uint64_t>(value); left > 0; --left)
       if (!(words >> value)) ends_early(element, index, file);
   }

@@ -1,5 +1,5 @@
-// Proves that a PLY file holds every element its header announces, before a library sees it: assimp 5.2.5 runs for ever on
-// files that end early.
+// Proves that a PLY file holds every element its header announces, before a library sees it: assimp 5.2.5 runs for ever
+// on files that end early.
 //
 // Format: PLY 1.0, ascii or binary of either byte order. Thread: any, not the tick.
 #pragma once

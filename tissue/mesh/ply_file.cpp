@@ -81,15 +81,15 @@ Vec3 read_vertex(std::string_view bytes, std::size_t offset, std::size_t index, 
   return vertex;
 }
 
-std::array<std::int32_t, 3> read_face(std::string_view bytes, std::size_t offset, std::size_t index, std::size_t vertices,
-                                      const std::string& file) {
+std::array<std::int32_t, 3> read_face(std::string_view bytes, std::size_t offset, std::size_t index,
+                                      std::size_t vertices, const std::string& file) {
   if (bytes[offset] != 3) throw InputError(file + ": face " + std::to_string(index) + " is no triangle");
   std::array<std::int32_t, 3> face{};
   for (std::size_t corner = 0; corner < 3; ++corner) {
     face[corner] = at<std::int32_t>(bytes, offset + 1 + corner * sizeof(std::int32_t));
     if (face[corner] < 0 || static_cast<std::size_t>(face[corner]) >= vertices)
-      throw InputError(file + ": face " + std::to_string(index) + " names vertex " + std::to_string(face[corner]) + " of " +
-                       std::to_string(vertices));
+      throw InputError(file + ": face " + std::to_string(index) + " names vertex " + std::to_string(face[corner]) +
+                       " of " + std::to_string(vertices));
   }
   return face;
 }
@@ -97,10 +97,11 @@ std::array<std::int32_t, 3> read_face(std::string_view bytes, std::size_t offset
 }  // namespace
 
 std::string ply_bytes(const TriangleSurface& surface) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment organ surface, metres, RAS patient axes\nelement vertex " +
-                      std::to_string(surface.vertices.size()) +
-                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                      std::to_string(surface.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\ncomment organ surface, metres, RAS patient axes\nelement vertex " +
+      std::to_string(surface.vertices.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(surface.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Vec3& vertex : surface.vertices)
     for (int axis = 0; axis < 3; ++axis) append(bytes, static_cast<float>(vertex[axis]));
   for (const auto& triangle : surface.triangles) {
@@ -127,8 +128,10 @@ TriangleSurface parse_ply(std::string_view bytes, const std::string& file) {
   surface.vertices.reserve(vertices);
   surface.triangles.reserve(faces);
   std::size_t offset = lines.offset();
-  for (std::size_t v = 0; v < vertices; ++v, offset += kVertexBytes) surface.vertices.push_back(read_vertex(bytes, offset, v, file));
-  for (std::size_t f = 0; f < faces; ++f, offset += kFaceBytes) surface.triangles.push_back(read_face(bytes, offset, f, vertices, file));
+  for (std::size_t v = 0; v < vertices; ++v, offset += kVertexBytes)
+    surface.vertices.push_back(read_vertex(bytes, offset, v, file));
+  for (std::size_t f = 0; f < faces; ++f, offset += kFaceBytes)
+    surface.triangles.push_back(read_face(bytes, offset, f, vertices, file));
   return surface;
 }
 

@@ -1,6 +1,7 @@
 // The surface file of an organ: binary little-endian PLY, float32 vertices in metres, 32-bit vertex indices.
 //
-// Written in one fixed form, so that one surface is one sequence of bytes; read back strictly. Thread: any, not the tick.
+// Written in one fixed form, so that one surface is one sequence of bytes; read back strictly. Thread: any, not the
+// tick.
 #pragma once
 
 #include <string>

@@ -32,7 +32,8 @@ TriangleSurface from_cgal(Mesh& mesh) {
   for (const auto face : mesh.faces()) {
     std::array<std::int32_t, 3> triangle{};
     std::size_t n = 0;
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
+    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+      triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
     surface.triangles.push_back(triangle);
   }
   return surface;

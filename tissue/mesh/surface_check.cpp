@@ -57,7 +57,8 @@ constexpr std::size_t kDenseTriangles = 20000;  ///< from here on a triangle is 
 /// Centroid and, on coarse surfaces, edge midpoints of each triangle, sharing its area; nearest first.
 std::vector<Sample> sorted_samples(const TriangleSurface& from, const Tree& to) {
   std::vector<Sample> samples;
-  auto nearest = to.any_reference_point_and_id();  // neighbouring samples follow each other: the last answer is a good guess
+  auto nearest =
+      to.any_reference_point_and_id();  // neighbouring samples follow each other: the last answer is a good guess
   const auto measure = [&](const Vec3& q, double area) {
     const Point query(q.x(), q.y(), q.z());
     nearest = to.closest_point_and_primitive(query, nearest);
@@ -71,7 +72,8 @@ std::vector<Sample> sorted_samples(const TriangleSurface& from, const Tree& to) 
     measure((p[0] + p[1] + p[2]) / 3, dense ? area : area / 4);
     for (std::size_t n = 0; n < 3 && !dense; ++n) measure((p[n] + p[(n + 1) % 3]) / 2, area / 4);
   }
-  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.distance_m < b.distance_m; });
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const Sample& a, const Sample& b) { return a.distance_m < b.distance_m; });
   return samples;
 }
 
@@ -97,7 +99,8 @@ std::size_t orient_outward(TriangleSurface& surface) {
   for (const auto face : mesh.faces()) {
     std::array<std::int32_t, 3> triangle{};
     std::size_t n = 0;
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
+    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
+      triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
     auto& old = surface.triangles[face.idx()];
     const auto first = std::find(triangle.begin(), triangle.end(), old[0]);
     std::rotate(triangle.begin(), first, triangle.end());

@@ -40,7 +40,8 @@ void sweep(TriangleSurface& surface, const TriangleSurface& target) {
   const Tree tree(triangles.cbegin(), triangles.cend());
   std::vector<Vec3> moments(surface.vertices.size(), Vec3::Zero());
   std::vector<double> weights(surface.vertices.size(), 0.0);
-  auto nearest = tree.any_reference_point_and_id();  // neighbouring samples follow each other: the last answer is a good guess
+  auto nearest =
+      tree.any_reference_point_and_id();  // neighbouring samples follow each other: the last answer is a good guess
   for (const Vec3& sample : target.vertices) {
     nearest = tree.closest_point_and_primitive(to_point(sample), nearest);
     const auto& [point, primitive] = nearest;

@@ -1,7 +1,8 @@
 // Pulls a coarse mesh onto a dense surface, so that its triangles, not only its vertices, lie close to it.
 //
 // Each vertex moves along its normal by the weighted mean of the residuals of the dense samples that project onto its
-// triangles (barycentric weights): a Jacobi sweep of the least-squares fit of Hoppe et al. 1993. Thread: any, not the tick.
+// triangles (barycentric weights): a Jacobi sweep of the least-squares fit of Hoppe et al. 1993. Thread: any, not the
+// tick.
 #pragma once
 
 #include "tissue/mesh/triangle_surface.h"

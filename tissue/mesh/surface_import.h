@@ -1,7 +1,7 @@
 // Closed organ surfaces from other programs: PLY through assimp, with a unit that the user must state.
 //
-// PLY carries no unit and no frame: coordinates are taken as RAS patient axes and multiplied into metres. Open surfaces are
-// refused, never filled in silence. Thread: any, not the tick.
+// PLY carries no unit and no frame: coordinates are taken as RAS patient axes and multiplied into metres. Open surfaces
+// are refused, never filled in silence. Thread: any, not the tick.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 namespace trocar {
 
 struct ImportedSurface {
-  TriangleSurface surface;                 ///< welded, one component, closed, outward, m
-  std::vector<double> lost_volumes_m3;     ///< smaller components left out, largest first
+  TriangleSurface surface;              ///< welded, one component, closed, outward, m
+  std::vector<double> lost_volumes_m3;  ///< smaller components left out, largest first
   std::size_t source_self_intersections = 0;
   std::vector<std::string> repairs;
 };

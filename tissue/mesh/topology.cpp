@@ -33,7 +33,7 @@ class DisjointSets {
 
 struct HalfEdge {
   Index low, high;
-  bool forward;      ///< runs from low to high
+  bool forward;  ///< runs from low to high
   Index triangle;
   auto key() const { return std::pair(low, high); }
 };
@@ -74,20 +74,23 @@ std::size_t count_split_vertices(const TriangleSurface& surface, const std::vect
   }
   std::vector<int> fans(surface.vertices.size(), 0);
   for (std::size_t n = 0; n < surface.triangles.size() * 3; ++n)
-    if (corners.root(static_cast<Index>(n)) == static_cast<Index>(n)) ++fans[static_cast<std::size_t>(surface.triangles[n / 3][n % 3])];
+    if (corners.root(static_cast<Index>(n)) == static_cast<Index>(n))
+      ++fans[static_cast<std::size_t>(surface.triangles[n / 3][n % 3])];
   return static_cast<std::size_t>(std::count_if(fans.begin(), fans.end(), [](int count) { return count > 1; }));
 }
 
 bool degenerate(const TriangleSurface& surface, const std::array<Index, 3>& triangle) {
   std::array<Vec3, 3> p;
   for (std::size_t n = 0; n < 3; ++n) p[n] = surface.vertices[static_cast<std::size_t>(triangle[n])];
-  const double longest = std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
+  const double longest =
+      std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
   return (p[1] - p[0]).cross(p[2] - p[0]).norm() <= 2e-6 * longest;
 }
 
 double six_volumes(const TriangleSurface& surface, const std::array<Index, 3>& t) {
   const auto& v = surface.vertices;
-  return v[static_cast<std::size_t>(t[0])].dot(v[static_cast<std::size_t>(t[1])].cross(v[static_cast<std::size_t>(t[2])]));
+  return v[static_cast<std::size_t>(t[0])].dot(
+      v[static_cast<std::size_t>(t[1])].cross(v[static_cast<std::size_t>(t[2])]));
 }
 
 /// The triangles for which `keep` says yes, with the vertices they use.
@@ -120,7 +123,8 @@ std::vector<Index> triangle_components(const TriangleSurface& surface) {
   std::vector<Index> component;
   component.reserve(surface.triangles.size());
   for (const auto& triangle : surface.triangles)
-    component.push_back(number_of_root.try_emplace(sets.root(triangle[0]), static_cast<Index>(number_of_root.size())).first->second);
+    component.push_back(
+        number_of_root.try_emplace(sets.root(triangle[0]), static_cast<Index>(number_of_root.size())).first->second);
   return component;
 }
 
@@ -138,8 +142,10 @@ SurfaceTopology analyse_topology(const TriangleSurface& surface) {
   }
   facts.vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
   const auto components = triangle_components(surface);
-  facts.components = components.empty() ? 0 : static_cast<std::size_t>(*std::max_element(components.begin(), components.end())) + 1;
-  const auto euler = static_cast<std::int64_t>(facts.vertices + facts.triangles) - static_cast<std::int64_t>(edge_count);
+  facts.components =
+      components.empty() ? 0 : static_cast<std::size_t>(*std::max_element(components.begin(), components.end())) + 1;
+  const auto euler =
+      static_cast<std::int64_t>(facts.vertices + facts.triangles) - static_cast<std::int64_t>(edge_count);
   facts.genus = static_cast<int>((2 * static_cast<std::int64_t>(facts.components) - euler) / 2);
   return facts;
 }
@@ -168,7 +174,8 @@ TriangleSurface welded(const TriangleSurface& surface, double tolerance_m) {
   TriangleSurface merged;
   for (const Vec3& vertex : surface.vertices) {
     std::array<std::int64_t, 3> cell{};
-    for (int axis = 0; axis < 3; ++axis) cell[static_cast<std::size_t>(axis)] = std::llround(vertex[axis] / tolerance_m);
+    for (int axis = 0; axis < 3; ++axis)
+      cell[static_cast<std::size_t>(axis)] = std::llround(vertex[axis] / tolerance_m);
     const auto [entry, fresh] = cells.try_emplace(cell, static_cast<Index>(merged.vertices.size()));
     if (fresh) merged.vertices.push_back(vertex);
     target.push_back(entry->second);
@@ -188,7 +195,9 @@ double surface_area_m2(const TriangleSurface& surface) {
   double doubled = 0;
   for (const auto& [a, b, c] : surface.triangles) {
     const Vec3& p = surface.vertices[static_cast<std::size_t>(a)];
-    doubled += (surface.vertices[static_cast<std::size_t>(b)] - p).cross(surface.vertices[static_cast<std::size_t>(c)] - p).norm();
+    doubled += (surface.vertices[static_cast<std::size_t>(b)] - p)
+                   .cross(surface.vertices[static_cast<std::size_t>(c)] - p)
+                   .norm();
   }
   return doubled / 2;
 }

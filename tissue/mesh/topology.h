@@ -11,15 +11,15 @@
 namespace trocar {
 
 struct SurfaceTopology {
-  std::size_t vertices = 0;            ///< used by a triangle
+  std::size_t vertices = 0;  ///< used by a triangle
   std::size_t triangles = 0;
-  std::size_t boundary_edges = 0;      ///< edges of one triangle
-  std::size_t nonmanifold_edges = 0;   ///< edges of three and more triangles
-  std::size_t misoriented_edges = 0;   ///< edges that two triangles run through in the same direction
-  std::size_t nonmanifold_vertices = 0;///< vertices at which several fans of triangles touch
-  std::size_t degenerate_triangles = 0;///< repeated corner, or area below 1e-6 of the longest edge squared
-  std::size_t components = 0;          ///< connected over shared vertices
-  int genus = 0;                       ///< sum over the components; meaningful for closed manifolds only
+  std::size_t boundary_edges = 0;        ///< edges of one triangle
+  std::size_t nonmanifold_edges = 0;     ///< edges of three and more triangles
+  std::size_t misoriented_edges = 0;     ///< edges that two triangles run through in the same direction
+  std::size_t nonmanifold_vertices = 0;  ///< vertices at which several fans of triangles touch
+  std::size_t degenerate_triangles = 0;  ///< repeated corner, or area below 1e-6 of the longest edge squared
+  std::size_t components = 0;            ///< connected over shared vertices
+  int genus = 0;                         ///< sum over the components; meaningful for closed manifolds only
 
   bool closed() const { return triangles > 0 && boundary_edges == 0; }
   bool manifold() const { return nonmanifold_edges == 0 && nonmanifold_vertices == 0 && misoriented_edges == 0; }

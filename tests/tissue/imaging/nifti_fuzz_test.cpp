@@ -63,7 +63,8 @@ TEST(NiftiFuzz, RandomDamageIsReadOrRefused) {
   for (int round = 0; round < 1500; ++round) {
     const bool gzip = round % 3 == 0;
     std::string bytes = gzip ? packed : whole;
-    for (std::uint64_t hits = 1 + random() % 6; hits > 0; --hits) bytes[random() % std::min<std::size_t>(bytes.size(), 352)] = static_cast<char>(random());
+    for (std::uint64_t hits = 1 + random() % 6; hits > 0; --hits)
+      bytes[random() % std::min<std::size_t>(bytes.size(), 352)] = static_cast<char>(random());
     accepted(folder.write(gzip ? "random.nii.gz" : "random.nii", bytes));
   }
 }

@@ -23,7 +23,8 @@ std::string refusal(const NiftiFixture& file) {
 
 Eigen::Affine3d oblique_frame() {
   Eigen::Affine3d frame = Eigen::Affine3d::Identity();
-  frame.linear() = (Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -1).normalized())).toRotationMatrix() * Eigen::Vector3d(2, 1.5, 3).asDiagonal();
+  frame.linear() = (Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -1).normalized())).toRotationMatrix() *
+                   Eigen::Vector3d(2, 1.5, 3).asDiagonal();
   frame.translation() = Eigen::Vector3d(-40, 12, 100);
   return frame;
 }
@@ -57,39 +58,46 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
     Fields, RefusedHeader,
-    ::testing::Values(Spoiled{"sizeof_hdr", [](NiftiFixture& f) { f.put<std::int32_t>(0, 347); }},
-                      Spoiled{"NIfTI-2", [](NiftiFixture& f) { f.put<std::int32_t>(0, 540); }},
-                      Spoiled{"magic", [](NiftiFixture& f) { f.put<char>(344, 'x'); }},
-                      Spoiled{".hdr/.img", [](NiftiFixture& f) { f.put<char>(345, 'i'), f.put<char>(344, 'n'), f.put<char>(346, '1'); }},
-                      Spoiled{"dim[0]", [](NiftiFixture& f) { f.put<std::int16_t>(40, 2); }},
-                      Spoiled{"dim[0]", [](NiftiFixture& f) { f.put<std::int16_t>(40, -1); }},
-                      Spoiled{"dim[2]", [](NiftiFixture& f) { f.put<std::int16_t>(44, 1); }},
-                      Spoiled{"dim[3]", [](NiftiFixture& f) { f.put<std::int16_t>(46, -7); }},
-                      Spoiled{"dim[4]", [](NiftiFixture& f) { f.put<std::int16_t>(40, 4), f.put<std::int16_t>(48, 3); }},
-                      Spoiled{"voxels", [](NiftiFixture& f) { for (std::size_t n = 42; n < 48; n += 2) f.put<std::int16_t>(n, 30000); }},
-                      Spoiled{"datatype", [](NiftiFixture& f) { f.type(128, 24); }},
-                      Spoiled{"bitpix", [](NiftiFixture& f) { f.type(4, 8); }},
-                      Spoiled{"intent_code", [](NiftiFixture& f) { f.put<std::int16_t>(68, 1007); }},
-                      Spoiled{"scl_slope", [](NiftiFixture& f) { f.put(112, kNan); }},
-                      Spoiled{"vox_offset", [](NiftiFixture& f) { f.put(108, 100.0F); }},
-                      Spoiled{"vox_offset", [](NiftiFixture& f) { f.put(108, kNan); }},
-                      Spoiled{"pixdim[1]", [](NiftiFixture& f) { f.put(80, 0.0F); }},
-                      Spoiled{"pixdim[3]", [](NiftiFixture& f) { f.put(88, kNan); }},
-                      Spoiled{"both 0", [](NiftiFixture& f) { f.put<std::int16_t>(254, 0); }},
-                      Spoiled{"unknown code", [](NiftiFixture& f) { f.put<std::int16_t>(254, 99); }},
-                      Spoiled{"xyzt_units", [](NiftiFixture& f) { f.put<std::uint8_t>(123, 1); }},
-                      Spoiled{"not finite", [](NiftiFixture& f) { f.put(280, kNan); }},
-                      Spoiled{"not finite", [](NiftiFixture& f) { f.put(292, std::numeric_limits<float>::infinity()); }},
-                      Spoiled{"voxel size", [](NiftiFixture& f) { f.put(280, 0.0F); }},
-                      Spoiled{"right angles", [](NiftiFixture& f) { f.put(284, 0.3F); }},
-                      Spoiled{"quatern", [](NiftiFixture& f) { f.put<std::int16_t>(252, 1), f.put(256, kNan); }},
-                      Spoiled{"100 m", [](NiftiFixture& f) { f.put(292, 1e9F); }}));
+    ::testing::Values(
+        Spoiled{"sizeof_hdr", [](NiftiFixture& f) { f.put<std::int32_t>(0, 347); }},
+        Spoiled{"NIfTI-2", [](NiftiFixture& f) { f.put<std::int32_t>(0, 540); }},
+        Spoiled{"magic", [](NiftiFixture& f) { f.put<char>(344, 'x'); }},
+        Spoiled{".hdr/.img",
+                [](NiftiFixture& f) { f.put<char>(345, 'i'), f.put<char>(344, 'n'), f.put<char>(346, '1'); }},
+        Spoiled{"dim[0]", [](NiftiFixture& f) { f.put<std::int16_t>(40, 2); }},
+        Spoiled{"dim[0]", [](NiftiFixture& f) { f.put<std::int16_t>(40, -1); }},
+        Spoiled{"dim[2]", [](NiftiFixture& f) { f.put<std::int16_t>(44, 1); }},
+        Spoiled{"dim[3]", [](NiftiFixture& f) { f.put<std::int16_t>(46, -7); }},
+        Spoiled{"dim[4]", [](NiftiFixture& f) { f.put<std::int16_t>(40, 4), f.put<std::int16_t>(48, 3); }},
+        Spoiled{"voxels",
+                [](NiftiFixture& f) {
+                  for (std::size_t n = 42; n < 48; n += 2) f.put<std::int16_t>(n, 30000);
+                }},
+        Spoiled{"datatype", [](NiftiFixture& f) { f.type(128, 24); }},
+        Spoiled{"bitpix", [](NiftiFixture& f) { f.type(4, 8); }},
+        Spoiled{"intent_code", [](NiftiFixture& f) { f.put<std::int16_t>(68, 1007); }},
+        Spoiled{"scl_slope", [](NiftiFixture& f) { f.put(112, kNan); }},
+        Spoiled{"vox_offset", [](NiftiFixture& f) { f.put(108, 100.0F); }},
+        Spoiled{"vox_offset", [](NiftiFixture& f) { f.put(108, kNan); }},
+        Spoiled{"pixdim[1]", [](NiftiFixture& f) { f.put(80, 0.0F); }},
+        Spoiled{"pixdim[3]", [](NiftiFixture& f) { f.put(88, kNan); }},
+        Spoiled{"both 0", [](NiftiFixture& f) { f.put<std::int16_t>(254, 0); }},
+        Spoiled{"unknown code", [](NiftiFixture& f) { f.put<std::int16_t>(254, 99); }},
+        Spoiled{"xyzt_units", [](NiftiFixture& f) { f.put<std::uint8_t>(123, 1); }},
+        Spoiled{"not finite", [](NiftiFixture& f) { f.put(280, kNan); }},
+        Spoiled{"not finite", [](NiftiFixture& f) { f.put(292, std::numeric_limits<float>::infinity()); }},
+        Spoiled{"voxel size", [](NiftiFixture& f) { f.put(280, 0.0F); }},
+        Spoiled{"right angles", [](NiftiFixture& f) { f.put(284, 0.3F); }},
+        Spoiled{"quatern", [](NiftiFixture& f) { f.put<std::int16_t>(252, 1), f.put(256, kNan); }},
+        Spoiled{"100 m", [](NiftiFixture& f) { f.put(292, 1e9F); }}));
 
 TEST(NiftiHeader, ReadsTheOtherByteOrder) {
   const NiftiFixture file({6, 5, 4}, oblique_frame());
   auto raw = file.header_array();
   const auto reverse = [&](std::size_t first, std::size_t width, std::size_t count) {
-    for (std::size_t n = 0; n < count; ++n) std::reverse(raw.begin() + static_cast<long>(first + n * width), raw.begin() + static_cast<long>(first + (n + 1) * width));
+    for (std::size_t n = 0; n < count; ++n)
+      std::reverse(raw.begin() + static_cast<long>(first + n * width),
+                   raw.begin() + static_cast<long>(first + (n + 1) * width));
   };
   reverse(0, 4, 1);
   reverse(40, 2, 8);
@@ -110,11 +118,14 @@ TEST(NiftiHeader, QformGivesTheSameFrameAsSform) {
     NiftiFixture file({6, 5, 4}, frame);
     const double sign = q.w() < 0 ? -1 : 1;
     file.put<std::int16_t>(254, 0), file.put<std::int16_t>(252, 1), file.put(76, static_cast<float>(qfac));
-    file.put(256, static_cast<float>(sign * q.x())), file.put(260, static_cast<float>(sign * q.y())), file.put(264, static_cast<float>(sign * q.z()));
-    for (std::size_t n = 0; n < 3; ++n) file.put(268 + 4 * n, static_cast<float>(frame.translation()[static_cast<int>(n)]));
+    file.put(256, static_cast<float>(sign * q.x())), file.put(260, static_cast<float>(sign * q.y())),
+        file.put(264, static_cast<float>(sign * q.z()));
+    for (std::size_t n = 0; n < 3; ++n)
+      file.put(268 + 4 * n, static_cast<float>(frame.translation()[static_cast<int>(n)]));
     const NiftiHeader header = parse_nifti_header(file.header_array(), "scan.nii");
     EXPECT_EQ(header.frame_source, "qform 1");
-    EXPECT_LT((header.index_to_ras_mm.matrix() - frame.matrix()).cwiseAbs().maxCoeff(), 1e-4);  // float32 quaternion, mm
+    EXPECT_LT((header.index_to_ras_mm.matrix() - frame.matrix()).cwiseAbs().maxCoeff(),
+              1e-4);  // float32 quaternion, mm
   }
 }
 
@@ -138,7 +149,8 @@ TEST(NiftiHeader, AgreesWithItkAfterTurningLpsIntoRas) {
     const NiftiHeader header = read_nifti_header(path);
     const ItkVolume volume = read_itk_volume(path);
     EXPECT_EQ(volume.values[5 + 6 * 5 * 3], 7);
-    for (const Eigen::Vector3d& index : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(5, 0, 3), Eigen::Vector3d(2, 4, 1)}) {
+    for (const Eigen::Vector3d& index :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(5, 0, 3), Eigen::Vector3d(2, 4, 1)}) {
       Eigen::Vector3d ras;
       for (std::size_t row = 0; row < 3; ++row) {
         double place = volume.origin_mm[row];

@@ -17,7 +17,9 @@ const CtPhantom& phantom() {
   return made;
 }
 
-double millilitres(int label) { return static_cast<double>(phantom().labels.label_counts().at(label)) * phantom().labels.voxel_volume_ml(); }
+double millilitres(int label) {
+  return static_cast<double>(phantom().labels.label_counts().at(label)) * phantom().labels.voxel_volume_ml();
+}
 
 double mean_hu(int label) {
   double sum = 0, count = 0;
@@ -32,7 +34,8 @@ TEST(Phantom, OrgansHaveAdultVolumes) {
     int label;
     double least, most;
   };
-  for (const Range& range : {Range{5, 1200, 1800}, Range{4, 25, 50}, Range{1, 120, 320}, Range{2, 100, 200}, Range{3, 100, 200}}) {
+  for (const Range& range :
+       {Range{5, 1200, 1800}, Range{4, 25, 50}, Range{1, 120, 320}, Range{2, 100, 200}, Range{3, 100, 200}}) {
     EXPECT_GT(millilitres(range.label), range.least) << range.label;
     EXPECT_LT(millilitres(range.label), range.most) << range.label;
   }
@@ -48,7 +51,7 @@ TEST(Phantom, OrgansAreWholeAndWithinTheImage) {
 
 TEST(Phantom, TissuesHaveTheirHounsfieldValues) {
   EXPECT_NEAR(mean_hu(5), 112, 12);  // partial volume at the surface pulls towards fat
-  EXPECT_NEAR(mean_hu(4), 8, 20);  // a small sac has more surface for its volume
+  EXPECT_NEAR(mean_hu(4), 8, 20);    // a small sac has more surface for its volume
   EXPECT_LT(*std::min_element(phantom().hounsfield.begin(), phantom().hounsfield.end()), -1000);
 }
 
@@ -80,7 +83,8 @@ TEST(Phantom, GallbladderLiesInAFossaWithoutCuttingTheLiver) {
 }
 
 TEST(Phantom, SeedChangesTheNoiseAndNothingElse) {
-  const CtPhantom again = make_phantom({.voxel_mm = 8}), other = make_phantom({.voxel_mm = 8, .seed = 2}), same = make_phantom({.voxel_mm = 8});
+  const CtPhantom again = make_phantom({.voxel_mm = 8}), other = make_phantom({.voxel_mm = 8, .seed = 2}),
+                  same = make_phantom({.voxel_mm = 8});
   EXPECT_EQ(again.hounsfield, same.hounsfield);
   EXPECT_NE(again.hounsfield, other.hounsfield);
   EXPECT_EQ(again.labels.labels, other.labels.labels);
@@ -101,7 +105,8 @@ TEST(NiftiWriter, WhatIsWrittenIsReadBack) {
 }
 
 TEST(NiftiWriter, RefusesASizeThatDoesNotFit) {
-  EXPECT_THROW(nifti_gz_bytes({2, 2, 2}, Eigen::Affine3d::Identity(), std::vector<std::int16_t>(7)), std::invalid_argument);
+  EXPECT_THROW(nifti_gz_bytes({2, 2, 2}, Eigen::Affine3d::Identity(), std::vector<std::int16_t>(7)),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -28,9 +28,11 @@ TEST(OrganCompiler, BallKeepsVolumePlaceAndSize) {
   EXPECT_EQ(organ.facts.topology.genus, 0);
   EXPECT_NEAR(static_cast<double>(organ.facts.topology.triangles), 2000, 100);
   EXPECT_NEAR(organ.facts.volume_error_pct, 0, 0.05);
-  EXPECT_NEAR(organ.facts.volume_ml, test::sphere_volume(2.5), 0.01 * organ.facts.volume_ml);  // of the voxel count, not of the ball
+  EXPECT_NEAR(organ.facts.volume_ml, test::sphere_volume(2.5),
+              0.01 * organ.facts.volume_ml);  // of the voxel count, not of the ball
   EXPECT_LT((volume_centroid_m(organ.surface) - centre_mm * 1e-3).norm(), 1e-4);
-  for (const Vec3& vertex : organ.surface.vertices) EXPECT_NEAR((vertex - centre_mm * 1e-3).norm(), 0.025, 0.0012);  // 0.6 voxel
+  for (const Vec3& vertex : organ.surface.vertices)
+    EXPECT_NEAR((vertex - centre_mm * 1e-3).norm(), 0.025, 0.0012);  // 0.6 voxel
   EXPECT_FALSE(organ.facts.cut_at_border());
   EXPECT_TRUE(organ.facts.lost.empty());
 }
@@ -48,13 +50,15 @@ TEST(OrganCompiler, StorageOrderDoesNotMatter) {
   for (int k = 0; k < 24; ++k)
     for (int j = 0; j < 24; ++j)
       for (int i = 0; i < 24; ++i) flipped.labels[flipped.offset(i, j, k)] = volume.labels[volume.offset(23 - i, j, k)];
-  EXPECT_EQ(ply_bytes(compile_label(in_ras_order(flipped), 1, {1000}).surface), ply_bytes(compile_label(volume, 1, {1000}).surface));
+  EXPECT_EQ(ply_bytes(compile_label(in_ras_order(flipped), 1, {1000}).surface),
+            ply_bytes(compile_label(volume, 1, {1000}).surface));
 }
 
 TEST(OrganCompiler, ObliqueImageGivesTheTurnedMesh) {
   const LabelVolume volume = test::ball_volume(24, 3, {4, 0, -3}, 22);
   LabelVolume turned = volume;
-  const Eigen::Affine3d turn = Eigen::Translation3d(10, 20, 30) * Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 1, 0).normalized());
+  const Eigen::Affine3d turn =
+      Eigen::Translation3d(10, 20, 30) * Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 1, 0).normalized());
   turned.index_to_ras_mm = turn * volume.index_to_ras_mm;
   const CompiledOrgan straight = compile_label(volume, 1, {1000}), oblique = compile_label(turned, 1, {1000});
   expect_sound(oblique.facts);
@@ -65,7 +69,8 @@ TEST(OrganCompiler, ObliqueImageGivesTheTurnedMesh) {
 }
 
 TEST(OrganCompiler, CutOrganGetsAFlatCapWhereTheImageEnds) {
-  const LabelVolume volume = test::ball_volume(20, 3, {0, 0, 25}, 22);  // the top slice lies at z = 28.5 mm, its face at 30
+  const LabelVolume volume =
+      test::ball_volume(20, 3, {0, 0, 25}, 22);  // the top slice lies at z = 28.5 mm, its face at 30
   const CompiledOrgan organ = compile_label(volume, 1, {3000});
   expect_sound(organ.facts);
   EXPECT_GT(organ.facts.border_voxels, 100U);
@@ -78,7 +83,8 @@ TEST(OrganCompiler, CutOrganGetsAFlatCapWhereTheImageEnds) {
     on_cap += well_inside ? 1 : 0;
   }
   EXPECT_GT(on_cap, 50U);
-  EXPECT_TRUE(std::any_of(organ.facts.repairs.begin(), organ.facts.repairs.end(), [](const std::string& r) { return r.find("flat cap") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(organ.facts.repairs.begin(), organ.facts.repairs.end(),
+                          [](const std::string& r) { return r.find("flat cap") != std::string::npos; }));
 }
 
 TEST(OrganCompiler, ReportsLostPartsAndFilledCavities) {
@@ -109,7 +115,8 @@ TEST(OrganCompiler, ThinTubeSurvives) {
   volume.index_to_ras_mm.linear() *= 2;
   volume.labels.assign(volume.offset(0, 0, 7), 0);
   for (int i = 3; i < 37; ++i)
-    for (const auto& [j, k] : {std::pair(3, 3), std::pair(4, 3), std::pair(3, 4), std::pair(4, 4)}) volume.labels[volume.offset(i, j, k)] = 1;
+    for (const auto& [j, k] : {std::pair(3, 3), std::pair(4, 3), std::pair(3, 4), std::pair(4, 4)})
+      volume.labels[volume.offset(i, j, k)] = 1;
   const CompiledOrgan organ = compile_label(volume, 1, {1500});
   expect_sound(organ.facts);
   EXPECT_GT(organ.surface.bounds().sizes().x(), 0.064);  // of 68 mm
@@ -127,7 +134,10 @@ TEST(OrganCompiler, RemeshesAnImportedSurface) {
 }
 
 TEST(OrganCompiler, RefusesAnAbsentLabel) {
-  EXPECT_CONTAINS(test::message_of<InputError>([] { compile_label(test::ball_volume(10, 2, {0, 0, 0}, 6), 5, {}); }), "label 5");
+  EXPECT_CONTAINS(test::message_of<InputError>([] {
+                    compile_label(test::ball_volume(10, 2, {0, 0, 0}, 6), 5, {});
+                  }),
+                  "label 5");
 }
 
 }  // namespace

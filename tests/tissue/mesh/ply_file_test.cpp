@@ -23,7 +23,8 @@ TEST(PlyFile, ReadsBackWhatItWrote) {
   const TriangleSurface back = parse_ply(bytes, "organ.ply");
   EXPECT_EQ(back.triangles, surface.triangles);
   ASSERT_EQ(back.vertices.size(), surface.vertices.size());
-  for (std::size_t v = 0; v < back.vertices.size(); ++v) EXPECT_LT((back.vertices[v] - surface.vertices[v]).norm(), 1.1e-7);  // float32 at 1 m
+  for (std::size_t v = 0; v < back.vertices.size(); ++v)
+    EXPECT_LT((back.vertices[v] - surface.vertices[v]).norm(), 1.1e-7);  // float32 at 1 m
   EXPECT_EQ(ply_bytes(back), bytes);
 }
 

@@ -45,7 +45,8 @@ TEST(StagedFile, MakesTheFolder) {
 TEST(StagedFile, AFileInThePlaceOfTheFolderIsAnEnvironmentError) {
   test::TemporaryFolder folder;
   folder.write("not-a-folder", "x");
-  EXPECT_CONTAINS(test::message_of<EnvironmentError>([&] { StagedFile(folder / "not-a-folder/a", "x"); }), "cannot be written");
+  EXPECT_CONTAINS(test::message_of<EnvironmentError>([&] { StagedFile(folder / "not-a-folder/a", "x"); }),
+                  "cannot be written");
 }
 
 /// The disk is "full" after 4 KiB: the kernel refuses to let files grow further.

@@ -15,8 +15,10 @@ namespace {
 using test::box;
 
 TEST(SurfaceCheck, FindsSelfIntersections) {
-  const TriangleSurface apart = test::joined(box(Vec3::Zero(), Vec3::Ones()), box(Vec3::Constant(2), Vec3::Constant(3)));
-  const TriangleSurface crossing = test::joined(box(Vec3::Zero(), Vec3::Ones()), box(Vec3::Constant(0.5), Vec3::Constant(1.6)));
+  const TriangleSurface apart =
+      test::joined(box(Vec3::Zero(), Vec3::Ones()), box(Vec3::Constant(2), Vec3::Constant(3)));
+  const TriangleSurface crossing =
+      test::joined(box(Vec3::Zero(), Vec3::Ones()), box(Vec3::Constant(0.5), Vec3::Constant(1.6)));
   EXPECT_EQ(count_self_intersections(apart), 0U);
   EXPECT_GT(count_self_intersections(crossing), 0U);
 }
@@ -64,7 +66,9 @@ TEST(Remesh, GivesTrianglesOfTheWantedSizeOnTheSameSurface) {
   double shortest = 1, longest = 0;
   for (const auto& triangle : coarse.triangles)
     for (std::size_t n = 0; n < 3; ++n) {
-      const double edge = (coarse.vertices[static_cast<std::size_t>(triangle[n])] - coarse.vertices[static_cast<std::size_t>(triangle[(n + 1) % 3])]).norm();
+      const double edge = (coarse.vertices[static_cast<std::size_t>(triangle[n])] -
+                           coarse.vertices[static_cast<std::size_t>(triangle[(n + 1) % 3])])
+                              .norm();
       shortest = std::min(shortest, edge), longest = std::max(longest, edge);
     }
   EXPECT_GT(shortest, 0.3 * 0.008);
@@ -80,7 +84,8 @@ TEST(Remesh, RefusesWhatIsNoManifold) {
 
 TEST(SurfaceFit, BringsFacetsCloserToTheShape) {
   const TriangleSurface dense = test::sphere(Vec3::Zero(), 1, 6), coarse = remeshed(dense, 0.4, 5);
-  const double before = distance_from_to(coarse, dense).mean_m, after = distance_from_to(fitted(coarse, dense, 4), dense).mean_m;
+  const double before = distance_from_to(coarse, dense).mean_m,
+               after = distance_from_to(fitted(coarse, dense, 4), dense).mean_m;
   EXPECT_LT(after, 0.5 * before);
   EXPECT_EQ(fitted(coarse, dense, 0).vertices.size(), coarse.vertices.size());
 }

@@ -31,7 +31,8 @@ TEST(SurfaceImport, OneShapeInThreeUnitsIsOneSurface) {
 
 TEST(SurfaceImport, WithoutUnitNamesTheBoxAndTheLikelyUnit) {
   test::TemporaryFolder folder;
-  const std::string message = refusal(folder.write("s.ply", ascii_ply(test::box(Vec3::Zero(), Vec3(0.2, 0.1, 0.1)), 1e3)), "");
+  const std::string message =
+      refusal(folder.write("s.ply", ascii_ply(test::box(Vec3::Zero(), Vec3(0.2, 0.1, 0.1)), 1e3)), "");
   EXPECT_CONTAINS(message, "s.ply");
   EXPECT_CONTAINS(message, "--unit");
   EXPECT_CONTAINS(message, "200 x 100 x 100");
@@ -59,7 +60,8 @@ TEST(SurfaceImport, TurnsInwardSurfacesAndKeepsTheLargest) {
   test::TemporaryFolder folder;
   TriangleSurface inward = test::sphere(Vec3::Zero(), 0.05, 3);
   for (auto& triangle : inward.triangles) std::swap(triangle[0], triangle[1]);
-  const auto path = folder.write("two.ply", ascii_ply(test::joined(inward, test::sphere(Vec3(0.09, 0, 0), 0.01, 2)), 1e3));
+  const auto path =
+      folder.write("two.ply", ascii_ply(test::joined(inward, test::sphere(Vec3(0.09, 0, 0), 0.01, 2)), 1e3));
   const ImportedSurface imported = import_surface(path, "mm");
   EXPECT_NEAR(imported.surface.volume_m3(), -inward.volume_m3(), 1e-3 * imported.surface.volume_m3());
   ASSERT_EQ(imported.lost_volumes_m3.size(), 1U);
@@ -97,7 +99,8 @@ TEST(SurfaceImport, RefusesWhatIsNoPly) {
   EXPECT_CONTAINS(refusal("no/a.ply", "mm"), "no such file");
   const std::string good = ascii_ply(test::box(Vec3::Zero(), Vec3::Constant(0.1)), 1e3);
   EXPECT_CONTAINS(refusal(folder.write("b.ply", good.substr(0, 60)), "mm"), "the header does not end");
-  EXPECT_CONTAINS(refusal(folder.write("c.ply", good.substr(0, good.find("\n3 0 2 1") + 1)), "mm"), "ends at face 0 of 12");
+  EXPECT_CONTAINS(refusal(folder.write("c.ply", good.substr(0, good.find("\n3 0 2 1") + 1)), "mm"),
+                  "ends at face 0 of 12");
 }
 
 // assimp alone would run for ever on some of these.

@@ -74,7 +74,7 @@ TEST(Topology, WeldingClosesATriangleSoup) {
     soup.triangles.push_back({first, first + 1, first + 2});
     soup.triangles.push_back({first, first + 1, first + 2});  // doubled faces go too
   }
-  EXPECT_FALSE(analyse_topology(soup).closed());
+  EXPECT_FALSE(analyse_topology(soup).manifold());
   const TriangleSurface closed = welded(soup, 1e-7);
   EXPECT_EQ(closed.vertices.size(), solid.vertices.size());
   EXPECT_EQ(closed.triangles.size(), solid.triangles.size());

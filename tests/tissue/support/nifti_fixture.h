@@ -16,14 +16,16 @@ struct NiftiFixture {
   std::vector<std::uint8_t> voxels = std::vector<std::uint8_t>(120, 0);
   std::string header = std::string(352, '\0');
 
-  explicit NiftiFixture(std::array<int, 3> extent = {6, 5, 4}, const Eigen::Affine3d& affine = Eigen::Affine3d::Identity())
+  explicit NiftiFixture(std::array<int, 3> extent = {6, 5, 4},
+                        const Eigen::Affine3d& affine = Eigen::Affine3d::Identity())
       : size(extent), frame(affine), voxels(static_cast<std::size_t>(extent[0] * extent[1] * extent[2]), 0) {
     put<std::int32_t>(0, 348);
     put<std::int16_t>(40, 3);
     for (std::size_t n = 0; n < 7; ++n) put(42 + 2 * n, static_cast<std::int16_t>(n < 3 ? size[n] : 1));
     type(2, 8);
     put(76, 1.0F);
-    for (std::size_t n = 0; n < 3; ++n) put(80 + 4 * n, static_cast<float>(frame.linear().col(static_cast<int>(n)).norm()));
+    for (std::size_t n = 0; n < 3; ++n)
+      put(80 + 4 * n, static_cast<float>(frame.linear().col(static_cast<int>(n)).norm()));
     put(108, 352.0F);
     put<std::uint8_t>(123, 2);
     put<std::int16_t>(254, 2);

@@ -1,0 +1,203 @@
+// The session without its command line: one attempt in memory, replayed, regraded, and set up again from its recording.
+#include "app/session.h"
+
+#include <gtest/gtest.h>
+
+#include "app/executor/delayed_channel.h"
+#include "app/executor/lockstep_executor.h"
+#include "app/executor/state_hash.h"
+#include "app/placement.h"
+#include "haptics/input_error.h"
+#include "haptics/kinematics/inverse_kinematics.h"
+#include "scenarios/exercise_loader.h"
+#include "tests/tissue/support/temporary_folder.h"
+
+namespace trocar {
+namespace {
+
+using test::message_of;
+
+/// The shipped exercise cut to two discs, so that an expert's attempt is short and whole.
+Scene short_scene(const std::string& hand, const std::string& organ = "phantom-liver") {
+  const AssetRoots assets = find_assets();
+  AttemptSetup setup;
+  std::string text = find_exercise("surface-touch", assets.exercises).text;
+  text.replace(text.find("count = 12"), 10, "count = 2");
+  text.replace(text.find("time_limit_s = 120"), 18, "time_limit_s = 30");
+  setup.exercise = parse_exercise(text, "short.toml");
+  setup.organ = organ;
+  setup.hand = hand;
+  setup.seed = 5;
+  setup.board = 1;
+  return build_scene(setup, assets, {"simulated", 1000, 16});
+}
+
+struct Attempt {
+  SessionOutcome outcome;
+  Recording recording;
+};
+
+Attempt run(const Scene& scene, const SessionObserver& observe = {}) {
+  MemorySink memory;
+  RecordingWriter writer(memory, scene_json(scene), scene.loop.daq.rate_hz);
+  SessionOutcome outcome = run_session(scene, find_assets(), writer, observe);
+  return {std::move(outcome), parse_recording(memory.bytes(), "memory")};
+}
+
+TEST(DelayedChannel, ShowsAValueWhenItsDelayHasPassed) {
+  DelayedChannel<int> channel(5, -1);
+  EXPECT_EQ(channel.read(0), -1);
+  channel.begin_publish(10) = 42;
+  EXPECT_EQ(channel.read(14), -1);
+  EXPECT_EQ(channel.read(15), 42);
+  channel.begin_publish(20) = 43;
+  EXPECT_EQ(channel.read(24), 42);
+  channel.begin_publish(30) = 44;
+  EXPECT_EQ(channel.read(30), 43) << "the earlier one had become visible before the next was begun";
+  EXPECT_EQ(channel.read(35), 44);
+}
+
+/// Writes its letter into a log at every call.
+class LoggingTask final : public Task {
+ public:
+  LoggingTask(std::string& log, char letter, std::uint32_t period) : log_(log), letter_(letter), period_(period) {}
+  std::uint32_t period() const override { return period_; }
+  void run(std::uint64_t) override { log_ += letter_; }
+
+ private:
+  std::string& log_;
+  char letter_;
+  std::uint32_t period_;
+};
+
+TEST(LockstepExecutor, CallsTasksInTheirOrderAtTheirPeriod) {
+  std::string log;
+  LoggingTask a(log, 'a', 1), b(log, 'b', 3), c(log, 'c', 1);
+  LockstepExecutor executor;
+  for (Task* task : std::initializer_list<Task*>{&a, &b, &c}) executor.add(*task);
+  int asked = 0;
+  EXPECT_EQ(executor.run([&] { return ++asked == 4; }), 4u);
+  EXPECT_EQ(log, "abcacacabc");
+}
+
+TEST(StateHash, DependsOnEveryWordAndOnTheirOrder) {
+  const auto hash = [](std::initializer_list<double> values) {
+    StateHash state;
+    for (const double value : values) state.add(value);
+    return state.value();
+  };
+  EXPECT_EQ(hash({1, 2}), hash({1, 2}));
+  EXPECT_NE(hash({1, 2}), hash({2, 1}));
+  EXPECT_NE(hash({1, 2}), hash({1, 2, 0}));
+  EXPECT_NE(hash({0.0}), hash({-0.0}));
+  EXPECT_EQ(StateHash(0x1234).hex(), "0000000000001234");
+}
+
+TEST(Session, ARunGradesAndReplaysToTheSameHash) {
+  const Scene scene = short_scene("expert");
+  const Attempt attempt = run(scene);
+  EXPECT_EQ(attempt.outcome.status, AttemptStatus::kCompleted);
+  EXPECT_EQ(attempt.outcome.device.backend, "simulated");
+  EXPECT_EQ(attempt.outcome.device.overruns, 0u);
+  EXPECT_EQ(attempt.recording.ticks.size(), attempt.outcome.device.ticks) << "every tick is recorded";
+  ASSERT_TRUE(attempt.recording.end);
+  EXPECT_EQ(attempt.recording.end->state_hash, attempt.outcome.state_hash);
+
+  const SessionOutcome replayed = replay_session(scene, attempt.recording);
+  EXPECT_EQ(replayed.state_hash, attempt.outcome.state_hash);
+  EXPECT_EQ(replayed.device.backend, "replay");
+  EXPECT_EQ(replayed.events.size(), attempt.outcome.events.size());
+
+  const Grade grade = grade_recording(attempt.recording, "memory");
+  ASSERT_TRUE(grade.score);
+  EXPECT_GT(*grade.score, 60);
+  EXPECT_EQ(grade.status, AttemptStatus::kCompleted);
+}
+
+TEST(Session, AnObserverSeesTheRunAndDoesNotReachIt) {
+  const Scene scene = short_scene("expert");
+  int calls = 0;
+  double last_s = -1;
+  const Attempt watched = run(scene, [&](const SessionView& view) {
+    EXPECT_GT(view.t_s, last_s);
+    last_s = view.t_s;
+    ++calls;
+  });
+  EXPECT_NEAR(calls, static_cast<double>(watched.outcome.device.ticks) / 10, 2) << "the tissue rate is 100 Hz";
+  EXPECT_EQ(run(scene).outcome.state_hash, watched.outcome.state_hash);
+}
+
+TEST(Session, ARecordingWithoutItsEndIsGradedAsAborted) {
+  Attempt attempt = run(short_scene("expert"));
+  attempt.recording.end.reset();
+  const Grade grade = grade_recording(attempt.recording, "memory");
+  EXPECT_EQ(grade.status, AttemptStatus::kAborted);
+  EXPECT_FALSE(grade.score);
+  EXPECT_FALSE(grade.passed);
+  EXPECT_FALSE(grade.metrics.empty()) << "what happened is still measured";
+}
+
+TEST(Session, AnEmptyRecordingIsNotReplayed) {
+  EXPECT_THROW(replay_session(short_scene("expert"), Recording{}), InputError);
+}
+
+TEST(SceneText, ComesBackFromTheRecordingsHeader) {
+  Scene scene = short_scene("novice");
+  scene.setup.contact_law = ContactLaw::kThesis;
+  scene.setup.passivity_law = PassivityLaw::kOff;
+  const RecordedSetup back = parse_scene_json(scene_json(scene), "a.trec");
+  EXPECT_EQ(back.setup.exercise.text, scene.setup.exercise.text);
+  EXPECT_EQ(back.setup.exercise.rubric.sha256, scene.setup.exercise.rubric.sha256);
+  EXPECT_EQ(back.setup.organ, "phantom-liver");
+  EXPECT_EQ(back.organ_sha256, scene.organ.sha256);
+  EXPECT_EQ(back.setup.hand, "novice");
+  EXPECT_EQ(back.setup.seed, 5);
+  EXPECT_EQ(back.setup.board, 1);
+  EXPECT_EQ(back.setup.rate_hz, 1000);
+  EXPECT_EQ(back.setup.contact_law, ContactLaw::kThesis);
+  EXPECT_EQ(back.setup.passivity_law, PassivityLaw::kOff);
+}
+
+TEST(SceneText, DamageIsRefusedWithTheRecordingsName) {
+  const std::string text = scene_json(short_scene("expert"));
+  for (const std::string& bad :
+       {std::string("{"), std::string("{}"), std::string("[1]"), text.substr(0, text.size() / 2),
+        std::string(text).replace(text.find("\"format\":1"), 10, "\"format\":2")}) {
+    EXPECT_EQ(message_of<InputError>([&] {
+                parse_scene_json(bad, "a.trec");
+              }).find("a.trec: the recording's setup cannot be read"),
+              0u)
+        << bad.substr(0, 40);
+  }
+}
+
+TEST(Placement, EveryTargetLiesWithinTheArmsReach) {
+  const Scene scene = short_scene("expert");
+  const Mat3 R_TI = scene.loop.map.instrument_pose(home_pose()).R;
+  for (const Target& target : scene.board.targets) {
+    EXPECT_TRUE(inverse_within_limits(scene.loop.map.stylus_pose({R_TI, target.centre_T}), home_angles()));
+  }
+}
+
+TEST(Placement, AForceThatTheDeviceCannotRenderIsScaledDown) {
+  const Scene scene = short_scene("expert");
+  const TargetLayout& layout = scene.setup.exercise.layout;
+  const double room = renderable_force_n(scene.loop.map, scene.loop.device, layout);
+  EXPECT_GT(room, 0.2);
+  EXPECT_LT(room, 50);
+  ExerciseLevel level = scene.level;
+  level.force_scale = -1;  // "auto"
+  EXPECT_DOUBLE_EQ(force_scale(level, scene.loop.map, scene.loop.device, layout, room / 2), 1);
+  EXPECT_DOUBLE_EQ(force_scale(level, scene.loop.map, scene.loop.device, layout, 2 * room), 0.5);
+  level.force_scale = 0.3;
+  EXPECT_DOUBLE_EQ(force_scale(level, scene.loop.map, scene.loop.device, layout, 2 * room), 0.3);
+}
+
+TEST(Placement, ALevelThatThisVersionCannotMapIsRefused) {
+  ExerciseLevel level = short_scene("expert").level;
+  level.mapping = Mapping::kFulcrum;
+  EXPECT_NE(message_of<InputError>([&] { place_theatre(level); }).find("fulcrum"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar

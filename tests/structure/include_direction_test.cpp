@@ -1,0 +1,119 @@
+// Modules know each other in one direction only, and third-party types stay behind sources.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/structure/include_rules.h"
+#include "tests/structure/source_tree.h"
+
+namespace trocar {
+namespace {
+
+std::string quoted(const std::string& name) { return "#include \"" + name + "\"\n"; }
+std::string angled(const std::string& name) { return "#include <" + name + ">\n"; }
+
+struct Case {
+  const char* path;
+  std::string text;
+};
+
+TEST(IncludesOf, FindsIncludesAndNothingElse) {
+  const auto found = includes_of(
+      "// #include \"a.h\"\n#include \"b/c.h\"\n  #  include <vector>\n/*\n#include <d>\n*/\n"
+      "auto s = R\"(\n#include <e>\n)\";\n");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].name, "b/c.h");
+  EXPECT_FALSE(found[0].system);
+  EXPECT_EQ(found[0].line, 2u);
+  EXPECT_EQ(found[1].name, "vector");
+  EXPECT_TRUE(found[1].system);
+  EXPECT_EQ(found[1].line, 3u);
+}
+
+TEST(IncludeRules, RefuseWhatGoesAgainstTheDirection) {
+  const std::vector<Case> cases{{"haptics/haptic_loop.cpp", quoted("tissue/organ.h")},
+                                {"haptics/haptic_loop.h", quoted("scenarios/scoring/trace.h")},
+                                {"haptics/device/device_plant.cpp", quoted("haptics/kinematics/hybrid_arm.h")},
+                                {"haptics/device/plant_motor.h", quoted("haptics/device/device_model.h")},
+                                {"haptics/device/simulated_daq.cpp", quoted("haptics/device/transmission.h")},
+                                {"haptics/device/hand_model.cpp", quoted("haptics/control/passivity.h")},
+                                {"haptics/device/data_acquisition.h", quoted("haptics/device/device_model.h")},
+                                {"haptics/quantities.h", quoted("haptics/fault.h")},
+                                {"tissue/organ.cpp", quoted("scenarios/exercise.h")},
+                                {"tissue/mesh/remesh.cpp", quoted("app/scene.h")},
+                                {"scenarios/director.cpp", quoted("trainees/database.h")},
+                                {"scenarios/scoring/score.cpp", quoted("scenarios/exercise.h")},
+                                {"scenarios/scoring/metrics.cpp", quoted("haptics/haptic_loop.h")},
+                                {"trainees/database.cpp", quoted("scenarios/director.h")},
+                                {"trainees/cohort.cpp", quoted("tissue/organ.h")},
+                                {"app/recorder/chunk.cpp", quoted("app/commands/run_command.h")},
+                                {"app/graphics/renderer.cpp", quoted("trainees/database.h")},
+                                {"app/session.cpp", quoted("tests/support/sample_attempt.h")}};
+  for (const Case& one : cases)
+    EXPECT_EQ(include_violations(one.path, one.text).size(), 1u) << one.path << ' ' << one.text;
+}
+
+TEST(IncludeRules, RefuseThirdPartyTypesInHeaders) {
+  for (const char* name : {"CGAL/Surface_mesh.h", "itkImage.h", "assimp/scene.h", "fcl/fcl.h", "sqlite3.h", "GL/gl.h",
+                           "EGL/egl.h", "epoxy/gl.h", "toml++/toml.h", "nlohmann/json.hpp", "CLI/CLI.hpp", "png.h",
+                           "ft2build.h", "zstd.h", "openssl/sha.h"}) {
+    for (const char* path : {"tissue/organ.h", "app/session.h", "app/graphics/renderer.h", "trainees/database.h"}) {
+      EXPECT_EQ(include_violations(path, angled(name)).size(), 1u) << path << " <" << name << ">";
+    }
+  }
+}
+
+TEST(IncludeRules, RefuseThirdPartyLibrariesOutsideTheirModule) {
+  const std::vector<Case> cases{{"haptics/haptic_loop.cpp", angled("nlohmann/json.hpp")},
+                                {"scenarios/director.cpp", angled("CGAL/Surface_mesh.h")},
+                                {"trainees/cohort.cpp", angled("CGAL/Surface_mesh.h")},
+                                {"app/session.cpp", angled("sqlite3.h")},
+                                {"app/session.cpp", angled("epoxy/gl.h")},
+                                {"app/commands/run_command.cpp", angled("CLI/CLI.hpp")}};
+  for (const Case& one : cases)
+    EXPECT_EQ(include_violations(one.path, one.text).size(), 1u) << one.path << ' ' << one.text;
+}
+
+TEST(IncludeRules, SayFileLineAndRule) {
+  const auto found = include_violations("tissue/organ.cpp", "\n" + quoted("app/scene.h"));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], "tissue/organ.cpp:2: includes app/scene.h: tissue knows haptics only");
+}
+
+TEST(IncludeRules, AllowWhatTheArchitectureDraws) {
+  const std::vector<Case> cases{
+      {"haptics/haptic_loop.h", quoted("haptics/quantities.h") + angled("Eigen/Core") + angled("vector")},
+      {"haptics/device/simulated_daq.cpp",
+       quoted("haptics/device/device_plant.h") + quoted("haptics/device/data_acquisition.h")},
+      {"tissue/mesh/remesh.cpp", quoted("haptics/input_error.h") + angled("CGAL/Surface_mesh.h")},
+      {"scenarios/director.cpp", quoted("tissue/mesh/triangle_surface.h") + quoted("scenarios/scoring/rubric.h")},
+      {"trainees/attempt_store.h", quoted("scenarios/scoring/attempt_result.h")},
+      {"trainees/database.cpp", angled("sqlite3.h") + angled("sys/stat.h")},
+      {"app/session.cpp", quoted("trainees/attempt_store.h") + angled("nlohmann/json.hpp")},
+      {"app/graphics/renderer.cpp", angled("epoxy/gl.h")},
+      {"tests/haptics/oracle_test.cpp", angled("fcl/fcl.h") + quoted("tests/support/sample_attempt.h")},
+      {"tests/system/run_test.cpp", quoted("app/session.h") + angled("nlohmann/json.hpp")}};
+  for (const Case& one : cases)
+    EXPECT_TRUE(include_violations(one.path, one.text).empty()) << one.path << ' ' << one.text;
+}
+
+TEST(IncludeDirection, EveryFileKeepsIt) {
+  std::size_t seen = 0;
+  for (const SourceFile& file : source_tree()) {
+    if (!file.cpp()) continue;
+    seen += includes_of(file.text).size();
+    for (const std::string& violation : include_violations(file.path, file.text)) ADD_FAILURE() << violation;
+  }
+  EXPECT_GT(seen, 1000u) << "the scanner no longer sees the includes";
+}
+
+TEST(IncludeDirection, EveryHeaderIsIncludedOnceOnlyAndSaysWhatItIs) {
+  for (const SourceFile& file : source_tree()) {
+    if (!file.header()) continue;
+    EXPECT_NE(file.text.find("\n#pragma once\n"), std::string::npos) << file.path;
+    EXPECT_TRUE(file.text.starts_with("// ")) << file.path << ": opens with no word on what it is";
+  }
+}
+
+}  // namespace
+}  // namespace trocar

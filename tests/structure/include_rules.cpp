@@ -1,0 +1,124 @@
+#include "tests/structure/include_rules.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "tests/structure/source_text.h"
+
+namespace trocar {
+namespace {
+
+/// Files whose path matches may include only project headers that match.
+struct Direction {
+  const char* who;
+  const char* may_include;
+  const char* rule;
+};
+
+constexpr const char* kPlant = "haptics/device/(device_plant|plant_[a-z_]+|simulated_daq|hand_model)";
+
+const std::vector<Direction>& directions() {
+  static const std::string plant_files = std::string("^") + kPlant + "\\.(h|cpp)$";
+  static const std::string plant_sees =
+      std::string("^(haptics/quantities\\.h|haptics/device/(data_acquisition|hand)\\.h|") + kPlant + "\\.h)$";
+  static const std::vector<Direction> table{
+      {"^haptics/", "^haptics/", "haptics depends on nobody"},
+      {plant_files.c_str(), plant_sees.c_str(), "the plant shares nothing with the controller but the seam"},
+      {"^haptics/device/(data_acquisition|hand)\\.h$", "^haptics/(quantities|fault)\\.h$",
+       "the seam brings nothing of the controller along"},
+      {"^haptics/quantities\\.h$", "^$", "quantities stand alone"},
+      {"^tissue/", "^(tissue|haptics)/", "tissue knows haptics only"},
+      {"^scenarios/", "^(scenarios|tissue|haptics)/", "scenarios know tissue and haptics only"},
+      {"^scenarios/scoring/", "^(scenarios/scoring/|haptics/quantities\\.h$)", "scoring is pure"},
+      {"^trainees/", "^(trainees|scenarios/scoring|haptics)/", "trainees know scoring and haptics only"},
+      {"^app/(recorder|graphics|report|executor)/",
+       "^(app/(recorder|graphics|report|executor|scene\\.h)|haptics/|tissue/|scenarios/|trainees/digest\\.h$)",
+       "parts of the program do not know its commands or the store"},
+      {"^(app|haptics|tissue|scenarios|trainees)/", "^(app|haptics|tissue|scenarios|trainees)/",
+       "no source knows the tests"},
+  };
+  return table;
+}
+
+/// Third-party headers that only files matching `who` may include.
+struct Territory {
+  const char* header;
+  const char* who;
+  const char* rule;
+};
+
+const std::vector<Territory>& territories() {
+  static const std::vector<Territory> table{
+      {"^(CGAL|assimp|fcl|gdcm|vtk)/|^itk", "^tissue/.*\\.cpp$",
+       "geometry and image libraries stay in sources of tissue"},
+      {"^sqlite3", "^trainees/.*\\.cpp$", "SQLite stays in sources of trainees"},
+      {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/graphics/.*\\.cpp$",
+       "graphics libraries stay in sources of app/graphics"},
+      {"^CLI/", "^app/command_line\\.cpp$", "one file reads the command line"},
+      {"^toml", "^(scenarios|tissue)/.*\\.cpp$", "TOML is read in sources of scenarios and tissue"},
+  };
+  return table;
+}
+
+/// Standard library, POSIX and Eigen: all that a header of the project may show of others.
+bool plain(const std::string& name) {
+  static const std::regex kPlain(R"(^([a-z_0-9]+|Eigen/[A-Za-z]+)$)");
+  return std::regex_search(name, kPlain);
+}
+
+bool posix(const std::string& name) {
+  static const std::regex kPosix(R"(^(sys/[a-z]+|unistd|fcntl|spawn|signal|dirent|dlfcn|pthread|sched|time)\.h$)");
+  return std::regex_search(name, kPosix);
+}
+
+/// haptics depends on Eigen and the standard library; any header shows no more than that.
+std::string third_party_violation(const std::string& path, const Include& include) {
+  if (path.starts_with("tests/")) return "";  // a test may call any library as an oracle
+  for (const Territory& territory : territories()) {
+    if (std::regex_search(include.name, std::regex(territory.header)) &&
+        !std::regex_search(path, std::regex(territory.who))) {
+      return territory.rule;
+    }
+  }
+  if (plain(include.name) || posix(include.name)) return "";
+  if (path.starts_with("haptics/")) return "haptics includes Eigen and the standard library only";
+  if (path.ends_with(".h")) return "only Eigen crosses a header";
+  return "";
+}
+
+std::string direction_violation(const std::string& path, const Include& include) {
+  for (const Direction& direction : directions()) {
+    if (std::regex_search(path, std::regex(direction.who)) &&
+        !std::regex_search(include.name, std::regex(direction.may_include))) {
+      return direction.rule;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(const std::string& text) {
+  static const std::regex kInclude(R"(^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"])", std::regex::multiline);
+  std::vector<Include> out;
+  const std::string code = blank_literals(text, false);  // an include inside a comment or a raw string is none
+  for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
+    const auto at = static_cast<std::size_t>(it->position(1));
+    const std::size_t hash = text.rfind('#', at);
+    if (code[hash] != '#') continue;
+    out.push_back({(*it)[2], (*it)[1] == "<", line_of(text, at)});
+  }
+  return out;
+}
+
+std::vector<std::string> include_violations(const std::string& path, const std::string& text) {
+  std::vector<std::string> out;
+  for (const Include& include : includes_of(text)) {
+    const std::string rule = include.system ? third_party_violation(path, include) : direction_violation(path, include);
+    if (rule.empty()) continue;
+    out.push_back(path + ":" + std::to_string(include.line) + ": includes " + include.name + ": " + rule);
+  }
+  return out;
+}
+
+}  // namespace trocar

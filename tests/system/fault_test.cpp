@@ -1,0 +1,104 @@
+// Device faults end an attempt with exit code 4, a machine that lacks something with 3; neither leaves a score behind.
+#include "tests/system/system_fixture.h"
+
+namespace trocar::test {
+namespace {
+
+class Faults : public SystemTest {
+ protected:
+  /// A run that must end as a device fault, stored as such.
+  Json faulty(const std::string& injection) const {
+    const Json json = json_of(short_run({"--db", "f.db", "--inject", injection}), 4);
+    EXPECT_EQ(json["status"], "fault");
+    EXPECT_TRUE(json["score"].is_null());
+    EXPECT_FALSE(json["passed"].get<bool>());
+    const Json stored = json_of({"trainee", "show", "guest", "--db", "f.db", "--json"}, 0);
+    EXPECT_EQ(stored["history"][0]["status"], "fault") << stored;
+    return json;
+  }
+};
+
+using Machine = SystemTest;
+
+TEST_F(Faults, AnEncoderJumpEndsTheAttempt) {
+  const Json json = faulty("encoder-jump:2@3");
+  EXPECT_EQ(json["device"]["fault"], "encoder-jump");
+  EXPECT_GE(json["device"]["ticks"].get<int>(), 3000);
+  EXPECT_LE(json["device"]["ticks"].get<int>(), 3120) << "it ends a moment after the fault";
+}
+
+TEST_F(Faults, ANonFiniteHandEndsTheAttempt) {
+  const Json json = faulty("hand-nan@3");
+  EXPECT_EQ(json["device"]["fault"], "hand-non-finite");
+  for (const auto& [name, metric] : json["metrics"].items()) {
+    EXPECT_TRUE(metric["value"].is_null() || metric["value"].is_number()) << name;
+  }
+}
+
+TEST_F(Faults, AnInvalidChannelEndsTheAttempt) { EXPECT_NE(faulty("channel-invalid:1@3")["device"]["fault"], nullptr); }
+
+TEST_F(Faults, AFaultAlsoShowsInTheTextForPeople) {
+  Words words = short_run({"--db", ":memory:", "--inject", "encoder-jump:2@3"});
+  std::erase(words, "--json");
+  const Outcome outcome = trocar(words);
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.out.find("fault    encoder-jump"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Faults, WithoutAnInjectionTheSameRunHasNone) {
+  const Json json = json_of(short_run({"--db", ":memory:"}), 1);
+  EXPECT_EQ(json["status"], "timeout");
+  EXPECT_TRUE(json["device"]["fault"].is_null());
+}
+
+TEST_F(Machine, ADatabaseThatCannotBeMadeIsTheMachinesFault) {
+  folder_.write("file", "not a folder");
+  expect_refusal(short_run({"--db", "file/t.db"}), 3, "file/t.db");
+  expect_refusal(short_run({"--db", "/proc/trocar/t.db"}), 3, "/proc/trocar/t.db");
+  expect_refusal({"trainee", "add", "T-1", "--db", "/proc/trocar/t.db"}, 3, "/proc/trocar/t.db");
+}
+
+TEST_F(Machine, AFullDiskIsTheMachinesFault) {
+  expect_refusal(short_run({"--db", "/dev/full"}), 3, "/dev/full");
+  expect_refusal(short_run({"--db", ":memory:", "--record", "/dev/full"}), 3, "No space left on device");
+  folder_.write("q.csv", "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n0,0,0,0,0,0\n");
+  expect_refusal({"device", "eval", "--csv", "q.csv", "--out", "/proc/trocar/o.csv"}, 3, "cannot be written");
+}
+
+TEST_F(Machine, ARunThatCouldNotBeRecordedLeavesNoGradedAttempt) {
+  expect_refusal(short_run({"--db", "t.db", "--record", "/dev/full"}), 3, "No space left on device");
+  const Json stored = json_of({"trainee", "show", "guest", "--db", "t.db", "--json"}, 0);
+  ASSERT_EQ(stored["history"].size(), 1u);
+  EXPECT_EQ(stored["history"][0]["status"], "aborted");
+  EXPECT_TRUE(stored["history"][0]["score"].is_null());
+}
+
+TEST_F(Machine, AFileThatIsNoDatabaseIsBadInputAndStaysAsItWas) {
+  folder_.write("letter.txt", "Dear reader, this is not a database at all, whatever its name.");
+  expect_refusal(short_run({"--db", "letter.txt"}), 2, "is not a database");
+  EXPECT_EQ(file_bytes(folder_ / "letter.txt").substr(0, 4), "Dear");
+}
+
+TEST_F(Machine, ReadingWithoutADatabaseSaysThatThereIsNoneAndMakesNone) {
+  for (const Words& words : {Words{"trainee", "list"}, {"cohort"}, {"db", "check"}, {"score", "latest"}}) {
+    expect_refusal(words, 3, "there is no database yet");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "data" / "trocar" / "trocar.db"));
+}
+
+TEST_F(Machine, TheDefaultDatabaseLiesInTheUsersDataFolder) {
+  EXPECT_EQ(trocar(short_run()).exit_code, 1);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "data" / "trocar" / "trocar.db"));
+  EXPECT_EQ(json_of({"cohort", "--json"}, 0).size(), 1u);
+}
+
+TEST_F(Machine, MissingAssetsAreNamedWithThePlacesLookedAt) {
+  Launch here = launch({"exercises"});
+  here.environment["TROCAR_ASSETS"] = (folder_ / "nothing-here").string();
+  const Outcome outcome = run_program(here);
+  EXPECT_EQ(outcome.exit_code, 0) << "a wrong TROCAR_ASSETS falls through to the next place";
+  EXPECT_NE(outcome.out.find("surface-touch"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar::test

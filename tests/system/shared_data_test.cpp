@@ -1,0 +1,53 @@
+// The whole program on real data and reference vectors; skipped, loudly, where the shared folder is missing.
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+
+#include "tests/system/hands_acceptance.h"
+#include "tests/system/table.h"
+
+namespace trocar::test {
+namespace {
+
+class SharedFolder : public HandsTest {
+ protected:
+  void SetUp() override {
+    const char* elsewhere = std::getenv("TROCAR_SHARED");
+    shared_ = std::filesystem::absolute(elsewhere != nullptr ? elsewhere : TROCAR_SOURCE_DIR "/../shared");
+    if (std::filesystem::is_directory(shared_)) return;
+    std::cerr << "SKIPPED: no shared data at " << shared_ << "; the program was NOT tested on them\n";
+    GTEST_SKIP() << "no shared data at " << shared_;
+  }
+
+  std::filesystem::path shared_;
+};
+
+TEST_F(SharedFolder, EvaluationAgreesWithEveryColumnOfTheReference) {
+  const auto file = shared_ / "reference" / "device_vectors.csv";
+  const Table expected = read_table(file);
+  ASSERT_EQ(expected.rows.size(), 100u);
+  ASSERT_EQ(trocar({"device", "eval", "--csv", file.string(), "--out", "o.csv"}).exit_code, 0);
+  const Table found = read_table(folder_ / "o.csv");
+  ASSERT_EQ(found.rows.size(), expected.rows.size());
+  ASSERT_EQ(expected.columns.size(), 49u);
+  for (std::size_t column = 0; column < expected.columns.size(); ++column) {
+    const std::size_t other = found.at(expected.columns[column]);
+    for (std::size_t row = 0; row < expected.rows.size(); ++row) {
+      EXPECT_NEAR(found.rows[row][other], expected.rows[row][column], 1e-9)
+          << expected.columns[column] << ", row " << row;
+    }
+  }
+}
+
+TEST_F(SharedFolder, ALiverFromCtIsSoundAndSkillShowsOnIt) {
+  const auto mask = shared_ / "data" / "ct_abdomen_totalseg" / "masks_v1" / "liver.nii.gz";
+  const Json organ = json_of({"organ", "import", mask.string(), "-o", "liver", "--json"}, 0);
+  EXPECT_EQ(organ["closed"], true);
+  EXPECT_EQ(organ["manifold"], true);
+  EXPECT_EQ(organ["self_intersections"], 0);
+  EXPECT_NEAR(organ["volume_ml"].get<double>(), 1123.3, 0.01 * 1123.3);
+  expect_skill_to_show("liver.organ.toml");
+}
+
+}  // namespace
+}  // namespace trocar::test

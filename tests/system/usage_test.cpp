@@ -1,0 +1,123 @@
+// Usage: help of every subcommand, and what is refused before anything runs.
+#include <map>
+
+#include "tests/system/system_fixture.h"
+
+namespace trocar::test {
+namespace {
+
+using Usage = SystemTest;
+
+const std::map<std::string, Words>& commands_and_flags() {
+  static const std::map<std::string, Words> table{
+      {"run",
+       {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--fps",
+        "--rate", "--contact", "--passivity", "--inject", "--json"}},
+      {"replay", {"--frames", "--fps", "--verify", "--organ", "--db"}},
+      {"score", {"--rubric", "--db", "--json"}},
+      {"demo", {"--headless", "--out", "--organ"}},
+      {"bench", {"--organ", "--json"}},
+      {"version", {}},
+      {"exercises", {"--json", "--explain"}},
+      {"check", {"--organ"}},
+      {"device", {"eval", "ik"}},
+      {"device eval", {"--csv", "--out"}},
+      {"device ik", {"--csv", "--out"}},
+      {"organ", {"import", "info", "render", "phantom"}},
+      {"organ import", {"--labels", "--label", "--triangles", "--unit", "-o", "--json"}},
+      {"organ info", {"--json"}},
+      {"organ render", {"-o", "--width", "--height"}},
+      {"organ phantom", {"--out", "--seed", "--json"}},
+      {"trainee", {"add", "list", "show"}},
+      {"trainee add", {"--db", "--json"}},
+      {"trainee list", {"--db", "--json"}},
+      {"trainee show", {"--db", "--limit", "--json"}},
+      {"cohort", {"--db", "--trainee", "--json"}},
+      {"db", {"check", "backup", "migrate"}},
+      {"db check", {"--db", "--json"}},
+      {"db backup", {"--db", "--out"}},
+      {"db migrate", {"--db"}}};
+  return table;
+}
+
+Words split(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+TEST_F(Usage, HelpOfEverySubcommandNamesItsFlags) {
+  for (const auto& [command, flags] : commands_and_flags()) {
+    Words words = split(command);
+    words.push_back("--help");
+    const Outcome outcome = trocar(words);
+    EXPECT_EQ(outcome.exit_code, 0) << command;
+    EXPECT_EQ(outcome.err, "") << command;
+    for (const std::string& flag : flags)
+      EXPECT_NE(outcome.out.find(flag), std::string::npos) << command << ' ' << flag;
+  }
+}
+
+TEST_F(Usage, HelpOfTheProgramNamesEveryCommandOfTheTable) {
+  const Outcome outcome = trocar({"--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const auto& [command, flags] : commands_and_flags()) {
+    EXPECT_NE(outcome.out.find("  " + split(command)[0]), std::string::npos) << command;
+  }
+}
+
+TEST_F(Usage, VersionIsTheProjects) {
+  const Outcome outcome = trocar({"version"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out, "trocar " TROCAR_VERSION "\n");
+}
+
+TEST_F(Usage, NoSubcommandIsBadUsage) {
+  expect_refusal({}, 2, "subcommand is required");
+  for (const char* group : {"device", "organ", "trainee", "db"}) expect_refusal({group}, 2, "subcommand is required");
+}
+
+TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
+  expect_refusal({"fly"}, 2, "fly");
+  expect_refusal({"organ", "fly"}, 2, "fly");
+  for (const auto& [command, flags] : commands_and_flags()) {
+    Words words = split(command);
+    words.push_back("--frobnicate");
+    const Outcome outcome = trocar(words);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_NE(outcome.err, "") << command;
+  }
+  expect_refusal({"run", "surface-touch", "--hand"}, 2, "--hand");
+  expect_refusal({"run", "surface-touch"}, 2, "--hand");
+  expect_refusal({"run", "--hand", "expert"}, 2, "exercise");
+  expect_refusal(short_run({"--rate", "1500"}), 2, "--rate");
+  expect_refusal(short_run({"--fps", "0"}), 2, "--fps");
+  expect_refusal(short_run({"--board", "20"}), 2, "practice boards are 0 to 19");
+  expect_refusal(short_run({"--contact", "magic"}), 2, "known are proxy, thesis");
+  expect_refusal(short_run({"--passivity", "magic"}), 2, "known are budgeted, off");
+  expect_refusal(short_run({"--seed", "many"}), 2, "--seed");
+}
+
+TEST_F(Usage, CatalogueListsAndExplains) {
+  const Json catalogue = json_of({"exercises", "--json"}, 0);
+  ASSERT_FALSE(catalogue.empty());
+  EXPECT_EQ(catalogue[0]["id"], "surface-touch");
+  EXPECT_EQ(catalogue[0]["number"], "E02");
+  EXPECT_EQ(catalogue[0]["rubric_sha256"].get<std::string>().size(), 64u);
+  EXPECT_NE(trocar({"exercises"}).out.find("E02  surface-touch"), std::string::npos);
+  const Outcome explained = trocar({"exercises", "--explain", "path_ratio"});
+  EXPECT_EQ(explained.exit_code, 0);
+  EXPECT_EQ(explained.out.find("path_ratio ["), 0u) << explained.out;
+  expect_refusal({"exercises", "--explain", "elegance"}, 2, "unknown metric; known are");
+}
+
+TEST_F(Usage, CheckProvesShippedBoardsAndRefusesBadFiles) {
+  const Outcome sound = trocar({"check", "surface-touch"});
+  EXPECT_EQ(sound.exit_code, 0) << sound.out << sound.err;
+  EXPECT_NE(sound.out.find("surface-touch L1: 20 boards"), std::string::npos) << sound.out;
+  EXPECT_NE(sound.out.find(": sound\n"), std::string::npos) << sound.out;
+  folder_.write("bad.toml", replaced(shipped_exercise(), "hold_s = 1.0", "hold_s = \"long\""));
+  expect_refusal({"check", "bad.toml"}, 2, "bad.toml:");
+}
+
+}  // namespace
+}  // namespace trocar::test
