@@ -72,6 +72,7 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_
     const double travel = std::min({length, 0.5 * shape_.radius_m, allowance});
     proxy_ += step * (travel / length);
     allowance -= travel;
+    travelled_ += travel;
     project(patch, kSlideSlack);
   }
   // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.
@@ -102,45 +103,54 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_
 }
 
 void ContactRenderer::gather(double reach, const ContactPatch& patch) {
-  struct Near {
-    double distance;  ///< a triangle is never nearer than this
-    std::int32_t index;
-    bool operator<(const Near& other) const {
-      return distance != other.distance ? distance < other.distance : index < other.index;
-    }
-  };
   std::array<Near, kMaxPatchTriangles> found;
   int count = 0;
+  travelled_ = 0;
   const Vec3 axis = backwards_ / shape_.shaft_length_m;
   for (int i = 0; i < patch.count; ++i) {
     const auto& v = patch.triangle[i].vertex;
     const Vec3 centre = (v[0] + v[1] + v[2]) / 3;
-    const double size = std::sqrt(std::max({(v[0] - centre).squaredNorm(), (v[1] - centre).squaredNorm(),
-                                            (v[2] - centre).squaredNorm()}));
+    const double size2 =
+        std::max({(v[0] - centre).squaredNorm(), (v[1] - centre).squaredNorm(), (v[2] - centre).squaredNorm()});
     const Vec3 offset = centre - proxy_;
     const double along = std::clamp(offset.dot(axis), 0.0, shape_.shaft_length_m);
-    const double distance = (offset - axis * along).norm() - size;
-    if (distance <= reach) found[count++] = {distance, i};
+    const double centre2 = (offset - axis * along).squaredNorm();
+    if (centre2 > 2 * (reach * reach + size2)) continue;  // (a + b)^2 <= 2 (a^2 + b^2): most leave without a root
+    const double distance = std::sqrt(centre2) - std::sqrt(size2);
+    if (distance <= reach) found[count++] = {distance, 0, i};
   }
-  if (count > kMaxNear) std::nth_element(found.begin(), found.begin() + kMaxNear, found.begin() + count);
-  near_count_ = std::min(count, kMaxNear);
-  for (int i = 0; i < near_count_; ++i) near_[i] = found[i].index;
-  if (count > kMaxNear) std::sort(near_.begin(), near_.begin() + near_count_);
+  if (count > kMaxNear) {  // the nearest, whatever the order of the patch
+    std::nth_element(found.begin(), found.begin() + kMaxNear, found.begin() + count, [](const Near& l, const Near& r) {
+      return l.distance != r.distance ? l.distance < r.distance : l.index < r.index;
+    });
+    count = kMaxNear;
+    std::sort(found.begin(), found.begin() + count, [](const Near& l, const Near& r) { return l.index < r.index; });
+  }
+  std::copy(found.begin(), found.begin() + count, near_.begin());
+  near_count_ = count;
 }
 
 void ContactRenderer::project(const ContactPatch& patch, double slack) {
+  const double reach = shape_.radius_m + slack;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     touch_count_ = 0;
     double deepest = 0;
     for (int i = 0; i < near_count_; ++i) {
-      const PatchTriangle& triangle = patch.triangle[near_[i]];
+      Near& near = near_[i];
+      if (near.distance - (travelled_ - near.travelled) > reach) continue;
+      const PatchTriangle& triangle = patch.triangle[near.index];
       const ClosestPair pair = closest_segment_triangle(proxy_, proxy_ + backwards_, triangle.vertex);
-      if (pair.distance > shape_.radius_m + slack) continue;
+      near.distance = pair.distance;
+      near.travelled = travelled_;
+      if (pair.distance > reach) continue;
       // On the axis itself the direction is undefined: the surface's own normal leads out.
       Vec3 normal = triangle.normal;
       if (pair.distance > 1e-9) normal = (pair.on_segment - pair.on_triangle) / pair.distance;
       const double inside = shape_.radius_m - pair.distance;
-      if (inside > 0) proxy_ += inside * normal;
+      if (inside > 0) {
+        proxy_ += inside * normal;
+        travelled_ += inside;
+      }
       deepest = std::max(deepest, inside);
       add_touch({normal, pair.on_triangle, pair.distance, pair.along == 0});
     }

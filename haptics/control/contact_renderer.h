@@ -63,6 +63,13 @@ class ContactRenderer {
     double share = 0;    ///< part of y carried, m
   };
 
+  /// A triangle that the proxy may meet this period.
+  struct Near {
+    double distance;     ///< from the axis, or less, when `travelled` was what it was; it changes no faster than that
+    double travelled;
+    std::int32_t index;  ///< in the patch
+  };
+
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
   ContactResult proxy_law(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
   void gather(double reach, const ContactPatch& patch);
@@ -82,8 +89,9 @@ class ContactRenderer {
   Vec3 proxy_ = Vec3::Zero();      ///< tip centre of the proxy, T
   Vec3 last_goal_ = Vec3::Zero();  ///< tip of the instrument one period ago, T
   Vec3 backwards_ = Vec3::UnitZ(); ///< from the tip along the shaft, times its length
-  std::array<std::int32_t, kMaxNear> near_{};
+  std::array<Near, kMaxNear> near_{};
   int near_count_ = 0;
+  double travelled_ = 0;           ///< of the proxy since the near triangles were gathered, m
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
   std::array<std::int32_t, kMaxCarrying> carrying_{};
