@@ -46,14 +46,15 @@ class ContactRenderer {
   /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
   void reset() { started_ = false; }
 
-  /// One period. @param X_TI instrument pose; @param velocity_T of its tip, m/s.
-  ContactResult update(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
+  /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
+  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
 
   const ToolShape& shape() const { return shape_; }
 
  private:
   static constexpr int kMaxNear = 96;      ///< triangles considered in one tick
   static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
+  static constexpr int kMaxCarrying = 3;   ///< of them, those that can carry at once in space
 
   struct Touch {
     Vec3 normal, point;  ///< unit from surface to axis; surface point
@@ -62,14 +63,27 @@ class ContactRenderer {
     double share = 0;    ///< part of y carried, m
   };
 
+  /// A triangle that the proxy may meet this period.
+  struct Near {
+    double distance;     ///< from the axis, or less, when `travelled` was what it was; it changes no faster than that
+    double travelled;
+    std::int32_t index;  ///< in the patch
+  };
+
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
-  ContactResult proxy_law(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
+  ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
+  double approach_speed(const Twist& V_TI_T, double depth_m) const;
   void gather(double reach, const ContactPatch& patch);
   /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
   void project(const ContactPatch& patch, double slack);
   void add_touch(const Touch& touch);
+  /// The part of a wish that the touched triangles allow, each with the gap that is left before it.
+  Vec3 free_step(const Vec3& wish) const;
   /// Splits y among the contacts, all shares >= 0. @return the part of y that no contact carries.
   Vec3 share_out(const Vec3& y);
+  /// Least-squares shares of the carrying contacts; those that would pull are dropped.
+  void balance(const Vec3& y);
 
   ContactLaw law_;
   ToolShape shape_;
@@ -77,10 +91,13 @@ class ContactRenderer {
   Vec3 proxy_ = Vec3::Zero();      ///< tip centre of the proxy, T
   Vec3 last_goal_ = Vec3::Zero();  ///< tip of the instrument one period ago, T
   Vec3 backwards_ = Vec3::UnitZ(); ///< from the tip along the shaft, times its length
-  std::array<std::int32_t, kMaxNear> near_{};
+  std::array<Near, kMaxNear> near_{};
   int near_count_ = 0;
+  double travelled_ = 0;           ///< of the proxy since the near triangles were gathered, m
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
+  std::array<std::int32_t, kMaxCarrying> carrying_{};
+  int carrying_count_ = 0;
 };
 
 }  // namespace trocar

@@ -1,6 +1,7 @@
 // A kinematic closed loop for calibrating hands: hand -> point mass behind a spring -> tissue -> director -> hand.
 //
-// The tip is a mass of 0.4 kg drawn to the intent through 300 N/m and 8 N s/m; the surface answers with the exercise's
+// The tip is a mass of 0.4 kg drawn to the intent through 98 N/m (a pen grip of 400 N/m and an arm of 130 N/m in
+// series, as the simulated device has) and 8 N s/m; the surface answers with the exercise's
 // stiffness along its normal. The hand sees positions 150 ms late with 0.3 mm of noise, and forces with 0.03 N.
 #pragma once
 
@@ -31,7 +32,7 @@ struct PracticeRoom {
 };
 
 struct WorldTuning {
-  double hand_stiffness_n_per_m = 300, hand_damping = 8, mass_kg = 0.4;
+  double hand_stiffness_n_per_m = 98, hand_damping = 8, mass_kg = 0.4;
   double longest_s = 300;
 };
 

@@ -1,0 +1,178 @@
+// Surface tree and patch extraction against brute force.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "haptics/control/segment_triangle.h"
+#include "tests/haptics/surfaces.h"
+#include "tissue/collision/patch_extraction.h"
+
+namespace trocar {
+namespace {
+
+using test::Random;
+using Hits = std::vector<SurfaceTree::Hit>;
+
+std::array<Vec3, 3> corners(const TriangleSurface& s, std::size_t i) {
+  const auto& [a, b, c] = s.triangles[i];
+  return {s.vertices[std::size_t(a)], s.vertices[std::size_t(b)], s.vertices[std::size_t(c)]};
+}
+
+Hits brute_force(const TriangleSurface& s, const Vec3& a, const Vec3& b, double reach) {
+  Hits hits;
+  for (std::size_t i = 0; i < s.triangles.size(); ++i) {
+    const double d = closest_segment_triangle(a, b, corners(s, i)).distance;
+    if (d <= reach) hits.push_back({static_cast<std::int32_t>(i), d});
+  }
+  return hits;
+}
+
+void expect_same(Hits found, const Hits& wanted) {
+  std::sort(found.begin(), found.end(), [](const auto& l, const auto& r) { return l.triangle < r.triangle; });
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].triangle, wanted[i].triangle);
+    EXPECT_EQ(found[i].distance, wanted[i].distance) << "the same function, the same bytes";
+  }
+}
+
+/// Unconnected triangles; every fifth is a needle or a point.
+TriangleSurface soup(Random& random, int count) {
+  TriangleSurface s;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 a = random.vector(0.05), b = a + random.vector(0.008), c = a + random.vector(0.008);
+    const auto first = static_cast<std::int32_t>(s.vertices.size());
+    s.vertices.push_back(a);
+    s.vertices.push_back(i % 5 == 0 ? a : b);
+    s.vertices.push_back(i % 10 == 0 ? a : c);
+    s.triangles.push_back({first, first + 1, first + 2});
+  }
+  return s;
+}
+
+TEST(SurfaceTree, FindsExactlyWhatBruteForceFinds) {
+  Random random(1);
+  for (const int count : {1, 2, 4, 5, 9, 100, 3000}) {
+    const TriangleSurface surface = soup(random, count);
+    const SurfaceTree tree(surface);
+    Hits hits;
+    std::size_t total = 0;
+    for (int k = 0; k < 60; ++k) {
+      const Vec3 a = random.vector(0.08), b = k % 6 == 0 ? a : random.vector(0.08);
+      const double reach = k % 7 == 0 ? 0 : random.between(0, 0.03);
+      tree.within(a, b, reach, hits);
+      expect_same(hits, brute_force(surface, a, b, reach));
+      total += hits.size();
+    }
+    EXPECT_TRUE(count < 100 || total > 100) << total;
+  }
+}
+
+TEST(SurfaceTree, FindsExactlyWhatBruteForceFindsOnAnOrganLikeSurface) {
+  const TriangleSurface surface = test::lumpy_sphere(4, 0.08);
+  const SurfaceTree tree(surface);
+  Random random(2);
+  Hits hits;
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 tip = random.direction() * random.between(0.07, 0.11), handle = tip + random.direction() * 0.30;
+    tree.within(tip, handle, kPatchRadius, hits);
+    expect_same(hits, brute_force(surface, tip, handle, kPatchRadius));
+  }
+}
+
+TEST(SurfaceTree, EmptySurfaceHasNoHits) {
+  const TriangleSurface nothing;
+  const SurfaceTree tree(nothing);
+  Hits hits{{3, 0.5}};
+  tree.within(Vec3::Zero(), Vec3::UnitX(), 10, hits);
+  EXPECT_TRUE(hits.empty());
+}
+
+TEST(SurfaceTree, ManyTrianglesInOnePlaceDoNotConfuseTheSplit) {
+  TriangleSurface same;
+  same.vertices = {Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0)};
+  for (int i = 0; i < 1000; ++i) same.triangles.push_back({0, 1, 2});
+  const SurfaceTree tree(same);
+  Hits hits;
+  tree.within({0.002, 0.002, 0.004}, {0.002, 0.002, 0.1}, 0.0041, hits);
+  EXPECT_EQ(hits.size(), 1000u);
+  tree.within({0.002, 0.002, 0.004}, {0.002, 0.002, 0.1}, 0.0039, hits);
+  EXPECT_TRUE(hits.empty());
+}
+
+class Patch : public ::testing::Test {
+ protected:
+  std::unique_ptr<ContactPatch> patch = std::make_unique<ContactPatch>();
+};
+
+TEST_F(Patch, NearestFirstWithOutwardNormals) {
+  const TriangleSurface surface = test::sphere(3, 0.05);
+  PatchExtraction extraction(surface);
+  const Pose X = test::tip_down({0.001, 0.002, 0.053});
+  const ToolShape tool;
+  extraction.extract(X, tool, *patch);
+  ASSERT_GT(patch->count, 10);
+  const Vec3 handle = X.p - X.R.col(2) * tool.shaft_length_m;
+  double last = 0;
+  for (int i = 0; i < patch->count; ++i) {
+    const PatchTriangle& t = patch->triangle[std::size_t(i)];
+    const double d = closest_segment_triangle(X.p, handle, t.vertex).distance;
+    EXPECT_GE(d, last);
+    EXPECT_LE(d, kPatchRadius);
+    EXPECT_NEAR(t.normal.norm(), 1, 1e-12);
+    EXPECT_GT(t.normal.dot(t.vertex[0]), 0) << "outward";
+    EXPECT_EQ(t.vertex, corners(surface, std::size_t(t.id)));
+    last = d;
+  }
+  EXPECT_EQ(patch->count + patch->dropped,
+            static_cast<int>(brute_force(surface, X.p, handle, kPatchRadius).size()));
+  EXPECT_EQ(patch->dropped, 0);
+}
+
+TEST_F(Patch, TheFurthestIsDroppedAndCounted) {
+  const TriangleSurface surface = test::sphere(6, 0.03);  // 32768 triangles of 0.7 mm
+  PatchExtraction extraction(surface);
+  const Pose X = test::tip_down({0, 0, 0.031});
+  extraction.extract(X, {}, *patch);
+  Hits all = brute_force(surface, X.p, X.p - X.R.col(2) * ToolShape{}.shaft_length_m, kPatchRadius);
+  ASSERT_GT(all.size(), 512u);
+  EXPECT_EQ(patch->count, kMaxPatchTriangles);
+  EXPECT_EQ(patch->dropped, static_cast<int>(all.size()) - kMaxPatchTriangles);
+  std::sort(all.begin(), all.end(), [](const auto& l, const auto& r) {
+    return l.distance != r.distance ? l.distance < r.distance : l.triangle < r.triangle;
+  });
+  for (std::size_t i = 0; i < 512; ++i) ASSERT_EQ(patch->triangle[i].id, all[i].triangle) << "rank " << i;
+}
+
+TEST_F(Patch, FarAwayNothingIsFoundAndMaterialIsLeftAlone) {
+  const TriangleSurface surface = test::sphere(3, 0.05);
+  PatchExtraction extraction(surface);
+  patch->stiffness_n_per_m = 321;
+  patch->stamp = 17;
+  patch->grip = {0.01, 500};
+  extraction.extract(test::tip_down({0, 0, 0.5}), {}, *patch);
+  EXPECT_EQ(patch->count, 0);
+  EXPECT_EQ(patch->dropped, 0);
+  EXPECT_EQ(patch->stiffness_n_per_m, 321);
+  EXPECT_EQ(patch->stamp, 17u);
+  EXPECT_EQ(patch->grip.stiffness_n_per_m, 500);
+}
+
+TEST_F(Patch, SameInputSamePatch) {
+  const TriangleSurface surface = test::lumpy_sphere(5, 0.06);
+  PatchExtraction one(surface), two(surface);
+  const auto other = std::make_unique<ContactPatch>();
+  Random random(3);
+  for (int k = 0; k < 20; ++k) {
+    const Vec3 n = random.direction();
+    const Pose X{Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -n).toRotationMatrix(), n * 0.062};
+    one.extract(X, {}, *patch);
+    two.extract(X, {}, *other);
+    ASSERT_EQ(patch->count, other->count);
+    for (std::size_t i = 0; i < std::size_t(patch->count); ++i) EXPECT_EQ(patch->triangle[i].id, other->triangle[i].id);
+  }
+}
+
+}  // namespace
+}  // namespace trocar
