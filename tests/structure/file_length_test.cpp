@@ -10,7 +10,7 @@ namespace trocar {
 namespace {
 
 constexpr std::size_t kLongestFile = 400;
-constexpr double kTestLinesPerSourceLine = 0.74;  // the aim is 0.9; this is what has been reached
+constexpr double kTestLinesPerSourceLine = 0.80;  // the aim is 0.9; this is what has been reached
 
 std::vector<std::string> too_long(const std::vector<SourceFile>& files) {
   std::vector<std::string> out;

@@ -158,12 +158,25 @@ TEST_F(Graded, JsonHoldsEveryKeyThatOthersRelyOn) {
 }
 
 TEST_F(Graded, EveryRateRunsAndReplays) {
-  for (const char* rate : {"1000", "2000", "4000"}) {
-    const Json json = json_of(short_run({"--db", ":memory:", "--rate", rate, "--record", "r.trec"}), 1);
+  for (const std::string rate : {"1000", "2000", "4000"}) {
+    const std::string recording = rate + ".trec";
+    const Json json = json_of(short_run({"--db", ":memory:", "--rate", rate, "--record", recording}), 1);
     EXPECT_EQ(json["device"]["rate_hz"].get<double>(), std::stod(rate));
     EXPECT_EQ(json["status"], "timeout");
-    EXPECT_EQ(trocar({"replay", "r.trec", "--verify"}).exit_code, 0) << rate;
+    EXPECT_EQ(trocar({"replay", recording, "--verify"}).exit_code, 0) << rate;
   }
+}
+
+TEST_F(Repeat, ARecordingIsNeverOverwritten) {
+  const Json first = recorded_run();
+  const std::string bytes = file_bytes(folder_ / "a.trec");
+  expect_refusal(short_run({"--db", "t.db", "--record", "a.trec", "--seed", "9"}), 2,
+                 "a.trec: exists; a recording is never overwritten");
+  EXPECT_TRUE(file_bytes(folder_ / "a.trec") == bytes);
+  EXPECT_EQ(trocar({"score", "a.trec"}).exit_code, 1);
+  const Json stored = json_of({"trainee", "show", "guest", "--db", "t.db", "--json"}, 0);
+  ASSERT_EQ(stored["history"].size(), 1u) << "a refused run leaves no attempt";
+  EXPECT_EQ(stored["history"][0]["uuid"], first["attempt"]["uuid"]);
 }
 
 TEST_F(Graded, LawsOfTheBaselineRunAndReplayToo) {
