@@ -1,4 +1,5 @@
-// Faults injected where the controller cannot know of them: amplifiers off within two ticks, latched; and no allocation.
+// Faults injected where the controller cannot know of them: amplifiers off within two ticks, latched; and no
+// allocation.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -49,7 +50,8 @@ TEST(HapticLoopFaults, EncoderJump) {
 }
 
 TEST(HapticLoopFaults, PinchEncoderJump) {
-  expect_fault({InjectedFaultKind::kEncoderJump, kFaultAt, 0, kPinchChannel, -400}, FaultCode::kEncoderJump, kPinchChannel);
+  expect_fault({InjectedFaultKind::kEncoderJump, kFaultAt, 0, kPinchChannel, -400}, FaultCode::kEncoderJump,
+               kPinchChannel);
 }
 
 TEST(HapticLoopFaults, InvalidChannel) {
