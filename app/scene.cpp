@@ -96,6 +96,8 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     s.seed = json.at("seed").get<std::int64_t>();
     s.board = json.at("board").get<int>();
     s.rate_hz = json.at("rate_hz").get<double>();
+    out.daq = {"replay", s.rate_hz, json.at("dac_bits").get<int>()};
+    out.force_scale = json.at("force_scale").get<double>();
     s.contact_law = json.at("contact_law").get<std::string>() == "thesis" ? ContactLaw::kThesis : ContactLaw::kProxy;
     s.passivity_law =
         json.at("passivity_law").get<std::string>() == "off" ? PassivityLaw::kOff : PassivityLaw::kBudgeted;

@@ -58,6 +58,8 @@ std::string scene_json(const Scene& scene);
 struct RecordedSetup {
   AttemptSetup setup;
   std::string organ_sha256;
+  DaqCapabilities daq;
+  double force_scale = 1;   ///< kappa that the live attempt used
 };
 RecordedSetup parse_scene_json(const std::string& json, const std::string& name);
 

@@ -36,6 +36,12 @@ PassivityParameters with_period(PassivityParameters p, double period_s) {
   return p;
 }
 
+/// What compensation takes away from friction no longer dissipates: the budget counts the rest.
+PassivityParameters with_friction_left(PassivityParameters p, const FrictionFeedForward& friction) {
+  p.friction_left = 1 - friction.share;
+  return p;
+}
+
 ChannelVector torque_limits(const DeviceModel& model) {
   ChannelVector limit;
   for (int i = 0; i < kChannels; ++i) limit[i] = max_joint_torque(model.transmission[i]);
@@ -48,10 +54,21 @@ ChannelVector torque_rates(const HapticLoopConfig& config) {
   return rate;
 }
 
+/// Most counts that each channel can honestly make in one period.
+std::array<std::int32_t, kChannels> count_limits(const HapticLoopConfig& config) {
+  std::array<std::int32_t, kChannels> limit;
+  for (int i = 0; i < kChannels; ++i) {
+    const double fastest = i == kPinchChannel ? config.safety.max_pinch_speed : config.safety.max_encoder_rate;
+    limit[i] = static_cast<std::int32_t>(
+        std::ceil(fastest / (config.daq.rate_hz * count_size(config.device.transmission[i]))));
+  }
+  return limit;
+}
+
 /// NaN or infinity anywhere in the patch: comparisons would swallow it and the force would silently vanish.
-bool is_finite(const ContactPatch& patch) {
+bool is_finite(const ContactPatch& patch, bool triangles) {
   double sum = patch.stiffness_n_per_m + patch.damping_s_per_m + patch.grip.thickness_m + patch.grip.stiffness_n_per_m;
-  for (int i = 0; i < patch.count; ++i) {
+  for (int i = 0; triangles && i < patch.count; ++i) {
     const PatchTriangle& t = patch.triangle[i];
     sum += (t.vertex[0] + t.vertex[1] + t.vertex[2] + t.normal).sum();
   }
@@ -64,10 +81,10 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
     : config_(config),
       period_s_(1 / config.daq.rate_hz),
       contact_(config.contact_law, config.tool),
-      arm_passivity_(with_period(config.passivity, period_s_)),
+      arm_passivity_(with_friction_left(with_period(config.passivity, period_s_), config.friction)),
       pinch_passivity_(with_period(config.pinch_passivity, period_s_)),
       limiter_(torque_limits(config.device), torque_rates(config), period_s_),
-      supervisor_(config.safety, period_s_) {
+      supervisor_(config.safety, count_limits(config), period_s_) {
   home_ << home_angles(), config.device.pinch_home_m;
   for (const Transmission& t : config.device.transmission) velocity_.emplace_back(count_size(t), period_s_);
   gravity_torque(config_.device, arm_state(home_.head<kArmJoints>()));  // makes the constants of both models now
@@ -93,7 +110,8 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.X_TI = config_.map.instrument_pose(motion.arm.X_WS);
   motion.V_TI_T = config_.map.instrument_twist(motion.arm.X_WS, {twist.head<3>(), twist.tail<3>()});
-  periods_ += in.elapsed_periods;
+  motion.periods = std::max<double>(1, in.elapsed_periods);
+  periods_ += static_cast<std::uint64_t>(motion.periods);
   return motion;
 }
 
@@ -111,43 +129,57 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
     contact_.reset();
     return contact;
   }
-  if (!is_finite(patch)) {
+  const bool new_patch = patch.stamp != checked_stamp_;
+  checked_stamp_ = patch.stamp;
+  if (!is_finite(patch, new_patch)) {
     supervisor_.raise(FaultCode::kNonFinite, tick_, -1, patch.stiffness_n_per_m);
     return contact;
   }
-  contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T.linear, patch);
+  contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T, patch);
   contact.grip = grip_block(patch.grip, motion.q[kPinchChannel]);
   const Wrench F = config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.F_I_T);
   Vec6 w;
   w << F.force, F.moment;
   contact.torque.head<kArmJoints>() = motion.arm.J_WS.transpose() * w;
   contact.torque[kPinchChannel] = contact.grip.force_n;
+  const double share = rendered_share(motion.arm.det_a);
+  contact.torque *= share;
+  contact.share = share;
   if (contact.tissue.damping_factor > 0) contact.spring_n = F.force.norm() / contact.tissue.damping_factor;
   return contact;
+}
+
+double HapticLoop::rendered_share(double det_a) const noexcept {
+  double share = supervisor_.ramp() * singularity_share(det_a);
+  for (const MotorHeat& heat : heat_) share = std::min(share, heat.share());
+  return share;
 }
 
 ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& contact) noexcept {
   const ChannelVector dq = motion.q - last_q_;
   last_q_ = motion.q;
+  // After missed periods the codes of the tick before acted in the first of them, the newer ones in all others.
+  const double n = motion.periods;
+  const ChannelVector acted = (acting_contact_ + (n - 1) * applied_contact_) / n;
   ContactWork arm;
-  arm.wanted_n = contact.spring_n;
-  arm.absorbed_j = -acting_contact_.head<kArmJoints>().dot(dq.head<kArmJoints>());
-  arm.stored_j = config_.map.force_scale * contact.tissue.stored_j;
-  if (contact.spring_n > 0) {
-    const JointVector unit = contact.torque.head<kArmJoints>() / (contact.spring_n * contact.tissue.damping_factor);
+  arm.wanted_n = contact.share * contact.spring_n;
+  arm.absorbed_j = -acted.head<kArmJoints>().dot(dq.head<kArmJoints>());
+  arm.stored_j = contact.share * config_.map.force_scale * contact.tissue.stored_j;
+  if (arm.wanted_n > 0) {
+    const JointVector unit = contact.torque.head<kArmJoints>() / (arm.wanted_n * contact.tissue.damping_factor);
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
   }
   ContactWork pinch;
-  pinch.wanted_n = contact.grip.force_n;
-  pinch.absorbed_j = -acting_contact_[kPinchChannel] * dq[kPinchChannel];
+  pinch.wanted_n = contact.share * contact.grip.force_n;
+  pinch.absorbed_j = -acted[kPinchChannel] * dq[kPinchChannel];
   pinch.dx_m = -dq[kPinchChannel];
   pinch.speed_m_s = -motion.qd[kPinchChannel];
-  pinch.stored_j = contact.grip.stored_j;
+  pinch.stored_j = contact.share * contact.grip.stored_j;
 
   ChannelVector passive = contact.torque;
   const double force = arm_passivity_.update(arm);
-  if (contact.spring_n > 0) passive.head<kArmJoints>() *= force / contact.spring_n;
+  if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
   return passive;
 }
@@ -157,17 +189,18 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& c
     limiter_.reset();
     return {};
   }
-  double share = supervisor_.ramp() * singularity_share(motion.arm.det_a);
-  for (const MotorHeat& heat : heat_) share = std::min(share, heat.share());
   const JointVector qd = motion.qd.head<kArmJoints>();
   TorqueShares shares;
-  shares.springs = limit_spring_torque(motion.q.head<kArmJoints>(), qd);
+  shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd);
   shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
-  shares.contact = share * contact_torque;
+  shares.contact = contact_torque;
   if (arm_passivity_.budget_j() >= 0) {
-    shares.friction.head<kArmJoints>() = share * friction_torque(config_.device, config_.friction, qd);
+    shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
   }
-  return limiter_.update(shares);
+  const LimitedTorque limited = limiter_.update(shares);
+  arm_passivity_.delivered(limited.contact_scale);
+  pinch_passivity_.delivered(limited.contact_scale);
+  return limited;
 }
 
 void HapticLoop::watch(const Motion& motion, const LimitedTorque& torque) noexcept {
@@ -177,7 +210,7 @@ void HapticLoop::watch(const Motion& motion, const LimitedTorque& torque) noexce
       supervisor_.raise(FaultCode::kNonFinite, tick_, i, torque.total[i]);
       continue;  // the heat model must outlive the fault
     }
-    heat_[i].update(torque.total[i] * t.ratio / t.torque_constant, period_s_);
+    heat_[i].update(torque.total[i] * t.ratio / t.torque_constant, motion.periods * period_s_);
     if (heat_[i].cut()) supervisor_.raise(FaultCode::kOverheat, tick_, i, heat_[i].winding_c());
     if (i < kArmJoints && std::abs(motion.qd[i]) > config_.safety.max_joint_rate) {
       supervisor_.raise(FaultCode::kOverspeed, tick_, i, motion.qd[i]);
@@ -186,7 +219,7 @@ void HapticLoop::watch(const Motion& motion, const LimitedTorque& torque) noexce
   if (supervisor_.state() == LoopState::kActive && motion.arm.det_a < config_.safety.fault_det_a) {
     supervisor_.raise(FaultCode::kSingular, tick_, -1, motion.arm.det_a);
   }
-  if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
+  if (arm_passivity_.debt_fault() || pinch_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
 }
 
 DacFrame HapticLoop::to_codes(const LimitedTorque& torque) noexcept {
@@ -219,6 +252,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
 
   StylusState& s = record.stylus;
   s.tick = tick_;
+  s.period = periods_;
   s.t_s = static_cast<double>(periods_) * period_s_;
   s.loop = supervisor_.state();
   s.fault = supervisor_.fault();

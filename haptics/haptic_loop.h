@@ -60,11 +60,13 @@ class HapticLoop {
     ChannelVector q, qd;
     Pose X_TI;
     Twist V_TI_T;
+    double periods = 1;                            ///< since the last tick
   };
   struct Contact {
     ContactResult tissue;
     GripResult grip;
-    ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, before passivity
+    ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, times share, before passivity
+    double share = 1;                              ///< of the contact that ramp, singularity and heat let through
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping
   };
 
@@ -77,6 +79,7 @@ class HapticLoop {
   void publish(const DaqSample& in, const Motion& motion, const Contact& contact, const LimitedTorque& torque,
                const DacFrame& out, TickRecord& record) const noexcept;
   void take_home() noexcept;
+  double rendered_share(double det_a) const noexcept;
 
   HapticLoopConfig config_;
   double period_s_;
@@ -84,6 +87,7 @@ class HapticLoop {
   std::uint64_t tick_ = 0, periods_ = 0;
   CountAccumulator counts_;
   bool counting_ = false;
+  std::uint64_t checked_stamp_ = ~std::uint64_t{0};  ///< patch whose triangles were checked last
   std::vector<VelocityEstimator> velocity_;  ///< one a channel, sized once
   ContactRenderer contact_;
   PassivityController arm_passivity_, pinch_passivity_;

@@ -6,30 +6,15 @@
 #include <memory>
 #include <optional>
 
-#include <openssl/evp.h>
-
 #include "haptics/input_error.h"
 #include "scenarios/scoring/metrics.h"
 #include "scenarios/strict_toml.h"
+#include "tissue/imaging/sha256.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kMilli = 1e-3;
-
-std::string sha256_of(const std::string& bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw EnvironmentError("SHA-256 is not available");
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    text += kDigits[digest[i] >> 4];
-    text += kDigits[digest[i] & 15];
-  }
-  return text;
-}
 
 void read_start(StrictTable table, Exercise& exercise) {
   exercise.start_sphere_m = table.number("radius_mm", 1, 50) * kMilli;
@@ -174,7 +159,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
     exercise.levels.push_back(level);
   }
   exercise.rubric = read_rubric(document.table("rubric"));
-  exercise.rubric.sha256 = sha256_of(text);
+  exercise.rubric.sha256 = sha256_hex(text);
   document.finish();
   return exercise;
 }

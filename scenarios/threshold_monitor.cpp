@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace trocar {
+namespace {
+
+constexpr double kGraceReturn = 0.2;  // of the time inside
+
+}  // namespace
 
 bool ThresholdMonitor::update(double value, double dt_s) {
   if (!fired_) {
@@ -17,11 +22,14 @@ bool ThresholdMonitor::update(double value, double dt_s) {
 
 bool HoldTimer::update(bool inside, double dt_s) {
   if (inside) {
-    outside_s_ = 0;
+    outside_s_ = std::max(0.0, outside_s_ - kGraceReturn * dt_s);
     held_s_ = std::min(wanted_s_, held_s_ + dt_s);
   } else {
     outside_s_ += dt_s;
-    if (outside_s_ > grace_s_) held_s_ = 0;
+    if (outside_s_ > grace_s_) {
+      held_s_ = 0;
+      outside_s_ = grace_s_;
+    }
   }
   return held_s_ >= wanted_s_ - 1e-9;
 }

@@ -19,10 +19,11 @@ class ThresholdMonitor {
   bool fired_ = false;
 };
 
-/// Continuous time inside a band: short excursions pause the count, longer ones reset it.
+/// Continuous time inside a band: short excursions pause the count; longer ones, or many of them, reset it.
 class HoldTimer {
  public:
-  /// @param wanted_s complete after this. @param grace_s excursion that is forgiven (not counted).
+  /// @param wanted_s complete after this. @param grace_s time outside that is forgiven (not counted); what has been
+  /// used of it comes back at a fifth of the time inside, so tapping in and out never completes a hold.
   HoldTimer(double wanted_s, double grace_s) : wanted_s_(wanted_s), grace_s_(grace_s) {}
   /// @returns true once the wanted time is reached.
   bool update(bool inside, double dt_s);

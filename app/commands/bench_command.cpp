@@ -97,7 +97,7 @@ std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
     refresh(i);
     const StylusState& s = run.records[i].stylus;
     const double start = cpu_now_us();
-    sink += contact.update(s.X_TI, s.V_TI_T.linear, *patch).depth_m;
+    sink += contact.update(s.X_TI, s.V_TI_T, *patch).depth_m;
     const double middle = cpu_now_us();
     loop.tick(run.samples[i], *patch, *record);
     tick.us.push_back(cpu_now_us() - middle);

@@ -68,7 +68,6 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
   run.organ = options.organ;
   run.trainee = "demo-expert";
   run.database = options.output / "demo.db";
-  run.record = options.output / "recording.trec";
   const AttemptSetup setup = attempt_setup(run, assets);
   const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
   Photographer photographer(scene, assets, run.trainee);
@@ -79,7 +78,7 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
              report = options.output / "report.html";
   if (photographer.picture()) write_png(picture, *photographer.picture());
   write_text(score, attempt_json(result));
-  const Recording recording = read_recording(run.record);
+  const Recording recording = read_recording(result.recording_path);
   write_report(report, result, rebuild_trace(recording.ticks, recording.rate_hz),
                report_context(scene, photographer.picture() ? picture : std::filesystem::path{}));
   print_result(result, out);

@@ -11,7 +11,7 @@ struct DemoOptions {
   std::string organ = "phantom-liver";
 };
 
-/// Leaves picture.png, score.json, report.html, recording.trec and demo.db in the folder. @return exit code.
+/// Leaves picture.png, score.json, report.html and demo.db with its recordings in the folder; again and again. @return exit code.
 int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace trocar

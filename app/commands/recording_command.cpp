@@ -57,7 +57,12 @@ Scene recorded_scene(const RecordingOptions& options, const Subject& subject, co
     throw InputError(organ.manifest.string() +
                      ": not the organ of the recording (its sha256 differs); name that one with --organ");
   }
-  return build_scene(recorded.setup, assets, {"replay", recorded.setup.rate_hz, 16});
+  const Scene scene = build_scene(recorded.setup, assets, recorded.daq);
+  if (scene.loop.map.force_scale != recorded.force_scale) {
+    throw InputError(subject.file.string() + ": recorded with another force scale than this program computes; it can be "
+                     "graded (trocar score) but not replayed");
+  }
+  return scene;
 }
 
 }  // namespace

@@ -173,6 +173,9 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
 AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const AssetRoots& assets, std::ostream& err,
                           const SessionObserver& observe) {
   make_hand(options.hand, 0, assets.hands);  // a wrong hand is refused before anything is stored
+  if (std::filesystem::is_regular_file(options.record)) {
+    throw InputError(options.record.string() + ": exists; a recording is never overwritten");
+  }
   Database database = open_database(options.database, OpenMode::kCreate, err);
   AttemptStore store(database);
   const AttemptStart start = start_of(options, scene);

@@ -43,7 +43,7 @@ Percept HandTask::perceive(std::uint64_t tick) {
     for (int axis = 0; axis < 3; ++axis) eye_error_[axis] = kEyeError_m * random_.normal();
   }
   Percept percept;
-  percept.t_s = static_cast<double>(tick) / rate;
+  percept.t_s = state.t_s;
   percept.device_ready = static_cast<double>(active_ticks_) > kReadyAfter_s * rate;
   const Pose seen = see(tick);
   percept.tip_T = seen.p + eye_error_;

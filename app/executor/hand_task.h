@@ -1,7 +1,8 @@
 // The hand task: gives a scripted hand its percept, late and noisy, and hands its intent to the simulated device.
 //
 // What is seen lags by 150 ms and errs by 0.3 mm, felt forces err by 0.03 N: design choices, named here. The force felt is
-// what the device really pushes back with, in scene newtons. Nothing of the world goes to the hand but the Percept.
+// the one that the loop delivers, in scene newtons: device errors between DAC and hand act on the hand through the plant, but are
+// not in its percept. Nothing of the world goes to the hand but the Percept.
 // Thread: the executor's.
 #pragma once
 

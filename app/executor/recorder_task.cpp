@@ -19,9 +19,9 @@ TraceSample trace_sample(const StylusState& state) {
   return sample;
 }
 
-void RecorderTask::run(std::uint64_t tick) {
+void RecorderTask::run(std::uint64_t) {
   const TickRecord& record = haptic_.record();
-  writer_.append(quantise(tick, record.in, trace_sample(record.stylus), record.stylus.loop,
+  writer_.append(quantise(record.stylus.period, record.in, trace_sample(record.stylus), record.stylus.loop,
                           static_cast<std::uint8_t>(director_.status().phase)));
   append_new_events();
 }

@@ -10,7 +10,11 @@ void StateHash::add(const TickRecord& r) {
   for (const auto code : r.out.codes) add(static_cast<std::uint64_t>(code));
   add(std::uint64_t{r.in.elapsed_periods} << 32 | std::uint64_t{r.in.valid} << 24 | r.in.digital_in);
   add(std::uint64_t{r.amplifiers_armed} | std::uint64_t(s.loop) << 8 | std::uint64_t(s.fault.code) << 16 |
-      std::uint64_t{s.contact} << 24 | std::uint64_t{s.saturated} << 25 | std::uint64_t{s.passivity_active} << 26);
+      std::uint64_t{s.contact} << 24 | std::uint64_t{s.saturated} << 25 | std::uint64_t{s.passivity_active} << 26 |
+      std::uint64_t{s.tip_contact} << 27 | std::uint64_t{static_cast<std::uint8_t>(s.fault.channel)} << 32);
+  add(s.fault.tick);
+  add(s.fault.value);
+  add(s.period);
   add(r.q);
   add(r.qd);
   add(r.torque);
@@ -19,7 +23,12 @@ void StateHash::add(const TickRecord& r) {
   add(s.F_I_T.force);
   add(s.F_I_T.moment);
   add(s.rendered_force_T);
-  for (const double value : {r.winding_c, r.det_a, s.t_s, s.jaw_opening_m, s.grip_force_n, s.depth_m, s.energy_j}) {
+  add(s.V_TI_T.linear);
+  add(s.V_TI_T.angular);
+  add(s.contact_point_T);
+  add(s.contact_normal_T);
+  for (const double value : {r.winding_c, r.det_a, r.contact_scale, r.stored_j, r.min_energy_j, s.t_s, s.jaw_opening_m,
+                             s.grip_force_n, s.rendered_grip_n, s.depth_m, s.energy_j}) {
     add(value);
   }
 }
@@ -27,7 +36,12 @@ void StateHash::add(const TickRecord& r) {
 void StateHash::add(const ContactPatch& patch) {
   add(patch.stamp);
   add(static_cast<std::uint64_t>(patch.count) << 32 | static_cast<std::uint32_t>(patch.dropped));
-  for (int i = 0; i < patch.count; ++i) add(static_cast<std::uint64_t>(patch.triangle[i].id));
+  for (int i = 0; i < patch.count; ++i) {
+    const PatchTriangle& triangle = patch.triangle[i];
+    add(static_cast<std::uint64_t>(triangle.id));
+    for (const Vec3& vertex : triangle.vertex) add(vertex);
+  }
+  add(patch.damping_s_per_m);
   add(patch.stiffness_n_per_m);
   add(patch.grip.thickness_m);
   add(patch.grip.stiffness_n_per_m);
@@ -40,6 +54,8 @@ void StateHash::add(const DirectorStatus& status) {
   add(status.run_time_s);
   add(status.hold_progress);
   add(status.peak_force_n);
+  add(status.grip.thickness_m);
+  add(status.grip.stiffness_n_per_m);
 }
 
 std::string StateHash::hex() const {

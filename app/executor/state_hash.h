@@ -1,5 +1,5 @@
-// 64-bit hash over everything that a run computes: two runs of one build agree if and only if their ticks and tissue
-// frames do. Not cryptographic. Mixing step of splitmix64 (Steele, Lea and Flood, OOPSLA 2014).
+// 64-bit hash over what a run computes, tick by tick and tissue frame by tissue frame: equal runs give equal hashes, and
+// a difference in any tick or frame shows (up to the 2^-64 chance of a collision). Not cryptographic. Mixing step of splitmix64 (Steele, Lea and Flood, OOPSLA 2014).
 #pragma once
 
 #include <bit>

@@ -28,7 +28,7 @@ enum RecordedFlag : std::uint8_t {
 };
 
 struct RecordedTick {
-  std::uint64_t tick = 0;                        ///< loop tick; strictly increasing; time = tick / rate
+  std::uint64_t tick = 0;                        ///< SYNC period of the tick; increases, skips missed ones; time = tick / rate
   std::array<std::int32_t, kChannels> counts{};  ///< exact, wrapping at 32 bit
   std::uint32_t elapsed_periods = 1;
   std::uint32_t digital_in = 0;         ///< DigitalInput bits

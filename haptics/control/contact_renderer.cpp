@@ -25,8 +25,8 @@ constexpr double kSamePoint = 5e-4;      // m
 
 }  // namespace
 
-ContactResult ContactRenderer::update(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch) {
-  return law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, velocity_T, patch);
+ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
+  return law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, V_TI_T, patch);
 }
 
 ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) const {
@@ -52,7 +52,7 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
   return result;
 }
 
-ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch) {
+ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
   const Vec3 goal = X_TI.p;
   backwards_ = X_TI.R.col(2) * -shape_.shaft_length_m;
   if (!started_) {
@@ -82,7 +82,7 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_
   const Vec3 y = proxy_ - goal;
   if (touch_count_ == 0 || y.norm() < kArrived) return result;
   share_out(y);
-  const double approach = -velocity_T.dot(y.normalized());
+  const double approach = approach_speed(V_TI_T, y.norm());
   const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * patch.damping_s_per_m * approach);
   const Touch* largest = &touch_[0];
   for (int i = 0; i < touch_count_; ++i) {
@@ -100,6 +100,15 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Vec3& velocity_
   result.depth_m = y.norm();
   result.stored_j = 0.5 * patch.stiffness_n_per_m * y.squaredNorm();
   return result;
+}
+
+double ContactRenderer::approach_speed(const Twist& V_TI_T, double depth_m) const {
+  double power = 0;
+  for (int i = 0; i < touch_count_; ++i) {
+    const Vec3 lever = touch_[i].point - proxy_;
+    power -= touch_[i].share * touch_[i].normal.dot(V_TI_T.linear + V_TI_T.angular.cross(lever));
+  }
+  return power / depth_m;
 }
 
 void ContactRenderer::gather(double reach, const ContactPatch& patch) {

@@ -46,8 +46,8 @@ class ContactRenderer {
   /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
   void reset() { started_ = false; }
 
-  /// One period. @param X_TI instrument pose; @param velocity_T of its tip, m/s.
-  ContactResult update(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
+  /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
+  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
 
   const ToolShape& shape() const { return shape_; }
 
@@ -71,7 +71,9 @@ class ContactRenderer {
   };
 
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
-  ContactResult proxy_law(const Pose& X_TI, const Vec3& velocity_T, const ContactPatch& patch);
+  ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
+  double approach_speed(const Twist& V_TI_T, double depth_m) const;
   void gather(double reach, const ContactPatch& patch);
   /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
   void project(const ContactPatch& patch, double slack);

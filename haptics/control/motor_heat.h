@@ -15,7 +15,7 @@ struct MotorHeatParameters {
   double case_time_s = 612;             ///< [M]
   double copper_per_k = 0.0039;         ///< [M]
   double ambient_c = 25;
-  double warn_c = 100, fade_c = 110, cut_c = 120;  ///< winding; limit of the motor is 125 C [M]
+  double fade_c = 110, cut_c = 120;  ///< winding; limit of the motor is 125 C [M]
 };
 
 class MotorHeat {

@@ -23,7 +23,7 @@ double PassivityController::update(const ContactWork& work) {
   energy_ += work.absorbed_j;
   min_energy_ = std::min(min_energy_, energy_);
   const double v = work.speed_m_s;
-  const double eaten = 0.5 * (p_.viscous_n_s_per_m * v * v + p_.coulomb_n * std::abs(v)) * p_.period_s;
+  const double eaten = 0.5 * p_.friction_left * (p_.viscous_n_s_per_m * v * v + p_.coulomb_n * std::abs(v)) * p_.period_s;
   const double income = work.absorbed_j + eaten;
 
   double spring = work.wanted_n;
@@ -43,6 +43,14 @@ double PassivityController::update(const ContactWork& work) {
   const double force = std::max(0.0, spring + lost);
   active_ = work.wanted_n > 0 && force != work.wanted_n;
   return force;
+}
+
+void PassivityController::delivered(double scale) {
+  if (scale >= 1) return;
+  budget_ = std::min(p_.credit_cap_j, budget_ + (1 - scale) * held_);
+  held_ *= scale;
+  missing_ += (1 - scale) * spring_;
+  spring_ *= scale;
 }
 
 double PassivityController::affordable(const ContactWork& work, double income_j) const {

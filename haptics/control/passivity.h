@@ -24,6 +24,7 @@ struct PassivityParameters {
   double period_s = 1e-3;
   double delay_s = 1e-3;               ///< Td beyond the hold: one period of the seam
   double viscous_n_s_per_m = 0.3;      ///< b at the tip [assumed, reference 3.4]
+  double friction_left = 1;            ///< share of b and fc that compensation leaves to dissipate
   double coulomb_n = 0.06;             ///< fc at the tip [assumed, reference 3.4]
   double effective_mass_kg = 0.127;    ///< at the tip, mid workspace [computed from the device's values]
   double velocity_lag_s = 4e-3;        ///< of the estimator
@@ -51,6 +52,8 @@ class PassivityController {
   /// @return force to render, N, 0 <= result.
   double update(const ContactWork& work);
   void reset();
+  /// Called after the torque budget: only `scale` of what update() returned was delivered, so only that is stored.
+  void delivered(double scale);
 
   double energy_j() const { return energy_; }          ///< observer: absorbed minus returned since reset
   double min_energy_j() const { return min_energy_; }

@@ -1,6 +1,7 @@
 #include "haptics/control/supervisor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace trocar {
@@ -17,6 +18,8 @@ void Supervisor::reset_fault() {
   state_ = LoopState::kUnhomed;
   beam_s_ = still_s_ = ramp_ = 0;
   missed_in_a_row_ = 0;
+  missed_lately_ = 0;
+  deadman_must_open_ = true;
 }
 
 void Supervisor::check_sample(std::uint64_t tick, const DaqSample& sample,
@@ -24,13 +27,21 @@ void Supervisor::check_sample(std::uint64_t tick, const DaqSample& sample,
   const auto periods = static_cast<std::int32_t>(std::clamp<std::uint32_t>(sample.elapsed_periods, 1, 1000));
   for (int i = 0; i < kChannels; ++i) {
     if (!(sample.valid >> i & 1)) raise(FaultCode::kChannelInvalid, tick, i, 0);
-    if (std::abs(static_cast<double>(delta[i])) > limits_.max_counts_per_period * static_cast<double>(periods)) {
+    if (std::abs(static_cast<double>(delta[i])) > max_counts_[i] * static_cast<double>(periods)) {
       raise(FaultCode::kEncoderJump, tick, i, delta[i]);
     }
   }
   if (sample.digital_in & kHandFault) raise(FaultCode::kHandNonFinite, tick, -1, 0);
-  missed_in_a_row_ = sample.elapsed_periods > 1 ? missed_in_a_row_ + 1 : 0;
+  check_pace(tick, sample.elapsed_periods);
+}
+
+void Supervisor::check_pace(std::uint64_t tick, std::uint32_t elapsed_periods) {
+  if (elapsed_periods == 0) return raise(FaultCode::kLateLoop, tick, -1, 0);  // a board that counts no period is broken
+  const std::uint32_t missed = elapsed_periods - 1;
+  missed_in_a_row_ = missed > 0 ? missed_in_a_row_ + missed : 0;
+  missed_lately_ = missed_lately_ * std::exp(-elapsed_periods * period_s_) + missed;
   if (missed_in_a_row_ >= limits_.max_missed_in_a_row) raise(FaultCode::kLateLoop, tick, -1, missed_in_a_row_);
+  if (missed_lately_ * period_s_ > limits_.max_missed_share) raise(FaultCode::kLateLoop, tick, -1, missed_lately_);
 }
 
 void Supervisor::observe(std::uint64_t tick, const DaqSample& sample,
@@ -49,7 +60,8 @@ void Supervisor::observe(std::uint64_t tick, const DaqSample& sample,
     }
     case LoopState::kHomed:
       ramp_ = 0;
-      if (deadman) state_ = LoopState::kActive;
+      deadman_must_open_ = deadman_must_open_ && deadman;
+      if (deadman && !deadman_must_open_) state_ = LoopState::kActive;
       break;
     case LoopState::kActive:
       ramp_ = std::min(1.0, ramp_ + period_s_ / limits_.ramp_s);

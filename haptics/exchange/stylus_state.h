@@ -26,7 +26,8 @@ constexpr const char* loop_state_name(LoopState state) {
 
 struct StylusState {
   std::uint64_t tick = 0;
-  double t_s = 0;  ///< loop time, s
+  std::uint64_t period = 0;  ///< SYNC periods since the loop began, missed ones included
+  double t_s = 0;  ///< loop time = period / rate, s
   LoopState loop = LoopState::kUnhomed;
   Fault fault;
 

@@ -6,14 +6,14 @@
 namespace trocar {
 namespace {
 
-HandTask task_of(const Percept& percept) {
+HandErrand task_of(const Percept& percept) {
   switch (percept.cue) {
-    case Cue::kWait: return {HandTask::Kind::kStart, -1};
+    case Cue::kWait: return {HandErrand::Kind::kStart, -1};
     case Cue::kReach:
     case Cue::kPress:
-    case Cue::kRelease: return {HandTask::Kind::kDisc, percept.target_index};
-    case Cue::kGrip: return {HandTask::Kind::kGrip, -1};
-    case Cue::kFinished: return {HandTask::Kind::kFinished, -1};
+    case Cue::kRelease: return {HandErrand::Kind::kDisc, percept.target_index};
+    case Cue::kGrip: return {HandErrand::Kind::kGrip, -1};
+    case Cue::kFinished: return {HandErrand::Kind::kFinished, -1};
     case Cue::kNone: break;
   }
   return {};
@@ -34,7 +34,7 @@ void HandSenses::update(const Percept& percept, double pause_s, double dt_s) {
   touch_.update(percept.felt_force_n, dt_s);
   grip_.update(percept.felt_grip_n, dt_s);
   force_.update(std::isfinite(percept.shown_force_n) ? percept.shown_force_n : percept.felt_force_n, dt_s);
-  const HandTask now = task_of(percept);
+  const HandErrand now = task_of(percept);
   noticed_for_s_ = now == seen_ ? noticed_for_s_ + dt_s : 0;
   seen_ = now;
   if (noticed_for_s_ >= reaction_s_ + pause_s) task_ = seen_;

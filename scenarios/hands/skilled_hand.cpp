@@ -84,7 +84,7 @@ void SkilledHand::reach(const Percept& percept, const Vec3& goal_T, bool lift) {
 }
 
 void SkilledHand::reach_target(const Percept& percept, bool lift) {
-  const double hover = task_.kind == HandTask::Kind::kDisc ? skill_.hover_m : 0;
+  const double hover = task_.kind == HandErrand::Kind::kDisc ? skill_.hover_m : 0;
   reach(percept, percept.target_T + percept.target_normal_T * hover, lift);
 }
 
@@ -92,17 +92,17 @@ void SkilledHand::begin_task(const Percept& percept) {
   corrections_ = 0;
   in_step_s_ = 0;
   switch (task_.kind) {
-    case HandTask::Kind::kStart: return reach_target(percept, false);
-    case HandTask::Kind::kDisc: return reach_target(percept, true);
-    case HandTask::Kind::kGrip:
+    case HandErrand::Kind::kStart: return reach_target(percept, false);
+    case HandErrand::Kind::kDisc: return reach_target(percept, true);
+    case HandErrand::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
       opened_ = false;
       [[fallthrough]];
-    case HandTask::Kind::kFinished:
+    case HandErrand::Kind::kFinished:
       plan_ = ReachPlan(intent_T_, intent_T_ + Vec3(0, 0, 2 * kLift), {0, Vec3::Zero(), 0, 0.5 * skill_.speed_factor});
-      step_ = task_.kind == HandTask::Kind::kGrip ? Step::kSqueeze : Step::kReach;
+      step_ = task_.kind == HandErrand::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
-    case HandTask::Kind::kNothing: step_ = Step::kStill;
+    case HandErrand::Kind::kNothing: step_ = Step::kStill;
   }
 }
 
@@ -115,14 +115,14 @@ void SkilledHand::start_pressing(const Percept& percept) {
 
 /// Felt the tissue before it was meant to: press when about on target, else withdraw and try again.
 void SkilledHand::on_unexpected_touch(const Percept& percept) {
-  if (task_.kind != HandTask::Kind::kDisc) return;
+  if (task_.kind != HandErrand::Kind::kDisc) return;
   if (sideways_error(percept).norm() <= percept.target_radius_m) return start_pressing(percept);
   reach_target(percept, true);
 }
 
 void SkilledHand::look(const Percept& percept) {
   if (in_step_s_ < kLookTime + 0.05 * skill_.speed_factor) return;
-  const bool disc = task_.kind == HandTask::Kind::kDisc;
+  const bool disc = task_.kind == HandErrand::Kind::kDisc;
   const Vec3 error = disc ? sideways_error(percept) : Vec3(percept.target_T - percept.tip_T);
   const double allowed = disc ? percept.target_radius_m : 0.6 * percept.target_radius_m;
   if (error.norm() > allowed && (corrections_ < skill_.max_corrections || !disc)) {
@@ -197,7 +197,7 @@ void SkilledHand::act(const Percept& percept, double dt_s) {
       intent_T_ = plan_.at(in_step_s_);
       if (in_step_s_ > plan_.duration_s()) {
         in_step_s_ = 0;
-        step_ = task_.kind == HandTask::Kind::kFinished ? Step::kStill : Step::kLook;
+        step_ = task_.kind == HandErrand::Kind::kFinished ? Step::kStill : Step::kLook;
       } else if (in_step_s_ > 0.5 * plan_.duration_s() && senses_.touch_n() > kTouchForce) {
         on_unexpected_touch(percept);
       }

@@ -43,7 +43,7 @@ class SkilledHand : public Hand {
   HandSenses senses_;
   ForceGrip press_, squeeze_;
   ReachPlan plan_;
-  HandTask task_;
+  HandErrand task_;
   Percept attended_;            ///< target and band that the person works on
   Step step_ = Step::kStill;
   Pose ready_;                  ///< pose seen when the device became ready

@@ -24,7 +24,7 @@ Pose moved(const Pose& X, const Vec6& step) {
 
 ContactResult settled(ContactRenderer renderer, const Pose& X, const ContactPatch& patch) {
   ContactResult r;
-  for (int i = 0; i < 30; ++i) r = renderer.update(X, Vec3::Zero(), patch);
+  for (int i = 0; i < 30; ++i) r = renderer.update(X, Twist{}, patch);
   return r;
 }
 
@@ -47,7 +47,7 @@ class ContactEnergy : public ::testing::Test {
   void expect_gradient(const Pose& far, const Pose& X) {
     ContactRenderer renderer(ContactLaw::kProxy);
     for (int i = 0; i <= 400; ++i) {  // approach along the straight line
-      renderer.update({X.R, far.p + (X.p - far.p) * (i / 400.0)}, Vec3::Zero(), *patch);
+      renderer.update({X.R, far.p + (X.p - far.p) * (i / 400.0)}, Twist{}, *patch);
     }
     const ContactResult r = settled(renderer, X, *patch);
     ASSERT_TRUE(r.contact);
@@ -89,12 +89,12 @@ TEST_F(ContactEnergy, ShaftOnARidgeIncludingItsMoment) {
 double work_of_loop(const ContactPatch& patch, int ticks, const std::function<Pose(double)>& path) {
   ContactRenderer renderer(ContactLaw::kProxy);
   Pose X = path(0);
-  ContactResult last = renderer.update(X, Vec3::Zero(), patch);
+  ContactResult last = renderer.update(X, Twist{}, patch);
   EXPECT_FALSE(last.contact);
   double work = 0, depth = 0;
   for (int k = 1; k <= ticks; ++k) {
     const Pose next = path(double(k) / ticks);
-    const ContactResult r = renderer.update(next, Vec3::Zero(), patch);
+    const ContactResult r = renderer.update(next, Twist{}, patch);
     const Eigen::AngleAxisd turn(Mat3(next.R * X.R.transpose()));
     work += 0.5 * (last.F_I_T.force + r.F_I_T.force).dot(next.p - X.p);
     work += 0.5 * (last.F_I_T.moment + r.F_I_T.moment).dot(turn.axis() * turn.angle());

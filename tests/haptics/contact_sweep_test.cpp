@@ -56,13 +56,13 @@ Steps sweep(
   for (int lift = 400; lift >= 0; --lift) {  // lowered onto the surface
     Pose X = start;
     X.p -= X.R.col(2) * (lift * kStep);
-    renderer.update(X, Vec3::Zero(), patch);
+    renderer.update(X, Twist{}, patch);
   }
   Steps steps;
-  Vec3 last = renderer.update(start, Vec3::Zero(), patch).F_I_T.force;
+  Vec3 last = renderer.update(start, Twist{}, patch).F_I_T.force;
   for (int k = 0; k < ticks; ++k) {
     refresh(k);
-    const Vec3 force = renderer.update(path(k), Vec3::Zero(), patch).F_I_T.force;
+    const Vec3 force = renderer.update(path(k), Twist{}, patch).F_I_T.force;
     steps.force_n = std::max(steps.force_n, (force - last).norm());
     if (force.norm() > 0.1 && last.norm() > 0.1) {
       steps.turn_deg = std::max(steps.turn_deg, test::angle_between(force, last) / kDegree);
@@ -142,33 +142,34 @@ TEST_F(ContactSweep, ThinSheetNeverPops) {
     ContactRenderer renderer(ContactLaw::kProxy);
     double z = 0.008;
     for (; z > -0.02; z -= speed * 1e-3) {
-      const ContactResult r = renderer.update(tip_down({0.001, 0.0007, z}), {0, 0, -speed}, *patch);
+      const ContactResult r =
+          renderer.update(tip_down({0.001, 0.0007, z}), Twist{Vec3(0, 0, -speed), Vec3::Zero()}, *patch);
       const double depth = 0.001 + kRadius - z;
       if (depth > 1e-6) {
         ASSERT_NEAR(r.F_I_T.force.z() / r.damping_factor, 300 * depth, 2e-3) << speed << " m/s, z " << z;
       }
     }
     for (; z < 0.008; z += speed * 1e-3) {  // and out the way it came
-      const ContactResult r = renderer.update(tip_down({0.001, 0.0007, z}), Vec3::Zero(), *patch);
+      const ContactResult r = renderer.update(tip_down({0.001, 0.0007, z}), Twist{}, *patch);
       ASSERT_GE(r.F_I_T.force.z(), 0);
     }
-    EXPECT_FALSE(renderer.update(tip_down({0.001, 0.0007, 0.02}), Vec3::Zero(), *patch).contact);
+    EXPECT_FALSE(renderer.update(tip_down({0.001, 0.0007, 0.02}), Twist{}, *patch).contact);
   }
 }
 
 TEST_F(ContactSweep, ThesisLawIsStiffnessTimesDistanceToTheNearestPoint) {
   test::flat_patch(*patch);
   ContactRenderer thesis(ContactLaw::kThesis);
-  const ContactResult r = thesis.update(tip_down({0.001, 0, -0.003}), {0, 0, -1}, *patch);
+  const ContactResult r = thesis.update(tip_down({0.001, 0, -0.003}), Twist{Vec3(0, 0, -1), Vec3::Zero()}, *patch);
   EXPECT_LT((r.F_I_T.force - Vec3(0, 0, 0.9)).norm(), 1e-12);
-  EXPECT_FALSE(thesis.update(tip_down({0.001, 0, 0.0001}), Vec3::Zero(), *patch).contact);
+  EXPECT_FALSE(thesis.update(tip_down({0.001, 0, 0.0001}), Twist{}, *patch).contact);
 }
 
 TEST_F(ContactSweep, ThesisLawPopsThroughAThinSheet) {
   thin_sheet(*patch);
   ContactRenderer thesis(ContactLaw::kThesis);
-  const double before = thesis.update(tip_down({0, 0, 1e-5}), Vec3::Zero(), *patch).F_I_T.force.z();
-  const double after = thesis.update(tip_down({0, 0, -1e-5}), Vec3::Zero(), *patch).F_I_T.force.z();
+  const double before = thesis.update(tip_down({0, 0, 1e-5}), Twist{}, *patch).F_I_T.force.z();
+  const double after = thesis.update(tip_down({0, 0, -1e-5}), Twist{}, *patch).F_I_T.force.z();
   EXPECT_NEAR(before, 300 * 0.00099, 1e-9);
   EXPECT_NEAR(after, -300 * 0.00099, 1e-9) << "past half the thickness it is pushed out on the far side";
 }
@@ -179,7 +180,7 @@ TEST_F(ContactSweep, ThesisLawJumpsNearAnEdge) {
   Vec3 last = Vec3::Zero();
   double jump = 0;
   for (int k = 0; k < 400; ++k) {  // 2 mm under the top, towards the side: the medial axis lies 2 mm before it
-    const Vec3 force = thesis.update(tip_down({-0.004 + k * kStep, 0.0003, -0.002}), Vec3::Zero(), *patch).F_I_T.force;
+    const Vec3 force = thesis.update(tip_down({-0.004 + k * kStep, 0.0003, -0.002}), Twist{}, *patch).F_I_T.force;
     if (k > 0) jump = std::max(jump, test::angle_between(force, last) / kDegree);
     last = force;
   }

@@ -118,7 +118,7 @@ TEST(ThesisErrata, Section333PrintsTheMomentWithTheLeverReversed) {
   ContactPatch patch;
   test::flat_patch(patch);
   const Vec3 tip(0.001, 0.002, -0.003), origin(0.05, 0, 0.10);
-  const ContactResult felt = ContactRenderer(ContactLaw::kThesis).update(test::tip_down(tip), Vec3::Zero(), patch);
+  const ContactResult felt = ContactRenderer(ContactLaw::kThesis).update(test::tip_down(tip), Twist{}, patch);
   ASSERT_TRUE(felt.contact);
   const Vec3 printed = (origin - tip).cross(felt.F_I_T.force), right = (tip - origin).cross(felt.F_I_T.force);
   EXPECT_LT((printed + right).norm(), 1e-15);

@@ -9,6 +9,7 @@
 namespace trocar {
 namespace {
 
+constexpr std::array<std::int32_t, kChannels> kMaxCounts{30, 30, 30, 30, 30, 30, 30};
 constexpr double kPeriod = 1e-3;
 using Delta = std::array<std::int32_t, kChannels>;
 
@@ -41,7 +42,7 @@ class SupervisorTest : public ::testing::Test {
     EXPECT_EQ(supervisor.ramp(), 0);
   }
 
-  Supervisor supervisor{SafetyLimits{}, kPeriod};
+  Supervisor supervisor{SafetyLimits{}, kMaxCounts, kPeriod};
   std::uint64_t tick = 0;
 };
 
@@ -169,21 +170,44 @@ TEST_F(SupervisorTest, HandFaultBitFaults) {
   expect_fault(FaultCode::kHandNonFinite, -1);
 }
 
-TEST_F(SupervisorTest, TwentyLatePeriodsInARowFaultNineteenDoNot) {
+TEST_F(SupervisorTest, OnePercentOfASecondMissedFaultsLessDoesNot) {
   activate();
-  for (int i = 0; i < 19; ++i) step(kDeadman, {}, 2);
+  for (int i = 0; i < 9; ++i) step(kDeadman, {}, 2);
+  EXPECT_EQ(supervisor.state(), LoopState::kActive) << "nine periods of a thousand are borne";
+  steps(3000, kDeadman);  // forgotten by then
+  for (int i = 0; i < 9; ++i) step(kDeadman, {}, 2);
   EXPECT_EQ(supervisor.state(), LoopState::kActive);
-  step(kDeadman);
-  for (int i = 0; i < 19; ++i) step(kDeadman, {}, 2);
-  EXPECT_EQ(supervisor.state(), LoopState::kActive) << "one period in time clears the row";
-  step(kDeadman, {}, 2);
+  for (int i = 0; i < 3; ++i) step(kDeadman, {}, 2);
   expect_fault(FaultCode::kLateLoop, -1);
+}
+
+TEST_F(SupervisorTest, OneLongGapFaultsAtOnce) {
+  activate();
+  step(kDeadman, {}, 26);
+  expect_fault(FaultCode::kLateLoop, -1);
+}
+
+TEST_F(SupervisorTest, ABoardThatCountsNoPeriodFaults) {
+  activate();
+  step(kDeadman, {}, 0);
+  expect_fault(FaultCode::kLateLoop, -1);
+}
+
+TEST_F(SupervisorTest, AfterAResetADeadmanHeldAllAlongDoesNotArm) {
+  activate();
+  supervisor.raise(FaultCode::kOverspeed, 10, 1, 16);
+  supervisor.reset_fault();
+  steps(2000, kDeadman | kHomeBeam);
+  EXPECT_EQ(supervisor.state(), LoopState::kHomed);
+  step(kHomeBeam);
+  step(kDeadman);
+  EXPECT_TRUE(supervisor.armed());
 }
 
 TEST_F(SupervisorTest, RaisedFaultsOfEveryCodeDisarm) {
   for (const FaultCode code : {FaultCode::kNonFinite, FaultCode::kOverspeed, FaultCode::kSingular,
                                FaultCode::kEnergyDebt, FaultCode::kOverheat}) {
-    supervisor = Supervisor(SafetyLimits{}, kPeriod);
+    supervisor = Supervisor(SafetyLimits{}, kMaxCounts, kPeriod);
     activate();
     supervisor.raise(code, 77, 3, 1.5);
     expect_fault(code, 3);
@@ -212,11 +236,12 @@ TEST_F(SupervisorTest, NothingButAResetLeavesTheFault) {
   EXPECT_FALSE(supervisor.fault());
   steps(3000, kDeadman);
   EXPECT_FALSE(supervisor.armed());
+  steps(1, 0);
   activate();
 }
 
 TEST_F(SupervisorTest, RatesCountTheirOwnPeriods) {
-  supervisor = Supervisor(SafetyLimits{}, 0.25e-3);
+  supervisor = Supervisor(SafetyLimits{}, kMaxCounts, 0.25e-3);
   int ticks = 0;
   while (supervisor.state() == LoopState::kUnhomed && ticks < 9000) {
     step(kHomeBeam);

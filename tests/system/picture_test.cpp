@@ -72,7 +72,7 @@ TEST_F(Pictures, TheDemoLeavesPictureScoreAndReport) {
   EXPECT_NE(report.find("synthetic"), std::string::npos) << "a synthetic organ is called one";
   for (const char* file : {"picture.png", "score.json", "report.html"})
     EXPECT_NE(demo.out.find(file), std::string::npos) << file;
-  EXPECT_EQ(trocar({"replay", "demo/recording.trec", "--verify"}).exit_code, 0);
+  EXPECT_EQ(trocar({"replay", "latest", "--db", "demo/demo.db", "--verify"}).exit_code, 0);
   EXPECT_EQ(trocar({"demo", "--headless", "--out", "demo"}).exit_code, 0) << "twice in a row";
   EXPECT_FALSE(fs::exists(folder_ / "data")) << "the demo keeps to its folder";
 }

@@ -15,9 +15,14 @@ std::array<Vec3, 3> corners(const TriangleSurface& surface, std::int32_t triangl
   return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
 }
 
-/// Lower bound of the distance between a box and the segment: the segment's own box against it.
-double lower_bound(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& segment) {
-  return box.exteriorDistance(segment);
+/// Lower bound of the distance between a box and the segment a-b: the larger of the segment's own box against it, and the
+/// segment against the ball round the box (which is what prunes beside an oblique segment).
+double lower_bound(const Eigen::AlignedBox3d& box, const Vec3& a, const Vec3& b) {
+  const double boxes = box.exteriorDistance(Eigen::AlignedBox3d(a.cwiseMin(b), a.cwiseMax(b)));
+  const Vec3 along = b - a, centre = box.center();
+  const double length_squared = along.squaredNorm();
+  const double t = length_squared > 0 ? std::clamp((centre - a).dot(along) / length_squared, 0.0, 1.0) : 0;
+  return std::max(boxes, (a + t * along - centre).norm() - 0.5 * box.sizes().norm());
 }
 
 }  // namespace
@@ -60,14 +65,13 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count, const st
 void SurfaceTree::within(const Vec3& a, const Vec3& b, double distance, std::vector<Hit>& hits) const {
   hits.clear();
   if (nodes_.empty()) return;
-  Eigen::AlignedBox3d segment(a.cwiseMin(b), a.cwiseMax(b));
   std::array<std::int32_t, 64> stack;  // depth of a median-split tree over 2^31 triangles is below 32
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const std::int32_t index = stack[--top];
     const Node& node = nodes_[index];
-    if (lower_bound(node.box, segment) > distance) continue;
+    if (lower_bound(node.box, a, b) > distance) continue;
     if (node.count == 0) {
       stack[top++] = node.right;
       stack[top++] = index + 1;
