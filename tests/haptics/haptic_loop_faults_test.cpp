@@ -81,6 +81,7 @@ void expect_nan_stops(LoopRig& rig, const std::function<void(ContactPatch&, doub
   ASSERT_TRUE(rig.record.amplifiers_armed);
   const ContactPatch clean = *rig.patch;
   poison(*rig.patch, std::numeric_limits<double>::quiet_NaN());
+  ++rig.patch->stamp;  // triangles are looked at when a new patch arrives
   rig.tick();
   rig.tick();
   EXPECT_EQ(rig.record.stylus.fault.code, FaultCode::kNonFinite) << fault_name(rig.record.stylus.fault.code);
