@@ -1,13 +1,16 @@
 #include "app/scene.h"
 
 #include <cstdlib>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
 #include "app/placement.h"
 #include "haptics/input_error.h"
+#include "haptics/kinematics/device_geometry.h"
 #include "scenarios/board_layout.h"
 #include "scenarios/exercise_loader.h"
+#include "tissue/collision/patch_extraction.h"
 
 namespace trocar {
 namespace {
@@ -23,11 +26,12 @@ const char* law_name(PassivityLaw law) { return law == PassivityLaw::kOff ? "off
 AssetRoots find_assets() {
   namespace fs = std::filesystem;
   std::vector<fs::path> roots;
-  if (const char* named = std::getenv("TROCAR_ASSETS")) roots.emplace_back(named);
+  const char* named = std::getenv("TROCAR_ASSETS");
+  if (named) roots.emplace_back(named);
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) roots.push_back(program.parent_path().parent_path() / "share" / "trocar");
-  roots.emplace_back(TROCAR_SOURCE_DIR);
+  if (!named && !error) roots.push_back(program.parent_path().parent_path() / "share" / "trocar");
+  if (!named) roots.emplace_back(TROCAR_SOURCE_DIR);
   std::string looked;
   for (const fs::path& root : roots) {
     // Installed, exercises and hands lie together under the share folder; in the source tree under scenarios.
@@ -40,6 +44,24 @@ AssetRoots find_assets() {
   }
   throw EnvironmentError("the program's exercises and assets were not found; looked in" + looked);
 }
+
+namespace {
+
+/// Refuses a surface so fine that a contact patch cannot hold what lies round the tool at a disc.
+void require_whole_patches(const Scene& scene) {
+  PatchExtraction extraction(scene.organ_T);
+  const auto patch = std::make_unique<ContactPatch>();
+  const Mat3 R_TI = scene.loop.map.instrument_pose(home_pose()).R;
+  for (const Target& target : scene.board.targets) {
+    extraction.extract({R_TI, target.centre_T}, scene.loop.tool, *patch);
+    if (patch->dropped == 0) continue;
+    throw InputError(scene.organ.manifest.string() + ": the surface is too fine to be felt: " +
+                     std::to_string(patch->count + patch->dropped) + " triangles within 25 mm of the tool, " +
+                     std::to_string(kMaxPatchTriangles) + " fit; import it again with fewer --triangles");
+  }
+}
+
+}  // namespace
 
 Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq) {
   Scene scene;
@@ -56,6 +78,7 @@ Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const Daq
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
+  require_whole_patches(scene);
   return scene;
 }
 

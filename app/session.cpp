@@ -62,6 +62,8 @@ struct Bench {
     out.state_hash = hash.value();
     out.state_hash_hex = hash.hex();
     out.patch_triangles_dropped = tissue.dropped();
+    out.scoring_json = scoring_context_json(
+        scoring_context(scene.setup.exercise, scene.level, director.board(), out.events, out.status));
     return out;
   }
 
@@ -133,8 +135,7 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
   RecordingEnd end;
   end.state_hash = out.state_hash;
   end.status = out.status;
-  end.summary_json = scoring_context_json(
-      scoring_context(scene.setup.exercise, scene.level, bench.director.board(), out.events, out.status));
+  end.summary_json = out.scoring_json;
   writer.close(end);
   return out;
 }

@@ -33,6 +33,7 @@ struct SessionOutcome {
   std::uint64_t state_hash = 0;
   std::string state_hash_hex;
   std::uint64_t patch_triangles_dropped = 0;
+  std::string scoring_json;             ///< what grading must know of the exercise (scenarios/scoring_context.h)
 };
 
 /// A live attempt on the simulated device with a scripted hand. @param writer receives every tick and is closed.

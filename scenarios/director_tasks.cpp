@@ -8,6 +8,10 @@ namespace {
 constexpr double kRearmShare = 0.8, kRearmTime = 0.2;  // of the limit; s (shared events of the catalogue)
 constexpr double kHoldGrace = 0.1;           // s out of the band that only pause the hold
 constexpr double kNewContactAfter = 0.2;     // s without contact before a contact counts as new: bouncing is one contact
+constexpr double kHop = 0.005;               // m from where the last contact ended: lands there anew, however short the hop
+constexpr double kDragTime = 0.3;            // s of touching beside the discs before it counts as a wrong place
+constexpr double kLiftOff = 0.003;           // m round the disc just held within which the tip may still be leaving
+constexpr double kExcessRepeat = 1.0;        // s above the limit that count as one more excess
 constexpr double kCollisionForce = 2.0;      // N of the shaft on the tissue
 constexpr double kLimitRearm = 0.5;          // s
 constexpr double kJawClearance = 0.001;      // m that the jaws must be wider than the block before it is offered
@@ -21,7 +25,7 @@ void EventLog::add(const std::string& type, Severity severity, std::int32_t obje
 }
 
 SafetyWatch::SafetyWatch(const Exercise& exercise)
-    : excess_(exercise.hard_force_n, kRearmShare * exercise.hard_force_n, kRearmTime),
+    : excess_(exercise.hard_force_n, kRearmShare * exercise.hard_force_n, kRearmTime, kExcessRepeat),
       critical_(exercise.critical_force_n, kRearmShare * exercise.critical_force_n, kRearmTime),
       collision_(kCollisionForce, kRearmShare * kCollisionForce, kRearmTime),
       limit_(0.5, 0.5, kLimitRearm) {}
@@ -51,17 +55,28 @@ void DiscTask::begin(EventLog& log) { light(log); }
 
 void DiscTask::light(EventLog& log) {
   hold_.reset();
-  touched_ = on_disc_ = false;
+  touched_ = on_disc_ = strayed_ = false;
+  astray_s_ = 0;
   lit_at_s_ = log.t_s;
   if (!finished()) log.add("TARGET_LIT", Severity::kInfo, index_);
 }
 
-void DiscTask::judge_contact(const StylusState& state, bool new_contact, EventLog& log) {
+bool DiscTask::leaving_last_disc(const Vec3& point_T) const {
+  if (index_ == 0) return false;
+  const Target& last = targets_[static_cast<std::size_t>(index_) - 1];
+  return (point_T - last.centre_T).norm() - last.radius_m <= wrong_place_m_ + kLiftOff;
+}
+
+void DiscTask::judge_contact(const StylusState& state, bool new_contact, double dt_s, EventLog& log) {
   const Target& target = targets_[static_cast<std::size_t>(index_)];
   const double distance = (state.contact_point_T - target.centre_T).norm();
   const double outside = distance - target.radius_m;
-  if (new_contact && outside > wrong_place_m_) {
+  const bool astray = outside > wrong_place_m_ && !leaving_last_disc(state.contact_point_T);
+  astray_s_ = astray ? astray_s_ + dt_s : 0;
+  const bool dragged = astray_s_ > kDragTime && !strayed_;  // once a disc: sliding there instead of lifting
+  if ((new_contact && outside > wrong_place_m_) || dragged) {
     ++wrong_places_;
+    strayed_ = true;
     since_wrong_place_s_ = 0;
     log.add("WRONG_PLACE", Severity::kMinor, index_, outside, "m");
   }
@@ -77,7 +92,11 @@ void DiscTask::update(const StylusState& state, double dt_s, EventLog& log) {
   since_wrong_place_s_ += dt_s;
   touching_ = state.contact && state.tip_contact;
   on_disc_ = false;
-  if (touching_) judge_contact(state, free_s_ >= kNewContactAfter, log);
+  if (touching_) {
+    const bool hopped = free_s_ > 0 && (state.contact_point_T - last_contact_T_).norm() > kHop;
+    judge_contact(state, free_s_ >= kNewContactAfter || hopped, dt_s, log);
+    last_contact_T_ = state.contact_point_T;
+  }
   free_s_ = touching_ ? 0 : free_s_ + dt_s;
   const double force = state.F_I_T.force.norm();
   const bool wanted = on_disc_ && force >= band_low_n_ && force <= band_high_n_;

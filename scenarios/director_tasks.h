@@ -55,13 +55,17 @@ class DiscTask {
 
  private:
   void light(EventLog& log);
-  void judge_contact(const StylusState& state, bool new_contact, EventLog& log);
+  bool leaving_last_disc(const Vec3& point_T) const;
+  void judge_contact(const StylusState& state, bool new_contact, double dt_s, EventLog& log);
 
   double wrong_place_m_, band_low_n_, band_high_n_;
   std::vector<Target> targets_;
   HoldTimer hold_;
   int index_ = 0, wrong_places_ = 0;
   bool touched_ = false, touching_ = false, on_disc_ = false;
+  bool strayed_ = false;        ///< a wrong place has been counted for the lit disc
+  Vec3 last_contact_T_ = Vec3::Zero();
+  double astray_s_ = 0;         ///< touching beside the discs without a break
   double free_s_ = 1, lit_at_s_ = 0, since_wrong_place_s_ = 1e9;
 };
 

@@ -11,13 +11,17 @@ constexpr double kGraceReturn = 0.2;  // of the time inside
 
 bool ThresholdMonitor::update(double value, double dt_s) {
   if (!fired_) {
-    below_s_ = 0;
+    below_s_ = above_s_ = 0;
     fired_ = value > enter_;
     return fired_;
   }
   below_s_ = value < leave_ ? below_s_ + dt_s : 0;
   if (below_s_ >= rearm_s_) fired_ = false;
-  return false;
+  if (repeat_s_ <= 0 || value <= enter_) return false;
+  above_s_ += dt_s;
+  if (above_s_ < repeat_s_ - 1e-9) return false;
+  above_s_ = 0;
+  return true;
 }
 
 bool HoldTimer::update(bool inside, double dt_s) {

@@ -8,14 +8,16 @@ namespace trocar {
 class ThresholdMonitor {
  public:
   /// @param enter fires above this. @param leave, rearm_s: armed again after rearm_s below `leave`.
-  ThresholdMonitor(double enter, double leave, double rearm_s) : enter_(enter), leave_(leave), rearm_s_(rearm_s) {}
+  /// @param repeat_s fires again after each further time so long above `enter`; 0: once only.
+  ThresholdMonitor(double enter, double leave, double rearm_s, double repeat_s = 0)
+      : enter_(enter), leave_(leave), rearm_s_(rearm_s), repeat_s_(repeat_s) {}
   /// @returns true in the one update in which the signal enters. @param dt_s time since the previous update.
   bool update(double value, double dt_s);
   bool above() const { return fired_; }
 
  private:
-  double enter_, leave_, rearm_s_;
-  double below_s_ = 0;
+  double enter_, leave_, rearm_s_, repeat_s_;
+  double below_s_ = 0, above_s_ = 0;
   bool fired_ = false;
 };
 

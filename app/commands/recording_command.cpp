@@ -9,6 +9,7 @@
 #include "app/commands/open_database.h"
 #include "app/commands/run_command.h"
 #include "app/executor/state_hash.h"
+#include "app/recorder/event_codec.h"
 #include "app/recorder/recording_reader.h"
 #include "app/session.h"
 #include "haptics/input_error.h"
@@ -85,8 +86,11 @@ int replay_command(const RecordingOptions& options, std::ostream& out, std::ostr
   if (!subject.recording.end) throw InputError(subject.file.string() + ": has no end, so there is no hash to verify");
   StateHash recorded(subject.recording.end->state_hash);
   out << "recorded  " << recorded.hex() << '\n';
-  const bool agree = outcome.state_hash == subject.recording.end->state_hash;
-  out << (agree ? "verified: every tick and tissue frame agrees\n" : "NOT verified: the runs differ\n");
+  const bool agree = outcome.state_hash == subject.recording.end->state_hash &&
+                     encode_events(outcome.events) == encode_events(subject.recording.events) &&
+                     outcome.scoring_json == subject.recording.end->summary_json;
+  out << (agree ? "verified: every tick, tissue frame and event agrees\n"
+                : "NOT verified: ticks, events or the exercise's numbers differ\n");
   return agree ? 0 : 2;
 }
 

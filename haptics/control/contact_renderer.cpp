@@ -11,17 +11,17 @@
 namespace trocar {
 namespace {
 
-constexpr int kMaxSteps = 10;         // of half a radius: 12 mm a tick at r = 2.5 mm
-constexpr int kSweeps = 4;            // pushes a step over all near triangles
+constexpr int kMaxSteps = 10;  // of half a radius: 12 mm a tick at r = 2.5 mm
+constexpr int kSweeps = 4;     // pushes a step over all near triangles
 constexpr int kShareRounds = 12;
-constexpr double kShareGain = 1e-10;      // m, a contact that would carry less is not asked
-constexpr double kSingularGram = 1e-12;   // determinant of the normals' products
-constexpr double kIdleTravel = 1e-3;  // m a period, beyond what the instrument itself moves
-constexpr double kArrived = 1e-7;     // m, remaining slide at which the proxy rests
-constexpr double kSlideSlack = 5e-5;  // m beyond the radius within which a triangle bounds the slide
-constexpr double kShareSlack = 1e-5;  // m beyond the radius within which a triangle may carry force
-constexpr double kSameNormal = 0.9998;  // cosine of 1.1 deg: contacts closer than this are one
-constexpr double kSamePoint = 5e-4;   // m
+constexpr double kShareGain = 1e-10;     // m, a contact that would carry less is not asked
+constexpr double kSingularGram = 1e-12;  // determinant of the normals' products
+constexpr double kIdleTravel = 1e-3;     // m a period, beyond what the instrument itself moves
+constexpr double kArrived = 1e-7;        // m, remaining slide at which the proxy rests
+constexpr double kSlideSlack = 5e-5;     // m beyond the radius within which a triangle bounds the slide
+constexpr double kShareSlack = 1e-5;     // m beyond the radius within which a triangle may carry force
+constexpr double kSameNormal = 0.9998;   // cosine of 1.1 deg: contacts closer than this are one
+constexpr double kSamePoint = 5e-4;      // m
 
 }  // namespace
 

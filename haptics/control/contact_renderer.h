@@ -24,13 +24,13 @@ enum class ContactLaw : std::uint8_t { kProxy, kThesis };
 
 /// The instrument's shape: a capsule whose end sphere is centred on the tip.
 struct ToolShape {
-  double radius_m = 0.0025;       ///< 5 mm instrument
-  double shaft_length_m = 0.30;   ///< from the tip backwards along -z of I
+  double radius_m = 0.0025;      ///< 5 mm instrument
+  double shaft_length_m = 0.30;  ///< from the tip backwards along -z of I
 };
 
 struct ContactResult {
-  Wrench F_I_T;                   ///< spring and damping, on the instrument, moment about the tip
-  double damping_factor = 1;      ///< F_I_T = factor * spring part, >= 0
+  Wrench F_I_T;               ///< spring and damping, on the instrument, moment about the tip
+  double damping_factor = 1;  ///< F_I_T = factor * spring part, >= 0
   bool contact = false;
   bool tip_contact = false;       ///< the largest contact force acts on the tip sphere
   Vec3 point_T = Vec3::Zero();    ///< surface point under the largest contact
@@ -60,12 +60,12 @@ class ContactRenderer {
     Vec3 normal, point;  ///< unit from surface to axis; surface point
     double distance;     ///< from the axis, m
     bool at_tip;
-    double share = 0;    ///< part of y carried, m
+    double share = 0;  ///< part of y carried, m
   };
 
   /// A triangle that the proxy may meet this period.
   struct Near {
-    double distance;     ///< from the axis, or less, when `travelled` was what it was; it changes no faster than that
+    double distance;  ///< from the axis, or less, when `travelled` was what it was; it changes no faster than that
     double travelled;
     std::int32_t index;  ///< in the patch
   };
@@ -88,12 +88,12 @@ class ContactRenderer {
   ContactLaw law_;
   ToolShape shape_;
   bool started_ = false;
-  Vec3 proxy_ = Vec3::Zero();      ///< tip centre of the proxy, T
-  Vec3 last_goal_ = Vec3::Zero();  ///< tip of the instrument one period ago, T
-  Vec3 backwards_ = Vec3::UnitZ(); ///< from the tip along the shaft, times its length
+  Vec3 proxy_ = Vec3::Zero();       ///< tip centre of the proxy, T
+  Vec3 last_goal_ = Vec3::Zero();   ///< tip of the instrument one period ago, T
+  Vec3 backwards_ = Vec3::UnitZ();  ///< from the tip along the shaft, times its length
   std::array<Near, kMaxNear> near_{};
   int near_count_ = 0;
-  double travelled_ = 0;           ///< of the proxy since the near triangles were gathered, m
+  double travelled_ = 0;  ///< of the proxy since the near triangles were gathered, m
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
   std::array<std::int32_t, kMaxCarrying> carrying_{};

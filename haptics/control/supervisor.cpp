@@ -39,7 +39,7 @@ void Supervisor::check_pace(std::uint64_t tick, std::uint32_t elapsed_periods) {
   if (elapsed_periods == 0) return raise(FaultCode::kLateLoop, tick, -1, 0);  // a board that counts no period is broken
   const std::uint32_t missed = elapsed_periods - 1;
   missed_in_a_row_ = missed > 0 ? missed_in_a_row_ + missed : 0;
-  missed_lately_ = missed_lately_ * std::exp(-elapsed_periods * period_s_) + missed;
+  missed_lately_ = missed_lately_ * std::exp(-static_cast<double>(elapsed_periods) * period_s_) + missed;
   if (missed_in_a_row_ >= limits_.max_missed_in_a_row) raise(FaultCode::kLateLoop, tick, -1, missed_in_a_row_);
   if (missed_lately_ * period_s_ > limits_.max_missed_share) raise(FaultCode::kLateLoop, tick, -1, missed_lately_);
 }
@@ -49,6 +49,7 @@ void Supervisor::observe(std::uint64_t tick, const DaqSample& sample,
   just_homed_ = false;
   check_sample(tick, sample, delta);
   const bool deadman = sample.digital_in & kDeadman;
+  deadman_must_open_ = deadman_must_open_ && deadman;
   switch (state_) {
     case LoopState::kUnhomed: {
       const bool still = std::all_of(delta.begin(), delta.end(), [](std::int32_t d) { return d == 0; });
@@ -60,7 +61,6 @@ void Supervisor::observe(std::uint64_t tick, const DaqSample& sample,
     }
     case LoopState::kHomed:
       ramp_ = 0;
-      deadman_must_open_ = deadman_must_open_ && deadman;
       if (deadman && !deadman_must_open_) state_ = LoopState::kActive;
       break;
     case LoopState::kActive:

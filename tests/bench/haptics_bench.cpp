@@ -47,7 +47,7 @@ void contact_step(benchmark::State& state) {
   for (int lift = 400; lift >= 0; --lift) {
     const Pose X{pose(0).R, pose(0).p + Vec3(0, 0, lift * 1e-5)};
     extraction.extract(X, {}, *patch);
-    renderer.update(X, Vec3::Zero(), *patch);
+    renderer.update(X, Twist{}, *patch);
   }
   int k = 0;
   for (auto step : state) {
@@ -56,7 +56,7 @@ void contact_step(benchmark::State& state) {
       extraction.extract(pose(k), {}, *patch);
       state.ResumeTiming();
     }
-    benchmark::DoNotOptimize(renderer.update(pose(k), Vec3::Zero(), *patch));
+    benchmark::DoNotOptimize(renderer.update(pose(k), Twist{}, *patch));
   }
   state.counters["triangles"] = static_cast<double>(ball.triangles.size());
   state.counters["patch"] = patch->count;

@@ -17,7 +17,8 @@ constexpr double kRadius = ToolShape{}.radius_m;
 
 Pose moved(const Pose& X, const Vec6& step) {
   const Vec3 turn = step.tail<3>();
-  const Mat3 R = turn.norm() > 0 ? Mat3(Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()) : Mat3::Identity();
+  const Mat3 R =
+      turn.norm() > 0 ? Mat3(Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()) : Mat3::Identity();
   return {R * X.R, X.p + step.head<3>()};
 }
 
@@ -34,7 +35,9 @@ Vec6 minus_slope(const ContactRenderer& renderer, const Pose& X, const ContactPa
     // The proxy rests within 1e-7 m: the energy is uncertain by F * 1e-7, the slope by F * 1e-7 / h.
     const double h = i < 3 ? 2e-5 : 2e-4;
     const Vec6 step = Vec6::Unit(i) * h;
-    slope[i] = -(settled(renderer, moved(X, step), patch).stored_j - settled(renderer, moved(X, -step), patch).stored_j) / (2 * h);
+    slope[i] =
+        -(settled(renderer, moved(X, step), patch).stored_j - settled(renderer, moved(X, -step), patch).stored_j) /
+        (2 * h);
   }
   return slope;
 }

@@ -1,5 +1,5 @@
-// The proxy contact in motion: edges, corners, saddle and sphere without steps, thin sheets without pop-through; and the
-// thesis' nearest-point law beside it, with its faults.
+// The proxy contact in motion: edges, corners, saddle and sphere without steps, thin sheets without pop-through; and
+// the thesis' nearest-point law beside it, with its faults.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -48,8 +48,9 @@ struct Steps {
 };
 
 /// Largest change of force from tick to tick along a path; turns are counted while the force exceeds 0.1 N.
-Steps sweep(ContactPatch& patch, int ticks, const std::function<Pose(int)>& path,
-            const std::function<void(int)>& refresh = [](int) {}) {
+Steps sweep(
+    ContactPatch& patch, int ticks, const std::function<Pose(int)>& path,
+    const std::function<void(int)>& refresh = [](int) {}) {
   ContactRenderer renderer(ContactLaw::kProxy);
   Pose start = path(0);
   for (int lift = 400; lift >= 0; --lift) {  // lowered onto the surface
@@ -86,7 +87,9 @@ class ContactSweep : public ::testing::Test {
 
 TEST_F(ContactSweep, OverTheEdgeOfABlock) {
   block_edge(*patch);
-  const Steps steps = sweep(*patch, 1200, [](int k) { return tip_down({-0.006 + k * kStep, 0.0003, kRadius - 0.002}); });
+  const Steps steps = sweep(*patch, 1200, [](int k) {
+    return tip_down({-0.006 + k * kStep, 0.0003, kRadius - 0.002});
+  });
   expect_smooth(steps);
   EXPECT_EQ(steps.least_n, 0) << "leaves the block";
 }
@@ -139,7 +142,8 @@ TEST_F(ContactSweep, ThinSheetNeverPops) {
     ContactRenderer renderer(ContactLaw::kProxy);
     double z = 0.008;
     for (; z > -0.02; z -= speed * 1e-3) {
-      const ContactResult r = renderer.update(tip_down({0.001, 0.0007, z}), Twist{Vec3(0, 0, -speed), Vec3::Zero()}, *patch);
+      const ContactResult r =
+          renderer.update(tip_down({0.001, 0.0007, z}), Twist{Vec3(0, 0, -speed), Vec3::Zero()}, *patch);
       const double depth = 0.001 + kRadius - z;
       if (depth > 1e-6) {
         ASSERT_NEAR(r.F_I_T.force.z() / r.damping_factor, 300 * depth, 2e-3) << speed << " m/s, z " << z;

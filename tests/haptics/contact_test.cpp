@@ -20,7 +20,9 @@ constexpr double kForceTolerance = 1e-4;
 
 class Contact : public ::testing::Test {
  protected:
-  ContactResult feel(const Pose& X, const Vec3& velocity = Vec3::Zero()) { return renderer.update(X, Twist{velocity, Vec3::Zero()}, *patch); }
+  ContactResult feel(const Pose& X, const Vec3& velocity = Vec3::Zero()) {
+    return renderer.update(X, Twist{velocity, Vec3::Zero()}, *patch);
+  }
   ContactResult settle(const Pose& X, int ticks = 20) {
     ContactResult result;
     for (int i = 0; i < ticks; ++i) result = feel(X);
@@ -178,7 +180,8 @@ TEST_F(Contact, SameInputSameBytes) {
     std::vector<double> out;
     for (int k = 0; k < 2000; ++k) {
       const double t = k * 1e-3;
-      const Pose X{random.rotation(), Vec3(0.003 * std::sin(9 * t), 0.002 * std::cos(7 * t), 0.042 + 0.004 * std::sin(3 * t))};
+      const Pose X{random.rotation(),
+                   Vec3(0.003 * std::sin(9 * t), 0.002 * std::cos(7 * t), 0.042 + 0.004 * std::sin(3 * t))};
       const ContactResult r = fresh.update(X, Twist{random.vector(0.1), Vec3::Zero()}, *patch);
       for (int i = 0; i < 3; ++i) out.insert(out.end(), {r.F_I_T.force[i], r.F_I_T.moment[i], r.point_T[i]});
     }

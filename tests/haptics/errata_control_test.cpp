@@ -5,8 +5,8 @@
 #include "haptics/control/contact_renderer.h"
 #include "haptics/control/gravity.h"
 #include "haptics/control/passivity.h"
-#include "haptics/kinematics/inverse_kinematics.h"
 #include "haptics/device/transmission.h"
+#include "haptics/kinematics/inverse_kinematics.h"
 #include "haptics_fixtures.h"
 
 namespace trocar {
@@ -29,8 +29,7 @@ Vec3 centre_at_home_mm() {
 Vec3 centre_by_partial_rotations(double about_z, double about_x, double about_y) {
   const Vec3 home = centre_at_home_mm();
   const double Y = std::abs(home.y()), Z = std::abs(home.z()), r = std::hypot(Y, Z), beta = std::atan2(Z, Y);
-  return {Y * std::sin(about_z) - Z * std::sin(about_y),
-          -Y * std::cos(about_z) - r * std::cos(beta - about_x),
+  return {Y * std::sin(about_z) - Z * std::sin(about_y), -Y * std::cos(about_z) - r * std::cos(beta - about_x),
           -Z * std::cos(about_y) - r * std::sin(beta - about_x)};
 }
 

@@ -17,7 +17,8 @@ using test::Random;
 
 Mat3 euler_zyx(double phi1, double phi2, double phi3) {
   return (Eigen::AngleAxisd(phi1, Vec3::UnitZ()) * Eigen::AngleAxisd(phi2, Vec3::UnitY()) *
-          Eigen::AngleAxisd(phi3, Vec3::UnitX())).toRotationMatrix();
+          Eigen::AngleAxisd(phi3, Vec3::UnitX()))
+      .toRotationMatrix();
 }
 
 /// phi1 to phi3 by (2.29), (2.30) and (2.31) as printed, arctangents with the quadrants of working mode 1.

@@ -39,7 +39,8 @@ double our_distance(const TriangleSurface& s, const Vec3& a, const Vec3& b) {
   double best = 1e9;
   for (const auto& [i, j, k] : s.triangles) {
     const auto& v = s.vertices;
-    best = std::min(best, closest_segment_triangle(a, b, {v[std::size_t(i)], v[std::size_t(j)], v[std::size_t(k)]}).distance);
+    best = std::min(best,
+                    closest_segment_triangle(a, b, {v[std::size_t(i)], v[std::size_t(j)], v[std::size_t(k)]}).distance);
   }
   return best;
 }

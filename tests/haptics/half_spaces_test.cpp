@@ -44,9 +44,7 @@ Vec3 by_enumeration(const Vec3& w, const std::vector<HalfSpace>& h) {
   return best;
 }
 
-TEST(HalfSpaces, WithoutAnyTheWishIsGranted) {
-  EXPECT_EQ(nearest_allowed(Vec3(1, 2, 3), {}), Vec3(1, 2, 3));
-}
+TEST(HalfSpaces, WithoutAnyTheWishIsGranted) { EXPECT_EQ(nearest_allowed(Vec3(1, 2, 3), {}), Vec3(1, 2, 3)); }
 
 TEST(HalfSpaces, OnePlaneTakesTheNormalPartBeyondItsGap) {
   const HalfSpace floor{Vec3::UnitZ(), 0.5};

@@ -1,4 +1,5 @@
-// Faults injected where the controller cannot know of them: amplifiers off within two ticks, latched; and no allocation.
+// Faults injected where the controller cannot know of them: amplifiers off within two ticks, latched; and no
+// allocation.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -49,7 +50,8 @@ TEST(HapticLoopFaults, EncoderJump) {
 }
 
 TEST(HapticLoopFaults, PinchEncoderJump) {
-  expect_fault({InjectedFaultKind::kEncoderJump, kFaultAt, 0, kPinchChannel, -400}, FaultCode::kEncoderJump, kPinchChannel);
+  expect_fault({InjectedFaultKind::kEncoderJump, kFaultAt, 0, kPinchChannel, -400}, FaultCode::kEncoderJump,
+               kPinchChannel);
 }
 
 TEST(HapticLoopFaults, InvalidChannel) {
@@ -79,6 +81,7 @@ void expect_nan_stops(LoopRig& rig, const std::function<void(ContactPatch&, doub
   ASSERT_TRUE(rig.record.amplifiers_armed);
   const ContactPatch clean = *rig.patch;
   poison(*rig.patch, std::numeric_limits<double>::quiet_NaN());
+  ++rig.patch->stamp;  // triangles are looked at when a new patch arrives
   rig.tick();
   rig.tick();
   EXPECT_EQ(rig.record.stylus.fault.code, FaultCode::kNonFinite) << fault_name(rig.record.stylus.fault.code);

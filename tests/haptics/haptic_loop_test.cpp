@@ -186,7 +186,8 @@ std::vector<TickRecord> eventful_run(LoopRig& rig) {
 std::vector<double> numbers(const TickRecord& r) {
   std::vector<double> n{double(r.amplifiers_armed), r.det_a, r.winding_c, r.contact_scale, r.stored_j, r.min_energy_j};
   for (int i = 0; i < kChannels; ++i) {
-    n.insert(n.end(), {r.q[i], r.qd[i], r.torque[i], double(r.in.counts[std::size_t(i)]), double(r.out.codes[std::size_t(i)])});
+    n.insert(n.end(),
+             {r.q[i], r.qd[i], r.torque[i], double(r.in.counts[std::size_t(i)]), double(r.out.codes[std::size_t(i)])});
   }
   const StylusState& s = r.stylus;
   n.insert(n.end(), {double(s.tick), s.t_s, double(s.loop), double(s.fault.code), s.jaw_opening_m, s.grip_force_n,

@@ -65,9 +65,7 @@ inline JointVector degrees(double a, double b, double c, double d, double e, dou
 }
 
 /// Angle of the rotation that leads from one orientation to the other, rad.
-inline double turn_between(const Mat3& a, const Mat3& b) {
-  return Eigen::AngleAxisd(Mat3(a.transpose() * b)).angle();
-}
+inline double turn_between(const Mat3& a, const Mat3& b) { return Eigen::AngleAxisd(Mat3(a.transpose() * b)).angle(); }
 
 inline double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 

@@ -13,7 +13,8 @@ using test::Random;
 
 double joint_distance(const JointVector& a, const JointVector& b) {
   double largest = 0;
-  for (int i = 0; i < kArmJoints; ++i) largest = std::max(largest, std::abs(std::remainder(a[i] - b[i], 2 * std::numbers::pi)));
+  for (int i = 0; i < kArmJoints; ++i)
+    largest = std::max(largest, std::abs(std::remainder(a[i] - b[i], 2 * std::numbers::pi)));
   return largest;
 }
 

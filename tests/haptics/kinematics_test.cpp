@@ -24,16 +24,21 @@ TEST(Kinematics, ExamplePoseOfTheThesisWithExactConstants) {
   // The reference prints four decimals of a millimetre.
   EXPECT_LT((arm.X_WS.p * 1000 - Vec3(40.6612, -132.1386, -193.0649)).cwiseAbs().maxCoeff(), 6e-5);
   const Mat3 R_WpS = rotation_W_Wprime() * arm.X_WS.R;
-  const Mat3 printed = (Mat3() << -0.5333, 0.7824, -0.3215, 0.6800, 0.6226, 0.3872, 0.5031, -0.0121, -0.8641).finished();
+  const Mat3 printed =
+      (Mat3() << -0.5333, 0.7824, -0.3215, 0.6800, 0.6226, 0.3872, 0.5031, -0.0121, -0.8641).finished();
   EXPECT_LT((R_WpS - printed).cwiseAbs().maxCoeff(), 6e-5);
   EXPECT_LT((rotation_W_Wprime() * arm.X_WS.p * 1000 - Vec3(86.2726, 219.3568, 28.7689)).cwiseAbs().maxCoeff(), 6e-5);
 }
 
 TEST(Kinematics, RecordedSamplesOfTable36) {
   EXPECT_LT((in_base(degrees(64.14, 59.65, 42.03, -28.74, -78.23, -42.37)) - Vec3(-96.0068, -84.5473, -232.6072))
-                .cwiseAbs().maxCoeff(), 6e-5);
+                .cwiseAbs()
+                .maxCoeff(),
+            6e-5);
   EXPECT_LT((in_base(degrees(35.33, 27.64, 49.57, -59.6, -87.42, -95.41)) - Vec3(76.5527, -137.4529, -178.4934))
-                .cwiseAbs().maxCoeff(), 6e-5);
+                .cwiseAbs()
+                .maxCoeff(),
+            6e-5);
 }
 
 TEST(Kinematics, HomeAnglesFollowFromTheJigPose) {
@@ -87,12 +92,14 @@ TEST(Kinematics, FourAssemblyModesCloseTheLoop) {
 
 TEST(Kinematics, TableOfEulerAnglesOfTheFourModes) {
   // Thesis table 2.5 prints three decimals of a radian: phi1 and phi2, phi3 of the four sets.
-  const double printed[4][3] = {{0.524, 0.314, 0.339}, {0.524, 0.314, 3.480}, {0.524, 3.456, -0.339}, {0.524, 3.456, 2.803}};
+  const double printed[4][3] = {
+      {0.524, 0.314, 0.339}, {0.524, 0.314, 3.480}, {0.524, 3.456, -0.339}, {0.524, 3.456, 2.803}};
   const Vec3 th = Vec3(30, 20, 25) * kDegree;
   for (int mode = 0; mode < 4; ++mode) {
-    const Mat3 R = (Eigen::AngleAxisd(printed[mode][0], Vec3::UnitZ()) *
-                    Eigen::AngleAxisd(printed[mode][1], Vec3::UnitY()) *
-                    Eigen::AngleAxisd(printed[mode][2], Vec3::UnitX())).toRotationMatrix();
+    const Mat3 R =
+        (Eigen::AngleAxisd(printed[mode][0], Vec3::UnitZ()) * Eigen::AngleAxisd(printed[mode][1], Vec3::UnitY()) *
+         Eigen::AngleAxisd(printed[mode][2], Vec3::UnitX()))
+            .toRotationMatrix();
     EXPECT_LT(test::turn_between(R, assembly_mode(th, mode)), 2e-3) << "mode " << mode;
   }
 }

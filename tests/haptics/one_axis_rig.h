@@ -15,18 +15,18 @@ struct OneAxisCase {
   double mass = 0.127, viscous = 0.3, coulomb = 0.06, quantum = 0.208e-3;  ///< haptics notes 3.4
   double stiffness = 150;
   int delay_periods = 1;
-  double saturation = 1.51;  ///< N, 100 mN m at the worst motor
+  double saturation = 1.51;                                                   ///< N, 100 mN m at the worst motor
   double grip_k = 60, grip_b = 0.3, hand_mass = 0.4, arm_b = 6, arm_k = 130;  ///< fingertip grip
-  double wall = 0.030, goal_past_wall = 0.015, reach_s = 0.17;  ///< meets the wall at about 0.46 m/s
+  double wall = 0.030, goal_past_wall = 0.015, reach_s = 0.17;                ///< meets the wall at about 0.46 m/s
   double duration_s = 3;
 };
 
 struct OneAxisResult {
-  double settled_at_s = 0;        ///< last time at which |v| > 0.03 m/s
-  double least_true_j = 0;        ///< lowest true energy taken by the port so far
-  double worst_gap_j = 0;         ///< observer against 20 us integration
+  double settled_at_s = 0;  ///< last time at which |v| > 0.03 m/s
+  double least_true_j = 0;  ///< lowest true energy taken by the port so far
+  double worst_gap_j = 0;   ///< observer against 20 us integration
   double largest_true_j = 0;
-  double displayed = 0;           ///< force over stiffness times depth at the end
+  double displayed = 0;  ///< force over stiffness times depth at the end
   double largest_step_n = 0, least_force_n = 0, largest_force_n = 0;
   int contacts = 0;
 };

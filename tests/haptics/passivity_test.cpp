@@ -38,7 +38,8 @@ TEST(Passivity, LawOffPassesTheForceUntouched) {
   Random random(1);
   for (int k = 0; k < 1000; ++k) {
     const double f = random.between(0, 3);
-    EXPECT_EQ(controller.update({f, random.symmetric(1e-2), random.symmetric(1e-3), random.symmetric(1), f * f / 300}), f);
+    EXPECT_EQ(controller.update({f, random.symmetric(1e-2), random.symmetric(1e-3), random.symmetric(1), f * f / 300}),
+              f);
     EXPECT_FALSE(controller.active());
   }
   EXPECT_FALSE(controller.debt_fault());
@@ -148,7 +149,9 @@ TEST(Passivity, AtTheSeamsOwnDelayNothingIsTakenAway) {
 }
 
 TEST(Passivity, GridOfStiffnessDelayAndGripSettlesWithTheLaw) {
-  struct Grip { double k, b; };
+  struct Grip {
+    double k, b;
+  };
   int off = 0, on = 0, cases = 0;
   double least = 0;
   for (const double stiffness : {150.0, 300.0, 600.0, 1500.0, 3000.0}) {
@@ -199,7 +202,8 @@ TEST(Passivity, ForceOfTheWallIsNeverNegativeNorDoesItJump) {
     for (const int delay : {1, 6, 10}) {
       const OneAxisResult r = run(wall(PassivityLaw::kBudgeted, stiffness, delay));
       EXPECT_GE(r.least_force_n, 0);
-      // H3 allows the law 0.5 N/ms at the tip beside the spring's own step, at most 0.5 m/s times the stiffness a period.
+      // H3 allows the law 0.5 N/ms at the tip beside the spring's own step, at most 0.5 m/s times the stiffness a
+      // period.
       EXPECT_LT(r.largest_step_n, std::min(1.51, 0.5 + 0.5e-3 * stiffness)) << stiffness << " N/m, " << delay << " ms";
     }
   }

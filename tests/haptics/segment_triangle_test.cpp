@@ -53,7 +53,8 @@ double grid_distance(const Vec3& a, const Vec3& b, const Triangle& t, int n) {
   for (int i = 0; i <= n; ++i) {
     const Vec3 p = a + (b - a) * (double(i) / n);
     for (int j = 0; j <= n; ++j) {
-      for (int k = 0; k + j <= n; ++k) best = std::min(best, (p - point_in(t, double(j) / n, double(k) / n)).squaredNorm());
+      for (int k = 0; k + j <= n; ++k)
+        best = std::min(best, (p - point_in(t, double(j) / n, double(k) / n)).squaredNorm());
     }
   }
   return std::sqrt(best);
@@ -92,7 +93,8 @@ TEST(SegmentTriangle, AnswersAreConsistentWithThemselves) {
     const Vec3 a = random.vector(1), b = random.vector(1);
     const ClosestPair pair = closest_segment_triangle(a, b, t);
     EXPECT_LT((pair.on_segment - (a + pair.along * (b - a))).norm(), 1e-14);
-    EXPECT_LT((closest_point_on_triangle(pair.on_triangle, t) - pair.on_triangle).norm(), 1e-12) << "lies on the triangle";
+    EXPECT_LT((closest_point_on_triangle(pair.on_triangle, t) - pair.on_triangle).norm(), 1e-12)
+        << "lies on the triangle";
     EXPECT_NEAR((pair.on_segment - pair.on_triangle).norm(), pair.distance, 1e-14);
     EXPECT_NEAR(closest_segment_triangle(b, a, t).distance, pair.distance, 1e-12) << "ends exchanged";
     EXPECT_NEAR(closest_segment_triangle(a, b, {t[1], t[2], t[0]}).distance, pair.distance, 1e-12) << "corners turned";
@@ -117,11 +119,12 @@ TEST(SegmentTriangle, KnownCases) {
   EXPECT_TRUE(closest_segment_triangle({0.2, 0.2, 1}, {0.2, 0.2, -1}, t).crossing);
   EXPECT_NEAR(closest_segment_triangle({0.2, 0.2, 1}, {0.2, 0.2, -1}, t).along, 0.5, 1e-15);
   EXPECT_NEAR(closest_segment_triangle({0.2, 0.2, 1}, {0.2, 0.2, 0.3}, t).distance, 0.3, 1e-15);
-  EXPECT_NEAR(closest_segment_triangle({-1, 0.5, 0.4}, {3, 0.5, 0.4}, t).distance, 0.4, 1e-15);   // parallel above
-  EXPECT_NEAR(closest_segment_triangle({2, -1, 0}, {2, 3, 0}, t).distance, 1, 1e-15);             // in its plane, beside
-  EXPECT_NEAR(closest_segment_triangle({-1, -1, 0.5}, {1, -1, 0.5}, t).distance, std::sqrt(1.25), 1e-15);  // edge to edge
-  EXPECT_NEAR(closest_segment_triangle({-3, -4, 0}, {-6, -8, 0}, t).distance, 5, 1e-15);          // corner
-  EXPECT_LT(closest_segment_triangle({-1, 0.2, 0}, {2, 0.2, 0}, t).distance, 1e-15);              // in its plane, through
+  EXPECT_NEAR(closest_segment_triangle({-1, 0.5, 0.4}, {3, 0.5, 0.4}, t).distance, 0.4, 1e-15);  // parallel above
+  EXPECT_NEAR(closest_segment_triangle({2, -1, 0}, {2, 3, 0}, t).distance, 1, 1e-15);            // in its plane, beside
+  EXPECT_NEAR(closest_segment_triangle({-1, -1, 0.5}, {1, -1, 0.5}, t).distance, std::sqrt(1.25),
+              1e-15);                                                                     // edge to edge
+  EXPECT_NEAR(closest_segment_triangle({-3, -4, 0}, {-6, -8, 0}, t).distance, 5, 1e-15);  // corner
+  EXPECT_LT(closest_segment_triangle({-1, 0.2, 0}, {2, 0.2, 0}, t).distance, 1e-15);      // in its plane, through
 }
 
 TEST(SegmentTriangle, DegenerateShapesGiveTheDistanceOfWhatIsLeft) {

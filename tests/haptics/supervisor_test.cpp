@@ -251,9 +251,10 @@ TEST_F(SupervisorTest, RatesCountTheirOwnPeriods) {
 }
 
 TEST(FaultNames, AreDistinctAndStable) {
-  const FaultCode codes[] = {FaultCode::kNone, FaultCode::kEncoderJump, FaultCode::kChannelInvalid, FaultCode::kNonFinite,
-                             FaultCode::kOverspeed, FaultCode::kSingular, FaultCode::kEnergyDebt, FaultCode::kOverheat,
-                             FaultCode::kLateLoop, FaultCode::kHandNonFinite};
+  const FaultCode codes[] = {FaultCode::kNone,         FaultCode::kEncoderJump, FaultCode::kChannelInvalid,
+                             FaultCode::kNonFinite,    FaultCode::kOverspeed,   FaultCode::kSingular,
+                             FaultCode::kEnergyDebt,   FaultCode::kOverheat,    FaultCode::kLateLoop,
+                             FaultCode::kHandNonFinite};
   for (const FaultCode a : codes) {
     EXPECT_STRNE(fault_name(a), "unknown");
     for (const FaultCode b : codes) EXPECT_TRUE(a == b || std::strcmp(fault_name(a), fault_name(b)) != 0);

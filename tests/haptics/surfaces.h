@@ -23,7 +23,8 @@ inline TriangleSurface unit_sphere(int levels) {
     TriangleSurface fine{s.vertices, {}};
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middle;
     const auto mid = [&](std::int32_t a, std::int32_t b) {
-      const auto [place, fresh] = middle.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(fine.vertices.size()));
+      const auto [place, fresh] =
+          middle.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(fine.vertices.size()));
       if (fresh) fine.vertices.push_back((s.vertices[std::size_t(a)] + s.vertices[std::size_t(b)]).normalized());
       return place->second;
     };

@@ -30,7 +30,8 @@ ChannelVector random_channels(Random& random, double half) {
 
 TEST(TorqueLimiter, WithinTheLimitsEverythingPasses) {
   TorqueShares s;
-  s.springs = channels(0.05, 0), s.gravity = channels(0.1, -0.1), s.contact = channels(0.1, 0.2), s.friction = channels(0.01, 0.01);
+  s.springs = channels(0.05, 0), s.gravity = channels(0.1, -0.1), s.contact = channels(0.1, 0.2),
+  s.friction = channels(0.01, 0.01);
   const LimitedTorque out = limiter().update(s);
   EXPECT_LT((out.total - channels(0.26, 0.11)).norm(), 1e-15);
   EXPECT_LT((out.contact - s.contact).norm(), 1e-15);

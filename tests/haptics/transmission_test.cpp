@@ -32,7 +32,9 @@ TEST(Transmission, CountersWrapAt32BitsWithoutAJump) {
   Random random(1);
   CountAccumulator accumulator;
   Counts counter;
-  for (int i = 0; i < kChannels; ++i) counter[i] = i % 2 == 0 ? std::numeric_limits<std::int32_t>::max() - 50 : std::numeric_limits<std::int32_t>::min() + 50;
+  for (int i = 0; i < kChannels; ++i)
+    counter[i] =
+        i % 2 == 0 ? std::numeric_limits<std::int32_t>::max() - 50 : std::numeric_limits<std::int32_t>::min() + 50;
   accumulator.reset(counter);
   std::array<std::int64_t, kChannels> truth{};
   for (int k = 0; k < 2000; ++k) {
@@ -83,8 +85,8 @@ TEST(Transmission, PositionsAreHomePlusCounts) {
   counts[6] = -2000;
   const ChannelVector q = joint_positions(model, counts, home);
   EXPECT_DOUBLE_EQ(q[0], home[0]);
-  EXPECT_NEAR(q[2] - home[2], 0.23 * std::numbers::pi, 1e-12);             // half a motor turn
-  EXPECT_NEAR(q[6] - home[6], -0.008 * 2 * std::numbers::pi, 1e-12);       // one turn back
+  EXPECT_NEAR(q[2] - home[2], 0.23 * std::numbers::pi, 1e-12);        // half a motor turn
+  EXPECT_NEAR(q[6] - home[6], -0.008 * 2 * std::numbers::pi, 1e-12);  // one turn back
 }
 
 TEST(Transmission, TorquesReturnFromCodesWithinHalfAStep) {

@@ -80,8 +80,14 @@ TEST(VelocityEstimator, ReachErrorIsThatOfThePublishedTable) {
   // Minimum-jerk reach with peak speed 0.45 m/s: haptics notes 1.9, FOAW .0094, backward .045 m/s. The error is lag
   // times acceleration, so it falls with the length of the reach, which the table does not give: 0.2 m here.
   const double length = 0.20, duration = 1.875 * length / 0.45;
-  const auto x = [&](double t) { const double s = t / duration; return length * s * s * s * (10 - 15 * s + 6 * s * s); };
-  const auto v = [&](double t) { const double s = t / duration; return length / duration * 30 * s * s * (1 - s) * (1 - s); };
+  const auto x = [&](double t) {
+    const double s = t / duration;
+    return length * s * s * s * (10 - 15 * s + 6 * s * s);
+  };
+  const auto v = [&](double t) {
+    const double s = t / duration;
+    return length / duration * 30 * s * s * (1 - s) * (1 - s);
+  };
   const Errors rms = rms_errors(duration, x, v);
   EXPECT_LT(rms.ours, 1.5 * 0.0094);
   EXPECT_GT(rms.ours, 0.0094 / 1.5);
@@ -91,7 +97,8 @@ TEST(VelocityEstimator, ReachErrorIsThatOfThePublishedTable) {
 }
 
 TEST(VelocityEstimator, SlowMotionErrorIsThatOfThePublishedTable) {
-  const Errors rms = rms_errors(2.0, [](double t) { return 0.01 * t; }, [](double) { return 0.01; });
+  const Errors rms = rms_errors(
+      2.0, [](double t) { return 0.01 * t; }, [](double) { return 0.01; });
   EXPECT_LT(rms.ours, 1.5 * 0.0055);  // haptics notes 1.9: FOAW .0055, backward .045 m/s
   EXPECT_GT(rms.ours, 0.0055 / 1.5);
   EXPECT_NEAR(rms.backward, 0.045, 0.005);
@@ -99,7 +106,8 @@ TEST(VelocityEstimator, SlowMotionErrorIsThatOfThePublishedTable) {
 
 TEST(VelocityEstimator, TremorErrorIsThatOfThePublishedTable) {
   const double w = 12 * 2 * std::numbers::pi, a = 0.002;
-  const Errors rms = rms_errors(2.0, [&](double t) { return a * std::sin(w * t); }, [&](double t) { return a * w * std::cos(w * t); });
+  const Errors rms = rms_errors(
+      2.0, [&](double t) { return a * std::sin(w * t); }, [&](double t) { return a * w * std::cos(w * t); });
   EXPECT_LT(rms.ours, 1.5 * 0.039);  // haptics notes 1.9: FOAW .039, backward .092 m/s
   EXPECT_LT(rms.ours, rms.backward);
 }

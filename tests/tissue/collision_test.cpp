@@ -125,8 +125,7 @@ TEST_F(Patch, NearestFirstWithOutwardNormals) {
     EXPECT_EQ(t.vertex, corners(surface, std::size_t(t.id)));
     last = d;
   }
-  EXPECT_EQ(patch->count + patch->dropped,
-            static_cast<int>(brute_force(surface, X.p, handle, kPatchRadius).size()));
+  EXPECT_EQ(patch->count + patch->dropped, static_cast<int>(brute_force(surface, X.p, handle, kPatchRadius).size()));
   EXPECT_EQ(patch->dropped, 0);
 }
 

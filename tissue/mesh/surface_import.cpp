@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::array<std::pair<const char*, double>, 3> kUnits{{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}}};
 constexpr std::uintmax_t kMaxBytes = 512u << 20;
+constexpr double kLeastVolumeM3 = 1e-9;  // 1 mm^3: a flat or collinear shape encloses nothing
 constexpr double kWeldTolerance = 1e-6;  // of the bounding box's diagonal: float32 keeps 1e-7
 
 void check_file(const std::filesystem::path& path) {
@@ -133,6 +134,8 @@ ImportedSurface import_surface(const std::filesystem::path& path, const std::str
                              std::to_string(result.surface.vertices.size()));
   check_closed(result.surface, file);
   keep_largest(result);
+  if (std::abs(result.surface.volume_m3()) * factor * factor * factor < kLeastVolumeM3)
+    throw InputError(file + ": the surface encloses no volume (less than 1 mm^3): it is flat or collinear");
   orient(result, file);
   result.source_self_intersections = count_self_intersections(result.surface);
   if (result.source_self_intersections > 0)
