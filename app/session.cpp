@@ -37,8 +37,8 @@ struct Bench {
   /// The run ends when the exercise has, a fault has been seen for a moment, or far beyond the limit.
   bool finished() {
     const TickRecord& record = haptic.record();
+    if (record.stylus.loop == LoopState::kFault) return ++fault_ticks > kAfterFault_s * scene.loop.daq.rate_hz;
     if (director.finished()) return true;
-    if (record.stylus.loop == LoopState::kFault && ++fault_ticks > kAfterFault_s * scene.loop.daq.rate_hz) return true;
     return record.stylus.t_s > scene.setup.exercise.time_limit_s + kLongestBeyondLimit_s;
   }
 
