@@ -114,6 +114,26 @@ TEST(Session, ARunGradesAndReplaysToTheSameHash) {
   EXPECT_EQ(grade.status, AttemptStatus::kCompleted);
 }
 
+TEST(Session, AMissedPeriodShiftsTraceAndEventsTogether) {
+  Scene scene = short_scene("expert");
+  scene.setup.faults = {{InjectedFaultKind::kMissedSync, 2.5, 0, 0, 6}};
+  const Attempt attempt = run(scene);
+  ASSERT_EQ(attempt.outcome.status, AttemptStatus::kCompleted) << "six periods of a thousand are borne";
+  EXPECT_EQ(attempt.outcome.device.overruns, 6u);
+  EXPECT_EQ(attempt.recording.ticks.back().tick, attempt.recording.ticks.size() + 6) << "the rows skip what was missed";
+  const Trace trace = rebuild_trace(attempt.recording.ticks, attempt.recording.rate_hz);
+  EXPECT_NEAR(trace.samples.back().t_s, attempt.recording.events.back().t_s, 0.0105) << "one clock for both";
+}
+
+TEST(Session, ALongOutageIsAFault) {
+  Scene scene = short_scene("expert");
+  scene.setup.faults = {{InjectedFaultKind::kMissedSync, 2.5, 0, 0, 1000}};
+  const Attempt attempt = run(scene);
+  EXPECT_EQ(attempt.outcome.status, AttemptStatus::kFault);
+  EXPECT_EQ(attempt.outcome.device.fault, "late-loop");
+  EXPECT_FALSE(grade_recording(attempt.recording, "memory").score);
+}
+
 TEST(Session, AnObserverSeesTheRunAndDoesNotReachIt) {
   const Scene scene = short_scene("expert");
   int calls = 0;

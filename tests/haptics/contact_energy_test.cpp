@@ -1,4 +1,7 @@
 // The proxy contact as a potential: force and moment are minus the slope of the stored energy, closed loops do no work.
+#include <algorithm>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -159,6 +162,38 @@ TEST_F(ContactEnergy, ClosedLoopsInAGrooveDoNoWork) {
   for (int k = 0; k < 10; ++k) {
     const auto loop = random_loop(random, tip_down({0, 0, kRadius * std::sqrt(2.0) - 0.003}), 0.001, 0.1, 0.03);
     EXPECT_LT(std::abs(work_of_loop(*patch, 8000, loop)), 1e-6);
+  }
+}
+
+TEST(ContactDamping, OfASwingingShaftOnlyDissipates) {
+  // The shaft rests on a plane far behind the tip: the damping must follow the speed of the contact, not of the tip.
+  ContactPatch patch;
+  patch.count = 2;
+  const double s = 0.4;
+  patch.triangle[0] = {{Vec3(-s, -s, 0), Vec3(s, -s, 0), Vec3(s, s, 0)}, Vec3::UnitZ(), 0};
+  patch.triangle[1] = {{Vec3(-s, -s, 0), Vec3(s, s, 0), Vec3(-s, s, 0)}, Vec3::UnitZ(), 1};
+  for (const double phase : {0.0, 1.5, 3.0, 4.5}) {
+    ContactRenderer renderer(ContactLaw::kProxy);
+    double work = 0, largest = 0;
+    for (int i = 0; i <= 20000; ++i) {  // 5 Hz, 20 kHz steps: ten cycles
+      const double w = 2 * std::numbers::pi * 5, t = i * 0.5e-4, swing = 0.02;
+      const double angle = 0.01 + swing * std::sin(w * t + phase), height = 0.002 + 0.002 * std::sin(w * t);
+      // Shaft from the tip backwards along +x, lowered by the angle.
+      const Vec3 back(std::cos(angle), 0, -std::sin(angle));
+      Pose X;
+      X.R.col(2) = -back;
+      X.R.col(1) = Vec3::UnitY();
+      X.R.col(0) = X.R.col(1).cross(X.R.col(2));
+      X.p = Vec3(-0.1, 0, height);
+      const Twist V{Vec3(0, 0, 0.002 * w * std::cos(w * t)), Vec3(0, swing * w * std::cos(w * t + phase), 0)};
+      const ContactResult r = renderer.update(X, V, patch);
+      if (i > 4000) {  // after the first cycles
+        work += r.F_I_T.force.dot(V.linear) * 0.5e-4 + r.F_I_T.moment.dot(V.angular) * 0.5e-4;
+      }
+      largest = std::max(largest, r.F_I_T.force.norm());
+    }
+    EXPECT_GT(largest, 0.1) << "the shaft does press";
+    EXPECT_LE(work, 2e-5) << "phase " << phase << ": J given to the hand in eight cycles";
   }
 }
 

@@ -357,6 +357,54 @@ TEST_F(DirectorTest, SaturationIsReportedWithoutFlooding) {
   EXPECT_EQ(count("DEVICE_LIMIT"), 1);
 }
 
+TEST(HoldTimer, TappingInAndOutNeverCompletesAHold) {
+  HoldTimer timer(1.0, 0.1);
+  for (int i = 0; i < 12000; ++i) ASSERT_FALSE(timer.update(i % 12 == 0, 0.01)) << "10 ms inside of every 120 ms";
+}
+
+TEST(ThresholdMonitor, RepeatsForEachFurtherTimeAbove) {
+  ThresholdMonitor monitor(1.5, 1.2, 0.2, 1.0);
+  int fired = 0;
+  for (int i = 0; i < 350; ++i) fired += monitor.update(2.0, 0.01) ? 1 : 0;
+  EXPECT_EQ(fired, 4) << "on entry, and after each of three seconds";
+}
+
+TEST_F(DirectorTest, SlidingToTheNextDiscInsteadOfLiftingIsAWrongPlace) {
+  start();
+  at(board().targets[0].centre_T + Vec3(0, 0, 0.01));
+  feed(0.3);
+  pressing(board().targets[0].centre_T, 0.6);
+  feed(1.1);
+  ASSERT_EQ(count("TARGET_HELD"), 1);
+  for (int i = 0; i <= 80; ++i) {  // 40 mm along the tissue in 0.8 s, never leaving it
+    pressing(board().targets[0].centre_T - Vec3(0.0005 * i, 0, 0), 0.3);
+    feed(0.01);
+  }
+  EXPECT_EQ(count("WRONG_PLACE"), 1) << "once for a disc, however long the slide";
+}
+
+TEST_F(DirectorTest, AShortHopToAnotherPlaceIsANewContact) {
+  start();
+  at(board().targets[0].centre_T + Vec3(0, 0, 0.01));
+  feed(0.3);
+  pressing(board().targets[0].centre_T, 0.3);
+  feed(0.1);
+  at(Vec3(0, 0, 0.002));
+  feed(0.05);
+  pressing(Vec3(0, 0.01, 0), 0.3);
+  feed(0.05);
+  EXPECT_EQ(count("WRONG_PLACE"), 1);
+}
+
+TEST_F(DirectorTest, LastingExcessCountsEachSecond) {
+  start();
+  at(board().targets[0].centre_T + Vec3(0, 0, 0.01));
+  feed(0.3);
+  pressing(board().targets[0].centre_T, 2.0);
+  feed(3.5);
+  EXPECT_EQ(count("EXCESS_FORCE"), 4);
+}
+
 TEST(HoldTimer, ReportsItsProgress) {
   HoldTimer timer(1.0, 0.1);
   EXPECT_FALSE(timer.update(true, 0.5));

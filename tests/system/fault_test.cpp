@@ -96,8 +96,8 @@ TEST_F(Machine, MissingAssetsAreNamedWithThePlacesLookedAt) {
   Launch here = launch({"exercises"});
   here.environment["TROCAR_ASSETS"] = (folder_ / "nothing-here").string();
   const Outcome outcome = run_program(here);
-  EXPECT_EQ(outcome.exit_code, 0) << "a wrong TROCAR_ASSETS falls through to the next place";
-  EXPECT_NE(outcome.out.find("surface-touch"), std::string::npos);
+  EXPECT_EQ(outcome.exit_code, 3) << "a wrong TROCAR_ASSETS is never replaced by other assets in silence";
+  EXPECT_NE(outcome.err.find("nothing-here"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

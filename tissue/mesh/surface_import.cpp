@@ -134,9 +134,9 @@ ImportedSurface import_surface(const std::filesystem::path& path, const std::str
                              std::to_string(result.surface.vertices.size()));
   check_closed(result.surface, file);
   keep_largest(result);
-  if (std::abs(result.surface.volume_m3()) * factor * factor * factor < kLeastVolumeM3)
-    throw InputError(file + ": the surface encloses no volume (less than 1 mm^3): it is flat or collinear");
   orient(result, file);
+  if (result.surface.volume_m3() < kLeastVolumeM3)
+    throw InputError(file + ": the surface encloses no volume (less than 1 mm^3): it is flat or collinear");
   result.source_self_intersections = count_self_intersections(result.surface);
   if (result.source_self_intersections > 0)
     result.repairs.push_back("the source cut itself in " + std::to_string(result.source_self_intersections) +

@@ -70,6 +70,14 @@ TEST(SurfaceImport, TurnsInwardSurfacesAndKeepsTheLargest) {
   EXPECT_CONTAINS(imported.repairs[1], "turned 512 triangles outwards");
 }
 
+TEST(SurfaceImport, RefusesAShapeThatEnclosesNothing) {
+  test::TemporaryFolder folder;
+  TriangleSurface flat;
+  flat.vertices = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0, 0.1, 0), Vec3(0.1, 0.1, 0)};
+  flat.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  EXPECT_CONTAINS(refusal(folder.write("flat.ply", ascii_ply(flat, 1e3)), "mm"), "encloses no volume");
+}
+
 TEST(SurfaceImport, WeldsDoubledVertices) {
   test::TemporaryFolder folder;
   const TriangleSurface sphere = test::sphere(Vec3::Zero(), 0.05, 2);
