@@ -8,7 +8,6 @@
 
 #include "scenarios/cue_percept.h"
 #include "scenarios/exercise_loader.h"
-#include "scenarios/threshold_monitor.h"
 
 namespace trocar {
 namespace {
@@ -357,18 +356,6 @@ TEST_F(DirectorTest, SaturationIsReportedWithoutFlooding) {
   EXPECT_EQ(count("DEVICE_LIMIT"), 1);
 }
 
-TEST(HoldTimer, TappingInAndOutNeverCompletesAHold) {
-  HoldTimer timer(1.0, 0.1);
-  for (int i = 0; i < 12000; ++i) ASSERT_FALSE(timer.update(i % 12 == 0, 0.01)) << "10 ms inside of every 120 ms";
-}
-
-TEST(ThresholdMonitor, RepeatsForEachFurtherTimeAbove) {
-  ThresholdMonitor monitor(1.5, 1.2, 0.2, 1.0);
-  int fired = 0;
-  for (int i = 0; i < 350; ++i) fired += monitor.update(2.0, 0.01) ? 1 : 0;
-  EXPECT_EQ(fired, 4) << "on entry, and after each of three seconds";
-}
-
 TEST_F(DirectorTest, SlidingToTheNextDiscInsteadOfLiftingIsAWrongPlace) {
   start();
   at(board().targets[0].centre_T + Vec3(0, 0, 0.01));
@@ -403,15 +390,6 @@ TEST_F(DirectorTest, LastingExcessCountsEachSecond) {
   pressing(board().targets[0].centre_T, 2.0);
   feed(3.5);
   EXPECT_EQ(count("EXCESS_FORCE"), 4);
-}
-
-TEST(HoldTimer, ReportsItsProgress) {
-  HoldTimer timer(1.0, 0.1);
-  EXPECT_FALSE(timer.update(true, 0.5));
-  EXPECT_DOUBLE_EQ(timer.progress(), 0.5);
-  EXPECT_TRUE(timer.update(true, 0.5));
-  timer.reset();
-  EXPECT_DOUBLE_EQ(timer.progress(), 0);
 }
 
 }  // namespace
