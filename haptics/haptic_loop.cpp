@@ -219,7 +219,10 @@ void HapticLoop::watch(const Motion& motion, const LimitedTorque& torque) noexce
   if (supervisor_.state() == LoopState::kActive && motion.arm.det_a < config_.safety.fault_det_a) {
     supervisor_.raise(FaultCode::kSingular, tick_, -1, motion.arm.det_a);
   }
-  if (arm_passivity_.debt_fault() || pinch_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
+  if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
+  if (pinch_passivity_.debt_fault()) {
+    supervisor_.raise(FaultCode::kEnergyDebt, tick_, kPinchChannel, pinch_passivity_.budget_j());
+  }
 }
 
 DacFrame HapticLoop::to_codes(const LimitedTorque& torque) noexcept {
