@@ -25,8 +25,10 @@ int schema_version(sqlite3* connection) {
 std::string name_of(const fs::path& file) { return file.empty() ? "database" : file.string(); }
 
 void check_owner(sqlite3* connection, const fs::path& file) {
-  const auto id = sql::query_integer(connection, "PRAGMA application_id");
+  // Tables first: another program may be making the database right now, and commits tables and id together. Once tables
+  // are seen, so is its id; the other order could see no id yet, and then the tables.
   const bool empty = sql::query_integer(connection, "SELECT count(*) FROM sqlite_schema") == 0;
+  const auto id = sql::query_integer(connection, "PRAGMA application_id");
   if (id == kApplicationId || (id == 0 && empty)) return;
   throw InputError(name_of(file) + ": is a database of another program");
 }

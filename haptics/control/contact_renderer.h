@@ -49,8 +49,6 @@ class ContactRenderer {
   /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
   ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
 
-  const ToolShape& shape() const { return shape_; }
-
  private:
   static constexpr int kMaxNear = 96;      ///< triangles considered in one tick
   static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
