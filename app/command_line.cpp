@@ -17,6 +17,7 @@
 #include "app/commands/organ_render.h"
 #include "app/commands/recording_command.h"
 #include "app/commands/run_command.h"
+#include "app/commands/sweep_command.h"
 #include "app/commands/trainee_command.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
@@ -31,6 +32,7 @@ struct CommandLine {
   std::function<int()> chosen;
 
   RunOptions run;
+  SweepOptions sweep;
   RecordingOptions recording;
   DemoOptions demo;
   bool headless = false;
@@ -81,6 +83,18 @@ void add_run(CommandLine& c) {
   run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted or off")->capture_default_str();
   run->add_option("--inject", c.run.injections, "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, channel-invalid, dac-stuck, missed-sync, hand-nan, hand-lets-go");
   run->add_flag("--json", c.run.json, "Result as JSON on stdout");
+}
+
+void add_sweep(CommandLine& c) {
+  CLI::App* sweep = c.add(c.app, "sweep", "Many scripted attempts: does the score tell skill apart?",
+                          [&c] { return sweep_command(c.sweep, std::cout, std::cerr); });
+  sweep->add_option("exercise", c.sweep.exercises, "Exercise ids, numbers or files (default: all)");
+  sweep->add_option("--hand", c.sweep.hands, "Hands, separated by commas")->delimiter(',')->capture_default_str();
+  sweep->add_option("--level", c.sweep.levels, "Levels, separated by commas (default: all)")->delimiter(',');
+  sweep->add_option("--seeds", c.sweep.seeds, "First and last seed, A..B")->capture_default_str();
+  sweep->add_option("--organ", c.sweep.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  sweep->add_option("--jobs", c.sweep.jobs, "Attempts at once (0: one a processor)")->capture_default_str()->check(CLI::Range(0, 256));
+  sweep->add_flag("--json", c.sweep.json, "As JSON");
 }
 
 void add_recordings(CommandLine& c) {
@@ -221,7 +235,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_run, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db}) {
+  for (auto* add : {add_run, add_sweep, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db}) {
     add(c);
   }
   try {

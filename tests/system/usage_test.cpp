@@ -13,6 +13,7 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"run",
        {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--fps",
         "--rate", "--contact", "--passivity", "--inject", "--json"}},
+      {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
       {"replay", {"--frames", "--fps", "--verify", "--organ", "--db"}},
       {"score", {"--rubric", "--db", "--json"}},
       {"demo", {"--headless", "--out", "--organ"}},

@@ -1,0 +1,204 @@
+#include "app/commands/sweep_command.h"
+
+#include <atomic>
+#include <charconv>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <ostream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/run_command.h"
+#include "app/commands/text_table.h"
+#include "app/session.h"
+#include "haptics/input_error.h"
+#include "scenarios/exercise_loader.h"
+#include "scenarios/hands/make_hand.h"
+#include "scenarios/scoring/construct_validity.h"
+
+namespace trocar {
+namespace {
+
+constexpr std::int64_t kMostSeeds = 10000;
+
+/// One attempt of the sweep and, later, what became of it.
+struct Job {
+  std::string exercise, level, hand;
+  std::int64_t seed = 0;
+  bool first_level = false;
+  Grade grade;
+};
+
+std::int64_t seed_in(std::string_view text, const std::string& whole) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw InputError("--seeds " + whole + ": A..B, two whole numbers");
+  }
+  return value;
+}
+
+std::vector<Job> list_jobs(const SweepOptions& options, const AssetRoots& assets) {
+  std::vector<std::string> exercises = options.exercises;
+  if (exercises.empty()) {
+    for (const Exercise& exercise : list_exercises(assets.exercises)) exercises.push_back(exercise.id);
+  }
+  for (const std::string& hand : options.hands) make_hand(hand, 0, assets.hands);  // a wrong name is refused now
+  const auto [first, last] = parse_seeds(options.seeds);
+  std::vector<Job> jobs;
+  for (const std::string& name : exercises) {
+    const Exercise exercise = find_exercise(name, assets.exercises);
+    std::vector<std::string> levels = options.levels;
+    if (levels.empty()) {
+      for (const ExerciseLevel& level : exercise.levels) levels.push_back(level.name);
+    }
+    for (const std::string& level : levels) {
+      find_level(exercise, level);
+      const bool first_level = level == exercise.levels.front().name;
+      for (const std::string& hand : options.hands) {
+        for (std::int64_t seed = first; seed <= last; ++seed) jobs.push_back({name, level, hand, seed, first_level, {}});
+      }
+    }
+  }
+  return jobs;
+}
+
+Grade attempt(const Job& job, const SweepOptions& options, const AssetRoots& assets) {
+  RunOptions run;
+  run.exercise = job.exercise;
+  run.level = job.level;
+  run.hand = job.hand;
+  run.seed = job.seed;
+  run.organ = options.organ;
+  const AttemptSetup setup = attempt_setup(run, assets);
+  const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
+  MemorySink memory;
+  RecordingWriter writer(memory, scene_json(scene), scene.loop.daq.rate_hz);
+  run_session(scene, assets, writer);
+  return grade_recording(parse_recording(memory.bytes(), "recording in memory"), "recording in memory");
+}
+
+/// Runs all jobs on some threads. @throws the first failure, after all threads have ended.
+void run_jobs(std::vector<Job>& jobs, const SweepOptions& options, const AssetRoots& assets, std::ostream& err) {
+  std::atomic<std::size_t> next{0}, done{0};
+  std::exception_ptr failure;
+  std::mutex mutex;  // guards failure and err
+  const auto work = [&] {
+    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+      try {
+        jobs[i].grade = attempt(jobs[i], options, assets);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = jobs.size();
+      }
+      const std::size_t now = ++done;
+      if (now % 50 == 0) {
+        const std::lock_guard lock(mutex);
+        err << "trocar: " << now << " of " << jobs.size() << " attempts\n";
+      }
+    }
+  };
+  const unsigned wanted = options.jobs > 0 ? static_cast<unsigned>(options.jobs) : std::thread::hardware_concurrency();
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < wanted; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// One exercise at one level: outcomes by hand, and the checks over them.
+struct Cell {
+  std::string exercise, level;
+  bool first_level = false;
+  std::map<std::string, HandOutcomes> outcomes;
+  std::map<std::string, std::map<std::string, int>> caps;  ///< by hand: reason and how often
+};
+
+std::vector<Cell> collect(const std::vector<Job>& jobs) {
+  std::vector<Cell> cells;
+  for (const Job& job : jobs) {
+    if (cells.empty() || cells.back().exercise != job.exercise || cells.back().level != job.level) {
+      cells.push_back({job.exercise, job.level, job.first_level, {}, {}});
+    }
+    HandOutcomes& outcome = cells.back().outcomes[job.hand];
+    if (job.grade.score) outcome.scores.push_back(*job.grade.score);
+    else ++outcome.without_score;
+    outcome.passes += job.grade.passed ? 1 : 0;
+    for (const std::string& cap : job.grade.caps) ++cells.back().caps[job.hand][cap];
+  }
+  return cells;
+}
+
+void print_cell(const Cell& at, const SweepOptions& options, std::ostream& out) {
+  using Align = TextTable::Align;
+  out << at.exercise << "  " << at.level << '\n';
+  TextTable table({{"  hand"}, {"attempts", Align::kRight}, {"mean", Align::kRight}, {"SD", Align::kRight},
+                   {"lowest", Align::kRight}, {"highest", Align::kRight}, {"passed", Align::kRight}});
+  for (const std::string& hand : options.hands) {
+    const HandOutcomes& outcome = at.outcomes.at(hand);
+    const GroupSummary s = summarise(outcome.scores);
+    table.add({"  " + hand, std::to_string(s.count + outcome.without_score), cell(s.mean, 1),
+               cell(s.sd, 1), cell(s.lowest, 1), cell(s.highest, 1),
+               std::to_string(outcome.passes)});
+  }
+  table.print(out);
+  for (const ValidityCheck& check : check_validity(at.outcomes, at.first_level)) {
+    char line[128];
+    std::snprintf(line, sizeof line, "  %-8s %s: %.2f (%s)\n", check.met ? "met" : "NOT MET", check.name.c_str(),
+                  check.value, check.bar.c_str());
+    out << line;
+  }
+}
+
+nlohmann::ordered_json cell_json(const Cell& at, const SweepOptions& options) {
+  nlohmann::ordered_json hands = nlohmann::ordered_json::array(), checks = nlohmann::ordered_json::array();
+  for (const std::string& hand : options.hands) {
+    const HandOutcomes& outcome = at.outcomes.at(hand);
+    const GroupSummary s = summarise(outcome.scores);
+    nlohmann::ordered_json caps = nlohmann::ordered_json::object();
+    if (const auto found = at.caps.find(hand); found != at.caps.end()) caps = found->second;
+    hands.push_back({{"hand", hand}, {"mean", s.mean}, {"sd", s.sd}, {"passes", outcome.passes},
+                     {"without_score", outcome.without_score}, {"scores", outcome.scores}, {"caps", caps}});
+  }
+  for (const ValidityCheck& check : check_validity(at.outcomes, at.first_level)) {
+    checks.push_back({{"name", check.name}, {"value", check.value}, {"bar", check.bar}, {"met", check.met}});
+  }
+  return {{"exercise", at.exercise}, {"level", at.level}, {"hands", hands}, {"checks", checks}};
+}
+
+}  // namespace
+
+std::pair<std::int64_t, std::int64_t> parse_seeds(const std::string& text) {
+  const auto dots = text.find("..");
+  const std::string_view view = text;
+  const std::int64_t first = seed_in(view.substr(0, dots), text);
+  const std::int64_t last = dots == std::string::npos ? first : seed_in(view.substr(dots + 2), text);
+  if (last < first || last - first >= kMostSeeds) {
+    throw InputError("--seeds " + text + ": A..B with A <= B, at most " + std::to_string(kMostSeeds) + " of them");
+  }
+  return {first, last};
+}
+
+int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& err) {
+  const AssetRoots assets = find_assets();
+  std::vector<Job> jobs = list_jobs(options, assets);
+  if (jobs.empty()) throw InputError("nothing to run: name at least one hand");
+  err << "trocar: " << jobs.size() << " attempts on the simulated plant, nothing is stored\n";
+  run_jobs(jobs, options, assets, err);
+  const std::vector<Cell> cells = collect(jobs);
+  bool met = true;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Cell& cell : cells) {
+    for (const ValidityCheck& check : check_validity(cell.outcomes, cell.first_level)) met = met && check.met;
+    if (options.json) list.push_back(cell_json(cell, options));
+    else print_cell(cell, options, out);
+  }
+  if (options.json) out << nlohmann::ordered_json{{"seeds", options.seeds}, {"met", met}, {"cells", list}}.dump(2) << '\n';
+  return met ? 0 : 1;
+}
+
+}  // namespace trocar
