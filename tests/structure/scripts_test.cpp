@@ -64,6 +64,7 @@ TEST(Scripts, EveryLibraryThatCMakeLooksForIsOnTheList) {
                                                                    {"ITK", "libinsighttoolkit5-dev"},
                                                                    {"SQLite3", "libsqlite3-dev"},
                                                                    {"OpenSSL", "libssl-dev"},
+                                                                   {"Threads", "g++"},
                                                                    {"zstd", "libzstd-dev"},
                                                                    {"ZLIB", "zlib1g-dev"},
                                                                    {"PNG", "libpng-dev"},
