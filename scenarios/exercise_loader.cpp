@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
+#include "digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/scoring/metrics.h"
 #include "scenarios/strict_toml.h"
-#include "tissue/imaging/sha256.h"
 
 namespace trocar {
 namespace {
@@ -159,7 +159,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
     exercise.levels.push_back(level);
   }
   exercise.rubric = read_rubric(document.table("rubric"));
-  exercise.rubric.sha256 = sha256_hex(text);
+  exercise.rubric.sha256 = digest::of_bytes(text);
   document.finish();
   return exercise;
 }

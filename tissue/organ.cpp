@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "digest/digest.h"
 #include "haptics/input_error.h"
-#include "tissue/imaging/sha256.h"
 #include "tissue/mesh/organ_manifest.h"
 #include "tissue/mesh/ply_file.h"
 #include "tissue/mesh/topology.h"
@@ -16,7 +16,7 @@ TriangleSurface load_surface(const OrganManifest& manifest, const std::filesyste
   const std::filesystem::path path = beside.parent_path() / manifest.surface;
   const std::string bytes = read_bytes(path), file = path.string();
   TriangleSurface surface = parse_ply(bytes, file);
-  const std::string hash = sha256_hex(bytes);
+  const std::string hash = digest::of_bytes(bytes);
   if (hash != manifest.surface_sha256)
     throw InputError(file + ": sha256 " + hash + " is not the manifest's: the file was changed");
   const SurfaceTopology facts = analyse_topology(surface);

@@ -1,6 +1,6 @@
 #include "trainees/attempt_chain.h"
 
-#include "trainees/digest.h"
+#include "digest/digest.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {

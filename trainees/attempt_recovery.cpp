@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include "digest/digest.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
-#include "trainees/digest.h"
 #include "trainees/process_identity.h"
 #include "trainees/sqlite_handle.h"
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/attempt_rows.h"
-#include "trainees/digest.h"
 #include "trainees/process_identity.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/trainee_store.h"

@@ -6,9 +6,9 @@
 #include <ostream>
 
 #include "app/commands/organ_report.h"
+#include "digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/imaging/label_table.h"
-#include "tissue/imaging/sha256.h"
 #include "tissue/mesh/surface_import.h"
 
 namespace trocar {
@@ -79,7 +79,7 @@ CompiledOrgan compile_map(const OrganImportOptions& options, OrganManifest& mani
   const LabelVolume volume = read_label_volume(map);
   const ChosenLabel label = choose_label(options, volume, map.string(), err);
   manifest.source.file = map.filename().string();
-  manifest.source.sha256 = sha256_file(map);
+  manifest.source.sha256 = digest::of_file(map);
   manifest.source.unit = "mm";
   manifest.source.label = label.number;
   manifest.source.label_name = label.name;
@@ -97,7 +97,7 @@ CompiledOrgan compile_ply(const OrganImportOptions& options, OrganManifest& mani
     throw InputError("--label and --labels go with a label map, not with " + options.input);
   const ImportedSurface source = import_surface(path, options.unit);
   manifest.source.file = path.filename().string();
-  manifest.source.sha256 = sha256_file(path);
+  manifest.source.sha256 = digest::of_file(path);
   manifest.source.unit = options.unit;
   manifest.source.modality = "surface";
   manifest.name = plain_stem(path);

@@ -15,8 +15,8 @@
 #include "app/recorder/recorded_tick.h"
 #include "app/recorder/recording_sink.h"
 #include "app/recorder/tick_codec.h"
+#include "digest/digest.h"
 #include "scenarios/scoring/trace.h"
-#include "trainees/digest.h"
 
 namespace trocar {
 

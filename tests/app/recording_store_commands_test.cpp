@@ -10,8 +10,8 @@
 #include "app/commands/db_command.h"
 #include "app/commands/text_table.h"
 #include "app/commands/trainee_command.h"
+#include "digest/digest.h"
 #include "tests/trainees/store_samples.h"
-#include "trainees/digest.h"
 #include "trainees/trainee_store.h"
 
 namespace trocar {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "digest/digest.h"
 #include "tests/trainees/store_samples.h"
-#include "trainees/digest.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {

@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "digest/digest.h"
 #include "haptics/input_error.h"
-#include "tissue/imaging/sha256.h"
 #include "tissue/mesh/ply_file.h"
 #include "tissue/mesh/staged_file.h"
 
@@ -275,7 +275,7 @@ std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManife
                                   const TriangleSurface& surface) {
   const std::string bytes = ply_bytes(surface);
   manifest.surface = stem.filename().string() + ".ply";
-  manifest.surface_sha256 = sha256_hex(bytes);
+  manifest.surface_sha256 = digest::of_bytes(bytes);
   std::filesystem::path path = stem.string() + std::string(kOrganSuffix);
   StagedFile ply(stem.string() + ".ply", bytes);
   StagedFile toml(path, manifest_text(manifest));

@@ -1,16 +1,13 @@
 // SHA-256 against the published examples.
+#include "digest/digest.h"
+
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "haptics/input_error.h"
-#include "tests/trainees/store_samples.h"
-#include "trainees/digest.h"
+#include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar {
 namespace {
-
-using DigestFile = TemporaryFolder;
 
 TEST(Digest, MatchesThePublishedExamples) {  // FIPS 180-2, appendix B; the empty message from NIST's example values
   EXPECT_EQ(digest::of_bytes("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
@@ -27,13 +24,14 @@ TEST(Digest, AStreamMayBeAskedOnTheWay) {
   EXPECT_EQ(stream.hex(), digest::of_bytes("abc"));
 }
 
-TEST_F(DigestFile, EqualsTheDigestOfItsBytes) {
+TEST(Digest, OfAFileEqualsThatOfItsBytesAcrossBlocks) {
+  const test::TemporaryFolder folder;
   const std::string bytes(200001, 'x');
-  std::ofstream(folder_ / "a") << bytes;
-  EXPECT_EQ(digest::of_file(folder_ / "a"), digest::of_bytes(bytes));
-  EXPECT_THROW(digest::of_file(folder_ / "missing"), EnvironmentError);
-  EXPECT_EQ(digest::of_readable_file(folder_ / "a"), digest::of_bytes(bytes));
-  EXPECT_EQ(digest::of_readable_file(folder_ / "missing"), "");
+  folder.write("a", bytes);
+  EXPECT_EQ(digest::of_file(folder / "a"), digest::of_bytes(bytes));
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { digest::of_file(folder / "missing"); }), "missing");
+  EXPECT_EQ(digest::of_readable_file(folder / "a"), digest::of_bytes(bytes));
+  EXPECT_EQ(digest::of_readable_file(folder / "missing"), "");
 }
 
 }  // namespace

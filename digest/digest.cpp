@@ -1,4 +1,4 @@
-#include "trainees/digest.h"
+#include "digest/digest.h"
 
 #include <openssl/evp.h>
 
@@ -62,20 +62,20 @@ std::string of_bytes(std::string_view bytes) {
 
 std::string of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw EnvironmentError(file.string() + ": cannot be opened for reading");
+  if (!in) throw InputError(file.string() + ": cannot be opened for reading");
   Stream stream;
   std::array<char, 65536> block{};
   while (in.read(block.data(), block.size()) || in.gcount() > 0) {
     stream.update({block.data(), static_cast<std::size_t>(in.gcount())});
   }
-  if (in.bad()) throw EnvironmentError(file.string() + ": cannot be read");
+  if (in.bad()) throw InputError(file.string() + ": cannot be read");
   return stream.hex();
 }
 
 std::string of_readable_file(const std::filesystem::path& file) {
   try {
     return of_file(file);
-  } catch (const EnvironmentError&) {
+  } catch (const InputError&) {
     return "";
   }
 }

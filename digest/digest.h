@@ -1,4 +1,5 @@
-// SHA-256 of bytes and files, as 64 lower-case hexadecimal digits (FIPS 180-4, computed by OpenSSL).
+// SHA-256 of bytes and files, as 64 lower-case hexadecimal digits (FIPS 180-4, computed by OpenSSL). A module of its
+// own, so that organs, exercises, recordings and the store name bytes in one way.
 //
 // Thread: any; one Stream belongs to one thread.
 #pragma once
@@ -29,7 +30,7 @@ class Stream {
 
 std::string of_bytes(std::string_view bytes);
 
-/// @throws EnvironmentError naming the file when it cannot be read.
+/// @throws InputError naming the file when it cannot be read.
 std::string of_file(const std::filesystem::path& file);
 
 /// The same, but "" when the file cannot be read.
