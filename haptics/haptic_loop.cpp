@@ -65,11 +65,17 @@ std::array<std::int32_t, kChannels> count_limits(const HapticLoopConfig& config)
   return limit;
 }
 
-/// NaN or infinity anywhere in the patch: comparisons would swallow it and the force would silently vanish.
-bool is_finite(const ContactPatch& patch, bool triangles) {
-  double sum = patch.stiffness_n_per_m + patch.damping_s_per_m + patch.grip.thickness_m + patch.grip.stiffness_n_per_m;
+/// NaN or infinity anywhere in the patch: comparisons would swallow it and the force would silently vanish. The same
+/// for a material that the table does not have.
+bool is_sound(const ContactPatch& patch, bool triangles) {
+  double sum = patch.grip.thickness_m + patch.grip.stiffness_n_per_m + (patch.held.from_I + patch.held.to_I).sum() +
+               patch.held.radius_m;
+  for (const ContactMaterial& m : patch.material) {
+    sum += m.stiffness_n_per_m + m.damping_s_per_m + m.mu_static + m.mu_dynamic + m.stribeck_m_s;
+  }
   for (int i = 0; triangles && i < patch.count; ++i) {
     const PatchTriangle& t = patch.triangle[i];
+    if (t.material < 0 || t.material >= kMaxPatchMaterials) return false;
     sum += (t.vertex[0] + t.vertex[1] + t.vertex[2] + t.normal).sum();
   }
   return std::isfinite(sum);
@@ -131,11 +137,11 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   }
   const bool new_patch = patch.stamp != checked_stamp_;
   checked_stamp_ = patch.stamp;
-  if (!is_finite(patch, new_patch)) {
-    supervisor_.raise(FaultCode::kNonFinite, tick_, -1, patch.stiffness_n_per_m);
+  if (!is_sound(patch, new_patch)) {
+    supervisor_.raise(FaultCode::kNonFinite, tick_, -1, patch.material[0].stiffness_n_per_m);
     return contact;
   }
-  contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T, patch);
+  contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T, patch, motion.q[kPinchChannel]);
   contact.grip = grip_block(patch.grip, motion.q[kPinchChannel]);
   const Wrench F = config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.F_I_T);
   Vec6 w;

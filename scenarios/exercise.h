@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
 #include "scenarios/scoring/rubric.h"
 
@@ -52,7 +53,7 @@ struct Exercise {
   Vec3 start_above_m = Vec3::Zero();   ///< start sphere's centre relative to the region's centre
   TargetLayout layout;
   double hold_s = 0;                   ///< time in band that completes a target
-  double surface_stiffness_n_per_m = 0, surface_damping_s_per_m = 0;
+  ContactMaterial surface;
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
   double retract_height_m = 0;         ///< of the ideal path between targets
   GripTask grip;

@@ -40,8 +40,12 @@ void read_targets(StrictTable table, Exercise& exercise) {
 }
 
 void read_surface(StrictTable table, Exercise& exercise) {
-  exercise.surface_stiffness_n_per_m = table.number("stiffness_n_per_m", 1, 5000);
-  exercise.surface_damping_s_per_m = table.number("damping_s_per_m", 0, 50);
+  exercise.surface.stiffness_n_per_m = table.number("stiffness_n_per_m", 1, 5000);
+  exercise.surface.damping_s_per_m = table.number("damping_s_per_m", 0, 50);
+  exercise.surface.mu_static = table.number_or("friction_static", 0, 2, 0);
+  exercise.surface.mu_dynamic = table.number_or("friction_dynamic", 0, 2, 0);
+  if (exercise.surface.mu_dynamic > exercise.surface.mu_static)
+    table.fail("friction_dynamic", "'friction_dynamic' must not be above 'friction_static'");
   table.finish();
 }
 

@@ -62,7 +62,7 @@ Captured capture(const Scene& scene, const Recording& recording) {
   HapticLoop loop(scene.loop);
   PatchExtraction extraction(scene.organ_T);
   auto patch = std::make_unique<ContactPatch>();
-  patch->stiffness_n_per_m = scene.setup.exercise.surface_stiffness_n_per_m;
+  patch->material[0] = scene.setup.exercise.surface;
   for (std::size_t i = 0; i < captured.samples.size(); ++i) {
     TickRecord& record = captured.records.emplace_back();
     loop.tick(captured.samples[i], *patch, record);
@@ -75,7 +75,7 @@ std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
   const std::size_t count = run.samples.size();
   PatchExtraction extraction(scene.organ_T);
   auto patch = std::make_unique<ContactPatch>();
-  patch->stiffness_n_per_m = scene.setup.exercise.surface_stiffness_n_per_m;
+  patch->material[0] = scene.setup.exercise.surface;
   ContactRenderer contact(scene.loop.contact_law, scene.loop.tool);
   HapticLoop loop(scene.loop);
   auto record = std::make_unique<TickRecord>();

@@ -38,11 +38,19 @@ void StateHash::add(const ContactPatch& patch) {
   add(static_cast<std::uint64_t>(patch.count) << 32 | static_cast<std::uint32_t>(patch.dropped));
   for (int i = 0; i < patch.count; ++i) {
     const PatchTriangle& triangle = patch.triangle[i];
-    add(static_cast<std::uint64_t>(triangle.id));
+    add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(triangle.id)) << 32 |
+        static_cast<std::uint32_t>(triangle.material));
     for (const Vec3& vertex : triangle.vertex) add(vertex);
   }
-  add(patch.damping_s_per_m);
-  add(patch.stiffness_n_per_m);
+  add(patch.reach_m);
+  for (const ContactMaterial& m : patch.material) {
+    for (const double value : {m.stiffness_n_per_m, m.damping_s_per_m, m.mu_static, m.mu_dynamic, m.stribeck_m_s}) {
+      add(value);
+    }
+  }
+  add(patch.held.from_I);
+  add(patch.held.to_I);
+  add(patch.held.radius_m);
   add(patch.grip.thickness_m);
   add(patch.grip.stiffness_n_per_m);
 }

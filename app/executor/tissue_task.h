@@ -27,10 +27,10 @@ class TissueTask final : public Task {
     // The jig lies beneath the board: the tissue is there from the moment the tip first rests at the start, in free space.
     inserted_ = inserted_ || director_.status().phase != Phase::kReady;
     patch.count = patch.dropped = 0;
-    if (inserted_) extraction_.extract(state.X_TI, scene_.loop.tool, patch);
+    patch.reach_m = kPatchRadius;
+    if (inserted_) extraction_.extract(state.X_TI, scene_.loop.tool, patch, state.jaw_opening_m);
     patch.stamp = ++frame_;
-    patch.stiffness_n_per_m = scene_.setup.exercise.surface_stiffness_n_per_m;
-    patch.damping_s_per_m = scene_.setup.exercise.surface_damping_s_per_m;
+    patch.material[0] = scene_.setup.exercise.surface;
     patch.grip = director_.status().grip;
     dropped_ += static_cast<std::uint64_t>(patch.dropped);
     hash_.add(patch);

@@ -11,7 +11,7 @@
 namespace trocar {
 namespace {
 
-constexpr int kMaxSteps = 10;  // of half a radius: 12 mm a tick at r = 2.5 mm
+constexpr int kMaxSteps = 10;  // of half a radius: 12 mm a tick at r = 2.5 mm, 6 mm with jaws
 constexpr int kSweeps = 4;     // pushes a step over all near triangles
 constexpr int kShareRounds = 12;
 constexpr double kShareGain = 1e-10;     // m, a contact that would carry less is not asked
@@ -22,11 +22,15 @@ constexpr double kSlideSlack = 5e-5;     // m beyond the radius within which a t
 constexpr double kShareSlack = 1e-5;     // m beyond the radius within which a triangle may carry force
 constexpr double kSameNormal = 0.9998;   // cosine of 1.1 deg: contacts closer than this are one
 constexpr double kSamePoint = 5e-4;      // m
+constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a change of material
 
 }  // namespace
 
-ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
-  return law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, V_TI_T, patch);
+ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch,
+                                      double jaw_opening_m) {
+  if (law_ == ContactLaw::kThesis) return thesis_law(X_TI, patch);
+  tool_ = tool_capsules(shape_, jaw_opening_m, patch.held);
+  return proxy_law(X_TI, V_TI_T, patch);
 }
 
 ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) const {
@@ -46,30 +50,37 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
   result.contact = result.tip_contact = true;
   result.depth_m = nearest;
   result.normal_T = triangle->normal;
-  result.F_I_T.force = patch.stiffness_n_per_m * (result.point_T - X_TI.p);
+  const double stiffness = patch.material[static_cast<std::size_t>(triangle->material)].stiffness_n_per_m;
+  result.F_I_T.force = stiffness * (result.point_T - X_TI.p);
   result.F_I_T.moment = (result.point_T - X_TI.p).cross(result.F_I_T.force);
-  result.stored_j = 0.5 * patch.stiffness_n_per_m * nearest * nearest;
+  result.stored_j = 0.5 * stiffness * nearest * nearest;
   return result;
 }
 
-ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
-  const Vec3 goal = X_TI.p;
-  backwards_ = X_TI.R.col(2) * -shape_.shaft_length_m;
-  if (!started_) {
-    proxy_ = last_goal_ = goal;
-    started_ = true;
-  }
+void ContactRenderer::move_proxy(const Vec3& goal, const Axes& axes, const ContactPatch& patch) {
+  const double turn = turn_to(axes);
   // The proxy may travel this far in one period, so triangles further away need no look.
   double allowance = kIdleTravel + 1.5 * (goal - last_goal_).norm();
   last_goal_ = goal;
-  gather(shape_.radius_m + allowance, patch);
+  gather(allowance + turn, patch);
   touch_count_ = 0;
-  project(patch, kSlideSlack);  // the shaft may have turned into the surface
+  const double stride = 0.5 * thinnest_m_;
+  const int turns = std::clamp(static_cast<int>(std::ceil(turn / stride)), 1, kMaxSteps);
+  const Axes before = axes_;
+  for (int i = 1; i <= turns; ++i) {
+    const double s = static_cast<double>(i) / turns;
+    for (int c = 0; c < tool_.count; ++c) {
+      axes_[c].front = before[c].front + s * (axes[c].front - before[c].front);
+      axes_[c].back = before[c].back + s * (axes[c].back - before[c].back);
+    }
+    travelled_ += turn / turns;
+    project(patch, kSlideSlack);  // the instrument may have turned into the surface
+  }
   for (int i = 0; i < kMaxSteps && allowance > kArrived; ++i) {
     const Vec3 step = free_step(goal - proxy_);
     const double length = step.norm();
     if (length < kArrived) break;
-    const double travel = std::min({length, 0.5 * shape_.radius_m, allowance});
+    const double travel = std::min({length, stride, allowance});
     proxy_ += step * (travel / length);
     allowance -= travel;
     travelled_ += travel;
@@ -77,29 +88,78 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
   }
   // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.
   project(patch, kShareSlack);
+}
+
+double ContactRenderer::turn_to(const Axes& axes) const {
+  double furthest = 0;
+  for (int c = 0; c < tool_.count; ++c) {
+    furthest = std::max({furthest, (axes[c].front - axes_[c].front).norm(), (axes[c].back - axes_[c].back).norm()});
+  }
+  return furthest;
+}
+
+ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
+  const Vec3 goal = X_TI.p;
+  Axes axes;
+  thinnest_m_ = tool_.at[0].radius_m;
+  for (int c = 0; c < tool_.count; ++c) {
+    const Capsule& capsule = tool_.at[c];
+    thinnest_m_ = std::min(thinnest_m_, capsule.radius_m);
+    axes[c].front = X_TI.R * capsule.X_IC.p;
+    axes[c].back = axes[c].front - X_TI.R * (capsule.X_IC.R.col(2) * capsule.length_m);
+  }
+  if (!started_) {
+    proxy_ = last_goal_ = goal;
+    axes_ = axes;
+    started_ = true;
+  }
+  for (int c = known_; c < tool_.count; ++c) axes_[c] = axes[c];  // picked up just now
+  known_ = tool_.count;
+  const double travel = (goal - last_goal_).norm();
+  move_proxy(goal, axes, patch);
 
   ContactResult result;
   const Vec3 y = proxy_ - goal;
-  if (touch_count_ == 0 || y.norm() < kArrived) return result;
-  share_out(y);
-  const double approach = approach_speed(V_TI_T, y.norm());
-  const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * patch.damping_s_per_m * approach);
+  const bool free = touch_count_ == 0 || y.norm() < kArrived;
+  if (!free) share_out(y);
   const Touch* largest = &touch_[0];
+  for (int i = 0; !free && i < touch_count_; ++i) {
+    if (touch_[i].share > largest->share) largest = &touch_[i];
+  }
+  if (free || largest->share <= 0) {
+    touching_ = false;
+    return result;
+  }
+  blend_material(patch, travel);
+  const double approach = approach_speed(V_TI_T, y.norm());
+  const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * blend_.damping_s_per_m * approach);
   for (int i = 0; i < touch_count_; ++i) {
     const Touch& t = touch_[i];
-    const Vec3 force = patch.stiffness_n_per_m * damping * t.share * t.normal;
+    const Vec3 force = blend_.stiffness_n_per_m * damping * t.share * t.normal;
     result.F_I_T.force += force;
     result.F_I_T.moment += (t.point - proxy_).cross(force);
-    if (t.share > largest->share) largest = &t;
   }
-  if (largest->share <= 0) return result;
   result.contact = true;
   result.tip_contact = largest->at_tip;
   result.point_T = largest->point;
   result.normal_T = y.normalized();
   result.depth_m = y.norm();
-  result.stored_j = 0.5 * patch.stiffness_n_per_m * y.squaredNorm();
+  result.stored_j = 0.5 * blend_.stiffness_n_per_m * y.squaredNorm();
   return result;
+}
+
+void ContactRenderer::blend_material(const ContactPatch& patch, double travel_m) {
+  double sum = 0, stiffness = 0, damping = 0;
+  for (int i = 0; i < touch_count_; ++i) {
+    const auto& material = patch.material[static_cast<std::size_t>(patch.triangle[touch_[i].index].material)];
+    sum += touch_[i].share;
+    stiffness += touch_[i].share * material.stiffness_n_per_m;
+    damping += touch_[i].share * material.damping_s_per_m;
+  }
+  const double follow = touching_ ? std::min(1.0, travel_m / kBlendTravel) : 1;
+  touching_ = true;
+  blend_.stiffness_n_per_m += follow * (stiffness / sum - blend_.stiffness_n_per_m);
+  blend_.damping_s_per_m += follow * (damping / sum - blend_.damping_s_per_m);
 }
 
 double ContactRenderer::approach_speed(const Twist& V_TI_T, double depth_m) const {
@@ -111,57 +171,63 @@ double ContactRenderer::approach_speed(const Twist& V_TI_T, double depth_m) cons
   return power / depth_m;
 }
 
-void ContactRenderer::gather(double reach, const ContactPatch& patch) {
-  std::array<Near, kMaxPatchTriangles> found;
+void ContactRenderer::gather(double allowance, const ContactPatch& patch) {
+  std::array<Near, kMaxPatchTriangles * kMaxCapsules> found;
   int count = 0;
   travelled_ = 0;
-  const Vec3 axis = backwards_ / shape_.shaft_length_m;
   for (int i = 0; i < patch.count; ++i) {
     const auto& v = patch.triangle[i].vertex;
     const Vec3 centre = (v[0] + v[1] + v[2]) / 3;
     const double size2 =
         std::max({(v[0] - centre).squaredNorm(), (v[1] - centre).squaredNorm(), (v[2] - centre).squaredNorm()});
-    const Vec3 offset = centre - proxy_;
-    const double along = std::clamp(offset.dot(axis), 0.0, shape_.shaft_length_m);
-    const double centre2 = (offset - axis * along).squaredNorm();
-    if (centre2 > 2 * (reach * reach + size2)) continue;  // (a + b)^2 <= 2 (a^2 + b^2): most leave without a root
-    const double distance = std::sqrt(centre2) - std::sqrt(size2);
-    if (distance <= reach) found[count++] = {distance, 0, i};
+    for (int c = 0; c < tool_.count; ++c) {
+      const double radius = tool_.at[c].radius_m, reach = radius + allowance;
+      const Vec3 offset = centre - proxy_ - axes_[c].front, axis = axes_[c].back - axes_[c].front;
+      const double length2 = axis.squaredNorm();
+      const double along = length2 > 0 ? std::clamp(offset.dot(axis) / length2, 0.0, 1.0) : 0;
+      const double centre2 = (offset - axis * along).squaredNorm();
+      if (centre2 > 2 * (reach * reach + size2)) continue;  // (a + b)^2 <= 2 (a^2 + b^2): most leave without a root
+      const double gap = std::sqrt(centre2) - std::sqrt(size2) - radius;
+      if (gap <= allowance) found[count++] = {gap, 0, i, static_cast<std::int8_t>(c)};
+    }
   }
   if (count > kMaxNear) {  // the nearest, whatever the order of the patch
     std::nth_element(found.begin(), found.begin() + kMaxNear, found.begin() + count, [](const Near& l, const Near& r) {
-      return l.distance != r.distance ? l.distance < r.distance : l.index < r.index;
+      return l.gap != r.gap ? l.gap < r.gap : l.index < r.index;
     });
     count = kMaxNear;
-    std::sort(found.begin(), found.begin() + count, [](const Near& l, const Near& r) { return l.index < r.index; });
+    std::sort(found.begin(), found.begin() + count, [](const Near& l, const Near& r) {
+      return l.index != r.index ? l.index < r.index : l.capsule < r.capsule;
+    });
   }
   std::copy(found.begin(), found.begin() + count, near_.begin());
   near_count_ = count;
 }
 
 void ContactRenderer::project(const ContactPatch& patch, double slack) {
-  const double reach = shape_.radius_m + slack;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     touch_count_ = 0;
     double deepest = 0;
     for (int i = 0; i < near_count_; ++i) {
       Near& near = near_[i];
-      if (near.distance - (travelled_ - near.travelled) > reach) continue;
+      if (near.gap - (travelled_ - near.travelled) > slack) continue;
       const PatchTriangle& triangle = patch.triangle[near.index];
-      const ClosestPair pair = closest_segment_triangle(proxy_, proxy_ + backwards_, triangle.vertex);
-      near.distance = pair.distance;
+      const Axis& axis = axes_[near.capsule];
+      const Capsule& capsule = tool_.at[near.capsule];
+      const ClosestPair pair = closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, triangle.vertex);
+      near.gap = pair.distance - capsule.radius_m;
       near.travelled = travelled_;
-      if (pair.distance > reach) continue;
+      if (near.gap > slack) continue;
       // On the axis itself the direction is undefined: the surface's own normal leads out.
       Vec3 normal = triangle.normal;
       if (pair.distance > 1e-9) normal = (pair.on_segment - pair.on_triangle) / pair.distance;
-      const double inside = shape_.radius_m - pair.distance;
-      if (inside > 0) {
-        proxy_ += inside * normal;
-        travelled_ += inside;
+      if (near.gap < 0) {
+        proxy_ -= near.gap * normal;
+        travelled_ -= near.gap;
       }
-      deepest = std::max(deepest, inside);
-      add_touch({normal, pair.on_triangle, pair.distance, pair.along == 0});
+      deepest = std::max(deepest, -near.gap);
+      const bool at_tip = capsule.foremost && pair.along == 0;
+      add_touch({normal, pair.on_triangle, near.gap, near.index, near.capsule, at_tip});
     }
     if (deepest < kArrived) return;
   }
@@ -169,8 +235,9 @@ void ContactRenderer::project(const ContactPatch& patch, double slack) {
 
 void ContactRenderer::add_touch(const Touch& touch) {
   for (int i = 0; i < touch_count_; ++i) {
-    if (touch_[i].normal.dot(touch.normal) > kSameNormal && (touch_[i].point - touch.point).norm() < kSamePoint) {
-      if (touch.distance < touch_[i].distance) touch_[i] = touch;  // the nearer one is the surface's true foot
+    if (touch_[i].capsule == touch.capsule && touch_[i].normal.dot(touch.normal) > kSameNormal &&
+        (touch_[i].point - touch.point).norm() < kSamePoint) {
+      if (touch.gap < touch_[i].gap) touch_[i] = touch;  // the nearer one is the surface's true foot
       return;
     }
   }
@@ -179,14 +246,14 @@ void ContactRenderer::add_touch(const Touch& touch) {
     return;
   }
   const auto furthest = std::max_element(touch_.begin(), touch_.end(),
-                                         [](const Touch& l, const Touch& r) { return l.distance < r.distance; });
-  if (touch.distance < furthest->distance) *furthest = touch;
+                                         [](const Touch& l, const Touch& r) { return l.gap < r.gap; });
+  if (touch.gap < furthest->gap) *furthest = touch;
 }
 
 Vec3 ContactRenderer::free_step(const Vec3& wish) const {
   std::array<HalfSpace, kMaxContacts> half_spaces;
   for (int i = 0; i < touch_count_; ++i) {
-    half_spaces[i] = {touch_[i].normal, std::max(0.0, touch_[i].distance - shape_.radius_m)};
+    half_spaces[i] = {touch_[i].normal, std::max(0.0, touch_[i].gap)};
   }
   return nearest_allowed(wish, {half_spaces.data(), static_cast<std::size_t>(touch_count_)});
 }

@@ -1,10 +1,12 @@
-// Contact of the instrument with the tissue patch: the force of the local elasticity on tip sphere and shaft.
+// Contact of the instrument with the tissue patch: the force of the local elasticity on shaft, jaws and what they hold.
 //
-// The instrument is a capsule (tip sphere, shaft). A proxy of it, displaced by y without rotation, is kept outside the
-// surface: it moves towards the instrument in steps under half a radius and is pushed out of every triangle nearer
-// than the radius, so it can never change sides (side memory). At rest y is the shortest displacement that frees the
-// capsule and F = k y; the moment is that of the contact forces about the tip (virtual work of V = k |y|^2 / 2, so the
-// law is conservative). The radius rounds convex edges: the normal turns continuously. Damping multiplies the force by
+// The instrument is a set of capsules (tool_shape.h). A proxy of all of them, displaced by y without rotation, is kept
+// outside the surface: it moves towards the instrument in steps under half a radius and is pushed out of every triangle
+// nearer than the radius, so it can never change sides (side memory). Turning and opening jaws are followed in steps as
+// short. At rest y is the shortest displacement that frees the instrument and F = k y; the moment is that of the contact
+// forces about the tip (virtual work of V = k |y|^2 / 2, so the law is conservative). One k serves all contacts: that of
+// the touched materials by the force they carry; where it changes it follows over 2 mm of travel, so that no border
+// between materials is a step. The radius rounds convex edges: the normal turns continuously. Damping multiplies the force by
 // 1 + 1.5 c v, v the approach speed, bounded below by 0: it never pulls (Hunt and Crossley 1975, exponent 1).
 // Zilles and Salisbury 1995 (god-object), Ortega, Redon and Coquillart 2007 (6-DOF god-object).
 //
@@ -15,18 +17,13 @@
 #include <array>
 #include <cstdint>
 
+#include "haptics/control/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
 
 enum class ContactLaw : std::uint8_t { kProxy, kThesis };
-
-/// The instrument's shape: a capsule whose end sphere is centred on the tip.
-struct ToolShape {
-  double radius_m = 0.0025;      ///< 5 mm instrument
-  double shaft_length_m = 0.30;  ///< from the tip backwards along -z of I
-};
 
 struct ContactResult {
   Wrench F_I_T;               ///< spring and damping, on the instrument, moment about the tip
@@ -47,32 +44,48 @@ class ContactRenderer {
   void reset() { started_ = false; }
 
   /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
-  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// @param jaw_opening_m gap between the ends of the jaw pads.
+  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, double jaw_opening_m = 0);
 
  private:
-  static constexpr int kMaxNear = 96;      ///< triangles considered in one tick
+  static constexpr int kMaxNear = 192;     ///< pairs of capsule and triangle considered in one tick
   static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
   static constexpr int kMaxCarrying = 3;   ///< of them, those that can carry at once in space
 
   struct Touch {
     Vec3 normal, point;  ///< unit from surface to axis; surface point
-    double distance;     ///< from the axis, m
+    double gap;          ///< between the surfaces of capsule and triangle, m; negative: they overlap
+    std::int32_t index;  ///< triangle in the patch
+    std::int8_t capsule;
     bool at_tip;
     double share = 0;  ///< part of y carried, m
   };
 
-  /// A triangle that the proxy may meet this period.
+  /// A triangle that a capsule of the proxy may meet this period.
   struct Near {
-    double distance;  ///< from the axis, or less, when `travelled` was what it was; it changes no faster than that
+    double gap;  ///< between capsule and triangle, or less, when `travelled` was what it was; it changes no faster
     double travelled;
     std::int32_t index;  ///< in the patch
+    std::int8_t capsule;
   };
 
+  /// Axis of a capsule relative to the tip of the instrument, T.
+  struct Axis {
+    Vec3 front = Vec3::Zero(), back = Vec3::Zero();
+  };
+  using Axes = std::array<Axis, kMaxCapsules>;
+
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
+  /// Moves the proxy to where it rests this period and lists what it touches.
+  void move_proxy(const Vec3& goal, const Axes& axes, const ContactPatch& patch);
   ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// Furthest that an end of a capsule has to go against the tip to take this place.
+  double turn_to(const Axes& axes) const;
+  void blend_material(const ContactPatch& patch, double travel_m);
   /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
   double approach_speed(const Twist& V_TI_T, double depth_m) const;
-  void gather(double reach, const ContactPatch& patch);
+  /// Lists the pairs that may come nearer than `allowance` this period.
+  void gather(double allowance, const ContactPatch& patch);
   /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
   void project(const ContactPatch& patch, double slack);
   void add_touch(const Touch& touch);
@@ -88,7 +101,12 @@ class ContactRenderer {
   bool started_ = false;
   Vec3 proxy_ = Vec3::Zero();       ///< tip centre of the proxy, T
   Vec3 last_goal_ = Vec3::Zero();   ///< tip of the instrument one period ago, T
-  Vec3 backwards_ = Vec3::UnitZ();  ///< from the tip along the shaft, times its length
+  ToolCapsules tool_;
+  int known_ = 0;                   ///< capsules of the last period
+  double thinnest_m_ = 0;           ///< least radius in tool_
+  Axes axes_{};                     ///< of the proxy
+  ContactMaterial blend_;           ///< stiffness and damping in use
+  bool touching_ = false;           ///< carried force in the last period
   std::array<Near, kMaxNear> near_{};
   int near_count_ = 0;
   double travelled_ = 0;  ///< of the proxy since the near triangles were gathered, m

@@ -76,7 +76,7 @@ Steps sweep(
 
 class ContactSweep : public ::testing::Test {
  protected:
-  ContactSweep() { patch->stiffness_n_per_m = 300; }  // 0.6 N at 2 mm
+  ContactSweep() { patch->material[0].stiffness_n_per_m = 300; }  // 0.6 N at 2 mm
   void expect_smooth(const Steps& steps) {
     EXPECT_LT(steps.force_n, 0.02) << "N per tick at 0.6 N";
     EXPECT_LT(steps.turn_deg, 2.0) << "degrees per tick";

@@ -28,7 +28,7 @@ class Contact : public ::testing::Test {
     for (int i = 0; i < ticks; ++i) result = feel(X);
     return result;
   }
-  double stiffness() const { return patch->stiffness_n_per_m; }
+  double stiffness() const { return patch->material[0].stiffness_n_per_m; }
 
   std::unique_ptr<ContactPatch> patch = std::make_unique<ContactPatch>();
   ContactRenderer renderer{ContactLaw::kProxy};
@@ -123,8 +123,8 @@ TEST_F(Contact, DampingResistsTheApproachAndNeverPulls) {
   const Pose X = tip_down({0, 0, kRadius - 0.003});
   const double spring = settle(X).F_I_T.force.z();
   const ContactResult in = feel(X, {0, 0, -0.2}), out = feel(X, {0, 0, 0.2});
-  EXPECT_NEAR(in.F_I_T.force.z(), spring * (1 + 1.5 * patch->damping_s_per_m * 0.2), 1e-6);
-  EXPECT_NEAR(out.F_I_T.force.z(), spring * (1 - 1.5 * patch->damping_s_per_m * 0.2), 1e-6);
+  EXPECT_NEAR(in.F_I_T.force.z(), spring * (1 + 1.5 * patch->material[0].damping_s_per_m * 0.2), 1e-6);
+  EXPECT_NEAR(out.F_I_T.force.z(), spring * (1 - 1.5 * patch->material[0].damping_s_per_m * 0.2), 1e-6);
   for (int k = 0; k < 5000; ++k) {
     const ContactResult r = feel(X, random.vector(20));
     EXPECT_GE(r.F_I_T.force.z(), 0);

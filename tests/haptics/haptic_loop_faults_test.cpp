@@ -99,7 +99,7 @@ void expect_nan_stops(LoopRig& rig, const std::function<void(ContactPatch&, doub
 
 TEST(HapticLoopFaults, NotANumberInTheStiffness) {
   LoopRig rig;
-  expect_nan_stops(rig, [](ContactPatch& patch, double nan) { patch.stiffness_n_per_m = nan; });
+  expect_nan_stops(rig, [](ContactPatch& patch, double nan) { patch.material[0].stiffness_n_per_m = nan; });
 }
 
 TEST(HapticLoopFaults, NotANumberInTheBlock) {
@@ -109,7 +109,7 @@ TEST(HapticLoopFaults, NotANumberInTheBlock) {
 
 TEST(HapticLoopFaults, NotANumberInTheDamping) {
   LoopRig rig;
-  expect_nan_stops(rig, [](ContactPatch& patch, double nan) { patch.damping_s_per_m = nan; });
+  expect_nan_stops(rig, [](ContactPatch& patch, double nan) { patch.material[0].damping_s_per_m = nan; });
 }
 
 TEST(HapticLoopFaults, NotANumberInTheVertices) {

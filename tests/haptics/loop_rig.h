@@ -71,7 +71,7 @@ class LoopRig {
   void put_floor(double below, double stiffness) {
     const Vec3 tip = record.stylus.X_TI.p;
     patch->count = 0;
-    patch->stiffness_n_per_m = stiffness;
+    patch->material[0].stiffness_n_per_m = stiffness;
     const double z = tip.z() - config.tool.radius_m - below;
     add_sheet(*patch, {tip.x() - 0.03, tip.y() - 0.03, z}, {0.06, 0, 0}, {0, 0.06, 0}, 6);
   }

@@ -42,7 +42,7 @@ TEST(ExerciseLoader, ReadsTheShippedExercise) {
   EXPECT_DOUBLE_EQ(e.layout.region_x_m, 0.100);
   EXPECT_DOUBLE_EQ(e.layout.region_y_m, 0.080);
   EXPECT_DOUBLE_EQ(e.layout.relief_m, 0.020);
-  EXPECT_DOUBLE_EQ(e.surface_stiffness_n_per_m, 150);
+  EXPECT_DOUBLE_EQ(e.surface.stiffness_n_per_m, 150);
   EXPECT_DOUBLE_EQ(e.hard_force_n, 1.5);
   EXPECT_DOUBLE_EQ(e.critical_force_n, 4.7);
   EXPECT_DOUBLE_EQ(e.time_limit_s, 120);
@@ -54,6 +54,14 @@ TEST(ExerciseLoader, ReadsTheShippedExercise) {
   EXPECT_DOUBLE_EQ(e.levels[0].band_low_n, 0.4);
   EXPECT_DOUBLE_EQ(e.levels[0].band_high_n, 0.8);
   EXPECT_LT(e.levels[0].force_scale, 0) << "\"auto\" is left to the session";
+}
+
+TEST(ExerciseLoader, FrictionOfTheSurfaceIsOptional) {
+  EXPECT_EQ(load_exercise(kExercises / "surface-touch.toml").surface.mu_static, 0);
+  const std::string with = edited("damping_s_per_m = 0.5", "damping_s_per_m = 0.5\nfriction_static = 0.1\nfriction_dynamic = 0.05");
+  const Exercise e = parse_exercise(with, "rough.toml");
+  EXPECT_DOUBLE_EQ(e.surface.mu_static, 0.1);
+  EXPECT_DOUBLE_EQ(e.surface.mu_dynamic, 0.05);
 }
 
 TEST(ExerciseLoader, ReadsTheRubricWithTimesInUnitsOfTheExpert) {
@@ -124,6 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"min_spacing_mm = 14", "min_spacing_mm = 5", "lets discs overlap"},
         BadValue{"band_n = [0.4, 0.8]", "band_n = [0.8, 0.4]", "'band_n' must be [low, high]"},
         BadValue{"band_n = [0.4, 0.8]", "band_n = [0.4, 1.8]", "'band_n' reaches above 'hard_n'"},
+        BadValue{"damping_s_per_m = 0.5", "damping_s_per_m = 0.5\nfriction_static = 0.1\nfriction_dynamic = 0.2",
+                 "'friction_dynamic' must not be above 'friction_static'"},
         BadValue{"mapping = \"direct\"", "mapping = \"diret\"", "did you mean 'direct'?"},
         BadValue{"force_scale = \"auto\"", "force_scale = \"max\"", "must be a number or \"auto\""},
         BadValue{"metric = \"wrong_places\"", "metric = \"wrong_place\"", "did you mean 'wrong_places'?"},

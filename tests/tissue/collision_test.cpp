@@ -19,6 +19,8 @@ std::array<Vec3, 3> corners(const TriangleSurface& s, std::size_t i) {
   return {s.vertices[std::size_t(a)], s.vertices[std::size_t(b)], s.vertices[std::size_t(c)]};
 }
 
+std::span<const Segment> one(const Segment& segment) { return {&segment, 1}; }
+
 Hits brute_force(const TriangleSurface& s, const Vec3& a, const Vec3& b, double reach) {
   Hits hits;
   for (std::size_t i = 0; i < s.triangles.size(); ++i) {
@@ -61,7 +63,7 @@ TEST(SurfaceTree, FindsExactlyWhatBruteForceFinds) {
     for (int k = 0; k < 60; ++k) {
       const Vec3 a = random.vector(0.08), b = k % 6 == 0 ? a : random.vector(0.08);
       const double reach = k % 7 == 0 ? 0 : random.between(0, 0.03);
-      tree.within(a, b, reach, hits);
+      tree.within(one({a, b}), reach, hits);
       expect_same(hits, brute_force(surface, a, b, reach));
       total += hits.size();
     }
@@ -76,7 +78,7 @@ TEST(SurfaceTree, FindsExactlyWhatBruteForceFindsOnAnOrganLikeSurface) {
   Hits hits;
   for (int k = 0; k < 100; ++k) {
     const Vec3 tip = random.direction() * random.between(0.07, 0.11), handle = tip + random.direction() * 0.30;
-    tree.within(tip, handle, kPatchRadius, hits);
+    tree.within(one({tip, handle}), kPatchRadius, hits);
     expect_same(hits, brute_force(surface, tip, handle, kPatchRadius));
   }
 }
@@ -85,7 +87,7 @@ TEST(SurfaceTree, EmptySurfaceHasNoHits) {
   const TriangleSurface nothing;
   const SurfaceTree tree(nothing);
   Hits hits{{3, 0.5}};
-  tree.within(Vec3::Zero(), Vec3::UnitX(), 10, hits);
+  tree.within(one({Vec3::Zero(), Vec3::UnitX()}), 10, hits);
   EXPECT_TRUE(hits.empty());
 }
 
@@ -95,9 +97,10 @@ TEST(SurfaceTree, ManyTrianglesInOnePlaceDoNotConfuseTheSplit) {
   for (int i = 0; i < 1000; ++i) same.triangles.push_back({0, 1, 2});
   const SurfaceTree tree(same);
   Hits hits;
-  tree.within({0.002, 0.002, 0.004}, {0.002, 0.002, 0.1}, 0.0041, hits);
+  const Segment upright{{0.002, 0.002, 0.004}, {0.002, 0.002, 0.1}};
+  tree.within(one(upright), 0.0041, hits);
   EXPECT_EQ(hits.size(), 1000u);
-  tree.within({0.002, 0.002, 0.004}, {0.002, 0.002, 0.1}, 0.0039, hits);
+  tree.within(one(upright), 0.0039, hits);
   EXPECT_TRUE(hits.empty());
 }
 
@@ -138,22 +141,50 @@ TEST_F(Patch, TheFurthestIsDroppedAndCounted) {
   ASSERT_GT(all.size(), 512u);
   EXPECT_EQ(patch->count, kMaxPatchTriangles);
   EXPECT_EQ(patch->dropped, static_cast<int>(all.size()) - kMaxPatchTriangles);
+  EXPECT_LT(patch->reach_m, kPatchRadius);
   std::sort(all.begin(), all.end(), [](const auto& l, const auto& r) {
     return l.distance != r.distance ? l.distance < r.distance : l.triangle < r.triangle;
   });
   for (std::size_t i = 0; i < 512; ++i) ASSERT_EQ(patch->triangle[i].id, all[i].triangle) << "rank " << i;
+  EXPECT_EQ(patch->reach_m, all[512].distance) << "nothing nearer than this is missing";
+}
+
+TEST_F(Patch, JawsAndHeldObjectWidenIt) {
+  const TriangleSurface surface = test::sphere(4, 0.05);
+  PatchExtraction extraction(surface);
+  const ToolShape grasper{.jaw_length_m = 0.020};
+  const double opening = 0.024;
+  const Pose X = test::tip_down({0.001, 0.002, 0.060});
+  patch->held = {{0.01, 0, 0.012}, {-0.01, 0, 0.012}, 0.003};
+  extraction.extract(X, grasper, *patch, opening);
+  const ToolCapsules tool = tool_capsules(grasper, opening, patch->held);
+  ASSERT_EQ(tool.count, 4);
+  int expected = 0;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    double nearest = 1;
+    for (int c = 0; c < tool.count; ++c) {
+      const Pose X_TC = X * tool.at[std::size_t(c)].X_IC;
+      const Vec3 back = X_TC.p - X_TC.R.col(2) * tool.at[std::size_t(c)].length_m;
+      nearest = std::min(nearest, closest_segment_triangle(X_TC.p, back, corners(surface, i)).distance);
+    }
+    expected += nearest <= kPatchRadius;
+  }
+  EXPECT_EQ(patch->count + patch->dropped, expected);
+  patch->held.radius_m = 0;
+  extraction.extract(X, {}, *patch);
+  EXPECT_LT(patch->count, expected) << "the probe alone reaches less";
 }
 
 TEST_F(Patch, FarAwayNothingIsFoundAndMaterialIsLeftAlone) {
   const TriangleSurface surface = test::sphere(3, 0.05);
   PatchExtraction extraction(surface);
-  patch->stiffness_n_per_m = 321;
+  patch->material[0].stiffness_n_per_m = 321;
   patch->stamp = 17;
   patch->grip = {0.01, 500};
   extraction.extract(test::tip_down({0, 0, 0.5}), {}, *patch);
   EXPECT_EQ(patch->count, 0);
   EXPECT_EQ(patch->dropped, 0);
-  EXPECT_EQ(patch->stiffness_n_per_m, 321);
+  EXPECT_EQ(patch->material[0].stiffness_n_per_m, 321);
   EXPECT_EQ(patch->stamp, 17u);
   EXPECT_EQ(patch->grip.stiffness_n_per_m, 500);
 }

@@ -1,4 +1,5 @@
-// Cuts the contact patch out of the surface: the triangles within kPatchRadius of the instrument, nearest first.
+// Cuts the contact patch out of the surface: the triangles within kPatchRadius of the axes of shaft, jaws and held
+// object, nearest first.
 //
 // Runs at the tissue rate. What does not fit into the patch is the furthest and is counted in `dropped`.
 // Frame T. Thread: tissue task; allocates nothing once its buffer has grown.
@@ -6,7 +7,7 @@
 
 #include <vector>
 
-#include "haptics/control/contact_renderer.h"
+#include "haptics/control/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "tissue/collision/surface_tree.h"
 
@@ -17,8 +18,9 @@ class PatchExtraction {
   /// @param surface in T; must outlive this object.
   explicit PatchExtraction(const TriangleSurface& surface);
 
-  /// Fills triangles, count and dropped; leaves stamp, material and grip to the caller.
-  void extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch);
+  /// Fills triangles, count, dropped and reach; leaves stamp, material, grip and held object to the caller.
+  /// @param patch its held object is part of the tool
+  void extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch, double jaw_opening_m = 0);
 
  private:
   SurfaceTree tree_;

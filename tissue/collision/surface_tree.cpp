@@ -1,6 +1,7 @@
 #include "tissue/collision/surface_tree.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "haptics/control/segment_triangle.h"
@@ -62,7 +63,7 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count, const st
   return index;
 }
 
-void SurfaceTree::within(const Vec3& a, const Vec3& b, double distance, std::vector<Hit>& hits) const {
+void SurfaceTree::within(std::span<const Segment> segments, double distance, std::vector<Hit>& hits) const {
   hits.clear();
   if (nodes_.empty()) return;
   std::array<std::int32_t, 64> stack;  // depth of a median-split tree over 2^31 triangles is below 32
@@ -71,14 +72,17 @@ void SurfaceTree::within(const Vec3& a, const Vec3& b, double distance, std::vec
   while (top > 0) {
     const std::int32_t index = stack[--top];
     const Node& node = nodes_[index];
-    if (lower_bound(node.box, a, b) > distance) continue;
+    const auto far = [&](const Segment& s) { return lower_bound(node.box, s.a, s.b) > distance; };
+    if (std::all_of(segments.begin(), segments.end(), far)) continue;
     if (node.count == 0) {
       stack[top++] = node.right;
       stack[top++] = index + 1;
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const double d = closest_segment_triangle(a, b, corners(*surface_, order_[i])).distance;
+      const auto tri = corners(*surface_, order_[i]);
+      double d = std::numeric_limits<double>::infinity();
+      for (const Segment& s : segments) d = std::min(d, closest_segment_triangle(s.a, s.b, tri).distance);
       if (d <= distance) hits.push_back({order_[i], d});
     }
   }

@@ -1,4 +1,4 @@
-// Bounding-box tree over the triangles of a surface: which triangles lie within a distance of a segment.
+// Bounding-box tree over the triangles of a surface: which triangles lie within a distance of some segments.
 //
 // Plain binary tree of axis-aligned boxes, split at the median of the longest axis, 4 triangles a leaf. CGAL's and FCL's
 // trees either cannot be refitted or answer wrongly after it; this one keeps the topology that a refit needs. Exact: a
@@ -7,25 +7,31 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tissue/mesh/triangle_surface.h"
 
 namespace trocar {
 
+/// Axis of a capsule.
+struct Segment {
+  Vec3 a, b;
+};
+
 class SurfaceTree {
  public:
   /// The surface must outlive the tree.
   explicit SurfaceTree(const TriangleSurface& surface);
 
-  /// A triangle found, with its distance from the segment.
+  /// A triangle found, with its distance from the nearest segment.
   struct Hit {
     std::int32_t triangle;
     double distance;
   };
 
-  /// All triangles within `distance` of the segment a-b, unordered. @param hits cleared first; reused between calls.
-  void within(const Vec3& a, const Vec3& b, double distance, std::vector<Hit>& hits) const;
+  /// All triangles within `distance` of any of the segments, unordered. @param hits cleared first; reused between calls.
+  void within(std::span<const Segment> segments, double distance, std::vector<Hit>& hits) const;
 
   const TriangleSurface& surface() const { return *surface_; }
 

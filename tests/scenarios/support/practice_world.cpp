@@ -42,8 +42,8 @@ struct World {
     const double depth = (surface->position - state.X_TI.p).dot(surface->normal);
     if (depth <= 0) return;
     const double closing = -state.V_TI_T.linear.dot(surface->normal);
-    const double force = room.exercise.surface_stiffness_n_per_m * depth *
-                         std::max(0.0, 1 + room.exercise.surface_damping_s_per_m * closing);
+    const double force = room.exercise.surface.stiffness_n_per_m * depth *
+                         std::max(0.0, 1 + room.exercise.surface.damping_s_per_m * closing);
     state.contact = state.tip_contact = true;
     state.depth_m = depth;
     state.contact_point_T = state.X_TI.p + depth * surface->normal;
