@@ -69,7 +69,7 @@ Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const Daq
   scene.level = find_level(setup.exercise, setup.level);
   scene.organ = load_organ(find_organ(setup.organ, assets.assets));
   scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, setup.exercise.layout));
-  scene.board = lay_out_board(scene.organ_T, setup.exercise, setup.board);
+  scene.board = lay_out_board(scene.organ_T, setup.exercise, scene.level, setup.board);
 
   scene.loop.daq = daq;
   scene.loop.map = place_theatre(scene.level);

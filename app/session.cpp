@@ -158,6 +158,7 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
 Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {
   const RecordedSetup recorded = parse_scene_json(recording.session, name);
   const Exercise& own = recorded.setup.exercise;
+  const Rubric& rubric = find_level(rubric_of ? *rubric_of : own, recorded.setup.level).rubric;
   ScoringContext context;
   if (recording.end && !recording.end->summary_json.empty()) {
     context = parse_scoring_context(recording.end->summary_json, name);
@@ -167,7 +168,7 @@ Grade grade_recording(const Recording& recording, const std::string& name, const
     context = scoring_context(own, level, Board{}, recording.events, AttemptStatus::kAborted);
   }
   const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
-  return score_attempt(trace, recording.events, rubric_of ? rubric_of->rubric : own.rubric, context);
+  return score_attempt(trace, recording.events, rubric, context);
 }
 
 void fill_shares(const Recording& recording, DeviceReceipt& device) {

@@ -90,7 +90,7 @@ std::vector<Target> throw_darts(const HeightField& field, const TargetLayout& la
     if (crowded) continue;
     const auto point = field.top(x, y);
     if (point && qualifies(field, *point, centre_z, layout))
-      targets.push_back({point->position, point->normal, layout.radius_m});
+      targets.push_back({point->position, point->normal, layout.radius_m, {}, Mat3::Identity()});
   }
   return targets;
 }
@@ -171,7 +171,21 @@ Pose place_organ(const TriangleSurface& organ_RAS, const TargetLayout& layout) {
   return {turn.R, -centre};
 }
 
-Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, int board) {
+namespace {
+
+/// Gives each target its band: every band as often as the others, in a drawn order (Fisher and Yates).
+void deal_bands(const std::vector<ForceBand>& bands, std::mt19937_64& generator, std::vector<Target>& targets) {
+  for (std::size_t i = 0; i < targets.size(); ++i) targets[i].band = bands[i % bands.size()];
+  if (bands.size() < 2) return;
+  for (std::size_t i = targets.size() - 1; i > 0; --i) {
+    const auto other = static_cast<std::size_t>(uniform(generator) * static_cast<double>(i + 1));
+    std::swap(targets[i].band, targets[other].band);
+  }
+}
+
+}  // namespace
+
+Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board) {
   const TargetLayout& layout = exercise.layout;
   const HeightField field(organ_T);
   const auto centre = field.top(0, 0);
@@ -188,6 +202,7 @@ Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, in
                      " targets (slope, relief and spacing limits)");
   }
   order_targets(field, exercise.retract_height_m, best);
+  deal_bands(level.bands, generator, best);
   Board result;
   result.centre_T = centre->position;
   result.start_T = centre->position + exercise.start_above_m;

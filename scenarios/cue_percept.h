@@ -4,13 +4,11 @@
 
 #include "haptics/device/hand.h"
 #include "scenarios/director.h"
-#include "scenarios/exercise.h"
 
 namespace trocar {
 
-/// Fills cue, target_index, target_T, target_normal_T, target_radius_m and the band of the percept.
-/// While waiting the target is the start sphere (index -1); while gripping the band is that of the grip.
-void show_cue(const DirectorStatus& status, const Board& board, const Exercise& exercise, const ExerciseLevel& level,
-              Percept& percept);
+/// Fills cue, target_index, the target's place and orientation, and the band of the percept. While waiting the target is
+/// the start sphere (index -1); while gripping the band is that of the grip.
+void show_cue(const DirectorStatus& status, Percept& percept);
 
 }  // namespace trocar

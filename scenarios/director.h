@@ -16,14 +16,18 @@
 
 namespace trocar {
 
-/// One disc on the organ.
+struct TissueFrame;  // tissue/tissue_frame.h
+
+/// One disc on the organ, or one pen to match.
 struct Target {
-  Vec3 centre_T = Vec3::Zero();
+  Vec3 centre_T = Vec3::Zero();        ///< of the disc; where the tip shall be
   Vec3 normal_T = Vec3::UnitZ();
-  double radius_m = 0;
+  double radius_m = 0;                 ///< of the disc; position tolerance of a pen
+  ForceBand band = {};                 ///< disc: wanted force
+  Mat3 R_TI = Mat3::Identity();        ///< pen: wanted orientation of the instrument
 };
 
-/// Targets of one board, drawn by the board number (board_layout.h).
+/// Targets of one board, drawn by the board number (board_layout.h, pen_layout.h).
 struct Board {
   Vec3 centre_T = Vec3::Zero();        ///< centre of the region on the surface
   Vec3 start_T = Vec3::Zero();         ///< centre of the start sphere
@@ -32,15 +36,30 @@ struct Board {
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault };
 
+/// What is asked for at this moment: a place, perhaps an orientation, perhaps a force.
+struct Demand {
+  Vec3 centre_T = Vec3::Zero();
+  Vec3 normal_T = Vec3::UnitZ();
+  double radius_m = 0;                 ///< of the place, or its tolerance
+  bool oriented = false;               ///< R_TI counts
+  Mat3 R_TI = Mat3::Identity();
+  double angle_tolerance_rad = 0;
+  ForceBand band;                      ///< of contact force, or of grip while the cue asks to grip
+};
+
 /// What screen, hand and session see of the exercise at this moment.
 struct DirectorStatus {
   Phase phase = Phase::kReady;
   Cue cue = Cue::kNone;
+  Demand demand;
+  bool force_shown = true;             ///< feedback mode of the level: the bar is visible now
   int target_index = -1;
   int targets_done = 0;
   double run_time_s = 0;               ///< since RUN began
   double hold_progress = 0;            ///< 0..1 of the present hold
   int wrong_places = 0, excess_forces = 0;
+  int timeouts = 0;                    ///< objects not done in their time
+  double position_error_m = 0, angle_error_rad = 0;  ///< to the lit pen
   double peak_force_n = 0;
   GripBlock grip;                      ///< between the jaws now
   std::string message, hint;           ///< toast, empty when none
@@ -53,8 +72,9 @@ class Director {
   ~Director();
   Director(Director&&) noexcept;
 
-  /// Advances by one tissue period. @param state newest haptic state.
-  void update(const StylusState& state);
+  /// Advances by one tissue period. @param state newest haptic state. @param tissue newest frame of the world's objects,
+  /// nullptr when it has none.
+  void update(const StylusState& state, const TissueFrame* tissue = nullptr);
   const DirectorStatus& status() const;
   const Board& board() const;
   /// Events so far, in order of time.

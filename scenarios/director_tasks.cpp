@@ -14,15 +14,11 @@ constexpr double kLiftOff = 0.003;           // m round the disc just held withi
 constexpr double kExcessRepeat = 1.0;        // s above the limit that count as one more excess
 constexpr double kCollisionForce = 2.0;      // N of the shaft on the tissue
 constexpr double kLimitRearm = 0.5;          // s
+constexpr double kToastTime = 1.5;           // s for which a wrong place is shown
 constexpr double kJawClearance = 0.001;      // m that the jaws must be wider than the block before it is offered
 constexpr double kGripTouch = 0.05;          // N
 
 }  // namespace
-
-void EventLog::add(const std::string& type, Severity severity, std::int32_t object, double value,
-                   const std::string& unit) {
-  events.push_back({t_s, type, severity, object, value, unit, tip_T});
-}
 
 SafetyWatch::SafetyWatch(const Exercise& exercise)
     : excess_(exercise.hard_force_n, kRearmShare * exercise.hard_force_n, kRearmTime, kExcessRepeat),
@@ -46,8 +42,7 @@ void SafetyWatch::update(const StylusState& state, double dt_s, std::int32_t obj
 
 DiscTask::DiscTask(const Exercise& exercise, const ExerciseLevel& level, const std::vector<Target>& targets)
     : wrong_place_m_(exercise.layout.wrong_place_m),
-      band_low_n_(level.band_low_n),
-      band_high_n_(level.band_high_n),
+      display_(level.force_display),
       targets_(targets),
       hold_(exercise.hold_s, kHoldGrace) {}
 
@@ -87,8 +82,10 @@ void DiscTask::judge_contact(const StylusState& state, bool new_contact, double 
   on_disc_ = outside <= wrong_place_m_ / 2;
 }
 
-void DiscTask::update(const StylusState& state, double dt_s, EventLog& log) {
+void DiscTask::update(const TaskInput& input, EventLog& log) {
   if (finished()) return;
+  const StylusState& state = input.stylus;
+  const double dt_s = input.dt_s;
   since_wrong_place_s_ += dt_s;
   touching_ = state.contact && state.tip_contact;
   on_disc_ = false;
@@ -99,15 +96,52 @@ void DiscTask::update(const StylusState& state, double dt_s, EventLog& log) {
   }
   free_s_ = touching_ ? 0 : free_s_ + dt_s;
   const double force = state.F_I_T.force.norm();
-  const bool wanted = on_disc_ && force >= band_low_n_ && force <= band_high_n_;
+  const ForceBand& band = targets_[static_cast<std::size_t>(index_)].band;
+  const bool wanted = on_disc_ && force >= band.low_n && force <= band.high_n;
   if (!hold_.update(wanted, dt_s)) return;
   log.add("TARGET_HELD", Severity::kInfo, index_, log.t_s - lit_at_s_, "s");
   ++index_;
   light(log);
 }
 
-SqueezeTask::SqueezeTask(const GripTask& task, std::int32_t object)
+void DiscTask::coach(const TaskInput& input, const ForceBand& band, DirectorStatus& status) const {
+  const double force = input.stylus.F_I_T.force.norm();
+  const std::string wanted = band_text(band);
+  if (input.too_hard && display_ != "after") {
+    status.cue = Cue::kRelease;
+    return say(status, "Too hard - ease off", "Stay between " + wanted + ".", true);
+  }
+  if (since_wrong_place_s_ < kToastTime)
+    return say(status, "Wrong place", "Lift off and touch inside the lit disc.", true);
+  if (!touching_) {
+    const std::string count = std::to_string(index_ + 1) + " of " + std::to_string(targets_.size());
+    return say(status, "Touch the lit disc", "Disc " + count + ": " + wanted + ".");
+  }
+  if (!on_disc_) return say(status, "Move onto the lit disc", "The tip is beside it.");
+  if (display_ == "after") return say(status, "Hold by feel", "Wanted: " + wanted + ".");
+  if (force > band.high_n) return say(status, "A little softer", "Stay between " + wanted + ".");
+  if (force < band.low_n) return say(status, "Press gently", "Reach " + wanted + " and hold.");
+  say(status, "Good - hold", "Keep the force steady.");
+}
+
+void DiscTask::describe(const TaskInput& input, DirectorStatus& status) const {
+  status.target_index = index_;
+  status.targets_done = index_;
+  status.hold_progress = hold_.progress();
+  status.wrong_places = wrong_places_;
+  status.cue = on_disc_ ? Cue::kPress : Cue::kReach;
+  if (finished()) return;
+  const Target& target = targets_[static_cast<std::size_t>(index_)];
+  status.demand = {target.centre_T, target.normal_T, target.radius_m, false, Mat3::Identity(), 0, target.band};
+  const double force = input.stylus.F_I_T.force.norm();
+  status.force_shown =
+      force_shown(display_, touching_ && (force < target.band.low_n || force > target.band.high_n));
+  coach(input, target.band, status);
+}
+
+SqueezeTask::SqueezeTask(const GripTask& task, const ExerciseLevel& level, std::int32_t object)
     : task_(task),
+      display_(level.force_display),
       object_(object),
       hold_(task.hold_s, kHoldGrace),
       excess_(task.excess_n, kRearmShare * task.excess_n, kRearmTime) {}
@@ -117,8 +151,10 @@ GripBlock SqueezeTask::block() const {
   return {task_.block_thickness_m, task_.block_stiffness_n_per_m};
 }
 
-void SqueezeTask::update(const StylusState& state, double dt_s, EventLog& log) {
+void SqueezeTask::update(const TaskInput& input, EventLog& log) {
   if (finished_) return;
+  const StylusState& state = input.stylus;
+  const double dt_s = input.dt_s;
   if (!offered_) {
     if (state.jaw_opening_m < task_.block_thickness_m + kJawClearance) return;
     offered_ = true;
@@ -138,6 +174,26 @@ void SqueezeTask::update(const StylusState& state, double dt_s, EventLog& log) {
   if (!hold_.update(grip >= task_.low_n && grip <= task_.high_n, dt_s)) return;
   finished_ = true;
   log.add("GRIP_HELD", Severity::kInfo, object_, log.t_s - offered_at_s_, "s");
+}
+
+void SqueezeTask::describe(const TaskInput& input, DirectorStatus& status) const {
+  const double grip = input.stylus.grip_force_n;
+  const ForceBand band{task_.low_n, task_.high_n};
+  const std::string wanted = band_text(band);
+  status.cue = Cue::kGrip;
+  status.target_index = -1;
+  status.targets_done = object_;  // the block comes after the discs
+  status.grip = block();
+  status.hold_progress = hold_.progress();
+  status.excess_forces += excess_count_;
+  status.demand.band = band;
+  status.force_shown = force_shown(display_, touched_ && (grip < band.low_n || grip > band.high_n));
+  if (!offered_) return say(status, "Open the jaws", "A block will be placed between them.");
+  if (display_ == "after") return say(status, "Squeeze the block by feel", "Wanted: " + wanted + ".");
+  if (excess_.above()) return say(status, "Too tight - ease off", "Squeeze with " + wanted + ".", true);
+  if (grip > band.high_n) return say(status, "A little softer", "Squeeze with " + wanted + ".");
+  if (grip < band.low_n) return say(status, "Squeeze the block", "Reach " + wanted + " and hold.");
+  say(status, "Good - hold", "Keep the squeeze steady.");
 }
 
 }  // namespace trocar

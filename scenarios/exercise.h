@@ -1,9 +1,12 @@
-// An exercise as read from TOML: geometry rules, forces, cues, limits and the rubric. Immutable after loading.
+// An exercise as read from TOML: its kind, geometry rules, forces, limits, levels and rubrics. Immutable after loading.
 //
+// What every kind has stands in Exercise itself, what one kind asks for in a struct of its own (only that of `kind` is
+// filled). A level holds the final values: its own keys over those of the level that it is `like`.
 // Loaded by exercise_loader.h (errors carry line and column). Lengths m, forces N, times s, angles rad inside; the file
 // uses _mm and _deg keys. Frame T.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,53 +17,85 @@
 
 namespace trocar {
 
+enum class ExerciseKind : std::uint8_t { kReach, kTouch };
 enum class Mapping : std::uint8_t { kDirect, kFulcrum };
 
-/// What one level changes.
+constexpr const char* kind_name(ExerciseKind kind) { return kind == ExerciseKind::kReach ? "reach" : "touch"; }
+constexpr const char* mapping_name(Mapping mapping) { return mapping == Mapping::kFulcrum ? "fulcrum" : "direct"; }
+
+/// A wanted force, N.
+struct ForceBand {
+  double low_n = 0, high_n = 0;
+  bool operator==(const ForceBand&) const = default;
+};
+
+/// What one level asks for.
 struct ExerciseLevel {
-  std::string name;                    ///< "L1"
+  std::string name;                    ///< "L1", "L2", "L3" or "exam"
   Mapping mapping = Mapping::kDirect;
+  Vec3 port_m = Vec3::Zero();          ///< fulcrum only: the pivot, relative to the region's centre
   double motion_scale = 1;             ///< scene metres per device metre
   double force_scale = 1;              ///< kappa; "auto" is resolved by the session and is negative here
-  double band_low_n = 0, band_high_n = 0;
-  std::string force_display = "always";  ///< always | band | after
+  std::string force_display = "always";  ///< always | band (only outside the limits) | after (not during the run)
+  bool guides = true;                  ///< guide lines from the tip to what is asked for
+  bool exam = false;                   ///< counts once per seed and trainee
+  double time_limit_s = 0;
+  double expert_time_s = 0;            ///< muE of the rubric's time anchors; 0 when they need none
+  double band_low_n = 0, band_high_n = 0;  ///< touch: lowest and highest wanted force
+  std::vector<ForceBand> bands;        ///< touch: one, or several dealt out to the discs
+  double position_tolerance_m = 0, angle_tolerance_rad = 0;  ///< reach
+  Rubric rubric;                       ///< with this level's anchors
 };
 
-/// How targets are laid out on the organ.
+/// Where the objects of a board may lie; what only discs on an organ have is marked.
 struct TargetLayout {
   int count = 0;
-  double radius_m = 0;                 ///< of a disc
+  double radius_m = 0;                 ///< disc
   double region_x_m = 0, region_y_m = 0;  ///< extent of the board region in T
-  double relief_m = 0;                 ///< targets lie within +- this height of the region's centre
+  double relief_m = 0;                 ///< objects lie within +- this height of the region's centre
   double min_spacing_m = 0;
-  double max_slope_rad = 0;            ///< between the surface normal and the approach axis (T's z)
-  double wrong_place_m = 0;            ///< first contact further than this outside the disc is a wrong place
+  double max_slope_rad = 0;            ///< disc: between the surface normal and the approach axis (T's z)
+  double wrong_place_m = 0;            ///< disc: first contact further than this outside is a wrong place
 };
 
-/// The grip event that ends the exercise.
+/// Touch: the grip event that ends the exercise.
 struct GripTask {
   double block_thickness_m = 0, block_stiffness_n_per_m = 0;
   double low_n = 0, high_n = 0, hold_s = 0;
   double excess_n = 0;                 ///< GRIP_EXCESS above this
 };
 
+/// Reach: pens to match, tips on a spherical cap that opens upwards round the region's centre.
+struct PenRules {
+  double shell_radius_m = 0;           ///< of the sphere on which the tips lie
+  double cap_rad = 0;                  ///< half opening of the cap, about the downward axis
+  double tilt_rad = 0, roll_rad = 0;   ///< largest turn of a pen's axis from the resting instrument, and about it
+  double length_m = 0, radius_m = 0;   ///< as drawn
+  double timeout_s = 0;                ///< a lit pen not matched by then is an error and comes back at the end
+};
+
 struct Exercise {
+  ExerciseKind kind = ExerciseKind::kTouch;
   std::string id, title, version;      ///< "surface-touch"
   std::string number;                  ///< "E02"
   std::string goal;                    ///< one line for briefing and report
-  double time_limit_s = 0;
+  double time_limit_s = 0;             ///< unless the level names its own
   double start_sphere_m = 0, start_hold_s = 0;  ///< radius; time in it: READY -> ARMED -> RUN
   Vec3 start_above_m = Vec3::Zero();   ///< start sphere's centre relative to the region's centre
   TargetLayout layout;
-  double hold_s = 0;                   ///< time in band that completes a target
-  ContactMaterial surface;
+  PenRules pens;                       ///< reach
+  double hold_s = 0;                   ///< time in band, or in pose, that completes a target
+  ContactMaterial surface;             ///< touch: of the organ
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
   double retract_height_m = 0;         ///< of the ideal path between targets
-  GripTask grip;
+  GripTask grip;                       ///< touch
   std::vector<ExerciseLevel> levels;
-  Rubric rubric;
+  Rubric rubric;                       ///< of the first level
   std::filesystem::path file;
   std::string text;                    ///< the file's bytes: embedded in recordings, hashed as the rubric's version
 };
+
+/// Does the exercise happen on an organ?
+constexpr bool needs_organ(ExerciseKind kind) { return kind == ExerciseKind::kTouch; }
 
 }  // namespace trocar

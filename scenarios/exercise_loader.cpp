@@ -1,20 +1,17 @@
 #include "scenarios/exercise_loader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
-#include <optional>
 
 #include "digest/digest.h"
 #include "haptics/input_error.h"
-#include "scenarios/scoring/metrics.h"
+#include "scenarios/level_reader.h"
 #include "scenarios/strict_toml.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kMilli = 1e-3;
+constexpr double kMilli = 1e-3, kDegrees = M_PI / 180;
 
 void read_start(StrictTable table, Exercise& exercise) {
   exercise.start_sphere_m = table.number("radius_mm", 1, 50) * kMilli;
@@ -23,19 +20,23 @@ void read_start(StrictTable table, Exercise& exercise) {
   table.finish();
 }
 
+void read_discs(StrictTable& table, TargetLayout& layout) {
+  layout.radius_m = table.number("diameter_mm", 1, 50) / 2 * kMilli;
+  layout.max_slope_rad = table.number("max_slope_deg", 1, 80) * kDegrees;
+  layout.wrong_place_m = table.number("wrong_place_mm", 0, 50) * kMilli;
+  if (layout.min_spacing_m < 2 * layout.radius_m) table.fail("min_spacing_mm", "'min_spacing_mm' lets discs overlap");
+}
+
 void read_targets(StrictTable table, Exercise& exercise) {
   TargetLayout& layout = exercise.layout;
   layout.count = table.integer("count", 1, 100);
-  layout.radius_m = table.number("diameter_mm", 1, 50) / 2 * kMilli;
   const auto [x, y] = table.pair("region_mm", 10, 500);
   layout.region_x_m = x * kMilli;
   layout.region_y_m = y * kMilli;
   layout.relief_m = table.number("relief_mm", 0, 200) * kMilli;
   layout.min_spacing_m = table.number("min_spacing_mm", 0, 200) * kMilli;
-  layout.max_slope_rad = table.number("max_slope_deg", 1, 80) * M_PI / 180;
-  layout.wrong_place_m = table.number("wrong_place_mm", 0, 50) * kMilli;
   exercise.retract_height_m = table.number("retract_mm", 0, 100) * kMilli;
-  if (layout.min_spacing_m < 2 * layout.radius_m) table.fail("min_spacing_mm", "'min_spacing_mm' lets discs overlap");
+  if (exercise.kind == ExerciseKind::kTouch) read_discs(table, layout);
   table.finish();
 }
 
@@ -73,69 +74,33 @@ void read_grip(StrictTable table, GripTask& grip) {
   table.finish();
 }
 
-ExerciseLevel read_level(StrictTable table) {
-  ExerciseLevel level;
-  level.name = table.text("name");
-  level.mapping = table.choice("mapping", {"direct", "fulcrum"}) == "direct" ? Mapping::kDirect : Mapping::kFulcrum;
-  level.motion_scale = table.number("motion_scale", 0.1, 10);
-  level.force_scale = table.number_or_word("force_scale", 0.01, 1, "auto", -1);
-  const auto [low, high] = table.pair("band_n", 0.01, 50);
-  level.band_low_n = low;
-  level.band_high_n = high;
-  if (high <= low) table.fail("band_n", "'band_n' must be [low, high] with low below high");
-  level.force_display = table.choice("force_display", {"always", "band", "after"});
+void read_pens(StrictTable table, PenRules& pens) {
+  pens.shell_radius_m = table.number("shell_radius_mm", 10, 500) * kMilli;
+  pens.cap_rad = table.number("cap_deg", 5, 90) * kDegrees;
+  pens.tilt_rad = table.number("tilt_deg", 0, 60) * kDegrees;
+  pens.roll_rad = table.number("roll_deg", 0, 180) * kDegrees;
+  pens.length_m = table.number("length_mm", 5, 200) * kMilli;
+  pens.radius_m = table.number("diameter_mm", 0.5, 50) / 2 * kMilli;
+  pens.timeout_s = table.number("timeout_s", 1, 600);
   table.finish();
-  return level;
 }
 
-double anchor(StrictTable& table, const std::string& key, std::optional<double> expert_time_s) {
-  const std::string scaled = key + "_expert_times";
-  if (!table.has(scaled)) return table.number(key, -1e6, 1e6);
-  if (table.has(key)) table.fail(scaled, "'" + scaled + "' and '" + key + "' exclude each other");
-  if (!expert_time_s) table.fail(scaled, "'" + scaled + "' needs 'expert_time_s' in [rubric]");
-  return table.number(scaled, 0, 100) * *expert_time_s;
-}
-
-SubscoreRule read_rule(StrictTable table, std::optional<double> expert_time_s) {
-  SubscoreRule rule;
-  rule.name = table.text("name");
-  std::vector<std::string> metrics;
-  for (const MetricDefinition& definition : metric_catalogue()) metrics.emplace_back(definition.name);
-  rule.metric = table.choice("metric", metrics);
-  rule.weight = table.number("weight", 0, 1);
-  rule.gate = table.flag_or("gate", false);
-  rule.gate_below = table.number_or("gate_below", 0, 1, 0.5);
-  rule.full_at = anchor(table, "full_at", expert_time_s);
-  rule.zero_at = anchor(table, "zero_at", expert_time_s);
-  if (rule.full_at == rule.zero_at) table.fail("metric", "sub-score '" + rule.name + "': 'full_at' equals 'zero_at'");
-  table.finish();
-  return rule;
-}
-
-Rubric read_rubric(StrictTable table) {
-  Rubric rubric;
-  std::optional<double> expert_time_s;
-  if (table.has("expert_time_s")) expert_time_s = table.number("expert_time_s", 1, 3600);
-  rubric.pass_at = table.number("pass_at", 0, 100);
-  rubric.proficient_at = table.number("proficient_at", rubric.pass_at, 100);
-  rubric.expert_at = table.number("expert_at", rubric.proficient_at, 100);
-  rubric.gate_cap = table.number("gate_cap", 0, rubric.pass_at);
-  rubric.critical_cap = table.number("critical_cap", 0, rubric.pass_at);
-  rubric.unfinished_cap = table.number("unfinished_cap", 0, rubric.pass_at);
-  double sum = 0;
-  for (StrictTable& rule : table.tables("subscores")) {
-    rubric.subscores.push_back(read_rule(rule, expert_time_s));
-    sum += rubric.subscores.back().weight;
+void read_kind(StrictTable& document, Exercise& exercise) {
+  switch (exercise.kind) {
+    case ExerciseKind::kTouch:
+      exercise.hold_s = document.number("hold_s", 0.05, 60);
+      read_surface(document.table("surface"), exercise);
+      read_grip(document.table("grip"), exercise.grip);
+      return;
+    case ExerciseKind::kReach:
+      exercise.hold_s = document.number("hold_s", 0.05, 60);
+      read_pens(document.table("pens"), exercise.pens);
+      if (exercise.pens.timeout_s <= exercise.hold_s)
+        document.fail("hold_s", "'hold_s' must be below 'timeout_s' of the pens");
   }
-  if (std::abs(sum - 1) > 1e-9)
-    table.fail("subscores", "weights of the sub-scores sum to " + std::to_string(sum) + ", not to 1");
-  table.finish();
-  return rubric;
 }
 
-bool level_known(const std::vector<ExerciseLevel>& levels, const std::string& name) {
-  return std::any_of(levels.begin(), levels.end(), [&](const ExerciseLevel& l) { return l.name == name; });
-}
+ExerciseKind kind_of(const std::string& word) { return word == "reach" ? ExerciseKind::kReach : ExerciseKind::kTouch; }
 
 }  // namespace
 
@@ -149,21 +114,19 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   exercise.version = document.text("version");
   exercise.title = document.text("title");
   exercise.goal = document.text("goal");
+  // The first files had no kind: they stand in old recordings.
+  exercise.kind = kind_of(document.choice_or("kind", {"reach", "touch"}, "touch"));
   exercise.time_limit_s = document.number("time_limit_s", 1, 3600);
-  exercise.hold_s = document.number("hold_s", 0.05, 60);
   read_start(document.table("start"), exercise);
   read_targets(document.table("targets"), exercise);
-  read_surface(document.table("surface"), exercise);
   read_force(document.table("force"), exercise);
-  read_grip(document.table("grip"), exercise.grip);
-  for (StrictTable& table : document.tables("levels")) {
-    const ExerciseLevel level = read_level(table);
-    if (level_known(exercise.levels, level.name)) table.fail("name", "level '" + level.name + "' stands twice");
-    if (level.band_high_n > exercise.hard_force_n) table.fail("band_n", "'band_n' reaches above 'hard_n'");
-    exercise.levels.push_back(level);
+  read_kind(document, exercise);
+  read_levels(document, exercise);
+  for (ExerciseLevel& level : exercise.levels) {
+    level.rubric = read_rubric(document.table("rubric"), level.expert_time_s);
+    level.rubric.sha256 = digest::of_bytes(text);
   }
-  exercise.rubric = read_rubric(document.table("rubric"));
-  exercise.rubric.sha256 = digest::of_bytes(text);
+  exercise.rubric = exercise.levels.front().rubric;
   document.finish();
   return exercise;
 }

@@ -90,6 +90,8 @@ StrictTable StrictTable::parse(const std::string& text, const std::string& file)
 
 bool StrictTable::has(const std::string& key) const { return node_->table->contains(key); }
 
+void StrictTable::allow(const std::string& key) { node_->asked.push_back(key); }
+
 void StrictTable::fail(const std::string& key, const std::string& message) const {
   const toml::node* value = node_->table->get(key);
   throw error_at(node_->file, value ? value->source() : node_->table->source(), message);
@@ -213,6 +215,27 @@ Vec3 StrictTable::vector(const std::string& key, double low, double high) {
 std::pair<double, double> StrictTable::pair(const std::string& key, double low, double high) {
   const std::vector<double> values = numbers(key, 2, low, high);
   return {values[0], values[1]};
+}
+
+Vec3 StrictTable::vector_or(const std::string& key, double low, double high, const Vec3& fallback) {
+  if (has(key)) return vector(key, low, high);
+  node_->asked.push_back(key);
+  return fallback;
+}
+
+std::vector<std::pair<double, double>> StrictTable::pairs(const std::string& key, double low, double high) {
+  const toml::node& value = required(*node_->table, node_->file, node_->asked, key);
+  const toml::array* array = value.as_array();
+  if (!array || array->empty()) fail(key, "'" + key + "' must be an array of [low, high] pairs");
+  std::vector<std::pair<double, double>> result;
+  for (const toml::node& element : *array) {
+    const toml::array* both = element.as_array();
+    if (!both || both->size() != 2)
+      throw error_at(node_->file, element.source(), "'" + key + "' must hold pairs [low, high]");
+    result.emplace_back(checked_number(*both->get(0), node_->file, key, low, high),
+                        checked_number(*both->get(1), node_->file, key, low, high));
+  }
+  return result;
 }
 
 StrictTable StrictTable::table(const std::string& key) {

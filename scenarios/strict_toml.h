@@ -28,6 +28,8 @@ class StrictTable {
   static StrictTable parse(const std::string& text, const std::string& file);
 
   bool has(const std::string& key) const;
+  /// The key is known here and may be absent.
+  void allow(const std::string& key);
   /// Number in [low, high]; integers are accepted as numbers.
   double number(const std::string& key, double low, double high);
   double number_or(const std::string& key, double low, double high, double fallback);
@@ -42,6 +44,9 @@ class StrictTable {
   Vec3 vector(const std::string& key, double low, double high);
   /// Array of two numbers, each in [low, high].
   std::pair<double, double> pair(const std::string& key, double low, double high);
+  /// Array of at least one such pair.
+  std::vector<std::pair<double, double>> pairs(const std::string& key, double low, double high);
+  Vec3 vector_or(const std::string& key, double low, double high, const Vec3& fallback);
   /// Number or the given word, which reads as `meaning`.
   double number_or_word(const std::string& key, double low, double high, const std::string& word, double meaning);
   StrictTable table(const std::string& key);

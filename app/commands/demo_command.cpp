@@ -47,8 +47,8 @@ ReportContext report_context(const Scene& scene, const std::filesystem::path& pi
   context.exercise_title = exercise.title;
   context.goal = exercise.goal;
   context.band = {scene.level.band_low_n, scene.level.band_high_n, exercise.hard_force_n};
-  context.pass_mark = exercise.rubric.pass_at;
-  context.time_limit_s = exercise.time_limit_s;
+  context.pass_mark = scene.level.rubric.pass_at;
+  context.time_limit_s = scene.level.time_limit_s;
   context.picture = picture;
   context.program_version = TROCAR_VERSION;
   return context;

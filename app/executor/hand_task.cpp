@@ -53,9 +53,8 @@ Percept HandTask::perceive(std::uint64_t tick) {
   percept.felt_force_n = std::max(0.0, felt + kTouchError_n * random_.normal());
   percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
   percept.jaw_opening_m = daq_.sense().jaw_opening_m;
-  const bool bar = scene_.level.force_display == "always";
-  percept.shown_force_n = bar ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
-  show_cue(director_.status(), director_.board(), scene_.setup.exercise, scene_.level, percept);
+  percept.shown_force_n = director_.status().force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
+  show_cue(director_.status(), percept);
   return percept;
 }
 

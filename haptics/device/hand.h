@@ -12,7 +12,11 @@
 namespace trocar {
 
 /// What the exercise asks for at this moment, as the screen shows it.
-enum class Cue : std::uint8_t { kNone, kWait, kReach, kPress, kGrip, kRelease, kFinished };
+/// kOrient: bring the tip to the target and turn the instrument as it shows; kPick, kCarry, kPlace: take the object at the
+/// target, bring it there, set it down there.
+enum class Cue : std::uint8_t {
+  kNone, kWait, kReach, kPress, kGrip, kRelease, kFinished, kOrient, kPick, kCarry, kPlace
+};
 
 /// What a person senses: delayed and noisy, nothing of the world that is not on the screen or in the fingers.
 struct Percept {
@@ -28,6 +32,9 @@ struct Percept {
   Vec3 target_T = Vec3::Zero();        ///< centre of the lit target (m)
   Vec3 target_normal_T = Vec3::UnitZ();///< outward surface normal at the target
   double target_radius_m = 0;
+  bool target_oriented = false;        ///< the orientation below is asked for
+  Mat3 target_R_TI = Mat3::Identity(); ///< wanted orientation of the instrument
+  double target_angle_rad = 0;         ///< its tolerance
   double band_low_n = 0, band_high_n = 0;  ///< wanted force as shown on the force bar
   double shown_force_n = 0;            ///< reading of the force bar; NaN when the bar is hidden
 };

@@ -14,6 +14,10 @@ HandErrand task_of(const Percept& percept) {
     case Cue::kRelease: return {HandErrand::Kind::kDisc, percept.target_index};
     case Cue::kGrip: return {HandErrand::Kind::kGrip, -1};
     case Cue::kFinished: return {HandErrand::Kind::kFinished, -1};
+    case Cue::kOrient:
+    case Cue::kPick:
+    case Cue::kCarry:
+    case Cue::kPlace:
     case Cue::kNone: break;
   }
   return {};

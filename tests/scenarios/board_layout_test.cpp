@@ -96,7 +96,7 @@ TEST(Board, KeepsEveryLimitOnTwentyBoards) {
   const TriangleSurface organ_T = placed(liver_like(), exercise);
   const HeightField field(organ_T);
   for (int number = 0; number < 20; ++number) {
-    const Board board = lay_out_board(organ_T, exercise, number);
+    const Board board = lay_out_board(organ_T, exercise, exercise.levels[0], number);
     ASSERT_EQ(board.targets.size(), 12u) << number;
     for (std::size_t i = 0; i < board.targets.size(); ++i) {
       const Target& target = board.targets[i];
@@ -118,8 +118,8 @@ TEST(Board, KeepsEveryLimitOnTwentyBoards) {
 TEST(Board, IsTheSameForTheSameNumberAndAnotherForAnother) {
   const Exercise exercise = shipped();
   const TriangleSurface organ_T = placed(liver_like(), exercise);
-  const Board one = lay_out_board(organ_T, exercise, 3), same = lay_out_board(organ_T, exercise, 3);
-  const Board other = lay_out_board(organ_T, exercise, 4);
+  const Board one = lay_out_board(organ_T, exercise, exercise.levels[0], 3), same = lay_out_board(organ_T, exercise, exercise.levels[0], 3);
+  const Board other = lay_out_board(organ_T, exercise, exercise.levels[0], 4);
   for (std::size_t i = 0; i < one.targets.size(); ++i) EXPECT_EQ(one.targets[i].centre_T, same.targets[i].centre_T);
   EXPECT_NE(one.targets[0].centre_T, other.targets[0].centre_T);
 }
@@ -129,7 +129,7 @@ TEST(Board, AsksForTravelWithoutRunningIntoTheOrgan) {
   const TriangleSurface organ_T = placed(liver_like(), exercise);
   const HeightField field(organ_T);
   for (int number = 0; number < 20; ++number) {
-    const Board board = lay_out_board(organ_T, exercise, number);
+    const Board board = lay_out_board(organ_T, exercise, exercise.levels[0], number);
     for (std::size_t i = 1; i < board.targets.size(); ++i) {
       const Vec3 a = board.targets[i - 1].centre_T, b = board.targets[i].centre_T;
       EXPECT_GT((a - b).norm(), 0.014);
@@ -146,7 +146,7 @@ TEST(Board, AsksForTravelWithoutRunningIntoTheOrgan) {
 
 TEST(Board, StartsAboveTheRegion) {
   const Exercise exercise = shipped();
-  const Board board = lay_out_board(placed(liver_like(), exercise), exercise, 0);
+  const Board board = lay_out_board(placed(liver_like(), exercise), exercise, exercise.levels[0], 0);
   EXPECT_NEAR((board.start_T - board.centre_T - exercise.start_above_m).norm(), 0, 1e-12);
   EXPECT_GT(board.start_T.z(), exercise.start_sphere_m + exercise.layout.relief_m);
 }
@@ -155,7 +155,7 @@ TEST(Board, RefusesASmallOrganSayingHowManyFit) {
   const Exercise exercise = shipped();
   const TriangleSurface organ_T = placed(gallbladder_like(), exercise);
   try {
-    lay_out_board(organ_T, exercise, 0);
+    lay_out_board(organ_T, exercise, exercise.levels[0], 0);
     FAIL() << "twelve discs cannot fit";
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -167,7 +167,7 @@ TEST(Board, RefusesASmallOrganSayingHowManyFit) {
 
 TEST(Board, RefusesAnOrganThatWasNotPlaced) {
   const Pose away{Mat3::Identity(), Vec3(5, 5, 5)};
-  EXPECT_THROW(lay_out_board(liver_like().transformed(away), shipped(), 0), InputError);
+  EXPECT_THROW(lay_out_board(liver_like().transformed(away), shipped(), shipped().levels[0], 0), InputError);
 }
 
 TEST(Board, IsLaidOutQuickly) {
@@ -175,7 +175,7 @@ TEST(Board, IsLaidOutQuickly) {
   const TriangleSurface organ = liver_like();
   const std::clock_t before = std::clock();
   const TriangleSurface organ_T = placed(organ, exercise);
-  lay_out_board(organ_T, exercise, 0);
+  lay_out_board(organ_T, exercise, exercise.levels[0], 0);
   const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   RecordProperty("cpu_ms", static_cast<int>(seconds * 1000));
   EXPECT_LT(seconds, 1.0) << "50 ms in a release build; the bound leaves room for sanitizers";

@@ -26,7 +26,8 @@ class DirectorTest : public testing::Test {
   static Board board() {
     Board board;
     board.start_T = Vec3(0, 0, 0.045);
-    board.targets = {{Vec3(0.02, 0, 0), Vec3::UnitZ(), 0.003}, {Vec3(-0.02, 0, 0), Vec3::UnitZ(), 0.003}};
+    for (const double x : {0.02, -0.02})
+      board.targets.push_back({Vec3(x, 0, 0), Vec3::UnitZ(), 0.003, {0.4, 0.8}, Mat3::Identity()});
     return board;
   }
 
@@ -330,19 +331,18 @@ TEST_F(DirectorTest, UnfinishedMeansAborted) {
 
 TEST_F(DirectorTest, ShowsTheHandWhatTheScreenShows) {
   Percept percept;
-  const ExerciseLevel& level = exercise_.levels[0];
-  show_cue(director_.status(), director_.board(), exercise_, level, percept);
+  show_cue(director_.status(), percept);
   EXPECT_EQ(percept.cue, Cue::kWait);
   EXPECT_EQ(percept.target_T, board().start_T);
   EXPECT_DOUBLE_EQ(percept.target_radius_m, 0.010);
   start();
-  show_cue(director_.status(), director_.board(), exercise_, level, percept);
+  show_cue(director_.status(), percept);
   EXPECT_EQ(percept.target_index, 0);
   EXPECT_EQ(percept.target_T, board().targets[0].centre_T);
   EXPECT_DOUBLE_EQ(percept.band_high_n, 0.8);
   hold_disc(0);
   hold_disc(1);
-  show_cue(director_.status(), director_.board(), exercise_, level, percept);
+  show_cue(director_.status(), percept);
   EXPECT_EQ(percept.cue, Cue::kGrip);
   EXPECT_DOUBLE_EQ(percept.band_low_n, 0.73);
 }

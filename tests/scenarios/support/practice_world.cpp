@@ -121,19 +121,19 @@ PracticeRoom::PracticeRoom()
 PracticeAttempt practise(const PracticeRoom& room, Hand& hand, int board, std::uint64_t seed,
                          const WorldTuning& tuning) {
   const ExerciseLevel& level = find_level(room.exercise, "L1");
-  Director director(room.exercise, level, lay_out_board(room.organ_T, room.exercise, board));
+  Director director(room.exercise, level, lay_out_board(room.organ_T, room.exercise, level, board));
   World world(room, tuning, director.board().start_T + Vec3(0.02, 0.03, 0.02), seed + 1000003);
   PracticeAttempt attempt;
   while (!director.finished() && world.state.t_s < tuning.longest_s) {
     Percept percept = world.perceive();
-    show_cue(director.status(), director.board(), room.exercise, level, percept);
+    show_cue(director.status(), percept);
     world.step(hand.update(percept, kDt), director.status().grip);
     attempt.trace.samples.push_back(sample_of(world.state));
     if (world.state.tick % 10 == 0) director.update(world.state);
   }
   attempt.events = director.events();
   attempt.context = scoring_context(room.exercise, level, director.board(), attempt.events, director.outcome());
-  attempt.grade = score_attempt(attempt.trace, attempt.events, room.exercise.rubric, attempt.context);
+  attempt.grade = score_attempt(attempt.trace, attempt.events, level.rubric, attempt.context);
   return attempt;
 }
 

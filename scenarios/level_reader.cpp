@@ -1,0 +1,171 @@
+#include "scenarios/level_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/scoring/metrics.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kMilli = 1e-3, kDegrees = M_PI / 180;
+const std::vector<std::string> kLevelNames{"L1", "L2", "L3", "exam"};
+
+/// The keys of one level; those that the level it is like has given may be left out.
+class LevelKeys {
+ public:
+  LevelKeys(StrictTable& table, bool derived) : table_(table), derived_(derived) {}
+  /// @param unit SI units in one unit of the key.
+  void number(const std::string& key, double low, double high, double unit, double& value) {
+    value = derived_ ? unit * table_.number_or(key, low, high, value / unit) : unit * table_.number(key, low, high);
+  }
+
+ private:
+  StrictTable& table_;
+  bool derived_;
+};
+
+void read_mapping(StrictTable& table, bool derived, ExerciseLevel& level) {
+  const std::string before = mapping_name(level.mapping);
+  const std::vector<std::string> known{"direct", "fulcrum"};
+  const std::string mapping = derived ? table.choice_or("mapping", known, before) : table.choice("mapping", known);
+  level.mapping = mapping == "direct" ? Mapping::kDirect : Mapping::kFulcrum;
+  const bool inherits = derived && before == mapping;
+  if (level.mapping == Mapping::kDirect) {
+    if (table.has("port_mm")) table.fail("port_mm", "'port_mm' needs mapping = \"fulcrum\"");
+    level.port_m = Vec3::Zero();
+  } else {
+    level.port_m = kMilli * (inherits ? table.vector_or("port_mm", -500, 500, level.port_m / kMilli)
+                                      : table.vector("port_mm", -500, 500));
+    if (level.port_m.z() < 0.020) table.fail("port_mm", "'port_mm' must lie at least 20 mm above the region's centre");
+  }
+  LevelKeys(table, derived).number("motion_scale", 0.1, 10, 1, level.motion_scale);
+  table.allow("force_scale");
+  if (!derived || table.has("force_scale"))
+    level.force_scale = table.number_or_word("force_scale", 0.01, 1, "auto", -1);
+}
+
+void read_feedback(StrictTable& table, bool derived, ExerciseLevel& level) {
+  const std::vector<std::string> known{"always", "band", "after"};
+  level.force_display = derived ? table.choice_or("force_display", known, level.force_display)
+                                : table.choice("force_display", known);
+  level.guides = table.flag_or("guides", level.guides);
+  level.exam = level.name == "exam";
+  if (level.exam && level.force_display != "after")
+    table.fail("force_display", "an exam shows no force: 'force_display' must be \"after\"");
+}
+
+void read_bands(StrictTable& table, bool derived, const Exercise& exercise, ExerciseLevel& level) {
+  table.allow("band_n");
+  table.allow("bands_n");
+  const bool one = table.has("band_n"), several = table.has("bands_n");
+  if (one && several) table.fail("bands_n", "'bands_n' and 'band_n' exclude each other");
+  const std::string key = several ? "bands_n" : "band_n";
+  if (derived && !one && !several) return;
+  level.bands.clear();
+  if (several) {
+    for (const auto& [low, high] : table.pairs("bands_n", 0.01, 50)) level.bands.push_back({low, high});
+  } else {
+    const auto [low, high] = table.pair("band_n", 0.01, 50);
+    level.bands.push_back({low, high});
+  }
+  level.band_low_n = level.bands.front().low_n;
+  level.band_high_n = level.bands.front().high_n;
+  for (const ForceBand& band : level.bands) {
+    if (band.high_n <= band.low_n) table.fail(key, "'" + key + "' must be [low, high] with low below high");
+    if (band.high_n > exercise.hard_force_n) table.fail(key, "'" + key + "' reaches above 'hard_n'");
+    level.band_low_n = std::min(level.band_low_n, band.low_n);
+    level.band_high_n = std::max(level.band_high_n, band.high_n);
+  }
+}
+
+/// What only levels of this kind of exercise have.
+void read_task_keys(StrictTable& table, bool derived, const Exercise& exercise, ExerciseLevel& level) {
+  LevelKeys keys(table, derived);
+  switch (exercise.kind) {
+    case ExerciseKind::kTouch: return read_bands(table, derived, exercise, level);
+    case ExerciseKind::kReach:
+      keys.number("position_tolerance_mm", 0.1, 20, kMilli, level.position_tolerance_m);
+      keys.number("angle_tolerance_deg", 0.5, 45, kDegrees, level.angle_tolerance_rad);
+  }
+}
+
+ExerciseLevel read_level(StrictTable& table, const Exercise& exercise) {
+  ExerciseLevel level;
+  level.time_limit_s = exercise.time_limit_s;
+  const std::string name = table.choice("name", kLevelNames);
+  const bool derived = table.has("like");
+  for (const ExerciseLevel& other : exercise.levels) {
+    if (other.name == name) table.fail("name", "level '" + name + "' stands twice");
+  }
+  if (derived) {
+    std::vector<std::string> above;
+    for (const ExerciseLevel& other : exercise.levels) above.push_back(other.name);
+    if (above.empty()) table.fail("like", "'like' names a level above this one, and this is the first");
+    const std::string model = table.choice("like", above);
+    level = *std::find_if(exercise.levels.begin(), exercise.levels.end(),
+                          [&](const ExerciseLevel& other) { return other.name == model; });
+  }
+  level.name = name;
+  read_mapping(table, derived, level);
+  read_feedback(table, derived, level);
+  read_task_keys(table, derived, exercise, level);
+  level.time_limit_s = table.number_or("time_limit_s", 1, 3600, level.time_limit_s);
+  level.expert_time_s = table.number_or("expert_time_s", 1, 3600, level.expert_time_s);
+  if (level.expert_time_s >= level.time_limit_s && level.expert_time_s > 0)
+    table.fail("expert_time_s", "'expert_time_s' must be below the time limit");
+  table.finish();
+  return level;
+}
+
+double anchor(StrictTable& table, const std::string& key, double expert_time_s) {
+  const std::string scaled = key + "_expert_times";
+  if (!table.has(scaled)) return table.number(key, -1e6, 1e6);
+  if (table.has(key)) table.fail(scaled, "'" + scaled + "' and '" + key + "' exclude each other");
+  if (expert_time_s <= 0) table.fail(scaled, "'" + scaled + "' needs 'expert_time_s' in every level or in [rubric]");
+  return table.number(scaled, 0, 100) * expert_time_s;
+}
+
+SubscoreRule read_rule(StrictTable table, double expert_time_s) {
+  SubscoreRule rule;
+  rule.name = table.text("name");
+  std::vector<std::string> metrics;
+  for (const MetricDefinition& definition : metric_catalogue()) metrics.emplace_back(definition.name);
+  rule.metric = table.choice("metric", metrics);
+  rule.weight = table.number("weight", 0, 1);
+  rule.gate = table.flag_or("gate", false);
+  rule.gate_below = table.number_or("gate_below", 0, 1, 0.5);
+  rule.full_at = anchor(table, "full_at", expert_time_s);
+  rule.zero_at = anchor(table, "zero_at", expert_time_s);
+  if (rule.full_at == rule.zero_at) table.fail("metric", "sub-score '" + rule.name + "': 'full_at' equals 'zero_at'");
+  table.finish();
+  return rule;
+}
+
+}  // namespace
+
+Rubric read_rubric(StrictTable table, double expert_time_s) {
+  Rubric rubric;
+  const double own_time_s = table.number_or("expert_time_s", 1, 3600, 0);
+  rubric.pass_at = table.number("pass_at", 0, 100);
+  rubric.proficient_at = table.number("proficient_at", rubric.pass_at, 100);
+  rubric.expert_at = table.number("expert_at", rubric.proficient_at, 100);
+  rubric.gate_cap = table.number("gate_cap", 0, rubric.pass_at);
+  rubric.critical_cap = table.number("critical_cap", 0, rubric.pass_at);
+  rubric.unfinished_cap = table.number("unfinished_cap", 0, rubric.pass_at);
+  double sum = 0;
+  for (StrictTable& rule : table.tables("subscores")) {
+    rubric.subscores.push_back(read_rule(rule, expert_time_s > 0 ? expert_time_s : own_time_s));
+    sum += rubric.subscores.back().weight;
+  }
+  if (std::abs(sum - 1) > 1e-9)
+    table.fail("subscores", "weights of the sub-scores sum to " + std::to_string(sum) + ", not to 1");
+  table.finish();
+  return rubric;
+}
+
+void read_levels(StrictTable& document, Exercise& exercise) {
+  for (StrictTable& table : document.tables("levels")) exercise.levels.push_back(read_level(table, exercise));
+}
+
+}  // namespace trocar
