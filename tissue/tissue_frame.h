@@ -1,0 +1,58 @@
+// What the tissue task knows after a step beyond the contact patch: where the rigid objects are, what the jaws hold,
+// what touches what. Read by the director, the picture and the state hash.
+//
+// Frame T, SI units. Fixed size: copying it allocates nothing. Thread: written by the tissue task.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+inline constexpr int kMaxObjects = 16;
+inline constexpr int kMaxContactPairs = 32;
+
+enum class ObjectMotion : std::uint8_t { kResting, kMoving, kHeld };
+
+/// A box of the scene, as it is now: enough to draw it.
+struct ObjectState {
+  Pose X_TO;                             ///< centre, axes along the edges
+  Vec3 size_m = Vec3::Zero();            ///< extents now (a crushed block is thinner)
+  Vec3 velocity_T = Vec3::Zero();
+  std::int32_t kind = 0, colour = 0;     ///< as in its description
+  ObjectMotion motion = ObjectMotion::kResting;
+  bool crushed = false;
+};
+
+/// What the jaws have: nothing; a block between open pads; a block held; one that slides through them.
+enum class GripState : std::uint8_t { kEmpty, kAround, kHolding, kSlipping };
+
+/// Parties of a contact pair that are not objects.
+enum : std::int32_t { kPartyShaft = -1, kPartyJaw = -2, kPartyBoard = -3, kPartyPort = -4, kPartyHeld = -5 };
+
+/// Two rigid things that touch. `a`, `b`: index of an object, or a party above.
+struct ContactPair {
+  std::int32_t a = 0, b = 0;
+  Vec3 point_T = Vec3::Zero();
+  Vec3 normal_T = Vec3::UnitZ();         ///< unit, from b to a
+  double depth_m = 0;                    ///< overlap, >= 0
+  double force_n = 0;                    ///< by the displayed stiffness; 0 between two objects
+};
+
+struct TissueFrame {
+  std::uint64_t stamp = 0;               ///< frame number, from 1
+  double t_s = 0;                        ///< loop time of the state that it was made from
+  std::int32_t object_count = 0;
+  std::array<ObjectState, kMaxObjects> object;
+  GripState grip = GripState::kEmpty;
+  std::int32_t grip_object = -1;         ///< the block that `grip` speaks of
+  double slipped_m = 0;                  ///< how far it has slid through the jaws since it was grasped
+  std::int32_t pair_count = 0;
+  std::array<ContactPair, kMaxContactPairs> pair;
+
+  bool held() const { return grip == GripState::kHolding || grip == GripState::kSlipping; }
+};
+
+}  // namespace trocar
