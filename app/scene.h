@@ -13,6 +13,7 @@
 #include "scenarios/director.h"
 #include "scenarios/exercise.h"
 #include "tissue/organ.h"
+#include "tissue/rigid/rigid_scene.h"
 
 namespace trocar {
 
@@ -44,6 +45,7 @@ struct Scene {
   ExerciseLevel level;
   Organ organ;
   TriangleSurface organ_T;
+  RigidScene rigid;
   Board board;
   HapticLoopConfig loop;
 };

@@ -61,7 +61,7 @@ struct Bench {
     out.device = device;
     out.state_hash = hash.value();
     out.state_hash_hex = hash.hex();
-    out.patch_triangles_dropped = tissue.dropped();
+    out.patch_triangles_dropped = tissue.world().dropped();
     out.scoring_json = scoring_context_json(
         scoring_context(scene.setup.exercise, scene.level, director.board(), out.events, out.status));
     return out;

@@ -55,6 +55,31 @@ void StateHash::add(const ContactPatch& patch) {
   add(patch.grip.stiffness_n_per_m);
 }
 
+void StateHash::add(const TissueFrame& frame) {
+  add(frame.stamp);
+  add(frame.t_s);
+  add(static_cast<std::uint64_t>(frame.object_count) | std::uint64_t(frame.grip) << 32);
+  add(static_cast<std::uint64_t>(frame.grip_object + 1) << 32 | static_cast<std::uint64_t>(frame.pair_count));
+  add(frame.slipped_m);
+  for (int i = 0; i < frame.object_count; ++i) {
+    const ObjectState& object = frame.object[static_cast<std::size_t>(i)];
+    add(object.X_TO.R);
+    add(object.X_TO.p);
+    add(object.size_m);
+    add(object.velocity_T);
+    add(static_cast<std::uint64_t>(object.kind) | static_cast<std::uint64_t>(object.colour) << 16 |
+        std::uint64_t(object.motion) << 32 | std::uint64_t{object.crushed} << 40);
+  }
+  for (int i = 0; i < frame.pair_count; ++i) {
+    const ContactPair& pair = frame.pair[static_cast<std::size_t>(i)];
+    add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.a)) << 32 | static_cast<std::uint32_t>(pair.b));
+    add(pair.point_T);
+    add(pair.normal_T);
+    add(pair.depth_m);
+    add(pair.force_n);
+  }
+}
+
 void StateHash::add(const DirectorStatus& status) {
   add(std::uint64_t(status.phase) | std::uint64_t(status.cue) << 8 |
       static_cast<std::uint64_t>(status.targets_done) << 16 | static_cast<std::uint64_t>(status.wrong_places) << 32);

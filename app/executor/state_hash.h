@@ -9,6 +9,7 @@
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/exchange/tick_record.h"
 #include "scenarios/director.h"
+#include "tissue/tissue_frame.h"
 
 namespace trocar {
 
@@ -32,6 +33,7 @@ class StateHash {
 
   void add(const TickRecord& record);
   void add(const ContactPatch& patch);
+  void add(const TissueFrame& frame);
   void add(const DirectorStatus& status);
 
   std::uint64_t value() const { return state_; }

@@ -62,6 +62,7 @@ void BlockDynamics::collect(std::vector<RigidBody>& bodies, const std::vector<Pu
 void BlockDynamics::collect_pushes(RigidBody& body, int index, const std::vector<Pusher>& pushers, double ahead_s,
                                    double dt_s) {
   for (const Pusher& pusher : pushers) {
+    if (pusher.spares == index) continue;
     const auto back = [&](const Vec3& point) -> Vec3 {  // where the point was `ahead_s` before the end of the step
       return point - ahead_s * (pusher.velocity_T + pusher.spin_T.cross(point - pusher.about_T));
     };

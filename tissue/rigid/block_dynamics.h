@@ -16,6 +16,7 @@ namespace trocar {
 struct Pusher {
   CapsuleShape shape;
   Vec3 velocity_T = Vec3::Zero(), spin_T = Vec3::Zero(), about_T = Vec3::Zero();
+  int spares = -1;                      ///< index of a body that it does not push
 };
 
 struct BlockDynamicsSettings {

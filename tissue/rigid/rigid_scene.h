@@ -14,9 +14,10 @@ namespace trocar {
 
 /// What the contact with a rigid thing feels like.
 struct RigidMaterial {
-  double stiffness_n_per_m = 300;  ///< as displayed: what the device can show, not the material's own [D]
+  double stiffness_n_per_m = 250;  ///< as displayed: what the device can show, not the material's own [D]
   double damping_s_per_m = 0.5;    ///< Hunt-Crossley factor on the approach speed [D]
   double friction = 0.6;           ///< block on board, block on block [D]
+  double tool_mu_static = 0.2, tool_mu_dynamic = 0.15;  ///< instrument on it [D]
 };
 
 /// A square plate whose upper face lies in the plane z = top_z_m of T, centred on the origin.

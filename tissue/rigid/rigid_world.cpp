@@ -1,0 +1,193 @@
+#include "tissue/rigid/rigid_world.h"
+
+#include <algorithm>
+#include <string>
+
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kTableHalf = 0.25;       // m, of the table under the board
+constexpr int kBoxTriangles = 12;
+constexpr std::int32_t kFirstBlockId = kFirstRigidId + 16;
+
+/// Corners of BoxShape::corner(), counter-clockwise from outside.
+constexpr std::array<std::array<int, 3>, kBoxTriangles> kBoxFaces{{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}}};
+
+void add_triangle(ContactPatch& patch, const std::array<Vec3, 3>& vertex, std::int32_t id, std::int32_t material) {
+  if (patch.count >= kMaxPatchTriangles) {
+    ++patch.dropped;
+    return;
+  }
+  const Vec3 normal = (vertex[1] - vertex[0]).cross(vertex[2] - vertex[0]).normalized();
+  patch.triangle[static_cast<std::size_t>(patch.count++)] = {vertex, normal, id, material};
+}
+
+BlockDynamicsSettings dynamics_of(const RigidScene& scene) {
+  BlockDynamicsSettings settings;
+  if (scene.board) {
+    settings.floor_z_m = scene.board->top_z_m;
+    settings.friction = scene.board->material.friction;
+  }
+  return settings;
+}
+
+CapsuleShape in_theatre(const Pose& X_TI, const Capsule& capsule) {
+  const Pose X_TC = X_TI * capsule.X_IC;
+  return {X_TC.p, X_TC.p - X_TC.R.col(2) * capsule.length_m, capsule.radius_m};
+}
+
+}  // namespace
+
+RigidWorld::RigidWorld(const RigidScene& scene, const ToolShape& tool)
+    : scene_(scene), tool_(tool), dynamics_(dynamics_of(scene)) {
+  if (scene.blocks.size() > kMaxObjects) {
+    throw InputError("a scene holds at most " + std::to_string(kMaxObjects) + " blocks, not " +
+                     std::to_string(scene.blocks.size()));
+  }
+  if (scene.board) {
+    floor_z_m_ = scene.board->top_z_m;
+    board_ = scene.board->material;
+  }
+  for (const FoamBlock& block : scene.blocks) {
+    if (block.kind < 0 || block.kind >= kMaxPatchMaterials - kFirstFoamMaterial)
+      throw InputError("a scene holds at most " + std::to_string(kMaxPatchMaterials - kFirstFoamMaterial) +
+                       " kinds of foam");
+    RigidBody body;
+    body.half = block.size_m / 2;
+    body.mass_kg = block.mass_kg;
+    body.X_TB = block.X_TO;
+    body.wake();  // it settles by itself
+    bodies_.push_back(body);
+    foams_.push_back({block, block.stiffness_n_per_m, false});
+  }
+}
+
+void RigidWorld::step(const JawReading& jaws, bool present, double dt_s) {
+  if (present) {
+    grip_.update(jaws, board_, floor_z_m_, dt_s, bodies_, foams_);
+  } else {
+    grip_.reset(bodies_);
+  }
+  dynamics_.step(bodies_, present ? pushers(jaws) : std::vector<Pusher>{}, dt_s);
+  list_pairs(jaws, present);
+}
+
+std::vector<Pusher> RigidWorld::pushers(const JawReading& jaws) const {
+  const ToolCapsules tool = tool_capsules(tool_, jaws.opening_m, {});
+  std::vector<Pusher> out;
+  for (int c = 0; c < tool.count; ++c) {
+    Pusher pusher;
+    pusher.shape = in_theatre(jaws.X_TI, tool.at[static_cast<std::size_t>(c)]);
+    pusher.velocity_T = jaws.V_TI_T.linear;
+    pusher.spin_T = jaws.V_TI_T.angular;
+    pusher.about_T = jaws.X_TI.p;
+    pusher.spares = c > 0 ? grip_.object() : -1;  // the jaws move what stands between them in their own way
+    out.push_back(pusher);
+  }
+  return out;
+}
+
+bool RigidWorld::near_tool(const JawReading& jaws, const RigidBody& body) const {
+  const ToolCapsules tool = tool_capsules(tool_, jaws.opening_m, grip_.held(bodies_));
+  for (int c = 0; c < tool.count; ++c) {
+    const CapsuleShape shape = in_theatre(jaws.X_TI, tool.at[static_cast<std::size_t>(c)]);
+    const Vec3 way = shape.to_T - shape.from_T;
+    const double share = std::clamp((body.X_TB.p - shape.from_T).dot(way) / std::max(1e-12, way.squaredNorm()), 0.0, 1.0);
+    if ((shape.from_T + share * way - body.X_TB.p).norm() < kPatchRadius + body.half.norm()) return true;
+  }
+  return false;
+}
+
+void RigidWorld::add_to(const JawReading& jaws, ContactPatch& patch) const {
+  if (scene_.board) {
+    patch.material[kBoardMaterial] = {board_.stiffness_n_per_m, board_.damping_s_per_m, board_.tool_mu_static,
+                                      board_.tool_mu_dynamic};
+    const Vec3 a(-kTableHalf, -kTableHalf, floor_z_m_), b(kTableHalf, -kTableHalf, floor_z_m_);
+    const Vec3 c(kTableHalf, kTableHalf, floor_z_m_), d(-kTableHalf, kTableHalf, floor_z_m_);
+    add_triangle(patch, {a, b, c}, kFirstRigidId, kBoardMaterial);
+    add_triangle(patch, {a, c, d}, kFirstRigidId + 1, kBoardMaterial);
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const std::int32_t material = kFirstFoamMaterial + foams_[i].spec.kind;
+    patch.material[static_cast<std::size_t>(material)] = {foams_[i].spec.stiffness_n_per_m, board_.damping_s_per_m,
+                                                          board_.tool_mu_static, board_.tool_mu_dynamic};
+    if (static_cast<int>(i) == grip_.object() || !near_tool(jaws, bodies_[i])) continue;
+    const BoxShape box = bodies_[i].shape();
+    for (int t = 0; t < kBoxTriangles; ++t) {
+      const auto& face = kBoxFaces[static_cast<std::size_t>(t)];
+      add_triangle(patch, {box.corner(face[0]), box.corner(face[1]), box.corner(face[2])},
+                   kFirstBlockId + static_cast<std::int32_t>(i) * kBoxTriangles + t, material);
+    }
+  }
+  patch.grip = grip_.block(bodies_, foams_, jaws.X_TI);
+}
+
+void RigidWorld::add_pair(std::int32_t a, std::int32_t b, const RigidContacts& contacts, double stiffness_n_per_m) {
+  const RigidContact* deepest = nullptr;
+  for (int c = 0; c < contacts.count; ++c) {
+    const RigidContact& contact = contacts.at[static_cast<std::size_t>(c)];
+    if (!deepest || contact.depth_m > deepest->depth_m) deepest = &contact;
+  }
+  if (!deepest || pairs_.size() >= kMaxContactPairs) return;
+  pairs_.push_back({a, b, deepest->point_T, deepest->normal_T, deepest->depth_m, stiffness_n_per_m * deepest->depth_m});
+}
+
+void RigidWorld::list_tool_pairs(const JawReading& jaws) {
+  const ToolCapsules tool = tool_capsules(tool_, jaws.opening_m, {});
+  for (int c = 0; c < tool.count; ++c) {
+    const CapsuleShape shape = in_theatre(jaws.X_TI, tool.at[static_cast<std::size_t>(c)]);
+    const std::int32_t party = c == 0 ? kPartyShaft : kPartyJaw;
+    if (scene_.board) add_pair(party, kPartyBoard, capsule_plane(shape, floor_z_m_), board_.stiffness_n_per_m);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (static_cast<int>(i) == grip_.object()) continue;
+      add_pair(party, static_cast<std::int32_t>(i), capsule_box(shape, bodies_[i].shape()), foams_[i].stiffness_n_per_m);
+    }
+  }
+}
+
+void RigidWorld::list_block_pairs() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BoxShape box = bodies_[i].shape();
+    const auto a = static_cast<std::int32_t>(i);
+    if (scene_.board && bodies_[i].carried && grip_.board_force_n() > 0)
+      add_pair(a, kPartyBoard, box_plane({box.X_TB, box.half + Vec3::Constant(1e-5)}, floor_z_m_), 0);
+    if (scene_.port && bodies_[i].carried) {
+      const PortTube& port = *scene_.port;
+      add_pair(a, kPartyPort, box_cylinder(box, {port.centre_T, port.axis_T, port.radius_m, port.length_m}), 0);
+    }
+    for (std::size_t j = i + 1; j < bodies_.size(); ++j)
+      add_pair(a, static_cast<std::int32_t>(j), box_box(box, bodies_[j].shape()), 0);
+  }
+}
+
+void RigidWorld::list_pairs(const JawReading& jaws, bool present) {
+  pairs_.clear();
+  if (present) list_tool_pairs(jaws);
+  list_block_pairs();
+}
+
+void RigidWorld::describe(TissueFrame& frame) const {
+  frame.object_count = static_cast<std::int32_t>(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const RigidBody& body = bodies_[i];
+    ObjectState& object = frame.object[i];
+    object.X_TO = body.X_TB;
+    object.size_m = 2 * body.half;
+    object.velocity_T = body.velocity_T;
+    object.kind = foams_[i].spec.kind;
+    object.colour = foams_[i].spec.colour;
+    object.motion = body.carried ? ObjectMotion::kHeld : body.asleep ? ObjectMotion::kResting : ObjectMotion::kMoving;
+    object.crushed = foams_[i].crushed;
+  }
+  frame.grip = grip_.state();
+  frame.grip_object = grip_.object();
+  frame.slipped_m = grip_.slipped_m();
+  frame.pair_count = static_cast<std::int32_t>(pairs_.size());
+  std::copy(pairs_.begin(), pairs_.end(), frame.pair.begin());
+}
+
+}  // namespace trocar

@@ -1,0 +1,37 @@
+#include "tissue/tissue_world.h"
+
+#include <algorithm>
+
+namespace trocar {
+namespace {
+
+constexpr double kFirstStep = 0.01;     // s
+constexpr double kLongestStep = 0.05;   // s: a gap in the states never counts as more
+
+}  // namespace
+
+TissueWorld::TissueWorld(const TissueSetup& setup) : organ_(setup.organ), tool_(setup.tool) {
+  if (setup.organ_T && !setup.organ_T->triangles.empty()) extraction_.emplace(*setup.organ_T);
+  if (!setup.rigid.empty()) rigid_.emplace(setup.rigid, setup.tool);
+}
+
+void TissueWorld::step(const StylusState& state, bool present, ContactPatch& patch) {
+  const double dt_s = frame_.stamp == 0 ? kFirstStep : std::clamp(state.t_s - frame_.t_s, 0.0, kLongestStep);
+  ++frame_.stamp;
+  frame_.t_s = state.t_s;
+  patch.stamp = frame_.stamp;
+  patch.count = patch.dropped = 0;
+  patch.reach_m = kPatchRadius;
+  patch.material[0] = organ_;
+  patch.grip = {};
+  patch.held = {};
+  const JawReading jaws{state.X_TI, state.V_TI_T, state.jaw_opening_m, state.grip_force_n};
+  if (rigid_) rigid_->step(jaws, present, dt_s);
+  if (rigid_) patch.held = rigid_->held();
+  if (present && extraction_) extraction_->extract(state.X_TI, tool_, patch, state.jaw_opening_m);
+  if (present && rigid_) rigid_->add_to(jaws, patch);
+  if (rigid_) rigid_->describe(frame_);
+  dropped_ += static_cast<std::uint64_t>(patch.dropped);
+}
+
+}  // namespace trocar
