@@ -37,7 +37,7 @@ struct ContactPair {
   std::int32_t a = 0, b = 0;
   Vec3 point_T = Vec3::Zero();
   Vec3 normal_T = Vec3::UnitZ();         ///< unit, from b to a
-  double depth_m = 0;                    ///< overlap, >= 0
+  double depth_m = 0;                    ///< overlap, >= 0; two blocks touch from 0.1 mm before it on
   double force_n = 0;                    ///< by the displayed stiffness; 0 between two objects
 };
 

@@ -29,7 +29,7 @@ class TissueTask final : public Task {
     const StylusState& state = haptic_.record().stylus;
     ContactPatch& patch = patch_.begin_publish(tick);
     world_.step(state, inserted_, patch);
-    director_.update(state);
+    director_.update(state, &world_.frame());
     // The jig lies beneath the board: the world is there from the moment the tip first rests at the start, in free space.
     inserted_ = inserted_ || director_.status().phase != Phase::kReady;
     if (patch.grip.stiffness_n_per_m <= 0) patch.grip = director_.status().grip;

@@ -9,6 +9,7 @@ namespace trocar {
 namespace {
 
 constexpr double kTableHalf = 0.25;       // m, of the table under the board
+constexpr double kTouchSkin = 1e-4;       // m between two blocks that still counts as touching
 constexpr int kBoxTriangles = 12;
 constexpr std::int32_t kFirstBlockId = kFirstRigidId + 16;
 
@@ -154,13 +155,14 @@ void RigidWorld::list_block_pairs() {
     const BoxShape box = bodies_[i].shape();
     const auto a = static_cast<std::int32_t>(i);
     if (scene_.board && bodies_[i].carried && grip_.board_force_n() > 0)
-      add_pair(a, kPartyBoard, box_plane({box.X_TB, box.half + Vec3::Constant(1e-5)}, floor_z_m_), 0);
+      add_pair(a, kPartyBoard, box_plane({box.X_TB, box.half + Vec3::Constant(kTouchSkin)}, floor_z_m_), 0);
     if (scene_.port && bodies_[i].carried) {
       const PortTube& port = *scene_.port;
       add_pair(a, kPartyPort, box_cylinder(box, {port.centre_T, port.axis_T, port.radius_m, port.length_m}), 0);
     }
+    const BoxShape skinned{box.X_TB, box.half + Vec3::Constant(kTouchSkin)};
     for (std::size_t j = i + 1; j < bodies_.size(); ++j)
-      add_pair(a, static_cast<std::int32_t>(j), box_box(box, bodies_[j].shape()), 0);
+      add_pair(a, static_cast<std::int32_t>(j), box_box(skinned, bodies_[j].shape()), 0);
   }
 }
 
