@@ -26,7 +26,7 @@ Camera scope(const Scene& scene) {
   return camera;
 }
 
-std::vector<TargetMark> marks(const Director& director) {
+std::vector<TargetMark> marks(const DirectorView& director) {
   std::vector<TargetMark> out;
   const DirectorStatus& status = director.status();
   for (std::size_t i = 0; i < director.board().targets.size(); ++i) {

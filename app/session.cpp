@@ -21,44 +21,39 @@ namespace trocar {
 namespace {
 
 constexpr std::uint64_t kPatchDelay = 5;       // ticks from the tissue task to the haptic task
-constexpr double kAfterFault_s = 0.1;          // the loop is watched this long after a fault, then the attempt ends
 constexpr double kLongestBeyondLimit_s = 60;   // homing, start and reading, on top of the exercise's limit
 
-/// Everything that one lockstep run owns, whatever the back-end.
+/// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
 struct Bench {
-  Bench(const Scene& scene_in, DataAcquisition& daq)
+  Bench(const Scene& scene_in, DataAcquisition& daq, Timing timing, RecorderRings* recorder)
       : scene(scene_in),
-        patch(kPatchDelay),
+        state(make_channel<StylusState>(timing)),
+        patch(make_channel<ContactPatch>(timing, kPatchDelay)),
+        hand_frames(make_channel<ExerciseFrame>(timing)),
+        observer_frames(make_channel<ExerciseFrame>(timing)),
+        records(make_channel<TickRecord>(timing)),
         loop(scene.loop),
         director(scene.setup.exercise, scene.level, scene.board),
-        haptic(daq, loop, patch, hash),
-        tissue(scene, haptic, patch, director, hash) {}
-
-  /// The run ends when the exercise has, a fault has been seen for a moment, or far beyond the limit.
-  bool finished() {
-    const TickRecord& record = haptic.record();
-    if (record.stylus.loop == LoopState::kFault) return ++fault_ticks > kAfterFault_s * scene.loop.daq.rate_hz;
-    if (director.finished()) return true;
-    return record.stylus.t_s > scene.setup.exercise.time_limit_s + kLongestBeyondLimit_s;
-  }
-
-  void account() {
-    const TickRecord& record = haptic.record();
-    ++device.ticks;
-    device.overruns += record.in.elapsed_periods - 1;
-    device.min_energy_j = record.min_energy_j;
-  }
+        haptic(daq, loop, {*patch, *state, records.get(), recorder ? &recorder->ticks : nullptr},
+               scene.setup.exercise.time_limit_s + kLongestBeyondLimit_s),
+        tissue(scene, director, {*state, *patch, hand_frames.get(), observer_frames.get(),
+                                   recorder ? &recorder->steps : nullptr, recorder ? &recorder->events : nullptr}) {}
 
   SessionOutcome outcome(const char* backend) {
-    const Fault& fault = haptic.record().stylus.fault;
-    device.backend = backend;
-    device.rate_hz = scene.loop.daq.rate_hz;
-    device.kappa = scene.loop.map.force_scale;
-    device.fault = fault ? fault_name(fault.code) : "";
+    const TickRecord& record = haptic.record();
     SessionOutcome out;
-    out.status = fault ? AttemptStatus::kFault : director.outcome();
+    out.status = record.stylus.fault ? AttemptStatus::kFault : director.outcome();
     out.events = director.events();
-    out.device = device;
+    out.device.backend = backend;
+    out.device.rate_hz = scene.loop.daq.rate_hz;
+    out.device.kappa = scene.loop.map.force_scale;
+    out.device.ticks = haptic.ticks();
+    out.device.overruns = haptic.missed();
+    out.device.min_energy_j = record.min_energy_j;
+    out.device.fault = record.stylus.fault ? fault_name(record.stylus.fault.code) : "";
+    StateHash hash;
+    hash.add(haptic.hash().value());
+    hash.add(tissue.hash().value());
     out.state_hash = hash.value();
     out.state_hash_hex = hash.hex();
     out.patch_triangles_dropped = tissue.world().dropped();
@@ -68,40 +63,31 @@ struct Bench {
   }
 
   const Scene& scene;
-  StateHash hash;
-  DelayedChannel<ContactPatch> patch;
+  std::unique_ptr<Channel<StylusState>> state;
+  std::unique_ptr<Channel<ContactPatch>> patch;
+  std::unique_ptr<Channel<ExerciseFrame>> hand_frames, observer_frames;
+  std::unique_ptr<Channel<TickRecord>> records;
   HapticLoop loop;
   Director director;
   HapticTask haptic;
   TissueTask tissue;
-  DeviceReceipt device;
-  int fault_ticks = 0;
 };
 
-/// Shows the run to an observer at the tissue rate.
+/// Shows the run to an observer.
 class ObserverTask final : public Task {
  public:
-  ObserverTask(const Bench& bench, const SessionObserver& observe) : bench_(bench), observe_(observe) {}
+  ObserverTask(Bench& bench, const SessionObserver& observe) : bench_(bench), observe_(observe) {}
   std::uint32_t period() const override { return bench_.tissue.period(); }
-  void run(std::uint64_t) override {
-    const TickRecord& record = bench_.haptic.record();
-    if (observe_) observe_({bench_.scene, record, bench_.director, record.stylus.t_s});
+  void run(std::uint64_t tick) override {
+    if (!observe_) return;
+    const TickRecord& record = bench_.records->newest(tick);
+    const DirectorStatus& status = bench_.observer_frames->newest(tick).status;
+    observe_({bench_.scene, record, {status, bench_.scene.board}, record.stylus.t_s});
   }
 
  private:
-  const Bench& bench_;
-  const SessionObserver& observe_;
-};
-
-/// Counts what the receipt needs, each tick.
-class ReceiptTask final : public Task {
- public:
-  explicit ReceiptTask(Bench& bench) : bench_(bench) {}
-  std::uint32_t period() const override { return 1; }
-  void run(std::uint64_t) override { bench_.account(); }
-
- private:
   Bench& bench_;
+  const SessionObserver& observe_;
 };
 
 }  // namespace
@@ -118,20 +104,19 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
                            const SessionObserver& observe) {
   SimulatedDaq daq(simulated_device(scene.setup));
-  Bench bench(scene, daq);
-  HandTask hand(scene, bench.haptic, bench.director,
+  const auto rings = std::make_unique<RecorderRings>();
+  const auto bench = std::make_unique<Bench>(scene, daq, Timing::kLockstep, rings.get());
+  HandTask hand(scene, bench->haptic, *bench->hand_frames,
                 make_hand(scene.setup.hand, static_cast<std::uint64_t>(scene.setup.seed), assets.hands), daq);
-  RecorderTask recorder(bench.haptic, bench.director, writer);
-  ReceiptTask receipt(bench);
-  ObserverTask observer(bench, observe);
+  RecorderTask recorder(*rings, scene.loop.daq.rate_hz, writer);
+  ObserverTask observer(*bench, observe);
   LockstepExecutor executor;
-  for (Task* task : std::initializer_list<Task*>{&hand, &bench.haptic, &bench.tissue, &recorder, &receipt, &observer}) {
+  for (Task* task : std::initializer_list<Task*>{&hand, &bench->haptic, &bench->tissue, &recorder, &observer}) {
     executor.add(*task);
   }
-  executor.run([&] { return bench.finished(); });
-  recorder.append_new_events();
+  executor.run();
 
-  const SessionOutcome out = bench.outcome(daq.capabilities().name);
+  const SessionOutcome out = bench->outcome(daq.capabilities().name);
   RecordingEnd end;
   end.state_hash = out.state_hash;
   end.status = out.status;
@@ -146,13 +131,12 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
   samples.reserve(recording.ticks.size());
   for (const RecordedTick& row : recording.ticks) samples.push_back(device_input(row));
   ReplayDaq daq(std::move(samples), scene.loop.daq);
-  Bench bench(scene, daq);
-  ReceiptTask receipt(bench);
-  ObserverTask observer(bench, observe);
+  const auto bench = std::make_unique<Bench>(scene, daq, Timing::kLockstep, nullptr);
+  ObserverTask observer(*bench, observe);
   LockstepExecutor executor;
-  for (Task* task : std::initializer_list<Task*>{&bench.haptic, &bench.tissue, &receipt, &observer}) executor.add(*task);
+  for (Task* task : std::initializer_list<Task*>{&bench->haptic, &bench->tissue, &observer}) executor.add(*task);
   executor.run([&] { return daq.finished(); });
-  return bench.outcome(daq.capabilities().name);
+  return bench->outcome(daq.capabilities().name);
 }
 
 Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {

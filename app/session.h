@@ -16,11 +16,24 @@
 
 namespace trocar {
 
-/// Called at the tissue rate with what a picture or a progress line needs; may be empty.
+/// What a picture may see of the director: it runs on in another thread.
+class DirectorView {
+ public:
+  DirectorView(const DirectorStatus& status, const Board& board) : status_(status), board_(board) {}
+  DirectorView(const Director& director) : DirectorView(director.status(), director.board()) {}
+  const DirectorStatus& status() const { return status_; }
+  const Board& board() const { return board_; }
+
+ private:
+  const DirectorStatus& status_;
+  const Board& board_;
+};
+
+/// Called with what a picture or a progress line needs: in lockstep at the tissue rate, live when there is time for it.
 struct SessionView {
   const Scene& scene;
   const TickRecord& record;
-  const Director& director;
+  const DirectorView director;
   double t_s;
 };
 using SessionObserver = std::function<void(const SessionView&)>;

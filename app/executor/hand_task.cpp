@@ -15,22 +15,22 @@ constexpr double kEyeErrorPeriod_s = 0.020;
 
 }  // namespace
 
-HandTask::HandTask(const Scene& scene, const HapticTask& haptic, const Director& director, std::unique_ptr<Hand> hand,
-                   SimulatedDaq& daq)
+HandTask::HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseFrame>& frames,
+                   std::unique_ptr<Hand> hand, SimulatedDaq& daq)
     : scene_(scene),
       haptic_(haptic),
-      director_(director),
+      frames_(frames),
       hand_(std::move(hand)),
       daq_(daq),
       random_(static_cast<std::uint64_t>(scene.setup.seed) ^ kSensesSeed),
       past_(std::max<std::size_t>(1, static_cast<std::size_t>(kEyeDelay_s * scene.loop.daq.rate_hz)),
             scene.loop.map.instrument_pose(home_pose())) {}
 
-Pose HandTask::see(std::uint64_t tick) {
+Pose HandTask::see() {
   // The oldest entry is what the eye reports; the newest state takes its place.
-  Pose& slot = past_[tick % past_.size()];
+  Pose& slot = past_[periods_ % past_.size()];
   const Pose seen = slot;
-  if (tick > 0) slot = haptic_.record().stylus.X_TI;
+  if (periods_ > 0) slot = haptic_.record().stylus.X_TI;
   return seen;
 }
 
@@ -39,13 +39,13 @@ Percept HandTask::perceive(std::uint64_t tick) {
   const double rate = scene_.loop.daq.rate_hz;
   active_ticks_ = state.loop == LoopState::kActive ? active_ticks_ + 1 : 0;
   const auto redraw = static_cast<std::uint64_t>(kEyeErrorPeriod_s * rate);
-  if (tick % redraw == 0) {
+  if (periods_ % redraw == 0) {
     for (int axis = 0; axis < 3; ++axis) eye_error_[axis] = kEyeError_m * random_.normal();
   }
   Percept percept;
   percept.t_s = state.t_s;
   percept.device_ready = static_cast<double>(active_ticks_) > kReadyAfter_s * rate;
-  const Pose seen = see(tick);
+  const Pose seen = see();
   percept.tip_T = seen.p + eye_error_;
   percept.R_TI = seen.R;
   const double per_scene_newton = scene_.loop.map.force_scale * scene_.loop.map.motion_scale;
@@ -53,14 +53,16 @@ Percept HandTask::perceive(std::uint64_t tick) {
   percept.felt_force_n = std::max(0.0, felt + kTouchError_n * random_.normal());
   percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
   percept.jaw_opening_m = daq_.sense().jaw_opening_m;
-  percept.shown_force_n = director_.status().force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
-  show_cue(director_.status(), percept);
+  const DirectorStatus& status = frames_.newest(tick).status;
+  percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
+  show_cue(status, percept);
   return percept;
 }
 
 void HandTask::run(std::uint64_t tick) {
   const HandIntent intent = hand_->update(perceive(tick), 1 / scene_.loop.daq.rate_hz);
   daq_.set_hand_intent(scene_.loop.map.stylus_pose(intent.X_TI), intent.jaw_opening_m);
+  ++periods_;
 }
 
 }  // namespace trocar

@@ -3,12 +3,14 @@
 // What is seen lags by 150 ms and errs by 0.3 mm, felt forces err by 0.03 N: design choices, named here. The force felt is
 // the one that the loop delivers, in scene newtons: device errors between DAC and hand act on the hand through the plant, but are
 // not in its percept. Nothing of the world goes to the hand but the Percept.
-// Thread: the executor's.
+// It is part of the simulated world: it runs beside the device, once a period of it, also in periods that the loop missed.
+// Thread: the haptic task's, before it.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "app/executor/exercise_frame.h"
 #include "app/executor/haptic_task.h"
 #include "app/executor/task.h"
 #include "app/scene.h"
@@ -23,25 +25,25 @@ class HandTask final : public Task {
   static constexpr double kTouchError_n = 0.03;       ///< SD
   static constexpr double kReadyAfter_s = 1.1;        ///< the lamp lights when the soft start is over
 
-  HandTask(const Scene& scene, const HapticTask& haptic, const Director& director, std::unique_ptr<Hand> hand,
-           SimulatedDaq& daq);
+  HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseFrame>& frames,
+           std::unique_ptr<Hand> hand, SimulatedDaq& daq);
 
   std::uint32_t period() const override { return 1; }
   void run(std::uint64_t tick) override;
 
  private:
   Percept perceive(std::uint64_t tick);
-  Pose see(std::uint64_t tick);
+  Pose see();
 
   const Scene& scene_;
   const HapticTask& haptic_;
-  const Director& director_;
+  Inlet<ExerciseFrame>& frames_;
   std::unique_ptr<Hand> hand_;
   SimulatedDaq& daq_;
   HandRandom random_;
   std::vector<Pose> past_;          ///< ring over the eye's delay
   Vec3 eye_error_ = Vec3::Zero();
-  std::uint64_t active_ticks_ = 0;
+  std::uint64_t active_ticks_ = 0, periods_ = 0;
 };
 
 }  // namespace trocar

@@ -3,6 +3,7 @@
 // Within one tick the tasks run in the order in which they were added. Thread: one.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -15,19 +16,25 @@ class LockstepExecutor {
   /// The task must outlive the executor.
   void add(Task& task) { tasks_.push_back(&task); }
 
-  /// Runs ticks until `finished` says so (asked after each tick). @return ticks run.
-  std::uint64_t run(const std::function<bool()>& finished) {
+  /// Runs ticks until a task has finished or `interrupted` (asked after each tick) says so, then stops all tasks.
+  /// @return ticks run.
+  std::uint64_t run(const std::function<bool()>& interrupted = {}) {
     std::uint64_t tick = 0;
     do {
       for (Task* task : tasks_) {
         if (tick % task->period() == 0) task->run(tick);
       }
       ++tick;
-    } while (!finished());
+    } while (!finished() && !(interrupted && interrupted()));
+    for (Task* task : tasks_) task->stop();
     return tick;
   }
 
  private:
+  bool finished() const {
+    return std::any_of(tasks_.begin(), tasks_.end(), [](const Task* task) { return task->finished(); });
+  }
+
   std::vector<Task*> tasks_;
 };
 

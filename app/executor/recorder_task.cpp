@@ -19,18 +19,34 @@ TraceSample trace_sample(const StylusState& state) {
   return sample;
 }
 
-void RecorderTask::run(std::uint64_t) {
-  const TickRecord& record = haptic_.record();
-  writer_.append(quantise(record.stylus.period, record.in, trace_sample(record.stylus), record.stylus.loop,
-                          static_cast<std::uint8_t>(director_.status().phase)));
-  append_new_events();
+void RecorderTask::drain() {
+  // Ticks before steps: the step that made a patch is in its ring before any tick can see the patch.
+  for (TickRecord record; rings_.ticks.pop(record);) waiting_.push_back(record);
+  for (TissueStep step; rings_.steps.pop(step);) {
+    unused_.push_back(step);
+    seen_period_ = step.seen_period;
+  }
+  for (Event event; rings_.events.pop(event);) writer_.append_events(std::span(&event, 1));
 }
 
-void RecorderTask::append_new_events() {
-  const auto& events = director_.events();
-  if (events.size() == events_written_) return;
-  writer_.append_events(std::span(events).subspan(events_written_));
-  events_written_ = events.size();
+void RecorderTask::write(const TickRecord& record) {
+  const StylusState& state = record.stylus;
+  for (; !unused_.empty() && unused_.front().seen_period <= state.period; unused_.pop_front()) {
+    phase_ = unused_.front().phase;
+  }
+  writer_.append(quantise(state.period, record.in, trace_sample(state), state.loop, phase_));
+}
+
+void RecorderTask::run(std::uint64_t) {
+  drain();
+  for (; !waiting_.empty() && waiting_.front().stylus.period <= seen_period_; waiting_.pop_front()) {
+    write(waiting_.front());
+  }
+}
+
+void RecorderTask::stop() {
+  drain();
+  for (; !waiting_.empty(); waiting_.pop_front()) write(waiting_.front());
 }
 
 }  // namespace trocar

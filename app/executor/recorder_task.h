@@ -1,33 +1,53 @@
-// The recorder task: every loop tick as a quantised row, the director's new events with them.
+// The recorder task (10 Hz): drains the rings of ticks, tissue steps and events into the recording.
 //
-// Runs after the haptic and the tissue task of a tick. Thread: the executor's, never the haptic thread.
+// A row shows the phase after the last tissue step that saw it or an earlier one, so it waits until a step has seen it or
+// a later one. Thread: its own, never the haptic thread; it may wait for the disk.
 #pragma once
+
+#include <deque>
 
 #include "app/executor/haptic_task.h"
 #include "app/executor/task.h"
+#include "app/executor/tissue_task.h"
 #include "app/recorder/recording_writer.h"
-#include "scenarios/director.h"
 
 namespace trocar {
 
 /// What scoring keeps of one haptic state.
 TraceSample trace_sample(const StylusState& state);
 
+/// What the recorder reads, big: on the heap.
+struct RecorderRings {
+  TickRing ticks;
+  StepRing steps;
+  EventRing events;
+};
+
 class RecorderTask final : public Task {
  public:
-  RecorderTask(const HapticTask& haptic, const Director& director, RecordingWriter& writer)
-      : haptic_(haptic), director_(director), writer_(writer) {}
+  static constexpr double kRateHz = 10;
 
-  std::uint32_t period() const override { return 1; }
+  RecorderTask(RecorderRings& rings, double rate_hz, RecordingWriter& writer)
+      : rings_(rings), rate_hz_(rate_hz), writer_(writer) {}
+
+  std::uint32_t period() const override { return static_cast<std::uint32_t>(rate_hz_ / kRateHz); }
   void run(std::uint64_t tick) override;
-  /// Events that came after the last tick.
-  void append_new_events();
+  /// What came after the last call. The recording stays open.
+  void stop() override;
+  /// Ticks, steps and events that found their ring full.
+  std::uint64_t lost() const { return rings_.ticks.dropped() + rings_.steps.dropped() + rings_.events.dropped(); }
 
  private:
-  const HapticTask& haptic_;
-  const Director& director_;
+  void drain();
+  void write(const TickRecord& record);
+
+  RecorderRings& rings_;
+  double rate_hz_;
   RecordingWriter& writer_;
-  std::size_t events_written_ = 0;
+  std::deque<TickRecord> waiting_;
+  std::deque<TissueStep> unused_;      ///< steps that saw a later tick than the last row written
+  std::uint64_t seen_period_ = 0;      ///< newest tick that a step has seen
+  std::uint8_t phase_ = 0;
 };
 
 }  // namespace trocar

@@ -15,6 +15,7 @@ void StateHash::add(const TickRecord& r) {
   add(s.fault.tick);
   add(s.fault.value);
   add(s.period);
+  add(r.patch_stamp);
   add(r.q);
   add(r.qd);
   add(r.torque);

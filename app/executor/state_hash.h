@@ -1,5 +1,6 @@
-// 64-bit hash over what a run computes, tick by tick and tissue frame by tissue frame: equal runs give equal hashes, and
-// a difference in any tick or frame shows (up to the 2^-64 chance of a collision). Not cryptographic. Mixing step of splitmix64 (Steele, Lea and Flood, OOPSLA 2014).
+// 64-bit hash over what a task computes, step by step: equal runs give equal hashes, and a difference in any step shows
+// (up to the 2^-64 chance of a collision). The haptic and the tissue task keep one each, because live they do not run in one
+// order; the hash of a run is that of the two. Not cryptographic. Mixing step of splitmix64 (Steele, Lea and Flood, OOPSLA 2014).
 #pragma once
 
 #include <bit>

@@ -13,6 +13,12 @@ class Task {
   virtual std::uint32_t period() const = 0;
   /// @param tick loop tick of the call, counted from 0.
   virtual void run(std::uint64_t tick) = 0;
+  /// Live only, before the run() that follows them: periods of this task that passed without a call.
+  virtual void missed(std::uint64_t /*periods*/) {}
+  /// Asked after each run(): true ends the whole run.
+  virtual bool finished() const { return false; }
+  /// Once, when no task runs any more.
+  virtual void stop() {}
 };
 
 }  // namespace trocar

@@ -1,11 +1,14 @@
-// The tissue task (100 Hz): steps the world with the newest haptic state, publishes its patch, tells the director.
+// The tissue task (100 Hz): steps the world with the newest haptic state, publishes its patch and frame, tells the director.
+//
+// Reads and writes through its ports only. Thread: its own.
 #pragma once
 
-#include "app/executor/delayed_channel.h"
-#include "app/executor/haptic_task.h"
+#include "app/executor/channel.h"
+#include "app/executor/exercise_frame.h"
 #include "app/executor/state_hash.h"
 #include "app/executor/task.h"
 #include "app/scene.h"
+#include "haptics/exchange/ring.h"
 #include "scenarios/director.h"
 #include "tissue/tissue_world.h"
 
@@ -13,21 +16,31 @@ namespace trocar {
 
 inline constexpr double kTissueRateHz = 100;
 
+using StepRing = Ring<TissueStep, 1024>;
+using EventRing = Ring<Event, 1024>;
+
+/// What the tissue task reads from and writes to. An absent reader costs nothing.
+struct TissuePorts {
+  Inlet<StylusState>& state;
+  Outlet<ContactPatch>& patch;
+  Outlet<ExerciseFrame>* hand = nullptr;
+  Outlet<ExerciseFrame>* observer = nullptr;
+  StepRing* steps = nullptr;
+  EventRing* events = nullptr;
+};
+
 class TissueTask final : public Task {
  public:
-  TissueTask(const Scene& scene, const HapticTask& haptic, DelayedChannel<ContactPatch>& patch, Director& director,
-             StateHash& hash)
-      : haptic_(haptic),
-        patch_(patch),
-        director_(director),
-        hash_(hash),
+  TissueTask(const Scene& scene, Director& director, const TissuePorts& ports)
+      : director_(director),
+        ports_(ports),
         world_({&scene.organ_T, scene.setup.exercise.surface, scene.rigid, scene.loop.tool}),
         period_(static_cast<std::uint32_t>(scene.loop.daq.rate_hz / kTissueRateHz)) {}
 
   std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
-    const StylusState& state = haptic_.record().stylus;
-    ContactPatch& patch = patch_.begin_publish(tick);
+    const StylusState& state = ports_.state.newest(tick);
+    ContactPatch& patch = ports_.patch.begin(tick);
     world_.step(state, inserted_, patch);
     director_.update(state, &world_.frame());
     // The jig lies beneath the board: the world is there from the moment the tip first rests at the start, in free space.
@@ -36,16 +49,34 @@ class TissueTask final : public Task {
     hash_.add(patch);
     hash_.add(world_.frame());
     hash_.add(director_.status());
+    tell(tick, state.period);
+    ports_.patch.commit();  // last: whoever sees this stamp finds its step in the ring
   }
+  bool finished() const override { return director_.finished(); }
+
+  const StateHash& hash() const { return hash_; }
   const TissueWorld& world() const { return world_; }
 
  private:
-  const HapticTask& haptic_;
-  DelayedChannel<ContactPatch>& patch_;
+  void tell(std::uint64_t tick, std::uint64_t seen_period) {
+    for (Outlet<ExerciseFrame>* outlet : {ports_.hand, ports_.observer}) {
+      if (!outlet) continue;
+      ExerciseFrame& frame = outlet->begin(tick);
+      frame.status = director_.status();
+      frame.tissue = world_.frame();
+      outlet->commit();
+    }
+    if (ports_.steps) ports_.steps->push({seen_period, static_cast<std::uint8_t>(director_.status().phase)});
+    const std::vector<Event>& events = director_.events();
+    for (; ports_.events && told_ < events.size(); ++told_) ports_.events->push(events[told_]);
+  }
+
   Director& director_;
-  StateHash& hash_;
+  TissuePorts ports_;
+  StateHash hash_;
   TissueWorld world_;
   std::uint32_t period_;
+  std::size_t told_ = 0;   ///< events that the recorder has
   bool inserted_ = false;
 };
 

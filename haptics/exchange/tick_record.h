@@ -19,6 +19,7 @@ struct TickRecord {
   double contact_scale = 1;    ///< < 1: torque budget cut the contact force
   double stored_j = 0;
   double min_energy_j = 0;     ///< lowest value of the arm's energy observer so far
+  std::uint64_t patch_stamp = 0;  ///< of the patch that the tick saw
   StylusState stylus;
 };
 

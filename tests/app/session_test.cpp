@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/executor/delayed_channel.h"
-#include "app/executor/lockstep_executor.h"
 #include "app/executor/state_hash.h"
 #include "app/placement.h"
 #include "haptics/input_error.h"
@@ -42,42 +40,6 @@ Attempt run(const Scene& scene, const SessionObserver& observe = {}) {
   RecordingWriter writer(memory, scene_json(scene), scene.loop.daq.rate_hz);
   SessionOutcome outcome = run_session(scene, find_assets(), writer, observe);
   return {std::move(outcome), parse_recording(memory.bytes(), "memory")};
-}
-
-TEST(DelayedChannel, ShowsAValueWhenItsDelayHasPassed) {
-  DelayedChannel<int> channel(5, -1);
-  EXPECT_EQ(channel.read(0), -1);
-  channel.begin_publish(10) = 42;
-  EXPECT_EQ(channel.read(14), -1);
-  EXPECT_EQ(channel.read(15), 42);
-  channel.begin_publish(20) = 43;
-  EXPECT_EQ(channel.read(24), 42);
-  channel.begin_publish(30) = 44;
-  EXPECT_EQ(channel.read(30), 43) << "the earlier one had become visible before the next was begun";
-  EXPECT_EQ(channel.read(35), 44);
-}
-
-/// Writes its letter into a log at every call.
-class LoggingTask final : public Task {
- public:
-  LoggingTask(std::string& log, char letter, std::uint32_t period) : log_(log), letter_(letter), period_(period) {}
-  std::uint32_t period() const override { return period_; }
-  void run(std::uint64_t) override { log_ += letter_; }
-
- private:
-  std::string& log_;
-  char letter_;
-  std::uint32_t period_;
-};
-
-TEST(LockstepExecutor, CallsTasksInTheirOrderAtTheirPeriod) {
-  std::string log;
-  LoggingTask a(log, 'a', 1), b(log, 'b', 3), c(log, 'c', 1);
-  LockstepExecutor executor;
-  for (Task* task : std::initializer_list<Task*>{&a, &b, &c}) executor.add(*task);
-  int asked = 0;
-  EXPECT_EQ(executor.run([&] { return ++asked == 4; }), 4u);
-  EXPECT_EQ(log, "abcacacabc");
 }
 
 TEST(StateHash, DependsOnEveryWordAndOnTheirOrder) {
