@@ -35,7 +35,7 @@ struct Bench {
         loop(scene.loop),
         director(scene.setup.exercise, scene.level, scene.board),
         haptic(daq, loop, {*patch, *state, records.get(), recorder ? &recorder->ticks : nullptr},
-               scene.setup.exercise.time_limit_s + kLongestBeyondLimit_s),
+               scene.level.time_limit_s + kLongestBeyondLimit_s),
         tissue(scene, director, {*state, *patch, hand_frames.get(), observer_frames.get(),
                                    recorder ? &recorder->steps : nullptr, recorder ? &recorder->events : nullptr}) {}
 
