@@ -174,7 +174,7 @@ Pose place_organ(const TriangleSurface& organ_RAS, const TargetLayout& layout) {
 namespace {
 
 /// Gives each target its band: every band as often as the others, in a drawn order (Fisher and Yates).
-void deal_bands(const std::vector<ForceBand>& bands, std::mt19937_64& generator, std::vector<Target>& targets) {
+void deal_bands(const std::vector<WantedForce>& bands, std::mt19937_64& generator, std::vector<Target>& targets) {
   for (std::size_t i = 0; i < targets.size(); ++i) targets[i].band = bands[i % bands.size()];
   if (bands.size() < 2) return;
   for (std::size_t i = targets.size() - 1; i > 0; --i) {

@@ -23,7 +23,7 @@ struct Target {
   Vec3 centre_T = Vec3::Zero();        ///< of the disc; where the tip shall be
   Vec3 normal_T = Vec3::UnitZ();
   double radius_m = 0;                 ///< of the disc; position tolerance of a pen
-  ForceBand band = {};                 ///< disc: wanted force
+  WantedForce band = {};                 ///< disc: wanted force
   Mat3 R_TI = Mat3::Identity();        ///< pen: wanted orientation of the instrument
 };
 
@@ -44,7 +44,7 @@ struct Demand {
   bool oriented = false;               ///< R_TI counts
   Mat3 R_TI = Mat3::Identity();
   double angle_tolerance_rad = 0;
-  ForceBand band;                      ///< of contact force, or of grip while the cue asks to grip
+  WantedForce band;                      ///< of contact force, or of grip while the cue asks to grip
 };
 
 /// What screen, hand and session see of the exercise at this moment.

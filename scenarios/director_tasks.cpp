@@ -96,7 +96,7 @@ void DiscTask::update(const TaskInput& input, EventLog& log) {
   }
   free_s_ = touching_ ? 0 : free_s_ + dt_s;
   const double force = state.F_I_T.force.norm();
-  const ForceBand& band = targets_[static_cast<std::size_t>(index_)].band;
+  const WantedForce& band = targets_[static_cast<std::size_t>(index_)].band;
   const bool wanted = on_disc_ && force >= band.low_n && force <= band.high_n;
   if (!hold_.update(wanted, dt_s)) return;
   log.add("TARGET_HELD", Severity::kInfo, index_, log.t_s - lit_at_s_, "s");
@@ -104,7 +104,7 @@ void DiscTask::update(const TaskInput& input, EventLog& log) {
   light(log);
 }
 
-void DiscTask::coach(const TaskInput& input, const ForceBand& band, DirectorStatus& status) const {
+void DiscTask::coach(const TaskInput& input, const WantedForce& band, DirectorStatus& status) const {
   const double force = input.stylus.F_I_T.force.norm();
   const std::string wanted = band_text(band);
   if (input.too_hard && display_ != "after") {
@@ -178,7 +178,7 @@ void SqueezeTask::update(const TaskInput& input, EventLog& log) {
 
 void SqueezeTask::describe(const TaskInput& input, DirectorStatus& status) const {
   const double grip = input.stylus.grip_force_n;
-  const ForceBand band{task_.low_n, task_.high_n};
+  const WantedForce band{task_.low_n, task_.high_n};
   const std::string wanted = band_text(band);
   status.cue = Cue::kGrip;
   status.target_index = -1;

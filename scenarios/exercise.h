@@ -24,9 +24,9 @@ constexpr const char* kind_name(ExerciseKind kind) { return kind == ExerciseKind
 constexpr const char* mapping_name(Mapping mapping) { return mapping == Mapping::kFulcrum ? "fulcrum" : "direct"; }
 
 /// A wanted force, N.
-struct ForceBand {
+struct WantedForce {
   double low_n = 0, high_n = 0;
-  bool operator==(const ForceBand&) const = default;
+  bool operator==(const WantedForce&) const = default;
 };
 
 /// What one level asks for.
@@ -42,7 +42,7 @@ struct ExerciseLevel {
   double time_limit_s = 0;
   double expert_time_s = 0;            ///< muE of the rubric's time anchors; 0 when they need none
   double band_low_n = 0, band_high_n = 0;  ///< touch: lowest and highest wanted force
-  std::vector<ForceBand> bands;        ///< touch: one, or several dealt out to the discs
+  std::vector<WantedForce> bands;        ///< touch: one, or several dealt out to the discs
   double position_tolerance_m = 0, angle_tolerance_rad = 0;  ///< reach
   Rubric rubric;                       ///< with this level's anchors
 };

@@ -22,7 +22,7 @@ bool force_shown(const std::string& display, bool outside) {
   return display == "always" || (display == "band" && outside);
 }
 
-std::string band_text(const ForceBand& band) {
+std::string band_text(const WantedForce& band) {
   char text[64];
   std::snprintf(text, sizeof text, "%.1f to %.1f N", band.low_n, band.high_n);
   return text;

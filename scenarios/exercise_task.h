@@ -57,6 +57,6 @@ void say(DirectorStatus& status, const std::string& message, const std::string& 
 bool force_shown(const std::string& display, bool outside);
 
 /// "0.4 to 0.8 N"
-std::string band_text(const ForceBand& band);
+std::string band_text(const WantedForce& band);
 
 }  // namespace trocar

@@ -71,7 +71,7 @@ void read_bands(StrictTable& table, bool derived, const Exercise& exercise, Exer
   }
   level.band_low_n = level.bands.front().low_n;
   level.band_high_n = level.bands.front().high_n;
-  for (const ForceBand& band : level.bands) {
+  for (const WantedForce& band : level.bands) {
     if (band.high_n <= band.low_n) table.fail(key, "'" + key + "' must be [low, high] with low below high");
     if (band.high_n > exercise.hard_force_n) table.fail(key, "'" + key + "' reaches above 'hard_n'");
     level.band_low_n = std::min(level.band_low_n, band.low_n);

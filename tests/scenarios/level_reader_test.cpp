@@ -44,7 +44,7 @@ TEST(Levels, TakeOverWhatTheyDoNotName) {
   ASSERT_EQ(e.levels.size(), 2u);
   EXPECT_EQ(e.levels[1].name, "L2");
   EXPECT_EQ(e.levels[1].force_display, "band");
-  EXPECT_EQ(e.levels[1].bands, (std::vector<ForceBand>{{0.5, 0.7}}));
+  EXPECT_EQ(e.levels[1].bands, (std::vector<WantedForce>{{0.5, 0.7}}));
   EXPECT_DOUBLE_EQ(e.levels[1].band_high_n, 0.7);
   EXPECT_DOUBLE_EQ(e.levels[1].motion_scale, 1);
   EXPECT_LT(e.levels[1].force_scale, 0);
