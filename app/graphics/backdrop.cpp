@@ -89,4 +89,23 @@ PictureMesh build_fat_bed(const Eigen::AlignedBox3d& organ_T) {
   });
 }
 
+PictureMesh build_trainer_box(const Eigen::AlignedBox3d& stage_T) {
+  const Vec3 centre = stage_T.center();
+  const double flat = 0.5 * stage_T.sizes().head<2>().maxCoeff() + 0.025;  // m from the middle to where it rises
+  constexpr double kRise = 0.09, kWall = 0.16;
+  return sheet(72, 72, false, [&](double u, double v) {
+    // A square is mapped to a disc-like sheet: distance from the middle decides floor, bend and wall.
+    const double a = 2 * u - 1, b = 2 * v - 1;
+    const double square = std::max(std::abs(a), std::abs(b)), round = std::hypot(a, b);
+    const double run = square * (flat + 0.5 * std::numbers::pi * kRise + kWall);
+    const double bend = std::clamp((run - flat) / kRise, 0.0, 0.5 * std::numbers::pi);
+    const double out = std::min(run, flat) + kRise * std::sin(bend);
+    const double up = kRise * (1 - std::cos(bend)) + std::max(0.0, run - flat - 0.5 * std::numbers::pi * kRise);
+    const double x = round > 0 ? a / round * out : 0.0, y = round > 0 ? b / round * out : 0.0;
+    const double fold = gradient_noise(14 * x + 40, 9 * y + 40, 0.5, 256) * std::clamp(run / flat - 0.75, 0.0, 1.0);
+    return Sample{Vec3(centre.x() + x, centre.y() + y, stage_T.min().z() - 0.0005 + up + 0.006 * fold),
+                  1.0 - 0.3 * std::clamp(bend, 0.0, 1.0)};
+  });
+}
+
 }  // namespace trocar

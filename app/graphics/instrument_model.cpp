@@ -2,65 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
+#include "app/graphics/loft.h"
+
 namespace trocar {
-namespace {
-
-/// Ring-by-ring loft; each ring has `around` + 1 points, the seam doubled. Normals from neighbours.
-PictureMesh loft(int rings, int around, const std::function<Vec3(int, int)>& at,
-                 const std::function<float(int)>& steel) {
-  PictureMesh mesh;
-  for (int i = 0; i < rings; ++i)
-    for (int j = 0; j <= around; ++j) {
-      const Vec3 p = at(i, j % around);
-      const Vec3 along = at(std::min(i + 1, rings - 1), j % around) - at(std::max(i - 1, 0), j % around);
-      const Vec3 round = at(i, (j + 1) % around) - at(i, (j + around - 1) % around);
-      Vec3 n = round.cross(along);
-      n = n.norm() > 1e-15 ? Vec3(n.normalized()) : Vec3(Vec3::UnitZ());
-      const Eigen::Vector3f pf = p.cast<float>(), nf = n.cast<float>();
-      mesh.vertices.push_back({{pf.x(), pf.y(), pf.z()}, {nf.x(), nf.y(), nf.z()}, {1.0F, steel(i)}});
-    }
-  for (int i = 0; i + 1 < rings; ++i)
-    for (int j = 0; j < around; ++j) {
-      const auto a = static_cast<std::uint32_t>(i * (around + 1) + j), b = a + 1;
-      const auto c = a + static_cast<std::uint32_t>(around + 1), d = c + 1;
-      mesh.indices.insert(mesh.indices.end(), {a, b, c, b, d, c});
-    }
-  return mesh;
-}
-
-struct Station {
-  double z, radius;  ///< along the shaft (m behind the tip, negative z), radius
-  float steel;
-};
-
-}  // namespace
 
 PictureMesh build_shaft(double radius_m, double length_m) {
   const double r = radius_m, hinge = -kJawLength_m;
-  const std::vector<Station> profile = {{-length_m, r, 0},
-                                        {hinge - 0.0160, r, 0},
-                                        {hinge - 0.0100, r, 0},
-                                        {hinge - 0.0092, 0.97 * r, 0},
-                                        {hinge - 0.0091, 0.86 * r, 0},
-                                        {hinge - 0.0090, 0.86 * r, 1},
-                                        {hinge - 0.0060, 0.86 * r, 1},
-                                        {hinge - 0.0052, 0.80 * r, 1},
-                                        {hinge - 0.0010, 0.80 * r, 1},
-                                        {hinge + 0.0008, 0.70 * r, 1},
-                                        {hinge + 0.0018, 0.45 * r, 1},
-                                        {hinge + 0.0020, 0.0, 1}};
-  constexpr int kAround = 28;
-  return loft(
-      static_cast<int>(profile.size()), kAround,
-      [&](int i, int j) {
-        const Station& s = profile[static_cast<std::size_t>(i)];
-        const double angle = 2 * std::numbers::pi * j / kAround;
-        return Vec3(s.radius * std::cos(angle), s.radius * std::sin(angle), s.z);
-      },
-      [&](int i) { return profile[static_cast<std::size_t>(i)].steel; });
+  const std::vector<ProfilePoint> profile = {{-length_m, r, 0},
+                                             {hinge - 0.0160, r, 0},
+                                             {hinge - 0.0100, r, 0},
+                                             {hinge - 0.0092, 0.97 * r, 0},
+                                             {hinge - 0.0091, 0.86 * r, 0},
+                                             {hinge - 0.0090, 0.86 * r, 1},
+                                             {hinge - 0.0060, 0.86 * r, 1},
+                                             {hinge - 0.0052, 0.80 * r, 1},
+                                             {hinge - 0.0010, 0.80 * r, 1},
+                                             {hinge + 0.0008, 0.70 * r, 1},
+                                             {hinge + 0.0018, 0.45 * r, 1},
+                                             {hinge + 0.0020, 0.0, 1}};
+  return turned(profile, 28);
 }
 
 PictureMesh build_jaw(double radius_m) {

@@ -14,6 +14,7 @@
 #include "app/graphics/hud_layout.h"
 #include "app/graphics/hud_painter.h"
 #include "app/graphics/instrument_model.h"
+#include "app/graphics/object_painter.h"
 #include "app/graphics/render_surfaces.h"
 #include "app/graphics/scene_block.h"
 #include "app/graphics/solid_noise.h"
@@ -83,6 +84,8 @@ struct Renderer::Impl {
   std::optional<OrganOnGpu> organ;
   std::vector<Decal> decals;
   GpuMesh shaft, jaw;
+  ObjectPainter objects;
+  TrainerBackdrop trainer;
   double shaft_radius_m = 0, shaft_length_m = 0;
 
   Impl(HeadlessContext& ctx, const std::filesystem::path& asset_root, const RenderOptions& opts);
@@ -203,8 +206,9 @@ void Renderer::Impl::shadow_pass(const SceneView& view) {
   Program& program = bind("depth", "depth");
   draw_instrument_parts(program, view);
   glUniformMatrix4fv(program.uniform("u_model"), 1, GL_FALSE, matrix(Pose{}).data());
-  glCullFace(GL_FRONT);  // the organ's far side casts: no self-shadow speckle on the lit side
-  organ->gpu.draw();
+  glCullFace(GL_FRONT);  // far sides cast: no self-shadow speckle on the lit side
+  if (organ) organ->gpu.draw();
+  objects.draw_shadows(program, view.objects);
   glCullFace(GL_BACK);
 }
 
@@ -220,8 +224,19 @@ void Renderer::Impl::scene_pass(const SceneView& view, const ScopeOptics& optics
   const int half = static_cast<int>(std::ceil(optics.circle_radius() / picture.width * scene.width)) + 2;
   glEnable(GL_SCISSOR_TEST);
   glScissor(std::max(0, scene.width / 2 - half), 0, std::min(scene.width, 2 * half), scene.height);
-  draw_instrument_parts(bind("instrument", "instrument"), view);
-  if (organ) tissue_pass(view, optics);
+  draw_instrument_parts(bind("instrument", "instrument",
+                             view.roll_stripe ? std::vector<std::string>{"ROLL_STRIPE"} : std::vector<std::string>{}),
+                        view);
+  const ProgramBinder binder = [this](const std::string& vertex, const std::string& fragment,
+                                      std::vector<std::string> defines) -> Program& {
+    return bind(vertex, fragment, std::move(defines));
+  };
+  objects.draw_solids(binder, view);
+  if (organ)
+    tissue_pass(view, optics);
+  else if (!view.stage_T.isEmpty())
+    trainer.draw(binder, view.stage_T);
+  objects.draw_ghosts(binder, view);
   glDisable(GL_SCISSOR_TEST);
 }
 
@@ -346,7 +361,7 @@ Image Renderer::render(const SceneView& view, int width, int height) {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, r.scene_buffer.id());
   glActiveTexture(GL_TEXTURE0 + kNoiseUnit);
   glBindTexture(GL_TEXTURE_3D, r.noise.id());
-  if (r.organ) r.shadow_pass(view);
+  r.shadow_pass(view);
   glActiveTexture(GL_TEXTURE0 + kShadowUnit);
   glBindTexture(GL_TEXTURE_2D, r.shadow.texture.id());
   r.scene_pass(view, optics);

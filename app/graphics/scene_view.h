@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/graphics/scene_object.h"
 #include "haptics/quantities.h"
 #include "tissue/mesh/triangle_surface.h"
 
@@ -64,9 +65,12 @@ struct SceneView {
   std::shared_ptr<const TriangleSurface> organ;  ///< already in T; shared between frames
   std::string material;                          ///< selects the tissue look: "liver", "gallbladder", ...
   std::vector<TargetMark> targets;
+  std::vector<SceneObject> objects;              ///< board, blocks, rings, ghost pens, port
+  Eigen::AlignedBox3d stage_T;                   ///< without an organ: work space that the box trainer surrounds
   Pose X_TI;                       ///< instrument tip, z along the shaft towards the tip
   double shaft_radius_m = 0.0025, shaft_length_m = 0.30;
-  double jaw_opening_m = 0;
+  double jaw_opening_m = 0;        ///< between the jaws' tips
+  bool roll_stripe = false;        ///< paint a stripe along the upper jaw's side (+y of I)
   std::optional<Vec3> dimple_T;    ///< surface point under the tip while touching
   Vec3 dimple_normal_T = Vec3::UnitZ();
   double dimple_depth_m = 0;       ///< drawn as a local dent with whitening

@@ -25,5 +25,10 @@ void main() {
                vec3(0.95, 0.97, 1.0) * (0.055 * ggx(n_h, 0.30) + 0.012 * ggx(n_h, 0.12)) * n_l;
   vec3 sheath = vec3(0.0105, 0.0105, 0.012) * (0.4 + n_l) + vec3(0.012) * ggx(n_h, 0.34) * n_l +
                 vec3(0.012, 0.007, 0.006) * side;
+#ifdef ROLL_STRIPE
+  // Painted line on the upper jaw's side, so that roll can be seen.
+  float stripe = step(0.0, v_part.y) * (1.0 - v_steel) * (1.0 - smoothstep(0.00035, 0.00055, abs(v_part.x)));
+  sheath = mix(sheath, vec3(0.55, 0.52, 0.46) * (0.15 + 0.85 * n_l), 0.9 * stripe);
+#endif
   colour = vec4(power * mix(sheath, steel, v_steel), 1.0);
 }

@@ -32,3 +32,24 @@ float lamp_power(vec3 to_lamp) {
   float plain = lamp.w * c * c * c * c / (d2_mm + 60.0);
   return plain < 1.0 ? pow(plain, 0.72) : pow(plain, 0.80);
 }
+
+// Share of the lamp's light that reaches a point, four taps; the floor is light scattered inside the tissue and thrown
+// back by the walls.
+float lamp_shadow(sampler2DShadow map, vec3 at) {
+  vec4 s = lamp_projection * vec4(at, 1.0);
+  vec3 uvz = s.xyz / s.w * 0.5 + 0.5;
+  uvz.z -= 0.0012;
+  float sum = 0.0;
+  sum += texture(map, uvz + vec3(-0.0011, -0.0004, 0.0));
+  sum += texture(map, uvz + vec3(0.0004, -0.0011, 0.0));
+  sum += texture(map, uvz + vec3(0.0011, 0.0004, 0.0));
+  sum += texture(map, uvz + vec3(-0.0004, 0.0011, 0.0));
+  return 0.30 + 0.70 * 0.25 * sum;
+}
+
+// Darkening near the instrument: the nearer the shaft to a surface, the darker the surface under it.
+float contact_shade(vec3 at) {
+  float along = clamp(dot(at - tip.xyz, shaft.xyz), 0.0, shaft.w);
+  float gap_mm = 1000.0 * max(length(at - tip.xyz - along * shaft.xyz) - tip.w, 0.0);
+  return 1.0 - 0.55 * exp(-gap_mm * gap_mm / 18.0);
+}

@@ -65,25 +65,6 @@ const vec2 kRough = vec2(0.24, 0.15);
 const vec3 kWet = vec3(1.7, 2.2, 0.6);
 #endif
 
-float shadow() {
-  vec4 s = lamp_projection * vec4(v_position, 1.0);
-  vec3 uvz = s.xyz / s.w * 0.5 + 0.5;
-  uvz.z -= 0.0012;
-  float sum = 0.0;
-  sum += texture(u_shadow, uvz + vec3(-0.0011, -0.0004, 0.0));
-  sum += texture(u_shadow, uvz + vec3(0.0004, -0.0011, 0.0));
-  sum += texture(u_shadow, uvz + vec3(0.0011, 0.0004, 0.0));
-  sum += texture(u_shadow, uvz + vec3(-0.0004, 0.0011, 0.0));
-  return 0.30 + 0.70 * 0.25 * sum;  // floor: light scattered inside the tissue
-}
-
-// Darkening near the instrument: the nearer the shaft to the tissue, the darker the tissue under it.
-float contact_shade() {
-  float along = clamp(dot(v_position - tip.xyz, shaft.xyz), 0.0, shaft.w);
-  float gap_mm = 1000.0 * max(length(v_position - tip.xyz - along * shaft.xyz) - tip.w, 0.0);
-  return 1.0 - 0.55 * exp(-gap_mm * gap_mm / 18.0);
-}
-
 void main() {
   vec3 rest_mm = v_rest * 1000.0;
   vec4 coarse = textureLod(u_noise, rest_mm * 0.021, 0.0);
@@ -125,7 +106,7 @@ void main() {
   vec3 diffuse = max((vec3(dot(n_diffuse, l)) + wrap) / ((1.0 + wrap) * (1.0 + wrap)), vec3(0.0));
   float open = v_open;
   vec3 crevice = mix(vec3(1.0), vec3(1.10, 0.50, 0.42) * (0.35 + 0.65 * open), 0.85 * (1.0 - open));
-  float shade = shadow();
+  float shade = lamp_shadow(u_shadow, v_position);
   float power = lamp_power(to_lamp);
 
   vec3 h = normalize(l + v);
@@ -137,6 +118,6 @@ void main() {
   vec3 glint = vec3(1.0, 0.97, 0.94) * (0.25 * fresnel * wet * mottle * film * n_l * shade * mix(0.4, 1.0, open));
 
   vec3 scattered = base * vec3(0.085, 0.050, 0.046) * open;
-  vec3 lit = base * diffuse * crevice * (shade * contact_shade()) + glint;
+  vec3 lit = base * diffuse * crevice * (shade * contact_shade(v_position)) + glint;
   colour = vec4(power * (lit + scattered), 1.0);
 }

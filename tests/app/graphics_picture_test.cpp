@@ -5,11 +5,15 @@
 
 #include "app/graphics/hud_layout.h"
 #include "tests/support/headless_fixture.h"
+#include "tests/support/picture_probe.h"
 #include "tests/support/procedural_scene.h"
 
 namespace trocar {
 namespace {
 
+using testing_support::changed;
+using testing_support::mean_at;
+using testing_support::Pixel;
 using testing_support::procedural_scene;
 
 constexpr int kWidth = 960, kHeight = 540;
@@ -25,19 +29,6 @@ class PictureTest : public testing_support::HeadlessFixture {
   }
 };
 
-using Pixel = std::array<double, 3>;
-
-/// Mean colour of a small square.
-Pixel mean_at(const Image& image, const Eigen::Vector2d& at, int half) {
-  Pixel sum{};
-  int n = 0;
-  for (int y = static_cast<int>(at.y()) - half; y <= static_cast<int>(at.y()) + half; ++y)
-    for (int x = static_cast<int>(at.x()) - half; x <= static_cast<int>(at.x()) + half; ++x, ++n)
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += image.pixel(x, y)[c];
-  for (double& c : sum) c /= n;
-  return sum;
-}
-
 template <typename Wanted>
 int count_near(const Image& image, const Eigen::Vector2d& at, int half, const Wanted& wanted) {
   int n = 0;
@@ -46,14 +37,6 @@ int count_near(const Image& image, const Eigen::Vector2d& at, int half, const Wa
     for (int x = std::max(0, static_cast<int>(at.x()) - half);
          x <= std::min(image.width - 1, static_cast<int>(at.x()) + half); ++x)
       n += wanted(image.pixel(x, y));
-  return n;
-}
-
-int changed(const Image& a, const Image& b, int by) {
-  int n = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
-    n += std::max({std::abs(a.rgb[i] - b.rgb[i]), std::abs(a.rgb[i + 1] - b.rgb[i + 1]),
-                   std::abs(a.rgb[i + 2] - b.rgb[i + 2])}) > by;
   return n;
 }
 
