@@ -243,7 +243,7 @@ TEST_F(ObjectPicture, ALiftedBlockDimsTheBoardLessThanARestingOne) {
     return mean_at(empty, at(view, beside), 2)[1] - mean_at(draw(view), at(view, beside), 2)[1];
   };
   const double resting = dimmed(0.010), lifted = dimmed(0.040);
-  EXPECT_GT(resting, 5);
+  EXPECT_GT(resting, 3.5);  // of 255; without grain the picture is exact
   EXPECT_GT(resting, lifted);
 }
 
