@@ -13,13 +13,17 @@ namespace trocar {
 namespace {
 
 const Vec3 kRegionCentre_W(0, -0.060, -0.215);  // m in W', see the header
+const Vec3 kHandleCentre_W(0.015, -0.090, -0.195);  // fulcrum: the handle while the tip is at the region's centre
+constexpr double kHandlePitch = 20 * kDegree;   // fulcrum: of the stylus above its home direction
 constexpr double kShaftIncline = 50 * kDegree;  // of the shaft below the stylus axis
 constexpr double kShaftYaw = 45 * kDegree;      // of the shaft to the trainee's left, so that it enters from the right
 constexpr double kLowestPercentile = 0.05;
 
-/// Largest force along `direction_W` that all joints can add to gravity, N.
-double force_room(const DeviceModel& device, const ArmState& arm, const Vec3& direction_W) {
-  const JointVector per_newton = arm.J_WS.topRows<3>().transpose() * direction_W;
+/// Largest scene force that all joints can add to gravity, N. @param per_scene_newton what one newton asks at the stylus.
+double force_room(const DeviceModel& device, const ArmState& arm, const Wrench& per_scene_newton) {
+  Vec6 F;
+  F << per_scene_newton.force, per_scene_newton.moment;
+  const JointVector per_newton = arm.J_WS.transpose() * F;
   const JointVector gravity = gravity_torque(device, arm);
   double room = 1e9;
   for (int i = 0; i < kArmJoints; ++i) {
@@ -31,35 +35,59 @@ double force_room(const DeviceModel& device, const ArmState& arm, const Vec3& di
   return room;
 }
 
+/// T is W' turned by half a turn about z: home stylus pointing away from the trainee, towards +y of T.
+Mat3 theatre_turn() { return Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitZ()).toRotationMatrix(); }
+
+/// At home x of the stylus points up and y to the trainee's right.
+Mat3 shaft_in_stylus() {
+  return (Eigen::AngleAxisd(kShaftYaw, Vec3::UnitX()) * Eigen::AngleAxisd(-kShaftIncline, Vec3::UnitY()))
+      .toRotationMatrix();
+}
+
+/// The jaws open through a port as they do without one: the smallest turn that brings the shaft onto the port's line.
+Fulcrum through_port(const ExerciseLevel& level, const InstrumentMap& map) {
+  Fulcrum fulcrum;
+  fulcrum.port_T = level.port_m;
+  fulcrum.length_m = level.instrument_length_m;
+  fulcrum.R_TS_reference = Eigen::AngleAxisd(kHandlePitch, Vec3::UnitX()) * (map.X_TW.R * home_pose().R);
+  const Mat3 direct = map.X_TW.R * home_pose().R * map.X_SI.R;
+  fulcrum.R_TI_reference = Eigen::Quaterniond::FromTwoVectors(direct.col(2), -level.port_m).toRotationMatrix() * direct;
+  return fulcrum;
+}
+
 }  // namespace
 
 InstrumentMap place_theatre(const ExerciseLevel& level) {
-  if (level.mapping != Mapping::kDirect) {
-    throw InputError("level " + level.name + ": mapping \"fulcrum\" is not available in this version");
-  }
   InstrumentMap map;
   map.motion_scale = level.motion_scale;
-  map.X_TW.R = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitZ()).toRotationMatrix();
-  map.X_TW.p = -(map.X_TW.R * (level.motion_scale * kRegionCentre_W));
-  // At home x of the stylus points up and y to the trainee's right.
-  map.X_SI.R = (Eigen::AngleAxisd(kShaftYaw, Vec3::UnitX()) * Eigen::AngleAxisd(-kShaftIncline, Vec3::UnitY()))
-                   .toRotationMatrix();
+  map.X_TW.R = theatre_turn();
+  map.X_SI.R = shaft_in_stylus();
+  Vec3 origin_T = Vec3::Zero(), origin_W = kRegionCentre_W;  // the same point, mapped
+  if (level.mapping == Mapping::kFulcrum) {
+    map.fulcrum = through_port(level, map);
+    origin_T = -level.instrument_length_m * map.fulcrum->R_TI_reference.col(2);
+    origin_W = kHandleCentre_W;
+  }
+  map.X_TW.p = origin_T - map.X_TW.R * (level.motion_scale * origin_W);
   return map;
 }
 
 double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout) {
   constexpr int kSteps = 9;
   std::vector<double> room;
+  InstrumentMap unscaled = map;
+  unscaled.force_scale = 1;
   const Mat3 R_TI = map.instrument_pose(home_pose()).R;
-  const Vec3 up_W = map.X_TW.R.transpose() * Vec3::UnitZ();
   const JointVector home = home_angles();
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {
       for (const double height : {-layout.relief_m, 0.0, layout.relief_m}) {
         const Vec3 point_T((i / (kSteps - 1.0) - 0.5) * layout.region_x_m, (j / (kSteps - 1.0) - 0.5) * layout.region_y_m,
                            height);
-        const auto q = inverse_within_limits(map.stylus_pose({R_TI, point_T}), home);
-        room.push_back(q ? force_room(device, arm_state(*q), up_W) : 0);
+        const Pose X_WS = map.stylus_pose({R_TI, point_T});
+        const auto q = inverse_within_limits(X_WS, home);
+        const Wrench up = unscaled.stylus_wrench(X_WS, {Vec3::UnitZ(), Vec3::Zero()});
+        room.push_back(q ? force_room(device, arm_state(*q), up) : 0);
       }
     }
   }

@@ -11,10 +11,10 @@
 
 namespace trocar {
 
-/// Registration of a level with direct mapping: T is W' turned by half a turn about z (the stylus then points away from
-/// the trainee, towards +y of T), and the shaft is turned against the stylus axis so that it comes from above and from the
-/// right, clear of the scope.
-/// @throws InputError when the level asks for a mapping that this build does not have.
+/// Registration of a level. T is W' turned by half a turn about z (the stylus then points away from the trainee, towards
+/// +y of T). Direct: the shaft is turned against the stylus axis so that it comes from above and from the right, clear of
+/// the scope. Fulcrum: the handle, not the tip, is put where the arm is good, for the shipped port and length such that
+/// the whole region is within reach whether the stylus keeps its direction or follows the shaft (decision 0004).
 InstrumentMap place_theatre(const ExerciseLevel& level);
 
 /// Force that the device can render at the region's 5th percentile beyond gravity, N, along the approach axis (T's z).

@@ -34,6 +34,7 @@ struct ExerciseLevel {
   std::string name;                    ///< "L1", "L2", "L3" or "exam"
   Mapping mapping = Mapping::kDirect;
   Vec3 port_m = Vec3::Zero();          ///< fulcrum only: the pivot, relative to the region's centre
+  double instrument_length_m = 0.300;  ///< fulcrum only: handle to tip
   double motion_scale = 1;             ///< scene metres per device metre
   double force_scale = 1;              ///< kappa; "auto" is resolved by the session and is negative here
   std::string force_display = "always";  ///< always | band (only outside the limits) | after (not during the run)

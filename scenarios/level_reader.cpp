@@ -32,12 +32,18 @@ void read_mapping(StrictTable& table, bool derived, ExerciseLevel& level) {
   level.mapping = mapping == "direct" ? Mapping::kDirect : Mapping::kFulcrum;
   const bool inherits = derived && before == mapping;
   if (level.mapping == Mapping::kDirect) {
-    if (table.has("port_mm")) table.fail("port_mm", "'port_mm' needs mapping = \"fulcrum\"");
+    for (const char* key : {"port_mm", "instrument_mm"}) {
+      if (table.has(key)) table.fail(key, std::string("'") + key + "' needs mapping = \"fulcrum\"");
+    }
     level.port_m = Vec3::Zero();
   } else {
     level.port_m = kMilli * (inherits ? table.vector_or("port_mm", -500, 500, level.port_m / kMilli)
                                       : table.vector("port_mm", -500, 500));
     if (level.port_m.z() < 0.020) table.fail("port_mm", "'port_mm' must lie at least 20 mm above the region's centre");
+    level.instrument_length_m =
+        kMilli * table.number_or("instrument_mm", 100, 600, level.instrument_length_m / kMilli);
+    if (level.port_m.norm() + 0.020 > level.instrument_length_m)
+      table.fail("port_mm", "'port_mm': the instrument is too short, its handle would be in the port");
   }
   LevelKeys(table, derived).number("motion_scale", 0.1, 10, 1, level.motion_scale);
   table.allow("force_scale");

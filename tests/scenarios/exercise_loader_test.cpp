@@ -64,6 +64,19 @@ TEST(ExerciseLoader, FrictionOfTheSurfaceIsOptional) {
   EXPECT_DOUBLE_EQ(e.surface.mu_dynamic, 0.05);
 }
 
+TEST(ExerciseLoader, ReadsThePortOfAFulcrumLevelAndRefusesOneThatCannotServe) {
+  const std::string from = "mapping = \"direct\"", fulcrum = "mapping = \"fulcrum\"\nport_mm = ";
+  const ExerciseLevel usual = parse_exercise(edited(from, fulcrum + "[30, -60, 120]"), "f.toml").levels[0];
+  EXPECT_EQ(usual.mapping, Mapping::kFulcrum);
+  EXPECT_LT((usual.port_m - Vec3(0.030, -0.060, 0.120)).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(usual.instrument_length_m, 0.300);
+  const std::string own = edited(from, fulcrum + "[10, -20, 100]\ninstrument_mm = 280");
+  EXPECT_DOUBLE_EQ(parse_exercise(own, "f.toml").levels[0].instrument_length_m, 0.280);
+  EXPECT_NE(refusal(edited(from, fulcrum + "[0, 0, 190]\ninstrument_mm = 200")).find("too short"), std::string::npos);
+  EXPECT_NE(refusal(edited(from, from + "\ninstrument_mm = 280")).find("instrument_mm"), std::string::npos)
+      << "a length without a fulcrum is a mistake";
+}
+
 TEST(ExerciseLoader, ReadsTheRubricWithTimesInUnitsOfTheExpert) {
   const Exercise e = load_exercise(kExercises / "surface-touch.toml");
   ASSERT_EQ(e.rubric.subscores.size(), 5u);
