@@ -68,7 +68,7 @@ constexpr double kWidth = 1000, kHeight = 322, kLeft = 52, kRight = 986, kTop = 
 /// Axes and data of the force plot in one coordinate system.
 class ForcePlot {
  public:
-  ForcePlot(const Series& series, const ForceBand& band) : series_(series), band_(band) {
+  ForcePlot(const Series& series, const ForceLimits& band) : series_(series), band_(band) {
     top_n_ = std::max({1.1 * series.highest_n, 1.15 * band.hard_n, 1.2 * band.high_n, 0.5});
   }
 
@@ -163,7 +163,7 @@ class ForcePlot {
   }
 
   const Series& series_;
-  const ForceBand& band_;
+  const ForceLimits& band_;
   double top_n_ = 1;
 };
 
@@ -187,7 +187,7 @@ PathFrame frame_path(const Trace& trace) {
 }
 
 /// Consecutive samples of one force class as one polyline; points closer than half a pixel are dropped.
-std::string path_lines(const Trace& trace, const PathFrame& frame, const ForceBand& band) {
+std::string path_lines(const Trace& trace, const PathFrame& frame, const ForceLimits& band) {
   std::string out, points;
   int current = -1;
   double last_x = 1e9, last_y = 1e9;
@@ -254,13 +254,13 @@ std::vector<ColumnRange> column_ranges(const std::vector<double>& t_s, const std
   return ranges;
 }
 
-int force_class(double force_n, const ForceBand& band) {
+int force_class(double force_n, const ForceLimits& band) {
   if (band.hard_n > 0 && force_n >= band.hard_n) return 3;
   if (band.high_n > 0 && force_n > band.high_n) return 2;
   return band.high_n > 0 && force_n >= band.low_n && force_n > 0 ? 1 : 0;
 }
 
-std::string force_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceBand& band) {
+std::string force_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceLimits& band) {
   const Series series = series_of(trace);
   const double start = trace.samples.empty() ? 0 : trace.samples.front().t_s;
   std::string out =
@@ -274,7 +274,7 @@ std::string force_plot_svg(const Trace& trace, const std::vector<Event>& events,
   return out + ForcePlot(series, band).draw(events, start) + "</svg>";
 }
 
-std::string path_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceBand& band) {
+std::string path_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceLimits& band) {
   std::string out =
       "<svg viewBox=\"0 0 " + px(kSide) + " " + px(kSide) + "\" role=\"img\" aria-label=\"Tip path from above\">";
   out += rect(0.5, 0.5, kSide - 1, kSide - 1, "fill=\"#fff\" stroke=\"#c9ced4\"");

@@ -12,7 +12,7 @@
 namespace trocar {
 
 /// Force limits drawn into both plots, N; 0 where there is none.
-struct ForceBand {
+struct ForceLimits {
   double low_n = 0, high_n = 0, hard_n = 0;
 };
 
@@ -27,10 +27,10 @@ std::vector<ColumnRange> column_ranges(const std::vector<double>& t_s, const std
                                        double t_end_s, int columns);
 
 /// How a force stands to the band: 0 none or below, 1 in band, 2 above, 3 at or above the hard limit.
-int force_class(double force_n, const ForceBand& band);
+int force_class(double force_n, const ForceLimits& band);
 
 /// Whole <svg> elements; text inside is escaped.
-std::string force_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceBand& band);
-std::string path_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceBand& band);
+std::string force_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceLimits& band);
+std::string path_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceLimits& band);
 
 }  // namespace trocar

@@ -16,7 +16,7 @@ struct ReportContext {
   std::string exercise_number;    ///< "E02"
   std::string exercise_title;     ///< "Surface touch"
   std::string goal;               ///< one line
-  ForceBand band;                 ///< N
+  ForceLimits band;                 ///< N
   double pass_mark = 75;          ///< 0..100
   double time_limit_s = 0;        ///< 0: none
   std::filesystem::path picture;  ///< PNG of the attempt; empty: none

@@ -38,12 +38,12 @@ TEST(ColumnRanges, LeaveOutWhatIsNotANumber) {
 }
 
 TEST(ForceClass, FollowsBandAndLimit) {
-  const ForceBand band{1, 2, 5};
+  const ForceLimits band{1, 2, 5};
   EXPECT_EQ(force_class(0, band), 0);
   EXPECT_EQ(force_class(1, band), 1);
   EXPECT_EQ(force_class(2.5, band), 2);
   EXPECT_EQ(force_class(5, band), 3);
-  EXPECT_EQ(force_class(9, ForceBand{}), 0);
+  EXPECT_EQ(force_class(9, ForceLimits{}), 0);
 }
 
 /// All coordinates of one attribute.
