@@ -13,9 +13,10 @@ DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRe
   const Contact contact = feel(motion, patch);                    // instrument -> tissue, pinch -> tau = J^T F
   const ChannelVector passive = make_passive(motion, contact);    // budget, fed with what was applied one tick ago
   const LimitedTorque torque = share_out(motion, passive);        // springs, gravity, contact, friction: who gets it
-  watch(motion, torque);                                          // faults, heat
+  watch(motion, contact, torque);                                 // faults, heat, warnings
   const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless ACTIVE
   publish(in, motion, contact, torque, out, record);
+  safety_log_.add(record);
   ++tick_;
   return out;
 }
@@ -90,7 +91,9 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       arm_passivity_(with_friction_left(with_period(config.passivity, period_s_), config.friction)),
       pinch_passivity_(with_period(config.pinch_passivity, period_s_)),
       limiter_(torque_limits(config.device), torque_rates(config), period_s_),
-      supervisor_(config.safety, count_limits(config), period_s_) {
+      supervisor_(config.safety, count_limits(config), period_s_),
+      watch_(config.safety, config.device, config.heat, period_s_),
+      safety_log_(config.daq.rate_hz) {
   home_ << home_angles(), config.device.pinch_home_m;
   for (const Transmission& t : config.device.transmission) velocity_.emplace_back(count_size(t), period_s_);
   gravity_torque(config_.device, arm_state(home_.head<kArmJoints>()));  // makes the constants of both models now
@@ -110,10 +113,12 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
     take_home();
   }
   Motion motion;
+  motion.delta = delta;
   motion.q = joint_positions(config_.device, counts_.total(), home_);
   for (int i = 0; i < kChannels; ++i) motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
+  motion.tip_speed = twist.head<3>().norm();
   motion.X_TI = config_.map.instrument_pose(motion.arm.X_WS);
   motion.V_TI_T = config_.map.instrument_twist(motion.arm.X_WS, {twist.head<3>(), twist.tail<3>()});
   motion.periods = std::max<double>(1, in.elapsed_periods);
@@ -156,9 +161,7 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
 }
 
 double HapticLoop::rendered_share(double det_a) const noexcept {
-  double share = supervisor_.ramp() * singularity_share(det_a);
-  for (const MotorHeat& heat : heat_) share = std::min(share, heat.share());
-  return share;
+  return std::min(supervisor_.ramp() * singularity_share(det_a), watch_.contact_share());
 }
 
 ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& contact) noexcept {
@@ -191,7 +194,7 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
 }
 
 LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& contact_torque) noexcept {
-  if (supervisor_.state() != LoopState::kActive) {
+  if (!supervisor_.powered()) {
     limiter_.reset();
     return {};
   }
@@ -199,6 +202,7 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& c
   TorqueShares shares;
   shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd);
   shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
+  shares.springs += watch_.damping(motion.qd);
   shares.contact = contact_torque;
   if (arm_passivity_.budget_j() >= 0) {
     shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
@@ -209,22 +213,19 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& c
   return limited;
 }
 
-void HapticLoop::watch(const Motion& motion, const LimitedTorque& torque) noexcept {
-  for (int i = 0; i < kChannels; ++i) {
-    const Transmission& t = config_.device.transmission[i];
-    if (!std::isfinite(torque.total[i])) {
-      supervisor_.raise(FaultCode::kNonFinite, tick_, i, torque.total[i]);
-      continue;  // the heat model must outlive the fault
-    }
-    heat_[i].update(torque.total[i] * t.ratio / t.torque_constant, motion.periods * period_s_);
-    if (heat_[i].cut()) supervisor_.raise(FaultCode::kOverheat, tick_, i, heat_[i].winding_c());
-    if (i < kArmJoints && std::abs(motion.qd[i]) > config_.safety.max_joint_rate) {
-      supervisor_.raise(FaultCode::kOverspeed, tick_, i, motion.qd[i]);
-    }
-  }
-  if (supervisor_.state() == LoopState::kActive && motion.arm.det_a < config_.safety.fault_det_a) {
-    supervisor_.raise(FaultCode::kSingular, tick_, -1, motion.arm.det_a);
-  }
+void HapticLoop::watch(const Motion& motion, const Contact& contact, const LimitedTorque& torque) noexcept {
+  WatchedTick now;
+  now.tick = tick_;
+  now.periods = motion.periods;
+  now.delta = motion.delta;
+  now.qd = motion.qd;
+  now.tip_speed = motion.tip_speed;
+  now.det_a = motion.arm.det_a;
+  now.torque = torque.total;
+  now.touching = contact.tissue.contact || contact.grip.force_n > 0;
+  now.saturated = now.touching && torque.contact_scale < 1;
+  now.debt = arm_passivity_.debt_faded() || pinch_passivity_.debt_faded();
+  watch_.update(now, supervisor_);
   if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
   if (pinch_passivity_.debt_fault()) {
     supervisor_.raise(FaultCode::kEnergyDebt, tick_, kPinchChannel, pinch_passivity_.budget_j());
@@ -253,8 +254,8 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   record.qd = motion.qd;
   record.torque = supervisor_.armed() ? torque.total : ChannelVector::Zero();
   record.det_a = motion.arm.det_a;
-  record.winding_c = 0;
-  for (const MotorHeat& heat : heat_) record.winding_c = std::max(record.winding_c, heat.winding_c());
+  record.winding_c = watch_.hottest_c();
+  record.warnings = watch_.warnings();
   record.contact_scale = torque.contact_scale;
   record.stored_j = contact.tissue.stored_j;
   record.min_energy_j = arm_passivity_.min_energy_j();

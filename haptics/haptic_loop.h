@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "haptics/control/contact_renderer.h"
+#include "haptics/control/device_watch.h"
 #include "haptics/control/friction.h"
 #include "haptics/control/instrument_map.h"
-#include "haptics/control/motor_heat.h"
 #include "haptics/control/passivity.h"
 #include "haptics/control/pinch_channel.h"
+#include "haptics/control/safety_log.h"
 #include "haptics/control/supervisor.h"
 #include "haptics/control/torque_limiter.h"
 #include "haptics/control/velocity_estimator.h"
@@ -36,6 +37,7 @@ struct HapticLoopConfig {
   PassivityParameters pinch_passivity = pinch_defaults();
   FrictionFeedForward friction;
   SafetyLimits safety;
+  MotorHeatParameters heat;
   double torque_rate = 100;             ///< N m/s a joint
   double pinch_force_rate = 500;        ///< N/s
 
@@ -50,9 +52,10 @@ class HapticLoop {
   /// @return codes for the next SYNC; record.amplifiers_armed says whether the amplifiers may be enabled.
   DacFrame tick(const DaqSample& in, const ContactPatch& patch, TickRecord& record) noexcept;
 
-  /// Operator's act: leaves FAULT, back to UNHOMED.
+  /// Operator's act: leaves FAULT, back to the self-test.
   void reset_fault() noexcept;
   const HapticLoopConfig& config() const { return config_; }
+  const SafetyLog& safety_log() const { return safety_log_; }
 
  private:
   struct Motion {
@@ -60,6 +63,8 @@ class HapticLoop {
     ChannelVector q, qd;
     Pose X_TI;
     Twist V_TI_T;
+    double tip_speed = 0;                          ///< of the stylus, m/s
+    std::array<std::int32_t, kChannels> delta{};   ///< counts since the last tick
     double periods = 1;                            ///< since the last tick
   };
   struct Contact {
@@ -74,7 +79,7 @@ class HapticLoop {
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
   LimitedTorque share_out(const Motion& motion, const ChannelVector& contact_torque) noexcept;
-  void watch(const Motion& motion, const LimitedTorque& torque) noexcept;
+  void watch(const Motion& motion, const Contact& contact, const LimitedTorque& torque) noexcept;
   DacFrame to_codes(const LimitedTorque& torque) noexcept;
   void publish(const DaqSample& in, const Motion& motion, const Contact& contact, const LimitedTorque& torque,
                const DacFrame& out, TickRecord& record) const noexcept;
@@ -93,7 +98,8 @@ class HapticLoop {
   PassivityController arm_passivity_, pinch_passivity_;
   TorqueLimiter limiter_;
   Supervisor supervisor_;
-  std::array<MotorHeat, kChannels> heat_;
+  DeviceWatch watch_;
+  SafetyLog safety_log_;
   ChannelVector applied_contact_ = ChannelVector::Zero();   ///< asked last tick: acts during the next period
   ChannelVector acting_contact_ = ChannelVector::Zero();    ///< acted during the period just ended
   ChannelVector last_q_ = ChannelVector::Zero();

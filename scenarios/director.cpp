@@ -56,6 +56,9 @@ void Director::State::end(Phase phase, const char* type, Severity severity, doub
   switch (phase) {
     case Phase::kDone: outcome = AttemptStatus::kCompleted; return say(status, "Done", "Your result follows.");
     case Phase::kTimeout: outcome = AttemptStatus::kTimeout; return say(status, "Time is up", "Your result follows.", true);
+    case Phase::kVoid:
+      outcome = AttemptStatus::kVoid;
+      return say(status, "Device switched off", "A graded attempt cannot be paused: it is void.", true);
     default: outcome = AttemptStatus::kFault; return say(status, "Device fault", "This attempt is not graded.", true);
   }
 }
@@ -121,6 +124,8 @@ void Director::update(const StylusState& state, const TissueFrame* tissue) {
   s.log.tip_T = state.X_TI.p;
   if (state.loop == LoopState::kFault)
     return s.end(Phase::kFault, "DEVICE_FAULT", Severity::kMajor, state.fault.value, "");
+  if (s.status.phase == Phase::kRun && state.loop != LoopState::kActive)
+    return s.end(Phase::kVoid, "DEADMAN_OPEN", Severity::kMajor, s.status.run_time_s, "s");
   if (s.status.phase == Phase::kRun) {
     s.run(state, tissue, dt_s);
   } else {
@@ -133,7 +138,7 @@ const Board& Director::board() const { return state_->board; }
 const std::vector<Event>& Director::events() const { return state_->log.events; }
 bool Director::finished() const {
   const Phase phase = state_->status.phase;
-  return phase == Phase::kDone || phase == Phase::kTimeout || phase == Phase::kFault;
+  return phase == Phase::kDone || phase == Phase::kTimeout || phase == Phase::kFault || phase == Phase::kVoid;
 }
 AttemptStatus Director::outcome() const { return state_->outcome; }
 

@@ -1,7 +1,8 @@
-// The director: runs one exercise against what the instrument does. READY -> ARMED -> RUN -> DONE | TIMEOUT | FAULT.
+// The director: runs one exercise against what the instrument does. READY -> ARMED -> RUN -> DONE | TIMEOUT | FAULT | VOID.
 //
 // Called at the tissue rate (100 Hz) with the newest haptic state; emits cues (for screen and hand), events and the
-// block between the jaws. Knows nothing of the device. Deterministic: same states in, same events out.
+// block between the jaws. A device that is switched off by its deadman during RUN would be a pause: the attempt is void.
+// Knows nothing else of the device. Deterministic: same states in, same events out.
 #pragma once
 
 #include <memory>
@@ -34,7 +35,7 @@ struct Board {
   std::vector<Target> targets;
 };
 
-enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault };
+enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };
 
 /// What is asked for at this moment: a place, perhaps an orientation, perhaps a force.
 struct Demand {
@@ -79,7 +80,7 @@ class Director {
   const Board& board() const;
   /// Events so far, in order of time.
   const std::vector<Event>& events() const;
-  bool finished() const;               ///< DONE, TIMEOUT or FAULT
+  bool finished() const;               ///< DONE, TIMEOUT, FAULT or VOID
   AttemptStatus outcome() const;       ///< kAborted while not finished
 
  private:

@@ -20,11 +20,15 @@ namespace {
 constexpr int kUnseenBoards = 1000;  // boards of graded runs are drawn by the seed from here on; 0-19 are for practice
 
 const std::map<std::string, InjectedFaultKind>& injection_kinds() {
-  static const std::map<std::string, InjectedFaultKind> kinds{
-      {"encoder-jump", InjectedFaultKind::kEncoderJump}, {"encoder-stuck", InjectedFaultKind::kEncoderStuck},
-      {"channel-invalid", InjectedFaultKind::kChannelInvalid}, {"dac-stuck", InjectedFaultKind::kDacStuck},
-      {"missed-sync", InjectedFaultKind::kMissedSync}, {"hand-nan", InjectedFaultKind::kHandNaN},
-      {"hand-lets-go", InjectedFaultKind::kHandLetsGo}};
+  using Kind = InjectedFaultKind;
+  static const std::map<std::string, Kind> kinds{
+      {"encoder-jump", Kind::kEncoderJump},       {"encoder-stuck", Kind::kEncoderStuck},
+      {"channel-invalid", Kind::kChannelInvalid}, {"dac-stuck", Kind::kDacStuck},
+      {"missed-sync", Kind::kMissedSync},         {"hand-nan", Kind::kHandNaN},
+      {"hand-lets-go", Kind::kHandLetsGo},        {"delay", Kind::kDelay},
+      {"e-stop", Kind::kEmergencyStop},           {"deadman-open", Kind::kDeadmanOpen},
+      {"drive-fault", Kind::kDriveFault},         {"watchdog", Kind::kWatchdog},
+      {"over-temperature", Kind::kOverTemperature}, {"sensor-silence", Kind::kSensorSilence}};
   return kinds;
 }
 
@@ -131,12 +135,12 @@ InjectedFault parse_injection(const std::string& text) {
     when.resize(plus);
   }
   fault.at_s = number_in(when, text);
-  fault.value = 1000;  // counts of a jump, SYNCs missed: enough to be a fault
+  std::optional<double> value;
   if (const auto colon = head.find(':'); colon != std::string::npos) {
     std::string channel = head.substr(colon + 1);
     head.resize(colon);
     if (const auto second = channel.find(':'); second != std::string::npos) {
-      fault.value = number_in(channel.substr(second + 1), text);
+      value = number_in(channel.substr(second + 1), text);
       channel.resize(second);
     }
     const double number = number_in(channel, text);
@@ -146,7 +150,10 @@ InjectedFault parse_injection(const std::string& text) {
     fault.channel = static_cast<int>(number);
   }
   fault.kind = one_of("--inject", head, injection_kinds());
-  if (fault.at_s < 0 || fault.duration_s < 0) throw InputError("--inject " + text + ": times must not be negative");
+  // Counts of a jump, SYNCs missed: enough to be a fault. Periods of delay: amid what a sick bus makes.
+  fault.value = value.value_or(fault.kind == InjectedFaultKind::kDelay ? 5 : 1000);
+  const std::string refused = injection_refusal(fault);
+  if (!refused.empty()) throw InputError("--inject " + text + ": " + refused);
   return fault;
 }
 

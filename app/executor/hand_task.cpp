@@ -59,7 +59,14 @@ Percept HandTask::perceive(std::uint64_t tick) {
   return percept;
 }
 
+/// Presses when the device has homed and keeps pressing, whatever happens afterwards.
+void HandTask::press_deadman() {
+  if (haptic_.record().stylus.loop == LoopState::kHomed) ++homed_ticks_;
+  daq_.press_deadman(static_cast<double>(homed_ticks_) > kPressAfter_s * scene_.loop.daq.rate_hz);
+}
+
 void HandTask::run(std::uint64_t tick) {
+  press_deadman();
   const HandIntent intent = hand_->update(perceive(tick), 1 / scene_.loop.daq.rate_hz);
   daq_.set_hand_intent(scene_.loop.map.stylus_pose(intent.X_TI), intent.jaw_opening_m);
   ++periods_;

@@ -24,6 +24,7 @@ class HandTask final : public Task {
   static constexpr double kEyeError_m = 0.3e-3;       ///< SD on each axis, redrawn every 20 ms
   static constexpr double kTouchError_n = 0.03;       ///< SD
   static constexpr double kReadyAfter_s = 1.1;        ///< the lamp lights when the soft start is over
+  static constexpr double kPressAfter_s = 0.2;        ///< from the lamp that says "homed" to the thumb on the deadman
 
   HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseFrame>& frames,
            std::unique_ptr<Hand> hand, SimulatedDaq& daq);
@@ -34,6 +35,7 @@ class HandTask final : public Task {
  private:
   Percept perceive(std::uint64_t tick);
   Pose see();
+  void press_deadman();
 
   const Scene& scene_;
   const HapticTask& haptic_;
@@ -43,7 +45,7 @@ class HandTask final : public Task {
   HandRandom random_;
   std::vector<Pose> past_;          ///< ring over the eye's delay
   Vec3 eye_error_ = Vec3::Zero();
-  std::uint64_t active_ticks_ = 0, periods_ = 0;
+  std::uint64_t active_ticks_ = 0, homed_ticks_ = 0, periods_ = 0;
 };
 
 }  // namespace trocar

@@ -15,7 +15,7 @@ struct MotorHeatParameters {
   double case_time_s = 612;             ///< [M]
   double copper_per_k = 0.0039;         ///< [M]
   double ambient_c = 25;
-  double fade_c = 110, cut_c = 120;  ///< winding; limit of the motor is 125 C [M]
+  double warn_c = 100, fade_c = 110, cut_c = 120;  ///< winding; limit of the motor is 125 C [M]
 };
 
 class MotorHeat {
@@ -34,6 +34,7 @@ class MotorHeat {
     if (winding_ <= p_.fade_c) return 1;
     return winding_ >= p_.cut_c ? 0 : (p_.cut_c - winding_) / (p_.cut_c - p_.fade_c);
   }
+  bool hot() const { return winding_ >= p_.warn_c; }
   bool cut() const { return winding_ >= p_.cut_c; }
 
  private:

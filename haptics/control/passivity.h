@@ -59,6 +59,7 @@ class PassivityController {
   double min_energy_j() const { return min_energy_; }
   double budget_j() const { return budget_; }
   bool active() const { return active_; }              ///< the law changed the force in the last update
+  bool debt_faded() const { return p_.law != PassivityLaw::kOff && -budget_ > p_.fade_debt_j; }
   bool debt_fault() const { return p_.law != PassivityLaw::kOff && -budget_ > p_.fault_debt_j; }
 
  private:

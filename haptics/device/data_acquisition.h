@@ -13,17 +13,27 @@
 
 namespace trocar {
 
-/// Digital inputs, one bit each.
+/// Digital inputs, one bit each; the last three are groups of seven, channel i at bit i of the group.
 enum DigitalInput : std::uint32_t {
-  kDeadman = 1u << 0,     ///< operator's enabling switch closed
-  kHomeBeam = 1u << 1,    ///< infrared beam of the home jig received
-  kHandFault = 1u << 2,   ///< simulated back-end only: the hand produced a non-finite command
+  kDeadman = 1u << 0,        ///< operator's enabling switch closed
+  kHomeBeam = 1u << 1,       ///< infrared beam of the home jig received
+  kHandFault = 1u << 2,      ///< simulated back-end only: the hand produced a non-finite command
+  kEmergencyStop = 1u << 3,  ///< emergency stop pressed: the amplifiers are off by wire
+  kWatchdogFired = 1u << 4,  ///< no write for 16 ms: the board has zeroed its DACs; stays until disarmed
+  kDacMismatch = 1u << 8,    ///< a DAC's register reads back another code than the one it should hold now
+  kDriveFault = 1u << 16,    ///< fault output of an amplifier
+  kDriveHot = 1u << 24,      ///< over-temperature output of an amplifier or motor
 };
+
+/// Whether the input of one channel is set. @param group kDacMismatch, kDriveFault or kDriveHot.
+constexpr bool channel_input(std::uint32_t digital_in, DigitalInput group, int channel) {
+  return (digital_in & (group << channel)) != 0;
+}
 
 struct DaqSample {
   std::array<std::int32_t, kChannels> counts{};  ///< quadrature counters, wrapping at 32 bit
   std::uint8_t valid = 0x7F;                     ///< bit i: channel i was latched correctly
-  std::uint32_t elapsed_periods = 1;             ///< SYNC periods since the previous read (1 unless one was missed)
+  std::uint32_t elapsed_periods = 1;  ///< SYNC periods since the previous read (1 unless one was missed, 0: no news)
   std::uint32_t digital_in = 0;                  ///< DigitalInput bits
 };
 
@@ -43,7 +53,7 @@ class DataAcquisition {
   virtual DaqCapabilities capabilities() const noexcept = 0;
   /// Waits for nothing: in lockstep it advances the back-end by one period, then latches.
   virtual DaqSample read() noexcept = 0;
-  /// Codes for the next SYNC; all channels change at once.
+  /// Codes for the next SYNC; all channels change at once. Services the board's watchdog.
   virtual void write(const DacFrame& frame) noexcept = 0;
   /// Enables or inhibits all amplifiers. Inhibited amplifiers deliver no current whatever the codes.
   virtual void arm(bool enabled) noexcept = 0;

@@ -10,7 +10,6 @@
 namespace trocar {
 namespace {
 
-constexpr double kTimeSlack = 1e-9;                             // s, against rounding of k * period
 constexpr std::uint64_t kTremorStream = 0x9E3779B97F4A7C15ull;  // keeps the tremor's draws apart from the device's
 
 void require(bool holds, const std::string& what) {
@@ -24,11 +23,8 @@ const SimulatedDaqConfig& checked(const SimulatedDaqConfig& c) {
   require(c.extra_delay_periods >= 0 && c.extra_delay_periods <= kMaxExtraDelayPeriods,
           "extra_delay_periods is 0 to 63");
   for (const InjectedFault& f : c.faults) {
-    require(f.channel >= 0 && f.channel < kChannels, "fault channel is 0 to 6");
-    require(std::isfinite(f.at_s) && f.at_s >= 0 && f.duration_s >= 0 && std::isfinite(f.value),
-            "fault times and value");
-    require(f.kind != InjectedFaultKind::kMissedSync || (f.value >= 1 && f.value <= 1000),
-            "missed SYNCs are 1 to 1000");
+    const std::string refusal = injection_refusal(f);
+    require(refusal.empty(), refusal);
   }
   return c;
 }
@@ -45,13 +41,13 @@ SimulatedDaq::SimulatedDaq(const SimulatedDaqConfig& config)
       substep_s_(period_s_ / substeps_of(config)),
       substeps_(substeps_of(config)),
       plant_(config.plant ? *config.plant : draw_parameters(config.seed)),
-      hand_(config.hand, config.seed ^ kTremorStream) {
-  for (const InjectedFault& fault : config.faults) faults_.push_back({fault});
+      hand_(config.hand, config.seed ^ kTremorStream),
+      faults_(config.faults) {
   const PlantParameters& p = plant_.parameters();
   plant_.place(plant_.angles() + p.jig_error, p.jig_jaw_opening);
   plant_.clamp(true);
   const ChannelVector outputs = plant_.outputs();
-  for (int i = 0; i < kChannels; ++i) last_counts_[i] = count(i, outputs[i]);
+  for (int i = 0; i < kChannels; ++i) last_.counts[i] = count(i, outputs[i]);
 }
 
 DaqCapabilities SimulatedDaq::capabilities() const noexcept { return {"simulated", config_.rate_hz, config_.dac_bits}; }
@@ -66,21 +62,47 @@ std::int32_t SimulatedDaq::count(int channel, double output) const noexcept {
 
 DaqSample SimulatedDaq::read() noexcept {
   DaqSample sample;
-  sample.elapsed_periods = 1 + missed_syncs();
+  sample.elapsed_periods = 1 + faults_.missed_syncs(next_s());
   for (std::uint32_t n = 0; n < sample.elapsed_periods; ++n) {
-    apply_faults_before();
+    disturb_hand();
+    switch_amplifiers();
     advance_period();
     ++sync_;
+    watch_writes();
     latch_codes();
+  }
+  if (faults_.lasts(InjectedFaultKind::kSensorSilence, time_s())) {
+    last_.elapsed_periods = 0;  // the board gives what it had
+    return last_;
   }
   const ChannelVector outputs = plant_.outputs();
   for (int i = 0; i < kChannels; ++i) sample.counts[i] = count(i, outputs[i]);
-  if (hand_.holding()) sample.digital_in |= kDeadman;
-  if (hand_.fault()) sample.digital_in |= kHandFault;
-  if (plant_.clamped()) sample.digital_in |= kHomeBeam;
-  apply_faults_after(sample);
-  last_counts_ = sample.counts;
+  sample.digital_in = digital_inputs();
+  faults_.spoil(sample, last_, time_s());
+  last_ = sample;
   return sample;
+}
+
+std::uint32_t SimulatedDaq::digital_inputs() const noexcept {
+  std::uint32_t in = dac_mismatch_;
+  const bool opened = faults_.lasts(InjectedFaultKind::kDeadmanOpen, time_s());
+  if (hand_.holding() && pressed_ && !opened) in |= kDeadman;
+  if (hand_.fault()) in |= kHandFault;
+  if (plant_.clamped()) in |= kHomeBeam;
+  if (faults_.lasts(InjectedFaultKind::kEmergencyStop, time_s())) in |= kEmergencyStop;
+  if (watchdog_fired_) in |= kWatchdogFired;
+  for (int i = 0; i < kChannels; ++i) {
+    if (faults_.lasts(InjectedFaultKind::kDriveFault, time_s(), i)) in |= kDriveFault << i;
+    if (faults_.lasts(InjectedFaultKind::kOverTemperature, time_s(), i)) in |= kDriveHot << i;
+  }
+  return in;
+}
+
+/// The wired chain: emergency stop, enabling switch. Without a hand (a test bench) the switch counts as bridged.
+void SimulatedDaq::switch_amplifiers() noexcept {
+  const bool cut = !pressed_ || faults_.lasts(InjectedFaultKind::kDeadmanOpen, next_s()) ||
+                   faults_.lasts(InjectedFaultKind::kEmergencyStop, next_s());
+  if (plant_.amplifiers_enabled() != (armed_ && !cut)) plant_.enable_amplifiers(armed_ && !cut);
 }
 
 void SimulatedDaq::advance_period() noexcept {
@@ -97,13 +119,24 @@ void SimulatedDaq::advance_period() noexcept {
   if (plant_.clamped() && armed_for_s_ >= kJigReleaseS - kTimeSlack) plant_.clamp(false);
 }
 
+void SimulatedDaq::watch_writes() noexcept {
+  if (!armed_) return;
+  unwritten_s_ += period_s_;
+  watchdog_fired_ = watchdog_fired_ || unwritten_s_ > kWatchdogS + kTimeSlack;
+  if (watchdog_fired_) written_ = {};
+}
+
 void SimulatedDaq::latch_codes() noexcept {
   constexpr std::size_t kRing = kMaxExtraDelayPeriods + 1;
+  const int delay = std::min(kMaxExtraDelayPeriods, config_.extra_delay_periods + faults_.extra_delay(time_s()));
   delayed_[delay_head_] = written_;
-  const std::size_t out = (delay_head_ + kRing - static_cast<std::size_t>(config_.extra_delay_periods)) % kRing;
+  if (watchdog_fired_) delayed_ = {};
+  const DacFrame& due = delayed_[(delay_head_ + kRing - static_cast<std::size_t>(delay)) % kRing];
   delay_head_ = (delay_head_ + 1) % kRing;
+  dac_mismatch_ = 0;
   for (int i = 0; i < kChannels; ++i) {
-    if (!dac_stuck_[i]) in_force_.codes[i] = delayed_[out].codes[i];
+    if (!faults_.lasts(InjectedFaultKind::kDacStuck, time_s(), i)) in_force_.codes[i] = due.codes[i];
+    if (config_.dac_readback && in_force_.codes[i] != due.codes[i]) dac_mismatch_ |= kDacMismatch << i;
   }
 }
 
@@ -119,16 +152,23 @@ void SimulatedDaq::apply_volts() noexcept {
   plant_.command_volts(volts);
 }
 
-void SimulatedDaq::write(const DacFrame& frame) noexcept { written_ = frame; }
+void SimulatedDaq::write(const DacFrame& frame) noexcept {
+  if (faults_.lasts(InjectedFaultKind::kWatchdog, time_s())) return;  // the write does not reach the board
+  written_ = frame;
+  unwritten_s_ = 0;
+}
 
 void SimulatedDaq::arm(bool enabled) noexcept {
   armed_ = enabled;
-  plant_.enable_amplifiers(enabled);
+  switch_amplifiers();
   if (enabled) return;
-  armed_for_s_ = 0;
+  armed_for_s_ = unwritten_s_ = 0;
+  watchdog_fired_ = false;
   written_ = {};
-  in_force_ = {};
   delayed_ = {};
+  for (int i = 0; i < kChannels; ++i) {  // a stuck DAC keeps its code behind the inhibited amplifier
+    if (!faults_.lasts(InjectedFaultKind::kDacStuck, time_s(), i)) in_force_.codes[i] = 0;
+  }
 }
 
 void SimulatedDaq::set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept {
@@ -140,57 +180,10 @@ HandSense SimulatedDaq::sense() const noexcept {
   return {m.X_BS, force_on_hand_, force_on_finger_, m.jaw, plant_.amplifiers_enabled(), plant_.clamped()};
 }
 
-bool SimulatedDaq::lasts(const FaultState& state, double now) const noexcept {
-  const InjectedFault& f = state.fault;
-  const bool begun = now >= f.at_s - kTimeSlack;
-  return begun && (f.duration_s == 0 || now < f.at_s + f.duration_s - kTimeSlack);
-}
-
-std::uint32_t SimulatedDaq::missed_syncs() noexcept {
-  std::uint32_t missed = 0;
-  const double next = time_s() + period_s_;
-  for (FaultState& state : faults_) {
-    if (state.fault.kind != InjectedFaultKind::kMissedSync || state.fired || !lasts(state, next)) continue;
-    state.fired = true;
-    missed += static_cast<std::uint32_t>(state.fault.value);
-  }
-  return missed;
-}
-
-void SimulatedDaq::apply_faults_before() noexcept {
-  const double next = time_s() + period_s_;
-  dac_stuck_.fill(false);
-  for (const FaultState& state : faults_) {
-    if (!lasts(state, next)) continue;
-    if (state.fault.kind == InjectedFaultKind::kDacStuck) dac_stuck_[state.fault.channel] = true;
-    if (state.fault.kind == InjectedFaultKind::kHandLetsGo) hand_.let_go();
-    if (state.fault.kind == InjectedFaultKind::kHandNaN) {
-      hand_.set_intent({Mat3::Identity(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN())}, 0, period_s_);
-    }
-  }
-}
-
-void SimulatedDaq::apply_faults_after(DaqSample& sample) noexcept {
-  const double now = time_s();
-  for (FaultState& state : faults_) {
-    const InjectedFault& f = state.fault;
-    if (!lasts(state, now)) continue;
-    if (f.kind == InjectedFaultKind::kEncoderJump && !state.fired) {
-      jump_[f.channel] += static_cast<std::int32_t>(f.value);
-      state.fired = true;
-    }
-    if (f.kind == InjectedFaultKind::kChannelInvalid) {
-      sample.valid = static_cast<std::uint8_t>(sample.valid & ~(1u << f.channel));
-    }
-  }
-  for (int i = 0; i < kChannels; ++i) {
-    sample.counts[i] =
-        static_cast<std::int32_t>(static_cast<std::uint32_t>(sample.counts[i]) + static_cast<std::uint32_t>(jump_[i]));
-  }
-  for (const FaultState& state : faults_) {
-    const InjectedFault& f = state.fault;
-    if (f.kind == InjectedFaultKind::kEncoderStuck && lasts(state, now))
-      sample.counts[f.channel] = last_counts_[f.channel];
+void SimulatedDaq::disturb_hand() noexcept {
+  if (faults_.lasts(InjectedFaultKind::kHandLetsGo, next_s())) hand_.let_go();
+  if (faults_.lasts(InjectedFaultKind::kHandNaN, next_s())) {
+    hand_.set_intent({Mat3::Identity(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN())}, 0, period_s_);
   }
 }
 

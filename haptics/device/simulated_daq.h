@@ -7,8 +7,11 @@
 // The device starts clamped in its jig, a little off the exact home pose, amplifiers inhibited. The jig opens when the
 // amplifiers have been armed for kJigReleaseS without a break; it does not close again. arm(false) takes the
 // current away at once and forgets the codes in force.
-// Digital inputs: deadman closed while a hand holds the stylus, home beam received while in the jig, hand fault
-// while the hand's intent is not finite (it then exerts nothing).
+// Digital inputs: deadman closed while a hand holds the stylus and presses its switch, home beam received while in the
+// jig, hand fault while the hand's intent is not finite (it then exerts nothing), emergency stop and drive outputs by
+// injected faults, DAC registers read back each SYNC. The safety chain is wired past the controller: the emergency stop
+// and an open switch take the current away whatever arm() said. While armed a watchdog counts the SYNCs since the last
+// write; after kWatchdogS it zeroes the DACs until disarmed.
 // Thread: haptic task only. read, write, arm and the hand's calls neither allocate, lock nor throw.
 #pragma once
 
@@ -20,31 +23,14 @@
 #include "haptics/device/data_acquisition.h"
 #include "haptics/device/device_plant.h"
 #include "haptics/device/hand_model.h"
+#include "haptics/device/plant_faults.h"
 #include "haptics/device/plant_parameters.h"
 
 namespace trocar {
 
 inline constexpr double kJigReleaseS = 0.050;
+inline constexpr double kWatchdogS = 0.016;  ///< two counts at an eighth of the SYNC clock
 inline constexpr int kMaxExtraDelayPeriods = 63;
-
-/// A failure that happens inside the back-end, where the controller cannot know of it.
-enum class InjectedFaultKind : std::uint8_t {
-  kEncoderJump,     ///< the channel's counter gains `value` counts, once
-  kEncoderStuck,    ///< the channel's counter keeps its number for duration_s
-  kChannelInvalid,  ///< the channel's valid bit is down for duration_s
-  kDacStuck,        ///< the channel's DAC keeps its code for duration_s
-  kMissedSync,      ///< `value` SYNCs pass unread: elapsed_periods is 1 + value, once
-  kHandNaN,         ///< the hand's intent is NaN for duration_s
-  kHandLetsGo,      ///< the hand leaves the stylus for duration_s
-};
-
-struct InjectedFault {
-  InjectedFaultKind kind = InjectedFaultKind::kEncoderJump;
-  double at_s = 0;        ///< time of the SYNC from which it shows
-  double duration_s = 0;  ///< s; 0 means for good
-  int channel = 0;
-  double value = 0;
-};
 
 struct SimulatedDaqConfig {
   double rate_hz = 1000;     ///< 1000, 2000 or 4000
@@ -55,6 +41,7 @@ struct SimulatedDaqConfig {
   std::optional<PlantParameters> plant;  ///< exact device instead of one drawn by the seed
   HandParameters hand;
   std::vector<InjectedFault> faults;
+  bool dac_readback = true;              ///< the board can read its DAC registers back (kDacMismatch)
 };
 
 /// What the simulated person senses of the device, true values in W'.
@@ -81,6 +68,8 @@ class SimulatedDaq final : public DataAcquisition {
   void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept;
   void set_hand_parameters(const HandParameters& parameters) noexcept { hand_.set_parameters(parameters); }
   void release_hand() noexcept { hand_.let_go(); }
+  /// The enabling switch in the handle, pressed at first; it counts only while the hand holds the stylus.
+  void press_deadman(bool pressed) noexcept { pressed_ = pressed; }
   HandSense sense() const noexcept;
 
   /// Time of the last SYNC, s.
@@ -89,18 +78,14 @@ class SimulatedDaq final : public DataAcquisition {
   const DevicePlant& plant() const noexcept { return plant_; }
 
  private:
-  struct FaultState {
-    InjectedFault fault;
-    bool fired = false;
-  };
-
-  bool lasts(const FaultState& state, double now) const noexcept;
+  void watch_writes() noexcept;
   void latch_codes() noexcept;
   void apply_volts() noexcept;
   void advance_period() noexcept;
-  void apply_faults_before() noexcept;
-  void apply_faults_after(DaqSample& sample) noexcept;
-  std::uint32_t missed_syncs() noexcept;
+  void disturb_hand() noexcept;
+  void switch_amplifiers() noexcept;
+  std::uint32_t digital_inputs() const noexcept;
+  double next_s() const noexcept { return time_s() + period_s_; }
   std::int32_t count(int channel, double output) const noexcept;
 
   SimulatedDaqConfig config_;
@@ -108,16 +93,17 @@ class SimulatedDaq final : public DataAcquisition {
   int substeps_;
   DevicePlant plant_;
   HandModel hand_;
-  std::vector<FaultState> faults_;
+  PlantFaults faults_;
 
   std::uint64_t sync_ = 0;
   DacFrame written_, in_force_;
   std::array<DacFrame, kMaxExtraDelayPeriods + 1> delayed_{};  ///< ring of frames on their way to the DAC
   std::size_t delay_head_ = 0;
   double armed_for_s_ = 0;
-  bool armed_ = false;
-  std::array<std::int32_t, kChannels> jump_{}, last_counts_{};
-  std::array<bool, kChannels> dac_stuck_{};
+  bool armed_ = false, pressed_ = true, watchdog_fired_ = false;
+  double unwritten_s_ = 0;                                         ///< since the last write, while armed
+  std::uint32_t dac_mismatch_ = 0;                                 ///< bits of the group
+  DaqSample last_;
   Vec3 force_on_hand_ = Vec3::Zero();
   double force_on_finger_ = 0;
 };

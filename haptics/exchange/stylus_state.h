@@ -12,7 +12,16 @@
 namespace trocar {
 
 /// States of the device loop (reference: safety chain of the device documentation, docs/device_and_safety.md).
-enum class LoopState : std::uint8_t { kUnhomed, kHomed, kActive, kFault };
+/// The numbers are those of recordings and do not change.
+enum class LoopState : std::uint8_t {
+  kUnhomed = 0,   ///< torque off, waits for the jig
+  kHomed = 1,     ///< torque off, waits for the deadman
+  kActive = 2,
+  kFault = 3,     ///< latched
+  kOff = 4,       ///< before the first sample
+  kSelfTest = 5,  ///< torque off
+  kArmed = 6,     ///< deadman closed, amplifiers on, codes zero
+};
 
 constexpr const char* loop_state_name(LoopState state) {
   switch (state) {
@@ -20,6 +29,9 @@ constexpr const char* loop_state_name(LoopState state) {
     case LoopState::kHomed: return "homed";
     case LoopState::kActive: return "active";
     case LoopState::kFault: return "fault";
+    case LoopState::kOff: return "off";
+    case LoopState::kSelfTest: return "self-test";
+    case LoopState::kArmed: return "armed";
   }
   return "unknown";
 }
@@ -28,7 +40,7 @@ struct StylusState {
   std::uint64_t tick = 0;
   std::uint64_t period = 0;  ///< SYNC periods since the loop began, missed ones included
   double t_s = 0;  ///< loop time = period / rate, s
-  LoopState loop = LoopState::kUnhomed;
+  LoopState loop = LoopState::kOff;
   Fault fault;
 
   Pose X_TI;                  ///< instrument (tip) in the theatre

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "haptics/device/data_acquisition.h"
+#include "haptics/exchange/loop_warning.h"
 #include "haptics/exchange/stylus_state.h"
 
 namespace trocar {
@@ -11,6 +12,7 @@ struct TickRecord {
   DaqSample in;
   DacFrame out;
   bool amplifiers_armed = false;
+  WarningBits warnings = 0;    ///< LoopWarning bits of this tick
   ChannelVector q = ChannelVector::Zero();
   ChannelVector qd = ChannelVector::Zero();
   ChannelVector torque = ChannelVector::Zero();  ///< total asked of the motors

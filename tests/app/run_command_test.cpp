@@ -48,10 +48,23 @@ TEST(ParseInjection, LeavesOutWhatIsNotSaid) {
 TEST(ParseInjection, KnowsEveryKind) {
   std::set<InjectedFaultKind> kinds;
   for (const char* name :
-       {"encoder-jump", "encoder-stuck", "channel-invalid", "dac-stuck", "missed-sync", "hand-nan", "hand-lets-go"}) {
+       {"encoder-jump", "encoder-stuck", "channel-invalid", "dac-stuck", "missed-sync", "hand-nan", "hand-lets-go",
+        "delay", "e-stop", "deadman-open", "drive-fault", "watchdog", "over-temperature", "sensor-silence"}) {
     kinds.insert(parse_injection(std::string(name) + "@1").kind);
   }
-  EXPECT_EQ(kinds.size(), 7u);
+  EXPECT_EQ(kinds.size(), 14u);
+}
+
+TEST(ParseInjection, RefusesValuesThatTheDeviceCannotHave) {
+  EXPECT_EQ(parse_injection("delay@1").value, 5) << "not a jump's thousand";
+  EXPECT_EQ(parse_injection("delay:0:63@1").value, 63);
+  for (const char* bad : {"delay:0:0@1", "delay:0:64@1"}) {
+    EXPECT_NE(refusal(bad).find("1 to 63 periods"), std::string::npos) << bad;
+  }
+  for (const char* bad : {"missed-sync:0:0.5@1", "missed-sync:0:1001@1"}) {
+    EXPECT_NE(refusal(bad).find("missed SYNCs are 1 to 1000"), std::string::npos) << bad;
+  }
+  EXPECT_NE(refusal("encoder-jump:0:1e12@1").find("2147483647 counts"), std::string::npos);
 }
 
 TEST(ParseInjection, RefusesWithTheFormOrTheKnownKinds) {

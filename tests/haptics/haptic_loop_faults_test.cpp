@@ -152,7 +152,8 @@ TEST(HapticLoopFaults, ResetNeedsHomingAgain) {
   rig.run(1.0);
   ASSERT_EQ(rig.record.stylus.loop, LoopState::kFault);
   rig.loop.reset_fault();
-  rig.run(1.0);
+  rig.daq.press_deadman(false);
+  rig.run(2.0);
   EXPECT_EQ(rig.record.stylus.loop, LoopState::kUnhomed) << "the jig is far away: no beam, no homing";
   EXPECT_FALSE(rig.record.amplifiers_armed);
   EXPECT_FALSE(rig.record.stylus.fault);

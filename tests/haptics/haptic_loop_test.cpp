@@ -17,7 +17,7 @@ TEST(HapticLoop, HomesArmsAndRampsUp) {
   rig.run(0.45);
   EXPECT_EQ(rig.record.stylus.loop, LoopState::kUnhomed);
   EXPECT_FALSE(rig.record.amplifiers_armed);
-  rig.run(0.15);
+  rig.run(0.2);
   EXPECT_EQ(rig.record.stylus.loop, LoopState::kHomed) << "no hand yet";
   EXPECT_FALSE(rig.record.amplifiers_armed);
   rig.holding = true;
@@ -44,7 +44,7 @@ TEST(HapticLoop, KnowsItsPoseAfterHoming) {
 TEST(HapticLoop, NoTorqueBeforeActiveAndNoCodes) {
   LoopRig rig;
   rig.keep = true;
-  rig.run(0.6);
+  rig.run(0.65);
   for (const TickRecord& r : rig.records) {
     EXPECT_EQ(r.torque.norm(), 0);
     for (const std::int32_t code : r.out.codes) EXPECT_EQ(code, 0);
@@ -82,7 +82,7 @@ TEST(HapticLoop, PressAtRestRendersStiffnessTimesDepth) {
     rig.move(deep, 1.0);
     rig.run(1.0);
     const StylusState& s = rig.record.stylus;
-    ASSERT_TRUE(s.contact);
+    ASSERT_TRUE(s.contact) << fault_name(s.fault.code) << " of channel " << int(s.fault.channel) << " at " << s.fault.tick;
     EXPECT_TRUE(s.tip_contact);
     EXPECT_FALSE(s.fault);
     EXPECT_GT(s.depth_m, 0.001);

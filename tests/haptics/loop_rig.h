@@ -39,10 +39,10 @@ class LoopRig {
   void run(double seconds) {
     for (int k = 0, n = static_cast<int>(std::lround(seconds * config.daq.rate_hz)); k < n; ++k) tick();
   }
-  /// Homes in the jig, then the hand takes hold and the soft start passes.
+  /// Self-test and homing in the jig, then the hand takes hold and the soft start passes.
   void start() {
     holding = false;
-    run(0.6);
+    run(0.65);
     holding = true;
     run(1.2);
   }

@@ -3,56 +3,31 @@
 
 #include <cstring>
 
-#include "haptics/control/supervisor.h"
-#include "haptics_fixtures.h"
+#include "supervisor_fixture.h"
 
 namespace trocar {
 namespace {
 
-constexpr std::array<std::int32_t, kChannels> kMaxCounts{30, 30, 30, 30, 30, 30, 30};
-constexpr double kPeriod = 1e-3;
-using Delta = std::array<std::int32_t, kChannels>;
+using test::kMaxCounts;
+using test::kPeriod;
+using test::SupervisorTest;
+using Delta = SupervisorTest::Delta;
 
-class SupervisorTest : public ::testing::Test {
- protected:
-  /// One tick with these inputs.
-  void step(std::uint32_t digital, const Delta& delta = {}, std::uint32_t elapsed = 1) {
-    DaqSample sample;
-    sample.digital_in = digital;
-    sample.elapsed_periods = elapsed;
-    supervisor.observe(tick++, sample, delta);
-  }
-  void steps(int count, std::uint32_t digital) {
-    for (int i = 0; i < count; ++i) step(digital);
-  }
-  void home() {
-    for (int i = 0; i < 600 && supervisor.state() == LoopState::kUnhomed; ++i) step(kHomeBeam);
-    ASSERT_EQ(supervisor.state(), LoopState::kHomed);
-  }
-  void activate() {
-    home();
-    step(kDeadman);
-    ASSERT_EQ(supervisor.state(), LoopState::kActive);
-  }
-  void expect_fault(FaultCode code, int channel) {
-    EXPECT_EQ(supervisor.state(), LoopState::kFault);
-    EXPECT_EQ(supervisor.fault().code, code) << fault_name(supervisor.fault().code);
-    EXPECT_EQ(supervisor.fault().channel, channel);
-    EXPECT_FALSE(supervisor.armed());
-    EXPECT_EQ(supervisor.ramp(), 0);
-  }
-
-  Supervisor supervisor{SafetyLimits{}, kMaxCounts, kPeriod};
-  std::uint64_t tick = 0;
-};
-
-TEST_F(SupervisorTest, StartsUnhomedAndUnarmed) {
-  EXPECT_EQ(supervisor.state(), LoopState::kUnhomed);
+TEST_F(SupervisorTest, StartsOffThenTestsItself) {
+  EXPECT_EQ(supervisor.state(), LoopState::kOff);
   EXPECT_FALSE(supervisor.armed());
   EXPECT_FALSE(supervisor.fault());
+  step(0);
+  EXPECT_EQ(supervisor.state(), LoopState::kSelfTest);
+  EXPECT_FALSE(supervisor.armed());
+  steps(95, 0);
+  EXPECT_EQ(supervisor.state(), LoopState::kSelfTest);
+  steps(10, 0);
+  EXPECT_EQ(supervisor.state(), LoopState::kUnhomed) << "0.1 s of passed checks";
 }
 
 TEST_F(SupervisorTest, HomesAfterHalfASecondOfStillness) {
+  pass_self_test();
   int ticks = 0;
   while (supervisor.state() == LoopState::kUnhomed && ticks < 2000) {
     step(kHomeBeam);
@@ -65,6 +40,7 @@ TEST_F(SupervisorTest, HomesAfterHalfASecondOfStillness) {
 }
 
 TEST_F(SupervisorTest, AMovingCountRestartsTheStillness) {
+  pass_self_test();
   steps(400, kHomeBeam);
   Delta moved{};
   moved[4] = -1;
@@ -76,6 +52,7 @@ TEST_F(SupervisorTest, AMovingCountRestartsTheStillness) {
 }
 
 TEST_F(SupervisorTest, BeamMustBeSeenForFiftyMillisecondsOnEnd) {
+  pass_self_test();
   steps(1000, 0);  // still for long, no beam
   EXPECT_EQ(supervisor.state(), LoopState::kUnhomed);
   for (int i = 0; i < 40; ++i) {  // flicker: 40 ms on, 1 ms off
@@ -90,9 +67,31 @@ TEST_F(SupervisorTest, BeamMustBeSeenForFiftyMillisecondsOnEnd) {
 }
 
 TEST_F(SupervisorTest, DeadmanDoesNothingBeforeHoming) {
+  pass_self_test();
   steps(2000, kDeadman);
   EXPECT_EQ(supervisor.state(), LoopState::kUnhomed);
   EXPECT_FALSE(supervisor.armed());
+}
+
+TEST_F(SupervisorTest, ADeadmanHeldWhileHomingEndsDoesNotArm) {
+  pass_self_test();
+  steps(2000, kDeadman | kHomeBeam);
+  EXPECT_EQ(supervisor.state(), LoopState::kHomed);
+  close_deadman();
+}
+
+TEST_F(SupervisorTest, ArmedHoldsForAMomentWithoutTorque) {
+  home();
+  step(0);
+  step(kDeadman);
+  EXPECT_EQ(supervisor.state(), LoopState::kArmed);
+  EXPECT_TRUE(supervisor.armed());
+  EXPECT_FALSE(supervisor.powered());
+  EXPECT_EQ(supervisor.ramp(), 0);
+  steps(15, kDeadman);
+  EXPECT_EQ(supervisor.state(), LoopState::kArmed);
+  step(0);
+  EXPECT_EQ(supervisor.state(), LoopState::kHomed) << "let go again";
 }
 
 TEST_F(SupervisorTest, DeadmanArmsAndItsReleaseDisarms) {
@@ -101,8 +100,7 @@ TEST_F(SupervisorTest, DeadmanArmsAndItsReleaseDisarms) {
   step(0);
   EXPECT_EQ(supervisor.state(), LoopState::kHomed);
   EXPECT_FALSE(supervisor.armed());
-  step(kDeadman);
-  EXPECT_EQ(supervisor.state(), LoopState::kActive) << "homing is kept";
+  close_deadman();  // homing is kept
 }
 
 TEST_F(SupervisorTest, TorqueRampsUpInOneSecondAndStartsAnewAfterRelease) {
@@ -119,8 +117,7 @@ TEST_F(SupervisorTest, TorqueRampsUpInOneSecondAndStartsAnewAfterRelease) {
   steps(10, kDeadman);
   EXPECT_EQ(supervisor.ramp(), 1);
   step(0);
-  step(0);
-  step(kDeadman);
+  close_deadman();
   EXPECT_LT(supervisor.ramp(), 0.01);
 }
 
@@ -190,7 +187,7 @@ TEST_F(SupervisorTest, OneLongGapFaultsAtOnce) {
 TEST_F(SupervisorTest, ABoardThatCountsNoPeriodFaults) {
   activate();
   step(kDeadman, {}, 0);
-  expect_fault(FaultCode::kLateLoop, -1);
+  expect_fault(FaultCode::kSensorSilent, -1);
 }
 
 TEST_F(SupervisorTest, AfterAResetADeadmanHeldAllAlongDoesNotArm) {
@@ -198,29 +195,85 @@ TEST_F(SupervisorTest, AfterAResetADeadmanHeldAllAlongDoesNotArm) {
   supervisor.raise(FaultCode::kOverspeed, 10, 1, 16);
   supervisor.reset_fault();
   steps(2000, kDeadman | kHomeBeam);
-  EXPECT_EQ(supervisor.state(), LoopState::kHomed);
-  step(kHomeBeam);
-  step(kDeadman);
-  EXPECT_TRUE(supervisor.armed());
+  EXPECT_EQ(supervisor.state(), LoopState::kSelfTest) << "it waits for the deadman to open";
+  activate();
 }
 
-TEST_F(SupervisorTest, RaisedFaultsOfEveryCodeDisarm) {
-  for (const FaultCode code : {FaultCode::kNonFinite, FaultCode::kOverspeed, FaultCode::kSingular,
-                               FaultCode::kEnergyDebt, FaultCode::kOverheat}) {
+constexpr std::array kAllFaults{
+    FaultCode::kNone,          FaultCode::kEncoderJump,  FaultCode::kChannelInvalid, FaultCode::kNonFinite,
+    FaultCode::kOverspeed,     FaultCode::kSingular,     FaultCode::kEnergyDebt,     FaultCode::kOverheat,
+    FaultCode::kLateLoop,      FaultCode::kHandNonFinite, FaultCode::kSelfTest,      FaultCode::kEncoderStuck,
+    FaultCode::kSensorSilent,  FaultCode::kDacMismatch,  FaultCode::kWatchdog,       FaultCode::kEmergencyStop,
+    FaultCode::kDriveFault,    FaultCode::kDriveHot};
+
+TEST_F(SupervisorTest, HardFaultsDisarmAtOnceSoftOnesFadeInTwentyMilliseconds) {
+  for (const FaultCode code : kAllFaults) {
+    if (code == FaultCode::kNone) continue;
     supervisor = Supervisor(SafetyLimits{}, kMaxCounts, kPeriod);
     activate();
+    steps(1100, kDeadman);
     supervisor.raise(code, 77, 3, 1.5);
+    EXPECT_EQ(supervisor.state(), LoopState::kFault);
+    EXPECT_EQ(supervisor.armed(), is_soft(code)) << fault_name(code);
+    int ticks = 0;
+    for (double last = supervisor.ramp(); supervisor.armed() && ticks < 100; last = supervisor.ramp(), ++ticks) {
+      step(kDeadman);
+      EXPECT_LT(supervisor.ramp(), last);
+    }
+    EXPECT_LE(ticks, 21) << fault_name(code);
+    EXPECT_GE(ticks, is_soft(code) ? 19 : 0) << fault_name(code);
     expect_fault(code, 3);
     EXPECT_EQ(supervisor.fault().tick, 77u);
     EXPECT_EQ(supervisor.fault().value, 1.5);
   }
 }
 
+TEST_F(SupervisorTest, AHardFaultOrAnOpenDeadmanEndsTheFadeOfASoftOne) {
+  for (const bool by_deadman : {false, true}) {
+    supervisor = Supervisor(SafetyLimits{}, kMaxCounts, kPeriod);
+    activate();
+    steps(1100, kDeadman);
+    supervisor.raise(FaultCode::kOverheat, 77, 3, 121);
+    steps(3, kDeadman);
+    EXPECT_TRUE(supervisor.armed());
+    supervisor.raise(FaultCode::kSingular, 80, -1, 0.01);
+    EXPECT_TRUE(supervisor.armed()) << "another soft one changes nothing";
+    step(by_deadman ? 0 : kDeadman | kEmergencyStop);
+    expect_fault(FaultCode::kOverheat, 3);  // the first cause stays
+  }
+}
+
+TEST_F(SupervisorTest, InputsOfTheBoardAreFaultsInEveryState) {
+  const std::pair<std::uint32_t, FaultCode> inputs[] = {{kEmergencyStop, FaultCode::kEmergencyStop},
+                                                        {kWatchdogFired, FaultCode::kWatchdog},
+                                                        {kDriveFault << 4, FaultCode::kDriveFault},
+                                                        {kDriveHot << 4, FaultCode::kDriveHot},
+                                                        {kDacMismatch << 4, FaultCode::kDacMismatch}};
+  for (const auto& [input, code] : inputs) {
+    for (const bool active : {false, true}) {
+      supervisor = Supervisor(SafetyLimits{}, kMaxCounts, kPeriod);
+      if (active) activate();
+      step((active ? kDeadman : 0u) | input);
+      steps(30, kDeadman | input);
+      expect_fault(code, code == FaultCode::kEmergencyStop || code == FaultCode::kWatchdog ? -1 : 4);
+      supervisor.reset_fault();
+      step(input);
+      EXPECT_EQ(supervisor.state(), LoopState::kFault) << "still there: the reset is refused";
+    }
+  }
+}
+
+TEST_F(SupervisorTest, AResetWithoutAFaultDoesNothing) {
+  activate();
+  supervisor.reset_fault();
+  EXPECT_EQ(supervisor.state(), LoopState::kActive);
+}
+
 TEST_F(SupervisorTest, TheFirstFaultIsKept) {
   activate();
   supervisor.raise(FaultCode::kOverheat, 10, 1, 121);
   supervisor.raise(FaultCode::kSingular, 11, -1, 0.01);
-  step(kDeadman | kHandFault);
+  step(kDeadman | kHandFault);  // hard: ends the fade
   expect_fault(FaultCode::kOverheat, 1);
   EXPECT_EQ(supervisor.fault().tick, 10u);
 }
@@ -232,7 +285,7 @@ TEST_F(SupervisorTest, NothingButAResetLeavesTheFault) {
   steps(3000, kHomeBeam);
   EXPECT_EQ(supervisor.state(), LoopState::kFault);
   supervisor.reset_fault();
-  EXPECT_EQ(supervisor.state(), LoopState::kUnhomed) << "homing must be done again";
+  EXPECT_EQ(supervisor.state(), LoopState::kSelfTest) << "homing must be done again";
   EXPECT_FALSE(supervisor.fault());
   steps(3000, kDeadman);
   EXPECT_FALSE(supervisor.armed());
@@ -242,6 +295,7 @@ TEST_F(SupervisorTest, NothingButAResetLeavesTheFault) {
 
 TEST_F(SupervisorTest, RatesCountTheirOwnPeriods) {
   supervisor = Supervisor(SafetyLimits{}, kMaxCounts, 0.25e-3);
+  for (int i = 0; i < 500 && supervisor.state() != LoopState::kUnhomed; ++i) step(0);
   int ticks = 0;
   while (supervisor.state() == LoopState::kUnhomed && ticks < 9000) {
     step(kHomeBeam);
@@ -251,14 +305,11 @@ TEST_F(SupervisorTest, RatesCountTheirOwnPeriods) {
 }
 
 TEST(FaultNames, AreDistinctAndStable) {
-  const FaultCode codes[] = {FaultCode::kNone,         FaultCode::kEncoderJump, FaultCode::kChannelInvalid,
-                             FaultCode::kNonFinite,    FaultCode::kOverspeed,   FaultCode::kSingular,
-                             FaultCode::kEnergyDebt,   FaultCode::kOverheat,    FaultCode::kLateLoop,
-                             FaultCode::kHandNonFinite};
-  for (const FaultCode a : codes) {
+  for (const FaultCode a : kAllFaults) {
     EXPECT_STRNE(fault_name(a), "unknown");
-    for (const FaultCode b : codes) EXPECT_TRUE(a == b || std::strcmp(fault_name(a), fault_name(b)) != 0);
+    for (const FaultCode b : kAllFaults) EXPECT_TRUE(a == b || std::strcmp(fault_name(a), fault_name(b)) != 0);
   }
+  EXPECT_STREQ(fault_name(static_cast<FaultCode>(kAllFaults.size())), "unknown") << "a code without a name or a test";
 }
 
 }  // namespace

@@ -41,7 +41,10 @@ SimulatedDaqConfig exact_config() {
 
 void run_armed(SimulatedDaq& daq, int periods) {
   daq.arm(true);
-  for (int k = 0; k < periods; ++k) daq.read();
+  for (int k = 0; k < periods; ++k) {
+    daq.read();
+    daq.write({});  // keeps the watchdog quiet
+  }
 }
 
 TEST(SimulatedDaqConformance, Capabilities) {
@@ -140,6 +143,8 @@ TEST_P(SimulatedDaqDelay, CodesActAfterExactlyTheConfiguredPeriods) {
   for (int after = 1; after <= 1 + GetParam(); ++after) {
     pushed.read();
     still.read();
+    pushed.write(frame);  // keeps the watchdog quiet
+    still.write({});
     EXPECT_EQ(pushed.plant().outputs(), still.plant().outputs()) << "acts " << after << " SYNCs after the write";
   }
   pushed.read();

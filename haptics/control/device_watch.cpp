@@ -1,0 +1,95 @@
+#include "haptics/control/device_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace trocar {
+
+DeviceWatch::DeviceWatch(const SafetyLimits& limits, const DeviceModel& model, const MotorHeatParameters& heat,
+                         double period_s)
+    : limits_(limits), model_(model), period_s_(period_s) {
+  heat_.fill(MotorHeat(heat));
+  for (int i = 0; i < kChannels; ++i) {
+    const Transmission& t = model.transmission[i];
+    strong_[i] = limits.stuck_torque_share * t.max_motor_torque / t.ratio;
+  }
+}
+
+void DeviceWatch::update(const WatchedTick& now, Supervisor& supervisor) {
+  const bool active = supervisor.state() == LoopState::kActive;
+  watch_heat(now, supervisor);
+  watch_speed(now, supervisor);
+  watch_encoders(now, supervisor);
+  set(LoopWarning::kNearSingular, active && now.det_a < limits_.warn_det_a);
+  set(LoopWarning::kForceSaturated, active && now.saturated);
+  set(LoopWarning::kEnergyDebt, active && now.debt);
+  if (active && now.det_a < limits_.fault_det_a) supervisor.raise(FaultCode::kSingular, now.tick, -1, now.det_a);
+}
+
+void DeviceWatch::watch_heat(const WatchedTick& now, Supervisor& supervisor) {
+  bool hot = false;
+  for (int i = 0; i < kChannels; ++i) {
+    if (!std::isfinite(now.torque[i])) {
+      supervisor.raise(FaultCode::kNonFinite, now.tick, i, now.torque[i]);
+      continue;
+    }
+    const Transmission& t = model_.transmission[i];
+    heat_[i].update(now.torque[i] * t.ratio / t.torque_constant, now.periods * period_s_);
+    hot = hot || heat_[i].hot();
+    if (heat_[i].cut()) supervisor.raise(FaultCode::kOverheat, now.tick, i, heat_[i].winding_c());
+  }
+  set(LoopWarning::kHotMotor, hot);
+}
+
+void DeviceWatch::watch_speed(const WatchedTick& now, Supervisor& supervisor) {
+  int fastest = 0;
+  for (int i = 1; i < kArmJoints; ++i) {
+    if (std::abs(now.qd[i]) > std::abs(now.qd[fastest])) fastest = i;
+  }
+  const bool joint = std::abs(now.qd[fastest]) > limits_.max_joint_rate;
+  const bool fast = supervisor.powered() && (joint || now.tip_speed > limits_.max_tip_speed);
+  too_fast_s_ = fast ? too_fast_s_ + now.periods * period_s_ : 0;
+  set(LoopWarning::kOverspeed, fast);
+  if (too_fast_s_ <= limits_.overspeed_s) return;
+  supervisor.raise(FaultCode::kOverspeed, now.tick, joint ? fastest : -1, joint ? now.qd[fastest] : now.tip_speed);
+}
+
+void DeviceWatch::watch_encoders(const WatchedTick& now, Supervisor& supervisor) {
+  const bool active = supervisor.state() == LoopState::kActive;
+  std::int64_t travel = 0;
+  for (int i = 0; i < kArmJoints; ++i) travel += std::abs(static_cast<std::int64_t>(now.delta[i]));
+  bool suspected = false;
+  for (int i = 0; i < kChannels; ++i) {
+    const bool pushed = active && !now.touching && now.delta[i] == 0 && std::abs(now.torque[i]) > strong_[i];
+    pushed_s_[i] = pushed ? pushed_s_[i] + now.periods * period_s_ : 0;
+    suspected = suspected || pushed_s_[i] >= limits_.stuck_s;
+    if (i >= kArmJoints) continue;  // the jaws may rest while the arm travels
+    pushed_travel_[i] = pushed ? pushed_travel_[i] + travel : 0;
+    quiet_travel_[i] = active && now.delta[i] == 0 ? quiet_travel_[i] + travel : 0;
+    if (pushed_travel_[i] <= limits_.stuck_pushed_travel && quiet_travel_[i] <= limits_.stuck_travel) continue;
+    supervisor.raise(FaultCode::kEncoderStuck, now.tick, i, static_cast<double>(quiet_travel_[i]));
+  }
+  set(LoopWarning::kEncoderStuck, suspected);
+}
+
+double DeviceWatch::contact_share() const {
+  double share = warnings_ & bit(LoopWarning::kOverspeed) ? 0 : 1;
+  for (const MotorHeat& heat : heat_) share = std::min(share, heat.share());
+  return share;
+}
+
+ChannelVector DeviceWatch::damping(const ChannelVector& qd) const {
+  ChannelVector torque = ChannelVector::Zero();
+  if (!(warnings_ & bit(LoopWarning::kOverspeed))) return torque;
+  torque.head<kArmJoints>() = -limits_.overspeed_damping * qd.head<kArmJoints>();
+  return torque;
+}
+
+double DeviceWatch::hottest_c() const {
+  double hottest = 0;
+  for (const MotorHeat& heat : heat_) hottest = std::max(hottest, heat.winding_c());
+  return hottest;
+}
+
+}  // namespace trocar
