@@ -217,12 +217,15 @@ void add_trainees(CommandLine& c) {
 
 void add_db(CommandLine& c) {
   CLI::App* db = c.group("db", "The database itself");
-  CLI::App* check = c.add(*db, "check", "File, references, hash chain, recordings", [&c] { return db_check(c.db, std::cout, std::cerr); });
+  CLI::App* check = c.add(*db, "check", "File, schema, references, hash chain, audit trail, recordings", [&c] { return db_check(c.db, std::cout, std::cerr); });
   check->add_flag("--json", c.db.json, "As JSON");
   CLI::App* backup = c.add(*db, "backup", "Consistent copy", [&c] { return db_backup(c.db, std::cout, std::cerr); });
   backup->add_option("-o,--out", c.db.output, "File (default: beside the database)");
   CLI::App* migrate = c.add(*db, "migrate", "Bring to this program's schema", [&c] { return db_migrate(c.db, std::cout, std::cerr); });
-  for (CLI::App* command : {check, backup, migrate}) command->add_option("--db", c.db.database, "Database file");
+  CLI::App* anchor = c.add(*db, "anchor", "Begin a new anchor file where the old one was lost", [&c] { return db_anchor(c.db, std::cout, std::cerr); });
+  CLI::App* rubric = c.add(*db, "rubric", "Print the exercise file that attempts were graded by", [&c] { return db_rubric(c.db, std::cout, std::cerr); });
+  rubric->add_option("sha256", c.db.rubric, "At least 4 digits of its sha256")->required();
+  for (CLI::App* command : {check, backup, migrate, anchor, rubric}) command->add_option("--db", c.db.database, "Database file");
 }
 
 int fail(const std::exception& error, int code) {

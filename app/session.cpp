@@ -10,6 +10,7 @@
 #include "app/executor/lockstep_executor.h"
 #include "app/executor/recorder_task.h"
 #include "app/executor/tissue_task.h"
+#include "app/recorded_result.h"
 #include "haptics/device/replay_daq.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
@@ -121,7 +122,7 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
   end.state_hash = out.state_hash;
   end.status = out.status;
   end.summary_json = out.scoring_json;
-  writer.close(end);
+  writer.close(end, receipt_json(out.device));
   return out;
 }
 

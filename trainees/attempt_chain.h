@@ -1,10 +1,10 @@
 // The hash chain over finished attempts: a change to any of them, or a gap, shows. Internal to trainees/.
 //
-// row_hash_n = SHA-256("trocar-attempt-1\n" + row_hash_(n-1) + "\n" + n + "\n" + status + "\n" + content_n), where
+// row_hash_n = SHA-256("trocar-attempt-V\n" + row_hash_(n-1) + "\n" + n + "\n" + status + "\n" + content_n), where
 // content is every value of the attempt and of its events, metrics, sub-scores and caps with its type, in fixed order;
-// row_hash_0 is empty. n counts finished attempts from 1. Later columns need a new version of the content. The chain
-// shows changes; it cannot show that the newest attempts were cut off, nor stop who recomputes it: it is not a
-// signature.
+// row_hash_0 is empty. n counts finished attempts from 1. V is the attempt's hash_version: 1 for attempts that schema 1
+// stored (their hashes still hold), 2 with program, integrity, session and calibration. Later columns need a new
+// version. The chain shows changes; a cut-off end shows in the audit trail (audit.h); nothing stops who recomputes all.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,11 @@ struct sqlite3;
 
 namespace trocar {
 
-/// Ends a running attempt whose rows are all written: sets its status and its place in the chain, which freezes it.
-/// Call inside a transaction.
+/// Content that row_hash covers in attempts begun by this program.
+inline constexpr int kHashVersion = 2;
+
+/// Ends a running attempt whose rows are all written: sets its status and its place in the chain, which freezes it,
+/// and in the audit trail. Call inside a transaction.
 void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus status);
 
 /// Problems found when the whole chain is computed again, one line each.

@@ -1,10 +1,11 @@
 #include "trainees/attempt_recovery.h"
 
 #include <cstdint>
+#include <utility>
 
 #include "digest/digest.h"
-#include "trainees/attempt_chain.h"
-#include "trainees/attempt_identity.h"
+#include "haptics/input_error.h"
+#include "trainees/attempt_rows.h"
 #include "trainees/process_identity.h"
 #include "trainees/sqlite_handle.h"
 
@@ -23,7 +24,7 @@ std::vector<RunningAttempt> running_attempts(sqlite3* connection) {
   std::vector<RunningAttempt> attempts;
   sql::Statement rows(connection,
                       "SELECT a.id, a.uuid, t.code, recording_path, owner_pid, owner_boot, owner_start"
-                      " FROM attempt a JOIN trainee t ON t.id = a.trainee_id WHERE status = 'running' ORDER BY a.id");
+                      " FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id WHERE status = 'running' ORDER BY a.id");
   while (rows.step()) {
     attempts.push_back(
         {rows.integer(0), rows.text(1), rows.text(2), rows.text(3), {rows.integer(4), rows.text(5), rows.integer(6)}});
@@ -31,38 +32,66 @@ std::vector<RunningAttempt> running_attempts(sqlite3* connection) {
   return attempts;
 }
 
+/// Nothing but what is left of an attempt that was cut off.
+AttemptResult aborted_result(const fs::path& recording, const std::string& reason) {
+  AttemptResult result;
+  result.grade.status = AttemptStatus::kAborted;
+  result.grade.grade = "not graded";
+  result.integrity = reason;
+  if (!recording.empty()) result.recording_sha256 = digest::of_readable_file(recording);
+  return result;
+}
+
+AttemptResult result_of(const fs::path& recording, const Regrade& regrade) {
+  try {
+    if (regrade && !recording.empty()) {
+      if (auto graded = regrade(recording)) return std::move(*graded);
+    }
+    return aborted_result(recording, "its program ended before the attempt did");
+  } catch (const InputError& error) {
+    return aborted_result(recording, std::string("its program ended; its recording cannot be graded: ") + error.what());
+  }
+}
+
 /// @returns false when another program has ended the attempt in the meantime.
-bool abort_attempt(sqlite3* connection, const RunningAttempt& attempt, const std::string& recording,
-                   const std::string& sha256) {
+bool end_attempt(sqlite3* connection, const RunningAttempt& attempt, const AttemptResult& result,
+                 const std::string& recording) {
   sql::Transaction transaction(connection);
   {
     sql::Statement again(connection, "SELECT 1 FROM attempt WHERE id = ? AND status = 'running'");
     if (!again.bind(attempt.id).step()) return false;
   }
-  sql::Statement update(connection,
-                        "UPDATE attempt SET finished_utc = ?, recording_path = ?, recording_sha256 = ?"
-                        " WHERE id = ?");
-  update.bind(utc_now()).bind(recording).bind(sha256).bind(attempt.id).run();
-  seal_attempt(connection, attempt.id, AttemptStatus::kAborted);
+  write_result(connection, attempt.id, result, recording);
   transaction.commit();
   return true;
 }
 
 }  // namespace
 
-std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const fs::path& database) {
+std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const fs::path& database,
+                                                    const Regrade& regrade) {
   std::vector<RecoveredAttempt> recovered;
   for (const RunningAttempt& attempt : running_attempts(connection)) {
     if (process_lives(attempt.owner)) continue;
     const fs::path recording = located_recording(database, attempt.stored_recording);
     std::error_code error;
     const bool left = !recording.empty() && fs::is_regular_file(recording, error);
-    const std::string sha256 = left ? digest::of_readable_file(recording) : "";
-    if (abort_attempt(connection, attempt, left ? attempt.stored_recording : "", sha256)) {
-      recovered.push_back({attempt.uuid, attempt.trainee, left ? recording : fs::path()});
-    }
+    const AttemptResult result = result_of(left ? recording : fs::path(), regrade);
+    if (!end_attempt(connection, attempt, result, left ? attempt.stored_recording : "")) continue;
+    recovered.push_back({attempt.uuid, attempt.trainee, left ? recording : fs::path(), result.grade.status,
+                         result.grade.score});
   }
   return recovered;
+}
+
+void require_no_running_attempt(sqlite3* connection) {
+  sql::Statement rows(connection,
+                      "SELECT uuid, owner_pid, owner_boot, owner_start FROM attempt WHERE status = 'running'");
+  while (rows.step()) {
+    if (!process_lives({rows.integer(1), rows.text(2), rows.integer(3)})) continue;
+    throw EnvironmentError("attempt " + rows.text(0) + " is being run by an older trocar (process " +
+                           std::to_string(rows.integer(1)) + "); the database is migrated when that has ended");
+  }
 }
 
 std::string stored_recording_path(const fs::path& database, const fs::path& recording) {

@@ -1,10 +1,15 @@
 #include "trainees/attempt_rows.h"
 
 #include "haptics/input_error.h"
+#include "trainees/attempt_chain.h"
+#include "trainees/attempt_identity.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
 namespace {
+
+constexpr const char* kOfScore =
+    " WHERE score_id = (SELECT id FROM score WHERE attempt_id = ? AND revision = 0) ORDER BY position";
 
 Severity severity_of(const std::string& name) {
   for (const Severity severity : {Severity::kInfo, Severity::kMinor, Severity::kMajor, Severity::kCritical}) {
@@ -23,21 +28,46 @@ void insert_events(sqlite3* connection, std::int64_t attempt, const std::vector<
   }
 }
 
-void insert_grade(sqlite3* connection, std::int64_t attempt, const Grade& grade) {
+std::int64_t insert_score(sqlite3* connection, std::int64_t attempt, const Grade& grade) {
+  sql::Statement score(connection,
+                       "INSERT INTO score (attempt_id, revision, ruleset_sha256, value, passed, grade)"
+                       " SELECT id, 0, ruleset_sha256, ?, ?, ? FROM attempt WHERE id = ? RETURNING id");
+  score.bind(grade.score).bind(grade.passed).bind(grade.grade).bind(attempt).step();
+  const std::int64_t id = score.integer(0);
+  score.run();
+  return id;
+}
+
+void insert_grade(sqlite3* connection, std::int64_t score, const Grade& grade) {
   sql::Statement metric(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
   std::int64_t position = 0;
   for (const Metric& row : grade.metrics) {
-    metric.bind(attempt).bind(position++).bind(row.name).bind(row.value).bind(row.unit).run();
+    metric.bind(score).bind(position++).bind(row.name).bind(row.value).bind(row.unit).run();
   }
   sql::Statement subscore(connection, "INSERT INTO subscore VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   position = 0;
   for (const Subscore& row : grade.subscores) {
-    subscore.bind(attempt).bind(position++).bind(row.name).bind(row.value).bind(row.weight).bind(row.raw);
+    subscore.bind(score).bind(position++).bind(row.name).bind(row.value).bind(row.weight).bind(row.raw);
     subscore.bind(row.unit).bind(row.full_at).bind(row.zero_at).bind(row.gate).run();
   }
   sql::Statement cap(connection, "INSERT INTO score_cap VALUES (?, ?, ?)");
   position = 0;
-  for (const std::string& reason : grade.caps) cap.bind(attempt).bind(position++).bind(reason).run();
+  for (const std::string& reason : grade.caps) cap.bind(score).bind(position++).bind(reason).run();
+}
+
+void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording) {
+  sql::Statement update(
+      connection,
+      "UPDATE attempt SET finished_utc = ?, integrity = ?, recording_path = ?,"
+      " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
+      " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
+      " kappa = ?, device_fault = ? WHERE id = ?");
+  const DeviceReceipt& device = result.device;
+  update.bind(utc_now()).bind(result.integrity);
+  update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
+  update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
+  update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
+  update.bind(row).run();
 }
 
 std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {
@@ -55,28 +85,30 @@ std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {
 
 }  // namespace
 
-void insert_attempt_rows(sqlite3* connection, std::int64_t attempt, const AttemptResult& result) {
+void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result,
+                  const std::string& recording) {
   insert_events(connection, attempt, result.events);
-  insert_grade(connection, attempt, result.grade);
+  insert_grade(connection, insert_score(connection, attempt, result.grade), result.grade);
+  update_attempt(connection, attempt, result, recording);
+  seal_attempt(connection, attempt, result.grade.status);
 }
 
 void read_attempt_rows(sqlite3* connection, std::int64_t attempt, AttemptResult& result) {
   result.events = read_events(connection, attempt);
-  sql::Statement metrics(connection, "SELECT name, value, unit FROM metric WHERE attempt_id = ? ORDER BY position");
+  sql::Statement metrics(connection, std::string("SELECT name, value, unit FROM metric") + kOfScore);
   metrics.bind(attempt);
   while (metrics.step()) {
     result.grade.metrics.push_back({metrics.text(0), metrics.optional_real(1), metrics.text(2)});
   }
   sql::Statement subscores(connection,
-                           "SELECT name, value, weight, raw, unit, full_at, zero_at, gate FROM subscore"
-                           " WHERE attempt_id = ? ORDER BY position");
+                           std::string("SELECT name, value, weight, raw, unit, full_at, zero_at, gate FROM subscore") + kOfScore);
   subscores.bind(attempt);
   while (subscores.step()) {
     result.grade.subscores.push_back({subscores.text(0), subscores.real(1), subscores.real(2),
                                       subscores.optional_real(3), subscores.text(4), subscores.real(5),
                                       subscores.real(6), subscores.integer(7) != 0});
   }
-  sql::Statement caps(connection, "SELECT reason FROM score_cap WHERE attempt_id = ? ORDER BY position");
+  sql::Statement caps(connection, std::string("SELECT reason FROM score_cap") + kOfScore);
   caps.bind(attempt);
   while (caps.step()) result.grade.caps.push_back(caps.text(0));
 }

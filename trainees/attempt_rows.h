@@ -1,7 +1,8 @@
-// Rows that belong to one attempt: events, metrics, sub-scores, caps. Internal to trainees/.
+// The result of one attempt as rows: events, score, metrics, sub-scores, caps. Internal to trainees/.
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "scenarios/scoring/attempt_result.h"
 
@@ -9,8 +10,9 @@ struct sqlite3;
 
 namespace trocar {
 
-/// Inserts all rows of `result`; call inside a transaction while the attempt is running.
-void insert_attempt_rows(sqlite3* connection, std::int64_t attempt, const AttemptResult& result);
+/// Writes `result` and ends the attempt with its status. Call inside a transaction while the attempt is running.
+/// @param recording as stored_recording_path() names it.
+void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result, const std::string& recording);
 
 /// Fills events and the lists of result.grade.
 void read_attempt_rows(sqlite3* connection, std::int64_t attempt, AttemptResult& result);

@@ -5,6 +5,7 @@
 
 #include "digest/digest.h"
 #include "haptics/input_error.h"
+#include "trainees/anchor_file.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/attempt_rows.h"
@@ -20,8 +21,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t kShortestName = 4;
 
 constexpr const char* kSummaryColumns =
-    "SELECT a.id, a.uuid, t.code, exercise_id, level, hand, started_utc, seed, board, status, score, passed, grade,"
-    " organ_synthetic FROM attempt a JOIN trainee t ON t.id = a.trainee_id";
+    "SELECT a.id, a.uuid, t.code, exercise_id, level, hand, started_utc, seed, board, status, s.value,"
+    " coalesce(s.passed, 0), coalesce(s.grade, 'not graded'), organ_synthetic, exercise_version, a.ruleset_sha256,"
+    " integrity FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
+    " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0";
 
 AttemptSummary summary_of(const sql::Statement& row) {
   AttemptSummary summary;
@@ -39,6 +42,9 @@ AttemptSummary summary_of(const sql::Statement& row) {
   summary.passed = row.integer(11) != 0;
   summary.grade = row.text(12);
   summary.organ_synthetic = row.integer(13) != 0;
+  summary.exercise_version = row.text(14);
+  summary.rubric_sha256 = row.text(15);
+  summary.integrity = row.text(16);
   return summary;
 }
 
@@ -56,44 +62,55 @@ fs::path recording_beside(const Database& database, const std::string& uuid) {
   return database.file().parent_path() / (database.file().stem().string() + ".recordings") / (uuid + ".trec");
 }
 
+/// An attempt is stored before its recording is made, so one without the other was removed.
+std::vector<std::string> stray_recordings(const Database& database) {
+  std::vector<std::string> strays;
+  std::error_code error;
+  sql::Statement known(database.connection(), "SELECT 1 FROM attempt WHERE uuid = ?");
+  for (const auto& entry : fs::directory_iterator(recording_beside(database, "").parent_path(), error)) {
+    if (entry.path().extension() != ".trec") continue;
+    if (known.bind(entry.path().stem().string()).step()) {
+      known.run();
+      continue;
+    }
+    known.run();
+    strays.push_back("recording " + entry.path().string() + " belongs to no attempt of this database");
+  }
+  std::sort(strays.begin(), strays.end());
+  return strays;
+}
+
 void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t trainee,
                     const std::string& stored_recording, const AttemptId& id) {
-  sql::Statement version(connection, "INSERT INTO exercise_version VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING");
-  version.bind(id.rubric_sha256).bind(start.exercise_id).bind(start.exercise_version).bind(start.exercise_text).run();
+  sql::Statement exercise(connection, "INSERT INTO exercise VALUES (?, ?, ?)"
+                                      " ON CONFLICT (id) DO UPDATE SET number = excluded.number, title = excluded.title"
+                                      " WHERE number = ''");
+  exercise.bind(start.exercise_id).bind(start.exercise_number).bind(start.exercise_title).run();
+  sql::Statement ruleset(connection, "INSERT INTO ruleset SELECT ?1, ?2, ?3, ?4"
+                                     " WHERE NOT EXISTS (SELECT 1 FROM ruleset WHERE sha256 = ?1)");
+  ruleset.bind(id.rubric_sha256).bind(start.exercise_id).bind(start.exercise_version).bind(start.exercise_text).run();
   const ProcessIdentity owner = this_process();
   sql::Statement insert(
       connection,
-      "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed,"
+      "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed,"
       " board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc,"
-      " owner_pid, owner_boot, owner_start, recording_path, status)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
+      " owner_pid, owner_boot, owner_start, recording_path, program, hash_version, status)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
   insert.bind(id.uuid).bind(trainee).bind(start.exercise_id).bind(start.exercise_version).bind(id.rubric_sha256);
   insert.bind(start.level).bind(start.seed).bind(start.board).bind(start.hand).bind(start.organ_name);
   insert.bind(start.organ_source).bind(start.organ_sha256).bind(start.organ_synthetic).bind(start.organ_credit);
-  insert.bind(id.started_utc).bind(owner.pid).bind(owner.boot).bind(owner.start).bind(stored_recording).run();
-}
-
-void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording) {
-  sql::Statement update(
-      connection,
-      "UPDATE attempt SET finished_utc = ?, score = ?, passed = ?, grade = ?, recording_path = ?,"
-      " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
-      " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
-      " kappa = ?, device_fault = ? WHERE id = ?");
-  const DeviceReceipt& device = result.device;
-  update.bind(utc_now()).bind(result.grade.score).bind(result.grade.passed).bind(result.grade.grade);
-  update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
-  update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
-  update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
-  update.bind(row).run();
+  insert.bind(id.started_utc).bind(owner.pid).bind(owner.boot).bind(owner.start).bind(stored_recording);
+  insert.bind(start.program).bind(kHashVersion).run();
 }
 
 constexpr const char* kResultColumns =
-    "SELECT a.uuid, exercise_id, exercise_version, level, seed, board, t.code, hand, status, score, passed, grade,"
+    "SELECT a.uuid, exercise_id, exercise_version, level, seed, board, t.code, hand, status, s.value,"
+    " coalesce(s.passed, 0), coalesce(s.grade, 'not graded'),"
     " device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share, passivity_active_share,"
     " min_energy_j, kappa, device_fault, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit,"
-    " rubric_sha256, recording_sha256, recording_path, state_hash, started_utc"
-    " FROM attempt a JOIN trainee t ON t.id = a.trainee_id WHERE a.id = ?";
+    " a.ruleset_sha256, recording_sha256, recording_path, state_hash, started_utc, integrity"
+    " FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
+    " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?";
 
 DeviceReceipt receipt_of(const sql::Statement& row) {
   DeviceReceipt device;
@@ -134,15 +151,27 @@ AttemptResult result_of(const sql::Statement& row, const fs::path& database) {
   result.recording_path = located_recording(database, row.text(28)).string();
   result.state_hash = row.text(29);
   result.started_utc = row.text(30);
+  result.integrity = row.text(31);
   return result;
 }
 
 void check_name(std::string_view name) {
   const auto allowed = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || c == '-'; };
   if (name.size() < kShortestName || !std::all_of(name.begin(), name.end(), allowed)) {
-    throw InputError("attempt \"" + std::string(name) + "\": give \"latest\" or at least " +
-                     std::to_string(kShortestName) + " characters of its identifier, from the beginning or the end");
+    throw InputError("\"" + std::string(name) + "\": give at least " + std::to_string(kShortestName) +
+                     " characters of an identifier (for an attempt also of its end, or \"latest\")");
   }
+}
+
+/// An exam board is met once, however the first sitting ended.
+void refuse_second_exam(sqlite3* connection, const AttemptStart& start, std::int64_t trainee) {
+  sql::Statement taken(connection,
+                       "SELECT uuid, started_utc, status FROM attempt WHERE trainee_id = ? AND exercise_id = ?"
+                       " AND seed = ? AND level = ?");
+  if (!taken.bind(trainee).bind(start.exercise_id).bind(start.seed).bind(kExamLevel).step()) return;
+  throw InputError("exam of " + start.exercise_id + ", seed " + std::to_string(start.seed) + ": " + start.trainee +
+                   " sat it on " + taken.text(1) + " (attempt " + taken.text(0) + ", " + taken.text(2) +
+                   "); an exam board is met once, take another --seed");
 }
 
 }  // namespace
@@ -156,6 +185,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   id.started_utc = utc_now();
   sql::Transaction transaction(connection);
   const std::int64_t trainee = TraineeStore(*database_).ensure_id(start.trainee);
+  if (start.level == kExamLevel) refuse_second_exam(connection, start, trainee);
   insert_attempt(connection, start, trainee, stored_recording_path(database_->file(), id.recording), id);
   sql::Statement row(connection, "SELECT id FROM attempt WHERE uuid = ?");
   row.bind(id.uuid).step();
@@ -178,10 +208,9 @@ void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& resu
       throw InputError("attempt " + id.uuid + ": is already " + status.text(0) + " and cannot be finished again");
     }
   }
-  insert_attempt_rows(connection, id.row, result);
-  update_attempt(connection, id.row, result, stored_recording_path(database_->file(), recording));
-  seal_attempt(connection, id.row, result.grade.status);
+  write_result(connection, id.row, result, stored_recording_path(database_->file(), recording));
   transaction.commit();
+  append_anchor(database_->file(), audit_head(connection));
 }
 
 AttemptResult AttemptStore::load(std::int64_t row) const {
@@ -209,7 +238,7 @@ AttemptSummary AttemptStore::find(std::string_view name) const {
 
 std::vector<AttemptSummary> AttemptStore::list(const AttemptFilter& filter) const {
   sql::Statement rows(database_->connection(), std::string(kSummaryColumns) +
-                                                   " WHERE (?1 = '' OR t.code = ?1) AND (?2 = '' OR exercise_id = ?2)"
+                                                   " WHERE (?1 = '' OR t.code = ?1 COLLATE NOCASE) AND (?2 = '' OR exercise_id = ?2)"
                                                    " ORDER BY a.id DESC LIMIT ?3");
   rows.bind(filter.trainee).bind(filter.exercise_id).bind(filter.limit > 0 ? filter.limit : -1);
   std::vector<AttemptSummary> attempts;
@@ -224,9 +253,12 @@ std::optional<AttemptSummary> AttemptStore::latest(const std::string& trainee) c
 }
 
 std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const {
-  sql::Statement row(database_->connection(), "SELECT toml FROM exercise_version WHERE sha256 = ?");
-  if (!row.bind(rubric_sha256).step()) throw InputError("exercise version " + rubric_sha256 + ": not in this database");
-  return row.text(0);
+  check_name(rubric_sha256);
+  sql::Statement rows(database_->connection(), "SELECT toml FROM ruleset WHERE sha256 LIKE ? || '%' LIMIT 2");
+  if (!rows.bind(rubric_sha256).step()) throw InputError("rubric " + rubric_sha256 + ": not in this database");
+  const std::string text = rows.text(0);
+  if (rows.step()) throw InputError("rubric " + rubric_sha256 + ": several begin so; give more of it");
+  return text;
 }
 
 std::vector<std::string> AttemptStore::check_recordings() const {
@@ -244,6 +276,7 @@ std::vector<std::string> AttemptStore::check_recordings() const {
       problems.push_back(name + " was changed or cannot be read");
     }
   }
+  for (const std::string& stray : stray_recordings(*database_)) problems.push_back(stray);
   return problems;
 }
 

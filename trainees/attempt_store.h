@@ -20,15 +20,19 @@
 
 namespace trocar {
 
+/// Level whose boards a trainee meets once: a second attempt at the same exercise and seed is refused.
+inline constexpr const char* kExamLevel = "exam";
+
 /// What is known before the loop starts.
 struct AttemptStart {
   std::string trainee;  ///< code, created when new
-  std::string exercise_id, exercise_version;
+  std::string exercise_id, exercise_version, exercise_number, exercise_title;
   std::string exercise_text;  ///< bytes of the exercise file; their sha256 is the rubric's
   std::string level;
   std::int64_t seed = 0;
   int board = 0;
   std::string hand;
+  std::string program;  ///< its version
   std::string organ_name, organ_source, organ_sha256, organ_credit;
   bool organ_synthetic = false;
   /// Where it is recorded. Not given: beside the database (none when in memory). Empty: not recorded.
@@ -54,6 +58,8 @@ struct AttemptSummary {
   bool passed = false;
   std::string grade;
   bool organ_synthetic = false;
+  std::string exercise_version, rubric_sha256;
+  std::string integrity;  ///< why it was aborted or void
 };
 
 /// Empty fields do not filter.
@@ -66,7 +72,7 @@ class AttemptStore {
  public:
   explicit AttemptStore(Database& database) : database_(&database) {}
 
-  /// @throws InputError for a bad trainee code, EnvironmentError when the database cannot take it.
+  /// @throws InputError for a bad trainee code or a second sitting of an exam, EnvironmentError when the database cannot take it.
   AttemptId begin_attempt(const AttemptStart& start);
 
   /// Writes the result. What the attempt began with (trainee, exercise, organ, seed) is not taken from `result`; its
@@ -85,10 +91,11 @@ class AttemptStore {
   std::vector<AttemptSummary> list(const AttemptFilter& filter = {}) const;
   std::optional<AttemptSummary> latest(const std::string& trainee = "") const;
 
-  /// Exercise file as it stood for an attempt. @throws InputError when unknown.
+  /// Exercise file as it stood for an attempt, by at least 4 digits of its sha256. @throws InputError: unknown, several.
   std::string exercise_text(const std::string& rubric_sha256) const;
 
-  /// Recordings that finished attempts name but that are missing or changed, one line each.
+  /// Recordings that finished attempts name but that are missing or changed, and recordings in the database's folder
+  /// that no attempt names (an attempt was removed), one line each.
   std::vector<std::string> check_recordings() const;
 
  private:

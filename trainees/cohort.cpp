@@ -7,20 +7,24 @@ namespace {
 
 constexpr const char* kQuery = R"sql(
 WITH finished AS (
-  SELECT a.*, status IN ('completed', 'timeout') AS is_graded FROM attempt a WHERE status <> 'running'
+  SELECT a.id, a.trainee_id, a.exercise_id, a.exercise_version, a.ruleset_sha256, a.level, a.started_utc,
+         s.id AS score_id, s.value AS score, coalesce(s.passed, 0) AS passed,
+         a.status IN ('completed', 'timeout') AS is_graded
+  FROM attempt a LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.status <> 'running'
 )
 SELECT t.code, f.exercise_id, f.level, count(*), sum(is_graded), sum(passed),
        max(CASE WHEN is_graded THEN score END),
        (SELECT score FROM finished l WHERE l.trainee_id = f.trainee_id AND l.exercise_id = f.exercise_id
-          AND l.level = f.level AND l.is_graded ORDER BY l.id DESC LIMIT 1),
-       avg(CASE WHEN is_graded THEN peak.value END), avg(CASE WHEN is_graded THEN time.value END), max(f.started_utc)
+          AND l.level = f.level AND l.ruleset_sha256 = f.ruleset_sha256 AND l.is_graded ORDER BY l.id DESC LIMIT 1),
+       avg(CASE WHEN is_graded THEN peak.value END), avg(CASE WHEN is_graded THEN time.value END), max(f.started_utc),
+       f.exercise_version, f.ruleset_sha256
 FROM finished f
-JOIN trainee t ON t.id = f.trainee_id
-LEFT JOIN metric peak ON peak.attempt_id = f.id AND peak.name = ?1
-LEFT JOIN metric time ON time.attempt_id = f.id AND time.name = ?2
-WHERE ?3 = '' OR t.code = ?3
-GROUP BY t.id, f.exercise_id, f.level
-ORDER BY t.code, f.exercise_id, f.level
+JOIN known_trainee t ON t.id = f.trainee_id
+LEFT JOIN metric peak ON peak.score_id = f.score_id AND peak.name = ?1
+LEFT JOIN metric time ON time.score_id = f.score_id AND time.name = ?2
+WHERE ?3 = '' OR t.code = ?3 COLLATE NOCASE
+GROUP BY t.id, f.exercise_id, f.level, f.ruleset_sha256
+ORDER BY t.code, f.exercise_id, f.level, min(f.id)
 )sql";
 
 }  // namespace
@@ -42,6 +46,8 @@ std::vector<CohortRow> cohort(Database& database, const std::string& trainee) {
     row.mean_peak_force_n = rows.optional_real(8);
     row.mean_time_s = rows.optional_real(9);
     row.last_utc = rows.text(10);
+    row.exercise_version = rows.text(11);
+    row.rubric_sha256 = rows.text(12);
     result.push_back(row);
   }
   return result;

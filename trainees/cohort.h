@@ -1,8 +1,8 @@
-// The group at a glance: for every trainee, exercise and level what was tried and reached. Thread: that of the
+// The group at a glance: for every trainee, exercise, level and rubric what was tried and reached. Thread: that of the
 // Database.
 //
-// Only completed and timed-out attempts are graded; means and the best run over those. Levels are kept apart: a best
-// score over L1 and L3 together would compare nothing.
+// Only completed and timed-out attempts are graded; means and the best run over those. Levels and rubrics are kept
+// apart: a best score over L1 and L3, or over the shipped exercise and somebody's own of the same id, compares nothing.
 #pragma once
 
 #include <optional>
@@ -24,9 +24,10 @@ struct CohortRow {
   std::optional<double> best, last;                      ///< scores, 0..100
   std::optional<double> mean_peak_force_n, mean_time_s;  ///< empty when no graded attempt has the metric
   std::string last_utc;                                  ///< start of the newest attempt
+  std::string exercise_version, rubric_sha256;           ///< what it was graded by
 };
 
-/// Rows by trainee code, exercise and level. @param trainee only this code; empty: all.
+/// Rows by trainee code, exercise, level and first use of a rubric. @param trainee only this code; empty: all.
 std::vector<CohortRow> cohort(Database& database, const std::string& trainee = "");
 
 }  // namespace trocar

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "haptics/input_error.h"
+#include "trainees/anchor_file.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/sqlite_handle.h"
 
@@ -33,16 +34,19 @@ fs::path default_database_path() {
 
 void Database::Close::operator()(sqlite3* connection) const { sqlite3_close_v2(connection); }
 
-Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms) {
+Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, const Regrade& regrade) {
   if (file != ":memory:") file_ = fs::absolute(file).lexically_normal();
   open(mode, busy_timeout_ms);
   sqlite3_busy_timeout(connection_.get(), busy_timeout_ms);
+  if (schema_version() == 1) require_no_running_attempt(connection_.get());
   migration_ = migrate(connection_.get(), file_, shipped_migrations());
   if (!in_memory()) enter_wal(busy_timeout_ms);
   // The log is copied back every 4000 pages (16 MB), not every 1000: a commit that has to do it waits for the disk.
   sql::execute(connection_.get(),
                "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 4000");
-  recovered_ = recover_dead_attempts(connection_.get(), file_);
+  anchor_beginning();
+  recovered_ = recover_dead_attempts(connection_.get(), file_, regrade);
+  if (!recovered_.empty()) append_anchor(file_, audit_head(connection_.get()));
 }
 
 Database::~Database() = default;
@@ -80,6 +84,26 @@ void Database::enter_wal(int busy_timeout_ms) {
   }
 }
 
+void Database::anchor_beginning() {
+  // A missing file is made only where nothing could have been lost with it; otherwise check() must see that it is gone.
+  const AuditHead head = audit_head(connection_.get());
+  if (head.position == 1 && !in_memory() && !fs::exists(anchor_path(file_))) append_anchor(file_, head);
+}
+
+std::string Database::head() const {
+  const AuditHead head = audit_head(connection_.get());
+  return std::to_string(head.position) + ":" + head.row_hash;
+}
+
+void Database::renew_anchor() {
+  sql::Transaction transaction(connection_.get());
+  append_audit(connection_.get(), kActionRenewed, "", "");
+  transaction.commit();
+  std::error_code ignored;
+  fs::remove(anchor_path(file_), ignored);
+  append_anchor(file_, audit_head(connection_.get()));
+}
+
 int Database::schema_version() const {
   return static_cast<int>(sql::query_integer(connection_.get(), "PRAGMA user_version"));
 }
@@ -95,13 +119,21 @@ std::vector<std::string> Database::check() const {
     problems.push_back("reference: row " + references.text(1) + " of " + references.text(0) + " points to nothing in " +
                        references.text(2));
   }
-  for (const std::string& problem : check_chain(connection_.get())) problems.push_back("hash chain: " + problem);
+  const auto add = [&](const char* what, const std::vector<std::string>& found) {
+    for (const std::string& problem : found) problems.push_back(what + problem);
+  };
+  add("schema: ", check_schema(connection_.get(), shipped_migrations()));
+  add("hash chain: ", check_chain(connection_.get()));
+  add("audit trail: ", check_audit(connection_.get()));
+  add("anchor: ", check_anchor(file_, connection_.get()));
   return problems;
 }
 
 void Database::backup(const fs::path& to) const {
   make_folder(fs::absolute(to));
+  const auto anchor = read_anchor(file_);  // before the copy: what it holds is in the copy for certain
   copy_database(connection_.get(), to);
+  write_anchor(to, anchor);
 }
 
 }  // namespace trocar

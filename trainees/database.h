@@ -1,7 +1,7 @@
 // The database of trainees and attempts: one SQLite file in WAL mode, opened, migrated and repaired on construction.
 //
-// Opening creates the file and its folder, migrates an older schema (after a backup beside it) and marks attempts that
-// died with their process as aborted (attempt_recovery.h). synchronous = NORMAL: what is committed survives kill -9; a
+// Opening creates the file and its folder, migrates an older schema (after a backup beside it) and ends attempts that died
+// with their process (attempt_recovery.h). synchronous = NORMAL: what is committed survives kill -9; a
 // power cut may cost the last commits, never the database. Two programs at once work; writers wait for each other.
 // Thread: one Database belongs to one thread.
 #pragma once
@@ -30,9 +30,11 @@ class Database {
  public:
   /// @param file path, or ":memory:" for one that vanishes with the object.
   /// @param busy_timeout_ms how long to wait for another program's write.
-  /// @throws EnvironmentError: cannot be opened or written, folder not creatable, disk full, busy too long.
-  /// @throws InputError: not a database, another program's database, a newer schema, damaged.
-  explicit Database(const std::filesystem::path& file, OpenMode mode = OpenMode::kCreate, int busy_timeout_ms = 5000);
+  /// @param regrade grades whole recordings of attempts found dead; without it they are aborted.
+  /// @throws EnvironmentError: cannot be opened or written, folder not creatable, disk full, busy too long, a newer
+  /// schema. @throws InputError: not a database, another program's database, damaged.
+  explicit Database(const std::filesystem::path& file, OpenMode mode = OpenMode::kCreate, int busy_timeout_ms = 5000,
+                    const Regrade& regrade = {});
   ~Database();
   Database(Database&&) noexcept;
 
@@ -41,11 +43,15 @@ class Database {
   const std::filesystem::path& file() const { return file_; }
   int schema_version() const;
   const MigrationReport& migration() const { return migration_; }
-  /// Attempts found dead and marked as aborted when this object was made.
+  /// Attempts found dead and ended when this object was made.
   const std::vector<RecoveredAttempt>& recovered() const { return recovered_; }
 
-  /// Problems of the file, its references and its hash chain, one line each; empty when sound.
+  /// Problems of file, schema, references, hash chain, audit trail and anchor, one line each; empty when sound.
   std::vector<std::string> check() const;
+  /// Head of the audit trail as "POSITION:HASH": noted elsewhere, it shows any later change of what is there now.
+  std::string head() const;
+  /// Begins a new anchor file where the old one was lost, and says so in the audit trail.
+  void renew_anchor();
   /// Consistent copy. @throws InputError when `to` exists, EnvironmentError when it cannot be written.
   void backup(const std::filesystem::path& to) const;
 
@@ -57,6 +63,7 @@ class Database {
   };
   void open(OpenMode mode, int busy_timeout_ms);
   void enter_wal(int busy_timeout_ms);
+  void anchor_beginning();
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, Close> connection_;

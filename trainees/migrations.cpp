@@ -2,10 +2,12 @@
 
 #include <sqlite3.h>
 
+#include <map>
 #include <memory>
 #include <system_error>
 
 #include "haptics/input_error.h"
+#include "trainees/audit.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
@@ -44,12 +46,15 @@ fs::path backup_name(const fs::path& file, int version) {
   return name;
 }
 
-void apply(sqlite3* connection, std::span<const Migration> migrations) {
+/// @param from the version that the whole way began at.
+void apply(sqlite3* connection, std::span<const Migration> migrations, int from) {
   sql::Transaction transaction(connection);
   // Another program may have migrated since we looked: the version is read again under the lock.
   const int present = schema_version(connection);
   for (const Migration& migration : migrations) {
-    if (migration.version > present) sql::execute(connection, migration.sql);
+    if (migration.version <= present) continue;
+    sql::execute(connection, migration.sql);
+    if (migration.after != nullptr) migration.after(connection, from);
   }
   if (!sql::query_text(connection, "SELECT \"table\" FROM pragma_foreign_key_check").empty()) {
     throw InputError("database: migrating would break references between its tables; it was left as it was");
@@ -59,11 +64,68 @@ void apply(sqlite3* connection, std::span<const Migration> migrations) {
   transaction.commit();
 }
 
+std::vector<std::string> table_names(sqlite3* connection) {
+  std::vector<std::string> names;
+  sql::Statement rows(connection, "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name");
+  while (rows.step()) names.push_back(rows.text(0));
+  return names;
+}
+
+/// A backup that is not whole must be found now, not when it is needed.
+void verify_copy(sqlite3* original, const fs::path& copy) {
+  sqlite3* raw = nullptr;
+  const int code = sqlite3_open_v2(copy.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr);
+  const Connection opened(raw);
+  bool whole = code == SQLITE_OK && schema_version(raw) == schema_version(original) &&
+               sql::query_text(raw, "PRAGMA integrity_check") == "ok";
+  for (const std::string& table : table_names(original)) {
+    const std::string count = "SELECT count(*) FROM \"" + table + "\"";
+    whole = whole && sql::query_integer(raw, count) == sql::query_integer(original, count);
+  }
+  if (!whole) throw EnvironmentError(copy.string() + ": the backup is not whole; the database was not migrated");
+}
+
+/// The way to version 2 ends with the first entry of the trail: what was there before, and the head of its chain.
+void note_schema_2(sqlite3* connection, int from) {
+  if (from == 0) return append_audit(connection, kActionMade, "schema 2", "");
+  const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
+  const std::string head = sql::query_text(
+      connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
+  append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to 2",
+               attempts + " attempts, head " + (head.empty() ? "none" : head));
+}
+
+/// Everything that a schema is made of, by type and name.
+std::map<std::string, std::string> schema_of(sqlite3* connection) {
+  std::map<std::string, std::string> parts;
+  sql::Statement rows(connection, "SELECT type, name, sql FROM sqlite_schema WHERE name NOT LIKE 'sqlite_stat%'");
+  while (rows.step()) parts[rows.text(0) + " " + rows.text(1)] = rows.text(2);
+  return parts;
+}
+
 }  // namespace
 
 std::span<const Migration> shipped_migrations() {
-  static const Migration kMigrations[] = {{1, kSchemaV1}};
+  static const Migration kMigrations[] = {{1, kSchemaV1}, {2, schema_v2(), note_schema_2}};
   return kMigrations;
+}
+
+std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations) {
+  sqlite3* raw = nullptr;
+  sqlite3_open(":memory:", &raw);
+  const Connection fresh(raw);
+  migrate(raw, "", migrations);
+  const auto found = schema_of(connection), wanted = schema_of(raw);
+  std::vector<std::string> problems;
+  for (const auto& [part, text] : wanted) {
+    const auto present = found.find(part);
+    if (present == found.end()) problems.push_back(part + " is missing");
+    else if (present->second != text) problems.push_back(part + " was altered");
+  }
+  for (const auto& [part, text] : found) {
+    if (!wanted.contains(part)) problems.push_back(part + " does not belong here");
+  }
+  return problems;
 }
 
 MigrationReport migrate(sqlite3* connection, const fs::path& file, std::span<const Migration> migrations) {
@@ -72,15 +134,16 @@ MigrationReport migrate(sqlite3* connection, const fs::path& file, std::span<con
   report.from = schema_version(connection);
   report.to = migrations.back().version;
   if (report.from > report.to) {
-    throw InputError(name_of(file) + ": was written by a newer trocar (schema " + std::to_string(report.from) +
-                     ", this program knows up to " + std::to_string(report.to) + ")");
+    throw EnvironmentError(name_of(file) + ": was written by a newer trocar (schema " + std::to_string(report.from) +
+                           ", this program knows up to " + std::to_string(report.to) + "); it was left as it is");
   }
   if (report.from == report.to) return report;
   if (report.from > 0 && !file.empty()) {
     report.backup = backup_name(file, report.from);
     copy_database(connection, report.backup);
+    verify_copy(connection, report.backup);
   }
-  apply(connection, migrations);
+  apply(connection, migrations, report.from);
   return report;
 }
 

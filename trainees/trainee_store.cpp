@@ -12,9 +12,10 @@ namespace {
 constexpr std::size_t kMaxCode = 32;
 
 constexpr const char* kSelect =
-    "SELECT t.id, t.uuid, t.code, t.created_utc, count(a.id), coalesce(sum(a.passed), 0), coalesce(max(a.started_utc), "
-    "'')"
-    " FROM trainee t LEFT JOIN attempt a ON a.trainee_id = t.id AND a.status <> 'running'";
+    "SELECT t.id, t.uuid, t.code, t.created_utc, count(a.id), coalesce(sum(s.passed), 0),"
+    " coalesce(max(a.started_utc), '') FROM known_trainee t"
+    " LEFT JOIN attempt a ON a.trainee_id = t.id AND a.status <> 'running'"
+    " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0";
 
 void check_code(const std::string& code) {
   const auto letter_or_digit = [](char c) {
@@ -44,24 +45,28 @@ Trainee trainee_of(const sql::Statement& row) {
 }  // namespace
 
 Trainee TraineeStore::ensure_trainee(const std::string& code) {
+  sql::Transaction transaction(connection_);
   ensure_id(code);
+  transaction.commit();
   return find(code).value();
 }
 
 std::int64_t TraineeStore::ensure_id(const std::string& code) {
   check_code(code);
-  sql::Statement known(connection_, "SELECT id FROM trainee WHERE code = ?");
+  sql::Statement known(connection_, "SELECT trainee_id FROM person WHERE code = ?");
   if (known.bind(code).step()) return known.integer(0);
-  sql::Statement insert(connection_,
-                        "INSERT INTO trainee (uuid, code, created_utc) VALUES (?, ?, ?) ON CONFLICT (code) DO NOTHING");
-  insert.bind(make_uuid()).bind(code).bind(utc_now()).run();
-  sql::Statement added(connection_, "SELECT id FROM trainee WHERE code = ?");
+  const std::string uuid = make_uuid();
+  sql::Statement trainee(connection_, "INSERT INTO trainee (uuid, created_utc) VALUES (?, ?)");
+  trainee.bind(uuid).bind(utc_now()).run();
+  sql::Statement person(connection_, "INSERT INTO person (trainee_id, code) SELECT id, ? FROM trainee WHERE uuid = ?");
+  person.bind(code).bind(uuid).run();
+  sql::Statement added(connection_, "SELECT trainee_id FROM person WHERE code = ?");
   added.bind(code).step();
   return added.integer(0);
 }
 
 std::optional<Trainee> TraineeStore::find(const std::string& code) const {
-  sql::Statement row(connection_, std::string(kSelect) + " WHERE t.code = ? GROUP BY t.id");
+  sql::Statement row(connection_, std::string(kSelect) + " WHERE t.code = ? COLLATE NOCASE GROUP BY t.id");
   if (!row.bind(code).step()) return std::nullopt;
   return trainee_of(row);
 }

@@ -25,7 +25,7 @@ class TraineeStore {
   /// The trainee of that code, created when new. Codes differ by more than case.
   /// @throws InputError: a code is 1 to 32 letters, digits, '.', '-' or '_', beginning with a letter or digit.
   Trainee ensure_trainee(const std::string& code);
-  /// The same, but only the row's number: does not count the trainee's attempts.
+  /// The same, but only the row's number, and inside the caller's transaction.
   std::int64_t ensure_id(const std::string& code);
   std::optional<Trainee> find(const std::string& code) const;
   /// All, by code.

@@ -76,6 +76,7 @@ std::string attempt_json(const AttemptResult& result) {
       {"score", number(result.grade.score)},
       {"passed", result.grade.passed},
       {"grade", result.grade.grade},
+      {"integrity", result.integrity.empty() ? Json(nullptr) : Json(result.integrity)},
       {"subscores", subscores(result.grade)},
       {"caps", result.grade.caps},
       {"events", events(result)},

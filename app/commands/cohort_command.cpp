@@ -18,6 +18,7 @@ int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream
   }
   TextTable table({{"trainee"},
                    {"exercise"},
+                   {"rubric"},
                    {"level"},
                    {"attempts", Align::kRight},
                    {"graded", Align::kRight},
@@ -28,7 +29,7 @@ int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream
                    {"mean time s", Align::kRight},
                    {"last (UTC)"}});
   for (const CohortRow& row : rows) {
-    table.add({row.trainee, row.exercise_id, row.level, std::to_string(row.attempts), std::to_string(row.graded),
+    table.add({row.trainee, row.exercise_id, cell_rubric(row.exercise_version, row.rubric_sha256), row.level, std::to_string(row.attempts), std::to_string(row.graded),
                std::to_string(row.passes), cell(row.best, 1), cell(row.last, 1), cell(row.mean_peak_force_n, 2),
                cell(row.mean_time_s, 1), cell_time(row.last_utc)});
   }

@@ -30,7 +30,7 @@ int db_check(const DbOptions& options, std::ostream& out, std::ostream& err) {
     out << problems_json(database, problems);
   } else if (problems.empty()) {
     out << database.file().string() << ": sound (schema " << database.schema_version() << ", " << attempts.list().size()
-        << " attempts)\n";
+        << " attempts, head " << database.head() << ")\n";
   } else {
     for (const std::string& problem : problems) out << problem << '\n';
   }
@@ -42,6 +42,19 @@ int db_backup(const DbOptions& options, std::ostream& out, std::ostream& err) {
   const auto target = options.output.empty() ? default_backup(database) : options.output;
   database.backup(target);
   out << target.string() << '\n';
+  return 0;
+}
+
+int db_anchor(const DbOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  database.renew_anchor();
+  out << "anchored at " << database.head() << '\n';
+  return 0;
+}
+
+int db_rubric(const DbOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  out << AttemptStore(database).exercise_text(options.rubric);
   return 0;
 }
 

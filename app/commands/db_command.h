@@ -1,18 +1,20 @@
-// `trocar db check|backup|migrate`. InputError and EnvironmentError leave as they are.
+// `trocar db check|backup|migrate|anchor|rubric`. InputError and EnvironmentError leave as they are.
 #pragma once
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 
 namespace trocar {
 
 struct DbOptions {
   std::filesystem::path database;  ///< empty: the default path
   std::filesystem::path output;    ///< of backup; empty: DATABASE.TIME.backup beside it
+  std::string rubric;              ///< of rubric: beginning of its sha256
   bool json = false;               ///< of check
 };
 
-/// File, references, hash chain, exercise versions and the recordings' digests.
+/// File, schema with its triggers, references, hash chain, audit trail, anchor, rubrics and the recordings' digests.
 /// @return exit code 0 when sound, 2 when anything is not; the problems are the result.
 int db_check(const DbOptions& options, std::ostream& out, std::ostream& err);
 /// @return exit code 0; the copy's path is the result. Never overwrites (InputError).
@@ -20,5 +22,9 @@ int db_backup(const DbOptions& options, std::ostream& out, std::ostream& err);
 /// Brings the database to this program's schema, which every command does by itself, and says so.
 /// @return exit code 0
 int db_migrate(const DbOptions& options, std::ostream& out, std::ostream& err);
+/// Begins a new anchor file. @return exit code 0; the head of the audit trail is the result.
+int db_anchor(const DbOptions& options, std::ostream& out, std::ostream& err);
+/// The exercise file that attempts were graded by, whether or not it still exists elsewhere. @return exit code 0
+int db_rubric(const DbOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace trocar

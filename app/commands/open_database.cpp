@@ -2,16 +2,26 @@
 
 #include <ostream>
 
+#include "app/commands/text_table.h"
+#include "app/recorded_result.h"
+
 namespace trocar {
 
 Database open_database(const std::filesystem::path& file, OpenMode mode, std::ostream& err) {
-  Database database(file.empty() ? default_database_path() : file, mode);
+  constexpr int kBusy_ms = 5000;
+  Database database(file.empty() ? default_database_path() : file, mode, kBusy_ms, regrade_file);
   const MigrationReport& migration = database.migration();
   if (!migration.backup.empty()) {
     err << database.file().string() << ": migrated from schema " << migration.from << " to " << migration.to
         << "; the old database is kept as " << migration.backup.string() << '\n';
   }
   for (const RecoveredAttempt& attempt : database.recovered()) {
+    if (attempt.status != AttemptStatus::kAborted) {
+      err << "attempt " << attempt.uuid << " of " << attempt.trainee << " was over but not stored; its recording gave "
+          << status_name(attempt.status) << (attempt.score ? ", score " + cell(attempt.score, 1) : "") << ": "
+          << attempt.recording.string() << '\n';
+      continue;
+    }
     err << "attempt " << attempt.uuid << " of " << attempt.trainee << " was cut off and is now marked as aborted; "
         << (attempt.recording.empty() ? "it left no recording"
                                       : "its recording is readable: " + attempt.recording.string())

@@ -9,6 +9,8 @@
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
 #include "app/commands/open_database.h"
+#include "app/recorded_result.h"
+#include "digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
@@ -60,6 +62,9 @@ AttemptStart start_of(const RunOptions& options, const Scene& scene) {
   start.trainee = options.trainee;
   start.exercise_id = scene.setup.exercise.id;
   start.exercise_version = scene.setup.exercise.version;
+  start.exercise_number = scene.setup.exercise.number;
+  start.exercise_title = scene.setup.exercise.title;
+  start.program = TROCAR_VERSION;
   start.exercise_text = scene.setup.exercise.text;
   start.level = scene.level.name;
   start.seed = scene.setup.seed;
@@ -74,9 +79,9 @@ AttemptStart start_of(const RunOptions& options, const Scene& scene) {
   return start;
 }
 
-AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const SessionOutcome& outcome,
-                        const Recording& recording) {
-  AttemptResult result;
+/// What the attempt began with, and what its recording says.
+AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const Recording& recording) {
+  AttemptResult result = recorded_result(recording, id.recording);
   result.uuid = id.uuid;
   result.started_utc = id.started_utc;
   result.exercise_id = start.exercise_id;
@@ -92,13 +97,6 @@ AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const Se
   result.organ_credit = start.organ_credit;
   result.organ_synthetic = start.organ_synthetic;
   result.rubric_sha256 = id.rubric_sha256;
-  result.recording_sha256 = recording.sha256;
-  result.recording_path = id.recording.string();
-  result.state_hash = outcome.state_hash_hex;
-  result.grade = grade_recording(recording, id.recording.empty() ? "recording" : id.recording.string());
-  result.events = recording.events;
-  result.device = outcome.device;
-  fill_shares(recording, result.device);
   return result;
 }
 
@@ -115,6 +113,39 @@ std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const As
   RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
   SessionOutcome outcome = run_session(scene, assets, writer, observe);
   return {std::move(outcome), read_recording(file)};
+}
+
+/// The same; when the machine fails it (a full disk), the attempt is ended as aborted with the reason.
+std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const AttemptId& id, const Scene& scene,
+                                                     const AssetRoots& assets, const SessionObserver& observe) {
+  try {
+    return record_session(scene, assets, id.recording, observe);
+  } catch (const EnvironmentError& error) {
+    AttemptResult result;
+    result.grade.grade = "not graded";
+    result.integrity = error.what();
+    if (!id.recording.empty()) result.recording_sha256 = digest::of_readable_file(id.recording);
+    try {
+      store.finish_attempt(id, result);
+    } catch (const EnvironmentError&) {
+      // The same disk: the attempt is ended as aborted when the database is next opened. The first reason is the news.
+    }
+    throw;
+  }
+}
+
+/// A result that cannot be stored is not lost: its recording is whole, and graded again at the next opening.
+void store_or_say(AttemptStore& store, const AttemptId& id, const AttemptResult& result) {
+  try {
+    store.finish_attempt(id, result);
+  } catch (const EnvironmentError& error) {
+    if (id.recording.empty()) throw;
+    std::string score = status_name(result.grade.status);
+    if (result.grade.score) score += ", score " + std::to_string(*result.grade.score);
+    throw EnvironmentError(std::string(error.what()) + "\ntrocar: the attempt was not stored (" + score +
+                           "); its recording " + id.recording.string() +
+                           " holds the result, which is stored when the database is next opened");
+  }
 }
 
 void say_beginning(const Scene& scene, std::ostream& err) {
@@ -188,9 +219,9 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   const AttemptStart start = start_of(options, scene);
   const AttemptId id = store.begin_attempt(start);
   say_beginning(scene, err);
-  const auto [outcome, recording] = record_session(scene, assets, id.recording, observe);
-  const AttemptResult result = result_of(start, id, outcome, recording);
-  store.finish_attempt(id, result);
+  const auto [outcome, recording] = record_or_abort(store, id, scene, assets, observe);
+  const AttemptResult result = result_of(start, id, recording);
+  store_or_say(store, id, result);
   if (outcome.patch_triangles_dropped > 0) {
     err << "trocar: " << outcome.patch_triangles_dropped
         << " triangles near the tool did not fit into contact patches: the surface is too fine\n";

@@ -18,6 +18,8 @@ Json json_of(const AttemptSummary& attempt) {
   return {{"uuid", attempt.uuid},
           {"started_utc", attempt.started_utc},
           {"exercise", attempt.exercise_id},
+          {"exercise_version", attempt.exercise_version},
+          {"rubric_sha256", attempt.rubric_sha256},
           {"level", attempt.level},
           {"board", attempt.board},
           {"seed", attempt.seed},
@@ -26,12 +28,15 @@ Json json_of(const AttemptSummary& attempt) {
           {"score", number(attempt.score)},
           {"passed", attempt.passed},
           {"grade", attempt.grade},
+          {"integrity", attempt.integrity.empty() ? Json(nullptr) : Json(attempt.integrity)},
           {"organ_synthetic", attempt.organ_synthetic}};
 }
 
 Json json_of(const CohortRow& row) {
   return {{"trainee", row.trainee},
           {"exercise", row.exercise_id},
+          {"exercise_version", row.exercise_version},
+          {"rubric_sha256", row.rubric_sha256},
           {"level", row.level},
           {"attempts", row.attempts},
           {"graded", row.graded},
@@ -67,6 +72,7 @@ std::string cohort_json(const std::vector<CohortRow>& rows) { return text_of(arr
 std::string problems_json(const Database& database, const std::vector<std::string>& problems) {
   return text_of({{"database", database.file().string()},
                   {"schema", database.schema_version()},
+                  {"head", database.head()},
                   {"sound", problems.empty()},
                   {"problems", problems}});
 }

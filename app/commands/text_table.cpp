@@ -40,6 +40,11 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return text;
 }
 
+std::string cell_rubric(const std::string& version, const std::string& sha256) {
+  constexpr std::size_t kShown = 8;
+  return version + " " + sha256.substr(0, kShown);
+}
+
 std::string cell_time(const std::string& utc) {
   if (utc.size() < 16) return "-";
   return utc.substr(0, 10) + " " + utc.substr(11, 5);

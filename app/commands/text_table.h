@@ -32,6 +32,9 @@ class TextTable {
 /// The number with that many decimals, "-" when there is none.
 std::string cell(const std::optional<double>& value, int decimals);
 
+/// "1 f15c376e": version and first digits of the bytes that graded, so that two files of one id are told apart.
+std::string cell_rubric(const std::string& version, const std::string& sha256);
+
 /// "2026-03-01 09:30" of an ISO 8601 time; "-" when empty.
 std::string cell_time(const std::string& utc);
 

@@ -15,6 +15,7 @@ using Align = TextTable::Align;
 void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& out) {
   TextTable table({{"started (UTC)"},
                    {"exercise"},
+                   {"rubric"},
                    {"level"},
                    {"board", Align::kRight},
                    {"hand"},
@@ -24,7 +25,8 @@ void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& o
                    {"organ"},
                    {"attempt"}});
   for (const AttemptSummary& attempt : attempts) {
-    table.add({cell_time(attempt.started_utc), attempt.exercise_id, attempt.level, std::to_string(attempt.board),
+    table.add({cell_time(attempt.started_utc), attempt.exercise_id,
+               cell_rubric(attempt.exercise_version, attempt.rubric_sha256), attempt.level, std::to_string(attempt.board),
                attempt.hand, attempt.status, cell(attempt.score, 1), attempt.grade,
                attempt.organ_synthetic ? "synthetic" : "", attempt.uuid});
   }

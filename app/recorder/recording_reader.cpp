@@ -80,6 +80,9 @@ class Parser {
           return accept_ticks(chunk);
         case ChunkType::kEvents:
           return accept_events(chunk);
+        case ChunkType::kReceipt:
+          recording_.receipt_json = std::string(chunk.payload);
+          return;
         case ChunkType::kEnd:
           recording_.end = decode_end(chunk.payload);
           return;

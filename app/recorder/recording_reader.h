@@ -21,6 +21,7 @@ struct Recording {
   double rate_hz = 0;
   std::vector<RecordedTick> ticks;  ///< ticks increase; they may skip only where `damage` or the device says so
   std::vector<Event> events;
+  std::string receipt_json;         ///< opaque text given to close(), empty when cut off
   std::optional<RecordingEnd> end;  ///< absent when the attempt was cut off
   std::string torn;                 ///< why there is no END, empty when the recording is complete
   std::vector<std::string> damage;  ///< tolerant mode: what could not be read

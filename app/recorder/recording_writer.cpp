@@ -85,11 +85,12 @@ void RecordingWriter::flush() {
   if (!chunks.empty()) write(chunks);
 }
 
-void RecordingWriter::close(RecordingEnd end) {
+void RecordingWriter::close(RecordingEnd end, std::string_view receipt_json) {
   flush();
   end.tick_count = tick_count_;
   end.event_count = event_count_;
-  write(make_chunk(ChunkType::kEnd, encode_end(end)));
+  const std::string receipt = receipt_json.empty() ? "" : make_chunk(ChunkType::kReceipt, receipt_json);
+  write(receipt + make_chunk(ChunkType::kEnd, encode_end(end)));
   state_ = State::kClosed;
 }
 

@@ -61,6 +61,7 @@ struct AttemptResult {
   bool organ_synthetic = false;
   std::string organ_credit;            ///< licence and origin, shown wherever the organ is
   std::string rubric_sha256, recording_sha256, recording_path;
+  std::string integrity;               ///< why it was aborted or void, empty when nothing is wrong
   std::string state_hash;              ///< 16 hexadecimal digits
   std::string started_utc;             ///< ISO 8601, wall clock, informative only
 };

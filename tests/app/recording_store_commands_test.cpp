@@ -88,6 +88,37 @@ TEST_F(StoreCommands, CohortShowsBestLastAndMeans) {
   EXPECT_TRUE(json[0]["best"].is_null());
 }
 
+TEST_F(StoreCommands, AnExerciseFileOfTheSameIdIsSeenAsAnother) {
+  Database database(file_);
+  store_attempt(database, sample_start("T-one"), sample_result(60));
+  AttemptStart easier = sample_start("T-one");
+  easier.exercise_text += "# easier\n";
+  store_attempt(database, easier, sample_result(100));
+  EXPECT_EQ(cohort_command({file_, ""}, out_, err_), 0);
+  const std::string shipped = "1.0 " + digest::of_bytes(sample_start().exercise_text).substr(0, 8);
+  const std::string own = "1.0 " + digest::of_bytes(easier.exercise_text).substr(0, 8);
+  EXPECT_NE(out_.str().find("surface-touch  " + shipped), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("surface-touch  " + own), std::string::npos) << out_.str();
+  out_.str("");
+  EXPECT_EQ(trainee_show({file_, "T-one", 0}, out_, err_), 0);
+  EXPECT_LT(out_.str().find(own), out_.str().find(shipped)) << "newest first: " << out_.str();
+  out_.str("");
+  EXPECT_EQ(db_rubric({file_, "", digest::of_bytes(easier.exercise_text).substr(0, 8)}, out_, err_), 0);
+  EXPECT_EQ(out_.str(), easier.exercise_text);
+  EXPECT_THROW(db_rubric({file_, "", "ffff"}, out_, err_), InputError);
+  EXPECT_THROW(db_rubric({file_, "", "x"}, out_, err_), InputError);
+}
+
+TEST_F(StoreCommands, DbAnchorRenewsALostAnchor) {
+  fill();
+  std::filesystem::remove(file_.string() + ".anchor");
+  EXPECT_EQ(db_check({file_, ""}, out_, err_), 2);
+  out_.str("");
+  EXPECT_EQ(db_anchor({file_, ""}, out_, err_), 0);
+  EXPECT_EQ(out_.str().substr(0, 14), "anchored at 5:");
+  EXPECT_EQ(db_check({file_, ""}, out_, err_), 0) << out_.str();
+}
+
 TEST_F(StoreCommands, ReadingCommandsDoNotMakeADatabase) {
   EXPECT_THROW(trainee_list({file_, ""}, out_, err_), EnvironmentError);
   EXPECT_THROW(trainee_show({file_, "x"}, out_, err_), EnvironmentError);
@@ -100,13 +131,14 @@ TEST_F(StoreCommands, ReadingCommandsDoNotMakeADatabase) {
 TEST_F(StoreCommands, DbCheckIsZeroWhenSoundAndTwoWhenNot) {
   fill();
   EXPECT_EQ(db_check({file_, ""}, out_, err_), 0);
-  EXPECT_NE(out_.str().find("sound (schema 1, 3 attempts)"), std::string::npos) << out_.str();
-  ASSERT_EQ(run_outside(file_, "DROP TRIGGER attempt_no_update; UPDATE attempt SET score = 100 WHERE id = 1"), "");
+  EXPECT_NE(out_.str().find("sound (schema 2, 3 attempts, head 4:"), std::string::npos) << out_.str();
+  ASSERT_EQ(run_outside(file_, "DROP TRIGGER score_no_update; UPDATE score SET value = 100 WHERE attempt_id = 1"), "");
   out_.str("");
   EXPECT_EQ(db_check({file_, "", true}, out_, err_), 2);
   const Json json = Json::parse(out_.str());
   EXPECT_EQ(json["sound"], false);
-  EXPECT_EQ(json["problems"].size(), 1u);
+  EXPECT_EQ(json["problems"].size(), 2u) << "the score, and the trigger";
+  EXPECT_EQ(json["head"].get<std::string>().substr(0, 2), "4:");
 }
 
 TEST_F(StoreCommands, DbCheckFindsAChangedRecording) {
@@ -134,7 +166,7 @@ TEST_F(StoreCommands, DbBackupNamesItsCopyAndMigrateSaysWhereItStands) {
   EXPECT_THROW(db_backup({file_, folder_ / "named"}, out_, err_), InputError);
   out_.str("");
   EXPECT_EQ(db_migrate({file_, ""}, out_, err_), 0);
-  EXPECT_EQ(out_.str(), "schema 1, up to date\n");
+  EXPECT_EQ(out_.str(), "schema 2, up to date\n");
 }
 
 TEST_F(StoreCommands, OpeningReportsAttemptsThatWereCutOff) {

@@ -16,8 +16,9 @@ class AttemptChain : public TemporaryFolder {
   std::string after(const std::string& sql) {
     const char* triggers[] = {"attempt_no_update",          "attempt_no_delete",  "attempt_keeps_identity",
                               "metric_no_update",           "event_no_delete",    "subscore_no_update",
-                              "exercise_version_no_update", "event_no_update",    "score_cap_no_update",
-                              "metric_no_delete",           "subscore_no_delete", "score_cap_no_delete"};
+                              "ruleset_no_update", "event_no_update",    "score_cap_no_update",
+                              "metric_no_delete",           "subscore_no_delete", "score_cap_no_delete",
+                              "score_no_update",            "score_no_delete"};
     for (const char* trigger : triggers) {
       EXPECT_EQ(run_outside(file_, std::string("DROP TRIGGER ") + trigger), "");
     }
@@ -26,13 +27,17 @@ class AttemptChain : public TemporaryFolder {
     for (const std::string& problem : Database(file_).check()) problems += problem + "\n";
     return problems;
   }
+  static constexpr const char* kRemoveSecond =
+      "DELETE FROM event WHERE attempt_id = 2; DELETE FROM metric WHERE score_id = 2;"
+      "DELETE FROM subscore WHERE score_id = 2; DELETE FROM score_cap WHERE score_id = 2;"
+      "DELETE FROM score WHERE id = 2; DELETE FROM attempt WHERE id = 2";
   std::filesystem::path file_;
 };
 
 TEST_F(AttemptChain, IsSoundWhenUntouched) { EXPECT_TRUE(Database(file_).check().empty()); }
 
 TEST_F(AttemptChain, ShowsAChangedScore) {
-  EXPECT_NE(after("UPDATE attempt SET score = 99 WHERE id = 2").find("was changed after it was finished"),
+  EXPECT_NE(after("UPDATE score SET value = 99 WHERE attempt_id = 2").find("was changed after it was finished"),
             std::string::npos);
 }
 
@@ -41,7 +46,7 @@ TEST_F(AttemptChain, ShowsAChangedStatus) {
 }
 
 TEST_F(AttemptChain, ShowsAChangeInTheLastDigitOfAMetric) {
-  EXPECT_NE(after("UPDATE metric SET value = value + 1e-15 WHERE attempt_id = 1 AND name = 'force_max_n'"), "");
+  EXPECT_NE(after("UPDATE metric SET value = value + 1e-15 WHERE score_id = 1 AND name = 'force_max_n'"), "");
 }
 
 TEST_F(AttemptChain, ShowsARemovedEvent) {
@@ -49,16 +54,14 @@ TEST_F(AttemptChain, ShowsARemovedEvent) {
 }
 
 TEST_F(AttemptChain, ShowsAChangedSubscoreAndCap) {
-  EXPECT_NE(after("UPDATE subscore SET weight = 1 WHERE attempt_id = 1 AND position = 0;"
-                  "UPDATE score_cap SET reason = '' WHERE attempt_id = 2"),
+  EXPECT_NE(after("UPDATE subscore SET weight = 1 WHERE score_id = 1 AND position = 0;"
+                  "UPDATE score_cap SET reason = '' WHERE score_id = 2"),
             "");
 }
 
 TEST_F(AttemptChain, ShowsARemovedAttempt) {
   const std::string problems = after(
-      "DELETE FROM event WHERE attempt_id = 2; DELETE FROM metric WHERE attempt_id = 2;"
-      "DELETE FROM subscore WHERE attempt_id = 2; DELETE FROM score_cap WHERE attempt_id = 2;"
-      "DELETE FROM attempt WHERE id = 2");
+      kRemoveSecond);
   EXPECT_NE(problems.find("attempts 2 to 2 are missing"), std::string::npos) << problems;
 }
 
@@ -67,7 +70,7 @@ TEST_F(AttemptChain, ShowsAnAttemptThatNoLongerFollows) {
 }
 
 TEST_F(AttemptChain, ShowsAChangedExercise) {
-  EXPECT_NE(after("UPDATE exercise_version SET toml = 'easier'").find("exercise surface-touch"), std::string::npos);
+  EXPECT_NE(after("UPDATE ruleset SET toml = 'easier'").find("exercise surface-touch"), std::string::npos);
 }
 
 TEST_F(AttemptChain, ABrokenReferenceIsReported) {

@@ -171,7 +171,8 @@ TEST_F(AttemptFile, AFinishedAttemptCannotBeChangedFromOutside) {
     id = store_attempt(database, sample_start(), sample_result());
   }
   const std::string changes[] = {
-      "UPDATE attempt SET score = 100",
+      "UPDATE score SET value = 100",
+      "DELETE FROM score",
       "UPDATE attempt SET status = 'running'",
       "DELETE FROM attempt",
       "UPDATE event SET value = 0",
@@ -183,19 +184,27 @@ TEST_F(AttemptFile, AFinishedAttemptCannotBeChangedFromOutside) {
       "DELETE FROM score_cap",
       "UPDATE score_cap SET reason = ''",
       "INSERT INTO event SELECT attempt_id, 99, t_s, type, severity, object, value, unit, 0, 0, 0 FROM event LIMIT 1",
+      "INSERT INTO score (attempt_id, revision, ruleset_sha256, passed, grade)"
+      " SELECT attempt_id, 1, ruleset_sha256, 1, 'expert' FROM score",
+      "INSERT OR REPLACE INTO score SELECT * FROM score",
       "INSERT INTO metric VALUES (1, 99, 'luck', 1, '')",
       "INSERT OR REPLACE INTO metric VALUES (1, 0, 'time', 1, 's')",
-      "INSERT INTO subscore SELECT attempt_id, 99, 'luck', 1, 1, 1, '', 0, 0, 0 FROM subscore LIMIT 1",
+      "INSERT INTO subscore SELECT score_id, 99, 'luck', 1, 1, 1, '', 0, 0, 0 FROM subscore LIMIT 1",
       "INSERT INTO score_cap VALUES (1, 99, 'x')",
-      "UPDATE exercise_version SET toml = ''",
-      "DELETE FROM exercise_version",
+      "UPDATE ruleset SET toml = ''",
+      "DELETE FROM ruleset",
+      "INSERT OR REPLACE INTO ruleset SELECT sha256, exercise_id, version, 'easier' FROM ruleset",
+      "UPDATE audit SET detail = ''",
+      "DELETE FROM audit",
+      "INSERT INTO audit VALUES (9, '', '', '', '', '', '', 'x')",
+      "INSERT OR REPLACE INTO audit SELECT * FROM audit",
       "INSERT OR REPLACE INTO attempt SELECT * FROM attempt",
-      "INSERT OR REPLACE INTO attempt (uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed, "
+      "INSERT OR REPLACE INTO attempt (uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed, "
       "board,"
       " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, owner_pid, "
       "owner_boot,"
-      " owner_start, status) SELECT uuid, trainee_id, exercise_id, exercise_version, rubric_sha256, level, seed, board,"
-      " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, 1, '', 1, 'running'"
+      " owner_start, program, hash_version, status) SELECT uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed, board,"
+      " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, 1, '', 1, '', 2, 'running'"
       " FROM attempt"};
   for (const std::string& change : changes) EXPECT_NE(run_outside(folder_ / "t.db", change), "") << change;
   Database database(folder_ / "t.db");

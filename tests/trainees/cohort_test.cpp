@@ -43,6 +43,23 @@ TEST(Cohort, SummarisesByTraineeExerciseAndLevel) {
   EXPECT_FALSE(rows[2].best || rows[2].last || rows[2].mean_peak_force_n);
 }
 
+TEST(Cohort, KeepsRubricsOfOneIdApart) {
+  Database database(":memory:");
+  store_attempt(database, sample_start("A"), sample_result(60));
+  AttemptStart easier = sample_start("A");
+  easier.exercise_text += "# easier\n";
+  easier.exercise_version = "mine";
+  store_attempt(database, easier, sample_result(100));
+  store_attempt(database, sample_start("A"), sample_result(70));
+  const auto rows = cohort(database);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].best, 70);
+  EXPECT_EQ(rows[0].last, 70);
+  EXPECT_EQ(rows[1].best, 100);
+  EXPECT_EQ(rows[1].exercise_version, "mine");
+  EXPECT_NE(rows[0].rubric_sha256, rows[1].rubric_sha256);
+}
+
 TEST(Cohort, CanBeNarrowedToOneTrainee) {
   Database database(":memory:");
   store_attempt(database, sample_start("A"), sample_result(80));

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 
 #include "tests/trainees/store_samples.h"
 #include "trainees/trainee_store.h"
@@ -66,8 +67,8 @@ TEST_F(DatabaseFile, AnotherProgramsDatabaseIsLeftAlone) {
 TEST_F(DatabaseFile, ANewerSchemaIsRefusedAndNotTouched) {
   { Database database(folder_ / "t.db"); }
   ASSERT_EQ(run_outside(folder_ / "t.db", "PRAGMA user_version = 99"), "");
-  const std::string message = message_of<InputError>([&] { Database(folder_ / "t.db"); });
-  EXPECT_NE(message.find("newer trocar (schema 99"), std::string::npos) << message;
+  const std::string message = message_of<EnvironmentError>([&] { Database(folder_ / "t.db"); });
+  EXPECT_NE(message.find("newer trocar (schema 99, this program knows up to 2)"), std::string::npos) << message;
 }
 
 TEST_F(DatabaseFile, DamagedPagesAreFound) {
@@ -95,6 +96,43 @@ TEST_F(DatabaseFile, WaitsForAWriterButNotForEver) {
   EXPECT_NE(message.find("another program"), std::string::npos) << message;
   sqlite3_exec(holder.connection(), "COMMIT", nullptr, nullptr, nullptr);
   EXPECT_EQ(TraineeStore(second).ensure_trainee("T-late").code, "T-late");
+}
+
+TEST_F(DatabaseFile, ALongReaderHoldsUpNobody) {
+  Database database(folder_ / "t.db");
+  store_attempt(database, sample_start(), sample_result());
+  Database reader(folder_ / "t.db", OpenMode::kExisting, 50);
+  sqlite3_exec(reader.connection(), "BEGIN; SELECT count(*) FROM attempt", nullptr, nullptr, nullptr);
+  Database writer(folder_ / "t.db", OpenMode::kExisting, 50);
+  for (int i = 0; i < 20; ++i) store_attempt(writer, sample_start(), sample_result());
+  EXPECT_EQ(AttemptStore(reader).list().size(), 1u) << "the reader sees what was there when it began";
+  sqlite3_exec(reader.connection(), "COMMIT", nullptr, nullptr, nullptr);
+  EXPECT_EQ(AttemptStore(reader).list().size(), 21u);
+  EXPECT_TRUE(reader.check().empty());
+}
+
+/// Runs the action in a child that may not write what it does not own. @returns the child's verdict.
+bool as_nobody(const std::function<bool()>& action) {
+  const pid_t child = fork();
+  if (child == 0) _exit((getuid() != 0 || setuid(65534) == 0) && action() ? 0 : 1);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST_F(DatabaseFile, AReadOnlyFileOrFolderIsAnEnvironmentErrorAndNothingIsTouched) {
+  fs::create_directories(folder_ / "shut");
+  { Database database(folder_ / "shut" / "t.db"); }
+  const auto refused = [&] {
+    return message_of<EnvironmentError>([&] { Database(folder_ / "shut" / "t.db"); }).find("t.db") != std::string::npos;
+  };
+  fs::permissions(folder_ / "shut" / "t.db", fs::perms(0444));
+  EXPECT_TRUE(as_nobody(refused)) << "the file";
+  fs::permissions(folder_ / "shut" / "t.db", fs::perms(0666));
+  fs::permissions(folder_ / "shut", fs::perms(0555));
+  EXPECT_TRUE(as_nobody(refused)) << "the folder: no room for the log beside it";
+  fs::permissions(folder_ / "shut", fs::perms(0755));
+  EXPECT_TRUE(Database(folder_ / "shut" / "t.db").check().empty());
 }
 
 TEST_F(DatabaseFile, AFullDiskIsAnEnvironmentErrorAndCostsNothingStored) {
