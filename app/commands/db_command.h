@@ -10,8 +10,8 @@ namespace trocar {
 struct DbOptions {
   std::filesystem::path database;  ///< empty: the default path
   std::filesystem::path output;    ///< of backup; empty: DATABASE.TIME.backup beside it
-  std::string rubric;              ///< of rubric: beginning of its sha256
   bool json = false;               ///< of check
+  std::string rubric{};            ///< of rubric: beginning of its sha256
 };
 
 /// File, schema with its triggers, references, hash chain, audit trail, anchor, rubrics and the recordings' digests.

@@ -103,10 +103,10 @@ TEST_F(StoreCommands, AnExerciseFileOfTheSameIdIsSeenAsAnother) {
   EXPECT_EQ(trainee_show({file_, "T-one", 0}, out_, err_), 0);
   EXPECT_LT(out_.str().find(own), out_.str().find(shipped)) << "newest first: " << out_.str();
   out_.str("");
-  EXPECT_EQ(db_rubric({file_, "", digest::of_bytes(easier.exercise_text).substr(0, 8)}, out_, err_), 0);
+  EXPECT_EQ(db_rubric({file_, "", false, digest::of_bytes(easier.exercise_text).substr(0, 8)}, out_, err_), 0);
   EXPECT_EQ(out_.str(), easier.exercise_text);
-  EXPECT_THROW(db_rubric({file_, "", "ffff"}, out_, err_), InputError);
-  EXPECT_THROW(db_rubric({file_, "", "x"}, out_, err_), InputError);
+  EXPECT_THROW(db_rubric({file_, "", false, "ffff"}, out_, err_), InputError);
+  EXPECT_THROW(db_rubric({file_, "", false, "x"}, out_, err_), InputError);
 }
 
 TEST_F(StoreCommands, DbAnchorRenewsALostAnchor) {

@@ -13,10 +13,6 @@ endif()
 # The commands that read the store, compiled here as the program compiles them.
 find_package(SQLite3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-set(_commands ${PROJECT_SOURCE_DIR}/app/commands)
 trocar_test(test_store_commands
   SOURCES recording_store_commands_test.cpp ${PROJECT_SOURCE_DIR}/tests/trainees/store_samples.cpp
-          ${_commands}/attempt_json.cpp ${_commands}/cohort_command.cpp ${_commands}/db_command.cpp
-          ${_commands}/open_database.cpp ${_commands}/store_json.cpp ${_commands}/text_table.cpp
-          ${_commands}/trainee_command.cpp
-  LINK trocar_trainees nlohmann_json::nlohmann_json SQLite::SQLite3)
+  LINK trocar_commands nlohmann_json::nlohmann_json SQLite::SQLite3)
