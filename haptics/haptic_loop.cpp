@@ -148,15 +148,19 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   }
   contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T, patch, motion.q[kPinchChannel]);
   contact.grip = grip_block(patch.grip, motion.q[kPinchChannel]);
-  const Wrench F = config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.F_I_T);
-  Vec6 w;
-  w << F.force, F.moment;
-  contact.torque.head<kArmJoints>() = motion.arm.J_WS.transpose() * w;
-  contact.torque[kPinchChannel] = contact.grip.force_n;
+  const auto torque_of = [&](const Wrench& F) -> JointVector {
+    Vec6 w;
+    w << F.force, F.moment;
+    return motion.arm.J_WS.transpose() * w;
+  };
   const double share = rendered_share(motion.arm.det_a);
-  contact.torque *= share;
+  const Wrench spring = config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.spring_I_T);
+  contact.torque.head<kArmJoints>() =
+      share * torque_of(config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.F_I_T));
+  contact.torque[kPinchChannel] = share * contact.grip.force_n;
   contact.share = share;
-  if (contact.tissue.damping_factor > 0) contact.spring_n = F.force.norm() / contact.tissue.damping_factor;
+  contact.spring_n = spring.force.norm();
+  contact.spring_torque = share * torque_of(spring);
   return contact;
 }
 
@@ -175,7 +179,7 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
   arm.absorbed_j = -acted.head<kArmJoints>().dot(dq.head<kArmJoints>());
   arm.stored_j = contact.share * config_.map.force_scale * contact.tissue.stored_j;
   if (arm.wanted_n > 0) {
-    const JointVector unit = contact.torque.head<kArmJoints>() / (arm.wanted_n * contact.tissue.damping_factor);
+    const JointVector unit = contact.spring_torque / arm.wanted_n;
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
   }

@@ -73,6 +73,7 @@ class HapticLoop {
     ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, times share, before passivity
     double share = 1;                              ///< of the contact that ramp, singularity and heat let through
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping
+    JointVector spring_torque = JointVector::Zero();  ///< conjugate to it, times share
   };
 
   Motion measure(const DaqSample& in) noexcept;

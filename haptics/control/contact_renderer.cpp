@@ -53,6 +53,7 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
   const double stiffness = patch.material[static_cast<std::size_t>(triangle->material)].stiffness_n_per_m;
   result.F_I_T.force = stiffness * (result.point_T - X_TI.p);
   result.F_I_T.moment = (result.point_T - X_TI.p).cross(result.F_I_T.force);
+  result.spring_I_T = result.F_I_T;
   result.stored_j = 0.5 * stiffness * nearest * nearest;
   return result;
 }
@@ -128,6 +129,7 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
   }
   if (free || largest->share <= 0) {
     touching_ = false;
+    friction_.reset();
     return result;
   }
   blend_material(patch, travel);
@@ -135,17 +137,35 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
   const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * blend_.damping_s_per_m * approach);
   for (int i = 0; i < touch_count_; ++i) {
     const Touch& t = touch_[i];
-    const Vec3 force = blend_.stiffness_n_per_m * damping * t.share * t.normal;
-    result.F_I_T.force += force;
-    result.F_I_T.moment += (t.point - proxy_).cross(force);
+    const Vec3 force = blend_.stiffness_n_per_m * t.share * t.normal;
+    result.spring_I_T.force += force;
+    result.spring_I_T.moment += (t.point - proxy_).cross(force);
   }
+  result.F_I_T = result.spring_I_T * damping;
   result.contact = true;
   result.tip_contact = largest->at_tip;
   result.point_T = largest->point;
   result.normal_T = y.normalized();
   result.depth_m = y.norm();
   result.stored_j = 0.5 * blend_.stiffness_n_per_m * y.squaredNorm();
+  add_friction(X_TI, V_TI_T, patch, result);
   return result;
+}
+
+void ContactRenderer::add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch,
+                                   ContactResult& result) {
+  std::array<PressedPlace, ContactFriction::kMaxPlaces> places;
+  std::size_t count = 0;
+  for (int i = 0; i < touch_count_ && count < places.size(); ++i) {
+    const Touch& t = touch_[i];
+    if (t.share > 0) places[count++] = {t.point, t.normal, t.share, t.index, t.capsule};
+  }
+  const FrictionResult friction = friction_.update({X_TI, V_TI_T, tool_, proxy_ - X_TI.p}, {places.data(), count},
+                                                   blend_.stiffness_n_per_m, patch);
+  result.F_I_T = result.F_I_T + friction.F_I_T;
+  result.spring_I_T = result.spring_I_T + friction.F_I_T;
+  result.stored_j += friction.stored_j;
+  result.slipping = friction.slipping;
 }
 
 void ContactRenderer::blend_material(const ContactPatch& patch, double travel_m) {

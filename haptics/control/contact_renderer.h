@@ -8,6 +8,7 @@
 // the touched materials by the force they carry; where it changes it follows over 2 mm of travel, so that no border
 // between materials is a step. The radius rounds convex edges: the normal turns continuously. Damping multiplies the force by
 // 1 + 1.5 c v, v the approach speed, bounded below by 0: it never pulls (Hunt and Crossley 1975, exponent 1).
+// Friction comes on top (contact_friction.h).
 // Zilles and Salisbury 1995 (god-object), Ortega, Redon and Coquillart 2007 (6-DOF god-object).
 //
 // The thesis' law (nearest point, F = k x, M = (p_contact - p_origin) x F) is kept as a selectable baseline.
@@ -17,6 +18,7 @@
 #include <array>
 #include <cstdint>
 
+#include "haptics/control/contact_friction.h"
 #include "haptics/control/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
@@ -26,14 +28,16 @@ namespace trocar {
 enum class ContactLaw : std::uint8_t { kProxy, kThesis };
 
 struct ContactResult {
-  Wrench F_I_T;               ///< spring and damping, on the instrument, moment about the tip
-  double damping_factor = 1;  ///< F_I_T = factor * spring part, >= 0
+  Wrench F_I_T;               ///< on the instrument, moment about the tip: factor * normal springs + friction
+  Wrench spring_I_T;          ///< of that what springs hold, without damping: normal springs + friction
+  double damping_factor = 1;  ///< >= 0
+  bool slipping = false;      ///< friction has reached its limit somewhere
   bool contact = false;
   bool tip_contact = false;       ///< the largest contact force acts on the tip sphere
   Vec3 point_T = Vec3::Zero();    ///< surface point under the largest contact
   Vec3 normal_T = Vec3::UnitZ();  ///< direction of the force
   double depth_m = 0;             ///< |y|
-  double stored_j = 0;            ///< k |y|^2 / 2
+  double stored_j = 0;            ///< k |y|^2 / 2 and what friction stores
 };
 
 class ContactRenderer {
@@ -41,7 +45,10 @@ class ContactRenderer {
   explicit ContactRenderer(ContactLaw law, ToolShape shape = {}) : law_(law), shape_(shape) {}
 
   /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
-  void reset() { started_ = false; }
+  void reset() {
+    started_ = touching_ = false;
+    friction_.reset();
+  }
 
   /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
   /// @param jaw_opening_m gap between the ends of the jaw pads.
@@ -82,6 +89,7 @@ class ContactRenderer {
   /// Furthest that an end of a capsule has to go against the tip to take this place.
   double turn_to(const Axes& axes) const;
   void blend_material(const ContactPatch& patch, double travel_m);
+  void add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, ContactResult& result);
   /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
   double approach_speed(const Twist& V_TI_T, double depth_m) const;
   /// Lists the pairs that may come nearer than `allowance` this period.
@@ -105,6 +113,7 @@ class ContactRenderer {
   int known_ = 0;                   ///< capsules of the last period
   double thinnest_m_ = 0;           ///< least radius in tool_
   Axes axes_{};                     ///< of the proxy
+  ContactFriction friction_;
   ContactMaterial blend_;           ///< stiffness and damping in use
   bool touching_ = false;           ///< carried force in the last period
   std::array<Near, kMaxNear> near_{};
