@@ -17,6 +17,7 @@
 #include "app/commands/organ_render.h"
 #include "app/commands/recording_command.h"
 #include "app/commands/run_command.h"
+#include "app/commands/study_command.h"
 #include "app/commands/sweep_command.h"
 #include "app/commands/trainee_command.h"
 #include "app/scene.h"
@@ -37,6 +38,7 @@ struct CommandLine {
   DemoOptions demo;
   bool headless = false;
   BenchOptions bench;
+  StudyOptions study;
   ExercisesOptions exercises;
   std::vector<std::string> check_subjects;
   std::string check_organ = "phantom-liver";
@@ -124,6 +126,13 @@ void add_first_contact(CommandLine& c) {
                           [&c] { return bench_command(c.bench, std::cout, std::cerr); });
   bench->add_option("--organ", c.bench.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
   bench->add_flag("--json", c.bench.json, "As JSON");
+  std::string studies;
+  for (const std::string& name : study_names()) studies += (studies.empty() ? "" : ", ") + name;
+  CLI::App* study = c.add(c.app, "study", "Do an experiment again: data, plots, summary",
+                          [&c] { return study_command(c.study, std::cout, std::cerr); });
+  study->add_option("name", c.study.name, "One of: " + studies)->required();
+  study->add_option("--out", c.study.out, "Folder")->required();
+  study->add_flag("--json", c.study.json, "Summary as JSON");
   c.add(c.app, "version", "Version of the program", [] {
     std::cout << "trocar " TROCAR_VERSION "\n";
     return 0;

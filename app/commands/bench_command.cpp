@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <functional>
 #include <iomanip>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/commands/bench_contact.h"
 #include "app/commands/run_command.h"
 #include "app/recorder/recording_reader.h"
 #include "app/session.h"
@@ -20,23 +20,6 @@
 
 namespace trocar {
 namespace {
-
-/// CPU time of this thread: what the budgets are stated in.
-double cpu_now_us() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
-}
-
-struct Timing {
-  std::string stage;
-  std::vector<double> us;
-
-  double percentile(double share) {
-    std::sort(us.begin(), us.end());
-    return us[std::min(us.size() - 1, static_cast<std::size_t>(share * static_cast<double>(us.size())))];
-  }
-};
 
 /// Times `work` for each tick of the run.
 Timing time_each(const std::string& stage, std::size_t count, const std::function<void(std::size_t)>& work) {
@@ -110,6 +93,37 @@ std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
   return timings;
 }
 
+nlohmann::ordered_json percentiles(Timing& timing) {
+  return {{"median", timing.percentile(0.5)}, {"p99", timing.percentile(0.99)}, {"p99.9", timing.percentile(0.999)}};
+}
+
+/// Patch, refit and contact step on balls of 5k, 50k and 500k triangles.
+nlohmann::ordered_json contact_by_size(std::ostream& err) {
+  nlohmann::ordered_json json;
+  for (const int triangles : {5000, 50000, 500000}) {
+    err << "trocar: contact on " << triangles << " triangles\n";
+    ContactCost cost = contact_cost(triangles, 10000);
+    nlohmann::ordered_json row{{"triangles", cost.triangles}, {"patch", cost.patch}, {"reach_mm", cost.reach_m * 1e3},
+                               {"missed_contacts", 10000 - cost.contact_ticks}};
+    for (Timing* timing : {&cost.step, &cost.extraction, &cost.refit}) row[timing->stage] = percentiles(*timing);
+    json.push_back(row);
+  }
+  return json;
+}
+
+void print_contact(const nlohmann::ordered_json& rows, std::ostream& out) {
+  out << "\ncontact on a ball of 80 mm, probe, friction; median and p99.9, us CPU\n"
+      << "triangles    in patch  reach mm  missed        step          patch         refit\n";
+  for (const auto& row : rows) {
+    out << std::setw(9) << row["triangles"].get<int>() << std::setw(12) << row["patch"].get<int>() << std::setw(10)
+        << row["reach_mm"].get<double>() << std::setw(8) << row["missed_contacts"].get<int>();
+    for (const char* stage : {"contact step", "patch", "refit"}) {
+      out << std::setw(8) << row[stage]["median"].get<double>() << std::setw(8) << row[stage]["p99.9"].get<double>();
+    }
+    out << '\n';
+  }
+}
+
 }  // namespace
 
 int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err) {
@@ -135,9 +149,9 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   json["times_real_time"] = simulated / seconds;
   json["recording_bytes_per_60_s"] = static_cast<double>(memory.bytes().size()) * 60 / simulated;
   for (Timing& timing : time_stages(scene, capture(scene, recording))) {
-    json["stages_us"][timing.stage] = {
-        {"median", timing.percentile(0.5)}, {"p99", timing.percentile(0.99)}, {"p99.9", timing.percentile(0.999)}};
+    json["stages_us"][timing.stage] = percentiles(timing);
   }
+  json["contact_us"] = contact_by_size(err);
   if (options.json) {
     out << json.dump(2) << '\n';
     return 0;
@@ -150,6 +164,7 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
     for (const char* key : {"median", "p99", "p99.9"}) out << std::setw(10) << row[key].get<double>();
     out << '\n';
   }
+  print_contact(json["contact_us"], out);
   out << "\nwall seconds per simulated second  " << std::setprecision(4) << seconds / simulated << "  ("
       << std::setprecision(1) << simulated / seconds << " x real time, plant and hand included)\n"
       << "recording                          " << std::setprecision(3)

@@ -154,9 +154,10 @@ void ContactFriction::take_points(Anchor& anchor, const PressedPlace& place, con
 }
 
 void ContactFriction::slide(Anchor& anchor, const ContactMaterial& material, double speed_m_s, double limit_m) const {
+  const bool already = anchor.slipping;
   anchor.slipping = anchor.u.norm() > anchor.mu * limit_m;
   if (anchor.slipping) {
-    anchor.mu += kBreakAway * (stribeck(material, speed_m_s) - anchor.mu);
+    if (already) anchor.mu += kBreakAway * (stribeck(material, speed_m_s) - anchor.mu);
     const double length = anchor.u.norm(), allowed = anchor.mu * limit_m;
     if (length > allowed) anchor.u *= allowed / length;
   } else {

@@ -46,7 +46,7 @@ struct HeldObject {
 struct ContactPatch {
   std::uint64_t stamp = 0;            ///< tissue frame that made it
   std::int32_t count = 0;             ///< triangles in use
-  std::int32_t dropped = 0;           ///< triangles within kPatchRadius that did not fit (reported, never silent)
+  std::int32_t dropped = 0;           ///< > 0: not all triangles within kPatchRadius fitted (reported, never silent)
   double reach_m = kPatchRadius;      ///< from the axes of the tool: every triangle nearer than this is in the patch
   std::array<PatchTriangle, kMaxPatchTriangles> triangle;
   std::array<ContactMaterial, kMaxPatchMaterials> material;

@@ -26,8 +26,8 @@ struct Tool {
   double opening;
   HeldObject held;
   Mat3 R;
-  double depth;     ///< of the sweep: half the radius at most, see worst_step
-  double rise = 0;  ///< of I above the surface when the lowest part just touches
+  double depth;      ///< of the sweep: half the radius at most, see worst_step
+  double rise = -1;  ///< of I above the surface when the lowest part just touches
 };
 
 std::vector<Tool> tools() {
@@ -62,13 +62,14 @@ void ridge(ContactPatch& patch) {
   test::add_sheet(patch, {0, -0.03, 0}, {0, 0.06, 0}, {-0.03, 0, -0.0173}, 6);
   test::add_sheet(patch, {0, -0.03, 0}, {0.03, 0, -0.0173}, {0, 0.06, 0}, 6);
 }
-/// Valley of 160 degrees.
+/// Valley of 170 degrees.
 void valley(ContactPatch& patch) {
-  test::add_sheet(patch, {0, -0.03, 0}, {0, 0.06, 0}, {-0.03, 0, 0.0053}, 6);
-  test::add_sheet(patch, {0, -0.03, 0}, {0.03, 0, 0.0053}, {0, 0.06, 0}, 6);
+  test::add_sheet(patch, {0, -0.03, 0}, {0, 0.06, 0}, {-0.03, 0, 0.0026}, 6);
+  test::add_sheet(patch, {0, -0.03, 0}, {0.03, 0, 0.0026}, {0, 0.06, 0}, 6);
 }
+/// Ball of 2048 facets, its top at the origin.
 void ball(ContactPatch& patch) {
-  TriangleSurface s = test::lumpy_sphere(4, 0.04);
+  TriangleSurface s = test::sphere(4, 0.04);
   for (Vec3& v : s.vertices) v.z() -= 0.04;
   test::patch_near(s, {0, 0, 0}, 0.022, patch);
 }

@@ -18,6 +18,7 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"score", {"--rubric", "--db", "--json"}},
       {"demo", {"--headless", "--out", "--organ"}},
       {"bench", {"--organ", "--json"}},
+      {"study", {"--out", "--json"}},
       {"version", {}},
       {"exercises", {"--json", "--explain"}},
       {"check", {"--organ"}},

@@ -1,7 +1,8 @@
 // Cuts the contact patch out of the surface: the triangles within kPatchRadius of the axes of shaft, jaws and held
 // object, nearest first.
 //
-// Runs at the tissue rate. What does not fit into the patch is the furthest and is counted in `dropped`.
+// Runs at the tissue rate. Of a surface too fine for the patch the nearest triangles are kept: `dropped` is then above 0 and
+// `reach` says how near to the tool nothing is missing.
 // Frame T. Thread: tissue task; allocates nothing once its buffer has grown.
 #pragma once
 
@@ -18,13 +19,15 @@ class PatchExtraction {
   /// @param surface in T; must outlive this object.
   explicit PatchExtraction(const TriangleSurface& surface);
 
+  /// The surface's vertices have moved.
+  void refit() { tree_.refit(); }
+
   /// Fills triangles, count, dropped and reach; leaves stamp, material, grip and held object to the caller.
   /// @param patch its held object is part of the tool
   void extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch, double jaw_opening_m = 0);
 
  private:
   SurfaceTree tree_;
-  std::vector<Vec3> normals_;  ///< unit, per triangle
   std::vector<SurfaceTree::Hit> hits_;
 };
 

@@ -1,0 +1,101 @@
+#include "app/commands/bench_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <memory>
+
+#include "haptics/control/contact_renderer.h"
+#include "tissue/collision/patch_extraction.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kBallRadius = 0.08, kDepth = 0.003, kStep = 3e-5;
+
+/// Every face of an octahedron in n x n triangles, pushed out to the ball: 8 n^2 triangles.
+TriangleSurface ball(int n) {
+  TriangleSurface surface;
+  for (int face = 0; face < 8; ++face) {
+    const Vec3 a(face & 1 ? -1 : 1, 0, 0), b(0, face & 2 ? -1 : 1, 0), c(0, 0, face & 4 ? -1 : 1);
+    const bool flipped = a.cross(b).dot(c) < 0;
+    const auto first = static_cast<std::int32_t>(surface.vertices.size());
+    const auto index = [&](int i, int j) { return first + i * (n + 1) - i * (i - 1) / 2 + j; };
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; j <= n - i; ++j) {
+        const Vec3 p = a * (n - i - j) + b * i + c * j;
+        surface.vertices.push_back(kBallRadius * p.normalized());
+      }
+    }
+    const auto add = [&](std::int32_t u, std::int32_t v, std::int32_t w) {
+      surface.triangles.push_back({u, flipped ? w : v, flipped ? v : w});
+    };
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n - i; ++j) {
+        add(index(i, j), index(i + 1, j), index(i, j + 1));
+        if (i + j < n - 1) add(index(i + 1, j), index(i + 1, j + 1), index(i, j + 1));
+      }
+    }
+  }
+  return surface;
+}
+
+/// On a great circle over the ball, pressed in, the shaft leaning back by 30 degrees.
+Pose pressed(double angle, double lift) {
+  const Vec3 n(std::sin(angle), 0.3 * std::cos(angle), std::cos(angle));
+  const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -n).toRotationMatrix() *
+                 Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
+  return {R, n.normalized() * (kBallRadius + ToolShape{}.radius_m - kDepth + lift)};
+}
+
+}  // namespace
+
+double cpu_now_us() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
+}
+
+double Timing::percentile(double share) {
+  std::sort(us.begin(), us.end());
+  return us.empty() ? 0 : us[std::min(us.size() - 1, static_cast<std::size_t>(share * static_cast<double>(us.size())))];
+}
+
+ContactCost contact_cost(int triangles, int ticks) {
+  ContactCost cost;
+  const TriangleSurface surface = ball(static_cast<int>(std::lround(std::sqrt(triangles / 8.0))));
+  cost.triangles = static_cast<int>(surface.triangles.size());
+  PatchExtraction extraction(surface);
+  const auto patch = std::make_unique<ContactPatch>();
+  patch->material[0].mu_static = 0.3;
+  patch->material[0].mu_dynamic = 0.2;
+  cost.extraction.stage = "patch";
+  cost.refit.stage = "refit";
+  cost.step.stage = "contact step";
+  for (int i = 0; i < 20; ++i) {
+    const double start = cpu_now_us();
+    extraction.refit();
+    cost.refit.us.push_back(cpu_now_us() - start);
+  }
+  ContactRenderer renderer(ContactLaw::kProxy);
+  constexpr int kDescent = 200;
+  for (int i = -kDescent; i < ticks; ++i) {
+    const Pose X = pressed(kStep / kBallRadius * std::max(0, i), i < 0 ? -i * kStep : 0);
+    if (i % 10 == 0) {
+      const double start = cpu_now_us();
+      extraction.extract(X, {}, *patch);
+      ++patch->stamp;
+      cost.extraction.us.push_back(cpu_now_us() - start);
+    }
+    const double start = cpu_now_us();
+    const ContactResult result = renderer.update(X, Twist{}, *patch);
+    if (i < 0) continue;
+    cost.step.us.push_back(cpu_now_us() - start);
+    cost.contact_ticks += result.contact;
+  }
+  cost.patch = patch->count;
+  cost.reach_m = patch->reach_m;
+  return cost;
+}
+
+}  // namespace trocar

@@ -1,0 +1,45 @@
+#include "app/commands/study_command.h"
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+
+#include "app/study/contact_law_study.h"
+#include "app/study/study_files.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+struct KnownStudy {
+  const char* name;
+  StudyResult (*run)();
+};
+
+constexpr std::array kStudies{KnownStudy{"contact-law", contact_law_study}};
+
+}  // namespace
+
+std::vector<std::string> study_names() {
+  std::vector<std::string> names;
+  for (const KnownStudy& study : kStudies) names.emplace_back(study.name);
+  return names;
+}
+
+int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  const auto study = std::find_if(kStudies.begin(), kStudies.end(),
+                                  [&](const KnownStudy& known) { return options.name == known.name; });
+  if (study == kStudies.end()) {
+    std::string known;
+    for (const std::string& name : study_names()) known += " " + name;
+    throw InputError("no study '" + options.name + "'; there are:" + known);
+  }
+  const StudyResult result = study->run();
+  write_study(result, options.out);
+  out << (options.json ? summary_json(result) : table_markdown(result));
+  err << "trocar: data, plots and summary.json in " << options.out.string() << '\n';
+  const bool met = std::all_of(result.cases.begin(), result.cases.end(), [](const StudyCase& c) { return c.met; });
+  return met ? 0 : 1;
+}
+
+}  // namespace trocar

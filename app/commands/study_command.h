@@ -1,0 +1,23 @@
+// `trocar study NAME --out DIR`: does an experiment again and writes its data, plots and summary.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace trocar {
+
+struct StudyOptions {
+  std::string name;
+  std::filesystem::path out;
+  bool json = false;
+};
+
+/// Names that study_command knows.
+std::vector<std::string> study_names();
+
+/// @return 0 when every bar is met, 1 otherwise. @throws InputError for an unknown study.
+int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace trocar

@@ -1,0 +1,41 @@
+// One experiment of the thesis, or against it, done again: what it measured, what it drew, what it wrote down.
+//
+// A study fills a StudyResult and touches no file; study_files.h writes it as data CSV, SVG plots, summary.json (design:
+// interface) and table.md. SI in the data; the unit of a case stands beside it. Thread: any.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trocar {
+
+/// One number of a study beside what the thesis' method gives and what is asked for.
+struct StudyCase {
+  std::string name, unit;
+  double value = 0;
+  std::optional<double> thesis;  ///< the same measure on the thesis' method; absent where it has none
+  std::string bar;               ///< what is asked for, in words: "<= 0.03"
+  bool met = false;
+  std::string definition;        ///< how it was measured, one sentence
+};
+
+/// Curves over one abscissa, for one plot and one CSV file.
+struct StudyCurves {
+  std::string file;  ///< stem of the file names
+  std::string title, x_label, y_label;
+  std::vector<double> x;
+  struct Series {
+    std::string name;
+    std::vector<double> y;  ///< as long as x; NaN leaves a gap
+  };
+  std::vector<Series> series;
+};
+
+struct StudyResult {
+  std::string study, plant;
+  std::vector<StudyCase> cases;
+  std::vector<StudyCurves> curves;
+};
+
+}  // namespace trocar

@@ -1,0 +1,174 @@
+#include "app/study/study_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "app/report/html.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kWidth = 720, kHeight = 400, kLeft = 70, kRight = 20, kTop = 40, kBottom = 56;
+constexpr std::array kColours{"#c0392b", "#1f6fb2", "#2e8b57", "#8e6bbf"};
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return text.str();
+}
+
+std::string csv_field(const std::string& text) {
+  return text.find(',') == std::string::npos ? text : '"' + text + '"';
+}
+
+struct Axis {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double step = 1;
+
+  void take(const std::vector<double>& values) {
+    for (const double v : values) {
+      if (!std::isfinite(v)) continue;
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+  }
+  /// Ticks at 1, 2 or 5 times a power of ten, five to ten of them; the range ends on ticks.
+  void round() {
+    if (!(low < high)) high = (low = std::isfinite(low) ? low - 0.5 : 0) + 1;
+    const double wish = (high - low) / 6, power = std::pow(10, std::floor(std::log10(wish)));
+    const double mantissa = wish / power;
+    step = power * (mantissa < 1.5 ? 1 : mantissa < 3.5 ? 2 : mantissa < 7.5 ? 5 : 10);
+    low = step * std::floor(low / step + 1e-9);
+    high = step * std::ceil(high / step - 1e-9);
+  }
+  double share(double v) const { return (v - low) / (high - low); }
+};
+
+struct Frame {
+  Axis x, y;
+  double px(double v) const { return kLeft + x.share(v) * (kWidth - kLeft - kRight); }
+  double py(double v) const { return kHeight - kBottom - y.share(v) * (kHeight - kTop - kBottom); }
+};
+
+void draw_text(std::ostream& out, double x, double y, const std::string& text, const std::string& more) {
+  out << "<text x=\"" << number(x) << "\" y=\"" << number(y) << "\" " << more << '>' << escape_html(text) << "</text>\n";
+}
+
+void draw_axes(std::ostream& out, const Frame& f, const StudyCurves& curves) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const Axis& a = axis == 0 ? f.x : f.y;
+    for (int i = 0; a.low + i * a.step <= a.high + 1e-9 * a.step; ++i) {
+      const double v = std::abs(a.low + i * a.step) < 1e-9 * a.step ? 0 : a.low + i * a.step;
+      const double x0 = axis == 0 ? f.px(v) : kLeft, x1 = axis == 0 ? x0 : kWidth - kRight;
+      const double y0 = axis == 0 ? kTop : f.py(v), y1 = axis == 0 ? kHeight - kBottom : y0;
+      out << "<line x1=\"" << number(x0) << "\" y1=\"" << number(y0) << "\" x2=\"" << number(x1) << "\" y2=\""
+          << number(y1) << "\" stroke=\"" << (v == 0 ? "#888" : "#ddd") << "\"/>\n";
+      draw_text(out, axis == 0 ? x0 : kLeft - 8, axis == 0 ? kHeight - kBottom + 18 : y0 + 4, number(v),
+                axis == 0 ? "text-anchor=\"middle\"" : "text-anchor=\"end\"");
+    }
+  }
+  draw_text(out, kLeft, 22, curves.title, "font-size=\"15\" font-weight=\"bold\"");
+  draw_text(out, (kLeft + kWidth - kRight) / 2, kHeight - 14, curves.x_label, "text-anchor=\"middle\"");
+  const std::string middle = number((kTop + kHeight - kBottom) / 2);
+  draw_text(out, 16, (kTop + kHeight - kBottom) / 2, curves.y_label,
+            "text-anchor=\"middle\" transform=\"rotate(-90 16 " + middle + ")\"");
+}
+
+void draw_series(std::ostream& out, const Frame& f, const StudyCurves& curves, std::size_t which) {
+  const auto& y = curves.series[which].y;
+  const char* colour = kColours[which % kColours.size()];
+  bool pen_down = false;
+  out << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"2\" d=\"";
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (std::isfinite(y[i])) {
+      out << (pen_down ? 'L' : 'M') << std::fixed << std::setprecision(2) << f.px(curves.x[i]) << ' ' << f.py(y[i]) << ' ';
+    }
+    pen_down = std::isfinite(y[i]);
+  }
+  out << "\"/>\n" << std::defaultfloat;
+  const double x = kLeft + 12 + 160 * static_cast<double>(which);
+  out << "<line x1=\"" << x << "\" y1=\"" << kTop + 10 << "\" x2=\"" << x + 22 << "\" y2=\"" << kTop + 10 << "\" stroke=\""
+      << colour << "\" stroke-width=\"3\"/>\n";
+  draw_text(out, x + 28, kTop + 14, curves.series[which].name, "");
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw EnvironmentError(path.string() + ": cannot be written");
+}
+
+}  // namespace
+
+std::string curves_csv(const StudyCurves& curves) {
+  std::ostringstream out;
+  out << std::setprecision(9) << csv_field(curves.x_label);
+  for (const auto& series : curves.series) out << ',' << csv_field(series.name);
+  out << '\n';
+  for (std::size_t i = 0; i < curves.x.size(); ++i) {
+    out << curves.x[i];
+    for (const auto& series : curves.series) out << ',' << series.y[i];
+    out << '\n';
+  }
+  return out.str();
+}
+
+std::string curves_svg(const StudyCurves& curves) {
+  Frame frame;
+  frame.x.take(curves.x);
+  for (const auto& series : curves.series) frame.y.take(series.y);
+  const double head_room = 0.12 * (frame.y.high - frame.y.low);  // the legend lies over no curve
+  frame.y.high += head_room;
+  frame.x.round();
+  frame.y.round();
+  std::ostringstream out;
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << kWidth << ' ' << kHeight << "\" width=\"" << kWidth
+      << "\" height=\"" << kHeight << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  draw_axes(out, frame, curves);
+  for (std::size_t i = 0; i < curves.series.size(); ++i) draw_series(out, frame, curves, i);
+  out << "</svg>\n";
+  return out.str();
+}
+
+std::string summary_json(const StudyResult& result) {
+  nlohmann::ordered_json json{{"study", result.study}, {"plant", result.plant}, {"cases", nlohmann::json::array()}};
+  for (const StudyCase& c : result.cases) {
+    nlohmann::ordered_json entry{{"name", c.name}, {"value", c.value}, {"unit", c.unit}, {"thesis", nullptr},
+                                 {"bar", c.bar},   {"met", c.met},     {"definition", c.definition}};
+    if (c.thesis) entry["thesis"] = *c.thesis;
+    json["cases"].push_back(entry);
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string table_markdown(const StudyResult& result) {
+  std::ostringstream out;
+  out << "| measure | unit | thesis' law | Trocar | asked for | met |\n|---|---|---|---|---|---|\n";
+  for (const StudyCase& c : result.cases) {
+    out << "| " << c.name << " | " << c.unit << " | " << (c.thesis ? number(*c.thesis) : "-") << " | " << number(c.value)
+        << " | " << c.bar << " | " << (c.met ? "yes" : "no") << " |\n";
+  }
+  return out.str();
+}
+
+void write_study(const StudyResult& result, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const StudyCurves& curves : result.curves) {
+    write_file(folder / (curves.file + ".csv"), curves_csv(curves));
+    write_file(folder / (curves.file + ".svg"), curves_svg(curves));
+  }
+  write_file(folder / "summary.json", summary_json(result));
+  write_file(folder / "table.md", table_markdown(result));
+}
+
+}  // namespace trocar
