@@ -9,6 +9,7 @@
 #include "app/executor/haptic_task.h"
 #include "app/executor/lockstep_executor.h"
 #include "app/executor/recorder_task.h"
+#include "app/executor/replay_executor.h"
 #include "app/executor/tissue_task.h"
 #include "app/recorded_result.h"
 #include "haptics/device/replay_daq.h"
@@ -26,10 +27,11 @@ constexpr double kLongestBeyondLimit_s = 60;   // homing, start and reading, on 
 
 /// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
 struct Bench {
-  Bench(const Scene& scene_in, DataAcquisition& daq, Timing timing, RecorderRings* recorder)
+  Bench(const Scene& scene_in, DataAcquisition& daq, Timing timing, std::unique_ptr<Channel<ContactPatch>> patches,
+        RecorderRings* recorder)
       : scene(scene_in),
         state(make_channel<StylusState>(timing)),
-        patch(make_channel<ContactPatch>(timing, kPatchDelay)),
+        patch(std::move(patches)),
         hand_frames(make_channel<ExerciseFrame>(timing)),
         observer_frames(make_channel<ExerciseFrame>(timing)),
         records(make_channel<TickRecord>(timing)),
@@ -106,7 +108,8 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
                            const SessionObserver& observe) {
   SimulatedDaq daq(simulated_device(scene.setup));
   const auto rings = std::make_unique<RecorderRings>();
-  const auto bench = std::make_unique<Bench>(scene, daq, Timing::kLockstep, rings.get());
+  const auto bench = std::make_unique<Bench>(
+      scene, daq, Timing::kLockstep, make_channel<ContactPatch>(Timing::kLockstep, kPatchDelay), rings.get());
   HandTask hand(scene, bench->haptic, *bench->hand_frames,
                 make_hand(scene.setup.hand, static_cast<std::uint64_t>(scene.setup.seed), assets.hands), daq);
   RecorderTask recorder(*rings, scene.loop.daq.rate_hz, writer);
@@ -127,16 +130,19 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
 }
 
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe) {
-  if (recording.ticks.empty()) throw InputError("the recording holds no tick to replay");
+  const double rate_hz = scene.loop.daq.rate_hz;
+  const ReplayExecutor executor(
+      recording.ticks, recording.version > 1
+                           ? recording.schedule
+                           : declared_schedule(recording.ticks, static_cast<std::uint64_t>(rate_hz / kTissueRateHz), kPatchDelay));
   std::vector<DaqSample> samples;
   samples.reserve(recording.ticks.size());
   for (const RecordedTick& row : recording.ticks) samples.push_back(device_input(row));
   ReplayDaq daq(std::move(samples), scene.loop.daq);
-  const auto bench = std::make_unique<Bench>(scene, daq, Timing::kLockstep, nullptr);
+  const auto bench = std::make_unique<Bench>(scene, daq, Timing::kLockstep,
+                                             std::make_unique<RecordedPatches>(executor.stamps()), nullptr);
   ObserverTask observer(*bench, observe);
-  LockstepExecutor executor;
-  for (Task* task : std::initializer_list<Task*>{&bench->haptic, &bench->tissue, &observer}) executor.add(*task);
-  executor.run([&] { return daq.finished(); });
+  executor.run(bench->haptic, {&bench->tissue, &observer});
   return bench->outcome(daq.capabilities().name);
 }
 

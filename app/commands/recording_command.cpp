@@ -9,6 +9,7 @@
 #include "app/commands/open_database.h"
 #include "app/commands/run_command.h"
 #include "app/executor/state_hash.h"
+#include "app/recorder/chunk.h"
 #include "app/recorder/event_codec.h"
 #include "app/recorder/recording_reader.h"
 #include "app/session.h"
@@ -53,12 +54,12 @@ Scene recorded_scene(const RecordingOptions& options, const Subject& subject, co
   RecordedSetup recorded = parse_scene_json(subject.recording.session, subject.file.string());
   if (!options.organ.empty()) recorded.setup.organ = options.organ;
   // Before anything is laid out on it: another organ may well have no room for the board.
-  const Organ organ = load_organ(find_organ(recorded.setup.organ, assets.assets));
+  Organ organ = load_organ(find_organ(recorded.setup.organ, assets.assets));
   if (organ.sha256 != recorded.organ_sha256) {
     throw InputError(organ.manifest.string() +
                      ": not the organ of the recording (its sha256 differs); name that one with --organ");
   }
-  const Scene scene = build_scene(recorded.setup, assets, recorded.daq);
+  const Scene scene = build_scene(recorded.setup, std::move(organ), recorded.daq);
   if (scene.loop.map.force_scale != recorded.force_scale) {
     throw InputError(subject.file.string() + ": recorded with another force scale than this program computes; it can be "
                      "graded (trocar score) but not replayed");
@@ -83,6 +84,10 @@ int replay_command(const RecordingOptions& options, std::ostream& out, std::ostr
   }
   out << "ticks     " << outcome.device.ticks << '\n' << "replayed  " << outcome.state_hash_hex << '\n';
   if (!options.verify) return 0;
+  if (subject.recording.version < kRecordingVersion) {
+    throw InputError(subject.file.string() + ": has recording format " + std::to_string(subject.recording.version) +
+                     ", whose state hash was formed otherwise: it can be replayed and graded but not verified");
+  }
   if (!subject.recording.end) throw InputError(subject.file.string() + ": has no end, so there is no hash to verify");
   StateHash recorded(subject.recording.end->state_hash);
   out << "recorded  " << recorded.hex() << '\n';

@@ -24,6 +24,7 @@ void RecorderTask::drain() {
   for (TickRecord record; rings_.ticks.pop(record);) waiting_.push_back(record);
   for (TissueStep step; rings_.steps.pop(step);) {
     unused_.push_back(step);
+    writer_.append_step(step.seen_period);
     seen_period_ = step.seen_period;
   }
   for (Event event; rings_.events.pop(event);) writer_.append_events(std::span(&event, 1));
@@ -34,6 +35,8 @@ void RecorderTask::write(const TickRecord& record) {
   for (; !unused_.empty() && unused_.front().seen_period <= state.period; unused_.pop_front()) {
     phase_ = unused_.front().phase;
   }
+  if (record.patch_stamp != patch_stamp_) writer_.append_schedule({state.period, record.patch_stamp});
+  patch_stamp_ = record.patch_stamp;
   writer_.append(quantise(state.period, record.in, trace_sample(state), state.loop, phase_));
 }
 

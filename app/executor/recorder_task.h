@@ -47,6 +47,7 @@ class RecorderTask final : public Task {
   std::deque<TickRecord> waiting_;
   std::deque<TissueStep> unused_;      ///< steps that saw a later tick than the last row written
   std::uint64_t seen_period_ = 0;      ///< newest tick that a step has seen
+  std::uint64_t patch_stamp_ = 0;      ///< that the last row saw
   std::uint8_t phase_ = 0;
 };
 

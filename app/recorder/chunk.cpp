@@ -27,6 +27,7 @@ bool known_type(std::uint32_t type) {
     case ChunkType::kTicks:
     case ChunkType::kEvents:
     case ChunkType::kReceipt:
+    case ChunkType::kSchedule:
     case ChunkType::kEnd:
       return true;
   }

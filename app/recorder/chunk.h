@@ -13,7 +13,8 @@
 namespace trocar {
 
 inline constexpr std::string_view kRecordingMagic = "TROCREC\n";
-inline constexpr std::uint32_t kRecordingVersion = 1;
+inline constexpr std::uint32_t kRecordingVersion = 2;
+inline constexpr std::uint32_t kOldestReadable = 1;      ///< 1: without schedule, fewer channels, state hash formed otherwise
 inline constexpr std::size_t kRecordingPrefixSize = 12;  ///< magic and version
 inline constexpr std::size_t kChunkHeaderSize = 12;
 inline constexpr std::uint32_t kMaxChunkPayload = 1u << 26;  ///< 64 MiB: a longer length is damage
@@ -23,6 +24,7 @@ enum class ChunkType : std::uint32_t {
   kHeader = 0x52444548,   // "HEDR"
   kTicks = 0x4b434954,    // "TICK"
   kEvents = 0x53545645,   // "EVTS"
+  kSchedule = 0x44484353,  // "SCHD"
   kReceipt = 0x54504352,  // "RCPT"
   kEnd = 0x21444e45,      // "END!"
 };

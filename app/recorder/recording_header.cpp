@@ -1,5 +1,7 @@
 #include "app/recorder/recording_header.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "app/recorder/tick_codec.h"
@@ -15,6 +17,22 @@ Json channel_schema() {
   for (const RecordedChannel& channel : recorded_channels()) {
     channels.push_back({{"name", channel.name}, {"unit", channel.unit}, {"quantum", channel.quantum}});
   }
+  return channels;
+}
+
+/// The program's channels that a recording names, in its order.
+std::vector<RecordedChannel> channels_of(const Json& schema) {
+  std::vector<RecordedChannel> channels;
+  for (const Json& entry : schema) {
+    const auto name = entry.at("name").get<std::string>();
+    const auto known = std::ranges::find(recorded_channels(), name, &RecordedChannel::name);
+    if (known == recorded_channels().end() || entry.at("unit").get<std::string>() != known->unit ||
+        entry.at("quantum").get<double>() != known->quantum) {
+      throw InputError("its channel '" + name + "' is not one of this program");
+    }
+    channels.push_back(*known);
+  }
+  if (channels.empty() || channels.front().name != "tick") throw InputError("its first channel is not 'tick'");
   return channels;
 }
 
@@ -36,8 +54,8 @@ std::string encode_header(const RecordingHeader& header) {
 RecordingHeader decode_header(std::string_view payload) {
   try {
     const Json json = Json::parse(payload);
-    if (json.at("channels") != channel_schema()) throw InputError("its channels differ from those of this program");
-    RecordingHeader header{json.at("session").get<std::string>(), json.at("rate_hz").get<double>()};
+    RecordingHeader header{json.at("session").get<std::string>(), json.at("rate_hz").get<double>(),
+                           channels_of(json.at("channels"))};
     check_rate(header.rate_hz);
     return header;
   } catch (const Json::exception& error) {

@@ -7,18 +7,22 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "app/recorder/tick_codec.h"
 
 namespace trocar {
 
 struct RecordingHeader {
   std::string session;  ///< UTF-8, any content
   double rate_hz = 1000;
+  std::vector<RecordedChannel> channels;  ///< reading: the columns of its rows, in their order
 };
 
 /// @throws InputError when the session's text is not UTF-8 or the rate is not in (0, 1e6] Hz.
 std::string encode_header(const RecordingHeader& header);
 
-/// @throws InputError: not JSON, a field missing, or channels that differ from those of this program.
+/// @throws InputError: not JSON, a field missing, or a channel that this program does not know in that unit and quantum.
 RecordingHeader decode_header(std::string_view payload);
 
 }  // namespace trocar

@@ -45,14 +45,15 @@ class Parser {
     recording_.damage.push_back(message);
   }
 
-  void check_prefix() const {
+  void check_prefix() {
     if (file_.substr(0, kRecordingMagic.size()) != kRecordingMagic || file_.size() < kRecordingPrefixSize) {
       fail("is not a recording of trocar");
     }
     bytes::Reader reader(file_.substr(kRecordingMagic.size()));
-    if (const auto version = reader.take<std::uint32_t>(); version != kRecordingVersion) {
-      fail("has recording format " + std::to_string(version) + ", this program reads format " +
-           std::to_string(kRecordingVersion));
+    recording_.version = reader.take<std::uint32_t>();
+    if (recording_.version < kOldestReadable || recording_.version > kRecordingVersion) {
+      fail("has recording format " + std::to_string(recording_.version) + ", this program reads formats " +
+           std::to_string(kOldestReadable) + " to " + std::to_string(kRecordingVersion));
     }
   }
 
@@ -63,6 +64,7 @@ class Parser {
       RecordingHeader header = decode_header(chunk->payload);
       recording_.session = std::move(header.session);
       recording_.rate_hz = header.rate_hz;
+      channels_ = std::move(header.channels);
     } catch (const InputError& error) {
       fail(error.what());
     }
@@ -83,6 +85,8 @@ class Parser {
         case ChunkType::kReceipt:
           recording_.receipt_json = std::string(chunk.payload);
           return;
+        case ChunkType::kSchedule:
+          return accept_schedule(chunk);
         case ChunkType::kEnd:
           recording_.end = decode_end(chunk.payload);
           return;
@@ -93,7 +97,7 @@ class Parser {
   }
 
   void accept_ticks(const Chunk& chunk) {
-    const std::vector<RecordedTick> rows = decode_ticks(chunk.payload);
+    const std::vector<RecordedTick> rows = decode_ticks(chunk.payload, channels_);
     if (!recording_.ticks.empty() && rows.front().tick <= recording_.ticks.back().tick) {
       return report(chunk.offset, "repeats ticks that came before");
     }
@@ -104,6 +108,17 @@ class Parser {
     std::vector<Event> events = decode_events(chunk.payload);
     recording_.events.insert(recording_.events.end(), std::make_move_iterator(events.begin()),
                              std::make_move_iterator(events.end()));
+  }
+
+  void accept_schedule(const Chunk& chunk) {
+    const Schedule part = decode_schedule(chunk.payload);
+    Schedule& whole = recording_.schedule;
+    const bool follows = whole.patches.empty() || part.patches.empty() ||
+                         (part.patches.front().period > whole.patches.back().period &&
+                          part.patches.front().stamp > whole.patches.back().stamp);
+    if (!follows) return report(chunk.offset, "repeats a schedule that came before");
+    whole.patches.insert(whole.patches.end(), part.patches.begin(), part.patches.end());
+    whole.steps.insert(whole.steps.end(), part.steps.begin(), part.steps.end());
   }
 
   /// Nothing whole follows: either the file was cut off, or its last chunk is damaged.
@@ -134,6 +149,7 @@ class Parser {
   std::string_view file_;
   const std::string& name_;
   bool strict_;
+  std::vector<RecordedChannel> channels_;
   Recording recording_;
 };
 

@@ -13,15 +13,18 @@
 
 #include "app/recorder/recorded_tick.h"
 #include "app/recorder/recording_writer.h"
+#include "app/recorder/schedule.h"
 
 namespace trocar {
 
 struct Recording {
   std::string session;  ///< the opaque text given to the writer
   double rate_hz = 0;
+  std::uint32_t version = 0;        ///< of the format
   std::vector<RecordedTick> ticks;  ///< ticks increase; they may skip only where `damage` or the device says so
   std::vector<Event> events;
   std::string receipt_json;         ///< opaque text given to close(), empty when cut off
+  Schedule schedule;                ///< empty in format 1
   std::optional<RecordingEnd> end;  ///< absent when the attempt was cut off
   std::string torn;                 ///< why there is no END, empty when the recording is complete
   std::vector<std::string> damage;  ///< tolerant mode: what could not be read

@@ -78,10 +78,14 @@ void RecordingWriter::append_events(std::span<const Event> events) {
 void RecordingWriter::flush() {
   require_open();
   std::string chunks;
+  if (!schedule_.patches.empty() || !schedule_.steps.empty()) {
+    chunks += make_chunk(ChunkType::kSchedule, encode_schedule(schedule_));
+  }
   if (!rows_.empty()) chunks += make_chunk(ChunkType::kTicks, encoder_.encode(rows_));
   if (!events_.empty()) chunks += make_chunk(ChunkType::kEvents, encode_events(events_));
   rows_.clear();
   events_.clear();
+  schedule_ = {};
   if (!chunks.empty()) write(chunks);
 }
 

@@ -14,6 +14,7 @@
 
 #include "app/recorder/recorded_tick.h"
 #include "app/recorder/recording_sink.h"
+#include "app/recorder/schedule.h"
 #include "app/recorder/tick_codec.h"
 #include "digest/digest.h"
 #include "scenarios/scoring/trace.h"
@@ -47,6 +48,9 @@ class RecordingWriter {
   /// Takes one row; writes a chunk when a second is full. @throws EnvironmentError as above (the readable part stays),
   /// std::invalid_argument when row.tick does not increase.
   void append(const RecordedTick& row);
+  /// Takes what is new of the schedule; it goes to disk before the rows of the next chunk.
+  void append_schedule(const PatchSeen& patch) { schedule_.patches.push_back(patch); }
+  void append_step(std::uint64_t seen_period) { schedule_.steps.push_back(seen_period); }
   /// Takes events; they go to disk with the next chunk.
   void append_events(std::span<const Event> events);
   /// Writes what is held now as chunks and synchronises.
@@ -69,6 +73,7 @@ class RecordingWriter {
   digest::Stream digest_;
   std::vector<RecordedTick> rows_;
   std::vector<Event> events_;
+  Schedule schedule_;
   std::size_t rows_per_chunk_ = 1000;
   std::uint64_t tick_count_ = 0, event_count_ = 0, last_tick_ = 0;
   enum class State : std::uint8_t { kOpen, kClosed, kFailed } state_ = State::kOpen;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "app/recorder/byte_order.h"
+#include "app/recorder/varint.h"
 
 namespace trocar {
 namespace {
@@ -16,7 +16,7 @@ using Kind = RecordedChannel::Kind;
 
 constexpr int kCompressionLevel = 3;
 constexpr std::uint32_t kMaxRows = 1u << 20;
-constexpr std::size_t kMaxVarint = 10;
+using bytes::kMaxVarint, bytes::put_varint, bytes::take_varint, bytes::zigzag, bytes::unzigzag;
 
 static_assert(std::is_standard_layout_v<RecordedTick> && std::is_trivially_copyable_v<RecordedTick>);
 static_assert(kChannels == 7);
@@ -101,28 +101,6 @@ void scatter(const Column& column, const RecordedChannel& channel, std::vector<R
     case Kind::kUint8:
       return scatter_as<std::uint8_t>(column, channel.offset, rows);
   }
-}
-
-std::uint64_t zigzag(std::uint64_t value) { return (value << 1) ^ (0 - (value >> 63)); }
-std::uint64_t unzigzag(std::uint64_t value) { return (value >> 1) ^ (0 - (value & 1)); }
-
-char* put_varint(char* out, std::uint64_t value) {
-  while (value >= 0x80) {
-    *out++ = static_cast<char>(value | 0x80);
-    value >>= 7;
-  }
-  *out++ = static_cast<char>(value);
-  return out;
-}
-
-std::uint64_t take_varint(bytes::Reader& reader) {
-  std::uint64_t value = 0;
-  for (unsigned shift = 0; shift < 64; shift += 7) {
-    const auto byte = reader.take<std::uint8_t>();
-    value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
-    if ((byte & 0x80) == 0) return value;
-  }
-  throw InputError("a number is longer than 64 bits");
 }
 
 void accumulate(Column& column) {
@@ -226,18 +204,18 @@ std::string TickEncoder::encode(std::span<const RecordedTick> rows) {
   return payload;
 }
 
-std::vector<RecordedTick> decode_ticks(std::string_view payload) {
+std::vector<RecordedTick> decode_ticks(std::string_view payload, std::span<const RecordedChannel> channels) {
   bytes::Reader head(payload);
   const auto count = head.take<std::uint32_t>(), packed_size = head.take<std::uint32_t>();
   if (count == 0 || count > kMaxRows) throw InputError("the number of rows is out of range");
-  if (packed_size > std::size(kTable) * (1 + kMaxVarint * (count + std::size_t{2}))) {
+  if (packed_size > channels.size() * (1 + kMaxVarint * (count + std::size_t{2}))) {
     throw InputError("the size of the rows is out of range");
   }
   const std::string packed = decompress(head.rest(), packed_size);
   bytes::Reader reader(packed);
   std::vector<RecordedTick> rows(count);
   Column column(count);
-  for (const RecordedChannel& channel : kTable) {
+  for (const RecordedChannel& channel : channels) {
     unpack_column(reader, column);
     scatter(column, channel, rows);
   }

@@ -28,7 +28,7 @@ struct RecordedChannel {
   Kind kind;
 };
 
-/// All columns in the order in which they are stored. The order is part of format version 1.
+/// All columns in the order in which this program stores them. An older recording has some of them, as its header says.
 std::span<const RecordedChannel> recorded_channels();
 
 class TickEncoder {
@@ -42,7 +42,9 @@ class TickEncoder {
   std::unique_ptr<Context> context_;
 };
 
+/// @param channels of the recording in their order; fields of others keep their defaults.
 /// @throws InputError saying what is wrong with the payload: sizes, values out of range, ticks not increasing.
-std::vector<RecordedTick> decode_ticks(std::string_view payload);
+std::vector<RecordedTick> decode_ticks(std::string_view payload,
+                                       std::span<const RecordedChannel> channels = recorded_channels());
 
 }  // namespace trocar
