@@ -68,10 +68,15 @@ void require_reach(const Scene& scene) {
 }  // namespace
 
 Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq) {
+  find_level(setup.exercise, setup.level);  // a wrong level is refused before anything is loaded
+  return build_scene(setup, load_organ(find_organ(setup.organ, assets.assets)), daq);
+}
+
+Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities& daq) {
   Scene scene;
   scene.setup = setup;
   scene.level = find_level(setup.exercise, setup.level);
-  scene.organ = load_organ(find_organ(setup.organ, assets.assets));
+  scene.organ = std::move(organ);
   scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, setup.exercise.layout));
   scene.board = lay_out_board(scene.organ_T, setup.exercise, scene.level, setup.board);
 
@@ -79,6 +84,8 @@ Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const Daq
   scene.loop.map = place_theatre(scene.level);
   scene.loop.map.force_scale = force_scale(scene.level, scene.loop.map, scene.loop.device, setup.exercise.layout,
                                            setup.exercise.soft_force_n);
+  scene.loop.safety.max_missed_in_a_row = setup.pace.missed_in_a_row;
+  scene.loop.safety.max_missed_share = setup.pace.missed_share;
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
@@ -102,6 +109,7 @@ std::string scene_json(const Scene& scene) {
       {"board", s.board},
       {"rate_hz", scene.loop.daq.rate_hz},
       {"dac_bits", scene.loop.daq.dac_bits},
+      {"pace", {{"missed_in_a_row", s.pace.missed_in_a_row}, {"missed_share", s.pace.missed_share}}},
       {"contact_law", law_name(s.contact_law)},
       {"passivity_law", law_name(s.passivity_law)},
       {"force_scale", scene.loop.map.force_scale}};
@@ -123,6 +131,9 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     s.seed = json.at("seed").get<std::int64_t>();
     s.board = json.at("board").get<int>();
     s.rate_hz = json.at("rate_hz").get<double>();
+    if (json.contains("pace")) {  // recordings before live runs kept the defaults
+      s.pace = {json.at("pace").at("missed_in_a_row").get<std::uint32_t>(), json.at("pace").at("missed_share").get<double>()};
+    }
     out.daq = {"replay", s.rate_hz, json.at("dac_bits").get<int>()};
     out.force_scale = json.at("force_scale").get<double>();
     s.contact_law = json.at("contact_law").get<std::string>() == "thesis" ? ContactLaw::kThesis : ContactLaw::kProxy;

@@ -26,6 +26,17 @@ struct AssetRoots {
 /// Finds the assets of an installed or a just built program. @throws EnvironmentError naming the places looked at.
 AssetRoots find_assets();
 
+/// How late the loop may be before it is a fault.
+struct PaceLimits {
+  std::uint32_t missed_in_a_row = 20;
+  double missed_share = 0.01;          ///< of the last second
+  bool operator==(const PaceLimits&) const = default;
+};
+
+/// Live on the simulated device nobody holds a motor, and the machine may be busy with other things: a hole that would be a
+/// fault at a real device is borne, counted and stated in the receipt. At the figures a tenth of a second without a tick.
+inline constexpr PaceLimits kSimulatedLivePace{100, 0.10};
+
 struct AttemptSetup {
   Exercise exercise;
   std::string level = "L1";
@@ -37,6 +48,7 @@ struct AttemptSetup {
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
   std::vector<InjectedFault> faults;   ///< simulated back-end only
+  PaceLimits pace;
 };
 
 /// The setup resolved: organ placed, board laid out, loop configured.
@@ -52,6 +64,8 @@ struct Scene {
 
 /// @param daq rate and DAC bits of the back-end. @throws InputError.
 Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq);
+/// The same on an organ that has been loaded already.
+Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities& daq);
 
 /// Text for the recording's header: JSON with all that a replay and a regrade need (exercise embedded, organ by hash).
 std::string scene_json(const Scene& scene);

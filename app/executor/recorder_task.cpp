@@ -35,7 +35,7 @@ void RecorderTask::write(const TickRecord& record) {
   for (; !unused_.empty() && unused_.front().seen_period <= state.period; unused_.pop_front()) {
     phase_ = unused_.front().phase;
   }
-  if (record.patch_stamp != patch_stamp_) writer_.append_schedule({state.period, record.patch_stamp});
+  if (record.patch_stamp != patch_stamp_) writer_.append_patch({state.period, record.patch_stamp});
   patch_stamp_ = record.patch_stamp;
   writer_.append(quantise(state.period, record.in, trace_sample(state), state.loop, phase_));
 }

@@ -16,7 +16,7 @@ namespace trocar {
 struct RecordingHeader {
   std::string session;  ///< UTF-8, any content
   double rate_hz = 1000;
-  std::vector<RecordedChannel> channels;  ///< reading: the columns of its rows, in their order
+  std::vector<RecordedChannel> channels = {};  ///< reading: the columns of its rows, in their order
 };
 
 /// @throws InputError when the session's text is not UTF-8 or the rate is not in (0, 1e6] Hz.

@@ -49,7 +49,7 @@ class RecordingWriter {
   /// std::invalid_argument when row.tick does not increase.
   void append(const RecordedTick& row);
   /// Takes what is new of the schedule; it goes to disk before the rows of the next chunk.
-  void append_schedule(const PatchSeen& patch) { schedule_.patches.push_back(patch); }
+  void append_patch(const PatchSeen& patch) { schedule_.patches.push_back(patch); }
   void append_step(std::uint64_t seen_period) { schedule_.steps.push_back(seen_period); }
   /// Takes events; they go to disk with the next chunk.
   void append_events(std::span<const Event> events);
