@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <optional>
+#include <tuple>
 
 namespace trocar {
 namespace {
@@ -13,6 +16,7 @@ struct Plan {
   double pitch = 1.34;  ///< line pitch of lists, in body sizes
   double gap = 0.75;    ///< between sections
   int bars = 0, steps = 0, rows = 0;
+  double dial = 0;     ///< diameter of the dials in body sizes; 0: the same as two rows of text
   int step_lines = 2;  ///< of steps that are not the current one
   bool device_as_rows = true;
   int device_lines = 2;  ///< of the flowing form
@@ -44,6 +48,7 @@ class Column {
     pen_.column(box_);
     pen_.shape(HudShape::Kind::kPanel, box_);
     y_ = box_.y + 0.4 * body_;
+    lay_dial();
     lay_bars();
     lay_steps();
     lay_rows();
@@ -78,8 +83,13 @@ class Column {
     return flow;
   }
 
+  double dial_height() const {
+    return heading_height() + (plan_.dial + (plan_.dial > 0 ? 1.6 : 2 * plan_.pitch)) * body_;
+  }
+
   double needed() {
     double sum = 0.6 * body_;
+    if (hud_.dial) sum += dial_height();
     if (plan_.bars > 0) sum += heading_height() + plan_.bars * bar_height();
     if (plan_.steps > 0) {
       sum += plan_.gap * body_ + heading_height();
@@ -103,11 +113,14 @@ class Column {
     plan_.bars = static_cast<int>(hud_.bars.size());
     plan_.steps = static_cast<int>(hud_.steps.size());
     plan_.rows = static_cast<int>(hud_.rows.size());
+    plan_.dial = hud_.dial ? std::min(6.2, (0.5 * room_ / body_ - 1.2)) : 0;
     const auto full = [this] { return needed() > box_.height; };
     if (full()) plan_.step_lines = 1;
     if (full()) plan_.device_as_rows = false;
     if (full()) plan_.pitch = 1.19, plan_.gap = 0.35;
+    while (full() && plan_.dial > 4) plan_.dial -= 0.2;
     while (full() && plan_.rows > 4) --plan_.rows;
+    if (full()) plan_.dial = 0;
     while (full() && plan_.steps > 2) --plan_.steps;
     while (full() && plan_.device_lines > 0) --plan_.device_lines;
     while (full() && plan_.rows > 0) --plan_.rows;
@@ -120,13 +133,71 @@ class Column {
     y_ += heading_height();
   }
 
+  /// Tip on the left, direction and roll on the right; under each its error and what is allowed.
+  void lay_dial() {
+    if (!hud_.dial) return;
+    const PoseDial& d = *hud_.dial;
+    const double mm = 1e3, deg = 180 / std::numbers::pi;
+    heading("Match the pen");
+    const auto fault = [&](double error, double tolerance, const char* unit, int decimals) {
+      return number(error, decimals) + " of " + short_number(tolerance) + unit;
+    };
+    const std::string tip = fault(d.position_error_m * mm, d.position_tolerance_m * mm, " mm", 1),
+                      turn = fault(d.angle_error_rad * deg, d.angle_tolerance_rad * deg, "\u00b0", 0);
+    const bool tip_in = d.position_error_m <= d.position_tolerance_m,
+               turn_in = d.angle_error_rad <= d.angle_tolerance_rad;
+    if (plan_.dial == 0) return lay_dial_rows(tip, tip_in, turn, turn_in);
+    const double size = plan_.dial * body_, half = 0.5 * room_;
+    lay_face(d.offset_C / std::max(d.position_tolerance_m, 1e-9), tip_in, x_, size);
+    lay_face(d.lean_C / std::max(d.angle_tolerance_rad, 1e-9), turn_in, x_ + half, size, d.roll_rad);
+    y_ += size;
+    const double baseline = y_ + 1.15 * body_;
+    pen_.text(tip, x_, baseline, body_, true, tip_in ? HudInk::kGood : HudInk::kText, half - 0.4 * body_);
+    pen_.text(turn, x_ + half, baseline, body_, true, turn_in ? HudInk::kGood : HudInk::kText, half);
+    y_ += 1.6 * body_;
+  }
+
+  void lay_face(const Vec3& error, bool inside, double x, double size, std::optional<double> roll = {}) {
+    HudDial dial;
+    dial.face = {x, y_, size, size};
+    dial.depth = {x + size + 0.25 * body_, y_, 0.55 * body_, size};
+    const double aside = error.head<2>().norm(), share = dial_share(aside);
+    dial.x = aside > 0 ? share * error.x() / aside : 0;
+    dial.y = aside > 0 ? share * error.y() / aside : 0;
+    dial.away = dial_share(error.z());
+    dial.turns = roll.has_value();
+    dial.roll_rad = roll.value_or(0);
+    dial.inside = inside;
+    pen_.dial(dial);
+  }
+
+  void lay_dial_rows(const std::string& tip, bool tip_in, const std::string& turn, bool turn_in) {
+    for (const auto& [name, value, inside] : {std::tuple("Tip", tip, tip_in), std::tuple("Angle", turn, turn_in)}) {
+      const double baseline = y_ + 0.98 * body_;
+      pen_.shape(inside ? HudShape::Kind::kTick : HudShape::Kind::kOpen,
+                 {x_, y_ + 0.1 * body_, 1.05 * body_, 1.05 * body_});
+      const double left =
+          pen_.text_right(value, x_ + room_, baseline, body_, true, inside ? HudInk::kGood : HudInk::kText);
+      pen_.text(name, x_ + icon_room(), baseline, body_, false, HudInk::kDim, left - 0.4 * body_ - x_ - icon_room());
+      y_ += line();
+    }
+  }
+
   void lay_bars() {
     if (plan_.bars == 0) return;
     heading("Force");
     for (int i = 0; i < plan_.bars; ++i) lay_bar(hud_.bars[static_cast<std::size_t>(i)]);
   }
 
+  /// The place of a bar that the feedback mode hides: same height, so that nothing jumps when it appears.
+  void lay_hidden_bar(const ForceBar& bar) {
+    pen_.text(bar.label, x_, y_ + 1.02 * body_, body_, false, HudInk::kDim, room_);
+    pen_.text(bar.hidden_note, x_, y_ + (1.40 + 1.0) * body_, body_, false, HudInk::kDim, room_);
+    y_ += bar_height();
+  }
+
   void lay_bar(const ForceBar& bar) {
+    if (bar.hidden) return lay_hidden_bar(bar);
     const double baseline = y_ + 1.02 * body_;
     const HudBar::Level level = force_level(bar);
     const HudInk ink = level == HudBar::Level::kOverLimit ? HudInk::kAlarm

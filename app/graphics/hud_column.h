@@ -29,6 +29,7 @@ class HudPen {
   double text_right(const std::string& words, double right, double baseline, int size, bool bold, HudInk ink);
   void shape(HudShape::Kind kind, const HudBox& box) { layout_.shapes.push_back({kind, box}); }
   void bar(const HudBar& bar) { layout_.bars.push_back(bar); }
+  void dial(const HudDial& dial) { layout_.dials.push_back(dial); }
   void column(const HudBox& box) { layout_.column = box; }
   double width(const std::string& words, int size, bool bold) { return fonts_.width(words, size, bold); }
   FontSet& fonts() { return fonts_; }

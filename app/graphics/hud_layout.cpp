@@ -64,11 +64,41 @@ void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   write(hint, false, HudInk::kDim);
 }
 
+/// One line each, below the notch, at most two.
+void lay_notices(HudPen& pen, const Hud& hud, const HudFrame& frame) {
+  const double pad = 0.45 * frame.body, icon = 1.15 * frame.body, height = 1.25 * frame.body + pad;
+  double y = frame.scene.y + 1.3 * frame.body;
+  for (std::size_t i = 0; i < std::min<std::size_t>(hud.notices.size(), 2); ++i) {
+    const HudNotice& notice = hud.notices[i];
+    const double most = frame.scene.width - 6 * pad - icon;
+    const double room = std::min(pen.width(notice.text, frame.body, true) + 1, most);
+    const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - room - 3 * pad - icon), y, room + 3 * pad + icon,
+                     height};
+    pen.shape(HudShape::Kind::kToast, box);
+    const HudShape::Kind kind = notice.kind == HudNotice::Kind::kTooMuch     ? HudShape::Kind::kUp
+                                : notice.kind == HudNotice::Kind::kTooLittle ? HudShape::Kind::kDown
+                                : notice.kind == HudNotice::Kind::kWarning   ? HudShape::Kind::kWarning
+                                                                             : HudShape::Kind::kInfo;
+    pen.shape(kind, {box.x + pad, box.y + 0.5 * (height - icon), icon, icon});
+    const HudInk ink = notice.kind == HudNotice::Kind::kInfo ? HudInk::kText : HudInk::kCaution;
+    pen.text(notice.text, box.x + 2 * pad + icon, box.y + 0.5 * height + 0.36 * frame.body, frame.body, true, ink,
+             room);
+    y += height + pad;
+  }
+}
+
 }  // namespace
+
+double dial_share(double error) {
+  constexpr double kRing = 0.4, kFade = 4;  // four tolerances further on, two thirds of the rest are used up
+  const double size = std::abs(error);
+  const double share = size <= 1 ? kRing * size : kRing + (1 - kRing) * (1 - std::exp(-(size - 1) / kFade));
+  return std::copysign(std::isfinite(share) ? share : 1.0, error);
+}
 
 bool hud_is_empty(const Hud& hud) {
   return hud.trainee.empty() && hud.title.empty() && hud.bars.empty() && hud.steps.empty() && hud.rows.empty() &&
-         hud.device.empty();
+         hud.device.empty() && !hud.dial;
 }
 
 HudFrame::HudFrame(const Hud& hud, int w, int h, double text_scale) : width(w), height(h) {
@@ -77,7 +107,8 @@ HudFrame::HudFrame(const Hud& hud, int w, int h, double text_scale) : width(w), 
   empty = hud_is_empty(hud);
   bottom = hud.credit.empty() ? 0.0 : std::round(1.7 * body);
   top = empty ? 0.0 : std::round(2.5 * body);
-  const bool has_column = !(hud.bars.empty() && hud.steps.empty() && hud.rows.empty() && hud.device.empty());
+  const bool has_column =
+      !(hud.bars.empty() && hud.steps.empty() && hud.rows.empty() && hud.device.empty()) || hud.dial.has_value();
   column_width = has_column ? std::round(std::min(17.8 * body, 0.44 * w)) : 0.0;
   scene = {0, static_cast<int>(top), w - static_cast<int>(column_width), h - static_cast<int>(top + bottom)};
 }
@@ -107,6 +138,7 @@ HudLayout layout_hud(const Hud& hud, int width, int height, double text_scale, F
     pen.text(hud.credit, margin, height - frame.bottom * 0.5 + 0.34 * frame.body, frame.body, false, HudInk::kDim,
              strip - 2 * margin);
   }
+  lay_notices(pen, hud, frame);
   lay_toast(pen, hud, frame);
   return layout;
 }

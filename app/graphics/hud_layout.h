@@ -41,6 +41,7 @@ struct HudShape {
     kCurrent,
     kOpen,
     kUp,
+    kDown,
     kWarning,
     kInfo
   } kind = Kind::kPanel;
@@ -54,8 +55,21 @@ struct HudBar {
   enum class Level : std::uint8_t { kBelow, kInBand, kAbove, kOverLimit } level = Level::kBelow;
 };
 
+/// Bullseye with a needle for depth beside it; places are shares of its radius, -1..1, compressed beyond the tolerance.
+struct HudDial {
+  HudBox face;             ///< square round the bullseye
+  HudBox depth;            ///< upright track of the needle, right of it
+  double x = 0, y = 0;     ///< of the dot: right, up
+  double away = 0;         ///< of the needle: up is away from the lens
+  double tolerance = 0.4;  ///< radius of the ring
+  bool turns = false;      ///< has a roll mark on its rim
+  double roll_rad = 0;
+  bool inside = false;  ///< within the tolerance
+};
+
 struct HudLayout {
   std::vector<HudShape> shapes;  ///< painted first, in order
+  std::vector<HudDial> dials;
   std::vector<HudBar> bars;
   std::vector<HudText> texts;
   HudBox column;  ///< the right column, empty when there is none
@@ -69,6 +83,9 @@ PixelRect hud_scene_window(const Hud& hud, int width, int height, double text_sc
 
 /// @param text_scale 1 to 2; values outside are limited to that.
 HudLayout layout_hud(const Hud& hud, int width, int height, double text_scale, FontSet& fonts);
+
+/// Place on a dial of an error that is `error` tolerances: the ring at 0.4, the rim at the horizon.
+double dial_share(double error);
 
 /// How a force stands to band and limit.
 HudBar::Level force_level(const ForceBar& bar);

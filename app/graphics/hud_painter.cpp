@@ -1,6 +1,7 @@
 #include "app/graphics/hud_painter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/graphics/canvas.h"
 
@@ -53,6 +54,10 @@ void paint_symbol(Canvas& canvas, const HudShape& shape) {
     case HudShape::Kind::kUp:
       canvas.triangle(x - 0.9 * r, y + 0.2 * r, x + 0.9 * r, y + 0.2 * r, x, y - 0.9 * r, kOrange);
       canvas.box({x - 0.32 * r, y + 0.1 * r, 0.64 * r, 0.8 * r}, kOrange);
+      break;
+    case HudShape::Kind::kDown:
+      canvas.triangle(x - 0.9 * r, y - 0.2 * r, x + 0.9 * r, y - 0.2 * r, x, y + 0.9 * r, kSkyBlue);
+      canvas.box({x - 0.32 * r, y - 0.9 * r, 0.64 * r, 0.8 * r}, kSkyBlue);
       break;
     case HudShape::Kind::kWarning:
       canvas.triangle(x - r, y + 0.85 * r, x + r, y + 0.85 * r, x, y - 0.9 * r, kVermillion);
@@ -115,11 +120,37 @@ void paint_bar(Canvas& canvas, const HudBar& bar) {
   }
 }
 
+/// Dot on a bullseye, needle on its depth track, roll mark on the rim. A dot within the ring is round and green,
+/// outside it is a yellow one with a line to the middle that says where to go.
+void paint_dial(Canvas& canvas, const HudDial& dial) {
+  const double r = 0.5 * dial.face.width, cx = dial.face.x + r, cy = dial.face.y + r;
+  const Colour good{40, 200, 150, 1}, lit{240, 200, 20, 1};
+  canvas.disc(cx, cy, r, kTrack);
+  canvas.disc(cx, cy, dial.tolerance * r, {0, 158, 115, 0.38});
+  canvas.ring(cx, cy, dial.tolerance * r, 2, good);
+  canvas.line(cx - 0.94 * r, cy, cx + 0.94 * r, cy, 1, faded(kGrey, 0.4));
+  canvas.line(cx, cy - 0.94 * r, cx, cy + 0.94 * r, 1, faded(kGrey, 0.4));
+  if (dial.turns) {
+    canvas.triangle(cx - 0.12 * r, cy - r, cx + 0.12 * r, cy - r, cx, cy - 0.84 * r, good);
+    const double s = std::sin(dial.roll_rad), c = std::cos(dial.roll_rad);
+    canvas.line(cx + 0.72 * r * s, cy - 0.72 * r * c, cx + 0.98 * r * s, cy - 0.98 * r * c, 0.09 * r, kWhite);
+  }
+  const double x = cx + 0.9 * r * dial.x, y = cy - 0.9 * r * dial.y;
+  if (!dial.inside) canvas.line(cx, cy, x, y, 0.05 * r, faded(lit, 0.7));
+  canvas.disc(x, y, 0.14 * r, dial.inside ? good : lit);
+  const HudBox& t = dial.depth;
+  canvas.box(t, kTrack, 3);
+  const double middle = t.y + 0.5 * t.height, band = 0.5 * dial.tolerance * t.height;
+  canvas.box({t.x, middle - band, t.width, 2 * band}, {0, 158, 115, 0.38});
+  canvas.box({t.x - 2, middle - 0.48 * t.height * dial.away - 2, t.width + 4, 4}, dial.inside ? good : lit);
+}
+
 }  // namespace
 
 void paint_hud(Image& image, const HudLayout& layout, FontSet& fonts) {
   Canvas canvas(image);
   for (const HudShape& shape : layout.shapes) paint_shape(canvas, shape);
+  for (const HudDial& dial : layout.dials) paint_dial(canvas, dial);
   for (const HudBar& bar : layout.bars) paint_bar(canvas, bar);
   for (const HudText& text : layout.texts)
     canvas.text(text.text, text.box.x, text.baseline, text.size, text.bold, ink_colour(text.ink), fonts);

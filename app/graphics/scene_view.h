@@ -30,6 +30,23 @@ struct ForceBar {
   double band_low_n = 0, band_high_n = 0;
   double limit_n = 0;      ///< hatched zone starts here
   double full_scale_n = 0;
+  bool hidden = false;     ///< feedback mode: the place is kept, but neither value nor track is shown
+  std::string hidden_note; ///< why, in its place
+};
+
+/// How far the instrument is from a wanted pose, as a trainee sees it: sideways, up and away from the lens.
+struct PoseDial {
+  Vec3 offset_C = Vec3::Zero();    ///< tip minus wanted tip, m: x right, y up, z away
+  double position_error_m = 0, position_tolerance_m = 0;
+  Vec3 lean_C = Vec3::Zero();      ///< shaft's direction minus the wanted one (towards the hand), rad; axes as above
+  double roll_rad = 0;             ///< about the shaft
+  double angle_error_rad = 0, angle_tolerance_rad = 0;  ///< of the whole rotation
+};
+
+/// A short notice over the picture's upper edge: the state of device or mapping, or a force outside its band.
+struct HudNotice {
+  std::string text;
+  enum class Kind : std::uint8_t { kInfo, kWarning, kTooMuch, kTooLittle } kind = Kind::kInfo;
 };
 
 struct HudStep {
@@ -46,6 +63,8 @@ struct Hud {
   std::string title;       ///< "E02 Surface touch - L1"
   double elapsed_s = 0, limit_s = 0;
   std::vector<ForceBar> bars;
+  std::optional<PoseDial> dial;
+  std::vector<HudNotice> notices;  ///< the first two are shown
   std::vector<HudStep> steps;
   std::vector<HudRow> rows;      ///< "So far"
   std::vector<HudRow> device;    ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
