@@ -84,8 +84,8 @@ class ObserverTask final : public Task {
   void run(std::uint64_t tick) override {
     if (!observe_) return;
     const TickRecord& record = bench_.records->newest(tick);
-    const DirectorStatus& status = bench_.observer_frames->newest(tick).status;
-    observe_({bench_.scene, record, {status, bench_.scene.board}, record.stylus.t_s});
+    const ExerciseFrame& frame = bench_.observer_frames->newest(tick);
+    observe_({bench_.scene, record, {frame.status, bench_.scene.board}, record.stylus.t_s, &frame.tissue});
   }
 
  private:

@@ -35,6 +35,7 @@ struct SessionView {
   const TickRecord& record;
   const DirectorView director;
   double t_s;
+  const TissueFrame* tissue = nullptr;  ///< newest frame of the world's objects; nullptr: none known
 };
 using SessionObserver = std::function<void(const SessionView&)>;
 

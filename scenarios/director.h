@@ -5,6 +5,7 @@
 // Knows nothing else of the device. Deterministic: same states in, same events out.
 #pragma once
 
+#include <bitset>
 #include <memory>
 #include <string>
 #include <vector>
@@ -56,6 +57,7 @@ struct DirectorStatus {
   bool force_shown = true;             ///< feedback mode of the level: the bar is visible now
   int target_index = -1;
   int targets_done = 0;
+  std::bitset<32> done;                ///< of the board's targets: done for good
   double run_time_s = 0;               ///< since RUN began
   double hold_progress = 0;            ///< 0..1 of the present hold
   int wrong_places = 0, excess_forces = 0;

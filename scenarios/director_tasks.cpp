@@ -127,6 +127,7 @@ void DiscTask::coach(const TaskInput& input, const WantedForce& band, DirectorSt
 void DiscTask::describe(const TaskInput& input, DirectorStatus& status) const {
   status.target_index = index_;
   status.targets_done = index_;
+  for (int i = 0; i < index_; ++i) status.done.set(static_cast<std::size_t>(i));
   status.hold_progress = hold_.progress();
   status.wrong_places = wrong_places_;
   status.cue = on_disc_ ? Cue::kPress : Cue::kReach;
@@ -183,6 +184,7 @@ void SqueezeTask::describe(const TaskInput& input, DirectorStatus& status) const
   status.cue = Cue::kGrip;
   status.target_index = -1;
   status.targets_done = object_;  // the block comes after the discs
+  for (int i = 0; i < object_; ++i) status.done.set(static_cast<std::size_t>(i));
   status.grip = block();
   status.hold_progress = hold_.progress();
   status.excess_forces += excess_count_;

@@ -67,6 +67,8 @@ void PoseTask::update(const TaskInput& input, EventLog& log) {
 void PoseTask::describe(const TaskInput&, DirectorStatus& status) const {
   status.targets_done = static_cast<int>(pens_.size() - waiting_.size());
   status.target_index = object();
+  for (std::size_t i = 0; i < pens_.size(); ++i) status.done.set(i);
+  for (const std::int32_t pen : waiting_) status.done.reset(static_cast<std::size_t>(pen));
   status.timeouts = timeouts_;
   status.hold_progress = hold_.progress();
   status.cue = Cue::kOrient;

@@ -138,6 +138,7 @@ class Column {
     if (!hud_.dial) return;
     const PoseDial& d = *hud_.dial;
     const double mm = 1e3, deg = 180 / std::numbers::pi;
+    if (d.hidden) return lay_hidden_dial(d);
     heading("Match the pen");
     const auto fault = [&](double error, double tolerance, const char* unit, int decimals) {
       return number(error, decimals) + " of " + short_number(tolerance) + unit;
@@ -155,6 +156,13 @@ class Column {
     pen_.text(tip, x_, baseline, body_, true, tip_in ? HudInk::kGood : HudInk::kText, half - 0.4 * body_);
     pen_.text(turn, x_ + half, baseline, body_, true, turn_in ? HudInk::kGood : HudInk::kText, half);
     y_ += 1.6 * body_;
+  }
+
+  void lay_hidden_dial(const PoseDial& dial) {
+    const double end = y_ + dial_height();
+    heading("Match the pen");
+    pen_.text(dial.hidden_note, x_, y_ + 1.02 * body_, body_, false, HudInk::kDim, room_);
+    y_ = end;
   }
 
   void lay_face(const Vec3& error, bool inside, double x, double size, std::optional<double> roll = {}) {

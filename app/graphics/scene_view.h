@@ -28,19 +28,21 @@ struct ForceBar {
   std::string label;
   double value_n = 0, peak_n = 0;
   double band_low_n = 0, band_high_n = 0;
-  double limit_n = 0;      ///< hatched zone starts here
+  double limit_n = 0;  ///< hatched zone starts here
   double full_scale_n = 0;
-  bool hidden = false;     ///< feedback mode: the place is kept, but neither value nor track is shown
-  std::string hidden_note; ///< why, in its place
+  bool hidden = false;           ///< feedback mode: the place is kept, but neither value nor track is shown
+  std::string hidden_note = {};  ///< why, in its place
 };
 
 /// How far the instrument is from a wanted pose, as a trainee sees it: sideways, up and away from the lens.
 struct PoseDial {
-  Vec3 offset_C = Vec3::Zero();    ///< tip minus wanted tip, m: x right, y up, z away
+  Vec3 offset_C = Vec3::Zero();  ///< tip minus wanted tip, m: x right, y up, z away
   double position_error_m = 0, position_tolerance_m = 0;
-  Vec3 lean_C = Vec3::Zero();      ///< shaft's direction minus the wanted one (towards the hand), rad; axes as above
-  double roll_rad = 0;             ///< about the shaft
+  Vec3 lean_C = Vec3::Zero();  ///< shaft's direction minus the wanted one (towards the hand), rad; axes as above
+  double roll_rad = 0;         ///< about the shaft
   double angle_error_rad = 0, angle_tolerance_rad = 0;  ///< of the whole rotation
+  bool hidden = false;                                  ///< feedback mode: the place is kept, the note stands in it
+  std::string hidden_note;
 };
 
 /// A short notice over the picture's upper edge: the state of device or mapping, or a force outside its band.
@@ -59,18 +61,18 @@ struct HudRow {
 };
 
 struct Hud {
-  std::string trainee;     ///< "Trainee: T-expert"
-  std::string title;       ///< "E02 Surface touch - L1"
+  std::string trainee;  ///< "Trainee: T-expert"
+  std::string title;    ///< "E02 Surface touch - L1"
   double elapsed_s = 0, limit_s = 0;
   std::vector<ForceBar> bars;
   std::optional<PoseDial> dial;
   std::vector<HudNotice> notices;  ///< the first two are shown
   std::vector<HudStep> steps;
-  std::vector<HudRow> rows;      ///< "So far"
-  std::vector<HudRow> device;    ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
-  std::string toast, toast_hint; ///< at most one message; empty when none
+  std::vector<HudRow> rows;       ///< "So far"
+  std::vector<HudRow> device;     ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
+  std::string toast, toast_hint;  ///< at most one message; empty when none
   bool toast_warning = false;
-  std::string credit;            ///< organ's origin and licence; says "synthetic" for phantoms
+  std::string credit;  ///< organ's origin and licence; says "synthetic" for phantoms
 };
 
 struct Camera {
@@ -84,15 +86,15 @@ struct SceneView {
   std::shared_ptr<const TriangleSurface> organ;  ///< already in T; shared between frames
   std::string material;                          ///< selects the tissue look: "liver", "gallbladder", ...
   std::vector<TargetMark> targets;
-  std::vector<SceneObject> objects;              ///< board, blocks, rings, ghost pens, port
-  Eigen::AlignedBox3d stage_T;                   ///< without an organ: work space that the box trainer surrounds
-  Pose X_TI;                       ///< instrument tip, z along the shaft towards the tip
+  std::vector<SceneObject> objects;  ///< board, blocks, rings, ghost pens, port
+  Eigen::AlignedBox3d stage_T;       ///< without an organ: work space that the box trainer surrounds
+  Pose X_TI;                         ///< instrument tip, z along the shaft towards the tip
   double shaft_radius_m = 0.0025, shaft_length_m = 0.30;
-  double jaw_opening_m = 0;        ///< between the jaws' tips
-  bool roll_stripe = false;        ///< paint a stripe along the upper jaw's side (+y of I)
-  std::optional<Vec3> dimple_T;    ///< surface point under the tip while touching
+  double jaw_opening_m = 0;      ///< between the jaws' tips
+  bool roll_stripe = false;      ///< paint a stripe along the upper jaw's side (+y of I)
+  std::optional<Vec3> dimple_T;  ///< surface point under the tip while touching
   Vec3 dimple_normal_T = Vec3::UnitZ();
-  double dimple_depth_m = 0;       ///< drawn as a local dent with whitening
+  double dimple_depth_m = 0;  ///< drawn as a local dent with whitening
   Camera camera;
   Hud hud;
 };

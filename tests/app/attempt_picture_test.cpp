@@ -87,13 +87,17 @@ TEST(AttemptView, ForceBarsCarryTheBandOfTheLevel) {
   EXPECT_EQ(hud.bars[1].value_n, 1.25);
 }
 
-TEST(AttemptView, ALevelThatHidesTheForceHasNoTipBar) {
+TEST(AttemptView, ALevelThatHidesTheForceKeepsItsPlaceButNotItsValue) {
   Scene hidden = scene();
   hidden.level.force_display = "after";
   const Moment moment;
   const SceneView view = attempt_view({hidden, moment.record, moment.director, 0}, nullptr, "");
-  ASSERT_EQ(view.hud.bars.size(), 1u);
-  EXPECT_EQ(view.hud.bars[0].label, "Grip force");
+  ASSERT_EQ(view.hud.bars.size(), 2u);
+  for (const ForceBar& bar : view.hud.bars) {
+    EXPECT_TRUE(bar.hidden) << bar.label;
+    EXPECT_EQ(bar.hidden_note, "shown after the run");
+  }
+  EXPECT_TRUE(view.hud.notices.empty());
 }
 
 TEST(AttemptView, TheHudNamesTraineeExerciseDeviceAndOrgan) {
@@ -102,7 +106,7 @@ TEST(AttemptView, TheHudNamesTraineeExerciseDeviceAndOrgan) {
   const Hud hud = moment.seen("T-7").hud;
   EXPECT_EQ(hud.trainee, "Trainee: T-7");
   EXPECT_EQ(moment.seen("").hud.trainee, "Guest");
-  EXPECT_EQ(hud.title, "E02 Surface touch · L1");
+  EXPECT_EQ(hud.title, "E02 Surface touch · L1 · direct");
   EXPECT_EQ(row(hud.rows, "Discs held").value, "0 / 12");
   EXPECT_EQ(row(hud.device, "loop").value, "1000");
   EXPECT_EQ(row(hud.device, "passivity").value, "ok");
