@@ -9,7 +9,9 @@
 #include "app/commands/cohort_command.h"
 #include "app/commands/db_command.h"
 #include "app/commands/demo_command.h"
+#include "app/command_line_texts.h"
 #include "app/commands/device_command.h"
+#include "app/commands/doctor_command.h"
 #include "app/commands/exercises_command.h"
 #include "app/commands/organ_import.h"
 #include "app/commands/organ_info.h"
@@ -51,6 +53,8 @@ struct CommandLine {
   TraineeOptions trainee;
   CohortOptions cohort;
   DbOptions db;
+  DoctorOptions doctor;
+  std::string shell;
 
   /// A subcommand that runs `action` when chosen.
   CLI::App* add(CLI::App& parent, const char* name, const char* help, std::function<int()> action) {
@@ -237,6 +241,22 @@ void add_db(CommandLine& c) {
   for (CLI::App* command : {check, backup, migrate, anchor, rubric}) command->add_option("--db", c.db.database, "Database file");
 }
 
+void add_machine(CommandLine& c) {
+  CLI::App* doctor = c.add(c.app, "doctor", "What this machine offers, and what is missing",
+                           [&c] { return doctor_command(c.doctor, std::cout, std::cerr); });
+  doctor->add_option("--db", c.doctor.database, "Database file");
+  doctor->add_flag("--json", c.doctor.json, "As JSON");
+  CLI::App* completion = c.add(c.app, "completion", "Shell completion, as it is installed", [&c] {
+    std::cout << completion_script(c.app, c.shell);
+    return 0;
+  });
+  completion->add_option("shell", c.shell, "bash, zsh or fish")->required();
+  c.add(c.app, "manual", "Manual page in roff, as it is installed", [&c] {
+    std::cout << manual_page(c.app, TROCAR_VERSION);
+    return 0;
+  });
+}
+
 int fail(const std::exception& error, int code) {
   std::cerr << "trocar: " << error.what() << '\n';
   return code;
@@ -247,7 +267,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_run, add_sweep, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db}) {
+  for (auto* add : {add_run, add_sweep, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
     add(c);
   }
   try {

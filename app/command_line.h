@@ -1,6 +1,6 @@
 // The command line: which subcommands and flags there are, and which function each one calls.
 //
-// The only source that sees CLI11. Exit codes: docs/commands.md.
+// Its source and command_line_texts.cpp alone see CLI11. Exit codes: docs/commands.md.
 #pragma once
 
 namespace trocar {

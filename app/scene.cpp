@@ -31,7 +31,9 @@ AssetRoots find_assets() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!named && !error) roots.push_back(program.parent_path().parent_path() / "share" / "trocar");
-  if (!named) roots.emplace_back(TROCAR_SOURCE_DIR);
+  // A program in its build folder uses the source tree; an installed one never does.
+  const fs::path within = program.lexically_relative(TROCAR_BUILD_DIR);
+  if (!named && !within.empty() && *within.begin() != "..") roots.emplace_back(TROCAR_SOURCE_DIR);
   std::string looked;
   for (const fs::path& root : roots) {
     // Installed, exercises and hands lie together under the share folder; in the source tree under scenarios.

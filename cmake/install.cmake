@@ -1,4 +1,4 @@
-# Installation: the program in bin, all that find_assets() of app/scene.cpp looks for under share/trocar.
+# Installation: the program in bin, all that find_assets() looks for under share/trocar, manual page, completion, documents.
 include(GNUInstallDirs)
 set(_trocar_share ${CMAKE_INSTALL_DATADIR}/trocar)
 install(TARGETS trocar RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -6,3 +6,21 @@ install(DIRECTORY assets/ DESTINATION ${_trocar_share}/assets)
 install(DIRECTORY scenarios/exercises/ DESTINATION ${_trocar_share}/exercises FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY scenarios/hands/ DESTINATION ${_trocar_share}/hands FILES_MATCHING PATTERN "*.toml")
 install(FILES LICENSE DESTINATION ${_trocar_share})
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+
+# The program writes its own manual page and completions, from the same table that it parses with.
+set(_texts ${PROJECT_BINARY_DIR}/texts)
+file(MAKE_DIRECTORY ${_texts})
+set(_made)
+foreach(_text "trocar.1 manual" "trocar.bash completion bash" "_trocar completion zsh" "trocar.fish completion fish")
+  separate_arguments(_words UNIX_COMMAND "${_text}")
+  list(POP_FRONT _words _file)
+  add_custom_command(OUTPUT ${_texts}/${_file} COMMAND trocar ${_words} > ${_texts}/${_file} DEPENDS trocar VERBATIM)
+  list(APPEND _made ${_texts}/${_file})
+endforeach()
+add_custom_target(trocar_texts ALL DEPENDS ${_made})
+install(FILES ${_texts}/trocar.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${_texts}/trocar.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME trocar)
+install(FILES ${_texts}/_trocar DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${_texts}/trocar.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

@@ -32,6 +32,16 @@ fs::path default_database_path() {
   return fs::path(home) / ".local" / "share" / "trocar" / "trocar.db";
 }
 
+std::optional<int> schema_of_file(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  sqlite3* raw = nullptr;
+  const int code = sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr);
+  const std::unique_ptr<sqlite3, int (*)(sqlite3*)> connection(raw, sqlite3_close_v2);
+  if (code != SQLITE_OK) throw EnvironmentError(file.string() + ": cannot be opened: " + sqlite3_errstr(code));
+  require_ours(raw, file, shipped_migrations());
+  return static_cast<int>(sql::query_integer(raw, "PRAGMA user_version"));
+}
+
 void Database::Close::operator()(sqlite3* connection) const { sqlite3_close_v2(connection); }
 
 Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, const Regrade& regrade) {

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ namespace trocar {
 
 /// $XDG_DATA_HOME/trocar/trocar.db, else ~/.local/share/trocar/trocar.db. @throws EnvironmentError without HOME.
 std::filesystem::path default_database_path();
+
+/// Schema version of a database that is only looked at: nothing is made, migrated or repaired. Empty when there is none.
+/// @throws InputError: not a database of ours. EnvironmentError: cannot be read, a newer schema.
+std::optional<int> schema_of_file(const std::filesystem::path& file);
 
 enum class OpenMode : std::uint8_t {
   kCreate,    ///< made when missing

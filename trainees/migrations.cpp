@@ -128,15 +128,19 @@ std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migra
   return problems;
 }
 
-MigrationReport migrate(sqlite3* connection, const fs::path& file, std::span<const Migration> migrations) {
+void require_ours(sqlite3* connection, const fs::path& file, std::span<const Migration> migrations) {
   check_owner(connection, file);
+  const int present = schema_version(connection), known = migrations.back().version;
+  if (present <= known) return;
+  throw EnvironmentError(name_of(file) + ": was written by a newer trocar (schema " + std::to_string(present) +
+                         ", this program knows up to " + std::to_string(known) + "); it was left as it is");
+}
+
+MigrationReport migrate(sqlite3* connection, const fs::path& file, std::span<const Migration> migrations) {
+  require_ours(connection, file, migrations);
   MigrationReport report;
   report.from = schema_version(connection);
   report.to = migrations.back().version;
-  if (report.from > report.to) {
-    throw EnvironmentError(name_of(file) + ": was written by a newer trocar (schema " + std::to_string(report.from) +
-                           ", this program knows up to " + std::to_string(report.to) + "); it was left as it is");
-  }
   if (report.from == report.to) return report;
   if (report.from > 0 && !file.empty()) {
     report.backup = backup_name(file, report.from);

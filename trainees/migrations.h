@@ -30,6 +30,9 @@ struct MigrationReport {
   std::filesystem::path backup;  ///< copy made before migrating; empty for a new database or when nothing was done
 };
 
+/// @throws InputError: another application's database. EnvironmentError: a schema newer than `migrations` know.
+void require_ours(sqlite3* connection, const std::filesystem::path& file, std::span<const Migration> migrations);
+
 /// Brings the database to the newest version of `migrations`, all steps in one transaction.
 /// @param file the database's file, empty when in memory (no backup then).
 /// @throws InputError: another application's database. EnvironmentError: a schema newer than this program knows, the

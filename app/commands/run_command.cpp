@@ -124,7 +124,7 @@ std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const 
     AttemptResult result;
     result.grade.grade = "not graded";
     result.integrity = error.what();
-    if (!id.recording.empty()) result.recording_sha256 = digest::of_readable_file(id.recording);
+    if (std::filesystem::is_regular_file(id.recording)) result.recording_sha256 = digest::of_readable_file(id.recording);
     try {
       store.finish_attempt(id, result);
     } catch (const EnvironmentError&) {

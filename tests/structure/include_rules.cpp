@@ -55,7 +55,7 @@ const std::vector<Territory>& territories() {
       {"^sqlite3", "^trainees/.*\\.cpp$", "SQLite stays in sources of trainees"},
       {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/graphics/.*\\.cpp$",
        "graphics libraries stay in sources of app/graphics"},
-      {"^CLI/", "^app/command_line\\.cpp$", "one file reads the command line"},
+      {"^CLI/", "^app/command_line(_[a-z]+)?\\.cpp$", "the command line is read in one place"},
       {"^toml", "^(scenarios|tissue)/.*\\.cpp$", "TOML is read in sources of scenarios and tissue"},
   };
   return table;

@@ -35,10 +35,15 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"trainee list", {"--db", "--json"}},
       {"trainee show", {"--db", "--limit", "--json"}},
       {"cohort", {"--db", "--trainee", "--json"}},
-      {"db", {"check", "backup", "migrate"}},
+      {"db", {"check", "backup", "migrate", "anchor", "rubric"}},
       {"db check", {"--db", "--json"}},
       {"db backup", {"--db", "--out"}},
-      {"db migrate", {"--db"}}};
+      {"db migrate", {"--db"}},
+      {"db anchor", {"--db"}},
+      {"db rubric", {"--db"}},
+      {"doctor", {"--db", "--json"}},
+      {"completion", {"shell"}},
+      {"manual", {}}};
   return table;
 }
 

@@ -1,0 +1,19 @@
+// `trocar doctor`: what this machine offers the program, and what is missing.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+namespace trocar {
+
+struct DoctorOptions {
+  std::filesystem::path database;  ///< empty: the default path
+  bool json = false;
+};
+
+/// Looks only: no database is made, migrated or repaired.
+/// @return 0 when everything that a run needs is there, 3 when something is missing. Limits that only a live run with a
+/// device would like (real-time priority, locked memory) are said, not asked for.
+int doctor_command(const DoctorOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace trocar
