@@ -99,8 +99,7 @@ double ContactRenderer::turn_to(const Axes& axes) const {
   return furthest;
 }
 
-ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
-  const Vec3 goal = X_TI.p;
+ContactRenderer::Axes ContactRenderer::place_capsules(const Pose& X_TI) {
   Axes axes;
   thinnest_m_ = tool_.at[0].radius_m;
   for (int c = 0; c < tool_.count; ++c) {
@@ -110,12 +109,18 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
     axes[c].back = axes[c].front - X_TI.R * (capsule.X_IC.R.col(2) * capsule.length_m);
   }
   if (!started_) {
-    proxy_ = last_goal_ = goal;
+    proxy_ = last_goal_ = X_TI.p;
     axes_ = axes;
     started_ = true;
   }
   for (int c = known_; c < tool_.count; ++c) axes_[c] = axes[c];  // picked up just now
   known_ = tool_.count;
+  return axes;
+}
+
+ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
+  const Vec3 goal = X_TI.p;
+  const Axes axes = place_capsules(X_TI);
   const double travel = (goal - last_goal_).norm();
   move_proxy(goal, axes, patch);
 

@@ -83,6 +83,8 @@ class ContactRenderer {
   using Axes = std::array<Axis, kMaxCapsules>;
 
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
+  /// Where the axes of all capsules lie now; on the first call the proxy begins there.
+  Axes place_capsules(const Pose& X_TI);
   /// Moves the proxy to where it rests this period and lists what it touches.
   void move_proxy(const Vec3& goal, const Axes& axes, const ContactPatch& patch);
   ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);

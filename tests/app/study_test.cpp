@@ -46,7 +46,7 @@ TEST(ContactLawStudy, MeetsEveryBar) {
 
 TEST(ContactLawStudy, ShowsTheFaultsOfTheThesisLaw) {
   EXPECT_NEAR(*the_case("thin part").thesis, 1.0, 0.02) << "pops at half the thickness";
-  EXPECT_EQ(*the_case("wrong side").thesis, 1.0);
+  EXPECT_NEAR(*the_case("wrong side").thesis, 1.0, 1e-9);
   EXPECT_GT(*the_case("force step at an edge").thesis, 0.15) << "0.21 N by hand: 150 N/m, 1 mm, a right angle";
   EXPECT_GT(*the_case("facets").thesis, 1.0);
   EXPECT_EQ(*the_case("torque of the shaft").thesis, 0.0);
