@@ -12,7 +12,7 @@ DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRe
   const Motion motion = measure(in);                              // counts -> angles -> ArmState -> rates -> twist
   const Contact contact = feel(motion, patch);                    // instrument -> tissue, pinch -> tau = J^T F
   const ChannelVector passive = make_passive(motion, contact);    // budget, fed with what was applied one tick ago
-  const LimitedTorque torque = share_out(motion, passive);        // springs, gravity, contact, friction: who gets it
+  const LimitedTorque torque = share_out(motion, contact, passive);  // springs, gravity, contact, friction: who gets it
   watch(motion, contact, torque);                                 // faults, heat, warnings
   const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless ACTIVE
   publish(in, motion, contact, torque, out, record);
@@ -87,6 +87,8 @@ bool is_sound(const ContactPatch& patch, bool triangles) {
 HapticLoop::HapticLoop(const HapticLoopConfig& config)
     : config_(config),
       period_s_(1 / config.daq.rate_hz),
+      instrument_(config.map),
+      port_(config.port),
       contact_(config.contact_law, config.tool),
       arm_passivity_(with_friction_left(with_period(config.passivity, period_s_), config.friction)),
       pinch_passivity_(with_period(config.pinch_passivity, period_s_)),
@@ -119,15 +121,19 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.tip_speed = twist.head<3>().norm();
-  motion.X_TI = config_.map.instrument_pose(motion.arm.X_WS);
-  motion.V_TI_T = config_.map.instrument_twist(motion.arm.X_WS, {twist.head<3>(), twist.tail<3>()});
   motion.periods = std::max<double>(1, in.elapsed_periods);
+  const bool clutch = (in.digital_in & kClutch) != 0;
+  instrument_.update(motion.arm.X_WS, {twist.head<3>(), twist.tail<3>()}, clutch, motion.periods * period_s_);
+  motion.X_TI = instrument_.X_TI();
+  motion.V_TI_T = instrument_.V_TI_T();
   periods_ += static_cast<std::uint64_t>(motion.periods);
   return motion;
 }
 
 void HapticLoop::take_home() noexcept {
   for (VelocityEstimator& estimator : velocity_) estimator.reset();
+  instrument_.reset();
+  port_.reset();
   contact_.reset();
   arm_passivity_.reset();
   pinch_passivity_.reset();
@@ -138,6 +144,8 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   Contact contact;
   if (supervisor_.state() != LoopState::kActive) {
     contact_.reset();
+    port_.reset();
+    last_port_j_ = 0;
     return contact;
   }
   const bool new_patch = patch.stamp != checked_stamp_;
@@ -153,15 +161,35 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
     w << F.force, F.moment;
     return motion.arm.J_WS.transpose() * w;
   };
-  const double share = rendered_share(motion.arm.det_a);
-  const Wrench spring = config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.spring_I_T);
-  contact.torque.head<kArmJoints>() =
-      share * torque_of(config_.map.stylus_wrench(motion.arm.X_WS, contact.tissue.F_I_T));
-  contact.torque[kPinchChannel] = share * contact.grip.force_n;
-  contact.share = share;
+  contact.jaw_share = rendered_share(motion.arm.det_a);
+  contact.share = contact.jaw_share * instrument_.share();  // the clutch parts the arm from the scene, not the fingers
+  const Wrench whole = instrument_.stylus_wrench(contact.tissue.F_I_T);
+  const Wrench spring = instrument_.stylus_wrench(contact.tissue.spring_I_T);
+  contact.commanded_W = whole.force;
+  contact.torque.head<kArmJoints>() = contact.share * torque_of(whole);
+  contact.torque[kPinchChannel] = contact.jaw_share * contact.grip.force_n;
   contact.spring_n = spring.force.norm();
-  contact.spring_torque = share * torque_of(spring);
+  contact.spring_torque = contact.share * torque_of(spring);
+  feel_port(motion, contact);
   return contact;
+}
+
+void HapticLoop::feel_port(const Motion& motion, Contact& contact) noexcept {
+  const InstrumentMap& map = instrument_.map();
+  if (!map.fulcrum) return;
+  const Vec3 u = motion.X_TI.R.col(2);
+  const double depth_m = (motion.X_TI.p - map.fulcrum->port_T).dot(u);
+  const double roll_rad = motion.V_TI_T.angular.dot(u) * motion.periods * period_s_;
+  const Wrench friction = instrument_.stylus_wrench(port_.friction(depth_m, roll_rad, u));
+  const double stiffness = config_.port.alignment_n_m_per_rad;
+  const Wrench alignment = alignment_wrench(map, instrument_.X_WS(), stiffness);
+  Vec6 w;
+  w << friction.force, friction.moment;
+  contact.port.head<kArmJoints>() = contact.share * (motion.arm.J_WS.transpose() * w);
+  w << alignment.force, alignment.moment;
+  contact.alignment.head<kArmJoints>() = contact.share * motion.arm.J_WS.transpose() * w;
+  contact.port_stored_j =
+      map.force_scale * port_.stored_j() + alignment_energy_j(map, instrument_.X_WS(), stiffness);
 }
 
 double HapticLoop::rendered_share(double det_a) const noexcept {
@@ -176,7 +204,10 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
   const ChannelVector acted = (acting_contact_ + (n - 1) * applied_contact_) / n;
   ContactWork arm;
   arm.wanted_n = contact.share * contact.spring_n;
-  arm.absorbed_j = -acted.head<kArmJoints>().dot(dq.head<kArmJoints>());
+  // What the port's springs hold is returned later: only what they lose is absorbed.
+  const double port_j = contact.share * (contact.port_stored_j - last_port_j_);
+  arm.absorbed_j = -acted.head<kArmJoints>().dot(dq.head<kArmJoints>()) - port_j;
+  last_port_j_ = contact.port_stored_j;
   arm.stored_j = contact.share * config_.map.force_scale * contact.tissue.stored_j;
   if (arm.wanted_n > 0) {
     const JointVector unit = contact.spring_torque / arm.wanted_n;
@@ -184,20 +215,21 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
   }
   ContactWork pinch;
-  pinch.wanted_n = contact.share * contact.grip.force_n;
+  pinch.wanted_n = contact.jaw_share * contact.grip.force_n;
   pinch.absorbed_j = -acted[kPinchChannel] * dq[kPinchChannel];
   pinch.dx_m = -dq[kPinchChannel];
   pinch.speed_m_s = -motion.qd[kPinchChannel];
-  pinch.stored_j = contact.share * contact.grip.stored_j;
+  pinch.stored_j = contact.jaw_share * contact.grip.stored_j;
 
   ChannelVector passive = contact.torque;
   const double force = arm_passivity_.update(arm);
   if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
-  return passive;
+  return passive + contact.port;
 }
 
-LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& contact_torque) noexcept {
+LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact,
+                                    const ChannelVector& passive) noexcept {
   if (!supervisor_.powered()) {
     limiter_.reset();
     return {};
@@ -207,7 +239,8 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const ChannelVector& c
   shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd);
   shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
   shares.springs += watch_.damping(motion.qd);
-  shares.contact = contact_torque;
+  shares.contact = passive;
+  shares.alignment = contact.alignment;
   if (arm_passivity_.budget_j() >= 0) {
     shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
   }
@@ -245,7 +278,7 @@ DacFrame HapticLoop::to_codes(const LimitedTorque& torque) noexcept {
   }
   const DacFrame out = dac_codes(config_.device, torque.total, config_.daq.dac_bits);
   // What quantisation left is charged to the contact: the observer sees the codes, not the wish.
-  applied_contact_ = torque.contact + (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total);
+  applied_contact_ = torque.contact + torque.alignment + (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total);
   return out;
 }
 
@@ -276,9 +309,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   s.jaw_opening_m = motion.q[kPinchChannel];
   s.grip_force_n = contact.grip.force_n;
   s.rendered_grip_n = torque.contact[kPinchChannel];
-  const double asked = contact.torque.head<kArmJoints>().norm();
-  const double left = asked > 0 ? torque.contact.head<kArmJoints>().norm() / asked : 0;
-  s.rendered_force_T = config_.map.force_scale * config_.map.motion_scale * left * contact.tissue.F_I_T.force;
+  publish_instrument(contact, torque, s);
   s.contact = contact.tissue.contact;
   s.tip_contact = contact.tissue.tip_contact;
   s.contact_point_T = contact.tissue.point_T;
@@ -287,6 +318,20 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   s.saturated = torque.contact_scale < 1 && s.contact;
   s.passivity_active = arm_passivity_.active();
   s.energy_j = arm_passivity_.energy_j();
+}
+
+void HapticLoop::publish_instrument(const Contact& contact, const LimitedTorque& torque,
+                                    StylusState& s) const noexcept {
+  s.clutched = instrument_.clutched();
+  s.port_held = instrument_.held();
+  s.registration = instrument_.map().registration;
+  if (config_.map.fulcrum) s.depth_in_port_m = (s.X_TI.p - config_.map.fulcrum->port_T).dot(s.X_TI.R.col(2));
+  s.commanded_force_T = config_.map.X_TW.R * contact.commanded_W;
+  // Of the torque that the scene's contact was to have; the port's friction shares it but is not the scene's contact.
+  const double asked = contact.torque.head<kArmJoints>().norm();
+  const double left = (torque.contact - torque.contact_scale * contact.port).head<kArmJoints>().norm();
+  s.delivered_share = asked > 0 ? contact.share * left / asked : 0;
+  s.rendered_force_T = s.delivered_share * s.commanded_force_T;
 }
 
 }  // namespace trocar

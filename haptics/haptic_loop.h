@@ -11,9 +11,10 @@
 #include "haptics/control/contact_renderer.h"
 #include "haptics/control/device_watch.h"
 #include "haptics/control/friction.h"
-#include "haptics/control/instrument_map.h"
+#include "haptics/control/instrument_coupling.h"
 #include "haptics/control/passivity.h"
 #include "haptics/control/pinch_channel.h"
+#include "haptics/control/port_forces.h"
 #include "haptics/control/safety_log.h"
 #include "haptics/control/supervisor.h"
 #include "haptics/control/torque_limiter.h"
@@ -31,6 +32,7 @@ struct HapticLoopConfig {
   DaqCapabilities daq;                  ///< rate and DAC bits of the back-end
   DeviceModel device;
   InstrumentMap map;
+  PortParameters port;                  ///< fulcrum mapping only
   ToolShape tool;
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityParameters passivity;        ///< arm; period_s is set from the rate
@@ -71,19 +73,26 @@ class HapticLoop {
     ContactResult tissue;
     GripResult grip;
     ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, times share, before passivity
-    double share = 1;                              ///< of the contact that ramp, singularity and heat let through
+    double share = 1;                              ///< of the contact that ramp, singularity, heat and clutch let through
+    double jaw_share = 1;                          ///< the same of the grip, without the clutch
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping
+    Vec3 commanded_W = Vec3::Zero();               ///< force asked at the stylus
+    ChannelVector port = ChannelVector::Zero();       ///< friction of the port, times share
+    ChannelVector alignment = ChannelVector::Zero();  ///< spring that leads the stylus along the shaft
+    double port_stored_j = 0;                      ///< in both, before share
     JointVector spring_torque = JointVector::Zero();  ///< conjugate to it, times share
   };
 
   Motion measure(const DaqSample& in) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
-  LimitedTorque share_out(const Motion& motion, const ChannelVector& contact_torque) noexcept;
+  LimitedTorque share_out(const Motion& motion, const Contact& contact, const ChannelVector& passive) noexcept;
+  void feel_port(const Motion& motion, Contact& contact) noexcept;
   void watch(const Motion& motion, const Contact& contact, const LimitedTorque& torque) noexcept;
   DacFrame to_codes(const LimitedTorque& torque) noexcept;
   void publish(const DaqSample& in, const Motion& motion, const Contact& contact, const LimitedTorque& torque,
                const DacFrame& out, TickRecord& record) const noexcept;
+  void publish_instrument(const Contact& contact, const LimitedTorque& torque, StylusState& state) const noexcept;
   void take_home() noexcept;
   double rendered_share(double det_a) const noexcept;
 
@@ -95,6 +104,8 @@ class HapticLoop {
   bool counting_ = false;
   std::uint64_t checked_stamp_ = ~std::uint64_t{0};  ///< patch whose triangles were checked last
   std::vector<VelocityEstimator> velocity_;  ///< one a channel, sized once
+  InstrumentCoupling instrument_;
+  PortForces port_;
   ContactRenderer contact_;
   PassivityController arm_passivity_, pinch_passivity_;
   TorqueLimiter limiter_;
@@ -104,6 +115,7 @@ class HapticLoop {
   ChannelVector applied_contact_ = ChannelVector::Zero();   ///< asked last tick: acts during the next period
   ChannelVector acting_contact_ = ChannelVector::Zero();    ///< acted during the period just ended
   ChannelVector last_q_ = ChannelVector::Zero();
+  double last_port_j_ = 0;                                  ///< energy in the port's springs one tick ago
 };
 
 }  // namespace trocar

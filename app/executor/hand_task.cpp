@@ -48,8 +48,7 @@ Percept HandTask::perceive(std::uint64_t tick) {
   const Pose seen = see();
   percept.tip_T = seen.p + eye_error_;
   percept.R_TI = seen.R;
-  const double per_scene_newton = scene_.loop.map.force_scale * scene_.loop.map.motion_scale;
-  const double felt = state.rendered_force_T.norm() / per_scene_newton;
+  const double felt = state.delivered_share * state.F_I_T.force.norm();  // what the fingers make of it in scene newtons
   percept.felt_force_n = std::max(0.0, felt + kTouchError_n * random_.normal());
   percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
   percept.jaw_opening_m = daq_.sense().jaw_opening_m;
@@ -68,7 +67,15 @@ void HandTask::press_deadman() {
 void HandTask::run(std::uint64_t tick) {
   press_deadman();
   const HandIntent intent = hand_->update(perceive(tick), 1 / scene_.loop.daq.rate_hz);
-  daq_.set_hand_intent(scene_.loop.map.stylus_pose(intent.X_TI), intent.jaw_opening_m);
+  const StylusState& state = haptic_.record().stylus;
+  const bool releasing = state.clutched && !intent.clutch;  // the loop has still to take up the offset
+  if (!releasing) {
+    InstrumentMap map = scene_.loop.map;
+    map.registration = state.registration;  // a hand finds the stylus where clutching has left it
+    stylus_W_ = map.stylus_pose(intent.X_TI);
+  }
+  daq_.set_hand_intent(stylus_W_, intent.jaw_opening_m);
+  daq_.press_clutch(intent.clutch);
   ++periods_;
 }
 

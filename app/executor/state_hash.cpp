@@ -11,7 +11,8 @@ void StateHash::add(const TickRecord& r) {
   add(std::uint64_t{r.in.elapsed_periods} << 32 | std::uint64_t{r.in.valid} << 24 | r.in.digital_in);
   add(std::uint64_t{r.amplifiers_armed} | std::uint64_t(s.loop) << 8 | std::uint64_t(s.fault.code) << 16 |
       std::uint64_t{s.contact} << 24 | std::uint64_t{s.saturated} << 25 | std::uint64_t{s.passivity_active} << 26 |
-      std::uint64_t{s.tip_contact} << 27 | std::uint64_t{static_cast<std::uint8_t>(s.fault.channel)} << 32);
+      std::uint64_t{s.tip_contact} << 27 | std::uint64_t{s.clutched} << 28 | std::uint64_t{s.port_held} << 29 |
+      std::uint64_t{static_cast<std::uint8_t>(s.fault.channel)} << 32);
   add(std::uint64_t{r.warnings});
   add(s.fault.tick);
   add(s.fault.value);
@@ -24,7 +25,10 @@ void StateHash::add(const TickRecord& r) {
   add(s.X_TI.p);
   add(s.F_I_T.force);
   add(s.F_I_T.moment);
+  add(s.commanded_force_T);
   add(s.rendered_force_T);
+  add(s.registration.shift_T);
+  add(s.registration.turn);
   add(s.V_TI_T.linear);
   add(s.V_TI_T.angular);
   add(s.contact_point_T);

@@ -63,6 +63,10 @@ Wrench Fulcrum::handle_wrench(const Pose& X_TS, const Wrench& F_I_T) const {
           about_shaft * roll_axis(*this, X_TS)};
 }
 
+Vec3 Fulcrum::followed_axis(const Vec3& handle_T) const {
+  return swing(R_TI_reference.col(2), lever(*this, handle_T).u) * R_TS_reference.col(2);
+}
+
 Pose Fulcrum::mapped_stylus(const Pose& X_TI) const {
   const Vec3 u0 = R_TI_reference.col(2), beyond_port = X_TI.p - port_T;
   Vec3 u = beyond_port.norm() > 0 ? Vec3(beyond_port.normalized()) : u0;

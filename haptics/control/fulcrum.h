@@ -29,6 +29,8 @@ struct Fulcrum {
   Twist instrument_twist(const Pose& X_TS, const Twist& V_TS_T) const;
   /// Wrench at the handle, in T. @param F_I_T on the instrument, moment about the tip.
   Wrench handle_wrench(const Pose& X_TS, const Wrench& F_I_T) const;
+  /// Direction of Z6 when the stylus follows the shaft from its reference. @param handle_T mapped stylus origin.
+  Vec3 followed_axis(const Vec3& handle_T) const;
   /// Mapped stylus that puts the tip at X_TI.p with the instrument's roll: reference swing, twisted about Z6.
   Pose mapped_stylus(const Pose& X_TI) const;
 };

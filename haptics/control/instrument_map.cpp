@@ -37,6 +37,16 @@ Pose InstrumentMap::stylus_pose(const Pose& X_TI) const {
   return {X_TW.R.transpose() * X_TS.R, X_TW.R.transpose() * (X_TS.p - registration.shift_T - X_TW.p) / motion_scale};
 }
 
+Registration InstrumentMap::registration_keeping(const Pose& X_TI, const Pose& X_WS) const {
+  InstrumentMap bare = *this;
+  bare.registration = {};
+  const Pose X_TS = bare.mapped_stylus(X_WS);
+  const Vec3 shaft = (X_TI.R * registration.turn.transpose()).col(2);
+  const Vec3 handle_T = X_TI.p - (fulcrum ? Vec3(fulcrum->length_m * shaft) : Vec3(X_TS.R * X_SI.p));
+  bare.registration.shift_T = handle_T - X_TS.p;
+  return {bare.registration.shift_T, bare.instrument_pose(X_WS).R.transpose() * X_TI.R};
+}
+
 InstrumentMap mirrored(const InstrumentMap& map) {
   const Mat3 M = Vec3(-1, 1, 1).asDiagonal();
   const auto rotation = [&](const Mat3& R) { return Mat3(M * R * M); };

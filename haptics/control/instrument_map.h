@@ -37,6 +37,9 @@ struct InstrumentMap {
   /// Stylus pose that puts the instrument at X_TI: what a hand that knows the map aims for. Through a port only tip and
   /// roll can be had; the stylus keeps its reference swing.
   Pose stylus_pose(const Pose& X_TI) const;
+  /// Registration with which a stylus at X_WS has the instrument at X_TI: what releasing the clutch takes up. Through a
+  /// port X_TI's shaft must pass it.
+  Registration registration_keeping(const Pose& X_TI, const Pose& X_WS) const;
 };
 
 /// The map seen in a mirror, x -> -x in W' and in T: what a left hand has of a right hand's exercise.

@@ -25,7 +25,9 @@ LimitedTorque TorqueLimiter::update(const TorqueShares& shares) {
     }
   }
   const ChannelVector contact = shares.contact * out.contact_scale;
-  const ChannelVector wanted = (first + contact + shares.friction).cwiseMax(-limit_).cwiseMin(limit_);
+  const ChannelVector without = (first + contact + shares.friction).cwiseMax(-limit_).cwiseMin(limit_);
+  const ChannelVector wanted = (without + shares.alignment).cwiseMax(-limit_).cwiseMin(limit_);
+  out.alignment = wanted - without;
   for (int i = 0; i < kChannels; ++i) {
     out.total[i] = std::clamp(wanted[i], last_[i] - step_[i], last_[i] + step_[i]);
   }

@@ -1,5 +1,5 @@
 // Who gets the torque: limit springs, then gravity, then contact and pinch scaled down together (direction kept), then
-// friction compensation; total clamped per joint and limited in rate.
+// friction compensation, then the alignment spring of the port; total clamped per joint and limited in rate.
 //
 // Design: docs/device_and_safety.md. The part of the contact torque that was really applied is returned for the
 // passivity observer. Channels 0..5 N m, 6 N. Thread: haptic task; no allocation.
@@ -14,11 +14,13 @@ struct TorqueShares {
   ChannelVector gravity = ChannelVector::Zero();
   ChannelVector contact = ChannelVector::Zero();  ///< arm contact and pinch
   ChannelVector friction = ChannelVector::Zero();
+  ChannelVector alignment = ChannelVector::Zero();
 };
 
 struct LimitedTorque {
   ChannelVector total = ChannelVector::Zero();
   ChannelVector contact = ChannelVector::Zero();  ///< what remained of shares.contact
+  ChannelVector alignment = ChannelVector::Zero();  ///< what remained of shares.alignment
   double contact_scale = 1;                       ///< < 1: saturated
 };
 

@@ -20,6 +20,7 @@ enum DigitalInput : std::uint32_t {
   kHandFault = 1u << 2,      ///< simulated back-end only: the hand produced a non-finite command
   kEmergencyStop = 1u << 3,  ///< emergency stop pressed: the amplifiers are off by wire
   kWatchdogFired = 1u << 4,  ///< no write for 16 ms: the board has zeroed its DACs; stays until disarmed
+  kClutch = 1u << 5,         ///< foot or finger switch: the instrument is frozen while it is closed
   kDacMismatch = 1u << 8,    ///< a DAC's register reads back another code than the one it should hold now
   kDriveFault = 1u << 16,    ///< fault output of an amplifier
   kDriveHot = 1u << 24,      ///< over-temperature output of an amplifier or motor

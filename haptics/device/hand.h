@@ -43,6 +43,7 @@ struct Percept {
 struct HandIntent {
   Pose X_TI;                    ///< wanted pose of the instrument tip in the theatre
   double jaw_opening_m = 0.02;  ///< wanted opening of the fingers at the pads
+  bool clutch = false;          ///< holds the clutch: X_TI then says where the stylus would bring the instrument
 };
 
 class Hand {

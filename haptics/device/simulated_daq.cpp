@@ -88,6 +88,7 @@ std::uint32_t SimulatedDaq::digital_inputs() const noexcept {
   const bool opened = faults_.lasts(InjectedFaultKind::kDeadmanOpen, time_s());
   if (hand_.holding() && pressed_ && !opened) in |= kDeadman;
   if (hand_.fault()) in |= kHandFault;
+  if (clutch_pressed_) in |= kClutch;
   if (plant_.clamped()) in |= kHomeBeam;
   if (faults_.lasts(InjectedFaultKind::kEmergencyStop, time_s())) in |= kEmergencyStop;
   if (watchdog_fired_) in |= kWatchdogFired;

@@ -66,6 +66,8 @@ class SimulatedDaq final : public DataAcquisition {
 
   /// Intent of the hand for the coming period: stylus pose in W', jaw opening in m. The first one takes hold.
   void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept;
+  /// The hand's clutch switch, from the next period on.
+  void press_clutch(bool pressed) noexcept { clutch_pressed_ = pressed; }
   void set_hand_parameters(const HandParameters& parameters) noexcept { hand_.set_parameters(parameters); }
   void release_hand() noexcept { hand_.let_go(); }
   /// The enabling switch in the handle, pressed at first; it counts only while the hand holds the stylus.
@@ -106,6 +108,7 @@ class SimulatedDaq final : public DataAcquisition {
   DaqSample last_;
   Vec3 force_on_hand_ = Vec3::Zero();
   double force_on_finger_ = 0;
+  bool clutch_pressed_ = false;
 };
 
 }  // namespace trocar

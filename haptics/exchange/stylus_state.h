@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "haptics/control/instrument_map.h"
 #include "haptics/fault.h"
 #include "haptics/quantities.h"
 
@@ -46,7 +47,9 @@ struct StylusState {
   Pose X_TI;                  ///< instrument (tip) in the theatre
   Twist V_TI_T;               ///< its velocity, linear part at the tip, expressed in T
   Wrench F_I_T;               ///< scene wrench ON the instrument, moment about the tip, expressed in T; virtual N
-  Vec3 rendered_force_T = Vec3::Zero();  ///< force delivered to the hand after kappa, passivity and limits, N
+  Vec3 commanded_force_T = Vec3::Zero();  ///< kappa times the conjugate map of F_I_T: at the stylus, device N, axes of T
+  Vec3 rendered_force_T = Vec3::Zero();   ///< delivered: what ramp, heat, passivity and torque budget left of it
+  double delivered_share = 0;             ///< rendered / commanded; 0 while nothing is commanded
 
   double jaw_opening_m = 0;   ///< gap between the jaw pads
   double grip_force_n = 0;    ///< virtual force with which the jaws squeeze what is between them, >= 0
@@ -57,6 +60,11 @@ struct StylusState {
   Vec3 contact_point_T = Vec3::Zero();   ///< undeformed surface point under the deepest contact (the proxy's foot)
   Vec3 contact_normal_T = Vec3::UnitZ(); ///< outward unit normal there
   double depth_m = 0;         ///< indentation, >= 0
+
+  bool clutched = false;         ///< instrument frozen, stylus free
+  bool port_held = false;        ///< handle too near to the port: the instrument is held, the trainee must draw back
+  double depth_in_port_m = 0;    ///< of the tip beyond the port; 0 with direct mapping
+  Registration registration;     ///< what clutching has added so far
 
   bool saturated = false;        ///< the torque budget cut the contact force this tick
   bool passivity_active = false; ///< the passivity law changed the force this tick

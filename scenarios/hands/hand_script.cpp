@@ -36,6 +36,7 @@ ScriptedMove read_move(StrictTable table) {
   move.seconds = table.number("seconds", 0.01, 600);
   move.hold_s = table.number_or("hold_s", 0, 3600, 0);
   move.jaw_m = table.number_or("jaw_mm", -20, 60, 20) * kMilli;
+  move.clutch = table.flag_or("clutch", false);
   table.finish();
   return move;
 }

@@ -36,6 +36,7 @@ struct ScriptedMove {
   double seconds = 0;               ///< duration of the move
   double hold_s = 0;                ///< rest at its end
   double jaw_m = 0.02;              ///< jaw opening at its end
+  bool clutch = false;              ///< made with the clutch held: the stylus moves, the instrument stays
 };
 
 enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kIdle };
