@@ -9,19 +9,20 @@
 namespace trocar {
 
 std::string receipt_json(const DeviceReceipt& receipt) {
-  const nlohmann::json json = {{"backend", receipt.backend},
+  nlohmann::ordered_json json = {{"backend", receipt.backend},
                                {"rate_hz", receipt.rate_hz},
                                {"ticks", receipt.ticks},
                                {"overruns", receipt.overruns},
                                {"min_energy_j", receipt.min_energy_j},
                                {"kappa", receipt.kappa},
                                {"fault", receipt.fault}};
+  if (!receipt.realtime.empty()) json["realtime"] = nlohmann::ordered_json::parse(receipt.realtime);
   return json.dump();
 }
 
 DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
   try {
-    const auto json = nlohmann::json::parse(text);
+    const auto json = nlohmann::ordered_json::parse(text);
     DeviceReceipt receipt;
     receipt.backend = json.at("backend").get<std::string>();
     receipt.rate_hz = json.at("rate_hz").get<double>();
@@ -30,6 +31,7 @@ DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
     receipt.min_energy_j = json.at("min_energy_j").get<double>();
     receipt.kappa = json.at("kappa").get<double>();
     receipt.fault = json.at("fault").get<std::string>();
+    if (json.contains("realtime")) receipt.realtime = json.at("realtime").dump();
     return receipt;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + ": the device's receipt cannot be read: " + error.what());

@@ -111,6 +111,7 @@ std::string scene_json(const Scene& scene) {
       {"board", s.board},
       {"rate_hz", scene.loop.daq.rate_hz},
       {"dac_bits", scene.loop.daq.dac_bits},
+      {"realtime", s.realtime},
       {"pace", {{"missed_in_a_row", s.pace.missed_in_a_row}, {"missed_share", s.pace.missed_share}}},
       {"contact_law", law_name(s.contact_law)},
       {"passivity_law", law_name(s.passivity_law)},
@@ -133,6 +134,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     s.seed = json.at("seed").get<std::int64_t>();
     s.board = json.at("board").get<int>();
     s.rate_hz = json.at("rate_hz").get<double>();
+    s.realtime = json.value("realtime", false);
     if (json.contains("pace")) {  // recordings before live runs kept the defaults
       s.pace = {json.at("pace").at("missed_in_a_row").get<std::uint32_t>(), json.at("pace").at("missed_share").get<double>()};
     }

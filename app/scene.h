@@ -48,6 +48,7 @@ struct AttemptSetup {
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
   std::vector<InjectedFault> faults;   ///< simulated back-end only
+  bool realtime = false;               ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;
 };
 

@@ -10,7 +10,9 @@
 #include "app/executor/lockstep_executor.h"
 #include "app/executor/recorder_task.h"
 #include "app/executor/replay_executor.h"
+#include "app/executor/threaded_executor.h"
 #include "app/executor/tissue_task.h"
+#include "app/realtime_receipt.h"
 #include "app/recorded_result.h"
 #include "haptics/device/replay_daq.h"
 #include "haptics/input_error.h"
@@ -23,6 +25,8 @@ namespace trocar {
 namespace {
 
 constexpr std::uint64_t kPatchDelay = 5;       // ticks from the tissue task to the haptic task
+constexpr double kPictureRateHz = 50;          // live; frames that come too late are dropped
+constexpr int kHapticPriority = 80, kTissuePriority = 60;
 constexpr double kLongestBeyondLimit_s = 60;   // homing, start and reading, on top of the exercise's limit
 
 /// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
@@ -79,8 +83,10 @@ struct Bench {
 /// Shows the run to an observer.
 class ObserverTask final : public Task {
  public:
-  ObserverTask(Bench& bench, const SessionObserver& observe) : bench_(bench), observe_(observe) {}
-  std::uint32_t period() const override { return bench_.tissue.period(); }
+  /// @param period loop ticks between two views.
+  ObserverTask(Bench& bench, const SessionObserver& observe, std::uint32_t period)
+      : bench_(bench), observe_(observe), period_(period) {}
+  std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
     if (!observe_) return;
     const TickRecord& record = bench_.records->newest(tick);
@@ -91,7 +97,24 @@ class ObserverTask final : public Task {
  private:
   Bench& bench_;
   const SessionObserver& observe_;
+  std::uint32_t period_;
 };
+
+/// A live attempt: lanes of their own for what must be on time; pictures in this thread, to which their context belongs.
+void run_live(Bench& bench, HandTask& hand, RecorderTask& recorder, const SessionObserver& observe,
+              const std::function<bool()>& interrupted, SessionOutcome& out) {
+  const double rate_hz = bench.scene.loop.daq.rate_hz;
+  ObserverTask observer(bench, observe, static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
+  ThreadedExecutor executor(rate_hz);
+  executor.add_lane("haptic", {&hand, &bench.haptic}, kHapticPriority);
+  executor.add_lane("tissue", {&bench.tissue}, kTissuePriority);
+  executor.add_lane("recorder", {&recorder}, 0);
+  if (observe) executor.add_own_lane("pictures", {&observer});
+  executor.run(interrupted);
+  out = bench.outcome("simulated");
+  out.device.realtime = realtime_json(executor, recorder.lost());
+  out.notes = realtime_notes(executor, recorder.lost());
+}
 
 }  // namespace
 
@@ -101,26 +124,33 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
   config.seed = static_cast<std::uint64_t>(setup.seed);
   config.hand = hand_parameters(GripPreset::kNormal);
   config.faults = setup.faults;
+  // The board's watchdog is as patient as the loop's own limits: live on a busy machine both are wide.
+  if (setup.pace != PaceLimits{}) config.watchdog_s = setup.pace.missed_in_a_row / setup.rate_hz;
   return config;
 }
 
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
-                           const SessionObserver& observe) {
+                           const SessionObserver& observe, const std::function<bool()>& interrupted) {
   SimulatedDaq daq(simulated_device(scene.setup));
   const auto rings = std::make_unique<RecorderRings>();
-  const auto bench = std::make_unique<Bench>(
-      scene, daq, Timing::kLockstep, make_channel<ContactPatch>(Timing::kLockstep, kPatchDelay), rings.get());
+  const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
+  const auto bench =
+      std::make_unique<Bench>(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get());
   HandTask hand(scene, bench->haptic, *bench->hand_frames,
                 make_hand(scene.setup.hand, static_cast<std::uint64_t>(scene.setup.seed), assets.hands), daq);
   RecorderTask recorder(*rings, scene.loop.daq.rate_hz, writer);
-  ObserverTask observer(*bench, observe);
-  LockstepExecutor executor;
-  for (Task* task : std::initializer_list<Task*>{&hand, &bench->haptic, &bench->tissue, &recorder, &observer}) {
-    executor.add(*task);
+  SessionOutcome out;
+  if (timing == Timing::kLive) {
+    run_live(*bench, hand, recorder, observe, interrupted, out);
+  } else {
+    ObserverTask observer(*bench, observe, bench->tissue.period());
+    LockstepExecutor executor;
+    for (Task* task : std::initializer_list<Task*>{&hand, &bench->haptic, &bench->tissue, &recorder, &observer}) {
+      executor.add(*task);
+    }
+    executor.run(interrupted);
+    out = bench->outcome(daq.capabilities().name);
   }
-  executor.run();
-
-  const SessionOutcome out = bench->outcome(daq.capabilities().name);
   RecordingEnd end;
   end.state_hash = out.state_hash;
   end.status = out.status;
@@ -141,7 +171,7 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
   ReplayDaq daq(std::move(samples), scene.loop.daq);
   const auto bench = std::make_unique<Bench>(scene, daq, Timing::kLockstep,
                                              std::make_unique<RecordedPatches>(executor.stamps()), nullptr);
-  ObserverTask observer(*bench, observe);
+  ObserverTask observer(*bench, observe, bench->tissue.period());
   executor.run(bench->haptic, {&bench->tissue, &observer});
   return bench->outcome(daq.capabilities().name);
 }

@@ -1,7 +1,7 @@
 // The session: the one place that knows all modules. Runs an attempt, replays a recording, grades either.
 //
 // Live, headless and replay differ only in back-end and executor. A grade is always made from the DECODED recording, so
-// what is stored and what a regrade computes agree to the bit. Thread: one (lockstep).
+// what is stored and what a regrade computes agree to the bit. Thread: the caller's; a live run starts its own.
 #pragma once
 
 #include <cstdint>
@@ -47,12 +47,15 @@ struct SessionOutcome {
   std::uint64_t state_hash = 0;
   std::string state_hash_hex;
   std::uint64_t patch_triangles_dropped = 0;
+  std::vector<std::string> notes;       ///< what the trainee or operator should know, a line each
   std::string scoring_json;             ///< what grading must know of the exercise (scenarios/scoring_context.h)
 };
 
 /// A live attempt on the simulated device with a scripted hand. @param writer receives every tick and is closed.
+/// Live when the setup says so (threads, the clock), else in lockstep.
+/// @param interrupted asked now and then: true ends the attempt as aborted. @throws EnvironmentError of the writer.
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
-                           const SessionObserver& observe = {});
+                           const SessionObserver& observe = {}, const std::function<bool()>& interrupted = {});
 
 /// The same loop fed with the recorded device input. @param scene built from the recording's own setup.
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe = {});

@@ -49,7 +49,7 @@ Json metrics(const Grade& grade) {
 }
 
 Json device(const DeviceReceipt& receipt) {
-  return {{"backend", receipt.backend},
+  Json json = {{"backend", receipt.backend},
           {"rate_hz", number(receipt.rate_hz)},
           {"ticks", receipt.ticks},
           {"overruns", receipt.overruns},
@@ -58,6 +58,8 @@ Json device(const DeviceReceipt& receipt) {
           {"min_energy_j", number(receipt.min_energy_j)},
           {"kappa", number(receipt.kappa)},
           {"fault", receipt.fault.empty() ? Json(nullptr) : Json(receipt.fault)}};
+  if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
+  return json;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
 #include "app/commands/open_database.h"
+#include "app/interrupt.h"
 #include "app/recorded_result.h"
 #include "digest/digest.h"
 #include "haptics/input_error.h"
@@ -102,24 +103,26 @@ AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const Re
 
 /// Runs into a file or into memory and reads the recording back: what is graded is what was written.
 std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
-                                                    const std::filesystem::path& file, const SessionObserver& observe) {
+                                                    const std::filesystem::path& file, const SessionObserver& observe,
+                                                    const std::function<bool()>& interrupted) {
   const std::string header = scene_json(scene);
   if (file.empty()) {
     MemorySink memory;
     RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
-    SessionOutcome outcome = run_session(scene, assets, writer, observe);
+    SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
     return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
   }
   RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
-  SessionOutcome outcome = run_session(scene, assets, writer, observe);
+  SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
   return {std::move(outcome), read_recording(file)};
 }
 
 /// The same; when the machine fails it (a full disk), the attempt is ended as aborted with the reason.
 std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const AttemptId& id, const Scene& scene,
-                                                     const AssetRoots& assets, const SessionObserver& observe) {
+                                                     const AssetRoots& assets, const SessionObserver& observe,
+                                                     const std::function<bool()>& interrupted) {
   try {
-    return record_session(scene, assets, id.recording, observe);
+    return record_session(scene, assets, id.recording, observe, interrupted);
   } catch (const EnvironmentError& error) {
     AttemptResult result;
     result.grade.grade = "not graded";
@@ -204,6 +207,8 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});
   setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law,
                                              {{"budgeted", PassivityLaw::kBudgeted}, {"off", PassivityLaw::kOff}});
+  setup.realtime = options.realtime;
+  if (options.realtime) setup.pace = kSimulatedLivePace;
   for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));
   return setup;
 }
@@ -219,7 +224,8 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   const AttemptStart start = start_of(options, scene);
   const AttemptId id = store.begin_attempt(start);
   say_beginning(scene, err);
-  const auto [outcome, recording] = record_or_abort(store, id, scene, assets, observe);
+  const auto [outcome, recording] = record_or_abort(store, id, scene, assets, observe, options.interrupted);
+  for (const std::string& note : outcome.notes) err << "trocar: " << note << '\n';
   const AttemptResult result = result_of(start, id, recording);
   store_or_say(store, id, result);
   if (outcome.patch_triangles_dropped > 0) {
@@ -251,7 +257,10 @@ void print_result(const AttemptResult& result, std::ostream& out) {
   out << "attempt  " << result.uuid << '\n';
 }
 
-int run_command(const RunOptions& options, std::ostream& out, std::ostream& err) {
+int run_command(const RunOptions& given, std::ostream& out, std::ostream& err) {
+  InterruptWatch interrupt;  // before any library starts threads: they must inherit what it blocks
+  RunOptions options = given;
+  if (!options.interrupted) options.interrupted = [&] { return interrupt.seen(); };
   const AssetRoots assets = find_assets();
   const AttemptSetup setup = attempt_setup(options, assets);
   const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});

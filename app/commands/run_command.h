@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ struct RunOptions {
   double rate_hz = 1000;
   std::string contact_law = "proxy", passivity_law = "budgeted";
   std::vector<std::string> injections;  ///< KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION]
+  bool realtime = false;                ///< threads and the clock instead of lockstep
+  std::function<bool()> interrupted;    ///< asked during the run: true ends it as aborted
   bool json = false;
 };
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSensesSeed = 0x5e45e5;  // the senses' own stream, apart from the hand's decisions
 constexpr double kEyeErrorPeriod_s = 0.020;
+constexpr std::uint64_t kMostMissed = 1000;      // what is longer is a fault anyway: the simulated world waits for the rest
 
 }  // namespace
 
@@ -77,6 +78,13 @@ void HandTask::run(std::uint64_t tick) {
   daq_.set_hand_intent(stylus_W_, intent.jaw_opening_m);
   daq_.press_clutch(intent.clutch);
   ++periods_;
+}
+
+void HandTask::missed(std::uint64_t periods) {
+  for (std::uint64_t n = 0; n < std::min(periods, kMostMissed); ++n) {
+    run(periods_);
+    daq_.miss_sync();
+  }
 }
 
 }  // namespace trocar

@@ -31,6 +31,8 @@ class HandTask final : public Task {
 
   std::uint32_t period() const override { return 1; }
   void run(std::uint64_t tick) override;
+  /// The person goes on while the loop is late, and so does the device: period by period.
+  void missed(std::uint64_t periods) override;
 
  private:
   Percept perceive(std::uint64_t tick);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "app/executor/real_time.h"
 #include "app/executor/task.h"
 
 namespace trocar {
@@ -19,6 +20,7 @@ class LockstepExecutor {
   /// Runs ticks until a task has finished or `interrupted` (asked after each tick) says so, then stops all tasks.
   /// @return ticks run.
   std::uint64_t run(const std::function<bool()>& interrupted = {}) {
+    const FlushDenormals flush;
     std::uint64_t tick = 0;
     do {
       for (Task* task : tasks_) {

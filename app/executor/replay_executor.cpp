@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "app/executor/real_time.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -61,6 +62,7 @@ ReplayExecutor::ReplayExecutor(std::span<const RecordedTick> rows, const Schedul
 }
 
 void ReplayExecutor::run(Task& haptic, std::initializer_list<Task*> with_tissue) const {
+  const FlushDenormals flush;
   for (std::size_t row = 0; row <= stamps_.size(); ++row) {
     if (row > 0) haptic.run(row - 1);
     for (std::uint64_t step = 0; step < steps_after_[row]; ++step) {

@@ -39,6 +39,7 @@ struct ThreadedExecutor::Lane {
   std::exception_ptr thrown;
 };
 
+ThreadedExecutor::ThreadedExecutor(double rate_hz) : rate_hz_(rate_hz) {}
 ThreadedExecutor::~ThreadedExecutor() { join(); }
 
 void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> tasks, int priority) {
@@ -73,7 +74,13 @@ void ThreadedExecutor::run(const std::function<bool()>& interrupted) {
   }
   join();
   for (auto& lane : lanes_) {
-    for (Task* task : lane->tasks) task->stop();
+    for (Task* task : lane->tasks) {
+      try {
+        task->stop();
+      } catch (...) {  // all tasks are stopped whatever one of them says; the first reason is the news
+        if (!lane->thrown) lane->thrown = std::current_exception();
+      }
+    }
   }
   for (auto& lane : lanes_) {
     if (lane->thrown) std::rethrow_exception(lane->thrown);

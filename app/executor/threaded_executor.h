@@ -33,7 +33,7 @@ struct LaneReport {
 
 class ThreadedExecutor {
  public:
-  explicit ThreadedExecutor(double rate_hz) : rate_hz_(rate_hz) {}
+  explicit ThreadedExecutor(double rate_hz);
   ~ThreadedExecutor();
 
   /// @param tasks run in this order, at the period of the first; they outlive the executor. @param priority of SCHED_FIFO, 0: none.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace trocar {
 namespace {
@@ -62,25 +63,33 @@ std::int32_t SimulatedDaq::count(int channel, double output) const noexcept {
 
 DaqSample SimulatedDaq::read() noexcept {
   DaqSample sample;
-  sample.elapsed_periods = 1 + faults_.missed_syncs(next_s());
-  for (std::uint32_t n = 0; n < sample.elapsed_periods; ++n) {
-    disturb_hand();
-    switch_amplifiers();
-    advance_period();
-    ++sync_;
-    watch_writes();
-    latch_codes();
-  }
+  const std::uint32_t periods = 1 + faults_.missed_syncs(next_s());
+  for (std::uint32_t n = 0; n < periods; ++n) pass_period();
   if (faults_.lasts(InjectedFaultKind::kSensorSilence, time_s())) {
     last_.elapsed_periods = 0;  // the board gives what it had
     return last_;
   }
+  sample.elapsed_periods = periods + std::exchange(missed_, 0);
   const ChannelVector outputs = plant_.outputs();
   for (int i = 0; i < kChannels; ++i) sample.counts[i] = count(i, outputs[i]);
   sample.digital_in = digital_inputs();
   faults_.spoil(sample, last_, time_s());
   last_ = sample;
   return sample;
+}
+
+void SimulatedDaq::pass_period() noexcept {
+  disturb_hand();
+  switch_amplifiers();
+  advance_period();
+  ++sync_;
+  watch_writes();
+  latch_codes();
+}
+
+void SimulatedDaq::miss_sync() noexcept {
+  pass_period();
+  ++missed_;
 }
 
 std::uint32_t SimulatedDaq::digital_inputs() const noexcept {
@@ -123,7 +132,7 @@ void SimulatedDaq::advance_period() noexcept {
 void SimulatedDaq::watch_writes() noexcept {
   if (!armed_) return;
   unwritten_s_ += period_s_;
-  watchdog_fired_ = watchdog_fired_ || unwritten_s_ > kWatchdogS + kTimeSlack;
+  watchdog_fired_ = watchdog_fired_ || unwritten_s_ > config_.watchdog_s + kTimeSlack;
   if (watchdog_fired_) written_ = {};
 }
 

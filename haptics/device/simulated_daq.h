@@ -41,6 +41,7 @@ struct SimulatedDaqConfig {
   std::optional<PlantParameters> plant;  ///< exact device instead of one drawn by the seed
   HandParameters hand;
   std::vector<InjectedFault> faults;
+  double watchdog_s = kWatchdogS;        ///< without a write until the board zeroes its DACs
   bool dac_readback = true;              ///< the board can read its DAC registers back (kDacMismatch)
 };
 
@@ -73,6 +74,8 @@ class SimulatedDaq final : public DataAcquisition {
   /// The enabling switch in the handle, pressed at first; it counts only while the hand holds the stylus.
   void press_deadman(bool pressed) noexcept { pressed_ = pressed; }
   HandSense sense() const noexcept;
+  /// Live: lets one period pass that the loop has missed. The next read() counts it.
+  void miss_sync() noexcept;
 
   /// Time of the last SYNC, s.
   double time_s() const noexcept { return static_cast<double>(sync_) * period_s_; }
@@ -80,6 +83,7 @@ class SimulatedDaq final : public DataAcquisition {
   const DevicePlant& plant() const noexcept { return plant_; }
 
  private:
+  void pass_period() noexcept;
   void watch_writes() noexcept;
   void latch_codes() noexcept;
   void apply_volts() noexcept;
@@ -98,6 +102,7 @@ class SimulatedDaq final : public DataAcquisition {
   PlantFaults faults_;
 
   std::uint64_t sync_ = 0;
+  std::uint32_t missed_ = 0;                                       ///< SYNCs since the last news
   DacFrame written_, in_force_;
   std::array<DacFrame, kMaxExtraDelayPeriods + 1> delayed_{};  ///< ring of frames on their way to the DAC
   std::size_t delay_head_ = 0;

@@ -1,0 +1,57 @@
+#include "app/realtime_receipt.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/executor/real_time.h"
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json distribution(const DurationCounts& counts) {
+  return {{"p50", counts.percentile_us(0.5)},       {"p99", counts.percentile_us(0.99)},
+          {"p99.9", counts.percentile_us(0.999)},   {"p99.99", counts.percentile_us(0.9999)},
+          {"max", static_cast<double>(counts.max_ns()) * 1e-3}, {"above_1ms", counts.above_us(1000)}};
+}
+
+Json lane(const LaneReport& report) {
+  Json json = {{"policy", report.policy}};
+  if (!report.refusal.empty()) json["refused"] = report.refusal;
+  json["rate_hz"] = report.seconds > 0 ? static_cast<double>(report.wakes + report.missed) / report.seconds : 0.0;
+  json["wakes"] = report.wakes;
+  json["missed"] = report.missed;
+  json["overruns"] = report.overruns;
+  json["longest_gap_ms"] = static_cast<double>(report.longest_gap_ns) * 1e-6;
+  json["late_us"] = distribution(report.late);
+  json["cpu_us"] = distribution(report.cpu);
+  return json;
+}
+
+}  // namespace
+
+std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) {
+  Json json = {{"kernel_realtime", real_time_kernel()},
+               {"memory_locked", executor.memory_locked()},
+               {"lost_records", lost},
+               {"lanes", Json::object()}};
+  for (const LaneReport* report : executor.reports()) json["lanes"][report->name] = lane(*report);
+  return json.dump();
+}
+
+std::vector<std::string> realtime_notes(const ThreadedExecutor& executor, std::uint64_t lost) {
+  std::vector<std::string> notes;
+  for (const LaneReport* report : executor.reports()) {
+    if (!report->refusal.empty()) {
+      notes.push_back("soft real time: the " + report->name + " thread did not get SCHED_FIFO (" + report->refusal + ")");
+    }
+  }
+  if (!executor.memory_locked()) notes.push_back("memory is not locked (" + executor.lock_refusal() + ")");
+  if (lost > 0) {
+    notes.push_back(std::to_string(lost) + " records found no room on their way to the disk: the recording can be graded "
+                    "but not replayed");
+  }
+  return notes;
+}
+
+}  // namespace trocar

@@ -1,0 +1,21 @@
+// What a live run says of its pacing: in the result under device.realtime, and in words on stderr where something is missing.
+//
+// {"kernel_realtime", "memory_locked", "lost_records", "lanes": {NAME: {"policy", "rate_hz", "wakes", "missed", "overruns",
+//  "longest_gap_ms", "late_us": {"p50","p99","p99.9","p99.99","max","above_1ms"}, "cpu_us": {...}}}}. Thread: any, after the run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/executor/threaded_executor.h"
+
+namespace trocar {
+
+/// @param lost records that found a ring full.
+std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost);
+
+/// What the operating system refused and what went missing, a line each; empty when all was as asked.
+std::vector<std::string> realtime_notes(const ThreadedExecutor& executor, std::uint64_t lost);
+
+}  // namespace trocar
