@@ -42,6 +42,7 @@ struct AttemptSetup {
   std::string level = "L1";
   std::string organ;                   ///< manifest path or name of a shipped organ, as given
   std::string hand;                    ///< name or script; empty in a replay
+  int attempt = 1;                     ///< of a learning hand
   std::int64_t seed = 1;
   int board = 0;
   double rate_hz = 1000;

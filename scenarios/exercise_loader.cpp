@@ -123,7 +123,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   read_kind(document, exercise);
   read_levels(document, exercise);
   for (ExerciseLevel& level : exercise.levels) {
-    level.rubric = read_rubric(document.table("rubric"), level.expert_time_s);
+    level.rubric = read_rubric(document.table("rubric"), level);
     level.rubric.sha256 = digest::of_bytes(text);
   }
   exercise.rubric = exercise.levels.front().rubric;

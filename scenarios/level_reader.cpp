@@ -124,15 +124,25 @@ ExerciseLevel read_level(StrictTable& table, const Exercise& exercise) {
   return level;
 }
 
-double anchor(StrictTable& table, const std::string& key, double expert_time_s) {
-  const std::string scaled = key + "_expert_times";
-  if (!table.has(scaled)) return table.number(key, -1e6, 1e6);
-  if (table.has(key)) table.fail(scaled, "'" + scaled + "' and '" + key + "' exclude each other");
-  if (expert_time_s <= 0) table.fail(scaled, "'" + scaled + "' needs 'expert_time_s' in every level or in [rubric]");
-  return table.number(scaled, 0, 100) * expert_time_s;
+/// A measure in which an anchor may be written: "full_at_expert_times = 0.7".
+struct AnchorUnit {
+  const char* suffix;
+  double value;            ///< in the metric's unit; 0: the level has none
+  const char* missing;
+};
+
+double anchor(StrictTable& table, const std::string& key, const std::vector<AnchorUnit>& units) {
+  for (const AnchorUnit& unit : units) {
+    const std::string scaled = key + unit.suffix;
+    if (!table.has(scaled)) continue;
+    if (table.has(key)) table.fail(scaled, "'" + scaled + "' and '" + key + "' exclude each other");
+    if (unit.value <= 0) table.fail(scaled, "'" + scaled + "' needs " + unit.missing);
+    return table.number(scaled, 0, 100) * unit.value;
+  }
+  return table.number(key, -1e6, 1e6);
 }
 
-SubscoreRule read_rule(StrictTable table, double expert_time_s) {
+SubscoreRule read_rule(StrictTable table, const std::vector<AnchorUnit>& units) {
   SubscoreRule rule;
   rule.name = table.text("name");
   std::vector<std::string> metrics;
@@ -141,8 +151,8 @@ SubscoreRule read_rule(StrictTable table, double expert_time_s) {
   rule.weight = table.number("weight", 0, 1);
   rule.gate = table.flag_or("gate", false);
   rule.gate_below = table.number_or("gate_below", 0, 1, 0.5);
-  rule.full_at = anchor(table, "full_at", expert_time_s);
-  rule.zero_at = anchor(table, "zero_at", expert_time_s);
+  rule.full_at = anchor(table, "full_at", units);
+  rule.zero_at = anchor(table, "zero_at", units);
   if (rule.full_at == rule.zero_at) table.fail("metric", "sub-score '" + rule.name + "': 'full_at' equals 'zero_at'");
   table.finish();
   return rule;
@@ -150,7 +160,7 @@ SubscoreRule read_rule(StrictTable table, double expert_time_s) {
 
 }  // namespace
 
-Rubric read_rubric(StrictTable table, double expert_time_s) {
+Rubric read_rubric(StrictTable table, const ExerciseLevel& level) {
   Rubric rubric;
   const double own_time_s = table.number_or("expert_time_s", 1, 3600, 0);
   rubric.pass_at = table.number("pass_at", 0, 100);
@@ -159,9 +169,14 @@ Rubric read_rubric(StrictTable table, double expert_time_s) {
   rubric.gate_cap = table.number("gate_cap", 0, rubric.pass_at);
   rubric.critical_cap = table.number("critical_cap", 0, rubric.pass_at);
   rubric.unfinished_cap = table.number("unfinished_cap", 0, rubric.pass_at);
+  const std::vector<AnchorUnit> units{
+      {"_expert_times", level.expert_time_s > 0 ? level.expert_time_s : own_time_s,
+       "'expert_time_s' in every level or in [rubric]"},
+      {"_position_tolerances", level.position_tolerance_m, "a level with 'position_tolerance_mm'"},
+      {"_angle_tolerances", level.angle_tolerance_rad / kDegrees, "a level with 'angle_tolerance_deg'"}};
   double sum = 0;
   for (StrictTable& rule : table.tables("subscores")) {
-    rubric.subscores.push_back(read_rule(rule, expert_time_s > 0 ? expert_time_s : own_time_s));
+    rubric.subscores.push_back(read_rule(rule, units));
     sum += rubric.subscores.back().weight;
   }
   if (std::abs(sum - 1) > 1e-9)

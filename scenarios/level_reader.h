@@ -12,7 +12,7 @@ namespace trocar {
 /// Reads every level of the document into exercise.levels. @param exercise the rest of it, read before.
 void read_levels(StrictTable& document, Exercise& exercise);
 
-/// @param expert_time_s of the level; 0: the table's own, which need only exist when an anchor is given in its units.
-Rubric read_rubric(StrictTable table, double expert_time_s);
+/// @param level gives the units in which anchors may be written: its expert time (0: the table's own) and tolerances.
+Rubric read_rubric(StrictTable table, const ExerciseLevel& level);
 
 }  // namespace trocar

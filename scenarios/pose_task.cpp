@@ -6,6 +6,7 @@
 namespace trocar {
 namespace {
 
+constexpr double kSettled = 0.5;    // of the hold: before, the instrument is still arriving
 constexpr double kHoldGrace = 0.1;  // s out of the tolerance that only pause the hold
 
 }  // namespace
@@ -30,15 +31,15 @@ void PoseTask::begin(EventLog& log) { light(log); }
 
 void PoseTask::light(EventLog& log) {
   hold_.reset();
-  held_s_ = position_sum_ = angle_sum_ = 0;
+  judged_s_ = position_sum_ = angle_sum_ = 0;
   lit_at_s_ = log.t_s;
   if (!finished()) log.add("TARGET_LIT", Severity::kInfo, object());
 }
 
 void PoseTask::matched(EventLog& log) {
   log.add("TARGET_HELD", Severity::kInfo, object(), log.t_s - lit_at_s_, "s");
-  log.add("POSITION_ERROR", Severity::kInfo, object(), position_sum_ / held_s_, "m");
-  log.add("ANGLE_ERROR", Severity::kInfo, object(), angle_sum_ / held_s_, "rad");
+  log.add("POSITION_ERROR", Severity::kInfo, object(), position_sum_ / judged_s_, "m");
+  log.add("ANGLE_ERROR", Severity::kInfo, object(), angle_sum_ / judged_s_, "rad");
   waiting_.pop_front();
   light(log);
 }
@@ -49,13 +50,14 @@ void PoseTask::update(const TaskInput& input, EventLog& log) {
   position_error_m_ = (input.stylus.X_TI.p - pen.centre_T).norm();
   angle_error_rad_ = rotation_between(input.stylus.X_TI.R, pen.R_TI);
   const bool inside = position_error_m_ <= position_tolerance_m_ && angle_error_rad_ <= angle_tolerance_rad_;
-  if (inside) {
-    held_s_ += input.dt_s;
+  const bool complete = hold_.update(inside, input.dt_s);
+  if (hold_.progress() >= kSettled) {
+    judged_s_ += input.dt_s;
     position_sum_ += position_error_m_ * input.dt_s;
     angle_sum_ += angle_error_rad_ * input.dt_s;
   }
-  if (hold_.update(inside, input.dt_s)) return matched(log);
-  if (hold_.progress() == 0) held_s_ = position_sum_ = angle_sum_ = 0;
+  if (complete) return matched(log);
+  if (hold_.progress() == 0) judged_s_ = position_sum_ = angle_sum_ = 0;
   if (log.t_s - lit_at_s_ < timeout_s_) return;
   ++timeouts_;
   log.add("TARGET_TIMEOUT", Severity::kMinor, object(), timeout_s_, "s");

@@ -1,7 +1,7 @@
 // Reach and orient: pens light one after the other; tip and orientation must match and stay matched for a moment.
 //
-// Events: TARGET_LIT, TARGET_HELD (s since lit), and with it POSITION_ERROR (m) and ANGLE_ERROR (rad), the means over the
-// hold; TARGET_TIMEOUT when a pen was not matched in its time: an error, and the pen comes back after the others, so that
+// Events: TARGET_LIT, TARGET_HELD (s since lit), and with it POSITION_ERROR (m) and ANGLE_ERROR (rad), the means over
+// the second half of the hold; TARGET_TIMEOUT when a pen was not matched in its time: an error, and the pen comes back after the others, so that
 // nobody gets past a pen by waiting. The angle is that of the whole rotation between instrument and pen, roll included.
 // Frame T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once
@@ -34,7 +34,7 @@ class PoseTask final : public ExerciseTask {
   int timeouts_ = 0;
   double lit_at_s_ = 0;
   double position_error_m_ = 0, angle_error_rad_ = 0;
-  double held_s_ = 0, position_sum_ = 0, angle_sum_ = 0;  ///< over the present hold
+  double judged_s_ = 0, position_sum_ = 0, angle_sum_ = 0;  ///< over the second half of the hold
 };
 
 /// Angle of the rotation that takes one orientation into the other, rad.

@@ -46,6 +46,8 @@ void require_finite(const ScoringContext& context) {
   bool finite = context.approach_T.allFinite();
   for (const auto& [key, member] : kNumbers) finite = finite && std::isfinite(context.*member);
   for (const Vec3& point : context.waypoints) finite = finite && point.allFinite();
+  for (const ObjectBand& band : context.object_bands)
+    finite = finite && std::isfinite(band.low_n) && std::isfinite(band.high_n);
   if (!finite) throw std::invalid_argument("scoring context holds a number that is not finite");
 }
 
@@ -58,6 +60,9 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
   context.time_limit_s = exercise.time_limit_s;
   context.band_low_n = level.band_low_n;
   context.band_high_n = level.band_high_n;
+  if (level.bands.size() > 1) {
+    for (const Target& target : board.targets) context.object_bands.push_back({target.band.low_n, target.band.high_n});
+  }
   context.soft_force_n = exercise.soft_force_n;
   context.hard_force_n = exercise.hard_force_n;
   context.critical_force_n = exercise.critical_force_n;
@@ -73,7 +78,8 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
     if (disc && event.object >= 0 && index < board.targets.size())
       context.waypoints.push_back(board.targets[index].centre_T);
   }
-  context.objects_total = static_cast<int>(board.targets.size()) + 1;  // the block is the last object
+  const int blocks = exercise.kind == ExerciseKind::kTouch ? 1 : 0;  // the one to squeeze comes last
+  context.objects_total = static_cast<int>(board.targets.size()) + blocks;
   context.objects_done = static_cast<int>(done.size());
   return context;
 }
@@ -86,6 +92,8 @@ std::string scoring_context_json(const ScoringContext& context) {
   json["approach"] = to_json(context.approach_T);
   json["waypoints"] = Json::array();
   for (const Vec3& point : context.waypoints) json["waypoints"].push_back(to_json(point));
+  if (!context.object_bands.empty()) json["object_bands"] = Json::array();
+  for (const ObjectBand& band : context.object_bands) json["object_bands"].push_back({band.low_n, band.high_n});
   json["objects_total"] = context.objects_total;
   json["objects_done"] = context.objects_done;
   return json.dump();
@@ -99,6 +107,8 @@ ScoringContext parse_scoring_context(const std::string& text, const std::string&
     for (const auto& [key, member] : kNumbers) context.*member = json.at(key).get<double>();
     context.approach_T = vector_from(json.at("approach"));
     for (const Json& point : json.at("waypoints")) context.waypoints.push_back(vector_from(point));
+    for (const Json& band : json.value("object_bands", Json::array()))
+      context.object_bands.push_back({band.at(0).get<double>(), band.at(1).get<double>()});
     context.objects_total = json.at("objects_total").get<int>();
     context.objects_done = json.at("objects_done").get<int>();
     require_finite(context);

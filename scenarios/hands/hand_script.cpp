@@ -1,6 +1,7 @@
 #include "scenarios/hands/hand_script.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "haptics/input_error.h"
 #include "scenarios/strict_toml.h"
@@ -15,6 +16,8 @@ HandSkill read_skill(StrictTable table) {
   skill.speed_factor = table.number("speed_factor", 0.1, 20);
   skill.aim_lateral_m = table.number("aim_lateral_mm", 0, 50) * kMilli;
   skill.aim_depth_m = table.number("aim_depth_mm", 0, 50) * kMilli;
+  skill.aim_angle_rad = table.number("aim_angle_deg", 0, 90) * M_PI / 180;
+  skill.settle_share = table.number("settle_share", 0.05, 1);
   skill.tremor_m = table.number("tremor_mm", 0, 5) * kMilli;
   skill.pause_s = table.number("pause_s", 0, 10);
   skill.force_bias = table.number("force_bias", 0, 10);
@@ -47,7 +50,7 @@ HandScript parse_hand_script(const std::string& text, const std::string& file) {
   StrictTable document = StrictTable::parse(text, file);
   HandScript script;
   script.name = document.text("name");
-  const std::string kind = document.choice("kind", {"skilled", "waypoints", "idle"});
+  const std::string kind = document.choice("kind", {"skilled", "waypoints", "learner", "idle"});
   if (kind == "skilled") {
     script.kind = HandKind::kSkilled;
     script.skill = read_skill(document.table("skill"));
@@ -55,12 +58,31 @@ HandScript parse_hand_script(const std::string& text, const std::string& file) {
     script.kind = HandKind::kWaypoints;
     for (const StrictTable& move : document.tables("move")) script.moves.push_back(read_move(move));
   }
+  if (kind == "learner") {
+    script.kind = HandKind::kLearner;
+    StrictTable learning = document.table("learning");
+    script.learning = {learning.text("from"), learning.text("to"), learning.number("attempts", 0.1, 1000)};
+    learning.finish();
+  }
   document.finish();
   return script;
 }
 
 HandScript load_hand_script(const std::filesystem::path& file) {
   return parse_hand_script(read_text_file(file.string()), file.string());
+}
+
+HandSkill learned_skill(const HandSkill& from, const HandSkill& to, double attempts, int attempt) {
+  const double left = std::exp(-std::max(0, attempt - 1) / attempts);
+  HandSkill skill = to;
+  for (double HandSkill::*number :
+       {&HandSkill::speed_factor, &HandSkill::aim_lateral_m, &HandSkill::aim_depth_m, &HandSkill::aim_angle_rad,
+        &HandSkill::settle_share, &HandSkill::tremor_m, &HandSkill::pause_s, &HandSkill::force_bias,
+        &HandSkill::force_cv, &HandSkill::path_bulge, &HandSkill::hover_m, &HandSkill::approach_speed_mps,
+        &HandSkill::reaction_s, &HandSkill::population_cv})
+    skill.*number += left * (from.*number - to.*number);
+  skill.max_corrections += static_cast<int>(std::lround(left * (from.max_corrections - to.max_corrections)));
+  return skill;
 }
 
 std::vector<std::string> list_hands(const std::filesystem::path& hands_dir) {

@@ -17,6 +17,8 @@ struct HandSkill {
   double speed_factor = 1;          ///< multiplies every movement time
   double aim_lateral_m = 0;         ///< SD of the end point across the approach, at 60 mm of travel
   double aim_depth_m = 0;           ///< SD along the approach
+  double aim_angle_rad = 0;         ///< SD of the turn about each axis, at 30 deg of turn
+  double settle_share = 0.6;        ///< of a pose's tolerance: nearer than this is good enough
   double tremor_m = 0;              ///< RMS of the 9 Hz tremor of the intent
   double pause_s = 0;               ///< between seeing the next target and moving
   double force_bias = 1;            ///< first force aimed at / middle of the band
@@ -39,18 +41,29 @@ struct ScriptedMove {
   bool clutch = false;              ///< made with the clutch held: the stylus moves, the instrument stays
 };
 
-enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kIdle };
+/// A person who gets better: every number of the skill goes from one hand's to another's, e^(-(n - 1) / attempts) of the
+/// way left at attempt n.
+struct Learning {
+  std::string from, to;             ///< hands of the same folder
+  double attempts = 8;              ///< time constant
+};
+
+enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kLearner, kIdle };
 
 struct HandScript {
   std::string name;
   HandKind kind = HandKind::kIdle;
   HandSkill skill;
   std::vector<ScriptedMove> moves;
+  Learning learning;
 };
 
 /// @throws InputError "FILE:LINE:COLUMN: message".
 HandScript load_hand_script(const std::filesystem::path& file);
 HandScript parse_hand_script(const std::string& text, const std::string& file);
+
+/// Skill of a learner at an attempt (1 is the first).
+HandSkill learned_skill(const HandSkill& from, const HandSkill& to, double attempts, int attempt);
 
 /// Names of the scripts of a folder, sorted. @throws InputError when it cannot be read.
 std::vector<std::string> list_hands(const std::filesystem::path& hands_dir);

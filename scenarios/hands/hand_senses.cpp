@@ -14,7 +14,7 @@ HandErrand task_of(const Percept& percept) {
     case Cue::kRelease: return {HandErrand::Kind::kDisc, percept.target_index};
     case Cue::kGrip: return {HandErrand::Kind::kGrip, -1};
     case Cue::kFinished: return {HandErrand::Kind::kFinished, -1};
-    case Cue::kOrient:
+    case Cue::kOrient: return {HandErrand::Kind::kPen, percept.target_index};
     case Cue::kPick:
     case Cue::kCarry:
     case Cue::kPlace:

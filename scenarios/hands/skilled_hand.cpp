@@ -10,8 +10,11 @@ namespace {
 constexpr double kTremorHz = 9;
 constexpr double kAimReference = 0.060;     // m of travel at which the aim error has its nominal size
 constexpr double kAimFloor = 0.15;
+constexpr double kTurnReference = 30 * std::numbers::pi / 180;  // of turn at which the aim error has its nominal size
+constexpr double kNearEnough = 0.6;         // of the start ball's radius
 constexpr double kLift = 0.012;             // m of withdrawal before crossing
 constexpr double kLookTime = 0.16;          // s: the eyes are that late
+constexpr double kPenSettling = 0.15;       // s more before judging a pose: arm and instrument come to rest first
 constexpr double kTouchForce = 0.12;        // N that counts as feeling the tissue
 constexpr double kLongestDescent = 0.030;   // m below the hover point before looking again
 constexpr double kSideGain = 1.2;           // 1/s, sideways correction while pressing
@@ -30,7 +33,7 @@ constexpr double kGripTouch = 0.08;         // N
 HandSkill SkilledHand::drawn_person(const HandSkill& skill, HandRandom& random) {
   HandSkill person = skill;
   if (skill.population_cv <= 0) return person;
-  for (double* value : {&person.speed_factor, &person.aim_lateral_m, &person.aim_depth_m, &person.tremor_m,
+  for (double* value : {&person.speed_factor, &person.aim_lateral_m, &person.aim_depth_m, &person.aim_angle_rad, &person.tremor_m,
                         &person.pause_s, &person.force_bias, &person.force_cv, &person.path_bulge})
     *value *= random.log_normal(skill.population_cv);
   return person;
@@ -83,16 +86,29 @@ void SkilledHand::reach(const Percept& percept, const Vec3& goal_T, bool lift) {
   in_step_s_ = 0;
 }
 
+/// Plans a turn of the intent such that the SEEN instrument would come to the pen's orientation; the longer of reach and
+/// turn sets the pace of both.
+void SkilledHand::turn(const Percept& percept) {
+  const Mat3 R_missing = percept.target_R_TI * percept.R_TI.transpose();
+  const double angle = Eigen::AngleAxisd(R_missing).angle();
+  const double noise = skill_.aim_angle_rad * std::sqrt(std::min(1.0, angle / kTurnReference) + kAimFloor);
+  const Vec3 error = noise * Vec3(random_.normal(), random_.normal(), random_.normal());
+  const double time = reach_time_s(angle, 2 * percept.target_angle_rad, skill_.speed_factor);
+  turn_ = TurnPlan(intent_R_, rotation_by(error) * R_missing * intent_R_, std::max(time, plan_.duration_s()));
+}
+
 void SkilledHand::reach_target(const Percept& percept, bool lift) {
   const double hover = task_.kind == HandErrand::Kind::kDisc ? skill_.hover_m : 0;
   reach(percept, percept.target_T + percept.target_normal_T * hover, lift);
+  if (task_.kind == HandErrand::Kind::kPen && percept.target_oriented) turn(percept);
 }
 
 void SkilledHand::begin_task(const Percept& percept) {
   corrections_ = 0;
   in_step_s_ = 0;
   switch (task_.kind) {
-    case HandErrand::Kind::kStart: return reach_target(percept, false);
+    case HandErrand::Kind::kStart:
+    case HandErrand::Kind::kPen: return reach_target(percept, false);
     case HandErrand::Kind::kDisc: return reach_target(percept, true);
     case HandErrand::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
@@ -120,12 +136,21 @@ void SkilledHand::on_unexpected_touch(const Percept& percept) {
   reach_target(percept, true);
 }
 
+bool SkilledHand::off_target(const Percept& percept) const {
+  if (task_.kind == HandErrand::Kind::kDisc) return sideways_error(percept).norm() > percept.target_radius_m;
+  const bool pen = task_.kind == HandErrand::Kind::kPen && percept.target_oriented;
+  const double share = pen ? skill_.settle_share : kNearEnough;
+  const bool beside = (percept.target_T - percept.tip_T).norm() > share * percept.target_radius_m;
+  if (!pen) return beside;
+  const double angle = Eigen::AngleAxisd(Mat3(percept.R_TI.transpose() * percept.target_R_TI)).angle();
+  return beside || angle > share * percept.target_angle_rad;
+}
+
 void SkilledHand::look(const Percept& percept) {
-  if (in_step_s_ < kLookTime + 0.05 * skill_.speed_factor) return;
+  const double settling = task_.kind == HandErrand::Kind::kPen ? kPenSettling : 0;
+  if (in_step_s_ < kLookTime + settling + 0.05 * skill_.speed_factor) return;
   const bool disc = task_.kind == HandErrand::Kind::kDisc;
-  const Vec3 error = disc ? sideways_error(percept) : Vec3(percept.target_T - percept.tip_T);
-  const double allowed = disc ? percept.target_radius_m : 0.6 * percept.target_radius_m;
-  if (error.norm() > allowed && (corrections_ < skill_.max_corrections || !disc)) {
+  if (off_target(percept) && (corrections_ < skill_.max_corrections || !disc)) {
     ++corrections_;
     return reach_target(percept, false);
   }
@@ -166,6 +191,7 @@ Percept SkilledHand::attend(const Percept& percept) {
   if (senses_.seen() == task_) attended_ = percept;
   Percept view = attended_;
   view.tip_T = percept.tip_T;
+  view.R_TI = percept.R_TI;
   view.jaw_opening_m = percept.jaw_opening_m;
   return view;
 }
@@ -176,6 +202,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     seen_ = true;
     is_ready_ = percept.device_ready;
     intent_T_ = ready_.p;
+    intent_R_ = ready_.R;
     return {ready_, jaw_m_};
   }
   time_s_ += dt_s;
@@ -187,7 +214,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
   }
   if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
-  return {{ready_.R, intent_T_ + tremor(time_s_)}, jaw_m_};
+  return {{intent_R_, intent_T_ + tremor(time_s_)}, jaw_m_};
 }
 
 void SkilledHand::act(const Percept& percept, double dt_s) {
@@ -195,7 +222,8 @@ void SkilledHand::act(const Percept& percept, double dt_s) {
     case Step::kStill: break;
     case Step::kReach:
       intent_T_ = plan_.at(in_step_s_);
-      if (in_step_s_ > plan_.duration_s()) {
+      if (task_.kind == HandErrand::Kind::kPen) intent_R_ = turn_.at(in_step_s_);
+      if (in_step_s_ > std::max(plan_.duration_s(), task_.kind == HandErrand::Kind::kPen ? turn_.duration_s() : 0)) {
         in_step_s_ = 0;
         step_ = task_.kind == HandErrand::Kind::kFinished ? Step::kStill : Step::kLook;
       } else if (in_step_s_ > 0.5 * plan_.duration_s() && senses_.touch_n() > kTouchForce) {

@@ -2,7 +2,8 @@
 // comes down onto the tissue, presses until the felt force is what it wants, withdraws, and finally squeezes the block.
 //
 // Knows nothing but its Percept. Its intent pulls the stylus through the impedance of the hand, so while pressing the
-// intent lies inside the tissue. Frame T, m, N. Orientation: kept as seen when the device became ready.
+// intent lies inside the tissue. Frame T, m, N. Orientation: kept as seen when the device became ready, until a pen asks for
+// another.
 // Thread: the session's, 1 kHz; does not allocate.
 #pragma once
 
@@ -12,6 +13,7 @@
 #include "scenarios/hands/hand_script.h"
 #include "scenarios/hands/hand_senses.h"
 #include "scenarios/hands/minimum_jerk.h"
+#include "scenarios/hands/turn_plan.h"
 
 namespace trocar {
 
@@ -29,6 +31,8 @@ class SkilledHand : public Hand {
   void begin_task(const Percept& percept);
   void reach(const Percept& percept, const Vec3& goal_T, bool lift);
   void reach_target(const Percept& percept, bool lift);
+  void turn(const Percept& percept);
+  bool off_target(const Percept& percept) const;
   void look(const Percept& percept);
   void descend(const Percept& percept, double dt_s);
   void press(const Percept& percept, double dt_s);
@@ -43,11 +47,13 @@ class SkilledHand : public Hand {
   HandSenses senses_;
   ForceGrip press_, squeeze_;
   ReachPlan plan_;
+  TurnPlan turn_;
   HandErrand task_;
   Percept attended_;            ///< target and band that the person works on
   Step step_ = Step::kStill;
   Pose ready_;                  ///< pose seen when the device became ready
   Vec3 intent_T_ = Vec3::Zero();
+  Mat3 intent_R_ = Mat3::Identity();
   Vec3 tremor_phase_ = Vec3::Zero();
   double jaw_m_, time_s_ = 0, in_step_s_ = 0, aside_s_ = 0;
   int corrections_ = 0;

@@ -28,13 +28,13 @@ std::vector<double> weights(const Samples& samples) {
 
 struct Window {
   double from = 0, to = 0;
+  ObjectBand band;
 };
 
 /// The time in which the force is judged: it opens when the force first reaches the band's lower edge after the
 /// first touch, or kRiseGrace after that touch, whichever is sooner, and closes when the hold is complete.
 template <typename Reading>
-Value in_band_share(const Samples& samples, const std::vector<Window>& windows, double low, double high,
-                    Reading reading) {
+Value in_band_share(const Samples& samples, const std::vector<Window>& windows, Reading reading) {
   const std::vector<double> weight = weights(samples);
   double inside = 0, total = 0;
   for (const Window& window : windows) {
@@ -43,19 +43,20 @@ Value in_band_share(const Samples& samples, const std::vector<Window>& windows, 
                                [](const TraceSample& sample, double t) { return sample.t_s < t; });
     for (; it != samples.end() && it->t_s <= window.to; ++it) {
       const double value = reading(*it);
-      open = open || value >= low || it->t_s >= window.from + kRiseGrace;
+      open = open || value >= window.band.low_n || it->t_s >= window.from + kRiseGrace;
       if (!open) continue;
       const double w = weight[static_cast<std::size_t>(it - samples.begin())];
       total += w;
-      if (value >= low && value <= high) inside += w;
+      if (value >= window.band.low_n && value <= window.band.high_n) inside += w;
     }
   }
   return total > 0 ? Value(inside / total) : std::nullopt;
 }
 
-/// From the first `opening` event of each object to its `closing` event, or to the end.
+/// From the first `opening` event of each object to its `closing` event, or to the end. @param bands by object; the
+/// first stands for all that have none of their own.
 std::vector<Window> windows_between(const std::vector<Event>& events, const std::string& opening,
-                                    const std::string& closing, double end) {
+                                    const std::string& closing, double end, const std::vector<ObjectBand>& bands) {
   std::vector<Window> windows;
   std::vector<std::int32_t> seen;
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -65,7 +66,9 @@ std::vector<Window> windows_between(const std::vector<Event>& events, const std:
     const auto closed =
         std::find_if(events.begin() + static_cast<std::ptrdiff_t>(i), events.end(),
                      [&](const Event& e) { return e.type == closing && e.object == event.object; });
-    windows.push_back({event.t_s, closed == events.end() ? end : closed->t_s});
+    const auto index = static_cast<std::size_t>(std::max(0, event.object));
+    windows.push_back({event.t_s, closed == events.end() ? end : closed->t_s,
+                       index < bands.size() ? bands[index] : bands.front()});
   }
   return windows;
 }
@@ -153,12 +156,12 @@ void add_grip_metrics(const Samples& samples, const std::vector<Event>& events, 
     sum += grip * weight[i];
   }
   const double end = samples.empty() ? 0 : samples.back().t_s;
-  const auto windows = windows_between(events, "GRIP_TOUCHED", "GRIP_HELD", end);
+  const auto windows = windows_between(events, "GRIP_TOUCHED", "GRIP_HELD", end,
+                                       {{context.grip_low_n, context.grip_high_n}});
   sink.push_back({"grip_max_n", time > 0 ? Value(largest) : std::nullopt, "N"});
   sink.push_back({"grip_mean_n", time > 0 ? Value(sum / time) : std::nullopt, "N"});
   sink.push_back({"grip_in_band_share",
-                  in_band_share(samples, windows, context.grip_low_n, context.grip_high_n,
-                                [](const TraceSample& sample) { return sample.grip_n; }),
+                  in_band_share(samples, windows, [](const TraceSample& sample) { return sample.grip_n; }),
                   "1"});
   sink.push_back({"regrasps", grasps > 0 ? Value(grasps - 1) : std::nullopt, "1"});
 }
@@ -182,10 +185,12 @@ void add_force_metrics(const Trace& trace, const std::vector<Event>& events, con
   const double end = trace.samples.empty() ? 0 : trace.samples.back().t_s;
   add_size_metrics(trace.samples, context, sink);
   add_rate_metric(trace, sink);
-  sink.push_back({"in_band_share",
-                  in_band_share(trace.samples, windows_between(events, "TARGET_TOUCHED", "TARGET_HELD", end),
-                                context.band_low_n, context.band_high_n, force_of),
-                  "1"});
+  std::vector<ObjectBand> bands = context.object_bands;
+  if (bands.empty()) bands.push_back({context.band_low_n, context.band_high_n});
+  sink.push_back(
+      {"in_band_share",
+       in_band_share(trace.samples, windows_between(events, "TARGET_TOUCHED", "TARGET_HELD", end, bands), force_of),
+       "1"});
   add_grip_metrics(trace.samples, events, context, sink);
   add_honesty_metrics(trace.samples, sink);
 }

@@ -53,6 +53,12 @@ constexpr MetricDefinition kCatalogue[] = {
     {"excess_events", "1", "times that contact or grip went above its hard limit"},
     {"critical_events", "1", "events of critical severity"},
     {"tool_collisions", "1", "times that the shaft pressed on the tissue"},
+    {"matched_in_time_share", "1", "targets held before their time ran out / all objects"},
+    {"position_error_m", "m", "distance of the tip from the wanted place, second half of the hold, mean over targets"},
+    {"angle_error_deg", "deg", "turn between instrument and wanted pose, roll included, over the same time"},
+    {"target_timeouts", "1", "targets that were not done in their time"},
+    {"device_limits", "1", "times that the device could not give the force"},
+    {"rest_tremor_rms_m", "m", "displacement between 8 and 12 Hz in the second before START: the baseline of tremor"},
 };
 
 }  // namespace
@@ -124,6 +130,8 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_motion_metrics(graded, graded_events, context, metrics);
   add_force_metrics(graded, graded_events, context, metrics);
   add_count_metrics(graded_events, context, metrics);
+  add_pose_metrics(graded_events, context, metrics);
+  add_rest_metric(trace, events, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

@@ -11,10 +11,17 @@
 
 namespace trocar {
 
+/// Force wanted at one object, N.
+struct ObjectBand {
+  double low_n = 0, high_n = 0;
+  bool operator==(const ObjectBand&) const = default;
+};
+
 struct ScoringContext {
   AttemptStatus outcome = AttemptStatus::kAborted;
   double time_limit_s = 0;
   double band_low_n = 0, band_high_n = 0;            ///< wanted contact force
+  std::vector<ObjectBand> object_bands;              ///< by object where they differ; empty: the band above for all
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
   double grip_low_n = 0, grip_high_n = 0;            ///< wanted grip force
   double retract_height_m = 0;                       ///< of the ideal path between targets, along approach_T

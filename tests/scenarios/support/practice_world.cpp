@@ -1,6 +1,7 @@
 #include "tests/scenarios/support/practice_world.h"
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include "scenarios/exercise_loader.h"
 #include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/make_hand.h"
+#include "scenarios/pen_layout.h"
 #include "scenarios/scoring_context.h"
 #include "tests/scenarios/support/test_organs.h"
 
@@ -22,11 +24,14 @@ constexpr double kFingerLag = 0.04;          // s
 
 const std::filesystem::path kRoot = TROCAR_TEST_ROOT;
 
+Mat3 resting() { return Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix(); }
+
 struct World {
-  World(const PracticeRoom& room_in, const WorldTuning& tuning_in, const Vec3& tip, std::uint64_t seed)
-      : room(room_in), tuning(tuning_in), random(seed) {
+  World(const PracticeRoom& room_in, const ExerciseLevel& level_in, const WorldTuning& tuning_in, const Vec3& tip,
+        std::uint64_t seed)
+      : room(room_in), level(level_in), tuning(tuning_in), random(seed) {
     state.X_TI.p = tip;
-    state.X_TI.R = Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix();
+    state.X_TI.R = resting();
     state.loop = LoopState::kActive;
     state.jaw_opening_m = 0.02;
     intent_before = tip;
@@ -37,6 +42,7 @@ struct World {
     state.contact = state.tip_contact = false;
     state.depth_m = 0;
     state.F_I_T = {};
+    if (!needs_organ(room.exercise.kind)) return;
     const auto surface = room.field.top(state.X_TI.p.x(), state.X_TI.p.y());
     if (!surface) return;
     const double depth = (surface->position - state.X_TI.p).dot(surface->normal);
@@ -60,6 +66,10 @@ struct World {
     state.V_TI_T.linear += (pull + state.F_I_T.force) / tuning.mass_kg * kDt;
     state.X_TI.p += state.V_TI_T.linear * kDt;
     state.X_TI.R = intent.X_TI.R;
+    if (level.mapping == Mapping::kFulcrum) {  // the shaft passes the port, whatever the wrist would like
+      const Vec3 axis = (state.X_TI.p - level.port_m).normalized();
+      state.X_TI.R = Eigen::Quaterniond::FromTwoVectors(state.X_TI.R.col(2), axis) * state.X_TI.R;
+    }
     double rest = intent.jaw_opening_m;
     if (block.stiffness_n_per_m > 0 && rest < block.thickness_m)
       rest = (kFingerStiffness * rest + block.stiffness_n_per_m * block.thickness_m) /
@@ -70,7 +80,7 @@ struct World {
     state.t_s = static_cast<double>(state.tick) * kDt;
   }
 
-  Percept perceive() {
+  Percept perceive(const DirectorStatus& status) {
     seen[state.tick % seen.size()] = state.X_TI.p;
     if (state.tick % 20 == 0)
       for (int axis = 0; axis < 3; ++axis) eye_error[axis] = kEyeNoise * random.normal();
@@ -82,11 +92,12 @@ struct World {
     percept.felt_force_n = std::max(0.0, state.F_I_T.force.norm() + kTouchNoise * random.normal());
     percept.felt_grip_n = std::max(0.0, state.grip_force_n + kTouchNoise * random.normal());
     percept.jaw_opening_m = state.jaw_opening_m;
-    percept.shown_force_n = state.F_I_T.force.norm();
+    percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::nan("");
     return percept;
   }
 
   const PracticeRoom& room;
+  const ExerciseLevel& level;
   WorldTuning tuning;
   HandRandom random;
   StylusState state;
@@ -107,25 +118,28 @@ TraceSample sample_of(const StylusState& state) {
 }
 
 TriangleSurface placed_organ(const Exercise& exercise) {
+  if (!needs_organ(exercise.kind)) return {};
   const TriangleSurface organ = liver_like();
   return organ.transformed(place_organ(organ, exercise.layout));
 }
 
 }  // namespace
 
-PracticeRoom::PracticeRoom()
-    : exercise(load_exercise(kRoot / "scenarios/exercises/surface-touch.toml")),
+PracticeRoom::PracticeRoom(const std::string& exercise_id)
+    : exercise(find_exercise(exercise_id, kRoot / "scenarios/exercises")),
       organ_T(placed_organ(exercise)),
       field(organ_T) {}
 
 PracticeAttempt practise(const PracticeRoom& room, Hand& hand, int board, std::uint64_t seed,
                          const WorldTuning& tuning) {
-  const ExerciseLevel& level = find_level(room.exercise, "L1");
-  Director director(room.exercise, level, lay_out_board(room.organ_T, room.exercise, level, board));
-  World world(room, tuning, director.board().start_T + Vec3(0.02, 0.03, 0.02), seed + 1000003);
+  const ExerciseLevel& level = find_level(room.exercise, tuning.level);
+  Director director(room.exercise, level,
+                    needs_organ(room.exercise.kind) ? lay_out_board(room.organ_T, room.exercise, level, board)
+                                                    : lay_out_pens(room.exercise, level, resting(), board));
+  World world(room, level, tuning, director.board().start_T + Vec3(0.02, 0.03, 0.02), seed + 1000003);
   PracticeAttempt attempt;
   while (!director.finished() && world.state.t_s < tuning.longest_s) {
-    Percept percept = world.perceive();
+    Percept percept = world.perceive(director.status());
     show_cue(director.status(), percept);
     world.step(hand.update(percept, kDt), director.status().grip);
     attempt.trace.samples.push_back(sample_of(world.state));

@@ -23,9 +23,9 @@ struct PracticeAttempt {
   Grade grade;
 };
 
-/// The shipped exercise, and an organ placed for it.
+/// A shipped exercise, and an organ placed for it where it needs one.
 struct PracticeRoom {
-  PracticeRoom();
+  explicit PracticeRoom(const std::string& exercise_id = "surface-touch");
   Exercise exercise;
   TriangleSurface organ_T;
   HeightField field;
@@ -34,6 +34,7 @@ struct PracticeRoom {
 struct WorldTuning {
   double hand_stiffness_n_per_m = 98, hand_damping = 8, mass_kg = 0.4;
   double longest_s = 300;
+  std::string level = "L1";
 };
 
 /// One attempt from device ready to the end of the exercise.
