@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/bench_command.h"
+#include "app/commands/catalogue_command.h"
 #include "app/commands/cohort_command.h"
 #include "app/commands/db_command.h"
 #include "app/commands/demo_command.h"
@@ -74,7 +75,8 @@ void add_run(CommandLine& c) {
   CLI::App* run = c.add(c.app, "run", "One scripted, headless attempt (lockstep), recorded, graded and stored",
                         [&c] { return run_command(c.run, std::cout, std::cerr); });
   run->add_option("exercise", c.run.exercise, "Exercise id, number or FILE.toml")->required();
-  run->add_option("--hand", c.run.hand, "expert, intermediate, novice, clumsy, speed-runner, heavy-handed, idle, or SCRIPT.toml")->required();
+  run->add_option("--hand", c.run.hand, "expert, intermediate, novice, clumsy, speed-runner, heavy-handed, idle, learner, or SCRIPT.toml")->required();
+  run->add_option("--attempt", c.run.attempt, "Attempt of the learner, from 1 (default: one more than the trainee has stored)")->check(CLI::Range(1, 100000));
   run->add_option("--level", c.run.level, "Level")->capture_default_str();
   run->add_option("--seed", c.run.seed, "Seed of everything random")->capture_default_str();
   run->add_option("--board", c.run.board, "Practice board 0-19 (default: an unseen one drawn by the seed)");
@@ -148,7 +150,7 @@ void add_catalogue(CommandLine& c) {
   CLI::App* exercises = c.add(c.app, "exercises", "The catalogue of exercises",
                               [&c] { return exercises_command(c.exercises, std::cout, std::cerr); });
   exercises->add_flag("--json", c.exercises.json, "As JSON");
-  exercises->add_option("--explain", c.exercises.explain, "Say what a metric means");
+  exercises->add_option("--explain", c.exercises.explain, "Explain a metric, an exercise or a sub-score");
   CLI::App* check = c.add(c.app, "check", "Validate exercises and prove their boards reachable", [&c] {
     return check_command(c.check_subjects, c.check_organ, std::cout, std::cerr);
   });

@@ -10,6 +10,7 @@
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/board_layout.h"
 #include "scenarios/exercise_loader.h"
+#include "scenarios/pen_layout.h"
 #include "tissue/collision/patch_extraction.h"
 
 namespace trocar {
@@ -67,11 +68,30 @@ void require_reach(const Scene& scene) {
   }
 }
 
+/// Board of the exercise's kind. The loop's map is set before: pens turn from the resting instrument.
+void set_stage(Scene& scene) {
+  const AttemptSetup& setup = scene.setup;
+  if (!needs_organ(setup.exercise.kind)) {
+    scene.board = lay_out_pens(setup.exercise, scene.level, scene.loop.map.instrument_pose(home_pose()).R, setup.board);
+    return;
+  }
+  scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, setup.exercise.layout));
+  scene.board = lay_out_board(scene.organ_T, setup.exercise, scene.level, setup.board);
+  require_reach(scene);
+}
+
 }  // namespace
+
+Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets) {
+  if (needs_organ(setup.exercise.kind)) return load_organ(find_organ(setup.organ, assets.assets));
+  Organ none;
+  none.name = "none";
+  return none;
+}
 
 Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq) {
   find_level(setup.exercise, setup.level);  // a wrong level is refused before anything is loaded
-  return build_scene(setup, load_organ(find_organ(setup.organ, assets.assets)), daq);
+  return build_scene(setup, organ_of(setup, assets), daq);
 }
 
 Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities& daq) {
@@ -79,9 +99,6 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.setup = setup;
   scene.level = find_level(setup.exercise, setup.level);
   scene.organ = std::move(organ);
-  scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, setup.exercise.layout));
-  scene.board = lay_out_board(scene.organ_T, setup.exercise, scene.level, setup.board);
-
   scene.loop.daq = daq;
   scene.loop.map = place_theatre(scene.level);
   scene.loop.map.force_scale = force_scale(scene.level, scene.loop.map, scene.loop.device, setup.exercise.layout,
@@ -91,7 +108,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
-  require_reach(scene);
+  set_stage(scene);
   return scene;
 }
 

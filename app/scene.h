@@ -66,6 +66,8 @@ struct Scene {
 
 /// @param daq rate and DAC bits of the back-end. @throws InputError.
 Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq);
+/// The organ that the setup names; one named "none", without a surface, when the exercise happens without.
+Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets);
 /// The same on an organ that has been loaded already.
 Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities& daq);
 

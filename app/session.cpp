@@ -137,7 +137,7 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
   const auto bench =
       std::make_unique<Bench>(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get());
   HandTask hand(scene, bench->haptic, *bench->hand_frames,
-                make_hand(scene.setup.hand, static_cast<std::uint64_t>(scene.setup.seed), assets.hands), daq);
+                make_hand(scene.setup.hand, static_cast<std::uint64_t>(scene.setup.seed), assets.hands, scene.setup.attempt), daq);
   RecorderTask recorder(*rings, scene.loop.daq.rate_hz, writer);
   SessionOutcome out;
   if (timing == Timing::kLive) {

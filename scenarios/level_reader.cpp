@@ -118,8 +118,6 @@ ExerciseLevel read_level(StrictTable& table, const Exercise& exercise) {
   read_task_keys(table, derived, exercise, level);
   level.time_limit_s = table.number_or("time_limit_s", 1, 3600, level.time_limit_s);
   level.expert_time_s = table.number_or("expert_time_s", 1, 3600, level.expert_time_s);
-  if (level.expert_time_s >= level.time_limit_s && level.expert_time_s > 0)
-    table.fail("expert_time_s", "'expert_time_s' must be below the time limit");
   table.finish();
   return level;
 }

@@ -4,14 +4,11 @@
 #include <iomanip>
 #include <ostream>
 
-#include <nlohmann/json.hpp>
-
 #include "app/placement.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "scenarios/exercise_loader.h"
-#include "scenarios/scoring/metrics.h"
 
 namespace trocar {
 namespace {
@@ -28,9 +25,10 @@ struct Reach {
 
 Reach reach_of(const Scene& scene) {
   Reach reach;
-  const Mat3 R_TI = scene.loop.map.instrument_pose(home_pose()).R;
+  const Mat3 R_rest = scene.loop.map.instrument_pose(home_pose()).R;
+  const bool pens = scene.setup.exercise.kind == ExerciseKind::kReach;
   const JointVector home = home_angles();
-  const auto visit = [&](const Vec3& point_T) {
+  const auto visit = [&](const Vec3& point_T, const Mat3& R_TI) {
     const auto q = inverse_within_limits(scene.loop.map.stylus_pose({R_TI, point_T}), home);
     if (!q) {
       reach.reachable = false;
@@ -39,10 +37,11 @@ Reach reach_of(const Scene& scene) {
     reach.joint_margin = std::min(reach.joint_margin, joint_limit_margin(*q));
     reach.det_a = std::min(reach.det_a, arm_state(*q).det_a);
   };
-  visit(scene.board.start_T);
+  visit(scene.board.start_T, R_rest);
   for (const Target& target : scene.board.targets) {
-    visit(target.centre_T);
-    visit(target.centre_T + Vec3(0, 0, scene.setup.exercise.retract_height_m));
+    const Mat3 R_TI = pens ? target.R_TI : R_rest;
+    visit(target.centre_T, R_TI);
+    visit(target.centre_T + Vec3(0, 0, scene.setup.exercise.retract_height_m), R_TI);
   }
   return reach;
 }
@@ -73,46 +72,7 @@ bool check_boards(const Exercise& exercise, const ExerciseLevel& level, const st
   return sound;
 }
 
-void explain_metric(const std::string& name, std::ostream& out) {
-  if (const MetricDefinition* metric = find_metric(name)) {
-    out << metric->name << " [" << metric->unit << "]: " << metric->meaning << '\n';
-    return;
-  }
-  std::string known;
-  for (const MetricDefinition& metric : metric_catalogue()) {
-    known += (known.empty() ? "" : ", ") + std::string(metric.name);
-  }
-  throw InputError("--explain " + name + ": unknown metric; known are " + known);
-}
-
 }  // namespace
-
-int exercises_command(const ExercisesOptions& options, std::ostream& out, std::ostream&) {
-  if (!options.explain.empty()) {
-    explain_metric(options.explain, out);
-    return 0;
-  }
-  const auto exercises = list_exercises(find_assets().exercises);
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const Exercise& exercise : exercises) {
-    nlohmann::ordered_json levels = nlohmann::ordered_json::array();
-    std::string level_names;
-    for (const ExerciseLevel& level : exercise.levels) {
-      levels.push_back(level.name);
-      level_names += (level_names.empty() ? "" : " ") + level.name;
-    }
-    json.push_back({{"id", exercise.id}, {"number", exercise.number}, {"version", exercise.version},
-                    {"title", exercise.title}, {"goal", exercise.goal}, {"levels", levels},
-                    {"time_limit_s", exercise.time_limit_s}, {"pass_at", exercise.rubric.pass_at},
-                    {"rubric_sha256", exercise.rubric.sha256}});
-    if (!options.json) {
-      out << exercise.number << "  " << std::left << std::setw(18) << exercise.id << exercise.title << "  ("
-          << level_names << ")\n     " << exercise.goal << '\n';
-    }
-  }
-  if (options.json) out << json.dump(2) << '\n';
-  return 0;
-}
 
 int check_command(const std::vector<std::string>& subjects, const std::string& organ, std::ostream& out,
                   std::ostream& err) {

@@ -54,7 +54,7 @@ Scene recorded_scene(const RecordingOptions& options, const Subject& subject, co
   RecordedSetup recorded = parse_scene_json(subject.recording.session, subject.file.string());
   if (!options.organ.empty()) recorded.setup.organ = options.organ;
   // Before anything is laid out on it: another organ may well have no room for the board.
-  Organ organ = load_organ(find_organ(recorded.setup.organ, assets.assets));
+  Organ organ = organ_of(recorded.setup, assets);
   if (organ.sha256 != recorded.organ_sha256) {
     throw InputError(organ.manifest.string() +
                      ": not the organ of the recording (its sha256 differs); name that one with --organ");

@@ -197,6 +197,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.level = options.level;
   setup.organ = options.organ;
   setup.hand = options.hand;
+  setup.attempt = std::max(1, options.attempt);
   setup.seed = options.seed;
   if (options.board && (*options.board < 0 || *options.board > 19)) {
     throw InputError("--board " + std::to_string(*options.board) + ": practice boards are 0 to 19");
@@ -222,9 +223,12 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   Database database = open_database(options.database, OpenMode::kCreate, err);
   AttemptStore store(database);
   const AttemptStart start = start_of(options, scene);
+  Scene taught = scene;
+  if (options.attempt == 0)
+    taught.setup.attempt = 1 + static_cast<int>(store.list({start.trainee, start.exercise_id}).size());
   const AttemptId id = store.begin_attempt(start);
   say_beginning(scene, err);
-  const auto [outcome, recording] = record_or_abort(store, id, scene, assets, observe, options.interrupted);
+  const auto [outcome, recording] = record_or_abort(store, id, taught, assets, observe, options.interrupted);
   for (const std::string& note : outcome.notes) err << "trocar: " << note << '\n';
   const AttemptResult result = result_of(start, id, recording);
   store_or_say(store, id, result);

@@ -20,6 +20,7 @@ struct RunOptions {
   std::string level = "L1";
   std::string organ = "phantom-liver";  ///< manifest or shipped name
   std::string trainee = "guest";
+  int attempt = 0;                      ///< of a learning hand, from 1; 0: one more than the trainee has at the exercise
   std::int64_t seed = 1;
   std::optional<int> board;             ///< 0-19 practice; none: an unseen board drawn by the seed
   std::filesystem::path database;       ///< empty: the default path; ":memory:" keeps nothing

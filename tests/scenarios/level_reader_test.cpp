@@ -133,8 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadLevel{"bands_n = [[0.3, 0.2]]\n", "low below high"},
                     BadLevel{"bands_n = []\n", "must be an array of [low, high] pairs"},
                     BadLevel{"bands_n = [[0.3, 2.0]]\n", "'bands_n' reaches above 'hard_n'"},
-                    BadLevel{"expert_time_s = 130\n", "must be below the time limit"},
-                    BadLevel{"expert_time_s = 50\ntime_limit_s = 45\n", "must be below the time limit"},
+                    BadLevel{"expert_time_s = 0\n", "'expert_time_s' = 0 is out of range"},
+                    BadLevel{"time_limit_s = -5\n", "'time_limit_s' = -5 is out of range"},
                     BadLevel{"position_tolerance_mm = 3\n", "unknown key 'position_tolerance_mm'"},
                     BadLevel{"band = [0.5, 0.7]\n", "did you mean 'band_n'?"}));
 

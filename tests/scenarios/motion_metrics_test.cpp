@@ -123,7 +123,10 @@ TEST(MotionMetrics, SeeOnlyTheGradedWindow) {
   for (TraceSample& sample : trace.samples)
     if (sample.t_s < 2 || sample.t_s > 5) sample.tip_T *= 7;
   const auto same = compute_metrics(trace, events, {});
-  for (std::size_t i = 0; i < metrics.size(); ++i) EXPECT_EQ(metrics[i].value, same[i].value) << metrics[i].name;
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    if (metrics[i].name == "rest_tremor_rms_m") continue;  // looks at the second before START, and says so
+    EXPECT_EQ(metrics[i].value, same[i].value) << metrics[i].name;
+  }
 }
 
 TEST(MetricTable, ListsExactlyWhatIsComputed) {
