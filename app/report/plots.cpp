@@ -5,42 +5,21 @@
 #include <cmath>
 
 #include "app/report/html.h"
+#include "app/report/svg.h"
 
 namespace trocar {
 namespace {
 
+using svg::attribute;
+using svg::label;
+using svg::line;
+using svg::nice_step;
+using svg::px;
+using svg::rect;
+
 // Okabe and Ito's colours, told apart also by width.
 constexpr std::array<const char*, 4> kClassColour = {"#7a8794", "#009e73", "#e69f00", "#d55e00"};
 constexpr std::array<const char*, 4> kClassWidth = {"1.2", "2", "2.4", "3.4"};
-
-std::string px(double value) { return fixed_text(value, 1); }
-
-std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + value + "\"";
-}
-
-std::string line(double x0, double y0, double x1, double y1, const std::string& style) {
-  return "<line" + attribute("x1", px(x0)) + attribute("y1", px(y0)) + attribute("x2", px(x1)) +
-         attribute("y2", px(y1)) + " " + style + "/>";
-}
-
-std::string rect(double x, double y, double w, double h, const std::string& style) {
-  return "<rect" + attribute("x", px(x)) + attribute("y", px(y)) + attribute("width", px(w)) +
-         attribute("height", px(h)) + " " + style + "/>";
-}
-
-std::string label(double x, double y, const std::string& words, const char* anchor = "start", const char* extra = "") {
-  return "<text" + attribute("x", px(x)) + attribute("y", px(y)) + attribute("text-anchor", anchor) + " " + extra +
-         ">" + escape_html(words) + "</text>";
-}
-
-/// 1, 2 or 5 times a power of ten, giving about `count` steps.
-double nice_step(double range, int count) {
-  const double raw = range / count, power = std::pow(10, std::floor(std::log10(raw)));
-  for (const double m : {1.0, 2.0, 5.0})
-    if (raw <= m * power * 1.0001) return m * power;
-  return 10 * power;
-}
 
 struct Series {
   std::vector<double> t_s, force_n, grip_n;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include "app/report/html.h"
@@ -91,6 +92,9 @@ std::string summary_html(const AttemptResult& r, const ReportContext& context) {
   if (context.time_limit_s > 0) out += fact("Time limit", number_text(context.time_limit_s) + " s");
   if (context.band.high_n > 0)
     out += fact("Wanted force", number_text(context.band.low_n) + " to " + number_text(context.band.high_n) + " N");
+  if (context.pose.position_m > 0)
+    out += fact("Allowed", quantity_text(context.pose.position_m, "m") + " and " +
+                               number_text(context.pose.angle_rad * 180 / std::numbers::pi) + " degrees");
   if (context.band.hard_n > 0) out += fact("Hard limit", number_text(context.band.hard_n) + " N");
   out += fact("Started", r.started_utc.empty() ? "not recorded" : r.started_utc + " UTC");
   return out + "</tbody></table>";
@@ -110,6 +114,21 @@ std::string events_html(const AttemptResult& result, double start_s) {
   }
   if (result.events.empty()) out += "<tr><td colspan=\"5\">No events.</td></tr>";
   return out + "</tbody></table>";
+}
+
+/// The picture that says most about the exercise: errors of the pens, grip on the blocks, else force.
+std::string main_plot_html(const AttemptResult& result, const Trace& trace, const ReportContext& context) {
+  std::string title = "Force against time", plot;
+  if (context.pose.position_m > 0) {
+    title = "Place and turn of each pen";
+    plot = pose_plot_svg(result.events, context.pose);
+  } else if (!context.blocks.empty()) {
+    title = "Grip force against time";
+    plot = grip_plot_svg(trace, result.events, context.blocks);
+  } else {
+    plot = force_plot_svg(trace, result.events, context.band);
+  }
+  return "<section class=\"force\"><h2>" + title + "</h2>" + plot + "</section>\n";
 }
 
 std::string path_key() {
@@ -147,6 +166,7 @@ std::string device_html(const DeviceReceipt& d) {
 }
 
 std::string origin_html(const AttemptResult& r) {
+  if (r.organ_name.empty() && r.organ_sha256.empty()) return "<p>No organ: a board exercise.</p>";
   const auto stated = [](const std::string& words) { return words.empty() ? std::string("not stated") : words; };
   return "<p>" + escape_html(stated(r.organ_name)) +
          (r.organ_synthetic ? " \u2013 <b>SYNTHETIC</b>, made by a program, not a patient" : "") + ". Made from " +
@@ -182,8 +202,7 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
   page += "<div class=\"two top\"><div>" + picture_html(context) + "</div><div>" + summary_html(result, context) +
           "</div></div>\n";
   page += subscores_html(result.grade);
-  page += "<section class=\"force\"><h2>Force against time</h2>" + force_plot_svg(trace, result.events, context.band) +
-          "</section>\n";
+  page += main_plot_html(result, trace, context);
   page += "<div class=\"two path\"><div><section><h2>Events</h2>" + events_html(result, start) + "</section>" +
           metrics_html(result.grade) + "</div><div><section><h2>Tip path from above</h2>" +
           path_plot_svg(trace, result.events, context.band) + path_key() + "</section><section><h2>Device</h2>" +

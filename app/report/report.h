@@ -7,21 +7,24 @@
 #include <filesystem>
 #include <string>
 
+#include "app/report/board_plots.h"
 #include "app/report/plots.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {
 
 struct ReportContext {
-  std::string exercise_number;    ///< "E02"
-  std::string exercise_title;     ///< "Surface touch"
-  std::string goal;               ///< one line
-  ForceLimits band;                 ///< N
-  double pass_mark = 75;          ///< 0..100
-  double time_limit_s = 0;        ///< 0: none
-  std::filesystem::path picture;  ///< PNG of the attempt; empty: none
-  bool embed_picture = true;      ///< into the page (base64); false: relative link by file name
-  std::string program_version;    ///< "0.1.0"
+  std::string exercise_number;     ///< "E02"
+  std::string exercise_title;      ///< "Surface touch"
+  std::string goal;                ///< one line
+  ForceLimits band;                ///< N
+  PoseLimits pose;                 ///< pens: their errors take the force plot's place
+  std::vector<GripLimits> blocks;  ///< foam blocks: the grip on each takes the force plot's place
+  double pass_mark = 75;           ///< 0..100
+  double time_limit_s = 0;         ///< 0: none
+  std::filesystem::path picture;   ///< PNG of the attempt; empty: none
+  bool embed_picture = true;       ///< into the page (base64); false: relative link by file name
+  std::string program_version;     ///< "0.1.0"
 };
 
 /// The whole page as UTF-8 text.
