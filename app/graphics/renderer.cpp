@@ -80,7 +80,7 @@ struct Renderer::Impl {
   ShaderLibrary shaders;
   FontSet fonts;
   GlObject noise, scene_buffer, screen_array;
-  RenderSurface scene, glow_a, glow_b, shadow, picture;
+  RenderSurface scene, glow_a, glow_b, shadow, small, picture;
   std::optional<OrganOnGpu> organ;
   std::vector<Decal> decals;
   GpuMesh shaft, jaw;
@@ -102,6 +102,11 @@ struct Renderer::Impl {
   void decal_pass(const SceneView& view, const ScopeOptics& optics, const std::vector<std::string>& dimple);
   void glow_pass();
   void post_pass(const SceneView& view, const ScopeOptics& optics, const PixelRect& window);
+  struct PostStep {
+    const RenderSurface &from, &to;
+  };
+  void post_step(const SceneView& view, const ScopeOptics& optics, const PixelRect& window, const PostStep& step,
+                 const std::vector<std::string>& defines);
   void read_back(Image& image, const PixelRect& window);
 };
 
@@ -132,6 +137,7 @@ void Renderer::Impl::ensure_surfaces(int width, int height) {
   scene = RenderSurface(RenderSurface::Use::kSceneColour, w, h);
   glow_a = RenderSurface(RenderSurface::Use::kGlow, std::max(1, w / kGlowDivisor), std::max(1, h / kGlowDivisor));
   glow_b = RenderSurface(RenderSurface::Use::kGlow, glow_a.width, glow_a.height);
+  small = w < width ? RenderSurface(RenderSurface::Use::kPicture, w, h) : RenderSurface();
   picture = RenderSurface(RenderSurface::Use::kPicture, width, height);
 }
 
@@ -301,22 +307,30 @@ void Renderer::Impl::glow_pass() {
 }
 
 void Renderer::Impl::post_pass(const SceneView& view, const ScopeOptics& optics, const PixelRect& window) {
-  picture.begin();
-  Program& post =
-      bind("screen", "post", options.grain ? std::vector<std::string>{"WITH_GRAIN"} : std::vector<std::string>{});
+  glActiveTexture(GL_TEXTURE0 + kGlowUnit);
+  glBindTexture(GL_TEXTURE_2D, glow_a.texture.id());
+  const std::string grain = options.grain ? "WITH_GRAIN" : "WITHOUT_GRAIN";
+  if (scene.width >= picture.width) return post_step(view, optics, window, {scene, picture}, {grain});
+  post_step(view, optics, window, {scene, small}, {"SMALL"});
+  post_step(view, optics, window, {small, picture}, {"UPSCALE", grain});
+}
+
+void Renderer::Impl::post_step(const SceneView& view, const ScopeOptics& optics, const PixelRect& window,
+                               const PostStep& step, const std::vector<std::string>& defines) {
+  step.to.begin();
+  Program& post = bind("screen", "post", defines);
   const auto f = [](double value) { return static_cast<float>(value); };
+  const double scale = static_cast<double>(step.to.width) / window.width;
   glUniform1i(post.uniform("u_scene"), kSceneUnit);
   glUniform1i(post.uniform("u_glow"), kGlowUnit);
-  glUniform2f(post.uniform("u_size"), f(window.width), f(window.height));
-  glUniform3f(post.uniform("u_circle"), f(optics.circle_x() - window.x),
-              f(window.y + window.height - optics.circle_y()), f(optics.circle_radius()));
+  glUniform2f(post.uniform("u_size"), f(step.to.width), f(step.to.height));
+  glUniform3f(post.uniform("u_circle"), f(scale * (optics.circle_x() - window.x)),
+              f(scale * (window.y + window.height - optics.circle_y())), f(scale * optics.circle_radius()));
   glUniform2f(post.uniform("u_texel"), 1.0F / f(scene.width), 1.0F / f(scene.height));
   glUniform1f(post.uniform("u_barrel"), f(ScopeOptics::kBarrel));
   glUniform1f(post.uniform("u_frame"), f(std::fmod(std::floor(std::max(0.0, view.hud.elapsed_s) * 50), 65536.0)));
-  glActiveTexture(GL_TEXTURE0 + kGlowUnit);
-  glBindTexture(GL_TEXTURE_2D, glow_a.texture.id());
   glActiveTexture(GL_TEXTURE0 + kSceneUnit);
-  glBindTexture(GL_TEXTURE_2D, scene.texture.id());
+  glBindTexture(GL_TEXTURE_2D, step.from.texture.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -1,5 +1,7 @@
 // The camera and video processor: barrel distortion, mild sharpening, glow, tone curve, vignette, round field with a
-// notch at 12 o'clock, and (WITH_GRAIN) sensor grain from an integer hash, equal on every machine.
+// notch at 12 o'clock, and (WITH_GRAIN) sensor grain from an integer hash, equal on every machine. The soft preset does
+// it in two steps, because the camera's eight looks at the scene cost most of a small picture: SMALL all but rim and
+// grain at the scene's own size, then UPSCALE to the picture's.
 in vec2 v_uv;
 out vec4 colour;
 uniform sampler2D u_scene;
@@ -21,10 +23,18 @@ void main() {
   float inside = 1.0 - smoothstep(1.0 - 3.0 / u_circle.z, 1.0, r);
   float top = min(1.0, (u_size.y - u_circle.y) / u_circle.z);  // of the field as far as the frame shows it
   vec2 notch = vec2(abs(d.x) / 0.022, (d.y - top + 0.040) / 0.040);
-  if (r >= 1.0) {
+#ifdef SMALL
+  const float rim = 1.02;  // the larger picture's rim looks half a pixel further
+#else
+  const float rim = 1.0;
+#endif
+  if (r >= rim) {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     return;
   }
+#ifdef UPSCALE
+  vec3 c = texture(u_scene, v_uv).rgb;
+#else
   float stretch = (1.0 + u_barrel * r * r) / (1.0 + u_barrel);
   vec2 uv = (u_circle.xy + d * stretch * u_circle.z) / u_size;
   vec3 c = texture(u_scene, uv).rgb;
@@ -42,6 +52,11 @@ void main() {
   c += 0.35 * texture(u_glow, uv).rgb;
   c *= 1.0 - 0.42 * smoothstep(0.35, 1.0, r);
   c = pow(tone(1.05 * c), vec3(1.0 / 2.2));
+#endif
+#ifdef SMALL
+  colour = vec4(c, 1.0);
+  return;
+#endif
 #ifdef WITH_GRAIN
   uint h = (uint(px.x) * 0x9E3779B1u) ^ (uint(px.y) * 0x85EBCA77u) ^ (uint(u_frame) * 0xC2B2AE3Du);
   h ^= h >> 16; h *= 0x85EBCA6Bu; h ^= h >> 13; h *= 0xC2B2AE35u; h ^= h >> 16;
