@@ -101,23 +101,22 @@ void add_band_notice(const SessionView& view, const std::vector<ForceBar>& bars,
   }
 }
 
-/// Handle nearer to the port than the map allows: the map is held there and the trainee must know.
-void add_port_notice(const SessionView& view, std::vector<HudNotice>& notices) {
-  const auto& fulcrum = view.scene.loop.map.fulcrum;
-  if (!fulcrum) return;
-  const Pose& X_TI = view.record.stylus.X_TI;
-  const Vec3 handle = X_TI.p - fulcrum->length_m * X_TI.R.col(2);
-  if (fulcrum->distance_m(handle) > 1.05 * Fulcrum::kNearest_m) return;
-  notices.push_back({"Handle at the port: draw back", HudNotice::Kind::kWarning});
+/// What the map does with the hand's movement, when it is not what the hand expects.
+void add_map_notices(const StylusState& stylus, std::vector<HudNotice>& notices) {
+  if (stylus.port_held) notices.push_back({"Held near the port: draw back", HudNotice::Kind::kWarning});
+  if (stylus.clutched) notices.push_back({"Clutch: the instrument stands still", HudNotice::Kind::kInfo});
 }
 
 std::vector<HudRow> device_rows(const SessionView& view) {
   const Scene& scene = view.scene;
-  return {{"plant", "simulated", ""},
-          {"loop", text("%.0f", scene.loop.daq.rate_hz), "Hz"},
-          {"passivity", view.record.stylus.passivity_active ? "acting" : "ok", ""},
-          {"force scale", text("%.2f", scene.loop.map.force_scale), ""},
-          {"motor heat", text("%.0f", view.record.winding_c), "°C"}};
+  std::vector<HudRow> out = {{"plant", "simulated", ""},
+                             {"loop", text("%.0f", scene.loop.daq.rate_hz), "Hz"},
+                             {"passivity", view.record.stylus.passivity_active ? "acting" : "ok", ""},
+                             {"force scale", text("%.2f", scene.loop.map.force_scale), ""},
+                             {"motor heat", text("%.0f", view.record.winding_c), "°C"}};
+  if (scene.loop.map.fulcrum)
+    out.push_back({"depth in port", text("%.0f", 1000 * view.record.stylus.depth_in_port_m), "mm"});
+  return out;
 }
 
 PoseDial shown_dial(const SessionView& view, const Camera& camera) {
@@ -171,7 +170,7 @@ Hud attempt_hud(const SessionView& view, const Camera& camera, const std::string
   hud.limit_s = scene.level.time_limit_s;
   hud.bars = bars(view);
   if (status.demand.oriented) hud.dial = shown_dial(view, camera);
-  add_port_notice(view, hud.notices);
+  add_map_notices(view.record.stylus, hud.notices);
   add_band_notice(view, hud.bars, hud.notices);
   hud.steps = steps(scene, status);
   hud.rows = rows(scene, status);

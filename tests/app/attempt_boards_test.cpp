@@ -259,17 +259,25 @@ TEST(BoardHud, NamesLevelAndMappingAndCountsPens) {
   EXPECT_EQ(hud.credit.find("Organ"), std::string::npos);
 }
 
-TEST(BoardHud, WarnsWhenTheHandleComesToThePort) {
+TEST(BoardHud, SaysWhatTheMapDoesWithTheHand) {
   PenMoment moment;
-  Fulcrum fulcrum;
-  moment.scene.loop.map.fulcrum = fulcrum;
-  const auto at_distance = [&](double d) {  // handle d above the port, shaft straight down
-    moment.record.stylus.X_TI = {turned(std::numbers::pi, 0, 0), fulcrum.port_T + Vec3(0, 0, d - fulcrum.length_m)};
-    return moment.hud().notices;
-  };
-  EXPECT_TRUE(at_distance(0.08).empty());
-  ASSERT_EQ(at_distance(0.0195).size(), 1U);
-  EXPECT_EQ(at_distance(0.0195)[0].kind, HudNotice::Kind::kWarning);
+  EXPECT_TRUE(moment.hud().notices.empty());
+  moment.record.stylus.port_held = true;
+  ASSERT_EQ(moment.hud().notices.size(), 1U);
+  EXPECT_EQ(moment.hud().notices[0].kind, HudNotice::Kind::kWarning);
+  moment.record.stylus.clutched = true;
+  ASSERT_EQ(moment.hud().notices.size(), 2U);
+  EXPECT_NE(moment.hud().notices[1].text.find("Clutch"), std::string::npos);
+}
+
+TEST(BoardHud, TellsTheDepthInThePortOnlyWhereThereIsOne) {
+  PenMoment moment;
+  const auto rows = moment.hud().device.size();
+  moment.scene.loop.map.fulcrum = Fulcrum{};
+  moment.record.stylus.depth_in_port_m = 0.1234;
+  const auto device = moment.hud().device;
+  ASSERT_EQ(device.size(), rows + 1);
+  EXPECT_EQ(device.back().value, "123");
 }
 
 TEST(BoardHud, BandFeedbackCallsOutOverThePicture) {
