@@ -1,5 +1,6 @@
 #include "app/recorded_result.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/executor/state_hash.h"
@@ -10,15 +11,38 @@ namespace trocar {
 
 std::string receipt_json(const DeviceReceipt& receipt) {
   nlohmann::ordered_json json = {{"backend", receipt.backend},
-                               {"rate_hz", receipt.rate_hz},
-                               {"ticks", receipt.ticks},
-                               {"overruns", receipt.overruns},
-                               {"min_energy_j", receipt.min_energy_j},
-                               {"kappa", receipt.kappa},
-                               {"fault", receipt.fault}};
+                         {"rate_hz", receipt.rate_hz},
+                         {"ticks", receipt.ticks},
+                         {"overruns", receipt.overruns},
+                         {"min_energy_j", receipt.min_energy_j},
+                         {"kappa", receipt.kappa},
+                         {"fault", receipt.fault},
+                         {"fault_channel", receipt.fault_channel},
+                         {"fault_s", receipt.fault_s},
+                         {"fault_value", std::isfinite(receipt.fault_value) ? receipt.fault_value : 0},
+                         {"reason", receipt.reason},
+                         {"warnings", nlohmann::ordered_json::array()},
+                         {"transitions", nlohmann::ordered_json::array()}};
+  for (const DeviceWarning& w : receipt.warnings) json["warnings"].push_back({w.name, w.first_s, w.ticks});
+  for (const DeviceTransition& t : receipt.transitions) json["transitions"].push_back({t.t_s, t.from, t.to});
   if (!receipt.realtime.empty()) json["realtime"] = nlohmann::ordered_json::parse(receipt.realtime);
   return json.dump();
 }
+
+namespace {
+
+/// What older recordings do not say.
+void read_stop(const nlohmann::ordered_json& json, DeviceReceipt& receipt) {
+  if (!json.contains("reason")) return;
+  receipt.fault_channel = json.at("fault_channel").get<int>();
+  receipt.fault_s = json.at("fault_s").get<double>();
+  receipt.fault_value = json.at("fault_value").get<double>();
+  receipt.reason = json.at("reason").get<std::string>();
+  for (const auto& w : json.at("warnings")) receipt.warnings.push_back({w.at(0), w.at(1), w.at(2)});
+  for (const auto& t : json.at("transitions")) receipt.transitions.push_back({t.at(0), t.at(1), t.at(2)});
+}
+
+}  // namespace
 
 DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
   try {
@@ -32,6 +56,7 @@ DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
     receipt.kappa = json.at("kappa").get<double>();
     receipt.fault = json.at("fault").get<std::string>();
     if (json.contains("realtime")) receipt.realtime = json.at("realtime").dump();
+    read_stop(json, receipt);
     return receipt;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + ": the device's receipt cannot be read: " + error.what());
@@ -47,6 +72,7 @@ AttemptResult recorded_result(const Recording& recording, const std::filesystem:
   }
   result.events = recording.events;
   if (!recording.receipt_json.empty()) result.device = parse_receipt(recording.receipt_json, name);
+  if (result.integrity.empty()) result.integrity = result.device.reason;
   fill_shares(recording, result.device);
   result.recording_sha256 = recording.sha256;
   result.recording_path = file.string();

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/device_words.h"
 #include "app/executor/hand_task.h"
 #include "app/executor/haptic_task.h"
 #include "app/executor/lockstep_executor.h"
@@ -14,6 +15,7 @@
 #include "app/executor/tissue_task.h"
 #include "app/realtime_receipt.h"
 #include "app/recorded_result.h"
+#include "app/recorder/safety_file.h"
 #include "haptics/device/replay_daq.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
@@ -54,10 +56,8 @@ struct Bench {
     out.device.backend = backend;
     out.device.rate_hz = scene.loop.daq.rate_hz;
     out.device.kappa = scene.loop.map.force_scale;
-    out.device.ticks = haptic.ticks();
-    out.device.overruns = haptic.missed();
-    out.device.min_energy_j = record.min_energy_j;
-    out.device.fault = record.stylus.fault ? fault_name(record.stylus.fault.code) : "";
+    haptic.account().fill(out.device);
+    tell_stop(record, out);
     StateHash hash;
     hash.add(haptic.hash().value());
     hash.add(tissue.hash().value());
@@ -67,6 +67,22 @@ struct Bench {
     out.scoring_json = scoring_context_json(
         scoring_context(scene.setup.exercise, scene.level, director.board(), out.events, out.status));
     return out;
+  }
+
+  /// Why it ended, if not by the exercise, and what the loop remembers when its torque went off on the way.
+  void tell_stop(const TickRecord& record, SessionOutcome& out) const {
+    const bool reached_run = director.status().run_time_s > 0;
+    out.device.reason = end_words(out.status, out.device, loop_state_name(record.stylus.loop), reached_run);
+    bool stopped = false;
+    for (const SafetyTransition& t : loop.safety_log().transitions()) {
+      const double t_s = static_cast<double>(t.period) / scene.loop.daq.rate_hz;
+      out.device.transitions.push_back({t_s, loop_state_name(t.from), loop_state_name(t.to)});
+      stopped = stopped || t.to == LoopState::kFault || t.from == LoopState::kActive;
+    }
+    if (stopped) {
+      out.safety_csv =
+          safety_csv(loop.safety_log().transitions(), loop.safety_log().rows(), scene.loop.daq.rate_hz);
+    }
   }
 
   const Scene& scene;
@@ -150,6 +166,9 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
     }
     executor.run(interrupted);
     out = bench->outcome(daq.capabilities().name);
+  }
+  if (out.status == AttemptStatus::kAborted && interrupted && interrupted()) {
+    out.device.reason = "interrupted before its end";
   }
   RecordingEnd end;
   end.state_hash = out.state_hash;

@@ -44,6 +44,7 @@ struct SessionOutcome {
   AttemptStatus status = AttemptStatus::kAborted;
   std::vector<Event> events;
   DeviceReceipt device;
+  std::string safety_csv;               ///< the loop's memory of a stop (recorder/safety_file.h), empty without one
   std::uint64_t state_hash = 0;
   std::string state_hash_hex;
   std::uint64_t patch_triangles_dropped = 0;

@@ -48,6 +48,30 @@ Json metrics(const Grade& grade) {
   return table;
 }
 
+Json warnings(const DeviceReceipt& receipt) {
+  Json list = Json::array();
+  for (const DeviceWarning& w : receipt.warnings) {
+    list.push_back({{"name", w.name}, {"first_s", number(w.first_s)}, {"ticks", w.ticks}});
+  }
+  return list;
+}
+
+Json transitions(const DeviceReceipt& receipt) {
+  Json list = Json::array();
+  for (const DeviceTransition& t : receipt.transitions) {
+    list.push_back({{"t_s", number(t.t_s)}, {"from", t.from}, {"to", t.to}});
+  }
+  return list;
+}
+
+Json fault_detail(const DeviceReceipt& receipt) {
+  if (receipt.fault.empty()) return nullptr;
+  return {{"cause", receipt.fault},
+          {"channel", receipt.fault_channel < 0 ? Json(nullptr) : Json(receipt.fault_channel)},
+          {"first_s", number(receipt.fault_s)},
+          {"value", number(receipt.fault_value)}};
+}
+
 Json device(const DeviceReceipt& receipt) {
   Json json = {{"backend", receipt.backend},
           {"rate_hz", number(receipt.rate_hz)},
@@ -57,7 +81,10 @@ Json device(const DeviceReceipt& receipt) {
           {"passivity_active_share", number(receipt.passivity_active_share)},
           {"min_energy_j", number(receipt.min_energy_j)},
           {"kappa", number(receipt.kappa)},
-          {"fault", receipt.fault.empty() ? Json(nullptr) : Json(receipt.fault)}};
+          {"fault", receipt.fault.empty() ? Json(nullptr) : Json(receipt.fault)},
+          {"fault_detail", fault_detail(receipt)},
+          {"warnings", warnings(receipt)},
+          {"transitions", transitions(receipt)}};
   if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
   return json;
 }
@@ -93,7 +120,8 @@ std::string attempt_json(const AttemptResult& result) {
       {"rubric_sha256", result.rubric_sha256},
       {"recording_sha256", result.recording_sha256},
       {"state_hash", result.state_hash},
-      {"attempt", {{"uuid", result.uuid}, {"started_utc", result.started_utc}, {"recording", result.recording_path}}}};
+      {"attempt", {{"uuid", result.uuid}, {"started_utc", result.started_utc}, {"recording", result.recording_path},
+        {"safety_log", result.safety_log_path.empty() ? Json(nullptr) : Json(result.safety_log_path)}}}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -11,6 +11,7 @@
 #include "app/commands/open_database.h"
 #include "app/interrupt.h"
 #include "app/recorded_result.h"
+#include "app/recorder/safety_file.h"
 #include "digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
@@ -151,6 +152,14 @@ void store_or_say(AttemptStore& store, const AttemptId& id, const AttemptResult&
   }
 }
 
+/// What the loop remembers of a stop, beside the recording. @return the file, empty without one.
+std::string keep_stop(const AttemptId& id, const SessionOutcome& outcome) {
+  if (outcome.safety_csv.empty() || id.recording.empty()) return "";
+  const std::filesystem::path file = safety_file_of(id.recording);
+  write_safety_file(file, outcome.safety_csv);
+  return file.string();
+}
+
 void say_beginning(const Scene& scene, std::ostream& err) {
   err << "trocar: " << scene.setup.exercise.number << ' ' << scene.setup.exercise.title << ", " << scene.level.name
       << ", board " << scene.setup.board << ", hand " << scene.setup.hand << ", organ " << scene.organ.name
@@ -230,8 +239,10 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   say_beginning(scene, err);
   const auto [outcome, recording] = record_or_abort(store, id, taught, assets, observe, options.interrupted);
   for (const std::string& note : outcome.notes) err << "trocar: " << note << '\n';
-  const AttemptResult result = result_of(start, id, recording);
+  AttemptResult result = result_of(start, id, recording);
+  result.safety_log_path = keep_stop(id, outcome);
   store_or_say(store, id, result);
+  if (!result.device.reason.empty()) err << "trocar: " << result.device.reason << '\n';
   if (outcome.patch_triangles_dropped > 0) {
     err << "trocar: " << outcome.patch_triangles_dropped
         << " triangles near the tool did not fit into contact patches: the surface is too fine\n";
@@ -257,6 +268,10 @@ void print_result(const AttemptResult& result, std::ostream& out) {
   }
   for (const std::string& cap : grade.caps) out << "cap      " << cap << '\n';
   if (!result.device.fault.empty()) out << "fault    " << result.device.fault << '\n';
+  if (!result.integrity.empty()) out << "reason   " << result.integrity << '\n';
+  for (const DeviceWarning& w : result.device.warnings) {
+    out << "warning  " << w.name << ", first at " << w.first_s << " s, " << w.ticks << " ticks\n";
+  }
   out << "hash     " << result.state_hash << '\n';
   out << "attempt  " << result.uuid << '\n';
 }

@@ -1,7 +1,5 @@
 #include "app/executor/haptic_task.h"
 
-#include <algorithm>
-
 namespace trocar {
 
 void HapticTask::run(std::uint64_t tick) {
@@ -12,8 +10,7 @@ void HapticTask::run(std::uint64_t tick) {
   daq_.write(codes);
   record_.patch_stamp = patch.stamp;
 
-  ++ticks_;
-  missed_ += std::max<std::uint32_t>(1, sample.elapsed_periods) - 1;
+  account_.add(record_);
   if (record_.stylus.loop == LoopState::kFault) since_fault_s_ += 1 / loop_.config().daq.rate_hz;
   hash_.add(record_);
   ports_.tissue.write(tick, record_.stylus);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/executor/channel.h"
+#include "app/executor/device_account.h"
 #include "app/executor/state_hash.h"
 #include "app/executor/task.h"
 #include "haptics/exchange/ring.h"
@@ -39,8 +40,7 @@ class HapticTask final : public Task {
   /// The newest record. Thread: the haptic task's, or any when the run is over.
   const TickRecord& record() const { return record_; }
   const StateHash& hash() const { return hash_; }
-  std::uint64_t ticks() const { return ticks_; }
-  std::uint64_t missed() const { return missed_; }
+  const DeviceAccount& account() const { return account_; }
 
  private:
   DataAcquisition& daq_;
@@ -49,7 +49,7 @@ class HapticTask final : public Task {
   double longest_s_;
   TickRecord record_;
   StateHash hash_;
-  std::uint64_t ticks_ = 0, missed_ = 0;   ///< periods without a tick
+  DeviceAccount account_;
   double since_fault_s_ = 0;
 };
 

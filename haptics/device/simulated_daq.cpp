@@ -45,10 +45,25 @@ SimulatedDaq::SimulatedDaq(const SimulatedDaqConfig& config)
       hand_(config.hand, config.seed ^ kTremorStream),
       faults_(config.faults) {
   const PlantParameters& p = plant_.parameters();
-  plant_.place(plant_.angles() + p.jig_error, p.jig_jaw_opening);
+  home_ = plant_.angles() + p.jig_error;
+  plant_.place(home_, p.jig_jaw_opening);
   plant_.clamp(true);
   const ChannelVector outputs = plant_.outputs();
   for (int i = 0; i < kChannels; ++i) last_.counts[i] = count(i, outputs[i]);
+}
+
+void SimulatedDaq::return_to_jig() noexcept {
+  from_ = plant_.angles();
+  jaw_from_ = plant_.motion().jaw;
+  carried_s_ = 0;
+  plant_.clamp(true);
+}
+
+void SimulatedDaq::carry() noexcept {
+  carried_s_ += period_s_;
+  const double way = std::min(1.0, carried_s_ / kReturnS);
+  plant_.place(from_ + way * (home_ - from_), jaw_from_ + way * (plant_.parameters().jig_jaw_opening - jaw_from_));
+  if (way == 1.0) carried_s_ = -1;
 }
 
 DaqCapabilities SimulatedDaq::capabilities() const noexcept { return {"simulated", config_.rate_hz, config_.dac_bits}; }
@@ -80,7 +95,7 @@ DaqSample SimulatedDaq::read() noexcept {
 
 void SimulatedDaq::pass_period() noexcept {
   disturb_hand();
-  switch_amplifiers();
+  switch_amplifiers(next_s());
   advance_period();
   ++sync_;
   watch_writes();
@@ -98,7 +113,7 @@ std::uint32_t SimulatedDaq::digital_inputs() const noexcept {
   if (hand_.holding() && pressed_ && !opened) in |= kDeadman;
   if (hand_.fault()) in |= kHandFault;
   if (clutch_pressed_) in |= kClutch;
-  if (plant_.clamped()) in |= kHomeBeam;
+  if (plant_.clamped() && carried_s_ < 0) in |= kHomeBeam;
   if (faults_.lasts(InjectedFaultKind::kEmergencyStop, time_s())) in |= kEmergencyStop;
   if (watchdog_fired_) in |= kWatchdogFired;
   for (int i = 0; i < kChannels; ++i) {
@@ -109,9 +124,9 @@ std::uint32_t SimulatedDaq::digital_inputs() const noexcept {
 }
 
 /// The wired chain: emergency stop, enabling switch. Without a hand (a test bench) the switch counts as bridged.
-void SimulatedDaq::switch_amplifiers() noexcept {
-  const bool cut = !pressed_ || faults_.lasts(InjectedFaultKind::kDeadmanOpen, next_s()) ||
-                   faults_.lasts(InjectedFaultKind::kEmergencyStop, next_s());
+void SimulatedDaq::switch_amplifiers(double at_s) noexcept {
+  const bool cut = !pressed_ || faults_.lasts(InjectedFaultKind::kDeadmanOpen, at_s) ||
+                   faults_.lasts(InjectedFaultKind::kEmergencyStop, at_s);
   if (plant_.amplifiers_enabled() != (armed_ && !cut)) plant_.enable_amplifiers(armed_ && !cut);
 }
 
@@ -125,6 +140,7 @@ void SimulatedDaq::advance_period() noexcept {
     force_on_hand_ -= load.stylus_B.force / substeps_;
     force_on_finger_ -= load.jaw_force_n / substeps_;
   }
+  if (carried_s_ >= 0) return carry();
   if (armed_) armed_for_s_ += period_s_;
   if (plant_.clamped() && armed_for_s_ >= kJigReleaseS - kTimeSlack) plant_.clamp(false);
 }
@@ -170,7 +186,7 @@ void SimulatedDaq::write(const DacFrame& frame) noexcept {
 
 void SimulatedDaq::arm(bool enabled) noexcept {
   armed_ = enabled;
-  switch_amplifiers();
+  switch_amplifiers(time_s());
   if (enabled) return;
   armed_for_s_ = unwritten_s_ = 0;
   watchdog_fired_ = false;

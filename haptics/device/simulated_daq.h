@@ -29,6 +29,7 @@
 namespace trocar {
 
 inline constexpr double kJigReleaseS = 0.050;
+inline constexpr double kReturnS = 1.0;
 inline constexpr double kWatchdogS = 0.016;  ///< two counts at an eighth of the SYNC clock
 inline constexpr int kMaxExtraDelayPeriods = 63;
 
@@ -71,6 +72,8 @@ class SimulatedDaq final : public DataAcquisition {
   void press_clutch(bool pressed) noexcept { clutch_pressed_ = pressed; }
   void set_hand_parameters(const HandParameters& parameters) noexcept { hand_.set_parameters(parameters); }
   void release_hand() noexcept { hand_.let_go(); }
+  /// The operator carries the arm back into its jig within kReturnS, where it is clamped again.
+  void return_to_jig() noexcept;
   /// The enabling switch in the handle, pressed at first; it counts only while the hand holds the stylus.
   void press_deadman(bool pressed) noexcept { pressed_ = pressed; }
   HandSense sense() const noexcept;
@@ -88,8 +91,9 @@ class SimulatedDaq final : public DataAcquisition {
   void latch_codes() noexcept;
   void apply_volts() noexcept;
   void advance_period() noexcept;
+  void carry() noexcept;
   void disturb_hand() noexcept;
-  void switch_amplifiers() noexcept;
+  void switch_amplifiers(double at_s) noexcept;
   std::uint32_t digital_inputs() const noexcept;
   double next_s() const noexcept { return time_s() + period_s_; }
   std::int32_t count(int channel, double output) const noexcept;
@@ -98,6 +102,9 @@ class SimulatedDaq final : public DataAcquisition {
   double period_s_, substep_s_;
   int substeps_;
   DevicePlant plant_;
+  JointVector home_ = JointVector::Zero();  ///< where the jig holds the joints
+  JointVector from_ = JointVector::Zero();  ///< where the operator took the arm up
+  double jaw_from_ = 0, carried_s_ = -1;    ///< on the way back to the jig, < 0: not on the way
   HandModel hand_;
   PlantFaults faults_;
 

@@ -36,6 +36,19 @@ struct Grade {
   std::vector<Metric> metrics;
 };
 
+/// How often the device loop warned of something (docs/device_and_safety.md).
+struct DeviceWarning {
+  std::string name;
+  double first_s = 0;                  ///< loop time
+  std::uint64_t ticks = 0;
+};
+
+/// A change of state of the device loop.
+struct DeviceTransition {
+  double t_s = 0;                      ///< loop time
+  std::string from, to;
+};
+
 /// Loop quality of the attempt (the device receipt).
 struct DeviceReceipt {
   std::string backend;
@@ -45,8 +58,13 @@ struct DeviceReceipt {
   double passivity_active_share = 0;   ///< of contact ticks
   double min_energy_j = 0;
   double kappa = 1;
-  std::string fault;                   ///< empty when none
+  std::string fault;                   ///< cause of the first one, empty when none
   std::string realtime;                ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep
+  int fault_channel = -1;              ///< -1: none in particular
+  double fault_s = 0, fault_value = 0; ///< loop time of the tick in which it was seen; the offending number
+  std::string reason;                  ///< why the loop ended, empty when the exercise ended it
+  std::vector<DeviceWarning> warnings;
+  std::vector<DeviceTransition> transitions;
 };
 
 struct AttemptResult {
@@ -58,6 +76,7 @@ struct AttemptResult {
   Grade grade;
   std::vector<Event> events;
   DeviceReceipt device;
+  std::string safety_log_path;         ///< empty when nothing stopped the device
   std::string organ_name, organ_source, organ_sha256;
   bool organ_synthetic = false;
   std::string organ_credit;            ///< licence and origin, shown wherever the organ is

@@ -69,7 +69,7 @@ TEST(ParseInjection, RefusesValuesThatTheDeviceCannotHave) {
 
 TEST(ParseInjection, RefusesWithTheFormOrTheKnownKinds) {
   EXPECT_EQ(refusal("encoder-jump"), "--inject encoder-jump: KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION]");
-  EXPECT_NE(refusal("gremlin@1").find("known are channel-invalid, dac-stuck, encoder-jump"), std::string::npos);
+  EXPECT_NE(refusal("gremlin@1").find("known are channel-invalid, dac-stuck, deadman-open, delay, drive-fault"), std::string::npos);
   EXPECT_NE(refusal("@1").find("known are"), std::string::npos);
   EXPECT_NE(refusal("dac-stuck:7@1").find("channels are 0 to 6"), std::string::npos);
   EXPECT_NE(refusal("dac-stuck:-1@1").find("channels are 0 to 6"), std::string::npos);

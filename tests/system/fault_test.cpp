@@ -35,7 +35,56 @@ TEST_F(Faults, ANonFiniteHandEndsTheAttempt) {
   }
 }
 
-TEST_F(Faults, AnInvalidChannelEndsTheAttempt) { EXPECT_NE(faulty("channel-invalid:1@3")["device"]["fault"], nullptr); }
+/// One injected failure of the whole program: what ends it, on which channel, and when.
+struct Injected {
+  const char* injection;
+  const char* cause;
+  int channel;         ///< -1: none in particular
+  double latest_s;     ///< loop time
+};
+
+TEST_F(Faults, EveryInjectedStopNamesItsCauseItsTimeAndWhatToDo) {
+  const Injected table[] = {{"encoder-jump:2@2.5", "encoder-jump", 2, 2.502},
+                            {"channel-invalid:1@2.5", "channel-invalid", 1, 2.502},
+                            {"missed-sync:0:50@2.5", "late-loop", -1, 2.552},
+                            {"sensor-silence@2.5", "sensor-silent", -1, 2.502},
+                            {"dac-stuck:1@1.5", "dac-mismatch", 1, 1.51},
+                            {"watchdog@2.5", "watchdog", -1, 2.518},
+                            {"e-stop@2.5", "emergency-stop", -1, 2.502},
+                            {"drive-fault:5@2.5", "drive-fault", 5, 2.502},
+                            {"over-temperature:3@2.5", "drive-hot", 3, 2.502},
+                            {"hand-nan@2.5+0.1", "hand-non-finite", -1, 2.502}};
+  for (const Injected& row : table) {
+    SCOPED_TRACE(row.injection);
+    const Outcome outcome = trocar(short_run({"--db", "f.db", "--inject", row.injection}));
+    EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["status"], "fault");
+    EXPECT_TRUE(json["score"].is_null());
+    const Json& fault = json["device"]["fault_detail"];
+    EXPECT_EQ(fault["cause"], row.cause);
+    EXPECT_EQ(fault["channel"], row.channel < 0 ? Json(nullptr) : Json(row.channel));
+    EXPECT_GE(fault["first_s"].get<double>(), 1.4999);
+    EXPECT_LE(fault["first_s"].get<double>(), row.latest_s);
+    EXPECT_NE(outcome.err.find(std::string("device fault ") + row.cause), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("; then reset, home"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / json["attempt"]["safety_log"].get<std::string>()));
+  }
+}
+
+TEST_F(Faults, AnOpenDeadmanVoidsAndADelayIsBorne) {
+  const Json open = json_of(short_run({"--db", ":memory:", "--inject", "deadman-open@3.5+0.2"}), 1);
+  EXPECT_NE(open["status"], "fault") << "the operator may switch off";
+  const Json late = json_of(short_run({"--db", ":memory:", "--inject", "delay:0:3@2"}), 1);
+  EXPECT_TRUE(late["device"]["fault"].is_null()) << late["device"];
+}
+
+TEST_F(Faults, AnAbortedAttemptSaysWhy) {
+  const Outcome outcome = trocar(short_run({"--db", ":memory:", "--inject", "deadman-open@0"}));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(Json::parse(outcome.out)["status"], "aborted");
+  EXPECT_NE(outcome.err.find("waiting for the deadman"), std::string::npos) << outcome.err;
+}
 
 TEST_F(Faults, AFaultAlsoShowsInTheTextForPeople) {
   Words words = short_run({"--db", ":memory:", "--inject", "encoder-jump:2@3"});
