@@ -70,6 +70,7 @@ AttemptResult recorded_result(const Recording& recording, const std::filesystem:
   if (result.grade.status == AttemptStatus::kVoid && !result.grade.caps.empty()) {
     result.integrity = result.grade.caps.front();
   }
+  if (recording.end && result.grade.status == AttemptStatus::kAborted) result.integrity = "ended before the exercise did";
   result.events = recording.events;
   if (!recording.receipt_json.empty()) result.device = parse_receipt(recording.receipt_json, name);
   if (result.integrity.empty()) result.integrity = result.device.reason;

@@ -15,7 +15,7 @@ constexpr const char* kAttempt =
     " state_hash, device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share,"
     " passivity_active_share, min_energy_j, kappa, device_fault";
 constexpr const char* kAttemptSince2 =
-    ", program, integrity, (SELECT uuid FROM session WHERE id = session_id),"
+    ", program, integrity, device_realtime, (SELECT uuid FROM session WHERE id = session_id),"
     " (SELECT sha256 FROM device_calibration WHERE id = calibration_id), s.revision, s.ruleset_sha256";
 constexpr const char* kOfAttempt =
     " FROM attempt a JOIN trainee t ON t.id = a.trainee_id LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0"

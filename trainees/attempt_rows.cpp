@@ -61,13 +61,13 @@ void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& 
       "UPDATE attempt SET finished_utc = ?, integrity = ?, recording_path = ?,"
       " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
       " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
-      " kappa = ?, device_fault = ? WHERE id = ?");
+      " kappa = ?, device_fault = ?, device_realtime = ? WHERE id = ?");
   const DeviceReceipt& device = result.device;
   update.bind(utc_now()).bind(result.integrity);
   update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
   update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
   update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
-  update.bind(row).run();
+  update.bind(device.realtime).bind(row).run();
 }
 
 std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {

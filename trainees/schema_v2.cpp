@@ -138,6 +138,8 @@ CREATE TABLE attempt (
   min_energy_j     REAL,
   kappa            REAL,
   device_fault     TEXT NOT NULL DEFAULT '',
+  -- JSON: how a live run kept its pace; empty in lockstep
+  device_realtime  TEXT NOT NULL DEFAULT '',
   -- of the content that row_hash covers (attempt_chain.h)
   hash_version     INTEGER NOT NULL,
   chain_position   INTEGER UNIQUE,

@@ -42,9 +42,9 @@ void expect_equal(const AttemptResult& back, const AttemptResult& result) {
   }
   const DeviceReceipt &a = back.device, &b = result.device;
   EXPECT_EQ(std::tie(a.backend, a.rate_hz, a.ticks, a.overruns, a.saturated_contact_share, a.passivity_active_share,
-                     a.min_energy_j, a.kappa, a.fault),
+                     a.min_energy_j, a.kappa, a.fault, a.realtime),
             std::tie(b.backend, b.rate_hz, b.ticks, b.overruns, b.saturated_contact_share, b.passivity_active_share,
-                     b.min_energy_j, b.kappa, b.fault));
+                     b.min_energy_j, b.kappa, b.fault, b.realtime));
   EXPECT_EQ(back.state_hash, result.state_hash);
 }
 
