@@ -98,7 +98,7 @@ void facets(StudyResult& study) {
   const auto patch = faceted_ball();
   constexpr double kRadius = 0.04, kDepth = 0.0015;
   StudyCurves curves{"facets", "Along a ball of 40 mm, facets of 2 mm, 1.5 mm deep", "way along the ball, mm",
-                     "direction of the force off the true normal, deg", {}, {{"thesis' law", {}}, {"Trocar", {}}}};
+                     "tilt of the force along the way, deg", {}, {{"thesis' law", {}}, {"Trocar", {}}}};
   Both turn{};
   for (int i = 0; i <= 1000; ++i) curves.x.push_back(i * 1e-2 - 5);
   for (std::size_t law = 0; law < 2; ++law) {
@@ -111,7 +111,9 @@ void facets(StudyResult& study) {
     Vec3 last = probe.descend(upright(at(0)), 0.005).F_I_T.force;
     for (int i = 0; i <= 1000; ++i) {
       const Vec3 force = probe.go(upright(at(i))).F_I_T.force;
-      curves.series[law].y.push_back(degrees_between(force, at(i) + Vec3(0, 0, kRadius)));
+      const double angle = (i - 500) * kStep / kRadius;
+      const Vec3 along(std::cos(angle) * std::cos(0.3), std::cos(angle) * std::sin(0.3), -std::sin(angle));
+      curves.series[law].y.push_back(std::asin(force.normalized().dot(along)) * 180 / std::numbers::pi);
       turn[law] = std::max(turn[law], degrees_between(force, last));
       last = force;
     }
@@ -155,7 +157,7 @@ void friction(StudyResult& study) {
   const auto patch = ground();
   patch->material[0].mu_static = 0.10;  // smooth shaft on wet serosa
   patch->material[0].mu_dynamic = 0.05;
-  StudyCurves curves{"friction", "3 mm deep, dragged 6 mm forth and back at 30 mm/s (mu 0.10 static, 0.05 sliding)",
+  StudyCurves curves{"friction", "3 mm deep, dragged 6 mm forth and back at 30 mm/s, mu 0.10 and 0.05",
                      "place, mm", "force along the motion over normal force", {}, {{"thesis' law", {}}, {"Trocar", {}}}};
   Both sliding{}, breakaway{};
   for (int i = 0; i <= 400; ++i) curves.x.push_back(0.03 * (i <= 200 ? i : 400 - i));

@@ -17,6 +17,8 @@ constexpr int kShareRounds = 12;
 constexpr double kShareGain = 1e-10;     // m, a contact that would carry less is not asked
 constexpr double kSingularGram = 1e-12;  // determinant of the normals' products
 constexpr double kIdleTravel = 1e-3;     // m a period, beyond what the instrument itself moves
+constexpr double kListMargin = 5e-4;     // m of travel that a list of near triangles outlives
+constexpr double kActiveTravel = 1.5e-4;  // m of travel that the choice of active ones outlives
 constexpr double kArrived = 1e-7;        // m, remaining slide at which the proxy rests
 constexpr double kSlideSlack = 5e-5;     // m beyond the radius within which a triangle bounds the slide
 constexpr double kShareSlack = 1e-5;     // m beyond the radius within which a triangle may carry force
@@ -196,7 +198,20 @@ double ContactRenderer::approach_speed(const Twist& V_TI_T, double depth_m) cons
   return power / depth_m;
 }
 
-void ContactRenderer::gather(double allowance, const ContactPatch& patch) {
+void ContactRenderer::gather(double approach, const ContactPatch& patch) {
+  // Gaps shrink no faster than the proxy travels, so a list serves until that has used up what it was made for. Triangles
+  // on it that were measured keep their gap: of a fine surface only a few come near enough in a tick to be measured anew.
+  double radii = 0;
+  for (int c = 0; c < tool_.count; ++c) radii += tool_.at[c].radius_m;
+  const bool same = patch.stamp == listed_stamp_ && radii == listed_radii_m_;
+  if (same && travelled_ + approach <= listed_gap_m_) return;
+  listed_stamp_ = patch.stamp;
+  listed_radii_m_ = radii;
+  listed_gap_m_ = approach + kListMargin;
+  list_near(patch);
+}
+
+void ContactRenderer::list_near(const ContactPatch& patch) {
   std::array<Near, kMaxPatchTriangles * kMaxCapsules> found;
   int count = 0;
   travelled_ = 0;
@@ -206,20 +221,21 @@ void ContactRenderer::gather(double allowance, const ContactPatch& patch) {
     const double size2 =
         std::max({(v[0] - centre).squaredNorm(), (v[1] - centre).squaredNorm(), (v[2] - centre).squaredNorm()});
     for (int c = 0; c < tool_.count; ++c) {
-      const double radius = tool_.at[c].radius_m, reach = radius + allowance;
+      const double radius = tool_.at[c].radius_m, reach = radius + listed_gap_m_;
       const Vec3 offset = centre - proxy_ - axes_[c].front, axis = axes_[c].back - axes_[c].front;
       const double length2 = axis.squaredNorm();
       const double along = length2 > 0 ? std::clamp(offset.dot(axis) / length2, 0.0, 1.0) : 0;
       const double centre2 = (offset - axis * along).squaredNorm();
       if (centre2 > 2 * (reach * reach + size2)) continue;  // (a + b)^2 <= 2 (a^2 + b^2): most leave without a root
       const double gap = std::sqrt(centre2) - std::sqrt(size2) - radius;
-      if (gap <= allowance) found[count++] = {gap, 0, i, static_cast<std::int8_t>(c)};
+      if (gap <= listed_gap_m_) found[count++] = {gap, 0, i, static_cast<std::int8_t>(c)};
     }
   }
   if (count > kMaxNear) {  // the nearest, whatever the order of the patch
     std::nth_element(found.begin(), found.begin() + kMaxNear, found.begin() + count, [](const Near& l, const Near& r) {
       return l.gap != r.gap ? l.gap < r.gap : l.index < r.index;
     });
+    listed_gap_m_ = found[kMaxNear].gap;
     count = kMaxNear;
     std::sort(found.begin(), found.begin() + count, [](const Near& l, const Near& r) {
       return l.index != r.index ? l.index < r.index : l.capsule < r.capsule;
@@ -227,14 +243,26 @@ void ContactRenderer::gather(double allowance, const ContactPatch& patch) {
   }
   std::copy(found.begin(), found.begin() + count, near_.begin());
   near_count_ = count;
+  active_until_ = -1;
+}
+
+void ContactRenderer::activate() {
+  active_count_ = 0;
+  active_until_ = travelled_ + kActiveTravel;
+  for (int i = 0; i < near_count_; ++i) {
+    const double gap = near_[i].gap - (travelled_ - near_[i].travelled);
+    // A sweep that ends the search pushes by less than kArrived for each triangle: a micrometre covers it.
+    if (gap <= kSlideSlack + kActiveTravel + 1e-6) active_[active_count_++] = static_cast<std::int16_t>(i);
+  }
 }
 
 void ContactRenderer::project(const ContactPatch& patch, double slack) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     touch_count_ = 0;
     double deepest = 0;
-    for (int i = 0; i < near_count_; ++i) {
-      Near& near = near_[i];
+    if (travelled_ > active_until_) activate();
+    for (int i = 0; i < active_count_; ++i) {
+      Near& near = near_[active_[i]];
       if (near.gap - (travelled_ - near.travelled) > slack) continue;
       const PatchTriangle& triangle = patch.triangle[near.index];
       const Axis& axis = axes_[near.capsule];

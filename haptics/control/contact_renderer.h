@@ -47,6 +47,7 @@ class ContactRenderer {
   /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
   void reset() {
     started_ = touching_ = false;
+    listed_gap_m_ = -1;
     friction_.reset();
   }
 
@@ -55,7 +56,7 @@ class ContactRenderer {
   ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, double jaw_opening_m = 0);
 
  private:
-  static constexpr int kMaxNear = 192;     ///< pairs of capsule and triangle considered in one tick
+  static constexpr int kMaxNear = 768;     ///< pairs of capsule and triangle considered in one tick
   static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
   static constexpr int kMaxCarrying = 3;   ///< of them, those that can carry at once in space
 
@@ -94,8 +95,11 @@ class ContactRenderer {
   void add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, ContactResult& result);
   /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
   double approach_speed(const Twist& V_TI_T, double depth_m) const;
-  /// Lists the pairs that may come nearer than `allowance` this period.
-  void gather(double allowance, const ContactPatch& patch);
+  /// Makes sure that near_ lists every pair that can touch while capsules and triangles approach by `approach`.
+  void gather(double approach, const ContactPatch& patch);
+  void list_near(const ContactPatch& patch);
+  /// Picks those of near_ that the next fraction of a millimetre may bring into touch.
+  void activate();
   /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
   void project(const ContactPatch& patch, double slack);
   void add_touch(const Touch& touch);
@@ -118,9 +122,15 @@ class ContactRenderer {
   ContactFriction friction_;
   ContactMaterial blend_;           ///< stiffness and damping in use
   bool touching_ = false;           ///< carried force in the last period
-  std::array<Near, kMaxNear> near_{};
+  std::array<Near, kMaxNear> near_;
   int near_count_ = 0;
-  double travelled_ = 0;  ///< of the proxy since the near triangles were gathered, m
+  std::array<std::int16_t, kMaxNear> active_;  ///< places in near_
+  int active_count_ = 0;
+  double active_until_ = -1;  ///< value of travelled_ up to which active_ holds all that matter
+  double travelled_ = 0;      ///< of the proxy since near_ was listed, m
+  double listed_gap_m_ = -1;  ///< near_ holds every pair that was nearer than this; negative: it holds nothing
+  double listed_radii_m_ = 0; ///< sum over the capsules then
+  std::uint64_t listed_stamp_ = 0;
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
   std::array<std::int32_t, kMaxCarrying> carrying_{};

@@ -151,6 +151,7 @@ TEST_F(Contact, OrderOfTheTrianglesDoesNotMatter) {
     for (int i = patch->count - 1; i > 0; --i) {
       std::swap(patch->triangle[std::size_t(i)], patch->triangle[std::size_t(random.below(i + 1))]);
     }
+    ++patch->stamp;
     renderer.reset();
     settle(tip_down({0.0007, -0.0004, kRadius + 1e-4}), 2);
     for (double depth = 1e-4; depth < 0.003; depth += 1e-4) {

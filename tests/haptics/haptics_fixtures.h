@@ -72,6 +72,7 @@ inline double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.
 inline void add_triangle(ContactPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
   patch.triangle[static_cast<std::size_t>(patch.count)] = {{a, b, c}, (b - a).cross(c - a).normalized(), patch.count};
   ++patch.count;
+  ++patch.stamp;  // new content, new stamp
 }
 
 /// Parallelogram origin + u, v, in `cells` x `cells` squares; its normal is u x v.
