@@ -29,6 +29,12 @@ struct WantedForce {
   bool operator==(const WantedForce&) const = default;
 };
 
+/// Other anchors of one sub-score at one level.
+struct LevelAnchors {
+  std::string subscore;
+  double full_at = 0, zero_at = 0;
+};
+
 /// What one level asks for.
 struct ExerciseLevel {
   std::string name;                    ///< "L1", "L2", "L3" or "exam"
@@ -45,6 +51,7 @@ struct ExerciseLevel {
   double band_low_n = 0, band_high_n = 0;  ///< touch: lowest and highest wanted force
   std::vector<WantedForce> bands;        ///< touch: one, or several dealt out to the discs
   double position_tolerance_m = 0, angle_tolerance_rad = 0;  ///< reach
+  std::vector<LevelAnchors> anchors;   ///< in place of the rubric's
   Rubric rubric;                       ///< with this level's anchors
 };
 

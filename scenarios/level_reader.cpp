@@ -96,7 +96,21 @@ void read_task_keys(StrictTable& table, bool derived, const Exercise& exercise, 
   }
 }
 
-ExerciseLevel read_level(StrictTable& table, const Exercise& exercise) {
+/// [[levels.anchors]]: the rubric's own stand for every sub-score that is not named.
+void read_anchors(StrictTable& table, const std::vector<std::string>& subscores, ExerciseLevel& level) {
+  table.allow("anchors");
+  if (!table.has("anchors")) return;
+  level.anchors.clear();
+  for (StrictTable& row : table.tables("anchors")) {
+    const LevelAnchors anchors{row.choice("subscore", subscores), row.number("full_at", -1e6, 1e6),
+                               row.number("zero_at", -1e6, 1e6)};
+    if (anchors.full_at == anchors.zero_at) row.fail("zero_at", "'full_at' equals 'zero_at'");
+    row.finish();
+    level.anchors.push_back(anchors);
+  }
+}
+
+ExerciseLevel read_level(StrictTable& table, const std::vector<std::string>& subscores, const Exercise& exercise) {
   ExerciseLevel level;
   level.time_limit_s = exercise.time_limit_s;
   const std::string name = table.choice("name", kLevelNames);
@@ -116,6 +130,7 @@ ExerciseLevel read_level(StrictTable& table, const Exercise& exercise) {
   read_mapping(table, derived, level);
   read_feedback(table, derived, level);
   read_task_keys(table, derived, exercise, level);
+  read_anchors(table, subscores, level);
   level.time_limit_s = table.number_or("time_limit_s", 1, 3600, level.time_limit_s);
   level.expert_time_s = table.number_or("expert_time_s", 1, 3600, level.expert_time_s);
   table.finish();
@@ -175,7 +190,13 @@ Rubric read_rubric(StrictTable table, const ExerciseLevel& level) {
   double sum = 0;
   for (StrictTable& rule : table.tables("subscores")) {
     rubric.subscores.push_back(read_rule(rule, units));
-    sum += rubric.subscores.back().weight;
+    SubscoreRule& read = rubric.subscores.back();
+    for (const LevelAnchors& other : level.anchors) {
+      if (other.subscore != read.name) continue;
+      read.full_at = other.full_at;
+      read.zero_at = other.zero_at;
+    }
+    sum += read.weight;
   }
   if (std::abs(sum - 1) > 1e-9)
     table.fail("subscores", "weights of the sub-scores sum to " + std::to_string(sum) + ", not to 1");
@@ -184,7 +205,10 @@ Rubric read_rubric(StrictTable table, const ExerciseLevel& level) {
 }
 
 void read_levels(StrictTable& document, Exercise& exercise) {
-  for (StrictTable& table : document.tables("levels")) exercise.levels.push_back(read_level(table, exercise));
+  std::vector<std::string> subscores;
+  for (StrictTable& rule : document.table("rubric").tables("subscores")) subscores.push_back(rule.text("name"));
+  for (StrictTable& table : document.tables("levels"))
+    exercise.levels.push_back(read_level(table, subscores, exercise));
 }
 
 }  // namespace trocar

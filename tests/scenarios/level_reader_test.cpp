@@ -104,6 +104,36 @@ TEST(Levels, HaveTimeAnchorsOfTheirOwn) {
   EXPECT_EQ(e.levels[0].rubric.sha256, e.levels[1].rubric.sha256) << "one file, one version";
 }
 
+TEST(Levels, MayAnchorASubscoreElsewhere) {
+  const std::string anchors = "[[levels.anchors]]\nsubscore = \"force in band\"\nfull_at = 0.9\nzero_at = 0.2\n";
+  const Exercise e = parse_exercise(
+      with_levels(level("L2", anchors) + "[[levels]]\nname = \"L3\"\nlike = \"L2\"\n"), "a");
+  EXPECT_DOUBLE_EQ(e.levels[0].rubric.subscores[2].full_at, 1.0);
+  EXPECT_DOUBLE_EQ(e.levels[1].rubric.subscores[2].full_at, 0.9);
+  EXPECT_DOUBLE_EQ(e.levels[1].rubric.subscores[2].zero_at, 0.2);
+  EXPECT_DOUBLE_EQ(e.levels[2].rubric.subscores[2].full_at, 0.9) << "L3 is like L2";
+  EXPECT_DOUBLE_EQ(e.levels[1].rubric.subscores[1].zero_at, e.levels[0].rubric.subscores[1].zero_at);
+  const std::string same = "[[levels.anchors]]\nsubscore = \"place\"\nfull_at = 1\nzero_at = 1\n";
+  EXPECT_NE(refusal(with_levels(level("L2", same))).find("equals"), std::string::npos);
+  const std::string wrong = "[[levels.anchors]]\nsubscore = \"plaec\"\nfull_at = 1\nzero_at = 2\n";
+  EXPECT_NE(refusal(with_levels(level("L2", wrong))).find("did you mean 'place'?"), std::string::npos);
+}
+
+TEST(Levels, MeasureAnchorsInTolerances) {
+  const Exercise e = find_exercise("reach-and-orient", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises");
+  const auto rule = [&](const char* level_name, std::size_t index) {
+    return find_level(e, level_name).rubric.subscores[index];
+  };
+  EXPECT_NEAR(rule("L1", 2).full_at, 0.001, 1e-5);
+  EXPECT_NEAR(rule("L1", 2).zero_at, 0.005, 1e-5);
+  EXPECT_NEAR(rule("L1", 3).full_at, 2, 1e-9);
+  EXPECT_NEAR(rule("L1", 3).zero_at, 15, 1e-9);
+  EXPECT_NEAR(rule("L3", 2).full_at, 0.0005, 1e-5) << "half the tolerance, half the anchor";
+  EXPECT_NEAR(rule("L3", 3).zero_at, 7.5, 1e-9);
+  EXPECT_NE(refusal(with_levels(kFirst) + "full_at_angle_tolerances = 1\n").find("exclude each other"),
+            std::string::npos);
+}
+
 struct BadLevel {
   const char* keys;
   const char* message;
