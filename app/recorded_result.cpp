@@ -16,6 +16,7 @@ std::string receipt_json(const DeviceReceipt& receipt) {
                                {"min_energy_j", receipt.min_energy_j},
                                {"kappa", receipt.kappa},
                                {"fault", receipt.fault}};
+  if (!receipt.force_sensor.empty()) json["force_sensor"] = nlohmann::ordered_json::parse(receipt.force_sensor);
   if (!receipt.realtime.empty()) json["realtime"] = nlohmann::ordered_json::parse(receipt.realtime);
   return json.dump();
 }
@@ -31,6 +32,7 @@ DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
     receipt.min_energy_j = json.at("min_energy_j").get<double>();
     receipt.kappa = json.at("kappa").get<double>();
     receipt.fault = json.at("fault").get<std::string>();
+    if (json.contains("force_sensor")) receipt.force_sensor = json.at("force_sensor").dump();
     if (json.contains("realtime")) receipt.realtime = json.at("realtime").dump();
     return receipt;
   } catch (const nlohmann::json::exception& error) {

@@ -58,6 +58,7 @@ Json device(const DeviceReceipt& receipt) {
           {"min_energy_j", number(receipt.min_energy_j)},
           {"kappa", number(receipt.kappa)},
           {"fault", receipt.fault.empty() ? Json(nullptr) : Json(receipt.fault)}};
+  if (!receipt.force_sensor.empty()) json["force_sensor"] = Json::parse(receipt.force_sensor);
   if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
   return json;
 }

@@ -46,6 +46,7 @@ struct DeviceReceipt {
   double min_energy_j = 0;
   double kappa = 1;
   std::string fault;                   ///< empty when none
+  std::string force_sensor;            ///< JSON: what the force sensor says of the delivered force; empty without one
   std::string realtime;                ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep
 };
 
