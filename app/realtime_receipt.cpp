@@ -39,6 +39,17 @@ std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) 
   return json.dump();
 }
 
+std::string force_sensor_json(const ForceSensorTask& sensor) {
+  return Json{{"rate_hz", sensor.config().rate_hz},
+              {"lag_s", sensor.config().lag_s},
+              {"samples", sensor.measured().count()},
+              {"measured_rms_n", sensor.measured().rms()},
+              {"residual_samples", sensor.residual().count()},
+              {"residual_rms_n", sensor.residual().rms()},
+              {"residual_max_n", sensor.residual().largest()}}
+      .dump();
+}
+
 std::vector<std::string> realtime_notes(const ThreadedExecutor& executor, std::uint64_t lost) {
   std::vector<std::string> notes;
   for (const LaneReport* report : executor.reports()) {

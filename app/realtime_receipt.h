@@ -1,4 +1,5 @@
-// What a live run says of its pacing: in the result under device.realtime, and in words on stderr where something is missing.
+// What a run says of its sensor, and a live one of its pacing: in the result under device.force_sensor and device.realtime, and in
+// words on stderr where something is missing.
 //
 // {"kernel_realtime", "memory_locked", "lost_records", "lanes": {NAME: {"policy", "rate_hz", "wakes", "missed", "overruns",
 //  "longest_gap_ms", "late_us": {"p50","p99","p99.9","p99.99","max","above_1ms"}, "cpu_us": {...}}}}. Thread: any, after the run.
@@ -8,12 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "app/executor/force_sensor_task.h"
 #include "app/executor/threaded_executor.h"
 
 namespace trocar {
 
 /// @param lost records that found a ring full.
 std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost);
+
+/// {"rate_hz", "lag_s", "samples", "measured_rms_n", "residual_samples", "residual_rms_n", "residual_max_n"}.
+std::string force_sensor_json(const ForceSensorTask& sensor);
 
 /// What the operating system refused and what went missing, a line each; empty when all was as asked.
 std::vector<std::string> realtime_notes(const ThreadedExecutor& executor, std::uint64_t lost);

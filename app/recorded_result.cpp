@@ -25,6 +25,7 @@ std::string receipt_json(const DeviceReceipt& receipt) {
                          {"transitions", nlohmann::ordered_json::array()}};
   for (const DeviceWarning& w : receipt.warnings) json["warnings"].push_back({w.name, w.first_s, w.ticks});
   for (const DeviceTransition& t : receipt.transitions) json["transitions"].push_back({t.t_s, t.from, t.to});
+  if (!receipt.force_sensor.empty()) json["force_sensor"] = nlohmann::ordered_json::parse(receipt.force_sensor);
   if (!receipt.realtime.empty()) json["realtime"] = nlohmann::ordered_json::parse(receipt.realtime);
   return json.dump();
 }
@@ -55,6 +56,7 @@ DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
     receipt.min_energy_j = json.at("min_energy_j").get<double>();
     receipt.kappa = json.at("kappa").get<double>();
     receipt.fault = json.at("fault").get<std::string>();
+    if (json.contains("force_sensor")) receipt.force_sensor = json.at("force_sensor").dump();
     if (json.contains("realtime")) receipt.realtime = json.at("realtime").dump();
     read_stop(json, receipt);
     return receipt;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/device_words.h"
+#include "app/executor/force_sensor_task.h"
 #include "app/executor/hand_task.h"
 #include "app/executor/haptic_task.h"
 #include "app/executor/lockstep_executor.h"
@@ -28,7 +29,9 @@ namespace {
 
 constexpr std::uint64_t kPatchDelay = 5;       // ticks from the tissue task to the haptic task
 constexpr double kPictureRateHz = 50;          // live; frames that come too late are dropped
-constexpr int kHapticPriority = 80, kTissuePriority = 60;
+constexpr int kHapticPriority = 80, kTissuePriority = 60, kSensorPriority = 50;
+constexpr std::uint64_t kSensorSeed = 0xf0ece5;  // the sensor's noise, apart from the hand's
+constexpr double kTissueOffset = 0.5;          // loop periods: a tissue step sees the tick of its own period
 constexpr double kLongestBeyondLimit_s = 60;   // homing, start and reading, on top of the exercise's limit
 
 /// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
@@ -116,20 +119,63 @@ class ObserverTask final : public Task {
   std::uint32_t period_;
 };
 
-/// A live attempt: lanes of their own for what must be on time; pictures in this thread, to which their context belongs.
-void run_live(Bench& bench, HandTask& hand, RecorderTask& recorder, const SessionObserver& observe,
-              const std::function<bool()>& interrupted, SessionOutcome& out) {
+/// A whole attempt on the simulated device: the bench, the world beside it and what keeps books.
+struct Attempt {
+  Attempt(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer, Timing timing)
+      : daq(simulated_device(scene.setup)),
+        bench(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
+        hand(scene, bench.haptic, *bench.hand_frames,
+             make_hand(scene.setup.hand, seed_of(scene), assets.hands, scene.setup.attempt), daq),
+        forces(make_channel<StylusForces>(timing)),
+        tap(daq, bench.haptic, scene.loop.map.X_TW.R, *forces),
+        sensor(*forces, {}, seed_of(scene) ^ kSensorSeed, scene.loop.daq.rate_hz),
+        recorder(*rings, scene.loop.daq.rate_hz, writer) {}
+
+  static std::uint64_t seed_of(const Scene& scene) { return static_cast<std::uint64_t>(scene.setup.seed); }
+  SessionOutcome outcome() {
+    SessionOutcome out = bench.outcome(daq.capabilities().name);
+    out.device.force_sensor = force_sensor_json(sensor);
+    return out;
+  }
+
+  std::unique_ptr<RecorderRings> rings = std::make_unique<RecorderRings>();
+  SimulatedDaq daq;
+  Bench bench;
+  HandTask hand;
+  std::unique_ptr<Channel<StylusForces>> forces;
+  ForceTapTask tap;
+  ForceSensorTask sensor;
+  RecorderTask recorder;
+};
+
+SessionOutcome run_lockstep(Attempt& attempt, const SessionObserver& observe, const std::function<bool()>& interrupted) {
+  Bench& bench = attempt.bench;
+  ObserverTask observer(bench, observe, bench.tissue.period());
+  LockstepExecutor executor;
+  for (Task* task : std::initializer_list<Task*>{&attempt.hand, &bench.haptic, &attempt.tap, &bench.tissue, &attempt.sensor,
+                                                 &attempt.recorder, &observer}) {
+    executor.add(*task);
+  }
+  executor.run(interrupted);
+  return attempt.outcome();
+}
+
+/// Lanes of their own for what must be on time; pictures in this thread, to which their context belongs.
+SessionOutcome run_live(Attempt& attempt, const SessionObserver& observe, const std::function<bool()>& interrupted) {
+  Bench& bench = attempt.bench;
   const double rate_hz = bench.scene.loop.daq.rate_hz;
   ObserverTask observer(bench, observe, static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
   ThreadedExecutor executor(rate_hz);
-  executor.add_lane("haptic", {&hand, &bench.haptic}, kHapticPriority);
-  executor.add_lane("tissue", {&bench.tissue}, kTissuePriority);
-  executor.add_lane("recorder", {&recorder}, 0);
+  executor.add_lane("haptic", {&attempt.hand, &bench.haptic, &attempt.tap}, kHapticPriority);
+  executor.add_lane("tissue", {&bench.tissue}, kTissuePriority, kTissueOffset);
+  executor.add_lane("force-sensor", {&attempt.sensor}, kSensorPriority, kTissueOffset);
+  executor.add_lane("recorder", {&attempt.recorder}, 0);
   if (observe) executor.add_own_lane("pictures", {&observer});
   executor.run(interrupted);
-  out = bench.outcome("simulated");
-  out.device.realtime = realtime_json(executor, recorder.lost());
-  out.notes = realtime_notes(executor, recorder.lost());
+  SessionOutcome out = attempt.outcome();
+  out.device.realtime = realtime_json(executor, attempt.recorder.lost());
+  out.notes = realtime_notes(executor, attempt.recorder.lost());
+  return out;
 }
 
 }  // namespace
@@ -147,26 +193,10 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
 
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
                            const SessionObserver& observe, const std::function<bool()>& interrupted) {
-  SimulatedDaq daq(simulated_device(scene.setup));
-  const auto rings = std::make_unique<RecorderRings>();
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
-  const auto bench =
-      std::make_unique<Bench>(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get());
-  HandTask hand(scene, bench->haptic, *bench->hand_frames,
-                make_hand(scene.setup.hand, static_cast<std::uint64_t>(scene.setup.seed), assets.hands, scene.setup.attempt), daq);
-  RecorderTask recorder(*rings, scene.loop.daq.rate_hz, writer);
-  SessionOutcome out;
-  if (timing == Timing::kLive) {
-    run_live(*bench, hand, recorder, observe, interrupted, out);
-  } else {
-    ObserverTask observer(*bench, observe, bench->tissue.period());
-    LockstepExecutor executor;
-    for (Task* task : std::initializer_list<Task*>{&hand, &bench->haptic, &bench->tissue, &recorder, &observer}) {
-      executor.add(*task);
-    }
-    executor.run(interrupted);
-    out = bench->outcome(daq.capabilities().name);
-  }
+  const auto attempt = std::make_unique<Attempt>(scene, assets, writer, timing);
+  SessionOutcome out = timing == Timing::kLive ? run_live(*attempt, observe, interrupted)
+                                                     : run_lockstep(*attempt, observe, interrupted);
   if (out.status == AttemptStatus::kAborted && interrupted && interrupted()) {
     out.device.reason = "interrupted before its end";
   }

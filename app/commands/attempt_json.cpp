@@ -85,6 +85,7 @@ Json device(const DeviceReceipt& receipt) {
           {"fault_detail", fault_detail(receipt)},
           {"warnings", warnings(receipt)},
           {"transitions", transitions(receipt)}};
+  if (!receipt.force_sensor.empty()) json["force_sensor"] = Json::parse(receipt.force_sensor);
   if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
   return json;
 }

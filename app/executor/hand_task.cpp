@@ -11,6 +11,7 @@ namespace trocar {
 namespace {
 
 constexpr std::uint64_t kSensesSeed = 0x5e45e5;  // the senses' own stream, apart from the hand's decisions
+constexpr std::uint64_t kTargetStride = 0x9e3779b97f4a7c15;
 constexpr double kEyeErrorPeriod_s = 0.020;
 constexpr std::uint64_t kMostMissed = 1000;      // what is longer is a fault anyway: the simulated world waits for the rest
 
@@ -35,14 +36,28 @@ Pose HandTask::see() {
   return seen;
 }
 
+/// The errors of the senses begin anew with each target, so that an attempt that is shifted by some milliseconds (live, a missed
+/// period) stays the same attempt.
+void HandTask::draw_eye_error(const DirectorStatus& status) {
+  const bool resting = status.target_index < 0 && status.cue != Cue::kGrip;
+  const Cue cue = resting || status.cue == Cue::kGrip ? status.cue : Cue::kReach;  // within a target cues come and go
+  if (cue != shown_ || status.target_index != shown_target_) {
+    shown_ = cue;
+    shown_target_ = status.target_index;
+    periods_of_target_ = 0;
+    random_ = HandRandom(static_cast<std::uint64_t>(scene_.setup.seed) * kTargetStride + ++targets_ + kSensesSeed);
+  }
+  const auto redraw = static_cast<std::uint64_t>(kEyeErrorPeriod_s * scene_.loop.daq.rate_hz);
+  if (periods_of_target_++ % redraw != 0) return;
+  for (int axis = 0; axis < 3; ++axis) eye_error_[axis] = kEyeError_m * random_.normal();
+}
+
 Percept HandTask::perceive(std::uint64_t tick) {
   const StylusState& state = haptic_.record().stylus;
   const double rate = scene_.loop.daq.rate_hz;
   active_ticks_ = state.loop == LoopState::kActive ? active_ticks_ + 1 : 0;
-  const auto redraw = static_cast<std::uint64_t>(kEyeErrorPeriod_s * rate);
-  if (periods_ % redraw == 0) {
-    for (int axis = 0; axis < 3; ++axis) eye_error_[axis] = kEyeError_m * random_.normal();
-  }
+  const DirectorStatus& status = frames_.newest(tick).status;
+  draw_eye_error(status);
   Percept percept;
   percept.t_s = state.t_s;
   percept.device_ready = static_cast<double>(active_ticks_) > kReadyAfter_s * rate;
@@ -53,7 +68,6 @@ Percept HandTask::perceive(std::uint64_t tick) {
   percept.felt_force_n = std::max(0.0, felt + kTouchError_n * random_.normal());
   percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
   percept.jaw_opening_m = daq_.sense().jaw_opening_m;
-  const DirectorStatus& status = frames_.newest(tick).status;
   percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
   show_cue(status, percept);
   return percept;

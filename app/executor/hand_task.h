@@ -37,6 +37,7 @@ class HandTask final : public Task {
  private:
   Percept perceive(std::uint64_t tick);
   Pose see();
+  void draw_eye_error(const DirectorStatus& status);
   void press_deadman();
 
   const Scene& scene_;
@@ -49,6 +50,10 @@ class HandTask final : public Task {
   Pose stylus_W_;                   ///< where the hand wants the stylus
   Vec3 eye_error_ = Vec3::Zero();
   std::uint64_t active_ticks_ = 0, homed_ticks_ = 0, periods_ = 0;
+  std::uint64_t periods_of_target_ = 0;   ///< since what is shown changed
+  Cue shown_ = Cue::kNone;
+  int shown_target_ = -1;
+  std::uint64_t targets_ = 0;
 };
 
 }  // namespace trocar

@@ -33,7 +33,7 @@ void sleep_until(std::int64_t at_ns) {
 struct ThreadedExecutor::Lane {
   std::vector<Task*> tasks;
   int priority = 0;
-  std::int64_t period_ns = 0;
+  std::int64_t period_ns = 0, offset_ns = 0;
   LaneReport report;
   std::thread thread;
   std::exception_ptr thrown;
@@ -42,11 +42,12 @@ struct ThreadedExecutor::Lane {
 ThreadedExecutor::ThreadedExecutor(double rate_hz) : rate_hz_(rate_hz) {}
 ThreadedExecutor::~ThreadedExecutor() { join(); }
 
-void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> tasks, int priority) {
+void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> tasks, int priority, double offset) {
   auto lane = std::make_unique<Lane>();
   lane->tasks = std::move(tasks);
   lane->priority = priority;
   lane->period_ns = std::llround(lane->tasks.front()->period() / rate_hz_ * 1e9);
+  lane->offset_ns = std::llround(offset / rate_hz_ * 1e9);
   lane->report.name = name;
   lanes_.push_back(std::move(lane));
 }
@@ -110,7 +111,7 @@ void ThreadedExecutor::pace(Lane& lane, const std::function<bool()>& interrupted
   const FlushDenormals flush;
   LaneReport& report = lane.report;
   if (report.policy.empty()) report.policy = "SCHED_OTHER";
-  std::int64_t wished = start_ns_, last = start_ns_ - lane.period_ns;
+  std::int64_t wished = start_ns_ + lane.offset_ns, last = wished - lane.period_ns;
   for (; !stop_.load(std::memory_order_relaxed); wished += lane.period_ns) {
     sleep_until(wished);
     const std::int64_t woken = now_ns(CLOCK_MONOTONIC);

@@ -37,7 +37,8 @@ class ThreadedExecutor {
   ~ThreadedExecutor();
 
   /// @param tasks run in this order, at the period of the first; they outlive the executor. @param priority of SCHED_FIFO, 0: none.
-  void add_lane(const std::string& name, std::vector<Task*> tasks, int priority);
+  /// @param offset of its wakes, in loop periods: a lane half a period after another sees what that one has just done, as in lockstep.
+  void add_lane(const std::string& name, std::vector<Task*> tasks, int priority, double offset = 0);
   /// A lane in the thread that calls run().
   void add_own_lane(const std::string& name, std::vector<Task*> tasks);
 

@@ -27,6 +27,7 @@ constexpr double kOpenEnough = 0.004;       // m short of open at which the fing
 constexpr double kTightestJaw = -0.010;     // m of intent: the fingers press beyond what they hold
 constexpr double kClosingSpeed = 0.012;     // m/s until the block is felt
 constexpr double kGripTouch = 0.08;         // N
+constexpr std::uint64_t kErrandStride = 0x9e3779b97f4a7c15;  // keeps the streams of the errands apart
 
 }  // namespace
 
@@ -40,7 +41,8 @@ HandSkill SkilledHand::drawn_person(const HandSkill& skill, HandRandom& random) 
 }
 
 SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
-    : random_(seed),
+    : seed_(seed),
+      random_(seed),
       skill_(drawn_person(skill, random_)),
       senses_(skill_.reaction_s),
       press_({60, 3, 0.04, skill_.force_bias, skill_.force_cv}),
@@ -103,7 +105,15 @@ void SkilledHand::reach_target(const Percept& percept, bool lift) {
   if (task_.kind == HandErrand::Kind::kPen && percept.target_oriented) turn(percept);
 }
 
+/// Every errand, and every press in it, has luck of its own: what an earlier one took, or when it ended, does not reach it. So
+/// an attempt that is shifted by some milliseconds stays the same attempt.
+void SkilledHand::draw_anew(std::uint64_t part) {
+  random_ = HandRandom(seed_ + kErrandStride * (2 * errands_ + part));
+}
+
 void SkilledHand::begin_task(const Percept& percept) {
+  ++errands_;
+  draw_anew(0);
   corrections_ = 0;
   in_step_s_ = 0;
   switch (task_.kind) {
@@ -123,6 +133,7 @@ void SkilledHand::begin_task(const Percept& percept) {
 }
 
 void SkilledHand::start_pressing(const Percept& percept) {
+  draw_anew(1);
   press_.begin(percept.band_low_n, percept.band_high_n, random_);
   aside_s_ = 0;
   in_step_s_ = 0;

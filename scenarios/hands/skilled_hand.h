@@ -38,11 +38,13 @@ class SkilledHand : public Hand {
   void press(const Percept& percept, double dt_s);
   void squeeze(const Percept& percept, double dt_s);
   void on_unexpected_touch(const Percept& percept);
+  void draw_anew(std::uint64_t part);
   void start_pressing(const Percept& percept);
   Vec3 sideways_error(const Percept& percept) const;
   Vec3 tremor(double t_s) const;
 
-  HandRandom random_;
+  std::uint64_t seed_, errands_ = 0;
+  HandRandom random_;           ///< of the present errand
   HandSkill skill_;
   HandSenses senses_;
   ForceGrip press_, squeeze_;

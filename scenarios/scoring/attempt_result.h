@@ -59,6 +59,7 @@ struct DeviceReceipt {
   double min_energy_j = 0;
   double kappa = 1;
   std::string fault;                   ///< cause of the first one, empty when none
+  std::string force_sensor;            ///< JSON: what the force sensor says of the delivered force; empty without one
   std::string realtime;                ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep
   int fault_channel = -1;              ///< -1: none in particular
   double fault_s = 0, fault_value = 0; ///< loop time of the tick in which it was seen; the offending number
