@@ -7,13 +7,13 @@
 
 #include "app/commands/bench_command.h"
 #include "app/commands/catalogue_command.h"
+#include "app/commands/check_command.h"
 #include "app/commands/cohort_command.h"
 #include "app/commands/db_command.h"
 #include "app/commands/demo_command.h"
 #include "app/command_line_texts.h"
 #include "app/commands/device_command.h"
 #include "app/commands/doctor_command.h"
-#include "app/commands/exercises_command.h"
 #include "app/commands/organ_import.h"
 #include "app/commands/organ_info.h"
 #include "app/commands/organ_phantom.h"
@@ -43,8 +43,7 @@ struct CommandLine {
   BenchOptions bench;
   StudyOptions study;
   ExercisesOptions exercises;
-  std::vector<std::string> check_subjects;
-  std::string check_organ = "phantom-liver";
+  CheckOptions check;
   std::filesystem::path table_in, table_out;
   OrganImportOptions import;
   OrganInfoOptions info;
@@ -151,11 +150,14 @@ void add_catalogue(CommandLine& c) {
                               [&c] { return exercises_command(c.exercises, std::cout, std::cerr); });
   exercises->add_flag("--json", c.exercises.json, "As JSON");
   exercises->add_option("--explain", c.exercises.explain, "Explain a metric, an exercise or a sub-score");
-  CLI::App* check = c.add(c.app, "check", "Validate exercises and prove their boards reachable", [&c] {
-    return check_command(c.check_subjects, c.check_organ, std::cout, std::cerr);
-  });
-  check->add_option("exercise", c.check_subjects, "Exercise ids or files")->required();
-  check->add_option("--organ", c.check_organ, "Organ to lay the boards on")->capture_default_str();
+  CLI::App* check = c.add(c.app, "check", "Prove that the device can do what exercises ask for",
+                          [&c] { return check_command(c.check, std::cout, std::cerr); });
+  check->add_option("exercise", c.check.subjects, "Exercise ids or files")->required();
+  check->add_option("--organ", c.check.organ, "Organ to lay the boards on")->capture_default_str();
+  check->add_option("--unseen", c.check.unseen, "Boards of graded runs to prove besides the practice boards 0 to 19")->capture_default_str()->check(CLI::Range(0, 1000));
+  check->add_option("--map", c.check.map, "SVG of the force that the device can give over the board");
+  check->add_option("--inversion", c.check.inversion, "Folder for two pictures of one hand motion, direct and through a port");
+  check->add_flag("--json", c.check.json, "As JSON");
 }
 
 void add_device(CommandLine& c) {

@@ -72,33 +72,51 @@ InstrumentMap place_theatre(const ExerciseLevel& level) {
   return map;
 }
 
-double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout) {
-  constexpr int kSteps = 9;
-  std::vector<double> room;
+double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, const Vec3& tip_T) {
   InstrumentMap unscaled = map;
   unscaled.force_scale = 1;
-  const Mat3 R_TI = map.instrument_pose(home_pose()).R;
-  const JointVector home = home_angles();
+  const Pose X_WS = map.stylus_pose({map.instrument_pose(home_pose()).R, tip_T});
+  const auto q = inverse_within_limits(X_WS, home_angles());
+  return q ? force_room(device, arm_state(*q), unscaled.stylus_wrench(X_WS, {Vec3::UnitZ(), Vec3::Zero()})) : 0;
+}
+
+namespace {
+
+/// Room over a grid of the region, at its middle height and at both ends of the relief, N, rising.
+std::vector<double> rooms(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout) {
+  constexpr int kSteps = 9;
+  std::vector<double> room;
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {
       for (const double height : {-layout.relief_m, 0.0, layout.relief_m}) {
-        const Vec3 point_T((i / (kSteps - 1.0) - 0.5) * layout.region_x_m, (j / (kSteps - 1.0) - 0.5) * layout.region_y_m,
-                           height);
-        const Pose X_WS = map.stylus_pose({R_TI, point_T});
-        const auto q = inverse_within_limits(X_WS, home);
-        const Wrench up = unscaled.stylus_wrench(X_WS, {Vec3::UnitZ(), Vec3::Zero()});
-        room.push_back(q ? force_room(device, arm_state(*q), up) : 0);
+        room.push_back(renderable_force_n(map, device,
+                                          Vec3((i / (kSteps - 1.0) - 0.5) * layout.region_x_m,
+                                               (j / (kSteps - 1.0) - 0.5) * layout.region_y_m, height)));
       }
     }
   }
-  const auto rank = room.begin() + static_cast<std::ptrdiff_t>(kLowestPercentile * static_cast<double>(room.size()));
-  std::nth_element(room.begin(), rank, room.end());
-  return *rank;
+  std::sort(room.begin(), room.end());
+  return room;
+}
+
+}  // namespace
+
+double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout) {
+  const std::vector<double> room = rooms(map, device, layout);
+  return room[static_cast<std::size_t>(kLowestPercentile * static_cast<double>(room.size()))];
+}
+
+double room_share(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout, double soft_force_n) {
+  const std::vector<double> room = rooms(map, device, layout);
+  const double asked = map.force_scale * soft_force_n * (1 - 1e-9);  // kappa was made of one of these very numbers
+  const auto enough = std::lower_bound(room.begin(), room.end(), asked);
+  return static_cast<double>(room.end() - enough) / static_cast<double>(room.size());
 }
 
 double force_scale(const ExerciseLevel& level, const InstrumentMap& map, const DeviceModel& device,
                    const TargetLayout& layout, double soft_force_n) {
   if (level.force_scale > 0) return std::min(1.0, level.force_scale);
+  if (soft_force_n <= 0) return 1;  // an exercise without forces
   return std::min(1.0, renderable_force_n(map, device, layout) / soft_force_n);
 }
 

@@ -20,6 +20,12 @@ InstrumentMap place_theatre(const ExerciseLevel& level);
 /// Force that the device can render at the region's 5th percentile beyond gravity, N, along the approach axis (T's z).
 double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout);
 
+/// The same with the tip at one point; 0 out of reach.
+double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, const Vec3& tip_T);
+
+/// Share of the region in which the device can give map.force_scale x `soft_force_n`.
+double room_share(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout, double soft_force_n);
+
 /// kappa of a level: the number that it gives, or for "auto" the largest value <= 1 for which `soft_force_n` is rendered
 /// at the 5th percentile of the region.
 double force_scale(const ExerciseLevel& level, const InstrumentMap& map, const DeviceModel& device,

@@ -103,6 +103,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.loop.map = place_theatre(scene.level);
   scene.loop.map.force_scale = force_scale(scene.level, scene.loop.map, scene.loop.device, setup.exercise.layout,
                                            setup.exercise.soft_force_n);
+  scene.room_share = room_share(scene.loop.map, scene.loop.device, setup.exercise.layout, setup.exercise.soft_force_n);
   scene.loop.safety.max_missed_in_a_row = setup.pace.missed_in_a_row;
   scene.loop.safety.max_missed_share = setup.pace.missed_share;
   scene.loop.contact_law = setup.contact_law;

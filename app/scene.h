@@ -62,6 +62,7 @@ struct Scene {
   RigidScene rigid;
   Board board;
   HapticLoopConfig loop;
+  double room_share = 1;               ///< of the region, where the device can give the soft force limit
 };
 
 /// @param daq rate and DAC bits of the back-end. @throws InputError.

@@ -67,8 +67,10 @@ struct Bench {
     out.state_hash = hash.value();
     out.state_hash_hex = hash.hex();
     out.patch_triangles_dropped = tissue.world().dropped();
-    out.scoring_json = scoring_context_json(
-        scoring_context(scene.setup.exercise, scene.level, director.board(), out.events, out.status));
+    ScoringContext context =
+        scoring_context(scene.setup.exercise, scene.level, director.board(), out.events, out.status);
+    context.room_share = scene.room_share;
+    out.scoring_json = scoring_context_json(context);
     return out;
   }
 

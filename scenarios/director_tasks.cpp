@@ -38,6 +38,11 @@ void SafetyWatch::update(const StylusState& state, double dt_s, std::int32_t obj
   if (collision_.update(shaft_force, dt_s)) log.add("TOOL_COLLISION", Severity::kMinor, object, force, "N");
   if (limit_.update(state.saturated ? 1 : 0, dt_s))
     log.add("DEVICE_LIMIT", Severity::kInfo, object, state.rendered_force_T.norm(), "N");
+  if (state.clutched && !clutched_) log.add("CLUTCH", Severity::kInfo, object);
+  if (state.port_held && !held_)
+    log.add("PORT_HOLD", Severity::kMinor, object, state.depth_in_port_m, "m");
+  clutched_ = state.clutched;
+  held_ = state.port_held;
 }
 
 DiscTask::DiscTask(const Exercise& exercise, const ExerciseLevel& level, const std::vector<Target>& targets)

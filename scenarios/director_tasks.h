@@ -11,7 +11,7 @@
 
 namespace trocar {
 
-/// EXCESS_FORCE, CRITICAL_FORCE, TOOL_COLLISION, DEVICE_LIMIT.
+/// EXCESS_FORCE, CRITICAL_FORCE, TOOL_COLLISION, DEVICE_LIMIT, CLUTCH, PORT_HOLD.
 class SafetyWatch {
  public:
   explicit SafetyWatch(const Exercise& exercise);
@@ -24,6 +24,7 @@ class SafetyWatch {
   ThresholdMonitor excess_, critical_, collision_, limit_;
   int excess_count_ = 0;
   double peak_n_ = 0;
+  bool clutched_ = false, held_ = false;
 };
 
 /// Lights the discs one after the other: TARGET_LIT, TARGET_TOUCHED, WRONG_PLACE, TARGET_HELD.

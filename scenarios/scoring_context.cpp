@@ -45,6 +45,7 @@ AttemptStatus status_from(const std::string& name) {
 void require_finite(const ScoringContext& context) {
   bool finite = context.approach_T.allFinite();
   for (const auto& [key, member] : kNumbers) finite = finite && std::isfinite(context.*member);
+  finite = finite && std::isfinite(context.room_share.value_or(0));
   for (const Vec3& point : context.waypoints) finite = finite && point.allFinite();
   for (const ObjectBand& band : context.object_bands)
     finite = finite && std::isfinite(band.low_n) && std::isfinite(band.high_n);
@@ -96,6 +97,7 @@ std::string scoring_context_json(const ScoringContext& context) {
   for (const ObjectBand& band : context.object_bands) json["object_bands"].push_back({band.low_n, band.high_n});
   json["objects_total"] = context.objects_total;
   json["objects_done"] = context.objects_done;
+  if (context.room_share) json["room_share"] = *context.room_share;
   return json.dump();
 }
 
@@ -111,6 +113,7 @@ ScoringContext parse_scoring_context(const std::string& text, const std::string&
       context.object_bands.push_back({band.at(0).get<double>(), band.at(1).get<double>()});
     context.objects_total = json.at("objects_total").get<int>();
     context.objects_done = json.at("objects_done").get<int>();
+    if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();
     require_finite(context);
     return context;
   } catch (const std::exception& error) {

@@ -78,6 +78,7 @@ Json device(const DeviceReceipt& receipt) {
           {"ticks", receipt.ticks},
           {"overruns", receipt.overruns},
           {"saturated_contact_share", number(receipt.saturated_contact_share)},
+          {"force_not_rendered", receipt.force_not_rendered()},
           {"passivity_active_share", number(receipt.passivity_active_share)},
           {"min_energy_j", number(receipt.min_energy_j)},
           {"kappa", number(receipt.kappa)},

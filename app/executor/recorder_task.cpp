@@ -10,6 +10,7 @@ TraceSample trace_sample(const StylusState& state) {
   sample.tip_T = state.X_TI.p;
   sample.shaft_T = state.X_TI.R.col(2);
   sample.force_T = state.F_I_T.force;
+  sample.commanded_n = state.commanded_force_T.norm();
   sample.rendered_n = state.rendered_force_T.norm();
   sample.grip_n = state.grip_force_n;
   sample.jaw_opening_m = state.jaw_opening_m;

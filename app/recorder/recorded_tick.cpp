@@ -42,6 +42,7 @@ RecordedTick quantise(std::uint64_t tick, const DaqSample& input, const TraceSam
   row.tip = to_quanta(sample.tip_T, kPerMetre);
   row.shaft = to_quanta(sample.shaft_T, kPerDirection);
   row.force = to_quanta(sample.force_T, kPerNewton);
+  row.commanded = to_quanta(sample.commanded_n, kPerNewton);
   row.rendered = to_quanta(sample.rendered_n, kPerNewton);
   row.grip = to_quanta(sample.grip_n, kPerNewton);
   row.jaw_opening = to_quanta(sample.jaw_opening_m, kPerMetre);
@@ -59,6 +60,7 @@ TraceSample dequantise(const RecordedTick& row, double rate_hz) {
   sample.shaft_T = from_quanta(row.shaft, kPerDirection);
   if (const double length = sample.shaft_T.norm(); length > 0) sample.shaft_T /= length;
   sample.force_T = from_quanta(row.force, kPerNewton);
+  sample.commanded_n = from_quanta(row.commanded, kPerNewton);
   sample.rendered_n = from_quanta(row.rendered, kPerNewton);
   sample.grip_n = from_quanta(row.grip, kPerNewton);
   sample.jaw_opening_m = from_quanta(row.jaw_opening, kPerMetre);

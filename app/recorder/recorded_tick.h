@@ -37,6 +37,7 @@ struct RecordedTick {
   std::array<std::int32_t, 3> force{};  ///< mN, virtual
   std::int32_t rendered = 0, grip = 0;  ///< mN
   std::int32_t jaw_opening = 0;         ///< um
+  std::int32_t commanded = kNotRepresentable;  ///< mN; older recordings do not have it
   std::uint8_t valid = 0x7F;            ///< bit i: channel i latched correctly
   std::uint8_t flags = 0;               ///< RecordedFlag bits
   std::uint8_t loop_state = 0;          ///< LoopState

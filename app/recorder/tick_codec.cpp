@@ -46,6 +46,7 @@ constexpr RecordedChannel kTable[] = {
     {"force_x", "N", kForceQuantum, at(kForce, 0), Kind::kInt32},
     {"force_y", "N", kForceQuantum, at(kForce, 1), Kind::kInt32},
     {"force_z", "N", kForceQuantum, at(kForce, 2), Kind::kInt32},
+    {"commanded", "N", kForceQuantum, offsetof(RecordedTick, commanded), Kind::kInt32},
     {"rendered", "N", kForceQuantum, offsetof(RecordedTick, rendered), Kind::kInt32},
     {"grip", "N", kForceQuantum, offsetof(RecordedTick, grip), Kind::kInt32},
     {"jaw_opening", "m", kLengthQuantum, offsetof(RecordedTick, jaw_opening), Kind::kInt32},

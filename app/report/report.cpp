@@ -158,11 +158,27 @@ std::string device_html(const DeviceReceipt& d) {
   out += fact("Loop", number_text(d.rate_hz) + " Hz, " + std::to_string(d.ticks) + " ticks, " +
                           std::to_string(d.overruns) + " overruns");
   out += fact("Force scale to the hand", number_text(d.kappa));
-  out += fact("Saturated", fixed_text(100 * d.saturated_contact_share, 1) + " % of contact time");
+  out += fact("Saturated", fixed_text(100 * d.saturated_contact_share, 1) + " % of contact time" +
+                               (d.force_not_rendered() ? " \u2013 FORCE NOT RENDERED" : ""));
   out += fact("Passivity control active", fixed_text(100 * d.passivity_active_share, 1) +
                                               " % of contact time, lowest energy " +
                                               number_text(1000 * d.min_energy_j) + " mJ");
   return out + fact("Fault", d.fault.empty() ? "none" : d.fault) + "</tbody></table>";
+}
+
+/// The three forces side by side: what the tissue felt, what the hand was to feel, what it was given.
+std::string forces_html(const Grade& grade) {
+  const auto value = [&](const char* name) {
+    for (const Metric& m : grade.metrics) {
+      if (m.name == name) return quantity_text(m.value, m.unit);
+    }
+    return std::string("not recorded");
+  };
+  std::string out = "<table class=\"facts\"><tbody>";
+  out += fact("Virtual force (tissue)", "largest " + value("force_max_n") + ", mean " + value("force_mean_n"));
+  out += fact("Commanded (stylus)", "largest " + value("commanded_max_n") + ", mean " + value("commanded_mean_n"));
+  out += fact("Delivered (hand)", "largest " + value("delivered_max_n") + ", mean " + value("delivered_mean_n"));
+  return out + "</tbody></table>";
 }
 
 std::string origin_html(const AttemptResult& r) {

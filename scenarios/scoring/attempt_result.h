@@ -58,6 +58,8 @@ struct DeviceReceipt {
   double passivity_active_share = 0;   ///< of contact ticks
   double min_energy_j = 0;
   double kappa = 1;
+  /// Training reference 5.4: the force was not rendered when the device lacked room in over 5 % of the contact time.
+  bool force_not_rendered() const { return saturated_contact_share > 0.05; }
   std::string fault;                   ///< cause of the first one, empty when none
   std::string force_sensor;            ///< JSON: what the force sensor says of the delivered force; empty without one
   std::string realtime;                ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep

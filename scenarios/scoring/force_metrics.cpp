@@ -166,6 +166,26 @@ void add_grip_metrics(const Samples& samples, const std::vector<Event>& events, 
   sink.push_back({"regrasps", grasps > 0 ? Value(grasps - 1) : std::nullopt, "1"});
 }
 
+/// What the hand was to feel and what it was given. Undefined where the recording does not say.
+void add_rendered_metrics(const Samples& samples, const ScoringContext& context, MetricSink& sink) {
+  const std::vector<double> weight = weights(samples);
+  const auto add = [&](const char* largest_name, const char* mean_name, double TraceSample::*force) {
+    double time = 0, sum = 0, largest = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (!samples[i].contact) continue;
+      time += weight[i];
+      sum += samples[i].*force * weight[i];
+      largest = std::max(largest, samples[i].*force);
+    }
+    const bool known = time > 0 && std::isfinite(sum);
+    sink.push_back({largest_name, known ? Value(largest) : std::nullopt, "N"});
+    sink.push_back({mean_name, known ? Value(sum / time) : std::nullopt, "N"});
+  };
+  add("commanded_max_n", "commanded_mean_n", &TraceSample::commanded_n);
+  add("delivered_max_n", "delivered_mean_n", &TraceSample::rendered_n);
+  sink.push_back({"room_share", context.room_share, "1"});
+}
+
 void add_honesty_metrics(const Samples& samples, MetricSink& sink) {
   double contact = 0, saturated = 0, passive = 0;
   for (const TraceSample& sample : samples) {
@@ -192,6 +212,7 @@ void add_force_metrics(const Trace& trace, const std::vector<Event>& events, con
        in_band_share(trace.samples, windows_between(events, "TARGET_TOUCHED", "TARGET_HELD", end, bands), force_of),
        "1"});
   add_grip_metrics(trace.samples, events, context, sink);
+  add_rendered_metrics(trace.samples, context, sink);
   add_honesty_metrics(trace.samples, sink);
 }
 

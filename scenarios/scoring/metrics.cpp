@@ -45,6 +45,11 @@ constexpr MetricDefinition kCatalogue[] = {
     {"grip_mean_n", "N", "mean grip force while gripping"},
     {"grip_in_band_share", "1", "share of the squeezing time in which the grip is in the wanted band"},
     {"regrasps", "1", "grasps after the first"},
+    {"commanded_max_n", "N", "largest contact force asked at the stylus (force scale and mapping applied)"},
+    {"commanded_mean_n", "N", "mean of it over the time in contact"},
+    {"delivered_max_n", "N", "largest contact force that the device gave (limits, heat, passivity applied)"},
+    {"delivered_mean_n", "N", "mean of it over the time in contact"},
+    {"room_share", "1", "share of the board region in which the device can give the soft force limit"},
     {"saturated_contact_share", "1", "share of contact ticks in which the device could not give the force"},
     {"passivity_active_share", "1", "share of contact ticks in which the passivity law changed the force"},
     {"targets_held", "1", "targets held in the band for the wanted time"},
@@ -59,6 +64,7 @@ constexpr MetricDefinition kCatalogue[] = {
     {"target_timeouts", "1", "targets that were not done in their time"},
     {"device_limits", "1", "times that the device could not give the force"},
     {"rest_tremor_rms_m", "m", "displacement between 8 and 12 Hz in the second before START: the baseline of tremor"},
+    {"clutches", "1", "times that the clutch was pressed"},
 };
 
 }  // namespace
@@ -94,13 +100,14 @@ std::optional<std::pair<double, double>> graded_window(const Trace& trace, const
 }
 
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink) {
-  int wrong = 0, excess = 0, critical = 0, collisions = 0;
+  int wrong = 0, excess = 0, critical = 0, collisions = 0, clutches = 0;
   std::vector<std::int32_t> held;
   for (const Event& event : events) {
     wrong += event.type == "WRONG_PLACE";
     excess += event.type == "EXCESS_FORCE" || event.type == "GRIP_EXCESS";
     critical += event.severity == Severity::kCritical;
     collisions += event.type == "TOOL_COLLISION";
+    clutches += event.type == "CLUTCH";
     if (event.type == "TARGET_HELD" && std::find(held.begin(), held.end(), event.object) == held.end())
       held.push_back(event.object);
   }
@@ -112,6 +119,7 @@ void add_count_metrics(const std::vector<Event>& events, const ScoringContext& c
   sink.push_back({"excess_events", excess, "1"});
   sink.push_back({"critical_events", critical, "1"});
   sink.push_back({"tool_collisions", collisions, "1"});
+  sink.push_back({"clutches", clutches, "1"});
 }
 
 std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>& events,

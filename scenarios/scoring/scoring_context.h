@@ -4,6 +4,7 @@
 // regraded alone. Frame T, SI units.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "haptics/quantities.h"
@@ -27,6 +28,7 @@ struct ScoringContext {
   double retract_height_m = 0;                       ///< of the ideal path between targets, along approach_T
   Vec3 approach_T = Vec3::UnitZ();                   ///< direction in which the instrument withdraws
   std::vector<Vec3> waypoints;                       ///< start, then the targets that were held, in lit order
+  std::optional<double> room_share;                  ///< of the region, where the device can give the soft limit
   int objects_total = 0, objects_done = 0;
 
   bool operator==(const ScoringContext&) const = default;

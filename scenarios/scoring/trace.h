@@ -18,6 +18,7 @@ struct TraceSample {
   Vec3 tip_T = Vec3::Zero();            ///< m
   Vec3 shaft_T = Vec3::UnitZ();         ///< unit vector along the shaft towards the tip
   Vec3 force_T = Vec3::Zero();          ///< virtual force of the scene on the instrument, N
+  double commanded_n = 0;               ///< magnitude asked at the stylus: kappa times the conjugate map of force_T, N
   double rendered_n = 0;                ///< magnitude delivered to the hand, N
   double grip_n = 0;                    ///< virtual grip force, N
   double jaw_opening_m = 0;

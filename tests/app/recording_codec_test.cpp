@@ -137,11 +137,27 @@ TEST(RecordingHeader, CarriesTheSessionsTextByteForByte) {
   EXPECT_THROW(encode_header({"", std::nan("")}), InputError);
 }
 
+TEST(RecordedTick, ARecordingWithoutTheCommandedForceSaysSo) {
+  std::vector<RecordedChannel> older(recorded_channels().begin(), recorded_channels().end());
+  std::erase_if(older, [](const RecordedChannel& channel) { return channel.name == "commanded"; });
+  ASSERT_EQ(older.size(), recorded_channels().size() - 1);
+  // A file of those channels only: the column of the commanded force cut out of a header.
+  std::string header = encode_header({"", 1000});
+  const std::string entry = R"({"name":"commanded","quantum":0.001,"unit":"N"},)";
+  ASSERT_NE(header.find(entry), std::string::npos);
+  header.erase(header.find(entry), entry.size());
+  EXPECT_EQ(decode_header(header).channels.size(), older.size());
+  EXPECT_TRUE(std::isnan(dequantise(RecordedTick{}, 1000).commanded_n)) << "not recorded is not zero";
+  TraceSample sample;
+  sample.commanded_n = 0.123;
+  EXPECT_NEAR(dequantise(quantise(1, {}, sample, LoopState::kActive, 0), 1000).commanded_n, 0.123, 0.5e-3);
+}
+
 TEST(RecordingHeader, NamesEveryChannelWithUnitAndQuantum) {
   const std::string header = encode_header({"", 1000});
   EXPECT_NE(header.find(R"({"name":"tip_x","quantum":1e-06,"unit":"m"})"), std::string::npos);
   EXPECT_NE(header.find(R"({"name":"force_z","quantum":0.001,"unit":"N"})"), std::string::npos);
-  EXPECT_EQ(recorded_channels().size(), 26u);
+  EXPECT_EQ(recorded_channels().size(), 27u);
   std::string other = header;
   other.replace(other.find("tip_x"), 5, "tip_q");
   EXPECT_THROW(decode_header(other), InputError);

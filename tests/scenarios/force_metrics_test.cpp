@@ -40,6 +40,38 @@ TEST(ForceMetrics, StepForcesGiveTheirMeanPeakAndImpulse) {
   EXPECT_NEAR(*value_of(metrics, "soft_force_share"), 2.0 / 3, 0.01);
 }
 
+TEST(ForceMetrics, VirtualCommandedAndDeliveredForceAreToldApart) {
+  Trace trace = rest(10);
+  press(trace, 2, 4, 1.0);
+  for (TraceSample& sample : trace.samples) {
+    sample.commanded_n = 0.6 * sample.force_T.norm();
+    sample.rendered_n = 0.5 * sample.force_T.norm();
+  }
+  ScoringContext context = context_of_e02();
+  context.room_share = 0.97;
+  const auto metrics = compute_metrics(trace, whole_run(10), context);
+  EXPECT_NEAR(*value_of(metrics, "force_max_n"), 1.0, 1e-12);
+  EXPECT_NEAR(*value_of(metrics, "commanded_max_n"), 0.6, 1e-12);
+  EXPECT_NEAR(*value_of(metrics, "commanded_mean_n"), 0.6, 1e-12);
+  EXPECT_NEAR(*value_of(metrics, "delivered_max_n"), 0.5, 1e-12);
+  EXPECT_NEAR(*value_of(metrics, "delivered_mean_n"), 0.5, 1e-12);
+  EXPECT_DOUBLE_EQ(*value_of(metrics, "room_share"), 0.97);
+  trace.samples[300].commanded_n = std::nan("");  // as an older recording decodes
+  EXPECT_FALSE(value_of(compute_metrics(trace, whole_run(10), context), "commanded_max_n"));
+  EXPECT_TRUE(value_of(compute_metrics(trace, whole_run(10), context), "delivered_max_n"));
+}
+
+TEST(ForceMetrics, ClutchesAreCounted) {
+  auto events = whole_run(10);
+  for (const double t : {2.0, 5.0}) {
+    Event clutch;
+    clutch.t_s = t;
+    clutch.type = "CLUTCH";
+    events.insert(events.end() - 1, clutch);
+  }
+  EXPECT_EQ(*value_of(compute_metrics(rest(10), events, context_of_e02()), "clutches"), 2);
+}
+
 TEST(ForceMetrics, SwingingForceHasItsSteepestRate) {
   Trace trace = rest(4);
   for (TraceSample& sample : trace.samples) {
