@@ -49,9 +49,9 @@ struct Demand {
   Mat3 R_TI = Mat3::Identity();
   double angle_tolerance_rad = 0;
   WantedForce band;                    ///< of contact force, or of grip while the cue asks to grip; 0 to 0: not told
-  SeenObject object;                   ///< to pick, carry and place
+  SeenObject object = {};              ///< to pick, carry and place
   Vec3 goal_T = Vec3::Zero();          ///< where it shall stand
-  std::array<FoamLore, kMostFoams> foam;
+  std::array<FoamLore, kMostFoams> foam = {};
   std::int32_t foam_count = 0;
 };
 

@@ -52,7 +52,7 @@ struct Percept {
   double target_angle_rad = 0;         ///< its tolerance
   double band_low_n = 0, band_high_n = 0;  ///< wanted force as shown on the force bar
   double shown_force_n = 0;            ///< reading of the force bar; NaN when the bar is hidden
-  double shown_grip_n = 0;             ///< reading of the grip bar; NaN when the bar is hidden
+  double shown_grip_n = 0;             ///< kPick, kCarry, kPlace: reading of the grip bar; NaN when the bar is hidden
   SeenObject object;                   ///< kPick, kCarry, kPlace: the lit object (delayed)
   Vec3 goal_T = Vec3::Zero();          ///< there: where it shall stand
   std::array<FoamLore, kMostFoams> foam;  ///< there: learnt before the start
