@@ -51,7 +51,8 @@ void GraspTask::update(const TaskInput& input, EventLog& log) {
   const auto count = std::min<std::int32_t>(frame.object_count, static_cast<std::int32_t>(blocks_.size()));
   for (std::int32_t i = 0; i < count; ++i) {
     follow_grip(frame, i, input.stylus.grip_force_n, log);
-    if (!blocks_[static_cast<std::size_t>(i)].lost) follow_free(frame.object[static_cast<std::size_t>(i)], i, log);
+    if (!blocks_[static_cast<std::size_t>(i)].lost && !has_left(frame.object[static_cast<std::size_t>(i)], i, log))
+      follow_free(frame.object[static_cast<std::size_t>(i)], i, log);
   }
   light_next(log);
 }
@@ -135,17 +136,22 @@ void GraspTask::follow_free(const ObjectState& object, std::int32_t index, Event
   if (object.motion == ObjectMotion::kResting) judge_rest(object, index, log);
 }
 
+/// A block that comes to rest too far out is lost, carried there or pushed.
+bool GraspTask::has_left(const ObjectState& object, std::int32_t index, EventLog& log) {
+  if (object.motion != ObjectMotion::kResting) return false;
+  const double reach = rules_.board_half_m + rules_.lost_margin_m;
+  const double outside = object.X_TO.p.head<2>().cwiseAbs().maxCoeff() - reach;
+  if (outside <= 0) return false;
+  blocks_[static_cast<std::size_t>(index)].lost = true;
+  ++errors_;
+  log.add("LOST", Severity::kMajor, index, outside, "m");
+  return true;
+}
+
 void GraspTask::judge_rest(const ObjectState& object, std::int32_t index, EventLog& log) {
   Block& block = blocks_[static_cast<std::size_t>(index)];
   block.judged = true;
   const Vec3 middle = object.X_TO.p;
-  const double reach = rules_.board_half_m + rules_.lost_margin_m;
-  const double outside = std::max(std::abs(middle.x()), std::abs(middle.y())) - reach;
-  if (outside > 0) {
-    block.lost = true;
-    ++errors_;
-    return log.add("LOST", Severity::kMajor, index, outside, "m");
-  }
   const Target& ring = rings_[static_cast<std::size_t>(index)];
   const double off = (middle - ring.centre_T).head<2>().norm();
   const bool lifted = block.highest_m > rules_.lift_m - kLiftShort;

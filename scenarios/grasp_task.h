@@ -44,6 +44,7 @@ class GraspTask final : public ExerciseTask {
   void take_out(std::int32_t index, EventLog& log);
   void follow_carry(const TissueFrame& frame, std::int32_t index, EventLog& log);
   void follow_free(const ObjectState& object, std::int32_t index, EventLog& log);
+  bool has_left(const ObjectState& object, std::int32_t index, EventLog& log);
   void judge_rest(const ObjectState& object, std::int32_t index, EventLog& log);
   void describe_message(double grip_n, DirectorStatus& status) const;
 

@@ -25,7 +25,8 @@ constexpr double kFeelTime = 0.7, kFeelLook = 0.3;    // s of feeling; the last 
 constexpr double kJudgement = 0.5;          // of the force CV: error of the judged stiffness
 constexpr double kLostTime = 0.25;          // s without felt grip before the block counts as lost
 constexpr double kTighter = 1.35;           // of the window when the block is seen to slip
-constexpr double kWithdraw = 0.034;         // m upwards after letting go
+constexpr double kWithdraw = 0.034;         // m upwards after letting go ...
+constexpr double kHighest = 0.055;          // m over the board, but not higher than this
 constexpr double kPatience = 0.9;           // s to wait for the next block before trying the same again
 
 }  // namespace
@@ -38,6 +39,14 @@ void GraspErrand::enter(Step step) {
   in_step_s_ = 0;
 }
 
+/// Middle of the side that points down: let go, a tilted block stands up about it.
+Vec3 GraspErrand::base_of(const SeenObject& object) {
+  Eigen::Index axis = 0;
+  object.X_TO.R.row(2).cwiseAbs().maxCoeff(&axis);
+  const double down = object.X_TO.R(2, axis) > 0 ? -1 : 1;
+  return object.X_TO.p + object.X_TO.R.col(axis) * (down * object.size_m[axis] / 2);
+}
+
 /// Across the pads the block is as thick as its thinner horizontal side.
 double GraspErrand::thickness(const Percept& percept) const {
   return std::min(percept.object.size_m.x(), percept.object.size_m.y());
@@ -47,11 +56,11 @@ Vec3 GraspErrand::grip_point(const Percept& percept) const {
   return percept.object.X_TO.p + kBeyondMiddle * R_TI_.col(2);
 }
 
-/// The orientation rolled about the shaft so that the pads face the nearest pair of the block's sides.
+/// The intent rolled about the shaft so that the pads, as they are seen, come to face the nearest pair of the block's sides.
 Mat3 GraspErrand::turned_to(const Percept& percept, const Mat3& R_TI) const {
   double best = 10;
   for (int axis = 0; axis < 2; ++axis) {
-    const Vec3 side_I = R_TI.transpose() * percept.object.X_TO.R.col(axis);
+    const Vec3 side_I = percept.R_TI.transpose() * percept.object.X_TO.R.col(axis);
     double roll = std::atan2(-side_I.x(), side_I.y());
     roll = std::remainder(roll, M_PI);
     if (std::abs(roll) < std::abs(best)) best = roll;
@@ -64,7 +73,7 @@ void GraspErrand::straight(const Vec3& from_T, const Vec3& to_T, double seconds)
 }
 
 /// Plans a movement of the intent such that the seen tip would arrive at the goal.
-void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width_m, HandIntent& intent,
+void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
                         HandRandom& random) {
   const Vec3 way = goal_T - percept.tip_T;
   const double distance = way.norm();
@@ -79,23 +88,23 @@ void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way + error, shape);
 }
 
-void GraspErrand::reach_block(const Percept& percept, HandIntent& intent, HandRandom& random) {
+void GraspErrand::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   reach(percept, grip_point(percept) + Vec3(0, 0, kHover), 2 * kGoodAim, intent, random);
+  turn_ = Eigen::AngleAxisd(intent.X_TI.R.transpose() * R_TI_);
+  R_from_ = intent.X_TI.R;
   enter(Step::kReach);
 }
 
-void GraspErrand::reach_ring(const Percept& percept, HandIntent& intent, HandRandom& random) {
-  const Vec3 wanted = percept.goal_T + Vec3(0, 0, percept.object.size_m.z() / 2 + kOverRing);
-  reach(percept, percept.tip_T + (wanted - percept.object.X_TO.p), 2 * percept.target_radius_m, intent, random);
+void GraspErrand::reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  const Vec3 wanted = percept.goal_T + Vec3(0, 0, kOverRing);
+  reach(percept, percept.tip_T + (wanted - base_of(percept.object)), 2 * percept.target_radius_m, intent, random);
   enter(Step::kCarry);
 }
 
 void GraspErrand::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  R_TI_ = turned_to(percept, begun_ ? R_TI_ : intent.X_TI.R);
-  begun_ = true;
+  R_TI_ = turned_to(percept, intent.X_TI.R);
   corrections_ = 0;
-  HandIntent wish = intent;
-  reach_block(percept, wish, random);
+  reach_block(percept, intent, random);
 }
 
 void GraspErrand::squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
@@ -196,8 +205,7 @@ void GraspErrand::watch_grip(const Percept& percept, const HandSenses& senses, d
   }
   if (lost_s_ < kLostTime) return;
   corrections_ = 0;
-  straight(intent.X_TI.p, intent.X_TI.p + Vec3(0, 0, kWithdraw), reach_time_s(kWithdraw, 0.010, skill_.speed_factor));
-  enter(Step::kRetreat);
+  withdraw(percept, intent);
 }
 
 void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
@@ -210,6 +218,7 @@ void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double
       intent.X_TI.p = plan_.at(in_step_s_);
       if (there) {
         corrections_ = 0;
+        grip_.shift_attention(random);  // eyes and mind go to the ring
         reach_ring(percept, intent, random);
       }
       return;
@@ -219,13 +228,14 @@ void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double
       return;
     case Step::kLookAtRing:
       if (in_step_s_ < kSeenLate) return;
-      if ((percept.object.X_TO.p - percept.goal_T).head<2>().norm() > kGoodRing * percept.target_radius_m &&
+      if ((base_of(percept.object) - percept.goal_T).head<2>().norm() > kGoodRing * percept.target_radius_m &&
           corrections_++ < skill_.max_corrections)
         return reach_ring(percept, intent, random);
+      grip_.shift_attention(random);
       return enter(Step::kLower);
     case Step::kLower: {
       intent.X_TI.p.z() -= speed * dt_s;
-      const double under = percept.object.X_TO.p.z() - percept.object.size_m.z() / 2 - percept.goal_T.z();
+      const double under = base_of(percept.object).z() - percept.goal_T.z();
       const bool stands = senses.touch_n() > kSet * skill_.force_bias || (under < 0.0005 && in_step_s_ > kSeenLate);
       if (stands && in_step_s_ > kSeenLate) enter(Step::kOpen);
       return;
@@ -234,14 +244,19 @@ void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double
   }
 }
 
+void GraspErrand::withdraw(const Percept& percept, const HandIntent& intent) {
+  const double room = percept.goal_T.z() + kHighest - percept.tip_T.z();
+  straight(intent.X_TI.p, intent.X_TI.p + Vec3(0, 0, std::clamp(room, 0.0, kWithdraw)),
+           reach_time_s(kWithdraw, 0.010, skill_.speed_factor));
+  enter(Step::kRetreat);
+}
+
 void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
   intent.jaw_opening_m = std::min(kOpenJaw, std::max(intent.jaw_opening_m, percept.jaw_opening_m) + kJawSpeed * dt_s);
   switch (step_) {
     case Step::kOpen:
       if (percept.jaw_opening_m < thickness(percept) + 0.005) return;
-      straight(intent.X_TI.p, intent.X_TI.p + Vec3(0, 0, kWithdraw),
-               reach_time_s(kWithdraw, 0.010, skill_.speed_factor));
-      return enter(Step::kRetreat);
+      return withdraw(percept, intent);
     case Step::kRetreat:
       intent.X_TI.p = plan_.at(in_step_s_);
       if (in_step_s_ > plan_.duration_s()) enter(Step::kWait);
@@ -249,7 +264,7 @@ void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent,
     default:
       if (in_step_s_ < kPatience) return;
       corrections_ = 0;
-      R_TI_ = turned_to(percept, R_TI_);
+      R_TI_ = turned_to(percept, intent.X_TI.R);
       return reach_block(percept, intent, random);
   }
 }
@@ -270,7 +285,9 @@ void GraspErrand::update(const Percept& percept, const HandSenses& senses, doubl
     case Step::kLower: bring(percept, senses, dt_s, intent, random); break;
     default: leave(percept, dt_s, intent, random);
   }
-  intent.X_TI.R = R_TI_;
+  const bool turning = step_ == Step::kReach && in_step_s_ < plan_.duration_s();
+  const double turned = turning ? minimum_jerk(in_step_s_ / plan_.duration_s()) : 1;
+  intent.X_TI.R = R_from_ * Eigen::AngleAxisd(turned * turn_.angle(), turn_.axis()).toRotationMatrix();
 }
 
 }  // namespace trocar

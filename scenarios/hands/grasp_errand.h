@@ -29,9 +29,11 @@ class GraspErrand {
   };
 
   void enter(Step step);
-  void reach(const Percept& percept, const Vec3& goal_T, double width_m, HandIntent& intent, HandRandom& random);
-  void reach_block(const Percept& percept, HandIntent& intent, HandRandom& random);
-  void reach_ring(const Percept& percept, HandIntent& intent, HandRandom& random);
+  void reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
+             HandRandom& random);
+  void reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void withdraw(const Percept& percept, const HandIntent& intent);
   void straight(const Vec3& from_T, const Vec3& to_T, double seconds);
   void squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
   void approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
@@ -41,6 +43,7 @@ class GraspErrand {
   void judge_foam(const Percept& percept, HandRandom& random);
   void watch_grip(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
                   HandRandom& random);
+  static Vec3 base_of(const SeenObject& object);
   Vec3 grip_point(const Percept& percept) const;
   double thickness(const Percept& percept) const;
   Mat3 turned_to(const Percept& percept, const Mat3& R_TI) const;
@@ -49,12 +52,13 @@ class GraspErrand {
   ForceGrip grip_;
   ReachPlan plan_;
   Step step_ = Step::kWait;
-  Mat3 R_TI_ = Mat3::Identity();      ///< wanted orientation
+  Mat3 R_TI_ = Mat3::Identity();      ///< wanted orientation, reached while reaching: from R_from_ by turn_
+  Mat3 R_from_ = Mat3::Identity();
+  Eigen::AngleAxisd turn_{0, Vec3::UnitX()};
   double low_n_ = 0, high_n_ = 0;     ///< window that the person believes in
   double in_step_s_ = 0, lost_s_ = 0, slip_s_ = 0;
   double felt_sum_n_ = 0, opening_sum_m_ = 0;
   int felt_count_ = 0, corrections_ = 0;
-  bool begun_ = false;
 };
 
 }  // namespace trocar

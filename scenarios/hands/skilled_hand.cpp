@@ -112,7 +112,8 @@ void SkilledHand::begin_task(const Percept& percept) {
     case HandErrand::Kind::kPen: return reach_target(percept, false);
     case HandErrand::Kind::kDisc: return reach_target(percept, true);
     case HandErrand::Kind::kBlock:
-      block_intent_ = {{ready_.R, intent_T_}, jaw_m_};
+      block_intent_.X_TI.p = intent_T_;
+      block_intent_.jaw_opening_m = jaw_m_;
       return blocks_.begin(percept, block_intent_, random_);
     case HandErrand::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
@@ -216,6 +217,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     is_ready_ = percept.device_ready;
     intent_T_ = ready_.p;
     intent_R_ = ready_.R;
+    block_intent_.X_TI = ready_;
     return {ready_, jaw_m_};
   }
   time_s_ += dt_s;
