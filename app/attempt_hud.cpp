@@ -1,5 +1,6 @@
 #include "app/attempt_hud.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -31,6 +32,9 @@ std::vector<HudStep> steps(const Scene& scene, const DirectorStatus& status) {
       out.push_back(step("Touch and hold each disc", all, started && !all));
       out.push_back(step("Squeeze the block", done, all && !done));
       break;
+    case ExerciseKind::kGrasp:
+      out.push_back(step("Carry each lit block to its ring", done || all, started && !all));
+      break;
   }
   return out;
 }
@@ -46,6 +50,8 @@ std::vector<HudRow> rows(const Scene& scene, const DirectorStatus& status) {
               {"Wrong places", std::to_string(status.wrong_places), ""},
               {"Too much force", std::to_string(status.excess_forces), "x"},
               hold};
+    case ExerciseKind::kGrasp:
+      return {{"Blocks placed", done, ""}, {"Errors", std::to_string(status.wrong_places), "x"}};
   }
   return {};
 }
@@ -65,11 +71,29 @@ ForceBar bar(const char* label, double value_n, const WantedForce& band, double 
   return out;
 }
 
+/// Grasp: the grip on the lit block, whose limit is where its foam is crushed. Where no colour tells the foam, the bar
+/// must not either: it then spans all kinds.
+ForceBar block_bar(const SessionView& view) {
+  const GraspRules& rules = view.scene.setup.exercise.grasp;
+  const ExerciseLevel& level = view.scene.level;
+  const DirectorStatus& status = view.director.status();
+  double limit_n = 0;
+  for (const FoamKind& kind : rules.kinds) limit_n = std::max(limit_n, kind.crush_above_n);
+  const auto lit = static_cast<std::size_t>(std::max(0, status.target_index));
+  if (level.grasp.colour_cue && lit < view.scene.board.rigid.blocks.size())
+    limit_n = view.scene.board.rigid.blocks[lit].crush_above_n;
+  ForceBar grip = bar("Grip force", view.record.stylus.grip_force_n, status.demand.band, limit_n);
+  grip.hidden = !status.force_shown;
+  grip.hidden_note = hidden_note(level.force_display);
+  return grip;
+}
+
 /// The tip's bar is that of the lit disc; the grip's that of the block.
 std::vector<ForceBar> bars(const SessionView& view) {
   const Exercise& exercise = view.scene.setup.exercise;
   const ExerciseLevel& level = view.scene.level;
   const DirectorStatus& status = view.director.status();
+  if (exercise.kind == ExerciseKind::kGrasp) return {block_bar(view)};
   if (exercise.kind != ExerciseKind::kTouch) return {};
   const bool gripping = status.cue == Cue::kGrip;
   WantedForce band = status.demand.band;

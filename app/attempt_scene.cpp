@@ -49,8 +49,8 @@ Eigen::AlignedBox3d work_box(const Scene& scene) {
     for (const Target& pen : scene.board.targets)
       for (const double back : {0.0, 0.6 * scene.setup.exercise.pens.length_m})
         box.extend(Vec3(pen.centre_T - back * pen.R_TI.col(2)));
-  } else if (scene.rigid.board) {
-    const BoardPlate& plate = *scene.rigid.board;
+  } else if (scene.board.rigid.board) {
+    const BoardPlate& plate = *scene.board.rigid.board;
     const double h = plate.half_extent_m;
     box.extend(Vec3(-h, -h, plate.top_z_m)).extend(Vec3(h, h, plate.top_z_m + 0.03));
   }
@@ -209,7 +209,7 @@ SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const Tri
     out.targets = marks(view.director);
   }
   if (has_pens(view.scene)) add_pens(view, out.objects);
-  const auto rigid = rigid_objects(view.scene.rigid, view.tissue, view.director.status().target_index);
+  const auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
   out.objects.insert(out.objects.end(), rigid.begin(), rigid.end());
   add_start(view, out.objects);
   add_port(view, out.objects);

@@ -10,6 +10,7 @@
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/board_layout.h"
 #include "scenarios/exercise_loader.h"
+#include "scenarios/grasp_layout.h"
 #include "scenarios/pen_layout.h"
 #include "tissue/collision/patch_extraction.h"
 
@@ -68,10 +69,18 @@ void require_reach(const Scene& scene) {
   }
 }
 
-/// Board of the exercise's kind. The loop's map is set before: pens turn from the resting instrument.
+constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
+
+/// Board of the exercise's kind, and the instrument that it takes. The loop's map is set before: pens turn from the
+/// resting instrument.
 void set_stage(Scene& scene) {
   const AttemptSetup& setup = scene.setup;
-  if (!needs_organ(setup.exercise.kind)) {
+  if (setup.exercise.kind == ExerciseKind::kGrasp) {
+    scene.board = lay_out_blocks(setup.exercise, scene.level, setup.board);
+    scene.loop.tool.jaw_length_m = kJawLength;
+    return;
+  }
+  if (setup.exercise.kind == ExerciseKind::kReach) {
     scene.board = lay_out_pens(setup.exercise, scene.level, scene.loop.map.instrument_pose(home_pose()).R, setup.board);
     return;
   }

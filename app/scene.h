@@ -13,7 +13,6 @@
 #include "scenarios/director.h"
 #include "scenarios/exercise.h"
 #include "tissue/organ.h"
-#include "tissue/rigid/rigid_scene.h"
 
 namespace trocar {
 
@@ -59,7 +58,6 @@ struct Scene {
   ExerciseLevel level;
   Organ organ;
   TriangleSurface organ_T;
-  RigidScene rigid;
   Board board;
   HapticLoopConfig loop;
   double room_share = 1;               ///< of the region, where the device can give the soft force limit

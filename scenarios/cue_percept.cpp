@@ -14,6 +14,10 @@ void show_cue(const DirectorStatus& status, Percept& percept) {
   percept.target_angle_rad = demand.angle_tolerance_rad;
   percept.band_low_n = demand.band.low_n;
   percept.band_high_n = demand.band.high_n;
+  percept.object = demand.object;
+  percept.goal_T = demand.goal_T;
+  percept.foam = demand.foam;
+  percept.foam_count = demand.foam_count;
 }
 
 }  // namespace trocar

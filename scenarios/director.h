@@ -15,6 +15,7 @@
 #include "haptics/exchange/stylus_state.h"
 #include "scenarios/exercise.h"
 #include "scenarios/scoring/trace.h"
+#include "tissue/rigid/rigid_scene.h"
 
 namespace trocar {
 
@@ -33,7 +34,8 @@ struct Target {
 struct Board {
   Vec3 centre_T = Vec3::Zero();        ///< centre of the region on the surface
   Vec3 start_T = Vec3::Zero();         ///< centre of the start sphere
-  std::vector<Target> targets;
+  std::vector<Target> targets;         ///< discs, pens, or the rings in which blocks shall stand
+  RigidScene rigid;                    ///< board, blocks, ring marks, port; empty on an organ
 };
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };
@@ -46,7 +48,11 @@ struct Demand {
   bool oriented = false;               ///< R_TI counts
   Mat3 R_TI = Mat3::Identity();
   double angle_tolerance_rad = 0;
-  WantedForce band;                      ///< of contact force, or of grip while the cue asks to grip
+  WantedForce band;                    ///< of contact force, or of grip while the cue asks to grip; 0 to 0: not told
+  SeenObject object = {};              ///< to pick, carry and place
+  Vec3 goal_T = Vec3::Zero();          ///< where it shall stand
+  std::array<FoamLore, kMostFoams> foam = {};
+  std::int32_t foam_count = 0;
 };
 
 /// What screen, hand and session see of the exercise at this moment.

@@ -13,14 +13,22 @@
 
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
+#include "scenarios/grasp_rules.h"
 #include "scenarios/scoring/rubric.h"
 
 namespace trocar {
 
-enum class ExerciseKind : std::uint8_t { kReach, kTouch };
+enum class ExerciseKind : std::uint8_t { kReach, kTouch, kGrasp };
 enum class Mapping : std::uint8_t { kDirect, kFulcrum };
 
-constexpr const char* kind_name(ExerciseKind kind) { return kind == ExerciseKind::kReach ? "reach" : "touch"; }
+constexpr const char* kind_name(ExerciseKind kind) {
+  switch (kind) {
+    case ExerciseKind::kReach: return "reach";
+    case ExerciseKind::kTouch: return "touch";
+    case ExerciseKind::kGrasp: return "grasp";
+  }
+  return "unknown";
+}
 constexpr const char* mapping_name(Mapping mapping) { return mapping == Mapping::kFulcrum ? "fulcrum" : "direct"; }
 
 /// A wanted force, N.
@@ -52,6 +60,7 @@ struct ExerciseLevel {
   std::vector<WantedForce> bands;        ///< touch: one, or several dealt out to the discs
   double position_tolerance_m = 0, angle_tolerance_rad = 0;  ///< reach
   std::vector<LevelAnchors> anchors;   ///< in place of the rubric's
+  GraspLevel grasp;                    ///< grasp
   Rubric rubric;                       ///< with this level's anchors
 };
 
@@ -97,6 +106,7 @@ struct Exercise {
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
   double retract_height_m = 0;         ///< of the ideal path between targets
   GripTask grip;                       ///< touch
+  GraspRules grasp;                    ///< grasp
   std::vector<ExerciseLevel> levels;
   Rubric rubric;                       ///< of the first level
   std::filesystem::path file;

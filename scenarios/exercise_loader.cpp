@@ -5,6 +5,7 @@
 
 #include "digest/digest.h"
 #include "haptics/input_error.h"
+#include "scenarios/grasp_loader.h"
 #include "scenarios/level_reader.h"
 #include "scenarios/strict_toml.h"
 
@@ -97,10 +98,15 @@ void read_kind(StrictTable& document, Exercise& exercise) {
       read_pens(document.table("pens"), exercise.pens);
       if (exercise.pens.timeout_s <= exercise.hold_s)
         document.fail("hold_s", "'hold_s' must be below 'timeout_s' of the pens");
+      return;
+    case ExerciseKind::kGrasp: return read_grasp(document, exercise);
   }
 }
 
-ExerciseKind kind_of(const std::string& word) { return word == "reach" ? ExerciseKind::kReach : ExerciseKind::kTouch; }
+ExerciseKind kind_of(const std::string& word) {
+  if (word == "grasp") return ExerciseKind::kGrasp;
+  return word == "reach" ? ExerciseKind::kReach : ExerciseKind::kTouch;
+}
 
 }  // namespace
 
@@ -115,7 +121,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   exercise.title = document.text("title");
   exercise.goal = document.text("goal");
   // The first files had no kind: they stand in old recordings.
-  exercise.kind = kind_of(document.choice_or("kind", {"reach", "touch"}, "touch"));
+  exercise.kind = kind_of(document.choice_or("kind", {"reach", "touch", "grasp"}, "touch"));
   exercise.time_limit_s = document.number("time_limit_s", 1, 3600);
   read_start(document.table("start"), exercise);
   read_targets(document.table("targets"), exercise);

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "scenarios/director_tasks.h"
+#include "scenarios/grasp_task.h"
 #include "scenarios/pose_task.h"
 
 namespace trocar {
@@ -37,6 +38,7 @@ std::vector<std::unique_ptr<ExerciseTask>> make_tasks(const Exercise& exercise, 
       tasks.push_back(
           std::make_unique<SqueezeTask>(exercise.grip, level, static_cast<std::int32_t>(board.targets.size())));
       break;
+    case ExerciseKind::kGrasp: tasks.push_back(std::make_unique<GraspTask>(exercise, level, board)); break;
     case ExerciseKind::kReach: tasks.push_back(std::make_unique<PoseTask>(exercise, level, board.targets)); break;
   }
   return tasks;

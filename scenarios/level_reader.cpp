@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/grasp_loader.h"
 #include "scenarios/scoring/metrics.h"
 
 namespace trocar {
@@ -93,6 +94,8 @@ void read_task_keys(StrictTable& table, bool derived, const Exercise& exercise, 
     case ExerciseKind::kReach:
       keys.number("position_tolerance_mm", 0.1, 20, kMilli, level.position_tolerance_m);
       keys.number("angle_tolerance_deg", 0.5, 45, kDegrees, level.angle_tolerance_rad);
+      return;
+    case ExerciseKind::kGrasp: return read_grasp_level(table, derived, exercise.grasp, level.grasp);
   }
 }
 

@@ -49,7 +49,32 @@ void require_finite(const ScoringContext& context) {
   for (const Vec3& point : context.waypoints) finite = finite && point.allFinite();
   for (const ObjectBand& band : context.object_bands)
     finite = finite && std::isfinite(band.low_n) && std::isfinite(band.high_n);
+  for (const auto& [low, high] : context.grip_windows) finite = finite && std::isfinite(low) && std::isfinite(high);
   if (!finite) throw std::invalid_argument("scoring context holds a number that is not finite");
+}
+
+}  // namespace
+
+namespace {
+
+/// Windows of all blocks; the way to each placed block and on to its ring, in the order of placing. A block that left its
+/// ring again is not done.
+void add_blocks(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
+  for (const Target& ring : board.targets) context.grip_windows.push_back({ring.band.low_n, ring.band.high_n});
+  std::set<std::int32_t> done, seen;
+  for (const Event& event : events) {
+    const auto index = static_cast<std::size_t>(event.object);
+    if (event.object < 0 || index >= board.rigid.blocks.size()) continue;
+    if (event.type == "REMOVED") done.erase(event.object);
+    if (event.type != "PLACED") continue;
+    done.insert(event.object);
+    if (!seen.insert(event.object).second) continue;
+    const Vec3 up(0, 0, board.rigid.blocks[index].size_m.z() / 2);
+    context.waypoints.push_back(board.rigid.blocks[index].X_TO.p);
+    context.waypoints.push_back(board.targets[index].centre_T + up);
+  }
+  context.objects_total = static_cast<int>(board.targets.size());
+  context.objects_done = static_cast<int>(done.size());
 }
 
 }  // namespace
@@ -71,6 +96,10 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
   context.grip_high_n = exercise.grip.high_n;
   context.retract_height_m = exercise.retract_height_m;
   context.waypoints.push_back(board.start_T);
+  if (exercise.kind == ExerciseKind::kGrasp) {
+    add_blocks(board, events, context);
+    return context;
+  }
   std::set<std::int32_t> done;
   for (const Event& event : events) {
     const bool disc = event.type == "TARGET_HELD";
@@ -95,6 +124,8 @@ std::string scoring_context_json(const ScoringContext& context) {
   for (const Vec3& point : context.waypoints) json["waypoints"].push_back(to_json(point));
   if (!context.object_bands.empty()) json["object_bands"] = Json::array();
   for (const ObjectBand& band : context.object_bands) json["object_bands"].push_back({band.low_n, band.high_n});
+  if (!context.grip_windows.empty()) json["grip_windows"] = Json::array();
+  for (const auto& [low, high] : context.grip_windows) json["grip_windows"].push_back({low, high});
   json["objects_total"] = context.objects_total;
   json["objects_done"] = context.objects_done;
   if (context.room_share) json["room_share"] = *context.room_share;
@@ -111,6 +142,8 @@ ScoringContext parse_scoring_context(const std::string& text, const std::string&
     for (const Json& point : json.at("waypoints")) context.waypoints.push_back(vector_from(point));
     for (const Json& band : json.value("object_bands", Json::array()))
       context.object_bands.push_back({band.at(0).get<double>(), band.at(1).get<double>()});
+    for (const Json& window : json.value("grip_windows", Json::array()))
+      context.grip_windows.push_back({window.at(0).get<double>(), window.at(1).get<double>()});
     context.objects_total = json.at("objects_total").get<int>();
     context.objects_done = json.at("objects_done").get<int>();
     if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();

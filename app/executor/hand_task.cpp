@@ -26,7 +26,8 @@ HandTask::HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseF
       daq_(daq),
       random_(static_cast<std::uint64_t>(scene.setup.seed) ^ kSensesSeed),
       past_(std::max<std::size_t>(1, static_cast<std::size_t>(kEyeDelay_s * scene.loop.daq.rate_hz)),
-            scene.loop.map.instrument_pose(home_pose())) {}
+            scene.loop.map.instrument_pose(home_pose())),
+      past_objects_(past_.size()) {}
 
 Pose HandTask::see() {
   // The oldest entry is what the eye reports; the newest state takes its place.
@@ -69,7 +70,10 @@ Percept HandTask::perceive(std::uint64_t tick) {
   percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
   percept.jaw_opening_m = daq_.sense().jaw_opening_m;
   percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
+  percept.shown_grip_n = status.force_shown ? state.grip_force_n : std::numeric_limits<double>::quiet_NaN();
   show_cue(status, percept);
+  std::swap(percept.object, past_objects_[periods_ % past_objects_.size()]);  // the eye is as late for objects
+  percept.object.X_TO.p += eye_error_;
   return percept;
 }
 

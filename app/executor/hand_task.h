@@ -48,6 +48,7 @@ class HandTask final : public Task {
   HandRandom random_;
   std::vector<Pose> past_;          ///< ring over the eye's delay
   Pose stylus_W_;                   ///< where the hand wants the stylus
+  std::vector<SeenObject> past_objects_;
   Vec3 eye_error_ = Vec3::Zero();
   std::uint64_t active_ticks_ = 0, homed_ticks_ = 0, periods_ = 0;
   std::uint64_t periods_of_target_ = 0;   ///< since what is shown changed

@@ -34,7 +34,7 @@ class TissueTask final : public Task {
   TissueTask(const Scene& scene, Director& director, const TissuePorts& ports)
       : director_(director),
         ports_(ports),
-        world_({&scene.organ_T, scene.setup.exercise.surface, scene.rigid, scene.loop.tool}),
+        world_({&scene.organ_T, scene.setup.exercise.surface, scene.board.rigid, scene.loop.tool}),
         period_(static_cast<std::uint32_t>(scene.loop.daq.rate_hz / kTissueRateHz)) {}
 
   std::uint32_t period() const override { return period_; }

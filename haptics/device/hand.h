@@ -5,6 +5,7 @@
 // the inverse of the exercise's instrument map. Rate: hands are asked at 1 kHz. Must not allocate.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "haptics/quantities.h"
@@ -17,6 +18,20 @@ namespace trocar {
 enum class Cue : std::uint8_t {
   kNone, kWait, kReach, kPress, kGrip, kRelease, kFinished, kOrient, kPick, kCarry, kPlace
 };
+
+/// An object that the exercise is about, as it is seen on the screen.
+struct SeenObject {
+  Pose X_TO;                           ///< centre, axes along the edges
+  Vec3 size_m = Vec3::Zero();
+  bool slipping = false;               ///< it creeps through the jaws
+};
+
+/// What the briefing taught about one kind of foam.
+struct FoamLore {
+  double stiffness_n_per_m = 0;        ///< how it feels between the jaws
+  double low_n = 0, high_n = 0;        ///< wanted grip
+};
+inline constexpr int kMostFoams = 4;
 
 /// What a person senses: delayed and noisy, nothing of the world that is not on the screen or in the fingers.
 struct Percept {
@@ -37,6 +52,11 @@ struct Percept {
   double target_angle_rad = 0;         ///< its tolerance
   double band_low_n = 0, band_high_n = 0;  ///< wanted force as shown on the force bar
   double shown_force_n = 0;            ///< reading of the force bar; NaN when the bar is hidden
+  double shown_grip_n = 0;             ///< kPick, kCarry, kPlace: reading of the grip bar; NaN when the bar is hidden
+  SeenObject object;                   ///< kPick, kCarry, kPlace: the lit object (delayed)
+  Vec3 goal_T = Vec3::Zero();          ///< there: where it shall stand
+  std::array<FoamLore, kMostFoams> foam;  ///< there: learnt before the start
+  std::int32_t foam_count = 0;
 };
 
 /// Where the hand wants the instrument to be.

@@ -24,6 +24,8 @@ class ForceGrip {
   /// Speed of the intent into the resistance, m/s. A force outside the band for long makes the person think again:
   /// the bias fades and a new goal is drawn.
   double speed(double felt_n, double dt_s, HandRandom& random);
+  /// Attention goes elsewhere and comes back: the goal is drawn anew, with what has been learnt so far.
+  void shift_attention(HandRandom& random) { draw_goal(random); }
   double goal_n() const { return goal_n_; }
 
  private:

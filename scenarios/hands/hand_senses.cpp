@@ -17,7 +17,7 @@ HandErrand task_of(const Percept& percept) {
     case Cue::kOrient: return {HandErrand::Kind::kPen, percept.target_index};
     case Cue::kPick:
     case Cue::kCarry:
-    case Cue::kPlace:
+    case Cue::kPlace: return {HandErrand::Kind::kBlock, percept.target_index};
     case Cue::kNone: break;
   }
   return {};
@@ -36,7 +36,8 @@ double LateSignal::update(double value, double dt_s) {
 
 void HandSenses::update(const Percept& percept, double pause_s, double dt_s) {
   touch_.update(percept.felt_force_n, dt_s);
-  grip_.update(percept.felt_grip_n, dt_s);
+  const bool bar = percept.foam_count > 0 && std::isfinite(percept.shown_grip_n);
+  grip_.update(bar ? percept.shown_grip_n : percept.felt_grip_n, dt_s);
   force_.update(std::isfinite(percept.shown_force_n) ? percept.shown_force_n : percept.felt_force_n, dt_s);
   const HandErrand now = task_of(percept);
   noticed_for_s_ = now == seen_ ? noticed_for_s_ + dt_s : 0;

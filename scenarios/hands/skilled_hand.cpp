@@ -47,6 +47,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
       senses_(skill_.reaction_s),
       press_({60, 3, 0.04, skill_.force_bias, skill_.force_cv}),
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv}),
+      blocks_(skill_),
       jaw_m_(kOpenJaw) {
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
 }
@@ -120,6 +121,10 @@ void SkilledHand::begin_task(const Percept& percept) {
     case HandErrand::Kind::kStart:
     case HandErrand::Kind::kPen: return reach_target(percept, false);
     case HandErrand::Kind::kDisc: return reach_target(percept, true);
+    case HandErrand::Kind::kBlock:
+      block_intent_.X_TI.p = intent_T_;
+      block_intent_.jaw_opening_m = jaw_m_;
+      return blocks_.begin(percept, block_intent_, random_);
     case HandErrand::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
       opened_ = false;
@@ -197,6 +202,15 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
   jaw_m_ = std::clamp(jaw_m_ - closing * dt_s, std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
 }
 
+HandIntent SkilledHand::move_block(const Percept& percept, double dt_s) {
+  blocks_.update(percept, senses_, dt_s, block_intent_, random_);
+  intent_T_ = block_intent_.X_TI.p;
+  jaw_m_ = block_intent_.jaw_opening_m;
+  HandIntent intent = block_intent_;
+  intent.X_TI.p += tremor(time_s_);
+  return intent;
+}
+
 /// Until the next cue is noticed the person still attends to the old target.
 Percept SkilledHand::attend(const Percept& percept) {
   if (senses_.seen() == task_) attended_ = percept;
@@ -214,6 +228,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     is_ready_ = percept.device_ready;
     intent_T_ = ready_.p;
     intent_R_ = ready_.R;
+    block_intent_.X_TI = ready_;
     return {ready_, jaw_m_};
   }
   time_s_ += dt_s;
@@ -223,6 +238,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     task_ = senses_.task();
     begin_task(attend(percept));
   }
+  if (task_.kind == HandErrand::Kind::kBlock) return move_block(attend(percept), dt_s);
   if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
   return {{intent_R_, intent_T_ + tremor(time_s_)}, jaw_m_};

@@ -9,6 +9,7 @@
 
 #include "haptics/device/hand.h"
 #include "scenarios/hands/force_grip.h"
+#include "scenarios/hands/grasp_errand.h"
 #include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/hand_script.h"
 #include "scenarios/hands/hand_senses.h"
@@ -37,6 +38,7 @@ class SkilledHand : public Hand {
   void descend(const Percept& percept, double dt_s);
   void press(const Percept& percept, double dt_s);
   void squeeze(const Percept& percept, double dt_s);
+  HandIntent move_block(const Percept& percept, double dt_s);
   void on_unexpected_touch(const Percept& percept);
   void draw_anew(std::uint64_t part);
   void start_pressing(const Percept& percept);
@@ -48,6 +50,8 @@ class SkilledHand : public Hand {
   HandSkill skill_;
   HandSenses senses_;
   ForceGrip press_, squeeze_;
+  GraspErrand blocks_;
+  HandIntent block_intent_;     ///< of the errand with blocks, without tremor
   ReachPlan plan_;
   TurnPlan turn_;
   HandErrand task_;

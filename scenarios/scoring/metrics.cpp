@@ -65,6 +65,12 @@ constexpr MetricDefinition kCatalogue[] = {
     {"device_limits", "1", "times that the device could not give the force"},
     {"rest_tremor_rms_m", "m", "displacement between 8 and 12 Hz in the second before START: the baseline of tremor"},
     {"clutches", "1", "times that the clutch was pressed"},
+    {"grip_window_share", "1", "share of the time blocks are carried in which the grip lies in the block's window"},
+    {"crushed", "1", "blocks crushed"},
+    {"block_regrasps", "1", "times that a block was grasped again"},
+    {"slips", "1", "times that a carried block slid through the jaws"},
+    {"drops", "1", "times that a block fell"},
+    {"misplaced", "1", "times that a carried block was set down outside its ring"},
 };
 
 }  // namespace
@@ -140,6 +146,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_count_metrics(graded_events, context, metrics);
   add_pose_metrics(graded_events, context, metrics);
   add_rest_metric(trace, events, metrics);
+  add_grasp_metrics(graded, graded_events, context, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

@@ -44,6 +44,8 @@ void add_force_metrics(const Trace& trace, const std::vector<Event>& events, con
 void add_pose_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 /// @param trace the whole one: this looks at what came before START.
 void add_rest_metric(const Trace& trace, const std::vector<Event>& events, MetricSink& sink);
+void add_grasp_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
+                       MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

@@ -4,6 +4,7 @@
 // regraded alone. Frame T, SI units.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct ScoringContext {
   std::vector<ObjectBand> object_bands;              ///< by object where they differ; empty: the band above for all
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
   double grip_low_n = 0, grip_high_n = 0;            ///< wanted grip force
+  std::vector<std::array<double, 2>> grip_windows;   ///< wanted grip while carrying each block; empty: no blocks
   double retract_height_m = 0;                       ///< of the ideal path between targets, along approach_T
   Vec3 approach_T = Vec3::UnitZ();                   ///< direction in which the instrument withdraws
   std::vector<Vec3> waypoints;                       ///< start, then the targets that were held, in lit order

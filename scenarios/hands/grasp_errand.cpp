@@ -1,0 +1,293 @@
+#include "scenarios/hands/grasp_errand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+namespace {
+
+constexpr double kAimReference = 0.060, kAimFloor = 0.15;  // m of travel with the nominal aim error; share at rest
+constexpr double kOpenJaw = 0.022;          // m
+constexpr double kJawSpeed = 0.040;         // m/s of free opening
+constexpr double kClosingSpeed = 0.014;     // m/s until the block is felt
+constexpr double kTightestJaw = -0.030;     // m of intent: the fingers press beyond what they hold
+constexpr double kBeyondMiddle = 0.003;     // m that the tips reach beyond the block's middle
+constexpr double kHover = 0.028;            // m over the grip point
+constexpr double kOverRing = 0.034;         // m under the block while it is carried: 30 mm are asked for
+constexpr double kSeenLate = 0.16;          // s: the eyes are that late
+constexpr double kGoodAim = 0.0015;         // m off the grip point that needs no correction
+constexpr double kGoodRing = 0.4;           // of the ring's tolerance
+constexpr double kHit = 0.35;               // N met on the way down: the jaws stand on something
+constexpr double kGripFelt = 0.08;          // N
+constexpr double kSet = 0.15;               // N of the board on the block that tells that it stands
+constexpr double kFeelLow = 0.40, kFeelHigh = 0.55;   // N, a light squeeze that no foam minds
+constexpr double kFeelTime = 0.7, kFeelLook = 0.3;    // s of feeling; the last of it is what is judged by
+constexpr double kJudgement = 0.5;          // of the force CV: error of the judged stiffness
+constexpr double kLostTime = 0.25;          // s without felt grip before the block counts as lost
+constexpr double kTighter = 1.35;           // of the window when the block is seen to slip
+constexpr double kWithdraw = 0.034;         // m upwards after letting go ...
+constexpr double kHighest = 0.055;          // m over the board, but not higher than this
+constexpr double kPatience = 0.9;           // s to wait for the next block before trying the same again
+
+}  // namespace
+
+GraspErrand::GraspErrand(const HandSkill& skill)
+    : skill_(skill), grip_({200, 3, 0.02, skill.force_bias, skill.force_cv}) {}
+
+void GraspErrand::enter(Step step) {
+  step_ = step;
+  in_step_s_ = 0;
+}
+
+/// Middle of the side that points down: let go, a tilted block stands up about it.
+Vec3 GraspErrand::base_of(const SeenObject& object) {
+  Eigen::Index axis = 0;
+  object.X_TO.R.row(2).cwiseAbs().maxCoeff(&axis);
+  const double down = object.X_TO.R(2, axis) > 0 ? -1 : 1;
+  return object.X_TO.p + object.X_TO.R.col(axis) * (down * object.size_m[axis] / 2);
+}
+
+/// Across the pads the block is as thick as its thinner horizontal side.
+double GraspErrand::thickness(const Percept& percept) const {
+  return std::min(percept.object.size_m.x(), percept.object.size_m.y());
+}
+
+Vec3 GraspErrand::grip_point(const Percept& percept) const {
+  return percept.object.X_TO.p + kBeyondMiddle * R_TI_.col(2);
+}
+
+/// The intent rolled about the shaft so that the pads, as they are seen, come to face the nearest pair of the block's sides.
+Mat3 GraspErrand::turned_to(const Percept& percept, const Mat3& R_TI) const {
+  double best = 10;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vec3 side_I = percept.R_TI.transpose() * percept.object.X_TO.R.col(axis);
+    double roll = std::atan2(-side_I.x(), side_I.y());
+    roll = std::remainder(roll, M_PI);
+    if (std::abs(roll) < std::abs(best)) best = roll;
+  }
+  return R_TI * Eigen::AngleAxisd(best, Vec3::UnitZ()).toRotationMatrix();
+}
+
+void GraspErrand::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
+  plan_ = ReachPlan(from_T, to_T, {0, Vec3::Zero(), 0, std::max(0.05, seconds)});
+}
+
+/// Plans a movement of the intent such that the seen tip would arrive at the goal.
+void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
+                        HandRandom& random) {
+  const Vec3 way = goal_T - percept.tip_T;
+  const double distance = way.norm();
+  ReachPlan::Shape shape;
+  shape.travel_time_s = std::max(0.05, reach_time_s(distance, width_m, skill_.speed_factor));
+  const Vec3 across = Vec3::UnitZ().cross(way);
+  if (across.norm() > 1e-6)
+    shape.bulge = across.normalized() * (skill_.path_bulge * distance * (random.uniform() < 0.5 ? -1 : 1));
+  const double noise = std::sqrt(std::min(1.0, distance / kAimReference) + kAimFloor);
+  const Vec3 error = noise * Vec3(skill_.aim_lateral_m * random.normal(), skill_.aim_lateral_m * random.normal(),
+                                  skill_.aim_depth_m * random.normal());
+  plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way + error, shape);
+}
+
+void GraspErrand::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  reach(percept, grip_point(percept) + Vec3(0, 0, kHover), 2 * kGoodAim, intent, random);
+  turn_ = Eigen::AngleAxisd(intent.X_TI.R.transpose() * R_TI_);
+  R_from_ = intent.X_TI.R;
+  enter(Step::kReach);
+}
+
+void GraspErrand::reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  const Vec3 wanted = percept.goal_T + Vec3(0, 0, kOverRing);
+  reach(percept, percept.tip_T + (wanted - base_of(percept.object)), 2 * percept.target_radius_m, intent, random);
+  enter(Step::kCarry);
+}
+
+void GraspErrand::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  R_TI_ = turned_to(percept, intent.X_TI.R);
+  corrections_ = 0;
+  reach_block(percept, intent, random);
+}
+
+void GraspErrand::squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                          HandRandom& random) {
+  const double closing = grip_.speed(senses.grip_n(), dt_s, random);
+  intent.jaw_opening_m = std::clamp(intent.jaw_opening_m - closing * dt_s,
+                                    std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
+}
+
+void GraspErrand::judge_foam(const Percept& percept, HandRandom& random) {
+  const double force = felt_sum_n_ / std::max(1, felt_count_), opening = opening_sum_m_ / std::max(1, felt_count_);
+  const double felt = force / std::max(1e-4, thickness(percept) - opening);
+  const double judged = felt * random.log_normal(kJudgement * skill_.force_cv);
+  double best = 1e9;
+  for (std::int32_t i = 0; i < percept.foam_count; ++i) {
+    const FoamLore& foam = percept.foam[static_cast<std::size_t>(i)];
+    const double off = std::abs(std::log(judged / foam.stiffness_n_per_m));
+    if (off >= best) continue;
+    best = off;
+    low_n_ = foam.low_n;
+    high_n_ = foam.high_n;
+  }
+}
+
+void GraspErrand::approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                           HandRandom& random) {
+  intent.jaw_opening_m = std::min(kOpenJaw, intent.jaw_opening_m + kJawSpeed * dt_s);
+  const bool there = in_step_s_ > plan_.duration_s();
+  if (step_ != Step::kLook) intent.X_TI.p = plan_.at(in_step_s_);
+  if (step_ == Step::kReach && there) return enter(Step::kLook);
+  if (step_ == Step::kLook && in_step_s_ > kSeenLate) {
+    const Vec3 error = grip_point(percept) + Vec3(0, 0, kHover) - percept.tip_T;
+    if (error.head<2>().norm() > kGoodAim && corrections_++ < skill_.max_corrections)
+      return reach_block(percept, intent, random);
+    const double down = std::max(0.0, percept.tip_T.z() - grip_point(percept).z());
+    straight(intent.X_TI.p, intent.X_TI.p - Vec3(0, 0, down), reach_time_s(down, 0.004, skill_.speed_factor));
+    return enter(Step::kDescend);
+  }
+  if (step_ != Step::kDescend) return;
+  if (senses.touch_n() > kHit && in_step_s_ < plan_.duration_s()) {  // the jaws stand on something: look again
+    corrections_ = 0;
+    return reach_block(percept, intent, random);
+  }
+  if (there) enter(Step::kClose);
+}
+
+void GraspErrand::take(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                       HandRandom& random) {
+  const bool told = percept.band_high_n > 0;
+  switch (step_) {
+    case Step::kClose:
+      intent.jaw_opening_m -= kClosingSpeed / skill_.speed_factor * dt_s;
+      if (senses.grip_n() > kGripFelt) {
+        low_n_ = told ? percept.band_low_n : kFeelLow;
+        high_n_ = told ? percept.band_high_n : kFeelHigh;
+        grip_.begin(low_n_, high_n_, random);
+        felt_sum_n_ = opening_sum_m_ = 0;
+        felt_count_ = 0;
+        enter(told ? Step::kSqueeze : Step::kFeel);
+      } else if (percept.jaw_opening_m < thickness(percept) / 3) {  // closed on nothing
+        corrections_ = 0;
+        reach_block(percept, intent, random);
+      }
+      return;
+    case Step::kFeel:
+      squeeze(percept, senses, dt_s, intent, random);
+      if (in_step_s_ > (kFeelTime - kFeelLook) * std::sqrt(skill_.speed_factor)) {
+        felt_sum_n_ += percept.felt_grip_n;
+        opening_sum_m_ += percept.jaw_opening_m;
+        ++felt_count_;
+      }
+      if (in_step_s_ < kFeelTime * std::sqrt(skill_.speed_factor)) return;
+      judge_foam(percept, random);
+      grip_.begin(low_n_, high_n_, random);
+      return enter(Step::kSqueeze);
+    default:
+      squeeze(percept, senses, dt_s, intent, random);
+      if (std::abs(senses.grip_n() - grip_.goal_n()) > 0.12 * grip_.goal_n() && in_step_s_ < 2 * skill_.speed_factor)
+        return;
+      straight(intent.X_TI.p, intent.X_TI.p + Vec3(0, 0, kOverRing),
+               reach_time_s(kOverRing, 0.010, skill_.speed_factor));
+      lost_s_ = slip_s_ = 0;
+      return enter(Step::kLift);
+  }
+}
+
+/// While a block is carried: lost, slipping, or well held?
+void GraspErrand::watch_grip(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                             HandRandom& random) {
+  squeeze(percept, senses, dt_s, intent, random);
+  lost_s_ = senses.grip_n() < kGripFelt / 2 ? lost_s_ + dt_s : 0;
+  slip_s_ = percept.object.slipping ? slip_s_ + dt_s : 0;
+  if (slip_s_ > skill_.reaction_s) {
+    slip_s_ = 0;
+    low_n_ *= kTighter;
+    high_n_ *= kTighter;
+    grip_.begin(low_n_, high_n_, random);
+  }
+  if (lost_s_ < kLostTime) return;
+  corrections_ = 0;
+  withdraw(percept, intent);
+}
+
+void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                        HandRandom& random) {
+  watch_grip(percept, senses, dt_s, intent, random);
+  const bool there = in_step_s_ > plan_.duration_s();
+  const double speed = skill_.approach_speed_mps / skill_.speed_factor;
+  switch (step_) {
+    case Step::kLift:
+      intent.X_TI.p = plan_.at(in_step_s_);
+      if (there) {
+        corrections_ = 0;
+        grip_.shift_attention(random);  // eyes and mind go to the ring
+        reach_ring(percept, intent, random);
+      }
+      return;
+    case Step::kCarry:
+      intent.X_TI.p = plan_.at(in_step_s_);
+      if (there) enter(Step::kLookAtRing);
+      return;
+    case Step::kLookAtRing:
+      if (in_step_s_ < kSeenLate) return;
+      if ((base_of(percept.object) - percept.goal_T).head<2>().norm() > kGoodRing * percept.target_radius_m &&
+          corrections_++ < skill_.max_corrections)
+        return reach_ring(percept, intent, random);
+      grip_.shift_attention(random);
+      return enter(Step::kLower);
+    case Step::kLower: {
+      intent.X_TI.p.z() -= speed * dt_s;
+      const double under = base_of(percept.object).z() - percept.goal_T.z();
+      const bool stands = senses.touch_n() > kSet * skill_.force_bias || (under < 0.0005 && in_step_s_ > kSeenLate);
+      if (stands && in_step_s_ > kSeenLate) enter(Step::kOpen);
+      return;
+    }
+    default: return;
+  }
+}
+
+void GraspErrand::withdraw(const Percept& percept, const HandIntent& intent) {
+  const double room = percept.goal_T.z() + kHighest - percept.tip_T.z();
+  straight(intent.X_TI.p, intent.X_TI.p + Vec3(0, 0, std::clamp(room, 0.0, kWithdraw)),
+           reach_time_s(kWithdraw, 0.010, skill_.speed_factor));
+  enter(Step::kRetreat);
+}
+
+void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
+  intent.jaw_opening_m = std::min(kOpenJaw, std::max(intent.jaw_opening_m, percept.jaw_opening_m) + kJawSpeed * dt_s);
+  switch (step_) {
+    case Step::kOpen:
+      if (percept.jaw_opening_m < thickness(percept) + 0.005) return;
+      return withdraw(percept, intent);
+    case Step::kRetreat:
+      intent.X_TI.p = plan_.at(in_step_s_);
+      if (in_step_s_ > plan_.duration_s()) enter(Step::kWait);
+      return;
+    default:
+      if (in_step_s_ < kPatience) return;
+      corrections_ = 0;
+      R_TI_ = turned_to(percept, intent.X_TI.R);
+      return reach_block(percept, intent, random);
+  }
+}
+
+void GraspErrand::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                         HandRandom& random) {
+  in_step_s_ += dt_s;
+  switch (step_) {
+    case Step::kReach:
+    case Step::kLook:
+    case Step::kDescend: approach(percept, senses, dt_s, intent, random); break;
+    case Step::kClose:
+    case Step::kFeel:
+    case Step::kSqueeze: take(percept, senses, dt_s, intent, random); break;
+    case Step::kLift:
+    case Step::kCarry:
+    case Step::kLookAtRing:
+    case Step::kLower: bring(percept, senses, dt_s, intent, random); break;
+    default: leave(percept, dt_s, intent, random);
+  }
+  const bool turning = step_ == Step::kReach && in_step_s_ < plan_.duration_s();
+  const double turned = turning ? minimum_jerk(in_step_s_ / plan_.duration_s()) : 1;
+  intent.X_TI.R = R_from_ * Eigen::AngleAxisd(turned * turn_.angle(), turn_.axis()).toRotationMatrix();
+}
+
+}  // namespace trocar

@@ -1,0 +1,64 @@
+// How a simulated person moves a foam block: reach over it with open jaws, look, come down round it, close, feel what foam
+// it is when no colour tells, squeeze, lift, carry, look, lower until it stands, let go, withdraw. A block that is lost on
+// the way is fetched again; one that is seen to slip is held tighter.
+//
+// Knows nothing but the Percept. Frame T, m, N. Thread: the session's, 1 kHz; does not allocate.
+#pragma once
+
+#include "haptics/device/hand.h"
+#include "scenarios/hands/force_grip.h"
+#include "scenarios/hands/hand_random.h"
+#include "scenarios/hands/hand_script.h"
+#include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/minimum_jerk.h"
+
+namespace trocar {
+
+class GraspErrand {
+ public:
+  explicit GraspErrand(const HandSkill& skill);
+
+  /// A block is lit. @param intent what the hand wants at this moment.
+  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  /// One period: moves the intent.
+  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+
+ private:
+  enum class Step : std::uint8_t {
+    kReach, kLook, kDescend, kClose, kFeel, kSqueeze, kLift, kCarry, kLookAtRing, kLower, kOpen, kRetreat, kWait
+  };
+
+  void enter(Step step);
+  void reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
+             HandRandom& random);
+  void reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void withdraw(const Percept& percept, const HandIntent& intent);
+  void straight(const Vec3& from_T, const Vec3& to_T, double seconds);
+  void squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void take(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void bring(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random);
+  void judge_foam(const Percept& percept, HandRandom& random);
+  void watch_grip(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                  HandRandom& random);
+  static Vec3 base_of(const SeenObject& object);
+  Vec3 grip_point(const Percept& percept) const;
+  double thickness(const Percept& percept) const;
+  Mat3 turned_to(const Percept& percept, const Mat3& R_TI) const;
+
+  HandSkill skill_;
+  ForceGrip grip_;
+  ReachPlan plan_;
+  Step step_ = Step::kWait;
+  Mat3 R_TI_ = Mat3::Identity();      ///< wanted orientation, reached while reaching: from R_from_ by turn_
+  Mat3 R_from_ = Mat3::Identity();
+  Eigen::AngleAxisd turn_{0, Vec3::UnitX()};
+  double low_n_ = 0, high_n_ = 0;     ///< window that the person believes in
+  double in_step_s_ = 0, lost_s_ = 0, slip_s_ = 0;
+  double felt_sum_n_ = 0, opening_sum_m_ = 0;
+  int felt_count_ = 0, corrections_ = 0;
+};
+
+}  // namespace trocar
