@@ -222,7 +222,7 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
   page += "<div class=\"two path\"><div><section><h2>Events</h2>" + events_html(result, start) + "</section>" +
           metrics_html(result.grade) + "</div><div><section><h2>Tip path from above</h2>" +
           path_plot_svg(trace, result.events, context.band) + path_key() + "</section><section><h2>Device</h2>" +
-          device_html(result.device) + "</section></div></div>\n";
+          device_html(result.device) + forces_html(result.grade) + "</section></div></div>\n";
   page += "<section><h2>Organ</h2>" + origin_html(result) + "</section>\n";
   return page + footer_html(result, context) + "</body></html>\n";
 }
