@@ -122,8 +122,7 @@ void SkilledHand::begin_task(const Percept& percept) {
     case HandErrand::Kind::kPen: return reach_target(percept, false);
     case HandErrand::Kind::kDisc: return reach_target(percept, true);
     case HandErrand::Kind::kBlock:
-      block_intent_.X_TI.p = intent_T_;
-      block_intent_.jaw_opening_m = jaw_m_;
+      block_intent_ = {{intent_R_, intent_T_}, jaw_m_};
       return blocks_.begin(percept, block_intent_, random_);
     case HandErrand::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
@@ -205,6 +204,7 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
 HandIntent SkilledHand::move_block(const Percept& percept, double dt_s) {
   blocks_.update(percept, senses_, dt_s, block_intent_, random_);
   intent_T_ = block_intent_.X_TI.p;
+  intent_R_ = block_intent_.X_TI.R;
   jaw_m_ = block_intent_.jaw_opening_m;
   HandIntent intent = block_intent_;
   intent.X_TI.p += tremor(time_s_);
