@@ -54,7 +54,7 @@ std::string fault_words(const DeviceReceipt& device) {
   const auto found = table().find(device.fault);
   if (found == table().end()) return out;
   std::string what = found->second.what;
-  if (const auto at = what.find('%'); at != std::string::npos) what.replace(at, 1, number(device.fault_value, "%.4g"));
+  if (const auto at = what.find('%'); at != std::string::npos) what.replace(at, 1, number(device.fault_value, "%.6g"));
   return out + ": " + what + ". " + found->second.advice + "; then reset, home the device in its jig and start again.";
 }
 
