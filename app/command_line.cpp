@@ -127,6 +127,8 @@ void add_first_contact(CommandLine& c) {
                          [&c] { return demo_command(c.demo, std::cout, std::cerr); });
   demo->add_flag("--headless", c.headless, "Without a window (this version has none)");
   demo->add_option("--out", c.demo.output, "Folder")->capture_default_str();
+  demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
+  demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
   demo->add_option("--organ", c.demo.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
   CLI::App* bench = c.add(c.app, "bench", "What one tick costs, by stage",
                           [&c] { return bench_command(c.bench, std::cout, std::cerr); });

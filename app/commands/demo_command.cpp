@@ -13,8 +13,22 @@
 namespace trocar {
 namespace {
 
-constexpr int kPictureTarget = 6;       // half way: discs done, lit and waiting are all in view
-constexpr double kPictureHold = 0.5;    // of the hold, so that the force bar stands in its band
+constexpr double kPictureHold = 0.5;     // of a disc's hold, so that the force bar stands in its band
+constexpr double kPictureReach = 0.012;  // m from a pen's tip: instrument and pen are both seen, the dial speaks
+
+/// The moment that shows most of an exercise: half way, so that done, lit and waiting are all in view.
+bool telling_moment(const SessionView& view) {
+  const DirectorStatus& status = view.director.status();
+  if (2 * status.targets_done < static_cast<int>(view.scene.board.targets.size())) return false;
+  switch (view.scene.setup.exercise.kind) {
+    case ExerciseKind::kReach:
+      return status.demand.oriented &&
+             (view.record.stylus.X_TI.p - status.demand.centre_T).norm() < kPictureReach;
+    case ExerciseKind::kTouch:
+      return status.hold_progress >= kPictureHold;
+  }
+  return false;
+}
 
 /// Takes the one picture of the demo as soon as the moment has come.
 class Photographer {
@@ -22,9 +36,7 @@ class Photographer {
   Photographer(const Scene& scene, const AssetRoots& assets, const std::string& trainee)
       : painter_(scene, assets, trainee) {}
   void observe(const SessionView& view) {
-    const DirectorStatus& status = view.director.status();
-    if (picture_ || status.targets_done < kPictureTarget || status.hold_progress < kPictureHold) return;
-    picture_ = painter_.paint(view);
+    if (!picture_ && telling_moment(view)) picture_ = painter_.paint(view);
   }
   const std::optional<Image>& picture() const { return picture_; }
 
@@ -47,6 +59,9 @@ ReportContext report_context(const Scene& scene, const std::filesystem::path& pi
   context.exercise_title = exercise.title;
   context.goal = exercise.goal;
   context.band = {scene.level.band_low_n, scene.level.band_high_n, exercise.hard_force_n};
+  if (exercise.kind == ExerciseKind::kReach)
+    context.pose = {scene.level.position_tolerance_m, scene.level.angle_tolerance_rad};
+  for (const FoamBlock& block : scene.rigid.blocks) context.blocks.push_back({block.slip_below_n, block.crush_above_n});
   context.pass_mark = scene.level.rubric.pass_at;
   context.time_limit_s = scene.level.time_limit_s;
   context.picture = picture;
@@ -63,7 +78,8 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
   if (error) throw EnvironmentError(options.output.string() + ": cannot be made: " + error.message());
 
   RunOptions run;
-  run.exercise = "surface-touch";
+  run.exercise = options.exercise;
+  run.level = options.level;
   run.hand = "expert";
   run.organ = options.organ;
   run.trainee = "demo-expert";

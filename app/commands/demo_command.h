@@ -8,6 +8,8 @@ namespace trocar {
 
 struct DemoOptions {
   std::filesystem::path output = "demo";
+  std::string exercise = "surface-touch";
+  std::string level = "L1";
   std::string organ = "phantom-liver";
 };
 
