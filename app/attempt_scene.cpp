@@ -150,6 +150,15 @@ SceneObject block_object(const Pose& X_TO, const Vec3& size, int colour) {
   return block;
 }
 
+/// A block between the jaws gives way: by as much as the jaws are nearer to each other than it is thick.
+void pinch(SceneObject& block, const StylusState& stylus) {
+  const Vec3 across_O = block.X_TO.R.transpose() * stylus.X_TI.R.col(1);  // jaws open along y of I
+  Eigen::Index axis = 0;
+  across_O.cwiseAbs().maxCoeff(&axis);
+  block.pinch_O = Vec3::Unit(axis);
+  block.pinch_depth_m = std::clamp(block.size_m[axis] - stylus.jaw_opening_m, 0.0, 0.6 * block.size_m[axis]);
+}
+
 }  // namespace
 
 std::vector<SceneObject> rigid_objects(const RigidScene& rigid, const TissueFrame* frame, int lit_block) {
@@ -209,7 +218,11 @@ SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const Tri
     out.targets = marks(view.director);
   }
   if (has_pens(view.scene)) add_pens(view, out.objects);
-  const auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
+  auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
+  if (view.tissue && view.tissue->held()) {
+    const std::size_t first = rigid.size() - view.scene.board.rigid.blocks.size();  // blocks come last
+    pinch(rigid.at(first + static_cast<std::size_t>(view.tissue->grip_object)), stylus);
+  }
   out.objects.insert(out.objects.end(), rigid.begin(), rigid.end());
   add_start(view, out.objects);
   add_port(view, out.objects);

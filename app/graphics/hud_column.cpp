@@ -253,7 +253,7 @@ class Column {
       const std::string band = pen_.width("band " + range, body_, false) <= free ? "band " + range : range;
       left = pen_.text(band, x_, baseline, body_, false, HudInk::kDim, right - left) + space;
     }
-    if (right - left >= peak_width)
+    if (bar.peak_n > 0 && right - left >= peak_width)  // no peak yet, or none kept: say nothing rather than 0
       pen_.text(peak, left + 0.5 * (right - left - peak_width), baseline, body_, false, HudInk::kText, peak_width + 1);
   }
 

@@ -205,6 +205,33 @@ TEST(RigidObjects, WithoutAColourCueAllBlocksLookAlike) {
   EXPECT_EQ(objects[4].bands, 0);
 }
 
+TEST(RigidObjects, AHeldBlockGivesWayToTheJaws) {
+  PenMoment moment;
+  moment.scene.board.rigid = blocks();
+  moment.record.stylus.X_TI.R = turned(std::numbers::pi, 0, 0);
+  moment.record.stylus.jaw_opening_m = 0.011;
+  TissueFrame frame;
+  frame.object_count = 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    frame.object[i].X_TO = moment.scene.board.rigid.blocks[i].X_TO;
+    frame.object[i].size_m = moment.scene.board.rigid.blocks[i].size_m;
+  }
+  moment.tissue = &frame;
+  const auto depths = [&] {
+    std::vector<double> out;
+    for (const SceneObject& box : of(moment.drawn(), Shape::kBox)) out.push_back(box.pinch_depth_m);
+    return out;
+  };
+  EXPECT_EQ(depths(), (std::vector<double>{0, 0, 0})) << "nothing held";
+  frame.grip = GripState::kHolding;
+  frame.grip_object = 2;
+  EXPECT_NEAR(depths().at(2), 0.003, 1e-12) << "14 mm of foam between jaws 11 mm apart";
+  EXPECT_EQ(depths().at(1), 0);
+  EXPECT_NEAR(std::abs(of(moment.drawn(), Shape::kBox)[2].pinch_O.y()), 1, 1e-12) << "jaws open along y";
+  moment.record.stylus.jaw_opening_m = 0.020;
+  EXPECT_EQ(depths().at(2), 0);
+}
+
 TEST(Dial, SpeaksInThePicturesAxes) {
   Camera camera;
   camera.eye_T = Vec3(0, -0.1, 0);  // looking along +y, z up: right is +x

@@ -200,6 +200,20 @@ TEST(HiddenBars, KeepTheirPlaceAndShowNoValue) {
   EXPECT_GT(y_of(without, "shown only outside"), 0);
 }
 
+TEST(ForceBars, SayNothingOfAPeakThatWasNotKept) {
+  FontSet fonts;
+  Hud hud = testing_support::sample_hud();
+  hud.bars.resize(1);
+  const auto peaks = [&] {
+    const HudLayout layout = layout_hud(hud, 1280, 720, 1, fonts);
+    return std::count_if(layout.texts.begin(), layout.texts.end(),
+                         [](const HudText& text) { return text.text.find("peak") != std::string::npos; });
+  };
+  EXPECT_EQ(peaks(), 1);
+  hud.bars[0].peak_n = 0;
+  EXPECT_EQ(peaks(), 0);
+}
+
 TEST(Notices, TellTheirKindByShape) {
   FontSet fonts;
   const auto symbol = [&](HudNotice::Kind kind) {

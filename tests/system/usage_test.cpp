@@ -16,7 +16,7 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
       {"replay", {"--frames", "--fps", "--verify", "--organ", "--db"}},
       {"score", {"--rubric", "--db", "--json"}},
-      {"demo", {"--headless", "--out", "--organ"}},
+      {"demo", {"--headless", "--out", "--organ", "--exercise", "--level"}},
       {"bench", {"--organ", "--json"}},
       {"study", {"--out", "--json"}},
       {"version", {}},
