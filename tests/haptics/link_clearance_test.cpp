@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "haptics/kinematics/hybrid_arm.h"
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "haptics/kinematics/spherical_parallel.h"
 #include "haptics_fixtures.h"
