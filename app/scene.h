@@ -33,8 +33,9 @@ struct PaceLimits {
 };
 
 /// Live on the simulated device nobody holds a motor, and the machine may be busy with other things: a hole that would be a
-/// fault at a real device is borne, counted and stated in the receipt. At the figures a tenth of a second without a tick.
-inline constexpr PaceLimits kSimulatedLivePace{100, 0.10};
+/// fault at a real device is borne, counted and stated in the receipt. At a quarter of a second, about what a person needs to react
+/// to what the eye sees, it is no longer the same task and a fault here too.
+inline constexpr PaceLimits kSimulatedLivePace{250, 0.25};
 
 struct AttemptSetup {
   Exercise exercise;

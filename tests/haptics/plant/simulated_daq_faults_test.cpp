@@ -66,6 +66,20 @@ TEST(SimulatedDaqFaults, MissedSyncsAreReportedInElapsedPeriods) {
   EXPECT_NEAR(faulty.time_s(), 0.203, 1e-12) << "the device did not wait";
 }
 
+TEST(SimulatedDaqFaults, AMissedPeriodPassesInTheWorldAsOneThatWasInjected) {
+  SimulatedDaq live(with({InjectedFaultKind::kChannelInvalid, 100, 0, 0, 0}));  // a fault that never comes
+  SimulatedDaq injected(with({InjectedFaultKind::kMissedSync, 0.080, 0, 0, 3}));
+  const auto before_live = run(live, 80), before_injected = run(injected, 80);
+  for (int n = 0; n < 3; ++n) live.miss_sync();
+  const auto a = run(live, 60), b = run(injected, 60);
+  ASSERT_EQ(b.front().elapsed_periods, 4u);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_EQ(a[k].elapsed_periods, b[k].elapsed_periods) << "read " << k;
+    EXPECT_EQ(a[k].counts, b[k].counts) << "read " << k;
+  }
+  EXPECT_EQ(live.time_s(), injected.time_s());
+}
+
 TEST(SimulatedDaqFaults, HandNaNRaisesItsBitAndExertsNothing) {
   SimulatedDaq faulty(with({InjectedFaultKind::kHandNaN, 0.100, 0.020, 0, 0}));
   const auto a = run(faulty, 110);
