@@ -27,12 +27,12 @@ seconds = 0.5
 hold_s = 0.4
 )";
 
-struct Run {
+struct ClutchRun {
   Recording recording;
   std::vector<StylusState> states;
 };
 
-Run run(const std::string& mapping) {
+ClutchRun run(const std::string& mapping) {
   const test::TemporaryFolder folder;
   const auto script = folder / "clutcher.toml";
   std::ofstream(script) << kScript;
@@ -53,7 +53,7 @@ Run run(const std::string& mapping) {
   const Scene scene = build_scene(setup, assets, {"simulated", 1000, 16});
   MemorySink memory;
   RecordingWriter writer(memory, scene_json(scene), 1000);
-  Run out;
+  ClutchRun out;
   run_session(scene, assets, writer, [&](const SessionView& view) { out.states.push_back(view.record.stylus); });
   out.recording = parse_recording(memory.bytes(), "memory");
   return out;
@@ -62,7 +62,7 @@ Run run(const std::string& mapping) {
 class ClutchSession : public testing::TestWithParam<const char*> {};
 
 TEST_P(ClutchSession, IsCountedAndLeavesTheInstrumentWhereItWas) {
-  const Run r = run(GetParam());
+  const ClutchRun r = run(GetParam());
   int clutches = 0;
   for (const Event& event : r.recording.events) clutches += event.type == "CLUTCH";
   EXPECT_EQ(clutches, 1);
@@ -78,7 +78,7 @@ TEST_P(ClutchSession, IsCountedAndLeavesTheInstrumentWhereItWas) {
 }
 
 TEST_P(ClutchSession, TheSwitchStandsInTheRecordedInput) {
-  const Run r = run(GetParam());
+  const ClutchRun r = run(GetParam());
   int pressed = 0;
   for (const RecordedTick& tick : r.recording.ticks) pressed += (tick.digital_in & kClutch) != 0;
   EXPECT_NEAR(pressed, 1100, 5) << "0.8 s and 0.3 s";
