@@ -46,7 +46,16 @@ AttemptResult sample_result(double score) {
   result.grade.caps = {"critical event: EXCESS_FORCE at 12.0 s"};
   result.events = {{1.0 / 3, "TARGET_HELD", Severity::kInfo, 2, 1.25, "N", Vec3(0.1, -0.2, 1e-17)},
                    {0.5, "EXCESS_FORCE", Severity::kCritical, -1, 6.5, "N", Vec3::Zero()}};
-  result.device = {"simulated", 1000, 60000, 2, 0.01, 0.02, -1e-9, 0.5, "", "{\"policy\":\"fifo\"}"};
+  DeviceReceipt& device = result.device;
+  device.backend = "simulated";
+  device.rate_hz = 1000;
+  device.ticks = 60000;
+  device.overruns = 2;
+  device.saturated_contact_share = 0.01;
+  device.passivity_active_share = 0.02;
+  device.min_energy_j = -1e-9;
+  device.kappa = 0.5;
+  device.realtime = "{\"policy\":\"fifo\"}";
   result.state_hash = "0123456789abcdef";
   return result;
 }
