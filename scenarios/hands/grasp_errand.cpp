@@ -12,10 +12,12 @@ constexpr double kJawSpeed = 0.040;         // m/s of free opening
 constexpr double kClosingSpeed = 0.014;     // m/s until the block is felt
 constexpr double kTightestJaw = -0.030;     // m of intent: the fingers press beyond what they hold
 constexpr double kBeyondMiddle = 0.003;     // m that the tips reach beyond the block's middle
-constexpr double kHover = 0.028;            // m over the grip point
+constexpr double kHover = 0.032;            // m that the reach ends before the grip point, against the shaft ...
+constexpr double kRaised = 0.25;            // ... and a little above its line: clear of the neighbours
 constexpr double kOverRing = 0.034;         // m under the block while it is carried: 30 mm are asked for
 constexpr double kSeenLate = 0.16;          // s: the eyes are that late
 constexpr double kGoodAim = 0.0015;         // m off the grip point that needs no correction
+constexpr double kGoodTurn = 0.10;          // rad between pads and block that need no correction
 constexpr double kGoodRing = 0.4;           // of the ring's tolerance
 constexpr double kHit = 0.35;               // N met on the way down: the jaws stand on something
 constexpr double kGripFelt = 0.08;          // N
@@ -25,8 +27,7 @@ constexpr double kFeelTime = 0.7, kFeelLook = 0.3;    // s of feeling; the last 
 constexpr double kJudgement = 0.5;          // of the force CV: error of the judged stiffness
 constexpr double kLostTime = 0.25;          // s without felt grip before the block counts as lost
 constexpr double kTighter = 1.35;           // of the window when the block is seen to slip
-constexpr double kWithdraw = 0.034;         // m upwards after letting go ...
-constexpr double kHighest = 0.055;          // m over the board, but not higher than this
+constexpr double kHighest = 0.055;          // m over the board: no higher when withdrawing
 constexpr double kPatience = 0.9;           // s to wait for the next block before trying the same again
 
 }  // namespace
@@ -53,11 +54,16 @@ double GraspErrand::thickness(const Percept& percept) const {
 }
 
 Vec3 GraspErrand::grip_point(const Percept& percept) const {
-  return percept.object.X_TO.p + kBeyondMiddle * R_TI_.col(2);
+  return percept.object.X_TO.p + kBeyondMiddle * percept.R_TI.col(2);
 }
 
-/// The intent rolled about the shaft so that the pads, as they are seen, come to face the nearest pair of the block's sides.
-Mat3 GraspErrand::turned_to(const Percept& percept, const Mat3& R_TI) const {
+/// From a block to where the jaws may turn aside: back along the shaft, so that the pads pass by its sides.
+Vec3 GraspErrand::way_out(const Percept& percept) {
+  return kHover * (kRaised * Vec3::UnitZ() - percept.R_TI.col(2)).normalized();
+}
+
+/// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides.
+double GraspErrand::roll_off(const Percept& percept) {
   double best = 10;
   for (int axis = 0; axis < 2; ++axis) {
     const Vec3 side_I = percept.R_TI.transpose() * percept.object.X_TO.R.col(axis);
@@ -65,7 +71,7 @@ Mat3 GraspErrand::turned_to(const Percept& percept, const Mat3& R_TI) const {
     roll = std::remainder(roll, M_PI);
     if (std::abs(roll) < std::abs(best)) best = roll;
   }
-  return R_TI * Eigen::AngleAxisd(best, Vec3::UnitZ()).toRotationMatrix();
+  return best;
 }
 
 void GraspErrand::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
@@ -89,8 +95,8 @@ void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width
 }
 
 void GraspErrand::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  reach(percept, grip_point(percept) + Vec3(0, 0, kHover), 2 * kGoodAim, intent, random);
-  turn_ = Eigen::AngleAxisd(intent.X_TI.R.transpose() * R_TI_);
+  reach(percept, grip_point(percept) + way_out(percept), 2 * kGoodAim, intent, random);
+  turn_ = Eigen::AngleAxisd(roll_off(percept), Vec3::UnitZ());
   R_from_ = intent.X_TI.R;
   enter(Step::kReach);
 }
@@ -102,7 +108,6 @@ void GraspErrand::reach_ring(const Percept& percept, const HandIntent& intent, H
 }
 
 void GraspErrand::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  R_TI_ = turned_to(percept, intent.X_TI.R);
   corrections_ = 0;
   reach_block(percept, intent, random);
 }
@@ -136,11 +141,13 @@ void GraspErrand::approach(const Percept& percept, const HandSenses& senses, dou
   if (step_ != Step::kLook) intent.X_TI.p = plan_.at(in_step_s_);
   if (step_ == Step::kReach && there) return enter(Step::kLook);
   if (step_ == Step::kLook && in_step_s_ > kSeenLate) {
-    const Vec3 error = grip_point(percept) + Vec3(0, 0, kHover) - percept.tip_T;
-    if (error.head<2>().norm() > kGoodAim && corrections_++ < skill_.max_corrections)
+    const Vec3 error = grip_point(percept) + way_out(percept) - percept.tip_T;
+    const Vec3 shaft = percept.R_TI.col(2);
+    const bool askew = std::abs(roll_off(percept)) > kGoodTurn;
+    if (((error - shaft * error.dot(shaft)).norm() > kGoodAim || askew) && corrections_++ < skill_.max_corrections)
       return reach_block(percept, intent, random);
-    const double down = std::max(0.0, percept.tip_T.z() - grip_point(percept).z());
-    straight(intent.X_TI.p, intent.X_TI.p - Vec3(0, 0, down), reach_time_s(down, 0.004, skill_.speed_factor));
+    const Vec3 way = grip_point(percept) - percept.tip_T;
+    straight(intent.X_TI.p, intent.X_TI.p + way, reach_time_s(way.norm(), 0.004, skill_.speed_factor));
     return enter(Step::kDescend);
   }
   if (step_ != Step::kDescend) return;
@@ -245,9 +252,10 @@ void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double
 }
 
 void GraspErrand::withdraw(const Percept& percept, const HandIntent& intent) {
-  const double room = percept.goal_T.z() + kHighest - percept.tip_T.z();
-  straight(intent.X_TI.p, intent.X_TI.p + Vec3(0, 0, std::clamp(room, 0.0, kWithdraw)),
-           reach_time_s(kWithdraw, 0.010, skill_.speed_factor));
+  const Vec3 out = way_out(percept);
+  const double room = percept.goal_T.z() + kHighest - percept.tip_T.z();  // what is left of the height
+  const double share = std::clamp(room / std::max(1e-3, out.z()), 0.0, 1.0);
+  straight(intent.X_TI.p, intent.X_TI.p + share * out, reach_time_s(kHover, 0.010, skill_.speed_factor));
   enter(Step::kRetreat);
 }
 
@@ -264,7 +272,6 @@ void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent,
     default:
       if (in_step_s_ < kPatience) return;
       corrections_ = 0;
-      R_TI_ = turned_to(percept, intent.X_TI.R);
       return reach_block(percept, intent, random);
   }
 }

@@ -46,14 +46,14 @@ class GraspErrand {
   static Vec3 base_of(const SeenObject& object);
   Vec3 grip_point(const Percept& percept) const;
   double thickness(const Percept& percept) const;
-  Mat3 turned_to(const Percept& percept, const Mat3& R_TI) const;
+  static Vec3 way_out(const Percept& percept);
+  static double roll_off(const Percept& percept);
 
   HandSkill skill_;
   ForceGrip grip_;
   ReachPlan plan_;
   Step step_ = Step::kWait;
-  Mat3 R_TI_ = Mat3::Identity();      ///< wanted orientation, reached while reaching: from R_from_ by turn_
-  Mat3 R_from_ = Mat3::Identity();
+  Mat3 R_from_ = Mat3::Identity();    ///< orientation before the present reach, which turns it by turn_
   Eigen::AngleAxisd turn_{0, Vec3::UnitX()};
   double low_n_ = 0, high_n_ = 0;     ///< window that the person believes in
   double in_step_s_ = 0, lost_s_ = 0, slip_s_ = 0;
