@@ -11,17 +11,18 @@ namespace trocar {
 namespace {
 
 /// To the start sphere, into the run, then 20 mm aside with the clutch held, then on from there.
-constexpr const char* kScript = R"(kind = "waypoints"
-[[moves]]
+constexpr const char* kScript = R"(name = "clutcher"
+kind = "waypoints"
+[[move]]
 to_mm = [0, 0, 45]
 seconds = 1.5
 hold_s = 1.6
-[[moves]]
+[[move]]
 to_mm = [0, 20, 45]
 seconds = 0.8
 hold_s = 0.3
 clutch = true
-[[moves]]
+[[move]]
 to_mm = [0, 10, 45]
 seconds = 0.5
 hold_s = 0.4

@@ -179,6 +179,7 @@ TEST(Placement, ThroughAPortEveryDiscIsWithinReachToo) {
   const Scene scene = short_scene("expert");
   ExerciseLevel level = scene.level;
   level.mapping = Mapping::kFulcrum;
+  level.port_m = Vec3(0.05, -0.05, 0.12);
   const InstrumentMap map = place_theatre(level);
   const Mat3 R_TI = map.instrument_pose(home_pose()).R;
   for (const Target& target : scene.board.targets) {

@@ -42,7 +42,7 @@ TEST(Proof, SurfaceTouchIsSoundDirectAndThroughThePort) {
     EXPECT_GE(proof.worst.joint_margin_rad, 8 * kDegree);
     EXPECT_GT(proof.worst.clearance_m, 0);
     EXPECT_LE(proof.worst.torque_share, 1);
-    EXPECT_GT(proof.kappa, 0.9);
+    EXPECT_GT(proof.kappa, 0.8);
     EXPECT_GE(proof.room_share, 0.95) << "that is what auto means";
   }
 }
@@ -117,7 +117,7 @@ TEST(CheckCommand, PrintsJsonAndDrawsTheMap) {
   std::ostringstream out, err;
   EXPECT_EQ(check_command(options, out, err), 0) << err.str();
   const auto json = nlohmann::json::parse(out.str());
-  ASSERT_EQ(json.size(), 1u);
+  ASSERT_EQ(json.size(), 4u) << "one a level";
   EXPECT_EQ(json[0]["mapping"], "fulcrum");
   EXPECT_EQ(json[0]["boards"].size(), 20u);
   EXPECT_GT(json[0]["worst"]["handle_to_port_m"].get<double>(), 0.03);

@@ -147,7 +147,7 @@ TEST_F(DeviceWatchTest, NothingIsSuspectInContactOrWithLittleTorque) {
 TEST_F(DeviceWatchTest, APushedJointThatStaysWhileTheArmTravelsIsAFault) {
   now.torque[1] = torque_of(2);
   now.delta[0] = now.delta[3] = 5;
-  look(60);
+  look(240);
   EXPECT_EQ(supervisor.state(), LoopState::kActive);
   look();
   expect_cause(FaultCode::kEncoderStuck, 1);

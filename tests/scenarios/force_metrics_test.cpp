@@ -56,7 +56,7 @@ TEST(ForceMetrics, VirtualCommandedAndDeliveredForceAreToldApart) {
   EXPECT_NEAR(*value_of(metrics, "delivered_max_n"), 0.5, 1e-12);
   EXPECT_NEAR(*value_of(metrics, "delivered_mean_n"), 0.5, 1e-12);
   EXPECT_DOUBLE_EQ(*value_of(metrics, "room_share"), 0.97);
-  trace.samples[300].commanded_n = std::nan("");  // as an older recording decodes
+  trace.samples[trace.samples.size() * 3 / 10].commanded_n = std::nan("");  // as an older recording decodes
   EXPECT_FALSE(value_of(compute_metrics(trace, whole_run(10), context), "commanded_max_n"));
   EXPECT_TRUE(value_of(compute_metrics(trace, whole_run(10), context), "delivered_max_n"));
 }

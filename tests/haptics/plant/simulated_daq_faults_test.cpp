@@ -67,15 +67,26 @@ TEST(SimulatedDaqFaults, MissedSyncsAreReportedInElapsedPeriods) {
 }
 
 TEST(SimulatedDaqFaults, AMissedPeriodPassesInTheWorldAsOneThatWasInjected) {
+  const auto drive = [](SimulatedDaq& daq, int missed_before_80) {
+    std::vector<DaqSample> samples;
+    Pose wanted = daq.sense().X_BS;
+    daq.arm(true);
+    for (int k = 1; k <= 140; ++k) {
+      wanted.p.z() += 0.1e-3;
+      daq.set_hand_intent(wanted, 0.02);
+      for (int n = 0; k == 80 && n < missed_before_80; ++n) daq.miss_sync();
+      samples.push_back(daq.read());
+      daq.write(DacFrame{});
+    }
+    return samples;
+  };
   SimulatedDaq live(with({InjectedFaultKind::kChannelInvalid, 100, 0, 0, 0}));  // a fault that never comes
   SimulatedDaq injected(with({InjectedFaultKind::kMissedSync, 0.080, 0, 0, 3}));
-  const auto before_live = run(live, 80), before_injected = run(injected, 80);
-  for (int n = 0; n < 3; ++n) live.miss_sync();
-  const auto a = run(live, 60), b = run(injected, 60);
-  ASSERT_EQ(b.front().elapsed_periods, 4u);
+  const auto a = drive(live, 3), b = drive(injected, 0);
+  ASSERT_EQ(b[79].elapsed_periods, 4u);
   for (std::size_t k = 0; k < a.size(); ++k) {
-    EXPECT_EQ(a[k].elapsed_periods, b[k].elapsed_periods) << "read " << k;
-    EXPECT_EQ(a[k].counts, b[k].counts) << "read " << k;
+    EXPECT_EQ(a[k].elapsed_periods, b[k].elapsed_periods) << "read " << k + 1;
+    EXPECT_EQ(a[k].counts, b[k].counts) << "read " << k + 1;
   }
   EXPECT_EQ(live.time_s(), injected.time_s());
 }
