@@ -121,8 +121,10 @@ TEST(GraspCheats, AnotherOrderGainsNothing) {
   EXPECT_EQ(bench.count("WRONG_BLOCK"), 5);
   EXPECT_EQ(bench.director.status().targets_done, 6);
   const Grade grade = bench.grade(), usual = honest();
-  for (std::size_t i = 0; i < usual.subscores.size(); ++i)
-    if (usual.subscores[i].name != "time") EXPECT_LE(grade.subscores[i].value, usual.subscores[i].value);
+  for (std::size_t i = 0; i < usual.subscores.size(); ++i) {
+    if (usual.subscores[i].name == "time") continue;
+    EXPECT_LE(grade.subscores[i].value, usual.subscores[i].value) << usual.subscores[i].name;
+  }
 }
 
 TEST(GraspCheats, SweepingTheBoardEmptyNeverPasses) {
@@ -174,7 +176,7 @@ TEST(GraspCheats, EachCrushAndRegraspLowersAFaultlessScore) {
   for (const char* type : {"CRUSH", "REGRASP"}) {
     std::vector<Event> events = bench.director.events();
     double before = bench.grade(events).score.value();
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {  // the second crush closes the gate: from there on the cap holds
       events = with(events, made_event(t, type, i, Severity::kMinor));
       const double now = bench.grade(events).score.value();
       EXPECT_LT(now, before) << type << " number " << i + 1;
