@@ -84,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
     Mistakes, GraspLoaderRefuses,
     testing::Values(
         Refused{"crush_above_n = 1.5", "crush_above_n = 0.5", "crush_above_n = 0.5", "must be above 'slip_below_n'"},
-        Refused{"stiffness_n_per_m = 300", "stiffness_n_per_m = 100", "stiffness_n_per_m = 100", "'yellow' is too soft"},
+        Refused{"stiffness_n_per_m = 300", "stiffness_n_per_m = 100", "stiffness_n_per_m = 100",
+                "'yellow' is too soft"},
         Refused{"row_mm = 32", "row_mm = 19", "row_mm = 19", "'row_mm' lets blocks overlap"},
         Refused{"column_mm = 24", "column_mm = 19", "column_mm = 19", "'column_mm' lets blocks overlap"},
         Refused{"rows = 3", "rows = 4", "[blocks]", "must be the 'count' of [targets]"},

@@ -1,5 +1,5 @@
-// Limited grasp without physics: a director that is told where each block is and how hard the jaws hold, at 100 Hz, and a
-// trace of it for scoring. Moves are told as they are seen: take, carry, let go, come to rest.
+// Limited grasp without physics: a director that is told where each block is and how hard the jaws hold, at 100 Hz,
+// and a trace of it for scoring. Moves are told as they are seen: take, carry, let go, come to rest.
 #pragma once
 
 #include <algorithm>
