@@ -180,6 +180,8 @@ TEST(GraspErrand, FetchesAgainWhatIsLostOnTheWay) {
   world.vanished = false;
   world.held = false;
   world.block.p = Vec3(0, 0.01, kHalfHeight);
+  world.run(0.7, [] { return false; });
+  EXPECT_GT(world.intent.jaw_opening_m, kThick) << "noticed, and the jaws open";
   ASSERT_TRUE(world.run(25, [&] { return world.brought(); }));
   EXPECT_EQ(world.grasps, 2);
 }
