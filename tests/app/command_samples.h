@@ -5,9 +5,7 @@
 
 namespace trocar::testing_support {
 
-/// Two discs amid the liver, three seconds; L1 and an exam.
-inline std::string small_exercise(const std::string& mapping = "mapping = \"direct\"", double hard_n = 1.5) {
-  return R"(id = "small-touch"
+inline constexpr const char* kSmallTask = R"(id = "small-touch"
 kind = "touch"
 number = "E90"
 version = "4"
@@ -31,9 +29,28 @@ retract_mm = 12
 [surface]
 stiffness_n_per_m = 150
 damping_s_per_m = 0.5
-[force]
+)";
+
+inline constexpr const char* kSmallRubric = R"([rubric]
+pass_at = 75
+proficient_at = 85
+expert_at = 92
+gate_cap = 59
+critical_cap = 49
+unfinished_cap = 49
+[[rubric.subscores]]
+name = "time"
+metric = "time_s"
+weight = 1.0
+full_at_expert_times = 0.7
+zero_at_expert_times = 3.0
+)";
+
+/// Two discs amid the liver, three seconds; L1 and an exam.
+inline std::string small_exercise(const std::string& mapping = "mapping = \"direct\"", double hard_n = 1.5) {
+  return kSmallTask + std::string(R"([force]
 soft_n = 0.9
-hard_n = )" + std::to_string(hard_n) + R"(
+hard_n = )") + std::to_string(hard_n) + R"(
 critical_n = 40
 [grip]
 block_thickness_mm = 8
@@ -54,20 +71,7 @@ expert_time_s = 10
 name = "exam"
 like = "L1"
 force_display = "after"
-[rubric]
-pass_at = 75
-proficient_at = 85
-expert_at = 92
-gate_cap = 59
-critical_cap = 49
-unfinished_cap = 49
-[[rubric.subscores]]
-name = "time"
-metric = "time_s"
-weight = 1.0
-full_at_expert_times = 0.7
-zero_at_expert_times = 3.0
-)";
+)" + kSmallRubric;
 }
 
 }  // namespace trocar::testing_support
