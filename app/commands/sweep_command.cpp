@@ -23,6 +23,7 @@ namespace trocar {
 namespace {
 
 constexpr std::int64_t kMostSeeds = 10000;
+constexpr std::int64_t kLargestSeed = std::int64_t{1} << 60;
 
 /// One attempt of the sweep and, later, what became of it.
 struct Job {
@@ -177,7 +178,9 @@ std::pair<std::int64_t, std::int64_t> parse_seeds(const std::string& text) {
   const std::string_view view = text;
   const std::int64_t first = seed_in(view.substr(0, dots), text);
   const std::int64_t last = dots == std::string::npos ? first : seed_in(view.substr(dots + 2), text);
-  if (last < first || last - first >= kMostSeeds) {
+  // Far ends first: a difference of them could overflow.
+  const bool far = first < -kLargestSeed || last > kLargestSeed;
+  if (far || last < first || last - first >= kMostSeeds) {
     throw InputError("--seeds " + text + ": A..B with A <= B, at most " + std::to_string(kMostSeeds) + " of them");
   }
   return {first, last};

@@ -75,7 +75,7 @@ TEST_P(ClutchSession, IsCountedAndLeavesTheInstrumentWhereItWas) {
   EXPECT_LT((after->X_TI.p - first->X_TI.p).norm(), 0.5e-3) << "nothing jumped";
   EXPECT_GT(after->registration.shift_T.norm(), 0.010) << "the stylus had been moved by about 20 mm";
   // The script's last goal lies 10 mm further on in T. The hand stands behind it by what the plant's weight pulls.
-  EXPECT_NEAR((r.states.back().X_TI.p - after->X_TI.p).y(), 0.010, 3e-3);
+  EXPECT_NEAR((r.states.back().X_TI.p - after->X_TI.p).y(), 0.010, 4e-3);
 }
 
 TEST_P(ClutchSession, TheSwitchStandsInTheRecordedInput) {

@@ -129,7 +129,7 @@ TEST(CheckCommand, PrintsJsonAndDrawsTheMap) {
     for (auto at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++n;
     return n;
   };
-  EXPECT_EQ(count("<circle"), 12) << "the discs of one board";
+  EXPECT_EQ(count("<circle"), 4 * 12) << "the discs of one board, for each level";
   EXPECT_GT(count("<rect"), 1000);
 }
 

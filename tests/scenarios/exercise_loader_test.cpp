@@ -53,7 +53,7 @@ TEST(ExerciseLoader, ReadsTheShippedExercise) {
   EXPECT_EQ(e.levels[0].mapping, Mapping::kDirect);
   EXPECT_DOUBLE_EQ(e.levels[0].band_low_n, 0.4);
   EXPECT_DOUBLE_EQ(e.levels[0].band_high_n, 0.8);
-  EXPECT_LT(e.levels[0].force_scale, 0) << "\"auto\" is left to the session";
+  EXPECT_DOUBLE_EQ(e.levels[0].force_scale, 0.82);
 }
 
 TEST(ExerciseLoader, FrictionOfTheSurfaceIsOptional) {
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"damping_s_per_m = 0.5", "damping_s_per_m = 0.5\nfriction_static = 0.1\nfriction_dynamic = 0.2",
                  "'friction_dynamic' must not be above 'friction_static'"},
         BadValue{"mapping = \"direct\"", "mapping = \"diret\"", "did you mean 'direct'?"},
-        BadValue{"force_scale = \"auto\"", "force_scale = \"max\"", "must be a number or \"auto\""},
+        BadValue{"force_scale = 0.82", "force_scale = \"max\"", "must be a number or \"auto\""},
         BadValue{"metric = \"wrong_places\"", "metric = \"wrong_place\"", "did you mean 'wrong_places'?"},
         BadValue{"weight = 0.35", "weight = 0.36", "not to 1"},
         BadValue{"expert_time_s = 37.5", "", "needs 'expert_time_s'"},

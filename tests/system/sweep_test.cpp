@@ -30,6 +30,8 @@ TEST_F(Sweep, RefusesWhatItCannotRun) {
   expect_refusal({"sweep", "surface-touch", "--hand", "nobody"}, 2, "nobody");
   expect_refusal({"sweep", "surface-touch", "--level", "L9"}, 2, "L9");
   expect_refusal({"sweep", "surface-touch", "--seeds", "5..1"}, 2, "--seeds 5..1");
+  expect_refusal({"sweep", "surface-touch", "--seeds=-9223372036854775808..9223372036854775807"}, 2, "--seeds");
+  expect_refusal({"sweep", "surface-touch", "--seeds", "9223372036854775807"}, 2, "--seeds");
   expect_refusal({"sweep", "surface-touch", "--seeds", "1..x"}, 2, "two whole numbers");
   expect_refusal({"sweep", "no-such-exercise"}, 2, "no-such-exercise");
 }
