@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/grasp_loader.h"
 #include "scenarios/level_reader.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/mesh/organ_manifest.h"
 #include "tissue/mesh/ply_file.h"

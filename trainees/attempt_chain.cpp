@@ -1,6 +1,6 @@
 #include "trainees/attempt_chain.h"
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "trainees/audit.h"
 #include "trainees/sqlite_handle.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/attempt_rows.h"
 #include "trainees/process_identity.h"

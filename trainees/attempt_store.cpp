@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/anchor_file.h"
 #include "trainees/attempt_chain.h"

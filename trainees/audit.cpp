@@ -1,6 +1,6 @@
 #include "trainees/audit.h"
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/sqlite_handle.h"
 

@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "app/commands/organ_report.h"
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/imaging/label_table.h"
 #include "tissue/mesh/surface_import.h"

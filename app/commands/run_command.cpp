@@ -12,7 +12,7 @@
 #include "app/interrupt.h"
 #include "app/recorded_result.h"
 #include "app/recorder/safety_file.h"
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"

@@ -16,7 +16,7 @@
 #include "app/recorder/recording_sink.h"
 #include "app/recorder/schedule.h"
 #include "app/recorder/tick_codec.h"
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "scenarios/scoring/trace.h"
 
 namespace trocar {

@@ -10,7 +10,7 @@
 #include "app/commands/db_command.h"
 #include "app/commands/text_table.h"
 #include "app/commands/trainee_command.h"
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "tests/trainees/store_samples.h"
 #include "trainees/trainee_store.h"
 

@@ -5,7 +5,7 @@
 #include <csignal>
 
 #include "app/recorder/recording_reader.h"
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "tests/trainees/store_samples.h"
 #include "trainees/process_identity.h"
 #include "trainees/sqlite_handle.h"

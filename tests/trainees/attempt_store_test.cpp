@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "tests/trainees/store_samples.h"
 #include "trainees/sqlite_handle.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/mesh/ply_file.h"
 #include "tissue/mesh/staged_file.h"

@@ -1,4 +1,4 @@
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 
 #include <openssl/evp.h>
 

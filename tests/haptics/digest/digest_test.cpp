@@ -1,5 +1,5 @@
 // SHA-256 against the published examples.
-#include "digest/digest.h"
+#include "haptics/digest/digest.h"
 
 #include <gtest/gtest.h>
 
