@@ -10,7 +10,6 @@ constexpr double kUpFrom = 0.002, kDownUntil = 0.0005;  // m under a held block:
 constexpr double kSlipFrom = 0.001;                     // m of creep that count as a slip
 constexpr double kLiftShort = 0.001;                    // m that a lift may fall short
 constexpr double kToastTime = 1.5;                      // s
-constexpr double kUpright = 0.9;                        // least cosine of a block that stands
 constexpr double kPushedOut = 0.001;                    // m beyond the tolerance that undo a placing
 constexpr double kTouched = 0.05;                       // N
 
@@ -155,7 +154,7 @@ void GraspTask::judge_rest(const ObjectState& object, std::int32_t index, EventL
   const Target& ring = rings_[static_cast<std::size_t>(index)];
   const double off = (middle - ring.centre_T).head<2>().norm();
   const bool lifted = block.highest_m > rules_.lift_m - kLiftShort;
-  const bool stands = std::abs(object.X_TO.R(2, 2)) > kUpright && middle.z() < rules_.block_m.z();
+  const bool stands = middle.z() < rules_.block_m.z();  // on the board, on whichever side, and not on another block
   if (lifted && !block.dropped && stands && off <= ring.radius_m) {
     block.placed = true;
     ++done_;

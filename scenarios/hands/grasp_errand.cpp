@@ -19,8 +19,16 @@ constexpr double kSeenLate = 0.16;          // s: the eyes are that late
 constexpr double kGoodAim = 0.0015;         // m off the grip point that needs no correction
 constexpr double kGoodTurn = 0.10;          // rad between pads and block that need no correction
 constexpr double kGoodRing = 0.4;           // of the ring's tolerance
+constexpr double kLevel = 0.7;              // largest sine of a side's slope that can be taken between the pads
+constexpr double kRoom = 0.004;             // m that open jaws are wider than what they take
 constexpr double kHit = 0.35;               // N met on the way down: the jaws stand on something
+constexpr double kSlowFrom = 0.010;         // m under a block that is lowered from which the hand slows down ...
+constexpr double kSlowest = 0.25;           // ... to this share of its speed
+constexpr double kGuiding = 1.5;            // 1/s of what is seen to be off, while it is lowered ...
+constexpr double kGuided = 0.001;           // ... to this height over the ring, m
+constexpr double kEasing = 0.020;           // m/s at which the hand takes its weight off what stands
 constexpr double kGripFelt = 0.08;          // N
+constexpr double kFlat = 0.995;             // least cosine of a block that is seen to stand flat
 constexpr double kSet = 0.15;               // N of the board on the block that tells that it stands
 constexpr double kFeelLow = 0.40, kFeelHigh = 0.55;   // N, a light squeeze that no foam minds
 constexpr double kFeelTime = 0.7, kFeelLook = 0.3;    // s of feeling; the last of it is what is judged by
@@ -29,6 +37,11 @@ constexpr double kLostTime = 0.25;          // s without felt grip before the bl
 constexpr double kTighter = 1.35;           // of the window when the block is seen to slip
 constexpr double kHighest = 0.055;          // m over the board: no higher when withdrawing
 constexpr double kPatience = 0.9;           // s to wait for the next block before trying the same again
+
+/// Can the pads take the object across this axis of it? It lies level, and open jaws reach round it.
+bool between_pads(const SeenObject& object, int axis) {
+  return std::abs(object.X_TO.R(2, axis)) < kLevel && object.size_m[axis] < kOpenJaw - kRoom;
+}
 
 }  // namespace
 
@@ -40,17 +53,18 @@ void GraspErrand::enter(Step step) {
   in_step_s_ = 0;
 }
 
-/// Middle of the side that points down: let go, a tilted block stands up about it.
+/// Lowest point under the middle: the board turns a block flat about its middle when it is set down.
 Vec3 GraspErrand::base_of(const SeenObject& object) {
-  Eigen::Index axis = 0;
-  object.X_TO.R.row(2).cwiseAbs().maxCoeff(&axis);
-  const double down = object.X_TO.R(2, axis) > 0 ? -1 : 1;
-  return object.X_TO.p + object.X_TO.R.col(axis) * (down * object.size_m[axis] / 2);
+  return object.X_TO.p - Vec3(0, 0, object.X_TO.R.row(2).cwiseAbs().dot(object.size_m.transpose()) / 2);
 }
 
-/// Across the pads the block is as thick as its thinner horizontal side.
-double GraspErrand::thickness(const Percept& percept) const {
-  return std::min(percept.object.size_m.x(), percept.object.size_m.y());
+/// Across the pads the block is as thick as its thinner level side.
+double GraspErrand::thickness(const Percept& percept) {
+  double thinnest = kOpenJaw;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (between_pads(percept.object, axis)) thinnest = std::min(thinnest, percept.object.size_m[axis]);
+  }
+  return thinnest;
 }
 
 Vec3 GraspErrand::grip_point(const Percept& percept) const {
@@ -65,7 +79,8 @@ Vec3 GraspErrand::way_out(const Percept& percept) {
 /// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides.
 double GraspErrand::roll_off(const Percept& percept) {
   double best = 10;
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!between_pads(percept.object, axis)) continue;
     const Vec3 side_I = percept.R_TI.transpose() * percept.object.X_TO.R.col(axis);
     double roll = std::atan2(-side_I.x(), side_I.y());
     roll = std::remainder(roll, M_PI);
@@ -241,9 +256,12 @@ void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double
       grip_.shift_attention(random);
       return enter(Step::kLower);
     case Step::kLower: {
-      intent.X_TI.p.z() -= speed * dt_s;
-      const double under = base_of(percept.object).z() - percept.goal_T.z();
-      const bool stands = senses.touch_n() > kSet * skill_.force_bias || (under < 0.0005 && in_step_s_ > kSeenLate);
+      const Vec3 off = percept.goal_T - base_of(percept.object);
+      const double under = -off.z();
+      intent.X_TI.p.z() -= speed * std::clamp(under / kSlowFrom, kSlowest, 1.0) * dt_s;
+      if (under > kGuided) intent.X_TI.p.head<2>() += kGuiding / skill_.speed_factor * dt_s * off.head<2>();
+      const bool flat = percept.object.X_TO.R.row(2).cwiseAbs().maxCoeff() > kFlat && under < 0.0005;
+      const bool stands = senses.touch_n() > kSet * skill_.force_bias || flat;
       if (stands && in_step_s_ > kSeenLate) enter(Step::kOpen);
       return;
     }
@@ -263,6 +281,7 @@ void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent,
   intent.jaw_opening_m = std::min(kOpenJaw, std::max(intent.jaw_opening_m, percept.jaw_opening_m) + kJawSpeed * dt_s);
   switch (step_) {
     case Step::kOpen:
+      if (intent.X_TI.p.z() < percept.tip_T.z()) intent.X_TI.p.z() += kEasing * dt_s;
       if (percept.jaw_opening_m < thickness(percept) + 0.005) return;
       return withdraw(percept, intent);
     case Step::kRetreat:

@@ -45,7 +45,7 @@ class GraspErrand {
                   HandRandom& random);
   static Vec3 base_of(const SeenObject& object);
   Vec3 grip_point(const Percept& percept) const;
-  double thickness(const Percept& percept) const;
+  static double thickness(const Percept& percept);
   static Vec3 way_out(const Percept& percept);
   static double roll_off(const Percept& percept);
 

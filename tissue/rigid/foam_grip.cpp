@@ -14,6 +14,7 @@ constexpr double kAside = 0.001;        // m that a block may lie off between th
 constexpr double kSquare = 0.82;        // least cosine between the pads' normal and the block's: 35 degrees askew
 constexpr double kSlipSpeed = 0.040;    // m/s of a block that is not squeezed at all [D]
 constexpr double kPadFriction = 0.83;   // profiled jaws (pull held per pinch, tissue notes section 3)
+constexpr int kTurnSteps = 24;          // thirds of the angle: to a thousandth of a degree
 constexpr double kSupport = 1e-4;       // m above what carries it
 
 /// The block's own axis across the pads.
@@ -29,6 +30,39 @@ double lowest(const RigidBody& body) {
   double z = body.shape().corner(0).z();
   for (int i = 1; i < 8; ++i) z = std::min(z, body.shape().corner(i).z());
   return z;
+}
+
+/// Turn of a block about its middle that would lay its lowest side flat.
+Eigen::AngleAxisd levelling(const Mat3& R_TB) {
+  Eigen::Index axis = 0;
+  R_TB.row(2).cwiseAbs().maxCoeff(&axis);
+  const Vec3 upright = R_TB.col(axis) * (R_TB(2, axis) > 0 ? 1.0 : -1.0);
+  const Vec3 about = upright.cross(Vec3::UnitZ());
+  const double sine = about.norm();
+  if (sine < 1e-9) return {0, Vec3::UnitX()};
+  return {std::atan2(sine, upright.z()), about / sine};
+}
+
+/// How far the board turns a held block towards flat: least of the energies of the board and of the foam in the pads.
+void lay_on_board(RigidBody& body, double floor_z_m, double board_n_per_m, double turn_nm_per_rad) {
+  if (lowest(body) >= floor_z_m) return;
+  const Mat3 R_held = body.X_TB.R;
+  const Eigen::AngleAxisd flat = levelling(R_held);
+  const auto energy = [&](double angle) {
+    body.X_TB.R = Eigen::AngleAxisd(angle, flat.axis()) * R_held;
+    const double sunk = std::max(0.0, floor_z_m - lowest(body));
+    return (board_n_per_m * sunk * sunk + turn_nm_per_rad * angle * angle) / 2;
+  };
+  double low = 0, high = flat.angle();
+  for (int i = 0; i < kTurnSteps; ++i) {  // by thirds
+    const double third = (high - low) / 3;
+    if (energy(low + third) > energy(high - third)) {
+      low += third;
+    } else {
+      high -= third;
+    }
+  }
+  energy((low + high) / 2);
 }
 
 /// Does the block's middle lie between the pads, seen along them?
@@ -114,6 +148,9 @@ void FoamGrip::carry(const JawReading& jaws, const RigidMaterial& board, double 
   body.X_TB = jaws.X_TI * X_IO_;
   body.velocity_T = jaws.V_TI_T.linear + jaws.V_TI_T.angular.cross(body.X_TB.p - jaws.X_TI.p);
   body.spin_T = jaws.V_TI_T.angular;
+  const Mat3 R_held = body.X_TB.R;
+  const double pad = thickness(body, jaws.X_TI.R);  // as long as the block is thick
+  lay_on_board(body, floor_z_m, board.stiffness_n_per_m, foam.stiffness_n_per_m * pad * pad / 12);
   double sunk = std::max(0.0, floor_z_m - lowest(body));
   const double most = 2 * kPadFriction * jaws.grip_n / board.stiffness_n_per_m;
   if (sunk > most) {  // the board pushes it up through the pads
@@ -131,7 +168,7 @@ void FoamGrip::carry(const JawReading& jaws, const RigidMaterial& board, double 
     slipped_m_ += way;
   }
   state_ = light ? GripState::kSlipping : GripState::kHolding;
-  X_IO_ = jaws.X_TI.inverse() * body.X_TB;
+  X_IO_ = jaws.X_TI.inverse() * Pose{R_held, body.X_TB.p};
   body.X_TB.p.z() += sunk;  // shown, and met by others, on the board and not in it
 }
 

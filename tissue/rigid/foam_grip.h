@@ -5,7 +5,8 @@
 //   slip      held lighter than its slip force and carried free, it creeps down through the pads at
 //             v = v_slip (1 - F / F_slip): the ridges of the pads bite only into compressed foam
 //   crush     above its crush force it is thinner and softer for good
-//   set down  the board pushes a held block up through the pads when it presses harder than 2 mu F
+//   set down  the board turns a held block towards flat against the foam in the pads (k h^2/12 per radian, h as long as they
+//             hold it), and pushes it up through the pads when it presses harder than 2 mu F
 // The pads close in parallel: their opening is the same along them. Frames T and I (haptics/control/tool_shape.h: x the
 // hinge axis, pads meeting in y = 0). SI units. Deterministic. Thread: tissue task.
 #pragma once

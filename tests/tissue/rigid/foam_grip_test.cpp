@@ -197,5 +197,62 @@ TEST(FoamGrip, LettingGoAndLeavingTheSceneFreeTheBlock) {
   EXPECT_EQ(rig.grip.held(rig.bodies).radius_m, 0);
 }
 
+/// A block held in a tilted instrument, its middle this far over the board.
+Rig tilted(double tilt, double height) {
+  Rig rig;
+  rig.step(0.020);
+  rig.squeeze(1.0);
+  rig.lift(0.030);
+  rig.jaws.X_TI.R = Eigen::AngleAxisd(tilt, Vec3::UnitX()).toRotationMatrix() * rig.jaws.X_TI.R;
+  rig.squeeze(1.0);
+  rig.jaws.X_TI.p.z() += height - rig.body().X_TB.p.z();
+  rig.squeeze(1.0);
+  return rig;
+}
+
+double lean(const RigidBody& body) { return std::acos(std::min(1.0, body.X_TB.R.row(2).cwiseAbs().maxCoeff())); }
+
+TEST(FoamGrip, TheBoardTurnsATiltedBlockToWhereFoamAndBoardBalance) {
+  const double tilt = 0.4, corner = 0.010 * std::cos(tilt) + 0.007 * std::sin(tilt);
+  const double turn_n_m = 300 * 0.014 * 0.014 / 12;
+  for (const double pressed : {0.0002, 0.0005, 0.001}) {
+    Rig rig = tilted(tilt, corner - pressed);
+    const double left = lean(rig.body());
+    const double reach = 0.010 * std::cos(left) + 0.007 * std::sin(left);       // of the lowest edge under the middle
+    const double lever = 0.007 * std::cos(left) - 0.010 * std::sin(left);       // how fast turning raises it
+    const double force = rig.board.stiffness_n_per_m * (reach - (corner - pressed));
+    EXPECT_NEAR(rig.grip.board_force_n(), force, 1e-6);
+    EXPECT_NEAR(force * lever, turn_n_m * (tilt - left), 1e-5) << pressed;
+    EXPECT_GT(tilt - left, 0.01);
+  }
+}
+
+TEST(FoamGrip, PressedOnItLiesFlatAndSpringsBackWhenLifted) {
+  Rig rig = tilted(0.4, 0.009);
+  EXPECT_LT(lean(rig.body()), 0.02) << "a millimetre of press lays it flat";
+  const Mat3 R_flat = rig.body().X_TB.R;
+  rig.jaws.X_TI.p.z() += 0.030;
+  rig.squeeze(1.0);
+  EXPECT_NEAR(lean(rig.body()), 0.4, 1e-9);
+  rig.jaws.X_TI.p.z() -= 0.030;
+  rig.squeeze(1.0);
+  EXPECT_TRUE(rig.body().X_TB.R.isApprox(R_flat, 1e-9));
+  const Vec3 middle = rig.body().X_TB.p;
+  rig.step(0.020);
+  EXPECT_EQ(rig.grip.state(), GripState::kAround);
+  EXPECT_LT(lean(rig.body()), 0.02) << "let go as it lies";
+  EXPECT_LT((rig.body().X_TB.p - middle).norm(), 1e-3);
+}
+
+TEST(FoamGrip, ABlockHeldUprightIsNotTurnedByTheBoard) {
+  Rig rig;
+  rig.step(0.020);
+  rig.squeeze(1.0);
+  rig.jaws.X_TI.p.z() -= 0.001;
+  rig.squeeze(1.0);
+  EXPECT_LT(lean(rig.body()), 1e-9);
+  EXPECT_NEAR(rig.grip.board_force_n(), 0.001 * rig.board.stiffness_n_per_m, 1e-9);
+}
+
 }  // namespace
 }  // namespace trocar
