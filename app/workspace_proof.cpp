@@ -9,11 +9,12 @@
 #include "haptics/device/transmission.h"
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "haptics/kinematics/link_clearance.h"
+#include "scenarios/board_numbers.h"
+#include "scenarios/exercise_loader.h"
 
 namespace trocar {
 namespace {
 
-constexpr int kPracticeBoards = 20, kFirstUnseen = 1000;
 constexpr double kLongestHold_s = 60, kHeatStep_s = 0.05;
 constexpr double kContactShare = 0.5;  // of the time limit that is spent pressing [assumed]
 
@@ -145,8 +146,9 @@ LevelProof prove_level(const Exercise& exercise, const std::string& level, const
   AttemptSetup setup;
   setup.exercise = exercise;
   setup.level = level;
+  const bool exam = find_level(exercise, level).exam;
   for (int k = 0; k < kPracticeBoards + unseen; ++k) {
-    setup.board = k < kPracticeBoards ? k : kFirstUnseen + k - kPracticeBoards;
+    setup.board = k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, exam);
     const Scene scene = build_scene(setup, organ, {"simulated", 1000, 16});
     const std::vector<Stop> stops = stops_of(scene);
     BoardReach board{setup.board, {}};

@@ -58,7 +58,7 @@ struct LevelProof {
   std::string why;               ///< first thing that is not sound
 };
 
-/// @param unseen boards from 1000 on, beside the practice boards 0 to 19. @throws InputError when a board cannot be laid.
+/// @param unseen boards that seeds from 0 on draw, beside the practice boards 0 to 19. @throws InputError when a board cannot be laid.
 LevelProof prove_level(const Exercise& exercise, const std::string& level, const Organ& organ, int unseen,
                        const ReachRules& rules = {});
 

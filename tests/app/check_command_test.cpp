@@ -92,6 +92,7 @@ TEST(CheckJson, HoldsEveryBoardAndTheReason) {
   ASSERT_EQ(good.at("boards").size(), 23u);
   EXPECT_EQ(good.at("boards").at(19).at("board"), 19);
   EXPECT_EQ(good.at("boards").at(22).at("board"), 1002);
+  EXPECT_EQ(json[1].at("boards").at(22).at("board"), 2000002) << "the exam's own";
   double margin = 1e9;
   for (const Json& board : good.at("boards")) {
     margin = std::min(margin, board.at("worst").at("joint_margin_deg").get<double>());
