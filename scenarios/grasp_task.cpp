@@ -142,9 +142,11 @@ bool GraspTask::has_left(const ObjectState& object, std::int32_t index, EventLog
   const double reach = rules_.board_half_m + rules_.lost_margin_m;
   const double outside = object.X_TO.p.head<2>().cwiseAbs().maxCoeff() - reach;
   if (outside <= 0) return false;
-  blocks_[static_cast<std::size_t>(index)].lost = true;
+  Block& block = blocks_[static_cast<std::size_t>(index)];
+  if (block.placed) take_out(index, log);
+  block.lost = true;
   ++errors_;
-  log.add("LOST", Severity::kMajor, index, outside, "m");
+  log.add("LOST", Severity::kCritical, index, outside, "m");
   return true;
 }
 

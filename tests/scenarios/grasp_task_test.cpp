@@ -209,6 +209,7 @@ TEST(GraspTask, ABlockFarOutsideIsLost) {
   bench.feed(0.5);
   EXPECT_EQ(bench.count("LOST"), 1);
   EXPECT_NEAR(bench.last("LOST").value, 0.003, 1e-9);
+  EXPECT_EQ(bench.last("LOST").severity, Severity::kCritical);
   EXPECT_EQ(bench.director.status().target_index, 1);
 }
 
