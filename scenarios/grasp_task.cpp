@@ -188,6 +188,7 @@ void GraspTask::describe_message(double grip_n, DirectorStatus& status) const {
 
 void GraspTask::describe(const TaskInput& input, DirectorStatus& status) const {
   status.targets_done = done_;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) status.done.set(i, blocks_[i].placed);
   status.target_index = lit_;
   status.wrong_places = errors_;
   status.hold_progress = 0;
