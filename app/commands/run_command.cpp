@@ -107,23 +107,7 @@ AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const Re
   return result;
 }
 
-/// Runs into a file or into memory and reads the recording back: what is graded is what was written.
-std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
-                                                    const std::filesystem::path& file, const SessionObserver& observe,
-                                                    const std::function<bool()>& interrupted) {
-  const std::string header = scene_json(scene);
-  if (file.empty()) {
-    MemorySink memory;
-    RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
-    SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
-    return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
-  }
-  RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
-  SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
-  return {std::move(outcome), read_recording(file)};
-}
-
-/// The same; when the machine fails it (a full disk), the attempt is ended as aborted with the reason.
+/// Records the attempt; when the machine fails it (a full disk), it is ended as aborted with the reason.
 std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const AttemptId& id, const Scene& scene,
                                                      const AssetRoots& assets, const SessionObserver& observe,
                                                      const std::function<bool()>& interrupted) {
