@@ -62,7 +62,11 @@ TEST(CheckText, APortThatCannotBeUsedSaysTheBoardAndTheDistance) {
 
 TEST(CheckText, AForceBeyondTheMotorsIsTheReasonGiven) {
   const TemporaryFolder folder;
-  const Said said = check({folder.write("hard.toml", small_exercise("mapping = \"direct\"", 30)).string()});
+  std::string text = small_exercise("mapping = \"direct\"", 30);
+  const Said scaled = check({folder.write("scaled.toml", text).string()});
+  EXPECT_EQ(scaled.code, 0) << "auto scales it down: " << scaled.out;
+  text.replace(text.find("\"auto\""), 6, "1.0");
+  const Said said = check({folder.write("hard.toml", text).string()});
   EXPECT_EQ(said.code, 2);
   EXPECT_CONTAINS(said.out, "NOT sound: board 0: gravity and the hard limit ask more torque than a motor can give\n");
 }
