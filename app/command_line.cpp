@@ -76,9 +76,9 @@ void add_run(CommandLine& c) {
   run->add_option("exercise", c.run.exercise, "Exercise id, number or FILE.toml")->required();
   run->add_option("--hand", c.run.hand, "expert, intermediate, novice, clumsy, speed-runner, heavy-handed, idle, learner, or SCRIPT.toml")->required();
   run->add_option("--attempt", c.run.attempt, "Attempt of the learner, from 1 (default: one more than the trainee has stored)")->check(CLI::Range(1, 100000));
-  run->add_option("--level", c.run.level, "Level")->capture_default_str();
+  run->add_option("--level", c.run.level, "Level: L1, L2, L3, or exam, where a trainee meets each board of an exercise once")->capture_default_str();
   run->add_option("--seed", c.run.seed, "Seed of everything random")->capture_default_str();
-  run->add_option("--board", c.run.board, "Practice board 0-19 (default: an unseen one drawn by the seed)");
+  run->add_option("--board", c.run.board, "Practice board 0-19, refused at level exam (default: an unseen one drawn by the seed)");
   run->add_option("--trainee", c.run.trainee, "Trainee code, created when new")->capture_default_str();
   run->add_option("--db", c.run.database, "Database file, or :memory:");
   run->add_option("--organ", c.run.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();

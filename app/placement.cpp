@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "app/torque_budget.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/transmission.h"
 #include "haptics/input_error.h"
@@ -21,18 +22,9 @@ constexpr double kLowestPercentile = 0.05;
 
 /// Largest scene force that all joints can add to gravity, N. @param per_scene_newton what one newton asks at the stylus.
 double force_room(const DeviceModel& device, const ArmState& arm, const Wrench& per_scene_newton) {
-  Vec6 F;
-  F << per_scene_newton.force, per_scene_newton.moment;
-  const JointVector per_newton = arm.J_WS.transpose() * F;
-  const JointVector gravity = gravity_torque(device, arm);
-  double room = 1e9;
-  for (int i = 0; i < kArmJoints; ++i) {
-    const double load = std::abs(per_newton[i]);
-    if (load < 1e-9) continue;
-    const double left = max_joint_torque(device.transmission[i]) - std::copysign(1.0, per_newton[i]) * gravity[i];
-    room = std::min(room, std::max(0.0, left) / load);
-  }
-  return room;
+  JointVector most;
+  for (int i = 0; i < kArmJoints; ++i) most[i] = max_joint_torque(device.transmission[static_cast<std::size_t>(i)]);
+  return share_beyond_gravity(most, gravity_torque(device, arm), torque_of(arm, per_scene_newton));
 }
 
 /// T is W' turned by half a turn about z: home stylus pointing away from the trainee, towards +y of T.
@@ -111,13 +103,6 @@ double room_share(const InstrumentMap& map, const DeviceModel& device, const Tar
   const double asked = map.force_scale * soft_force_n * (1 - 1e-9);  // kappa was made of one of these very numbers
   const auto enough = std::lower_bound(room.begin(), room.end(), asked);
   return static_cast<double>(room.end() - enough) / static_cast<double>(room.size());
-}
-
-double force_scale(const ExerciseLevel& level, const InstrumentMap& map, const DeviceModel& device,
-                   const TargetLayout& layout, double soft_force_n) {
-  if (level.force_scale > 0) return std::min(1.0, level.force_scale);
-  if (soft_force_n <= 0) return 1;  // an exercise without forces
-  return std::min(1.0, renderable_force_n(map, device, layout) / soft_force_n);
 }
 
 }  // namespace trocar

@@ -26,9 +26,4 @@ double renderable_force_n(const InstrumentMap& map, const DeviceModel& device, c
 /// Share of the region in which the device can give map.force_scale x `soft_force_n`.
 double room_share(const InstrumentMap& map, const DeviceModel& device, const TargetLayout& layout, double soft_force_n);
 
-/// kappa of a level: the number that it gives, or for "auto" the largest value <= 1 for which `soft_force_n` is rendered
-/// at the 5th percentile of the region.
-double force_scale(const ExerciseLevel& level, const InstrumentMap& map, const DeviceModel& device,
-                   const TargetLayout& layout, double soft_force_n);
-
 }  // namespace trocar

@@ -1,14 +1,17 @@
 #include "app/scene.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "app/force_scale.h"
 #include "app/placement.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/board_layout.h"
+#include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"
 #include "scenarios/grasp_layout.h"
 #include "scenarios/pen_layout.h"
@@ -71,22 +74,41 @@ void require_reach(const Scene& scene) {
 
 constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
 
-/// Board of the exercise's kind, and the instrument that it takes. The loop's map is set before: pens turn from the
-/// resting instrument.
+/// Board of the exercise's kind. The loop's map is set before: pens turn from the resting instrument.
+Board lay_out(const Scene& scene, int board) {
+  const Exercise& exercise = scene.setup.exercise;
+  switch (exercise.kind) {
+    case ExerciseKind::kGrasp: return lay_out_blocks(exercise, scene.level, board);
+    case ExerciseKind::kReach:
+      return lay_out_pens(exercise, scene.level, scene.loop.map.instrument_pose(home_pose()).R, board);
+    case ExerciseKind::kTouch: break;
+  }
+  return lay_out_board(scene.organ_T, exercise, scene.level, board);
+}
+
+/// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be
+/// met, and asks nothing.
+double force_scale(const Scene& scene) {
+  if (scene.level.force_scale > 0) return std::min(1.0, scene.level.force_scale);
+  std::vector<Board> boards;
+  for (int k = 0; k < kPracticeBoards + kProvedUnseen; ++k) {
+    try {
+      boards.push_back(lay_out(scene, k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, scene.level.exam)));
+    } catch (const InputError&) {
+    }
+  }
+  return auto_force_scale(scene.loop.map, scene.loop.device, scene.setup.exercise, boards);
+}
+
+/// Organ, board, force scale, and the instrument that the exercise takes.
 void set_stage(Scene& scene) {
-  const AttemptSetup& setup = scene.setup;
-  if (setup.exercise.kind == ExerciseKind::kGrasp) {
-    scene.board = lay_out_blocks(setup.exercise, scene.level, setup.board);
-    scene.loop.tool.jaw_length_m = kJawLength;
-    return;
-  }
-  if (setup.exercise.kind == ExerciseKind::kReach) {
-    scene.board = lay_out_pens(setup.exercise, scene.level, scene.loop.map.instrument_pose(home_pose()).R, setup.board);
-    return;
-  }
-  scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, setup.exercise.layout));
-  scene.board = lay_out_board(scene.organ_T, setup.exercise, scene.level, setup.board);
-  require_reach(scene);
+  const Exercise& exercise = scene.setup.exercise;
+  if (needs_organ(exercise.kind))
+    scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, exercise.layout));
+  scene.board = lay_out(scene, scene.setup.board);
+  if (needs_organ(exercise.kind)) require_reach(scene);
+  if (exercise.kind == ExerciseKind::kGrasp) scene.loop.tool.jaw_length_m = kJawLength;
+  scene.loop.map.force_scale = force_scale(scene);
 }
 
 }  // namespace
@@ -110,15 +132,13 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.organ = std::move(organ);
   scene.loop.daq = daq;
   scene.loop.map = place_theatre(scene.level);
-  scene.loop.map.force_scale = force_scale(scene.level, scene.loop.map, scene.loop.device, setup.exercise.layout,
-                                           setup.exercise.soft_force_n);
+  set_stage(scene);
   scene.room_share = room_share(scene.loop.map, scene.loop.device, setup.exercise.layout, setup.exercise.soft_force_n);
   scene.loop.safety.max_missed_in_a_row = setup.pace.missed_in_a_row;
   scene.loop.safety.max_missed_share = setup.pace.missed_share;
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
-  set_stage(scene);
   return scene;
 }
 

@@ -210,6 +210,21 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
   return out;
 }
 
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
+                                                    const std::filesystem::path& file, const SessionObserver& observe,
+                                                    const std::function<bool()>& interrupted) {
+  const std::string header = scene_json(scene);
+  if (file.empty()) {
+    MemorySink memory;
+    RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
+    SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
+    return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
+  }
+  RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
+  SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
+  return {std::move(outcome), read_recording(file)};
+}
+
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe) {
   const double rate_hz = scene.loop.daq.rate_hz;
   const ReplayExecutor executor(

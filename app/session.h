@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/recorder/recording_reader.h"
@@ -57,6 +59,12 @@ struct SessionOutcome {
 /// @param interrupted asked now and then: true ends the attempt as aborted. @throws EnvironmentError of the writer.
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
                            const SessionObserver& observe = {}, const std::function<bool()>& interrupted = {});
+
+/// Runs into a file, or into memory when none is given, and reads the recording back: what is graded is what was written.
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
+                                                    const std::filesystem::path& file,
+                                                    const SessionObserver& observe = {},
+                                                    const std::function<bool()>& interrupted = {});
 
 /// The same loop fed with the recorded device input. @param scene built from the recording's own setup.
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe = {});

@@ -3,56 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/force_scale.h"
 #include "app/placement.h"
+#include "app/torque_budget.h"
 #include "haptics/control/gravity.h"
 #include "haptics/control/motor_heat.h"
 #include "haptics/device/transmission.h"
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "haptics/kinematics/link_clearance.h"
+#include "scenarios/board_numbers.h"
+#include "scenarios/exercise_loader.h"
 
 namespace trocar {
 namespace {
 
-constexpr int kPracticeBoards = 20, kFirstUnseen = 1000;
-constexpr double kLongestHold_s = 60, kHeatStep_s = 0.05;
+constexpr double kHeatStep_s = 0.05;
 constexpr double kContactShare = 0.5;  // of the time limit that is spent pressing [assumed]
-
-JointVector torque_of(const ArmState& arm, const Wrench& F) {
-  Vec6 w;
-  w << F.force, F.moment;
-  return arm.J_WS.transpose() * w;
-}
-
-double current_of(const DeviceModel& device, int joint, double torque) {
-  const Transmission& t = device.transmission[static_cast<std::size_t>(joint)];
-  return torque * t.ratio / t.torque_constant;
-}
-
-double seconds_until_fading(double current_a) {
-  MotorHeat heat;
-  double t = 0;
-  for (; t < kLongestHold_s && heat.share() >= 1; t += kHeatStep_s) heat.update(current_a, kHeatStep_s);
-  return std::min(t, kLongestHold_s);
-}
-
-/// Poses that a board asks for, each with the scene's normal there.
-struct Stop {
-  Pose X_TI;
-  Vec3 normal_T;
-};
-
-std::vector<Stop> stops_of(const Scene& scene) {
-  const Mat3 R_TI = scene.loop.map.instrument_pose(home_pose()).R;
-  const bool pens = scene.setup.exercise.kind == ExerciseKind::kReach;
-  std::vector<Stop> stops{{{R_TI, scene.board.start_T}, Vec3::UnitZ()}};
-  for (const Target& target : scene.board.targets) {
-    const Mat3& R = pens ? target.R_TI : R_TI;
-    stops.push_back({{R, target.centre_T}, target.normal_T});
-    const Vec3 back = pens ? Vec3(-R.col(2)) : Vec3::UnitZ();
-    stops.push_back({{R, target.centre_T + scene.setup.exercise.retract_height_m * back}, target.normal_T});
-  }
-  return stops;
-}
 
 /// Winding after the time limit at the load of a board: gravity always, the soft limit for kContactShare of the time.
 double heat_of(const Scene& scene, const std::vector<Stop>& stops) {
@@ -145,10 +111,15 @@ LevelProof prove_level(const Exercise& exercise, const std::string& level, const
   AttemptSetup setup;
   setup.exercise = exercise;
   setup.level = level;
+  const bool exam = find_level(exercise, level).exam;
   for (int k = 0; k < kPracticeBoards + unseen; ++k) {
-    setup.board = k < kPracticeBoards ? k : kFirstUnseen + k - kPracticeBoards;
+    setup.board = k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, exam);
     const Scene scene = build_scene(setup, organ, {"simulated", 1000, 16});
-    const std::vector<Stop> stops = stops_of(scene);
+    for (ExerciseLevel& each : setup.exercise.levels) {
+      if (each.name == level) each.force_scale = scene.loop.map.force_scale;  // "auto" is the same for every board
+    }
+    const std::vector<Stop> stops =
+        stops_of(exercise, scene.board, scene.loop.map.instrument_pose(home_pose()).R);
     BoardReach board{setup.board, {}};
     for (const Stop& stop : stops) {
       const Wrench hard{exercise.hard_force_n * stop.normal_T, Vec3::Zero()};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/scene.h"
+#include "app/torque_budget.h"
 #include "haptics/kinematics/device_geometry.h"
 
 namespace trocar {
@@ -19,7 +20,7 @@ struct ReachRules {
   double det_a = 0.30;
   double off_axis = 0.10;        ///< |AO x Z6| of unit vectors: Z6 parallel to AO is singular inside the limits
   double handle_to_port_m = Fulcrum::kNearest_m + 0.010;
-  double held_s = 5;             ///< the hard limit must be rendered this long from cold at the worst posture
+  double held_s = kHeldTime_s;   ///< the hard limit must be rendered this long from cold at the worst posture
 };
 
 /// One posture, or the worst of several, each number by itself.
@@ -58,7 +59,7 @@ struct LevelProof {
   std::string why;               ///< first thing that is not sound
 };
 
-/// @param unseen boards from 1000 on, beside the practice boards 0 to 19. @throws InputError when a board cannot be laid.
+/// @param unseen boards that seeds from 0 on draw, beside the practice boards 0 to 19. @throws InputError when a board cannot be laid.
 LevelProof prove_level(const Exercise& exercise, const std::string& level, const Organ& organ, int unseen,
                        const ReachRules& rules = {});
 

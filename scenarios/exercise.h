@@ -53,7 +53,7 @@ struct ExerciseLevel {
   double force_scale = 1;              ///< kappa; "auto" is resolved by the session and is negative here
   std::string force_display = "always";  ///< always | band (only outside the limits) | after (not during the run)
   bool guides = true;                  ///< guide lines from the tip to what is asked for
-  bool exam = false;                   ///< counts once per seed and trainee
+  bool exam = false;                   ///< a trainee meets each board once
   double time_limit_s = 0;
   double expert_time_s = 0;            ///< muE of the rubric's time anchors; 0 when they need none
   double band_low_n = 0, band_high_n = 0;  ///< touch: lowest and highest wanted force

@@ -141,9 +141,11 @@ bool GraspTask::has_left(const ObjectState& object, std::int32_t index, EventLog
   const double reach = rules_.board_half_m + rules_.lost_margin_m;
   const double outside = object.X_TO.p.head<2>().cwiseAbs().maxCoeff() - reach;
   if (outside <= 0) return false;
-  blocks_[static_cast<std::size_t>(index)].lost = true;
+  Block& block = blocks_[static_cast<std::size_t>(index)];
+  if (block.placed) take_out(index, log);
+  block.lost = true;
   ++errors_;
-  log.add("LOST", Severity::kMajor, index, outside, "m");
+  log.add("LOST", Severity::kCritical, index, outside, "m");
   return true;
 }
 
@@ -185,6 +187,7 @@ void GraspTask::describe_message(double grip_n, DirectorStatus& status) const {
 
 void GraspTask::describe(const TaskInput& input, DirectorStatus& status) const {
   status.targets_done = done_;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) status.done.set(i, blocks_[i].placed);
   status.target_index = lit_;
   status.wrong_places = errors_;
   status.hold_progress = 0;

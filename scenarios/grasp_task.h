@@ -3,7 +3,8 @@
 // Events, value in brackets: TARGET_LIT; GRASPED [N], REGRASP [N] when a block is grasped again, WRONG_BLOCK when it is not
 // the lit one; LIFTED [m] off the board and SET_DOWN [m] on it again: the carry between them is where the grip is judged;
 // SLIP [m], CRUSH [N], DROP [m] when a block falls; PLACED [m off the ring's centre] when it rests within its ring after it
-// was lifted high enough and set down, not dropped; MISPLACED [m] when it rests elsewhere after a carry; REMOVED when a placed block leaves its ring again; LOST [m].
+// was lifted high enough and set down, not dropped; MISPLACED [m] when it rests elsewhere after a carry; REMOVED when a placed block leaves its ring again; LOST [m],
+// critical, when it rests too far outside the board: it is not asked for again, and the attempt never counts as finished.
 // A critical number of crushed blocks makes the last CRUSH critical.
 // Frame T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once

@@ -58,14 +58,14 @@ void require_finite(const ScoringContext& context) {
 namespace {
 
 /// Windows of all blocks; the way to each placed block and on to its ring, in the order of placing. A block that left its
-/// ring again is not done.
+/// ring again is not done, and so is one that is lost.
 void add_blocks(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
   for (const Target& ring : board.targets) context.grip_windows.push_back({ring.band.low_n, ring.band.high_n});
   std::set<std::int32_t> done, seen;
   for (const Event& event : events) {
     const auto index = static_cast<std::size_t>(event.object);
     if (event.object < 0 || index >= board.rigid.blocks.size()) continue;
-    if (event.type == "REMOVED") done.erase(event.object);
+    if (event.type == "REMOVED" || event.type == "LOST") done.erase(event.object);
     if (event.type != "PLACED") continue;
     done.insert(event.object);
     if (!seen.insert(event.object).second) continue;

@@ -31,6 +31,10 @@ constexpr const char* kRows[] = {
     "SELECT position, reason FROM score_cap m JOIN score s ON s.id = m.score_id"
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
 };
+constexpr const char* kRowsSince3[] = {
+    "SELECT position, name, first_s, ticks FROM device_warning WHERE attempt_id = ? ORDER BY position",
+    "SELECT position, t_s, from_state, to_state FROM device_transition WHERE attempt_id = ? ORDER BY position",
+};
 
 void add_rows(sqlite3* connection, const std::string& query, std::int64_t attempt, std::string& content) {
   sql::Statement rows(connection, query);
@@ -46,6 +50,8 @@ std::string content_of(sqlite3* connection, std::int64_t attempt, std::int64_t v
   std::string content;
   add_rows(connection, std::string(kAttempt) + (version >= 2 ? kAttemptSince2 : "") + kOfAttempt, attempt, content);
   for (const char* query : kRows) add_rows(connection, query, attempt, content);
+  if (version < 3) return content;
+  for (const char* query : kRowsSince3) add_rows(connection, query, attempt, content);
   return content;
 }
 
@@ -62,7 +68,10 @@ std::string row_hash(sqlite3* connection, const Link& link) {
 }
 
 Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) {
-  Link link{attempt, 1, kHashVersion, "", status_name(status)};
+  // The version that it began with: a program before this one may have begun it.
+  sql::Statement begun(connection, "SELECT hash_version FROM attempt WHERE id = ?");
+  begun.bind(attempt).step();
+  Link link{attempt, 1, begun.integer(0), "", status_name(status)};
   sql::Statement last(connection,
                       "SELECT chain_position, row_hash FROM attempt WHERE chain_position IS NOT NULL"
                       " ORDER BY chain_position DESC LIMIT 1");

@@ -3,8 +3,9 @@
 // row_hash_n = SHA-256("trocar-attempt-V\n" + row_hash_(n-1) + "\n" + n + "\n" + status + "\n" + content_n), where
 // content is every value of the attempt and of its events, metrics, sub-scores and caps with its type, in fixed order;
 // row_hash_0 is empty. n counts finished attempts from 1. V is the attempt's hash_version: 1 for attempts that schema 1
-// stored (their hashes still hold), 2 with program, integrity, session and calibration. Later columns need a new
-// version. The chain shows changes; a cut-off end shows in the audit trail (audit.h); nothing stops who recomputes all.
+// stored (their hashes still hold), 2 with program, integrity, session and calibration, 3 with what the device warned of
+// and how its state changed. Later columns need a new version. The chain shows changes; a cut-off end shows in the audit
+// trail (audit.h); nothing stops who recomputes all.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ struct sqlite3;
 namespace trocar {
 
 /// Content that row_hash covers in attempts begun by this program.
-inline constexpr int kHashVersion = 2;
+inline constexpr int kHashVersion = 3;
 
 /// Ends a running attempt whose rows are all written: sets its status and its place in the chain, which freezes it,
 /// and in the audit trail. Call inside a transaction.

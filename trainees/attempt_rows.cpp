@@ -55,6 +55,19 @@ void insert_grade(sqlite3* connection, std::int64_t score, const Grade& grade) {
   for (const std::string& reason : grade.caps) cap.bind(score).bind(position++).bind(reason).run();
 }
 
+void insert_device_rows(sqlite3* connection, std::int64_t attempt, const DeviceReceipt& device) {
+  sql::Statement warning(connection, "INSERT INTO device_warning VALUES (?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const DeviceWarning& row : device.warnings) {
+    warning.bind(attempt).bind(position++).bind(row.name).bind(row.first_s).bind(row.ticks).run();
+  }
+  sql::Statement transition(connection, "INSERT INTO device_transition VALUES (?, ?, ?, ?, ?)");
+  position = 0;
+  for (const DeviceTransition& row : device.transitions) {
+    transition.bind(attempt).bind(position++).bind(row.t_s).bind(row.from).bind(row.to).run();
+  }
+}
+
 void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording) {
   sql::Statement update(
       connection,
@@ -83,11 +96,25 @@ std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {
   return events;
 }
 
+void read_device_rows(sqlite3* connection, std::int64_t attempt, DeviceReceipt& device) {
+  sql::Statement warnings(connection,
+                          "SELECT name, first_s, ticks FROM device_warning WHERE attempt_id = ? ORDER BY position");
+  warnings.bind(attempt);
+  while (warnings.step()) {
+    device.warnings.push_back({warnings.text(0), warnings.real(1), static_cast<std::uint64_t>(warnings.integer(2))});
+  }
+  sql::Statement transitions(connection, "SELECT t_s, from_state, to_state FROM device_transition"
+                                         " WHERE attempt_id = ? ORDER BY position");
+  transitions.bind(attempt);
+  while (transitions.step()) device.transitions.push_back({transitions.real(0), transitions.text(1), transitions.text(2)});
+}
+
 }  // namespace
 
 void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result,
                   const std::string& recording) {
   insert_events(connection, attempt, result.events);
+  insert_device_rows(connection, attempt, result.device);
   insert_grade(connection, insert_score(connection, attempt, result.grade), result.grade);
   update_attempt(connection, attempt, result, recording);
   seal_attempt(connection, attempt, result.grade.status);
@@ -95,6 +122,7 @@ void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult
 
 void read_attempt_rows(sqlite3* connection, std::int64_t attempt, AttemptResult& result) {
   result.events = read_events(connection, attempt);
+  read_device_rows(connection, attempt, result.device);
   sql::Statement metrics(connection, std::string("SELECT name, value, unit FROM metric") + kOfScore);
   metrics.bind(attempt);
   while (metrics.step()) {

@@ -164,13 +164,13 @@ void check_name(std::string_view name) {
   }
 }
 
-/// An exam board is met once, however the first sitting ended.
+/// An exam board is met once, however the first sitting ended. Seeds do not tell: two of them can draw one board.
 void refuse_second_exam(sqlite3* connection, const AttemptStart& start, std::int64_t trainee) {
   sql::Statement taken(connection,
                        "SELECT uuid, started_utc, status FROM attempt WHERE trainee_id = ? AND exercise_id = ?"
-                       " AND seed = ? AND level = ?");
-  if (!taken.bind(trainee).bind(start.exercise_id).bind(start.seed).bind(kExamLevel).step()) return;
-  throw InputError("exam of " + start.exercise_id + ", seed " + std::to_string(start.seed) + ": " + start.trainee +
+                       " AND board = ? AND level = ?");
+  if (!taken.bind(trainee).bind(start.exercise_id).bind(start.board).bind(kExamLevel).step()) return;
+  throw InputError("exam of " + start.exercise_id + ", board " + std::to_string(start.board) + ": " + start.trainee +
                    " sat it on " + taken.text(1) + " (attempt " + taken.text(0) + ", " + taken.text(2) +
                    "); an exam board is met once, take another --seed");
 }

@@ -20,7 +20,8 @@
 
 namespace trocar {
 
-/// Level whose boards a trainee meets once: a second attempt at the same exercise and seed is refused.
+/// Level whose boards a trainee meets once: a second attempt at the same exercise and board is refused, whatever its
+/// seed, organ and hand.
 inline constexpr const char* kExamLevel = "exam";
 
 /// What is known before the loop starts.

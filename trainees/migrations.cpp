@@ -85,13 +85,14 @@ void verify_copy(sqlite3* original, const fs::path& copy) {
   if (!whole) throw EnvironmentError(copy.string() + ": the backup is not whole; the database was not migrated");
 }
 
-/// The way to version 2 ends with the first entry of the trail: what was there before, and the head of its chain.
-void note_schema_2(sqlite3* connection, int from) {
-  if (from == 0) return append_audit(connection, kActionMade, "schema 2", "");
+/// The way ends with an entry of the trail: what was there before, and the head of its chain.
+void note_migration(sqlite3* connection, int from) {
+  const std::string to = std::to_string(shipped_migrations().back().version);
+  if (from == 0) return append_audit(connection, kActionMade, "schema " + to, "");
   const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
   const std::string head = sql::query_text(
       connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
-  append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to 2",
+  append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to " + to,
                attempts + " attempts, head " + (head.empty() ? "none" : head));
 }
 
@@ -106,7 +107,7 @@ std::map<std::string, std::string> schema_of(sqlite3* connection) {
 }  // namespace
 
 std::span<const Migration> shipped_migrations() {
-  static const Migration kMigrations[] = {{1, kSchemaV1}, {2, schema_v2(), note_schema_2}};
+  static const Migration kMigrations[] = {{1, kSchemaV1}, {2, schema_v2()}, {3, kSchemaV3, note_migration}};
   return kMigrations;
 }
 

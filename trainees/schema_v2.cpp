@@ -270,8 +270,6 @@ DROP TABLE old_trainee;
 DROP TABLE exercise_version;
 CREATE INDEX attempt_by_trainee ON attempt(trainee_id, exercise_id, level, id);
 CREATE INDEX attempt_running ON attempt(status) WHERE status = 'running';
--- An exam board is met once: a second sitting would be one that has been seen before.
-CREATE UNIQUE INDEX exam_once ON attempt(trainee_id, exercise_id, seed) WHERE level = 'exam';
 )sql";
 
 // INSERT OR REPLACE would delete without asking a DELETE trigger, hence the _no_replace ones.

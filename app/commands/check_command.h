@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "app/workspace_proof.h"
+#include "scenarios/board_numbers.h"
 
 namespace trocar {
 
 struct CheckOptions {
   std::vector<std::string> subjects;      ///< exercise ids or files
   std::string organ = "phantom-liver";
-  int unseen = 20;                        ///< boards from 1000 on, besides the practice boards 0 to 19
+  int unseen = kProvedUnseen;             ///< boards that seeds from 0 on draw, besides the practice boards 0 to 19
   std::filesystem::path map;              ///< SVG of the renderable force; empty: none
   std::filesystem::path inversion;        ///< folder of the picture pair; empty: none
   bool json = false;

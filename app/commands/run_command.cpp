@@ -14,14 +14,13 @@
 #include "app/recorder/safety_file.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
 #include "trainees/attempt_store.h"
 
 namespace trocar {
 namespace {
-
-constexpr int kUnseenBoards = 1000;  // boards of graded runs are drawn by the seed from here on; 0-19 are for practice
 
 const std::map<std::string, InjectedFaultKind>& injection_kinds() {
   using Kind = InjectedFaultKind;
@@ -53,10 +52,16 @@ T one_of(const std::string& option, const std::string& name, const std::map<std:
   throw InputError(option + " " + name + ": unknown; known are " + known);
 }
 
-/// A board that no practice shows, for any seed: remainders of negative seeds are made positive.
-int unseen_board(std::int64_t seed) {
-  constexpr std::int64_t kBoards = 1000000;
-  return kUnseenBoards + static_cast<int>((seed % kBoards + kBoards) % kBoards);
+/// The board that was asked for, or one that no practice shows. @throws InputError: none of practice, or an exam's.
+int board_of(const RunOptions& options) {
+  const bool exam = options.level == kExamLevel;
+  if (!options.board) return drawn_board(options.seed, exam);
+  const std::string given = "--board " + std::to_string(*options.board);
+  if (*options.board < 0 || *options.board >= kPracticeBoards) {
+    throw InputError(given + ": practice boards are 0 to " + std::to_string(kPracticeBoards - 1));
+  }
+  if (exam) throw InputError(given + ": is for practice; an exam's board is unseen, and drawn by --seed");
+  return *options.board;
 }
 
 AttemptStart start_of(const RunOptions& options, const Scene& scene) {
@@ -102,23 +107,7 @@ AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const Re
   return result;
 }
 
-/// Runs into a file or into memory and reads the recording back: what is graded is what was written.
-std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
-                                                    const std::filesystem::path& file, const SessionObserver& observe,
-                                                    const std::function<bool()>& interrupted) {
-  const std::string header = scene_json(scene);
-  if (file.empty()) {
-    MemorySink memory;
-    RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
-    SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
-    return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
-  }
-  RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
-  SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
-  return {std::move(outcome), read_recording(file)};
-}
-
-/// The same; when the machine fails it (a full disk), the attempt is ended as aborted with the reason.
+/// Records the attempt; when the machine fails it (a full disk), it is ended as aborted with the reason.
 std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const AttemptId& id, const Scene& scene,
                                                      const AssetRoots& assets, const SessionObserver& observe,
                                                      const std::function<bool()>& interrupted) {
@@ -208,10 +197,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.hand = options.hand;
   setup.attempt = std::max(1, options.attempt);
   setup.seed = options.seed;
-  if (options.board && (*options.board < 0 || *options.board > 19)) {
-    throw InputError("--board " + std::to_string(*options.board) + ": practice boards are 0 to 19");
-  }
-  setup.board = options.board ? *options.board : unseen_board(options.seed);
+  setup.board = board_of(options);
   setup.rate_hz = options.rate_hz;
   setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});

@@ -22,7 +22,7 @@ struct RunOptions {
   std::string trainee = "guest";
   int attempt = 0;                      ///< of a learning hand, from 1; 0: one more than the trainee has at the exercise
   std::int64_t seed = 1;
-  std::optional<int> board;             ///< 0-19 practice; none: an unseen board drawn by the seed
+  std::optional<int> board;             ///< 0-19 practice, not in an exam; none: unseen, drawn by the seed
   std::filesystem::path database;       ///< empty: the default path; ":memory:" keeps nothing
   std::filesystem::path record;         ///< empty: beside the database
   std::filesystem::path frames;         ///< empty: no pictures

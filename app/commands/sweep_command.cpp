@@ -14,6 +14,7 @@
 #include "app/commands/run_command.h"
 #include "app/commands/text_table.h"
 #include "app/session.h"
+#include "haptics/fault.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
@@ -29,9 +30,15 @@ constexpr std::int64_t kLargestSeed = std::int64_t{1} << 60;
 struct Job {
   std::string exercise, level, hand;
   std::int64_t seed = 0;
-  bool first_level = false;
+  ValidityScope scope;
   Grade grade;
+  std::string fault;   ///< of the device, empty when none
 };
+
+/// Did the device stop because the arm went too fast?
+bool too_fast(const std::string& fault) {
+  return fault == fault_name(FaultCode::kOverspeed) || fault == fault_name(FaultCode::kEncoderJump);
+}
 
 std::int64_t seed_in(std::string_view text, const std::string& whole) {
   std::int64_t value = 0;
@@ -57,17 +64,17 @@ std::vector<Job> list_jobs(const SweepOptions& options, const AssetRoots& assets
       for (const ExerciseLevel& level : exercise.levels) levels.push_back(level.name);
     }
     for (const std::string& level : levels) {
-      find_level(exercise, level);
-      const bool first_level = level == exercise.levels.front().name;
+      const ValidityScope scope{level == exercise.levels.front().name,
+                                judges_force(find_level(exercise, level).rubric)};
       for (const std::string& hand : options.hands) {
-        for (std::int64_t seed = first; seed <= last; ++seed) jobs.push_back({name, level, hand, seed, first_level, {}});
+        for (std::int64_t seed = first; seed <= last; ++seed) jobs.push_back({name, level, hand, seed, scope, {}, ""});
       }
     }
   }
   return jobs;
 }
 
-Grade attempt(const Job& job, const SweepOptions& options, const AssetRoots& assets) {
+void run_job(Job& job, const SweepOptions& options, const AssetRoots& assets) {
   RunOptions run;
   run.exercise = job.exercise;
   run.level = job.level;
@@ -76,10 +83,9 @@ Grade attempt(const Job& job, const SweepOptions& options, const AssetRoots& ass
   run.organ = options.organ;
   const AttemptSetup setup = attempt_setup(run, assets);
   const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
-  MemorySink memory;
-  RecordingWriter writer(memory, scene_json(scene), scene.loop.daq.rate_hz);
-  run_session(scene, assets, writer);
-  return grade_recording(parse_recording(memory.bytes(), "recording in memory"), "recording in memory");
+  const auto [outcome, recording] = record_session(scene, assets, {});
+  job.grade = grade_recording(recording, "recording in memory");
+  job.fault = outcome.device.fault;
 }
 
 /// Runs all jobs on some threads. @throws the first failure, after all threads have ended.
@@ -90,7 +96,7 @@ void run_jobs(std::vector<Job>& jobs, const SweepOptions& options, const AssetRo
   const auto work = [&] {
     for (std::size_t i = next++; i < jobs.size(); i = next++) {
       try {
-        jobs[i].grade = attempt(jobs[i], options, assets);
+        run_job(jobs[i], options, assets);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
@@ -114,61 +120,95 @@ void run_jobs(std::vector<Job>& jobs, const SweepOptions& options, const AssetRo
 /// One exercise at one level: outcomes by hand, and the checks over them.
 struct Cell {
   std::string exercise, level;
-  bool first_level = false;
+  ValidityScope scope;
   std::map<std::string, HandOutcomes> outcomes;
   std::map<std::string, std::map<std::string, int>> caps;  ///< by hand: reason and how often
+  std::vector<Job> without_number;
+
+  std::vector<ValidityCheck> checks() const { return check_validity(outcomes, scope); }
 };
+
+/// "fault (overspeed)": what became of an attempt without a number.
+std::string end_of(const Job& job) {
+  const std::string status = status_name(job.grade.status);
+  if (!job.fault.empty()) return status + " (" + job.fault + ")";
+  return job.grade.caps.empty() ? status : status + " (" + job.grade.caps.front() + ")";
+}
 
 std::vector<Cell> collect(const std::vector<Job>& jobs) {
   std::vector<Cell> cells;
   for (const Job& job : jobs) {
     if (cells.empty() || cells.back().exercise != job.exercise || cells.back().level != job.level) {
-      cells.push_back({job.exercise, job.level, job.first_level, {}, {}});
+      cells.push_back({job.exercise, job.level, job.scope, {}, {}, {}});
     }
     HandOutcomes& outcome = cells.back().outcomes[job.hand];
-    if (job.grade.score) outcome.scores.push_back(*job.grade.score);
-    else ++outcome.without_score;
+    if (job.grade.score) {
+      outcome.scores.push_back(*job.grade.score);
+    } else {
+      ++outcome.without_score;
+      outcome.too_fast += too_fast(job.fault) ? 1 : 0;
+      cells.back().without_number.push_back(job);
+    }
     outcome.passes += job.grade.passed ? 1 : 0;
     for (const std::string& cap : job.grade.caps) ++cells.back().caps[job.hand][cap];
   }
   return cells;
 }
 
+void print_check(const ValidityCheck& check, std::ostream& out) {
+  if (!check.not_asked.empty()) {
+    out << "  n/a      " << check.name << ": " << check.not_asked << '\n';
+    return;
+  }
+  char line[128];
+  std::snprintf(line, sizeof line, "  %-8s %s: %.2f (%s)\n", check.met ? "met" : "NOT MET", check.name.c_str(),
+                check.value, check.bar.c_str());
+  out << line;
+}
+
 void print_cell(const Cell& at, const SweepOptions& options, std::ostream& out) {
   using Align = TextTable::Align;
   out << at.exercise << "  " << at.level << '\n';
   TextTable table({{"  hand"}, {"attempts", Align::kRight}, {"mean", Align::kRight}, {"SD", Align::kRight},
-                   {"lowest", Align::kRight}, {"highest", Align::kRight}, {"passed", Align::kRight}});
+                   {"lowest", Align::kRight}, {"highest", Align::kRight}, {"passed", Align::kRight},
+                   {"share", Align::kRight}});
   for (const std::string& hand : options.hands) {
     const HandOutcomes& outcome = at.outcomes.at(hand);
     const GroupSummary s = summarise(outcome.scores);
     table.add({"  " + hand, std::to_string(s.count + outcome.without_score), cell(s.mean, 1),
                cell(s.sd, 1), cell(s.lowest, 1), cell(s.highest, 1),
-               std::to_string(outcome.passes)});
+               std::to_string(outcome.passes), cell(pass_share(outcome), 2)});
   }
   table.print(out);
-  for (const ValidityCheck& check : check_validity(at.outcomes, at.first_level)) {
-    char line[128];
-    std::snprintf(line, sizeof line, "  %-8s %s: %.2f (%s)\n", check.met ? "met" : "NOT MET", check.name.c_str(),
-                  check.value, check.bar.c_str());
-    out << line;
+  for (const Job& job : at.without_number) {
+    out << "  no number: not passed: " << job.hand << ", seed " << job.seed << ": " << end_of(job) << '\n';
   }
+  for (const ValidityCheck& check : at.checks()) print_check(check, out);
+}
+
+nlohmann::ordered_json check_json(const ValidityCheck& check) {
+  if (!check.not_asked.empty()) {
+    return {{"name", check.name}, {"value", nullptr}, {"bar", nullptr}, {"met", true}, {"not_asked", check.not_asked}};
+  }
+  return {{"name", check.name}, {"value", check.value}, {"bar", check.bar}, {"met", check.met}};
 }
 
 nlohmann::ordered_json cell_json(const Cell& at, const SweepOptions& options) {
-  nlohmann::ordered_json hands = nlohmann::ordered_json::array(), checks = nlohmann::ordered_json::array();
+  nlohmann::ordered_json hands = nlohmann::ordered_json::array(), checks = hands, without = hands;
   for (const std::string& hand : options.hands) {
     const HandOutcomes& outcome = at.outcomes.at(hand);
     const GroupSummary s = summarise(outcome.scores);
     nlohmann::ordered_json caps = nlohmann::ordered_json::object();
     if (const auto found = at.caps.find(hand); found != at.caps.end()) caps = found->second;
     hands.push_back({{"hand", hand}, {"mean", s.mean}, {"sd", s.sd}, {"passes", outcome.passes},
-                     {"without_score", outcome.without_score}, {"scores", outcome.scores}, {"caps", caps}});
+                     {"pass_share", pass_share(outcome)}, {"without_score", outcome.without_score}, {"scores", outcome.scores}, {"caps", caps}});
   }
-  for (const ValidityCheck& check : check_validity(at.outcomes, at.first_level)) {
-    checks.push_back({{"name", check.name}, {"value", check.value}, {"bar", check.bar}, {"met", check.met}});
+  for (const Job& job : at.without_number) {
+    without.push_back({{"hand", job.hand}, {"seed", job.seed}, {"end", end_of(job)}});
   }
-  return {{"exercise", at.exercise}, {"level", at.level}, {"hands", hands}, {"checks", checks}};
+  for (const ValidityCheck& check : at.checks()) checks.push_back(check_json(check));
+  return {{"exercise", at.exercise}, {"level", at.level}, {"hands", hands}, {"without_number", without},
+          {"checks", checks}};
 }
 
 }  // namespace
@@ -196,7 +236,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   bool met = true;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Cell& cell : cells) {
-    for (const ValidityCheck& check : check_validity(cell.outcomes, cell.first_level)) met = met && check.met;
+    for (const ValidityCheck& check : cell.checks()) met = met && check.met;
     if (options.json) list.push_back(cell_json(cell, options));
     else print_cell(cell, options, out);
   }

@@ -26,8 +26,15 @@ bool InstrumentCoupling::near_port(const Pose& X_WS) const {
   return beyond || f.distance_m(handle_T) < Fulcrum::kNearest_m + (held_ ? kHysteresis_m : 0);
 }
 
+void InstrumentCoupling::take_up_offset(const Pose& X_WS) {
+  map_.registration = map_.registration_keeping(X_TI_, X_WS);
+  X_WS_ = X_WS;
+}
+
 void InstrumentCoupling::update(const Pose& X_WS, const Twist& V_WS, bool clutch, double dt_s) {
   const bool was_frozen = frozen();
+  // Before nearness is judged: where the handle stood by the old registration no longer matters.
+  if (clutched_ && !clutch) take_up_offset(X_WS);
   clutched_ = clutch;
   held_ = !clutch && near_port(X_WS);
   const double step = dt_s / kFade_s;
@@ -36,7 +43,7 @@ void InstrumentCoupling::update(const Pose& X_WS, const Twist& V_WS, bool clutch
     V_TI_T_ = {};
     return;
   }
-  if (was_frozen) map_.registration = map_.registration_keeping(X_TI_, X_WS);
+  if (was_frozen) take_up_offset(X_WS);
   X_WS_ = X_WS;
   X_TI_ = map_.instrument_pose(X_WS);
   V_TI_T_ = map_.instrument_twist(X_WS, V_WS);

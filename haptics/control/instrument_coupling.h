@@ -3,7 +3,8 @@
 // While the clutch is pressed the instrument stays frozen, the scene's force fades out in 50 ms and the stylus moves
 // freely; on release the registration takes up the offset (through a port: that of the handle), so that neither pose nor
 // force jumps, and the force fades in again. Nearer to the port than Fulcrum::kNearest_m the map has no meaning: the
-// instrument is held the same way until the handle is back, and the state says so. Thread: haptic task; no allocation.
+// instrument is held the same way until the handle is back, and the state says so. Nearness is that of the registration
+// in use: a clutch released takes up its offset first. Thread: haptic task; no allocation.
 #pragma once
 
 #include "haptics/control/instrument_map.h"
@@ -35,6 +36,8 @@ class InstrumentCoupling {
 
  private:
   bool near_port(const Pose& X_WS) const;
+  /// The registration by which a stylus at X_WS has the instrument where it is.
+  void take_up_offset(const Pose& X_WS);
 
   InstrumentMap map_;
   Registration first_;

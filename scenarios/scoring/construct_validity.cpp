@@ -5,10 +5,13 @@
 #include <cstdio>
 #include <numeric>
 
+#include "scenarios/scoring/metrics.h"
+
 namespace trocar {
 namespace {
 
 constexpr double kFullMarks = 100 - 1e-9;
+constexpr const char* kSpeedRunner = "speed-runner";
 
 /// Collects checks about hands, leaving out those whose hands did not run.
 class Checks {
@@ -18,18 +21,24 @@ class Checks {
   bool has(const std::string& hand) const { return outcomes_.count(hand) != 0; }
   const HandOutcomes& of(const std::string& hand) const { return outcomes_.at(hand); }
   double mean(const std::string& hand) const { return summarise(of(hand).scores).mean; }
-  double pass_share(const std::string& hand) const {
-    const HandOutcomes& o = of(hand);
-    const auto attempts = static_cast<double>(o.scores.size()) + o.without_score;
-    return attempts > 0 ? o.passes / attempts : 0;
-  }
+  double share(const std::string& hand) const { return pass_share(of(hand)); }
 
   void at_least(const std::string& name, double value, double bar) { add(name, value, ">=", bar, value >= bar); }
   void at_most(const std::string& name, double value, double bar) { add(name, value, "<=", bar, value <= bar); }
+  void not_asked(const std::string& name, const std::string& why) { checks_.push_back({name, 0, "", true, why}); }
   void add_number_check() {
     int missing = 0;
-    for (const auto& [hand, o] : outcomes_) missing += o.without_score + (o.scores.empty() ? 1 : 0);
+    for (const auto& [hand, o] : outcomes_) {
+      const int excused = hand == kSpeedRunner ? o.too_fast : 0;
+      missing += o.without_score - excused + (o.scores.empty() && excused == 0 ? 1 : 0);
+    }
     at_most("attempts without a score", missing, 0);
+  }
+  /// An attempt that the device stopped because the arm went too fast counts as 0.
+  double speed_runner_mean() const {
+    std::vector<double> scores = of(kSpeedRunner).scores;
+    scores.insert(scores.end(), static_cast<std::size_t>(of(kSpeedRunner).too_fast), 0.0);
+    return summarise(scores).mean;
   }
   std::vector<ValidityCheck> take() { return std::move(checks_); }
 
@@ -37,7 +46,7 @@ class Checks {
   void add(const std::string& name, double value, const char* sign, double bar, bool met) {
     char text[32];
     std::snprintf(text, sizeof text, "%s %g", sign, bar);
-    checks_.push_back({name, value, text, met});
+    checks_.push_back({name, value, text, met, ""});
   }
 
   const std::map<std::string, HandOutcomes>& outcomes_;
@@ -64,17 +73,23 @@ void check_skill(Checks& c, const ValidityBars& bars) {
   }
 }
 
-void check_cheats(Checks& c, bool first_level, const ValidityBars& bars) {
-  if (c.has("novice") && !first_level) c.at_most("novice passes", c.pass_share("novice"), bars.novice_pass_share);
+void check_cheats(Checks& c, const ValidityScope& scope, const ValidityBars& bars) {
+  if (c.has("novice")) {
+    if (scope.first_level) c.not_asked("novice passes", "not asked at the first level");
+    else c.at_most("novice passes", c.share("novice"), bars.novice_pass_share);
+  }
   if (c.has("clumsy")) {
     c.at_most("clumsy mean", c.mean("clumsy"), bars.clumsy_mean);
-    c.at_most("clumsy passes", c.pass_share("clumsy"), bars.clumsy_pass_share);
+    c.at_most("clumsy passes", c.share("clumsy"), bars.clumsy_pass_share);
   }
-  if (c.has("speed-runner")) {
-    c.at_most("speed-runner mean", c.mean("speed-runner"), bars.speed_runner_mean);
-    c.at_most("speed-runner passes", c.pass_share("speed-runner"), 0);
+  if (c.has(kSpeedRunner)) {
+    c.at_most("speed-runner mean", c.speed_runner_mean(), bars.speed_runner_mean);
+    c.at_most("speed-runner passes", c.share(kSpeedRunner), 0);
   }
-  if (c.has("heavy-handed")) c.at_most("heavy-handed passes", c.pass_share("heavy-handed"), 0);
+  if (c.has("heavy-handed")) {
+    if (!scope.judges_force) c.not_asked("heavy-handed passes", "the exercise judges no force");
+    else c.at_most("heavy-handed passes", c.share("heavy-handed"), 0);
+  }
   if (c.has("idle")) c.at_most("idle highest", summarise(c.of("idle").scores).highest, 0);
 }
 
@@ -94,6 +109,11 @@ GroupSummary summarise(const std::vector<double>& scores) {
   return s;
 }
 
+double pass_share(const HandOutcomes& outcomes) {
+  const double attempts = static_cast<double>(outcomes.scores.size()) + outcomes.without_score;
+  return attempts > 0 ? outcomes.passes / attempts : 0;
+}
+
 double cliffs_delta(const std::vector<double>& first, const std::vector<double>& second) {
   if (first.empty() || second.empty()) return 0;
   long long balance = 0;
@@ -103,12 +123,17 @@ double cliffs_delta(const std::vector<double>& first, const std::vector<double>&
   return static_cast<double>(balance) / (static_cast<double>(first.size()) * static_cast<double>(second.size()));
 }
 
-std::vector<ValidityCheck> check_validity(const std::map<std::string, HandOutcomes>& outcomes, bool first_level,
-                                          const ValidityBars& bars) {
+bool judges_force(const Rubric& rubric) {
+  return std::any_of(rubric.subscores.begin(), rubric.subscores.end(),
+                     [](const SubscoreRule& rule) { return is_force_metric(rule.metric); });
+}
+
+std::vector<ValidityCheck> check_validity(const std::map<std::string, HandOutcomes>& outcomes,
+                                          const ValidityScope& scope, const ValidityBars& bars) {
   Checks checks(outcomes);
   checks.add_number_check();
   check_skill(checks, bars);
-  check_cheats(checks, first_level, bars);
+  check_cheats(checks, scope, bars);
   return checks.take();
 }
 

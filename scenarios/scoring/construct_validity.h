@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/scoring/rubric.h"
+
 namespace trocar {
 
 /// Outcomes of one hand on one exercise and level, one entry a seed.
@@ -16,6 +18,7 @@ struct HandOutcomes {
   std::vector<double> scores;   ///< 0..100, attempts with a number only
   int passes = 0;
   int without_score = 0;        ///< aborted, void or fault
+  int too_fast = 0;             ///< of those: the device stopped because the arm went too fast
 };
 
 struct GroupSummary {
@@ -25,6 +28,9 @@ struct GroupSummary {
 
 /// @param scores may be empty: all zero then.
 GroupSummary summarise(const std::vector<double>& scores);
+
+/// Passes of all attempts, those without a number among them; 0 for none.
+double pass_share(const HandOutcomes& outcomes);
 
 /// -1..1; 0 when either group is empty.
 double cliffs_delta(const std::vector<double>& first, const std::vector<double>& second);
@@ -41,15 +47,25 @@ struct ValidityBars {
 
 /// One statement and whether it holds.
 struct ValidityCheck {
-  std::string name;   ///< "expert mean"
+  std::string name;       ///< "expert mean"
   double value = 0;
-  std::string bar;    ///< ">= 85"
-  bool met = false;
+  std::string bar;        ///< ">= 85"
+  bool met = false;       ///< also when it is not asked
+  std::string not_asked;  ///< why it does not apply here; empty: it does
 };
 
+/// What kind of exercise and level it is.
+struct ValidityScope {
+  bool first_level = false;  ///< the novice's pass share is not asked there
+  bool judges_force = true;  ///< without sub-scores of force or grip a heavy hand is as good as a light one
+};
+
+/// Does a rubric hold a sub-score of force or grip?
+bool judges_force(const Rubric& rubric);
+
 /// The checks that the hands present allow, in fixed order. @param outcomes by hand name; a hand without any score
-/// fails the checks that need one. @param first_level the novice's pass share is not asked there.
-std::vector<ValidityCheck> check_validity(const std::map<std::string, HandOutcomes>& outcomes, bool first_level,
-                                          const ValidityBars& bars = {});
+/// fails the checks that need one. A speed-runner that the device stopped for going too fast has earned 0.
+std::vector<ValidityCheck> check_validity(const std::map<std::string, HandOutcomes>& outcomes,
+                                          const ValidityScope& scope = {}, const ValidityBars& bars = {});
 
 }  // namespace trocar

@@ -73,6 +73,10 @@ constexpr MetricDefinition kCatalogue[] = {
     {"misplaced", "1", "times that a carried block was set down outside its ring"},
 };
 
+// Of force though their unit does not say so; all others of force are in newtons.
+constexpr std::string_view kForceShares[] = {"soft_force_share", "in_band_share",     "grip_in_band_share",
+                                             "excess_events",    "grip_window_share", "crushed"};
+
 }  // namespace
 
 const std::vector<MetricDefinition>& metric_catalogue() {
@@ -85,6 +89,12 @@ const MetricDefinition* find_metric(std::string_view name) {
     if (definition.name == name) return &definition;
   }
   return nullptr;
+}
+
+bool is_force_metric(std::string_view name) {
+  const MetricDefinition* metric = find_metric(name);
+  if (metric && metric->unit.starts_with('N')) return true;
+  return std::find(std::begin(kForceShares), std::end(kForceShares), name) != std::end(kForceShares);
 }
 
 Trace cut_trace(const Trace& trace, double start_s, double end_s) {

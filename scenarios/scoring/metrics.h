@@ -24,6 +24,9 @@ const std::vector<MetricDefinition>& metric_catalogue();
 /// nullptr when unknown.
 const MetricDefinition* find_metric(std::string_view name);
 
+/// Does it tell how hard was pressed or held?
+bool is_force_metric(std::string_view name);
+
 /// Part of a trace with start <= t <= end.
 Trace cut_trace(const Trace& trace, double start_s, double end_s);
 

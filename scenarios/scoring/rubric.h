@@ -28,7 +28,7 @@ struct Rubric {
   double expert_at = 92;
   double gate_cap = 59;          ///< total when a gate fails
   double critical_cap = 49;      ///< total after a critical event
-  double unfinished_cap = 49;    ///< times the share of objects done, when not finished
+  double unfinished_cap = 49;    ///< times the share of objects done, when time ran out or one was lost
   std::string sha256;            ///< of the exercise file's bytes
 };
 

@@ -35,7 +35,9 @@ void apply_caps(Grade& grade, const Rubric& rubric, const ScoringContext& contex
   }
   const Metric* critical = metric_named(grade.metrics, "critical_events");
   if (critical && critical->value.value_or(0) > 0) apply_cap(grade, rubric.critical_cap, "critical event");
-  if (context.outcome != AttemptStatus::kTimeout) return;
+  // An attempt may also end with something undone: a lost object cannot be fetched back.
+  const bool undone = context.objects_done < context.objects_total;
+  if (context.outcome != AttemptStatus::kTimeout && !undone) return;
   const double share = context.objects_total > 0 ? 1.0 * context.objects_done / context.objects_total : 0;
   apply_cap(grade, rubric.unfinished_cap * std::clamp(share, 0.0, 1.0),
             "not finished: " + std::to_string(context.objects_done) + " of " + std::to_string(context.objects_total));

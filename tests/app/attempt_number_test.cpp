@@ -107,7 +107,7 @@ TEST_F(Exam, ASecondSittingIsRefusedAndLeavesNothing) {
   const Json first = run(exam);
   std::ostringstream out, err;
   const std::string message = message_of<InputError>([&] { run_command(exam, out, err); });
-  EXPECT_CONTAINS(message, "exam of small-touch, seed 7: T-1 sat it on ");
+  EXPECT_CONTAINS(message, "exam of small-touch, board 2000007: T-1 sat it on ");
   EXPECT_CONTAINS(message, first.at("attempt").at("uuid").get<std::string>());
   EXPECT_CONTAINS(message, "take another --seed");
   EXPECT_EQ(out.str(), "");
@@ -127,9 +127,24 @@ TEST_F(Exam, AnotherHandOfTheSameTraineeIsASecondSittingAnotherSeedOrTraineeIsNo
   trainee.trainee = "T-2";
   practice.level = "L1";
   EXPECT_EQ(run(seed).at("exercise").at("level"), "exam");
-  EXPECT_EQ(run(trainee).at("exercise").at("board"), 1007) << "the same board for another";
-  EXPECT_EQ(run(practice).at("exercise").at("level"), "L1") << "practice may meet it again";
+  EXPECT_EQ(run(trainee).at("exercise").at("board"), 2000007) << "the same board for another";
+  EXPECT_EQ(run(practice).at("exercise").at("board"), 1007) << "practice never meets an exam's";
   EXPECT_EQ(stored().size(), 4u);
+}
+
+TEST_F(Exam, ASeedThatDrawsTheSameBoardIsASecondSittingAndPracticeBoardsAreNone) {
+  RunOptions exam = options("novice");
+  exam.level = "exam";
+  run(exam);
+  std::ostringstream out, err;
+  exam.seed += 1000000;
+  EXPECT_CONTAINS(message_of<InputError>([&] { run_command(exam, out, err); }), "an exam board is met once");
+  exam.board = 3;
+  EXPECT_CONTAINS(message_of<InputError>([&] { run_command(exam, out, err); }),
+                  "--board 3: is for practice; an exam's board is unseen, and drawn by --seed");
+  exam.board = 20;
+  EXPECT_CONTAINS(message_of<InputError>([&] { run_command(exam, out, err); }), "practice boards are 0 to 19");
+  EXPECT_EQ(stored().size(), 1u);
 }
 
 }  // namespace

@@ -62,7 +62,11 @@ TEST(CheckText, APortThatCannotBeUsedSaysTheBoardAndTheDistance) {
 
 TEST(CheckText, AForceBeyondTheMotorsIsTheReasonGiven) {
   const TemporaryFolder folder;
-  const Said said = check({folder.write("hard.toml", small_exercise("mapping = \"direct\"", 30)).string()});
+  std::string text = small_exercise("mapping = \"direct\"", 30);
+  const Said scaled = check({folder.write("scaled.toml", text).string()});
+  EXPECT_EQ(scaled.code, 0) << "auto scales it down: " << scaled.out;
+  text.replace(text.find("\"auto\""), 6, "1.0");
+  const Said said = check({folder.write("hard.toml", text).string()});
   EXPECT_EQ(said.code, 2);
   EXPECT_CONTAINS(said.out, "NOT sound: board 0: gravity and the hard limit ask more torque than a motor can give\n");
 }
@@ -92,6 +96,7 @@ TEST(CheckJson, HoldsEveryBoardAndTheReason) {
   ASSERT_EQ(good.at("boards").size(), 23u);
   EXPECT_EQ(good.at("boards").at(19).at("board"), 19);
   EXPECT_EQ(good.at("boards").at(22).at("board"), 1002);
+  EXPECT_EQ(json[1].at("boards").at(22).at("board"), 2000002) << "the exam's own";
   double margin = 1e9;
   for (const Json& board : good.at("boards")) {
     margin = std::min(margin, board.at("worst").at("joint_margin_deg").get<double>());

@@ -114,7 +114,12 @@ TEST(AttemptSetup, PracticeBoardsAreNeverDrawn) {
     boards.insert(board);
   }
   EXPECT_EQ(boards.size(), 6u) << "1 and -999999, and 999999, -1 and -5000000001, share a remainder";
+  run.seed = -1;
+  run.level = "exam";
+  EXPECT_EQ(attempt_setup(run, assets).board, 2999999) << "exams have boards of their own";
   run.board = 3;
+  EXPECT_THROW(attempt_setup(run, assets), InputError) << "and none of practice";
+  run.level = "L3";
   EXPECT_EQ(attempt_setup(run, assets).board, 3);
   for (const int board : {-1, 20}) {
     run.board = board;

@@ -161,20 +161,6 @@ TEST(Placement, EveryTargetLiesWithinTheArmsReach) {
   }
 }
 
-TEST(Placement, AForceThatTheDeviceCannotRenderIsScaledDown) {
-  const Scene scene = short_scene("expert");
-  const TargetLayout& layout = scene.setup.exercise.layout;
-  const double room = renderable_force_n(scene.loop.map, scene.loop.device, layout);
-  EXPECT_GT(room, 0.2);
-  EXPECT_LT(room, 50);
-  ExerciseLevel level = scene.level;
-  level.force_scale = -1;  // "auto"
-  EXPECT_DOUBLE_EQ(force_scale(level, scene.loop.map, scene.loop.device, layout, room / 2), 1);
-  EXPECT_DOUBLE_EQ(force_scale(level, scene.loop.map, scene.loop.device, layout, 2 * room), 0.5);
-  level.force_scale = 0.3;
-  EXPECT_DOUBLE_EQ(force_scale(level, scene.loop.map, scene.loop.device, layout, 2 * room), 0.3);
-}
-
 TEST(Placement, ThroughAPortEveryDiscIsWithinReachToo) {
   const Scene scene = short_scene("expert");
   ExerciseLevel level = scene.level;

@@ -108,6 +108,54 @@ TEST(PortHold, TheMapIsHeldNearThePortAndGoesOnWithoutAJump) {
   EXPECT_NEAR((at(0.0235) - deepest).z(), 0.001, 1e-12) << "drawing back draws the tip back";
 }
 
+/// While the clutch is pressed the stylus may go anywhere, also to where the old registration has the handle in the port.
+TEST(PortHold, AClutchReleasedThereByTheOldRegistrationHoldsNothing) {
+  for (const double above_port : {0.0195, 0.005, 0.0, -0.04}) {
+    InstrumentCoupling coupling(port_map());
+    const Pose off{Mat3::Identity(), Vec3(0.02, -0.01, 0.27)};
+    for (int k = 0; k < 3; ++k) coupling.update(off, {}, false, kTick);
+    const Pose before = coupling.X_TI();
+    const Wrench push{Vec3(0.3, 0.1, 0.8), Vec3(0, 0, 0.002)};
+    const Wrench felt = coupling.stylus_wrench(push);
+    Pose released{Mat3::Identity(), Vec3(0, 0, 0.12 + above_port)};
+    for (int k = 0; k < 60; ++k) coupling.update(released, {}, true, kTick);
+    EXPECT_EQ(coupling.share(), 0);
+    for (int k = 1; k <= 60; ++k) {
+      coupling.update(released, {}, false, kTick);
+      EXPECT_FALSE(coupling.held()) << above_port;
+      EXPECT_LT((coupling.X_TI().p - before.p).norm(), 1e-12);
+      EXPECT_LT((coupling.X_TI().R - before.R).norm(), 1e-9);
+      EXPECT_NEAR(coupling.share(), std::min(1.0, 0.02 * k), 1e-12) << "the force comes back at once, and in 50 ms";
+    }
+    const Wrench again = coupling.stylus_wrench(push);
+    EXPECT_LT((again.force - felt.force).norm(), 1e-9);
+    EXPECT_LT((again.moment - felt.moment).norm(), 1e-12);
+    released.p.z() += 0.001;
+    coupling.update(released, {}, false, kTick);
+    EXPECT_GT(coupling.X_TI().p.z(), before.p.z() + 0.5e-3) << "drawing back draws the tip back";
+  }
+}
+
+TEST(PortHold, AClutchDoesNotFreeAHandleThatIsPushedOnIntoThePort) {
+  InstrumentCoupling coupling(port_map());
+  Pose stylus{Mat3::Identity(), Vec3(0, 0, 0.1405)};
+  coupling.update(stylus, {}, false, kTick);
+  const Vec3 deepest = coupling.X_TI().p;
+  stylus.p = Vec3(0.1, 0, 0.3);
+  coupling.update(stylus, {}, true, kTick);
+  coupling.update(stylus, {}, false, kTick);
+  EXPECT_FALSE(coupling.held()) << "half a millimetre is left, wherever the stylus is";
+  stylus.p.z() -= 0.001;
+  coupling.update(stylus, {}, false, kTick);
+  EXPECT_TRUE(coupling.held());
+  EXPECT_LT((coupling.X_TI().p - deepest).norm(), 1e-12);
+  // Clutched out of the hold: the map that the force goes by and the instrument it goes to still belong together.
+  stylus.p = Vec3(-0.05, 0.02, 0.25);
+  coupling.update(stylus, {}, true, kTick);
+  coupling.update(stylus, {}, false, kTick);
+  EXPECT_LT((coupling.map().instrument_pose(coupling.X_WS()).p - coupling.X_TI().p).norm(), 1e-12);
+}
+
 TEST(PortHold, AStylusThatBeginsInThePortIsHeldAtAFinitePose) {
   InstrumentCoupling coupling(port_map());
   coupling.update({Mat3::Identity(), Vec3(0, 0, 0.12)}, {}, false, kTick);

@@ -8,30 +8,18 @@
 
 #include "haptics/input_error.h"
 #include "scenarios/strict_toml.h"
+#include "tests/scenarios/support/bad_exercise.h"
 
 namespace trocar {
 namespace {
+
+using test::refusal;
 
 const std::filesystem::path kExercises = std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises";
 
 std::string shipped_text() { return read_text_file((kExercises / "surface-touch.toml").string()); }
 
-/// The shipped file with the first `from` replaced by `to`.
-std::string edited(const std::string& from, const std::string& to) {
-  std::string text = shipped_text();
-  const auto at = text.find(from);
-  if (at == std::string::npos) ADD_FAILURE() << "not in the file: " << from;
-  return text.replace(at, from.size(), to);
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    parse_exercise(text, "bad.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
+std::string edited(const std::string& from, const std::string& to) { return test::edited(shipped_text(), from, to); }
 
 TEST(ExerciseLoader, ReadsTheShippedExercise) {
   const Exercise e = load_exercise(kExercises / "surface-touch.toml");

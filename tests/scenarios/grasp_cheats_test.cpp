@@ -127,15 +127,60 @@ TEST(GraspCheats, AnotherOrderGainsNothing) {
   }
 }
 
-TEST(GraspCheats, SweepingTheBoardEmptyNeverPasses) {
+bool has_cap(const Grade& grade, const std::string& reason) {
+  return std::any_of(grade.caps.begin(), grade.caps.end(),
+                     [&](const std::string& cap) { return cap.find(reason) != std::string::npos; });
+}
+
+TEST(GraspCheats, SweepingTheBoardEmptyEarnsNothing) {
   GraspBench bench;
   for (int i = 0; i < 6; ++i) push(bench, i, Vec3(-0.080, 0, 0));
   EXPECT_EQ(bench.count("LOST"), 6);
+  EXPECT_EQ(bench.director.outcome(), AttemptStatus::kCompleted) << "there is nothing left to do";
   const Grade grade = bench.grade();
   EXPECT_EQ(value_of(grade.metrics, "objects_done_share"), 0.0);
   EXPECT_FALSE(value_of(grade.metrics, "grip_window_share").has_value());
   EXPECT_FALSE(grade.passed);
-  EXPECT_LE(grade.score.value(), 59);
+  EXPECT_EQ(grade.score.value(), 0);
+  EXPECT_TRUE(has_cap(grade, "not finished: 0 of 6")) << grade.caps.size();
+}
+
+TEST(GraspCheats, PlacingTheEasyOnesAndLosingTheRestIsUnfinished) {
+  for (int placed = 1; placed < 6; ++placed) {
+    GraspBench bench;
+    for (int i = 0; i < placed; ++i) bench.place(i);
+    for (int i = placed; i < 6; ++i) push(bench, i, Vec3(0.090, 0.070, 0));
+    const Grade grade = bench.grade();
+    EXPECT_LE(grade.score.value(), 49.0 * placed / 6 + 1e-12) << placed;
+    EXPECT_FALSE(grade.passed);
+    EXPECT_TRUE(has_cap(grade, "critical event"));
+    EXPECT_TRUE(has_cap(grade, "not finished: " + std::to_string(placed) + " of 6"));
+  }
+}
+
+TEST(GraspCheats, LosingABlockGainsNothingOverLeavingIt) {
+  GraspBench left, lost;
+  for (GraspBench* bench : {&left, &lost}) {
+    for (int i = 0; i < 5; ++i) bench->place(i);
+  }
+  push(lost, 5, Vec3(-0.080, 0, 0));
+  left.feed(150);
+  EXPECT_EQ(left.director.outcome(), AttemptStatus::kTimeout);
+  EXPECT_LE(lost.grade().score.value(), 49.0 * 5 / 6);
+  EXPECT_LE(left.grade().score.value(), 49.0 * 5 / 6);
+}
+
+TEST(GraspCheats, APlacedBlockThatIsLostIsNotDone) {
+  GraspBench bench;
+  bench.place(0);
+  bench.block(0).X_TO.p = Vec3(-0.080, 0, bench.half_height());  // at once, as it seems between two frames
+  bench.feed(0.1);
+  EXPECT_EQ(bench.count("REMOVED"), 1);
+  EXPECT_EQ(bench.last("LOST").severity, Severity::kCritical);
+  EXPECT_EQ(bench.director.status().targets_done, 0);
+  for (int i = 1; i < 6; ++i) bench.place(i);
+  EXPECT_EQ(bench.director.status().targets_done, 5);
+  EXPECT_LE(bench.grade().score.value(), 49.0 * 5 / 6);
 }
 
 /// The events with one more, at its time.

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "haptics/input_error.h"
+#include "tests/scenarios/support/bad_exercise.h"
 #include "tests/scenarios/support/grasp_bench.h"
 
 namespace trocar {
 namespace {
+
+using test::refusal;
 
 struct Refused {
   const char* from;
@@ -17,19 +19,7 @@ struct Refused {
 };
 
 std::string changed(const std::string& from, const std::string& to) {
-  std::string text = limited_grasp().text;
-  const auto at = text.find(from);
-  if (at == std::string::npos) ADD_FAILURE() << "not in the file: " << from;
-  return text.replace(at, from.size(), to);
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    parse_exercise(text, "bad.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::edited(limited_grasp().text, from, to);
 }
 
 /// "bad.toml:LINE:" of the first place at which `word` stands.

@@ -50,6 +50,7 @@ TEST(GraspTask, PlacesABlockThatWasLiftedCarriedAndSetDown) {
   EXPECT_EQ(bench.last("PLACED").severity, Severity::kInfo);
   EXPECT_NEAR(bench.last("GRASPED").value, bench.good_grip(0), 1e-12);
   EXPECT_EQ(bench.count("MISPLACED") + bench.count("DROP") + bench.count("SLIP") + bench.count("REGRASP"), 0);
+  EXPECT_EQ(bench.director.status().done, std::bitset<32>(1));
   EXPECT_LT(bench.last("LIFTED").t_s, bench.last("SET_DOWN").t_s);
 }
 
@@ -60,6 +61,7 @@ TEST(GraspTask, IsDoneWhenAllBlocksStand) {
   EXPECT_EQ(bench.count("TARGET_LIT"), 6);
   EXPECT_EQ(bench.count("WRONG_BLOCK"), 0);
   EXPECT_EQ(bench.director.outcome(), AttemptStatus::kCompleted);
+  EXPECT_EQ(bench.director.status().done, std::bitset<32>(0b111111));
 }
 
 TEST(GraspTask, BesideTheRingIsMisplaced) {
@@ -194,6 +196,7 @@ TEST(GraspTask, APlacedBlockPushedOutIsAskedForAgain) {
   bench.feed(0.05);
   EXPECT_EQ(bench.count("REMOVED"), 1);
   EXPECT_EQ(bench.director.status().targets_done, 0);
+  EXPECT_TRUE(bench.director.status().done.none());
   EXPECT_EQ(bench.director.status().target_index, 1) << "the one that is lit stays lit";
   for (int i = 1; i < 6; ++i) bench.place(i);
   EXPECT_FALSE(bench.director.finished());
@@ -209,6 +212,7 @@ TEST(GraspTask, ABlockFarOutsideIsLost) {
   bench.feed(0.5);
   EXPECT_EQ(bench.count("LOST"), 1);
   EXPECT_NEAR(bench.last("LOST").value, 0.003, 1e-9);
+  EXPECT_EQ(bench.last("LOST").severity, Severity::kCritical);
   EXPECT_EQ(bench.director.status().target_index, 1);
 }
 

@@ -7,9 +7,12 @@
 
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
+#include "tests/scenarios/support/bad_exercise.h"
 
 namespace trocar {
 namespace {
+
+using test::refusal;
 
 std::string shipped_text() {
   return read_text_file(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/surface-touch.toml");
@@ -28,15 +31,6 @@ const std::string kFirst =
 
 std::string level(const std::string& name, const std::string& keys) {
   return kFirst + "[[levels]]\nname = \"" + name + "\"\nlike = \"L1\"\n" + keys;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    parse_exercise(text, "bad.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(Levels, TakeOverWhatTheyDoNotName) {

@@ -26,6 +26,20 @@ TEST_F(Sweep, AFailedCheckIsExitCodeOne) {
   EXPECT_EQ(json["met"], false);
 }
 
+TEST_F(Sweep, ALineThatDoesNotApplySaysSo) {
+  const Words words{"sweep", "reach-and-orient", "--hand", "heavy-handed", "--level", "L1", "--seeds", "1"};
+  const Outcome text = trocar(words);
+  EXPECT_EQ(text.exit_code, 0) << text.out << text.err;
+  EXPECT_NE(text.out.find("  n/a      heavy-handed passes: the exercise judges no force\n"), std::string::npos) << text.out;
+  Words json = words;
+  json.push_back("--json");
+  const Json cell = json_of(json, 0)["cells"][0];
+  EXPECT_EQ(cell["checks"][1]["not_asked"], "the exercise judges no force");
+  EXPECT_TRUE(cell["checks"][1]["met"]);
+  EXPECT_EQ(cell["without_number"], Json::array());
+  EXPECT_TRUE(cell["hands"][0].contains("pass_share"));
+}
+
 TEST_F(Sweep, RefusesWhatItCannotRun) {
   expect_refusal({"sweep", "surface-touch", "--hand", "nobody"}, 2, "nobody");
   expect_refusal({"sweep", "surface-touch", "--level", "L9"}, 2, "L9");

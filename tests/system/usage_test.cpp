@@ -99,6 +99,8 @@ TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
   expect_refusal(short_run({"--rate", "1500"}), 2, "--rate");
   expect_refusal(short_run({"--fps", "0"}), 2, "--fps");
   expect_refusal(short_run({"--board", "20"}), 2, "practice boards are 0 to 19");
+  expect_refusal({"run", "surface-touch", "--hand", "idle", "--level", "exam", "--board", "3", "--db", ":memory:"}, 2,
+                 "an exam's board is unseen, and drawn by --seed");
   expect_refusal(short_run({"--contact", "magic"}), 2, "known are proxy, thesis");
   expect_refusal(short_run({"--passivity", "magic"}), 2, "known are budgeted, off");
   expect_refusal(short_run({"--seed", "many"}), 2, "--seed");

@@ -4,41 +4,14 @@
 #include <cmath>
 #include <memory>
 
-#include "haptics/control/pinch_channel.h"
 #include "haptics/input_error.h"
 #include "tests/tissue/support/shapes.h"
-#include "tissue/tissue_world.h"
+#include "tests/tissue/support/world_rig.h"
 
 namespace trocar {
 namespace {
 
-FoamBlock block_at(const Vec3& middle, int kind = 0) {
-  FoamBlock block;
-  block.size_m = Vec3(0.014, 0.014, 0.020);
-  block.mass_kg = 0.002;
-  block.stiffness_n_per_m = 300;
-  block.slip_below_n = 0.5;
-  block.crush_above_n = 1.5;
-  block.kind = kind;
-  block.X_TO.p = middle;
-  return block;
-}
-
-struct World {
-  TissueSetup setup;
-  std::unique_ptr<TissueWorld> world;
-  std::unique_ptr<ContactPatch> patch = std::make_unique<ContactPatch>();
-  StylusState state;
-
-  World() {
-    setup.rigid.board = BoardPlate{};
-    setup.rigid.blocks = {block_at(Vec3(0, 0, 0.010)), block_at(Vec3(0.032, 0, 0.010), 1)};
-    setup.tool.jaw_length_m = 0.020;
-    state.X_TI.R << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-    state.X_TI.p = Vec3(0, 0, 0.060);
-    state.jaw_opening_m = 0.022;
-  }
-  void start() { world = std::make_unique<TissueWorld>(setup); }
+struct World : test::WorldRig {
   /// Moves the tip to `to` and the jaws to `opening` over `seconds`, at the tissue rate.
   void move(const Vec3& to, double opening, double seconds, bool present = true) {
     const Vec3 from = state.X_TI.p;
@@ -49,20 +22,12 @@ struct World {
       state.X_TI.p = from + s * (to - from);
       state.V_TI_T.linear = (to - from) / seconds;
       state.jaw_opening_m = from_opening + s * (opening - from_opening);
-      state.t_s += 0.01;
-      state.grip_force_n = grip_block(patch->grip, state.jaw_opening_m).force_n;
-      world->step(state, present, *patch);
+      step(1, present);
     }
     state.V_TI_T.linear.setZero();
   }
   const ObjectState& object(std::size_t i) const { return world->frame().object[i]; }
 };
-
-int count_material(const ContactPatch& patch, std::int32_t material) {
-  int count = 0;
-  for (int i = 0; i < patch.count; ++i) count += patch.triangle[std::size_t(i)].material == material;
-  return count;
-}
 
 TEST(TissueWorld, WithoutInstrumentThereIsNothingToFeelAndTheBlocksRest) {
   World w;
@@ -84,7 +49,7 @@ TEST(TissueWorld, AnOrganAloneIsCutIntoThePatch) {
   w.start();
   w.move(Vec3(0, 0, 0.005), 0.002, 0.1);
   EXPECT_GT(w.patch->count, 0);
-  EXPECT_EQ(count_material(*w.patch, 0), w.patch->count);
+  EXPECT_EQ(w.triangles_of(0), w.patch->count);
   EXPECT_EQ(w.patch->material[0].stiffness_n_per_m, 123);
   EXPECT_EQ(w.world->frame().object_count, 0);
 }
@@ -93,9 +58,9 @@ TEST(TissueWorld, BoardAndBlocksAreFeltWithMaterialsOfTheirOwn) {
   World w;
   w.start();
   w.move(Vec3(0.016, 0.020, 0.010), 0.002, 0.3);
-  EXPECT_EQ(count_material(*w.patch, kBoardMaterial), 2);
-  EXPECT_EQ(count_material(*w.patch, kFirstFoamMaterial), 12);
-  EXPECT_EQ(count_material(*w.patch, kFirstFoamMaterial + 1), 12);
+  EXPECT_EQ(w.triangles_of(kBoardMaterial), 2);
+  EXPECT_EQ(w.triangles_of(kFirstFoamMaterial), 12);
+  EXPECT_EQ(w.triangles_of(kFirstFoamMaterial + 1), 12);
   for (int i = 0; i < w.patch->count; ++i) {
     const PatchTriangle& t = w.patch->triangle[std::size_t(i)];
     if (t.material < kFirstFoamMaterial) continue;
@@ -110,7 +75,7 @@ TEST(TissueWorld, PickLiftAndDropTakesTheTimeOfTheFall) {
   w.start();
   w.move(Vec3(0, 0, 0.008), 0.022, 0.3);
   EXPECT_EQ(w.world->frame().grip, GripState::kAround);
-  EXPECT_EQ(count_material(*w.patch, kFirstFoamMaterial), 0) << "the pinch feels it now";
+  EXPECT_EQ(w.triangles_of(kFirstFoamMaterial), 0) << "the pinch feels it now";
   w.move(Vec3(0, 0, 0.008), 0.0105, 0.3);
   EXPECT_EQ(w.world->frame().grip, GripState::kHolding);
   EXPECT_GT(w.patch->held.radius_m, 0);
@@ -148,7 +113,7 @@ TEST(TissueWorld, AHeldBlockPushesAnotherAndThePairIsListed) {
 
 TEST(TissueWorld, TheJawsTakeOneBlockAndPushTheOther) {
   World w;
-  w.setup.rigid.blocks = {block_at(Vec3(0, -0.0071, 0.010)), block_at(Vec3(0, 0.0071, 0.010))};
+  w.setup.rigid.blocks = {test::foam_block(Vec3(0, -0.0071, 0.010)), test::foam_block(Vec3(0, 0.0071, 0.010))};
   w.start();
   w.move(Vec3(0, 0, 0.008), 0.028, 0.3);
   w.move(Vec3(0, 0, 0.008), 0.010, 0.5);
@@ -179,9 +144,9 @@ TEST(TissueWorld, ToolAndBoardMakeAPairWithItsForce) {
 
 TEST(TissueWorld, RefusesMoreBlocksAndKindsThanItCanHold) {
   World w;
-  w.setup.rigid.blocks.assign(kMaxObjects + 1, block_at(Vec3(0, 0, 0.010)));
+  w.setup.rigid.blocks.assign(kMaxObjects + 1, test::foam_block(Vec3(0, 0, 0.010)));
   EXPECT_THROW(w.start(), InputError);
-  w.setup.rigid.blocks = {block_at(Vec3(0, 0, 0.010), kMaxPatchMaterials - kFirstFoamMaterial)};
+  w.setup.rigid.blocks = {test::foam_block(Vec3(0, 0, 0.010), kMaxPatchMaterials - kFirstFoamMaterial)};
   EXPECT_THROW(w.start(), InputError);
 }
 

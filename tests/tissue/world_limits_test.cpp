@@ -5,49 +5,14 @@
 #include <memory>
 #include <set>
 
-#include "haptics/control/pinch_channel.h"
 #include "tests/tissue/support/shapes.h"
-#include "tissue/tissue_world.h"
+#include "tests/tissue/support/world_rig.h"
 
 namespace trocar {
 namespace {
 
-FoamBlock foam(const Vec3& middle, int kind = 0) {
-  FoamBlock block;
-  block.size_m = Vec3(0.014, 0.014, 0.020);
-  block.mass_kg = 0.002;
-  block.stiffness_n_per_m = 300 + 100 * kind;
-  block.slip_below_n = 0.5;
-  block.crush_above_n = 1.5;
-  block.kind = kind;
-  block.colour = 7 - kind;
-  block.X_TO.p = middle;
-  return block;
-}
-
-/// A grasper that points straight down, 100 steps a second.
-struct Scene {
-  TissueSetup setup;
-  std::unique_ptr<TissueWorld> world;
-  std::unique_ptr<ContactPatch> patch = std::make_unique<ContactPatch>();
-  StylusState state;
-
-  Scene() {
-    setup.rigid.board = BoardPlate{};
-    setup.rigid.blocks = {foam(Vec3(0, 0, 0.010)), foam(Vec3(0.032, 0, 0.010), 1)};
-    setup.tool.jaw_length_m = 0.020;
-    state.X_TI.R << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-    state.X_TI.p = Vec3(0, 0, 0.008);
-    state.jaw_opening_m = 0.022;
-  }
-  void step(int steps = 1, bool present = true) {
-    if (!world) world = std::make_unique<TissueWorld>(setup);
-    for (int i = 0; i < steps; ++i) {
-      state.t_s += 0.01;
-      state.grip_force_n = grip_block(patch->grip, state.jaw_opening_m).force_n;
-      world->step(state, present, *patch);
-    }
-  }
+struct Scene : test::WorldRig {
+  Scene() { state.X_TI.p = Vec3(0, 0, 0.008); }
   /// Closes until the block pushes back with this force.
   void squeeze(double force_n, int steps = 1) {
     state.jaw_opening_m = patch->grip.thickness_m - force_n / patch->grip.stiffness_n_per_m;
@@ -65,11 +30,6 @@ struct Scene {
     }
   }
   const TissueFrame& frame() const { return world->frame(); }
-  int triangles_of(std::int32_t material) const {
-    int count = 0;
-    for (int i = 0; i < patch->count; ++i) count += patch->triangle[std::size_t(i)].material == material;
-    return count;
-  }
 };
 
 TEST(WorldPatch, MaterialsAreThoseOfOrganBoardAndEachFoam) {
@@ -156,7 +116,7 @@ TEST(WorldFrame, TellsWhatTheBlocksAreAndWhenItWasMade) {
 
 TEST(WorldFrame, AGapInTheStatesCountsAsFiftyMilliseconds) {
   Scene s;
-  s.setup.rigid.blocks = {foam(Vec3(0.2, 0, 0.5))};
+  s.setup.rigid.blocks = {test::foam_block(Vec3(0.2, 0, 0.5))};
   s.step();
   s.state.t_s += 10;
   s.step();
@@ -171,7 +131,7 @@ TEST(WorldFrame, AGapInTheStatesCountsAsFiftyMilliseconds) {
 TEST(WorldFrame, BlocksRestOnABoardOfAnyHeight) {
   Scene s;
   s.setup.rigid.board->top_z_m = -0.030;
-  s.setup.rigid.blocks = {foam(Vec3(0, 0, -0.018)), foam(Vec3(0.15, 0, -0.018))};
+  s.setup.rigid.blocks = {test::foam_block(Vec3(0, 0, -0.018)), test::foam_block(Vec3(0.15, 0, -0.018))};
   s.state.X_TI.p = Vec3(0.03, 0.03, 0);
   s.step(100);
   for (std::size_t i = 0; i < 2; ++i) {

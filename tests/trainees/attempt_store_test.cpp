@@ -45,6 +45,16 @@ void expect_equal(const AttemptResult& back, const AttemptResult& result) {
                      a.min_energy_j, a.kappa, a.fault, a.realtime),
             std::tie(b.backend, b.rate_hz, b.ticks, b.overruns, b.saturated_contact_share, b.passivity_active_share,
                      b.min_energy_j, b.kappa, b.fault, b.realtime));
+  ASSERT_EQ(a.warnings.size(), b.warnings.size());
+  for (std::size_t i = 0; i < b.warnings.size(); ++i) {
+    EXPECT_EQ(std::tie(a.warnings[i].name, a.warnings[i].first_s, a.warnings[i].ticks),
+              std::tie(b.warnings[i].name, b.warnings[i].first_s, b.warnings[i].ticks));
+  }
+  ASSERT_EQ(a.transitions.size(), b.transitions.size());
+  for (std::size_t i = 0; i < b.transitions.size(); ++i) {
+    EXPECT_EQ(std::tie(a.transitions[i].t_s, a.transitions[i].from, a.transitions[i].to),
+              std::tie(b.transitions[i].t_s, b.transitions[i].from, b.transitions[i].to));
+  }
   EXPECT_EQ(back.state_hash, result.state_hash);
 }
 
@@ -164,49 +174,59 @@ TEST(AttemptStore, IdentifiersAreOrderedByTime) {
   }
 }
 
+// What another program could try on the rows of a finished attempt.
+const char* const kChanges[] = {
+    "UPDATE score SET value = 100",
+    "DELETE FROM score",
+    "UPDATE attempt SET status = 'running'",
+    "DELETE FROM attempt",
+    "UPDATE event SET value = 0",
+    "DELETE FROM event",
+    "UPDATE metric SET value = 0",
+    "DELETE FROM metric",
+    "UPDATE subscore SET value = 1",
+    "DELETE FROM subscore",
+    "DELETE FROM score_cap",
+    "UPDATE score_cap SET reason = ''",
+    "INSERT INTO event SELECT attempt_id, 99, t_s, type, severity, object, value, unit, 0, 0, 0 FROM event LIMIT 1",
+    "INSERT INTO score (attempt_id, revision, ruleset_sha256, passed, grade)"
+    " SELECT attempt_id, 1, ruleset_sha256, 1, 'expert' FROM score",
+    "INSERT OR REPLACE INTO score SELECT * FROM score",
+    "INSERT INTO metric VALUES (1, 99, 'luck', 1, '')",
+    "INSERT OR REPLACE INTO metric VALUES (1, 0, 'time', 1, 's')",
+    "INSERT INTO subscore SELECT score_id, 99, 'luck', 1, 1, 1, '', 0, 0, 0 FROM subscore LIMIT 1",
+    "INSERT INTO score_cap VALUES (1, 99, 'x')",
+    "UPDATE device_warning SET ticks = 0",
+    "DELETE FROM device_warning",
+    "INSERT INTO device_warning VALUES (1, 9, 'x', 0, 1)",
+    "INSERT OR REPLACE INTO device_warning SELECT * FROM device_warning",
+    "UPDATE device_transition SET to_state = ''",
+    "DELETE FROM device_transition",
+    "INSERT INTO device_transition VALUES (1, 9, 0, '', '')",
+    "INSERT OR REPLACE INTO device_transition SELECT * FROM device_transition",
+    "UPDATE ruleset SET toml = ''",
+    "DELETE FROM ruleset",
+    "INSERT OR REPLACE INTO ruleset SELECT sha256, exercise_id, version, 'easier' FROM ruleset",
+    "UPDATE audit SET detail = ''",
+    "DELETE FROM audit",
+    "INSERT INTO audit VALUES (9, '', '', '', '', '', '', 'x')",
+    "INSERT OR REPLACE INTO audit SELECT * FROM audit",
+    "INSERT OR REPLACE INTO attempt SELECT * FROM attempt",
+    "INSERT OR REPLACE INTO attempt (uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed, "
+    "board,"
+    " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, owner_pid, "
+    "owner_boot,"
+    " owner_start, program, hash_version, status) SELECT uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed, board,"
+    " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, 1, '', 1, '', 2, 'running'"
+    " FROM attempt"};
+
 TEST_F(AttemptFile, AFinishedAttemptCannotBeChangedFromOutside) {
   AttemptId id;
   {
     Database database(folder_ / "t.db");
     id = store_attempt(database, sample_start(), sample_result());
   }
-  const std::string changes[] = {
-      "UPDATE score SET value = 100",
-      "DELETE FROM score",
-      "UPDATE attempt SET status = 'running'",
-      "DELETE FROM attempt",
-      "UPDATE event SET value = 0",
-      "DELETE FROM event",
-      "UPDATE metric SET value = 0",
-      "DELETE FROM metric",
-      "UPDATE subscore SET value = 1",
-      "DELETE FROM subscore",
-      "DELETE FROM score_cap",
-      "UPDATE score_cap SET reason = ''",
-      "INSERT INTO event SELECT attempt_id, 99, t_s, type, severity, object, value, unit, 0, 0, 0 FROM event LIMIT 1",
-      "INSERT INTO score (attempt_id, revision, ruleset_sha256, passed, grade)"
-      " SELECT attempt_id, 1, ruleset_sha256, 1, 'expert' FROM score",
-      "INSERT OR REPLACE INTO score SELECT * FROM score",
-      "INSERT INTO metric VALUES (1, 99, 'luck', 1, '')",
-      "INSERT OR REPLACE INTO metric VALUES (1, 0, 'time', 1, 's')",
-      "INSERT INTO subscore SELECT score_id, 99, 'luck', 1, 1, 1, '', 0, 0, 0 FROM subscore LIMIT 1",
-      "INSERT INTO score_cap VALUES (1, 99, 'x')",
-      "UPDATE ruleset SET toml = ''",
-      "DELETE FROM ruleset",
-      "INSERT OR REPLACE INTO ruleset SELECT sha256, exercise_id, version, 'easier' FROM ruleset",
-      "UPDATE audit SET detail = ''",
-      "DELETE FROM audit",
-      "INSERT INTO audit VALUES (9, '', '', '', '', '', '', 'x')",
-      "INSERT OR REPLACE INTO audit SELECT * FROM audit",
-      "INSERT OR REPLACE INTO attempt SELECT * FROM attempt",
-      "INSERT OR REPLACE INTO attempt (uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed, "
-      "board,"
-      " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, owner_pid, "
-      "owner_boot,"
-      " owner_start, program, hash_version, status) SELECT uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed, board,"
-      " hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, 1, '', 1, '', 2, 'running'"
-      " FROM attempt"};
-  for (const std::string& change : changes) EXPECT_NE(run_outside(folder_ / "t.db", change), "") << change;
+  for (const char* change : kChanges) EXPECT_NE(run_outside(folder_ / "t.db", change), "") << change;
   Database database(folder_ / "t.db");
   expect_equal(AttemptStore(database).load(id.row), sample_result());
   EXPECT_TRUE(database.check().empty());

@@ -30,7 +30,8 @@ class Audit : public TemporaryFolder {
   /// The newest attempt and its rows taken out, the triggers put back as they were.
   void remove_newest(bool with_audit) const {
     std::string sql, restore;
-    for (const char* table : {"event", "metric", "subscore", "score_cap", "score", "attempt", "audit"}) {
+    for (const char* table : {"event", "metric", "subscore", "score_cap", "score", "device_warning",
+                              "device_transition", "attempt", "audit"}) {
       const std::string name = std::string(table) + "_no_delete";
       sqlite3* raw = nullptr;
       sqlite3_open(file_.c_str(), &raw);
@@ -40,6 +41,7 @@ class Audit : public TemporaryFolder {
     }
     sql += "DELETE FROM event WHERE attempt_id = 3; DELETE FROM metric WHERE score_id = 3; DELETE FROM subscore"
            " WHERE score_id = 3; DELETE FROM score_cap WHERE score_id = 3; DELETE FROM score WHERE id = 3;"
+           "DELETE FROM device_warning WHERE attempt_id = 3; DELETE FROM device_transition WHERE attempt_id = 3;"
            "DELETE FROM attempt WHERE id = 3; UPDATE sqlite_sequence SET seq = 2 WHERE name = 'attempt';";
     if (with_audit) sql += "DELETE FROM audit WHERE position = 4;";
     outside(sql + restore);
@@ -141,10 +143,11 @@ TEST_F(Audit, DroppedAndAlteredTriggersAndTablesAreNoticed) {
   EXPECT_NE(problems().find("schema: trigger score_no_update is missing"), std::string::npos) << problems();
   outside("CREATE TRIGGER score_no_update BEFORE UPDATE ON score BEGIN SELECT 1; END");
   EXPECT_NE(problems().find("schema: trigger score_no_update was altered"), std::string::npos) << problems();
-  outside("CREATE TABLE mine (x INTEGER); ALTER TABLE rating ADD COLUMN extra TEXT; DROP INDEX exam_once");
+  outside("CREATE TABLE mine (x INTEGER); ALTER TABLE rating ADD COLUMN extra TEXT; DROP INDEX attempt_running; DROP TRIGGER exam_once");
   EXPECT_NE(problems().find("schema: table mine does not belong here"), std::string::npos);
   EXPECT_NE(problems().find("schema: table rating was altered"), std::string::npos);
-  EXPECT_NE(problems().find("schema: index exam_once is missing"), std::string::npos);
+  EXPECT_NE(problems().find("schema: index attempt_running is missing"), std::string::npos);
+  EXPECT_NE(problems().find("schema: trigger exam_once is missing"), std::string::npos);
 }
 
 TEST_F(Audit, ARecordingWithoutItsAttemptIsNoticed) {

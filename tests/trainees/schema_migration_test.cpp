@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "tests/trainees/store_samples.h"
+#include "trainees/anchor_file.h"
+#include "trainees/audit.h"
 #include "trainees/cohort.h"
 #include "trainees/process_identity.h"
 #include "trainees/sqlite_handle.h"
@@ -45,7 +47,7 @@ class SchemaMigration : public TemporaryFolder {
 TEST_F(SchemaMigration, KeepsEveryAttemptAndItsHash) {
   Database database(file_);
   EXPECT_EQ(database.migration().from, 1);
-  EXPECT_EQ(database.migration().to, 2);
+  EXPECT_EQ(database.migration().to, 3);
   for (const std::string& problem : database.check()) ADD_FAILURE() << problem;
   AttemptStore store(database);
   const auto attempts = store.list();
@@ -77,6 +79,53 @@ TEST_F(SchemaMigration, NewAttemptsFollowTheOldOnes) {
   store_attempt(database, sample_start("t-OLD"), sample_result());
   EXPECT_TRUE(database.check().empty());
   EXPECT_EQ(AttemptStore(database).list({"T-old", "", 0}).size(), 3u) << "the same person, the code's case ignored";
+}
+
+/// A database of schema 2 as its program left it: two sittings of one exam board by two seeds, and one cut off.
+class FromSchema2 : public SchemaMigration {
+ protected:
+  FromSchema2() {
+    sqlite3* raw = nullptr;
+    sqlite3_open(file_.c_str(), &raw);
+    const std::string index =
+        std::string(schema_v2()) +
+        "CREATE UNIQUE INDEX exam_once ON attempt(trainee_id, exercise_id, seed) WHERE level = 'exam';";
+    const auto first_entry = [](sqlite3* c, int) { append_audit(c, kActionMigrated, "schema 1 to 2", ""); };
+    const Migration steps[] = {{1, kSchemaV1}, {2, index.c_str(), first_entry}};
+    migrate(raw, "", steps);
+    append_anchor(file_, audit_head(raw));
+    sqlite3_close(raw);
+    for (const char* seed : {"1", "2", "3"}) {
+      EXPECT_EQ(run_outside(file_, std::string(
+                    "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed,"
+                    " board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, program,"
+                    " started_utc, owner_pid, owner_boot, owner_start, hash_version, status) SELECT 'exam-") + seed +
+                    "', trainee_id, exercise_id, exercise_version, ruleset_sha256, 'exam', " + seed +
+                    ", 3, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, '0', started_utc,"
+                    " 1, '', 1, 2, 'running' FROM attempt WHERE id = 1"), "");
+    }
+  }
+};
+
+TEST_F(FromSchema2, TwoSittingsOfOneBoardStayAndAThirdIsRefused) {
+  Database database(file_);
+  EXPECT_EQ(database.migration().from, 2);
+  EXPECT_EQ(database.migration().to, 3);
+  EXPECT_EQ(database.recovered().size(), 3u) << "begun by the program before, ended by this one";
+  for (const std::string& problem : database.check()) ADD_FAILURE() << problem;
+  AttemptStore store(database);
+  const AttemptSummary sat = store.list({"", "", 1}).front();
+  EXPECT_EQ(sat.board, 3);
+  AttemptStart start = sample_start(sat.trainee);
+  start.exercise_id = sat.exercise_id;
+  start.level = kExamLevel;
+  start.seed = 4;
+  start.board = sat.board;
+  EXPECT_NE(message_of<InputError>([&] { store.begin_attempt(start); }).find("an exam board is met once"),
+            std::string::npos);
+  start.board = 4;
+  store.finish_attempt(store.begin_attempt(start), sample_result());
+  for (const std::string& problem : database.check()) ADD_FAILURE() << problem;
 }
 
 TEST_F(SchemaMigration, ABackupOfTheOldOneIsMadeFirst) {
@@ -158,7 +207,7 @@ TEST_F(SchemaMigration, WithoutRoomForTheBackupNothingIsMigrated) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
   EXPECT_EQ(asked("PRAGMA user_version"), 1);
   EXPECT_FALSE(fs::exists(file_.string() + ".schema1.backup")) << "no half backup";
-  EXPECT_EQ(Database(file_).migration().to, 2);
+  EXPECT_EQ(Database(file_).migration().to, 3);
 }
 
 }  // namespace

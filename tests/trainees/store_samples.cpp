@@ -55,6 +55,8 @@ AttemptResult sample_result(double score) {
   device.passivity_active_share = 0.02;
   device.min_energy_j = -1e-9;
   device.kappa = 0.5;
+  device.warnings = {{"sensor stale", 0.25, 12}, {"heat", 41.5, 3}};
+  device.transitions = {{0, "homing", "armed"}, {1.0 / 3, "armed", "running"}};
   device.realtime = "{\"policy\":\"fifo\"}";
   result.state_hash = "0123456789abcdef";
   return result;
