@@ -30,6 +30,7 @@ void TissueWorld::step(const StylusState& state, bool present, ContactPatch& pat
   if (rigid_) patch.held = rigid_->held();
   if (present && extraction_) extraction_->extract(state.X_TI, tool_, patch, state.jaw_opening_m);
   if (present && rigid_) rigid_->add_to(jaws, patch);
+  enclose(patch, patch.balls);
   if (rigid_) rigid_->describe(frame_);
   dropped_ += static_cast<std::uint64_t>(patch.dropped);
 }

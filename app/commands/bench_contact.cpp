@@ -85,6 +85,7 @@ ContactCost contact_cost(int triangles, int ticks) {
       const double start = cpu_now_us();
       extraction.extract(X, {}, *patch);
       ++patch->stamp;
+      enclose(*patch, patch->balls);
       cost.extraction.us.push_back(cpu_now_us() - start);
     }
     const double start = cpu_now_us();

@@ -17,8 +17,6 @@ constexpr int kShareRounds = 12;
 constexpr double kShareGain = 1e-10;     // m, a contact that would carry less is not asked
 constexpr double kSingularGram = 1e-12;  // determinant of the normals' products
 constexpr double kIdleTravel = 1e-3;     // m a period, beyond what the instrument itself moves
-constexpr double kListMargin = 5e-4;     // m of travel that a list of near triangles outlives
-constexpr double kActiveTravel = 1.5e-4;  // m of travel that the choice of active ones outlives
 constexpr double kArrived = 1e-7;        // m, remaining slide at which the proxy rests
 constexpr double kSlideSlack = 5e-5;     // m beyond the radius within which a triangle bounds the slide
 constexpr double kShareSlack = 1e-5;     // m beyond the radius within which a triangle may carry force
@@ -60,23 +58,22 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
   return result;
 }
 
-void ContactRenderer::move_proxy(const Vec3& goal, const Axes& axes, const ContactPatch& patch) {
+void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch) {
   const double turn = turn_to(axes);
-  // The proxy may travel this far in one period, so triangles further away need no look.
+  // The proxy travels no further than this in one period.
   double allowance = kIdleTravel + 1.5 * (goal - last_goal_).norm();
   last_goal_ = goal;
-  gather(allowance + turn, patch);
   touch_count_ = 0;
   const double stride = 0.5 * thinnest_m_;
   const int turns = std::clamp(static_cast<int>(std::ceil(turn / stride)), 1, kMaxSteps);
-  const Axes before = axes_;
+  const CapsuleAxes before = axes_;
   for (int i = 1; i <= turns; ++i) {
     const double s = static_cast<double>(i) / turns;
     for (int c = 0; c < tool_.count; ++c) {
       axes_[c].front = before[c].front + s * (axes[c].front - before[c].front);
       axes_[c].back = before[c].back + s * (axes[c].back - before[c].back);
     }
-    travelled_ += turn / turns;
+    near_.turn(before, axes, 1.0 / turns);
     project(patch, kSlideSlack);  // the instrument may have turned into the surface
   }
   for (int i = 0; i < kMaxSteps && allowance > kArrived; ++i) {
@@ -86,14 +83,14 @@ void ContactRenderer::move_proxy(const Vec3& goal, const Axes& axes, const Conta
     const double travel = std::min({length, stride, allowance});
     proxy_ += step * (travel / length);
     allowance -= travel;
-    travelled_ += travel;
+    near_.travel(travel);
     project(patch, kSlideSlack);
   }
   // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.
   project(patch, kShareSlack);
 }
 
-double ContactRenderer::turn_to(const Axes& axes) const {
+double ContactRenderer::turn_to(const CapsuleAxes& axes) const {
   double furthest = 0;
   for (int c = 0; c < tool_.count; ++c) {
     furthest = std::max({furthest, (axes[c].front - axes_[c].front).norm(), (axes[c].back - axes_[c].back).norm()});
@@ -101,8 +98,8 @@ double ContactRenderer::turn_to(const Axes& axes) const {
   return furthest;
 }
 
-ContactRenderer::Axes ContactRenderer::place_capsules(const Pose& X_TI) {
-  Axes axes;
+CapsuleAxes ContactRenderer::place_capsules(const Pose& X_TI) {
+  CapsuleAxes axes;
   thinnest_m_ = tool_.at[0].radius_m;
   for (int c = 0; c < tool_.count; ++c) {
     const Capsule& capsule = tool_.at[c];
@@ -122,7 +119,7 @@ ContactRenderer::Axes ContactRenderer::place_capsules(const Pose& X_TI) {
 
 ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
   const Vec3 goal = X_TI.p;
-  const Axes axes = place_capsules(X_TI);
+  const CapsuleAxes axes = place_capsules(X_TI);
   const double travel = (goal - last_goal_).norm();
   move_proxy(goal, axes, patch);
 
@@ -198,92 +195,40 @@ double ContactRenderer::approach_speed(const Twist& V_TI_T, double depth_m) cons
   return power / depth_m;
 }
 
-void ContactRenderer::gather(double approach, const ContactPatch& patch) {
-  // Gaps shrink no faster than the proxy travels, so a list serves until that has used up what it was made for. Triangles
-  // on it that were measured keep their gap: of a fine surface only a few come near enough in a tick to be measured anew.
-  double radii = 0;
-  for (int c = 0; c < tool_.count; ++c) radii += tool_.at[c].radius_m;
-  const bool same = patch.stamp == listed_stamp_ && radii == listed_radii_m_;
-  if (same && travelled_ + approach <= listed_gap_m_) return;
-  listed_stamp_ = patch.stamp;
-  listed_radii_m_ = radii;
-  listed_gap_m_ = approach + kListMargin;
-  list_near(patch);
-}
-
-void ContactRenderer::list_near(const ContactPatch& patch) {
-  std::array<Near, kMaxPatchTriangles * kMaxCapsules> found;
-  int count = 0;
-  travelled_ = 0;
-  for (int i = 0; i < patch.count; ++i) {
-    const auto& v = patch.triangle[i].vertex;
-    const Vec3 centre = (v[0] + v[1] + v[2]) / 3;
-    const double size2 =
-        std::max({(v[0] - centre).squaredNorm(), (v[1] - centre).squaredNorm(), (v[2] - centre).squaredNorm()});
-    for (int c = 0; c < tool_.count; ++c) {
-      const double radius = tool_.at[c].radius_m, reach = radius + listed_gap_m_;
-      const Vec3 offset = centre - proxy_ - axes_[c].front, axis = axes_[c].back - axes_[c].front;
-      const double length2 = axis.squaredNorm();
-      const double along = length2 > 0 ? std::clamp(offset.dot(axis) / length2, 0.0, 1.0) : 0;
-      const double centre2 = (offset - axis * along).squaredNorm();
-      if (centre2 > 2 * (reach * reach + size2)) continue;  // (a + b)^2 <= 2 (a^2 + b^2): most leave without a root
-      const double gap = std::sqrt(centre2) - std::sqrt(size2) - radius;
-      if (gap <= listed_gap_m_) found[count++] = {gap, 0, i, static_cast<std::int8_t>(c)};
-    }
-  }
-  if (count > kMaxNear) {  // the nearest, whatever the order of the patch
-    std::nth_element(found.begin(), found.begin() + kMaxNear, found.begin() + count, [](const Near& l, const Near& r) {
-      return l.gap != r.gap ? l.gap < r.gap : l.index < r.index;
-    });
-    listed_gap_m_ = found[kMaxNear].gap;
-    count = kMaxNear;
-    std::sort(found.begin(), found.begin() + count, [](const Near& l, const Near& r) {
-      return l.index != r.index ? l.index < r.index : l.capsule < r.capsule;
-    });
-  }
-  std::copy(found.begin(), found.begin() + count, near_.begin());
-  near_count_ = count;
-  active_until_ = -1;
-}
-
-void ContactRenderer::activate() {
-  active_count_ = 0;
-  active_until_ = travelled_ + kActiveTravel;
-  for (int i = 0; i < near_count_; ++i) {
-    const double gap = near_[i].gap - (travelled_ - near_[i].travelled);
-    // A sweep that ends the search pushes by less than kArrived for each triangle: a micrometre covers it.
-    if (gap <= kSlideSlack + kActiveTravel + 1e-6) active_[active_count_++] = static_cast<std::int16_t>(i);
-  }
-}
-
 void ContactRenderer::project(const ContactPatch& patch, double slack) {
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    touch_count_ = 0;
-    double deepest = 0;
-    if (travelled_ > active_until_) activate();
-    for (int i = 0; i < active_count_; ++i) {
-      Near& near = near_[active_[i]];
-      if (near.gap - (travelled_ - near.travelled) > slack) continue;
-      const PatchTriangle& triangle = patch.triangle[near.index];
-      const Axis& axis = axes_[near.capsule];
-      const Capsule& capsule = tool_.at[near.capsule];
-      const ClosestPair pair = closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, triangle.vertex);
-      near.gap = pair.distance - capsule.radius_m;
-      near.travelled = travelled_;
-      if (near.gap > slack) continue;
-      // On the axis itself the direction is undefined: the surface's own normal leads out.
-      Vec3 normal = triangle.normal;
-      if (pair.distance > 1e-9) normal = (pair.on_segment - pair.on_triangle) / pair.distance;
-      if (near.gap < 0) {
-        proxy_ -= near.gap * normal;
-        travelled_ -= near.gap;
-      }
-      deepest = std::max(deepest, -near.gap);
-      const bool at_tip = capsule.foremost && pair.along == 0;
-      add_touch({normal, pair.on_triangle, near.gap, near.index, near.capsule, at_tip});
-    }
-    if (deepest < kArrived) return;
+  for (int i = 0; i < kSweeps; ++i) {
+    if (sweep(patch, slack) < kArrived) return;
   }
+}
+
+double ContactRenderer::sweep(const ContactPatch& patch, double slack) {
+  const PlacedTool placed{tool_, axes_, proxy_};
+  touch_count_ = 0;
+  double deepest = 0;
+  near_.keep_up(placed, patch, slack);
+  for (int n = 0; n < near_.count(); ++n) {
+    if (!near_.due(near_.at(n), slack)) continue;
+    const NearPairs::Pair pair = near_.at(n);
+    const PatchTriangle& triangle = patch.triangle[pair.index];
+    const CapsuleAxis& axis = axes_[pair.capsule];
+    const Capsule& capsule = tool_.at[pair.capsule];
+    const ClosestPair closest = closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, triangle.vertex);
+    const double gap = closest.distance - capsule.radius_m;
+    near_.measured(n, gap);
+    if (gap > slack) continue;
+    // On the axis itself the direction is undefined: the surface's own normal leads out.
+    Vec3 normal = triangle.normal;
+    if (closest.distance > 1e-9) normal = (closest.on_segment - closest.on_triangle) / closest.distance;
+    if (gap < 0) {
+      proxy_ -= gap * normal;
+      near_.travel(-gap);
+      if (near_.keep_up(placed, patch, slack)) n = near_.first_after(pair) - 1;  // pushed further than the list reached
+    }
+    deepest = std::max(deepest, -gap);
+    const bool at_tip = capsule.foremost && closest.along == 0;
+    add_touch({normal, closest.on_triangle, gap, pair.index, pair.capsule, at_tip});
+  }
+  return deepest;
 }
 
 void ContactRenderer::add_touch(const Touch& touch) {

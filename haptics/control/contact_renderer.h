@@ -17,8 +17,10 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "haptics/control/contact_friction.h"
+#include "haptics/control/near_pairs.h"
 #include "haptics/control/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
@@ -47,16 +49,18 @@ class ContactRenderer {
   /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
   void reset() {
     started_ = touching_ = false;
-    listed_gap_m_ = -1;
+    near_.forget();
     friction_.reset();
   }
+
+  /// What has been looked at since this was last asked; for benchmarks and tests.
+  NearPairs::Work take_work() { return std::exchange(near_.work, {}); }
 
   /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
   /// @param jaw_opening_m gap between the ends of the jaw pads.
   ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, double jaw_opening_m = 0);
 
  private:
-  static constexpr int kMaxNear = 768;     ///< pairs of capsule and triangle considered in one tick
   static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
   static constexpr int kMaxCarrying = 3;   ///< of them, those that can carry at once in space
 
@@ -69,39 +73,22 @@ class ContactRenderer {
     double share = 0;  ///< part of y carried, m
   };
 
-  /// A triangle that a capsule of the proxy may meet this period.
-  struct Near {
-    double gap;  ///< between capsule and triangle, or less, when `travelled` was what it was; it changes no faster
-    double travelled;
-    std::int32_t index;  ///< in the patch
-    std::int8_t capsule;
-  };
-
-  /// Axis of a capsule relative to the tip of the instrument, T.
-  struct Axis {
-    Vec3 front = Vec3::Zero(), back = Vec3::Zero();
-  };
-  using Axes = std::array<Axis, kMaxCapsules>;
-
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
   /// Where the axes of all capsules lie now; on the first call the proxy begins there.
-  Axes place_capsules(const Pose& X_TI);
+  CapsuleAxes place_capsules(const Pose& X_TI);
   /// Moves the proxy to where it rests this period and lists what it touches.
-  void move_proxy(const Vec3& goal, const Axes& axes, const ContactPatch& patch);
+  void move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch);
   ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
   /// Furthest that an end of a capsule has to go against the tip to take this place.
-  double turn_to(const Axes& axes) const;
+  double turn_to(const CapsuleAxes& axes) const;
   void blend_material(const ContactPatch& patch, double travel_m);
   void add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, ContactResult& result);
   /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
   double approach_speed(const Twist& V_TI_T, double depth_m) const;
-  /// Makes sure that near_ lists every pair that can touch while capsules and triangles approach by `approach`.
-  void gather(double approach, const ContactPatch& patch);
-  void list_near(const ContactPatch& patch);
-  /// Picks those of near_ that the next fraction of a millimetre may bring into touch.
-  void activate();
   /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
   void project(const ContactPatch& patch, double slack);
+  /// One round of that over all of them. @return the deepest overlap that it met, m
+  double sweep(const ContactPatch& patch, double slack);
   void add_touch(const Touch& touch);
   /// The part of a wish that the touched triangles allow, each with the gap that is left before it.
   Vec3 free_step(const Vec3& wish) const;
@@ -118,19 +105,11 @@ class ContactRenderer {
   ToolCapsules tool_;
   int known_ = 0;                   ///< capsules of the last period
   double thinnest_m_ = 0;           ///< least radius in tool_
-  Axes axes_{};                     ///< of the proxy
+  CapsuleAxes axes_{};              ///< of the proxy
   ContactFriction friction_;
   ContactMaterial blend_;           ///< stiffness and damping in use
   bool touching_ = false;           ///< carried force in the last period
-  std::array<Near, kMaxNear> near_;
-  int near_count_ = 0;
-  std::array<std::int16_t, kMaxNear> active_;  ///< places in near_
-  int active_count_ = 0;
-  double active_until_ = -1;  ///< value of travelled_ up to which active_ holds all that matter
-  double travelled_ = 0;      ///< of the proxy since near_ was listed, m
-  double listed_gap_m_ = -1;  ///< near_ holds every pair that was nearer than this; negative: it holds nothing
-  double listed_radii_m_ = 0; ///< sum over the capsules then
-  std::uint64_t listed_stamp_ = 0;
+  NearPairs near_;
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
   std::array<std::int32_t, kMaxCarrying> carrying_{};

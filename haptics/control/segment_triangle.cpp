@@ -6,6 +6,9 @@
 namespace trocar {
 namespace {
 
+constexpr double kBeyond = 1e-6;  // share of the segment that all corners must lie ahead of its end: above rounding
+constexpr double kInside = 1e-3;  // the same for ends that are certainly not the nearest point
+
 struct SegmentPair {
   double s, t;  ///< parameters on the first and the second segment
 };
@@ -47,6 +50,34 @@ bool crosses(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& tri, doubl
   return along >= 0 && along <= 1;
 }
 
+/// The nearest of several pairs of points; of equals the first.
+struct Nearest {
+  ClosestPair pair;
+  double squared = -1;
+
+  void offer(double s, const Vec3& on_segment, const Vec3& on_triangle) {
+    const double distance2 = (on_segment - on_triangle).squaredNorm();
+    if (squared >= 0 && distance2 >= squared) return;
+    squared = distance2;
+    pair.along = s;
+    pair.on_segment = on_segment;
+    pair.on_triangle = on_triangle;
+  }
+};
+
+/// Nearest pair when all of the triangle lies ahead of the end a of a segment: the same digits as the long way round.
+ClosestPair closest_to_end(const Vec3& a, const std::array<Vec3, 3>& tri) {
+  Nearest nearest;
+  nearest.offer(0, a, closest_point_on_triangle(a, tri));
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 edge = tri[(i + 1) % 3] - tri[i];
+    const double e = edge.squaredNorm(), f = edge.dot(a - tri[i]);
+    nearest.offer(0, a, tri[i] + edge * (e > 0 ? std::clamp(f / e, 0.0, 1.0) : 0));
+  }
+  nearest.pair.distance = std::sqrt(nearest.squared);
+  return nearest.pair;
+}
+
 }  // namespace
 
 Vec3 closest_point_on_triangle(const Vec3& p, const std::array<Vec3, 3>& tri) {
@@ -71,6 +102,13 @@ Vec3 closest_point_on_triangle(const Vec3& p, const std::array<Vec3, 3>& tri) {
 }
 
 ClosestPair closest_segment_triangle(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& tri) {
+  // Where the corners lie along the segment tells what cannot be the nearest pair, and most of it is never worked out: a
+  // shaft presses with its end on a fine surface, and then no other point of it needs a look.
+  const Vec3 d = b - a;
+  const double length2 = d.squaredNorm();
+  const double m0 = (tri[0] - a).dot(d), m1 = (tri[1] - a).dot(d), m2 = (tri[2] - a).dot(d);
+  const double first = std::min({m0, m1, m2}), last = std::max({m0, m1, m2});
+  if (last < -kBeyond * length2) return closest_to_end(a, tri);
   ClosestPair best;
   double along = 0;
   if (crosses(a, b, tri, along)) {
@@ -79,26 +117,16 @@ ClosestPair closest_segment_triangle(const Vec3& a, const Vec3& b, const std::ar
     best.crossing = true;
     return best;
   }
-  double best_squared = -1;
-  const auto offer = [&](double s, const Vec3& on_segment, const Vec3& on_triangle) {
-    const double squared = (on_segment - on_triangle).squaredNorm();
-    if (best_squared < 0 || squared < best_squared) {
-      best_squared = squared;
-      best.along = s;
-      best.on_segment = on_segment;
-      best.on_triangle = on_triangle;
-    }
-  };
-  offer(1, b, closest_point_on_triangle(b, tri));
-  offer(0, a, closest_point_on_triangle(a, tri));
-  const Vec3 d = b - a;
+  Nearest nearest;
+  if (last >= (1 - kInside) * length2) nearest.offer(1, b, closest_point_on_triangle(b, tri));
+  if (first <= kInside * length2) nearest.offer(0, a, closest_point_on_triangle(a, tri));
   for (int i = 0; i < 3; ++i) {
     const Vec3 edge = tri[(i + 1) % 3] - tri[i];
     const SegmentPair pair = closest_segments(a, d, tri[i], edge);
-    offer(pair.s, a + d * pair.s, tri[i] + edge * pair.t);
+    nearest.offer(pair.s, a + d * pair.s, tri[i] + edge * pair.t);
   }
-  best.distance = std::sqrt(best_squared);
-  return best;
+  nearest.pair.distance = std::sqrt(nearest.squared);
+  return nearest.pair;
 }
 
 }  // namespace trocar

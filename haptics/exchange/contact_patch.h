@@ -7,11 +7,11 @@
 #include <array>
 #include <cstdint>
 
+#include "haptics/exchange/patch_balls.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
 
-inline constexpr int kMaxPatchTriangles = 512;     ///< design/budgets: patch handed to the tick
 inline constexpr int kMaxPatchMaterials = 8;
 inline constexpr double kPatchRadius = 0.025;      ///< m from the axes of the tool
 
@@ -52,6 +52,7 @@ struct ContactPatch {
   std::array<ContactMaterial, kMaxPatchMaterials> material;
   GripBlock grip;
   HeldObject held;
+  PatchBalls balls;  ///< enclose() last; a patch whose balls are not of its stamp and count does without, only slower
 };
 
 }  // namespace trocar

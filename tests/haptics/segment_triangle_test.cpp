@@ -180,5 +180,30 @@ TEST(SegmentTriangle, LongShaftAgainstTinyTriangleKeepsSevenDigits) {
   }
 }
 
+TEST(SegmentTriangle, TheShortWayRoundATriangleAheadOfAnEndGivesTheSameAsTheLongOne) {
+  // A segment presses with an end on small triangles all round it. Turned about, or with the triangle a little behind the
+  // end, the answer comes by the general way.
+  Random random(8);
+  int ahead = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double size = std::pow(10, -random.between(2, 4.5));
+    const Vec3 a = random.vector(0.1), b = a + random.direction() * (k % 7 == 0 ? 0.02 : 0.3);
+    const Vec3 centre = a + random.direction() * random.between(1e-6, 5e-3);
+    Triangle t{centre + random.vector(size), centre + random.vector(size), centre + random.vector(size)};
+    if (k % 11 == 0) t[2] = t[k % 2];
+    const ClosestPair pair = closest_segment_triangle(a, b, t), turned = closest_segment_triangle(b, a, t);
+    EXPECT_NEAR(pair.distance, turned.distance, 1e-15);
+    EXPECT_NEAR(pair.along, 1 - turned.along, 1e-9) << "beside an edge nearly parallel to it the place is not sharp";
+    const bool all_ahead = (t[0] - a).dot(b - a) < 0 && (t[1] - a).dot(b - a) < 0 && (t[2] - a).dot(b - a) < 0;
+    if (!all_ahead) continue;
+    ++ahead;
+    EXPECT_EQ(pair.along, 0);
+    EXPECT_EQ(pair.on_segment, a);
+    EXPECT_FALSE(pair.crossing);
+    EXPECT_NEAR(pair.distance, (a - closest_point_on_triangle(a, t)).norm(), 1e-16 + 1e-15 * pair.distance);
+  }
+  EXPECT_GT(ahead, 5000);
+}
+
 }  // namespace
 }  // namespace trocar
