@@ -5,6 +5,7 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "scenarios/director.h"
 #include "scenarios/grasp_loader.h"
 #include "scenarios/level_reader.h"
 #include "scenarios/strict_toml.h"
@@ -13,6 +14,7 @@ namespace trocar {
 namespace {
 
 constexpr double kMilli = 1e-3, kDegrees = M_PI / 180;
+constexpr int kMostTargets = static_cast<int>(decltype(DirectorStatus::done)().size());
 
 void read_start(StrictTable table, Exercise& exercise) {
   exercise.start_sphere_m = table.number("radius_mm", 1, 50) * kMilli;
@@ -30,7 +32,7 @@ void read_discs(StrictTable& table, TargetLayout& layout) {
 
 void read_targets(StrictTable table, Exercise& exercise) {
   TargetLayout& layout = exercise.layout;
-  layout.count = table.integer("count", 1, 100);
+  layout.count = table.integer("count", 1, kMostTargets);
   const auto [x, y] = table.pair("region_mm", 10, 500);
   layout.region_x_m = x * kMilli;
   layout.region_y_m = y * kMilli;
