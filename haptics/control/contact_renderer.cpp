@@ -16,6 +16,7 @@ constexpr int kSweeps = 4;     // pushes a step over all near triangles
 constexpr int kShareRounds = 12;
 constexpr double kShareGain = 1e-10;     // m, a contact that would carry less is not asked
 constexpr double kSingularGram = 1e-12;  // determinant of the normals' products
+constexpr int kMostFall = 32;  // of half a radius in the air between two surfaces: 20 mm with jaws
 constexpr double kIdleTravel = 1e-3;     // m a period, beyond what the instrument itself moves
 constexpr double kArrived = 1e-7;        // m, remaining slide at which the proxy rests
 constexpr double kSlideSlack = 5e-5;     // m beyond the radius within which a triangle bounds the slide
@@ -76,17 +77,34 @@ void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, cons
     near_.turn(before, axes, 1.0 / turns);
     project(patch, kSlideSlack);  // the instrument may have turned into the surface
   }
-  for (int i = 0; i < kMaxSteps && allowance > kArrived; ++i) {
+  for (int slides = 0, falls = 0; slides < kMaxSteps && falls < kMostFall;) {
+    // In the air, slid off an edge, it carries nothing however deep the instrument is: it falls until it lands.
+    const bool in_air = touch_count_ == 0;
+    if (!in_air && allowance <= kArrived) break;
+    ++(in_air ? falls : slides);
     const Vec3 step = free_step(goal - proxy_);
     const double length = step.norm();
     if (length < kArrived) break;
-    const double travel = std::min({length, stride, allowance});
+    const double travel = std::min({length, stride, in_air ? stride : allowance});
     proxy_ += step * (travel / length);
-    allowance -= travel;
+    if (!in_air) allowance -= travel;
     near_.travel(travel);
     project(patch, kSlideSlack);
+    if (in_air && touch_count_ > 0) allowance = std::max(allowance, kIdleTravel);
   }
   // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.
+  project(patch, kShareSlack);
+  if (touch_count_ == 0) lean_on_nearest(goal, patch);
+}
+
+void ContactRenderer::lean_on_nearest(const Vec3& goal, const ContactPatch& patch) {
+  project(patch, kSlideSlack);
+  if (touch_count_ == 0 || (goal - proxy_).norm() < kArrived) return;
+  const auto nearest = std::min_element(touch_.begin(), touch_.begin() + touch_count_,
+                                        [](const Touch& l, const Touch& r) { return l.gap < r.gap; });
+  const double gap = std::max(0.0, nearest->gap);
+  proxy_ -= gap * nearest->normal;
+  near_.travel(gap);
   project(patch, kShareSlack);
 }
 

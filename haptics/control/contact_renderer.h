@@ -79,6 +79,8 @@ class ContactRenderer {
   /// Moves the proxy to where it rests this period and lists what it touches.
   void move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch);
   ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// The period ended in the middle of a slide, a hair off the surface: brings the proxy to what it slides along.
+  void lean_on_nearest(const Vec3& goal, const ContactPatch& patch);
   /// Furthest that an end of a capsule has to go against the tip to take this place.
   double turn_to(const CapsuleAxes& axes) const;
   void blend_material(const ContactPatch& patch, double travel_m);

@@ -128,6 +128,30 @@ TEST_P(Continuity, NoStepWithAnyPartOfTheTool) {
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, Continuity, ::testing::ValuesIn(kSurfaces));
 
+TEST(OverAStep, TheForceDoesNotGoOutWhileTheProxyFalls) {
+  for (const Tool& tool : tools()) {
+    if (tool.R == lying()) continue;  // its length bridges the step
+    auto patch = std::make_unique<ContactPatch>();
+    patch->held = tool.held;
+    test::add_sheet(*patch, {-0.03, -0.02, 0}, {0.03, 0, 0}, {0, 0.04, 0}, 6);
+    test::add_sheet(*patch, {0, -0.02, 0}, {0, 0, -0.005}, {0, 0.04, 0}, 6);
+    test::add_sheet(*patch, {0, -0.02, -0.005}, {0.04, 0, 0}, {0, 0.04, 0}, 6);
+    ContactRenderer renderer(ContactLaw::kProxy, tool.shape);
+    const auto at = [&](double x, double z) {
+      return renderer.update({tool.R, Vec3(x, 0.0002, tool.rise + z)}, Twist{}, *patch, tool.opening);
+    };
+    for (double z = 0.002; z > -0.0065; z -= 5e-5) at(-0.015, z);
+    double fell = 0, before = 0.0065;
+    for (double x = -0.015; x < 0.015; x += 5e-5) {
+      const ContactResult felt = at(x, -0.0065);
+      ASSERT_TRUE(felt.contact) << tool.name << " at x " << x;
+      fell = std::max(fell, before - felt.depth_m);
+      before = felt.depth_m;
+    }
+    EXPECT_GT(fell, 0.001) << tool.name << ": further than the proxy slides in a period";
+  }
+}
+
 class ThinSheet : public ::testing::Test {
  protected:
   ThinSheet() {
