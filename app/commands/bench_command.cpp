@@ -103,7 +103,7 @@ nlohmann::ordered_json contact_by_size(std::ostream& err) {
   for (const int triangles : {5000, 50000, 500000}) {
     err << "trocar: contact on " << triangles << " triangles\n";
     ContactCost cost = contact_cost(triangles, 10000, 3);
-    nlohmann::ordered_json row{{"triangles", cost.triangles}, {"patch", cost.patch}, {"reach_mm", cost.reach_m * 1e3},
+    nlohmann::ordered_json row{{"triangles", cost.triangles}, {"patch_triangles", cost.patch}, {"reach_mm", cost.reach_m * 1e3},
                                {"missed_contacts", 10000 - cost.contact_ticks},
                                {"lists_a_tick", cost.lists}, {"listed_a_tick", cost.listed},
                                {"measured_a_tick", cost.measured}};
@@ -119,7 +119,7 @@ void print_contact(const nlohmann::ordered_json& rows, std::ostream& out) {
       << "triangles    in patch  reach mm  missed measured        step           least            new           patch"
          "           refit\n";
   for (const auto& row : rows) {
-    out << std::setw(9) << row["triangles"].get<int>() << std::setw(12) << row["patch"].get<int>() << std::setw(10)
+    out << std::setw(9) << row["triangles"].get<int>() << std::setw(12) << row["patch_triangles"].get<int>() << std::setw(10)
         << row["reach_mm"].get<double>() << std::setw(8) << row["missed_contacts"].get<int>()
         << std::setw(9) << row["measured_a_tick"].get<double>();
     for (const char* stage : {"contact step", "contact step, least of runs", "contact step, new patch", "patch", "refit"}) {
