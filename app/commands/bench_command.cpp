@@ -102,10 +102,12 @@ nlohmann::ordered_json contact_by_size(std::ostream& err) {
   nlohmann::ordered_json json;
   for (const int triangles : {5000, 50000, 500000}) {
     err << "trocar: contact on " << triangles << " triangles\n";
-    ContactCost cost = contact_cost(triangles, 10000);
-    nlohmann::ordered_json row{{"triangles", cost.triangles}, {"patch", cost.patch}, {"reach_mm", cost.reach_m * 1e3},
-                               {"missed_contacts", 10000 - cost.contact_ticks}};
-    for (Timing* timing : {&cost.step, &cost.extraction, &cost.refit}) row[timing->stage] = percentiles(*timing);
+    ContactCost cost = contact_cost(triangles, 10000, 3);
+    nlohmann::ordered_json row{{"triangles", cost.triangles}, {"patch_triangles", cost.patch}, {"reach_mm", cost.reach_m * 1e3},
+                               {"missed_contacts", 10000 - cost.contact_ticks},
+                               {"lists_a_tick", cost.lists}, {"listed_a_tick", cost.listed},
+                               {"measured_a_tick", cost.measured}};
+    for (Timing* timing : {&cost.step, &cost.fresh, &cost.least, &cost.extraction, &cost.refit}) row[timing->stage] = percentiles(*timing);
     json.push_back(row);
   }
   return json;
@@ -113,11 +115,14 @@ nlohmann::ordered_json contact_by_size(std::ostream& err) {
 
 void print_contact(const nlohmann::ordered_json& rows, std::ostream& out) {
   out << "\ncontact on a ball of 80 mm, probe, friction; median and p99.9, us CPU\n"
-      << "triangles    in patch  reach mm  missed        step          patch         refit\n";
+      << "(least: each tick's least of three runs; new: ticks that saw a new patch; measured: pairs a tick)\n"
+      << "triangles    in patch  reach mm  missed measured        step           least            new           patch"
+         "           refit\n";
   for (const auto& row : rows) {
-    out << std::setw(9) << row["triangles"].get<int>() << std::setw(12) << row["patch"].get<int>() << std::setw(10)
-        << row["reach_mm"].get<double>() << std::setw(8) << row["missed_contacts"].get<int>();
-    for (const char* stage : {"contact step", "patch", "refit"}) {
+    out << std::setw(9) << row["triangles"].get<int>() << std::setw(12) << row["patch_triangles"].get<int>() << std::setw(10)
+        << row["reach_mm"].get<double>() << std::setw(8) << row["missed_contacts"].get<int>()
+        << std::setw(9) << row["measured_a_tick"].get<double>();
+    for (const char* stage : {"contact step", "contact step, least of runs", "contact step, new patch", "patch", "refit"}) {
       out << std::setw(8) << row[stage]["median"].get<double>() << std::setw(8) << row[stage]["p99.9"].get<double>();
     }
     out << '\n';
@@ -151,6 +156,8 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   for (Timing& timing : time_stages(scene, capture(scene, recording))) {
     json["stages_us"][timing.stage] = percentiles(timing);
   }
+  Timing fixed = fixed_work(10000);
+  json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
   if (options.json) {
     out << json.dump(2) << '\n';
@@ -158,9 +165,9 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   }
   out << std::fixed << std::setprecision(2) << "organ " << scene.organ.name << ", " << json["organ_triangles"]
       << " triangles, " << outcome.device.ticks << " ticks\n\n"
-      << "stage                       median      p99    p99.9  us CPU\n";
+      << "stage                         median      p99    p99.9  us CPU\n";
   for (const auto& [stage, row] : json["stages_us"].items()) {
-    out << std::left << std::setw(24) << stage << std::right;
+    out << std::left << std::setw(26) << stage << std::right;
     for (const char* key : {"median", "p99", "p99.9"}) out << std::setw(10) << row[key].get<double>();
     out << '\n';
   }

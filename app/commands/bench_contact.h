@@ -22,11 +22,19 @@ struct ContactCost {
   int patch = 0;          ///< triangles in the last patch
   double reach_m = 0;     ///< of the last patch
   int contact_ticks = 0;  ///< ticks that felt the surface
-  Timing step, extraction, refit;
+  Timing step;            ///< every tick of the first run
+  Timing fresh;           ///< of those, the ticks that saw a new patch
+  Timing least;           ///< every tick, the least of all runs: what the tick itself costs, without what else the machine did
+  Timing extraction, refit;
+  double lists = 0, listed = 0, measured = 0;  ///< a tick: lists of near pairs made, pairs on them, pairs measured exactly
 };
 
 /// A rough ball of 80 mm (friction 0.3), its tool pressed 3 mm deep and dragged for `ticks` at 30 mm/s, a patch every 10
-/// ticks. @param triangles roughly
-ContactCost contact_cost(int triangles, int ticks);
+/// ticks; shape, path, depth and tool are the same for every size of triangle. The times hold the clock's own.
+/// @param triangles roughly; @param runs over the same ticks
+ContactCost contact_cost(int triangles, int ticks, int runs = 1);
+
+/// The same fixed arithmetic of about two microseconds again and again: the spread that this machine adds to any time.
+Timing fixed_work(int times);
 
 }  // namespace trocar

@@ -146,14 +146,26 @@ TEST(StudyCommand, RefusesWhatItDoesNotKnowAndCannotWrite) {
 
 TEST(BenchContact, FeelsTheSurfaceInEveryTickHoweverFineItIs) {
   for (const int triangles : {5000, 50000}) {
-    ContactCost cost = contact_cost(triangles, 400);
+    ContactCost cost = contact_cost(triangles, 400, 2);
     EXPECT_NEAR(cost.triangles, triangles, 0.03 * triangles);
     EXPECT_EQ(cost.contact_ticks, 400) << "no true contact is missed";
     EXPECT_GT(cost.reach_m, ToolShape{}.radius_m + 0.0045) << "3 mm and 15 ms at 0.1 m/s";
     EXPECT_EQ(cost.step.us.size(), 400u);
     EXPECT_GT(cost.step.percentile(0.5), 0);
     EXPECT_GE(cost.step.percentile(0.999), cost.step.percentile(0.5));
+    EXPECT_EQ(cost.fresh.us.size(), 40u) << "every tenth tick sees a new patch";
+    ASSERT_EQ(cost.least.us.size(), 400u);
+    EXPECT_LE(cost.least.percentile(0.5), cost.step.percentile(0.5));
+    EXPECT_LT(cost.lists, 0.2) << "a list serves some ten ticks";
+    EXPECT_LT(cost.measured, 20) << "of up to 512 triangles in the patch; a count, the same on every machine";
+    EXPECT_GT(cost.measured, 1);
   }
+}
+
+TEST(BenchContact, FixedWorkIsTimedAsOftenAsAsked) {
+  Timing fixed = fixed_work(50);
+  EXPECT_EQ(fixed.us.size(), 50u);
+  EXPECT_GT(fixed.percentile(0.5), 0);
 }
 
 }  // namespace
