@@ -7,6 +7,9 @@ namespace trocar {
 namespace {
 
 constexpr double kThinkAgainAfter = 0.7;  // s outside the band
+constexpr double kForgiven = 0.5;         // of the time inside
+constexpr double kNothingFelt = -1;       // N
+constexpr double kRateTime = 0.08;        // s over which the change of the felt force is judged
 constexpr double kBiasFade = 0.6, kSpreadFade = 0.8;
 constexpr double kWanderTime = 0.5;       // s, correlation time of the force wander
 constexpr double kWanderShare = 0.3;      // of the CV
@@ -17,7 +20,8 @@ constexpr double kSmallestGoal = 0.05;    // N
 void ForceGrip::begin(double low_n, double high_n, HandRandom& random) {
   low_n_ = low_n;
   high_n_ = high_n;
-  outside_s_ = wander_ = 0;
+  outside_s_ = wander_ = rate_n_per_s_ = 0;
+  last_n_ = kNothingFelt;
   thoughts_ = 0;
   draw_goal(random);
 }
@@ -29,7 +33,8 @@ void ForceGrip::draw_goal(HandRandom& random) {
 }
 
 double ForceGrip::speed(double felt_n, double dt_s, HandRandom& random) {
-  outside_s_ = felt_n >= low_n_ && felt_n <= high_n_ ? 0 : outside_s_ + dt_s;
+  const bool inside = felt_n >= low_n_ && felt_n <= high_n_;
+  outside_s_ = std::max(0.0, outside_s_ + (inside ? -kForgiven : 1) * dt_s);
   if (outside_s_ > kThinkAgainAfter) {
     outside_s_ = 0;
     ++thoughts_;
@@ -38,7 +43,11 @@ double ForceGrip::speed(double felt_n, double dt_s, HandRandom& random) {
   const double rate = dt_s / kWanderTime;  // Ornstein-Uhlenbeck of unit variance
   wander_ += -rate * wander_ + std::sqrt(2 * rate) * random.normal();
   const double goal = goal_n_ * (1 + kWanderShare * tuning_.cv * wander_);
-  const double speed = tuning_.crossover_rad_per_s * (goal - felt_n) / tuning_.expected_stiffness_n_per_m;
+  if (last_n_ < 0) last_n_ = felt_n;
+  rate_n_per_s_ += ((felt_n - last_n_) / dt_s - rate_n_per_s_) * std::min(1.0, dt_s / kRateTime);
+  last_n_ = felt_n;
+  const double coming = felt_n + tuning_.foresight_s * rate_n_per_s_;
+  const double speed = tuning_.crossover_rad_per_s * (goal - coming) / tuning_.expected_stiffness_n_per_m;
   return std::clamp(speed, -tuning_.fastest_mps, tuning_.fastest_mps);
 }
 

@@ -16,13 +16,14 @@ class ForceGrip {
     double crossover_rad_per_s = 3;
     double fastest_mps = 0.04;
     double bias = 1, cv = 0;                  ///< of the force aimed at
+    double foresight_s = 0;                   ///< how far ahead a change of the felt force is reckoned with
   };
   explicit ForceGrip(const Tuning& tuning) : tuning_(tuning) {}
 
   /// Starts a new hold: draws the force aimed at.
   void begin(double low_n, double high_n, HandRandom& random);
   /// Speed of the intent into the resistance, m/s. A force outside the band for long makes the person think again:
-  /// the bias fades and a new goal is drawn.
+  /// the bias fades and a new goal is drawn; a force that comes and goes counts too, half the time inside is forgiven.
   double speed(double felt_n, double dt_s, HandRandom& random);
   /// Attention goes elsewhere and comes back: the goal is drawn anew, with what has been learnt so far.
   void shift_attention(HandRandom& random) { draw_goal(random); }
@@ -34,6 +35,7 @@ class ForceGrip {
   Tuning tuning_;
   double low_n_ = 0, high_n_ = 0, goal_n_ = 0;
   double outside_s_ = 0, wander_ = 0;
+  double last_n_ = 0, rate_n_per_s_ = 0;    ///< of the felt force
   int thoughts_ = 0;
 };
 

@@ -21,7 +21,8 @@ double reach_time_s(double distance_m, double width_m, double speed_factor) {
   return speed_factor * (0.12 + 0.11 * std::log2(2 * distance_m / width_m + 1));
 }
 
-ReachPlan::ReachPlan(const Vec3& from, const Vec3& to, const Shape& shape) : from_(from), to_(to), shape_(shape) {
+ReachPlan::ReachPlan(const Vec3& from, const Vec3& to, const Shape& shape)
+    : from_(from + Vec3(0, 0, shape.sunk_m)), to_(to), shape_(shape) {
   travel_start_s_ = kTravelAfter * shape.lift_time_s;
   descent_start_s_ = travel_start_s_ + kDescentAfter * shape.travel_time_s;
   duration_s_ = std::max(travel_start_s_ + shape.travel_time_s, descent_start_s_ + shape.lift_time_s);
@@ -31,8 +32,8 @@ Vec3 ReachPlan::at(double t_s) const {
   const double share = minimum_jerk((t_s - travel_start_s_) / shape_.travel_time_s);
   Vec3 point = from_ + share * (to_ - from_) + std::sin(std::numbers::pi * share) * shape_.bulge;
   if (shape_.lift_time_s > 0) {
-    point.z() += shape_.lift_m * (minimum_jerk(t_s / shape_.lift_time_s) -
-                                  minimum_jerk((t_s - descent_start_s_) / shape_.lift_time_s));
+    const double up = minimum_jerk(t_s / shape_.lift_time_s);
+    point.z() += shape_.lift_m * (up - minimum_jerk((t_s - descent_start_s_) / shape_.lift_time_s)) - shape_.sunk_m * (1 - up);
   }
   return point;
 }

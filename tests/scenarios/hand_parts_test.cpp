@@ -50,6 +50,19 @@ TEST(ReachPlan, WithdrawsCrossesAndArrives) {
   EXPECT_NEAR(widest, 0.002, 1e-5);
 }
 
+TEST(ReachPlan, OutOfTheTissueItRisesNoHigherThanTheWithdrawal) {
+  const Vec3 from(0, 0, -0.015), to(0.05, 0, 0.004);  // the intent lies 15 mm under the surface at 0
+  ReachPlan::Shape shape{0.012, Vec3::Zero(), 0.4, 0.6};
+  shape.sunk_m = 0.015;
+  const ReachPlan plan(from, to, shape);
+  EXPECT_TRUE(plan.at(0).isApprox(from));
+  EXPECT_TRUE(plan.at(plan.duration_s()).isApprox(to));
+  double highest = -1;
+  for (double t = 0; t < plan.duration_s(); t += 0.002) highest = std::max(highest, plan.at(t).z());
+  EXPECT_LT(highest, 0.0165);
+  EXPECT_GT(highest, 0.008);
+}
+
 TEST(ReachPlan, MovesWithoutJumps) {
   const ReachPlan plan(Vec3::Zero(), Vec3(0.05, 0.03, -0.01), {0.012, Vec3(0.001, 0, 0), 0.3, 0.5});
   Vec3 before = plan.at(0);
@@ -131,6 +144,33 @@ TEST(ForceGrip, BiasFadesWhenTheForceStaysOutside) {
   EXPECT_NEAR(grip.goal_n(), 0.6 * (1 + 1.6 * 0.6), 1e-9);
   for (int i = 0; i < 5000; ++i) grip.speed(0.6, kDt, random);
   EXPECT_NEAR(grip.goal_n(), 0.6 * (1 + 1.6 * 0.6), 1e-9) << "inside the band it leaves well alone";
+}
+
+TEST(ForceGrip, ForesightLetsAQuickerHandOvershootLess) {
+  double highest[2] = {0, 0};
+  for (const bool foresees : {false, true}) {
+    HandRandom random(1);
+    ForceGrip grip({60, 5, 0.04, 1.0, 0.0, foresees ? 0.12 : 0.0});
+    grip.begin(0.4, 0.8, random);
+    LateSignal late(0.12, 0.05);
+    double intent = 0, force = 0;
+    for (int i = 0; i < 6000; ++i) {
+      force = std::max(0.0, 90 * intent);
+      highest[foresees] = std::max(highest[foresees], force);
+      intent += grip.speed(late.update(force, kDt), kDt, random) * kDt;
+    }
+    EXPECT_NEAR(force, 0.6, 0.03) << foresees;
+  }
+  EXPECT_LT(highest[true], highest[false] - 0.05);
+}
+
+TEST(ForceGrip, AForceThatComesAndGoesMakesItThinkAgain) {
+  HandRandom random(1);
+  ForceGrip grip({100, 3, 0.04, 1.5, 0.0});
+  grip.begin(0.4, 0.8, random);
+  const double first = grip.goal_n();
+  for (int i = 0; i < 3000; ++i) grip.speed(i % 200 < 100 ? 0.85 : 0.75, kDt, random);  // never outside for long
+  EXPECT_LT(grip.goal_n(), first - 0.05);
 }
 
 TEST(HandRandom, HasTheMomentsItClaims) {
