@@ -1,6 +1,6 @@
 // One attempt, set up: everything that is fixed before the loop starts, and its text in the recording.
 //
-// The same setup drives a live attempt, a replay and a picture: they differ only in back-end and executor.
+// The same setup drives an attempt, a replay and a picture: they differ only in back-end and executor.
 #pragma once
 
 #include <filesystem>
@@ -41,7 +41,7 @@ struct AttemptSetup {
   Exercise exercise;
   std::string level = "L1";
   std::string organ;                   ///< manifest path or name of a shipped organ, as given
-  std::string hand;                    ///< name or script; empty in a replay
+  std::string hand;                    ///< name or script; a replay knows it and does not use it
   int attempt = 1;                     ///< of a learning hand
   std::int64_t seed = 1;
   int board = 0;
@@ -79,7 +79,7 @@ struct RecordedSetup {
   AttemptSetup setup;
   std::string organ_sha256;
   DaqCapabilities daq;
-  double force_scale = 1;   ///< kappa that the live attempt used
+  double force_scale = 1;   ///< kappa that the recorded attempt used
 };
 RecordedSetup parse_scene_json(const std::string& json, const std::string& name);
 

@@ -1,6 +1,7 @@
-// The session: the one place that knows all modules. Runs an attempt, replays a recording, grades either.
+// The session: puts device, loop, world, director, hand and recorder together. Runs an attempt, replays a recording,
+// grades either. Knows neither the store nor the picture: the commands bring those along.
 //
-// Live, headless and replay differ only in back-end and executor. A grade is always made from the DECODED recording, so
+// Lockstep, live and replay differ only in back-end and executor. A grade is always made from the DECODED recording, so
 // what is stored and what a regrade computes agree to the bit. Thread: the caller's; a live run starts its own.
 #pragma once
 
@@ -51,10 +52,10 @@ struct SessionOutcome {
   std::string state_hash_hex;
   std::uint64_t patch_triangles_dropped = 0;
   std::vector<std::string> notes;       ///< what the trainee or operator should know, a line each
-  std::string scoring_json;             ///< what grading must know of the exercise (scenarios/scoring_context.h)
+  std::string scoring_json;             ///< what grading must know (scenarios/scoring_context.h): summary of END
 };
 
-/// A live attempt on the simulated device with a scripted hand. @param writer receives every tick and is closed.
+/// An attempt on the simulated device with a scripted hand. @param writer receives every tick and is closed.
 /// Live when the setup says so (threads, the clock), else in lockstep.
 /// @param interrupted asked now and then: true ends the attempt as aborted. @throws EnvironmentError of the writer.
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,

@@ -14,7 +14,7 @@ DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRe
   const ChannelVector passive = make_passive(motion, contact);    // budget, fed with what was applied one tick ago
   const LimitedTorque torque = share_out(motion, contact, passive);  // springs, gravity, contact, friction: who gets it
   watch(motion, contact, torque);                                 // faults, heat, warnings
-  const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless ACTIVE
+  const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless powered
   publish(in, motion, contact, torque, out, record);
   safety_log_.add(record);
   ++tick_;

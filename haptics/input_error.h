@@ -1,4 +1,5 @@
-// The one exception for bad input while loading: its message names file and place. Maps to exit code 2.
+// The two exceptions of the program: InputError for what somebody gave it (the message names file and place),
+// EnvironmentError for what the machine lacks. The loop throws neither.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +7,7 @@
 
 namespace trocar {
 
-/// Bad input: message "FILE:LINE:COLUMN: what" or "FILE: what".
+/// Bad input: message "FILE:LINE:COLUMN: what" or "FILE: what". Maps to exit code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

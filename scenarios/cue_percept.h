@@ -1,5 +1,5 @@
 // Puts on the "screen" of a hand what the director asks for: cue, target, wanted band. Position, force and delays are
-// the session's part.
+// the hand task's part.
 #pragma once
 
 #include "haptics/device/hand.h"

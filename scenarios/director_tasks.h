@@ -1,4 +1,5 @@
-// The parts of surface touch, discs to press and a block to squeeze, and the watch on safety that every run has.
+// The parts of surface touch (E02), discs to press and a block to squeeze, and the watch on safety that every run has.
+// The parts of the other kinds: pose_task.h, grasp_task.h.
 //
 // Frame T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once

@@ -1,8 +1,8 @@
 // One part of a run: what the trainee has to do now, judged from one haptic state per tissue period.
 //
 // The director strings parts together (discs, then a squeeze; pens; ...) and keeps what all share: start, clock, safety,
-// end. A new kind of exercise is a part of its own here, a table in exercise.h, a reader in exercise_loader.cpp and a line
-// in make_tasks(). Frame T, SI units. Deterministic: same states in, same events out. Thread: the tissue task's.
+// end. A new kind of exercise is a part of its own here with a line in make_tasks(), and what docs/architecture.md lists
+// at its end. Frame T, SI units. Deterministic: same states in, same events out. Thread: the tissue task's.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 // From exercise, board and events to what scoring must know; and to JSON and back for the recording.
 //
-// The struct itself is pure (scenarios/scoring/scoring_context.h). Numbers survive the JSON round trip to the bit.
+// The struct itself is pure and stands in scenarios/scoring/scoring_context.h, a file of the same name. Numbers survive
+// the JSON round trip to the bit.
 #pragma once
 
 #include <string>

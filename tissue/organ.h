@@ -1,4 +1,4 @@
-// An organ as the simulator loads it: a TOML manifest and the binary PLY surface beside it (design: interface, Files).
+// An organ as the simulator loads it: a TOML manifest and the binary PLY surface beside it.
 //
 // Frame of the surface: RAS patient axes (x right, y anterior, z superior), metres, origin as in the image.
 #pragma once

@@ -1,7 +1,7 @@
 // The world behind the contact patch: an organ surface, if the exercise has one, and rigid things, if it has any.
 //
-// step() takes the newest haptic state at the tissue rate (100 Hz) and gives back what the loop needs for the next
-// period (ContactPatch) and what everybody else may know of the world (TissueFrame). Frame T, SI units.
+// step() takes the newest haptic state at the tissue rate (100 Hz) and gives back what the loop needs until the next
+// step (ContactPatch) and what everybody else may know of the world (TissueFrame). Frame T, SI units.
 // Deterministic: same states in, same frames out. Thread: tissue task.
 #pragma once
 

@@ -1,4 +1,5 @@
-// The newest value from one task to one other, as the tasks see it. They do not know what lies behind: in lockstep a
+// Makes the channel that carries the newest value from one task to one other. The tasks see its ends only (Outlet and
+// Inlet, delayed_channel.h) and do not know what lies behind: in lockstep a
 // DelayedChannel (seen a declared number of ticks after it was published), live a LiveChannel (wait-free, seen at once).
 //
 // Threads: an Outlet belongs to the writing task's, an Inlet to the reading task's.

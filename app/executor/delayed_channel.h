@@ -1,6 +1,7 @@
-// A value published now and seen a declared number of ticks later: the lockstep form of a channel between tasks.
+// A channel between tasks as the tasks see it (Outlet, Inlet), and its lockstep form: a value published now and seen a
+// declared number of ticks later. The live form and the choice between them: channel.h.
 //
-// Newest wins; a reader sees the newest value whose delay has passed. Also what both forms look like to the tasks.
+// Newest wins; a reader sees the newest value whose delay has passed.
 // Thread: lockstep, one.
 #pragma once
 

@@ -15,7 +15,7 @@ namespace trocar {
 class DeviceAccount {
  public:
   void add(const TickRecord& record);
-  /// Ticks, missed periods, lowest energy, warnings and fault. @param rate_hz of the loop.
+  /// Ticks, missed periods (as `overruns`), lowest energy, warnings and fault.
   void fill(DeviceReceipt& receipt) const;
 
   std::uint64_t ticks() const { return ticks_; }

@@ -1,6 +1,7 @@
 // The hand task: gives a scripted hand its percept, late and noisy, and hands its intent to the simulated device.
 //
-// What is seen lags by 150 ms and errs by 0.3 mm, felt forces err by 0.03 N: design choices, named here. The force felt is
+// What is seen lags by 150 ms and errs by 0.3 mm, felt forces err by 0.03 N and do not lag here (what a
+// person makes of them late is the hand's part, hand_senses.h): design choices, named here. The force felt is
 // the one that the loop delivers, in scene newtons: device errors between DAC and hand act on the hand through the plant, but are
 // not in its percept. Nothing of the world goes to the hand but the Percept.
 // It is part of the simulated world: it runs beside the device, once a period of it, also in periods that the loop missed.

@@ -1,4 +1,5 @@
-// Runs the same tasks live: lanes, one thread each, paced by absolute times of CLOCK_MONOTONIC. The only place that reads a clock.
+// Runs the same tasks live: lanes, one thread each, paced by absolute times of CLOCK_MONOTONIC. The only place of a run
+// that reads a clock.
 //
 // A lane wakes at each period of its first task and runs its tasks in order. After a late wake it never catches up with calls in a
 // burst: the periods that passed are told to its tasks (Task::missed), which run once, and the next wake is the next boundary.

@@ -1,4 +1,4 @@
-// Distribution of durations of a task, counted without allocation, and what a live run was like in numbers.
+// Distribution of durations of a task, counted without allocation. (What drives a run, Timing, stands in channel.h.)
 //
 // Bins of 1 us to 1 ms, of 100 us to 1 s; what is longer is in the overflow and in the maximum. A percentile is the upper end of its
 // bin, never more than the maximum. Thread: that of the task; others when it has ended.

@@ -41,7 +41,7 @@ struct RecordedTick {
   std::uint8_t valid = 0x7F;            ///< bit i: channel i latched correctly
   std::uint8_t flags = 0;               ///< RecordedFlag bits
   std::uint8_t loop_state = 0;          ///< LoopState
-  std::uint8_t phase = 0;               ///< code that the session gives to the exercise's phase
+  std::uint8_t phase = 0;               ///< Phase of the director (scenarios/director.h), opaque here
 
   bool operator==(const RecordedTick&) const = default;
 };

@@ -1,7 +1,7 @@
 // One experiment of the thesis, or against it, done again: what it measured, what it drew, what it wrote down.
 //
-// A study fills a StudyResult and touches no file; study_files.h writes it as data CSV, SVG plots, summary.json (design:
-// interface) and table.md. SI in the data; the unit of a case stands beside it. Thread: any.
+// A study fills a StudyResult and touches no file; study_files.h writes it as data CSV, SVG plots, summary.json and
+// table.md. SI in the data; the unit of a case stands beside it. Thread: any.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,7 @@
 //
 // One call of read() is one SYNC: it latches all encoders at one instant. write() sets the codes that the DACs take
 // at the NEXT SYNC (one period of delay). Back-ends: SimulatedDaq, ReplayDaq; real boards implement the same class.
-// Thread: haptic task only. No call allocates, locks or throws.
+// Thread: the haptic task's. No call allocates, locks or throws.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // The device as a mechanical and electrical body: what the controller believes it is driving.
 //
-// Equations of motion (haptics notes 3.2) in nu = [omega_p; th4'; th5'; th6']:
+// Equations of motion in nu = [omega_p; th4'; th5'; th6']:
 //   (M_nu + S^T Jr S) nu' + h(R, nu) + S^T Jr S' nu = S^T (tau_motor - tau_friction - tau_stop) + J^T F_hand
 // Rigid bodies: platform group (legs, wrist motors, link 1, elbow motor) and stylus group (link 2, stylus); Jr are the
 // rotors seen through the capstans. One step is drift - kick - drift: half a step of position, one velocity step with

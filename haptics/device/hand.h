@@ -1,8 +1,8 @@
 // The hand as the rest of the program meets it: what it perceives and what it intends. A hand never sets the pose of
 // the stylus; its intent pulls the stylus through the impedance of hand_model.h.
 //
-// Frames: theatre T (what a person sees on the screen); the session turns an intent into device coordinates through
-// the inverse of the exercise's instrument map. Rate: hands are asked at 1 kHz. Must not allocate.
+// Frames: theatre T (what a person sees on the screen); the hand task turns an intent into device coordinates through
+// the inverse of the exercise's instrument map. Rate: hands are asked once a loop period. Must not allocate.
 #pragma once
 
 #include <array>
@@ -69,7 +69,7 @@ struct HandIntent {
 class Hand {
  public:
   virtual ~Hand() = default;
-  /// Called once a millisecond of loop time. @param dt_s time since the previous call, s.
+  /// Called once a period of the simulated device. @param dt_s time since the previous call, s.
   virtual HandIntent update(const Percept& percept, double dt_s) = 0;
 };
 

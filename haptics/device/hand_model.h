@@ -1,6 +1,6 @@
 // The impedance of the hand that holds the simulated stylus: an intent pulls the stylus, it never sets its pose.
 //
-//   translation   x_tool -[k_g, b_g]- M_h -[K_h, B_h]- x_intent          (haptics notes 3.3)
+//   translation   x_tool -[k_g, b_g]- M_h -[K_h, B_h]- x_intent
 //   rotation      spring and damper between the stylus and the intended orientation, about the stylus origin
 //   fingers       spring and damper between the jaw and the intended opening
 //   tremor        8 to 12 Hz, added between M_h and the grip
@@ -19,7 +19,7 @@ namespace trocar {
 enum class GripPreset : std::uint8_t { kFingertip, kLight, kNormal, kFirm };
 
 struct HandParameters {
-  // Translation, per grip (haptics notes 3.3; k_g and b_g are design assumptions, M_h, B_h, K_h after a published arm
+  // Translation, per grip (k_g and b_g are design assumptions, M_h, B_h, K_h after a published arm
   // trial: .554 kg, 6.45 N s/m, 135 N/m).
   double grip_stiffness = 400;  ///< k_g, N/m
   double grip_damping = 2;      ///< b_g, N s/m

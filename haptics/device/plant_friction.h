@@ -1,7 +1,7 @@
 // LuGre friction and end stops of one channel, linearised for an implicit velocity step.
 //
 //   z' = v - sigma0 |v| z / g(v),  g = f_c (1 + (ratio - 1) exp(-(v/v_s)^2)),  f = sigma0 z + sigma1 z' + sigma2 v
-//   sigma0 = f_c / bristle_length, sigma1 = 2 sqrt(sigma0 I) exp(-(v/v_s)^2), sigma2 = viscous   (haptics notes 3.1)
+//   sigma0 = f_c / bristle_length, sigma1 = 2 sqrt(sigma0 I) exp(-(v/v_s)^2), sigma2 = viscous
 // The Gaussian on sigma1 keeps the bristle damping from exceeding breakaway when sliding starts. Below breakaway the
 // bristles hold a load with v = 0 exactly: the device does not creep.
 // Units: those of the channel's output. Thread: value type, one owner.

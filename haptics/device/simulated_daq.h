@@ -12,7 +12,8 @@
 // injected faults, DAC registers read back each SYNC. The safety chain is wired past the controller: the emergency stop
 // and an open switch take the current away whatever arm() said. While armed a watchdog counts the SYNCs since the last
 // write; after kWatchdogS it zeroes the DACs until disarmed.
-// Thread: haptic task only. read, write, arm and the hand's calls neither allocate, lock nor throw.
+// Thread: the haptic task's, which hand and force tap share. read, write, arm and the hand's calls neither
+// allocate, lock nor throw.
 #pragma once
 
 #include <array>

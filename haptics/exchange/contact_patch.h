@@ -1,4 +1,5 @@
-// The part of the tissue that the haptic loop needs for the next period: triangles near the tool and what they are made of.
+// The part of the tissue that the haptic loop needs until the next patch: triangles near the tool and what
+// they are made of.
 //
 // Extracted by the tissue task (tissue/collision/patch_extraction.h) within kPatchRadius of the tool, read by the
 // contact stage of the tick. A new content has a new stamp. Frame T, metres. Fixed size: copying it allocates nothing.

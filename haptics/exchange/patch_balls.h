@@ -13,7 +13,7 @@
 
 namespace trocar {
 
-inline constexpr int kMaxPatchTriangles = 512;  ///< design/budgets: patch handed to the tick
+inline constexpr int kMaxPatchTriangles = 512;  ///< budget of the patch handed to the tick
 
 struct ContactPatch;
 

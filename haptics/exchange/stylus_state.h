@@ -12,7 +12,7 @@
 
 namespace trocar {
 
-/// States of the device loop (reference: safety chain of the device documentation, docs/device_and_safety.md).
+/// States of the device loop (safety chain: docs/device_and_safety.md).
 /// The numbers are those of recordings and do not change.
 enum class LoopState : std::uint8_t {
   kUnhomed = 0,   ///< torque off, waits for the jig

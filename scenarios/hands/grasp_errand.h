@@ -2,7 +2,7 @@
 // it is when no colour tells, squeeze, lift, carry, look, lower until it stands, let go, withdraw. A block that is lost on
 // the way is fetched again; one that is seen to slip is held tighter.
 //
-// Knows nothing but the Percept. Frame T, m, N. Thread: the session's, 1 kHz; does not allocate.
+// Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
 #include "haptics/device/hand.h"

@@ -12,7 +12,7 @@
 
 namespace trocar {
 
-/// What tells people apart (reference: scripted trainees of the training catalogue).
+/// What tells people apart.
 struct HandSkill {
   double speed_factor = 1;          ///< multiplies every movement time
   double aim_lateral_m = 0;         ///< SD of the end point across the approach, at 60 mm of travel

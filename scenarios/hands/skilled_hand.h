@@ -4,7 +4,7 @@
 // Knows nothing but its Percept. Its intent pulls the stylus through the impedance of the hand, so while pressing the
 // intent lies inside the tissue. Frame T, m, N. Orientation: kept as seen when the device became ready, until a pen asks for
 // another.
-// Thread: the session's, 1 kHz; does not allocate.
+// Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
 #include "haptics/device/hand.h"

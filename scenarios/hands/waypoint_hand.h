@@ -1,5 +1,5 @@
 // A hand that follows a fixed list of straight minimum-jerk moves and then stays; with an empty list it holds still.
-// For tests and studies. Frame T, m. Thread: the session's; does not allocate after construction.
+// For tests and studies. Frame T, m. Thread: the hand task's; does not allocate after construction.
 #pragma once
 
 #include <vector>

@@ -53,12 +53,13 @@ struct DeviceTransition {
 struct DeviceReceipt {
   std::string backend;
   double rate_hz = 0;
-  std::uint64_t ticks = 0, overruns = 0;
+  std::uint64_t ticks = 0;
+  std::uint64_t overruns = 0;          ///< SYNC periods that the loop missed; not the overruns of a lane in `realtime`
   double saturated_contact_share = 0;  ///< of contact ticks
   double passivity_active_share = 0;   ///< of contact ticks
   double min_energy_j = 0;
   double kappa = 1;
-  /// Training reference 5.4: the force was not rendered when the device lacked room in over 5 % of the contact time.
+  /// The force was not rendered when the device lacked room in over 5 % of the contact time.
   bool force_not_rendered() const { return saturated_contact_share > 0.05; }
   std::string fault;                   ///< cause of the first one, empty when none
   std::string force_sensor;            ///< JSON: what the force sensor says of the delivered force; empty without one
@@ -84,7 +85,7 @@ struct AttemptResult {
   bool organ_synthetic = false;
   std::string organ_credit;            ///< licence and origin, shown wherever the organ is
   std::string rubric_sha256, recording_sha256, recording_path;
-  std::string integrity;               ///< why it was aborted or void, empty when nothing is wrong
+  std::string integrity;               ///< why it was aborted, void or stopped by the device; empty when nothing is wrong
   std::string state_hash;              ///< 16 hexadecimal digits
   std::string started_utc;             ///< ISO 8601, wall clock, informative only
 };

@@ -3,7 +3,7 @@
 // 2nd-order Butterworth by the bilinear transform with pre-warping, run forwards and backwards (no phase; the gain is
 // the square of one pass: -6 dB at the cut-off), ends extended by odd reflection over 3 periods of the cut-off, filter
 // state started at the steady state of the first value. Raw 1 kHz positions quantised to 0.2 mm inflate path length by
-// a third; after this filter the error is 0.2 % (reference: training, metrics).
+// a third; after this filter the error is 0.2 %.
 #pragma once
 
 #include <string_view>

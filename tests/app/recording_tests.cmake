@@ -10,7 +10,7 @@ if(benchmark_FOUND)
   target_link_libraries(bench_recording PRIVATE trocar_options trocar_recorder benchmark::benchmark)
 endif()
 
-# The commands that read the store, compiled here as the program compiles them.
+# The commands that read the store.
 find_package(SQLite3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 trocar_test(test_store_commands

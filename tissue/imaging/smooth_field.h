@@ -1,6 +1,6 @@
 // A voxel mask as a smooth scalar field: about 1 inside, 0 outside, between them across the organ's surface.
 //
-// Gaussian of the mask, sigma in voxels along each axis (reference: tissue, 6 step 1). Where the mask is too thin to
+// Gaussian of the mask, sigma in voxels along each axis. Where the mask is too thin to
 // hold a voxel with all six neighbours, a narrower Gaussian keeps it from melting away; the two fields are blended
 // smoothly. Thread: any.
 #pragma once

@@ -1,6 +1,6 @@
 // The organ compiler: from a label in patient space, or a closed surface, to a clean closed mesh of the wanted size.
 //
-// Steps (reference: tissue, 6): mask with a margin -> Gaussian field -> iso level that encloses the kept voxels' volume
+// Steps: mask with a margin -> Gaussian field -> iso level that encloses the kept voxels' volume
 // -> marching tetrahedra -> isotropic remeshing, projected -> volume correction along the normals -> checks. Vertices
 // are rounded to float32, as the organ file stores them, before they are measured. RAS, metres. Same input, same bytes.
 // Thread: any, not the tick.
