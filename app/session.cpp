@@ -35,8 +35,8 @@ constexpr double kTissueOffset = 0.5;          // loop periods: a tissue step se
 constexpr double kLongestBeyondLimit_s = 60;   // homing, start and reading, on top of the exercise's limit
 
 /// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
-struct Bench {
-  Bench(const Scene& scene_in, DataAcquisition& daq, Timing timing, std::unique_ptr<Channel<ContactPatch>> patches,
+struct Rig {
+  Rig(const Scene& scene_in, DataAcquisition& daq, Timing timing, std::unique_ptr<Channel<ContactPatch>> patches,
         RecorderRings* recorder)
       : scene(scene_in),
         state(make_channel<StylusState>(timing)),
@@ -105,44 +105,44 @@ struct Bench {
 class ObserverTask final : public Task {
  public:
   /// @param period loop ticks between two views.
-  ObserverTask(Bench& bench, const SessionObserver& observe, std::uint32_t period)
-      : bench_(bench), observe_(observe), period_(period) {}
+  ObserverTask(Rig& rig, const SessionObserver& observe, std::uint32_t period)
+      : rig_(rig), observe_(observe), period_(period) {}
   std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
     if (!observe_) return;
-    const TickRecord& record = bench_.records->newest(tick);
-    const ExerciseFrame& frame = bench_.observer_frames->newest(tick);
-    observe_({bench_.scene, record, {frame.status, bench_.scene.board}, record.stylus.t_s, &frame.tissue});
+    const TickRecord& record = rig_.records->newest(tick);
+    const ExerciseFrame& frame = rig_.observer_frames->newest(tick);
+    observe_({rig_.scene, record, {frame.status, rig_.scene.board}, record.stylus.t_s, &frame.tissue});
   }
 
  private:
-  Bench& bench_;
+  Rig& rig_;
   const SessionObserver& observe_;
   std::uint32_t period_;
 };
 
-/// A whole attempt on the simulated device: the bench, the world beside it and what keeps books.
+/// A whole attempt on the simulated device: the rig, the world beside it and what keeps books.
 struct Attempt {
   Attempt(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer, Timing timing)
       : daq(simulated_device(scene.setup)),
-        bench(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
-        hand(scene, bench.haptic, *bench.hand_frames,
+        rig(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
+        hand(scene, rig.haptic, *rig.hand_frames,
              make_hand(scene.setup.hand, seed_of(scene), assets.hands, scene.setup.attempt), daq),
         forces(make_channel<StylusForces>(timing)),
-        tap(daq, bench.haptic, scene.loop.map.X_TW.R, *forces),
+        tap(daq, rig.haptic, scene.loop.map.X_TW.R, *forces),
         sensor(*forces, {}, seed_of(scene) ^ kSensorSeed, scene.loop.daq.rate_hz),
         recorder(*rings, scene.loop.daq.rate_hz, writer) {}
 
   static std::uint64_t seed_of(const Scene& scene) { return static_cast<std::uint64_t>(scene.setup.seed); }
   SessionOutcome outcome() {
-    SessionOutcome out = bench.outcome(daq.capabilities().name);
+    SessionOutcome out = rig.outcome(daq.capabilities().name);
     out.device.force_sensor = force_sensor_json(sensor);
     return out;
   }
 
   std::unique_ptr<RecorderRings> rings = std::make_unique<RecorderRings>();
   SimulatedDaq daq;
-  Bench bench;
+  Rig rig;
   HandTask hand;
   std::unique_ptr<Channel<StylusForces>> forces;
   ForceTapTask tap;
@@ -151,10 +151,10 @@ struct Attempt {
 };
 
 SessionOutcome run_lockstep(Attempt& attempt, const SessionObserver& observe, const std::function<bool()>& interrupted) {
-  Bench& bench = attempt.bench;
-  ObserverTask observer(bench, observe, bench.tissue.period());
+  Rig& rig = attempt.rig;
+  ObserverTask observer(rig, observe, rig.tissue.period());
   LockstepExecutor executor;
-  for (Task* task : std::initializer_list<Task*>{&attempt.hand, &bench.haptic, &attempt.tap, &bench.tissue, &attempt.sensor,
+  for (Task* task : std::initializer_list<Task*>{&attempt.hand, &rig.haptic, &attempt.tap, &rig.tissue, &attempt.sensor,
                                                  &attempt.recorder, &observer}) {
     executor.add(*task);
   }
@@ -164,12 +164,12 @@ SessionOutcome run_lockstep(Attempt& attempt, const SessionObserver& observe, co
 
 /// Lanes of their own for what must be on time; pictures in this thread, to which their context belongs.
 SessionOutcome run_live(Attempt& attempt, const SessionObserver& observe, const std::function<bool()>& interrupted) {
-  Bench& bench = attempt.bench;
-  const double rate_hz = bench.scene.loop.daq.rate_hz;
-  ObserverTask observer(bench, observe, static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
+  Rig& rig = attempt.rig;
+  const double rate_hz = rig.scene.loop.daq.rate_hz;
+  ObserverTask observer(rig, observe, static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
   ThreadedExecutor executor(rate_hz);
-  executor.add_lane("haptic", {&attempt.hand, &bench.haptic, &attempt.tap}, kHapticPriority);
-  executor.add_lane("tissue", {&bench.tissue}, kTissuePriority, kTissueOffset);
+  executor.add_lane("haptic", {&attempt.hand, &rig.haptic, &attempt.tap}, kHapticPriority);
+  executor.add_lane("tissue", {&rig.tissue}, kTissuePriority, kTissueOffset);
   executor.add_lane("force-sensor", {&attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);
   if (observe) executor.add_own_lane("pictures", {&observer});
@@ -235,11 +235,11 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
   samples.reserve(recording.ticks.size());
   for (const RecordedTick& row : recording.ticks) samples.push_back(device_input(row));
   ReplayDaq daq(std::move(samples), scene.loop.daq);
-  const auto bench = std::make_unique<Bench>(scene, daq, Timing::kLockstep,
+  const auto rig = std::make_unique<Rig>(scene, daq, Timing::kLockstep,
                                              std::make_unique<RecordedPatches>(executor.stamps()), nullptr);
-  ObserverTask observer(*bench, observe, bench->tissue.period());
-  executor.run(bench->haptic, {&bench->tissue, &observer});
-  return bench->outcome(daq.capabilities().name);
+  ObserverTask observer(*rig, observe, rig->tissue.period());
+  executor.run(rig->haptic, {&rig->tissue, &observer});
+  return rig->outcome(daq.capabilities().name);
 }
 
 Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {

@@ -22,8 +22,8 @@ namespace trocar {
 namespace {
 
 /// Times `work` for each tick of the run.
-Timing time_each(const std::string& stage, std::size_t count, const std::function<void(std::size_t)>& work) {
-  Timing timing{stage, {}};
+StageTimes time_each(const std::string& stage, std::size_t count, const std::function<void(std::size_t)>& work) {
+  StageTimes timing{stage, {}};
   timing.us.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double before = cpu_now_us();
@@ -54,7 +54,7 @@ Captured capture(const Scene& scene, const Recording& recording) {
   return captured;
 }
 
-std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
+std::vector<StageTimes> time_stages(const Scene& scene, const Captured& run) {
   const std::size_t count = run.samples.size();
   PatchExtraction extraction(scene.organ_T);
   auto patch = std::make_unique<ContactPatch>();
@@ -63,7 +63,7 @@ std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
   HapticLoop loop(scene.loop);
   auto record = std::make_unique<TickRecord>();
   std::vector<ArmState> arms(count);
-  std::vector<Timing> timings;
+  std::vector<StageTimes> timings;
   timings.push_back(time_each("kinematics, Jacobian", count, [&](std::size_t i) {
     arms[i] = arm_state(run.records[i].q.head<kArmJoints>());
   }));
@@ -75,7 +75,7 @@ std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
     if (i % 10 == 0) extraction.extract(run.records[i].stylus.X_TI, scene.loop.tool, *patch);
   };
   timings.push_back(time_each("patch (every 10th tick)", count / 10, [&](std::size_t i) { refresh(10 * i); }));
-  Timing touch{"contact", {}}, tick{"whole tick", {}};
+  StageTimes touch{"contact", {}}, tick{"whole tick", {}};
   for (std::size_t i = 0; i < count; ++i) {
     refresh(i);
     const StylusState& s = run.records[i].stylus;
@@ -93,7 +93,7 @@ std::vector<Timing> time_stages(const Scene& scene, const Captured& run) {
   return timings;
 }
 
-nlohmann::ordered_json percentiles(Timing& timing) {
+nlohmann::ordered_json percentiles(StageTimes& timing) {
   return {{"median", timing.percentile(0.5)}, {"p99", timing.percentile(0.99)}, {"p99.9", timing.percentile(0.999)}};
 }
 
@@ -107,7 +107,7 @@ nlohmann::ordered_json contact_by_size(std::ostream& err) {
                                {"missed_contacts", 10000 - cost.contact_ticks},
                                {"lists_a_tick", cost.lists}, {"listed_a_tick", cost.listed},
                                {"measured_a_tick", cost.measured}};
-    for (Timing* timing : {&cost.step, &cost.fresh, &cost.least, &cost.extraction, &cost.refit}) row[timing->stage] = percentiles(*timing);
+    for (StageTimes* timing : {&cost.step, &cost.fresh, &cost.least, &cost.extraction, &cost.refit}) row[timing->stage] = percentiles(*timing);
     json.push_back(row);
   }
   return json;
@@ -153,10 +153,10 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   json["wall_s_per_simulated_s"] = seconds / simulated;
   json["times_real_time"] = simulated / seconds;
   json["recording_bytes_per_60_s"] = static_cast<double>(memory.bytes().size()) * 60 / simulated;
-  for (Timing& timing : time_stages(scene, capture(scene, recording))) {
+  for (StageTimes& timing : time_stages(scene, capture(scene, recording))) {
     json["stages_us"][timing.stage] = percentiles(timing);
   }
-  Timing fixed = fixed_work(10000);
+  StageTimes fixed = fixed_work(10000);
   json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
   if (options.json) {

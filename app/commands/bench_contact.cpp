@@ -88,13 +88,13 @@ double cpu_now_us() {
   return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
-double Timing::percentile(double share) {
+double StageTimes::percentile(double share) {
   std::sort(us.begin(), us.end());
   return us.empty() ? 0 : us[std::min(us.size() - 1, static_cast<std::size_t>(share * static_cast<double>(us.size())))];
 }
 
-Timing fixed_work(int times) {
-  Timing timing{"fixed work", {}};
+StageTimes fixed_work(int times) {
+  StageTimes timing{"fixed work", {}};
   double x = 1;
   for (int i = 0; i < times; ++i) {
     const double start = cpu_now_us();

@@ -7,7 +7,7 @@
 namespace trocar {
 
 /// CPU times of one stage, us.
-struct Timing {
+struct StageTimes {
   std::string stage;
   std::vector<double> us;
 
@@ -22,10 +22,10 @@ struct ContactCost {
   int patch = 0;          ///< triangles in the last patch
   double reach_m = 0;     ///< of the last patch
   int contact_ticks = 0;  ///< ticks that felt the surface
-  Timing step;            ///< every tick of the first run
-  Timing fresh;           ///< of those, the ticks that saw a new patch
-  Timing least;           ///< every tick, the least of all runs: what the tick itself costs, without what else the machine did
-  Timing extraction, refit;
+  StageTimes step;            ///< every tick of the first run
+  StageTimes fresh;           ///< of those, the ticks that saw a new patch
+  StageTimes least;           ///< every tick, the least of all runs: what the tick itself costs, without what else the machine did
+  StageTimes extraction, refit;
   double lists = 0, listed = 0, measured = 0;  ///< a tick: lists of near pairs made, pairs on them, pairs measured exactly
 };
 
@@ -35,6 +35,6 @@ struct ContactCost {
 ContactCost contact_cost(int triangles, int ticks, int runs = 1);
 
 /// The same fixed arithmetic of about two microseconds again and again: the spread that this machine adds to any time.
-Timing fixed_work(int times);
+StageTimes fixed_work(int times);
 
 }  // namespace trocar

@@ -2,7 +2,8 @@
 // for squeezing (intent closes the jaws).
 //
 // Felt force comes back after about 0.1 s and is smoothed; the integrator's crossover is about 0.5 Hz when the world
-// (tissue in series with the hand) is as stiff as expected, so the loop keeps a margin up to three times that.
+// (tissue in series with the hand) is as stiff as expected, so the loop keeps a margin up to twice that with foresight and
+// three times without.
 #pragma once
 
 #include "scenarios/hands/hand_random.h"

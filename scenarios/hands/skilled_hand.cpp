@@ -17,7 +17,7 @@ constexpr double kLookTime = 0.16;          // s: the eyes are that late
 constexpr double kPenSettling = 0.15;       // s more before judging a pose: arm and instrument come to rest first
 constexpr double kTouchForce = 0.12;        // N that counts as feeling the tissue
 constexpr double kLongestDescent = 0.030;   // m below the hover point before looking again
-constexpr double kForesight = 0.12;         // s: a force that rises is judged by what it will be when the eyes and fingers tell
+constexpr double kForesight = 0.08;         // s: a force that rises is judged by what it will be when the eyes and fingers tell
 constexpr double kSideGain = 1.2;           // 1/s, sideways correction while pressing
 constexpr double kSideDeadBand = 0.0010;    // m
 constexpr double kAsideTime = 0.5;          // s beside the target before lifting off to try again
@@ -46,7 +46,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
       random_(seed),
       skill_(drawn_person(skill, random_)),
       senses_(skill_.reaction_s),
-      press_({60, 4, 0.04, skill_.force_bias, skill_.force_cv, kForesight}),
+      press_({60, 3.5, 0.04, skill_.force_bias, skill_.force_cv, kForesight}),
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv}),
       blocks_(skill_),
       jaw_m_(kOpenJaw) {

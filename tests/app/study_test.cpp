@@ -163,7 +163,7 @@ TEST(BenchContact, FeelsTheSurfaceInEveryTickHoweverFineItIs) {
 }
 
 TEST(BenchContact, FixedWorkIsTimedAsOftenAsAsked) {
-  Timing fixed = fixed_work(50);
+  StageTimes fixed = fixed_work(50);
   EXPECT_EQ(fixed.us.size(), 50u);
   EXPECT_GT(fixed.percentile(0.5), 0);
 }

@@ -150,12 +150,12 @@ TEST(ForceGrip, ForesightLetsAQuickerHandOvershootLess) {
   double highest[2] = {0, 0};
   for (const bool foresees : {false, true}) {
     HandRandom random(1);
-    ForceGrip grip({60, 5, 0.04, 1.0, 0.0, foresees ? 0.12 : 0.0});
+    ForceGrip grip({60, 3.5, 0.04, 1.0, 0.0, foresees ? 0.08 : 0.0});
     grip.begin(0.4, 0.8, random);
     LateSignal late(0.12, 0.05);
     double intent = 0, force = 0;
     for (int i = 0; i < 6000; ++i) {
-      force = std::max(0.0, 90 * intent);
+      force = std::max(0.0, 100 * intent);
       highest[foresees] = std::max(highest[foresees], force);
       intent += grip.speed(late.update(force, kDt), kDt, random) * kDt;
     }
