@@ -55,10 +55,20 @@ void DeviceWatch::watch_speed(const WatchedTick& now, Supervisor& supervisor) {
   supervisor.raise(FaultCode::kOverspeed, now.tick, joint ? fastest : -1, joint ? now.qd[fastest] : now.tip_speed);
 }
 
+std::int64_t DeviceWatch::arm_travel(const std::array<std::int32_t, kChannels>& delta) {
+  std::int64_t travel = 0;
+  for (int i = 0; i < kArmJoints; ++i) {
+    const std::int64_t off = static_cast<std::int64_t>(off_place_[i]) + delta[i];
+    off_place_[i] = static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(off, -limits_.stuck_dither, limits_.stuck_dither));
+    travel += std::abs(off - off_place_[i]);
+  }
+  return travel;
+}
+
 void DeviceWatch::watch_encoders(const WatchedTick& now, Supervisor& supervisor) {
   const bool active = supervisor.state() == LoopState::kActive;
-  std::int64_t travel = 0;
-  for (int i = 0; i < kArmJoints; ++i) travel += std::abs(static_cast<std::int64_t>(now.delta[i]));
+  const std::int64_t travel = arm_travel(now.delta);
   bool suspected = false;
   for (int i = 0; i < kChannels; ++i) {
     const bool pushed = active && !now.touching && now.delta[i] == 0 && std::abs(now.torque[i]) > strong_[i];

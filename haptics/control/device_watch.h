@@ -47,6 +47,8 @@ class DeviceWatch {
   void watch_heat(const WatchedTick& now, Supervisor& supervisor);
   void watch_speed(const WatchedTick& now, Supervisor& supervisor);
   void watch_encoders(const WatchedTick& now, Supervisor& supervisor);
+  /// Counts that the arm has travelled since the last tick; a count that comes and goes is none.
+  std::int64_t arm_travel(const std::array<std::int32_t, kChannels>& delta);
   void set(LoopWarning warning, bool on) {
     warnings_ = static_cast<WarningBits>(on ? warnings_ | bit(warning) : warnings_ & ~bit(warning));
   }
@@ -59,6 +61,7 @@ class DeviceWatch {
   std::array<double, kChannels> pushed_s_{};        ///< much torque, no count, nothing touched
   std::array<std::int64_t, kArmJoints> pushed_travel_{};  ///< counts of the arm meanwhile
   std::array<std::int64_t, kArmJoints> quiet_travel_{};   ///< counts of the arm since this joint counted last
+  std::array<std::int32_t, kArmJoints> off_place_{};  ///< counts from where travel was last taken, within the dither
   double too_fast_s_ = 0;
   WarningBits warnings_ = 0;
 };

@@ -36,6 +36,7 @@ struct SafetyLimits {
   double stuck_torque_share = 0.3;       ///< of the channel's largest torque
   double stuck_s = 0.2;                  ///< so long without a count in free space: suspected
   std::int64_t stuck_pushed_travel = 2400;  ///< counts of the arm during that: a fault [hands at work through a port reach 600]
+  std::int32_t stuck_dither = 4;         ///< counts to either side that are a held arm's trembling and no travel
   std::int64_t stuck_travel = 12000;     ///< counts of the arm without one of this joint: a fault [4 x, likewise]
   std::uint32_t max_missed_in_a_row = 20;   ///< periods without a tick between them
   double max_missed_share = 0.01;        ///< of the last second
