@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <ostream>
+#include <system_error>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -110,10 +111,13 @@ void run_jobs(std::vector<Job>& jobs, const SweepOptions& options, const AssetRo
     }
   };
   const unsigned wanted = options.jobs > 0 ? static_cast<unsigned>(options.jobs) : std::thread::hardware_concurrency();
-  std::vector<std::thread> threads;
-  for (unsigned i = 1; i < wanted; ++i) threads.emplace_back(work);
+  std::vector<std::jthread> threads;
+  try {
+    for (unsigned i = 1; i < wanted; ++i) threads.emplace_back(work);
+  } catch (const std::system_error&) {  // the system gives no more: those that there are do the work
+  }
   work();
-  for (std::thread& thread : threads) thread.join();
+  for (std::jthread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
 }
 
