@@ -61,7 +61,7 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
 
 void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch) {
   const double turn = turn_to(axes);
-  // The proxy travels no further than this in one period.
+  // The proxy slides no further than this in one period.
   double allowance = kIdleTravel + 1.5 * (goal - last_goal_).norm();
   last_goal_ = goal;
   touch_count_ = 0;

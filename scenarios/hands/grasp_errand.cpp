@@ -282,7 +282,7 @@ void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent,
   switch (step_) {
     case Step::kOpen:
       if (intent.X_TI.p.z() < percept.tip_T.z()) intent.X_TI.p.z() += kEasing * dt_s;
-      if (percept.jaw_opening_m < thickness(percept) + 0.005) return;
+      if (percept.jaw_opening_m < std::min(thickness(percept) + 0.005, kOpenJaw - 0.001)) return;
       return withdraw(percept, intent);
     case Step::kRetreat:
       intent.X_TI.p = plan_.at(in_step_s_);

@@ -62,7 +62,7 @@ void lay_on_board(RigidBody& body, double floor_z_m, double board_n_per_m, doubl
       high -= third;
     }
   }
-  energy((low + high) / 2);
+  energy((low + high) / 2);  // leaves it so turned
 }
 
 /// Does the block's middle lie between the pads, seen along them?
