@@ -27,6 +27,7 @@ constexpr double kSlowest = 0.25;           // ... to this share of its speed
 constexpr double kGuiding = 1.5;            // 1/s of what is seen to be off, while it is lowered ...
 constexpr double kGuided = 0.001;           // ... to this height over the ring, m
 constexpr double kEasing = 0.020;           // m/s at which the hand takes its weight off what stands
+constexpr int kTriesASide = 2;              // met by something on the way down that often, the other sides are tried
 constexpr double kGripFelt = 0.08;          // N
 constexpr double kFlat = 0.995;             // least cosine of a block that is seen to stand flat
 constexpr double kSet = 0.15;               // N of the board on the block that tells that it stands
@@ -77,16 +78,21 @@ Vec3 GraspErrand::way_out(const Percept& percept) {
 }
 
 /// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides.
-double GraspErrand::roll_off(const Percept& percept) {
-  double best = 10;
+double GraspErrand::roll_off(const Percept& percept) const {
+  double best = 10, other = 10;
   for (int axis = 0; axis < 3; ++axis) {
     if (!between_pads(percept.object, axis)) continue;
     const Vec3 side_I = percept.R_TI.transpose() * percept.object.X_TO.R.col(axis);
-    double roll = std::atan2(-side_I.x(), side_I.y());
-    roll = std::remainder(roll, M_PI);
-    if (std::abs(roll) < std::abs(best)) best = roll;
+    const double roll = std::remainder(std::atan2(-side_I.x(), side_I.y()), M_PI);
+    if (std::abs(roll) < std::abs(best)) {
+      other = best;
+      best = roll;
+    } else {
+      other = roll;
+    }
   }
-  return best;
+  const bool turn_aside = hits_ % (2 * kTriesASide) >= kTriesASide && other < 10;
+  return turn_aside ? other : best;
 }
 
 void GraspErrand::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
@@ -123,7 +129,7 @@ void GraspErrand::reach_ring(const Percept& percept, const HandIntent& intent, H
 }
 
 void GraspErrand::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  corrections_ = 0;
+  corrections_ = hits_ = 0;
   reach_block(percept, intent, random);
 }
 
@@ -168,6 +174,7 @@ void GraspErrand::approach(const Percept& percept, const HandSenses& senses, dou
   if (step_ != Step::kDescend) return;
   if (senses.touch_n() > kHit && in_step_s_ < plan_.duration_s()) {  // the jaws stand on something: look again
     corrections_ = 0;
+    ++hits_;
     return reach_block(percept, intent, random);
   }
   if (there) enter(Step::kClose);
@@ -184,7 +191,7 @@ void GraspErrand::take(const Percept& percept, const HandSenses& senses, double 
         high_n_ = told ? percept.band_high_n : kFeelHigh;
         grip_.begin(low_n_, high_n_, random);
         felt_sum_n_ = opening_sum_m_ = 0;
-        felt_count_ = 0;
+        felt_count_ = hits_ = 0;
         enter(told ? Step::kSqueeze : Step::kFeel);
       } else if (percept.jaw_opening_m < thickness(percept) / 3) {  // closed on nothing
         corrections_ = 0;

@@ -47,7 +47,7 @@ class GraspErrand {
   Vec3 grip_point(const Percept& percept) const;
   static double thickness(const Percept& percept);
   static Vec3 way_out(const Percept& percept);
-  static double roll_off(const Percept& percept);
+  double roll_off(const Percept& percept) const;
 
   HandSkill skill_;
   ForceGrip grip_;
@@ -59,6 +59,7 @@ class GraspErrand {
   double in_step_s_ = 0, lost_s_ = 0, slip_s_ = 0;
   double felt_sum_n_ = 0, opening_sum_m_ = 0;
   int felt_count_ = 0, corrections_ = 0;
+  int hits_ = 0;                      ///< on the way down, one after the other
 };
 
 }  // namespace trocar
