@@ -77,9 +77,11 @@ Vec3 GraspErrand::way_out(const Percept& percept) {
   return kHover * (kRaised * Vec3::UnitZ() - percept.R_TI.col(2)).normalized();
 }
 
-/// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides.
+/// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides that they
+/// can take; the other pair where the nearest was barred; 0 where they can take none.
 double GraspErrand::roll_off(const Percept& percept) const {
-  double best = 10, other = 10;
+  constexpr double kNone = 10;  // rad, more than any roll
+  double best = kNone, other = kNone;
   for (int axis = 0; axis < 3; ++axis) {
     if (!between_pads(percept.object, axis)) continue;
     const Vec3 side_I = percept.R_TI.transpose() * percept.object.X_TO.R.col(axis);
@@ -91,7 +93,8 @@ double GraspErrand::roll_off(const Percept& percept) const {
       other = roll;
     }
   }
-  const bool turn_aside = hits_ % (2 * kTriesASide) >= kTriesASide && other < 10;
+  const bool turn_aside = hits_ % (2 * kTriesASide) >= kTriesASide && other < kNone;
+  if (best == kNone) return 0;
   return turn_aside ? other : best;
 }
 
