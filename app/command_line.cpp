@@ -140,6 +140,8 @@ void add_first_contact(CommandLine& c) {
                           [&c] { return study_command(c.study, std::cout, std::cerr); });
   study->add_option("name", c.study.name, "One of: " + studies)->required();
   study->add_option("--out", c.study.out, "Folder")->required();
+  study->add_flag("--quick", c.study.quick, "Fewer trials of the same kind");
+  study->add_option("--seed", c.study.seed, "Of everything that is drawn")->capture_default_str();
   study->add_flag("--json", c.study.json, "Summary as JSON");
   c.add(c.app, "version", "Version of the program", [] {
     std::cout << "trocar " TROCAR_VERSION "\n";

@@ -290,6 +290,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   record.q = motion.q;
   record.qd = motion.qd;
   record.torque = supervisor_.armed() ? torque.total : ChannelVector::Zero();
+  record.contact_torque = supervisor_.armed() ? torque.contact : ChannelVector::Zero();
   record.det_a = motion.arm.det_a;
   record.winding_c = watch_.hottest_c();
   record.warnings = watch_.warnings();

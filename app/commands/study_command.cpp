@@ -13,10 +13,12 @@ namespace {
 
 struct KnownStudy {
   const char* name;
-  StudyResult (*run)();
+  StudyResult (*run)(const StudyRequest&);
 };
 
-constexpr std::array kStudies{KnownStudy{"contact-law", contact_law_study}};
+constexpr std::array kStudies{
+    KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
+};
 
 }  // namespace
 
@@ -34,7 +36,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
     for (const std::string& name : study_names()) known += " " + name;
     throw InputError("no study '" + options.name + "'; there are:" + known);
   }
-  const StudyResult result = study->run();
+  const StudyResult result = study->run({options.quick, options.seed});
   write_study(result, options.out);
   out << (options.json ? summary_json(result) : table_markdown(result));
   err << "trocar: data, plots and summary.json in " << options.out.string() << '\n';

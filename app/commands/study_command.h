@@ -1,6 +1,7 @@
 // `trocar study NAME --out DIR`: does an experiment again and writes its data, plots and summary.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -12,6 +13,8 @@ struct StudyOptions {
   std::string name;
   std::filesystem::path out;
   bool json = false;
+  bool quick = false;      ///< fewer trials of the same kind
+  std::uint64_t seed = 1;  ///< of everything that is drawn
 };
 
 /// Names that study_command knows.

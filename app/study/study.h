@@ -4,6 +4,7 @@
 // table.md. SI in the data; the unit of a case stands beside it. Thread: any.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,10 +33,23 @@ struct StudyCurves {
   std::vector<Series> series;
 };
 
+/// A drawing or a table that is no set of curves: written as it stands.
+struct StudyFile {
+  std::string name;  ///< with its ending: workspace_side.svg
+  std::string bytes;
+};
+
+/// How the study is to be done.
+struct StudyRequest {
+  bool quick = false;      ///< fewer trials of the same kind, for tests; the bars stay
+  std::uint64_t seed = 1;  ///< of everything that is drawn
+};
+
 struct StudyResult {
   std::string study, plant;
   std::vector<StudyCase> cases;
   std::vector<StudyCurves> curves;
+  std::vector<StudyFile> files;
 };
 
 }  // namespace trocar

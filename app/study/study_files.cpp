@@ -167,6 +167,7 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
     write_file(folder / (curves.file + ".csv"), curves_csv(curves));
     write_file(folder / (curves.file + ".svg"), curves_svg(curves));
   }
+  for (const StudyFile& file : result.files) write_file(folder / file.name, file.bytes);
   write_file(folder / "summary.json", summary_json(result));
   write_file(folder / "table.md", table_markdown(result));
 }

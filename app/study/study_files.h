@@ -1,4 +1,4 @@
-// Writes a study: NAME.csv and NAME.svg for each set of curves, summary.json, table.md. Same result, same bytes.
+// Writes a study: NAME.csv and NAME.svg for each set of curves, its other files, summary.json, table.md. Same result, same bytes.
 #pragma once
 
 #include <filesystem>

@@ -16,6 +16,7 @@ struct TickRecord {
   ChannelVector q = ChannelVector::Zero();
   ChannelVector qd = ChannelVector::Zero();
   ChannelVector torque = ChannelVector::Zero();  ///< total asked of the motors
+  ChannelVector contact_torque = ChannelVector::Zero();  ///< of that what was left to the contact; not recorded
   double det_a = 1;
   double winding_c = 25;       ///< hottest motor winding by the model
   double contact_scale = 1;    ///< < 1: torque budget cut the contact force

@@ -18,7 +18,7 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"score", {"--rubric", "--db", "--json"}},
       {"demo", {"--headless", "--out", "--organ", "--exercise", "--level"}},
       {"bench", {"--organ", "--json"}},
-      {"study", {"--out", "--json"}},
+      {"study", {"--out", "--quick", "--seed", "--json"}},
       {"version", {}},
       {"exercises", {"--json", "--explain"}},
       {"check", {"--organ"}},
