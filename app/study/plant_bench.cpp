@@ -48,6 +48,19 @@ PlantBench::PlantBench(const SimulatedDaqConfig& device, const HapticLoopConfig&
       last_q_(daq_.plant().angles()),
       on_the_way_(static_cast<std::size_t>(device.extra_delay_periods) + 2, JointVector::Zero()) {}
 
+PlantBench::PlantBench(const PlantBench& other)
+    : daq_(other.daq_),
+      config_(other.config_),
+      loop_(other.loop_),
+      patch_(std::make_unique<ContactPatch>(*other.patch_)),
+      record_(other.record_),
+      goal_(other.goal_),
+      jaw_(other.jaw_),
+      holding_(other.holding_),
+      last_q_(other.last_q_),
+      on_the_way_(other.on_the_way_),
+      absorbed_j_(other.absorbed_j_) {}
+
 const TickRecord& PlantBench::tick() {
   if (holding_) daq_.set_hand_intent(goal_, jaw_);
   const DaqSample sample = daq_.read();

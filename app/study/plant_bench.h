@@ -28,6 +28,9 @@ SimulatedDaqConfig nominal_device();
 class PlantBench {
  public:
   PlantBench(const SimulatedDaqConfig& device, const HapticLoopConfig& loop);
+  /// A second bench in the same state to the bit.
+  PlantBench(const PlantBench& other);
+  PlantBench& operator=(const PlantBench&) = delete;
 
   /// One period. @throws BenchFault.
   const TickRecord& tick();
@@ -46,6 +49,7 @@ class PlantBench {
   const TickRecord& record() const { return record_; }
   const SimulatedDaq& daq() const { return daq_; }
   SimulatedDaq& daq() { return daq_; }
+  HapticLoop& loop() { return loop_; }
   const HapticLoopConfig& loop_config() const { return config_; }
   Pose& goal() { return goal_; }
   double time_s() const { return daq_.time_s(); }

@@ -14,7 +14,7 @@ constexpr double kStill = 1e-12;        // m
 }  // namespace
 
 void PassivityController::reset() {
-  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = 0;
+  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = thesis_j_ = 0;
   free_ticks_ = 0;
   active_ = false;
 }
@@ -27,12 +27,7 @@ double PassivityController::update(const ContactWork& work) {
   const double income = work.absorbed_j + eaten;
 
   double spring = work.wanted_n;
-  double lost = 0;
-  if (p_.law == PassivityLaw::kBudgeted && work.wanted_n > 0) {
-    spring = std::max(affordable(work, income), bounded(work));
-    if (-budget_ > p_.fade_debt_j) spring = std::min(spring, kFadedShare * work.wanted_n);
-    lost = damping(v);
-  }
+  const double force = work.wanted_n > 0 ? apply_law(work, income, spring) : 0;
   const double held = work.wanted_n > 0 ? work.stored_j * spring / work.wanted_n : 0;
   budget_ = std::min(p_.credit_cap_j, budget_ + income - (held - held_));
   held_ = held;
@@ -40,9 +35,36 @@ double PassivityController::update(const ContactWork& work) {
   missing_ = work.wanted_n - spring;
   forget_in_free_space(work);
 
-  const double force = std::max(0.0, spring + lost);
   active_ = work.wanted_n > 0 && force != work.wanted_n;
   return force;
+}
+
+double PassivityController::apply_law(const ContactWork& work, double income_j, double& spring) {
+  double lost = 0;
+  switch (p_.law) {
+    case PassivityLaw::kOff: return work.wanted_n;
+    case PassivityLaw::kThesis: return thesis_force(work);
+    case PassivityLaw::kReference: lost = damping(work); break;
+    case PassivityLaw::kIncrement: spring = bounded(work); break;
+    case PassivityLaw::kCap:
+      spring = std::min(work.wanted_n, 2 * kappa() * work.stored_j / work.wanted_n);  // k = F^2 / (2 E)
+      break;
+    case PassivityLaw::kBudgeted:
+      spring = std::max(affordable(work, income_j), bounded(work));
+      lost = damping(work);
+      break;
+  }
+  if (-budget_ > p_.fade_debt_j) spring = std::min(spring, kFadedShare * work.wanted_n);
+  return std::max(0.0, spring + lost);
+}
+
+double PassivityController::thesis_force(const ContactWork& work) {
+  thesis_j_ += work.wanted_n * work.dx_m;
+  const double v = work.dx_m / p_.period_s;
+  if (thesis_j_ >= 0 || v == 0) return work.wanted_n;
+  const double alpha = -thesis_j_ / (p_.period_s * v * v);
+  thesis_j_ += alpha * v * v * p_.period_s;
+  return work.wanted_n + alpha * v;
 }
 
 void PassivityController::delivered(double scale) {
@@ -62,16 +84,16 @@ double PassivityController::affordable(const ContactWork& work, double income_j)
 
 double PassivityController::bounded(const ContactWork& work) const {
   if (std::abs(work.dx_m) < kStill) return std::min(spring_, work.wanted_n);  // at rest it may only fall
-  const double kappa = p_.viscous_n_s_per_m / (p_.period_s / 2 + p_.delay_s);
   const double eta = spring_ / work.dx_m;
-  const double reach = std::abs(eta + kappa);
+  const double reach = std::abs(eta + kappa());
   const double beta = std::clamp((work.wanted_n - spring_) / work.dx_m, -eta - reach, -eta + reach);
   return std::max(0.0, spring_ + beta * work.dx_m);
 }
 
-double PassivityController::damping(double speed_m_s) const {
+double PassivityController::damping(const ContactWork& work) const {
+  const double speed_m_s = work.speed_m_s;
   if (budget_ >= 0 || std::abs(speed_m_s) <= p_.dead_band_m_s) return 0;
-  const double alpha_max = kDampingShare * p_.effective_mass_kg / (p_.delay_s + p_.period_s / 2 + p_.velocity_lag_s);
+  const double alpha_max = kDampingShare * p_.effective_mass_kg / (p_.delay_s + p_.period_s / 2 + work.lag_s);
   return std::min(alpha_max, -budget_ / (p_.period_s * speed_m_s * speed_m_s)) * speed_m_s;
 }
 
