@@ -10,9 +10,10 @@ namespace trocar {
 
 DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRecord& record) noexcept {
   const Motion motion = measure(in);                              // counts -> angles -> ArmState -> rates -> twist
-  const Contact contact = feel(motion, patch);                    // instrument -> tissue, pinch -> tau = J^T F
-  const ChannelVector passive = make_passive(motion, contact);    // budget, fed with what was applied one tick ago
-  const LimitedTorque torque = share_out(motion, contact, passive);  // springs, gravity, contact, friction: who gets it
+  Contact contact = feel(motion, patch);                          // instrument -> tissue, pinch -> tau = J^T F
+  TorqueShares shares = hold_up(motion, contact);                 // limit springs and weight, and the room they leave
+  shares.contact = make_passive(motion, contact);                 // budget, fed with what was applied
+  const LimitedTorque torque = share_out(motion, contact, shares);  // then friction, alignment; rate and size limited
   watch(motion, contact, torque);                                 // faults, heat, warnings
   const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless powered
   publish(in, motion, contact, torque, out, record);
@@ -181,7 +182,12 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   const Wrench spring = instrument_.stylus_wrench(contact.tissue.spring_I_T);
   const JointVector spring_torque = torque_of(spring);
   contact.spring_n = spring.force.norm();
-  contact.limit = limit_of(spring_torque, contact.spring_n, config_.map.force_scale * contact.tissue.stored_j);
+  const double stored_j = config_.map.force_scale * contact.tissue.stored_j;
+  if (contact.spring_n > 0 && stored_j > 0) {
+    contact.stiffness = contact.spring_n * contact.spring_n / (2 * stored_j);
+    contact.limit = stiffness_limit(config_.device, spring_torque / contact.spring_n, contact.stiffness, period_s_,
+                                    (1 + config_.known_delay_periods) * period_s_);
+  }
   contact.share = contact.port_share * (config_.clamp_stiffness ? contact.limit.share : 1);
   contact.commanded_W = whole.force;
   contact.torque.head<kArmJoints>() = contact.share * torque_of(whole);
@@ -189,12 +195,6 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   contact.spring_torque = contact.share * spring_torque;
   feel_port(motion, contact);
   return contact;
-}
-
-StiffnessLimit HapticLoop::limit_of(const JointVector& spring_torque, double spring_n, double stored_j) const noexcept {
-  if (!(spring_n > 0) || !(stored_j > 0)) return {};
-  return stiffness_limit(config_.device, spring_torque / spring_n, spring_n * spring_n / (2 * stored_j), period_s_,
-                         (1 + config_.known_delay_periods) * period_s_);
 }
 
 void HapticLoop::feel_port(const Motion& motion, Contact& contact) noexcept {
@@ -219,50 +219,59 @@ double HapticLoop::rendered_share(double det_a) const noexcept {
   return std::min(supervisor_.ramp() * singularity_share(det_a), watch_.contact_share());
 }
 
+TorqueShares HapticLoop::hold_up(const Motion& motion, Contact& contact) noexcept {
+  TorqueShares shares;
+  if (!supervisor_.powered()) return shares;
+  const JointVector qd = motion.qd.head<kArmJoints>();
+  shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd) + watch_.damping(motion.qd);
+  if (config_.carry_weight) {
+    shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
+  }
+  shares.contact = contact.torque + contact.port;
+  contact.room = limiter_.room(shares);
+  return shares;
+}
+
 ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& contact) noexcept {
   const ChannelVector& dq = motion.travel;
   const ChannelVector acted = asked_contact_.acted(static_cast<int>(motion.periods), config_.known_delay_periods);
   ContactWork arm;
-  arm.wanted_n = contact.share * contact.spring_n;
+  // The spring as the motors can render it: beyond their limit its force stays the same and it stores less,
+  // E (2 s - s^2) where s of the force is left.
+  const double room = contact.room, stored_room = room * (2 - room);
+  arm.wanted_n = room * contact.share * contact.spring_n;
   // What the port's springs hold is returned later: only what they lose is absorbed.
   const double port_j = contact.port_share * (contact.port_stored_j - last_port_j_);
   arm.absorbed_j = -acted.head<kArmJoints>().dot(dq.head<kArmJoints>()) - port_j;
   last_port_j_ = contact.port_stored_j;
-  arm.stored_j = contact.share * config_.map.force_scale * contact.tissue.stored_j;
+  arm.stored_j = stored_room * contact.share * config_.map.force_scale * contact.tissue.stored_j;
   if (arm.wanted_n > 0) {
-    const JointVector unit = contact.spring_torque / arm.wanted_n;
+    const JointVector unit = contact.spring_torque / (contact.share * contact.spring_n);
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
     arm.lag_s = motion.lag_s;
+    arm.stiffness = contact.stiffness;
   }
   ContactWork pinch;
-  pinch.wanted_n = contact.jaw_share * contact.grip.force_n;
+  pinch.wanted_n = room * contact.jaw_share * contact.grip.force_n;
   pinch.absorbed_j = -acted[kPinchChannel] * dq[kPinchChannel];
   pinch.dx_m = -dq[kPinchChannel];
   pinch.speed_m_s = -motion.qd[kPinchChannel];
-  pinch.stored_j = contact.jaw_share * contact.grip.stored_j;
+  pinch.stored_j = stored_room * contact.jaw_share * contact.grip.stored_j;
 
-  ChannelVector passive = contact.torque;
+  ChannelVector passive = room * contact.torque;
   const double force = arm_passivity_.update(arm);
   if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
   return passive + contact.port;
 }
 
-LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact,
-                                    const ChannelVector& passive) noexcept {
+LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept {
   if (!supervisor_.powered()) {
     limiter_.reset();
     return {};
   }
   const JointVector qd = motion.qd.head<kArmJoints>();
-  TorqueShares shares;
-  shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd);
-  if (config_.carry_weight) {
-    shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
-  }
-  shares.springs += watch_.damping(motion.qd);
-  shares.contact = passive;
   shares.alignment = contact.alignment;
   if (arm_passivity_.budget_j() >= 0) {
     shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
@@ -283,7 +292,7 @@ void HapticLoop::watch(const Motion& motion, const Contact& contact, const Limit
   now.det_a = motion.arm.det_a;
   now.torque = torque.total;
   now.touching = contact.tissue.contact || contact.grip.force_n > 0;
-  now.saturated = now.touching && torque.contact_scale < 1;
+  now.saturated = now.touching && contact.room * torque.contact_scale < 1;
   now.debt = arm_passivity_.debt_faded() || pinch_passivity_.debt_faded();
   watch_.update(now, supervisor_);
   if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
@@ -318,7 +327,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   record.stiffness_share = contact.limit.share;
   record.winding_c = watch_.hottest_c();
   record.warnings = watch_.warnings();
-  record.contact_scale = torque.contact_scale;
+  record.contact_scale = contact.room * torque.contact_scale;
   record.stored_j = contact.tissue.stored_j;
   record.min_energy_j = arm_passivity_.min_energy_j();
 
@@ -340,7 +349,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   s.contact_point_T = contact.tissue.point_T;
   s.contact_normal_T = contact.tissue.normal_T;
   s.depth_m = contact.tissue.depth_m;
-  s.saturated = torque.contact_scale < 1 && s.contact;
+  s.saturated = record.contact_scale < 1 && s.contact;
   s.passivity_active = arm_passivity_.active();
   s.energy_j = arm_passivity_.energy_j();
 }

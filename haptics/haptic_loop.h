@@ -87,8 +87,10 @@ class HapticLoop {
     ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, times share, before passivity
     double share = 1;                              ///< of the contact that ramp, singularity, heat, clutch and K_max let through
     double port_share = 1;                         ///< the same of the port's friction: without the stiffness limit
+    double room = 1;                               ///< share of all contact torque that the motors can give
     double jaw_share = 1;                          ///< the same of the grip, without the clutch
     StiffnessLimit limit;                          ///< K_max and what it left of the spring
+    double stiffness = 0;                          ///< of that spring at the stylus, N/m
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping
     Vec3 commanded_W = Vec3::Zero();               ///< force asked at the stylus
     ChannelVector port = ChannelVector::Zero();       ///< friction of the port, times share
@@ -100,8 +102,8 @@ class HapticLoop {
   Motion measure(const DaqSample& in) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
-  LimitedTorque share_out(const Motion& motion, const Contact& contact, const ChannelVector& passive) noexcept;
-  StiffnessLimit limit_of(const JointVector& spring_torque, double spring_n, double stored_j) const noexcept;
+  TorqueShares hold_up(const Motion& motion, Contact& contact) noexcept;
+  LimitedTorque share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept;
   void feel_port(const Motion& motion, Contact& contact) noexcept;
   void watch(const Motion& motion, const Contact& contact, const LimitedTorque& torque) noexcept;
   DacFrame to_codes(const LimitedTorque& torque) noexcept;

@@ -47,15 +47,34 @@ double PassivityController::apply_law(const ContactWork& work, double income_j, 
     case PassivityLaw::kReference: lost = damping(work); break;
     case PassivityLaw::kIncrement: spring = bounded(work); break;
     case PassivityLaw::kCap:
-      spring = std::min(work.wanted_n, 2 * kappa() * work.stored_j / work.wanted_n);  // k = F^2 / (2 E)
+      spring = capped(work, kappa());
       break;
     case PassivityLaw::kBudgeted:
       spring = std::max(affordable(work, income_j), bounded(work));
+      spring = std::max(spring, returned_at_rest(work, spring));
       lost = damping(work);
       break;
   }
   if (-budget_ > p_.fade_debt_j) spring = std::min(spring, kFadedShare * work.wanted_n);
   return std::max(0.0, spring + lost);
+}
+
+double PassivityController::capped(const ContactWork& work, double stiffness) {
+  if (work.stored_j <= 0) return work.wanted_n;
+  const double asked = work.stiffness > 0 ? work.stiffness : work.wanted_n * work.wanted_n / (2 * work.stored_j);
+  return work.wanted_n * std::min(1.0, stiffness / asked);
+}
+
+double PassivityController::returned_at_rest(const ContactWork& work, double spring) {
+  at_rest_s_ = std::abs(work.speed_m_s) < p_.dead_band_m_s ? at_rest_s_ + p_.period_s : 0;
+  if (at_rest_s_ < p_.rest_s || spring >= work.wanted_n) return spring;
+  const double quiet = capped(work, p_.rest_stiffness_n_per_m);
+  const double more = std::min(quiet, spring_ + p_.rest_recovery_n_per_s * p_.period_s);
+  if (more <= spring) return spring;
+  const double grant = work.stored_j / work.wanted_n * (more - spring);
+  granted_ += grant;
+  budget_ += grant;
+  return more;
 }
 
 double PassivityController::thesis_force(const ContactWork& work) {

@@ -67,6 +67,9 @@ struct PassivityParameters {
   double dead_band_m_s = 0.005;        ///< FOAW is zero at rest
   double credit_cap_j = 0.5e-3;
   double debt_decay_s = 0.2;
+  double rest_s = 0.05;                ///< so long below dead_band_m_s is rest
+  double rest_recovery_n_per_s = 3;    ///< at rest the force returns this fast unpaid: nothing moves that could swing
+  double rest_stiffness_n_per_m = 300; ///< up to this displayed stiffness
   double recovery_n_per_s = 100;       ///< how fast the full force may return when the budget recovers
   double fade_debt_j = 0.05;           ///< debt that fades the force to a fifth
   double fault_debt_j = 0.15;          ///< debt that is a fault
@@ -80,6 +83,7 @@ struct ContactWork {
   double speed_m_s = 0;    ///< estimated speed of pressing in
   double stored_j = 0;     ///< energy that the wanted spring holds now (kappa applied)
   double lag_s = 4e-3;     ///< of speed_m_s
+  double stiffness = 0;    ///< N/m of the contact as asked of the motors; 0: taken from wanted and stored
 };
 
 class PassivityController {
@@ -104,6 +108,9 @@ class PassivityController {
  private:
   /// Force of the law. `spring` of it is what a spring holds.
   double apply_law(const ContactWork& work, double income_j, double& spring);
+  /// The wanted force as weak as a spring of this stiffness, N/m, would make it.
+  static double capped(const ContactWork& work, double stiffness);
+  double returned_at_rest(const ContactWork& work, double spring);
   double thesis_force(const ContactWork& work);
   /// The comparison laws of the past do without an observer that they could trust.
   bool guards() const { return p_.law != PassivityLaw::kOff && p_.law != PassivityLaw::kThesis; }
@@ -117,6 +124,7 @@ class PassivityController {
   double energy_ = 0, min_energy_ = 0, budget_ = 0;
   double held_ = 0;      ///< R, J
   double spring_ = 0;    ///< displayed spring force, N
+  double at_rest_s_ = 0, granted_ = 0;  ///< how long at rest; energy granted there since reset, J
   double missing_ = 0;   ///< wanted minus displayed spring force, N
   double thesis_j_ = 0;  ///< W of (4.17)
   int free_ticks_ = 0;
