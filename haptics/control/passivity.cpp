@@ -14,7 +14,7 @@ constexpr double kStill = 1e-12;        // m
 }  // namespace
 
 void PassivityController::reset() {
-  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = thesis_j_ = 0;
+  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = lost_ = thesis_j_ = 0;
   free_ticks_ = 0;
   active_ = false;
 }
@@ -27,6 +27,7 @@ double PassivityController::update(const ContactWork& work) {
   const double income = work.absorbed_j + eaten;
 
   double spring = work.wanted_n;
+  if (work.wanted_n <= 0) lost_ = 0;
   const double force = work.wanted_n > 0 ? apply_law(work, income, spring) : 0;
   const double held = work.wanted_n > 0 ? work.stored_j * spring / work.wanted_n : 0;
   budget_ = std::min(p_.credit_cap_j, budget_ + income - (held - held_));
@@ -109,11 +110,14 @@ double PassivityController::bounded(const ContactWork& work) const {
   return std::max(0.0, spring_ + beta * work.dx_m);
 }
 
-double PassivityController::damping(const ContactWork& work) const {
-  const double speed_m_s = work.speed_m_s;
-  if (budget_ >= 0 || std::abs(speed_m_s) <= p_.dead_band_m_s) return 0;
-  const double alpha_max = kDampingShare * p_.effective_mass_kg / (p_.delay_s + p_.period_s / 2 + work.lag_s);
-  return std::min(alpha_max, -budget_ / (p_.period_s * speed_m_s * speed_m_s)) * speed_m_s;
+double PassivityController::damping(const ContactWork& work) {
+  const double v = work.speed_m_s, step = p_.damping_n_per_s * p_.period_s;
+  double wanted = 0;
+  if (budget_ < 0 && std::abs(v) > p_.dead_band_m_s) {
+    const double alpha_max = kDampingShare * p_.effective_mass_kg / (p_.delay_s + p_.period_s / 2 + work.lag_s);
+    wanted = std::min(alpha_max, -budget_ / (p_.period_s * v * v)) * v;
+  }
+  return lost_ = std::clamp(wanted, lost_ - step, lost_ + step);
 }
 
 void PassivityController::forget_in_free_space(const ContactWork& work) {

@@ -71,6 +71,7 @@ struct PassivityParameters {
   double rest_recovery_n_per_s = 3;    ///< at rest the force returns this fast unpaid: nothing moves that could swing
   double rest_stiffness_n_per_m = 300; ///< up to this displayed stiffness
   double recovery_n_per_s = 100;       ///< how fast the full force may return when the budget recovers
+  double damping_n_per_s = 250;        ///< how fast the damping force may change: the law gives no blow
   double fade_debt_j = 0.05;           ///< debt that fades the force to a fifth
   double fault_debt_j = 0.15;          ///< debt that is a fault
 };
@@ -117,7 +118,7 @@ class PassivityController {
   double kappa() const { return p_.viscous_n_s_per_m / (p_.period_s / 2 + p_.delay_s); }
   double affordable(const ContactWork& work, double income_j) const;
   double bounded(const ContactWork& work) const;
-  double damping(const ContactWork& work) const;
+  double damping(const ContactWork& work);
   void forget_in_free_space(const ContactWork& work);
 
   PassivityParameters p_;
@@ -125,6 +126,7 @@ class PassivityController {
   double held_ = 0;      ///< R, J
   double spring_ = 0;    ///< displayed spring force, N
   double at_rest_s_ = 0, granted_ = 0;  ///< how long at rest; energy granted there since reset, J
+  double lost_ = 0;      ///< damping force of the last update, N
   double missing_ = 0;   ///< wanted minus displayed spring force, N
   double thesis_j_ = 0;  ///< W of (4.17)
   int free_ticks_ = 0;
