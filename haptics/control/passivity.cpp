@@ -135,7 +135,9 @@ double PassivityController::damping(const ContactWork& work) {
     const double alpha_max = kDampingShare * p_.effective_mass_kg / (p_.delay_s + p_.period_s / 2 + work.lag_s);
     wanted = std::min(alpha_max, -budget_ / (p_.period_s * v * v)) * v;
   }
-  return lost_ = std::clamp(wanted, lost_ - step, lost_ + step);
+  lost_ = std::clamp(wanted, lost_ - step, lost_ + step);
+  if (lost_ * v < 0) lost_ = 0;  // it never outlasts the motion that it damps
+  return lost_;
 }
 
 void PassivityController::forget_in_free_space(const ContactWork& work) {
