@@ -17,7 +17,9 @@ namespace trocar {
 namespace {
 
 constexpr double kWidth = 720, kHeight = 400, kLeft = 70, kRight = 20, kTop = 40, kBottom = 56;
-constexpr std::array kColours{"#c0392b", "#1f6fb2", "#2e8b57", "#8e6bbf"};
+/// Told apart without colour by their dashes.
+constexpr std::array kColours{"#a02c20", "#1f6fb2", "#2e8b57", "#8e6bbf", "#c07a1e", "#404040"};
+constexpr std::array kDashes{"none", "7 3", "2 3", "10 3 2 3", "14 4", "5 2 1 2 1 2"};
 
 std::string number(double value) {
   std::ostringstream text;
@@ -86,7 +88,8 @@ void draw_series(std::ostream& out, const Frame& f, const StudyCurves& curves, s
   const auto& y = curves.series[which].y;
   const char* colour = kColours[which % kColours.size()];
   bool pen_down = false;
-  out << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"2\" d=\"";
+  const char* dash = kDashes[which % kDashes.size()];
+  out << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"2\" stroke-dasharray=\"" << dash << "\" d=\"";
   for (std::size_t i = 0; i < y.size(); ++i) {
     if (std::isfinite(y[i])) {
       out << (pen_down ? 'L' : 'M') << std::fixed << std::setprecision(2) << f.px(curves.x[i]) << ' ' << f.py(y[i]) << ' ';
@@ -94,10 +97,11 @@ void draw_series(std::ostream& out, const Frame& f, const StudyCurves& curves, s
     pen_down = std::isfinite(y[i]);
   }
   out << "\"/>\n" << std::defaultfloat;
-  const double x = kLeft + 12 + 160 * static_cast<double>(which);
-  out << "<line x1=\"" << x << "\" y1=\"" << kTop + 10 << "\" x2=\"" << x + 22 << "\" y2=\"" << kTop + 10 << "\" stroke=\""
-      << colour << "\" stroke-width=\"3\"/>\n";
-  draw_text(out, x + 28, kTop + 14, curves.series[which].name, "");
+  const double spacing = std::min(160.0, (kWidth - kLeft - kRight - 12) / static_cast<double>(curves.series.size()));
+  const double x = kLeft + 12 + spacing * static_cast<double>(which);
+  out << "<line x1=\"" << x << "\" y1=\"" << kTop + 10 << "\" x2=\"" << x + 28 << "\" y2=\"" << kTop + 10 << "\" stroke=\""
+      << colour << "\" stroke-width=\"2.5\" stroke-dasharray=\"" << dash << "\"/>\n";
+  draw_text(out, x + 34, kTop + 14, curves.series[which].name, "");
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
