@@ -6,6 +6,7 @@
 
 #include "app/study/contact_law_study.h"
 #include "app/study/kinematics_study.h"
+#include "app/study/motor_study.h"
 #include "app/study/study_files.h"
 #include "haptics/input_error.h"
 
@@ -20,6 +21,7 @@ struct KnownStudy {
 constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
     KnownStudy{"kinematics", kinematics_study},
+    KnownStudy{"motor", motor_study},
 };
 
 }  // namespace

@@ -76,7 +76,7 @@ std::string ticks_along(const Vec3& from, int axis, double end, double tick_m, c
     const char* anchor = off.x() < -0.5 ? "end" : off.x() > 0.5 ? "start" : "middle";
     out += svg::label(text.x(), text.y() + 4, fixed_text(k * tick_m * 1000 + 0.0, 0), anchor, "font-size=\"11\"");
   }
-  const Eigen::Vector2d name = 0.5 * (a + b) + (std::abs(off.x()) > 0.5 ? 46 : 34) * off;
+  const Eigen::Vector2d name = 0.5 * (a + b) + (std::abs(off.x()) > 0.5 ? 46 : 40) * off;
   const char* const names[] = {"x', mm", "y', mm", "z', mm"};
   const char* anchor = off.x() < -0.5 ? "end" : off.x() > 0.5 ? "start" : "middle";
   return out + svg::label(name.x(), name.y() + 4, names[axis], anchor, "font-size=\"12\"");
