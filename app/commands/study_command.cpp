@@ -8,6 +8,7 @@
 #include "app/study/kinematics_study.h"
 #include "app/study/motor_study.h"
 #include "app/study/study_files.h"
+#include "app/study/workspace_study.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -22,6 +23,7 @@ constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
     KnownStudy{"kinematics", kinematics_study},
     KnownStudy{"motor", motor_study},
+    KnownStudy{"workspace", workspace_study},
 };
 
 }  // namespace
