@@ -15,11 +15,11 @@ namespace trocar {
 namespace {
 
 constexpr std::array kProbeV{0.25, 0.5, 1.0, 2.0, 5.0};
-constexpr double kSeenNm = 0.015;                   // a probe that shows this much is believed to some per cent
-constexpr int kSteps = 8, kRepeats = 4;             // levels to each side of 0, and how often each is visited
+constexpr double kSeenNm = 0.015;        // a probe that shows this much is believed to some per cent
+constexpr int kSteps = 8, kRepeats = 4;  // levels to each side of 0, and how often each is visited
 constexpr double kStepNm = 0.010;
 constexpr double kOfFullScale = 0.97;
-constexpr double kApproachNm = 0.015;               // the other side from which a level is approached
+constexpr double kApproachNm = 0.015;  // the other side from which a level is approached
 
 const char* channel_name(int i) {
   constexpr std::array kNames{"joint 1", "joint 2", "joint 3", "joint 4", "joint 5", "joint 6", "pinch"};
@@ -77,12 +77,14 @@ struct Reading {
 };
 
 /// Every level from both sides.
-std::vector<Reading> sweep(TorqueRig& rig, const DeviceModel& model, const ChannelVector& gain, const ChannelVector& zero) {
+std::vector<Reading> sweep(TorqueRig& rig, const DeviceModel& model, const ChannelVector& gain,
+                           const ChannelVector& zero) {
   const int bits = rig.capabilities().dac_bits;
   std::vector<Reading> readings;
   ChannelVector step;  // V; a weak amplifier is led less far, so that both approaches stay within the DAC's range
   for (int i = 0; i < kChannels; ++i) {
-    const double reach = kOfFullScale * model.transmission[static_cast<std::size_t>(i)].full_scale_v - kApproachNm / gain[i];
+    const double reach =
+        kOfFullScale * model.transmission[static_cast<std::size_t>(i)].full_scale_v - kApproachNm / gain[i];
     step[i] = std::min(kStepNm / gain[i], reach / kSteps);
   }
   for (int n = 0; n < kRepeats * (2 * kSteps + 1); ++n) {
@@ -113,7 +115,8 @@ ChannelCalibration fit(const std::vector<Reading>& readings, int channel, double
   const double squares = (A * x - y).squaredNorm(), variance = squares / static_cast<double>(y.size() - 3);
   ChannelCalibration c;
   c.amps_per_volt = x[0] / torque_constant;
-  c.amps_per_volt_sd = std::hypot(std::sqrt(variance * normal_inverse(0, 0)) / torque_constant, scale_sd * c.amps_per_volt);
+  c.amps_per_volt_sd =
+      std::hypot(std::sqrt(variance * normal_inverse(0, 0)) / torque_constant, scale_sd * c.amps_per_volt);
   c.offset_v = x[1] / x[0];
   c.offset_sd_v = std::hypot(std::sqrt(variance * normal_inverse(1, 1)), zero_sd) / x[0];
   c.stiction_nm = x[2];

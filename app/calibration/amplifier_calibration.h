@@ -4,8 +4,8 @@
 // from -80 to 80 mN m is approached from below and from above:
 //   reading - zero = g v + b - d c     (v command in V, d = +1 from below, -1 from above, c stiction of the brushes)
 //   A/V = g / Kt nominal,  offset = b / g in V
-// An error of the torque constant is part of the gain found and comes right with it. The cells' own zero is taken with the
-// amplifiers inhibited; standard deviations come from the residuals, the cells' scale is added to that of the gain.
+// An error of the torque constant is part of the gain found and comes right with it. The cells' own zero is taken with
+// the amplifiers inhibited; standard deviations come from the residuals, the cells' scale is added to that of the gain.
 // Thread: any.
 #pragma once
 

@@ -1,10 +1,10 @@
 // Bench rig for calibrating the amplifiers: the device rests in its jig, a torque cell holds the shaft of every motor.
 //
-// The rig drives the device through the seam alone (codes out, amplifiers armed or inhibited) and reads its cells. A burst
-// ends before the jig would open (kJigReleaseS). The cells are simulated as such cells are: white noise, a zero of their
-// own, an error of scale, and the stiction of the brushes, which hides part of the torque from a shaft that stands still
-// (stop operator: it opposes the last change). All values are of the rig, none of the device. Torques in N m at the motor
-// shaft. Thread: one owner.
+// The rig drives the device through the seam alone (codes out, amplifiers armed or inhibited) and reads its cells. A
+// burst ends before the jig would open (kJigReleaseS). The cells are simulated as such cells are: white noise, a zero
+// of their own, an error of scale, and the stiction of the brushes, which hides part of the torque from a shaft that
+// stands still (stop operator: it opposes the last change). All values are of the rig, none of the device. Torques in N
+// m at the motor shaft. Thread: one owner.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,8 @@ class TorqueRig {
   DaqCapabilities capabilities() const { return daq_.capabilities(); }
   const TorqueCellConfig& cell() const { return cell_; }
 
-  /// Amplifiers on for 40 ms: `first`, then `held`; mean of the cells over the last 25 ms. The amplifiers are off afterwards.
+  /// Amplifiers on for 40 ms: `first`, then `held`; mean of the cells over the last 25 ms. The amplifiers are off
+  /// afterwards.
   ChannelVector burst(const DacFrame& first, const DacFrame& held);
   /// The cells' zero: amplifiers inhibited, shafts turned free by hand so that the brushes hold nothing, 2 s.
   Zero rest();
@@ -46,7 +47,8 @@ class TorqueRig {
   TorqueCellConfig cell_;
   PlantRandom random_;
   ChannelVector scale_, zero_;
-  ChannelVector hidden_ = ChannelVector::Zero(), last_ = ChannelVector::Zero();  ///< held by the brushes, motor torque before
+  ChannelVector hidden_ = ChannelVector::Zero(),
+                last_ = ChannelVector::Zero();  ///< held by the brushes, motor torque before
 };
 
 }  // namespace trocar

@@ -12,11 +12,12 @@
 namespace trocar {
 namespace {
 
-constexpr double kLargestGain = 10;    // a nominal gain ten times over drives 100 mN m at 1 V
-constexpr double kRendered = 0.01;     // of the torque asked for
+constexpr double kLargestGain = 10;  // a nominal gain ten times over drives 100 mN m at 1 V
+constexpr double kRendered = 0.01;   // of the torque asked for
 
 SimulatedDaqConfig device_of(const CalibrateOptions& options) {
-  if (!(options.gain >= 0 && options.gain <= kLargestGain)) throw InputError("device calibrate: --gain lies in 0 to 10");
+  if (!(options.gain >= 0 && options.gain <= kLargestGain))
+    throw InputError("device calibrate: --gain lies in 0 to 10");
   SimulatedDaqConfig config;
   config.seed = options.seed;
   config.plant = draw_parameters(options.seed);
@@ -24,10 +25,16 @@ SimulatedDaqConfig device_of(const CalibrateOptions& options) {
   return config;
 }
 
-void print_table(const AmplifierCalibration& found, const DeviceModel& nominal, const ChannelVector& error, std::ostream& out) {
+void print_table(const AmplifierCalibration& found, const DeviceModel& nominal, const ChannelVector& error,
+                 std::ostream& out) {
   using Align = TextTable::Align;
-  TextTable table({{"channel", Align::kLeft}, {"A/V", Align::kRight}, {"+-", Align::kRight}, {"of nominal", Align::kRight},
-                   {"offset, mV", Align::kRight}, {"+-", Align::kRight}, {"stiction, mN m", Align::kRight},
+  TextTable table({{"channel", Align::kLeft},
+                   {"A/V", Align::kRight},
+                   {"+-", Align::kRight},
+                   {"of nominal", Align::kRight},
+                   {"offset, mV", Align::kRight},
+                   {"+-", Align::kRight},
+                   {"stiction, mN m", Align::kRight},
                    {"torque off, %", Align::kRight}});
   for (int i = 0; i < kChannels; ++i) {
     const ChannelCalibration& c = found[static_cast<std::size_t>(i)];
@@ -54,8 +61,10 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
   const AmplifierCalibration found = calibrate_amplifiers(rig, nominal);
   const ChannelVector error = rendering_error(rig, calibrated(nominal, found));
   const std::string json = calibration_json(found, nominal);
-  if (options.json) out << json;
-  else print_table(found, nominal, error, out);
+  if (options.json)
+    out << json;
+  else
+    print_table(found, nominal, error, out);
   if (!options.out.empty()) {
     write_text(options.out, json);
     err << "trocar: calibration in " << options.out.string() << '\n';

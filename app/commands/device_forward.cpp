@@ -40,8 +40,12 @@ void print_json(const JointVector& q, std::ostream& out) {
                               {"in_limits", joint_limit_margin(q) >= 0},
                               {"solutions", nlohmann::ordered_json::array()}};
   for (const ForwardSolution& s : forward_solutions(q)) {
-    json["solutions"].push_back({{"meaning", s.meaning}, {"trivial", s.trivial}, {"residual", s.residual},
-                                 {"ring_room_m", s.ring_room_m}, {"det_a", s.det_a}, {"X_WS", pose_row(s.X_WS)}});
+    json["solutions"].push_back({{"meaning", s.meaning},
+                                 {"trivial", s.trivial},
+                                 {"residual", s.residual},
+                                 {"ring_room_m", s.ring_room_m},
+                                 {"det_a", s.det_a},
+                                 {"X_WS", pose_row(s.X_WS)}});
   }
   out << json.dump(2) << '\n';
 }
@@ -51,9 +55,10 @@ void print_table(const JointVector& q, std::ostream& out) {
   int number = 1;
   for (const ForwardSolution& s : forward_solutions(q)) {
     const Vec3 mm = 1e3 * s.X_WS.p;
-    out << number++ << "  " << std::setprecision(4) << std::setw(10) << mm.x() << std::setw(11) << mm.y() << std::setw(11)
-        << mm.z() << "  " << std::scientific << std::setprecision(0) << s.residual << std::fixed << std::setprecision(3)
-        << std::setw(8) << s.det_a << std::setprecision(1) << std::setw(7) << 1e3 * s.ring_room_m << "  " << s.meaning << '\n';
+    out << number++ << "  " << std::setprecision(4) << std::setw(10) << mm.x() << std::setw(11) << mm.y()
+        << std::setw(11) << mm.z() << "  " << std::scientific << std::setprecision(0) << s.residual << std::fixed
+        << std::setprecision(3) << std::setw(8) << s.det_a << std::setprecision(1) << std::setw(7)
+        << 1e3 * s.ring_room_m << "  " << s.meaning << '\n';
   }
   out << std::defaultfloat;
   if (joint_limit_margin(q) < 0) out << "th1..th5 outside the limits of table 2.4\n";
@@ -90,9 +95,12 @@ int device_forward(const ForwardOptions& options, std::ostream& out, std::ostrea
     throw InputError("device fk: give either --deg th1,...,th6 or --csv IN --out OUT");
   }
   if (!options.table_in.empty() && options.table_out.empty()) throw InputError("device fk: --csv needs --out OUT");
-  if (!options.table_in.empty()) write_table(options, err);
-  else if (options.json) print_json(angles_of(options.angle_deg), out);
-  else print_table(angles_of(options.angle_deg), out);
+  if (!options.table_in.empty())
+    write_table(options, err);
+  else if (options.json)
+    print_json(angles_of(options.angle_deg), out);
+  else
+    print_table(angles_of(options.angle_deg), out);
   return 0;
 }
 

@@ -43,10 +43,14 @@ std::vector<Vec3> base_ring() {
 double width_of(Part part, double links) {
   switch (part) {
     case Part::kLink1:
-    case Part::kLink2: return links;
-    case Part::kStylus: return 1.6 * links;
-    case Part::kBaseRing: return 0.8 * links;
-    default: return 0.55 * links;
+    case Part::kLink2:
+      return links;
+    case Part::kStylus:
+      return 1.6 * links;
+    case Part::kBaseRing:
+      return 0.8 * links;
+    default:
+      return 0.55 * links;
   }
 }
 
@@ -105,11 +109,6 @@ Eigen::Vector2d DrawingView::project(const Vec3& p) const {
   return {origin_x + pixels_per_m * right, origin_y - pixels_per_m * (ce * p.z() + se * back)};
 }
 
-double DrawingView::depth(const Vec3& p) const {
-  const double back = -std::sin(azimuth) * p.x() + std::cos(azimuth) * p.y();
-  return std::sin(elevation) * p.z() - std::cos(elevation) * back;
-}
-
 std::vector<DeviceStroke> device_strokes(const JointVector& q) {
   const ArmState arm = arm_state(q);
   const Mat3 V = spherical_parallel(q.head<3>()).R_WP;
@@ -159,7 +158,8 @@ std::string axes_group(const Vec3& low, const Vec3& high, double tick_m, const D
   const double left_y = std::sin(view.azimuth) >= 0 ? low.y() : high.y();
   std::string out = "<g>\n";
   out += ticks_along({low.x(), near_y, low.z()}, 0, high.x(), tick_m, view);
-  if (std::abs(std::sin(view.azimuth)) > 0.05) out += ticks_along({near_x, low.y(), low.z()}, 1, high.y(), tick_m, view);
+  if (std::abs(std::sin(view.azimuth)) > 0.05)
+    out += ticks_along({near_x, low.y(), low.z()}, 1, high.y(), tick_m, view);
   out += ticks_along({left_x, left_y, low.z()}, 2, high.z(), tick_m, view);
   return out + "</g>\n";
 }

@@ -15,17 +15,15 @@ namespace trocar {
 
 /// Parallel projection of W' onto the page.
 struct DrawingView {
-  double azimuth = 0, elevation = 0;   ///< rad
+  double azimuth = 0, elevation = 0;  ///< rad
   double pixels_per_m = 1000;
-  double origin_x = 0, origin_y = 0;   ///< page position of O
+  double origin_x = 0, origin_y = 0;  ///< page position of O
 
-  /// The view that shows the box from `low` to `high` (m) as large as it fits into a rectangle of the page, with room for
-  /// the ticks of its axes.
+  /// The view that shows the box from `low` to `high` (m) as large as it fits into a rectangle of the page, with room
+  /// for the ticks of its axes.
   static DrawingView fitted(double azimuth, double elevation, const Vec3& low, const Vec3& high,
                             const Eigen::Vector2d& corner, const Eigen::Vector2d& size);
   Eigen::Vector2d project(const Vec3& p) const;
-  /// How near to the eye, m: larger lies in front.
-  double depth(const Vec3& p) const;
 };
 
 /// One polyline of the device in W'.

@@ -14,7 +14,8 @@ constexpr const char* kGreys[] = {"#000000", "#7d7d7d", "#c4c4c4"};  // S1, S2, 
 /// The three configurations, S3 first so that S1 lies in front.
 std::string three_devices(const DrawingView& view, double width) {
   std::string out;
-  for (int i = 2; i >= 0; --i) out += device_group(thesis::samples()[static_cast<std::size_t>(i)].q, view, kGreys[i], width);
+  for (int i = 2; i >= 0; --i)
+    out += device_group(thesis::samples()[static_cast<std::size_t>(i)].q, view, kGreys[i], width);
   return out;
 }
 
@@ -39,12 +40,11 @@ std::string shoulder_panel(double x, double y, double side) {
 StudyFile overlay() {
   const Vec3 low(-0.15, -0.2, -0.3), high(0.1, 0.1, 0.05);
   const DrawingView view = DrawingView::fitted(30 * kDegree, 20 * kDegree, low, high, {10, 40}, {520, 560});
-  return {"device_overlay.svg",
-          drawing_svg(860, 600, "The device at S1, S2 and S3 (figure 3.35), drawn from table 2.3",
-                      {axes_group(low, high, 0.05, view), three_devices(view, 5), key(540, 450),
-                       shoulder_panel(540, 60, 290),
-                       svg::label(540, 400, "d1 55, d2 40, d3 28, l1 146, l2 128 mm") +
-                           svg::label(540, 420, "parallel projection, W' with z' up")})};
+  return {"device_overlay.svg", drawing_svg(860, 600, "The device at S1, S2 and S3 (figure 3.35), drawn from table 2.3",
+                                            {axes_group(low, high, 0.05, view), three_devices(view, 5), key(540, 450),
+                                             shoulder_panel(540, 60, 290),
+                                             svg::label(540, 400, "d1 55, d2 40, d3 28, l1 146, l2 128 mm") +
+                                                 svg::label(540, 420, "parallel projection, W' with z' up")})};
 }
 
 StudyFile path() {
@@ -57,8 +57,9 @@ StudyFile path() {
   std::string marks;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector2d at = view.project(arm_state(thesis::samples()[static_cast<std::size_t>(i)].q).X_WS.p);
-    marks += svg::rect(at.x() - 4, at.y() - 4, 8, 8, "fill=\"black\"") +
-             svg::label(at.x() + 10, at.y() - 6, i == 0 ? "S1, home" : thesis::samples()[static_cast<std::size_t>(i)].name);
+    marks +=
+        svg::rect(at.x() - 4, at.y() - 4, 8, 8, "fill=\"black\"") +
+        svg::label(at.x() + 10, at.y() - 6, i == 0 ? "S1, home" : thesis::samples()[static_cast<std::size_t>(i)].name);
   }
   return {"stylus_path.svg",
           drawing_svg(640, 480, "Way of the stylus in W', home - S2 - S3 - home (figure 3.34)",

@@ -18,9 +18,9 @@
 namespace trocar {
 namespace {
 
-constexpr double kToS2 = 1.5, kToS3 = 2.5;   // s: samples 1500 and 2500 at 1 kHz, as in the thesis
-constexpr double kSame = 1e-9;               // rad: the requirement on the round trip
-constexpr double kOnSurface = 0.02;          // |AO x Z6| of unit vectors under which a pose counts as on the surface
+constexpr double kToS2 = 1.5, kToS3 = 2.5;  // s: samples 1500 and 2500 at 1 kHz, as in the thesis
+constexpr double kSame = 1e-9;              // rad: the requirement on the round trip
+constexpr double kOnSurface = 0.02;         // |AO x Z6| of unit vectors under which a pose counts as on the surface
 
 Pose by_the_plant(const JointVector& q) {
   return stylus_pose(evaluate_kinematics(configuration_at(q), kLink1, kLink2));
@@ -59,14 +59,20 @@ void add_samples(StudyResult& study) {
     ours = std::max(ours, found ? largest_difference(*found, s.q) : 1e9);
   }
   study.cases.push_back({"S1 to S3: orientation off the plant's", "deg", turned, printed_turned, "<= 1e-9",
-                         turned <= 1e-9, "Largest turn between forward model and the plant's own kinematics; thesis: "
+                         turned <= 1e-9,
+                         "Largest turn between forward model and the plant's own kinematics; thesis: "
                          "the printed matrices of section 3.5."});
   study.cases.push_back({"S1 to S3: inverse against the angles put in", "deg", ours / kDegree, table37 / kDegree,
                          "<= 6e-8 (1e-9 rad)", ours <= kSame,
                          "Largest joint difference; thesis: table 3.7 against table 3.6."});
   const double jig = 1e3 * (arm_state(all[0].q).X_WS.p - home_pose().p).norm();
-  study.cases.push_back({"S1: table 3.3's rounding at the tip", "mm", jig, {}, "0.2 to 0.4 (reference: 0.3)",
-                         jig > 0.2 && jig < 0.4, "Home angles printed to two digits, against the jig's position."});
+  study.cases.push_back({"S1: table 3.3's rounding at the tip",
+                         "mm",
+                         jig,
+                         {},
+                         "0.2 to 0.4 (reference: 0.3)",
+                         jig > 0.2 && jig < 0.4,
+                         "Home angles printed to two digits, against the jig's position."});
 }
 
 /// What running along the trajectory measures, at 1 kHz.
@@ -109,17 +115,31 @@ void add_trajectory(StudyResult& study, bool quick) {
                          along.inverse <= kSame && along.lost == 0,
                          "Largest joint difference along home - S2 - S3 - home, theta6 unwrapped; thesis: algorithm 1 "
                          "with its two-digit matrices both ways."});
-  study.cases.push_back({"trajectory: position off the plant's", "mm", 1e3 * along.plant_m, {}, "<= 1e-9",
-                         along.plant_m <= 1e-12, "Forward model against the plant's own kinematics."});
+  study.cases.push_back({"trajectory: position off the plant's",
+                         "mm",
+                         1e3 * along.plant_m,
+                         {},
+                         "<= 1e-9",
+                         along.plant_m <= 1e-12,
+                         "Forward model against the plant's own kinematics."});
   study.cases.push_back({"trajectory: tip as the encoders see it", "mm", 1e3 * along.counted_m, 0.02,
                          "<= 0.73 (a count in each of joints 1 to 4 at home)", along.counted_m <= 0.73e-3,
                          "Largest distance between the tip and the tip at whole counts; thesis: the linear precision "
                          "it claims."});
-  study.cases.push_back({"trajectory: largest step of theta6", "deg", along.roll_step / kDegree, {},
-                         "< 5 (unwrapped: no jump by a turn)", along.roll_step < 5 * kDegree,
+  study.cases.push_back({"trajectory: largest step of theta6",
+                         "deg",
+                         along.roll_step / kDegree,
+                         {},
+                         "< 5 (unwrapped: no jump by a turn)",
+                         along.roll_step < 5 * kDegree,
                          "Between neighbouring samples, through 0 and down to -95 deg."});
-  study.cases.push_back({"loop residual of all eight solutions", "1", along.residual, {}, "<= 1e-14",
-                         along.residual <= 1e-14, "Largest |W_i . V_i| along the trajectory."});
+  study.cases.push_back({"loop residual of all eight solutions",
+                         "1",
+                         along.residual,
+                         {},
+                         "<= 1e-14",
+                         along.residual <= 1e-14,
+                         "Largest |W_i . V_i| along the trajectory."});
 }
 
 void add_branches(StudyResult& study, const StudyRequest& request) {
@@ -127,9 +147,9 @@ void add_branches(StudyResult& study, const StudyRequest& request) {
   const double share = double(n.ours_all) / n.drawn;
   study.cases.push_back({"poses recovered, of all", "share", share, double(n.thesis_all) / n.drawn, "1", share == 1,
                          std::to_string(n.drawn) + " poses drawn inside the limits; thesis: its single sign on exact "
-                         "frames."});
-  study.cases.push_back({"poses recovered beyond Z6 parallel to AO", "poses", double(n.ours_beyond), double(n.thesis_beyond),
-                         ">= 30, and all of " + std::to_string(n.beyond),
+                                                   "frames."});
+  study.cases.push_back({"poses recovered beyond Z6 parallel to AO", "poses", double(n.ours_beyond),
+                         double(n.thesis_beyond), ">= 30, and all of " + std::to_string(n.beyond),
                          n.ours_beyond >= 30 && n.ours_beyond == n.beyond,
                          "Poses whose arm plane has the other sign; inside the limits, to 1e-9 rad."});
 }
@@ -142,19 +162,25 @@ void add_solutions(StudyResult& study) {
     if (!all[i].trivial && all[i].ring_room_m > 0) ++inside;
     if ((rotation_W_Wprime() * all[i].X_WS.p - printed[i]).norm() < 5e-3) ++follow;
   }
-  study.cases.push_back({"assembly modes that hang inside the base ring", "modes", double(inside), 1,
-                         "1 (figure 2.12)", inside == 1 && all[0].ring_room_m > 0,
+  study.cases.push_back({"assembly modes that hang inside the base ring", "modes", double(inside), 1, "1 (figure 2.12)",
+                         inside == 1 && all[0].ring_room_m > 0,
                          "Non-trivial solutions at (30, 20, 25) deg whose l1 does not cross the ring."});
-  study.cases.push_back({"forward solutions that close the loops", "of 8", double(std::count_if(all.begin(), all.end(),
-                         [](const ForwardSolution& s) { return s.residual < 1e-14; })), double(follow), "8",
-                         std::all_of(all.begin(), all.end(), [](const auto& s) { return s.residual < 1e-14; }),
-                         "At the example of section 2.5; thesis: printed positions within 5 mm of what its own R_i "
-                         "give."});
+  study.cases.push_back(
+      {"forward solutions that close the loops", "of 8",
+       double(std::count_if(all.begin(), all.end(), [](const ForwardSolution& s) { return s.residual < 1e-14; })),
+       double(follow), "8", std::all_of(all.begin(), all.end(), [](const auto& s) { return s.residual < 1e-14; }),
+       "At the example of section 2.5; thesis: printed positions within 5 mm of what its own R_i "
+       "give."});
 }
 
 void add_curves(StudyResult& study) {
-  StudyCurves angles{"joint_angles", "Joint angles along the trajectory (figure 3.32)", "time, s", "angle, deg", {}, {}};
-  StudyCurves tip{"tip_position", "Stylus in W' along the trajectory (figure 3.33)", "time, s", "position, mm", {},
+  StudyCurves angles{
+      "joint_angles", "Joint angles along the trajectory (figure 3.32)", "time, s", "angle, deg", {}, {}};
+  StudyCurves tip{"tip_position",
+                  "Stylus in W' along the trajectory (figure 3.33)",
+                  "time, s",
+                  "position, mm",
+                  {},
                   {{"x'", {}}, {"y'", {}}, {"z'", {}}}};
   for (int i = 1; i <= kArmJoints; ++i) angles.series.push_back({"theta" + std::to_string(i), {}});
   for (int k = 0; k <= 400; ++k) {

@@ -1,7 +1,7 @@
 // `trocar study kinematics`: section 3.5 of the thesis done again, and what its single arm-plane sign leaves out.
 //
-// Samples S1 to S3 of table 3.6, a smooth joint trajectory home - S2 - S3 - home (figures 3.32 to 3.34), inverse along it,
-// poses on both sides of the surface Z6 parallel to AO, all eight forward solutions, and the device in the three
+// Samples S1 to S3 of table 3.6, a smooth joint trajectory home - S2 - S3 - home (figures 3.32 to 3.34), inverse along
+// it, poses on both sides of the surface Z6 parallel to AO, all eight forward solutions, and the device in the three
 // configurations (figure 3.35). The oracle of the forward model is the plant's own kinematics, which share no code with
 // the controller's. Thread: any.
 #pragma once

@@ -17,7 +17,7 @@ constexpr double kStep = 50e-6, kLongest = 0.5;  // s
 constexpr double kAtRest = 1.0;                  // rad/s2: slower changes count as steady, 0.1 % of a second's run
 constexpr double kNominalV = 24;
 constexpr double kRpm = 60 / (2 * std::numbers::pi);
-constexpr double kWideOpen = 1e4;                // A/V: the supply alone limits the current
+constexpr double kWideOpen = 1e4;  // A/V: the supply alone limits the current
 
 /// Joint 1 with nothing but `volts` between its leads.
 PlantParameters at_leads(double volts) {
@@ -41,8 +41,9 @@ double quiet_nan() { return std::numeric_limits<double>::quiet_NaN(); }
 void add_nominal(StudyResult& study, int points) {
   StudyCurves speed{"speed_torque_24v", "Speed against torque at 24 V (figure 3.27)", "torque, mN m", "speed, rpm", {},
                     {{"24 V", {}}}};
-  StudyCurves current{"current_torque_24v", "Current against torque at 24 V (figure 3.28)", "torque, mN m", "current, A",
-                      {}, {{"24 V", {}}}};
+  StudyCurves current{
+      "current_torque_24v", "Current against torque at 24 V (figure 3.28)", "torque, mN m", "current, A", {},
+      {{"24 V", {}}}};
   const double stall = driven_motor_at_leads(kNominalV, 0).torque_nm;
   for (int k = 0; k <= points; ++k) {
     const MotorPoint at = loaded_motor(kNominalV, stall * k / points);
@@ -67,10 +68,11 @@ void add_nominal(StudyResult& study, int points) {
 }
 
 void add_low_voltages(StudyResult& study, int points) {
-  StudyCurves speed{"speed_torque_1v_5v", "Speed against torque at 1 to 5 V (figure 3.29)", "torque, mN m", "speed, rpm",
-                    {}, {}};
-  StudyCurves current{"current_torque_5v", "Current against torque up to 50 mN m (figure 3.30)", "torque, mN m",
-                      "current, A", {}, {{"5 V", {}}}};
+  StudyCurves speed{
+      "speed_torque_1v_5v", "Speed against torque at 1 to 5 V (figure 3.29)", "torque, mN m", "speed, rpm", {}, {}};
+  StudyCurves current{
+      "current_torque_5v", "Current against torque up to 50 mN m (figure 3.30)", "torque, mN m", "current, A", {},
+      {{"5 V", {}}}};
   for (int k = 0; k <= points; ++k) speed.x.push_back(50.0 * k / points);
   current.x = speed.x;
   double worst_torque = 0, worst_current = 0;
@@ -88,7 +90,8 @@ void add_low_voltages(StudyResult& study, int points) {
   }
   const double none = loaded_motor(5, 0).speed_rad_s * kRpm;
   study.cases.push_back({"stall torques at 1 to 5 V off 10 to 50 mN m", "%", 100 * worst_torque, 0, "<= 1",
-                         worst_torque <= 0.01, "Largest of five, shaft held, voltage at the leads; thesis: figure 3.29."});
+                         worst_torque <= 0.01,
+                         "Largest of five, shaft held, voltage at the leads; thesis: figure 3.29."});
   study.cases.push_back({"stall currents at 1 to 5 V off 0.43 to 2.15 A", "%", 100 * worst_current, 0, "<= 1",
                          worst_current <= 0.01, "Largest of five; thesis: figure 3.30."});
   study.cases.push_back({"no-load speed at 5 V", "rpm", none, 2013, "2013 +-3 %", near(none, 2013, 0.03),
@@ -99,8 +102,12 @@ void add_low_voltages(StudyResult& study, int points) {
 
 /// Motor torque of joint 1 against the command, through DAC and amplifier, shaft held.
 StudyCurves command_curve(int points) {
-  StudyCurves curve{"torque_command", "Torque against the command, through DAC and amplifier, shaft held", "command, V",
-                    "motor torque, mN m", {}, {{"joint 1", {}}}};
+  StudyCurves curve{"torque_command",
+                    "Torque against the command, through DAC and amplifier, shaft held",
+                    "command, V",
+                    "motor torque, mN m",
+                    {},
+                    {{"joint 1", {}}}};
   SimulatedDaqConfig device;
   device.plant = nominal_parameters();
   TorqueRig rig(device, perfect_cell(), 1);
@@ -120,12 +127,17 @@ void add_command(StudyResult& study, int points) {
   const double slope = (y.back() - y.front()) / (curve.x.back() - curve.x.front());
   double bent = 0;
   for (std::size_t k = 0; k < y.size(); ++k) bent = std::max(bent, std::abs(y[k] - slope * curve.x[k]));
-  study.cases.push_back({"torque of a volt of command, shaft held", "mN m/V", slope, 10, "10 +-1 %", near(slope, 10, 0.01),
-                         "-10 to 10 V through the DAC of the simulated device, in its jig."});
-  study.cases.push_back({"departure from a straight line", "mN m", bent, {}, "<= 0.01", bent <= 0.01, "The same sweep."});
+  study.cases.push_back({"torque of a volt of command, shaft held", "mN m/V", slope, 10, "10 +-1 %",
+                         near(slope, 10, 0.01), "-10 to 10 V through the DAC of the simulated device, in its jig."});
+  study.cases.push_back(
+      {"departure from a straight line", "mN m", bent, {}, "<= 0.01", bent <= 0.01, "The same sweep."});
 
-  StudyCurves moving{"torque_speed_command", "5 V: as a command to the amplifier, and at the motor's leads", "speed, rpm",
-                     "motor torque, mN m", {}, {{"command 5 V", {}}, {"5 V at the leads", {}}}};
+  StudyCurves moving{"torque_speed_command",
+                     "5 V: as a command to the amplifier, and at the motor's leads",
+                     "speed, rpm",
+                     "motor torque, mN m",
+                     {},
+                     {{"command 5 V", {}}, {"5 V at the leads", {}}}};
   double headroom = 0;
   for (int k = 0; k <= 10 * points; ++k) {
     const double rpm = 10000.0 * k / (10 * points), speed = rpm / kRpm;
@@ -137,8 +149,9 @@ void add_command(StudyResult& study, int points) {
   }
   const double kept = driven_motor(5, 1500 / kRpm).torque_nm / driven_motor(5, 0).torque_nm;
   const double lost = driven_motor_at_leads(5, 1500 / kRpm).torque_nm / driven_motor_at_leads(5, 0).torque_nm;
-  study.cases.push_back({"share of the torque left at 1500 rpm, 5 V", "1", kept, lost, "1 +-0.1 %", near(kept, 1, 1e-3),
-                         "The command sets the current; thesis: the same 5 V at the leads, as section 3.4.2 takes it."});
+  study.cases.push_back(
+      {"share of the torque left at 1500 rpm, 5 V", "1", kept, lost, "1 +-0.1 %", near(kept, 1, 1e-3),
+       "The command sets the current; thesis: the same 5 V at the leads, as section 3.4.2 takes it."});
   study.cases.push_back({"speed up to which a 5 V command is followed", "rpm", headroom, 2013, ">= 7000",
                          headroom >= 7000, "Until the 24 V supply leaves less than 99 % of the torque."});
   study.curves.push_back(curve);

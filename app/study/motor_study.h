@@ -1,8 +1,10 @@
-// `trocar study motor`: section 3.4.2 of the thesis measured on the plant's own motor model, and what the command drives.
+// `trocar study motor`: section 3.4.2 of the thesis measured on the plant's own motor model, and what the command
+// drives.
 //
-// A dynamometer turns the motor model until its speed no longer changes under a load (figures 3.27 to 3.30): the amplifier
-// opened wide, so that the supply alone limits the current, is a motor at that terminal voltage. The command's path is
-// measured on the simulated device through its DACs, in the jig, with perfect torque cells. Thread: any.
+// A dynamometer turns the motor model until its speed no longer changes under a load (figures 3.27 to 3.30): the
+// amplifier opened wide, so that the supply alone limits the current, is a motor at that terminal voltage. The
+// command's path is measured on the simulated device through its DACs, in the jig, with perfect torque cells. Thread:
+// any.
 #pragma once
 
 #include "app/study/study.h"

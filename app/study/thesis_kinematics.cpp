@@ -69,16 +69,16 @@ JointVector inverse(const Pose& X_WS, const Frames& frames) {
   const double reach = X_WS.p.norm();
   const double cosine = (kLink1 * kLink1 + kLink2 * kLink2 - reach * reach) / (2 * kLink1 * kLink2);
   if (!(std::abs(cosine) <= 1)) return JointVector::Constant(std::numeric_limits<double>::quiet_NaN());
-  const double th4 = std::acos(cosine) - std::numbers::pi;                           // (2.10), (2.11)
-  const Vec3 X_A = -X_WS.p / reach, N = X_A.cross(X_WS.R.col(2)).normalized();       // (2.14)
+  const double th4 = std::acos(cosine) - std::numbers::pi;                      // (2.10), (2.11)
+  const Vec3 X_A = -X_WS.p / reach, N = X_A.cross(X_WS.R.col(2)).normalized();  // (2.14)
   const Vec3 P4 = elbow_of(X_WS.p, N.cross(X_A));
-  Mat3 R_Pdoubleprime;                                                               // (2.18)
+  Mat3 R_Pdoubleprime;  // (2.18)
   R_Pdoubleprime.col(2) = -P4 / kLink1;
   R_Pdoubleprime.col(1) = -N;
   R_Pdoubleprime.col(0) = R_Pdoubleprime.col(1).cross(R_Pdoubleprime.col(2));
   const Mat3 R_Pprime = R_Pdoubleprime * (Mat3() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished();  // (2.44)
-  const Mat3 R_WP = frames.R_WWprime * R_Pprime * frames.R_PPprime.inverse();        // (2.20)
-  const Mat3 T = (R_Pprime * elbow_rotation(th4)).transpose() * X_WS.R;              // (2.23)
+  const Mat3 R_WP = frames.R_WWprime * R_Pprime * frames.R_PPprime.inverse();               // (2.20)
+  const Mat3 T = (R_Pprime * elbow_rotation(th4)).transpose() * X_WS.R;                     // (2.23)
   JointVector q;
   q << active_angles(R_WP), th4, std::atan2(T(1, 2), T(0, 2)), std::atan2(-T(2, 0), -T(2, 1));
   return q;
@@ -86,17 +86,16 @@ JointVector inverse(const Pose& X_WS, const Frames& frames) {
 
 const std::array<Sample, 3>& samples() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  static const std::array<Sample, 3> all{{
-      {"S1", degrees(42.19, 47.76, 45, -13.65, -81.49, 0), degrees(42.19, 47.68, 45.09, -13.88, -81.43, 0),
-       printed({0, -1, 0, 0.15, -0.16, 0, -0.99, -5.9, 0.99, 0, -0.16, -272.02}), Vec3::Constant(nan)},
-      {"S2", degrees(64.14, 59.65, 42.03, -28.74, -78.23, -42.37),
-       degrees(64.13, 59.18, 42.13, -29.81, -77.82, -42.37),
-       printed({0.89, -0.44, -0.07, -94.81, 0.13, 0.41, -0.9, -83.93, 0.42, 0.8, 0.43, -232.58}),
-       Vec3(-96.0068, -84.5473, -232.6072) * 1e-3},
-      {"S3", degrees(35.33, 27.64, 49.57, -59.6, -87.42, -95.41),
-       degrees(36.13, 27.34, 50.77, -59.19, -88.46, -95.41),
-       printed({0.96, -0.17, -0.2, 75.62, 0.08, 0.9, -0.41, -136.44, 0.25, 0.38, 0.89, -178.28}),
-       Vec3(76.5527, -137.4529, -178.4934) * 1e-3}}};
+  static const std::array<Sample, 3> all{
+      {{"S1", degrees(42.19, 47.76, 45, -13.65, -81.49, 0), degrees(42.19, 47.68, 45.09, -13.88, -81.43, 0),
+        printed({0, -1, 0, 0.15, -0.16, 0, -0.99, -5.9, 0.99, 0, -0.16, -272.02}), Vec3::Constant(nan)},
+       {"S2", degrees(64.14, 59.65, 42.03, -28.74, -78.23, -42.37),
+        degrees(64.13, 59.18, 42.13, -29.81, -77.82, -42.37),
+        printed({0.89, -0.44, -0.07, -94.81, 0.13, 0.41, -0.9, -83.93, 0.42, 0.8, 0.43, -232.58}),
+        Vec3(-96.0068, -84.5473, -232.6072) * 1e-3},
+       {"S3", degrees(35.33, 27.64, 49.57, -59.6, -87.42, -95.41), degrees(36.13, 27.34, 50.77, -59.19, -88.46, -95.41),
+        printed({0.96, -0.17, -0.2, 75.62, 0.08, 0.9, -0.41, -136.44, 0.25, 0.38, 0.89, -178.28}),
+        Vec3(76.5527, -137.4529, -178.4934) * 1e-3}}};
   return all;
 }
 

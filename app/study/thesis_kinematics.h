@@ -1,8 +1,8 @@
 // What the thesis prints about kinematics, and its own method as printed, to stand beside the exact models.
 //
-// Algorithm 1 (2.4): elbow by the sign of one projection (PROJ < 0), arm plane by one sign of AO x Z6, matrices (2.33) and
-// (2.36) to two digits. Where (2.22) is misprinted (theta5) the right form is taken, since table 3.7 cannot come from it.
-// Angles rad, lengths m. Thread: pure functions, any thread.
+// Algorithm 1 (2.4): elbow by the sign of one projection (PROJ < 0), arm plane by one sign of AO x Z6, matrices (2.33)
+// and (2.36) to two digits. Where (2.22) is misprinted (theta5) the right form is taken, since table 3.7 cannot come
+// from it. Angles rad, lengths m. Thread: pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -26,10 +26,10 @@ JointVector inverse(const Pose& X_WS, const Frames& frames);
 /// One sample of section 3.5.
 struct Sample {
   const char* name;
-  JointVector q;               ///< table 3.6
-  JointVector inverse;         ///< table 3.7
-  Pose printed;                ///< W'_6T as printed; no exact rotation
-  Vec3 exact;                  ///< position in W' with exact constants, published to 0.1 um (device reference); NaN for S1
+  JointVector q;        ///< table 3.6
+  JointVector inverse;  ///< table 3.7
+  Pose printed;         ///< W'_6T as printed; no exact rotation
+  Vec3 exact;           ///< position in W' with exact constants, published to 0.1 um (device reference); NaN for S1
 };
 const std::array<Sample, 3>& samples();
 

@@ -13,8 +13,8 @@ namespace trocar {
 namespace {
 
 constexpr double kReach = kLink1 + kLink2;
-constexpr double kTop = 0.20;            // m: nothing reaches higher within the limits
-constexpr double kWristDeg = -80;        // of the posture kept: the middle of theta5's range
+constexpr double kTop = 0.20;      // m: nothing reaches higher within the limits
+constexpr double kWristDeg = -80;  // of the posture kept: the middle of theta5's range
 constexpr std::uint8_t bit(ReachSet set) { return static_cast<std::uint8_t>(set); }
 
 double margin_of_first_four(const JointVector& q) {

@@ -1,8 +1,9 @@
-// Where the stylus can be: W' cut into cubes, each asked exactly, by inverse kinematics, what postures reach its middle.
+// Where the stylus can be: W' cut into cubes, each asked exactly, by inverse kinematics, what postures reach its
+// middle.
 //
-// Four joints place the stylus, so one is spare: the arm plane may turn about OA. Each cube tries the plane in equal steps
-// and keeps, of the best set that it belongs to, the posture with the largest det A. theta5 and theta6 turn the stylus on
-// the spot and do not matter here. Sets, from the widest to the one a controller may use:
+// Four joints place the stylus, so one is spare: the arm plane may turn about OA. Each cube tries the plane in equal
+// steps and keeps, of the best set that it belongs to, the posture with the largest det A. theta5 and theta6 turn the
+// stylus on the spot and do not matter here. Sets, from the widest to the one a controller may use:
 //   limits        theta1..theta4 within table 2.4, det A > 0
 //   ring          the same, and the axis of link l1 inside the base ring: bodies without width
 //   limits_clear  within the limits, and link l1 clear of base ring and legs (figure 2.12, link_clearance.h)
@@ -25,8 +26,8 @@ inline constexpr double kRuleMargin_rad = 0.13962634015954636;  ///< 8 deg
 inline constexpr double kRuleDetA = 0.30;
 
 struct ReachCell {
-  std::uint8_t sets = 0;                     ///< bits of ReachSet
-  JointVector posture = JointVector::Zero(); ///< theta1..theta4 of the posture kept, theta5 -80 deg, theta6 0
+  std::uint8_t sets = 0;                      ///< bits of ReachSet
+  JointVector posture = JointVector::Zero();  ///< theta1..theta4 of the posture kept, theta5 -80 deg, theta6 0
 
   bool in(ReachSet set) const { return (sets & static_cast<std::uint8_t>(set)) != 0; }
 };

@@ -18,7 +18,7 @@ constexpr double kPixelsPerM = 480, kPanel = 340, kTop = 60, kLeft = 62, kDocHei
 constexpr double kHalf = 0.28;  // m: half the width of a panel
 
 struct Plane {
-  int u, v, w;          // axes to the right, upwards, and the one that is held
+  int u, v, w;  // axes to the right, upwards, and the one that is held
   double at, v_low, v_high;
   const char* name;
 };
@@ -81,7 +81,8 @@ std::string filled(const Panel& panel, const Level& level, const std::vector<std
   std::string out;
   for (std::size_t n = 0; n < colours.size(); ++n) {
     if (path[n].tellp() <= 0) continue;
-    out += "<path fill=\"" + colours[n] + "\" stroke=\"" + colours[n] + "\" stroke-width=\"0.4\" d=\"" + path[n].str() + "\"/>\n";
+    out += "<path fill=\"" + colours[n] + "\" stroke=\"" + colours[n] + "\" stroke-width=\"0.4\" d=\"" + path[n].str() +
+           "\"/>\n";
   }
   return out;
 }
@@ -93,10 +94,12 @@ std::string border(const Panel& panel, ReachSet set) {
     for (int a = 0; a <= panel.columns(); ++a) {
       const bool here = panel.cell(a, b).in(set);
       if (here != panel.cell(a - 1, b).in(set)) {
-        path << 'M' << svg::px(panel.cell_x(a)) << ' ' << svg::px(panel.cell_y(b)) << 'V' << svg::px(panel.cell_y(b + 1));
+        path << 'M' << svg::px(panel.cell_x(a)) << ' ' << svg::px(panel.cell_y(b)) << 'V'
+             << svg::px(panel.cell_y(b + 1));
       }
       if (here != panel.cell(a, b - 1).in(set)) {
-        path << 'M' << svg::px(panel.cell_x(a)) << ' ' << svg::px(panel.cell_y(b)) << 'H' << svg::px(panel.cell_x(a + 1));
+        path << 'M' << svg::px(panel.cell_x(a)) << ' ' << svg::px(panel.cell_y(b)) << 'H'
+             << svg::px(panel.cell_x(a + 1));
       }
     }
   }
@@ -113,7 +116,8 @@ std::string frame(const Panel& panel) {
     out += svg::line(panel.x(-kHalf), panel.y(u), panel.x(kHalf), panel.y(u), "stroke=\"#ddd\"");
     out += svg::label(panel.left - 5, panel.y(u) + 4, std::to_string(mm), "end", "font-size=\"11\"");
   }
-  out += svg::rect(panel.left, kTop, 2 * kHalf * kPixelsPerM, panel.y(panel.plane.v_low) - kTop, "fill=\"none\" stroke=\"#888\"");
+  out += svg::rect(panel.left, kTop, 2 * kHalf * kPixelsPerM, panel.y(panel.plane.v_low) - kTop,
+                   "fill=\"none\" stroke=\"#888\"");
   out += svg::label(panel.x(0), panel.y(panel.plane.v_low) + 34, kAxisNames[panel.plane.u], "middle");
   const double middle = panel.y(0.5 * (panel.plane.v_low + panel.plane.v_high));
   const std::string turn = "transform=\"rotate(-90 " + svg::px(panel.left - 34) + ' ' + svg::px(middle) + ")\"";
@@ -121,7 +125,8 @@ std::string frame(const Panel& panel) {
   return out + svg::label(panel.left, kTop - 8, panel.plane.name, "start", "font-weight=\"bold\"") + "\n";
 }
 
-std::string three_panels(const WorkspaceGrid& grid, const Level& level, const std::vector<std::string>& colours, bool outline) {
+std::string three_panels(const WorkspaceGrid& grid, const Level& level, const std::vector<std::string>& colours,
+                         bool outline) {
   std::string out;
   for (std::size_t n = 0; n < kPlanes.size(); ++n) {
     const Panel panel{grid, kPlanes[n], kLeft + kPanel * static_cast<double>(n)};
@@ -141,7 +146,11 @@ std::string set_sections(const WorkspaceGrid& grid) {
   const char* const names[] = {"within the limits of table 2.4", "and l1 inside the ring, bodies without width",
                                "and l1 clear of ring and legs", "and 8 deg from limits, det A >= 0.30"};
   const Level level = [](const ReachCell& c) {
-    return c.in(ReachSet::kRulesClear) ? 3 : c.in(ReachSet::kLimitsClear) ? 2 : c.in(ReachSet::kRing) ? 1 : c.in(ReachSet::kLimits) ? 0 : -1;
+    return c.in(ReachSet::kRulesClear)    ? 3
+           : c.in(ReachSet::kLimitsClear) ? 2
+           : c.in(ReachSet::kRing)        ? 1
+           : c.in(ReachSet::kLimits)      ? 0
+                                          : -1;
   };
   std::string key;
   for (int n = 0; n < 4; ++n) {

@@ -1,7 +1,7 @@
 // Sections through the reachable region as SVG: the sets laid over each other, or a quality by colour.
 //
-// Three planes of W': x' = 0, y' = 0 and z' = -200 mm (at the height of the hand). Colours run from dark to bright, so they
-// are read in grey as well. Thread: any.
+// Three planes of W': x' = 0, y' = 0 and z' = -200 mm (at the height of the hand). Colours run from dark to bright, so
+// they are read in grey as well. Thread: any.
 #pragma once
 
 #include <functional>

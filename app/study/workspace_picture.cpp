@@ -1,5 +1,5 @@
-// Cubes seen from the front right and above, painted from far to near; three kinds of face, each drawn once and reused.
-#include <algorithm>
+// Cubes seen from the front right and above, painted row by row towards the eye; three kinds of face, drawn once and
+// reused.
 #include <cmath>
 #include <vector>
 
@@ -21,38 +21,38 @@ bool shown(const WorkspaceGrid& grid, int i, int j, int k) {
 }
 
 struct Face {
-  double depth;
   char kind;
   bool ruled;
   Eigen::Vector2d at;
 };
 
-/// Visible faces: +x' (x), -y' (y), +z' (z), anchored at the middle of the cube.
+/// Visible faces: +x' (x), -y' (y), +z' (z), anchored at the middle of the cube; what lies nearer comes later.
 std::vector<Face> faces(const WorkspaceGrid& grid, const DrawingView& view) {
   std::vector<Face> all;
   for (int k = 0; k < grid.size()[2]; ++k) {
-    for (int j = 0; j < grid.size()[1]; ++j) {
+    for (int j = grid.size()[1] - 1; j >= 0; --j) {
       for (int i = 0; i < grid.size()[0]; ++i) {
         if (!shown(grid, i, j, k)) continue;
         const Vec3 p = grid.centre(i, j, k);
         const bool ruled = grid.cell(i, j, k).in(ReachSet::kRulesClear);
-        if (!shown(grid, i + 1, j, k)) all.push_back({view.depth(p), 'x', ruled, view.project(p)});
-        if (!shown(grid, i, j - 1, k)) all.push_back({view.depth(p), 'y', ruled, view.project(p)});
-        if (!shown(grid, i, j, k + 1)) all.push_back({view.depth(p), 'z', ruled, view.project(p)});
+        if (!shown(grid, i + 1, j, k)) all.push_back({'x', ruled, view.project(p)});
+        if (!shown(grid, i, j - 1, k)) all.push_back({'y', ruled, view.project(p)});
+        if (!shown(grid, i, j, k + 1)) all.push_back({'z', ruled, view.project(p)});
       }
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Face& a, const Face& b) { return a.depth < b.depth; });
   return all;
 }
 
-std::string face_shape(const std::string& id, const std::vector<Vec3>& corners, const DrawingView& view, const char* fill) {
+std::string face_shape(const std::string& id, const std::vector<Vec3>& corners, const DrawingView& view,
+                       const char* fill) {
   std::string points;
   for (const Vec3& c : corners) {
     const Eigen::Vector2d at = view.project(c) - view.project(Vec3::Zero());
     points += svg::px(at.x()) + ',' + svg::px(at.y()) + ' ';
   }
-  return "<polygon id=\"" + id + "\" points=\"" + points + "\" fill=\"" + fill + "\" stroke=\"#333\" stroke-width=\"0.3\"/>\n";
+  return "<polygon id=\"" + id + "\" points=\"" + points + "\" fill=\"" + fill +
+         "\" stroke=\"#333\" stroke-width=\"0.3\"/>\n";
 }
 
 std::string shapes(double side, const DrawingView& view) {
@@ -60,9 +60,12 @@ std::string shapes(double side, const DrawingView& view) {
   std::string out = "<defs>\n";
   for (const bool ruled : {false, true}) {
     const std::string tail = ruled ? "r" : "";
-    out += face_shape("x" + tail, {{h, -h, -h}, {h, h, -h}, {h, h, h}, {h, -h, h}}, view, ruled ? "#3d6a8f" : "#9a9a9a");
-    out += face_shape("y" + tail, {{-h, -h, -h}, {h, -h, -h}, {h, -h, h}, {-h, -h, h}}, view, ruled ? "#5f8fb5" : "#c2c2c2");
-    out += face_shape("z" + tail, {{-h, -h, h}, {h, -h, h}, {h, h, h}, {-h, h, h}}, view, ruled ? "#a9c9e0" : "#ececec");
+    out +=
+        face_shape("x" + tail, {{h, -h, -h}, {h, h, -h}, {h, h, h}, {h, -h, h}}, view, ruled ? "#3d6a8f" : "#9a9a9a");
+    out += face_shape("y" + tail, {{-h, -h, -h}, {h, -h, -h}, {h, -h, h}, {-h, -h, h}}, view,
+                      ruled ? "#5f8fb5" : "#c2c2c2");
+    out +=
+        face_shape("z" + tail, {{-h, -h, h}, {h, -h, h}, {h, h, h}, {-h, h, h}}, view, ruled ? "#a9c9e0" : "#ececec");
   }
   return out + "</defs>\n";
 }
@@ -71,19 +74,19 @@ std::string shapes(double side, const DrawingView& view) {
 
 std::string workspace_picture(const WorkspaceGrid& grid) {
   const Vec3 low(-0.20, -0.25, -0.30), high(0.20, 0.20, 0.05);
-  const DrawingView view = DrawingView::fitted(kAzimuth, kElevation, low, high, {0, 60}, {720, 540});
+  const DrawingView view = DrawingView::fitted(kAzimuth, kElevation, low, high, {0, 30}, {720, 540});
   std::string cubes;
   for (const Face& face : faces(grid, view)) {
-    cubes += "<use href=\"#" + std::string(1, face.kind) + (face.ruled ? "r" : "") + "\" x=\"" + svg::px(face.at.x()) + "\" y=\"" +
-             svg::px(face.at.y()) + "\"/>\n";
+    cubes += "<use href=\"#" + std::string(1, face.kind) + (face.ruled ? "r" : "") + "\" x=\"" + svg::px(face.at.x()) +
+             "\" y=\"" + svg::px(face.at.y()) + "\"/>\n";
   }
   std::string key = svg::rect(20, 40, 22, 14, "fill=\"#5f8fb5\" stroke=\"#333\"") +
                     svg::label(50, 52, "clear of the links, 8 deg from limits, det A >= 0.30") +
                     svg::rect(20, 62, 22, 14, "fill=\"#c2c2c2\" stroke=\"#333\"") +
                     svg::label(50, 74, "clear of the links, within the limits only") +
                     svg::label(400, 52, "quarter x' > 0, y' < 0 cut away; device at home");
-  return drawing_svg(720, 600, "Reachable region of the stylus",
-                     {axes_group(low, high, 0.05, view), shapes(grid.side(), view), cubes,
+  return drawing_svg(720, 570, "Reachable region of the stylus",
+                     {axes_group(low, high, 0.1, view), shapes(grid.side(), view), cubes,
                       device_group(home_angles(), view, "#000000", 4), key});
 }
 

@@ -9,7 +9,8 @@
 
 namespace trocar {
 
-double worst_direction_force(const DeviceModel& model, const ArmState& arm, const JointVector& holding, double motor_nm) {
+double worst_direction_force(const DeviceModel& model, const ArmState& arm, const JointVector& holding,
+                             double motor_nm) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kArmJoints; ++i) {
     const double lever = arm.J_WS.col(i).head<3>().norm();

@@ -18,18 +18,19 @@ inline constexpr double kConditioningLength_m = 0.2;  ///< linear rows of J are 
 
 struct PostureQuality {
   double det_a = 0;
-  double smallest_singular = 0;      ///< of J with its linear rows over 0.2 m
-  double force_before_n = 0;         ///< worst direction, continuous, weight neglected
+  double smallest_singular = 0;         ///< of J with its linear rows over 0.2 m
+  double force_before_n = 0;            ///< worst direction, continuous, weight neglected
   double continuous_n = 0, peak_n = 0;  ///< worst direction after the weight; 0 when the weight alone is too much
-  double gravity_motor_nm = 0;       ///< largest motor torque that carries the weight
-  double winding_c = 0;              ///< hottest motor, steady; infinite when it runs away
-  double step_m = 0;                 ///< largest move of the stylus by one encoder count
+  double gravity_motor_nm = 0;          ///< largest motor torque that carries the weight
+  double winding_c = 0;                 ///< hottest motor, steady; infinite when it runs away
+  double step_m = 0;                    ///< largest move of the stylus by one encoder count
 };
 
 PostureQuality posture_quality(const DeviceModel& model, const JointVector& q);
 
 /// Worst-direction force of a motor torque. @param holding joint torques taken by the weight, or zero.
-double worst_direction_force(const DeviceModel& model, const ArmState& arm, const JointVector& holding, double motor_nm);
+double worst_direction_force(const DeviceModel& model, const ArmState& arm, const JointVector& holding,
+                             double motor_nm);
 
 /// Winding temperature after a constant current for ever, deg C; infinite above the current that copper runs away at.
 double steady_winding_c(const MotorHeatParameters& p, double current_a);

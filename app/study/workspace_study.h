@@ -1,35 +1,13 @@
-// `trocar study workspace`: the region that the stylus reaches, against tables 2.1 and 2.2, and what the device is worth in
-// it: conditioning, force, heat, resolution, and what the interference of link l1 costs.
+// `trocar study workspace`: the region that the stylus reaches, against tables 2.1 and 2.2, and what the device is
+// worth in it: conditioning, force, heat, resolution, and what the interference of link l1 costs.
 //
 // Volumes by cubes (workspace_grid.h); greatest extents by a sweep of the joint box through the forward model, which is
-// also the oracle of the cubes. Percentiles of the reference's region (haptics.md 2) are drawn by seed. Thread: any.
+// also the oracle of the cubes. Percentiles of the reference's region are drawn by seed. Thread: any.
 #pragma once
 
-#include <array>
-
 #include "app/study/study.h"
-#include "app/study/workspace_grid.h"
 
 namespace trocar {
-
-/// Box of stylus positions over a sweep of theta1..theta4 within the limits.
-struct SweptExtent {
-  Eigen::AlignedBox3d limits, ring, clear;  ///< clear: of ring and legs with their widths
-};
-SweptExtent sweep_extent(int steps);
-
-/// Percentiles over joint angles drawn inside the limits whose stylus lies in the reference's region:
-/// x' +-130, y' -180..60, z' -274..-120 mm, det A >= 0.05.
-struct RegionPercentiles {
-  /// One percentile, and the range in which it lies for 19 of 20 draws as small as the reference's (4000).
-  struct Quantile {
-    double value = 0, low = 0, high = 0;
-  };
-  using Three = std::array<Quantile, 3>;      ///< 5, 50, 95 %
-  Three step_m{}, force_28_n{}, force_100_n{}, gravity_nm{}, left_n{};  ///< left: continuous force after the weight
-  double over_rating = 0;                     ///< share where the weight alone needs more than 28 mN m
-};
-RegionPercentiles region_percentiles(int samples, std::uint64_t seed);
 
 StudyResult workspace_study(const StudyRequest& request);
 

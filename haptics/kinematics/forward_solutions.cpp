@@ -11,15 +11,14 @@
 namespace trocar {
 namespace {
 
-constexpr std::array<const char*, kForwardSolutions> kMeaning{
-    "working assembly mode (phi2, phi3): the device",
-    "assembly mode (phi2, phi3 + pi)",
-    "assembly mode (phi2 + pi, -phi3)",
-    "assembly mode (phi2 + pi, pi - phi3)",
-    "trivial, V = (-U1, -U2, U3): the legs turn freely",
-    "trivial, V = (-U1, U2, -U3): the legs turn freely",
-    "trivial, V = (U1, -U2, -U3): the legs turn freely",
-    "trivial, V = (U1, U2, U3): the legs turn freely"};
+constexpr std::array<const char*, kForwardSolutions> kMeaning{"working assembly mode (phi2, phi3): the device",
+                                                              "assembly mode (phi2, phi3 + pi)",
+                                                              "assembly mode (phi2 + pi, -phi3)",
+                                                              "assembly mode (phi2 + pi, pi - phi3)",
+                                                              "trivial, V = (-U1, -U2, U3): the legs turn freely",
+                                                              "trivial, V = (-U1, U2, -U3): the legs turn freely",
+                                                              "trivial, V = (U1, -U2, -U3): the legs turn freely",
+                                                              "trivial, V = (U1, U2, U3): the legs turn freely"};
 
 double determinant_a(const Vec3& theta, const Mat3& V) {
   const Vec3 s = theta.array().sin(), c = theta.array().cos();

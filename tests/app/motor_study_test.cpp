@@ -36,7 +36,8 @@ TEST(MotorStudy, SteadyStateIsThatOfThePermanentMagnetMotor) {
     const double stall = volts / kOhm * kPerAmp;
     for (const double share : {0.0, 0.3, 0.7, 0.95}) {
       const MotorPoint at = loaded_motor(volts, share * stall);
-      // U = R i + k w and torque = k i; the run stops at 1 rad/s2, 4.4 ms of time constant away from the end: 5e-3 rad/s.
+      // U = R i + k w and torque = k i; the run stops at 1 rad/s2, 4.4 ms of time constant away from the end: 5e-3
+      // rad/s.
       EXPECT_NEAR(at.torque_nm, share * stall, 2e-6 + 1e-6 * stall) << volts << " V";
       EXPECT_NEAR(at.current_a * kPerAmp, at.torque_nm, 1e-12);
       EXPECT_NEAR(at.speed_rad_s, volts * (1 - share) / kPerAmp, 0.02) << volts << " V, " << share;
@@ -51,7 +52,8 @@ TEST(MotorStudy, AMotorLoadedBeyondStallStands) {
 }
 
 TEST(MotorStudy, CommandSetsTheCurrentAndSpeedDoesNotTouchIt) {
-  for (const double speed : {-300.0, 0.0, 300.0, 600.0}) EXPECT_NEAR(driven_motor(5, speed).current_a, 2.155, 1e-6) << speed;
+  for (const double speed : {-300.0, 0.0, 300.0, 600.0})
+    EXPECT_NEAR(driven_motor(5, speed).current_a, 2.155, 1e-6) << speed;
   EXPECT_LT(driven_motor(5, 1000).current_a, 1.0) << "the supply ends it";
   EXPECT_NEAR(driven_motor_at_leads(5, 100).current_a, (5 - kPerAmp * 100) / kOhm, 1e-6);
 }
@@ -63,7 +65,8 @@ TEST(MotorStudy, CurvesAreWholeAndTheSameEveryTime) {
   for (std::size_t i = 0; i < one.curves.size(); ++i) {
     EXPECT_EQ(curves_csv(one.curves[i]), curves_csv(two.curves[i]));
     for (const auto& series : one.curves[i].series) EXPECT_EQ(series.y.size(), one.curves[i].x.size());
-    EXPECT_EQ(curves_svg(one.curves[i]).find("e+"), std::string::npos) << one.curves[i].file << ": ticks are plain numbers";
+    EXPECT_EQ(curves_svg(one.curves[i]).find("e+"), std::string::npos)
+        << one.curves[i].file << ": ticks are plain numbers";
   }
 }
 

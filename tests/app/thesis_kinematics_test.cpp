@@ -41,7 +41,8 @@ TEST(ThesisKinematics, ForwardOnExactFramesIsOurs) {
 
 TEST(ThesisKinematics, PrintedFramesAreNoRotations) {
   const thesis::Frames printed = thesis::printed_frames(), exact = thesis::exact_frames();
-  for (const auto& [p, e] : {std::pair(printed.R_WWprime, exact.R_WWprime), std::pair(printed.R_PPprime, exact.R_PPprime)}) {
+  for (const auto& [p, e] :
+       {std::pair(printed.R_WWprime, exact.R_WWprime), std::pair(printed.R_PPprime, exact.R_PPprime)}) {
     EXPECT_GT((p.transpose() * p - Mat3::Identity()).norm(), 5e-3);
     EXPECT_LT((p - e).cwiseAbs().maxCoeff(), 0.0101) << "two digits: 1/sqrt 3 = 0.577 is printed as 0.57";
     EXPECT_LT((e.transpose() * e - Mat3::Identity()).norm(), 1e-15);
@@ -106,7 +107,8 @@ TEST(ForwardSolutions, AllEightCloseTheLoopsAndAreRotations) {
 TEST(ForwardSolutions, AreEightDifferentPoses) {
   const auto all = forward_solutions(thesis::example());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = i + 1; j < all.size(); ++j) EXPECT_GT((all[i].R_WP - all[j].R_WP).norm(), 0.5) << i << ' ' << j;
+    for (std::size_t j = i + 1; j < all.size(); ++j)
+      EXPECT_GT((all[i].R_WP - all[j].R_WP).norm(), 0.5) << i << ' ' << j;
   }
 }
 

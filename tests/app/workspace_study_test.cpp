@@ -8,6 +8,7 @@
 #include "app/study/study_files.h"
 #include "app/study/workspace_maps.h"
 #include "app/study/workspace_quality.h"
+#include "app/study/workspace_region.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/transmission.h"
 #include "haptics/kinematics/inverse_kinematics.h"
@@ -42,8 +43,8 @@ TEST(WorkspaceStudy, MeetsItsBars) {
 TEST(WorkspaceStudy, SameSeedSameBytes) { EXPECT_EQ(summary_json(study()), summary_json(workspace_study({true, 1}))); }
 
 TEST(WorkspaceGrid, ForwardModelReachesOnlyCubesThatSayReachable) {
-  // A posture two degrees inside the limits puts its point, and points a little round it, into the set. The arm plane is
-  // tried every 10 deg, so a point whose planes are few can be missed: rarely.
+  // A posture two degrees inside the limits puts its point, and points a little round it, into the set. The arm plane
+  // is tried every 10 deg, so a point whose planes are few can be missed: rarely.
   Random random(1);
   int clear = 0, missed = 0;
   for (int k = 0; k < 3000; ++k) {
