@@ -61,14 +61,14 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
   const AmplifierCalibration found = calibrate_amplifiers(rig, nominal);
   const ChannelVector error = rendering_error(rig, calibrated(nominal, found));
   const std::string json = calibration_json(found, nominal);
-  if (options.json)
-    out << json;
-  else
-    print_table(found, nominal, error, out);
   if (!options.out.empty()) {
     write_text(options.out, json);
     err << "trocar: calibration in " << options.out.string() << '\n';
   }
+  if (options.json)
+    out << json;
+  else
+    print_table(found, nominal, error, out);
   err << "trocar: on the simulated device of seed " << options.seed << "; the calibrated model renders torque to "
       << error.maxCoeff() * 100 << " %\n";
   return error.maxCoeff() <= kRendered ? 0 : 1;
