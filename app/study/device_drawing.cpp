@@ -5,9 +5,8 @@
 
 #include "app/report/html.h"
 #include "app/report/svg.h"
-#include "haptics/kinematics/hybrid_arm.h"
+#include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/link_clearance.h"
-#include "haptics/kinematics/spherical_parallel.h"
 
 namespace trocar {
 namespace {
@@ -109,9 +108,12 @@ Eigen::Vector2d DrawingView::project(const Vec3& p) const {
   return {origin_x + pixels_per_m * right, origin_y - pixels_per_m * (ce * p.z() + se * back)};
 }
 
-std::vector<DeviceStroke> device_strokes(const JointVector& q) {
-  const ArmState arm = arm_state(q);
-  const Mat3 V = spherical_parallel(q.head<3>()).R_WP;
+std::vector<DeviceStroke> device_strokes(const JointVector& q) { return device_strokes(q, forward_solutions(q)[0]); }
+
+std::vector<DeviceStroke> device_strokes(const JointVector& q, const ForwardSolution& solution) {
+  const Mat3& V = solution.R_WP;
+  const Vec3 elbow = rotation_W_Wprime().transpose() * V * rotation_P_Pprime().col(0) * -kLink1;
+  const Pose& X = solution.X_WS;
   const Vec3 s = q.head<3>().array().sin(), c = q.head<3>().array().cos();
   const Vec3 U[] = {Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
   const Vec3 W[] = {{s[0], -c[0], 0}, {0, s[1], -c[1]}, {-c[2], 0, s[2]}};
@@ -125,25 +127,30 @@ std::vector<DeviceStroke> device_strokes(const JointVector& q) {
   }
   for (DeviceStroke& stroke : strokes)
     for (Vec3& p : stroke.points) p = (rotation_W_Wprime().transpose() * p).eval();
-  strokes.push_back({Part::kLink1, {Vec3::Zero(), arm.elbow_W}});
-  strokes.push_back({Part::kLink2, {arm.elbow_W, arm.X_WS.p}});
-  strokes.push_back({Part::kStylus, {arm.X_WS.p, arm.X_WS.p + kStylusLength * arm.X_WS.R.col(2)}});
+  strokes.push_back({Part::kLink1, {Vec3::Zero(), elbow}});
+  strokes.push_back({Part::kLink2, {elbow, X.p}});
+  strokes.push_back({Part::kStylus, {X.p, X.p + kStylusLength * X.R.col(2)}});
   return strokes;
 }
 
 std::string device_group(const JointVector& q, const DrawingView& view, const std::string& colour, double width) {
+  return device_group(device_strokes(q), view, colour, width);
+}
+
+std::string device_group(const std::vector<DeviceStroke>& strokes, const DrawingView& view, const std::string& colour,
+                         double width) {
   std::string out = "<g fill=\"none\" stroke=\"" + colour + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
-  for (const DeviceStroke& stroke : device_strokes(q)) {
+  std::string joints;
+  for (const DeviceStroke& stroke : strokes) {
     out += "<polyline stroke-width=\"" + svg::px(width_of(stroke.part, width)) + "\" points=\"" +
            points_of(stroke.points, view) + "\"/>\n";
+    const bool link = stroke.part == Part::kLink1 || stroke.part == Part::kLink2 || stroke.part == Part::kStylus;
+    if (!link) continue;
+    const Eigen::Vector2d at = view.project(stroke.points.front());  // centre, elbow, stylus origin
+    joints += "<circle cx=\"" + svg::px(at.x()) + "\" cy=\"" + svg::px(at.y()) + "\" r=\"" + svg::px(1.2 * width) +
+              "\" fill=\"white\" stroke-width=\"" + svg::px(0.5 * width) + "\"/>\n";
   }
-  const ArmState arm = arm_state(q);
-  for (const Vec3& joint : {Vec3(Vec3::Zero()), arm.elbow_W, arm.X_WS.p}) {
-    const Eigen::Vector2d at = view.project(joint);
-    out += "<circle cx=\"" + svg::px(at.x()) + "\" cy=\"" + svg::px(at.y()) + "\" r=\"" + svg::px(1.2 * width) +
-           "\" fill=\"white\" stroke-width=\"" + svg::px(0.5 * width) + "\"/>\n";
-  }
-  return out + "</g>\n";
+  return out + joints + "</g>\n";
 }
 
 std::string path_group(const std::vector<Vec3>& points, const DrawingView& view, const std::string& style) {

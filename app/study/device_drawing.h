@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/kinematics/forward_solutions.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -35,8 +36,12 @@ struct DeviceStroke {
 
 /// Lines of the device at q (rad), base first. The stylus is drawn 60 mm along Z6 behind the stylus origin.
 std::vector<DeviceStroke> device_strokes(const JointVector& q);
+/// The same in another of its forward solutions (forward_solutions.h): how it would hang there.
+std::vector<DeviceStroke> device_strokes(const JointVector& q, const ForwardSolution& solution);
 
-/// A <g> with the device at q in one stroke colour. @param width of the links, px; legs are thinner.
+/// A <g> with the device in one stroke colour and its three joints. @param width of the links, px; legs are thinner.
+std::string device_group(const std::vector<DeviceStroke>& strokes, const DrawingView& view, const std::string& colour,
+                         double width);
 std::string device_group(const JointVector& q, const DrawingView& view, const std::string& colour, double width);
 
 /// A <g> with a path in W'. @param style SVG attributes of the stroke.

@@ -1,5 +1,6 @@
 #include "app/study/kinematics_drawings.h"
 
+#include "app/report/html.h"
 #include "app/report/svg.h"
 #include "app/study/device_drawing.h"
 #include "app/study/kinematics_study.h"
@@ -69,8 +70,32 @@ StudyFile path() {
                        svg::label(20, 48, "dashed: its shadow on z' = -300 mm")})};
 }
 
+/// One of the four non-trivial solutions with its room in the ring.
+std::string mode_panel(int mode, double x, double y, double side) {
+  const JointVector q = thesis::example();
+  const ForwardSolution solution = forward_solutions(q)[static_cast<std::size_t>(mode)];
+  const DrawingView view{30 * kDegree, 25 * kDegree, 560, x + side / 2, y + side / 2};
+  const std::string room = fixed_text(1e3 * solution.ring_room_m, 0);
+  const std::string verdict = solution.ring_room_m > 0 ? "l1 inside the ring, room " + room + " mm: the device"
+                                                       : "l1 crosses the ring (" + room + " mm)";
+  return svg::rect(x, y, side, side, "fill=\"none\" stroke=\"#bbb\"") +
+         device_group(device_strokes(q, solution), view, mode == 0 ? "#000000" : "#7d7d7d", 4) +
+         svg::label(x + 8, y + 18, "solution " + std::to_string(mode + 1), "start", "font-weight=\"bold\"") +
+         svg::label(x + 8, y + side - 10, verdict) + "\n";
+}
+
+StudyFile modes() {
+  std::vector<std::string> pieces;
+  constexpr double kSide = 330;
+  for (int mode = 0; mode < 4; ++mode) {
+    pieces.push_back(mode_panel(mode, 20 + (mode % 2) * (kSide + 10), 64 + mode / 2 * (kSide + 10), kSide));
+  }
+  pieces.push_back(svg::label(20, 48, "theta1 to theta3 = 30, 20, 25 deg, elbow -60 deg; parallel projection, z' up"));
+  return {"assembly_modes.svg", drawing_svg(710, 754, "The four non-trivial solutions (figure 2.12)", pieces)};
+}
+
 }  // namespace
 
-std::vector<StudyFile> kinematics_drawings() { return {overlay(), path()}; }
+std::vector<StudyFile> kinematics_drawings() { return {overlay(), path(), modes()}; }
 
 }  // namespace trocar

@@ -78,6 +78,64 @@ TEST(Calibration, TheThesisGainOfFiveIsCalibratedOut) {
   }
 }
 
+TEST(Calibration, StandardDeviationsAreHonest) {
+  // Errors over many rigs and devices in units of the standard deviation given: their RMS is 1 when it is honest.
+  double gain = 0, offset = 0;
+  int n = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const SimulatedDaqConfig config = device(seed, 1);
+    TorqueRig rig(config, {}, 77 * seed);
+    const AmplifierCalibration found = calibrate_amplifiers(rig, DeviceModel{});
+    for (std::size_t i = 0; i < found.size(); ++i, ++n) {
+      const ChannelParameters& truth = config.plant->channel[i];
+      gain += std::pow((found[i].amps_per_volt - true_gain(truth)) / found[i].amps_per_volt_sd, 2);
+      offset += std::pow((found[i].offset_v - truth.dac_offset / truth.dac_gain) / found[i].offset_sd_v, 2);
+    }
+  }
+  EXPECT_NEAR(std::sqrt(gain / n), 1, 0.15);  // 280 errors: 4 % of spread
+  EXPECT_NEAR(std::sqrt(offset / n), 1, 0.15);
+}
+
+TEST(Calibration, WorksAtEveryRateAndWithACoarseDac) {
+  for (const auto& [rate, bits] : {std::pair(1000.0, 12), std::pair(2000.0, 16), std::pair(4000.0, 14)}) {
+    SimulatedDaqConfig config = device(5, 5);
+    config.rate_hz = rate;
+    config.dac_bits = bits;
+    TorqueRig rig(config, {}, 5);
+    const AmplifierCalibration found = calibrate_amplifiers(rig, DeviceModel{});
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].amps_per_volt / true_gain(config.plant->channel[i]), 1, 0.005)
+          << rate << " Hz, " << bits << " bits";
+    }
+  }
+}
+
+TEST(Calibration, ATorqueConstantThatIsOffComesRightWithTheGain) {
+  SimulatedDaqConfig config = device(6, 1);
+  for (ChannelParameters& c : config.plant->channel) c.torque_constant *= 0.97;
+  TorqueRig rig(config, {}, 6);
+  const DeviceModel nominal, corrected = calibrated(nominal, calibrate_amplifiers(rig, nominal));
+  const ChannelVector with = delivered(config, corrected, 0.05), without = delivered(config, nominal, 0.05);
+  for (int i = 0; i < kChannels; ++i) {
+    EXPECT_NEAR(with[i] / 0.05, 1, 0.006) << i;
+    EXPECT_LT(without[i] / 0.05, 0.99) << i;
+  }
+}
+
+TEST(Calibration, LeavesWhatItDoesNotMeasure) {
+  const DeviceModel nominal;
+  AmplifierCalibration found{};
+  for (ChannelCalibration& c : found) c.amps_per_volt = 0.5, c.offset_v = 0.01;
+  const DeviceModel model = calibrated(nominal, found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(model.transmission[i].amps_per_volt, 0.5);
+    EXPECT_EQ(model.transmission[i].offset_v, 0.01);
+    EXPECT_EQ(model.transmission[i].ratio, nominal.transmission[i].ratio);
+    EXPECT_EQ(model.transmission[i].torque_constant, nominal.transmission[i].torque_constant);
+  }
+  EXPECT_EQ(model.stylus_weight_n, nominal.stylus_weight_n);
+}
+
 TEST(Calibration, RenderingErrorTellsAGoodModelFromABadOne) {
   const SimulatedDaqConfig config = device(7, 1);
   TorqueRig rig(config, {}, 7);
@@ -120,6 +178,20 @@ TEST(TorqueRig, BrushesHideTorqueFromTheSideItCameFrom) {
   EXPECT_NEAR(above - below, 2e-3, 1e-9);
   EXPECT_NEAR(0.5 * (above + below), 4 * 0.431 * 0.0232, 1e-6) << "a step of the DAC is 3 uN m";
   EXPECT_EQ(rig.rest().mean.cwiseAbs().maxCoeff(), 0) << "turned free by hand, nothing remains";
+}
+
+TEST(TorqueRig, ZeroHasTheNoiseThatItSays) {
+  SimulatedDaqConfig config;
+  config.plant = nominal_parameters();
+  TorqueRig one(config, {}, 9), other(config, {}, 10);
+  const TorqueRig::Zero a = one.rest(), b = one.rest(), c = other.rest();
+  for (int i = 0; i < kChannels; ++i) {
+    EXPECT_NEAR(a.sd[i], 0.3e-3 / std::sqrt(2000.0), 0.1 * 0.3e-3 / std::sqrt(2000.0)) << "2 s at 1 kHz";
+    EXPECT_LT(std::abs(a.mean[i] - b.mean[i]), 6 * a.sd[i]) << "the zero stays, the noise does not";
+    EXPECT_NE(a.mean[i], b.mean[i]);
+    EXPECT_LE(std::abs(a.mean[i]), 2e-3 + 5 * a.sd[i]);
+  }
+  EXPECT_GT((a.mean - c.mean).cwiseAbs().maxCoeff(), 10 * a.sd[0]) << "another rig has other zeros";
 }
 
 TEST(TorqueRig, JigStaysClosedHoweverLongItIsUsed) {

@@ -10,6 +10,7 @@
 #include "app/study/kinematics_drawings.h"
 #include "app/study/study_files.h"
 #include "app/study/thesis_kinematics.h"
+#include "haptics/kinematics/forward_solutions.h"
 #include "haptics/kinematics/hybrid_arm.h"
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "haptics/kinematics/link_clearance.h"
@@ -95,7 +96,7 @@ TEST(KinematicsStudy, CurvesAndDrawingsAreWhole) {
     for (const auto& series : c.series) EXPECT_EQ(series.y.size(), c.x.size());
     EXPECT_EQ(curves_svg(c).find("nan"), std::string::npos);
   }
-  ASSERT_EQ(study().files.size(), 2u);
+  ASSERT_EQ(study().files.size(), 3u);
   for (const StudyFile& file : study().files) {
     EXPECT_EQ(file.bytes.rfind("<svg ", 0), 0u) << file.name;
     EXPECT_NE(file.bytes.find("</svg>"), std::string::npos);
@@ -127,6 +128,23 @@ TEST(DeviceDrawing, StrokesHaveTheLengthsOfTable23) {
       EXPECT_NEAR(first.dot(last), 0, 1e-15) << "each leg's arc spans a right angle: W . V = 0";
     }
     EXPECT_EQ(arcs, 6);
+  }
+}
+
+TEST(DeviceDrawing, HangsInEverySolutionAsItsMatricesSay) {
+  const JointVector q = thesis::example();
+  for (const ForwardSolution& solution : forward_solutions(q)) {
+    Vec3 elbow = Vec3::Zero(), stylus = Vec3::Zero();
+    for (const DeviceStroke& stroke : device_strokes(q, solution)) {
+      if (stroke.part == DeviceStroke::Part::kLink1) elbow = stroke.points.back();
+      if (stroke.part == DeviceStroke::Part::kLink2) stylus = stroke.points.back();
+    }
+    EXPECT_LT((stylus - solution.X_WS.p).norm(), 1e-15) << solution.meaning;
+    EXPECT_NEAR((stylus - elbow).norm(), kLink2, 1e-12) << solution.meaning;
+    EXPECT_NEAR(elbow.norm(), kLink1, 1e-12) << solution.meaning;
+    // The elbow hangs along V1 + V2 + V3 of that solution.
+    const Vec3 along = rotation_W_Wprime().transpose() * solution.R_WP * Vec3::Constant(1 / std::sqrt(3.0));
+    EXPECT_LT((elbow - kLink1 * along).norm(), 1e-12) << solution.meaning;
   }
 }
 
