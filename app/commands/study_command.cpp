@@ -6,7 +6,10 @@
 
 #include "app/study/contact_law_study.h"
 #include "app/study/passivity_study.h"
+#include "app/study/kinematics_study.h"
+#include "app/study/motor_study.h"
 #include "app/study/study_files.h"
+#include "app/study/workspace_study.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -20,6 +23,9 @@ struct KnownStudy {
 constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
     KnownStudy{"passivity", passivity_study},
+    KnownStudy{"kinematics", kinematics_study},
+    KnownStudy{"motor", motor_study},
+    KnownStudy{"workspace", workspace_study},
 };
 
 }  // namespace
