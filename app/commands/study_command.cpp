@@ -5,6 +5,8 @@
 #include <ostream>
 
 #include "app/study/contact_law_study.h"
+#include "app/study/kinematics_study.h"
+#include "app/study/motor_study.h"
 #include "app/study/study_files.h"
 #include "haptics/input_error.h"
 
@@ -18,6 +20,8 @@ struct KnownStudy {
 
 constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
+    KnownStudy{"kinematics", kinematics_study},
+    KnownStudy{"motor", motor_study},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/device/plant_parameters.h"
+#include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
 namespace {
@@ -25,11 +26,6 @@ void add_triangle(ContactPatch& patch, const Vec3& a, const Vec3& b, const Vec3&
 }
 
 }  // namespace
-
-double minimum_jerk(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * s * (10 - 15 * s + 6 * s * s);
-}
 
 SimulatedDaqConfig nominal_device() {
   SimulatedDaqConfig device;

@@ -69,7 +69,4 @@ class PlantBench {
   double absorbed_j_ = 0;
 };
 
-/// Position of a minimum-jerk movement from 0 to 1, s its share of time (clamped to 0..1).
-double minimum_jerk(double s);
-
 }  // namespace trocar

@@ -49,7 +49,7 @@ struct StudyResult {
   std::string study, plant;
   std::vector<StudyCase> cases;
   std::vector<StudyCurves> curves;
-  std::vector<StudyFile> files;
+  std::vector<StudyFile> files = {};
 };
 
 }  // namespace trocar

@@ -17,6 +17,7 @@ struct Transmission {
   double counts_per_turn = 2000;   ///< quadrature counts per motor turn [T 3.2.2]
   double torque_constant = 0.0232; ///< N m/A [T table 3.1]
   double amps_per_volt = 0.431;    ///< amplifier in current mode; +-10 V = 4.31 A [C]
+  double offset_v = 0;             ///< that the chain adds to every command, found by `trocar device calibrate`
   double full_scale_v = 10;        ///< DAC range [T 3.2]
   double max_motor_torque = 0.100; ///< N m at +-10 V [C]
 };
