@@ -5,6 +5,8 @@
 #include <ostream>
 
 #include "app/study/contact_law_study.h"
+#include "app/study/force_study.h"
+#include "app/study/gravity_study.h"
 #include "app/study/kinematics_study.h"
 #include "app/study/motor_study.h"
 #include "app/study/study_files.h"
@@ -20,6 +22,8 @@ struct KnownStudy {
 
 constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
+    KnownStudy{"force", force_study},
+    KnownStudy{"gravity", gravity_study},
     KnownStudy{"kinematics", kinematics_study},
     KnownStudy{"motor", motor_study},
 };
