@@ -10,6 +10,7 @@
 #include "app/study/kinematics_study.h"
 #include "app/study/motor_study.h"
 #include "app/study/study_files.h"
+#include "app/study/transparency_study.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -24,6 +25,7 @@ constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
     KnownStudy{"force", force_study},
     KnownStudy{"gravity", gravity_study},
+    KnownStudy{"transparency", transparency_study},
     KnownStudy{"kinematics", kinematics_study},
     KnownStudy{"motor", motor_study},
 };

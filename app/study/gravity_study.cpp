@@ -197,7 +197,7 @@ StudyResult gravity_study(const StudyRequest& request) {
   const std::vector<GravityLaw> law = laws(identified);
   std::vector<LawResult> results(law.size());
   // Another seed than the identifier's: none of these poses has been measured.
-  const auto drawn = draw_static_poses(request.seed + 1000, request.quick ? 2 : 20, 1, {});
+  const auto drawn = draw_static_poses(request.seed + 1000, request.quick ? 1 : 20, 1, {});
   for (std::size_t l = 0; l < law.size(); ++l) {
     for (const JointVector& q : thesis_poses()) results[l].thesis_pose.push_back(release(truth, q, law[l], kRelease_s));
     for (const StaticPose& pose : drawn) results[l].drawn.push_back(release(truth, pose.q, law[l], kRelease_s));

@@ -28,7 +28,7 @@ IdentifyRequest quick_identification() {
   IdentifyRequest request;
   request.poses = 20;
   request.trajectories = 1;
-  request.candidates = 10;
+  request.candidates = 5;
   return request;
 }
 

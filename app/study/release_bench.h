@@ -28,7 +28,9 @@ struct Release {
 /// @param seconds after the hand has let go; it ends earlier when the stylus has gone 50 mm.
 Release release(const PlantParameters& truth, const JointVector& q, const GravityLaw& law, double seconds);
 
-/// The thesis' (4.3) to (4.10) with its sign errors mended: centre of the platform's weights by three partial rotations.
+/// The thesis' law: centre of the platform's weights as the sum of three partial rotations, (4.3) to (4.7) as printed with
+/// the angle about x counted so that a rotation about x alone turns the right way; mapped to the joints without its slips
+/// (moment of the stylus about Z4, not X).
 JointVector thesis_gravity_torque(const ArmState& arm);
 
 }  // namespace trocar
