@@ -16,6 +16,7 @@
 #include "app/commands/device_command.h"
 #include "app/commands/device_forward.h"
 #include "app/commands/doctor_command.h"
+#include "app/commands/identify_command.h"
 #include "app/commands/organ_import.h"
 #include "app/commands/organ_info.h"
 #include "app/commands/organ_phantom.h"
@@ -46,7 +47,8 @@ struct CommandLine {
   StudyOptions study;
   ExercisesOptions exercises;
   CheckOptions check;
-  std::filesystem::path table_in, table_out;
+  std::filesystem::path table_in, table_out, device_file;
+  IdentifyOptions identify;
   ForwardOptions forward;
   CalibrateOptions calibrate;
   OrganImportOptions import;
@@ -187,13 +189,23 @@ void add_device(CommandLine& c) {
   CLI::App* device = c.group("device", "Models of the device");
   add_device_bench(c, *device);
   CLI::App* eval = c.add(*device, "eval", "Pose, twist, torques, gravity, conditioning of joint angles",
-                         [&c] { return device_eval(c.table_in, c.table_out, std::cerr); });
+                         [&c] { return device_eval(c.table_in, c.table_out, std::cerr, c.device_file); });
   CLI::App* ik = c.add(*device, "ik", "Every inverse kinematic candidate of stylus poses",
                        [&c] { return device_ik(c.table_in, c.table_out, std::cerr); });
   for (CLI::App* command : {eval, ik}) {
     command->add_option("--csv", c.table_in, "Input table")->required();
     command->add_option("--out", c.table_out, "Output table")->required();
   }
+  eval->add_option("--device", c.device_file, "Device file with identified weights (default: nominal)");
+  CLI::App* identify = c.add(*device, "identify", "Weights, inertias and friction of a simulated device from its motion",
+                             [&c] { return identify_command(c.identify, std::cout, std::cerr); });
+  identify->add_option("--seed", c.identify.seed, "Of the simulated device, poses and trajectories")->capture_default_str();
+  identify->add_option("--poses", c.identify.poses, "Static poses")->capture_default_str()->check(CLI::Range(6, 1000));
+  identify->add_option("--span", c.identify.span, "Share of workspace and amplitude that is used")->capture_default_str()->check(CLI::Range(0.001, 1.0));
+  identify->add_option("--payload", c.identify.payload_kg, "Unknown mass on the stylus, kg")->capture_default_str()->check(CLI::Range(0.0, 0.05));
+  identify->add_flag("--quick", c.identify.quick, "20 poses and one trajectory");
+  identify->add_option("--out", c.identify.out, "Device file (TOML) to write");
+  identify->add_flag("--json", c.identify.json, "As JSON");
 }
 
 void add_organ_import(CommandLine& c, CLI::App& organ) {

@@ -275,7 +275,7 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact
   }
   const JointVector qd = motion.qd.head<kArmJoints>();
   shares.alignment = contact.alignment;
-  if (arm_passivity_.budget_j() >= 0) {
+  if (arm_passivity_.budget_j() >= -config_.friction.debt_j) {
     shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
   }
   const LimitedTorque limited = limiter_.update(shares);

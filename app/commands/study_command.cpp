@@ -10,6 +10,9 @@
 #include "app/study/motor_study.h"
 #include "app/study/study_files.h"
 #include "app/study/workspace_study.h"
+#include "app/study/force_study.h"
+#include "app/study/gravity_study.h"
+#include "app/study/transparency_study.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -23,6 +26,9 @@ struct KnownStudy {
 constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
     KnownStudy{"passivity", passivity_study},
+    KnownStudy{"force", force_study},
+    KnownStudy{"gravity", gravity_study},
+    KnownStudy{"transparency", transparency_study},
     KnownStudy{"kinematics", kinematics_study},
     KnownStudy{"motor", motor_study},
     KnownStudy{"workspace", workspace_study},
