@@ -5,7 +5,9 @@
 #include <ostream>
 
 #include "app/study/contact_law_study.h"
+#include "app/study/contact_torque_study.h"
 #include "app/study/study_files.h"
+#include "app/study/walls_study.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -18,6 +20,10 @@ struct KnownStudy {
 
 constexpr std::array kStudies{
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
+    KnownStudy{"walls", walls_study},
+    KnownStudy{"torque-x", [](const StudyRequest& request) { return torque_study('x', request); }},
+    KnownStudy{"torque-y", [](const StudyRequest& request) { return torque_study('y', request); }},
+    KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/device/plant_parameters.h"
+#include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
 namespace {
@@ -25,11 +26,6 @@ void add_triangle(ContactPatch& patch, const Vec3& a, const Vec3& b, const Vec3&
 }
 
 }  // namespace
-
-double minimum_jerk(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * s * (10 - 15 * s + 6 * s * s);
-}
 
 SimulatedDaqConfig nominal_device() {
   SimulatedDaqConfig device;
@@ -121,6 +117,14 @@ void PlantBench::put_wall(const Vec3& point_T, const Vec3& normal_T, const Conta
       add_triangle(*patch_, at(i, j), at(i + 1, j + 1), at(i, j + 1));
     }
   }
+  ++patch_->stamp;
+}
+
+void PlantBench::put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material) {
+  if (triangles_T.size() > kMaxPatchTriangles) throw std::invalid_argument("bench: a surface of too many triangles");
+  patch_->count = 0;
+  patch_->material[0] = material;
+  for (const auto& [a, b, c] : triangles_T) add_triangle(*patch_, a, b, c);
   ++patch_->stamp;
 }
 

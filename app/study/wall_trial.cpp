@@ -7,6 +7,7 @@
 #include "haptics/device/plant_parameters.h"
 #include "haptics/kinematics/hybrid_arm.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
 namespace {
