@@ -7,7 +7,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kTouchShare = 0.02, kHalf = 0.5;
+constexpr double kTouchShare = 0.02, kFeltShare = 0.4;
 constexpr double kBridge = 0.2;      // s: shorter gaps and spells are noise
 constexpr double kLongestLag = 0.4;  // s
 constexpr double kEdge = 0.2;        // s after touch and before leaving
@@ -43,8 +43,8 @@ ComponentComparison compare(const ContactRecording& recording, Component which) 
   out.measured = curve_of(recording.sensor_t, recording.measured, which);
   const double wanted = peak(out.desired);
   out.touched = spells(out.desired, kTouchShare * wanted, kBridge);
-  out.asked = spells(out.desired, kHalf * wanted, kBridge);
-  out.felt = spells(out.measured, kHalf * peak(out.measured), kBridge);
+  out.asked = spells(out.desired, kFeltShare * wanted, kBridge);
+  out.felt = spells(out.measured, kFeltShare * peak(out.measured), kBridge);
   out.lag_s = best_lag(out.desired, out.measured, kLongestLag);
   out.ratio = magnitude_ratio(out.desired, out.measured, kSensorLag);
   return out;

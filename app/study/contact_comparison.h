@@ -15,7 +15,7 @@ namespace trocar {
 struct ComponentComparison {
   Curve desired, measured;
   std::vector<Spell> touched;            ///< desired above 2 % of its peak: when the tool was in
-  std::vector<Spell> asked, felt;        ///< above half the peak, desired and measured
+  std::vector<Spell> asked, felt;        ///< above 40 % of the peak, desired and measured
   double lag_s = 0, ratio = 0;           ///< measured behind desired; over desired, at the sensor's own lag
 };
 ComponentComparison compare(const ContactRecording& recording, Component which);

@@ -17,7 +17,7 @@ namespace {
 constexpr double kToRestS = 1.2, kSettleS = 0.4;
 constexpr double kMomentNoise = 0.5e-3;      // N m, SD of the sensor
 constexpr double kMomentDrift = 2.5e-3;      // N m/h [assumed, the force's share]
-constexpr double kEase = 0.25, kEaseS = 0.3;  // share of the depth, s
+constexpr double kEase = 0.2, kEaseS = 0.3;  // share of the depth, s
 constexpr int kMovesPerContact = 3;          // in, ease, out
 constexpr int kWaySteps = 50;                // of a move, when its joints are looked at
 
@@ -47,15 +47,6 @@ double leave_share(double rest) {
     (1 - minimum_jerk(middle) > rest ? early : late) = middle;
   }
   return early;
-}
-
-/// Where the hand wants the stylus at a time of the experiment.
-Pose goal_at(const ContactExperiment& e, double t) {
-  Pose goal = e.rest;
-  for (const ContactMove& move : e.moves) {
-    if (t >= move.from_s) goal = between(goal, move.goal, minimum_jerk((t - move.from_s) / (move.to_s - move.from_s)));
-  }
-  return goal;
 }
 
 SimulatedDaqConfig device_of(const ContactSetting& setting) {
@@ -162,6 +153,14 @@ std::vector<Spell> holds(const ContactExperiment& experiment, const std::vector<
     }
   }
   return found;
+}
+
+Pose goal_at(const ContactExperiment& e, double t) {
+  Pose goal = e.rest;
+  for (const ContactMove& move : e.moves) {
+    if (t >= move.from_s) goal = between(goal, move.goal, minimum_jerk((t - move.from_s) / (move.to_s - move.from_s)));
+  }
+  return goal;
 }
 
 double least_joint_margin(const ContactExperiment& experiment) {

@@ -48,11 +48,14 @@ void add_cube(std::vector<SurfaceTriangle>& surface, const Pose& X_WC, double si
 double clearance(const ContactExperiment& experiment, const Pose& X_WS, const ContactFace& face);
 
 /// The hand leads the stylus from rest to `deep` and back, each way in `travel_s`, so that its goal meets the face at
-/// touch_s and leaves it at leave_s. Half way through its hold it eases by a quarter of the depth: what friction adds to
+/// touch_s and leaves it at leave_s. Half way through its hold it eases by a fifth of the depth: what friction adds to
 /// the force while pressing it takes away afterwards. @throws std::invalid_argument when rest is not before the face, `deep` not in it,
 /// or this contact overlaps the one before.
 void add_contact(ContactExperiment& experiment, const ContactFace& face, const Pose& deep, double touch_s,
                  double leave_s, double travel_s);
+
+/// Where the hand wants the stylus at a time of the experiment.
+Pose goal_at(const ContactExperiment& experiment, double t);
 
 /// Smallest distance of a joint to its limit on the way of the hand's goal, rad; -1 where a goal cannot be reached.
 double least_joint_margin(const ContactExperiment& experiment);

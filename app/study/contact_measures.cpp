@@ -8,7 +8,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kLagStep = 1e-3;  // s
+constexpr double kLagStep = 1e-3;   // s
+constexpr double kRounding = 1e-9;  // s, of sample times
 
 /// Pearson's correlation of measured(t) with desired(t - lag).
 double correlation(const Curve& desired, const Curve& measured, double lag_s) {
@@ -85,11 +86,12 @@ double mean_over(const Curve& curve, const Spell& spell) {
 double unrest(const Curve& curve, const Spell& spell, double window_s) {
   std::vector<double> sum(curve.y.size() + 1, 0.0);
   for (std::size_t i = 0; i < curve.y.size(); ++i) sum[i + 1] = sum[i] + curve.y[i];
+  const double half = 0.5 * window_s + kRounding;
   double largest = 0;
   std::size_t first = 0, last = 0;  // samples of the window: [first, last)
   for (std::size_t i = 0; i < curve.t.size(); ++i) {
-    while (curve.t[first] < curve.t[i] - 0.5 * window_s) ++first;
-    while (last < curve.t.size() && curve.t[last] <= curve.t[i] + 0.5 * window_s) ++last;
+    while (curve.t[first] < curve.t[i] - half) ++first;
+    while (last < curve.t.size() && curve.t[last] <= curve.t[i] + half) ++last;
     if (curve.t[i] < spell.from_s || curve.t[i] > spell.to_s) continue;
     largest = std::max(largest, std::abs(curve.y[i] - (sum[last] - sum[first]) / static_cast<double>(last - first)));
   }

@@ -10,7 +10,7 @@ namespace trocar {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSoftTurn = 32 * kDegree, kStiffTurn = 22 * kDegree;  // of the hand, for 20 and for 150 N/m
+constexpr double kSoftTurn = 30 * kDegree, kStiffTurn = 22 * kDegree;  // of the hand, for 20 and for 150 N/m
 
 Component torque_about(char axis) { return static_cast<Component>(3 + (axis - 'x')); }
 
@@ -99,7 +99,7 @@ Findings findings_of(char axis, const ContactManner& manner, double turn_rad, co
 
 void add_directions(StudyResult& study, const std::string& name, const std::string& axis, const Findings& f) {
   study.cases.push_back({name + ": contacts in the desired torque", "1", f.asked, 2.0, "2", f.asked == 2,
-                         "Spells above half the peak about " + axis + ", fewest of all trials."});
+                         "Spells above 40 % of the peak about " + axis + ", fewest of all trials."});
   study.cases.push_back({name + ": contacts in the measured torque", "1", f.felt, 2.0, "2", f.felt == 2,
                          "The same in the sensor's readings."});
   study.cases.push_back({name + ": contact times against the thesis", "s", f.time_error, {}, "<= 0.1", f.time_error <= 0.1,
@@ -138,10 +138,10 @@ void add_curves(StudyResult& study, char axis, const ContactManner& manner, cons
   using enum Component;
   const std::string end = "_" + manner.stem, with = ", " + manner.name;
   const auto desired = [&](const std::string& figure, std::vector<Component> which) {
-    study.curves.push_back(component_curves(figure + end, "Desired" + with, f.first.t, f.first.desired, which));
+    study.curves.push_back(component_curves(figure + end, "Desired, simulated plant" + with, f.first.t, f.first.desired, which));
   };
   const auto measured = [&](const std::string& figure, std::vector<Component> which, bool raw = false) {
-    study.curves.push_back(component_curves(figure + end, (raw ? "As read, with the fixture" : "Measured") + with, f.first.sensor_t,
+    study.curves.push_back(component_curves(figure + end, (raw ? "As read with the fixture, simulated plant" : "Measured, simulated plant") + with, f.first.sensor_t,
                                             raw ? f.first.read : f.first.measured, which));
   };
   if (axis == 'x') {

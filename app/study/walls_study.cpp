@@ -86,7 +86,7 @@ double degrees(double rad) { return rad * 180 / std::numbers::pi; }
 
 void add_events(StudyResult& study, const std::string& name, const Findings& f) {
   study.cases.push_back({name + ": contacts in the desired force", "1", f.asked, 3.0, "3", f.asked == kContacts,
-                         "Spells above half the peak along Y6 or Z6, fewest of all trials."});
+                         "Spells above 40 % of the peak along Y6 or Z6, fewest of all trials."});
   study.cases.push_back({name + ": contacts in the measured force", "1", f.felt, 3.0, "3, pushing -Y6, +Y6, +Z6",
                          f.felt == kContacts && f.order,
                          "The same in the sensor's readings; the mean force of each contact points along its wall's normal."});
@@ -130,9 +130,9 @@ void add_likeness(StudyResult& study, const std::string& name, const Findings& f
 
 void add_curves(StudyResult& study, const ContactManner& manner, const Findings& f) {
   const std::vector components{Component::kFy, Component::kFz};
-  study.curves.push_back(component_curves("figure_3_42_" + manner.stem, "Desired force at the walls, " + manner.name,
+  study.curves.push_back(component_curves("figure_3_42_" + manner.stem, "Desired force at the walls, simulated plant, " + manner.name,
                                           f.first.t, f.first.desired, components));
-  study.curves.push_back(component_curves("figure_3_43_" + manner.stem, "Measured force at the walls, " + manner.name,
+  study.curves.push_back(component_curves("figure_3_43_" + manner.stem, "Measured force at the walls, simulated plant, " + manner.name,
                                           f.first.sensor_t, f.first.measured, components));
 }
 
