@@ -120,4 +120,12 @@ void PlantBench::put_wall(const Vec3& point_T, const Vec3& normal_T, const Conta
   ++patch_->stamp;
 }
 
+void PlantBench::put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material) {
+  if (triangles_T.size() > kMaxPatchTriangles) throw std::invalid_argument("bench: a surface of too many triangles");
+  patch_->count = 0;
+  patch_->material[0] = material;
+  for (const auto& [a, b, c] : triangles_T) add_triangle(*patch_, a, b, c);
+  ++patch_->stamp;
+}
+
 }  // namespace trocar

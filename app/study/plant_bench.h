@@ -6,9 +6,11 @@
 // throws when the loop faults: a study never averages over a dead device. SI. Thread: one owner.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -44,6 +46,9 @@ class PlantBench {
 
   /// Square wall of 80 mm about `point_T`, facing `normal_T`; the tool's radius lies before it.
   void put_wall(const Vec3& point_T, const Vec3& normal_T, const ContactMaterial& material);
+  /// Any surface instead: triangles counter-clockwise from outside, in T. @throws std::invalid_argument when they do not
+  /// fit into a patch.
+  void put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material);
   void take_wall_away() { patch_->count = 0; ++patch_->stamp; }
 
   const TickRecord& record() const { return record_; }
