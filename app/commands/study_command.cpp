@@ -15,6 +15,7 @@
 #include "app/study/transparency_study.h"
 #include "app/study/walls_study.h"
 #include "app/study/workspace_study.h"
+#include "app/study/zwidth_study.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -36,6 +37,7 @@ constexpr std::array kStudies{
     KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
     KnownStudy{"gravity", gravity_study},
     KnownStudy{"passivity", passivity_study},
+    KnownStudy{"zwidth", zwidth_study},
     KnownStudy{"transparency", transparency_study},
     KnownStudy{"workspace", workspace_study},
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},

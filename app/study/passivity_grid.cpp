@@ -28,7 +28,9 @@ constexpr double kPoses[5][6] = {{45, 45, 45, -60, -75, 0},
 constexpr double kLongestWay = 0.105, kShortWay = 0.060;  // m that a press may need, fast and slow
 constexpr double kAfterTouch = 1.6;                       // s
 
-void draw(WallCase& c, std::mt19937_64& random) {
+}  // namespace
+
+void draw_press(WallCase& c, std::mt19937_64& random) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   do {
     const double* pose = kPoses[below(5)];
@@ -40,11 +42,13 @@ void draw(WallCase& c, std::mt19937_64& random) {
   } while (!comfortable(c.pose, c.direction, c.speed > 0.5 ? kLongestWay : kShortWay));
 }
 
+namespace {
+
 std::vector<WallOutcome> press_with_all(const WallCase& c, const std::vector<GridLaw>& laws) {
   const WallRig rig(c);
   std::vector<WallOutcome> outcomes;
   for (const GridLaw& law : laws) {
-    outcomes.push_back(rig.press(law.law, kAfterTouch, law.clamp));
+    outcomes.push_back(rig.press({law.law, law.clamp}, kAfterTouch));
     outcomes.back().trace = {};
   }
   return outcomes;
@@ -80,7 +84,7 @@ std::vector<WallCase> grid_cases(std::uint64_t seed, int every) {
         c.stiffness = stiffness;
         c.extra_delay = delay;
         c.grip = grip;
-        draw(c, random);
+        draw_press(c, random);
         if (number++ % every == 0) kept.push_back(c);
       }
     }
@@ -96,15 +100,13 @@ std::vector<GridLaw> grid_laws() {
   return laws;
 }
 
-GridResult run_grid(const std::vector<WallCase>& cases, const std::vector<GridLaw>& laws) {
-  GridResult result{cases, laws, {}, {}};
-  result.outcome.assign(cases.size(), std::vector<WallOutcome>(laws.size()));
+void on_all_processors(std::size_t count, const std::function<void(std::size_t)>& task) {
   std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> failed(cases.size());
+  std::vector<std::exception_ptr> failed(count);
   const auto work = [&] {
-    for (std::size_t i; (i = next++) < cases.size();) {
+    for (std::size_t i; (i = next++) < count;) {
       try {
-        result.outcome[i] = press_with_all(cases[i], laws);
+        task(i);
       } catch (...) {
         failed[i] = std::current_exception();
       }
@@ -117,6 +119,12 @@ GridResult run_grid(const std::vector<WallCase>& cases, const std::vector<GridLa
   for (const std::exception_ptr& failure : failed) {
     if (failure) std::rethrow_exception(failure);
   }
+}
+
+GridResult run_grid(const std::vector<WallCase>& cases, const std::vector<GridLaw>& laws) {
+  GridResult result{cases, laws, {}, {}};
+  result.outcome.assign(cases.size(), std::vector<WallOutcome>(laws.size()));
+  on_all_processors(cases.size(), [&](std::size_t i) { result.outcome[i] = press_with_all(cases[i], laws); });
   for (std::size_t law = 0; law < laws.size(); ++law) result.tally.push_back(add_up(result, law));
   return result;
 }

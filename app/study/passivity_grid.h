@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -37,10 +39,15 @@ struct GridResult {
   std::vector<LawTally> tally;                    ///< one a law
 };
 
+/// Pose, direction (along or against Y6 or Z6) and speed of a press, drawn until its way is comfortable.
+void draw_press(WallCase& c, std::mt19937_64& random);
+
 /// @param every keep every so manieth case; 1: all 100.
 std::vector<WallCase> grid_cases(std::uint64_t seed, int every);
 /// Every law of kPassivityLaws, without and with the clamp.
 std::vector<GridLaw> grid_laws();
+/// Runs do(0) .. do(count - 1) on all processors; the first failure is thrown when all have ended.
+void on_all_processors(std::size_t count, const std::function<void(std::size_t)>& task);
 GridResult run_grid(const std::vector<WallCase>& cases, const std::vector<GridLaw>& laws);
 
 /// One row a case and law: everything that was set and everything that came out.

@@ -86,8 +86,8 @@ void scenarios(StudyResult& study) {
   };
   for (const Scenario& s : {Scenario{"S1", "scenario_1", scenario_1()}, Scenario{"S2", "scenario_2", scenario_2(true)}}) {
     const WallRig rig(s.c);
-    const WallOutcome off = rig.press(PassivityLaw::kOff, kWatched), thesis = rig.press(PassivityLaw::kThesis, kWatched),
-                      on = rig.press(PassivityLaw::kBudgeted, kWatched);
+    const WallOutcome off = rig.press({PassivityLaw::kOff}, kWatched), thesis = rig.press({PassivityLaw::kThesis}, kWatched),
+                      on = rig.press({PassivityLaw::kBudgeted}, kWatched);
     const std::string name = s.name;
     study.cases.push_back(settling(name + ": law off, no reaction of the operator", off.settled_s, kThesisOff,
                                    ">= 0.5 (unstable)", off.settled_s >= kSettleLimit || off.faulted,
@@ -100,21 +100,21 @@ void scenarios(StudyResult& study) {
     study.curves.push_back(curves_of(s.file, name + ": press into the wall, the operator does not react", off, on));
     WallCase reacting = s.c;
     reacting.stiffens_s = kReacts;
-    const WallOutcome ended = WallRig(reacting).press(PassivityLaw::kOff, kWatched);
+    const WallOutcome ended = WallRig(reacting).press({PassivityLaw::kOff}, kWatched);
     study.cases.push_back(settling(name + ": law off, the operator stiffens at 0.45 s", ended.settled_s, kThesisOff,
                                    "0.45 to 0.80", ended.settled_s > kReacts && ended.settled_s < 0.8,
                                    "; the grip turns firm 0.45 s after touch, as the thesis' operator ended it."));
   }
-  const WallOutcome blind = WallRig(scenario_2(false)).press(PassivityLaw::kBudgeted, kWatched);
+  const WallOutcome blind = WallRig(scenario_2(false)).press({PassivityLaw::kBudgeted}, kWatched);
   study.cases.push_back(settling("S2 with the gain of 5 unknown to the loop: budgeted law", blind.settled_s, std::nullopt,
                                  "reported", true,
                                  "; no observer pays for a force it does not know of: hence trocar device calibrate."));
 }
 
 void experiments(StudyResult& study) {
-  const WallOutcome off = WallRig(experiment(0.45, false)).press(PassivityLaw::kOff, kWatched);
-  const WallOutcome on = WallRig(experiment(0.44, false)).press(PassivityLaw::kBudgeted, kWatched);
-  const WallOutcome weight = WallRig(experiment(0.96, true)).press(PassivityLaw::kBudgeted, kWatched);
+  const WallOutcome off = WallRig(experiment(0.45, false)).press({PassivityLaw::kOff}, kWatched);
+  const WallOutcome on = WallRig(experiment(0.44, false)).press({PassivityLaw::kBudgeted}, kWatched);
+  const WallOutcome weight = WallRig(experiment(0.96, true)).press({PassivityLaw::kBudgeted}, kWatched);
   const std::string how = "; 150 N/m, normal pen grip, 2 ms between latch and force, the hand aims 15 mm past the wall.";
   study.cases.push_back(settling("150 N/m at 0.45 m/s, law off", off.settled_s, kThesisOff, "reported", true, how));
   study.cases.push_back(

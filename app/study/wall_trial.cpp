@@ -207,13 +207,13 @@ double WallRig::speed_at_wall(double reach_s) const {
   return 0;
 }
 
-WallOutcome WallRig::press(PassivityLaw law, double seconds, bool clamp) const {
+WallOutcome WallRig::press(const WallPress& how, double seconds) const {
   PlantBench bench(*ready_);
-  bench.loop().set_passivity_law(law);
-  bench.loop().set_stiffness_clamp(clamp);
+  bench.loop().set_passivity_law(how.law);
+  bench.loop().set_stiffness_clamp(how.clamp);
   ContactMaterial material;
-  material.stiffness_n_per_m = case_.stiffness;
-  material.damping_s_per_m = 0;
+  material.stiffness_n_per_m = how.stiffness.value_or(case_.stiffness);
+  material.damping_s_per_m = how.damping_n_s_per_m / (1.5 * material.stiffness_n_per_m * kDampingDepth);
   bench.put_wall(wall_point(), -case_.direction, material);
   Tally tally(case_, bench, wall_point());
   const double begun = bench.time_s();

@@ -29,6 +29,15 @@ struct WallCase {
   bool compensated = true;   ///< weight and friction; with a gain that is not 1 compensation would be wrong by it
 };
 
+/// What may differ from press to press of one case.
+struct WallPress {
+  PassivityLaw law = PassivityLaw::kBudgeted;
+  bool clamp = false;                 ///< contacts stiffer than K_max are weakened to it
+  std::optional<double> stiffness = {};  ///< N/m, instead of the case's
+  double damping_n_s_per_m = 0;       ///< of the wall at kDampingDepth: its force is k x (1 + 1.5 c v)
+};
+inline constexpr double kDampingDepth = 0.002;  ///< m
+
 struct WallTrace {
   std::vector<double> t, position_m, speed_m_s, force_n, observed_j, true_j;
 };
@@ -63,8 +72,7 @@ class WallRig {
   explicit WallRig(const WallCase& c);
 
   /// Presses once from the prepared state. @param seconds after touch.
-  /// @param clamp contacts stiffer than K_max are weakened to it.
-  WallOutcome press(PassivityLaw law, double seconds, bool clamp = false) const;
+  WallOutcome press(const WallPress& how, double seconds) const;
 
   const WallCase& the_case() const { return case_; }
   double reach_s() const { return reach_s_; }
