@@ -133,7 +133,7 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
     motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
     if (i < kArmJoints) motion.lag_s = std::max(motion.lag_s, velocity_[i].lag_s());
   }
-  motion.travel = fine_.advance(counts_.total(), period_s_ * motion.qd.cwiseQuotient(count_), motion.periods).cwiseProduct(count_);
+  motion.travel = fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_).cwiseProduct(count_);
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.tip_speed = twist.head<3>().norm();

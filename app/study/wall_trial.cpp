@@ -103,14 +103,17 @@ class Tally {
       out.observer_gap_j = std::max(out.observer_gap_j, std::abs(trace.true_j[i] - trace.observed_j[i]));
     }
     if (contact_ticks_ > 0) out.passive_share = static_cast<double>(active_ticks_) / contact_ticks_;
-    double shown = 0;
+    double shown = 0, force = 0, depth = 0;
     int count = 0;
     for (std::size_t i = 0; i < shown_.size(); ++i) {
       if (trace.t[i] < seconds - kEndWindow || std::isnan(shown_[i])) continue;
       shown += shown_[i];
+      force += trace.force_n[i];
+      depth += trace.position_m[i];
       ++count;
     }
     out.displayed = count > 0 ? shown / count : 0;
+    out.shown_stiffness = depth > 0 ? force / depth : 0;
   }
 
   WallOutcome out;

@@ -48,6 +48,7 @@ struct WallOutcome {
   double settled_s = 0;          ///< last time at which |force - its centred 50 ms mean| >= kSettledBand
   int contacts = 0, late_contacts = 0;  ///< all; begun later than kSettleLimit
   double displayed = 0;          ///< share of the commanded force that was rendered at the end; saturation counts as all
+  double shown_stiffness = 0;    ///< N/m, mean force over mean depth at the end
   double least_true_j = 0;       ///< lowest true energy that the contact force had absorbed so far
   double observer_gap_j = 0;     ///< largest difference of observed and true energy
   double passive_share = 0;      ///< of the contact ticks in which the law acted

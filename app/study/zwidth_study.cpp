@@ -38,10 +38,10 @@ Rigs prepare(std::uint64_t seed, int contacts, double rate_hz) {
 
 /// One climb of the ladder.
 struct Climb {
-  double widest = 0;       ///< N/m, last rung at which all contacts were stable
-  double displayed = 0;    ///< N/m: that times the mean displayed share
-  double quick = 0;        ///< N/m, last rung up to which all settled within kQuicklySettled
-  double passive = 0;      ///< N/m, last rung up to which no contact gave more than 1 mJ
+  double widest = 0;       ///< N/m, last rung at which 19 of 20 contacts were stable
+  double displayed = 0;    ///< N/m there: force over depth at rest, mean over the contacts
+  double quick = 0;        ///< N/m, last rung up to which half settled within kQuicklySettled
+  double passive = 0;      ///< N/m, last rung up to which 19 of 20 gave less than 1 mJ
   double k_max = 0;        ///< N/m, least of the limits that the loop worked out
 };
 
@@ -56,18 +56,23 @@ Climb climb(const Rigs& rigs, PassivityLaw law, double damping) {
       outcome[i].trace = {};
     });
     double displayed = 0;
+    std::size_t stable_ones = 0, quick_ones = 0, passive_ones = 0;
     for (const WallOutcome& o : outcome) {
-      stable = stable && o.stable();
-      quick = quick && !o.faulted && o.settled_s <= kQuicklySettled;
-      passive = passive && o.least_true_j >= -1e-3;
-      displayed += o.displayed / static_cast<double>(outcome.size());
+      stable_ones += o.stable();
+      quick_ones += !o.faulted && o.settled_s <= kQuicklySettled;
+      passive_ones += o.least_true_j >= -1e-3;
+      displayed += o.shown_stiffness / static_cast<double>(outcome.size());
       if (o.contacts > 0) found.k_max = std::min(found.k_max, o.k_max);
     }
+    const std::size_t enough = outcome.size() - outcome.size() / 20;  // 19 of 20
+    stable = stable && stable_ones >= enough;
+    passive = passive && passive_ones >= enough;
+    quick = quick && 2 * quick_ones >= outcome.size();
     if (quick) found.quick = stiffness;
     if (passive) found.passive = stiffness;
     if (!stable) break;
     found.widest = stiffness;
-    found.displayed = displayed * stiffness;
+    found.displayed = displayed;
   }
   return found;
 }
@@ -81,11 +86,11 @@ std::string row(double rate_hz, double damping, const char* law, const Climb& c)
 
 StudyCase width(const std::string& name, double value, std::optional<double> thesis, const std::string& more) {
   return {name, "N/m", value, thesis, "reported", true,
-          "Last rung of the ladder 50 to 5300 N/m at which all drawn contacts are stable" + more};
+          "Last rung of the ladder 50 to 5300 N/m at which 19 of 20 drawn contacts are stable" + more};
 }
 
 void boundary(StudyResult& study, const Rigs& rigs, std::string& table) {
-  StudyCurves curves{"zwidth", "Stiffest wall by its damping, all contacts stable, 1 kHz", "damping B of the wall, N s/m",
+  StudyCurves curves{"zwidth", "Stiffest wall by its damping, 19 of 20 contacts stable, 1 kHz", "damping B of the wall, N s/m",
                      "stiffness K, N/m", {kDampings.begin(), kDampings.end()},
                      {{"law off, K", {}}, {"budgeted, K", {}}, {"budgeted, displayed", {}}}};
   for (const double damping : kDampings) {
@@ -97,10 +102,10 @@ void boundary(StudyResult& study, const Rigs& rigs, std::string& table) {
     if (damping > 0) continue;
     study.cases.push_back(width("widest without damping, law off", off.widest, 20, " (the thesis used 20 N/m without control)."));
     study.cases.push_back(width("widest without damping, default law", on.widest, 150, " (the thesis' experiments with control: 150 N/m)."));
-    study.cases.push_back(width("displayed there", on.displayed, std::nullopt, ", times the mean displayed share."));
-    study.cases.push_back(width("settles within 0.1 s, default law", on.quick, std::nullopt, " and settled within 0.1 s of touch."));
-    study.cases.push_back(width("gives less than 1 mJ, law off", off.passive, std::nullopt, " and no contact gave more than 1 mJ."));
-    study.cases.push_back(width("gives less than 1 mJ, default law", on.passive, std::nullopt, " and no contact gave more than 1 mJ."));
+    study.cases.push_back(width("displayed there", on.displayed, std::nullopt, "; here: rendered force over depth at rest, mean over the contacts (beyond the motors' limit a wall feels softer)."));
+    study.cases.push_back(width("settles within 0.1 s, default law", on.quick, std::nullopt, "; here: half of them settled within 0.1 s of touch."));
+    study.cases.push_back(width("gives less than 1 mJ, law off", off.passive, std::nullopt, "; here: 19 of 20 gave less than 1 mJ."));
+    study.cases.push_back(width("gives less than 1 mJ, default law", on.passive, std::nullopt, "; here: 19 of 20 gave less than 1 mJ."));
     study.cases.push_back({"K_max of the loop", "N/m", on.k_max, std::nullopt, "reported", true,
                            "Least of min(2 b/T, b/(T/2+Td), 2 fc/Delta) over all contacts; b and fc the least that any "
                            "motion along the force meets."});

@@ -41,8 +41,7 @@ double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods
 
 double ChannelVelocity::blend(std::int64_t count, std::uint32_t periods) {
   const double slow = foaw_.update(count, periods), fast = kalman_.update(count, periods);
-  const double counts_a_period = std::abs(slow) * period_s_ / quantum_;
-  const double weight = std::clamp((counts_a_period - kSlow) / (kFast - kSlow), 0.0, 1.0);
+  const double weight = std::clamp((std::abs(slow) / quantum_ - kSlow) / (kFast - kSlow), 0.0, 1.0);
   lag_s_ = (1 - weight) * 0.5 * foaw_.window() * period_s_;
   return slow + weight * (fast - slow);
 }

@@ -1,8 +1,8 @@
 // Velocity of one channel by the method that the loop is set to.
 //
 // The default blends two filters: FOAW (velocity_estimator.h), exactly zero at rest and calm when slow, and Kalman
-// (kalman_velocity.h), without lag when moving. Their weight follows the FOAW speed in counts a period: FOAW alone below
-// kSlow, Kalman alone above kFast, linear between (0.06 m/s at the tip of this device is 0.3 counts a period at 1 kHz).
+// (kalman_velocity.h), without lag when moving. Their weight follows the FOAW speed: FOAW alone below
+// kSlow, Kalman alone above kFast, linear between (0.06 m/s at the tip of this device is 300 counts/s).
 // The others are the usual ones, for comparison (`trocar study velocity`).
 // Thread: haptic task; no allocation after construction.
 #pragma once
@@ -34,7 +34,7 @@ class ChannelVelocity {
  public:
   static constexpr int kTaps = 8;              ///< of kAverage: the thesis' "velocity signal filter" [assumed length]
   static constexpr double kCutOffHz = 40;      ///< of kLowPass
-  static constexpr double kSlow = 0.15, kFast = 0.30;  ///< counts a period
+  static constexpr double kSlow = 150, kFast = 300;    ///< counts/s
 
   ChannelVelocity(VelocityMethod method, double quantum, double period_s);
 

@@ -20,19 +20,19 @@ class SubCountTravel {
  public:
   using Counts = std::array<std::int64_t, kChannels>;
 
-  static constexpr double kCreep = 0.1;  ///< counts a period
+  static constexpr double kCreep = 100;  ///< counts/s
 
   /// Takes these counts as where the channels stand.
   void reset(const Counts& counts) {
     for (int i = 0; i < kChannels; ++i) position_[i] = middle(counts, i);
   }
-  /// @param counts rounded down; @param velocity estimated, counts a period; @param periods since the last call.
+  /// @param counts rounded down; @param velocity estimated, counts/s; @param seconds since the last call.
   /// @return way since the last call.
-  ChannelVector advance(const Counts& counts, const ChannelVector& velocity, double periods) {
+  ChannelVector advance(const Counts& counts, const ChannelVector& velocity, double seconds) {
     const ChannelVector before = position_;
     for (int i = 0; i < kChannels; ++i) {
       const double low = middle(counts, i) - 0.5;
-      const double expected = std::abs(velocity[i]) < kCreep ? 0 : velocity[i] * periods;
+      const double expected = std::abs(velocity[i]) < kCreep ? 0 : velocity[i] * seconds;
       position_[i] = std::clamp(position_[i] + expected, low, low + 1);
     }
     return position_ - before;

@@ -6,17 +6,23 @@
 // backward difference. Thread: haptic task; no allocation.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace trocar {
 
 class VelocityEstimator {
  public:
-  static constexpr int kWindow = 16;
+  static constexpr int kWindow = 16;      ///< periods at 1 kHz and below; 16 ms at faster rates,
+  static constexpr int kMaxWindow = 64;   ///< up to these
 
   /// @param quantum size of one count in the channel's unit; @param period_s sample period.
-  VelocityEstimator(double quantum, double period_s) : quantum_(quantum), period_s_(period_s) {}
+  VelocityEstimator(double quantum, double period_s)
+      : quantum_(quantum),
+        period_s_(period_s),
+        longest_(std::clamp(static_cast<int>(std::lround(kWindow * 1e-3 / period_s)), kWindow, kMaxWindow)) {}
 
   /// Forgets the past: the next samples start a new window.
   void reset() { filled_ = 0; }
@@ -29,10 +35,11 @@ class VelocityEstimator {
 
  private:
   bool line_fits(int n) const;
-  std::int64_t at(int age) const { return history_[(head_ + kWindow + 1 - age) % (kWindow + 1)]; }
+  std::int64_t at(int age) const { return history_[(head_ + kMaxWindow + 1 - age) % (kMaxWindow + 1)]; }
 
   double quantum_, period_s_;
-  std::array<std::int64_t, kWindow + 1> history_{};
+  int longest_;
+  std::array<std::int64_t, kMaxWindow + 1> history_{};
   int head_ = 0, filled_ = 0, window_ = 0;
 };
 

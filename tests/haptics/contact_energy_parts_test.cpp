@@ -79,9 +79,9 @@ SubCountTravel::Counts counts(std::int64_t n) {
 TEST(SubCountTravel, AFlickeringCountIsNoTravel) {
   SubCountTravel travel;
   travel.reset(counts(5));
-  travel.advance(counts(6), all(0), 1);  // the edge between 5 and 6 is found
+  travel.advance(counts(6), all(0), 1e-3);  // the edge between 5 and 6 is found
   double way = 0;
-  for (int k = 0; k < 1000; ++k) way += travel.advance(counts(k % 2 == 0 ? 5 : 6), all(k % 2 == 0 ? -0.06 : 0.06), 1).cwiseAbs().sum();
+  for (int k = 0; k < 1000; ++k) way += travel.advance(counts(k % 2 == 0 ? 5 : 6), all(k % 2 == 0 ? -60 : 60), 1e-3).cwiseAbs().sum();
   EXPECT_EQ(way, 0);
 }
 
@@ -92,7 +92,7 @@ TEST(SubCountTravel, MovingItIsRightToAFractionOfACount) {
   double x = 0.5, worst = 0, found = 0.5;
   for (int k = 0; k < 2000; ++k) {
     x += speed;
-    found += travel.advance(counts(static_cast<std::int64_t>(std::floor(x))), all(speed), 1)[2];
+    found += travel.advance(counts(static_cast<std::int64_t>(std::floor(x))), all(speed * 1e3), 1e-3)[2];
     if (k > 100) worst = std::max(worst, std::abs(found - x));
   }
   EXPECT_LT(worst, 0.05) << "the count alone would be wrong by up to 1";
@@ -106,7 +106,7 @@ TEST(SubCountTravel, NeverLeavesItsCount) {
   std::int64_t n = 0;
   for (int k = 0; k < 5000; ++k) {
     n += random.below(7) - 3;
-    position += travel.advance(counts(n), all(random.symmetric(5)), 1 + random.below(3))[0];
+    position += travel.advance(counts(n), all(random.symmetric(5e3)), 1e-3 * (1 + random.below(3)))[0];
     EXPECT_GE(position, static_cast<double>(n) - 1e-9);
     EXPECT_LE(position, static_cast<double>(n + 1) + 1e-9);
   }
