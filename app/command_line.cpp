@@ -16,6 +16,7 @@
 #include "app/commands/device_command.h"
 #include "app/commands/device_forward.h"
 #include "app/commands/doctor_command.h"
+#include "app/commands/identify_command.h"
 #include "app/commands/organ_import.h"
 #include "app/commands/organ_info.h"
 #include "app/commands/organ_phantom.h"
@@ -46,7 +47,8 @@ struct CommandLine {
   StudyOptions study;
   ExercisesOptions exercises;
   CheckOptions check;
-  std::filesystem::path table_in, table_out;
+  std::filesystem::path table_in, table_out, device_file;
+  IdentifyOptions identify;
   ForwardOptions forward;
   CalibrateOptions calibrate;
   OrganImportOptions import;
@@ -91,7 +93,7 @@ void add_run(CommandLine& c) {
   run->add_option("--fps", c.run.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
   run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
-  run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted or off")->capture_default_str();
+  run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, increment, cap, reference, thesis or off")->capture_default_str();
   run->add_option("--inject", c.run.injections, "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, drive-fault, over-temperature, hand-nan, hand-lets-go");
   run->add_flag("--realtime", c.run.realtime, "Live: threads and the clock instead of lockstep");
   run->add_flag("--json", c.run.json, "Result as JSON on stdout");
@@ -188,13 +190,23 @@ void add_device(CommandLine& c) {
   CLI::App* device = c.group("device", "Models of the device");
   add_device_bench(c, *device);
   CLI::App* eval = c.add(*device, "eval", "Pose, twist, torques, gravity, conditioning of joint angles",
-                         [&c] { return device_eval(c.table_in, c.table_out, std::cerr); });
+                         [&c] { return device_eval(c.table_in, c.table_out, std::cerr, c.device_file); });
   CLI::App* ik = c.add(*device, "ik", "Every inverse kinematic candidate of stylus poses",
                        [&c] { return device_ik(c.table_in, c.table_out, std::cerr); });
   for (CLI::App* command : {eval, ik}) {
     command->add_option("--csv", c.table_in, "Input table")->required();
     command->add_option("--out", c.table_out, "Output table")->required();
   }
+  eval->add_option("--device", c.device_file, "Device file with identified weights (default: nominal)");
+  CLI::App* identify = c.add(*device, "identify", "Weights, inertias and friction of a simulated device from its motion",
+                             [&c] { return identify_command(c.identify, std::cout, std::cerr); });
+  identify->add_option("--seed", c.identify.seed, "Of the simulated device, poses and trajectories")->capture_default_str();
+  identify->add_option("--poses", c.identify.poses, "Static poses")->capture_default_str()->check(CLI::Range(6, 1000));
+  identify->add_option("--span", c.identify.span, "Share of workspace and amplitude that is used")->capture_default_str()->check(CLI::Range(0.001, 1.0));
+  identify->add_option("--payload", c.identify.payload_kg, "Unknown mass on the stylus, kg")->capture_default_str()->check(CLI::Range(0.0, 0.05));
+  identify->add_flag("--quick", c.identify.quick, "20 poses and one trajectory");
+  identify->add_option("--out", c.identify.out, "Device file (TOML) to write");
+  identify->add_flag("--json", c.identify.json, "As JSON");
 }
 
 void add_organ_import(CommandLine& c, CLI::App& organ) {

@@ -24,7 +24,6 @@ constexpr int kFormat = 1;
 constexpr const char* kUnreadable = ": the recording's setup cannot be read: ";
 
 const char* law_name(ContactLaw law) { return law == ContactLaw::kThesis ? "thesis" : "proxy"; }
-const char* law_name(PassivityLaw law) { return law == PassivityLaw::kOff ? "off" : "budgeted"; }
 
 }  // namespace
 
@@ -161,7 +160,7 @@ std::string scene_json(const Scene& scene) {
       {"realtime", s.realtime},
       {"pace", {{"missed_in_a_row", s.pace.missed_in_a_row}, {"missed_share", s.pace.missed_share}}},
       {"contact_law", law_name(s.contact_law)},
-      {"passivity_law", law_name(s.passivity_law)},
+      {"passivity_law", passivity_law_name(s.passivity_law)},
       {"force_scale", scene.loop.map.force_scale}};
   return json.dump();
 }
@@ -188,8 +187,9 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     out.daq = {"replay", s.rate_hz, json.at("dac_bits").get<int>()};
     out.force_scale = json.at("force_scale").get<double>();
     s.contact_law = json.at("contact_law").get<std::string>() == "thesis" ? ContactLaw::kThesis : ContactLaw::kProxy;
-    s.passivity_law =
-        json.at("passivity_law").get<std::string>() == "off" ? PassivityLaw::kOff : PassivityLaw::kBudgeted;
+    const auto law = passivity_law_named(json.at("passivity_law").get<std::string>());
+    if (!law) throw InputError(name + kUnreadable + "passivity law '" + json.at("passivity_law").get<std::string>() + "'");
+    s.passivity_law = *law;
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + kUnreadable + error.what());

@@ -10,9 +10,10 @@ namespace trocar {
 
 DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRecord& record) noexcept {
   const Motion motion = measure(in);                              // counts -> angles -> ArmState -> rates -> twist
-  const Contact contact = feel(motion, patch);                    // instrument -> tissue, pinch -> tau = J^T F
-  const ChannelVector passive = make_passive(motion, contact);    // budget, fed with what was applied one tick ago
-  const LimitedTorque torque = share_out(motion, contact, passive);  // springs, gravity, contact, friction: who gets it
+  Contact contact = feel(motion, patch);                          // instrument -> tissue, pinch -> tau = J^T F
+  TorqueShares shares = hold_up(motion, contact);                 // limit springs and weight, and the room they leave
+  shares.contact = make_passive(motion, contact);                 // budget, fed with what was applied
+  const LimitedTorque torque = share_out(motion, contact, shares);  // then friction, alignment; rate and size limited
   watch(motion, contact, torque);                                 // faults, heat, warnings
   const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless powered
   publish(in, motion, contact, torque, out, record);
@@ -31,9 +32,9 @@ PassivityParameters HapticLoopConfig::pinch_defaults() {
 
 namespace {
 
-PassivityParameters with_period(PassivityParameters p, double period_s) {
+PassivityParameters with_period(PassivityParameters p, double period_s, int known_delay_periods) {
   p.period_s = period_s;
-  p.delay_s = period_s;  // the seam's: codes act at the next SYNC
+  p.delay_s = (1 + known_delay_periods) * period_s;  // the seam's own: codes act at the next SYNC
   return p;
 }
 
@@ -90,18 +91,28 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       instrument_(config.map),
       port_(config.port),
       contact_(config.contact_law, config.tool),
-      arm_passivity_(with_friction_left(with_period(config.passivity, period_s_), config.friction)),
-      pinch_passivity_(with_period(config.pinch_passivity, period_s_)),
+      arm_passivity_(with_friction_left(with_period(config.passivity, period_s_, config.known_delay_periods),
+                                         config.friction)),
+      pinch_passivity_(with_period(config.pinch_passivity, period_s_, config.known_delay_periods)),
       limiter_(torque_limits(config.device), torque_rates(config), period_s_),
       supervisor_(config.safety, count_limits(config), period_s_),
       watch_(config.safety, config.device, config.heat, period_s_),
       safety_log_(config.daq.rate_hz) {
   home_ << home_angles(), config.device.pinch_home_m;
-  for (const Transmission& t : config.device.transmission) velocity_.emplace_back(count_size(t), period_s_);
+  for (int i = 0; i < kChannels; ++i) {
+    count_[i] = count_size(config.device.transmission[i]);
+    velocity_.emplace_back(config.velocity, count_[i], period_s_);
+  }
   gravity_torque(config_.device, arm_state(home_.head<kArmJoints>()));  // makes the constants of both models now
 }
 
 void HapticLoop::reset_fault() noexcept { supervisor_.reset_fault(); }
+
+void HapticLoop::set_passivity_law(PassivityLaw law) noexcept {
+  config_.passivity.law = config_.pinch_passivity.law = law;
+  arm_passivity_.set_law(law);
+  pinch_passivity_.set_law(law);
+}
 
 HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   if (!counting_) {
@@ -116,12 +127,16 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   }
   Motion motion;
   motion.delta = delta;
+  motion.periods = std::max<double>(1, in.elapsed_periods);
   motion.q = joint_positions(config_.device, counts_.total(), home_);
-  for (int i = 0; i < kChannels; ++i) motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
+  for (int i = 0; i < kChannels; ++i) {
+    motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
+    if (i < kArmJoints) motion.lag_s = std::max(motion.lag_s, velocity_[i].lag_s());
+  }
+  motion.travel = fine_.advance(counts_.total(), period_s_ * motion.qd.cwiseQuotient(count_), motion.periods).cwiseProduct(count_);
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.tip_speed = twist.head<3>().norm();
-  motion.periods = std::max<double>(1, in.elapsed_periods);
   const bool clutch = (in.digital_in & kClutch) != 0;
   instrument_.update(motion.arm.X_WS, {twist.head<3>(), twist.tail<3>()}, clutch, motion.periods * period_s_);
   motion.X_TI = instrument_.X_TI();
@@ -131,13 +146,13 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
 }
 
 void HapticLoop::take_home() noexcept {
-  for (VelocityEstimator& estimator : velocity_) estimator.reset();
+  for (ChannelVelocity& channel : velocity_) channel.reset();
   instrument_.reset();
   port_.reset();
   contact_.reset();
   arm_passivity_.reset();
   pinch_passivity_.reset();
-  last_q_ = home_;
+  fine_.reset(counts_.total());
 }
 
 HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& patch) noexcept {
@@ -162,14 +177,22 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
     return motion.arm.J_WS.transpose() * w;
   };
   contact.jaw_share = rendered_share(motion.arm.det_a);
-  contact.share = contact.jaw_share * instrument_.share();  // the clutch parts the arm from the scene, not the fingers
+  contact.port_share = contact.jaw_share * instrument_.share();  // the clutch parts the arm from the scene, not the fingers
   const Wrench whole = instrument_.stylus_wrench(contact.tissue.F_I_T);
   const Wrench spring = instrument_.stylus_wrench(contact.tissue.spring_I_T);
+  const JointVector spring_torque = torque_of(spring);
+  contact.spring_n = spring.force.norm();
+  const double stored_j = config_.map.force_scale * contact.tissue.stored_j;
+  if (contact.spring_n > 0 && stored_j > 0) {
+    contact.stiffness = contact.spring_n * contact.spring_n / (2 * stored_j);
+    contact.limit = stiffness_limit(config_.device, spring_torque / contact.spring_n, contact.stiffness, period_s_,
+                                    (1 + config_.known_delay_periods) * period_s_);
+  }
+  contact.share = contact.port_share * (config_.clamp_stiffness ? contact.limit.share : 1);
   contact.commanded_W = whole.force;
   contact.torque.head<kArmJoints>() = contact.share * torque_of(whole);
   contact.torque[kPinchChannel] = contact.jaw_share * contact.grip.force_n;
-  contact.spring_n = spring.force.norm();
-  contact.spring_torque = contact.share * torque_of(spring);
+  contact.spring_torque = contact.share * spring_torque;
   feel_port(motion, contact);
   return contact;
 }
@@ -185,9 +208,9 @@ void HapticLoop::feel_port(const Motion& motion, Contact& contact) noexcept {
   const Wrench alignment = alignment_wrench(map, instrument_.X_WS(), stiffness);
   Vec6 w;
   w << friction.force, friction.moment;
-  contact.port.head<kArmJoints>() = contact.share * (motion.arm.J_WS.transpose() * w);
+  contact.port.head<kArmJoints>() = contact.port_share * (motion.arm.J_WS.transpose() * w);
   w << alignment.force, alignment.moment;
-  contact.alignment.head<kArmJoints>() = contact.share * motion.arm.J_WS.transpose() * w;
+  contact.alignment.head<kArmJoints>() = contact.port_share * motion.arm.J_WS.transpose() * w;
   contact.port_stored_j =
       map.force_scale * port_.stored_j() + alignment_energy_j(map, instrument_.X_WS(), stiffness);
 }
@@ -196,52 +219,63 @@ double HapticLoop::rendered_share(double det_a) const noexcept {
   return std::min(supervisor_.ramp() * singularity_share(det_a), watch_.contact_share());
 }
 
+TorqueShares HapticLoop::hold_up(const Motion& motion, Contact& contact) noexcept {
+  TorqueShares shares;
+  if (!supervisor_.powered()) return shares;
+  const JointVector qd = motion.qd.head<kArmJoints>();
+  shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd) + watch_.damping(motion.qd);
+  if (config_.carry_weight) {
+    shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
+  }
+  shares.contact = contact.torque + contact.port;
+  contact.room = limiter_.room(shares);
+  return shares;
+}
+
 ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& contact) noexcept {
-  const ChannelVector dq = motion.q - last_q_;
-  last_q_ = motion.q;
-  // After missed periods the codes of the tick before acted in the first of them, the newer ones in all others.
-  const double n = motion.periods;
-  const ChannelVector acted = (acting_contact_ + (n - 1) * applied_contact_) / n;
+  const ChannelVector& dq = motion.travel;
+  const ChannelVector acted = asked_contact_.acted(static_cast<int>(motion.periods), config_.known_delay_periods);
   ContactWork arm;
-  arm.wanted_n = contact.share * contact.spring_n;
+  // The spring as the motors can render it: beyond their limit its force stays the same and it stores less,
+  // E (2 s - s^2) where s of the force is left.
+  const double room = contact.room, stored_room = room * (2 - room);
+  arm.wanted_n = room * contact.share * contact.spring_n;
   // What the port's springs hold is returned later: only what they lose is absorbed.
-  const double port_j = contact.share * (contact.port_stored_j - last_port_j_);
+  const double port_j = contact.port_share * (contact.port_stored_j - last_port_j_);
   arm.absorbed_j = -acted.head<kArmJoints>().dot(dq.head<kArmJoints>()) - port_j;
   last_port_j_ = contact.port_stored_j;
-  arm.stored_j = contact.share * config_.map.force_scale * contact.tissue.stored_j;
+  arm.stored_j = stored_room * contact.share * config_.map.force_scale * contact.tissue.stored_j;
   if (arm.wanted_n > 0) {
-    const JointVector unit = contact.spring_torque / arm.wanted_n;
+    const JointVector unit = contact.spring_torque / (contact.share * contact.spring_n);
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
+    arm.lag_s = motion.lag_s;
+    arm.count_m = unit.cwiseAbs().cwiseProduct(count_.head<kArmJoints>()).maxCoeff();
+    arm.stiffness = contact.stiffness;
+    arm.beyond_m = (1 - room) * contact.spring_n / contact.stiffness;
   }
   ContactWork pinch;
-  pinch.wanted_n = contact.jaw_share * contact.grip.force_n;
+  pinch.wanted_n = room * contact.jaw_share * contact.grip.force_n;
   pinch.absorbed_j = -acted[kPinchChannel] * dq[kPinchChannel];
   pinch.dx_m = -dq[kPinchChannel];
   pinch.speed_m_s = -motion.qd[kPinchChannel];
-  pinch.stored_j = contact.jaw_share * contact.grip.stored_j;
+  pinch.stored_j = stored_room * contact.jaw_share * contact.grip.stored_j;
 
-  ChannelVector passive = contact.torque;
+  ChannelVector passive = room * contact.torque;
   const double force = arm_passivity_.update(arm);
   if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
   return passive + contact.port;
 }
 
-LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact,
-                                    const ChannelVector& passive) noexcept {
+LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept {
   if (!supervisor_.powered()) {
     limiter_.reset();
     return {};
   }
   const JointVector qd = motion.qd.head<kArmJoints>();
-  TorqueShares shares;
-  shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd);
-  shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
-  shares.springs += watch_.damping(motion.qd);
-  shares.contact = passive;
   shares.alignment = contact.alignment;
-  if (arm_passivity_.budget_j() >= 0) {
+  if (arm_passivity_.budget_j() >= -config_.friction.debt_j) {
     shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
   }
   const LimitedTorque limited = limiter_.update(shares);
@@ -260,7 +294,7 @@ void HapticLoop::watch(const Motion& motion, const Contact& contact, const Limit
   now.det_a = motion.arm.det_a;
   now.torque = torque.total;
   now.touching = contact.tissue.contact || contact.grip.force_n > 0;
-  now.saturated = now.touching && torque.contact_scale < 1;
+  now.saturated = now.touching && contact.room * torque.contact_scale < 1;
   now.debt = arm_passivity_.debt_faded() || pinch_passivity_.debt_faded();
   watch_.update(now, supervisor_);
   if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
@@ -270,15 +304,14 @@ void HapticLoop::watch(const Motion& motion, const Contact& contact, const Limit
 }
 
 DacFrame HapticLoop::to_codes(const LimitedTorque& torque) noexcept {
-  acting_contact_ = applied_contact_;  // what the DACs held during the period that begins now
   if (!supervisor_.armed()) {
-    applied_contact_.setZero();
+    asked_contact_.clear();
     limiter_.reset();
     return {};
   }
   const DacFrame out = dac_codes(config_.device, torque.total, config_.daq.dac_bits);
   // What quantisation left is charged to the contact: the observer sees the codes, not the wish.
-  applied_contact_ = torque.contact + torque.alignment + (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total);
+  asked_contact_.add(torque.contact + torque.alignment + (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total));
   return out;
 }
 
@@ -292,9 +325,11 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   record.torque = supervisor_.armed() ? torque.total : ChannelVector::Zero();
   record.contact_torque = supervisor_.armed() ? torque.contact : ChannelVector::Zero();
   record.det_a = motion.arm.det_a;
+  record.k_max_n_per_m = contact.limit.k_max;
+  record.stiffness_share = contact.limit.share;
   record.winding_c = watch_.hottest_c();
   record.warnings = watch_.warnings();
-  record.contact_scale = torque.contact_scale;
+  record.contact_scale = contact.room * torque.contact_scale;
   record.stored_j = contact.tissue.stored_j;
   record.min_energy_j = arm_passivity_.min_energy_j();
 
@@ -316,7 +351,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   s.contact_point_T = contact.tissue.point_T;
   s.contact_normal_T = contact.tissue.normal_T;
   s.depth_m = contact.tissue.depth_m;
-  s.saturated = torque.contact_scale < 1 && s.contact;
+  s.saturated = record.contact_scale < 1 && s.contact;
   s.passivity_active = arm_passivity_.active();
   s.energy_j = arm_passivity_.energy_j();
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "haptics/control/channel_velocity.h"
 #include "haptics/control/contact_renderer.h"
 #include "haptics/control/device_watch.h"
 #include "haptics/control/friction.h"
@@ -16,9 +17,11 @@
 #include "haptics/control/pinch_channel.h"
 #include "haptics/control/port_forces.h"
 #include "haptics/control/safety_log.h"
+#include "haptics/control/stiffness_limit.h"
+#include "haptics/control/sub_count_travel.h"
 #include "haptics/control/supervisor.h"
+#include "haptics/control/torque_history.h"
 #include "haptics/control/torque_limiter.h"
-#include "haptics/control/velocity_estimator.h"
 #include "haptics/device/data_acquisition.h"
 #include "haptics/device/device_model.h"
 #include "haptics/device/transmission.h"
@@ -40,6 +43,10 @@ struct HapticLoopConfig {
   FrictionFeedForward friction;
   SafetyLimits safety;
   MotorHeatParameters heat;
+  VelocityMethod velocity = VelocityMethod::kBlend;
+  int known_delay_periods = 0;          ///< whole periods between write and DAC beyond the seam's own one, as measured
+  bool carry_weight = true;             ///< gravity compensation; off only to show what it is good for
+  bool clamp_stiffness = false;         ///< contacts stiffer than K_max are weakened to it (stiffness_limit.h)
   double torque_rate = 100;             ///< N m/s a joint
   double pinch_force_rate = 500;        ///< N/s
 
@@ -56,6 +63,9 @@ class HapticLoop {
 
   /// Operator's act: leaves FAULT, back to the self-test.
   void reset_fault() noexcept;
+  /// From the next tick on, arm and pinch.
+  void set_passivity_law(PassivityLaw law) noexcept;
+  void set_stiffness_clamp(bool clamp) noexcept { config_.clamp_stiffness = clamp; }
   const HapticLoopConfig& config() const { return config_; }
   const SafetyLog& safety_log() const { return safety_log_; }
 
@@ -63,18 +73,24 @@ class HapticLoop {
   struct Motion {
     ArmState arm;
     ChannelVector q, qd;
+    ChannelVector travel;                          ///< since the last tick, to a fraction of a count
     Pose X_TI;
     Twist V_TI_T;
     double tip_speed = 0;                          ///< of the stylus, m/s
     std::array<std::int32_t, kChannels> delta{};   ///< counts since the last tick
     double periods = 1;                            ///< since the last tick
+    double lag_s = 0;                              ///< of the slowest arm channel's velocity
   };
   struct Contact {
     ContactResult tissue;
     GripResult grip;
     ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, times share, before passivity
-    double share = 1;                              ///< of the contact that ramp, singularity, heat and clutch let through
+    double share = 1;                              ///< of the contact that ramp, singularity, heat, clutch and K_max let through
+    double port_share = 1;                         ///< the same of the port's friction: without the stiffness limit
+    double room = 1;                               ///< share of all contact torque that the motors can give
     double jaw_share = 1;                          ///< the same of the grip, without the clutch
+    StiffnessLimit limit;                          ///< K_max and what it left of the spring
+    double stiffness = 0;                          ///< of that spring at the stylus, N/m
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping
     Vec3 commanded_W = Vec3::Zero();               ///< force asked at the stylus
     ChannelVector port = ChannelVector::Zero();       ///< friction of the port, times share
@@ -86,7 +102,8 @@ class HapticLoop {
   Motion measure(const DaqSample& in) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
-  LimitedTorque share_out(const Motion& motion, const Contact& contact, const ChannelVector& passive) noexcept;
+  TorqueShares hold_up(const Motion& motion, Contact& contact) noexcept;
+  LimitedTorque share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept;
   void feel_port(const Motion& motion, Contact& contact) noexcept;
   void watch(const Motion& motion, const Contact& contact, const LimitedTorque& torque) noexcept;
   DacFrame to_codes(const LimitedTorque& torque) noexcept;
@@ -98,12 +115,12 @@ class HapticLoop {
 
   HapticLoopConfig config_;
   double period_s_;
-  ChannelVector home_;
+  ChannelVector home_, count_;               ///< where the jig holds the channels; their count, rad (m)
   std::uint64_t tick_ = 0, periods_ = 0;
   CountAccumulator counts_;
   bool counting_ = false;
   std::uint64_t checked_stamp_ = ~std::uint64_t{0};  ///< patch whose triangles were checked last
-  std::vector<VelocityEstimator> velocity_;  ///< one a channel, sized once
+  std::vector<ChannelVelocity> velocity_;  ///< one a channel, sized once
   InstrumentCoupling instrument_;
   PortForces port_;
   ContactRenderer contact_;
@@ -112,9 +129,8 @@ class HapticLoop {
   Supervisor supervisor_;
   DeviceWatch watch_;
   SafetyLog safety_log_;
-  ChannelVector applied_contact_ = ChannelVector::Zero();   ///< asked last tick: acts during the next period
-  ChannelVector acting_contact_ = ChannelVector::Zero();    ///< acted during the period just ended
-  ChannelVector last_q_ = ChannelVector::Zero();
+  TorqueHistory asked_contact_;                             ///< of the ticks past: acts after the known delay
+  SubCountTravel fine_;
   double last_port_j_ = 0;                                  ///< energy in the port's springs one tick ago
 };
 

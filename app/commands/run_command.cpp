@@ -201,8 +201,9 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.rate_hz = options.rate_hz;
   setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});
-  setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law,
-                                             {{"budgeted", PassivityLaw::kBudgeted}, {"off", PassivityLaw::kOff}});
+  std::map<std::string, PassivityLaw> laws;
+  for (const PassivityLawName& known : kPassivityLaws) laws.emplace(known.name, known.law);
+  setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law, laws);
   setup.realtime = options.realtime;
   if (options.realtime) setup.pace = kSimulatedLivePace;
   for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));

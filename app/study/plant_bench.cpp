@@ -44,6 +44,19 @@ PlantBench::PlantBench(const SimulatedDaqConfig& device, const HapticLoopConfig&
       last_q_(daq_.plant().angles()),
       on_the_way_(static_cast<std::size_t>(device.extra_delay_periods) + 2, JointVector::Zero()) {}
 
+PlantBench::PlantBench(const PlantBench& other)
+    : daq_(other.daq_),
+      config_(other.config_),
+      loop_(other.loop_),
+      patch_(std::make_unique<ContactPatch>(*other.patch_)),
+      record_(other.record_),
+      goal_(other.goal_),
+      jaw_(other.jaw_),
+      holding_(other.holding_),
+      last_q_(other.last_q_),
+      on_the_way_(other.on_the_way_),
+      absorbed_j_(other.absorbed_j_) {}
+
 const TickRecord& PlantBench::tick() {
   if (holding_) daq_.set_hand_intent(goal_, jaw_);
   const DaqSample sample = daq_.read();
@@ -104,6 +117,14 @@ void PlantBench::put_wall(const Vec3& point_T, const Vec3& normal_T, const Conta
       add_triangle(*patch_, at(i, j), at(i + 1, j + 1), at(i, j + 1));
     }
   }
+  ++patch_->stamp;
+}
+
+void PlantBench::put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material) {
+  if (triangles_T.size() > kMaxPatchTriangles) throw std::invalid_argument("bench: a surface of too many triangles");
+  patch_->count = 0;
+  patch_->material[0] = material;
+  for (const auto& [a, b, c] : triangles_T) add_triangle(*patch_, a, b, c);
   ++patch_->stamp;
 }
 

@@ -6,9 +6,11 @@
 // throws when the loop faults: a study never averages over a dead device. SI. Thread: one owner.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +30,9 @@ SimulatedDaqConfig nominal_device();
 class PlantBench {
  public:
   PlantBench(const SimulatedDaqConfig& device, const HapticLoopConfig& loop);
+  /// A second bench in the same state to the bit.
+  PlantBench(const PlantBench& other);
+  PlantBench& operator=(const PlantBench&) = delete;
 
   /// One period. @throws BenchFault.
   const TickRecord& tick();
@@ -41,11 +46,15 @@ class PlantBench {
 
   /// Square wall of 80 mm about `point_T`, facing `normal_T`; the tool's radius lies before it.
   void put_wall(const Vec3& point_T, const Vec3& normal_T, const ContactMaterial& material);
+  /// Any surface instead: triangles counter-clockwise from outside, in T. @throws std::invalid_argument when they do not
+  /// fit into a patch.
+  void put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material);
   void take_wall_away() { patch_->count = 0; ++patch_->stamp; }
 
   const TickRecord& record() const { return record_; }
   const SimulatedDaq& daq() const { return daq_; }
   SimulatedDaq& daq() { return daq_; }
+  HapticLoop& loop() { return loop_; }
   const HapticLoopConfig& loop_config() const { return config_; }
   Pose& goal() { return goal_; }
   double time_s() const { return daq_.time_s(); }

@@ -15,15 +15,20 @@ constexpr double kFadeFrom = 0.20, kFadeTo = 0.10;  // det A
 
 }  // namespace
 
+double TorqueLimiter::room(const TorqueShares& shares) const {
+  const ChannelVector first = (shares.springs + shares.gravity).cwiseMax(-limit_).cwiseMin(limit_);
+  double scale = 1;
+  for (int i = 0; i < kChannels; ++i) {
+    const double left = limit_[i] - std::copysign(1.0, shares.contact[i]) * first[i];
+    if (std::abs(shares.contact[i]) > left) scale = std::min(scale, std::max(0.0, left) / std::abs(shares.contact[i]));
+  }
+  return scale;
+}
+
 LimitedTorque TorqueLimiter::update(const TorqueShares& shares) {
   LimitedTorque out;
   const ChannelVector first = (shares.springs + shares.gravity).cwiseMax(-limit_).cwiseMin(limit_);
-  for (int i = 0; i < kChannels; ++i) {
-    const double room = limit_[i] - std::copysign(1.0, shares.contact[i]) * first[i];
-    if (std::abs(shares.contact[i]) > room) {
-      out.contact_scale = std::min(out.contact_scale, std::max(0.0, room) / std::abs(shares.contact[i]));
-    }
-  }
+  out.contact_scale = room(shares);
   const ChannelVector contact = shares.contact * out.contact_scale;
   const ChannelVector without = (first + contact + shares.friction).cwiseMax(-limit_).cwiseMin(limit_);
   const ChannelVector wanted = (without + shares.alignment).cwiseMax(-limit_).cwiseMin(limit_);

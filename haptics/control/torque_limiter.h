@@ -31,6 +31,8 @@ class TorqueLimiter {
       : limit_(limit), step_(rate * period_s) {}
 
   LimitedTorque update(const TorqueShares& shares);
+  /// Share of shares.contact for which springs and gravity leave room in every channel, 0..1.
+  double room(const TorqueShares& shares) const;
   void reset() { last_.setZero(); }
 
  private:

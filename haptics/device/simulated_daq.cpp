@@ -133,11 +133,13 @@ void SimulatedDaq::switch_amplifiers(double at_s) noexcept {
 void SimulatedDaq::advance_period() noexcept {
   apply_volts();
   force_on_hand_.setZero();
+  moment_on_hand_.setZero();
   force_on_finger_ = 0;
   for (int n = 0; n < substeps_; ++n) {
     const ExternalLoad load = hand_.update(plant_.motion(), substep_s_);
     plant_.step(substep_s_, load);
     force_on_hand_ -= load.stylus_B.force / substeps_;
+    moment_on_hand_ -= load.stylus_B.moment / substeps_;
     force_on_finger_ -= load.jaw_force_n / substeps_;
   }
   if (carried_s_ >= 0) return carry();
@@ -203,7 +205,8 @@ void SimulatedDaq::set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexc
 
 HandSense SimulatedDaq::sense() const noexcept {
   const StylusMotion m = plant_.motion();
-  return {m.X_BS, force_on_hand_, force_on_finger_, m.jaw, plant_.amplifiers_enabled(), plant_.clamped()};
+  return {m.X_BS, force_on_hand_, force_on_finger_, m.jaw, plant_.amplifiers_enabled(), plant_.clamped(),
+          moment_on_hand_};
 }
 
 void SimulatedDaq::disturb_hand() noexcept {

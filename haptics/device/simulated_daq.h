@@ -55,6 +55,7 @@ struct HandSense {
   double jaw_opening_m = 0;
   bool amplifiers_enabled = false;
   bool in_jig = true;
+  Vec3 moment_on_hand = Vec3::Zero();  ///< N m about the stylus origin, mean over the last period
 };
 
 class SimulatedDaq final : public DataAcquisition {
@@ -119,7 +120,7 @@ class SimulatedDaq final : public DataAcquisition {
   double unwritten_s_ = 0;                                         ///< since the last write, while armed
   std::uint32_t dac_mismatch_ = 0;                                 ///< bits of the group
   DaqSample last_;
-  Vec3 force_on_hand_ = Vec3::Zero();
+  Vec3 force_on_hand_ = Vec3::Zero(), moment_on_hand_ = Vec3::Zero();
   double force_on_finger_ = 0;
   bool clutch_pressed_ = false;
 };

@@ -64,6 +64,7 @@ class OneAxisRig {
     work.dx_m = dx;
     work.speed_m_s = velocity_.update(count, 1);
     work.stored_j = stored(depth);
+    work.stiffness = c_.stiffness;
     const double asked = std::min(c_.saturation, controller_.update(work));
     result_.least_force_n = std::min(result_.least_force_n, asked);
     result_.largest_force_n = std::max(result_.largest_force_n, asked);

@@ -64,7 +64,7 @@ TEST(Passivity, ObserverIsThePlainSumOfAbsorbedEnergy) {
 
 TEST(Passivity, ForceIsNeverNegativeNorAboveWhatIsWantedPlusTheBoundedDamping) {
   const PassivityParameters p;
-  const double alpha_max = 0.25 * p.effective_mass_kg / (p.delay_s + p.period_s / 2 + p.velocity_lag_s);
+  const double alpha_max = 0.25 * p.effective_mass_kg / (p.delay_s + p.period_s / 2 + ContactWork{}.lag_s);
   Random random(3);
   PassivityController controller(p);
   for (int k = 0; k < 200000; ++k) {

@@ -1,0 +1,70 @@
+#include "haptics/control/channel_velocity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trocar {
+
+ChannelVelocity::ChannelVelocity(VelocityMethod method, double quantum, double period_s)
+    : method_(method), quantum_(quantum), period_s_(period_s), foaw_(quantum, period_s), kalman_(quantum, period_s) {}
+
+void ChannelVelocity::reset() {
+  foaw_.reset();
+  kalman_.reset();
+  tap_.fill(0);
+  smooth_ = lag_s_ = 0;
+  started_ = false;
+}
+
+double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods) {
+  const std::uint32_t periods = std::max<std::uint32_t>(1, elapsed_periods);
+  double velocity = 0;
+  switch (method_) {
+    case VelocityMethod::kBlend: velocity = blend(count, periods); break;
+    case VelocityMethod::kFoaw:
+      velocity = foaw_.update(count, periods);
+      lag_s_ = 0.5 * foaw_.window() * period_s_;
+      break;
+    case VelocityMethod::kKalman: velocity = kalman_.update(count, periods); break;
+    case VelocityMethod::kBackward:
+      velocity = started_ ? static_cast<double>(count - last_) * quantum_ / (periods * period_s_) : 0;
+      lag_s_ = 0.5 * period_s_;
+      break;
+    case VelocityMethod::kAverage: velocity = average(count, periods); break;
+    case VelocityMethod::kLowPass: velocity = low_pass(count, periods); break;
+  }
+  last_ = count;
+  started_ = true;
+  return velocity;
+}
+
+double ChannelVelocity::blend(std::int64_t count, std::uint32_t periods) {
+  const double slow = foaw_.update(count, periods), fast = kalman_.update(count, periods);
+  const double counts_a_period = std::abs(slow) * period_s_ / quantum_;
+  const double weight = std::clamp((counts_a_period - kSlow) / (kFast - kSlow), 0.0, 1.0);
+  lag_s_ = (1 - weight) * 0.5 * foaw_.window() * period_s_;
+  return slow + weight * (fast - slow);
+}
+
+double ChannelVelocity::average(std::int64_t count, std::uint32_t periods) {
+  const double each = started_ ? static_cast<double>(count - last_) / periods : 0;
+  for (std::uint32_t i = 0; i < std::min<std::uint32_t>(periods, kTaps); ++i) {
+    tap_[next_tap_] = each;
+    next_tap_ = (next_tap_ + 1) % kTaps;
+  }
+  double sum = 0;
+  for (const double counts : tap_) sum += counts;
+  lag_s_ = 0.5 * kTaps * period_s_;
+  return sum * quantum_ / (kTaps * period_s_);
+}
+
+double ChannelVelocity::low_pass(std::int64_t count, std::uint32_t periods) {
+  const double each = started_ ? static_cast<double>(count - last_) / (periods * period_s_) : 0;
+  const double keep = std::exp(-2 * std::numbers::pi * kCutOffHz * period_s_);
+  for (std::uint32_t i = 0; i < periods; ++i) smooth_ = keep * smooth_ + (1 - keep) * each;
+  lag_s_ = 1 / (2 * std::numbers::pi * kCutOffHz);
+  return smooth_ * quantum_;
+}
+
+}  // namespace trocar

@@ -1,0 +1,64 @@
+// Velocity of one channel by the method that the loop is set to.
+//
+// The default blends two filters: FOAW (velocity_estimator.h), exactly zero at rest and calm when slow, and Kalman
+// (kalman_velocity.h), without lag when moving. Their weight follows the FOAW speed in counts a period: FOAW alone below
+// kSlow, Kalman alone above kFast, linear between (0.06 m/s at the tip of this device is 0.3 counts a period at 1 kHz).
+// The others are the usual ones, for comparison (`trocar study velocity`).
+// Thread: haptic task; no allocation after construction.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "haptics/control/kalman_velocity.h"
+#include "haptics/control/velocity_estimator.h"
+
+namespace trocar {
+
+enum class VelocityMethod : std::uint8_t { kBlend, kFoaw, kKalman, kBackward, kAverage, kLowPass };
+
+struct VelocityMethodName {
+  VelocityMethod method;
+  const char* name;
+};
+inline constexpr std::array<VelocityMethodName, 6> kVelocityMethods{{{VelocityMethod::kBlend, "blend"},
+                                                                     {VelocityMethod::kFoaw, "foaw"},
+                                                                     {VelocityMethod::kKalman, "kalman"},
+                                                                     {VelocityMethod::kBackward, "backward"},
+                                                                     {VelocityMethod::kAverage, "average"},
+                                                                     {VelocityMethod::kLowPass, "low-pass"}}};
+
+class ChannelVelocity {
+ public:
+  static constexpr int kTaps = 8;              ///< of kAverage: the thesis' "velocity signal filter" [assumed length]
+  static constexpr double kCutOffHz = 40;      ///< of kLowPass
+  static constexpr double kSlow = 0.15, kFast = 0.30;  ///< counts a period
+
+  ChannelVelocity(VelocityMethod method, double quantum, double period_s);
+
+  void reset();
+  /// @param count position in counts; @param elapsed_periods since the last sample. @return velocity, unit/s.
+  double update(std::int64_t count, std::uint32_t elapsed_periods);
+  /// Group delay of the last answer on a ramp, s.
+  double lag_s() const { return lag_s_; }
+
+ private:
+  double blend(std::int64_t count, std::uint32_t periods);
+  double average(std::int64_t count, std::uint32_t periods);
+  double low_pass(std::int64_t count, std::uint32_t periods);
+
+  VelocityMethod method_;
+  double quantum_, period_s_;
+  VelocityEstimator foaw_;
+  KalmanVelocity kalman_;
+  std::array<double, kTaps> tap_{};  ///< counts of the last periods
+  std::size_t next_tap_ = 0;
+  double smooth_ = 0;                ///< of kLowPass, counts/s
+  std::int64_t last_ = 0;
+  bool started_ = false;
+  double lag_s_ = 0;
+};
+
+}  // namespace trocar
