@@ -182,6 +182,7 @@ void add_device_bench(CommandLine& c, CLI::App& device) {
   calibrate->add_option("--seed", c.calibrate.seed, "Of the simulated device and the rig")->capture_default_str();
   calibrate->add_option("--gain", c.calibrate.gain, "Of the simulated amplifiers over nominal (the thesis': 5)")->capture_default_str();
   calibrate->add_option("--out", c.calibrate.out, "Calibration as JSON");
+  calibrate->add_option("--check", c.calibrate.check, "A calibration file: how well does it render on this device?");
   calibrate->add_flag("--json", c.calibrate.json, "As JSON");
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <Eigen/LU>
-#include <nlohmann/json.hpp>
 
+#include "app/calibration/calibration_file.h"
 #include "app/report/html.h"
 #include "haptics/device/transmission.h"
 #include "haptics/input_error.h"
@@ -20,11 +20,6 @@ constexpr int kSteps = 8, kRepeats = 4;  // levels to each side of 0, and how of
 constexpr double kStepNm = 0.010;
 constexpr double kOfFullScale = 0.97;
 constexpr double kApproachNm = 0.015;  // the other side from which a level is approached
-
-const char* channel_name(int i) {
-  constexpr std::array kNames{"joint 1", "joint 2", "joint 3", "joint 4", "joint 5", "joint 6", "pinch"};
-  return kNames[static_cast<std::size_t>(i)];
-}
 
 DacFrame codes_of(const ChannelVector& volts, const DeviceModel& model, int bits) {
   const double full = std::ldexp(1.0, bits - 1) - 1;
@@ -61,7 +56,7 @@ ChannelVector probe(TorqueRig& rig, const DeviceModel& model, const ChannelVecto
     }
   }
   for (int i = 0; i < kChannels; ++i) {
-    const std::string name = std::string("calibrate: ") + channel_name(i);
+    const std::string name = std::string("calibrate: ") + calibration_channel(i);
     if (gain[i] == 0) {
       throw InputError(name + " shows no torque at " + fixed_text(kProbeV.back(), 0) + " V (" +
                        fixed_text(last[i] * 1e3, 1) + " mN m): amplifier dead or inhibited");
@@ -162,23 +157,6 @@ ChannelVector rendering_error(TorqueRig& rig, const DeviceModel& model) {
     worst = worst.cwiseMax(off.cwiseAbs());
   }
   return worst;
-}
-
-std::string calibration_json(const AmplifierCalibration& found, const DeviceModel& nominal) {
-  nlohmann::ordered_json json{{"channels", nlohmann::ordered_json::array()}};
-  for (int i = 0; i < kChannels; ++i) {
-    const auto c = static_cast<std::size_t>(i);
-    const double nominal_gain = nominal.transmission[c].amps_per_volt;
-    json["channels"].push_back({{"channel", channel_name(i)},
-                                {"amps_per_volt", found[c].amps_per_volt},
-                                {"amps_per_volt_sd", found[c].amps_per_volt_sd},
-                                {"gain_over_nominal", found[c].amps_per_volt / nominal_gain},
-                                {"offset_v", found[c].offset_v},
-                                {"offset_sd_v", found[c].offset_sd_v},
-                                {"stiction_nm", found[c].stiction_nm},
-                                {"residual_nm", found[c].residual_nm}});
-  }
-  return json.dump(2) + "\n";
 }
 
 }  // namespace trocar

@@ -10,8 +10,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
-#include <string>
 
 #include "app/calibration/torque_rig.h"
 #include "haptics/device/device_model.h"
@@ -36,8 +34,5 @@ DeviceModel calibrated(DeviceModel model, const AmplifierCalibration& found);
 /// Torque that the model asks for against what the cells read: largest |read / asked - 1| of each channel at +-40 and
 /// +-75 mN m, mean of both approaches.
 ChannelVector rendering_error(TorqueRig& rig, const DeviceModel& model);
-
-/// {"channels":[{"channel","amps_per_volt",...}],"nominal_amps_per_volt"}.
-std::string calibration_json(const AmplifierCalibration& found, const DeviceModel& nominal);
 
 }  // namespace trocar

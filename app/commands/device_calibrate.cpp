@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "app/calibration/amplifier_calibration.h"
+#include "app/calibration/calibration_file.h"
 #include "app/commands/text_table.h"
 #include "haptics/device/plant_parameters.h"
 #include "haptics/input_error.h"
@@ -58,7 +59,9 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& err) {
   TorqueRig rig(device_of(options), {}, options.seed);
   const DeviceModel nominal;
-  const AmplifierCalibration found = calibrate_amplifiers(rig, nominal);
+  if (!options.check.empty() && !options.out.empty()) throw InputError("device calibrate: --check writes no --out");
+  const AmplifierCalibration found =
+      options.check.empty() ? calibrate_amplifiers(rig, nominal) : read_calibration(options.check);
   const ChannelVector error = rendering_error(rig, calibrated(nominal, found));
   const std::string json = calibration_json(found, nominal);
   if (!options.out.empty()) {

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/calibration/calibration_file.h"
 #include "app/commands/device_calibrate.h"
 #include "haptics/device/transmission.h"
 #include "haptics/input_error.h"
@@ -218,7 +219,7 @@ TEST(Offset, OfTheChainIsTakenOffTheCommandAndComesBack) {
 TEST(DeviceCalibrate, WritesWhatItFoundAndTheSameEveryTime) {
   test::TemporaryFolder folder;
   std::ostringstream out, again, err;
-  CalibrateOptions options{3, 5, true, folder / "calibration.json"};
+  CalibrateOptions options{3, 5, true, folder / "calibration.json", {}};
   EXPECT_EQ(device_calibrate(options, out, err), 0);
   EXPECT_EQ(device_calibrate(options, again, err), 0);
   EXPECT_EQ(out.str(), again.str());
@@ -232,7 +233,7 @@ TEST(DeviceCalibrate, WritesWhatItFoundAndTheSameEveryTime) {
   }
   options.out = folder / "no" / "such" / "folder.json";
   EXPECT_THROW(device_calibrate(options, out, err), EnvironmentError);
-  options = {1, -2, false, {}};
+  options = {1, -2, false, {}, {}};
   EXPECT_THROW(device_calibrate(options, out, err), InputError);
   options.gain = std::nan("");
   EXPECT_THROW(device_calibrate(options, out, err), InputError);

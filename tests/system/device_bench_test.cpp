@@ -1,4 +1,9 @@
 // `trocar device fk`, `trocar device calibrate` and the device studies from outside.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
 #include "tests/system/system_fixture.h"
 
 namespace trocar::test {
@@ -37,6 +42,47 @@ TEST_F(DeviceBench, StudiesInTheirQuickFormWriteTheSameBytesTwice) {
       EXPECT_EQ(file_bytes(entry.path()), file_bytes(folder_ / "b" / entry.path().filename())) << entry.path();
     }
   }
+}
+
+TEST_F(DeviceBench, AFolderThatCannotBeWrittenIsTheMachinesFault) {
+  folder_.write("in_the_way", "a file");
+  for (const char* out : {"in_the_way", "in_the_way/deep"}) {
+    const Outcome outcome = trocar({"study", "motor", "--quick", "--out", out});
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_NE(outcome.err.find("in_the_way"), std::string::npos) << "names the place: " << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  EXPECT_EQ(file_bytes(folder_ / "in_the_way"), "a file");
+}
+
+TEST_F(DeviceBench, AStoredCalibrationIsCheckedOnItsDevice) {
+  json_of({"device", "calibrate", "--seed", "2", "--gain", "5", "--out", "c.json", "--json"}, 0);
+  EXPECT_EQ(trocar({"device", "calibrate", "--seed", "2", "--gain", "5", "--check", "c.json"}).exit_code, 0);
+  EXPECT_EQ(trocar({"device", "calibrate", "--seed", "2", "--check", "c.json"}).exit_code, 1) << "another gain";
+  folder_.write("c.json", "{\"channels\":[]}");
+  expect_refusal({"device", "calibrate", "--check", "c.json"}, 2, "array of seven");
+  expect_refusal({"device", "calibrate", "--check", "absent.json"}, 2, "absent.json");
+}
+
+TEST_F(DeviceBench, TablesOfForwardSolutionsFeedTheInverse) {
+  // Solution 0 of each row is the device: its pose goes back to the angles it came from.
+  folder_.write("q.csv", "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n0.7,0.8,0.75,-0.9,-1.3,0.4\n");
+  EXPECT_EQ(trocar({"device", "fk", "--csv", "q.csv", "--out", "fk.csv"}).exit_code, 0);
+  const std::string table = file_bytes(folder_ / "fk.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 9) << "a header and eight solutions";
+  trocar({"device", "ik", "--csv", "fk.csv", "--out", "ik.csv"});
+  std::istringstream lines(file_bytes(folder_ / "ik.csv"));
+  std::string line;
+  bool found = false;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::vector<double> numbers;
+    for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::atof(field.c_str()));
+    if (numbers.size() != 9 || numbers[0] != 0 || numbers[2] != 1) continue;
+    found = found || (std::abs(numbers[3] - 0.7) < 1e-9 && std::abs(numbers[6] + 0.9) < 1e-9 &&
+                      std::abs(numbers[8] - 0.4) < 1e-9);
+  }
+  EXPECT_TRUE(found) << table;
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"check", {"--organ"}},
       {"device", {"eval", "ik", "fk", "calibrate", "identify"}},
       {"device fk", {"--deg", "--csv", "--out", "--json"}},
-      {"device calibrate", {"--seed", "--gain", "--out", "--json"}},
+      {"device calibrate", {"--seed", "--gain", "--out", "--check", "--json"}},
       {"device eval", {"--csv", "--out", "--device"}},
       {"device identify", {"--seed", "--poses", "--span", "--payload", "--quick", "--out", "--json"}},
       {"device ik", {"--csv", "--out"}},
