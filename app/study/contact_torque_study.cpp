@@ -171,7 +171,7 @@ StudyResult torque_study(char axis, const StudyRequest& request) {
     const Findings f = findings_of(axis, manner, turn, request);
     add_directions(study, manner.name, name, f);
     add_magnitudes(study, manner.name, f, thesis);
-    if (manner.stem == "20") add_weight(study, f);
+    if (axis == 'y' && manner.stem == "20") add_weight(study, f);
     add_curves(study, axis, manner, f);
   }
   return study;

@@ -135,7 +135,7 @@ TEST(ContactScript, NothingIsTouchedAtRest) {
     for (const auto& [a, b, c] : t.experiment.surface) {
       gap = std::max(gap, clearance(t.experiment, t.experiment.rest, {a, (b - a).cross(c - a).normalized()}));
     }
-    EXPECT_NEAR(gap, 0.020, 1e-12) << "torque-" << axis;
+    EXPECT_NEAR(gap, 0.010, 1e-12) << "torque-" << axis;
   }
 }
 

@@ -145,12 +145,10 @@ TEST(TorqueStudies, TorqueIsDeliveredAsAskedForAndFiveTimesWithTheGainLeftIn) {
 }
 
 TEST(TorqueStudies, TheFixtureHangsAlongMinusX6UntilItIsTakenOff) {
-  for (const char axis : {'y', 'z'}) {
-    const StudyCase& c = the_case(torque(axis), "force along X6 before contact");
-    EXPECT_TRUE(c.met) << c.value;
-    ASSERT_TRUE(c.thesis);
-    EXPECT_NEAR(*c.thesis - c.value, -0.98, 0.01) << "0.1 kg";
-  }
+  const StudyCase& c = the_case(torque('y'), "force along X6 before contact");
+  EXPECT_TRUE(c.met) << c.value;
+  ASSERT_TRUE(c.thesis);
+  EXPECT_NEAR(*c.thesis - c.value, -0.98, 0.01) << "0.1 kg";
 }
 
 TEST(TorqueStudies, TheSecondContactOfTorqueZTurnsTheOtherWay) {
