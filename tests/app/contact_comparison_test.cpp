@@ -114,5 +114,18 @@ TEST(ContactComparison, CurvesCarryTheirUnits) {
   EXPECT_EQ(component_curves("f", "title", r.t, r.desired, {Component::kMz}).y_label, "torque, N m");
 }
 
+TEST(ContactComparison, TheOverlayHasBothAtTheTimesOfTheReadings) {
+  const ContactRecording r = made_up(1.5);
+  const StudyCurves c = overlay_curves("f", "title", r, Component::kMz);
+  EXPECT_EQ(c.x, r.sensor_t);
+  EXPECT_EQ(c.y_label, "torque about Z6, N m");
+  ASSERT_EQ(c.series.size(), 2u);
+  EXPECT_EQ(c.series[1].name, "desired");
+  const std::size_t at = 74;  // 2.0 s, in the middle of the first press
+  EXPECT_NEAR(c.x[at], 2.0, 1e-9);
+  EXPECT_NEAR(c.series[0].y[at], 0.075, 1e-9);
+  EXPECT_NEAR(c.series[1].y[at], 0.05, 1e-9);
+}
+
 }  // namespace
 }  // namespace trocar
