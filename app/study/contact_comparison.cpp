@@ -79,7 +79,7 @@ ContactManner stiff_manner() { return {"150 N/m", "150", setting_of(150, Passivi
 
 std::vector<std::uint64_t> trial_seeds(const StudyRequest& request) {
   std::vector<std::uint64_t> seeds;
-  for (std::uint64_t i = 0; i < (request.quick ? 1u : 5u); ++i) seeds.push_back(request.seed + i);
+  for (std::uint64_t i = 0; i < (request.quick ? 1u : 10u); ++i) seeds.push_back(request.seed + i);
   return seeds;
 }
 

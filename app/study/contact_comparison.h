@@ -41,7 +41,7 @@ inline constexpr double kFixtureKg = 0.1;  ///< sensor of 63 g and its fixture [
 /// 150 N/m with the default law.
 ContactManner soft_manner(), thesis_manner(), stiff_manner();
 
-/// Seeds of the trials: one in the quick form, five in the full one.
+/// Seeds of the trials: one in the quick form, ten in the full one.
 std::vector<std::uint64_t> trial_seeds(const StudyRequest& request);
 
 /// Curves of components against the thesis' clock.

@@ -99,9 +99,9 @@ TEST(ContactComparison, MannersDifferInWhatTheThesisHadAndTrocarHas) {
   }
 }
 
-TEST(ContactComparison, TheQuickFormHasOneTrialAndTheFullOneFive) {
+TEST(ContactComparison, TheQuickFormHasOneTrialAndTheFullOneTen) {
   EXPECT_EQ(trial_seeds({true, 7}), (std::vector<std::uint64_t>{7}));
-  EXPECT_EQ(trial_seeds({false, 7}), (std::vector<std::uint64_t>{7, 8, 9, 10, 11}));
+  EXPECT_EQ(trial_seeds({false, 7}), (std::vector<std::uint64_t>{7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
 }
 
 TEST(ContactComparison, CurvesCarryTheirUnits) {
