@@ -12,8 +12,11 @@
 #include "app/commands/db_command.h"
 #include "app/commands/demo_command.h"
 #include "app/command_line_texts.h"
+#include "app/commands/device_calibrate.h"
 #include "app/commands/device_command.h"
+#include "app/commands/device_forward.h"
 #include "app/commands/doctor_command.h"
+#include "app/commands/identify_command.h"
 #include "app/commands/organ_import.h"
 #include "app/commands/organ_info.h"
 #include "app/commands/organ_phantom.h"
@@ -44,7 +47,10 @@ struct CommandLine {
   StudyOptions study;
   ExercisesOptions exercises;
   CheckOptions check;
-  std::filesystem::path table_in, table_out;
+  std::filesystem::path table_in, table_out, device_file;
+  IdentifyOptions identify;
+  ForwardOptions forward;
+  CalibrateOptions calibrate;
   OrganImportOptions import;
   OrganInfoOptions info;
   OrganRenderOptions render;
@@ -164,16 +170,42 @@ void add_catalogue(CommandLine& c) {
   check->add_flag("--json", c.check.json, "As JSON");
 }
 
+void add_device_bench(CommandLine& c, CLI::App& device) {
+  CLI::App* fk = c.add(device, "fk", "All eight forward solutions of joint angles",
+                       [&c] { return device_forward(c.forward, std::cout, std::cerr); });
+  fk->add_option("--deg", c.forward.angle_deg, "th1,...,th6 in degrees")->delimiter(',');
+  fk->add_option("--csv", c.forward.table_in, "Input table instead of --deg");
+  fk->add_option("--out", c.forward.table_out, "Output table");
+  fk->add_flag("--json", c.forward.json, "As JSON");
+  CLI::App* calibrate = c.add(device, "calibrate", "Gain and offset of the amplifiers, found on a bench rig",
+                              [&c] { return device_calibrate(c.calibrate, std::cout, std::cerr); });
+  calibrate->add_option("--seed", c.calibrate.seed, "Of the simulated device and the rig")->capture_default_str();
+  calibrate->add_option("--gain", c.calibrate.gain, "Of the simulated amplifiers over nominal (the thesis': 5)")->capture_default_str();
+  calibrate->add_option("--out", c.calibrate.out, "Calibration as JSON");
+  calibrate->add_flag("--json", c.calibrate.json, "As JSON");
+}
+
 void add_device(CommandLine& c) {
   CLI::App* device = c.group("device", "Models of the device");
+  add_device_bench(c, *device);
   CLI::App* eval = c.add(*device, "eval", "Pose, twist, torques, gravity, conditioning of joint angles",
-                         [&c] { return device_eval(c.table_in, c.table_out, std::cerr); });
+                         [&c] { return device_eval(c.table_in, c.table_out, std::cerr, c.device_file); });
   CLI::App* ik = c.add(*device, "ik", "Every inverse kinematic candidate of stylus poses",
                        [&c] { return device_ik(c.table_in, c.table_out, std::cerr); });
   for (CLI::App* command : {eval, ik}) {
     command->add_option("--csv", c.table_in, "Input table")->required();
     command->add_option("--out", c.table_out, "Output table")->required();
   }
+  eval->add_option("--device", c.device_file, "Device file with identified weights (default: nominal)");
+  CLI::App* identify = c.add(*device, "identify", "Weights, inertias and friction of a simulated device from its motion",
+                             [&c] { return identify_command(c.identify, std::cout, std::cerr); });
+  identify->add_option("--seed", c.identify.seed, "Of the simulated device, poses and trajectories")->capture_default_str();
+  identify->add_option("--poses", c.identify.poses, "Static poses")->capture_default_str()->check(CLI::Range(6, 1000));
+  identify->add_option("--span", c.identify.span, "Share of workspace and amplitude that is used")->capture_default_str()->check(CLI::Range(0.001, 1.0));
+  identify->add_option("--payload", c.identify.payload_kg, "Unknown mass on the stylus, kg")->capture_default_str()->check(CLI::Range(0.0, 0.05));
+  identify->add_flag("--quick", c.identify.quick, "20 poses and one trajectory");
+  identify->add_option("--out", c.identify.out, "Device file (TOML) to write");
+  identify->add_flag("--json", c.identify.json, "As JSON");
 }
 
 void add_organ_import(CommandLine& c, CLI::App& organ) {

@@ -133,7 +133,7 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
     motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
     if (i < kArmJoints) motion.lag_s = std::max(motion.lag_s, velocity_[i].lag_s());
   }
-  motion.travel = fine_.advance(counts_.total(), motion.periods * period_s_ * motion.qd.cwiseQuotient(count_)).cwiseProduct(count_);
+  motion.travel = fine_.advance(counts_.total(), period_s_ * motion.qd.cwiseQuotient(count_), motion.periods).cwiseProduct(count_);
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.tip_speed = twist.head<3>().norm();
@@ -250,7 +250,9 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
     arm.lag_s = motion.lag_s;
+    arm.count_m = unit.cwiseAbs().cwiseProduct(count_.head<kArmJoints>()).maxCoeff();
     arm.stiffness = contact.stiffness;
+    arm.beyond_m = (1 - room) * contact.spring_n / contact.stiffness;
   }
   ContactWork pinch;
   pinch.wanted_n = room * contact.jaw_share * contact.grip.force_n;
@@ -273,7 +275,7 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact
   }
   const JointVector qd = motion.qd.head<kArmJoints>();
   shares.alignment = contact.alignment;
-  if (arm_passivity_.budget_j() >= 0) {
+  if (arm_passivity_.budget_j() >= -config_.friction.debt_j) {
     shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
   }
   const LimitedTorque limited = limiter_.update(shares);

@@ -9,6 +9,7 @@
 #include "haptics/input_error.h"
 #include "haptics/kinematics/hybrid_arm.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "scenarios/device_file.h"
 
 namespace trocar {
 namespace {
@@ -63,7 +64,9 @@ Pose read_pose(const NumericCsv& csv, std::size_t row, const std::filesystem::pa
 
 }  // namespace
 
-int device_eval(const std::filesystem::path& input, const std::filesystem::path& output, std::ostream& err) {
+int device_eval(const std::filesystem::path& input, const std::filesystem::path& output, std::ostream& err,
+                const std::filesystem::path& device) {
+  const DeviceModel model = device.empty() ? DeviceModel{} : load_device(device);
   const NumericCsv in = read_numeric_csv(input);
   NumericCsv out;
   for (const auto* names : {&kAngles}) out.columns.insert(out.columns.end(), names->begin(), names->end());
@@ -75,7 +78,6 @@ int device_eval(const std::filesystem::path& input, const std::filesystem::path&
   add(kHolding);
   out.columns.push_back("sigma_min_L0.2m");
 
-  const DeviceModel model;
   for (std::size_t i = 0; i < in.rows.size(); ++i) {
     const JointVector q = read_six(in, i, kAngles, input);
     const ArmState arm = arm_state(q);

@@ -6,8 +6,16 @@
 
 #include "app/study/contact_law_study.h"
 #include "app/study/contact_torque_study.h"
+#include "app/study/force_study.h"
+#include "app/study/gravity_study.h"
+#include "app/study/kinematics_study.h"
+#include "app/study/motor_study.h"
+#include "app/study/passivity_study.h"
 #include "app/study/study_files.h"
+#include "app/study/transparency_study.h"
 #include "app/study/walls_study.h"
+#include "app/study/workspace_study.h"
+#include "app/study/zwidth_study.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -18,12 +26,21 @@ struct KnownStudy {
   StudyResult (*run)(const StudyRequest&);
 };
 
+/// In the order of the thesis, then what goes beyond it.
 constexpr std::array kStudies{
-    KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
+    KnownStudy{"kinematics", kinematics_study},
+    KnownStudy{"motor", motor_study},
+    KnownStudy{"force", force_study},
     KnownStudy{"walls", walls_study},
     KnownStudy{"torque-x", [](const StudyRequest& request) { return torque_study('x', request); }},
     KnownStudy{"torque-y", [](const StudyRequest& request) { return torque_study('y', request); }},
     KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
+    KnownStudy{"gravity", gravity_study},
+    KnownStudy{"passivity", passivity_study},
+    KnownStudy{"zwidth", zwidth_study},
+    KnownStudy{"transparency", transparency_study},
+    KnownStudy{"workspace", workspace_study},
+    KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
 };
 
 }  // namespace

@@ -17,11 +17,13 @@ namespace trocar {
 namespace {
 
 constexpr double kWidth = 720, kHeight = 400, kLeft = 70, kRight = 20, kTop = 40, kBottom = 56;
-constexpr std::array kColours{"#c0392b", "#1f6fb2", "#2e8b57", "#8e6bbf"};
+/// Told apart without colour by their dashes.
+constexpr std::array kColours{"#a02c20", "#1f6fb2", "#2e8b57", "#8e6bbf", "#c07a1e", "#404040"};
+constexpr std::array kDashes{"none", "7 3", "2 3", "10 3 2 3", "14 4", "5 2 1 2 1 2"};
 
-std::string number(double value) {
+std::string number(double value, int digits = 4) {
   std::ostringstream text;
-  text << std::setprecision(4) << value;
+  text << std::setprecision(digits) << value;
   return text.str();
 }
 
@@ -71,7 +73,7 @@ void draw_axes(std::ostream& out, const Frame& f, const StudyCurves& curves) {
       const double y0 = axis == 0 ? kTop : f.py(v), y1 = axis == 0 ? kHeight - kBottom : y0;
       out << "<line x1=\"" << number(x0) << "\" y1=\"" << number(y0) << "\" x2=\"" << number(x1) << "\" y2=\""
           << number(y1) << "\" stroke=\"" << (v == 0 ? "#888" : "#ddd") << "\"/>\n";
-      draw_text(out, axis == 0 ? x0 : kLeft - 8, axis == 0 ? kHeight - kBottom + 18 : y0 + 4, number(v),
+      draw_text(out, axis == 0 ? x0 : kLeft - 8, axis == 0 ? kHeight - kBottom + 18 : y0 + 4, number(v, 6),
                 axis == 0 ? "text-anchor=\"middle\"" : "text-anchor=\"end\"");
     }
   }
@@ -86,7 +88,8 @@ void draw_series(std::ostream& out, const Frame& f, const StudyCurves& curves, s
   const auto& y = curves.series[which].y;
   const char* colour = kColours[which % kColours.size()];
   bool pen_down = false;
-  out << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"2\" d=\"";
+  const char* dash = kDashes[which % kDashes.size()];
+  out << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"2\" stroke-dasharray=\"" << dash << "\" d=\"";
   for (std::size_t i = 0; i < y.size(); ++i) {
     if (std::isfinite(y[i])) {
       out << (pen_down ? 'L' : 'M') << std::fixed << std::setprecision(2) << f.px(curves.x[i]) << ' ' << f.py(y[i]) << ' ';
@@ -94,10 +97,11 @@ void draw_series(std::ostream& out, const Frame& f, const StudyCurves& curves, s
     pen_down = std::isfinite(y[i]);
   }
   out << "\"/>\n" << std::defaultfloat;
-  const double x = kLeft + 12 + 160 * static_cast<double>(which);
-  out << "<line x1=\"" << x << "\" y1=\"" << kTop + 10 << "\" x2=\"" << x + 22 << "\" y2=\"" << kTop + 10 << "\" stroke=\""
-      << colour << "\" stroke-width=\"3\"/>\n";
-  draw_text(out, x + 28, kTop + 14, curves.series[which].name, "");
+  const double spacing = std::min(160.0, (kWidth - kLeft - kRight - 12) / static_cast<double>(curves.series.size()));
+  const double x = kLeft + 12 + spacing * static_cast<double>(which);
+  out << "<line x1=\"" << number(x) << "\" y1=\"" << kTop + 10 << "\" x2=\"" << number(x + 28) << "\" y2=\"" << kTop + 10 << "\" stroke=\""
+      << colour << "\" stroke-width=\"2.5\" stroke-dasharray=\"" << dash << "\"/>\n";
+  draw_text(out, x + 34, kTop + 14, curves.series[which].name, "");
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {

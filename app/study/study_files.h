@@ -13,7 +13,7 @@ std::string summary_json(const StudyResult& result);
 /// GitHub table: measure, thesis, ours, asked for.
 std::string table_markdown(const StudyResult& result);
 std::string curves_csv(const StudyCurves& curves);
-/// A whole <svg> document; at most four series.
+/// A whole <svg> document; at most six series.
 std::string curves_svg(const StudyCurves& curves);
 
 /// @throws std::filesystem::filesystem_error, EnvironmentError when the folder cannot be written.

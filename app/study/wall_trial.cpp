@@ -38,7 +38,8 @@ HapticLoopConfig loop_of(const WallCase& c) {
   HapticLoopConfig loop;
   loop.tool.shaft_length_m = 1e-3;  // a ball
   loop.known_delay_periods = c.extra_delay;
-  loop.carry_weight = c.gravity;
+  loop.carry_weight = c.compensated;
+  if (!c.compensated) loop.friction.share = 0;
   return loop;
 }
 
@@ -152,8 +153,19 @@ bool comfortable(const JointVector& pose, const Vec3& direction, double travel_m
   return true;
 }
 
+JointVector near_home(double travel_m) {
+  const JointVector home = home_angles();
+  Pose X = arm_state(home).X_WS;
+  for (double back = 0; back < 0.08; back += 0.005) {
+    const auto q = inverse_within_limits(X, home);
+    if (q && comfortable(*q, X.R.col(1), travel_m) && comfortable(*q, -X.R.col(1), travel_m)) return *q;
+    X.p.z() += 0.005;
+  }
+  throw std::invalid_argument("wall trial: no pose near home leaves room for such a press");
+}
+
 WallRig::WallRig(const WallCase& c) : case_(c), start_(arm_state(c.pose).X_WS), run_up_m_(run_up(c.speed)) {
-  if (!comfortable(c.pose, c.direction, run_up_m_ + 2 * kPastWall)) {
+  if (!comfortable(c.pose, c.direction, run_up_m_ + 2 * c.past_wall_m)) {
     throw std::invalid_argument("wall trial: the way into the wall leaves the comfortable workspace");
   }
   ready_.emplace(device_of(c), loop_of(c));
@@ -163,7 +175,8 @@ WallRig::WallRig(const WallCase& c) : case_(c), start_(arm_state(c.pose).X_WS), 
   ready_->run(kRestS);
   // Quicker reaches meet the wall faster: bisect on the logarithm.
   double quick = kQuickestReach, slow = kSlowestReach;
-  if (speed_at_wall(quick) < c.speed) throw std::invalid_argument("wall trial: the hand cannot be that fast");
+  reach_s_ = quick;
+  if (speed_at_wall(quick) < c.speed) return;
   for (int i = 0; i < 30; ++i) {
     reach_s_ = std::sqrt(quick * slow);
     const double speed = speed_at_wall(reach_s_);
@@ -175,7 +188,7 @@ WallRig::WallRig(const WallCase& c) : case_(c), start_(arm_state(c.pose).X_WS), 
 Vec3 WallRig::wall_point() const { return start_.p + run_up_m_ * case_.direction; }
 
 Pose WallRig::goal_at(double share) const {
-  return {start_.R, start_.p + minimum_jerk(share) * (run_up_m_ + kPastWall) * case_.direction};
+  return {start_.R, start_.p + minimum_jerk(share) * (run_up_m_ + case_.past_wall_m) * case_.direction};
 }
 
 double WallRig::speed_at_wall(double reach_s) const {
@@ -194,13 +207,13 @@ double WallRig::speed_at_wall(double reach_s) const {
   return 0;
 }
 
-WallOutcome WallRig::press(PassivityLaw law, double seconds, bool clamp) const {
+WallOutcome WallRig::press(const WallPress& how, double seconds) const {
   PlantBench bench(*ready_);
-  bench.loop().set_passivity_law(law);
-  bench.loop().set_stiffness_clamp(clamp);
+  bench.loop().set_passivity_law(how.law);
+  bench.loop().set_stiffness_clamp(how.clamp);
   ContactMaterial material;
-  material.stiffness_n_per_m = case_.stiffness;
-  material.damping_s_per_m = 0;
+  material.stiffness_n_per_m = how.stiffness.value_or(case_.stiffness);
+  material.damping_s_per_m = how.damping_n_s_per_m / (1.5 * material.stiffness_n_per_m * kDampingDepth);
   bench.put_wall(wall_point(), -case_.direction, material);
   Tally tally(case_, bench, wall_point());
   const double begun = bench.time_s();

@@ -14,6 +14,7 @@ struct FrictionFeedForward {
   double share = 0.5;
   double knee_rad_s = 0.3;       ///< v0
   double dead_band_rad_s = 0.02;
+  double debt_j = 0;             ///< most that the passivity budget may owe; in free air DAC rounding alone owes 1e-8 to 1e-6 J
 };
 
 inline JointVector friction_torque(const DeviceModel& model, const FrictionFeedForward& p, const JointVector& qd) {

@@ -9,6 +9,7 @@ namespace {
 constexpr int kFreeTicks = 20;          // out of contact before credit is cleared
 constexpr double kFadedShare = 0.2;     // of the stiffness while the debt is above fade_debt_j
 constexpr double kDampingShare = 0.25;  // c of alpha_max = c m / (Td + T/2 + Tv)
+constexpr double kStirTime = 0.05;      // s, mean speed that tells rest from motion
 constexpr double kStill = 1e-12;        // m
 
 }  // namespace
@@ -52,7 +53,7 @@ double PassivityController::apply_law(const ContactWork& work, double income_j, 
       break;
     case PassivityLaw::kBudgeted:
       spring = std::max(affordable(work, income_j), bounded(work));
-      spring = std::max(spring, returned_at_rest(work, spring));
+      spring = at_rest(work, std::min(spring, smooth(work)));
       lost = damping(work);
       break;
   }
@@ -60,15 +61,32 @@ double PassivityController::apply_law(const ContactWork& work, double income_j, 
   return std::max(0.0, spring + lost);
 }
 
-double PassivityController::capped(const ContactWork& work, double stiffness) {
-  if (work.stored_j <= 0) return work.wanted_n;
-  const double asked = work.stiffness > 0 ? work.stiffness : work.wanted_n * work.wanted_n / (2 * work.stored_j);
-  return work.wanted_n * std::min(1.0, stiffness / asked);
+double PassivityController::stiffness_of(const ContactWork& work) {
+  if (work.stiffness > 0 || work.stored_j <= 0) return work.stiffness;
+  return work.wanted_n * work.wanted_n / (2 * work.stored_j);
 }
 
-double PassivityController::returned_at_rest(const ContactWork& work, double spring) {
-  at_rest_s_ = std::abs(work.speed_m_s) < p_.dead_band_m_s ? at_rest_s_ + p_.period_s : 0;
-  if (at_rest_s_ < p_.rest_s || spring >= work.wanted_n) return spring;
+double PassivityController::smooth(const ContactWork& work) const {
+  if (work.count_m <= 0 || work.stiffness <= 0 || work.stored_j <= 0) return work.wanted_n;
+  const double depth_m = work.wanted_n / work.stiffness + work.beyond_m;
+  return p_.texture_n / work.count_m * depth_m;
+}
+
+double PassivityController::capped(const ContactWork& work, double stiffness) {
+  if (work.stored_j <= 0) return work.wanted_n;
+  return work.wanted_n * std::min(1.0, stiffness / stiffness_of(work));
+}
+
+double PassivityController::at_rest(const ContactWork& work, double spring) {
+  stir_m_s_ += (std::abs(work.dx_m) / p_.period_s - stir_m_s_) * p_.period_s / kStirTime;
+  at_rest_s_ = stir_m_s_ < p_.rest_speed_m_s ? at_rest_s_ + p_.period_s : 0;
+  if (at_rest_s_ < p_.rest_s) return spring;
+  // Near rest a count that flickers moves the wanted force by k counts and the observed energy by as much as the law
+  // weighs: the force follows neither faster than a press at the dead band would ask. What swings then swings against
+  // a constant force, and the hand damps it.
+  const double step = std::max(p_.rest_recovery_n_per_s, stiffness_of(work) * p_.dead_band_m_s) * p_.period_s;
+  spring = std::min(std::clamp(spring, spring_ - step, spring_ + step), work.wanted_n);
+  if (spring >= work.wanted_n) return spring;
   const double quiet = capped(work, p_.rest_stiffness_n_per_m);
   const double more = std::min(quiet, spring_ + p_.rest_recovery_n_per_s * p_.period_s);
   if (more <= spring) return spring;
@@ -117,7 +135,9 @@ double PassivityController::damping(const ContactWork& work) {
     const double alpha_max = kDampingShare * p_.effective_mass_kg / (p_.delay_s + p_.period_s / 2 + work.lag_s);
     wanted = std::min(alpha_max, -budget_ / (p_.period_s * v * v)) * v;
   }
-  return lost_ = std::clamp(wanted, lost_ - step, lost_ + step);
+  lost_ = std::clamp(wanted, lost_ - step, lost_ + step);
+  if (lost_ * v < 0) lost_ = 0;  // it never outlasts the motion that it damps
+  return lost_;
 }
 
 void PassivityController::forget_in_free_space(const ContactWork& work) {

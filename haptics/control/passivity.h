@@ -67,9 +67,11 @@ struct PassivityParameters {
   double dead_band_m_s = 0.005;        ///< FOAW is zero at rest
   double credit_cap_j = 0.5e-3;
   double debt_decay_s = 0.2;
-  double rest_s = 0.05;                ///< so long below dead_band_m_s is rest
+  double rest_speed_m_s = 0.005;       ///< mean speed below which the stylus counts as at rest,
+  double rest_s = 0.05;                ///< when it has been so for so long
   double rest_recovery_n_per_s = 3;    ///< at rest the force returns this fast unpaid: nothing moves that could swing
   double rest_stiffness_n_per_m = 300; ///< up to this displayed stiffness
+  double texture_n = 0.06;             ///< force that one count may switch on and off: felt as a buzz above [assumed]
   double recovery_n_per_s = 100;       ///< how fast the full force may return when the budget recovers
   double damping_n_per_s = 250;        ///< how fast the damping force may change: the law gives no blow
   double fade_debt_j = 0.05;           ///< debt that fades the force to a fifth
@@ -84,6 +86,8 @@ struct ContactWork {
   double speed_m_s = 0;    ///< estimated speed of pressing in
   double stored_j = 0;     ///< energy that the wanted spring holds now (kappa applied)
   double lag_s = 4e-3;     ///< of speed_m_s
+  double count_m = 0;      ///< largest step of the stylus against the force that one encoder count shows
+  double beyond_m = 0;     ///< depth beyond the one at which the motors' limit is reached
   double stiffness = 0;    ///< N/m of the contact as asked of the motors; 0: taken from wanted and stored
 };
 
@@ -111,7 +115,10 @@ class PassivityController {
   double apply_law(const ContactWork& work, double income_j, double& spring);
   /// The wanted force as weak as a spring of this stiffness, N/m, would make it.
   static double capped(const ContactWork& work, double stiffness);
-  double returned_at_rest(const ContactWork& work, double spring);
+  double at_rest(const ContactWork& work, double spring);
+  /// Force of the stiffest spring whose step from count to count is not felt.
+  double smooth(const ContactWork& work) const;
+  static double stiffness_of(const ContactWork& work);
   double thesis_force(const ContactWork& work);
   /// The comparison laws of the past do without an observer that they could trust.
   bool guards() const { return p_.law != PassivityLaw::kOff && p_.law != PassivityLaw::kThesis; }
@@ -125,6 +132,7 @@ class PassivityController {
   double energy_ = 0, min_energy_ = 0, budget_ = 0;
   double held_ = 0;      ///< R, J
   double spring_ = 0;    ///< displayed spring force, N
+  double stir_m_s_ = 0;  ///< mean speed, either way
   double at_rest_s_ = 0, granted_ = 0;  ///< how long at rest; energy granted there since reset, J
   double lost_ = 0;      ///< damping force of the last update, N
   double missing_ = 0;   ///< wanted minus displayed spring force, N

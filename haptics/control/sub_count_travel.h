@@ -3,11 +3,13 @@
 // A count n says no more than that the position lies in [n, n + 1). Inside it the position is followed with the estimated
 // velocity and kept within the bounds: x = clamp(x + v T, n, n + 1). Moving, that interpolates between the edges; at rest a
 // count that flickers leaves x at the edge, where the stylus truly is: booked as travel, each flicker would be a whole
-// count of work that nobody did. Units: counts. Thread: haptic task; no allocation.
+// count of work that nobody did. Slower than kCreep, where the velocity is one count over the whole window or nothing, the
+// position is not interpolated. Units: counts. Thread: haptic task; no allocation.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "haptics/quantities.h"
@@ -18,17 +20,20 @@ class SubCountTravel {
  public:
   using Counts = std::array<std::int64_t, kChannels>;
 
+  static constexpr double kCreep = 0.1;  ///< counts a period
+
   /// Takes these counts as where the channels stand.
   void reset(const Counts& counts) {
     for (int i = 0; i < kChannels; ++i) position_[i] = middle(counts, i);
   }
-  /// @param counts rounded down; @param expected way since the last call by the estimated velocities.
+  /// @param counts rounded down; @param velocity estimated, counts a period; @param periods since the last call.
   /// @return way since the last call.
-  ChannelVector advance(const Counts& counts, const ChannelVector& expected) {
+  ChannelVector advance(const Counts& counts, const ChannelVector& velocity, double periods) {
     const ChannelVector before = position_;
     for (int i = 0; i < kChannels; ++i) {
       const double low = middle(counts, i) - 0.5;
-      position_[i] = std::clamp(position_[i] + expected[i], low, low + 1);
+      const double expected = std::abs(velocity[i]) < kCreep ? 0 : velocity[i] * periods;
+      position_[i] = std::clamp(position_[i] + expected, low, low + 1);
     }
     return position_ - before;
   }

@@ -205,7 +205,7 @@ void SimulatedDaq::set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexc
 
 HandSense SimulatedDaq::sense() const noexcept {
   const StylusMotion m = plant_.motion();
-  return {m.X_BS, force_on_hand_,           force_on_finger_, m.jaw, plant_.amplifiers_enabled(), plant_.clamped(),
+  return {m.X_BS, force_on_hand_, force_on_finger_, m.jaw, plant_.amplifiers_enabled(), plant_.clamped(),
           moment_on_hand_};
 }
 

@@ -50,7 +50,7 @@ DacFrame dac_codes(const DeviceModel& model, const ChannelVector& torque, int da
   const double full = full_scale_code(dac_bits);
   for (int i = 0; i < kChannels; ++i) {
     const Transmission& t = model.transmission[i];
-    const double code = torque[i] / torque_per_volt(t) / t.full_scale_v * full;
+    const double code = (torque[i] / torque_per_volt(t) - t.offset_v) / t.full_scale_v * full;
     frame.codes[i] = static_cast<std::int32_t>(std::lround(std::clamp(code, -full, full)));
   }
   return frame;
@@ -60,7 +60,7 @@ ChannelVector torques_of(const DeviceModel& model, const DacFrame& frame, int da
   ChannelVector torque;
   for (int i = 0; i < kChannels; ++i) {
     const Transmission& t = model.transmission[i];
-    torque[i] = frame.codes[i] / full_scale_code(dac_bits) * t.full_scale_v * torque_per_volt(t);
+    torque[i] = (frame.codes[i] / full_scale_code(dac_bits) * t.full_scale_v + t.offset_v) * torque_per_volt(t);
   }
   return torque;
 }

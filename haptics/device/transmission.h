@@ -1,7 +1,7 @@
 // Counts to joint angles and joint torques to DAC codes: the electrical and capstan side of the device.
 //
 // q = q_home + ratio * 2 pi / counts_per_turn * (counts - counts_home) (thesis 3.1); code = round(volts / full scale *
-// (2^(bits-1) - 1)), volts = motor torque / (Kt * A/V), motor torque = joint torque * ratio.
+// (2^(bits-1) - 1)), volts = motor torque / (Kt * A/V) - offset, motor torque = joint torque * ratio.
 // Channels 0..5 in rad and N m, channel 6 (pinch) in m and N. Thread: haptic task; no allocation.
 #pragma once
 

@@ -72,7 +72,8 @@ TEST(Passivity, ForceIsNeverNegativeNorAboveWhatIsWantedPlusTheBoundedDamping) {
     const double force =
         controller.update({wanted, random.symmetric(2e-3), random.symmetric(2e-3), v, wanted * wanted / 300});
     EXPECT_GE(force, 0);
-    EXPECT_LE(force, wanted + alpha_max * std::abs(v) + 1e-12);
+    // Damping opposes pressing in and no more; its size follows within 250 N/s, so a slower speed may still see it.
+    EXPECT_LE(force, wanted + (v > 0 ? alpha_max * 2 : 0) + 1e-12);
     EXPECT_LE(controller.budget_j(), p.credit_cap_j);
     if (k % 5000 == 0) controller.reset();
   }

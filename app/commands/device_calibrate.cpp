@@ -1,0 +1,77 @@
+#include "app/commands/device_calibrate.h"
+
+#include <cmath>
+#include <fstream>
+#include <ostream>
+
+#include "app/calibration/amplifier_calibration.h"
+#include "app/commands/text_table.h"
+#include "haptics/device/plant_parameters.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kLargestGain = 10;  // a nominal gain ten times over drives 100 mN m at 1 V
+constexpr double kRendered = 0.01;   // of the torque asked for
+
+SimulatedDaqConfig device_of(const CalibrateOptions& options) {
+  if (!(options.gain >= 0 && options.gain <= kLargestGain))
+    throw InputError("device calibrate: --gain lies in 0 to 10");
+  SimulatedDaqConfig config;
+  config.seed = options.seed;
+  config.plant = draw_parameters(options.seed);
+  for (ChannelParameters& c : config.plant->channel) c.amplifier_gain *= options.gain;
+  return config;
+}
+
+void print_table(const AmplifierCalibration& found, const DeviceModel& nominal, const ChannelVector& error,
+                 std::ostream& out) {
+  using Align = TextTable::Align;
+  TextTable table({{"channel", Align::kLeft},
+                   {"A/V", Align::kRight},
+                   {"+-", Align::kRight},
+                   {"of nominal", Align::kRight},
+                   {"offset, mV", Align::kRight},
+                   {"+-", Align::kRight},
+                   {"stiction, mN m", Align::kRight},
+                   {"torque off, %", Align::kRight}});
+  for (int i = 0; i < kChannels; ++i) {
+    const ChannelCalibration& c = found[static_cast<std::size_t>(i)];
+    const double nominal_gain = nominal.transmission[static_cast<std::size_t>(i)].amps_per_volt;
+    table.add({i == kPinchChannel ? "pinch" : "joint " + std::to_string(i + 1), cell(c.amps_per_volt, 4),
+               cell(c.amps_per_volt_sd, 4), cell(c.amps_per_volt / nominal_gain, 4), cell(c.offset_v * 1e3, 2),
+               cell(c.offset_sd_v * 1e3, 2), cell(c.stiction_nm * 1e3, 2), cell(error[i] * 100, 2)});
+  }
+  table.print(out);
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw EnvironmentError(path.string() + ": cannot be written");
+}
+
+}  // namespace
+
+int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& err) {
+  TorqueRig rig(device_of(options), {}, options.seed);
+  const DeviceModel nominal;
+  const AmplifierCalibration found = calibrate_amplifiers(rig, nominal);
+  const ChannelVector error = rendering_error(rig, calibrated(nominal, found));
+  const std::string json = calibration_json(found, nominal);
+  if (!options.out.empty()) {
+    write_text(options.out, json);
+    err << "trocar: calibration in " << options.out.string() << '\n';
+  }
+  if (options.json)
+    out << json;
+  else
+    print_table(found, nominal, error, out);
+  err << "trocar: on the simulated device of seed " << options.seed << "; the calibrated model renders torque to "
+      << error.maxCoeff() * 100 << " %\n";
+  return error.maxCoeff() <= kRendered ? 0 : 1;
+}
+
+}  // namespace trocar

@@ -1,0 +1,203 @@
+#include "app/study/transparency_study.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/study/identified_device.h"
+#include "app/study/plant_bench.h"
+#include "haptics/kinematics/device_geometry.h"
+
+namespace trocar {
+namespace {
+
+constexpr std::array kSpeeds{0.05, 0.1, 0.2, 0.3};  // m/s
+constexpr std::array<const char*, 3> kAxisNames{"X6", "Y6", "Z6"};
+constexpr double kMeasured_m = 0.015;               // to either side of the pose
+constexpr double kRunUp_m = 0.020;                  // before and after, from rest to speed
+constexpr double kFrictionBar = 3, kWeightBar = 5;
+constexpr double kShare = 0.7;                      // of friction that is fed forward, the most that budgets allow
+constexpr double kDeadBand = 0.02;                  // rad/s
+constexpr double kDust_j = 1e-5;                    // rounding of codes is no debt; a contact's budget is 50 times that
+
+enum Compensation : std::size_t { kNothing, kGravityOnly, kGravityAndFriction, kCompensations };
+
+/// Where the device works: well inside limits, det A 0.9.
+Pose working_pose() {
+  return arm_state(kDegree * (JointVector() << 45, 45, 45, -60, -75, 0).finished()).X_WS;
+}
+
+/// A rail, not a hand: 0.1 mm under the largest force here.
+HandParameters rail() {
+  HandParameters p;
+  p.grip_stiffness = 2e4, p.grip_damping = 80;
+  p.hand_mass = 2, p.arm_stiffness = 1e5, p.arm_damping = 900;
+  p.turn_stiffness = 60, p.turn_damping = 0.3;
+  p.moment_limit_nm = 10;
+  p.tremor_m = 0;
+  return p;
+}
+
+HapticLoopConfig loop_with(Compensation compensation, const DeviceModel& identified, double knee) {
+  HapticLoopConfig config;
+  config.device = identified;
+  config.friction = {compensation == kGravityAndFriction ? kShare : 0, knee, kDeadBand, kDust_j};
+  // On a rail a joint that carries weight may stand still while others travel far: no encoder is stuck.
+  config.safety.stuck_pushed_travel = config.safety.stuck_travel = std::numeric_limits<std::int32_t>::max();
+  if (compensation == kNothing) config.device.identified_gravity = IdentifiedGravity{};
+  return config;
+}
+
+SimulatedDaqConfig plant_with(const PlantParameters& truth) {
+  SimulatedDaqConfig config = nominal_device();
+  config.plant = truth;
+  config.hand = rail();
+  return config;
+}
+
+/// Mean force of the rail against the motion and along it, on the way forth and back.
+struct Pull {
+  double forth = 0, back = 0;  ///< N, along the motion: positive is a resistance
+  double resistance() const { return 0.5 * (std::abs(forth) + std::abs(back)); }
+  double weight() const { return 0.5 * std::abs(forth - back); }    ///< the part that does not turn with the motion
+  double friction() const { return 0.5 * (forth + back); }
+};
+
+/// Constant speed between run-ups; the way at time t, from 0.
+struct Stroke {
+  double speed, run_up_s = 2 * kRunUp_m / speed, middle_s = 2 * kMeasured_m / speed;
+  double seconds() const { return 2 * run_up_s + middle_s; }
+  double way(double t) const {
+    const auto ramp = [&](double s) { return run_up_s * speed * (s * s * s - 0.5 * s * s * s * s); };  // smooth to speed
+    if (t < run_up_s) return ramp(t / run_up_s);
+    if (t < run_up_s + middle_s) return kRunUp_m + (t - run_up_s) * speed;
+    return 2 * kRunUp_m + 2 * kMeasured_m - ramp(std::max(0.0, (seconds() - t) / run_up_s));
+  }
+  bool measured(double t) const { return t >= run_up_s && t <= run_up_s + middle_s; }
+};
+
+class Rail {
+ public:
+  Rail(const PlantParameters& truth, const HapticLoopConfig& loop) : bench_(plant_with(truth), loop) {
+    bench_.start();
+    bench_.move(working_pose(), 2.0);
+  }
+  Pull pull(const Vec3& axis, double speed) {
+    const Stroke stroke{speed};
+    const double half = kRunUp_m + kMeasured_m;
+    bench_.move({centre_.R, centre_.p - half * axis}, 0.6);
+    bench_.run(0.4);
+    Pull pull;
+    pull.forth = go(stroke, axis, 1);
+    bench_.run(0.4);
+    pull.back = go(stroke, axis, -1);
+    return pull;
+  }
+  /// rms of the rate estimator's error while the stylus moves, worst arm joint, rad/s.
+  double rate_noise() const {
+    return std::sqrt((squares_ / std::max(1.0, samples_)).maxCoeff());
+  }
+  /// Largest motion of the stylus at rest in an open hand, m: a limit cycle would show.
+  double hunting() {
+    HandParameters open = rail();
+    for (double* k : {&open.grip_stiffness, &open.grip_damping, &open.arm_stiffness, &open.turn_stiffness,
+                      &open.turn_damping, &open.finger_stiffness, &open.finger_damping}) {
+      *k = 0;
+    }
+    bench_.move(centre_, 0.6);
+    bench_.run(0.4);
+    bench_.daq().set_hand_parameters(open);
+    bench_.run(1.0);
+    Vec3 low = bench_.daq().sense().X_BS.p, high = low;
+    for (int k = 0; k < 2000; ++k) {
+      bench_.tick();
+      low = low.cwiseMin(bench_.daq().sense().X_BS.p), high = high.cwiseMax(bench_.daq().sense().X_BS.p);
+    }
+    return (high - low).norm();
+  }
+
+ private:
+  double go(const Stroke& stroke, const Vec3& axis, double way) {
+    const Pose from = bench_.goal();
+    double sum = 0, samples = 0;
+    const double dt = bench_.period_s();
+    for (double t = dt; t <= stroke.seconds() + 0.5 * dt; t += dt) {
+      bench_.goal().p = from.p + way * stroke.way(t) * axis;
+      bench_.tick();
+      if (!stroke.measured(t)) continue;
+      sum -= way * axis.dot(bench_.daq().sense().force_on_hand);
+      samples += 1;
+      const JointVector error = bench_.record().qd.head<kArmJoints>() - bench_.daq().plant().rates();
+      squares_ += error.cwiseAbs2();
+      samples_ += 1;
+    }
+    return sum / samples;
+  }
+
+  PlantBench bench_;
+  Pose centre_ = working_pose();
+  JointVector squares_ = JointVector::Zero();
+  double samples_ = 0;
+};
+
+using Table = std::array<std::array<std::array<Pull, kCompensations>, kSpeeds.size()>, 3>;
+
+void add_cases(StudyResult& study, const Table& table, const std::vector<std::size_t>& speeds) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (const std::size_t s : speeds) {
+      const auto& by = table[a][s];
+      const bool weighty = by[kNothing].weight() > by[kNothing].friction();
+      const double bar = weighty ? kWeightBar : kFrictionBar;
+      const double ratio = by[kNothing].resistance() / by[kGravityAndFriction].resistance();
+      study.cases.push_back(
+          {std::string(kAxisNames[a]) + " at " + std::to_string(kSpeeds[s]).substr(0, 4) + " m/s: less resistance by", "times",
+           ratio, std::nullopt, weighty ? ">= 5 (carries weight)" : ">= 3 (friction alone)", ratio >= bar,
+           "Mean pull of the rail along the axis, magnitude, both directions: without any compensation over with weight and "
+           "friction compensation. The axis carries weight where the part that keeps its sign is the larger one."});
+    }
+  }
+}
+
+void draw(StudyResult& study, const Table& table, const std::vector<std::size_t>& speeds) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    StudyCurves c{std::string("resistance_") + kAxisNames[a], std::string("Moving along ") + kAxisNames[a] + " in free air (simulated plant)",
+                  "speed, m/s", "mean pull at the stylus, N", {}, {{"nothing", {}}, {"gravity", {}}, {"gravity + friction", {}}}};
+    for (const std::size_t s : speeds) {
+      c.x.push_back(kSpeeds[s]);
+      for (std::size_t k = 0; k < kCompensations; ++k) c.series[k].y.push_back(table[a][s][k].resistance());
+    }
+    study.curves.push_back(c);
+  }
+}
+
+}  // namespace
+
+StudyResult transparency_study(const StudyRequest& request) {
+  StudyResult study{"transparency", "simulated plant of seed " + std::to_string(request.seed), {}, {}};
+  const PlantParameters truth = draw_parameters(request.seed);
+  IdentifyRequest identification = request.quick ? quick_identification() : IdentifyRequest{};
+  identification.seed = request.seed;
+  const DeviceModel identified = identify_simulated(truth, identification).device;
+  const std::vector<std::size_t> speeds = request.quick ? std::vector<std::size_t>{1, 3} : std::vector<std::size_t>{0, 1, 2, 3};
+  const double knee = 0.06;
+  Table table;
+  double noise = 0, hunting = 0;
+  for (std::size_t k = 0; k < kCompensations; ++k) {
+    Rail rail(truth, loop_with(static_cast<Compensation>(k), identified, knee));
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (const std::size_t s : speeds) table[a][s][k] = rail.pull(working_pose().R.col(static_cast<Eigen::Index>(a)), kSpeeds[s]);
+    }
+    noise = std::max(noise, rail.rate_noise());
+    if (k == kGravityAndFriction) hunting = rail.hunting();
+  }
+  add_cases(study, table, speeds);
+  study.cases.push_back({"motion at rest, compensated, open hand", "mm", hunting * 1e3, std::nullopt, "< 0.2 (one count)",
+                         hunting < 2e-4, "Extent of the stylus' motion over 2 s, a second after the hand has opened: a limit cycle would show."});
+  study.cases.push_back({"knee of the feed-forward over rate noise", "times", knee / noise, std::nullopt, ">= 3", knee >= 3 * noise,
+                         "v0 = 0.06 rad/s over the rms error of the joint rates while the stylus moves, worst joint."});
+  draw(study, table, speeds);
+  return study;
+}
+
+}  // namespace trocar
