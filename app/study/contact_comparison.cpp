@@ -34,7 +34,8 @@ Wrench mean_of(const std::vector<double>& t, const std::vector<Wrench>& wrenches
 }  // namespace
 
 const char* const kContactPlant =
-    "simulated: the device as its documents describe it, a hand of normal grip drawn by the seed, a force/torque sensor of "
+    "simulated: the device as its documents describe it, a hand of normal grip drawn by the seed, a force/torque "
+    "sensor of "
     "40 Hz, 0.15 s lag, 20 mN and 0.5 mN m noise";
 
 ComponentComparison compare(const ContactRecording& recording, Component which) {
@@ -56,7 +57,8 @@ MeanWrenches mean_wrenches(const ContactRecording& recording, const Spell& touch
           mean_of(recording.sensor_t, recording.measured, {inner.from_s + kSensorLag, inner.to_s + kSensorLag})};
 }
 
-double late_unrest(const ContactExperiment& experiment, const ContactRecording& recording, const std::vector<Spell>& touched) {
+double late_unrest(const ContactExperiment& experiment, const ContactRecording& recording,
+                   const std::vector<Spell>& touched) {
   double largest = 0;
   for (const Spell& hold : holds(experiment, touched, kLate)) {
     largest = std::max(largest, unrest({recording.t, recording.rendered_n}, hold, kWindow));
@@ -77,17 +79,29 @@ ContactManner stiff_manner() { return {"150 N/m", "150", setting_of(150, Passivi
 
 std::vector<std::uint64_t> trial_seeds(const StudyRequest& request) {
   std::vector<std::uint64_t> seeds;
-  for (std::uint64_t i = 0; i < (request.quick ? 1u : 5u); ++i) seeds.push_back(request.seed + i);
+  for (std::uint64_t i = 0; i < (request.quick ? 1u : 10u); ++i) seeds.push_back(request.seed + i);
   return seeds;
 }
 
 StudyCurves component_curves(const std::string& file, const std::string& title, const std::vector<double>& t,
                              const std::vector<Wrench>& wrenches, const std::vector<Component>& components) {
   const bool moments = components.front() >= Component::kMx;
-  StudyCurves curves{file, title, "time on the clock of the thesis' figure, s", moments ? "torque, N m" : "force, N", t, {}};
+  StudyCurves curves{file, title, "time on the clock of the thesis' figure, s", moments ? "torque, N m" : "force, N",
+                     t,    {}};
   for (const Component which : components) {
     curves.series.push_back({component_name(which), curve_of(t, wrenches, which).y});
   }
+  return curves;
+}
+
+StudyCurves overlay_curves(const std::string& file, const std::string& title, const ContactRecording& recording,
+                           Component which) {
+  const Curve desired = curve_of(recording.t, recording.desired, which);
+  StudyCurves curves = component_curves(file, title, recording.sensor_t, recording.measured, {which});
+  curves.y_label = std::string(component_name(which)) + (which >= Component::kMx ? ", N m" : ", N");
+  curves.series.front().name = "measured";
+  curves.series.push_back({"desired", {}});
+  for (const double t : recording.sensor_t) curves.series.back().y.push_back(value_at(desired, t));
   return curves;
 }
 

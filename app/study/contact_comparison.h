@@ -14,9 +14,9 @@ namespace trocar {
 
 struct ComponentComparison {
   Curve desired, measured;
-  std::vector<Spell> touched;            ///< desired above 2 % of its peak: when the tool was in
-  std::vector<Spell> asked, felt;        ///< above 40 % of the peak, desired and measured
-  double lag_s = 0, ratio = 0;           ///< measured behind desired; over desired, at the sensor's own lag
+  std::vector<Spell> touched;      ///< desired above 2 % of its peak: when the tool was in
+  std::vector<Spell> asked, felt;  ///< above 40 % of the peak, desired and measured
+  double lag_s = 0, ratio = 0;     ///< measured behind desired; over desired, at the sensor's own lag
 };
 ComponentComparison compare(const ContactRecording& recording, Component which);
 
@@ -26,8 +26,10 @@ struct MeanWrenches {
 };
 MeanWrenches mean_wrenches(const ContactRecording& recording, const Spell& touched);
 
-/// Largest |F - its mean of 50 ms| of the rendered force later than 0.5 s after touch (H5), until the hand sets out to leave.
-double late_unrest(const ContactExperiment& experiment, const ContactRecording& recording, const std::vector<Spell>& touched);
+/// Largest |F - its mean of 50 ms| of the rendered force later than 0.5 s after touch (H5), until the hand sets out to
+/// leave.
+double late_unrest(const ContactExperiment& experiment, const ContactRecording& recording,
+                   const std::vector<Spell>& touched);
 
 /// One way of doing an experiment.
 struct ContactManner {
@@ -39,12 +41,16 @@ inline constexpr double kFixtureKg = 0.1;  ///< sensor of 63 g and its fixture [
 /// 150 N/m with the default law.
 ContactManner soft_manner(), thesis_manner(), stiff_manner();
 
-/// Seeds of the trials: one in the quick form, five in the full one.
+/// Seeds of the trials: one in the quick form, ten in the full one.
 std::vector<std::uint64_t> trial_seeds(const StudyRequest& request);
 
 /// Curves of components against the thesis' clock.
 StudyCurves component_curves(const std::string& file, const std::string& title, const std::vector<double>& t,
                              const std::vector<Wrench>& wrenches, const std::vector<Component>& components);
+
+/// One component desired and measured, at the times of the readings.
+StudyCurves overlay_curves(const std::string& file, const std::string& title, const ContactRecording& recording,
+                           Component which);
 
 /// What the plant of these studies is.
 extern const char* const kContactPlant;

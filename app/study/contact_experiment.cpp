@@ -72,7 +72,9 @@ HapticLoopConfig loop_of(const ContactExperiment& experiment, const ContactSetti
 class ForceTorqueSensor {
  public:
   ForceTorqueSensor(double fixture_kg, std::uint64_t seed)
-      : weight_n_(fixture_kg * nominal_parameters().gravity), force_({}, seed), moment_({40, 0.15, kMomentNoise, kMomentDrift}, seed + 1) {}
+      : weight_n_(fixture_kg * nominal_parameters().gravity),
+        force_({}, seed),
+        moment_({40, 0.15, kMomentNoise, kMomentDrift}, seed + 1) {}
 
   void sample(double t, const HandSense& sense, ContactRecording& out) {
     const Mat3 R_SW = sense.X_BS.R.transpose();

@@ -34,9 +34,9 @@ struct ContactExperiment {
   double begins_s = 0, ends_s = 0;  ///< clock of the thesis' figures
   Pose rest;                        ///< where the hand holds the stylus before, between and after
   ToolShape tool;
-  Pose X_SI;                        ///< the tool's tip and shaft in the stylus frame
+  Pose X_SI;  ///< the tool's tip and shaft in the stylus frame
   std::vector<SurfaceTriangle> surface;
-  std::vector<ContactMove> moves;   ///< in order of time
+  std::vector<ContactMove> moves;  ///< in order of time
 };
 
 /// Rectangle about `centre`, its sides 2u and 2v, facing u x v.
@@ -49,8 +49,9 @@ double clearance(const ContactExperiment& experiment, const Pose& X_WS, const Co
 
 /// The hand leads the stylus from rest to `deep` and back, each way in `travel_s`, so that its goal meets the face at
 /// touch_s and leaves it at leave_s. Half way through its hold it eases by a fifth of the depth: what friction adds to
-/// the force while pressing it takes away afterwards. @throws std::invalid_argument when rest is not before the face, `deep` not in it,
-/// or this contact overlaps the one before.
+/// the force while pressing it takes away afterwards.
+/// @throws std::invalid_argument when rest is not before the face, `deep` not in it, or this contact overlaps the one
+/// before or itself.
 void add_contact(ContactExperiment& experiment, const ContactFace& face, const Pose& deep, double touch_s,
                  double leave_s, double travel_s);
 
@@ -64,21 +65,21 @@ double least_joint_margin(const ContactExperiment& experiment);
 std::vector<Spell> holds(const ContactExperiment& experiment, const std::vector<Spell>& touched, double late_s);
 
 struct ContactSetting {
-  double stiffness = 20;                        ///< N/m
+  double stiffness = 20;  ///< N/m
   PassivityLaw law = PassivityLaw::kBudgeted;
-  double gain = 1;                              ///< of the amplifiers over what the loop believes
-  bool compensation = true;                     ///< of weight and friction
-  double fixture_kg = 0;                        ///< on the hand's side of the sensor; its inertia is left out
-  std::uint64_t seed = 1;                       ///< of hand, tremor and sensor
+  double gain = 1;           ///< of the amplifiers over what the loop believes
+  bool compensation = true;  ///< of weight and friction
+  double fixture_kg = 0;     ///< on the hand's side of the sensor; its inertia is left out
+  std::uint64_t seed = 1;    ///< of hand, tremor and sensor
 };
 
 struct ContactRecording {
-  std::vector<double> t;                ///< s, a tick each
-  std::vector<Wrench> desired;          ///< in stylus axes
-  std::vector<Vec3> printed_moment;     ///< the same moment with the lever of thesis 3.3.3, from contact to origin
-  std::vector<double> rendered_n;       ///< magnitude of the force that law and limits left
-  std::vector<double> sensor_t;         ///< s, when each reading came out
-  std::vector<Wrench> read, measured;   ///< as read; without the fixture's weight
+  std::vector<double> t;               ///< s, a tick each
+  std::vector<Wrench> desired;         ///< in stylus axes
+  std::vector<Vec3> printed_moment;    ///< the same moment with the lever of thesis 3.3.3, from contact to origin
+  std::vector<double> rendered_n;      ///< magnitude of the force that law and limits left
+  std::vector<double> sensor_t;        ///< s, when each reading came out
+  std::vector<Wrench> read, measured;  ///< as read; without the fixture's weight
 };
 
 /// @throws BenchFault when the loop faults.

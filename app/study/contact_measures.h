@@ -1,6 +1,6 @@
 // What a pair of desired and measured curves says: when there was contact, how late the measured one is, how large, how
-// calm. The curves have their own times: the desired one a sample each tick, the measured one each reading of the sensor.
-// Pure functions; SI; thread: any.
+// calm. The curves have their own times: the desired one a sample each tick, the measured one each reading of the
+// sensor. Pure functions; SI; thread: any.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,8 @@ struct Spell {
   double from_s = 0, to_s = 0;
 };
 
-/// Times in which |y| is above `threshold`. Gaps shorter than `bridge_s` count as within, spells shorter than it are left out.
+/// Times in which |y| is above `threshold`. Gaps shorter than `bridge_s` count as within, spells shorter than it are
+/// left out.
 std::vector<Spell> spells(const Curve& curve, double threshold, double bridge_s);
 
 /// Largest |y|.

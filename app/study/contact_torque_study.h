@@ -5,12 +5,13 @@
 // with r from the stylus origin to the contact:
 //   torque-x  +Mx with +Fz and -Fy: r along +Y6, the cube's face looks along Z6 of rest, turn about -X6
 //   torque-y  +My with +Fx and less -Fz: r along +Z6, the face looks up (X6 of rest), turn about -Y6
-//   torque-z  first -Mz with +Fx and -Fy, then +Mz with +Fx and +Fy: r along +Y6, then -Y6; the face looks up; turn about
-//             +Z6, then -Z6
-// The cylinder is 200 mm long, 10 mm thick, its middle in the stylus origin. Rest is the home orientation with the origin
-// drawn back from home: to -255 mm for torque-x, to -200 mm for the others, where less friction stands along the arm. Contact times are the thesis' where it gives
-// them: 10.15-15.65, 6.98-9.35, 5.60-8.70 and 11.50-14.70 s; the second contacts of torque-x (17.5-20.5 s) and torque-y
-// (11.5-13.9 s) are choices. Idling before 8.5, 5.5 and 4.0 s is left out. Thread: any.
+//   torque-z  first -Mz with +Fx and -Fy, then +Mz with +Fx and +Fy: r along +Y6, then -Y6; the face looks up;
+//             turn about +Z6, then -Z6
+// The cylinder is 200 mm long, 10 mm thick, its middle in the stylus origin. Rest is the home orientation with the
+// origin drawn back from home: to -255 mm for torque-x, to -200 mm for the others, where less friction stands along the
+// arm. Contact times are the thesis' where it gives them: 10.15-15.65, 6.98-9.35, 5.60-8.70 and 11.50-14.70 s; the
+// second contacts of torque-x (17.5-20.5 s) and torque-y (11.5-13.9 s) are choices. Idling before 8.5, 5.5 and 4.0 s is
+// left out. Thread: any.
 #pragma once
 
 #include <vector>

@@ -7,7 +7,7 @@ namespace trocar {
 namespace {
 
 constexpr double kHalfLength = 0.1, kRadius = 0.005;  // m, of the cylinder
-constexpr double kToFace = 0.020;                     // m between the cylinder at rest and the face
+constexpr double kToFace = 0.010;                     // m between the cylinder at rest and the face
 constexpr double kLever = 0.090;                      // m from the origin to the middle of the face
 constexpr double kCube = 0.08, kLongCube = 0.24;      // m; the long one reaches under both ends
 constexpr double kNearHome = -0.255;                  // m, height of the stylus in W'; at home it is -0.272

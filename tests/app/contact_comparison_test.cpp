@@ -99,9 +99,9 @@ TEST(ContactComparison, MannersDifferInWhatTheThesisHadAndTrocarHas) {
   }
 }
 
-TEST(ContactComparison, TheQuickFormHasOneTrialAndTheFullOneFive) {
+TEST(ContactComparison, TheQuickFormHasOneTrialAndTheFullOneTen) {
   EXPECT_EQ(trial_seeds({true, 7}), (std::vector<std::uint64_t>{7}));
-  EXPECT_EQ(trial_seeds({false, 7}), (std::vector<std::uint64_t>{7, 8, 9, 10, 11}));
+  EXPECT_EQ(trial_seeds({false, 7}), (std::vector<std::uint64_t>{7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
 }
 
 TEST(ContactComparison, CurvesCarryTheirUnits) {
@@ -112,6 +112,19 @@ TEST(ContactComparison, CurvesCarryTheirUnits) {
   EXPECT_EQ(forces.series[1].name, "force along Y6");
   EXPECT_EQ(forces.series[1].y.size(), forces.x.size());
   EXPECT_EQ(component_curves("f", "title", r.t, r.desired, {Component::kMz}).y_label, "torque, N m");
+}
+
+TEST(ContactComparison, TheOverlayHasBothAtTheTimesOfTheReadings) {
+  const ContactRecording r = made_up(1.5);
+  const StudyCurves c = overlay_curves("f", "title", r, Component::kMz);
+  EXPECT_EQ(c.x, r.sensor_t);
+  EXPECT_EQ(c.y_label, "torque about Z6, N m");
+  ASSERT_EQ(c.series.size(), 2u);
+  EXPECT_EQ(c.series[1].name, "desired");
+  const std::size_t at = 74;  // 2.0 s, in the middle of the first press
+  EXPECT_NEAR(c.x[at], 2.0, 1e-9);
+  EXPECT_NEAR(c.series[0].y[at], 0.075, 1e-9);
+  EXPECT_NEAR(c.series[1].y[at], 0.05, 1e-9);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -135,7 +136,7 @@ TEST(ContactScript, NothingIsTouchedAtRest) {
     for (const auto& [a, b, c] : t.experiment.surface) {
       gap = std::max(gap, clearance(t.experiment, t.experiment.rest, {a, (b - a).cross(c - a).normalized()}));
     }
-    EXPECT_NEAR(gap, 0.020, 1e-12) << "torque-" << axis;
+    EXPECT_NEAR(gap, 0.010, 1e-12) << "torque-" << axis;
   }
 }
 
@@ -235,6 +236,142 @@ TEST(HandSense, TheMomentOnTheHandIsThatOfItsTurnSpring) {
   EXPECT_NEAR(moment.x(), -config.hand.turn_stiffness * 0.1, 1e-6) << "the jig turns the hand back";
   EXPECT_NEAR(moment.y(), 0, 1e-6);
   EXPECT_NEAR(moment.z(), 0, 1e-6);
+}
+
+/// The tool's end that lies deepest below a face, in stylus axes.
+Vec3 deepest_end(const ContactExperiment& e, const Pose& X, const Vec3& normal) {
+  const Vec3 tip = e.X_SI.p, end = e.X_SI * Vec3(0, 0, -e.tool.shaft_length_m);
+  return normal.dot(X.R * tip) < normal.dot(X.R * end) ? tip : end;
+}
+
+TEST(TorqueScript, GeometryAloneGivesTheSignsThatTheThesisExpects) {
+  // Without any simulation: a unit force along the face's normal at the end that is in, M = r x F.
+  for (const char axis : {'x', 'y', 'z'}) {
+    const TorqueExperiment t = torque_experiment(axis, kTurn);
+    const ContactExperiment& e = t.experiment;
+    const Vec3 normal = e.rest.R.col(axis == 'x' ? 2 : 0);
+    for (std::size_t i = 0; i < t.contacts.size(); ++i) {
+      const Pose in = e.moves[3 * i].goal;
+      Wrench w;
+      w.force = in.R.transpose() * normal;
+      w.moment = deepest_end(e, in, normal).cross(w.force);
+      for (const ExpectedSign& expected : t.contacts[i].expected) {
+        EXPECT_GT(expected.sign * component(w, expected.which), 0)
+            << "torque-" << axis << ", contact " << i << ": " << component_name(expected.which);
+      }
+      const int main = axis - 'x';
+      EXPECT_GT(std::abs(w.moment[main]), 10 * std::abs(w.moment[(main + 1) % 3]));
+      EXPECT_GT(std::abs(w.moment[main]), 10 * std::abs(w.moment[(main + 2) % 3]));
+      EXPECT_GT(std::abs(component(w, t.contacts[i].expected[1].which)),
+                std::abs(component(w, t.contacts[i].expected[2].which)))
+          << "the first force is the larger one";
+    }
+  }
+}
+
+TEST(TorqueScript, ContactTimesAreTheThesisOnes) {
+  const TorqueExperiment x = torque_experiment('x', kTurn), y = torque_experiment('y', kTurn),
+                         z = torque_experiment('z', kTurn);
+  EXPECT_EQ(x.contacts[0].touch_s, 10.15);
+  EXPECT_EQ(x.contacts[0].leave_s, 15.65);
+  EXPECT_EQ(y.contacts[0].touch_s, 6.98);
+  EXPECT_EQ(y.contacts[0].leave_s, 9.35);
+  EXPECT_EQ(z.contacts[0].touch_s, 5.60);
+  EXPECT_EQ(z.contacts[1].leave_s, 14.70);
+  EXPECT_FALSE(x.contacts[1].thesis_times) << "a choice, held against nothing";
+  EXPECT_TRUE(z.contacts[1].thesis_times);
+  for (const TorqueExperiment* t : {&x, &y, &z}) {
+    EXPECT_EQ(t->contacts.size(), 2u);
+    EXPECT_EQ(t->experiment.moves.size(), 6u);
+    EXPECT_LE(t->experiment.moves.back().to_s, t->experiment.ends_s) << "the hand is back before the end";
+  }
+}
+
+TEST(TorqueScript, TheEndMeetsTheFaceWellWithinItsBorders) {
+  for (const char axis : {'x', 'y', 'z'}) {
+    const TorqueExperiment t = torque_experiment(axis, kTurn);
+    const ContactExperiment& e = t.experiment;
+    Vec3 low = Vec3::Constant(1), high = -low;
+    for (const SurfaceTriangle& triangle : e.surface) {
+      for (const Vec3& vertex : triangle) {
+        const Vec3 p = e.rest.inverse() * vertex;
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+    }
+    const int facing = axis == 'x' ? 2 : 0;
+    for (const std::size_t move : {0u, 3u}) {
+      const Pose in = e.moves[move].goal;
+      const Vec3 end = e.rest.inverse() * (in * deepest_end(e, in, e.rest.R.col(facing)));
+      for (int i = 0; i < 3; ++i) {
+        if (i == facing) continue;
+        EXPECT_GT(end[i], low[i] + 0.01) << "torque-" << axis;
+        EXPECT_LT(end[i], high[i] - 0.01) << "torque-" << axis;
+      }
+    }
+  }
+}
+
+TEST(WallsScript, EachContactMeetsItsOwnWallOnly) {
+  const ContactExperiment e = walls_experiment(0.03);
+  const std::array<Vec3, 3> into{Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, -1)};
+  for (std::size_t contact = 0; contact < 3; ++contact) {
+    const Pose in = e.moves[3 * contact].goal;
+    EXPECT_NEAR((e.rest.inverse() * in.p - 0.06 * into[contact]).norm(), 0, 1e-12)
+        << "30 mm to the wall, 30 mm past it";
+    for (std::size_t wall = 0; wall < 3; ++wall) {
+      const auto& [a, b, c] = e.surface[2 * wall];
+      const ContactFace face{a, (b - a).cross(c - a).normalized()};
+      EXPECT_NEAR((e.rest.R.transpose() * face.normal + into[wall]).norm(), 0, 1e-12) << "faces the stylus";
+      EXPECT_NEAR(clearance(e, e.rest, face), 0.03, 1.001e-3) << "the ball is 1 mm long along -Z6";
+      EXPECT_EQ(clearance(e, in, face) < 0, wall == contact);
+    }
+  }
+}
+
+TEST(ContactRecord, TheFixtureTurnsWithTheStylusAndHidesASign) {
+  TorqueExperiment t = torque_experiment('y', kTurn);
+  t.experiment.ends_s = 9.0;  // within the first contact
+  ContactSetting setting = stiff_manner().setting;
+  const ContactRecording r = record_contacts(t.experiment, setting);
+  const MeanWrenches mean = mean_wrenches(r, {7.2, 8.9});
+  const double read = mean_over(curve_of(r.sensor_t, r.read, Component::kFz), {7.5, 8.8});
+  EXPECT_LT(mean.desired.force.z(), -0.1);
+  EXPECT_LT(mean.measured.force.z(), -0.1) << "as the thesis expects";
+  EXPECT_GT(read, mean.measured.force.z() + 0.2) << "tip down, the fixture pulls along +Z6";
+}
+
+TEST(ContactRecord, AGainLeftInMultipliesTheForceAndTheLawLeavesASoftWallAlone) {
+  ContactExperiment e = ball_before_a_wall();
+  e.ends_s = 2.2;
+  add_rectangle(e.surface, kWall.point, Vec3(0, 0.05, 0), Vec3(0, 0, 0.05));
+  add_contact(e, kWall, deep(), 0.6, 2.6, 0.7);
+  const auto at_the_end = [&](const ContactSetting& setting) {
+    const ContactRecording r = record_contacts(e, setting);
+    EXPECT_DOUBLE_EQ(r.t.front(), e.begins_s);
+    const Spell hold{1.2, 2.2};
+    return std::pair(mean_over(curve_of(r.t, r.desired, Component::kFy), hold),
+                     mean_over(curve_of(r.sensor_t, r.measured, Component::kFy), hold));
+  };
+  const auto [soft, soft_felt] = at_the_end(soft_manner().setting);
+  EXPECT_LT(soft, -0.15) << "the wall stands at +Y6";
+  EXPECT_NEAR(soft_felt / soft, 1, 0.25) << "held from one side only, friction stays in";
+  const auto [thesis, thesis_felt] = at_the_end(thesis_manner().setting);
+  EXPECT_GT(thesis_felt / thesis, 4);
+  EXPECT_LT(thesis / soft, 0.8) << "five times as stiff the wall lets the hand in less deep";
+  ContactSetting with_law = soft_manner().setting;
+  with_law.law = PassivityLaw::kBudgeted;
+  EXPECT_NEAR(at_the_end(with_law).first / soft, 1, 0.03);
+}
+
+TEST(HandSense, WithoutAHandThereIsNoMoment) {
+  SimulatedDaq daq(nominal_device());
+  for (int i = 0; i < 10; ++i) {
+    daq.read();
+    daq.write({});
+  }
+  EXPECT_EQ(daq.sense().moment_on_hand.norm(), 0);
+  EXPECT_EQ(daq.sense().force_on_hand.norm(), 0);
 }
 
 }  // namespace
