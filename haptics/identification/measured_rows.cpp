@@ -98,7 +98,8 @@ std::vector<FitParameter> fit_columns(const BaseSet& base) {
   return columns;
 }
 
-void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group, TorqueRows& rows) {
+void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group,
+              TorqueRows& rows) {
   const auto n = static_cast<int>(pass.q.size());
   const int skip = static_cast<int>(0.5 * (1 - middle) * n);
   constexpr int kEvery = 10;

@@ -1,4 +1,5 @@
-// The benches of the compensation studies: releases, the bare loop, the thesis' weight law, what the sensor of the hand reads.
+// The benches of the compensation studies: releases, the bare loop, the thesis' weight law, what the sensor of the hand
+// reads.
 #include <gtest/gtest.h>
 
 #include "app/study/identified_device.h"
@@ -55,7 +56,8 @@ TEST(LawLoop, AsksForTheLawsTorqueAtTheAnglesOfTheCounts) {
   SimulatedDaq daq(config);
   JointVector seen = JointVector::Zero();
   const JointVector wanted = (JointVector() << 0.1, -0.1, 0.05, 0.02, -0.01, 0.005).finished();
-  LawLoop loop(daq, [&](const ArmState& arm) { return seen = arm.q, wanted; }, home_angles());
+  LawLoop loop(
+      daq, [&](const ArmState& arm) { return seen = arm.q, wanted; }, home_angles());
   for (int k = 0; k < 10; ++k) loop.tick();  // still in the jig
   EXPECT_LT((seen - home_angles()).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((daq.plant().motor_loads().head<kArmJoints>() - wanted).cwiseAbs().maxCoeff(), 2e-5) << "half a code";
@@ -73,8 +75,9 @@ TEST(HandSense, FeelsForceAndMomentThatHoldTheStylus) {
   // The loop renders 0.5 N up and 20 mN m about z beside the weight: the hand feels those.
   Vec6 w = Vec6::Zero();
   w[2] = 0.5, w[5] = 0.02;
-  LawLoop loop(daq, [&](const ArmState& arm) -> JointVector { return gravity_torque({}, arm) + arm.J_WS.transpose() * w; },
-               home_angles());
+  LawLoop loop(
+      daq, [&](const ArmState& arm) -> JointVector { return gravity_torque({}, arm) + arm.J_WS.transpose() * w; },
+      home_angles());
   for (int k = 0; k < 3000; ++k) {
     daq.set_hand_intent(at_home.X_BS, at_home.jaw_opening_m);
     loop.tick();
@@ -88,7 +91,8 @@ TEST(Payload, MovesMassCentreAndInertiaOfTheStylusAsOneBody) {
   EXPECT_NEAR(loaded.stylus_mass, bare.stylus_mass + 0.02, 1e-15);
   const Vec3 moment = bare.stylus_mass * bare.stylus_com + 0.02 * Vec3(0, 0, 0.03);
   EXPECT_LT((loaded.stylus_mass * loaded.stylus_com - moment).norm(), 1e-15);
-  const double across = bare.stylus_mass * 0.02 / loaded.stylus_mass * 0.03 * 0.03;  // reduced mass times distance squared
+  const double across =
+      bare.stylus_mass * 0.02 / loaded.stylus_mass * 0.03 * 0.03;  // reduced mass times distance squared
   EXPECT_NEAR(loaded.stylus_inertia[0] - bare.stylus_inertia[0], across, 0.05 * across);
   EXPECT_LT(loaded.stylus_inertia[2] - bare.stylus_inertia[2], 1e-7);
   EXPECT_EQ(drawn_with_payload(4, 0).stylus_mass, bare.stylus_mass);

@@ -64,7 +64,8 @@ TEST(ForceStudy, MeetsItsBarsAndIsTheSameEveryTime) {
 
 TEST(ForceStudy, HoldsForOtherDevices) {
   for (const std::uint64_t seed : {2u, 3u}) {
-    for (const StudyCase& c : force_study({true, seed}).cases) EXPECT_TRUE(c.met) << seed << ", " << c.name << ": " << c.value;
+    for (const StudyCase& c : force_study({true, seed}).cases)
+      EXPECT_TRUE(c.met) << seed << ", " << c.name << ": " << c.value;
   }
 }
 

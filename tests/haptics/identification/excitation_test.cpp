@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/identification/excitation.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/inverse_kinematics.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {

@@ -1,12 +1,12 @@
 // The servo on the seam: follows, measures what it asks, and refuses a device that misbehaves.
 #include <gtest/gtest.h>
 
+#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/identification/joint_servo.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/inverse_kinematics.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {
@@ -38,7 +38,11 @@ TEST(JointServo, MeasuresWeightAndFrictionOfAPassWithTheSignOfTheMotion) {
     const double sign = way == 0 ? 1 : -1;
     servo.move_to(q - 0.5 * sign * rate);
     servo.follow([&](double t) { return PathPoint{q + (t - 0.5) * sign * rate, sign * rate}; }, 0.2);
-    const Trace trace = servo.follow([&](double t) { return PathPoint{q + (t - 0.3) * sign * rate, sign * rate}; }, 0.6);
+    const Trace trace = servo.follow(
+        [&](double t) {
+          return PathPoint{q + (t - 0.3) * sign * rate, sign * rate};
+        },
+        0.6);
     torque[way].setZero();
     for (const JointVector& tau : trace.tau) torque[way] += tau / static_cast<double>(trace.tau.size());
   }

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "haptics/identification/weighted_fit.h"
 #include "../haptics_fixtures.h"
+#include "haptics/identification/weighted_fit.h"
 
 namespace trocar {
 namespace {
@@ -50,7 +50,8 @@ TEST(WeightedFit, DeviationIsTheSpreadOverRepeats) {
     double squares = 0, claimed = 0;
     constexpr int kRepeats = 200;
     for (int n = 0; n < kRepeats; ++n) {
-      const TorqueFit fit = fit_torques(made_up(truth, JointVector::Constant(0.5), 200, together, 10 + n), columns(3), 1);
+      const TorqueFit fit =
+          fit_torques(made_up(truth, JointVector::Constant(0.5), 200, together, 10 + n), columns(3), 1);
       squares += std::pow(fit.parameter[0].value - 1, 2) / kRepeats;
       claimed += std::pow(fit.parameter[0].deviation, 2) / kRepeats;
     }
