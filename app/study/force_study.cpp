@@ -6,8 +6,10 @@
 #include <Eigen/LU>
 
 #include "app/calibration/amplifier_calibration.h"
+#include "app/study/bar_drawing.h"
 #include "app/study/law_loop.h"
 #include "app/study/plant_bench.h"
+#include "app/study/study_files.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/inverse_kinematics.h"
@@ -136,7 +138,8 @@ struct Error {
 
 Error error_of(const Case& c, const Wrench& reading) {
   const Vec3 measured = c.moment ? reading.moment : reading.force;
-  return {std::atan2(measured.cross(c.axis_S).norm(), measured.dot(c.axis_S)) / kDegree, measured.norm() - 1};
+  const double angle = std::atan2(measured.cross(c.axis_S).norm(), measured.dot(c.axis_S)) / kDegree;
+  return {angle < 1e-9 ? 0 : angle, measured.norm() - 1};  // rounding is no finding
 }
 
 Error measured_error(ForceBench& bench, const Case& c) {
@@ -228,25 +231,28 @@ void add_cases(StudyResult& study, const Errors& e) {
 }
 
 void draw(StudyResult& study, const Errors& e, bool whole) {
-  StudyCurves c{"direction",
-                "Direction error of six wrenches at home (simulated plant)",
-                "case: 1 +Z6, 2 -Z6, 3 +Y6, 4 -Y6 (1 N); 5 +X6, 6 -X6 (1 N m)",
-                "direction error, deg",
-                {},
-                {}};
-  c.series = {{"thesis, measured", {}}, {"static map", {}}, {"whole chain", {}}};
-  if (whole) c.series.push_back({"no friction", {}});
-  if (whole) c.series.push_back({"not calibrated", {}});
+  StudyCurves c{"direction", "Direction error of six wrenches at home (simulated plant)",
+                "wrench",    "direction error, deg",
+                {},          {{"thesis, measured", {}}, {"whole chain", {}}}};
+  if (whole) c.series.push_back({"whole chain, not calibrated", {}});
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < cases().size(); ++i) {
+    const Case& one = cases()[i];
+    names.push_back(std::string(one.moment ? "1 N m, " : "1 N, ") + one.name);
     c.x.push_back(static_cast<double>(i + 1));
-    c.series[0].y.push_back(cases()[i].thesis_deg);
-    c.series[1].y.push_back(e.map[i].direction_deg);
-    c.series[2].y.push_back(e.chain[i].direction_deg);
-    if (!whole) continue;
-    c.series[3].y.push_back(e.quantised[i].direction_deg);
-    c.series[4].y.push_back(e.uncalibrated[i].direction_deg);
+    c.series[0].y.push_back(one.thesis_deg);
+    c.series[1].y.push_back(e.chain[i].direction_deg);
+    if (whole) c.series[2].y.push_back(e.uncalibrated[i].direction_deg);
   }
-  study.curves.push_back(c);
+  study.files.push_back({"direction.svg", grouped_bars_svg(c, names)});
+  c.x_label = "case";
+  if (whole) {
+    c.series.push_back({"static map", {}});
+    c.series.push_back({"without friction", {}});
+    for (const Error& one : e.map) c.series[3].y.push_back(one.direction_deg);
+    for (const Error& one : e.quantised) c.series[4].y.push_back(one.direction_deg);
+  }
+  study.files.push_back({"direction.csv", curves_csv(c)});
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ class Sequence {
       out.push_back(c);
     };
     six("angles", "Led to S1, S2, S3, S4 and let go for 3 s at each", "joint angle, deg", q_, 1 / kDegree);
-    six("torques", "Motor torques meanwhile", "torque at the joint, mN m", torque_, 1e3);
+    six("torques", "Motor torques, led to S1, S2, S3, S4 and let go at each", "torque at the joint, mN m", torque_, 1e3);
     return out;
   }
 
@@ -162,7 +162,7 @@ class Sequence {
     return hand;
   }
   void keep() {
-    if (ticks_++ % 20 != 0) return;
+    if (ticks_++ % 40 != 0) return;
     t_.push_back(bench_.time_s());
     q_.push_back(bench_.record().q.head<kArmJoints>());
     torque_.push_back(bench_.record().torque.head<kArmJoints>());
