@@ -103,6 +103,10 @@ int identify_command(const IdentifyOptions& options, std::ostream& out, std::ost
   if (!(options.payload_kg >= 0 && options.payload_kg <= kMostPayload_kg)) {
     throw InputError("--payload: 0 to 0.05 kg, more would overload the motors");
   }
+  // Half a minute of work for a file that cannot be written would be unkind.
+  if (!options.out.empty() && !std::ofstream(options.out, std::ios::binary | std::ios::app)) {
+    throw EnvironmentError(options.out.string() + ": cannot be written");
+  }
   IdentifyRequest request = options.quick ? quick_identification() : IdentifyRequest{};
   if (!options.quick) request.poses = options.poses;
   request.seed = options.seed;
