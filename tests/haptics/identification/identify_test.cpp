@@ -131,6 +131,21 @@ TEST(Identify, RefusesTooLittleExcitationWithTheConditionNumber) {
   }
 }
 
+TEST(Identify, EndsWithAMessageWhenTheDeviceFails) {
+  for (const InjectedFaultKind kind : {InjectedFaultKind::kEncoderJump, InjectedFaultKind::kEncoderStuck}) {
+    SimulatedDaqConfig config;
+    InjectedFault fault;
+    fault.kind = kind;
+    fault.channel = 1;
+    fault.at_s = 12;
+    fault.value = 400;
+    config.faults.push_back(fault);
+    SimulatedDaq daq(config);
+    EXPECT_THROW(identify(daq, {}, small(1)), EnvironmentError);
+    EXPECT_FALSE(daq.plant().amplifiers_enabled()) << "the servo lets go of a device that it gives up";
+  }
+}
+
 TEST(MeasuredRows, ATrajectoryOfKnownMotionGivesTheRegressorOfThatMotion) {
   const BaseSet base = base_parameters();
   const auto q_at = [](double t) {
