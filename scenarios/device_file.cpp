@@ -9,7 +9,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kMostMoment = 5;      // N m: ten times what the motors could ever carry
+constexpr double kMostMoment = 5;  // N m: ten times what the motors could ever carry
 constexpr double kMostCoulomb = 0.2, kMostViscous = 1;
 
 /// The fewest digits that read back as the same number.

@@ -16,7 +16,8 @@
 
 namespace trocar {
 
-/// @param comment lines that open the file, without their '#'. @throws InputError for a model without identified gravity.
+/// @param comment lines that open the file, without their '#'. @throws InputError for a model without identified
+/// gravity.
 std::string device_toml(const DeviceModel& model, const std::string& comment);
 
 /// @throws InputError with file, line and column.

@@ -39,10 +39,11 @@ ordered_json to_json(const Identification& id, const IdentifyOptions& options) {
                     {"prediction_error", list(id.prediction_error)},
                     {"prediction_error_moving", list(id.moving_error)},
                     {"prediction_error_nominal", list(id.nominal_error)},
-                    {"static", {{"friction_n_m", list(id.poses.coulomb)},
-                                {"friction_deviation_n_m", list(id.poses.coulomb_deviation)},
-                                {"gravity_residual_n_m", list(id.poses.gravity_residual)},
-                                {"nominal_residual_n_m", list(id.poses.nominal_residual)}}},
+                    {"static",
+                     {{"friction_n_m", list(id.poses.coulomb)},
+                      {"friction_deviation_n_m", list(id.poses.coulomb_deviation)},
+                      {"gravity_residual_n_m", list(id.poses.gravity_residual)},
+                      {"nominal_residual_n_m", list(id.poses.nominal_residual)}}},
                     {"parameters", ordered_json::array()}};
   for (const FitParameter& p : id.fit.parameter) {
     json["parameters"].push_back(
@@ -59,13 +60,15 @@ void print_joints(std::ostream& out, const std::string& what, const JointVector&
 
 void print(const Identification& id, const IdentifyOptions& options, std::ostream& out) {
   out << "On the simulated plant, seed " << options.seed << ": " << id.request.poses << " poses, "
-      << id.request.trajectories << " trajectories, " << std::lround(id.duration_s) << " s of device time, hottest winding "
-      << std::lround(id.hottest_c) << " C\nCondition number " << std::setprecision(3) << id.condition << ", "
+      << id.request.trajectories << " trajectories, " << std::lround(id.duration_s)
+      << " s of device time, hottest winding " << std::lround(id.hottest_c) << " C\nCondition number "
+      << std::setprecision(3) << id.condition << ", "
       << id.fit.parameter.size() - static_cast<std::size_t>(id.fit.dropped) << " of " << id.fit.parameter.size()
       << " parameters told by the data\n\n";
   for (const FitParameter& p : id.fit.parameter) {
-    out << std::left << std::setw(12) << p.name << std::right << std::scientific << std::setprecision(3) << std::setw(12)
-        << p.value << " +- " << std::setw(10) << p.deviation << ' ' << p.unit << (p.used ? "" : "  (not told)") << '\n';
+    out << std::left << std::setw(12) << p.name << std::right << std::scientific << std::setprecision(3)
+        << std::setw(12) << p.value << " +- " << std::setw(10) << p.deviation << ' ' << p.unit
+        << (p.used ? "" : "  (not told)") << '\n';
   }
   out << '\n' << std::left << std::setw(44) << "joint" << std::right;
   for (int i = 1; i <= kArmJoints; ++i) out << std::setw(9) << i;
@@ -76,8 +79,9 @@ void print(const Identification& id, const IdentifyOptions& options, std::ostrea
   print_joints(out, "unseen trajectory, % rms", id.prediction_error, 100, 2);
   print_joints(out, "  while the joint moves, % rms", id.moving_error, 100, 2);
   print_joints(out, "  by the nominal weights and friction, % rms", id.nominal_error, 100, 2);
-  out << "\nstylus weight " << std::setprecision(4) << stylus_weight(id) << " N; smallest eigenvalue of the inertia matrix "
-      << std::scientific << std::setprecision(2) << id.least_inertia << " kg m2\n";
+  out << "\nstylus weight " << std::setprecision(4) << stylus_weight(id)
+      << " N; smallest eigenvalue of the inertia matrix " << std::scientific << std::setprecision(2) << id.least_inertia
+      << " kg m2\n";
   for (const std::string& doubt : id.doubts) out << "doubtful: " << doubt << '\n';
 }
 
@@ -85,7 +89,8 @@ void write_device(const std::filesystem::path& file, const Identification& id, c
   std::ostringstream comment;
   comment << "Identified on the simulated plant, seed " << options.seed << ", payload " << options.payload_kg << " kg, "
           << id.request.poses << " poses;\ntorques of an unseen trajectory are off by";
-  for (int i = 0; i < kArmJoints; ++i) comment << ' ' << std::fixed << std::setprecision(1) << 100 * id.prediction_error[i];
+  for (int i = 0; i < kArmJoints; ++i)
+    comment << ' ' << std::fixed << std::setprecision(1) << 100 * id.prediction_error[i];
   comment << " % rms (joints 1 to 6).";
   std::ofstream stream(file, std::ios::binary);
   stream << device_toml(id.device, comment.str());
@@ -98,13 +103,19 @@ int identify_command(const IdentifyOptions& options, std::ostream& out, std::ost
   if (!(options.payload_kg >= 0 && options.payload_kg <= kMostPayload_kg)) {
     throw InputError("--payload: 0 to 0.05 kg, more would overload the motors");
   }
+  // Half a minute of work for a file that cannot be written would be unkind.
+  if (!options.out.empty() && !std::ofstream(options.out, std::ios::binary | std::ios::app)) {
+    throw EnvironmentError(options.out.string() + ": cannot be written");
+  }
   IdentifyRequest request = options.quick ? quick_identification() : IdentifyRequest{};
   if (!options.quick) request.poses = options.poses;
   request.seed = options.seed;
   request.span = options.span;
   const Identification id = identify_simulated(drawn_with_payload(options.seed, options.payload_kg), request);
-  if (options.json) out << to_json(id, options).dump(2) << '\n';
-  else print(id, options, out);
+  if (options.json)
+    out << to_json(id, options).dump(2) << '\n';
+  else
+    print(id, options, out);
   if (!options.out.empty()) {
     write_device(options.out, id, options);
     err << "trocar: device file " << options.out.string() << '\n';

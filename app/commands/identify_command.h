@@ -8,11 +8,11 @@
 namespace trocar {
 
 struct IdentifyOptions {
-  std::uint64_t seed = 1;     ///< of the simulated device, the poses and the trajectories
+  std::uint64_t seed = 1;  ///< of the simulated device, the poses and the trajectories
   int poses = 60;
-  double span = 1;            ///< share of workspace and amplitude that is used
-  double payload_kg = 0;      ///< a mass on the stylus, 30 mm down the roll axis, that nobody tells the identifier
-  bool quick = false;         ///< 20 poses, one trajectory
+  double span = 1;        ///< share of workspace and amplitude that is used
+  double payload_kg = 0;  ///< a mass on the stylus, 30 mm down the roll axis, that nobody tells the identifier
+  bool quick = false;     ///< 20 poses, one trajectory
   bool json = false;
   std::filesystem::path out;  ///< device file (TOML) to write; none when empty
 };

@@ -6,8 +6,10 @@
 #include <Eigen/LU>
 
 #include "app/calibration/amplifier_calibration.h"
+#include "app/study/bar_drawing.h"
 #include "app/study/law_loop.h"
 #include "app/study/plant_bench.h"
+#include "app/study/study_files.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/inverse_kinematics.h"
@@ -18,9 +20,9 @@ namespace {
 
 struct Case {
   const char* name;
-  Vec3 axis_S;       ///< in the stylus frame
-  bool moment;       ///< 1 N m about it instead of 1 N along it
-  double thesis_deg; ///< figures 3.38 and 3.39
+  Vec3 axis_S;        ///< in the stylus frame
+  bool moment;        ///< 1 N m about it instead of 1 N along it
+  double thesis_deg;  ///< figures 3.38 and 3.39
 };
 
 const std::array<Case, 6>& cases() {
@@ -33,9 +35,9 @@ const std::array<Case, 6>& cases() {
   return all;
 }
 
-constexpr double kAside = 2.5 * kDegree;                      // every joint, from where the fixture comes
+constexpr double kAside = 2.5 * kDegree;  // every joint, from where the fixture comes
 constexpr double kWay_s = 0.8, kRest_s = 0.4, kRead_s = 1.0;
-constexpr double kMomentNoise = 5e-4;                         // N m [assumed, with the sensor's 20 mN]
+constexpr double kMomentNoise = 5e-4;  // N m [assumed, with the sensor's 20 mN]
 
 /// Stiffer than any hand: 0.2 mm under 1 N, 1 deg under 1 N m.
 HandParameters fixture() {
@@ -60,9 +62,14 @@ class ForceBench {
  public:
   ForceBench(const PlantParameters& truth, const DeviceModel& model, const ForceSensorConfig& sensor,
              const ForceSensorConfig& moments, std::uint64_t seed)
-      : daq_(config(truth)), force_(sensor, seed), moment_(moments, seed + 1), home_(daq_.sense()),
-        loop_(daq_, [this](const ArmState& arm) { return torque(arm); }, home_angles(), model) {
-    run(kRest_s, [](double) { return 0.0; }, nullptr);
+      : daq_(config(truth)),
+        force_(sensor, seed),
+        moment_(moments, seed + 1),
+        home_(daq_.sense()),
+        loop_(
+            daq_, [this](const ArmState& arm) { return torque(arm); }, home_angles(), model) {
+    run(
+        kRest_s, [](double) { return 0.0; }, nullptr);
   }
 
   /// Mean reading from both sides, in the stylus frame. @param wrench whether the device renders the case.
@@ -71,10 +78,14 @@ class ForceBench {
     const auto from = [&](double sign) {
       Wrench sum;
       double samples = 0;
-      run(kWay_s, [&](double s) { return sign * minimum_jerk(s); }, nullptr);
-      run(kWay_s, [&](double s) { return sign * (1 - minimum_jerk(s)); }, nullptr);
-      run(kRest_s, [](double) { return 0.0; }, nullptr);
-      run(kRead_s, [](double) { return 0.0; }, [&](const Wrench& reading) { sum = sum + reading, samples += 1; });
+      run(
+          kWay_s, [&](double s) { return sign * minimum_jerk(s); }, nullptr);
+      run(
+          kWay_s, [&](double s) { return sign * (1 - minimum_jerk(s)); }, nullptr);
+      run(
+          kRest_s, [](double) { return 0.0; }, nullptr);
+      run(
+          kRead_s, [](double) { return 0.0; }, [&](const Wrench& reading) { sum = sum + reading, samples += 1; });
       return sum * (1 / samples);
     };
     const Wrench above = from(1);
@@ -101,7 +112,8 @@ class ForceBench {
     const long n = std::lround(seconds * rate), every = std::lround(rate / force_.config().rate_hz);
     for (long k = 1; k <= n; ++k) {
       const double way = aside(static_cast<double>(k) / static_cast<double>(n));
-      const Pose from_home = home_pose().inverse() * arm_state(home_angles() + JointVector::Constant(kAside * way)).X_WS;
+      const Pose from_home =
+          home_pose().inverse() * arm_state(home_angles() + JointVector::Constant(kAside * way)).X_WS;
       daq_.set_hand_intent(home_.X_BS * from_home, home_.jaw_opening_m);
       loop_.tick();
       if (k % every != 0) continue;
@@ -126,7 +138,8 @@ struct Error {
 
 Error error_of(const Case& c, const Wrench& reading) {
   const Vec3 measured = c.moment ? reading.moment : reading.force;
-  return {std::atan2(measured.cross(c.axis_S).norm(), measured.dot(c.axis_S)) / kDegree, measured.norm() - 1};
+  const double angle = std::atan2(measured.cross(c.axis_S).norm(), measured.dot(c.axis_S)) / kDegree;
+  return {angle < 1e-9 ? 0 : angle, measured.norm() - 1};  // rounding is no finding
 }
 
 Error measured_error(ForceBench& bench, const Case& c) {
@@ -195,7 +208,10 @@ void add_cases(StudyResult& study, const Errors& e) {
       const double share = std::abs(errors[i].magnitude);
       const auto bar = [](double limit, const char* unit) {
         const std::string digits = std::to_string(limit);
-        return "< " + digits.substr(0, digits.find_last_not_of('0') + (digits.find_last_not_of('0') == digits.find('.') ? 0 : 1)) + unit;
+        return "< " +
+               digits.substr(
+                   0, digits.find_last_not_of('0') + (digits.find_last_not_of('0') == digits.find('.') ? 0 : 1)) +
+               unit;
       };
       study.cases.push_back({name + ": direction", "deg", errors[i].direction_deg, c.thesis_deg, bar(most_deg, " deg"),
                              errors[i].direction_deg < most_deg, definition});
@@ -204,29 +220,39 @@ void add_cases(StudyResult& study, const Errors& e) {
     }
   };
   add("static map", e.map, 0.1, 0.01,
-      "Wrench that the plant's own Jacobian makes of the torques in the controller's DAC codes, at the exact home angles.");
+      "Wrench that the plant's own Jacobian makes of the torques in the controller's DAC codes, at the exact home "
+      "angles.");
   add("whole chain", e.chain, 2, 0.05,
-      "Reading of a fixture that holds the stylus less its reading without a wrench, on the drawn device with friction, "
-      "amplifiers as calibrated on the bench rig, quantised encoders, sensor with noise and lag: mean of approaches by every joint from both sides, "
+      "Reading of a fixture that holds the stylus less its reading without a wrench, on the drawn device with "
+      "friction, "
+      "amplifiers as calibrated on the bench rig, quantised encoders, sensor with noise and lag: mean of approaches by "
+      "every joint from both sides, "
       "1 s of readings each.");
 }
 
 void draw(StudyResult& study, const Errors& e, bool whole) {
   StudyCurves c{"direction", "Direction error of six wrenches at home (simulated plant)",
-                "case: 1 +Z6, 2 -Z6, 3 +Y6, 4 -Y6 (1 N); 5 +X6, 6 -X6 (1 N m)", "direction error, deg", {}, {}};
-  c.series = {{"thesis, measured", {}}, {"static map", {}}, {"whole chain", {}}};
-  if (whole) c.series.push_back({"no friction", {}});
-  if (whole) c.series.push_back({"not calibrated", {}});
+                "wrench",    "direction error, deg",
+                {},          {{"thesis, measured", {}}, {"whole chain", {}}}};
+  if (whole) c.series.push_back({"whole chain, not calibrated", {}});
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < cases().size(); ++i) {
+    const Case& one = cases()[i];
+    names.push_back(std::string(one.moment ? "1 N m, " : "1 N, ") + one.name);
     c.x.push_back(static_cast<double>(i + 1));
-    c.series[0].y.push_back(cases()[i].thesis_deg);
-    c.series[1].y.push_back(e.map[i].direction_deg);
-    c.series[2].y.push_back(e.chain[i].direction_deg);
-    if (!whole) continue;
-    c.series[3].y.push_back(e.quantised[i].direction_deg);
-    c.series[4].y.push_back(e.uncalibrated[i].direction_deg);
+    c.series[0].y.push_back(one.thesis_deg);
+    c.series[1].y.push_back(e.chain[i].direction_deg);
+    if (whole) c.series[2].y.push_back(e.uncalibrated[i].direction_deg);
   }
-  study.curves.push_back(c);
+  study.files.push_back({"direction.svg", grouped_bars_svg(c, names)});
+  c.x_label = "case";
+  if (whole) {
+    c.series.push_back({"static map", {}});
+    c.series.push_back({"without friction", {}});
+    for (const Error& one : e.map) c.series[3].y.push_back(one.direction_deg);
+    for (const Error& one : e.quantised) c.series[4].y.push_back(one.direction_deg);
+  }
+  study.files.push_back({"direction.csv", curves_csv(c)});
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ struct LawResult {
     return worst;
   }
   int still() const {
-    return static_cast<int>(std::count_if(drawn.begin(), drawn.end(), [](const Release& r) { return r.drift_m < kDriftBar_m; }));
+    return static_cast<int>(
+        std::count_if(drawn.begin(), drawn.end(), [](const Release& r) { return r.drift_m < kDriftBar_m; }));
   }
   /// rms over all poses.
   double share() const {
@@ -58,8 +59,12 @@ std::vector<GravityLaw> laws(const DeviceModel& identified) {
 void draw_drifts(StudyResult& study, const std::vector<GravityLaw>& law, const std::vector<LawResult>& results) {
   for (std::size_t pose = 0; pose < 4; ++pose) {
     const std::string name = "S" + std::to_string(pose + 1);
-    StudyCurves c{"drift_" + name, "Released at " + name + " (simulated plant)", "time since release, s",
-                  "stylus origin from the release point, mm", {}, {}};
+    StudyCurves c{"drift_" + name,
+                  "Released at " + name + " (simulated plant)",
+                  "time since release, s",
+                  "stylus origin from the release point, mm",
+                  {},
+                  {}};
     for (std::size_t l = 0; l < law.size(); ++l) {
       const Release& r = results[l].thesis_pose[pose];
       if (r.t.size() > c.x.size()) c.x = r.t;
@@ -75,10 +80,10 @@ void draw_drifts(StudyResult& study, const std::vector<GravityLaw>& law, const s
 void add_share(StudyResult& study, const std::vector<LawResult>& results) {
   const auto entry = [&](const std::string& what, std::size_t law) {
     const double share = results[law].share();
-    study.cases.push_back({"weight left over, " + what, "share", share, results[kThesis].share(), "< 0.05",
-                           share < kShareBar,
-                           "Torque that the motors really deliver minus the plant's true holding torque, norm over joints "
-                           "and rms over all poses, over that of the holding torque."});
+    study.cases.push_back(
+        {"weight left over, " + what, "share", share, results[kThesis].share(), "< 0.05", share < kShareBar,
+         "Torque that the motors really deliver minus the plant's true holding torque, norm over joints "
+         "and rms over all poses, over that of the holding torque."});
   };
   entry("nominal weights", kNominal);
   entry("identified weights", kIdentified);
@@ -88,19 +93,22 @@ void add_drifts(StudyResult& study, const std::vector<LawResult>& results) {
   const double thesis = results[kThesis].worst_drift_m() * 1e3;
   const auto entry = [&](const std::string& what, std::size_t law) {
     const double worst = results[law].worst_drift_m() * 1e3;
-    study.cases.push_back({"drift of a released stylus, " + what, "mm", worst, thesis, "< 2 in 5 s, every pose",
-                           worst < kDriftBar_m * 1e3,
-                           "Farthest that the stylus origin comes from where the hand let go, worst of S1 to S4 and the "
-                           "drawn poses; measured up to 50 mm."});
+    study.cases.push_back(
+        {"drift of a released stylus, " + what, "mm", worst, thesis, "< 2 in 5 s, every pose",
+         worst < kDriftBar_m * 1e3,
+         "Farthest that the stylus origin comes from where the hand let go, worst of S1 to S4 and the "
+         "drawn poses; measured up to 50 mm."});
   };
   entry("nominal weights", kNominal);
   entry("identified weights", kIdentified);
   const double drawn = static_cast<double>(results[kIdentified].drawn.size());
-  study.cases.push_back({"drawn poses that hold still, identified", "poses", double(results[kIdentified].still()),
-                         double(results[kThesis].still()), "all " + std::to_string(results[kIdentified].drawn.size()),
-                         results[kIdentified].still() == drawn,
-                         "Poses drawn by the seed over the workspace in which the stylus stays within 2 mm for 5 s; without "
-                         "any compensation " + std::to_string(results[kNone].still()) + " do."});
+  study.cases.push_back(
+      {"drawn poses that hold still, identified", "poses", double(results[kIdentified].still()),
+       double(results[kThesis].still()), "all " + std::to_string(results[kIdentified].drawn.size()),
+       results[kIdentified].still() == drawn,
+       "Poses drawn by the seed over the workspace in which the stylus stays within 2 mm for 5 s; without "
+       "any compensation " +
+           std::to_string(results[kNone].still()) + " do."});
 }
 
 /// Figures 4.5 and 4.6: the whole loop, a hand that leads the stylus to S1..S4 and opens there.
@@ -123,7 +131,7 @@ class Sequence {
       out.push_back(c);
     };
     six("angles", "Led to S1, S2, S3, S4 and let go for 3 s at each", "joint angle, deg", q_, 1 / kDegree);
-    six("torques", "Motor torques meanwhile", "torque at the joint, mN m", torque_, 1e3);
+    six("torques", "Motor torques, led to S1, S2, S3, S4 and let go at each", "torque at the joint, mN m", torque_, 1e3);
     return out;
   }
 
@@ -147,14 +155,14 @@ class Sequence {
   /// Fingers that only keep the enabling switch closed.
   static HandParameters open_hand() {
     HandParameters hand = firm();
-    for (double* k : {&hand.grip_stiffness, &hand.grip_damping, &hand.arm_stiffness, &hand.turn_stiffness, &hand.turn_damping,
-                      &hand.finger_stiffness, &hand.finger_damping}) {
+    for (double* k : {&hand.grip_stiffness, &hand.grip_damping, &hand.arm_stiffness, &hand.turn_stiffness,
+                      &hand.turn_damping, &hand.finger_stiffness, &hand.finger_damping}) {
       *k = 0;
     }
     return hand;
   }
   void keep() {
-    if (ticks_++ % 20 != 0) return;
+    if (ticks_++ % 40 != 0) return;
     t_.push_back(bench_.time_s());
     q_.push_back(bench_.record().q.head<kArmJoints>());
     torque_.push_back(bench_.record().torque.head<kArmJoints>());
@@ -206,10 +214,11 @@ StudyResult gravity_study(const StudyRequest& request) {
   add_share(study, results);
   draw_drifts(study, law, results);
   const Sequence sequence(truth, identified);
-  study.cases.push_back({"drift at S1 to S4, whole loop", "mm", sequence.worst_drift_m() * 1e3, std::nullopt, "< 2 in 3 s",
-                         sequence.worst_drift_m() < kDriftBar_m,
-                         "The loop with identified weights and friction compensation; the hand opens but keeps the enabling "
-                         "switch closed."});
+  study.cases.push_back(
+      {"drift at S1 to S4, whole loop", "mm", sequence.worst_drift_m() * 1e3, std::nullopt, "< 2 in 3 s",
+       sequence.worst_drift_m() < kDriftBar_m,
+       "The loop with identified weights and friction compensation; the hand opens but keeps the enabling "
+       "switch closed."});
   for (StudyCurves& c : sequence.curves()) study.curves.push_back(std::move(c));
   return study;
 }

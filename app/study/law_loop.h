@@ -16,7 +16,8 @@ using TorqueLaw = std::function<JointVector(const ArmState&)>;
 
 class LawLoop {
  public:
-  /// Turns the amplifiers on. @param q where the joints are now. @param model its transmissions count, calibrated or not.
+  /// Turns the amplifiers on. @param q where the joints are now. @param model its transmissions count, calibrated or
+  /// not.
   LawLoop(SimulatedDaq& daq, TorqueLaw law, const JointVector& q, const DeviceModel& model = {});
   /// One SYNC.
   void tick();

@@ -65,7 +65,8 @@ JointVector thesis_gravity_torque(const ArmState& arm) {
   for (const PlatformWeight& w : model.platform_weights) home += w.weight_n * w.home_W, weight += w.weight_n;
   home /= weight;
   const Mat3 R = arm.R_WPprime * home_inverse;  // Rz Ry Rx of W'
-  const Vec3 zyx(std::atan2(R(1, 0), R(0, 0)), -std::asin(std::clamp(R(2, 0), -1.0, 1.0)), -std::atan2(R(2, 1), R(2, 2)));
+  const Vec3 zyx(std::atan2(R(1, 0), R(0, 0)), -std::asin(std::clamp(R(2, 0), -1.0, 1.0)),
+                 -std::atan2(R(2, 1), R(2, 2)));
   const double Y = std::abs(home.y()), Z = std::abs(home.z()), r = std::hypot(Y, Z), beta = std::atan2(Z, Y);
   const Vec3 centre(Y * std::sin(zyx[0]) - Z * std::sin(zyx[1]), -Y * std::cos(zyx[0]) - r * std::cos(beta - zyx[2]),
                     -Z * std::cos(zyx[1]) - r * std::sin(beta - zyx[2]));

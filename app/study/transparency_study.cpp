@@ -14,19 +14,17 @@ namespace {
 
 constexpr std::array kSpeeds{0.05, 0.1, 0.2, 0.3};  // m/s
 constexpr std::array<const char*, 3> kAxisNames{"X6", "Y6", "Z6"};
-constexpr double kMeasured_m = 0.015;               // to either side of the pose
-constexpr double kRunUp_m = 0.020;                  // before and after, from rest to speed
+constexpr double kMeasured_m = 0.015;  // to either side of the pose
+constexpr double kRunUp_m = 0.020;     // before and after, from rest to speed
 constexpr double kFrictionBar = 3, kWeightBar = 5;
-constexpr double kShare = 0.7;                      // of friction that is fed forward, the most that budgets allow
-constexpr double kDeadBand = 0.02;                  // rad/s
-constexpr double kDust_j = 1e-5;                    // rounding of codes is no debt; a contact's budget is 50 times that
+constexpr double kShare = 0.7;      // of friction that is fed forward, the most that budgets allow
+constexpr double kDeadBand = 0.02;  // rad/s
+constexpr double kDust_j = 1e-5;    // rounding of codes is no debt; a contact's budget is 50 times that
 
 enum Compensation : std::size_t { kNothing, kGravityOnly, kGravityAndFriction, kCompensations };
 
 /// Where the device works: well inside limits, det A 0.9.
-Pose working_pose() {
-  return arm_state(kDegree * (JointVector() << 45, 45, 45, -60, -75, 0).finished()).X_WS;
-}
+Pose working_pose() { return arm_state(kDegree * (JointVector() << 45, 45, 45, -60, -75, 0).finished()).X_WS; }
 
 /// A rail, not a hand: 0.1 mm under the largest force here.
 HandParameters rail() {
@@ -59,9 +57,11 @@ SimulatedDaqConfig plant_with(const PlantParameters& truth) {
 /// Mean force of the rail against the motion and along it, on the way forth and back.
 struct Pull {
   double forth = 0, back = 0;  ///< N, along the motion: positive is a resistance
-  double resistance() const { return 0.5 * (std::abs(forth) + std::abs(back)); }
-  double weight() const { return 0.5 * std::abs(forth - back); }    ///< the part that does not turn with the motion
+  /// The part that keeps its sign: weight, and what the geometry accelerates.
+  double weight() const { return 0.5 * std::abs(forth - back); }
+  /// The part that turns with the motion.
   double friction() const { return 0.5 * (forth + back); }
+  double both() const { return 0.5 * (std::abs(forth) + std::abs(back)); }
 };
 
 /// Constant speed between run-ups; the way at time t, from 0.
@@ -69,7 +69,9 @@ struct Stroke {
   double speed, run_up_s = 2 * kRunUp_m / speed, middle_s = 2 * kMeasured_m / speed;
   double seconds() const { return 2 * run_up_s + middle_s; }
   double way(double t) const {
-    const auto ramp = [&](double s) { return run_up_s * speed * (s * s * s - 0.5 * s * s * s * s); };  // smooth to speed
+    const auto ramp = [&](double s) {
+      return run_up_s * speed * (s * s * s - 0.5 * s * s * s * s);
+    };  // smooth to speed
     if (t < run_up_s) return ramp(t / run_up_s);
     if (t < run_up_s + middle_s) return kRunUp_m + (t - run_up_s) * speed;
     return 2 * kRunUp_m + 2 * kMeasured_m - ramp(std::max(0.0, (seconds() - t) / run_up_s));
@@ -95,9 +97,7 @@ class Rail {
     return pull;
   }
   /// rms of the rate estimator's error while the stylus moves, worst arm joint, rad/s.
-  double rate_noise() const {
-    return std::sqrt((squares_ / std::max(1.0, samples_)).maxCoeff());
-  }
+  double rate_noise() const { return std::sqrt((squares_ / std::max(1.0, samples_)).maxCoeff()); }
   /// Largest motion of the stylus at rest in an open hand, m: a limit cycle would show.
   double hunting() {
     HandParameters open = rail();
@@ -141,31 +141,44 @@ class Rail {
   double samples_ = 0;
 };
 
+bool carries_weight(const std::array<Pull, kCompensations>& by) {
+  return by[kNothing].weight() > by[kNothing].friction();
+}
+
+/// What a person has to overcome, N.
+double resistance(const Pull& pull, bool weighty) { return weighty ? pull.both() : pull.friction(); }
+
 using Table = std::array<std::array<std::array<Pull, kCompensations>, kSpeeds.size()>, 3>;
 
 void add_cases(StudyResult& study, const Table& table, const std::vector<std::size_t>& speeds) {
   for (std::size_t a = 0; a < 3; ++a) {
     for (const std::size_t s : speeds) {
       const auto& by = table[a][s];
-      const bool weighty = by[kNothing].weight() > by[kNothing].friction();
+      const bool weighty = carries_weight(by);
       const double bar = weighty ? kWeightBar : kFrictionBar;
-      const double ratio = by[kNothing].resistance() / by[kGravityAndFriction].resistance();
+      const double ratio = resistance(by[kNothing], weighty) / resistance(by[kGravityAndFriction], weighty);
       study.cases.push_back(
-          {std::string(kAxisNames[a]) + " at " + std::to_string(kSpeeds[s]).substr(0, 4) + " m/s: less resistance by", "times",
-           ratio, std::nullopt, weighty ? ">= 5 (carries weight)" : ">= 3 (friction alone)", ratio >= bar,
-           "Mean pull of the rail along the axis, magnitude, both directions: without any compensation over with weight and "
-           "friction compensation. The axis carries weight where the part that keeps its sign is the larger one."});
+          {std::string(kAxisNames[a]) + " at " + std::to_string(kSpeeds[s]).substr(0, 4) + " m/s: less resistance by",
+           "times", ratio, std::nullopt, weighty ? ">= 5 (carries weight)" : ">= 3 (friction alone)", ratio >= bar,
+           "Mean pull of the rail along the axis, without any compensation over with weight and friction compensation. "
+           "Where "
+           "weight is the larger part: magnitude, both directions; else the part that turns with the motion."});
     }
   }
 }
 
 void draw(StudyResult& study, const Table& table, const std::vector<std::size_t>& speeds) {
   for (std::size_t a = 0; a < 3; ++a) {
-    StudyCurves c{std::string("resistance_") + kAxisNames[a], std::string("Moving along ") + kAxisNames[a] + " in free air (simulated plant)",
-                  "speed, m/s", "mean pull at the stylus, N", {}, {{"nothing", {}}, {"gravity", {}}, {"gravity + friction", {}}}};
+    StudyCurves c{std::string("resistance_") + kAxisNames[a],
+                  std::string("Moving along ") + kAxisNames[a] + " in free air (simulated plant)",
+                  "speed, m/s",
+                  "mean pull at the stylus, N",
+                  {},
+                  {{"nothing", {}}, {"gravity", {}}, {"gravity + friction", {}}}};
     for (const std::size_t s : speeds) {
+      const bool weighty = carries_weight(table[a][s]);
       c.x.push_back(kSpeeds[s]);
-      for (std::size_t k = 0; k < kCompensations; ++k) c.series[k].y.push_back(table[a][s][k].resistance());
+      for (std::size_t k = 0; k < kCompensations; ++k) c.series[k].y.push_back(resistance(table[a][s][k], weighty));
     }
     study.curves.push_back(c);
   }
@@ -179,22 +192,26 @@ StudyResult transparency_study(const StudyRequest& request) {
   IdentifyRequest identification = request.quick ? quick_identification() : IdentifyRequest{};
   identification.seed = request.seed;
   const DeviceModel identified = identify_simulated(truth, identification).device;
-  const std::vector<std::size_t> speeds = request.quick ? std::vector<std::size_t>{1, 3} : std::vector<std::size_t>{0, 1, 2, 3};
+  const std::vector<std::size_t> speeds =
+      request.quick ? std::vector<std::size_t>{1, 3} : std::vector<std::size_t>{0, 1, 2, 3};
   const double knee = 0.06;
   Table table;
   double noise = 0, hunting = 0;
   for (std::size_t k = 0; k < kCompensations; ++k) {
     Rail rail(truth, loop_with(static_cast<Compensation>(k), identified, knee));
     for (std::size_t a = 0; a < 3; ++a) {
-      for (const std::size_t s : speeds) table[a][s][k] = rail.pull(working_pose().R.col(static_cast<Eigen::Index>(a)), kSpeeds[s]);
+      for (const std::size_t s : speeds)
+        table[a][s][k] = rail.pull(working_pose().R.col(static_cast<Eigen::Index>(a)), kSpeeds[s]);
     }
     noise = std::max(noise, rail.rate_noise());
     if (k == kGravityAndFriction) hunting = rail.hunting();
   }
   add_cases(study, table, speeds);
-  study.cases.push_back({"motion at rest, compensated, open hand", "mm", hunting * 1e3, std::nullopt, "< 0.2 (one count)",
-                         hunting < 2e-4, "Extent of the stylus' motion over 2 s, a second after the hand has opened: a limit cycle would show."});
-  study.cases.push_back({"knee of the feed-forward over rate noise", "times", knee / noise, std::nullopt, ">= 3", knee >= 3 * noise,
+  study.cases.push_back(
+      {"motion at rest, compensated, open hand", "mm", hunting * 1e3, std::nullopt, "< 0.2 (one count)", hunting < 2e-4,
+       "Extent of the stylus' motion over 2 s, a second after the hand has opened: a limit cycle would show."});
+  study.cases.push_back({"knee of the feed-forward over rate noise", "times", knee / noise, std::nullopt, ">= 3",
+                         knee >= 3 * noise,
                          "v0 = 0.06 rad/s over the rms error of the joint rates while the stylus moves, worst joint."});
   draw(study, table, speeds);
   return study;

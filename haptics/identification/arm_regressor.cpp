@@ -114,8 +114,8 @@ TorqueRegressor torque_regressor(const JointVector& q, const JointVector& qd, co
   Chain platform;
   platform.a = gravity * Vec3::UnitZ();
   platform.w = arm.J_WS.block<3, 3>(3, 0) * qd.head<3>();
-  platform.al = R_Wp_W * platform_acceleration(q.head<3>(), R_WP, R_Wp_W.transpose() * platform.w, qd.head<3>(),
-                                               qdd.head<3>());
+  platform.al =
+      R_Wp_W * platform_acceleration(q.head<3>(), R_WP, R_Wp_W.transpose() * platform.w, qd.head<3>(), qdd.head<3>());
   const Vec3 z4 = arm.J_WS.block<3, 1>(3, 3), z6 = arm.J_WS.block<3, 1>(3, 5);
   const Chain link2 = turned_by(carried_to(platform, arm.elbow_W), z4, qd[3], qdd[3]);
   const Chain wrist = turned_by(carried_to(link2, arm.X_WS.p), z4, qd[4], qdd[4]);

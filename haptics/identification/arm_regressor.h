@@ -6,8 +6,8 @@
 //   f = m a + (al x + w x w x) mr,   n = I al + w x I w + mr x a,   a = acceleration of the origin minus gravity
 // which is linear in the ten parameters m, mr, I (about the origin) of a body. Shoulder accelerations follow from
 // A omega = B theta' differentiated (spherical_parallel.h).
-// Frames of the bodies: P' (origin O), 4 (elbow), 5 (stylus origin, x along the roll axis, z along the elbow axis), 6 = S.
-// SI. Thread: pure functions, any thread.
+// Frames of the bodies: P' (origin O), 4 (elbow), 5 (stylus origin, x along the roll axis, z along the elbow axis), 6 =
+// S. SI. Thread: pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace trocar {
 
 inline constexpr double kGravity = 9.81;  ///< m/s2, as the weights of the thesis' table 4.1 were divided
 inline constexpr int kBodies = 4;
-inline constexpr int kBodyParameters = 10;                                         ///< m, mr (3), I (6)
-inline constexpr int kMassParameters = kBodies * kBodyParameters + kArmJoints;     ///< bodies, then rotors
+inline constexpr int kBodyParameters = 10;                                      ///< m, mr (3), I (6)
+inline constexpr int kMassParameters = kBodies * kBodyParameters + kArmJoints;  ///< bodies, then rotors
 
 using TorqueRegressor = Eigen::Matrix<double, kArmJoints, kMassParameters>;
 

@@ -8,7 +8,7 @@
 namespace trocar {
 namespace {
 
-constexpr int kMotions = 80;         // 480 rows for 46 columns
+constexpr int kMotions = 80;           // 480 rows for 46 columns
 constexpr double kIndependent = 1e-9;  // of a column's norm; dependent ones leave some 1e-15
 constexpr double kLeastDetA = 0.3;
 

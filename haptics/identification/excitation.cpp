@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kMargin = 10 * kDegree;
 constexpr double kLeastDetA = 0.3;
-constexpr double kMostWeight = 0.28;   // N m at a joint: 64 mN m at the motor, of 100
-constexpr double kPassWay = 0.08;      // rad to either side of a static pose
+constexpr double kMostWeight = 0.28;  // N m at a joint: 64 mN m at the motor, of 100
+constexpr double kPassWay = 0.08;     // rad to either side of a static pose
 constexpr int kPathPoints = 60;
-constexpr double kCentreShare = 0.3;   // of the reach, for the centre of a trajectory
+constexpr double kCentreShare = 0.3;             // of the reach, for the centre of a trajectory
 constexpr double kMostSpeed = 4, kMostRoll = 8;  // rad/s; the roll joint is light and free
-constexpr int kSteps = 24;             // of the amplitude
+constexpr int kSteps = 24;                       // of the amplitude
 
 JointVector middle_of_box() {
   JointVector middle;
@@ -58,7 +58,8 @@ FourierPath drawn_path(SeededDraw& draw, double span, const DeviceModel& model) 
   FourierPath path;
   const JointVector reach = reach_of_box();
   do {
-    for (int i = 0; i < kArmJoints; ++i) path.centre[i] = middle_of_box()[i] + kCentreShare * span * draw.between(-1, 1) * reach[i];
+    for (int i = 0; i < kArmJoints; ++i)
+      path.centre[i] = middle_of_box()[i] + kCentreShare * span * draw.between(-1, 1) * reach[i];
   } while (!pose_allowed(path.centre, model));
   FourierPath shape = path;
   for (int i = 0; i < kArmJoints; ++i) {

@@ -15,11 +15,11 @@
 namespace trocar {
 namespace {
 
-constexpr double kPassSpeed = 0.15;     // rad/s: beyond the Stribeck zone, slow enough for M qd' qd to vanish
-constexpr double kPassWay = 0.07;       // rad to either side
-constexpr double kPassMiddle = 0.6;     // share of a pass that counts
-constexpr double kFadeIn_s = 2;         // a trajectory's amplitude grows from rest
-constexpr double kOverlap_s = 0.2;      // measured before and after, for the filters
+constexpr double kPassSpeed = 0.15;  // rad/s: beyond the Stribeck zone, slow enough for M qd' qd to vanish
+constexpr double kPassWay = 0.07;    // rad to either side
+constexpr double kPassMiddle = 0.6;  // share of a pass that counts
+constexpr double kFadeIn_s = 2;      // a trajectory's amplitude grows from rest
+constexpr double kOverlap_s = 0.2;   // measured before and after, for the filters
 constexpr int kCheckedPoses = 200;
 constexpr std::uint64_t kUnseenSeed = 0xA5A5A5A5A5A5A5A5ull, kNextSeed = 0x9E3779B97F4A7C15ull;
 
@@ -119,7 +119,8 @@ void check_consistency(Identification& id, const DeviceModel& nominal) {
   id.least_inertia = std::numeric_limits<double>::infinity();
   for (const StaticPose& pose : draw_static_poses(id.request.seed ^ kUnseenSeed, kCheckedPoses, 1, nominal)) {
     const Mat6 M = inertia_matrix(pose.q, pi);
-    id.least_inertia = std::min(id.least_inertia, Eigen::SelfAdjointEigenSolver<Mat6>(0.5 * (M + M.transpose())).eigenvalues()[0]);
+    id.least_inertia =
+        std::min(id.least_inertia, Eigen::SelfAdjointEigenSolver<Mat6>(0.5 * (M + M.transpose())).eigenvalues()[0]);
   }
   if (!(id.least_inertia > 0)) id.doubts.push_back("the inertia matrix is not positive definite everywhere");
   for (int j = 0; j < kArmJoints; ++j) {

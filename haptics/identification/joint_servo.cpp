@@ -16,9 +16,9 @@ constexpr int kMostCounts = 30;                  // a millisecond: 22 rad/s
 constexpr double kLongestRest_s = 120;
 constexpr int kInertiaTicks = 20;
 // Enough to servo by, nothing is identified from them.
-constexpr double kRotor = 1.95e-5;   // kg m2 at the joint: 10.3 g cm2 over 0.23 squared [F]
-constexpr double kLegs = 1e-4;       // kg m2, platform and legs [assumed]
-constexpr double kStylus = 8e-5;     // kg m2, a pen of 12 cm [assumed]
+constexpr double kRotor = 1.95e-5;  // kg m2 at the joint: 10.3 g cm2 over 0.23 squared [F]
+constexpr double kLegs = 1e-4;      // kg m2, platform and legs [assumed]
+constexpr double kStylus = 8e-5;    // kg m2, a pen of 12 cm [assumed]
 
 double hottest_of(const std::vector<MotorHeat>& heat) {
   double hottest = 0;
@@ -80,15 +80,18 @@ JointServo::~JointServo() {
 
 JointVector JointServo::latch() {
   const DaqSample sample = daq_.read();
-  if (sample.valid != 0x7F || sample.elapsed_periods != 1) throw EnvironmentError("device: a SYNC was missed or not latched");
-  if ((sample.digital_in & (kEmergencyStop | kWatchdogFired)) != 0) throw EnvironmentError("device: its safety chain has opened");
+  if (sample.valid != 0x7F || sample.elapsed_periods != 1)
+    throw EnvironmentError("device: a SYNC was missed or not latched");
+  if ((sample.digital_in & (kEmergencyStop | kWatchdogFired)) != 0)
+    throw EnvironmentError("device: its safety chain has opened");
   const auto delta = counts_.advance(sample.counts);
   ChannelVector home = ChannelVector::Zero();
   home.head<kArmJoints>() = home_angles();
   for (int i = 0; i < kArmJoints; ++i) {
     const auto channel = static_cast<std::size_t>(i);
     if (std::abs(delta[channel]) > kMostCounts * period_s_ * 1000) {
-      throw EnvironmentError("device: the counts of joint " + std::to_string(i + 1) + " have jumped by " + std::to_string(delta[channel]));
+      throw EnvironmentError("device: the counts of joint " + std::to_string(i + 1) + " have jumped by " +
+                             std::to_string(delta[channel]));
     }
     qd_[i] = velocity_[channel].update(counts_.total()[channel], 1);
   }
@@ -102,8 +105,9 @@ void JointServo::step(const PathPoint& wanted) {
   worst_error_ = std::max(worst_error_, error.cwiseAbs().maxCoeff());
   Eigen::Index joint = 0;
   if (error.cwiseAbs().maxCoeff(&joint) > gains_.lost_rad) {
-    throw EnvironmentError("device: joint " + std::to_string(joint + 1) + " does not follow, " + std::to_string(error[joint]) +
-                           " rad behind at " + std::to_string(q_[joint]) + " rad, " + std::to_string(time_s()) + " s");
+    throw EnvironmentError("device: joint " + std::to_string(joint + 1) + " does not follow, " +
+                           std::to_string(error[joint]) + " rad behind at " + std::to_string(q_[joint]) + " rad, " +
+                           std::to_string(time_s()) + " s");
   }
   ChannelVector tau = ChannelVector::Zero();
   tau.head<kArmJoints>() = torque_for(wanted).cwiseMin(limit_).cwiseMax(-limit_);

@@ -1,10 +1,10 @@
 // A stiff position servo of the six joints straight on the device seam: counts in, codes out, no hand.
 //
 // tau = g(q_ref) + c tanh(qd_ref / 0.05 rad/s) + b qd_ref + M(q_ref) (w^2 (q_ref - q) + 2 w (qd_ref - qd)); g, c, b are
-// those of the model that the servo is given, M the inertia of its weights, rotors and wrist, renewed every 20 ms. What it asks for through the DAC codes is the measured torque. A code written after
-// SYNC k acts from SYNC k+1 to k+2: the trace pairs the angle of a SYNC with the mean of the codes before and after it.
-// Refuses a device that does not follow, jumps or misses SYNCs, and rests the arm when a motor's winding grows hot.
-// SI, radians. Thread: one owner.
+// those of the model that the servo is given, M the inertia of its weights, rotors and wrist, renewed every 20 ms. What
+// it asks for through the DAC codes is the measured torque. A code written after SYNC k acts from SYNC k+1 to k+2: the
+// trace pairs the angle of a SYNC with the mean of the codes before and after it. Refuses a device that does not
+// follow, jumps or misses SYNCs, and rests the arm when a motor's winding grows hot. SI, radians. Thread: one owner.
 #pragma once
 
 #include <functional>
@@ -31,9 +31,9 @@ struct Trace {
 };
 
 struct ServoGains {
-  double stiffness = 35;        ///< w, rad/s
-  double friction_knee = 0.05;  ///< rad/s
-  double lost_rad = 0.3;        ///< an error beyond this: the device does not follow
+  double stiffness = 35;            ///< w, rad/s
+  double friction_knee = 0.05;      ///< rad/s
+  double lost_rad = 0.3;            ///< an error beyond this: the device does not follow
   double hot_c = 100, cool_c = 85;  ///< winding at which the arm is rested, and until
 };
 
@@ -52,8 +52,8 @@ class JointServo {
   void move_to(const JointVector& q, double speed = 1.2);
 
   const JointVector& reference() const { return reference_; }
-  double hottest_c() const { return hottest_c_; }     ///< winding of the hottest motor so far
-  double worst_error() const { return worst_error_; } ///< rad
+  double hottest_c() const { return hottest_c_; }      ///< winding of the hottest motor so far
+  double worst_error() const { return worst_error_; }  ///< rad
   double time_s() const { return period_s_ * static_cast<double>(ticks_); }
 
  private:

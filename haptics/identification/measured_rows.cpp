@@ -98,20 +98,16 @@ std::vector<FitParameter> fit_columns(const BaseSet& base) {
   return columns;
 }
 
-void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group, TorqueRows& rows) {
+void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group,
+              TorqueRows& rows) {
   const auto n = static_cast<int>(pass.q.size());
   const int skip = static_cast<int>(0.5 * (1 - middle) * n);
-  constexpr int kEvery = 10;
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(kArmJoints, column_count(base));
   JointVector tau = JointVector::Zero();
-  int taken = 0;
   for (int k = skip; k < n - skip; ++k) {
     tau += pass.tau[static_cast<std::size_t>(k)] / (n - 2 * skip);
-    if ((k - skip) % kEvery != 0) continue;
-    Y += rows_at(pass.q[static_cast<std::size_t>(k)], qd, JointVector::Zero(), base);
-    ++taken;
+    Y += rows_at(pass.q[static_cast<std::size_t>(k)], qd, JointVector::Zero(), base) / (n - 2 * skip);
   }
-  Y /= taken;
   for (int j = 0; j < kArmJoints; ++j) rows.add(j, group, Y.row(j), tau[j]);
 }
 

@@ -1,10 +1,10 @@
 // From what the servo measured to rows for the fit: regressor, friction columns, torque.
 //
 // Columns: base parameters, Coulomb (sign of the rate), viscous (rate), offset (1), six of each.
-// A pass of a static pose is one row a joint: the mean over its middle. A trajectory is smoothed without lag by a Gaussian
-// of 10 ms, whose derivatives give rates and accelerations; then rows and torques alike pass a Gaussian of 25 ms (6 Hz)
-// and are taken every 20 ms. Rows in which the joint comes slower than the Stribeck zone can be left out: there friction
-// is neither Coulomb nor viscous. SI. Thread: any.
+// A pass of a static pose is one row a joint: the mean over its middle. A trajectory is smoothed without lag by a
+// Gaussian of 10 ms, whose derivatives give rates and accelerations; then rows and torques alike pass a Gaussian of 25
+// ms (6 Hz) and are taken every 20 ms. Rows in which the joint comes slower than the Stribeck zone can be left out:
+// there friction is neither Coulomb nor viscous. SI. Thread: any.
 #pragma once
 
 #include "haptics/identification/base_parameters.h"
@@ -22,7 +22,8 @@ int column_count(const BaseSet& base);
 constexpr int kCoulombColumn = 0, kViscousColumn = kArmJoints, kOffsetColumn = 2 * kArmJoints;  ///< after the base
 
 /// One pass at constant rates `qd`. @param middle share of the trace that counts.
-void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group, TorqueRows& rows);
+void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group,
+              TorqueRows& rows);
 
 /// A trajectory; every second is a group.
 void add_trajectory(const Trace& trace, const BaseSet& base, bool leave_out_slow, TorqueRows& rows);

@@ -1,11 +1,11 @@
 // Weighted least squares of joint torques on named columns, with what the data can say about each column.
 //
-// Each joint's rows are weighted by one over its residual variance, found in a few passes. Standard deviations count whole
-// groups of rows (one pass of a pose, one second of a trajectory) as the independent observations, since neighbouring
-// samples err together: (Y'WY)^-1 (sum of u u') (Y'WY)^-1, u = the group's sum of row times weighted residual. Columns
-// whose relative standard deviation exceeds a limit leave, the worst first, and the rest is fitted again; so do
-// parameters that come out negative where nature allows none (a rotor, friction): the data do not tell them.
-// Thread: any.
+// Each joint's rows are weighted by one over its residual variance, found in a few passes. Standard deviations count
+// whole groups of rows (one pass of a pose, one second of a trajectory) as the independent observations, since
+// neighbouring samples err together: (Y'WY)^-1 (sum of u u') (Y'WY)^-1, u = the group's sum of row times weighted
+// residual. Columns whose relative standard deviation exceeds a limit leave, the worst first, and the rest is fitted
+// again; so do parameters that come out negative where nature allows none (a rotor, friction): the data do not tell
+// them. Thread: any.
 #pragma once
 
 #include <array>

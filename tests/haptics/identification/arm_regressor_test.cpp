@@ -1,11 +1,11 @@
 // The identifier's rigid-body model against the simulated plant's, which was written apart from it.
 #include <gtest/gtest.h>
 
+#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/device_plant.h"
 #include "haptics/identification/arm_regressor.h"
 #include "haptics/kinematics/inverse_kinematics.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {

@@ -1,9 +1,9 @@
 // Base parameters: how many, which, and that they carry every torque of the whole set.
 #include <gtest/gtest.h>
 
+#include "../haptics_fixtures.h"
 #include "haptics/identification/base_parameters.h"
 #include "haptics/kinematics/device_geometry.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/identification/excitation.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/inverse_kinematics.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {
@@ -60,6 +60,29 @@ TEST(Excitation, SearchStaysInsideAndLowersTheConditionNumber) {
   EXPECT_LT(best.condition, one.condition);
   EXPECT_LT(best.condition, 30);
   for (int k = 0; k < 60; ++k) EXPECT_TRUE(pose_allowed(best.at(k * best.period_s() / 60).q, {}));
+}
+
+TEST(Excitation, EveryJointOfAChosenPathMovesFastEnoughToCount) {
+  const BaseSet base = base_parameters();
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const FourierPath path = search_excitation(seed, 5, 1, {}, base);
+    EXPECT_TRUE(std::isfinite(path.condition)) << seed;
+    JointVector fastest = JointVector::Zero();
+    for (int k = 0; k < 500; ++k) fastest = fastest.cwiseMax(path.at(0.02 * k).qd.cwiseAbs());
+    EXPECT_GT(fastest.minCoeff(), 2 * kSlow) << seed;
+    EXPECT_LT(fastest.head<5>().maxCoeff(), 4.2) << seed;
+    EXPECT_LT(fastest[5], 8.4) << seed;
+  }
+}
+
+TEST(Excitation, SpanScalesTheAmplitude) {
+  const BaseSet base = base_parameters();
+  const FourierPath timid = search_excitation(1, 1, 0.1, {}, base);
+  double most = 0;
+  for (int k = 0; k < 100; ++k)
+    most = std::max(most, (timid.at(0.1 * k).q - timid.centre).head<5>().cwiseAbs().maxCoeff());
+  EXPECT_LT(most, 0.15) << "a tenth of at most 80 deg";
+  EXPECT_GT(timid.condition, 30);
 }
 
 TEST(Excitation, PosesNearLimitsAndSingularitiesAreNotAllowed) {

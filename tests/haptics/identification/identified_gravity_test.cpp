@@ -1,10 +1,10 @@
 // Gravity by base parameters: the same torques as the weights they stand for, and a potential of its own.
 #include <gtest/gtest.h>
 
+#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/identification/base_parameters.h"
 #include "haptics/kinematics/inverse_kinematics.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/identification/identify.h"
 #include "haptics/identification/measured_rows.h"
 #include "haptics/input_error.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {
@@ -65,7 +65,8 @@ TEST(Identify, FindsTheFrictionOfEachJoint) {
     for (int i = 0; i < kArmJoints; ++i) {
       const FrictionParameters& f = o.truth.channel[i].friction;
       EXPECT_NEAR(o.id.device.coulomb[i] / f.coulomb, 1, 0.10) << "seed " << seed << ", joint " << i + 1;
-      EXPECT_NEAR(o.id.device.viscous[i] / f.viscous, 1, 0.5) << "a tenth of the Coulomb friction at these speeds; " << "seed " << seed << ", joint " << i + 1;
+      EXPECT_NEAR(o.id.device.viscous[i] / f.viscous, 1, 0.5) << "a tenth of the Coulomb friction at these speeds; "
+                                                              << "seed " << seed << ", joint " << i + 1;
       EXPECT_NEAR(o.id.poses.coulomb[i], f.coulomb + 0.15 * f.viscous, 0.1 * f.coulomb + 5e-4);
     }
   }
@@ -130,15 +131,33 @@ TEST(Identify, RefusesTooLittleExcitationWithTheConditionNumber) {
   }
 }
 
+TEST(Identify, EndsWithAMessageWhenTheDeviceFails) {
+  for (const InjectedFaultKind kind : {InjectedFaultKind::kEncoderJump, InjectedFaultKind::kEncoderStuck}) {
+    SimulatedDaqConfig config;
+    InjectedFault fault;
+    fault.kind = kind;
+    fault.channel = 1;
+    fault.at_s = 12;
+    fault.value = 400;
+    config.faults.push_back(fault);
+    SimulatedDaq daq(config);
+    EXPECT_THROW(identify(daq, {}, small(1)), EnvironmentError);
+    EXPECT_FALSE(daq.plant().amplifiers_enabled()) << "the servo lets go of a device that it gives up";
+  }
+}
+
 TEST(MeasuredRows, ATrajectoryOfKnownMotionGivesTheRegressorOfThatMotion) {
   const BaseSet base = base_parameters();
-  const auto q_at = [](double t) { return JointVector(test::degrees(45, 45, 45, -60, -75, 0) + 0.3 * std::sin(2 * t) * JointVector::Ones()); };
+  const auto q_at = [](double t) {
+    return JointVector(test::degrees(45, 45, 45, -60, -75, 0) + 0.3 * std::sin(2 * t) * JointVector::Ones());
+  };
   Eigen::VectorXd truth = Eigen::VectorXd::LinSpaced(column_count(base), 0.1, 1);
   truth.tail(3 * kArmJoints) *= 0.01;
   Trace trace;
   for (int k = 0; k < 3000; ++k) {
     const double t = k * 1e-3;
-    const JointVector qd = 0.6 * std::cos(2 * t) * JointVector::Ones(), qdd = -1.2 * std::sin(2 * t) * JointVector::Ones();
+    const JointVector qd = 0.6 * std::cos(2 * t) * JointVector::Ones(),
+                      qdd = -1.2 * std::sin(2 * t) * JointVector::Ones();
     JointVector tau = base.columns(torque_regressor(q_at(t), qd, qdd)) * truth.head(base.size());
     for (int i = 0; i < kArmJoints; ++i) {
       tau[i] += truth[base.size() + i] * (qd[i] > 0 ? 1 : -1) + truth[base.size() + kViscousColumn + i] * qd[i] +

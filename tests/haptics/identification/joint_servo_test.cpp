@@ -1,12 +1,12 @@
 // The servo on the seam: follows, measures what it asks, and refuses a device that misbehaves.
 #include <gtest/gtest.h>
 
+#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/identification/joint_servo.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/inverse_kinematics.h"
-#include "../haptics_fixtures.h"
 
 namespace trocar {
 namespace {
@@ -38,7 +38,11 @@ TEST(JointServo, MeasuresWeightAndFrictionOfAPassWithTheSignOfTheMotion) {
     const double sign = way == 0 ? 1 : -1;
     servo.move_to(q - 0.5 * sign * rate);
     servo.follow([&](double t) { return PathPoint{q + (t - 0.5) * sign * rate, sign * rate}; }, 0.2);
-    const Trace trace = servo.follow([&](double t) { return PathPoint{q + (t - 0.3) * sign * rate, sign * rate}; }, 0.6);
+    const Trace trace = servo.follow(
+        [&](double t) {
+          return PathPoint{q + (t - 0.3) * sign * rate, sign * rate};
+        },
+        0.6);
     torque[way].setZero();
     for (const JointVector& tau : trace.tau) torque[way] += tau / static_cast<double>(trace.tau.size());
   }
@@ -87,6 +91,31 @@ TEST(JointServo, RefusesADeviceThatMisbehaves) {
   EXPECT_THROW(run(with(InjectedFaultKind::kEmergencyStop, 0, 0.9)), EnvironmentError);
   EXPECT_THROW(run(with(InjectedFaultKind::kEncoderStuck, 3, 0.8)), EnvironmentError);
   EXPECT_NO_THROW(run(nominal()));
+}
+
+TEST(JointServo, RestsTheArmWhileAMotorIsHot) {
+  SimulatedDaq daq(nominal());
+  ServoGains gains;
+  gains.hot_c = 26, gains.cool_c = 25.5;  // a degree of warming is hot here
+  JointServo servo(daq, {}, gains);
+  const JointVector far = test::degrees(25, 65, 45, -40, -60, 0);
+  servo.move_to(far);
+  servo.follow([&](double) { return PathPoint{far, JointVector::Zero()}; }, 3);
+  ASSERT_GT(servo.hottest_c(), 26);
+  const double before = servo.time_s();
+  servo.move_to(far + JointVector::Constant(0.01));
+  EXPECT_GT(servo.time_s() - before, 5) << "went home, waited, came back";
+  EXPECT_LT((servo.reference() - far).norm(), 0.03);
+}
+
+TEST(ServoMasses, GiveTheNominalWeight) {
+  const Eigen::VectorXd pi = servo_masses({});
+  test::Random random(1);
+  for (int k = 0; k < 20; ++k) {
+    const JointVector q = test::random_joints(random, 5, 0.2);
+    const JointVector tau = torque_regressor(q, JointVector::Zero(), JointVector::Zero()) * pi;
+    EXPECT_LT((tau - gravity_torque({}, arm_state(q))).cwiseAbs().maxCoeff(), 1e-12);
+  }
 }
 
 TEST(JointServo, RefusesADeviceThatIsNotInItsJig) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "haptics/identification/weighted_fit.h"
 #include "../haptics_fixtures.h"
+#include "haptics/identification/weighted_fit.h"
 
 namespace trocar {
 namespace {
@@ -50,7 +50,8 @@ TEST(WeightedFit, DeviationIsTheSpreadOverRepeats) {
     double squares = 0, claimed = 0;
     constexpr int kRepeats = 200;
     for (int n = 0; n < kRepeats; ++n) {
-      const TorqueFit fit = fit_torques(made_up(truth, JointVector::Constant(0.5), 200, together, 10 + n), columns(3), 1);
+      const TorqueFit fit =
+          fit_torques(made_up(truth, JointVector::Constant(0.5), 200, together, 10 + n), columns(3), 1);
       squares += std::pow(fit.parameter[0].value - 1, 2) / kRepeats;
       claimed += std::pow(fit.parameter[0].deviation, 2) / kRepeats;
     }
@@ -85,6 +86,37 @@ TEST(WeightedFit, ImpossibleNegativesLeave) {
   const TorqueFit fit = fit_torques(made_up(truth, JointVector::Zero(), 100, 1, 5), names, 0.3);
   EXPECT_FALSE(fit.parameter[1].used);
   EXPECT_TRUE(fit.parameter[0].used);
+}
+
+TEST(WeightedFit, TheWorstLeavesFirstAndTheRestIsFittedAgain) {
+  // Two columns that say nearly the same: neither is told while both are there, one is when the other has left.
+  Random random(6);
+  TorqueRows data(2);
+  for (int j = 0; j < kArmJoints; ++j) {
+    for (int k = 0; k < 100; ++k) {
+      const double a = 1 + random.normal();
+      Eigen::RowVectorXd row(2);
+      row << a, a + 1e-4 * random.normal();
+      data.add(j, 100 * j + k, row, 3 * a + 0.1 * random.normal());
+    }
+  }
+  const TorqueFit fit = fit_torques(data, columns(2), 0.3);
+  EXPECT_EQ(fit.dropped, 1);
+  EXPECT_NEAR(fit.values().sum(), 3, 0.02) << "what is left carries both";
+}
+
+TEST(WeightedFit, OneParameterAlwaysStays) {
+  const Eigen::VectorXd truth = Eigen::VectorXd::Zero(2);
+  const TorqueFit fit = fit_torques(made_up(truth, JointVector::Constant(1), 50, 1, 7), columns(2), 1e-6);
+  EXPECT_EQ(fit.dropped, 1);
+}
+
+TEST(WeightedFit, ResidualIsTheNoiseOfEachJoint) {
+  const Eigen::VectorXd truth = (Eigen::VectorXd(2) << 1, -2).finished();
+  JointVector noise;
+  noise << 0.1, 0.2, 0.3, 0.4, 0.5, 0.6;
+  const TorqueFit fit = fit_torques(made_up(truth, noise, 2000, 1, 8), columns(2), 0.3);
+  for (int j = 0; j < kArmJoints; ++j) EXPECT_NEAR(fit.residual[j] / noise[j], 1, 0.06) << j;  // 4 sigma of 2000 rows
 }
 
 TEST(TorqueRows, AppendKeepsGroupsApart) {
