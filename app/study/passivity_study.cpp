@@ -62,7 +62,7 @@ StudyCurves curves_of(const std::string& file, const std::string& title, const W
 
 /// Figures 4.15, 4.16 and 4.18: what the thesis plots, each scaled to fit one axis.
 StudyCurves figure(const std::string& file, const std::string& title, const WallOutcome& o) {
-  StudyCurves curves{file, title, "time after touch, s", "see the legend", o.trace.t, {}};
+  StudyCurves curves{file, title, "time after touch, s", "in the units of the legend", o.trace.t, {}};
   const auto scaled = [](std::vector<double> values, double by) {
     for (double& v : values) v *= by;
     return values;
