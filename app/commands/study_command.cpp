@@ -13,6 +13,7 @@
 #include "app/study/passivity_study.h"
 #include "app/study/study_files.h"
 #include "app/study/transparency_study.h"
+#include "app/study/velocity_study.h"
 #include "app/study/walls_study.h"
 #include "app/study/workspace_study.h"
 #include "app/study/zwidth_study.h"
@@ -37,6 +38,7 @@ constexpr std::array kStudies{
     KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
     KnownStudy{"gravity", gravity_study},
     KnownStudy{"passivity", passivity_study},
+    KnownStudy{"velocity", velocity_study},
     KnownStudy{"zwidth", zwidth_study},
     KnownStudy{"transparency", transparency_study},
     KnownStudy{"workspace", workspace_study},

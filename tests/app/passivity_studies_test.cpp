@@ -12,6 +12,7 @@
 
 #include "app/study/passivity_grid.h"
 #include "app/study/passivity_study.h"
+#include "app/study/velocity_study.h"
 #include "app/study/zwidth_study.h"
 #include "haptics/device/plant_faults.h"
 #include "haptics/kinematics/hybrid_arm.h"
@@ -180,6 +181,22 @@ TEST(PassivityStudy, QuickFormMeetsWhatItAsksOfScenariosAndLaws) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 5 * 12) << "five cases, six laws without and with the clamp";
   EXPECT_NE(study.files[1].bytes.find("| budgeted + clamp |"), std::string::npos);
   EXPECT_EQ(study.curves.size(), 5u);
+}
+
+TEST(VelocityStudy, OrdersTheEstimatorsAsPublished) {
+  const StudyResult study = velocity_study({});
+  for (const StudyCase& c : study.cases) EXPECT_TRUE(c.met) << c.name << ' ' << c.value;
+  const std::string& table = study.files.at(0).bytes;
+  const auto value = [&](const std::string& row) {  // rms error of "motion,estimator"
+    const std::size_t at = table.find(row + ',');
+    EXPECT_NE(at, std::string::npos) << row;
+    return std::stod(table.substr(at + row.size() + 1));
+  };
+  EXPECT_NEAR(value("12 Hz, 2 mm,backward"), 0.092, 0.023) << "haptics notes 1.9";
+  EXPECT_LT(value("12 Hz, 2 mm,kalman"), value("12 Hz, 2 mm,foaw"));
+  EXPECT_LT(value("creep at 10 mm/s,foaw"), value("creep at 10 mm/s,kalman"));
+  EXPECT_LT(value("reach at 0.45 m/s,kalman"), value("reach at 0.45 m/s,average"));
+  EXPECT_EQ(study.curves.size(), 3u);
 }
 
 TEST(ZWidthStudy, QuickFormClimbsTheLadder) {
