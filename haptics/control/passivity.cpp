@@ -15,7 +15,7 @@ constexpr double kStill = 1e-12;        // m
 }  // namespace
 
 void PassivityController::reset() {
-  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = lost_ = thesis_j_ = 0;
+  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = lost_ = thesis_j_ = stir_m_s_ = at_rest_s_ = 0;
   free_ticks_ = 0;
   active_ = false;
 }
@@ -90,9 +90,7 @@ double PassivityController::at_rest(const ContactWork& work, double spring) {
   const double quiet = capped(work, p_.rest_stiffness_n_per_m);
   const double more = std::min(quiet, spring_ + p_.rest_recovery_n_per_s * p_.period_s);
   if (more <= spring) return spring;
-  const double grant = work.stored_j / work.wanted_n * (more - spring);
-  granted_ += grant;
-  budget_ += grant;
+  budget_ += work.stored_j / work.wanted_n * (more - spring);  // what the budget is not charged for
   return more;
 }
 

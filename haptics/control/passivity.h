@@ -7,8 +7,11 @@
 // The full spring force passes while B stays >= 0; otherwise the largest affordable force, but never less than
 // increment bounding allows: F changes by beta dx with
 //   beta = clamp((F_wanted - F)/dx, -eta - |eta + kappa|, -eta + |eta + kappa|), eta = F/dx, kappa = b/(T/2 + Td)
-// (after Kim and Ryu 2010); in debt a bounded damping is added. The force never pulls.
-// Why R and not the full spring's energy: docs/decisions/0003-passivity-budget.md.
+// (after Kim and Ryu 2010); in debt a bounded damping is added. No spring is stiffer than one whose step from count to
+// count is texture_n. Near rest the force follows no faster than a press at the dead band would ask, so that flickering
+// counts shake nothing, and what is missing returns at rest_recovery_n_per_s up to rest_stiffness_n_per_m: that energy is
+// not paid for. The force never pulls.
+// Why R and not the full spring's energy: docs/decisions/0003-passivity-budget.md; what was tried: 0007-calm-passivity.md.
 //
 // That is the default, kBudgeted. The others are here to be compared with it (`trocar study passivity`):
 //   kThesis     W = sum f(k) dx(k) (4.17), f + alpha v with alpha = -W / (T v^2), unbounded (4.18)
@@ -133,7 +136,7 @@ class PassivityController {
   double held_ = 0;      ///< R, J
   double spring_ = 0;    ///< displayed spring force, N
   double stir_m_s_ = 0;  ///< mean speed, either way
-  double at_rest_s_ = 0, granted_ = 0;  ///< how long at rest; energy granted there since reset, J
+  double at_rest_s_ = 0;
   double lost_ = 0;      ///< damping force of the last update, N
   double missing_ = 0;   ///< wanted minus displayed spring force, N
   double thesis_j_ = 0;  ///< W of (4.17)
