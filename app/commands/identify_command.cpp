@@ -107,9 +107,8 @@ int identify_command(const IdentifyOptions& options, std::ostream& out, std::ost
   if (!options.out.empty() && !std::ofstream(options.out, std::ios::binary | std::ios::app)) {
     throw EnvironmentError(options.out.string() + ": cannot be written");
   }
-  IdentifyRequest request = options.quick ? quick_identification() : IdentifyRequest{};
+  IdentifyRequest request = seeded_identification(options.seed, options.quick);
   if (!options.quick) request.poses = options.poses;
-  request.seed = options.seed;
   request.span = options.span;
   const Identification id = identify_simulated(drawn_with_payload(options.seed, options.payload_kg), request);
   if (options.json)

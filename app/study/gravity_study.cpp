@@ -199,9 +199,7 @@ class Sequence {
 StudyResult gravity_study(const StudyRequest& request) {
   StudyResult study{"gravity", "simulated plant of seed " + std::to_string(request.seed), {}, {}};
   const PlantParameters truth = draw_parameters(request.seed);
-  IdentifyRequest identification = request.quick ? quick_identification() : IdentifyRequest{};
-  identification.seed = request.seed;
-  const DeviceModel identified = identify_simulated(truth, identification).device;
+  const DeviceModel identified = identify_simulated(truth, seeded_identification(request.seed, request.quick)).device;
   const std::vector<GravityLaw> law = laws(identified);
   std::vector<LawResult> results(law.size());
   // Another seed than the identifier's: none of these poses has been measured.

@@ -32,6 +32,12 @@ IdentifyRequest quick_identification() {
   return request;
 }
 
+IdentifyRequest seeded_identification(std::uint64_t seed, bool quick) {
+  IdentifyRequest request = quick ? quick_identification() : IdentifyRequest{};
+  request.seed = seed;
+  return request;
+}
+
 Identification identify_simulated(const PlantParameters& truth, const IdentifyRequest& request) {
   SimulatedDaqConfig config;
   config.plant = truth;

@@ -15,6 +15,8 @@ PlantParameters drawn_with_payload(std::uint64_t seed, double payload_kg);
 
 /// 20 poses, one trajectory.
 IdentifyRequest quick_identification();
+/// The whole one or the quick one, its draws by the seed.
+IdentifyRequest seeded_identification(std::uint64_t seed, bool quick);
 
 /// From the nominal model; the truth stays behind the seam. @throws InputError, EnvironmentError.
 Identification identify_simulated(const PlantParameters& truth, const IdentifyRequest& request);

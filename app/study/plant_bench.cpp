@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "haptics/device/plant_parameters.h"
 #include "scenarios/hands/minimum_jerk.h"
@@ -109,15 +110,14 @@ void PlantBench::put_wall(const Vec3& point_T, const Vec3& normal_T, const Conta
   const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
   const Vec3 corner = point_T - config_.tool.radius_m * n - 0.5 * kWallSide * (u + v);
   const auto at = [&](int i, int j) { return Vec3(corner + kWallSide / kWallCells * (i * u + j * v)); };
-  patch_->count = 0;
-  patch_->material[0] = material;
+  std::vector<std::array<Vec3, 3>> triangles;
   for (int i = 0; i < kWallCells; ++i) {
     for (int j = 0; j < kWallCells; ++j) {
-      add_triangle(*patch_, at(i, j), at(i + 1, j), at(i + 1, j + 1));
-      add_triangle(*patch_, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-  ++patch_->stamp;
+  put_surface(triangles, material);
 }
 
 void PlantBench::put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material) {
