@@ -97,7 +97,9 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       limiter_(torque_limits(config.device), torque_rates(config), period_s_),
       supervisor_(config.safety, count_limits(config), period_s_),
       watch_(config.safety, config.device, config.heat, period_s_),
-      safety_log_(config.daq.rate_hz) {
+      safety_log_(config.daq.rate_hz),
+      friction_rates_(config.friction, period_s_),
+      free_air_(config.friction, period_s_) {
   home_ << home_angles(), config.device.pinch_home_m;
   for (int i = 0; i < kChannels; ++i) {
     count_[i] = count_size(config.device.transmission[i]);
@@ -153,6 +155,8 @@ void HapticLoop::take_home() noexcept {
   arm_passivity_.reset();
   pinch_passivity_.reset();
   fine_.reset(counts_.total());
+  friction_rates_.reset();
+  free_air_.reset();
 }
 
 HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& patch) noexcept {
@@ -273,10 +277,11 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact
     limiter_.reset();
     return {};
   }
-  const JointVector qd = motion.qd.head<kArmJoints>();
+  const JointVector qd = friction_rates_.update(motion.qd.head<kArmJoints>());
+  const double free = free_air_.update(contact.spring_n <= 0);
   shares.alignment = contact.alignment;
   if (arm_passivity_.budget_j() >= -config_.friction.debt_j) {
-    shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
+    shares.friction.head<kArmJoints>() = supervisor_.ramp() * free * friction_torque(config_.device, config_.friction, qd);
   }
   const LimitedTorque limited = limiter_.update(shares);
   arm_passivity_.delivered(limited.contact_scale);
