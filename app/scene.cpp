@@ -138,6 +138,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
+  scene.loop.clamp_stiffness = setup.clamp_stiffness;
   return scene;
 }
 
@@ -161,6 +162,7 @@ std::string scene_json(const Scene& scene) {
       {"pace", {{"missed_in_a_row", s.pace.missed_in_a_row}, {"missed_share", s.pace.missed_share}}},
       {"contact_law", law_name(s.contact_law)},
       {"passivity_law", passivity_law_name(s.passivity_law)},
+      {"clamp_stiffness", s.clamp_stiffness},
       {"force_scale", scene.loop.map.force_scale}};
   return json.dump();
 }
@@ -190,6 +192,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     const auto law = passivity_law_named(json.at("passivity_law").get<std::string>());
     if (!law) throw InputError(name + kUnreadable + "passivity law '" + json.at("passivity_law").get<std::string>() + "'");
     s.passivity_law = *law;
+    s.clamp_stiffness = json.value("clamp_stiffness", false);
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + kUnreadable + error.what());

@@ -48,6 +48,7 @@ struct AttemptSetup {
   double rate_hz = 1000;
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
+  bool clamp_stiffness = false;        ///< contacts stiffer than K_max are weakened to it
   std::vector<InjectedFault> faults;   ///< simulated back-end only
   bool realtime = false;               ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;

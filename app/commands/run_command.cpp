@@ -204,6 +204,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   std::map<std::string, PassivityLaw> laws;
   for (const PassivityLawName& known : kPassivityLaws) laws.emplace(known.name, known.law);
   setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law, laws);
+  setup.clamp_stiffness = options.clamp;
   setup.realtime = options.realtime;
   if (options.realtime) setup.pace = kSimulatedLivePace;
   for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));
