@@ -9,6 +9,7 @@
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
 #include "app/commands/open_database.h"
+#include "app/device_files.h"
 #include "app/interrupt.h"
 #include "app/recorded_result.h"
 #include "app/recorder/safety_file.h"
@@ -153,6 +154,8 @@ void say_beginning(const Scene& scene, std::ostream& err) {
   err << "trocar: " << scene.setup.exercise.number << ' ' << scene.setup.exercise.title << ", " << scene.level.name
       << ", board " << scene.setup.board << ", hand " << scene.setup.hand << ", organ " << scene.organ.name
       << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant\n";
+  const auto seed = static_cast<std::uint64_t>(scene.setup.seed);
+  for (const std::string& doubt : device_doubts(scene.setup.device, simulated_plant_words(seed))) err << "trocar: " << doubt << '\n';
 }
 
 }  // namespace
@@ -205,6 +208,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   for (const PassivityLawName& known : kPassivityLaws) laws.emplace(known.name, known.law);
   setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law, laws);
   setup.clamp_stiffness = options.clamp;
+  setup.device = read_device_files(options.calibration, options.device);
   setup.realtime = options.realtime;
   if (options.realtime) setup.pace = kSimulatedLivePace;
   for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));
