@@ -158,6 +158,14 @@ void say_beginning(const Scene& scene, std::ostream& err) {
   for (const std::string& doubt : device_doubts(scene.setup.device, simulated_plant_words(seed))) err << "trocar: " << doubt << '\n';
 }
 
+/// How the contacts stood to what the device can display; nothing when nothing was touched or nothing is known.
+void print_stiffness(const StiffnessReceipt& s, std::ostream& out) {
+  if (s.contact_ticks == 0) return;
+  out << std::setprecision(0) << "contact  up to " << s.asked_max_n_per_m << " N/m asked of the device, K_max "
+      << s.k_max_min_n_per_m << " to " << s.k_max_max_n_per_m << " N/m, above it for " << 100 * s.above_share
+      << " % of the contact time, clamp " << (s.clamped ? "on" : "off") << std::setprecision(1) << '\n';
+}
+
 }  // namespace
 
 InjectedFault parse_injection(const std::string& text) {
@@ -259,6 +267,7 @@ void print_result(const AttemptResult& result, std::ostream& out) {
         << std::setw(4) << 100 * s.weight << " %" << (s.gate ? "  safety gate" : "") << '\n';
   }
   for (const std::string& cap : grade.caps) out << "cap      " << cap << '\n';
+  print_stiffness(result.device.stiffness, out);
   if (!result.device.fault.empty()) out << "fault    " << result.device.fault << '\n';
   if (!result.integrity.empty()) out << "reason   " << result.integrity << '\n';
   for (const DeviceWarning& w : result.device.warnings) {
