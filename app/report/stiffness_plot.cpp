@@ -26,8 +26,8 @@ struct Curve {
 // Told apart by brightness, width and dash, not by hue alone.
 constexpr Curve kCurves[] = {
     {"asked by the contact", "stroke=\"#9aa5b1\" stroke-width=\"7\"", &StiffnessColumn::asked},
-    {"K max, what the device can display", "stroke=\"#d55e00\" stroke-width=\"1.5\" stroke-dasharray=\"6 3\"", &StiffnessColumn::k_max},
-    {"displayed", "stroke=\"#14191f\" stroke-width=\"1.5\"", &StiffnessColumn::displayed}};
+    {"displayed", "stroke=\"#14191f\" stroke-width=\"3\"", &StiffnessColumn::displayed},
+    {"K max, what the device can display", "stroke=\"#d55e00\" stroke-width=\"1.5\" stroke-dasharray=\"6 3\"", &StiffnessColumn::k_max}};
 
 double duration(const Trace& trace) {
   if (trace.samples.empty()) return 1;

@@ -161,6 +161,26 @@ TEST(SimulatedBench, CountersBeginWhereTheyAreAsked) {
   for (const std::int32_t count : sample.counts) EXPECT_NEAR(static_cast<double>(count), INT32_MAX - 2, 1);
 }
 
+TEST(BoardRun, CountsAcrossTheWrap) {
+  SimulatedBench bench(SimulatedDaqConfig{});
+  BoardRun plain(bench, {}), wrapped(bench, {INT32_MAX - 2, {}, {}, false});
+  for (BoardRun* run : {&plain, &wrapped}) {
+    run->arm_in_jig();
+    run->forget();
+    run->command(kPinchChannel, 0.5, 0.050);
+  }
+  ASSERT_EQ(plain.samples().size(), 50u);
+  EXPECT_GT(plain.moved(49, kPinchChannel), 100);
+  EXPECT_LT(wrapped.samples().back().counts[kPinchChannel], 0) << "the counter has wrapped";
+  EXPECT_NEAR(wrapped.moved(49, kPinchChannel), plain.moved(49, kPinchChannel), 2);
+  EXPECT_NEAR(plain.time_s(), 0.110, 1e-9);
+}
+
+TEST(BoardRun, ABenchThatCannotDoTheActsIsSaid) {
+  SpoiltBench bench(Spoilt::What::kNoName);
+  EXPECT_THROW(BoardRun(bench, {{}, 0.1, {}, false}), EnvironmentError);
+}
+
 TEST(SelfTestCommand, EndsWithFourWhenACheckFails) {
   std::ostringstream out, err;
   SelfTestOptions options;

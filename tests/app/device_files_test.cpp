@@ -134,6 +134,22 @@ TEST(DeviceFiles, AreDoubtedOnAnotherDevice) {
   EXPECT_EQ(device_doubts({other, std::nullopt}, simulated_plant_words(6)).size(), 1u);
 }
 
+TEST(DeviceFiles, TheirDeviceTravelsAndMayBeMissing) {
+  DeviceModel model;
+  model.identified_gravity.emplace();
+  std::string plant = "before";
+  parse_device(device_toml(model, "a comment", "the one in room 3"), "d.toml", &plant);
+  EXPECT_EQ(plant, "the one in room 3");
+  parse_device(device_toml(model, "a comment"), "d.toml", &plant);
+  EXPECT_EQ(plant, "") << "files from before say nothing";
+  parse_calibration(calibration_text(1, 0, "the one in room 4"), "c.json", &plant);
+  EXPECT_EQ(plant, "the one in room 4");
+  parse_calibration(calibration_text(1, 0), "c.json", &plant);
+  EXPECT_EQ(plant, "");
+  const std::string number = "plant = 3\n" + device_toml(model, "a comment");
+  EXPECT_NE(message_of<InputError>([&] { parse_device(number, "d.toml"); }).find("d.toml:1"), std::string::npos);
+}
+
 TEST(DeviceFiles, OfTheCommandsNameTheirDevice) {
   test::TemporaryFolder folder;
   CalibrateOptions calibrate;

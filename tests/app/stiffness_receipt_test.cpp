@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands/attempt_json.h"
+#include "app/commands/run_command.h"
 #include "tests/support/sample_attempt.h"
 
 namespace trocar {
@@ -67,6 +69,21 @@ TEST(StiffnessReceipt, StandsInTheResult) {
   device = nlohmann::json::parse(attempt_json(result)).at("device");
   EXPECT_EQ(device.at("stiffness_clamp"), false);
   EXPECT_TRUE(device.at("stiffness_share_min").is_null()) << "nothing was touched: no number";
+}
+
+TEST(StiffnessReceipt, IsALineForPeople) {
+  AttemptResult result = testing_support::sample_attempt();
+  std::ostringstream older, touched, free_air;
+  print_result(result, older);
+  EXPECT_EQ(older.str().find("K_max"), std::string::npos) << "an older recording says nothing";
+  result.device.stiffness = stiffness_receipt(std::vector<RecordedTick>{row(100, 50), row(20, 80)}, true);
+  print_result(result, touched);
+  EXPECT_NE(touched.str().find("up to 100 N/m asked of the device, K_max 50 to 80 N/m, above it for 50 % of the contact time, clamp on"),
+            std::string::npos)
+      << touched.str();
+  result.device.stiffness = stiffness_receipt(std::vector<RecordedTick>{row(0, 0)}, true);
+  print_result(result, free_air);
+  EXPECT_EQ(free_air.str().find("K_max"), std::string::npos);
 }
 
 }  // namespace
