@@ -15,6 +15,8 @@
 #include "app/commands/device_calibrate.h"
 #include "app/commands/device_command.h"
 #include "app/commands/device_forward.h"
+#include "app/commands/device_monitor.h"
+#include "app/commands/device_selftest.h"
 #include "app/commands/doctor_command.h"
 #include "app/commands/identify_command.h"
 #include "app/commands/organ_import.h"
@@ -51,6 +53,8 @@ struct CommandLine {
   IdentifyOptions identify;
   ForwardOptions forward;
   CalibrateOptions calibrate;
+  SelfTestOptions selftest;
+  MonitorOptions monitor;
   OrganImportOptions import;
   OrganInfoOptions info;
   OrganRenderOptions render;
@@ -94,6 +98,9 @@ void add_run(CommandLine& c) {
   run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
   run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, increment, cap, reference, thesis or off")->capture_default_str();
+  run->add_flag("--clamp", c.run.clamp, "Weaken contacts stiffer than K_max, what the device can display, to it");
+  run->add_option("--calibration", c.run.calibration, "Amplifier gains and offsets from device calibrate (default: nominal)");
+  run->add_option("--device", c.run.device, "Weights and friction from device identify (default: nominal)");
   run->add_option("--inject", c.run.injections, "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, drive-fault, over-temperature, hand-nan, hand-lets-go");
   run->add_flag("--realtime", c.run.realtime, "Live: threads and the clock instead of lockstep");
   run->add_flag("--json", c.run.json, "Result as JSON on stdout");
@@ -186,9 +193,29 @@ void add_device_bench(CommandLine& c, CLI::App& device) {
   calibrate->add_flag("--json", c.calibrate.json, "As JSON");
 }
 
+void add_device_board(CommandLine& c, CLI::App& device) {
+  CLI::App* selftest = c.add(device, "selftest", "What the back-end owes the loop, check by check; 4 when one fails",
+                             [&c] { return device_selftest(c.selftest, std::cout, std::cerr); });
+  selftest->add_flag("--json", c.selftest.json, "As JSON");
+  CLI::App* monitor = c.add(device, "monitor", "Live values of the device loop, ten times a second",
+                            [&c] { return device_monitor(c.monitor, std::cout, std::cerr); });
+  monitor->add_option("--seconds", c.monitor.seconds, "Until it ends by itself")->capture_default_str()->check(CLI::Range(0.1, 86400.0));
+  monitor->add_flag("--lockstep", c.monitor.lockstep, "As fast as it goes instead of by the clock");
+  monitor->add_option("--calibration", c.monitor.calibration, "Amplifier gains and offsets from device calibrate");
+  monitor->add_option("--device", c.monitor.device, "Weights and friction from device identify");
+  monitor->add_flag("--json", c.monitor.json, "A JSON object a line");
+  selftest->add_option("--seed", c.selftest.seed, "Of the simulated device")->capture_default_str();
+  selftest->add_option("--rate", c.selftest.rate_hz, "SYNC rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
+  selftest->add_option("--inject", c.selftest.injections, "Device fault as in run, repeatable: see a check fail");
+  monitor->add_option("--seed", c.monitor.seed, "Of the simulated device")->capture_default_str();
+  monitor->add_option("--rate", c.monitor.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
+  monitor->add_option("--inject", c.monitor.injections, "Device fault as in run, repeatable");
+}
+
 void add_device(CommandLine& c) {
-  CLI::App* device = c.group("device", "Models of the device");
+  CLI::App* device = c.group("device", "Models of the device, its back-end on the bench");
   add_device_bench(c, *device);
+  add_device_board(c, *device);
   CLI::App* eval = c.add(*device, "eval", "Pose, twist, torques, gravity, conditioning of joint angles",
                          [&c] { return device_eval(c.table_in, c.table_out, std::cerr, c.device_file); });
   CLI::App* ik = c.add(*device, "ik", "Every inverse kinematic candidate of stylus poses",

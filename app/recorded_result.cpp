@@ -5,6 +5,7 @@
 
 #include "app/executor/state_hash.h"
 #include "app/session.h"
+#include "app/stiffness_receipt.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -65,6 +66,11 @@ DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
   }
 }
 
+void fill_stiffness(const Recording& recording, const std::string& name, DeviceReceipt& device) {
+  const bool clamped = parse_scene_json(recording.session, name).setup.clamp_stiffness;
+  device.stiffness = stiffness_receipt(recording.ticks, clamped);
+}
+
 AttemptResult recorded_result(const Recording& recording, const std::filesystem::path& file) {
   const std::string name = file.empty() ? "recording" : file.string();
   AttemptResult result;
@@ -77,6 +83,7 @@ AttemptResult recorded_result(const Recording& recording, const std::filesystem:
   if (!recording.receipt_json.empty()) result.device = parse_receipt(recording.receipt_json, name);
   if (result.integrity.empty()) result.integrity = result.device.reason;
   fill_shares(recording, result.device);
+  fill_stiffness(recording, name, result.device);
   result.recording_sha256 = recording.sha256;
   result.recording_path = file.string();
   if (recording.end) result.state_hash = StateHash(recording.end->state_hash).hex();

@@ -18,6 +18,9 @@ std::string receipt_json(const DeviceReceipt& receipt);
 /// @param name of the recording, for messages. @throws InputError.
 DeviceReceipt parse_receipt(const std::string& json, const std::string& name);
 
+/// What the recording says of the contacts' stiffness. @param name of the recording, for messages. @throws InputError.
+void fill_stiffness(const Recording& recording, const std::string& name, DeviceReceipt& device);
+
 /// Grade, events, receipt, hashes. What the attempt began with (exercise, trainee, organ) is left empty.
 /// @throws InputError when the setup or the receipt cannot be read.
 AttemptResult recorded_result(const Recording& recording, const std::filesystem::path& file);

@@ -23,6 +23,13 @@ namespace {
 constexpr int kFormat = 1;
 constexpr const char* kUnreadable = ": the recording's setup cannot be read: ";
 
+nlohmann::json file_json(const DeviceFile& file) { return {{"text", file.text}, {"file", file.name}}; }
+
+std::optional<DeviceFile> file_of(const nlohmann::json& setup, const char* key) {
+  if (!setup.contains(key)) return std::nullopt;
+  return DeviceFile{setup.at(key).at("text").get<std::string>(), setup.at(key).at("file").get<std::string>()};
+}
+
 const char* law_name(ContactLaw law) { return law == ContactLaw::kThesis ? "thesis" : "proxy"; }
 
 }  // namespace
@@ -130,6 +137,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.level = find_level(setup.exercise, setup.level);
   scene.organ = std::move(organ);
   scene.loop.daq = daq;
+  scene.loop.device = device_model(setup.device);
   scene.loop.map = place_theatre(scene.level);
   set_stage(scene);
   scene.room_share = room_share(scene.loop.map, scene.loop.device, setup.exercise.layout, setup.exercise.soft_force_n);
@@ -138,12 +146,13 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
+  scene.loop.clamp_stiffness = setup.clamp_stiffness;
   return scene;
 }
 
 std::string scene_json(const Scene& scene) {
   const AttemptSetup& s = scene.setup;
-  const nlohmann::json json = {
+  nlohmann::json json = {
       {"format", kFormat},
       {"exercise", {{"text", s.exercise.text}, {"file", s.exercise.file.filename().string()}, {"level", s.level}}},
       {"organ",
@@ -161,7 +170,10 @@ std::string scene_json(const Scene& scene) {
       {"pace", {{"missed_in_a_row", s.pace.missed_in_a_row}, {"missed_share", s.pace.missed_share}}},
       {"contact_law", law_name(s.contact_law)},
       {"passivity_law", passivity_law_name(s.passivity_law)},
+      {"clamp_stiffness", s.clamp_stiffness},
       {"force_scale", scene.loop.map.force_scale}};
+  if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
+  if (s.device.identified) json["device"] = file_json(*s.device.identified);
   return json.dump();
 }
 
@@ -190,6 +202,8 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     const auto law = passivity_law_named(json.at("passivity_law").get<std::string>());
     if (!law) throw InputError(name + kUnreadable + "passivity law '" + json.at("passivity_law").get<std::string>() + "'");
     s.passivity_law = *law;
+    s.clamp_stiffness = json.value("clamp_stiffness", false);
+    s.device = {file_of(json, "calibration"), file_of(json, "device")};
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + kUnreadable + error.what());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/device_files.h"
 #include "haptics/control/contact_renderer.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/haptic_loop.h"
@@ -48,6 +49,8 @@ struct AttemptSetup {
   double rate_hz = 1000;
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
+  bool clamp_stiffness = false;        ///< contacts stiffer than K_max are weakened to it
+  DeviceFiles device;                  ///< what the loop knows of its device beyond the nominal model
   std::vector<InjectedFault> faults;   ///< simulated back-end only
   bool realtime = false;               ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;

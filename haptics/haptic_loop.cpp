@@ -332,6 +332,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   record.det_a = motion.arm.det_a;
   record.k_max_n_per_m = contact.limit.k_max;
   record.stiffness_share = contact.limit.share;
+  record.stiffness_n_per_m = contact.stiffness;
   record.winding_c = watch_.hottest_c();
   record.warnings = watch_.warnings();
   record.contact_scale = contact.room * torque.contact_scale;

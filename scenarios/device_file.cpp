@@ -34,12 +34,13 @@ Eigen::Vector2d two(StrictTable& table, const std::string& key) {
 
 }  // namespace
 
-std::string device_toml(const DeviceModel& model, const std::string& comment) {
+std::string device_toml(const DeviceModel& model, const std::string& comment, const std::string& plant) {
   if (!model.identified_gravity) throw InputError("device file: the model has not been identified");
   const IdentifiedGravity& g = *model.identified_gravity;
   std::ostringstream out;
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);) out << "# " << line << '\n';
+  if (!plant.empty()) out << "\nplant = \"" << plant << "\"\n";
   out << "\n[gravity]\nplatform_n_m = " << array(g.platform) << "\nlink2_n_m = " << array(g.link2)
       << "\nwrist_n_m = " << array(g.wrist) << "\nstylus_n_m = " << array(g.stylus) << '\n';
   for (int i = 0; i < kArmJoints; ++i) {
@@ -50,7 +51,13 @@ std::string device_toml(const DeviceModel& model, const std::string& comment) {
 }
 
 DeviceModel load_device(const std::filesystem::path& file) {
-  StrictTable root = StrictTable::parse(read_text_file(file.string()), file.string());
+  return parse_device(read_text_file(file.string()), file.string());
+}
+
+DeviceModel parse_device(const std::string& text, const std::string& file, std::string* plant) {
+  StrictTable root = StrictTable::parse(text, file);
+  const std::string identified = root.text_or("plant", "");
+  if (plant) *plant = identified;
   DeviceModel model;
   IdentifiedGravity& g = model.identified_gravity.emplace();
   StrictTable gravity = root.table("gravity");

@@ -81,7 +81,7 @@ class AttemptStore {
   /// @throws InputError when the attempt is not running (finished before, or aborted by recovery).
   void finish_attempt(const AttemptId& id, const AttemptResult& result);
 
-  /// The stored result. What has no column comes back empty: safety_log_path, and of the device force_sensor, reason and
+  /// The stored result. What has no column comes back empty: safety_log_path, and of the device force_sensor, stiffness, reason and
   /// where the fault was; the recording's receipt keeps those of the device. @throws InputError: unknown, or still running.
   AttemptResult load(std::int64_t row) const;
   AttemptResult load(std::string_view name) const { return load(find(name).row); }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -48,8 +49,10 @@ const char* calibration_channel(int channel) {
   return kNames[static_cast<std::size_t>(channel)];
 }
 
-std::string calibration_json(const AmplifierCalibration& found, const DeviceModel& nominal) {
-  nlohmann::ordered_json json{{"channels", nlohmann::ordered_json::array()}};
+std::string calibration_json(const AmplifierCalibration& found, const DeviceModel& nominal, const std::string& plant) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (!plant.empty()) json["plant"] = plant;
+  json["channels"] = nlohmann::ordered_json::array();
   for (int i = 0; i < kChannels; ++i) {
     const auto c = static_cast<std::size_t>(i);
     const double nominal_gain = nominal.transmission[c].amps_per_volt;
@@ -68,16 +71,22 @@ std::string calibration_json(const AmplifierCalibration& found, const DeviceMode
 AmplifierCalibration read_calibration(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file.string() + ": cannot be read (missing file or no permission)");
-  const Json json = Json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw InputError(file.string() + ": no JSON object");
+  return parse_calibration(std::string(std::istreambuf_iterator<char>(in), {}), file.string());
+}
+
+AmplifierCalibration parse_calibration(const std::string& text, const std::string& file, std::string* plant) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw InputError(file + ": no JSON object");
+  if (json.contains("plant") && !json["plant"].is_string()) throw InputError(file + ": \"plant\" must be a text");
+  if (plant) *plant = json.value("plant", "");
   const auto channels = json.find("channels");
   if (channels == json.end() || !channels->is_array() || channels->size() != kChannels) {
-    throw InputError(file.string() + ": \"channels\" must be an array of seven");
+    throw InputError(file + ": \"channels\" must be an array of seven");
   }
   AmplifierCalibration found;
   for (int i = 0; i < kChannels; ++i) {
     const auto c = static_cast<std::size_t>(i);
-    found[c] = channel_of((*channels)[c], i, file.string() + ": channels[" + std::to_string(i) + "]");
+    found[c] = channel_of((*channels)[c], i, file + ": channels[" + std::to_string(i) + "]");
   }
   return found;
 }

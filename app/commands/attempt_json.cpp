@@ -72,6 +72,18 @@ Json fault_detail(const DeviceReceipt& receipt) {
           {"value", number(receipt.fault_value)}};
 }
 
+void add_stiffness(Json& json, const StiffnessReceipt& stiffness) {
+  const bool touched = stiffness.contact_ticks > 0;
+  const auto measured = [&](double value) { return touched ? number(value) : Json(nullptr); };
+  json["stiffness_clamp"] = stiffness.recorded ? Json(stiffness.clamped) : Json(nullptr);
+  json["stiffness_contact_ticks"] = stiffness.recorded ? Json(stiffness.contact_ticks) : Json(nullptr);
+  json["stiffness_asked_max_n_per_m"] = measured(stiffness.asked_max_n_per_m);
+  json["k_max_min_n_per_m"] = measured(stiffness.k_max_min_n_per_m);
+  json["k_max_max_n_per_m"] = measured(stiffness.k_max_max_n_per_m);
+  json["stiffness_share_min"] = measured(stiffness.share_min);
+  json["above_k_max_share"] = measured(stiffness.above_share);
+}
+
 Json device(const DeviceReceipt& receipt) {
   Json json = {{"backend", receipt.backend},
           {"rate_hz", number(receipt.rate_hz)},
@@ -86,6 +98,7 @@ Json device(const DeviceReceipt& receipt) {
           {"fault_detail", fault_detail(receipt)},
           {"warnings", warnings(receipt)},
           {"transitions", transitions(receipt)}};
+  add_stiffness(json, receipt.stiffness);
   if (!receipt.force_sensor.empty()) json["force_sensor"] = Json::parse(receipt.force_sensor);
   if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
   return json;

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <fstream>
 #include <ostream>
+#include <sstream>
 
 #include "app/calibration/amplifier_calibration.h"
 #include "app/calibration/calibration_file.h"
 #include "app/commands/text_table.h"
+#include "app/device_files.h"
 #include "haptics/device/plant_parameters.h"
 #include "haptics/input_error.h"
 
@@ -24,6 +26,13 @@ SimulatedDaqConfig device_of(const CalibrateOptions& options) {
   config.plant = draw_parameters(options.seed);
   for (ChannelParameters& c : config.plant->channel) c.amplifier_gain *= options.gain;
   return config;
+}
+
+std::string plant_of(const CalibrateOptions& options) {
+  std::ostringstream plant;
+  plant << simulated_plant_words(options.seed);
+  if (options.gain != 1) plant << ", amplifier gain times " << options.gain;
+  return plant.str();
 }
 
 void print_table(const AmplifierCalibration& found, const DeviceModel& nominal, const ChannelVector& error,
@@ -63,7 +72,7 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
   const AmplifierCalibration found =
       options.check.empty() ? calibrate_amplifiers(rig, nominal) : read_calibration(options.check);
   const ChannelVector error = rendering_error(rig, calibrated(nominal, found));
-  const std::string json = calibration_json(found, nominal);
+  const std::string json = calibration_json(found, nominal, plant_of(options));
   if (!options.out.empty()) {
     write_text(options.out, json);
     err << "trocar: calibration in " << options.out.string() << '\n';

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/device_files.h"
 #include "app/study/identified_device.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
@@ -93,7 +94,10 @@ void write_device(const std::filesystem::path& file, const Identification& id, c
     comment << ' ' << std::fixed << std::setprecision(1) << 100 * id.prediction_error[i];
   comment << " % rms (joints 1 to 6).";
   std::ofstream stream(file, std::ios::binary);
-  stream << device_toml(id.device, comment.str());
+  std::ostringstream plant;
+  plant << simulated_plant_words(options.seed);
+  if (options.payload_kg > 0) plant << ", payload " << options.payload_kg << " kg";
+  stream << device_toml(id.device, comment.str(), plant.str());
   if (!stream.flush()) throw EnvironmentError(file.string() + ": cannot be written");
 }
 

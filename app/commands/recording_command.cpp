@@ -9,6 +9,7 @@
 #include "app/commands/open_database.h"
 #include "app/commands/run_command.h"
 #include "app/executor/state_hash.h"
+#include "app/recorded_result.h"
 #include "app/recorder/chunk.h"
 #include "app/recorder/event_codec.h"
 #include "app/recorder/recording_reader.h"
@@ -84,7 +85,7 @@ int replay_command(const RecordingOptions& options, std::ostream& out, std::ostr
   }
   out << "ticks     " << outcome.device.ticks << '\n' << "replayed  " << outcome.state_hash_hex << '\n';
   if (!options.verify) return 0;
-  if (subject.recording.version < kRecordingVersion) {
+  if (subject.recording.version < kOldestVerifiable) {
     throw InputError(subject.file.string() + ": has recording format " + std::to_string(subject.recording.version) +
                      ", whose state hash was formed otherwise: it can be replayed and graded but not verified");
   }
@@ -108,6 +109,7 @@ int score_command(const RecordingOptions& options, std::ostream& out, std::ostre
   result.events = subject.recording.events;
   result.recording_sha256 = subject.recording.sha256;
   result.recording_path = subject.file.string();
+  fill_stiffness(subject.recording, subject.file.string(), result.device);
   if (!subject.stored) {
     const RecordedSetup recorded = parse_scene_json(subject.recording.session, subject.file.string());
     result.exercise_id = recorded.setup.exercise.id;

@@ -9,6 +9,7 @@
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
 #include "app/commands/open_database.h"
+#include "app/device_files.h"
 #include "app/interrupt.h"
 #include "app/recorded_result.h"
 #include "app/recorder/safety_file.h"
@@ -153,6 +154,16 @@ void say_beginning(const Scene& scene, std::ostream& err) {
   err << "trocar: " << scene.setup.exercise.number << ' ' << scene.setup.exercise.title << ", " << scene.level.name
       << ", board " << scene.setup.board << ", hand " << scene.setup.hand << ", organ " << scene.organ.name
       << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant\n";
+  const auto seed = static_cast<std::uint64_t>(scene.setup.seed);
+  for (const std::string& doubt : device_doubts(scene.setup.device, simulated_plant_words(seed))) err << "trocar: " << doubt << '\n';
+}
+
+/// How the contacts stood to what the device can display; nothing when nothing was touched or nothing is known.
+void print_stiffness(const StiffnessReceipt& s, std::ostream& out) {
+  if (s.contact_ticks == 0) return;
+  out << std::setprecision(0) << "contact  up to " << s.asked_max_n_per_m << " N/m asked of the device, K_max "
+      << s.k_max_min_n_per_m << " to " << s.k_max_max_n_per_m << " N/m, above it for " << 100 * s.above_share
+      << " % of the contact time, clamp " << (s.clamped ? "on" : "off") << std::setprecision(1) << '\n';
 }
 
 }  // namespace
@@ -204,6 +215,8 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   std::map<std::string, PassivityLaw> laws;
   for (const PassivityLawName& known : kPassivityLaws) laws.emplace(known.name, known.law);
   setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law, laws);
+  setup.clamp_stiffness = options.clamp;
+  setup.device = read_device_files(options.calibration, options.device);
   setup.realtime = options.realtime;
   if (options.realtime) setup.pace = kSimulatedLivePace;
   for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));
@@ -254,6 +267,7 @@ void print_result(const AttemptResult& result, std::ostream& out) {
         << std::setw(4) << 100 * s.weight << " %" << (s.gate ? "  safety gate" : "") << '\n';
   }
   for (const std::string& cap : grade.caps) out << "cap      " << cap << '\n';
+  print_stiffness(result.device.stiffness, out);
   if (!result.device.fault.empty()) out << "fault    " << result.device.fault << '\n';
   if (!result.integrity.empty()) out << "reason   " << result.integrity << '\n';
   for (const DeviceWarning& w : result.device.warnings) {

@@ -29,6 +29,9 @@ struct RunOptions {
   double fps = 10;
   double rate_hz = 1000;
   std::string contact_law = "proxy", passivity_law = "budgeted";
+  bool clamp = false;                   ///< contacts stiffer than K_max are weakened to it
+  std::filesystem::path calibration;    ///< of the amplifiers, written by `trocar device calibrate`; empty: nominal
+  std::filesystem::path device;         ///< weights and friction, written by `trocar device identify`; empty: nominal
   std::vector<std::string> injections;  ///< KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION]
   bool realtime = false;                ///< threads and the clock instead of lockstep
   std::function<bool()> interrupted;    ///< asked during the run: true ends it as aborted

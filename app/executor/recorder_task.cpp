@@ -4,7 +4,8 @@
 
 namespace trocar {
 
-TraceSample trace_sample(const StylusState& state) {
+TraceSample trace_sample(const TickRecord& record) {
+  const StylusState& state = record.stylus;
   TraceSample sample;
   sample.t_s = state.t_s;
   sample.tip_T = state.X_TI.p;
@@ -17,6 +18,8 @@ TraceSample trace_sample(const StylusState& state) {
   sample.contact = state.contact;
   sample.saturated = state.saturated;
   sample.passivity_active = state.passivity_active;
+  sample.stiffness_n_per_m = record.stiffness_n_per_m;
+  if (record.stiffness_n_per_m > 0) sample.k_max_n_per_m = record.k_max_n_per_m;
   return sample;
 }
 
@@ -38,7 +41,7 @@ void RecorderTask::write(const TickRecord& record) {
   }
   if (record.patch_stamp != patch_stamp_) writer_.append_patch({state.period, record.patch_stamp});
   patch_stamp_ = record.patch_stamp;
-  writer_.append(quantise(state.period, record.in, trace_sample(state), state.loop, phase_));
+  writer_.append(quantise(state.period, record.in, trace_sample(record), state.loop, phase_));
 }
 
 void RecorderTask::run(std::uint64_t) {

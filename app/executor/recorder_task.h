@@ -13,8 +13,8 @@
 
 namespace trocar {
 
-/// What scoring keeps of one haptic state.
-TraceSample trace_sample(const StylusState& state);
+/// What scoring and report keep of one tick.
+TraceSample trace_sample(const TickRecord& record);
 
 /// What the recorder reads, big: on the heap.
 struct RecorderRings {

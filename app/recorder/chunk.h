@@ -13,8 +13,10 @@
 namespace trocar {
 
 inline constexpr std::string_view kRecordingMagic = "TROCREC\n";
-inline constexpr std::uint32_t kRecordingVersion = 2;
+inline constexpr std::uint32_t kRecordingVersion = 3;
 inline constexpr std::uint32_t kOldestReadable = 1;      ///< 1: without schedule, fewer channels, state hash formed otherwise
+inline constexpr std::uint32_t kOldestVerifiable = 2;    ///< 2: without the channels of stiffness and K_max
+inline constexpr std::uint32_t kFirstWithStiffness = 3;
 inline constexpr std::size_t kRecordingPrefixSize = 12;  ///< magic and version
 inline constexpr std::size_t kChunkHeaderSize = 12;
 inline constexpr std::uint32_t kMaxChunkPayload = 1u << 26;  ///< 64 MiB: a longer length is damage

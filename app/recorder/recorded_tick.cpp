@@ -7,7 +7,7 @@ namespace trocar {
 namespace {
 
 // Quanta are decimal fractions: dividing by the whole number 1/quantum gives the double nearest to the decimal.
-constexpr double kPerMetre = 1e6, kPerDirection = 1e4, kPerNewton = 1e3;
+constexpr double kPerMetre = 1e6, kPerDirection = 1e4, kPerNewton = 1e3, kPerStiffness = 10;
 
 std::int32_t to_quanta(double value, double per_unit) {
   const double quanta = std::round(value * per_unit);
@@ -46,6 +46,8 @@ RecordedTick quantise(std::uint64_t tick, const DaqSample& input, const TraceSam
   row.rendered = to_quanta(sample.rendered_n, kPerNewton);
   row.grip = to_quanta(sample.grip_n, kPerNewton);
   row.jaw_opening = to_quanta(sample.jaw_opening_m, kPerMetre);
+  row.stiffness = to_quanta(sample.stiffness_n_per_m, kPerStiffness);
+  row.k_max = to_quanta(sample.k_max_n_per_m, kPerStiffness);
   row.flags = static_cast<std::uint8_t>((sample.contact ? kFlagContact : 0) | (sample.saturated ? kFlagSaturated : 0) |
                                         (sample.passivity_active ? kFlagPassivityActive : 0));
   row.loop_state = static_cast<std::uint8_t>(loop);
@@ -64,6 +66,8 @@ TraceSample dequantise(const RecordedTick& row, double rate_hz) {
   sample.rendered_n = from_quanta(row.rendered, kPerNewton);
   sample.grip_n = from_quanta(row.grip, kPerNewton);
   sample.jaw_opening_m = from_quanta(row.jaw_opening, kPerMetre);
+  sample.stiffness_n_per_m = from_quanta(row.stiffness, kPerStiffness);
+  sample.k_max_n_per_m = from_quanta(row.k_max, kPerStiffness);
   sample.contact = (row.flags & kFlagContact) != 0;
   sample.saturated = (row.flags & kFlagSaturated) != 0;
   sample.passivity_active = (row.flags & kFlagPassivityActive) != 0;

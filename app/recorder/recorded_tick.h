@@ -1,7 +1,7 @@
 // One haptic tick as the recording keeps it: the exact input of the device and the trace in whole quanta.
 //
 // Scoring reads the DECODED row, live as well as when regrading, so both see the same numbers to the bit. Quanta:
-// positions and opening 1 um, shaft direction 1e-4, forces 1 mN. Frame T. Thread: any, plain values.
+// positions and opening 1 um, shaft direction 1e-4, forces 1 mN, stiffness 0.1 N/m. Frame T. Thread: any, plain values.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@ namespace trocar {
 inline constexpr double kLengthQuantum = 1e-6;     ///< m
 inline constexpr double kDirectionQuantum = 1e-4;  ///< of a unit vector
 inline constexpr double kForceQuantum = 1e-3;      ///< N
+inline constexpr double kStiffnessQuantum = 0.1;   ///< N/m
 
 /// Stands for "not finite, or beyond what 31 bits of quanta hold"; decodes to NaN, never to a number.
 inline constexpr std::int32_t kNotRepresentable = INT32_MIN;
@@ -38,6 +39,8 @@ struct RecordedTick {
   std::int32_t rendered = 0, grip = 0;  ///< mN
   std::int32_t jaw_opening = 0;         ///< um
   std::int32_t commanded = kNotRepresentable;  ///< mN; older recordings do not have it
+  /// 0.1 N/m: asked of the device and K_max there, 0 while nothing is touched; formats 1 and 2 do not have them
+  std::int32_t stiffness = kNotRepresentable, k_max = kNotRepresentable;
   std::uint8_t valid = 0x7F;            ///< bit i: channel i latched correctly
   std::uint8_t flags = 0;               ///< RecordedFlag bits
   std::uint8_t loop_state = 0;          ///< LoopState

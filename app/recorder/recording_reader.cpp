@@ -1,5 +1,6 @@
 #include "app/recorder/recording_reader.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -65,10 +66,18 @@ class Parser {
       recording_.session = std::move(header.session);
       recording_.rate_hz = header.rate_hz;
       channels_ = std::move(header.channels);
+      check_channels();
     } catch (const InputError& error) {
       fail(error.what());
     }
     return chunk->end();
+  }
+
+  /// The version stands outside every CRC; the channels are inside one.
+  void check_channels() const {
+    const bool stiffness = std::ranges::find(channels_, "k_max", &RecordedChannel::name) != channels_.end();
+    if (stiffness == (recording_.version >= kFirstWithStiffness)) return;
+    throw InputError("says recording format " + std::to_string(recording_.version) + ", but its channels are not of that format");
   }
 
   /// Takes over one whole chunk.

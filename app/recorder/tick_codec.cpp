@@ -53,6 +53,8 @@ constexpr RecordedChannel kTable[] = {
     {"flags", "bits", 1, offsetof(RecordedTick, flags), Kind::kUint8},
     {"loop_state", "code", 1, offsetof(RecordedTick, loop_state), Kind::kUint8},
     {"phase", "code", 1, offsetof(RecordedTick, phase), Kind::kUint8},
+    {"stiffness", "N/m", kStiffnessQuantum, offsetof(RecordedTick, stiffness), Kind::kInt32},
+    {"k_max", "N/m", kStiffnessQuantum, offsetof(RecordedTick, k_max), Kind::kInt32},
 };
 
 // All arithmetic modulo 2^64: exact for every column, and no overflow whatever a damaged file holds.
@@ -181,15 +183,15 @@ struct TickEncoder::Context {
 TickEncoder::TickEncoder() : context_(std::make_unique<Context>()) {}
 TickEncoder::~TickEncoder() = default;
 
-std::string TickEncoder::encode(std::span<const RecordedTick> rows) {
+std::string TickEncoder::encode(std::span<const RecordedTick> rows, std::span<const RecordedChannel> channels) {
   std::string payload;
   bytes::put(payload, static_cast<std::uint32_t>(rows.size()));
   std::string& packed = context_->packed;
-  packed.resize(std::size(kTable) * (1 + kMaxVarint * (rows.size() + 2)));
+  packed.resize(channels.size() * (1 + kMaxVarint * (rows.size() + 2)));
   char* end = packed.data();
   if (!rows.empty()) {
     ColumnPacker packer(rows.size());
-    for (const RecordedChannel& channel : kTable) {
+    for (const RecordedChannel& channel : channels) {
       gather(rows, channel, packer.column());
       end = packer.pack(end);
     }

@@ -35,7 +35,9 @@ class TickEncoder {
  public:
   TickEncoder();
   ~TickEncoder();
-  std::string encode(std::span<const RecordedTick> rows);
+  /// @param channels those to be stored, in their order.
+  std::string encode(std::span<const RecordedTick> rows,
+                     std::span<const RecordedChannel> channels = recorded_channels());
 
  private:
   struct Context;

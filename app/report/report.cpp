@@ -10,6 +10,7 @@
 
 #include "app/report/html.h"
 #include "app/report/report_style.h"
+#include "app/report/stiffness_plot.h"
 #include "app/report/verdict.h"
 #include "haptics/input_error.h"
 
@@ -131,6 +132,16 @@ std::string main_plot_html(const AttemptResult& result, const Trace& trace, cons
   return "<section class=\"force\"><h2>" + title + "</h2>" + plot + "</section>\n";
 }
 
+/// Recordings before format 3 have nothing to show here.
+std::string stiffness_html(const AttemptResult& result, const Trace& trace) {
+  const StiffnessReceipt& stiffness = result.device.stiffness;
+  if (!stiffness.recorded) return "";
+  std::string out = "<section class=\"force\"><h2>Stiffness that the device could display</h2><p>" +
+                    escape_html(stiffness_words(stiffness)) + "</p>";
+  if (stiffness.contact_ticks > 0) out += stiffness_plot_svg(trace);
+  return out + "</section>\n";
+}
+
 std::string path_key() {
   const auto entry = [](const char* colour, int width, const char* words) {
     return "<span><b style=\"border-top:" + std::to_string(width) + "px solid " + colour + "\"></b>" + words +
@@ -163,6 +174,7 @@ std::string device_html(const DeviceReceipt& d) {
   out += fact("Passivity control active", fixed_text(100 * d.passivity_active_share, 1) +
                                               " % of contact time, lowest energy " +
                                               number_text(1000 * d.min_energy_j) + " mJ");
+  if (d.stiffness.recorded) out += fact("Stiffness clamp (K max)", d.stiffness.clamped ? "on" : "off");
   return out + fact("Fault", d.fault.empty() ? "none" : d.fault) + "</tbody></table>";
 }
 
@@ -219,6 +231,7 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
           "</div></div>\n";
   page += subscores_html(result.grade);
   page += main_plot_html(result, trace, context);
+  page += stiffness_html(result, trace);
   page += "<div class=\"two path\"><div><section><h2>Events</h2>" + events_html(result, start) + "</section>" +
           metrics_html(result.grade) + "</div><div><section><h2>Tip path from above</h2>" +
           path_plot_svg(trace, result.events, context.band) + path_key() + "</section><section><h2>Device</h2>" +

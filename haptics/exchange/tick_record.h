@@ -23,6 +23,7 @@ struct TickRecord {
   double winding_c = 25;       ///< hottest motor winding by the model
   double contact_scale = 1;    ///< < 1: torque budget cut the contact force
   double k_max_n_per_m = std::numeric_limits<double>::infinity();  ///< stiffness that the device can display here
+  double stiffness_n_per_m = 0;  ///< that the contact asks for at the stylus, before any clamp; 0: nothing is touched
   double stiffness_share = 1;  ///< of the contact's stiffness that this is; it is cut to it only where so configured
   double stored_j = 0;
   double min_energy_j = 0;     ///< lowest value of the arm's energy observer so far

@@ -49,6 +49,17 @@ struct DeviceTransition {
   std::string from, to;
 };
 
+/// How stiff the contacts were at the stylus beside K_max, what the device can display there (haptics/control/stiffness_limit.h).
+struct StiffnessReceipt {
+  bool recorded = false;               ///< recordings before format 3 do not say
+  bool clamped = false;                ///< contacts stiffer than K_max were weakened to it
+  std::uint64_t contact_ticks = 0;     ///< that felt a spring; what follows holds only with some
+  double k_max_min_n_per_m = 0, k_max_max_n_per_m = 0;
+  double asked_max_n_per_m = 0;        ///< stiffest contact, before any clamp
+  double share_min = 1;                ///< least of min(1, K_max / asked)
+  double above_share = 0;              ///< of the contact ticks: asked for more than K_max
+};
+
 /// Loop quality of the attempt (the device receipt).
 struct DeviceReceipt {
   std::string backend;
@@ -59,6 +70,7 @@ struct DeviceReceipt {
   double passivity_active_share = 0;   ///< of contact ticks
   double min_energy_j = 0;
   double kappa = 1;
+  StiffnessReceipt stiffness;
   /// The force was not rendered when the device lacked room in over 5 % of the contact time.
   bool force_not_rendered() const { return saturated_contact_share > 0.05; }
   std::string fault;                   ///< cause of the first one, empty when none

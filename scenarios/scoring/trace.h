@@ -22,6 +22,8 @@ struct TraceSample {
   double rendered_n = 0;                ///< magnitude delivered to the hand, N
   double grip_n = 0;                    ///< virtual grip force, N
   double jaw_opening_m = 0;
+  double stiffness_n_per_m = 0;         ///< that the contact asks for at the stylus; 0: nothing touched, NaN: not recorded
+  double k_max_n_per_m = 0;             ///< that the device can display there; likewise
   bool contact = false;
   bool saturated = false;
   bool passivity_active = false;

@@ -157,7 +157,7 @@ TEST(RecordingHeader, NamesEveryChannelWithUnitAndQuantum) {
   const std::string header = encode_header({"", 1000});
   EXPECT_NE(header.find(R"({"name":"tip_x","quantum":1e-06,"unit":"m"})"), std::string::npos);
   EXPECT_NE(header.find(R"({"name":"force_z","quantum":0.001,"unit":"N"})"), std::string::npos);
-  EXPECT_EQ(recorded_channels().size(), 27u);
+  EXPECT_EQ(recorded_channels().size(), 29u);
   std::string other = header;
   other.replace(other.find("tip_x"), 5, "tip_q");
   EXPECT_THROW(decode_header(other), InputError);

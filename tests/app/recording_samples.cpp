@@ -50,6 +50,8 @@ TraceSample trace_sample(const DaqSample& input, double t, std::mt19937_64& rand
     const double press = 0.8 * std::sin(kPi * std::fmod(t, 4.0) / 2);
     sample.force_T = press * Vec3(0.1, 0.2, 0.97) + 0.01 * Vec3(normal(random), normal(random), normal(random));
     sample.rendered_n = sample.force_T.norm() * 0.9;
+    sample.stiffness_n_per_m = 123;  // as a run shows it: the spring steady, K_max by pose and direction
+    sample.k_max_n_per_m = 120 + 75 * std::sin(2 * kPi * 0.3 * t) + 0.2 * normal(random);
   }
   sample.jaw_opening_m = 0.01 + 0.02 * angle(6);
   sample.grip_n = std::fmod(t, 20.0) > 18 ? 1 + 0.01 * normal(random) : 0;
@@ -86,6 +88,8 @@ std::vector<RecordedTick> arbitrary_ticks(std::size_t count, std::uint64_t seed)
     row.jaw_opening = any();
     for (auto* byte : {&row.valid, &row.flags, &row.loop_state, &row.phase})
       *byte = static_cast<std::uint8_t>(random());
+    row.stiffness = any();
+    row.k_max = any();
   }
   return rows;
 }

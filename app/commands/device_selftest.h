@@ -1,0 +1,21 @@
+// `trocar device selftest`: the conformance of a back-end behind the seam, here of the simulated one.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace trocar {
+
+struct SelfTestOptions {
+  std::uint64_t seed = 1;  ///< of the simulated device
+  double rate_hz = 1000;
+  std::vector<std::string> injections;  ///< as RunOptions::injections: to see a check fail
+  bool json = false;
+};
+
+/// @return 0, or 4 when a check failed. @throws InputError.
+int device_selftest(const SelfTestOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace trocar

@@ -1,0 +1,39 @@
+// The files that tell a loop more of its device than the nominal model: amplifier gains and offsets (JSON, written by
+// `trocar device calibrate`), weights and friction (TOML, written by `trocar device identify`).
+//
+// Their text is kept whole in a recording's header, so that a replay needs neither file. Thread: loading only.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptics/device/device_model.h"
+
+namespace trocar {
+
+/// A file as it was read.
+struct DeviceFile {
+  std::string text;
+  std::string name;  ///< for messages
+};
+
+struct DeviceFiles {
+  std::optional<DeviceFile> calibration, identified;
+};
+
+/// Reads what is named; an empty path means none. @throws InputError naming the file when it cannot be read.
+DeviceFiles read_device_files(const std::filesystem::path& calibration, const std::filesystem::path& identified);
+
+/// The nominal model with what the files say in its place. @throws InputError naming file and place.
+DeviceModel device_model(const DeviceFiles& files);
+
+/// A simulated device in words, as these files name it: "simulated, seed 7".
+std::string simulated_plant_words(std::uint64_t seed);
+
+/// A line for each file that says it was made on another device than `plant`. One that does not say is not doubted.
+std::vector<std::string> device_doubts(const DeviceFiles& files, const std::string& plant);
+
+}  // namespace trocar
