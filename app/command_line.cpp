@@ -93,7 +93,7 @@ void add_run(CommandLine& c) {
   run->add_option("--fps", c.run.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
   run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
-  run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, increment, cap, reference, thesis or off")->capture_default_str();
+  run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, distributed, increment, cap, reference, thesis or off")->capture_default_str();
   run->add_option("--inject", c.run.injections, "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, drive-fault, over-temperature, hand-nan, hand-lets-go");
   run->add_flag("--realtime", c.run.realtime, "Live: threads and the clock instead of lockstep");
   run->add_flag("--json", c.run.json, "Result as JSON on stdout");

@@ -229,6 +229,7 @@ TorqueShares HapticLoop::hold_up(const Motion& motion, Contact& contact) noexcep
   }
   shares.contact = contact.torque + contact.port;
   contact.room = limiter_.room(shares);
+  contact.carried = (shares.springs + shares.gravity).head<kArmJoints>();
   return shares;
 }
 
@@ -265,7 +266,15 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
   const double force = arm_passivity_.update(arm);
   if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
-  return passive + contact.port;
+  passive += contact.port;
+  if (arm_passivity_.damping_w() > 0) passive.head<kArmJoints>() += spread_damping(motion, contact, passive.head<kArmJoints>());
+  return passive;
+}
+
+JointVector HapticLoop::spread_damping(const Motion& motion, const Contact& contact, const JointVector& passive) const noexcept {
+  const JointVector limit = torque_limits(config_.device).head<kArmJoints>();
+  const JointVector qd = motion.qd.head<kArmJoints>();
+  return place_damping(arm_passivity_.damping_w(), qd, headroom_against(qd, contact.carried + passive, limit), limit).torque;
 }
 
 LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept {

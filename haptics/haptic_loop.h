@@ -10,6 +10,7 @@
 
 #include "haptics/control/channel_velocity.h"
 #include "haptics/control/contact_renderer.h"
+#include "haptics/control/damping_distribution.h"
 #include "haptics/control/device_watch.h"
 #include "haptics/control/friction.h"
 #include "haptics/control/instrument_coupling.h"
@@ -97,11 +98,13 @@ class HapticLoop {
     ChannelVector alignment = ChannelVector::Zero();  ///< spring that leads the stylus along the shaft
     double port_stored_j = 0;                      ///< in both, before share
     JointVector spring_torque = JointVector::Zero();  ///< conjugate to it, times share
+    JointVector carried = JointVector::Zero();        ///< limit springs and weight
   };
 
   Motion measure(const DaqSample& in) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
+  JointVector spread_damping(const Motion& motion, const Contact& contact, const JointVector& passive) const noexcept;
   TorqueShares hold_up(const Motion& motion, Contact& contact) noexcept;
   LimitedTorque share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept;
   void feel_port(const Motion& motion, Contact& contact) noexcept;
