@@ -191,6 +191,8 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   contact.share = contact.port_share * (config_.clamp_stiffness ? contact.limit.share : 1);
   contact.commanded_W = whole.force;
   contact.torque.head<kArmJoints>() = contact.share * torque_of(whole);
+  const double asked = patch.grip.stiffness_n_per_m;
+  contact.jaw_share *= pinch_stiffness_limit(pinch_passivity_.parameters(), count_[kPinchChannel], asked).share;
   contact.torque[kPinchChannel] = contact.jaw_share * contact.grip.force_n;
   contact.spring_torque = contact.share * spring_torque;
   feel_port(motion, contact);
@@ -267,14 +269,18 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
   if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
   passive += contact.port;
-  if (arm_passivity_.damping_w() > 0) passive.head<kArmJoints>() += spread_damping(motion, contact, passive.head<kArmJoints>());
+  if (arm_passivity_.damping_w() > 0) {
+    passive.head<kArmJoints>() += spread_damping(motion, contact, passive.head<kArmJoints>());
+  }
   return passive;
 }
 
-JointVector HapticLoop::spread_damping(const Motion& motion, const Contact& contact, const JointVector& passive) const noexcept {
+JointVector HapticLoop::spread_damping(const Motion& motion, const Contact& contact,
+                                       const JointVector& passive) const noexcept {
   const JointVector limit = torque_limits(config_.device).head<kArmJoints>();
-  const JointVector qd = motion.qd.head<kArmJoints>();
-  return place_damping(arm_passivity_.damping_w(), qd, headroom_against(qd, contact.carried + passive, limit), limit).torque;
+  const JointVector qd = moving_joints(motion.qd.head<kArmJoints>());
+  const JointVector headroom = headroom_against(qd, contact.carried + passive, limit);
+  return place_damping(arm_passivity_.damping_w(), qd, headroom, limit).torque;
 }
 
 LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept {

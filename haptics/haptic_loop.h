@@ -69,6 +69,7 @@ class HapticLoop {
   void set_stiffness_clamp(bool clamp) noexcept { config_.clamp_stiffness = clamp; }
   const HapticLoopConfig& config() const { return config_; }
   const SafetyLog& safety_log() const { return safety_log_; }
+  const PassivityController& pinch_passivity() const { return pinch_passivity_; }
 
  private:
   struct Motion {
@@ -89,7 +90,7 @@ class HapticLoop {
     double share = 1;                              ///< of the contact that ramp, singularity, heat, clutch and K_max let through
     double port_share = 1;                         ///< the same of the port's friction: without the stiffness limit
     double room = 1;                               ///< share of all contact torque that the motors can give
-    double jaw_share = 1;                          ///< the same of the grip, without the clutch
+    double jaw_share = 1;                          ///< the same of the grip, without the clutch, with its K_max
     StiffnessLimit limit;                          ///< K_max and what it left of the spring
     double stiffness = 0;                          ///< of that spring at the stylus, N/m
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping

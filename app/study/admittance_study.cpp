@@ -21,6 +21,7 @@ constexpr std::array kServos{15.0, 25.0, 40.0};                    // Hz
 constexpr std::array<const char*, 4> kGripNames{"fingertip", "light", "normal", "firm"};
 constexpr int kQuickEvery = 10;
 constexpr double kLeastAllowed = -0.050;                           // J
+constexpr double kDrawnDown = -0.1;                                // J, the rest of a fall would flatten the others
 constexpr double kMassFrom = 0.01, kMassTo = 5.12;                 // kg, of the search
 constexpr int kMassSteps = 18;                                     // a factor of sqrt(2) each
 constexpr std::size_t kOffAt = 0;                                  // of kParallelLaws
@@ -46,7 +47,7 @@ AdmittanceCase demonstration() {
 AdmittanceTally add_up(const AdmittanceGrid& grid, ParallelLaw law) {
   AdmittanceTally tally;
   tally.law = law;
-  int counted = 0;
+  int counted = 0, pressed = 0;
   for (const std::vector<AdmittanceOutcome>& row : grid.outcome) {
     const AdmittanceOutcome &o = row[place_of(law)], &off = row[kOffAt];
     tally.stable += o.stable();
@@ -58,11 +59,14 @@ AdmittanceTally add_up(const AdmittanceGrid& grid, ParallelLaw law) {
     if (!off.stable()) continue;
     tally.mass_ratio += o.felt_mass_kg / off.felt_mass_kg;
     tally.drag += o.drag_n_s_per_m;
-    tally.stiffness_ratio += o.shown_n_per_m / off.shown_n_per_m;
     tally.active += o.active_share;
     ++counted;
+    if (!(o.shown_n_per_m > 0 && off.shown_n_per_m > 0)) continue;  // light hands are stopped at the wall itself
+    tally.stiffness_ratio += o.shown_n_per_m / off.shown_n_per_m;
+    ++pressed;
   }
-  for (double* mean : {&tally.mass_ratio, &tally.drag, &tally.stiffness_ratio, &tally.active}) *mean /= std::max(1, counted);
+  for (double* mean : {&tally.mass_ratio, &tally.drag, &tally.active}) *mean /= std::max(1, counted);
+  tally.stiffness_ratio /= std::max(1, pressed);
   return tally;
 }
 
@@ -102,14 +106,14 @@ std::string grid_csv(const AdmittanceGrid& grid) {
 void demonstrate(StudyResult& study) {
   const AdmittanceCase c = demonstration();
   StudyCurves force{"admittance_force", "Firm hand, 0.15 kg virtual mass, 6 ms delay", "time, s", "force of the hand, N", {}, {}};
-  StudyCurves energy{"admittance_energy", "Energy that the hand has given: below 0 the device has driven it", "time, s",
+  StudyCurves energy{"admittance_energy", "Energy that the hand has given; below 0 the device has driven it, drawn down to -100 mJ", "time, s",
                      "energy, mJ", {}, {}};
   const AdmittanceOutcome on = press(c, ParallelLaw::kBudgeted), off = press(c, ParallelLaw::kOff),
                           thesis = press(c, ParallelLaw::kThesis);
   force.x = energy.x = on.trace.t;
   const auto add = [&](const char* name, const AdmittanceOutcome& o) {
     std::vector<double> f = o.trace.force_n, e = o.trace.given_j;
-    for (double& j : e) j = std::max(-100.0, j * 1e3);  // the rest of the fall would flatten the others
+    for (double& j : e) j = j < kDrawnDown ? std::nan("") : j * 1e3;
     f.resize(force.x.size(), std::nan(""));
     e.resize(force.x.size(), std::nan(""));
     force.series.push_back({name, f});

@@ -39,6 +39,10 @@ PlacedDamping place_damping(double power_w, const JointVector& qd, const JointVe
   return placed;
 }
 
+JointVector moving_joints(const JointVector& qd) {
+  return (qd.array().abs() < kDampedFrom).select(JointVector::Zero(), qd);
+}
+
 JointVector headroom_against(const JointVector& qd, const JointVector& carried, const JointVector& limit) {
   JointVector room;
   for (int i = 0; i < kArmJoints; ++i) room[i] = std::max(0.0, limit[i] + std::copysign(1.0, qd[i]) * carried[i]);

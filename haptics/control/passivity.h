@@ -110,6 +110,7 @@ class PassivityController {
   /// Called after the torque budget: only `scale` of what update() returned was delivered, so only that is stored.
   void delivered(double scale);
 
+  const PassivityParameters& parameters() const { return p_; }
   double energy_j() const { return energy_; }          ///< observer: absorbed minus returned since reset
   double min_energy_j() const { return min_energy_; }
   double budget_j() const { return budget_; }

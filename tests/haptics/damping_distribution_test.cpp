@@ -166,6 +166,18 @@ TEST(DampingDistribution, HeadroomIsWhatIsLeftAgainstTheMotion) {
   }
 }
 
+TEST(DampingDistribution, ARestingJointIsLeftOut) {
+  JointVector qd;
+  qd << 0.05, -0.0999, 0.1, -2, 0, 0.3;
+  const JointVector kept = moving_joints(qd);
+  EXPECT_EQ(kept[0], 0);
+  EXPECT_EQ(kept[1], 0);
+  for (int i = 2; i < kArmJoints; ++i) EXPECT_EQ(kept[i], qd[i]);
+  const JointVector torque = place_damping(1, kept, JointVector::Ones(), JointVector::Ones()).torque;
+  EXPECT_EQ(torque[0], 0);
+  EXPECT_GT(torque[3], 0) << "against -2 rad/s";
+}
+
 /// A spring of 500 N/m pressed to 4 mm, moved by dx while `held` newtons acted.
 ContactWork pressed(double dx, double held) {
   ContactWork work;
