@@ -18,7 +18,7 @@ void AdmittanceDevice::step(double wanted_m_s, double intent_m, double dt) {
                       hand_.force_limit_n);
   const double asked = p_.slide_kg * w * (wanted_m_s - v_ + w / kIntegralShare * lost_way_);
   const double drive = std::clamp(asked, -p_.drive_limit_n, p_.drive_limit_n);
-  if (drive == asked) lost_way_ += dt * (wanted_m_s - v_);  // no wind-up
+  lost_way_ += dt * (wanted_m_s - v_);  // also in saturation: the drive makes up for the way that it lost
   const double friction = p_.viscous_n_s_per_m * v_ + p_.coulomb_n * std::tanh(v_ / kFrictionSpeed);
   v_ += dt * (force_ + drive - friction) / p_.slide_kg;
   const double arm = hand_.arm_stiffness * (intent_m - hand_x_) - hand_.arm_damping * hand_v_;

@@ -21,6 +21,7 @@ constexpr std::array kServos{15.0, 25.0, 40.0};                    // Hz
 constexpr std::array<const char*, 4> kGripNames{"fingertip", "light", "normal", "firm"};
 constexpr int kQuickEvery = 10;
 constexpr double kLeastAllowed = -0.050;                           // J
+constexpr double kPressed = 1e-3;  // m; less, and the friction of the slide shows in the depth
 constexpr double kDrawnDown = -0.1;                                // J, the rest of a fall would flatten the others
 constexpr double kMassFrom = 0.01, kMassTo = 5.12;                 // kg, of the search
 constexpr int kMassSteps = 18;                                     // a factor of sqrt(2) each
@@ -61,7 +62,7 @@ AdmittanceTally add_up(const AdmittanceGrid& grid, ParallelLaw law) {
     tally.drag += o.drag_n_s_per_m;
     tally.active += o.active_share;
     ++counted;
-    if (!(o.shown_n_per_m > 0 && off.shown_n_per_m > 0)) continue;  // light hands are stopped at the wall itself
+    if (off.depth_m < kPressed || o.depth_m <= 0) continue;
     tally.stiffness_ratio += o.shown_n_per_m / off.shown_n_per_m;
     ++pressed;
   }
@@ -185,7 +186,7 @@ void laws(StudyResult& study, const StudyRequest& request) {
                          "From the same fit; beside it with the law off: below 0, the lag drives the hand."});
   study.cases.push_back({"grid: wall stiffness over that with the law off", "ratio", on.stiffness_ratio,
                          thesis.stiffness_ratio, ">= 0.9", on.stiffness_ratio >= 0.9,
-                         "Mean force over mean depth in the last 0.3 s, mean where off is stable."});
+                         "Mean force over mean depth in the last 0.3 s, mean where off is stable and more than 1 mm deep."});
   study.cases.push_back({"grid: error of the energy observer", "mJ", on.observer_gap_j * 1e3, std::nullopt, "reported",
                          true, "Largest difference of observed and true energy over the stable presses."});
   study.files.push_back({"admittance_grid.csv", grid_csv(grid)});

@@ -106,6 +106,7 @@ void judge(AdmittanceOutcome& out, double from_s) {
   const std::vector<double>& force = out.trace.force_n;
   const int n = static_cast<int>(force.size());
   double depth = 0, pressed = 0;
+  int counted = 0;
   for (int i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const int first = std::max(0, i - kHalfWindow), last = std::min(n, i + kHalfWindow + 1);
@@ -116,8 +117,12 @@ void judge(AdmittanceOutcome& out, double from_s) {
     if (since >= 0 && std::abs(force[at] - mean) >= kBand) out.settled_s = since;
     out.least_j = std::min(out.least_j, out.trace.given_j[at]);
     out.observer_gap_j = std::max(out.observer_gap_j, std::abs(out.trace.given_j[at] - out.trace.observed_j[at]));
-    if (since > kAdmittanceWatched - kEndWindow) depth += out.trace.position_m[at] - kWall, pressed += force[at];
+    if (since <= kAdmittanceWatched - kEndWindow) continue;
+    depth += out.trace.position_m[at] - kWall;
+    pressed += force[at];
+    ++counted;
   }
+  if (counted > 0) out.depth_m = depth / counted;
   if (depth > 0) out.shown_n_per_m = pressed / depth;
 }
 

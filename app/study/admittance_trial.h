@@ -37,7 +37,8 @@ struct AdmittanceOutcome {
   double observer_gap_j = 0; ///< largest difference of observed and true energy
   double felt_mass_kg = 0;   ///< least squares of force on acceleration and speed before touch
   double drag_n_s_per_m = 0; ///< of the same fit
-  double shown_n_per_m = 0;  ///< mean force over mean depth at the end
+  double shown_n_per_m = 0;  ///< mean force over mean depth of the handle at the end
+  double depth_m = 0;        ///< that depth
   double active_share = 0;   ///< of the periods in which the law acted
   AdmittanceTrace trace;
   bool stable() const;
