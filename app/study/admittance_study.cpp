@@ -107,7 +107,7 @@ std::string grid_csv(const AdmittanceGrid& grid) {
 void demonstrate(StudyResult& study) {
   const AdmittanceCase c = demonstration();
   StudyCurves force{"admittance_force", "Firm hand, 0.15 kg virtual mass, 6 ms delay", "time, s", "force of the hand, N", {}, {}};
-  StudyCurves energy{"admittance_energy", "Energy that the hand has given; below 0 the device has driven it, drawn down to -100 mJ", "time, s",
+  StudyCurves energy{"admittance_energy", "Energy that the hand has given, drawn down to -100 mJ", "time, s",
                      "energy, mJ", {}, {}};
   const AdmittanceOutcome on = press(c, ParallelLaw::kBudgeted), off = press(c, ParallelLaw::kOff),
                           thesis = press(c, ParallelLaw::kThesis);
