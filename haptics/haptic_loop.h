@@ -90,8 +90,9 @@ class HapticLoop {
     double share = 1;                              ///< of the contact that ramp, singularity, heat, clutch and K_max let through
     double port_share = 1;                         ///< the same of the port's friction: without the stiffness limit
     double room = 1;                               ///< share of all contact torque that the motors can give
-    double jaw_share = 1;                          ///< the same of the grip, without the clutch, with its K_max
+    double jaw_share = 1;                          ///< the same of the grip, without the clutch, with its own K_max
     StiffnessLimit limit;                          ///< K_max and what it left of the spring
+    StiffnessLimit jaw_limit;                      ///< the same of the block, share 1 once it is weakened
     double stiffness = 0;                          ///< of that spring at the stylus, N/m
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping
     Vec3 commanded_W = Vec3::Zero();               ///< force asked at the stylus
@@ -128,7 +129,9 @@ class HapticLoop {
   InstrumentCoupling instrument_;
   PortForces port_;
   ContactRenderer contact_;
-  PassivityController arm_passivity_, pinch_passivity_;
+  PassivityController arm_passivity_;
+  PassivityParameters pinch_;                ///< with period and delay
+  PassivityController pinch_passivity_;
   TorqueLimiter limiter_;
   Supervisor supervisor_;
   DeviceWatch watch_;

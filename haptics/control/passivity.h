@@ -107,10 +107,11 @@ class PassivityController {
   void reset();
   /// From the next update on; what has been observed stays.
   void set_law(PassivityLaw law) { p_.law = law; }
+  /// Damping that may be counted on from the next update on, N s/m.
+  void set_viscous(double viscous_n_s_per_m) { p_.viscous_n_s_per_m = viscous_n_s_per_m; }
   /// Called after the torque budget: only `scale` of what update() returned was delivered, so only that is stored.
   void delivered(double scale);
 
-  const PassivityParameters& parameters() const { return p_; }
   double energy_j() const { return energy_; }          ///< observer: absorbed minus returned since reset
   double min_energy_j() const { return min_energy_; }
   double budget_j() const { return budget_; }

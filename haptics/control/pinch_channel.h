@@ -1,11 +1,12 @@
 // The pinch: seventh axis, a slide between thumb and finger, and what the jaws feel of the block between them.
 //
 // Opening o = slide position; a block of thickness h and stiffness k pushes the jaws apart with F = k (h - o) while
-// o < h. The force is rendered through its own passivity budget (haptic_loop), and no stiffer than
+// o < h. The force is rendered through its own passivity budget (haptic_loop). Its limit, as the arm's:
 //   K_max = max(K_rest, min(2 b / T, b / (T/2 + Td), 2 fc / Delta))
 // with the pinch's own b and fc and the slide's way in one count, Delta (stiffness_limit.h names the sources); K_rest is
-// what the budget gives unpaid at rest. The budget alone is not enough: with very light fingers, who damp the slide by
-// less than b, blocks of 1000 N/m and more swing for ever (pinch_budget_test.cpp). Thread: haptic task; no allocation.
+// what the budget gives unpaid at rest. Stiffer blocks are weakened to it only where the arm's contacts are (clamp_stiffness).
+// Otherwise the budget reckons with the slide's own damping for them, without the fingers': with very light fingers, who damp
+// less than b, blocks of 1000 N/m and more swung for ever (pinch_budget_test.cpp). Thread: haptic task; no allocation.
 #pragma once
 
 #include <algorithm>
@@ -38,6 +39,13 @@ inline StiffnessLimit pinch_stiffness_limit(const PassivityParameters& pinch, do
   limit.k_max = std::max(passive, pinch.rest_stiffness_n_per_m);
   if (asked > limit.k_max) limit.share = limit.k_max / asked;
   return limit;
+}
+
+inline constexpr double kSlideAlone = 0.4;  ///< N s/m of the pinch's slide without fingers [assumed]
+
+/// Damping that the budget of the pinch may count on, N s/m.
+inline double pinch_damping(const PassivityParameters& pinch, const StiffnessLimit& limit) {
+  return limit.share < 1 ? std::min(kSlideAlone, pinch.viscous_n_s_per_m) : pinch.viscous_n_s_per_m;
 }
 
 }  // namespace trocar

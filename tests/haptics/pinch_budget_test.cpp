@@ -25,6 +25,7 @@ struct Squeeze {
   Finger finger = kNormal;
   int extra_delay = 0;
   double seconds = 0.15;  ///< from 20 mm to 4 mm
+  bool clamp = false;
 };
 
 struct Squeezed {
@@ -42,6 +43,7 @@ Squeezed squeeze(const Squeeze& how) {
   HapticLoopConfig config;
   config.known_delay_periods = how.extra_delay;
   config.passivity.law = config.pinch_passivity.law = how.law;
+  config.clamp_stiffness = how.clamp;
   LoopRig rig(device, config);
   rig.start();
   rig.patch->grip = {kThickness, how.block};
@@ -111,9 +113,11 @@ TEST(PinchBudget, TheBlocksOfTheExercisesAreShownInFull) {
   }
 }
 
-TEST(PinchBudget, AStiffBlockIsShownAsStiffAsKMax) {
-  const Squeezed on = squeeze({PassivityLaw::kBudgeted, 2500, kNormal, 0, 0.4});
-  EXPECT_NEAR(on.shown * 2500, 667, 0.1 * 667) << "b / (T/2 + Td) = 1.0 / 1.5 ms";
+TEST(PinchBudget, WithTheClampAStiffBlockIsShownAsStiffAsKMax) {
+  const Squeezed clamped = squeeze({PassivityLaw::kBudgeted, 2500, kNormal, 0, 0.4, true});
+  EXPECT_NEAR(clamped.shown * 2500, 667, 0.1 * 667) << "b / (T/2 + Td) = 1.0 / 1.5 ms";
+  const Squeezed soft = squeeze({PassivityLaw::kBudgeted, 550, kNormal, 0, 0.15, true});
+  EXPECT_NEAR(soft.shown, 1, 0.05) << "below it nothing changes";
 }
 
 TEST(PinchBudget, TheObserverUsesWhatWasAppliedSaturatedAndDelayed) {
@@ -134,6 +138,8 @@ TEST(PinchStiffnessLimit, IsTheLeastOfItsThreeTermsButNotBelowTheRestStiffness) 
   EXPECT_NEAR(pinch_stiffness_limit(p, count, 1000).k_max, 1.0 / 1.5e-3, 1e-9);
   EXPECT_NEAR(pinch_stiffness_limit(p, count, 1000).share, 2.0 / 3, 1e-9);
   EXPECT_EQ(pinch_stiffness_limit(p, count, 550).share, 1) << "to the bit";
+  EXPECT_EQ(pinch_damping(p, pinch_stiffness_limit(p, count, 550)), 1.0);
+  EXPECT_EQ(pinch_damping(p, pinch_stiffness_limit(p, count, 1000)), 0.4) << "without the fingers";
   p.delay_s = 4e-3;
   EXPECT_EQ(pinch_stiffness_limit(p, count, 1000).k_max, 300) << "222 N/m would be passive; 300 are given at rest anyway";
   p.delay_s = 0;
