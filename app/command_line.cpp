@@ -97,7 +97,7 @@ void add_run(CommandLine& c) {
   run->add_option("--fps", c.run.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
   run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
-  run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, increment, cap, reference, thesis or off")->capture_default_str();
+  run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, distributed, increment, cap, reference, thesis or off")->capture_default_str();
   run->add_flag("--clamp", c.run.clamp, "Weaken contacts stiffer than K_max, what the device can display, to it");
   run->add_option("--calibration", c.run.calibration, "Amplifier gains and offsets from device calibrate (default: nominal)");
   run->add_option("--device", c.run.device, "Weights and friction from device identify (default: nominal)");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "haptics/control/gravity.h"
 #include "haptics/kinematics/inverse_kinematics.h"
@@ -93,7 +94,8 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       contact_(config.contact_law, config.tool),
       arm_passivity_(with_friction_left(with_period(config.passivity, period_s_, config.known_delay_periods),
                                          config.friction)),
-      pinch_passivity_(with_period(config.pinch_passivity, period_s_, config.known_delay_periods)),
+      pinch_(with_period(config.pinch_passivity, period_s_, config.known_delay_periods)),
+      pinch_passivity_(pinch_),
       limiter_(torque_limits(config.device), torque_rates(config), period_s_),
       supervisor_(config.safety, count_limits(config), period_s_),
       watch_(config.safety, config.device, config.heat, period_s_),
@@ -111,7 +113,7 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
 void HapticLoop::reset_fault() noexcept { supervisor_.reset_fault(); }
 
 void HapticLoop::set_passivity_law(PassivityLaw law) noexcept {
-  config_.passivity.law = config_.pinch_passivity.law = law;
+  config_.passivity.law = config_.pinch_passivity.law = pinch_.law = law;
   arm_passivity_.set_law(law);
   pinch_passivity_.set_law(law);
 }
@@ -195,6 +197,8 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   contact.share = contact.port_share * (config_.clamp_stiffness ? contact.limit.share : 1);
   contact.commanded_W = whole.force;
   contact.torque.head<kArmJoints>() = contact.share * torque_of(whole);
+  contact.jaw_limit = pinch_stiffness_limit(pinch_, count_[kPinchChannel], patch.grip.stiffness_n_per_m);
+  if (config_.clamp_stiffness) contact.jaw_share *= std::exchange(contact.jaw_limit.share, 1.0);
   contact.torque[kPinchChannel] = contact.jaw_share * contact.grip.force_n;
   contact.spring_torque = contact.share * spring_torque;
   feel_port(motion, contact);
@@ -233,6 +237,7 @@ TorqueShares HapticLoop::hold_up(const Motion& motion, Contact& contact) noexcep
   }
   shares.contact = contact.torque + contact.port;
   contact.room = limiter_.room(shares);
+  contact.carried = (shares.springs + shares.gravity).head<kArmJoints>();
   return shares;
 }
 
@@ -268,8 +273,21 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
   ChannelVector passive = room * contact.torque;
   const double force = arm_passivity_.update(arm);
   if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
+  pinch_passivity_.set_viscous(pinch_damping(pinch_, contact.jaw_limit));
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
-  return passive + contact.port;
+  passive += contact.port;
+  if (arm_passivity_.damping_w() > 0) {
+    passive.head<kArmJoints>() += spread_damping(motion, contact, passive.head<kArmJoints>());
+  }
+  return passive;
+}
+
+JointVector HapticLoop::spread_damping(const Motion& motion, const Contact& contact,
+                                       const JointVector& passive) const noexcept {
+  const JointVector limit = torque_limits(config_.device).head<kArmJoints>();
+  const JointVector qd = moving_joints(motion.qd.head<kArmJoints>());
+  const JointVector headroom = headroom_against(qd, contact.carried + passive, limit);
+  return place_damping(arm_passivity_.damping_w(), qd, headroom, limit).torque;
 }
 
 LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept {

@@ -10,6 +10,7 @@
 
 #include "haptics/control/channel_velocity.h"
 #include "haptics/control/contact_renderer.h"
+#include "haptics/control/damping_distribution.h"
 #include "haptics/control/device_watch.h"
 #include "haptics/control/friction.h"
 #include "haptics/control/instrument_coupling.h"
@@ -68,6 +69,7 @@ class HapticLoop {
   void set_stiffness_clamp(bool clamp) noexcept { config_.clamp_stiffness = clamp; }
   const HapticLoopConfig& config() const { return config_; }
   const SafetyLog& safety_log() const { return safety_log_; }
+  const PassivityController& pinch_passivity() const { return pinch_passivity_; }
 
  private:
   struct Motion {
@@ -88,8 +90,9 @@ class HapticLoop {
     double share = 1;                              ///< of the contact that ramp, singularity, heat, clutch and K_max let through
     double port_share = 1;                         ///< the same of the port's friction: without the stiffness limit
     double room = 1;                               ///< share of all contact torque that the motors can give
-    double jaw_share = 1;                          ///< the same of the grip, without the clutch
+    double jaw_share = 1;                          ///< the same of the grip, without the clutch, with its own K_max
     StiffnessLimit limit;                          ///< K_max and what it left of the spring
+    StiffnessLimit jaw_limit;                      ///< the same of the block, share 1 once it is weakened
     double stiffness = 0;                          ///< of that spring at the stylus, N/m
     double spring_n = 0;                           ///< spring force asked at the stylus, without damping
     Vec3 commanded_W = Vec3::Zero();               ///< force asked at the stylus
@@ -97,11 +100,13 @@ class HapticLoop {
     ChannelVector alignment = ChannelVector::Zero();  ///< spring that leads the stylus along the shaft
     double port_stored_j = 0;                      ///< in both, before share
     JointVector spring_torque = JointVector::Zero();  ///< conjugate to it, times share
+    JointVector carried = JointVector::Zero();        ///< limit springs and weight
   };
 
   Motion measure(const DaqSample& in) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
+  JointVector spread_damping(const Motion& motion, const Contact& contact, const JointVector& passive) const noexcept;
   TorqueShares hold_up(const Motion& motion, Contact& contact) noexcept;
   LimitedTorque share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept;
   void feel_port(const Motion& motion, Contact& contact) noexcept;
@@ -124,7 +129,9 @@ class HapticLoop {
   InstrumentCoupling instrument_;
   PortForces port_;
   ContactRenderer contact_;
-  PassivityController arm_passivity_, pinch_passivity_;
+  PassivityController arm_passivity_;
+  PassivityParameters pinch_;                ///< with period and delay
+  PassivityController pinch_passivity_;
   TorqueLimiter limiter_;
   Supervisor supervisor_;
   DeviceWatch watch_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <ostream>
 
+#include "app/study/admittance_study.h"
 #include "app/study/contact_law_study.h"
 #include "app/study/contact_torque_study.h"
 #include "app/study/force_study.h"
@@ -38,6 +39,7 @@ constexpr std::array kStudies{
     KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
     KnownStudy{"gravity", gravity_study},
     KnownStudy{"passivity", passivity_study},
+    KnownStudy{"admittance", admittance_study},
     KnownStudy{"velocity", velocity_study},
     KnownStudy{"zwidth", zwidth_study},
     KnownStudy{"transparency", transparency_study},

@@ -15,7 +15,7 @@ constexpr double kStill = 1e-12;        // m
 }  // namespace
 
 void PassivityController::reset() {
-  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = lost_ = thesis_j_ = stir_m_s_ = at_rest_s_ = 0;
+  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = lost_ = damping_w_ = thesis_j_ = stir_m_s_ = at_rest_s_ = 0;
   free_ticks_ = 0;
   active_ = false;
 }
@@ -28,6 +28,7 @@ double PassivityController::update(const ContactWork& work) {
   const double income = work.absorbed_j + eaten;
 
   double spring = work.wanted_n;
+  damping_w_ = 0;
   if (work.wanted_n <= 0) lost_ = 0;
   const double force = work.wanted_n > 0 ? apply_law(work, income, spring) : 0;
   const double held = work.wanted_n > 0 ? work.stored_j * spring / work.wanted_n : 0;
@@ -37,7 +38,7 @@ double PassivityController::update(const ContactWork& work) {
   missing_ = work.wanted_n - spring;
   forget_in_free_space(work);
 
-  active_ = work.wanted_n > 0 && force != work.wanted_n;
+  active_ = work.wanted_n > 0 && (force != work.wanted_n || damping_w_ > 0);
   return force;
 }
 
@@ -52,13 +53,16 @@ double PassivityController::apply_law(const ContactWork& work, double income_j, 
       spring = capped(work, kappa());
       break;
     case PassivityLaw::kBudgeted:
+    case PassivityLaw::kDistributed:
       spring = std::max(affordable(work, income_j), bounded(work));
       spring = at_rest(work, std::min(spring, smooth(work)));
       lost = damping(work);
       break;
   }
   if (-budget_ > p_.fade_debt_j) spring = std::min(spring, kFadedShare * work.wanted_n);
-  return std::max(0.0, spring + lost);
+  if (p_.law != PassivityLaw::kDistributed) return std::max(0.0, spring + lost);
+  damping_w_ = std::max(lost, -spring) * work.speed_m_s;  // as little a pull as along the contact
+  return spring;
 }
 
 double PassivityController::stiffness_of(const ContactWork& work) {

@@ -19,6 +19,8 @@
 //               (Ryu, Preusche, Hannaford and Hirzinger 2005, with the bound of docs/device.md)
 //   kIncrement  increment bounding at every tick, no budget
 //   kCap        the spring weakened to kappa
+//   kDistributed  budgeted, but the damping's power is placed on the joints under the motors' limits
+//               (damping_distribution.h): update() returns the spring alone, damping_w() the power to take out
 // One budget for the arm, one for the pinch. Thread: haptic task; no allocation.
 #pragma once
 
@@ -30,18 +32,20 @@
 namespace trocar {
 
 /// The numbers are those of recordings and do not change.
-enum class PassivityLaw : std::uint8_t { kOff = 0, kBudgeted = 1, kThesis = 2, kReference = 3, kIncrement = 4, kCap = 5 };
+enum class PassivityLaw : std::uint8_t { kOff = 0, kBudgeted = 1, kThesis = 2, kReference = 3, kIncrement = 4, kCap = 5,
+                                        kDistributed = 6 };
 
 struct PassivityLawName {
   PassivityLaw law;
   const char* name;
 };
 /// Identifiers on the command line and in files.
-inline constexpr std::array<PassivityLawName, 6> kPassivityLaws{{{PassivityLaw::kOff, "off"},
+inline constexpr std::array<PassivityLawName, 7> kPassivityLaws{{{PassivityLaw::kOff, "off"},
                                                                  {PassivityLaw::kThesis, "thesis"},
                                                                  {PassivityLaw::kReference, "reference"},
                                                                  {PassivityLaw::kIncrement, "increment"},
                                                                  {PassivityLaw::kCap, "cap"},
+                                                                 {PassivityLaw::kDistributed, "distributed"},
                                                                  {PassivityLaw::kBudgeted, "budgeted"}}};
 
 constexpr const char* passivity_law_name(PassivityLaw law) {
@@ -103,12 +107,15 @@ class PassivityController {
   void reset();
   /// From the next update on; what has been observed stays.
   void set_law(PassivityLaw law) { p_.law = law; }
+  /// Damping that may be counted on from the next update on, N s/m.
+  void set_viscous(double viscous_n_s_per_m) { p_.viscous_n_s_per_m = viscous_n_s_per_m; }
   /// Called after the torque budget: only `scale` of what update() returned was delivered, so only that is stored.
   void delivered(double scale);
 
   double energy_j() const { return energy_; }          ///< observer: absorbed minus returned since reset
   double min_energy_j() const { return min_energy_; }
   double budget_j() const { return budget_; }
+  double damping_w() const { return damping_w_; }      ///< kDistributed: power to be placed on the joints, >= 0
   bool active() const { return active_; }              ///< the law changed the force in the last update
   bool debt_faded() const { return guards() && -budget_ > p_.fade_debt_j; }
   bool debt_fault() const { return guards() && -budget_ > p_.fault_debt_j; }
@@ -138,6 +145,7 @@ class PassivityController {
   double stir_m_s_ = 0;  ///< mean speed, either way
   double at_rest_s_ = 0;
   double lost_ = 0;      ///< damping force of the last update, N
+  double damping_w_ = 0;
   double missing_ = 0;   ///< wanted minus displayed spring force, N
   double thesis_j_ = 0;  ///< W of (4.17)
   int free_ticks_ = 0;

@@ -178,7 +178,7 @@ TEST(PassivityStudy, QuickFormMeetsWhatItAsksOfScenariosAndLaws) {
   EXPECT_FALSE(find(study, "150 N/m at 0.96 m/s")->met);
   ASSERT_EQ(study.files.size(), 2u);
   const std::string& csv = study.files[0].bytes;
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 5 * 12) << "five cases, six laws without and with the clamp";
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 5 * 14) << "five cases, seven laws without and with the clamp";
   EXPECT_NE(study.files[1].bytes.find("| budgeted + clamp |"), std::string::npos);
   EXPECT_EQ(study.curves.size(), 5u);
 }
