@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "haptics/haptic_loop.h"
 #include "scenarios/director.h"
 #include "scenarios/exercise.h"
+#include "scenarios/plant_file.h"
 #include "tissue/organ.h"
 
 namespace trocar {
@@ -49,6 +51,7 @@ struct AttemptSetup {
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
   std::vector<InjectedFault> faults;   ///< simulated back-end only
+  std::shared_ptr<const PlantFile> plant;  ///< of the simulated back-end; none: drawn by the seed. A replay needs none
   bool realtime = false;               ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;
 };

@@ -7,6 +7,7 @@
 #include "app/calibration/amplifier_calibration.h"
 #include "app/calibration/calibration_file.h"
 #include "app/commands/text_table.h"
+#include "app/true_plant.h"
 #include "haptics/device/plant_parameters.h"
 #include "haptics/input_error.h"
 
@@ -21,7 +22,7 @@ SimulatedDaqConfig device_of(const CalibrateOptions& options) {
     throw InputError("device calibrate: --gain lies in 0 to 10");
   SimulatedDaqConfig config;
   config.seed = options.seed;
-  config.plant = draw_parameters(options.seed);
+  config.plant = true_plant(options.plant, options.seed).parameters;
   for (ChannelParameters& c : config.plant->channel) c.amplifier_gain *= options.gain;
   return config;
 }
@@ -72,7 +73,7 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
     out << json;
   else
     print_table(found, nominal, error, out);
-  err << "trocar: on the simulated device of seed " << options.seed << "; the calibrated model renders torque to "
+  err << "trocar: on the simulated device of " << true_plant(options.plant, options.seed).words << "; the calibrated model renders torque to "
       << error.maxCoeff() * 100 << " %\n";
   return error.maxCoeff() <= kRendered ? 0 : 1;
 }

@@ -12,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/recorded_result.h"
 #include "app/recorder/safety_file.h"
+#include "app/true_plant.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
@@ -152,7 +153,8 @@ std::string keep_stop(const AttemptId& id, const SessionOutcome& outcome) {
 void say_beginning(const Scene& scene, std::ostream& err) {
   err << "trocar: " << scene.setup.exercise.number << ' ' << scene.setup.exercise.title << ", " << scene.level.name
       << ", board " << scene.setup.board << ", hand " << scene.setup.hand << ", organ " << scene.organ.name
-      << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant\n";
+      << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant"
+      << (scene.setup.plant ? " of " + plant_words(*scene.setup.plant) : "") << '\n';
 }
 
 }  // namespace
@@ -204,6 +206,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   std::map<std::string, PassivityLaw> laws;
   for (const PassivityLawName& known : kPassivityLaws) laws.emplace(known.name, known.law);
   setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law, laws);
+  if (!options.plant.empty()) setup.plant = std::make_shared<const PlantFile>(load_plant(options.plant));
   setup.realtime = options.realtime;
   if (options.realtime) setup.pace = kSimulatedLivePace;
   for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));
