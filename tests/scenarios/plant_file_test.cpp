@@ -145,8 +145,8 @@ TEST(PlantFile, WrongNamesUnitsAndTypesAreRefused) {
   expect_refusal("[stylus]\nmass_g = 77\n", "2:1", "did you mean 'mass_kg'");
   expect_refusal("[joints]\ncoulomb_mn_m = 7.5\n", "2:1", "did you mean 'coulomb_n_m'");
   expect_refusal("[joints]\ncoulomb_n_m = 7.5\n", "2:15", "out of range");  // mN m taken for N m
-  expect_refusal("[jaws]\nmass_kg = 1\n", "1:1", "did you mean 'jaw'");
-  expect_refusal("[gravity]\nplatform_n_m = [0, 0, 0]\n", "1:1", "unknown key 'gravity'");  // a device file
+  expect_refusal("[jaws]\nmass_kg = 1\n", "1:2", "did you mean 'jaw'");
+  expect_refusal("[gravity]\nplatform_n_m = [0, 0, 0]\n", "1:2", "unknown key 'gravity'");  // a device file
   expect_refusal("[heat]\non = true\n", "2:1", "unknown key 'on'");
   expect_refusal("variation = \"all\"\n", "1:13", "needs a 'seed'");
   expect_refusal("variation = \"most\"\nseed = 1\n", "1:13", "known are all");
