@@ -150,7 +150,7 @@ void add_first_contact(CommandLine& c) {
   study->add_option("name", c.study.name, "One of: " + studies)->required();
   study->add_option("--out", c.study.out, "Folder")->required();
   study->add_flag("--quick", c.study.quick, "Fewer trials of the same kind");
-  study->add_option("--plant", c.study.plant, "Plant file of the device, instead of the seed's: gravity, transparency");
+  study->add_option("--plant", c.study.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant");
   study->add_option("--seed", c.study.seed, "Of everything that is drawn")->capture_default_str();
   study->add_flag("--json", c.study.json, "Summary as JSON");
   c.add(c.app, "version", "Version of the program", [] {

@@ -169,7 +169,9 @@ PlantFile parse_plant(const std::string& text, const std::string& name) {
 }
 
 PlantFile load_plant(const std::filesystem::path& file) {
-  const std::string text = read_text_file(file.string());
+  std::error_code none;
+  const bool hollow = std::filesystem::is_regular_file(file, none) && std::filesystem::file_size(file, none) == 0;
+  const std::string text = hollow ? "" : read_text_file(file.string());
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(file.string() + ": is empty; `trocar device plant` prints a plant file to start from");
   }

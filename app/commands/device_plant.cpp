@@ -1,5 +1,6 @@
 #include "app/commands/device_plant.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -16,15 +17,21 @@ namespace {
 
 constexpr double kPush = 1e-6;  // s: so short that nothing but inertia answers
 
-/// Mass felt at the stylus at home along one of its axes, kg: free of weight, friction and cables.
-double felt_mass(PlantParameters p, int axis) {
+/// Masses felt at the stylus at home along their principal directions, kg, lightest first: free of weight, friction and
+/// cables, the stylus free to turn.
+Vec3 felt_masses(PlantParameters p) {
   p.gravity = 0;
   p.options = {};
   for (ChannelParameters& c : p.channel) c.friction.coulomb = c.friction.viscous = 0;
-  DevicePlant plant(p);
-  const Vec3 along = plant.motion().X_BS.R.col(axis);
-  plant.step(kPush, {{along, Vec3::Zero()}, 0});
-  return kPush / along.dot(plant.motion().V_BS.linear);
+  Mat3 mobility;  // m/s2 a newton
+  for (int axis = 0; axis < 3; ++axis) {
+    DevicePlant plant(p);
+    plant.step(kPush, {{Vec3::Unit(axis), Vec3::Zero()}, 0});
+    mobility.col(axis) = plant.motion().V_BS.linear / kPush;
+  }
+  const Mat3 symmetric = 0.5 * (mobility + mobility.transpose());
+  const Vec3 light_last = Eigen::SelfAdjointEigenSolver<Mat3>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+  return light_last.reverse().cwiseInverse();
 }
 
 std::string option_words(const PlantOptions& o, const PlantParameters& p) {
@@ -56,11 +63,12 @@ void report(const PlantParameters& p, const std::string& what, std::ostream& err
     const double current = std::min(p.current_limit, c.amplifier_gain * p.dac_full_scale);
     most = std::max(most, std::abs(hold[i]) * c.ratio / (c.torque_constant * current));
   }
+  const Vec3 felt = felt_masses(p);
   std::ostringstream text;
   text.precision(3);
   text << "trocar: " << what << ": weight of what moves " << weight * p.gravity << " N; at home its holding takes "
-       << 100 * most << " % of the weakest joint's torque; mass felt at the stylus there " << felt_mass(p, 0) << " (X6), "
-       << felt_mass(p, 1) << " (Y6), " << felt_mass(p, 2) << " kg (Z6); options: " << option_words(p.options, p) << '\n';
+       << 100 * most << " % of the weakest joint's torque; mass felt at the stylus there " << felt[0] << ", " << felt[1]
+       << " and " << felt[2] << " kg, lightest to heaviest direction; options: " << option_words(p.options, p) << '\n';
   err << text.str();
   if (most > 1) err << "trocar: its motors cannot hold this arm up\n";
 }

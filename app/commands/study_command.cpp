@@ -11,6 +11,7 @@
 #include "app/study/kinematics_study.h"
 #include "app/study/motor_study.h"
 #include "app/study/passivity_study.h"
+#include "app/study/plant_study.h"
 #include "app/study/study_files.h"
 #include "app/study/transparency_study.h"
 #include "app/study/velocity_study.h"
@@ -44,6 +45,7 @@ constexpr std::array kStudies{
     KnownStudy{"zwidth", zwidth_study},
     KnownStudy{"transparency", transparency_study, true},
     KnownStudy{"workspace", workspace_study},
+    KnownStudy{"plant", plant_study, true},
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
 };
 

@@ -226,13 +226,22 @@ void DevicePlant::kick(double dt, const ExternalLoad& load) noexcept {
   const Eigen::LLT<Mat6> factor(A);
   const Vec6 nu_old = nu_;
   nu_ = factor.solve(M * nu_old + dt * load_nu);
-  stop_legs(factor);
+  const bool elastic = advance_cables(to_joint_rates(k, nu_), dt);  // what pulled the joint pulls the rotor
+  // The blow of a leg is shorter than any swing of a cable: it meets the bare mass.
+  stop_legs(elastic ? Eigen::LLT<Mat6>(M) : factor);
   nu_dot_ = (nu_ - nu_old) / dt;
   const JointVector qd_new = to_joint_rates(k, nu_);
+  for (int i = 0; i < kArmJoints; ++i) friction_[i].advance(qd_new[i], dt);
+}
+
+bool DevicePlant::advance_cables(const JointVector& qd_new, double dt) noexcept {
+  bool any = false;
   for (int i = 0; i < kArmJoints; ++i) {
-    friction_[i].advance(qd_new[i], dt);
-    if (cable_[i].elastic()) cable_[i].advance(qd_new[i], dt);
+    if (!cable_[i].elastic()) continue;
+    cable_[i].advance(qd_new[i], dt);
+    any = true;
   }
+  return any;
 }
 
 void DevicePlant::stop_legs(const Eigen::LLT<Mat6>& mass) noexcept {

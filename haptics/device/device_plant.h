@@ -101,6 +101,7 @@ class DevicePlant {
   void kick(double dt, const ExternalLoad& load) noexcept;
   double drive(int channel, double rate, double dt) noexcept;
   void hold(double dt) noexcept;
+  bool advance_cables(const JointVector& qd_new, double dt) noexcept;
   void stop_legs(const Eigen::LLT<Mat6>& mass) noexcept;
   void step_pinch(double dt, double force) noexcept;
   void refresh() noexcept;

@@ -1,5 +1,8 @@
 #include "haptics/device/plant_cable.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace trocar {
 namespace {
 
@@ -15,6 +18,8 @@ FrictionParameters friction_behind_cable(const FrictionParameters& whole, const 
   return cable.stiffness > 0 ? share_of(whole, 1 - cable.friction_on_motor) : whole;
 }
 
+double PlantCable::stretch(double q) const noexcept { return std::remainder(angle_ - q, 2 * std::numbers::pi); }
+
 PlantCable::PlantCable(const CableParameters& cable, double rotor_inertia, const FrictionParameters& friction)
     : p_(cable), inertia_(rotor_inertia), brushes_(share_of(friction, cable.friction_on_motor)) {}
 
@@ -27,7 +32,7 @@ void PlantCable::place(double joint_angle, double joint_rate) noexcept {
 ResistanceLine PlantCable::linearise(double q, double qd, double motor_load, double dt) noexcept {
   // Mean of the stretch before and after the step: that of mid-step plus dt/4 of the change of rate.
   const double follow = 0.25 * dt * p_.stiffness;
-  const double pull = p_.stiffness * (angle_ - q) - follow * (rate_ - qd);
+  const double pull = p_.stiffness * stretch(q) - follow * (rate_ - qd);
   const double slope = p_.damping + follow;
   const ResistanceLine rub = brushes_.linearise(rate_, dt);
   mass_ = inertia_ + dt * (slope + rub.slope);
@@ -42,8 +47,7 @@ void PlantCable::advance(double qd_new, double dt) noexcept {
 }
 
 double PlantCable::energy(double q) const noexcept {
-  const double stretch = angle_ - q;
-  return 0.5 * inertia_ * rate_ * rate_ + 0.5 * p_.stiffness * stretch * stretch;
+  return 0.5 * inertia_ * rate_ * rate_ + 0.5 * p_.stiffness * stretch(q) * stretch(q);
 }
 
 }  // namespace trocar

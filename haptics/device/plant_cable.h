@@ -36,6 +36,9 @@ class PlantCable {
   double loss(double qd) const noexcept { return p_.damping * (rate_ - qd) * (rate_ - qd); }
 
  private:
+  /// Shoulder angles are known within a turn, the rotor's beyond: no cable stretches by half a turn.
+  double stretch(double q) const noexcept;
+
   CableParameters p_;
   double inertia_;
   PlantFriction brushes_;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/calibration/calibration_file.h"
 #include "app/commands/attempt_json.h"
 #include "app/commands/device_calibrate.h"
 #include "app/commands/device_plant.h"
@@ -43,8 +44,8 @@ TEST(DevicePlantCommand, PrintsTheNominalDeviceAsAFileThatReads) {
   EXPECT_EQ(back.parameters.stylus_mass, nominal_parameters().stylus_mass);
   EXPECT_NE(nominal.out.find("# [T] Table 4.1, 3.21 N"), std::string::npos) << "each value has its source";
   EXPECT_NE(nominal.err.find("weight of what moves 5.78 N"), std::string::npos) << nominal.err;
-  // Free masses at home by the reference: 0.127 kg along Y6 and 3.6 kg radially (X6 there is vertical).
-  EXPECT_NE(nominal.err.find("0.127 (Y6)"), std::string::npos) << nominal.err;
+  // The reference works out .079, .127 and, radially with the elbow nearly straight, 3.6 kg.
+  EXPECT_NE(nominal.err.find("mass felt at the stylus there 0.0796, 0.121 and 3.39 kg"), std::string::npos) << nominal.err;
 }
 
 TEST(DevicePlantCommand, PrintsWhatASeedDraws) {
@@ -102,10 +103,15 @@ TEST(TruePlant, CalibrationFindsTheAmplifiersOfTheFile) {
   const test::TemporaryFolder folder;
   CalibrateOptions options;
   options.plant = write(folder, "[joints]\namplifier_a_per_v = 0.5\ndac_offset_v = 0.02\n");
+  options.out = folder.path() / "found.json";
   std::ostringstream out, err;
   EXPECT_EQ(device_calibrate(options, out, err), 0);
-  EXPECT_NE(out.str().find("0.500"), std::string::npos) << out.str();
-  EXPECT_NE(out.str().find(" 20.0"), std::string::npos) << "mV of offset\n" << out.str();
+  const AmplifierCalibration found = read_calibration(options.out);
+  for (std::size_t i = 0; i < kArmJoints; ++i) {
+    EXPECT_NEAR(found[i].amps_per_volt, 0.5, 5 * found[i].amps_per_volt_sd);
+    EXPECT_NEAR(found[i].offset_v, 0.02, 5 * found[i].offset_sd_v);
+  }
+  EXPECT_NEAR(found[kPinchChannel].offset_v, 0, 5 * found[kPinchChannel].offset_sd_v) << "[joints] are the six";
   EXPECT_NE(err.str().find("arm.toml"), std::string::npos);
 }
 
@@ -117,7 +123,7 @@ TEST(StudyPlant, OnlyStudiesOfTheDrawnDeviceTakeOne) {
   options.plant = write(folder, "seed = 2\n");
   std::ostringstream sink;
   const std::string refused = message_of<InputError>([&] { study_command(options, sink, sink); });
-  EXPECT_NE(refused.find("--plant is for gravity, transparency"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("--plant is for gravity, transparency, plant"), std::string::npos) << refused;
   options.name = "gravity";
   options.plant = folder.path() / "none.toml";
   EXPECT_NE(message_of<InputError>([&] { study_command(options, sink, sink); }).find("none.toml"), std::string::npos);

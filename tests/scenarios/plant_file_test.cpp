@@ -166,12 +166,14 @@ TEST(PlantFile, OnDiskItHasANameAndADigest) {
   const PlantFile plant = load_plant(file);
   EXPECT_EQ(plant.name, file.filename().string());
   EXPECT_EQ(plant.sha256, digest::of_bytes(text));
-  std::ofstream(file, std::ios::binary) << "  \n";
-  try {
-    load_plant(file);
-    ADD_FAILURE() << "an empty file is no plant";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("is empty"), std::string::npos);
+  for (const char* nothing : {"", "  \n"}) {
+    std::ofstream(file, std::ios::binary) << nothing;
+    try {
+      load_plant(file);
+      ADD_FAILURE() << "an empty file is no plant";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("is empty"), std::string::npos) << error.what();
+    }
   }
   std::filesystem::remove(file);
   EXPECT_THROW(load_plant(file), InputError);

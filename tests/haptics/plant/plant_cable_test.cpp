@@ -109,6 +109,33 @@ TEST(PlantCable, FreeMotionKeepsItsEnergy) {
   EXPECT_LT(worst / (start - floor), 1e-4);
 }
 
+TEST(PlantCable, LegStopsAndWholeTurnsGiveNoEnergy) {
+  // Seeds 1, 3 and 5 swing into leg stops, which take energy, and turn shoulder motors past half a turn.
+  double lost = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    PlantParameters p = draw_parameters(seed);
+    for (ChannelParameters& c : p.channel) {
+      c.friction.coulomb = c.friction.viscous = 0;
+      c.stop.lower = -std::numeric_limits<double>::infinity();
+      c.stop.upper = std::numeric_limits<double>::infinity();
+    }
+    DevicePlant plant(with_cables(p, 50, 0));
+    const double floor = plant.energy();
+    JointVector qd;
+    qd << 1.0, -0.8, 0.7, 1.5, -2.0, 3.0;
+    plant.set_joint_rates(qd);
+    const double start = plant.energy();
+    double most = start;
+    for (int n = 0; n < 40000; ++n) {
+      plant.step(kStep, {});
+      most = std::max(most, plant.energy());
+    }
+    EXPECT_LT((most - start) / (start - floor), 1e-4) << "seed " << seed;
+    lost = std::max(lost, (start - plant.energy()) / (start - floor));
+  }
+  EXPECT_GT(lost, 0.01) << "some leg must have struck";
+}
+
 TEST(PlantCable, WhatIsLostIsWhatTheDampingMakesWarm) {
   PlantParameters p = with_cables(test::conservative_parameters(), 60, 0.02);
   p.gravity = 0;
