@@ -126,7 +126,7 @@ void add_heat(StudyResult& study) {
 
 struct Press {
   std::vector<double> force_n;
-  double ripple_n = 0, hottest_c = 0;
+  double ripple_n = 0, least_n = 0, hottest_c = 0;  ///< of the last half second; end
   bool faulted = false;
 };
 
@@ -160,6 +160,7 @@ Press press(const PlantParameters& p) {
   if (late != out.force_n.end()) {
     const auto [least, most] = std::minmax_element(late, out.force_n.end());
     out.ripple_n = *most - *least;
+    out.least_n = *least;
   }
   out.hottest_c = bench.daq().plant().windings_c().maxCoeff();
   return out;
@@ -177,9 +178,11 @@ void add_wall(StudyResult& study, const StudyRequest& request) {
     force.resize(curves.x.size(), std::nan(""));
     if (!curve.empty()) curves.series.push_back({curve, force});
     study.cases.push_back({"ripple at a wall of 300 N/m, " + name, "N", pressed.ripple_n, std::nullopt,
-                           "< 0.2, no fault", pressed.ripple_n < kRippleBar && !pressed.faulted,
+                           "< 0.2, in contact, no fault",
+                           pressed.ripple_n < kRippleBar && pressed.least_n > 0 && !pressed.faulted,
                            "Peak to peak of the rendered force over the last 0.5 s of a press of 1.5 s; default law, normal "
-                           "grip, the hand aims 15 mm past the wall; hottest winding " +
+                           "grip, the hand aims 15 mm past the wall; least force then " +
+                               std::to_string(pressed.least_n).substr(0, 5) + " N, hottest winding " +
                                std::to_string(pressed.hottest_c).substr(0, 5) + " C."});
   };
   add("options as given", "plant as given", plain);
