@@ -30,7 +30,7 @@ struct RunOptions {
   double rate_hz = 1000;
   std::string contact_law = "proxy", passivity_law = "budgeted";
   std::vector<std::string> injections;  ///< KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION]
-  std::filesystem::path plant;          ///< plant file of the simulated device; empty: drawn by the seed
+  std::filesystem::path plant = {};     ///< plant file of the simulated device; empty: drawn by the seed
   bool realtime = false;                ///< threads and the clock instead of lockstep
   std::function<bool()> interrupted;    ///< asked during the run: true ends it as aborted
   bool json = false;
