@@ -14,8 +14,8 @@ struct IdentifyOptions {
   double payload_kg = 0;  ///< a mass on the stylus, 30 mm down the roll axis, that nobody tells the identifier
   bool quick = false;     ///< 20 poses, one trajectory
   bool json = false;
-  std::filesystem::path plant = {};  ///< plant file instead of the device of the seed; empty: none
   std::filesystem::path out;  ///< device file (TOML) to write; none when empty
+  std::filesystem::path plant = {};  ///< plant file instead of the device of the seed; empty: none
 };
 
 /// @return 0; 1 when the result is physically inconsistent. @throws InputError, EnvironmentError.
