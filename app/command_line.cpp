@@ -17,6 +17,7 @@
 #include "app/commands/device_forward.h"
 #include "app/commands/device_monitor.h"
 #include "app/commands/device_selftest.h"
+#include "app/commands/device_plant.h"
 #include "app/commands/doctor_command.h"
 #include "app/commands/identify_command.h"
 #include "app/commands/organ_import.h"
@@ -55,6 +56,7 @@ struct CommandLine {
   CalibrateOptions calibrate;
   SelfTestOptions selftest;
   MonitorOptions monitor;
+  PlantOptionsGiven plant;
   OrganImportOptions import;
   OrganInfoOptions info;
   OrganRenderOptions render;
@@ -102,6 +104,7 @@ void add_run(CommandLine& c) {
   run->add_option("--calibration", c.run.calibration, "Amplifier gains and offsets from device calibrate (default: nominal)");
   run->add_option("--device", c.run.device, "Weights and friction from device identify (default: nominal)");
   run->add_option("--inject", c.run.injections, "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, drive-fault, over-temperature, hand-nan, hand-lets-go");
+  run->add_option("--plant", c.run.plant, "Plant file of the simulated device, instead of the seed's");
   run->add_flag("--realtime", c.run.realtime, "Live: threads and the clock instead of lockstep");
   run->add_flag("--json", c.run.json, "Result as JSON on stdout");
 }
@@ -154,6 +157,7 @@ void add_first_contact(CommandLine& c) {
   study->add_option("name", c.study.name, "One of: " + studies)->required();
   study->add_option("--out", c.study.out, "Folder")->required();
   study->add_flag("--quick", c.study.quick, "Fewer trials of the same kind");
+  study->add_option("--plant", c.study.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant");
   study->add_option("--seed", c.study.seed, "Of everything that is drawn")->capture_default_str();
   study->add_flag("--json", c.study.json, "Summary as JSON");
   c.add(c.app, "version", "Version of the program", [] {
@@ -190,6 +194,7 @@ void add_device_bench(CommandLine& c, CLI::App& device) {
   calibrate->add_option("--gain", c.calibrate.gain, "Of the simulated amplifiers over nominal (the thesis': 5)")->capture_default_str();
   calibrate->add_option("--out", c.calibrate.out, "Calibration as JSON");
   calibrate->add_option("--check", c.calibrate.check, "A calibration file: how well does it render on this device?");
+  calibrate->add_option("--plant", c.calibrate.plant, "Plant file of the device, instead of the seed's");
   calibrate->add_flag("--json", c.calibrate.json, "As JSON");
 }
 
@@ -212,10 +217,20 @@ void add_device_board(CommandLine& c, CLI::App& device) {
   monitor->add_option("--inject", c.monitor.injections, "Device fault as in run, repeatable");
 }
 
+void add_device_plant(CommandLine& c, CLI::App& device) {
+  CLI::App* plant = c.add(device, "plant", "The simulated device as a plant file, every value with its source; or the check of one",
+                          [&c] { return device_plant(c.plant, std::cout, std::cerr); });
+  plant->add_option("--seed", c.plant.seed, "The device that this seed draws (default: the nominal one)");
+  plant->add_flag("--all", c.plant.all, "Draw also what seeds leave nominal");
+  plant->add_option("--plant", c.plant.plant, "Plant file: check it and print it complete");
+  plant->add_option("--out", c.plant.out, "File instead of standard output");
+}
+
 void add_device(CommandLine& c) {
   CLI::App* device = c.group("device", "Models of the device, its back-end on the bench");
   add_device_bench(c, *device);
   add_device_board(c, *device);
+  add_device_plant(c, *device);
   CLI::App* eval = c.add(*device, "eval", "Pose, twist, torques, gravity, conditioning of joint angles",
                          [&c] { return device_eval(c.table_in, c.table_out, std::cerr, c.device_file); });
   CLI::App* ik = c.add(*device, "ik", "Every inverse kinematic candidate of stylus poses",
@@ -231,6 +246,7 @@ void add_device(CommandLine& c) {
   identify->add_option("--poses", c.identify.poses, "Static poses")->capture_default_str()->check(CLI::Range(6, 1000));
   identify->add_option("--span", c.identify.span, "Share of workspace and amplitude that is used")->capture_default_str()->check(CLI::Range(0.001, 1.0));
   identify->add_option("--payload", c.identify.payload_kg, "Unknown mass on the stylus, kg")->capture_default_str()->check(CLI::Range(0.0, 0.05));
+  identify->add_option("--plant", c.identify.plant, "Plant file of the device, instead of the seed's");
   identify->add_flag("--quick", c.identify.quick, "20 poses and one trajectory");
   identify->add_option("--out", c.identify.out, "Device file (TOML) to write");
   identify->add_flag("--json", c.identify.json, "As JSON");

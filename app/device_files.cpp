@@ -25,7 +25,8 @@ DeviceModel device_model(const DeviceFiles& files) {
   return model;
 }
 
-std::string simulated_plant_words(std::uint64_t seed) { return "simulated, seed " + std::to_string(seed); }
+std::string simulated_plant_words(const std::string& which) { return "simulated, " + which; }
+std::string simulated_plant_words(std::uint64_t seed) { return simulated_plant_words("seed " + std::to_string(seed)); }
 
 std::vector<std::string> device_doubts(const DeviceFiles& files, const std::string& plant) {
   std::vector<std::string> doubts;

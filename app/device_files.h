@@ -32,6 +32,8 @@ DeviceModel device_model(const DeviceFiles& files);
 
 /// A simulated device in words, as these files name it: "simulated, seed 7".
 std::string simulated_plant_words(std::uint64_t seed);
+/// @param which as true_plant.h words it: "seed 1", "plant file arm.toml, sha256 0123abcd".
+std::string simulated_plant_words(const std::string& which);
 
 /// A line for each file that says it was made on another device than `plant`. One that does not say is not doubted.
 std::vector<std::string> device_doubts(const DeviceFiles& files, const std::string& plant);

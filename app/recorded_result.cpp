@@ -27,6 +27,7 @@ std::string receipt_json(const DeviceReceipt& receipt) {
   for (const DeviceWarning& w : receipt.warnings) json["warnings"].push_back({w.name, w.first_s, w.ticks});
   for (const DeviceTransition& t : receipt.transitions) json["transitions"].push_back({t.t_s, t.from, t.to});
   if (!receipt.force_sensor.empty()) json["force_sensor"] = nlohmann::ordered_json::parse(receipt.force_sensor);
+  if (!receipt.plant.empty()) json["plant"] = nlohmann::ordered_json::parse(receipt.plant);
   if (!receipt.realtime.empty()) json["realtime"] = nlohmann::ordered_json::parse(receipt.realtime);
   return json.dump();
 }
@@ -58,6 +59,7 @@ DeviceReceipt parse_receipt(const std::string& text, const std::string& name) {
     receipt.kappa = json.at("kappa").get<double>();
     receipt.fault = json.at("fault").get<std::string>();
     if (json.contains("force_sensor")) receipt.force_sensor = json.at("force_sensor").dump();
+    if (json.contains("plant")) receipt.plant = json.at("plant").dump();
     if (json.contains("realtime")) receipt.realtime = json.at("realtime").dump();
     read_stop(json, receipt);
     return receipt;

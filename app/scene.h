@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "haptics/haptic_loop.h"
 #include "scenarios/director.h"
 #include "scenarios/exercise.h"
+#include "scenarios/plant_file.h"
 #include "tissue/organ.h"
 
 namespace trocar {
@@ -52,6 +54,7 @@ struct AttemptSetup {
   bool clamp_stiffness = false;        ///< contacts stiffer than K_max are weakened to it
   DeviceFiles device;                  ///< what the loop knows of its device beyond the nominal model
   std::vector<InjectedFault> faults;   ///< simulated back-end only
+  std::shared_ptr<const PlantFile> plant;  ///< of the simulated back-end; none: drawn by the seed. A replay needs none
   bool realtime = false;               ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;
 };

@@ -17,6 +17,7 @@
 #include "app/realtime_receipt.h"
 #include "app/recorded_result.h"
 #include "app/recorder/safety_file.h"
+#include "app/true_plant.h"
 #include "haptics/device/replay_daq.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
@@ -129,14 +130,18 @@ struct Attempt {
         hand(scene, rig.haptic, *rig.hand_frames,
              make_hand(scene.setup.hand, seed_of(scene), assets.hands, scene.setup.attempt), daq),
         forces(make_channel<StylusForces>(timing)),
-        tap(daq, rig.haptic, scene.loop.map.X_TW.R, *forces),
-        sensor(*forces, {}, seed_of(scene) ^ kSensorSeed, scene.loop.daq.rate_hz),
+        tap(daq, rig.haptic, scene.loop.map.X_TW.R, *forces, sensor_of(scene).fixture_kg * sensor_of(scene).gravity),
+        sensor(*forces, sensor_of(scene).force, seed_of(scene) ^ kSensorSeed, scene.loop.daq.rate_hz),
         recorder(*rings, scene.loop.daq.rate_hz, writer) {}
 
+  static WrenchSensorConfig sensor_of(const Scene& scene) {
+    return scene.setup.plant ? scene.setup.plant->sensor.value_or(WrenchSensorConfig{}) : WrenchSensorConfig{};
+  }
   static std::uint64_t seed_of(const Scene& scene) { return static_cast<std::uint64_t>(scene.setup.seed); }
   SessionOutcome outcome() {
     SessionOutcome out = rig.outcome(daq.capabilities().name);
     out.device.force_sensor = force_sensor_json(sensor);
+    if (rig.scene.setup.plant) out.device.plant = plant_json(*rig.scene.setup.plant);
     return out;
   }
 
@@ -187,6 +192,10 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
   config.rate_hz = setup.rate_hz;
   config.seed = static_cast<std::uint64_t>(setup.seed);
   config.hand = hand_parameters(GripPreset::kNormal);
+  if (setup.plant) {
+    config.plant = setup.plant->parameters;
+    config.hand = setup.plant->hand.value_or(config.hand);
+  }
   config.faults = setup.faults;
   // The board's watchdog is as patient as the loop's own limits: live on a busy machine both are wide.
   if (setup.pace != PaceLimits{}) config.watchdog_s = setup.pace.missed_in_a_row / setup.rate_hz;

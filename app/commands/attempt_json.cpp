@@ -100,6 +100,7 @@ Json device(const DeviceReceipt& receipt) {
           {"transitions", transitions(receipt)}};
   add_stiffness(json, receipt.stiffness);
   if (!receipt.force_sensor.empty()) json["force_sensor"] = Json::parse(receipt.force_sensor);
+  if (!receipt.plant.empty()) json["plant"] = Json::parse(receipt.plant);
   if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
   return json;
 }

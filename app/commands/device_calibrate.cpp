@@ -9,6 +9,7 @@
 #include "app/calibration/calibration_file.h"
 #include "app/commands/text_table.h"
 #include "app/device_files.h"
+#include "app/true_plant.h"
 #include "haptics/device/plant_parameters.h"
 #include "haptics/input_error.h"
 
@@ -23,14 +24,14 @@ SimulatedDaqConfig device_of(const CalibrateOptions& options) {
     throw InputError("device calibrate: --gain lies in 0 to 10");
   SimulatedDaqConfig config;
   config.seed = options.seed;
-  config.plant = draw_parameters(options.seed);
+  config.plant = true_plant(options.plant, options.seed).parameters;
   for (ChannelParameters& c : config.plant->channel) c.amplifier_gain *= options.gain;
   return config;
 }
 
 std::string plant_of(const CalibrateOptions& options) {
   std::ostringstream plant;
-  plant << simulated_plant_words(options.seed);
+  plant << simulated_plant_words(true_plant(options.plant, options.seed).words);
   if (options.gain != 1) plant << ", amplifier gain times " << options.gain;
   return plant.str();
 }
@@ -81,7 +82,7 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
     out << json;
   else
     print_table(found, nominal, error, out);
-  err << "trocar: on the simulated device of seed " << options.seed << "; the calibrated model renders torque to "
+  err << "trocar: on the simulated device of " << true_plant(options.plant, options.seed).words << "; the calibrated model renders torque to "
       << error.maxCoeff() * 100 << " %\n";
   return error.maxCoeff() <= kRendered ? 0 : 1;
 }

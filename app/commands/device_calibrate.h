@@ -13,6 +13,7 @@ struct CalibrateOptions {
   bool json = false;
   std::filesystem::path out;    ///< calibration as JSON; empty: none
   std::filesystem::path check;  ///< a calibration file: measure how it renders instead of finding one
+  std::filesystem::path plant = {};  ///< plant file instead of the device of the seed; empty: none
 };
 
 /// @return 0, or 1 when the calibrated model renders a torque worse than 1 %. @throws InputError, EnvironmentError.

@@ -9,6 +9,7 @@
 
 #include "app/device_files.h"
 #include "app/study/identified_device.h"
+#include "app/true_plant.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/device_file.h"
@@ -26,7 +27,7 @@ std::vector<double> list(const JointVector& v) { return {v.data(), v.data() + v.
 double stylus_weight(const Identification& id) { return id.device.identified_gravity->link2.x() / kLink2; }
 
 ordered_json to_json(const Identification& id, const IdentifyOptions& options) {
-  ordered_json json{{"plant", "simulated, drawn by seed " + std::to_string(options.seed)},
+  ordered_json json{{"plant", "simulated, " + std::string(options.plant.empty() ? "drawn by " : "") + true_plant(options.plant, options.seed).words},
                     {"seed", options.seed},
                     {"poses", id.request.poses},
                     {"payload_kg", options.payload_kg},
@@ -60,7 +61,7 @@ void print_joints(std::ostream& out, const std::string& what, const JointVector&
 }
 
 void print(const Identification& id, const IdentifyOptions& options, std::ostream& out) {
-  out << "On the simulated plant, seed " << options.seed << ": " << id.request.poses << " poses, "
+  out << "On the simulated plant, " << true_plant(options.plant, options.seed).words << ": " << id.request.poses << " poses, "
       << id.request.trajectories << " trajectories, " << std::lround(id.duration_s)
       << " s of device time, hottest winding " << std::lround(id.hottest_c) << " C\nCondition number "
       << std::setprecision(3) << id.condition << ", "
@@ -88,14 +89,14 @@ void print(const Identification& id, const IdentifyOptions& options, std::ostrea
 
 void write_device(const std::filesystem::path& file, const Identification& id, const IdentifyOptions& options) {
   std::ostringstream comment;
-  comment << "Identified on the simulated plant, seed " << options.seed << ", payload " << options.payload_kg << " kg, "
+  comment << "Identified on the simulated plant, " << true_plant(options.plant, options.seed).words << ", payload " << options.payload_kg << " kg, "
           << id.request.poses << " poses;\ntorques of an unseen trajectory are off by";
   for (int i = 0; i < kArmJoints; ++i)
     comment << ' ' << std::fixed << std::setprecision(1) << 100 * id.prediction_error[i];
   comment << " % rms (joints 1 to 6).";
   std::ofstream stream(file, std::ios::binary);
   std::ostringstream plant;
-  plant << simulated_plant_words(options.seed);
+  plant << simulated_plant_words(true_plant(options.plant, options.seed).words);
   if (options.payload_kg > 0) plant << ", payload " << options.payload_kg << " kg";
   stream << device_toml(id.device, comment.str(), plant.str());
   if (!stream.flush()) throw EnvironmentError(file.string() + ": cannot be written");
@@ -114,7 +115,7 @@ int identify_command(const IdentifyOptions& options, std::ostream& out, std::ost
   IdentifyRequest request = seeded_identification(options.seed, options.quick);
   if (!options.quick) request.poses = options.poses;
   request.span = options.span;
-  const Identification id = identify_simulated(drawn_with_payload(options.seed, options.payload_kg), request);
+  const Identification id = identify_simulated(with_payload(true_plant(options.plant, options.seed).parameters, options.payload_kg), request);
   if (options.json)
     out << to_json(id, options).dump(2) << '\n';
   else

@@ -15,6 +15,7 @@ struct IdentifyOptions {
   bool quick = false;     ///< 20 poses, one trajectory
   bool json = false;
   std::filesystem::path out;  ///< device file (TOML) to write; none when empty
+  std::filesystem::path plant = {};  ///< plant file instead of the device of the seed; empty: none
 };
 
 /// @return 0; 1 when the result is physically inconsistent. @throws InputError, EnvironmentError.

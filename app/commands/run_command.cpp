@@ -13,6 +13,7 @@
 #include "app/interrupt.h"
 #include "app/recorded_result.h"
 #include "app/recorder/safety_file.h"
+#include "app/true_plant.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
@@ -153,9 +154,11 @@ std::string keep_stop(const AttemptId& id, const SessionOutcome& outcome) {
 void say_beginning(const Scene& scene, std::ostream& err) {
   err << "trocar: " << scene.setup.exercise.number << ' ' << scene.setup.exercise.title << ", " << scene.level.name
       << ", board " << scene.setup.board << ", hand " << scene.setup.hand << ", organ " << scene.organ.name
-      << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant\n";
-  const auto seed = static_cast<std::uint64_t>(scene.setup.seed);
-  for (const std::string& doubt : device_doubts(scene.setup.device, simulated_plant_words(seed))) err << "trocar: " << doubt << '\n';
+      << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant"
+      << (scene.setup.plant ? " of " + plant_words(*scene.setup.plant) : "") << '\n';
+  const std::string plant = scene.setup.plant ? simulated_plant_words(plant_words(*scene.setup.plant))
+                                              : simulated_plant_words(static_cast<std::uint64_t>(scene.setup.seed));
+  for (const std::string& doubt : device_doubts(scene.setup.device, plant)) err << "trocar: " << doubt << '\n';
 }
 
 /// How the contacts stood to what the device can display; nothing when nothing was touched or nothing is known.
@@ -217,6 +220,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.passivity_law = one_of<PassivityLaw>("--passivity", options.passivity_law, laws);
   setup.clamp_stiffness = options.clamp;
   setup.device = read_device_files(options.calibration, options.device);
+  if (!options.plant.empty()) setup.plant = std::make_shared<const PlantFile>(load_plant(options.plant));
   setup.realtime = options.realtime;
   if (options.realtime) setup.pace = kSimulatedLivePace;
   for (const std::string& text : options.injections) setup.faults.push_back(parse_injection(text));

@@ -33,6 +33,7 @@ struct RunOptions {
   std::filesystem::path calibration;    ///< of the amplifiers, written by `trocar device calibrate`; empty: nominal
   std::filesystem::path device;         ///< weights and friction, written by `trocar device identify`; empty: nominal
   std::vector<std::string> injections;  ///< KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION]
+  std::filesystem::path plant = {};     ///< plant file of the simulated device; empty: drawn by the seed
   bool realtime = false;                ///< threads and the clock instead of lockstep
   std::function<bool()> interrupted;    ///< asked during the run: true ends it as aborted
   bool json = false;

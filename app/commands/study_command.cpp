@@ -12,12 +12,14 @@
 #include "app/study/kinematics_study.h"
 #include "app/study/motor_study.h"
 #include "app/study/passivity_study.h"
+#include "app/study/plant_study.h"
 #include "app/study/study_files.h"
 #include "app/study/transparency_study.h"
 #include "app/study/velocity_study.h"
 #include "app/study/walls_study.h"
 #include "app/study/workspace_study.h"
 #include "app/study/zwidth_study.h"
+#include "app/true_plant.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -26,6 +28,7 @@ namespace {
 struct KnownStudy {
   const char* name;
   StudyResult (*run)(const StudyRequest&);
+  bool takes_plant = false;  ///< works on the device of the request
 };
 
 /// In the order of the thesis, then what goes beyond it.
@@ -37,15 +40,32 @@ constexpr std::array kStudies{
     KnownStudy{"torque-x", [](const StudyRequest& request) { return torque_study('x', request); }},
     KnownStudy{"torque-y", [](const StudyRequest& request) { return torque_study('y', request); }},
     KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
-    KnownStudy{"gravity", gravity_study},
+    KnownStudy{"gravity", gravity_study, true},
     KnownStudy{"passivity", passivity_study},
     KnownStudy{"admittance", admittance_study},
     KnownStudy{"velocity", velocity_study},
     KnownStudy{"zwidth", zwidth_study},
-    KnownStudy{"transparency", transparency_study},
+    KnownStudy{"transparency", transparency_study, true},
     KnownStudy{"workspace", workspace_study},
+    KnownStudy{"plant", plant_study, true},
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
 };
+
+StudyRequest request_of(const StudyOptions& options, bool takes_plant) {
+  StudyRequest request{options.quick, options.seed};
+  if (options.plant.empty()) return request;
+  if (!takes_plant) {
+    std::string others;
+    for (const KnownStudy& known : kStudies) {
+      if (known.takes_plant) others += std::string(others.empty() ? "" : ", ") + known.name;
+    }
+    throw InputError("study " + options.name + " works on a device of its own; --plant is for " + others);
+  }
+  const TruePlant plant = true_plant(options.plant, options.seed);
+  request.plant = plant.parameters;
+  request.plant_words = plant.words;
+  return request;
+}
 
 }  // namespace
 
@@ -63,7 +83,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
     for (const std::string& name : study_names()) known += " " + name;
     throw InputError("no study '" + options.name + "'; there are:" + known);
   }
-  const StudyResult result = study->run({options.quick, options.seed});
+  const StudyResult result = study->run(request_of(options, study->takes_plant));
   write_study(result, options.out);
   out << (options.json ? summary_json(result) : table_markdown(result));
   err << "trocar: data, plots and summary.json in " << options.out.string() << '\n';

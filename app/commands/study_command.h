@@ -15,6 +15,7 @@ struct StudyOptions {
   bool json = false;
   bool quick = false;      ///< fewer trials of the same kind
   std::uint64_t seed = 1;  ///< of everything that is drawn
+  std::filesystem::path plant = {};  ///< plant file, for the studies that take one
 };
 
 /// Names that study_command knows.

@@ -26,12 +26,13 @@ struct StylusForces {
 /// Publishes the forces of the simulated device after each of its periods.
 class ForceTapTask final : public Task {
  public:
-  /// @param R_TW from the device's base to the theatre.
-  ForceTapTask(const SimulatedDaq& daq, const HapticTask& haptic, const Mat3& R_TW, Outlet<StylusForces>& forces)
-      : daq_(daq), haptic_(haptic), R_TW_(R_TW), forces_(forces) {}
+  /// @param R_TW from the device's base to the theatre. @param fixture_n weight that hangs on the sensor.
+  ForceTapTask(const SimulatedDaq& daq, const HapticTask& haptic, const Mat3& R_TW, Outlet<StylusForces>& forces,
+               double fixture_n = 0)
+      : daq_(daq), haptic_(haptic), R_TW_(R_TW), forces_(forces), fixture_W_(0, 0, -fixture_n) {}
   std::uint32_t period() const override { return 1; }
   void run(std::uint64_t tick) override {
-    forces_.write(tick, {R_TW_ * daq_.sense().force_on_hand, haptic_.record().stylus.rendered_force_T});
+    forces_.write(tick, {R_TW_ * (daq_.sense().force_on_hand + fixture_W_), haptic_.record().stylus.rendered_force_T});
   }
 
  private:
@@ -39,6 +40,7 @@ class ForceTapTask final : public Task {
   const HapticTask& haptic_;
   Mat3 R_TW_;
   Outlet<StylusForces>& forces_;
+  Vec3 fixture_W_;
 };
 
 /// Root mean square and largest norm of a vector over a run.

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "haptics/device/plant_parameters.h"
-#include "haptics/force_sensor/simulated_force_sensor.h"
+#include "haptics/force_sensor/simulated_wrench_sensor.h"
 #include "haptics/kinematics/hybrid_arm.h"
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "scenarios/hands/minimum_jerk.h"
@@ -15,8 +15,6 @@ namespace trocar {
 namespace {
 
 constexpr double kToRestS = 1.2, kSettleS = 0.4;
-constexpr double kMomentNoise = 0.5e-3;      // N m, SD of the sensor
-constexpr double kMomentDrift = 2.5e-3;      // N m/h [assumed, the force's share]
 constexpr double kEase = 0.2, kEaseS = 0.3;  // share of the depth, s
 constexpr int kMovesPerContact = 3;          // in, ease, out
 constexpr int kWaySteps = 50;                // of a move, when its joints are looked at
@@ -68,32 +66,20 @@ HapticLoopConfig loop_of(const ContactExperiment& experiment, const ContactSetti
   return loop;
 }
 
-/// Force and moment through the same line: two of the one-vector sensors.
-class ForceTorqueSensor {
- public:
-  ForceTorqueSensor(double fixture_kg, std::uint64_t seed)
-      : weight_n_(fixture_kg * nominal_parameters().gravity),
-        force_({}, seed),
-        moment_({40, 0.15, kMomentNoise, kMomentDrift}, seed + 1) {}
+WrenchSensorConfig sensor_of(const ContactSetting& setting) {
+  WrenchSensorConfig sensor;
+  sensor.fixture_kg = setting.fixture_kg;
+  sensor.gravity = nominal_parameters().gravity;
+  return sensor;
+}
 
-  void sample(double t, const HandSense& sense, ContactRecording& out) {
-    const Mat3 R_SW = sense.X_BS.R.transpose();
-    weights_.push_back(R_SW * Vec3(0, 0, -weight_n_));
-    const ForceSample force = force_.sample(R_SW * sense.force_on_hand + weights_.back());
-    const ForceSample moment = moment_.sample(R_SW * sense.moment_on_hand);
-    if (!force.valid) return;
-    out.sensor_t.push_back(t);
-    out.read.push_back({force.force, moment.force});
-    // The fixture weighs as the stylus was turned when this force acted.
-    out.measured.push_back({force.force - weights_[weights_.size() - 1 - force_.delay()], moment.force});
-  }
-  double rate_hz() const { return force_.config().rate_hz; }
-
- private:
-  double weight_n_;
-  SimulatedForceSensor force_, moment_;
-  std::vector<Vec3> weights_;
-};
+void add_sample(double t, const HandSense& sense, SimulatedWrenchSensor& sensor, ContactRecording& out) {
+  const WrenchSample sample = sensor.sample(sense.X_BS.R, {sense.force_on_hand, sense.moment_on_hand});
+  if (!sample.valid) return;
+  out.sensor_t.push_back(t);
+  out.read.push_back(sample.read);
+  out.measured.push_back(sample.without_fixture);
+}
 
 /// What the environment asks for in this tick, in stylus axes.
 void add_tick(double t, const PlantBench& bench, ContactRecording& out) {
@@ -191,8 +177,8 @@ ContactRecording record_contacts(const ContactExperiment& experiment, const Cont
   material.stiffness_n_per_m = setting.stiffness;
   material.damping_s_per_m = 0;  // a spring, as in the thesis
   bench.put_surface(experiment.surface, material);
-  ForceTorqueSensor sensor(setting.fixture_kg, setting.seed);
-  const long every = std::lround(1 / (bench.period_s() * sensor.rate_hz()));
+  SimulatedWrenchSensor sensor(sensor_of(setting), setting.seed);
+  const long every = std::lround(1 / (bench.period_s() * sensor.config().force.rate_hz));
   const long ticks = std::lround((experiment.ends_s - experiment.begins_s) / bench.period_s());
   ContactRecording out;
   for (long k = 0; k < ticks; ++k) {
@@ -200,7 +186,7 @@ ContactRecording record_contacts(const ContactExperiment& experiment, const Cont
     bench.goal() = goal_at(experiment, t);
     bench.tick();
     add_tick(t, bench, out);
-    if (k % every == 0) sensor.sample(t, bench.daq().sense(), out);
+    if (k % every == 0) add_sample(t, bench.daq().sense(), sensor, out);
   }
   return out;
 }

@@ -197,8 +197,8 @@ class Sequence {
 }  // namespace
 
 StudyResult gravity_study(const StudyRequest& request) {
-  StudyResult study{"gravity", "simulated plant of seed " + std::to_string(request.seed), {}, {}};
-  const PlantParameters truth = draw_parameters(request.seed);
+  StudyResult study{"gravity", "simulated plant of " + request.device_words(), {}, {}};
+  const PlantParameters truth = request.true_device();
   const DeviceModel identified = identify_simulated(truth, seeded_identification(request.seed, request.quick)).device;
   const std::vector<GravityLaw> law = laws(identified);
   std::vector<LawResult> results(law.size());

@@ -10,7 +10,10 @@ constexpr double kPayloadPlace_m = 0.030;
 }  // namespace
 
 PlantParameters drawn_with_payload(std::uint64_t seed, double payload_kg) {
-  PlantParameters p = draw_parameters(seed);
+  return with_payload(draw_parameters(seed), payload_kg);
+}
+
+PlantParameters with_payload(PlantParameters p, double payload_kg) {
   const Vec3 place(0, 0, kPayloadPlace_m);
   const double whole = p.stylus_mass + payload_kg;
   const Vec3 com = (p.stylus_mass * p.stylus_com + payload_kg * place) / whole;

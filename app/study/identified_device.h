@@ -12,6 +12,8 @@ namespace trocar {
 
 /// The device of a seed with a mass on its stylus, 30 mm down the roll axis (as a force sensor's fixture would be).
 PlantParameters drawn_with_payload(std::uint64_t seed, double payload_kg);
+/// Any device with such a mass.
+PlantParameters with_payload(PlantParameters device, double payload_kg);
 
 /// 20 poses, one trajectory.
 IdentifyRequest quick_identification();

@@ -19,7 +19,7 @@ constexpr int kKeep = 10;  // SYNCs between kept samples
 JointVector bring(SimulatedDaq& daq, const JointVector& q) {
   JointServo servo(daq, {});
   servo.move_to(q, 2.0);
-  const Trace rest = servo.follow([&](double) { return PathPoint{q, JointVector::Zero()}; }, 0.2);
+  const MotionTrace rest = servo.follow([&](double) { return PathPoint{q, JointVector::Zero()}; }, 0.2);
   return rest.q.back();
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "haptics/device/plant_parameters.h"
+
 namespace trocar {
 
 /// One number of a study beside what the thesis' method gives and what is asked for.
@@ -43,6 +45,11 @@ struct StudyFile {
 struct StudyRequest {
   bool quick = false;      ///< fewer trials of the same kind, for tests; the bars stay
   std::uint64_t seed = 1;  ///< of everything that is drawn
+  std::optional<PlantParameters> plant = {};  ///< of a plant file, instead of the seed's; only where a study takes one
+  std::string plant_words = {};               ///< what that file is called
+
+  PlantParameters true_device() const { return plant ? *plant : draw_parameters(seed); }
+  std::string device_words() const { return plant ? plant_words : "seed " + std::to_string(seed); }
 };
 
 struct StudyResult {

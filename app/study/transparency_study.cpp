@@ -187,8 +187,8 @@ void draw(StudyResult& study, const Table& table, const std::vector<std::size_t>
 }  // namespace
 
 StudyResult transparency_study(const StudyRequest& request) {
-  StudyResult study{"transparency", "simulated plant of seed " + std::to_string(request.seed), {}, {}};
-  const PlantParameters truth = draw_parameters(request.seed);
+  StudyResult study{"transparency", "simulated plant of " + request.device_words(), {}, {}};
+  const PlantParameters truth = request.true_device();
   const DeviceModel identified = identify_simulated(truth, seeded_identification(request.seed, request.quick)).device;
   const std::vector<std::size_t> speeds =
       request.quick ? std::vector<std::size_t>{1, 3} : std::vector<std::size_t>{0, 1, 2, 3};

@@ -14,8 +14,16 @@ std::array<T, kChannels> per_channel(const PlantParameters& p, std::index_sequen
   if constexpr (std::is_same_v<T, PlantMotor>) {
     return {T(p.channel[I], p)...};
   } else {
-    return {T(p.channel[I].friction)...};
+    return {T(I < kArmJoints ? friction_behind_cable(p.channel[I].friction, p.options.cable[I % kArmJoints])
+                             : p.channel[I].friction)...};
   }
+}
+
+double rotor_at_joint(const ChannelParameters& c) { return c.rotor_inertia / (c.ratio * c.ratio); }
+
+template <std::size_t... I>
+std::array<PlantCable, kArmJoints> cables(const PlantParameters& p, std::index_sequence<I...>) {
+  return {PlantCable(p.options.cable[I], rotor_at_joint(p.channel[I]), p.channel[I].friction)...};
 }
 
 Mat3 point_inertia(double mass, const Vec3& r) {
@@ -31,6 +39,8 @@ bool finite(const ExternalLoad& load) {
 DevicePlant::DevicePlant(const PlantParameters& parameters)
     : p_(parameters),
       gravity_W_(-p_.gravity * base_rotation_WB().col(2)),
+      stylus_inertia_(stylus_inertia_tensor(p_)),
+      cable_(cables(p_, std::make_index_sequence<kArmJoints>{})),
       friction_(per_channel<PlantFriction>(p_, std::make_index_sequence<kChannels>{})),
       motor_(per_channel<PlantMotor>(p_, std::make_index_sequence<kChannels>{})) {
   const JointVector home = home_joint_angles(p_.link1, p_.link2);
@@ -42,7 +52,7 @@ DevicePlant::DevicePlant(const PlantParameters& parameters)
     platform_inertia_P_ += point_inertia(m.mass, r_P);
   }
   for (int i = 0; i < kArmJoints; ++i) {
-    rotor_[i] = p_.channel[i].rotor_inertia / (p_.channel[i].ratio * p_.channel[i].ratio);
+    if (!cable_[i].elastic()) rotor_[i] = rotor_at_joint(p_.channel[i]);
   }
   place(home, p_.jig_jaw_opening);
 }
@@ -56,12 +66,14 @@ void DevicePlant::place(const JointVector& q, double jaw_opening) noexcept {
   for (PlantFriction& f : friction_) f.reset();
   for (PlantMotor& m : motor_) m.cut();
   refresh();
+  for (int i = 0; i < kArmJoints; ++i) cable_[i].place(q[i]);
 }
 
 void DevicePlant::set_joint_rates(const JointVector& qd) noexcept {
   nu_.head<3>() = kinematics_.Sp.inverse() * qd.head<3>();
   nu_.tail<3>() = qd.tail<3>();
   nu_dot_.setZero();
+  for (int i = 0; i < kArmJoints; ++i) cable_[i].place(cable_[i].angle(), qd[i]);
 }
 
 void DevicePlant::clamp(bool held) noexcept {
@@ -84,9 +96,7 @@ PlantStatus DevicePlant::step(double dt, const ExternalLoad& load) noexcept {
   const bool usable = finite(load);
   const ExternalLoad accepted = usable ? load : ExternalLoad{};
   if (clamped_) {
-    if (enabled_) {
-      for (int i = 0; i < kChannels; ++i) motor_[i].advance(volts_[i], 0.0, dt);
-    }
+    hold(dt);
   } else {
     drift(0.5 * dt);
     refresh();
@@ -98,7 +108,33 @@ PlantStatus DevicePlant::step(double dt, const ExternalLoad& load) noexcept {
   return usable ? PlantStatus::kOk : PlantStatus::kNonFiniteLoad;
 }
 
+/// Load of one motor at its output over the coming step.
+double DevicePlant::drive(int channel, double rate, double dt) noexcept {
+  if (enabled_) return motor_[channel].advance(volts_[channel], rate, dt);
+  motor_[channel].rest(dt);
+  return 0.0;
+}
+
+/// One step in the jig: joints and jaw stand; the rotors behind elastic cables still turn against them.
+void DevicePlant::hold(double dt) noexcept {
+  const JointVector q = angles();
+  for (int i = 0; i < kChannels; ++i) {
+    if (i == kPinchChannel || !cable_[i].elastic()) {
+      drive(i, 0.0, dt);
+      continue;
+    }
+    PlantCable& cable = cable_[i];
+    cable.drift(0.5 * dt);
+    cable.linearise(q[i], 0.0, drive(i, cable.rate(), dt), dt);
+    cable.advance(0.0, dt);
+    cable.drift(0.5 * dt);
+  }
+}
+
 void DevicePlant::drift(double dt) noexcept {
+  for (PlantCable& cable : cable_) {
+    if (cable.elastic()) cable.drift(dt);
+  }
   const Vec3 half = 0.5 * dt * nu_.head<3>();  // (1, w dt/2) normalised: third-order error in w dt
   const Eigen::Quaterniond turn(1.0, half[0], half[1], half[2]);
   configuration_.q_WP = (turn * configuration_.q_WP).normalized();
@@ -111,7 +147,7 @@ Mat6 DevicePlant::rigid_mass(const PlantKinematics& k) const noexcept {
   const Vec3 com = k.p6 + k.R_W6 * p_.stylus_com;
   const NuJacobian Jv = stylus_point_jacobian(k, com);
   const NuJacobian Jw = stylus_angular_jacobian(k);
-  const Mat3 I6 = k.R_W6 * p_.stylus_inertia.asDiagonal() * k.R_W6.transpose();
+  const Mat3 I6 = k.R_W6 * stylus_inertia_ * k.R_W6.transpose();
   Mat6 M = p_.stylus_mass * Jv.transpose() * Jv + Jw.transpose() * I6 * Jw;
   M.topLeftCorner<3, 3>() += k.R_WP * platform_inertia_P_ * k.R_WP.transpose();
   M.topLeftCorner<3, 3>() += k.Sp.transpose() * rotor_.head<3>().asDiagonal() * k.Sp;
@@ -135,7 +171,7 @@ Vec6 DevicePlant::bias(const PlantKinematics& k, const Vec6& nu) const noexcept 
   const Vec3 alpha6 = flex * w.cross(k.z4) + nu[5] * w5.cross(k.z6);
   const Vec3 offset = k.R_W6 * p_.stylus_com;
   const Vec3 a_com = a6 + alpha6.cross(offset) + w6.cross(w6.cross(offset));
-  const Mat3 I6 = k.R_W6 * p_.stylus_inertia.asDiagonal() * k.R_W6.transpose();
+  const Mat3 I6 = k.R_W6 * stylus_inertia_ * k.R_W6.transpose();
   h += stylus_point_jacobian(k, k.p6 + offset).transpose() * (p_.stylus_mass * (a_com - gravity_W_));
   h += stylus_angular_jacobian(k).transpose() * (I6 * alpha6 + w6.cross(I6 * w6));
   return h;
@@ -166,16 +202,22 @@ DevicePlant::Resistances DevicePlant::resist(const JointVector& q, const JointVe
 
 void DevicePlant::kick(double dt, const ExternalLoad& load) noexcept {
   const PlantKinematics& k = kinematics_;
-  const JointVector qd = to_joint_rates(k, nu_);
-  const Resistances r = resist(joint_angles(configuration_, k), qd, dt);
+  const JointVector qd = to_joint_rates(k, nu_), q = joint_angles(configuration_, k);
+  Resistances r = resist(q, qd, dt);
   JointVector tau = -r.constant;
-  if (enabled_) {
-    for (int i = 0; i < kArmJoints; ++i) tau[i] += motor_[i].advance(volts_[i], qd[i], dt);
+  for (int i = 0; i < kArmJoints; ++i) {
+    if (!cable_[i].elastic()) {
+      tau[i] += drive(i, qd[i], dt);
+      continue;
+    }
+    const ResistanceLine pull = cable_[i].linearise(q[i], qd[i], drive(i, cable_[i].rate(), dt), dt);
+    tau[i] -= pull.constant;
+    r.slope[i] += pull.slope;
   }
   const Mat3& R_WB = base_rotation_WB();
-  Vec6 drive = from_joint_loads(k, tau) - bias(k, nu_ + 0.5 * dt * nu_dot_);
-  drive += stylus_point_jacobian(k, k.p6).transpose() * (R_WB * load.stylus_B.force);
-  drive += stylus_angular_jacobian(k).transpose() * (R_WB * load.stylus_B.moment);
+  Vec6 load_nu = from_joint_loads(k, tau) - bias(k, nu_ + 0.5 * dt * nu_dot_);
+  load_nu += stylus_point_jacobian(k, k.p6).transpose() * (R_WB * load.stylus_B.force);
+  load_nu += stylus_angular_jacobian(k).transpose() * (R_WB * load.stylus_B.moment);
 
   const Mat6 M = rigid_mass(k);
   Mat6 A = M;  // M + dt S^T D S
@@ -183,11 +225,23 @@ void DevicePlant::kick(double dt, const ExternalLoad& load) noexcept {
   for (int i = 3; i < kArmJoints; ++i) A(i, i) += dt * r.slope[i];
   const Eigen::LLT<Mat6> factor(A);
   const Vec6 nu_old = nu_;
-  nu_ = factor.solve(M * nu_old + dt * drive);
-  stop_legs(factor);
+  nu_ = factor.solve(M * nu_old + dt * load_nu);
+  const bool elastic = advance_cables(to_joint_rates(k, nu_), dt);  // what pulled the joint pulls the rotor
+  // The blow of a leg is shorter than any swing of a cable: it meets the bare mass.
+  stop_legs(elastic ? Eigen::LLT<Mat6>(M) : factor);
   nu_dot_ = (nu_ - nu_old) / dt;
   const JointVector qd_new = to_joint_rates(k, nu_);
   for (int i = 0; i < kArmJoints; ++i) friction_[i].advance(qd_new[i], dt);
+}
+
+bool DevicePlant::advance_cables(const JointVector& qd_new, double dt) noexcept {
+  bool any = false;
+  for (int i = 0; i < kArmJoints; ++i) {
+    if (!cable_[i].elastic()) continue;
+    cable_[i].advance(qd_new[i], dt);
+    any = true;
+  }
+  return any;
 }
 
 void DevicePlant::stop_legs(const Eigen::LLT<Mat6>& mass) noexcept {
@@ -210,10 +264,9 @@ void DevicePlant::step_pinch(double dt, double force) noexcept {
   jaw_ += 0.5 * dt * jaw_rate_;
   const ResistanceLine rub = friction_[kPinchChannel].linearise(jaw_rate_, dt);
   const ResistanceLine stop = stop_resistance(c.stop, jaw_, jaw_rate_);
-  double drive = force - rub.constant - stop.constant;
-  if (enabled_) drive += motor_[kPinchChannel].advance(volts_[kPinchChannel], jaw_rate_, dt);
+  const double push = force - rub.constant - stop.constant + drive(kPinchChannel, jaw_rate_, dt);
   const double mass = p_.jaw_mass + c.rotor_inertia / (c.ratio * c.ratio);
-  jaw_rate_ = (mass * jaw_rate_ + dt * drive) / (mass + dt * (rub.slope + stop.slope));
+  jaw_rate_ = (mass * jaw_rate_ + dt * push) / (mass + dt * (rub.slope + stop.slope));
   friction_[kPinchChannel].advance(jaw_rate_, dt);
   jaw_ += 0.5 * dt * jaw_rate_;
 }
@@ -239,6 +292,26 @@ ChannelVector DevicePlant::outputs() const noexcept {
   return out;
 }
 
+ChannelVector DevicePlant::motor_outputs() const noexcept {
+  ChannelVector out = outputs();
+  for (int i = 0; i < kArmJoints; ++i) {
+    if (cable_[i].elastic()) out[i] = cable_[i].angle();
+  }
+  return out;
+}
+
+ChannelVector DevicePlant::windings_c() const noexcept {
+  ChannelVector out;
+  for (int i = 0; i < kChannels; ++i) out[i] = motor_[i].heat().winding_c();
+  return out;
+}
+
+ChannelVector DevicePlant::cases_c() const noexcept {
+  ChannelVector out;
+  for (int i = 0; i < kChannels; ++i) out[i] = motor_[i].heat().case_c();
+  return out;
+}
+
 ChannelVector DevicePlant::motor_loads() const noexcept {
   ChannelVector loads;
   for (int i = 0; i < kChannels; ++i) loads[i] = motor_[i].output_load();
@@ -250,7 +323,21 @@ Mat6 DevicePlant::mass_matrix() const noexcept { return rigid_mass(kinematics_);
 double DevicePlant::energy() const noexcept {
   const PlantKinematics& k = kinematics_;
   const Vec3 moment = k.R_WP * platform_moment_P_ + p_.stylus_mass * (k.p6 + k.R_W6 * p_.stylus_com);
-  return 0.5 * nu_.dot(rigid_mass(k) * nu_) - gravity_W_.dot(moment);
+  double energy = 0.5 * nu_.dot(rigid_mass(k) * nu_) - gravity_W_.dot(moment);
+  const JointVector q = angles();
+  for (int i = 0; i < kArmJoints; ++i) {
+    if (cable_[i].elastic()) energy += cable_[i].energy(q[i]);
+  }
+  return energy;
+}
+
+double DevicePlant::cable_loss() const noexcept {
+  const JointVector qd = rates();
+  double loss = 0;
+  for (int i = 0; i < kArmJoints; ++i) {
+    if (cable_[i].elastic()) loss += cable_[i].loss(qd[i]);
+  }
+  return loss;
 }
 
 JointVector DevicePlant::holding_torque() const {

@@ -8,6 +8,8 @@
 // Towards the corners of the shoulder's joint box a leg axis V_i turns into its motor axis U_i and the leg would lock
 // up (b_i = 0 in plant_kinematics.h). There the legs meet before: a hard stop without rebound at b_i = leg_stop. The
 // pinch is a body of its own on the same scheme.
+// A joint whose cable is elastic (plant_options.h) has its rotor as a body of its own behind a spring: Jr then leaves
+// the equations above and the cable's pull takes the place of tau_motor (plant_cable.h).
 //
 // Frames: outside W' (base, z up), inside W. External wrench: on the stylus, moment about the stylus origin, in W'.
 // Thread: one owner; step() allocates nothing and does not throw.
@@ -17,6 +19,7 @@
 #include <array>
 #include <cstdint>
 
+#include "haptics/device/plant_cable.h"
 #include "haptics/device/plant_friction.h"
 #include "haptics/device/plant_kinematics.h"
 #include "haptics/device/plant_motor.h"
@@ -68,11 +71,18 @@ class DevicePlant {
   StylusMotion motion() const noexcept;
   /// Channel outputs: th1..th6 (rad), jaw opening (m).
   ChannelVector outputs() const noexcept;
+  /// What the encoders on the motors see, as outputs: those but for the stretch of elastic cables.
+  ChannelVector motor_outputs() const noexcept;
   /// Loads that the motors deliver at the outputs now, N m (N for the pinch).
   ChannelVector motor_loads() const noexcept;
 
-  Mat6 mass_matrix() const noexcept;   ///< in nu, rotors included
-  double energy() const noexcept;      ///< kinetic and potential of the arm, J
+  /// Temperatures of windings and cases, C; those of the start while the heat option is off.
+  ChannelVector windings_c() const noexcept;
+  ChannelVector cases_c() const noexcept;
+
+  Mat6 mass_matrix() const noexcept;   ///< in nu, rotors included but those behind elastic cables
+  double energy() const noexcept;      ///< kinetic and potential of the arm, its cables and their rotors, J
+  double cable_loss() const noexcept;  ///< heat that the cables' damping makes now, W
   JointVector holding_torque() const;  ///< joint torque that carries the weight, N m
   Mat6 joint_jacobian() const;         ///< d(twist in W')/d(joint rates), linear rows first
   const PlantParameters& parameters() const noexcept { return p_; }
@@ -89,6 +99,9 @@ class DevicePlant {
   Vec6 from_joint_loads(const PlantKinematics& k, const Vec6& tau) const noexcept;
   Resistances resist(const JointVector& q, const JointVector& qd, double dt) noexcept;
   void kick(double dt, const ExternalLoad& load) noexcept;
+  double drive(int channel, double rate, double dt) noexcept;
+  void hold(double dt) noexcept;
+  bool advance_cables(const JointVector& qd_new, double dt) noexcept;
   void stop_legs(const Eigen::LLT<Mat6>& mass) noexcept;
   void step_pinch(double dt, double force) noexcept;
   void refresh() noexcept;
@@ -97,7 +110,9 @@ class DevicePlant {
   Vec3 gravity_W_;
   Vec3 platform_moment_P_ = Vec3::Zero();   ///< sum of m r
   Mat3 platform_inertia_P_ = Mat3::Zero();  ///< about O
-  Vec6 rotor_;                              ///< Jr at the joints, kg m2
+  Mat3 stylus_inertia_;                     ///< about the centre of mass, stylus axes
+  Vec6 rotor_ = Vec6::Zero();               ///< Jr at the joints that turns with them, kg m2
+  std::array<PlantCable, kArmJoints> cable_;
   std::array<PlantFriction, kChannels> friction_;
   std::array<PlantMotor, kChannels> motor_;
 

@@ -67,7 +67,8 @@ HandParameters draw_hand_parameters(GripPreset grip, std::uint64_t seed) {
   return p;
 }
 
-HandModel::HandModel(const HandParameters& parameters, std::uint64_t tremor_seed) : p_(parameters) {
+HandModel::HandModel(const HandParameters& parameters, std::uint64_t tremor_seed)
+    : p_(parameters), acting_(parameters), reaction_(parameters.reaction) {
   PlantRandom random(tremor_seed);
   for (auto& axis : waves_) {
     for (Wave& wave : axis) {
@@ -75,6 +76,17 @@ HandModel::HandModel(const HandParameters& parameters, std::uint64_t tremor_seed
       wave = {2.0 * std::numbers::pi * hertz, 2.0 * std::numbers::pi * random.unit(), 1.0 / kWaves};
     }
   }
+}
+
+void HandModel::set_parameters(const HandParameters& parameters) noexcept {
+  p_ = acting_ = parameters;
+  reaction_.set_parameters(parameters.reaction);
+}
+
+void HandModel::let_go() noexcept {
+  intent_ = Intent::kNone;
+  reaction_.reset();
+  acting_ = p_;
 }
 
 void HandModel::set_intent(const Pose& X_BS, double jaw_opening_m, double period_s) noexcept {
@@ -132,14 +144,14 @@ void HandModel::tremble(Vec3& displacement, Vec3& velocity) const noexcept {
 Vec3 HandModel::pull(const StylusMotion& tool, double share, double moving, double dt) noexcept {
   Vec3 shake, shake_rate;
   tremble(shake, shake_rate);
-  const Vec3 grip = p_.grip_stiffness * (hand_ + shake - tool.X_BS.p) +
-                    p_.grip_damping * (hand_rate_ + shake_rate - tool.V_BS.linear);
+  const Vec3 grip = acting_.grip_stiffness * (hand_ + shake - tool.X_BS.p) +
+                    acting_.grip_damping * (hand_rate_ + shake_rate - tool.V_BS.linear);
   const Vec3 force = limited(grip, p_.force_limit_n);
   const Vec3 goal = from_ + share * step_;
   const Vec3 goal_rate = (moving / period_) * step_;
   // Semi-implicit: damping of the arm at the new rate, position with the new rate.
-  const Vec3 drive = p_.arm_stiffness * (goal - hand_) + p_.arm_damping * goal_rate - force;
-  hand_rate_ = (p_.hand_mass * hand_rate_ + dt * drive) / (p_.hand_mass + dt * p_.arm_damping);
+  const Vec3 drive = acting_.arm_stiffness * (goal - hand_) + acting_.arm_damping * goal_rate - force;
+  hand_rate_ = (p_.hand_mass * hand_rate_ + dt * drive) / (p_.hand_mass + dt * acting_.arm_damping);
   hand_ += dt * hand_rate_;
   return force;
 }
@@ -149,7 +161,20 @@ Vec3 HandModel::turn(const StylusMotion& tool, double share, double moving) cons
   const Eigen::Quaterniond now(tool.X_BS.R);
   const Vec3 error = rotation_vector(goal * now.conjugate());
   const Vec3 rate_error = (moving / period_) * turn_step_ - tool.V_BS.angular;
-  return limited(p_.turn_stiffness * error + p_.turn_damping * rate_error, p_.moment_limit_nm);
+  return limited(acting_.turn_stiffness * error + acting_.turn_damping * rate_error, p_.moment_limit_nm);
+}
+
+void HandModel::react(const Vec3& force, double dt) noexcept {
+  reaction_.feel(force, dt);
+  const double reflex = 1 + (p_.reaction.reflex_gain - 1) * reaction_.reflex(), closed = reaction_.firmness();
+  const HandParameters firm = hand_parameters(GripPreset::kFirm);
+  const auto towards = [&](double own, double stiff) { return own + closed * std::max(0.0, stiff - own); };
+  acting_.grip_stiffness = towards(p_.grip_stiffness, firm.grip_stiffness);
+  acting_.grip_damping = towards(p_.grip_damping, firm.grip_damping);
+  acting_.turn_stiffness = towards(p_.turn_stiffness, firm.turn_stiffness);
+  acting_.turn_damping = towards(p_.turn_damping, firm.turn_damping);
+  acting_.arm_stiffness = std::max(reflex * p_.arm_stiffness, towards(p_.arm_stiffness, firm.arm_stiffness));
+  acting_.arm_damping = std::max(reflex * p_.arm_damping, towards(p_.arm_damping, firm.arm_damping));
 }
 
 ExternalLoad HandModel::update(const StylusMotion& tool, double dt) noexcept {
@@ -161,6 +186,7 @@ ExternalLoad HandModel::update(const StylusMotion& tool, double dt) noexcept {
   const double moving = elapsed_ <= period_ * (1 + 1e-9) ? 1.0 : 0.0;
   ExternalLoad load;
   load.stylus_B.force = pull(tool, share, moving, dt);
+  if (p_.reaction.on) react(load.stylus_B.force, dt);
   load.stylus_B.moment = turn(tool, share, moving);
   const double squeeze = p_.finger_stiffness * (jaw_from_ + share * jaw_step_ - tool.jaw) +
                          p_.finger_damping * (moving / period_ * jaw_step_ - tool.jaw_rate);

@@ -4,6 +4,8 @@
 //   rotation      spring and damper between the stylus and the intended orientation, about the stylus origin
 //   fingers       spring and damper between the jaw and the intended opening
 //   tremor        8 to 12 Hz, added between M_h and the grip
+// Where the reaction is on (plant_reaction.h; off by default), a touch stiffens first the arm by reflex, then the grip
+// towards GripPreset::kFirm.
 // M_h is integrated semi-implicitly at the plant's sub-step. Forces are limited to what a hand can do.
 // Frame W' (base, z up), SI. Thread: one owner; nothing allocates or throws after construction.
 #pragma once
@@ -12,6 +14,7 @@
 #include <cstdint>
 
 #include "haptics/device/device_plant.h"
+#include "haptics/device/plant_reaction.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -40,6 +43,7 @@ struct HandParameters {
   double turn_speed_limit = 20;   ///< rad/s
   double finger_speed_limit = 1;  ///< m/s
   double tremor_m = 1e-4;         ///< amplitude of the sum over 8 to 12 Hz, each axis; 0 switches it off
+  HandReaction reaction;
 };
 
 HandParameters hand_parameters(GripPreset grip);
@@ -56,12 +60,15 @@ class HandModel {
   /// finite one follows; meanwhile the hand exerts nothing, and it takes hold anew afterwards.
   void set_intent(const Pose& X_BS, double jaw_opening_m, double period_s) noexcept;
   /// Lets go: no wrench until the next intent.
-  void let_go() noexcept { intent_ = Intent::kNone; }
-  void set_parameters(const HandParameters& parameters) noexcept { p_ = parameters; }
+  void let_go() noexcept;
+  void set_parameters(const HandParameters& parameters) noexcept;
 
   bool holding() const noexcept { return intent_ == Intent::kHolding || intent_ == Intent::kTaking; }
   bool fault() const noexcept { return intent_ == Intent::kBroken; }
 
+  /// The impedance that acts now: that of the parameters but for what the reaction adds.
+  const HandParameters& acting() const noexcept { return acting_; }
+  const PlantReaction& reaction() const noexcept { return reaction_; }
   /// Load on the stylus and the jaw for the coming sub-step.
   ExternalLoad update(const StylusMotion& tool, double dt) noexcept;
 
@@ -78,7 +85,10 @@ class HandModel {
   Vec3 pull(const StylusMotion& tool, double share, double moving, double dt) noexcept;
   Vec3 turn(const StylusMotion& tool, double share, double moving) const noexcept;
 
-  HandParameters p_;
+  void react(const Vec3& force, double dt) noexcept;
+
+  HandParameters p_, acting_;
+  PlantReaction reaction_;
   std::array<std::array<Wave, kWaves>, 3> waves_;
   Intent intent_ = Intent::kNone;
   // The goal moves from `from_` by `step_` (and turn vector `turn_step_`) over period_, to the wanted pose.

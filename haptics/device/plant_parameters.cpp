@@ -78,6 +78,26 @@ void set_masses(PlantParameters& p) {
   p.jaw_mass = 0.020;                     // kg, jaw and finger pads: assumption
 }
 
+constexpr std::uint64_t kVariationStream = 0xD1B54A32D192ED03ull;  // apart from what draw_parameters draws
+
+void vary_drive(ChannelParameters& c, PlantRandom& random) {
+  c.torque_constant *= 1.0 + random.symmetric(0.05);
+  c.resistance *= 1.0 + random.symmetric(0.08);
+  c.rotor_inertia *= 1.0 + random.symmetric(0.05);
+  c.ratio *= 1.0 + random.symmetric(1e-3);
+  c.friction.stribeck_ratio = 1.0 + (c.friction.stribeck_ratio - 1.0) * random.log_normal(0.3);
+  c.friction.stribeck_speed *= random.log_normal(0.3);
+  c.friction.bristle_length *= random.log_normal(0.3);
+  c.friction.damping_inertia *= random.log_normal(0.3);
+}
+
+void vary_stop(StopParameters& stop, double half_width, PlantRandom& random) {
+  stop.lower += random.symmetric(half_width);
+  stop.upper += random.symmetric(half_width);
+  stop.stiffness *= random.log_normal(0.2);
+  stop.damping *= random.log_normal(0.2);
+}
+
 }  // namespace
 
 PlantParameters nominal_parameters() {
@@ -121,6 +141,33 @@ PlantParameters draw_parameters(std::uint64_t seed) {
   for (int i = 0; i < kArmJoints; ++i) p.jig_error[i] = random.symmetric(0.05 * kDegree);
   p.jig_jaw_opening += random.symmetric(0.1e-3);
   return p;
+}
+
+PlantParameters draw_everything(std::uint64_t seed) {
+  PlantParameters p = draw_parameters(seed);
+  PlantRandom random(seed ^ kVariationStream);
+  p.leg_stop *= 1.0 + random.symmetric(0.1);
+  p.link1 += random.symmetric(2e-5);  // home is nearly stretched: 0.1 mm would turn the elbow by 0.7 deg
+  p.link2 += random.symmetric(2e-5);
+  p.stylus_inertia *= 1.0 + random.symmetric(0.2);
+  for (int axis = 0; axis < 3; ++axis) p.stylus_inertia[axis] *= 1.0 + random.symmetric(0.03);
+  p.jaw_mass *= 1.0 + random.symmetric(0.1);
+  p.bus_voltage *= 1.0 + random.symmetric(0.05);
+  p.current_limit *= 1.0 + random.symmetric(0.05);
+  p.amplifier_time_constant *= random.log_normal(0.3);
+  for (int i = 0; i < kChannels; ++i) {
+    vary_drive(p.channel[i], random);
+    vary_stop(p.channel[i].stop, i == kPinchChannel ? 0.2e-3 : 0.5 * kDegree, random);
+  }
+  return p;
+}
+
+Mat3 stylus_inertia_tensor(const PlantParameters& p) {
+  Mat3 I = p.stylus_inertia.asDiagonal();
+  I(0, 1) = I(1, 0) = p.stylus_products[0];
+  I(0, 2) = I(2, 0) = p.stylus_products[1];
+  I(1, 2) = I(2, 1) = p.stylus_products[2];
+  return I;
 }
 
 }  // namespace trocar

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 
+#include "haptics/device/plant_options.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -61,7 +62,8 @@ struct PlantParameters {
   double leg_stop = 0;                 ///< sine of the angle between a leg and its motor axis at which legs meet
   double stylus_mass = 0;              ///< kg, link 2 and stylus, lumped
   Vec3 stylus_com = Vec3::Zero();      ///< m, centre of that mass in the stylus frame
-  Vec3 stylus_inertia = Vec3::Zero();  ///< kg m2, principal, about the centre of mass, stylus axes
+  Vec3 stylus_inertia = Vec3::Zero();  ///< kg m2: Ixx Iyy Izz about the centre of mass, stylus axes
+  Vec3 stylus_products = Vec3::Zero();  ///< kg m2: Ixy Ixz Iyz, elements of the tensor
   double jaw_mass = 0;                 ///< kg, jaw and finger pads
 
   double bus_voltage = 0;              ///< V
@@ -73,6 +75,8 @@ struct PlantParameters {
 
   JointVector jig_error = JointVector::Zero();  ///< rad, how far the jig holds the joints from the exact home pose
   double jig_jaw_opening = 0;                   ///< m, opening at which the jig holds the jaws
+
+  PlantOptions options;  ///< all off
 };
 
 /// The device as its documents describe it.
@@ -81,5 +85,14 @@ PlantParameters nominal_parameters();
 /// The true device of one seed: masses +-3 %, centres of mass +-0.5 mm, friction log-normal 20 %, gain +-1 %, DAC
 /// offset +-5 mV, arbitrary counters and disc phases, jig error up to 0.05 deg a joint and 0.1 mm at the jaw.
 PlantParameters draw_parameters(std::uint64_t seed);
+
+/// That device with everything else drawn too, from a stream of its own: leg stop and jaw +-10 %, link lengths +-0.02 mm,
+/// inertia of the pen +-20 % as a whole and +-3 % an axis, supply, current limit, torque constant and rotor +-5 %,
+/// resistance +-8 %, ratio +-0.1 %, Stribeck excess and speed, bristles and amplifier tau log-normal 30 %, stops +-0.5
+/// deg (pinch 0.2 mm), their stiffness and damping log-normal 20 %. Spreads are assumptions.
+PlantParameters draw_everything(std::uint64_t seed);
+
+/// Tensor of the stylus about its centre of mass, stylus axes.
+Mat3 stylus_inertia_tensor(const PlantParameters& parameters);
 
 }  // namespace trocar

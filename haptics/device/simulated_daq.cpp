@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "haptics/device/plant_check.h"
+
 namespace trocar {
 namespace {
 
-constexpr std::uint64_t kTremorStream = 0x9E3779B97F4A7C15ull;  // keeps the tremor's draws apart from the device's
+// Each keeps its draws apart from the device's.
+constexpr std::uint64_t kTremorStream = 0x9E3779B97F4A7C15ull, kEncoderStream = 0xBF58476D1CE4E5B9ull,
+                        kJitterStream = 0x94D049BB133111EBull;
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("simulated device: " + what);
@@ -23,6 +26,12 @@ const SimulatedDaqConfig& checked(const SimulatedDaqConfig& c) {
   require(c.dac_bits >= 8 && c.dac_bits <= 24, "dac_bits lies in 8 to 24");
   require(c.extra_delay_periods >= 0 && c.extra_delay_periods <= kMaxExtraDelayPeriods,
           "extra_delay_periods is 0 to 63");
+  if (c.plant) {
+    if (const auto refusal = plant_refusal(*c.plant)) require(false, refusal->text());
+    const int jitter = c.plant->options.jitter_periods;
+    require(jitter >= 0 && c.extra_delay_periods + jitter <= kMaxExtraDelayPeriods,
+            "jitter and extra_delay_periods are 0 to 63 together");
+  }
   for (const InjectedFault& f : c.faults) {
     const std::string refusal = injection_refusal(f);
     require(refusal.empty(), refusal);
@@ -42,14 +51,17 @@ SimulatedDaq::SimulatedDaq(const SimulatedDaqConfig& config)
       substep_s_(period_s_ / substeps_of(config)),
       substeps_(substeps_of(config)),
       plant_(config.plant ? *config.plant : draw_parameters(config.seed)),
+      encoders_(plant_.parameters(), plant_.motor_outputs(), config.seed ^ kEncoderStream),
       hand_(config.hand, config.seed ^ kTremorStream),
-      faults_(config.faults) {
+      faults_(config.faults),
+      jitter_(config.seed ^ kJitterStream) {
   const PlantParameters& p = plant_.parameters();
   home_ = plant_.angles() + p.jig_error;
   plant_.place(home_, p.jig_jaw_opening);
   plant_.clamp(true);
-  const ChannelVector outputs = plant_.outputs();
-  for (int i = 0; i < kChannels; ++i) last_.counts[i] = count(i, outputs[i]);
+  const ChannelVector outputs = plant_.motor_outputs();
+  encoders_ = PlantEncoders(p, outputs, config.seed ^ kEncoderStream);
+  for (int i = 0; i < kChannels; ++i) last_.counts[i] = encoders_.count(i, outputs[i]);
 }
 
 void SimulatedDaq::return_to_jig() noexcept {
@@ -68,14 +80,6 @@ void SimulatedDaq::carry() noexcept {
 
 DaqCapabilities SimulatedDaq::capabilities() const noexcept { return {"simulated", config_.rate_hz, config_.dac_bits}; }
 
-std::int32_t SimulatedDaq::count(int channel, double output) const noexcept {
-  const PlantParameters& p = plant_.parameters();
-  const ChannelParameters& c = p.channel[channel];
-  const double turns = output / c.ratio / (2.0 * std::numbers::pi);
-  const auto whole = static_cast<std::int64_t>(std::floor(turns * p.counts_per_turn + c.encoder_offset_counts));
-  return static_cast<std::int32_t>(static_cast<std::uint64_t>(whole) & 0xFFFFFFFFull);  // wraps as the counter does
-}
-
 DaqSample SimulatedDaq::read() noexcept {
   DaqSample sample;
   const std::uint32_t periods = 1 + faults_.missed_syncs(next_s());
@@ -85,8 +89,8 @@ DaqSample SimulatedDaq::read() noexcept {
     return last_;
   }
   sample.elapsed_periods = periods + std::exchange(missed_, 0);
-  const ChannelVector outputs = plant_.outputs();
-  for (int i = 0; i < kChannels; ++i) sample.counts[i] = count(i, outputs[i]);
+  const ChannelVector outputs = plant_.motor_outputs();
+  for (int i = 0; i < kChannels; ++i) sample.counts[i] = encoders_.count(i, outputs[i]);
   sample.digital_in = digital_inputs();
   faults_.spoil(sample, last_, time_s());
   last_ = sample;
@@ -138,6 +142,7 @@ void SimulatedDaq::advance_period() noexcept {
   for (int n = 0; n < substeps_; ++n) {
     const ExternalLoad load = hand_.update(plant_.motion(), substep_s_);
     plant_.step(substep_s_, load);
+    if (encoders_.flawed()) encoders_.follow(plant_.motor_outputs(), substep_s_);
     force_on_hand_ -= load.stylus_B.force / substeps_;
     moment_on_hand_ -= load.stylus_B.moment / substeps_;
     force_on_finger_ -= load.jaw_force_n / substeps_;
@@ -154,9 +159,20 @@ void SimulatedDaq::watch_writes() noexcept {
   if (watchdog_fired_) written_ = {};
 }
 
+/// Periods that the codes in force lie back. Without jitter those of configuration and faults; with it no frame overtakes.
+int SimulatedDaq::delay_now() noexcept {
+  const int known = std::min(kMaxExtraDelayPeriods, config_.extra_delay_periods + faults_.extra_delay(time_s()));
+  const int most = plant_.parameters().options.jitter_periods;
+  if (most == 0) return known;
+  const int drawn = static_cast<int>((most + 1) * jitter_.unit());
+  const auto now = static_cast<std::int64_t>(sync_);
+  arrived_ = std::max(arrived_, now - std::min(kMaxExtraDelayPeriods, known + drawn));
+  return static_cast<int>(now - arrived_);
+}
+
 void SimulatedDaq::latch_codes() noexcept {
   constexpr std::size_t kRing = kMaxExtraDelayPeriods + 1;
-  const int delay = std::min(kMaxExtraDelayPeriods, config_.extra_delay_periods + faults_.extra_delay(time_s()));
+  const int delay = delay_now();
   delayed_[delay_head_] = written_;
   if (watchdog_fired_) delayed_ = {};
   const DacFrame& due = delayed_[(delay_head_ + kRing - static_cast<std::size_t>(delay)) % kRing];

@@ -3,7 +3,8 @@
 // Timing, exactly. read() k is SYNC k: the plant runs one period under the codes in force since SYNC k-1, the
 // encoders are latched, then the codes written last become those in force. So what is written after read() k acts
 // from SYNC k+1 to SYNC k+2 and shows first in the counts of read() k+2: one period of delay, plus
-// extra_delay_periods where configured.
+// extra_delay_periods where configured, plus with the plant's jitter 0 to jitter_periods drawn anew each SYNC. Order is
+// kept: what was written earlier reaches the DACs earlier, or is overtaken within one SYNC by what came with it.
 // The device starts clamped in its jig, a little off the exact home pose, amplifiers inhibited. The jig opens when the
 // amplifiers have been armed for kJigReleaseS without a break; it does not close again. arm(false) takes the
 // current away at once and forgets the codes in force.
@@ -24,6 +25,7 @@
 #include "haptics/device/data_acquisition.h"
 #include "haptics/device/device_plant.h"
 #include "haptics/device/hand_model.h"
+#include "haptics/device/plant_encoder.h"
 #include "haptics/device/plant_faults.h"
 #include "haptics/device/plant_parameters.h"
 
@@ -84,6 +86,10 @@ class SimulatedDaq final : public DataAcquisition {
 
   /// Time of the last SYNC, s.
   double time_s() const noexcept { return static_cast<double>(sync_) * period_s_; }
+  /// Codes that act on the DACs now, and counts that the encoders have missed: for tests and studies only.
+  const DacFrame& codes_in_force() const noexcept { return in_force_; }
+  std::int64_t counts_lost(int channel) const noexcept { return encoders_.lost(channel); }
+  const HandModel& hand() const noexcept { return hand_; }
   /// The device itself: for tests and studies only, never for a controller.
   const DevicePlant& plant() const noexcept { return plant_; }
 
@@ -98,12 +104,13 @@ class SimulatedDaq final : public DataAcquisition {
   void switch_amplifiers(double at_s) noexcept;
   std::uint32_t digital_inputs() const noexcept;
   double next_s() const noexcept { return time_s() + period_s_; }
-  std::int32_t count(int channel, double output) const noexcept;
+  int delay_now() noexcept;
 
   SimulatedDaqConfig config_;
   double period_s_, substep_s_;
   int substeps_;
   DevicePlant plant_;
+  PlantEncoders encoders_;
   JointVector home_ = JointVector::Zero();  ///< where the jig holds the joints
   JointVector from_ = JointVector::Zero();  ///< where the operator took the arm up
   double jaw_from_ = 0, carried_s_ = -1;    ///< on the way back to the jig, < 0: not on the way
@@ -115,6 +122,8 @@ class SimulatedDaq final : public DataAcquisition {
   DacFrame written_, in_force_;
   std::array<DacFrame, kMaxExtraDelayPeriods + 1> delayed_{};  ///< ring of frames on their way to the DAC
   std::size_t delay_head_ = 0;
+  PlantRandom jitter_;
+  std::int64_t arrived_ = -1;  ///< newest SYNC whose frame has reached the DACs
   double armed_for_s_ = 0;
   bool armed_ = false, pressed_ = true, watchdog_fired_ = false;
   double unwritten_s_ = 0;                                         ///< since the last write, while armed

@@ -24,7 +24,7 @@ constexpr int kCheckedPoses = 200;
 constexpr std::uint64_t kUnseenSeed = 0xA5A5A5A5A5A5A5A5ull, kNextSeed = 0x9E3779B97F4A7C15ull;
 
 /// Forth through the pose, or back.
-Trace pass_through(JointServo& servo, const StaticPose& pose, double direction) {
+MotionTrace pass_through(JointServo& servo, const StaticPose& pose, double direction) {
   const JointVector rate = direction * kPassSpeed * pose.sign;
   const double half = kPassWay / kPassSpeed;
   servo.move_to(pose.q - 1.15 * half * rate);
@@ -33,7 +33,7 @@ Trace pass_through(JointServo& servo, const StaticPose& pose, double direction) 
   return servo.follow([&](double t) { return path(t + 0.15 * half); }, 2 * half);
 }
 
-Trace run_trajectory(JointServo& servo, const FourierPath& fourier) {
+MotionTrace run_trajectory(JointServo& servo, const FourierPath& fourier) {
   const auto faded = [&](double t) {
     const FourierPath::Point p = fourier.at(t);
     const double s = std::min(1.0, t / kFadeIn_s), r = 1 - s;
@@ -51,7 +51,7 @@ TorqueRows measure_poses(JointServo& servo, const Identification& id, const Devi
   int group = 0;
   for (const StaticPose& pose : draw_static_poses(id.request.seed, id.request.poses, id.request.span, nominal)) {
     for (const double direction : {1.0, -1.0}) {
-      const Trace pass = pass_through(servo, pose, direction);
+      const MotionTrace pass = pass_through(servo, pose, direction);
       add_pass(pass, direction * kPassSpeed * pose.sign, id.base, kPassMiddle, group++, rows);
     }
   }
@@ -143,7 +143,7 @@ TorqueFit as_fit(const DeviceModel& model, const BaseSet& base) {
   return fit;
 }
 
-void check_unseen(Identification& id, const Trace& trace, const DeviceModel& nominal) {
+void check_unseen(Identification& id, const MotionTrace& trace, const DeviceModel& nominal) {
   TorqueRows all(column_count(id.base)), moving(column_count(id.base));
   add_trajectory(trace, id.base, false, all);
   add_trajectory(trace, id.base, true, moving);

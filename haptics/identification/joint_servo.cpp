@@ -135,8 +135,8 @@ JointVector JointServo::torque_for(const PathPoint& wanted) {
   return tau;
 }
 
-Trace JointServo::follow(const JointPath& path, double seconds) {
-  Trace trace;
+MotionTrace JointServo::follow(const JointPath& path, double seconds) {
+  MotionTrace trace;
   trace.period_s = period_s_;
   const auto n = std::lround(seconds / period_s_);
   trace.q.reserve(static_cast<std::size_t>(n));

@@ -25,7 +25,7 @@ struct PathPoint {
 using JointPath = std::function<PathPoint(double t)>;
 
 /// What was measured, one entry a SYNC.
-struct Trace {
+struct MotionTrace {
   double period_s = 1e-3;
   std::vector<JointVector> q, tau;
 };
@@ -47,7 +47,7 @@ class JointServo {
   JointServo& operator=(const JointServo&) = delete;
 
   /// Follows a path that begins where the arm is. @throws EnvironmentError.
-  Trace follow(const JointPath& path, double seconds);
+  MotionTrace follow(const JointPath& path, double seconds);
   /// Minimum-jerk move in joint space, the fastest joint at `speed` rad/s at most.
   void move_to(const JointVector& q, double speed = 1.2);
 

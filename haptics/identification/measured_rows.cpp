@@ -64,7 +64,7 @@ struct Smoothed {
   std::vector<JointVector> tau, rate;
 };
 
-Smoothed smooth(const Trace& trace, const BaseSet& base) {
+Smoothed smooth(const MotionTrace& trace, const BaseSet& base) {
   const Kernel k = gaussian(kSmooth_s / trace.period_s);
   const double dt = trace.period_s;
   Smoothed s;
@@ -98,7 +98,7 @@ std::vector<FitParameter> fit_columns(const BaseSet& base) {
   return columns;
 }
 
-void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group,
+void add_pass(const MotionTrace& pass, const JointVector& qd, const BaseSet& base, double middle, int group,
               TorqueRows& rows) {
   const auto n = static_cast<int>(pass.q.size());
   const int skip = static_cast<int>(0.5 * (1 - middle) * n);
@@ -111,7 +111,7 @@ void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, dou
   for (int j = 0; j < kArmJoints; ++j) rows.add(j, group, Y.row(j), tau[j]);
 }
 
-void add_trajectory(const Trace& trace, const BaseSet& base, bool leave_out_slow, TorqueRows& rows) {
+void add_trajectory(const MotionTrace& trace, const BaseSet& base, bool leave_out_slow, TorqueRows& rows) {
   const Smoothed s = smooth(trace, base);
   const Kernel k = gaussian(kFilter_s / trace.period_s);
   const int every = static_cast<int>(std::lround(kRow_s / trace.period_s));

@@ -22,10 +22,10 @@ int column_count(const BaseSet& base);
 constexpr int kCoulombColumn = 0, kViscousColumn = kArmJoints, kOffsetColumn = 2 * kArmJoints;  ///< after the base
 
 /// One pass at constant rates `qd`. @param middle share of the trace that counts.
-void add_pass(const Trace& pass, const JointVector& qd, const BaseSet& base, double middle, int group,
+void add_pass(const MotionTrace& pass, const JointVector& qd, const BaseSet& base, double middle, int group,
               TorqueRows& rows);
 
 /// A trajectory; every second is a group.
-void add_trajectory(const Trace& trace, const BaseSet& base, bool leave_out_slow, TorqueRows& rows);
+void add_trajectory(const MotionTrace& trace, const BaseSet& base, bool leave_out_slow, TorqueRows& rows);
 
 }  // namespace trocar

@@ -38,7 +38,7 @@ TEST(JointServo, MeasuresWeightAndFrictionOfAPassWithTheSignOfTheMotion) {
     const double sign = way == 0 ? 1 : -1;
     servo.move_to(q - 0.5 * sign * rate);
     servo.follow([&](double t) { return PathPoint{q + (t - 0.5) * sign * rate, sign * rate}; }, 0.2);
-    const Trace trace = servo.follow(
+    const MotionTrace trace = servo.follow(
         [&](double t) {
           return PathPoint{q + (t - 0.3) * sign * rate, sign * rate};
         },
@@ -56,7 +56,7 @@ TEST(JointServo, TraceHasOneEntryASyncAndStartsWithoutAJump) {
   SimulatedDaq daq(nominal());
   JointServo servo(daq, {});
   const double before = servo.time_s();
-  const Trace trace = servo.follow([](double) { return PathPoint{home_angles(), JointVector::Zero()}; }, 0.25);
+  const MotionTrace trace = servo.follow([](double) { return PathPoint{home_angles(), JointVector::Zero()}; }, 0.25);
   EXPECT_EQ(trace.q.size(), 250u);
   EXPECT_EQ(trace.tau.size(), 250u);
   EXPECT_NEAR(servo.time_s() - before, 0.25, 1e-9);

@@ -33,8 +33,8 @@ TEST(FitColumns, AreBaseParametersThenThreeSixes) {
 }
 
 /// A pass at constant rates under the nominal weight, friction of 10 mN m and an offset of 1 mN m.
-Trace pass_at(const JointVector& rate) {
-  Trace trace;
+MotionTrace pass_at(const JointVector& rate) {
+  MotionTrace trace;
   for (int k = 0; k < 800; ++k) {
     const JointVector q = kCentre + (k - 400) * 1e-3 * rate;
     trace.q.push_back(q);
@@ -70,8 +70,8 @@ TEST(AddPass, GivesOneRowAJointThatItsTorqueFits) {
 }
 
 /// Joint 2 swings, the others rest.
-Trace swing() {
-  Trace trace;
+MotionTrace swing() {
+  MotionTrace trace;
   for (int k = 0; k < 4000; ++k) {
     JointVector q = kCentre;
     q[1] += 0.3 * std::sin(2 * k * 1e-3);
@@ -105,7 +105,7 @@ TEST(AddTrajectory, TakesARowEvery20MillisecondsAndAGroupASecond) {
 }
 
 TEST(AddTrajectory, RatesSurviveQuantisedAngles) {
-  Trace trace = swing();
+  MotionTrace trace = swing();
   constexpr double kCount = 0.23 * 2 * 3.141592653589793 / 2000;
   for (JointVector& q : trace.q) {
     for (int i = 0; i < kArmJoints; ++i) q[i] = kCount * std::floor(q[i] / kCount);

@@ -1,0 +1,51 @@
+// What the simulated device can have beyond its plain model. Everything is off by default: a plant without options
+// behaves to the bit as if this header were not there.
+//
+//   cable     the capstan cable of a joint as a spring: the rotor becomes a state of its own (plant_cable.h)
+//   encoder   edges that the counter does not see (plant_encoder.h)
+//   jitter    further whole periods between write and DAC, drawn anew each SYNC (simulated_daq.h)
+//   heat      windings and cases warm up, copper resists more (plant_heat.h)
+// Marks of the values as in plant_parameters.h. Units: SI, radians, temperatures in degrees Celsius.
+// Thread: plain values, any thread.
+#pragma once
+
+#include <array>
+
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+inline constexpr double kNominalCable = 100;  ///< N m/rad at the joint, 50 to 200: assumption
+
+/// Cable between a motor's pinion and its joint, seen at the joint.
+struct CableParameters {
+  double stiffness = 0;            ///< N m/rad; 0: rigid
+  double damping = 0.02;           ///< N m s/rad: assumption
+  double friction_on_motor = 0.5;  ///< share of the joint's friction that rubs on the motor's side (brushes) [C]
+};
+
+struct EncoderFlaws {
+  double missed_per_edge = 0;  ///< chance that the counter does not see an edge
+  double limit_hz = 0;         ///< lines a second that the encoder can follow, 100 kHz [M]; 0: any
+};
+
+/// One motor as two nodes, winding and case.
+struct HeatParameters {
+  bool on = false;
+  double winding_to_case = 3.1;  ///< K/W [M]
+  double case_to_air = 14;       ///< K/W [M]
+  double winding_time = 12.4;    ///< s [M]
+  double case_time = 612;        ///< s [M]
+  double copper_per_k = 0.0039;  ///< 1/K [M]
+  double ambient_c = 25;         ///< also where the resistance is the stated one
+  double start_c = 25;           ///< winding and case at first
+};
+
+struct PlantOptions {
+  std::array<CableParameters, kArmJoints> cable{};
+  EncoderFlaws encoder;
+  int jitter_periods = 0;  ///< most; 0 to 2 ms is the reference's assumption
+  HeatParameters heat;
+};
+
+}  // namespace trocar
