@@ -100,8 +100,7 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       supervisor_(config.safety, count_limits(config), period_s_),
       watch_(config.safety, config.device, config.heat, period_s_),
       safety_log_(config.daq.rate_hz),
-      friction_rates_(config.friction, period_s_),
-      free_air_(config.friction, period_s_) {
+      friction_rates_(config.friction, period_s_) {
   home_ << home_angles(), config.device.pinch_home_m;
   for (int i = 0; i < kChannels; ++i) {
     count_[i] = count_size(config.device.transmission[i]);
@@ -158,7 +157,6 @@ void HapticLoop::take_home() noexcept {
   pinch_passivity_.reset();
   fine_.reset(counts_.total());
   friction_rates_.reset();
-  free_air_.reset();
 }
 
 HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& patch) noexcept {
@@ -296,10 +294,9 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact
     return {};
   }
   const JointVector qd = friction_rates_.update(motion.qd.head<kArmJoints>());
-  const double free = free_air_.update(contact.spring_n <= 0);
   shares.alignment = contact.alignment;
   if (arm_passivity_.budget_j() >= -config_.friction.debt_j) {
-    shares.friction.head<kArmJoints>() = supervisor_.ramp() * free * friction_torque(config_.device, config_.friction, qd);
+    shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
   }
   const LimitedTorque limited = limiter_.update(shares);
   arm_passivity_.delivered(limited.contact_scale);

@@ -139,7 +139,6 @@ class HapticLoop {
   TorqueHistory asked_contact_;                             ///< of the ticks past: acts after the known delay
   SubCountTravel fine_;
   SmoothedRates friction_rates_;
-  FreeAir free_air_;
   double last_port_j_ = 0;                                  ///< energy in the port's springs one tick ago
 };
 

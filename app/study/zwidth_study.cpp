@@ -43,9 +43,11 @@ struct Climb {
   double quick = 0;        ///< N/m, last rung up to which half settled within kQuicklySettled
   double passive = 0;      ///< N/m, last rung up to which 19 of 20 gave less than 1 mJ
   double k_max = 0;        ///< N/m, least of the limits that the loop worked out
+  std::size_t stable = 0, contacts = 0;  ///< over all rungs that were tried
 };
 
-Climb climb(const Rigs& rigs, PassivityLaw law, double damping) {
+/// @param whole go on to the top of the ladder, whatever falls on the way.
+Climb climb(const Rigs& rigs, PassivityLaw law, double damping, bool whole = false) {
   Climb found;
   found.k_max = std::numeric_limits<double>::infinity();
   bool stable = true, quick = true, passive = true;
@@ -70,9 +72,10 @@ Climb climb(const Rigs& rigs, PassivityLaw law, double damping) {
     quick = quick && 2 * quick_ones >= outcome.size();
     if (quick) found.quick = stiffness;
     if (passive) found.passive = stiffness;
-    if (!stable) break;
-    found.widest = stiffness;
-    found.displayed = displayed;
+    found.stable += stable_ones, found.contacts += outcome.size();
+    if (stable) found.widest = stiffness, found.displayed = displayed;
+    if (!stable && !whole) break;
+    if (whole) found.displayed = displayed;
   }
   return found;
 }
@@ -114,13 +117,19 @@ void boundary(StudyResult& study, const Rigs& rigs, std::string& table) {
 }
 
 void rates(StudyResult& study, const StudyRequest& request, int contacts, std::string& table) {
-  for (const double rate_hz : {2000.0, 4000.0}) {
+  for (const double rate_hz : {1000.0, 2000.0, 4000.0}) {
     const Rigs rigs = prepare(request.seed, contacts, rate_hz);
-    const Climb off = climb(rigs, PassivityLaw::kOff, 0), on = climb(rigs, PassivityLaw::kBudgeted, 0);
-    table += row(rate_hz, 0, "off", off) + row(rate_hz, 0, "budgeted", on);
+    const Climb off = climb(rigs, PassivityLaw::kOff, 0), on = climb(rigs, PassivityLaw::kBudgeted, 0, true);
+    if (rate_hz > 1000) table += row(rate_hz, 0, "off", off) + row(rate_hz, 0, "budgeted", on);
     const std::string at = " at " + std::to_string(static_cast<int>(rate_hz / 1000)) + " kHz";
     study.cases.push_back(width("widest without damping, law off" + at, off.widest, std::nullopt, "."));
-    study.cases.push_back(width("widest without damping, default law" + at, on.widest, std::nullopt, "."));
+    study.cases.push_back({"stable on the whole ladder, default law" + at, "%",
+                           100.0 * static_cast<double>(on.stable) / static_cast<double>(on.contacts), std::nullopt,
+                           "reported", true, "Share of all contacts, 20 on each rung from 50 to 5300 N/m."});
+    study.cases.push_back({"displayed on the top rung, default law" + at, "N/m", on.displayed, std::nullopt, "reported", true,
+                           "Rendered force over depth at rest on the wall of 5300 N/m, mean over the contacts."});
+    study.cases.push_back(width("settles within 0.1 s, default law" + at, on.quick, std::nullopt,
+                                "; here: half of them settled within 0.1 s of touch."));
   }
 }
 

@@ -3,8 +3,7 @@
 // tau = share (tau_c tanh(qd / v0) + b qd), share <= 0.7, off inside the dead band and while the passivity budget is in
 // debt: compensating stiction from the sign of a noisy velocity makes a limit cycle. The rates are smoothed first: friction
 // hardly changes with speed, so what lag costs is little, and the knee can lie near rest without noise crossing it. A joint
-// that has turned back is not helped until its smoothed rate has too. In contact the feed-forward fades out: friction is
-// what eats the energy that a sampled contact makes (docs/decisions/0007). Thread: haptic task; no allocation.
+// that has turned back is not helped until its smoothed rate has too. Thread: haptic task; no allocation.
 #pragma once
 
 #include <cmath>
@@ -17,8 +16,7 @@ struct FrictionFeedForward {
   double share = 0.7;             ///< the most that budgets allow
   double knee_rad_s = 0.03;      ///< v0: 4 times the noise of the smoothed rates (`trocar study transparency`)
   double dead_band_rad_s = 0.02;
-  double smoothing_s = 0.02;     ///< time constant of the rates' low-pass,
-  double fade_s = 0.02;          ///< and of the fading in contact
+  double smoothing_s = 0.02;     ///< time constant of the rates' low-pass
   double debt_j = 1e-5;          ///< most that the passivity budget may owe: in free air DAC rounding alone owes up to 1e-6 J
 };
 
@@ -47,19 +45,6 @@ class SmoothedRates {
  private:
   double gain_;
   JointVector rate_ = JointVector::Zero();
-};
-
-/// Share of the feed-forward that contact leaves.
-class FreeAir {
- public:
-  FreeAir(const FrictionFeedForward& p, double period_s)
-      : gain_(p.fade_s > 0 ? 1 - std::exp(-period_s / p.fade_s) : 1) {}
-
-  void reset() { share_ = 1; }
-  double update(bool free) { return share_ += gain_ * ((free ? 1 : 0) - share_); }
-
- private:
-  double gain_, share_ = 1;
 };
 
 }  // namespace trocar

@@ -24,6 +24,7 @@
 // One budget for the arm, one for the pinch. Thread: haptic task; no allocation.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -69,6 +70,7 @@ struct PassivityParameters {
   double delay_s = 1e-3;               ///< Td beyond the hold: one period of the seam
   double viscous_n_s_per_m = 0.3;      ///< b at the tip [assumed, reference 3.4]
   double friction_left = 1;            ///< share of b and fc that compensation leaves to dissipate
+  double finest_hold_s = 1.5e-3;       ///< shortest T/2 + Td that kappa believes in: faster loops see the same coarse counts
   double coulomb_n = 0.06;             ///< fc at the tip [assumed, reference 3.4]
   double effective_mass_kg = 0.127;    ///< at the tip, mid workspace [computed from the device's values]
   double dead_band_m_s = 0.005;        ///< FOAW is zero at rest
@@ -132,7 +134,7 @@ class PassivityController {
   double thesis_force(const ContactWork& work);
   /// The comparison laws of the past do without an observer that they could trust.
   bool guards() const { return p_.law != PassivityLaw::kOff && p_.law != PassivityLaw::kThesis; }
-  double kappa() const { return p_.viscous_n_s_per_m / (p_.period_s / 2 + p_.delay_s); }
+  double kappa() const { return p_.viscous_n_s_per_m / std::max(p_.finest_hold_s, p_.period_s / 2 + p_.delay_s); }
   double affordable(const ContactWork& work, double income_j) const;
   double bounded(const ContactWork& work) const;
   double damping(const ContactWork& work);

@@ -2,6 +2,8 @@
 // not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "haptics/control/gravity.h"
 #include "loop_rig.h"
 
@@ -16,7 +18,7 @@ struct Fed {
 /// Leads the stylus to and fro in the air and counts the ticks whose torque is more than the weight's.
 Fed lead_through_air(double debt_j) {
   HapticLoopConfig config;
-  config.friction = {0.7, 0.06, 0.02, debt_j};
+  config.friction.debt_j = debt_j;
   SimulatedDaqConfig device;
   device.plant = nominal_parameters();
   test::LoopRig rig(device, config);
@@ -43,16 +45,49 @@ Fed lead_through_air(double debt_j) {
 }
 
 TEST(FrictionDebt, ForgivingRoundingKeepsTheFeedForwardOn) {
-  const Fed strict = lead_through_air(0), forgiving = lead_through_air(1e-5);
-  EXPECT_GT(forgiving.share, 0.95);
-  EXPECT_LT(strict.share, 0.5) << "the default switches on and off with the rounding of codes";
-  EXPECT_GT(forgiving.torque, 3e-3);
+  const Fed strict = lead_through_air(0), standard = lead_through_air(FrictionFeedForward{}.debt_j);
+  EXPECT_GT(standard.share, 0.95);
+  EXPECT_LT(strict.share, 0.5) << "the rounding of codes would switch it on and off";
+  EXPECT_GT(standard.torque, 3e-3);
 }
 
-TEST(FrictionDebt, DefaultForgivesNothing) {
-  EXPECT_EQ(FrictionFeedForward{}.debt_j, 0);
-  const HapticLoopConfig config;
-  EXPECT_EQ(config.friction.debt_j, 0) << "recordings were made with it";
+TEST(FrictionDebt, ForgivesLessThanATenthOfAContactsBudget) {
+  EXPECT_GT(FrictionFeedForward{}.debt_j, 0);
+  EXPECT_LE(FrictionFeedForward{}.debt_j, 0.1 * PassivityParameters{}.credit_cap_j);
+}
+
+TEST(SmoothedRates, FollowARateWithinFiveTimeConstantsAndHoldNoiseBack) {
+  const FrictionFeedForward p;
+  SmoothedRates rates(p, 1e-3);
+  JointVector out = JointVector::Zero();
+  for (int k = 0; k < 100; ++k) out = rates.update(JointVector::Constant(0.2));
+  EXPECT_NEAR(out[0], 0.2, 0.002);
+  // One count a window of 16 ms flickers by 0.045 rad/s, up and down: less than the knee is left.
+  double low = 1, high = -1;
+  for (int k = 0; k < 400; ++k) {
+    out = rates.update(JointVector::Constant(0.2 + (k % 2 == 0 ? 0.045 : -0.045)));
+    if (k > 200) low = std::min(low, out[0]), high = std::max(high, out[0]);
+  }
+  EXPECT_LT(high - low, p.knee_rad_s / 3);
+}
+
+TEST(SmoothedRates, NeverHelpAJointThatHasTurnedBack) {
+  SmoothedRates rates({}, 1e-3);
+  for (int k = 0; k < 100; ++k) rates.update(JointVector::Constant(0.5));
+  EXPECT_EQ(rates.update(JointVector::Constant(-0.1)).norm(), 0) << "smoothed still forward, joint already back";
+  JointVector out = JointVector::Zero();
+  for (int k = 0; k < 100; ++k) out = rates.update(JointVector::Constant(-0.1));
+  EXPECT_LT(out[0], -0.05);
+}
+
+TEST(SmoothedRates, KnowTheirPeriodAndForgetOnReset) {
+  SmoothedRates slow({}, 1e-3), fast({}, 0.25e-3);
+  JointVector a = JointVector::Zero(), b = a;
+  for (int k = 0; k < 10; ++k) a = slow.update(JointVector::Ones());
+  for (int k = 0; k < 40; ++k) b = fast.update(JointVector::Ones());
+  EXPECT_NEAR(a[3], b[3], 1e-12) << "10 ms either way";
+  slow.reset();
+  EXPECT_LT(slow.update(JointVector::Ones())[0], 0.06);
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ TEST(MeasuredRows, ATrajectoryOfKnownMotionGivesTheRegressorOfThatMotion) {
   };
   Eigen::VectorXd truth = Eigen::VectorXd::LinSpaced(column_count(base), 0.1, 1);
   truth.tail(3 * kArmJoints) *= 0.01;
-  Trace trace;
+  MotionTrace trace;
   for (int k = 0; k < 3000; ++k) {
     const double t = k * 1e-3;
     const JointVector qd = 0.6 * std::cos(2 * t) * JointVector::Ones(),
