@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <vector>
 
 #include <Eigen/LU>
 
 #include "app/calibration/calibration_file.h"
-#include "app/report/html.h"
 #include "haptics/device/transmission.h"
 #include "haptics/input_error.h"
 
@@ -58,8 +59,10 @@ ChannelVector probe(TorqueRig& rig, const DeviceModel& model, const ChannelVecto
   for (int i = 0; i < kChannels; ++i) {
     const std::string name = std::string("calibrate: ") + calibration_channel(i);
     if (gain[i] == 0) {
-      throw InputError(name + " shows no torque at " + fixed_text(kProbeV.back(), 0) + " V (" +
-                       fixed_text(last[i] * 1e3, 1) + " mN m): amplifier dead or inhibited");
+      std::ostringstream seen;
+      seen << " shows no torque at " << kProbeV.back() << " V (" << std::fixed << std::setprecision(1) << last[i] * 1e3
+           << " mN m): amplifier dead or inhibited";
+      throw InputError(name + seen.str());
     }
     if (gain[i] < 0) throw InputError(name + " turns the wrong way: swap the motor's leads");
   }

@@ -62,7 +62,7 @@ HapticLoopConfig loop_of(const ContactExperiment& experiment, const ContactSetti
   loop.map.X_SI = experiment.X_SI;
   loop.passivity.law = setting.law;
   loop.carry_weight = setting.compensation;
-  if (!setting.compensation) loop.friction.share = 0;
+  loop.friction.share = 0;  // as the thesis had it, with and without: the sensor reads friction as well
   return loop;
 }
 

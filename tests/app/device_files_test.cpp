@@ -172,6 +172,7 @@ std::string short_exercise(const test::TemporaryFolder& folder) {
 }
 
 TEST(RunWithDeviceFiles, IsVerifiedWithoutTheFiles) {
+  const std::string identified = identified_text();  // in this folder's place, which it clears away
   test::TemporaryFolder folder;
   RunOptions run;
   run.exercise = short_exercise(folder);
@@ -182,7 +183,7 @@ TEST(RunWithDeviceFiles, IsVerifiedWithoutTheFiles) {
   run.calibration = folder / "c.json";
   run.device = folder / "found.toml";
   std::ofstream(run.calibration) << calibration_text(1.01, 0.002, simulated_plant_words(9));
-  std::ofstream(run.device) << identified_text();
+  std::ofstream(run.device) << identified;
   std::ostringstream out, err, plain_out;
   run.record = folder / "with.trec";
   run_command(run, out, err);

@@ -70,7 +70,7 @@ TEST(PassivityLaws, IncrementBoundingNeverStoresMoreThanMotionAndFrictionBrought
   const PassivityParameters p = with(PassivityLaw::kIncrement);
   const double b = p.viscous_n_s_per_m, kappa = 2 * b / p.period_s;
   PassivityParameters no_delay = p;
-  no_delay.delay_s = 0;  // kappa = 2 b / T, the case that is proven
+  no_delay.delay_s = no_delay.finest_hold_s = 0;  // kappa = 2 b / T, the case that is proven
   PassivityController increment(no_delay);
   Random random(2);
   double x = 0.001, held = 0;
