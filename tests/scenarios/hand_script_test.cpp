@@ -37,7 +37,8 @@ TEST(HandScripts, AllSevenAndTheLearnerAreShipped) {
 }
 
 TEST(HandScripts, CarryThePublishedParameters) {
-  // speed factor, aim lateral / depth mm, tremor mm, pause s, force bias, CV, bulge (reference: scripted trainees)
+  // speed factor, aim lateral / depth mm, tremor mm, pause s, force bias, CV, bulge (reference: scripted trainees of a
+  // kinematic prototype). Intermediate and novice differ from it: docs/scoring.md says why.
   const auto expect = [](const std::string& name, double k, double lateral, double depth, double tremor, double pause,
                          double bias, double cv, double bulge) {
     const HandSkill skill = skill_of(name);
@@ -53,8 +54,8 @@ TEST(HandScripts, CarryThePublishedParameters) {
     EXPECT_LE(skill.reaction_s, 0.20) << name;
   };
   expect("expert", 1.0, 0.7, 1.2, 0.05, 0.15, 1.0, 0.10, 0.05);
-  expect("intermediate", 1.45, 1.2, 2.2, 0.10, 0.35, 1.1, 0.18, 0.10);
-  expect("novice", 2.1, 2.0, 4.0, 0.20, 0.80, 1.3, 0.30, 0.18);
+  expect("intermediate", 1.5, 1.2, 2.2, 0.10, 0.35, 1.15, 0.20, 0.10);
+  expect("novice", 2.1, 2.0, 4.0, 0.20, 0.80, 1.42, 0.34, 0.18);
   expect("clumsy", 0.95, 3, 6, 0.40, 0.10, 1.9, 0.45, 0.25);
   expect("speed-runner", 0.5, 5, 9, 0.60, 0.02, 3.0, 0.60, 0.30);
   expect("heavy-handed", 1.0, 0.7, 1.2, 0.05, 0.15, 2.6, 0.10, 0.05);
