@@ -36,6 +36,9 @@
 namespace trocar {
 namespace {
 
+const CLI::Validator kNamed([](std::string& file) { return file.empty() ? std::string("is empty: a file is asked for") : std::string(); }, "FILE");
+const CLI::Range kSeed(0.0, 9e18, "SEED");
+
 /// Options of every subcommand, and the one that was chosen.
 struct CommandLine {
   CLI::App app{"Trocar: laparoscopic surgery training simulator round a 6-DOF haptic device"};
@@ -101,10 +104,10 @@ void add_run(CommandLine& c) {
   run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
   run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, distributed, increment, cap, reference, thesis or off")->capture_default_str();
   run->add_flag("--clamp", c.run.clamp, "Weaken contacts stiffer than K_max, what the device can display, to it");
-  run->add_option("--calibration", c.run.calibration, "Amplifier gains and offsets from device calibrate (default: nominal)");
-  run->add_option("--device", c.run.device, "Weights and friction from device identify (default: nominal)");
+  run->add_option("--calibration", c.run.calibration, "Amplifier gains and offsets from device calibrate (default: nominal)")->check(kNamed);
+  run->add_option("--device", c.run.device, "Weights and friction from device identify (default: nominal)")->check(kNamed);
   run->add_option("--inject", c.run.injections, "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, drive-fault, over-temperature, hand-nan, hand-lets-go");
-  run->add_option("--plant", c.run.plant, "Plant file of the simulated device, instead of the seed's");
+  run->add_option("--plant", c.run.plant, "Plant file of the simulated device, instead of the seed's")->check(kNamed);
   run->add_flag("--realtime", c.run.realtime, "Live: threads and the clock instead of lockstep");
   run->add_flag("--json", c.run.json, "Result as JSON on stdout");
 }
@@ -157,8 +160,8 @@ void add_first_contact(CommandLine& c) {
   study->add_option("name", c.study.name, "One of: " + studies)->required();
   study->add_option("--out", c.study.out, "Folder")->required();
   study->add_flag("--quick", c.study.quick, "Fewer trials of the same kind");
-  study->add_option("--plant", c.study.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant");
-  study->add_option("--seed", c.study.seed, "Of everything that is drawn")->capture_default_str();
+  study->add_option("--plant", c.study.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant")->check(kNamed);
+  study->add_option("--seed", c.study.seed, "Of everything that is drawn")->capture_default_str()->check(kSeed);
   study->add_flag("--json", c.study.json, "Summary as JSON");
   c.add(c.app, "version", "Version of the program", [] {
     std::cout << "trocar " TROCAR_VERSION "\n";
@@ -190,11 +193,11 @@ void add_device_bench(CommandLine& c, CLI::App& device) {
   fk->add_flag("--json", c.forward.json, "As JSON");
   CLI::App* calibrate = c.add(device, "calibrate", "Gain and offset of the amplifiers, found on a bench rig",
                               [&c] { return device_calibrate(c.calibrate, std::cout, std::cerr); });
-  calibrate->add_option("--seed", c.calibrate.seed, "Of the simulated device and the rig")->capture_default_str();
+  calibrate->add_option("--seed", c.calibrate.seed, "Of the simulated device and the rig")->capture_default_str()->check(kSeed);
   calibrate->add_option("--gain", c.calibrate.gain, "Of the simulated amplifiers over nominal (the thesis': 5)")->capture_default_str();
   calibrate->add_option("--out", c.calibrate.out, "Calibration as JSON");
   calibrate->add_option("--check", c.calibrate.check, "A calibration file: how well does it render on this device?");
-  calibrate->add_option("--plant", c.calibrate.plant, "Plant file of the device, instead of the seed's");
+  calibrate->add_option("--plant", c.calibrate.plant, "Plant file of the device, instead of the seed's")->check(kNamed);
   calibrate->add_flag("--json", c.calibrate.json, "As JSON");
 }
 
@@ -206,13 +209,13 @@ void add_device_board(CommandLine& c, CLI::App& device) {
                             [&c] { return device_monitor(c.monitor, std::cout, std::cerr); });
   monitor->add_option("--seconds", c.monitor.seconds, "Until it ends by itself")->capture_default_str()->check(CLI::Range(0.1, 86400.0));
   monitor->add_flag("--lockstep", c.monitor.lockstep, "As fast as it goes instead of by the clock");
-  monitor->add_option("--calibration", c.monitor.calibration, "Amplifier gains and offsets from device calibrate");
-  monitor->add_option("--device", c.monitor.device, "Weights and friction from device identify");
+  monitor->add_option("--calibration", c.monitor.calibration, "Amplifier gains and offsets from device calibrate")->check(kNamed);
+  monitor->add_option("--device", c.monitor.device, "Weights and friction from device identify")->check(kNamed);
   monitor->add_flag("--json", c.monitor.json, "A JSON object a line");
-  selftest->add_option("--seed", c.selftest.seed, "Of the simulated device")->capture_default_str();
+  selftest->add_option("--seed", c.selftest.seed, "Of the simulated device")->capture_default_str()->check(kSeed);
   selftest->add_option("--rate", c.selftest.rate_hz, "SYNC rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   selftest->add_option("--inject", c.selftest.injections, "Device fault as in run, repeatable: see a check fail");
-  monitor->add_option("--seed", c.monitor.seed, "Of the simulated device")->capture_default_str();
+  monitor->add_option("--seed", c.monitor.seed, "Of the simulated device")->capture_default_str()->check(kSeed);
   monitor->add_option("--rate", c.monitor.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   monitor->add_option("--inject", c.monitor.injections, "Device fault as in run, repeatable");
 }
@@ -220,9 +223,9 @@ void add_device_board(CommandLine& c, CLI::App& device) {
 void add_device_plant(CommandLine& c, CLI::App& device) {
   CLI::App* plant = c.add(device, "plant", "The simulated device as a plant file, every value with its source; or the check of one",
                           [&c] { return device_plant(c.plant, std::cout, std::cerr); });
-  plant->add_option("--seed", c.plant.seed, "The device that this seed draws (default: the nominal one)");
+  plant->add_option("--seed", c.plant.seed, "The device that this seed draws (default: the nominal one)")->check(kSeed);
   plant->add_flag("--all", c.plant.all, "Draw also what seeds leave nominal");
-  plant->add_option("--plant", c.plant.plant, "Plant file: check it and print it complete");
+  plant->add_option("--plant", c.plant.plant, "Plant file: check it and print it complete")->check(kNamed);
   plant->add_option("--out", c.plant.out, "File instead of standard output");
 }
 
@@ -239,14 +242,14 @@ void add_device(CommandLine& c) {
     command->add_option("--csv", c.table_in, "Input table")->required();
     command->add_option("--out", c.table_out, "Output table")->required();
   }
-  eval->add_option("--device", c.device_file, "Device file with identified weights (default: nominal)");
+  eval->add_option("--device", c.device_file, "Device file with identified weights (default: nominal)")->check(kNamed);
   CLI::App* identify = c.add(*device, "identify", "Weights, inertias and friction of a simulated device from its motion",
                              [&c] { return identify_command(c.identify, std::cout, std::cerr); });
-  identify->add_option("--seed", c.identify.seed, "Of the simulated device, poses and trajectories")->capture_default_str();
+  identify->add_option("--seed", c.identify.seed, "Of the simulated device, poses and trajectories")->capture_default_str()->check(kSeed);
   identify->add_option("--poses", c.identify.poses, "Static poses")->capture_default_str()->check(CLI::Range(6, 1000));
   identify->add_option("--span", c.identify.span, "Share of workspace and amplitude that is used")->capture_default_str()->check(CLI::Range(0.001, 1.0));
   identify->add_option("--payload", c.identify.payload_kg, "Unknown mass on the stylus, kg")->capture_default_str()->check(CLI::Range(0.0, 0.05));
-  identify->add_option("--plant", c.identify.plant, "Plant file of the device, instead of the seed's");
+  identify->add_option("--plant", c.identify.plant, "Plant file of the device, instead of the seed's")->check(kNamed);
   identify->add_flag("--quick", c.identify.quick, "20 poses and one trajectory");
   identify->add_option("--out", c.identify.out, "Device file (TOML) to write");
   identify->add_flag("--json", c.identify.json, "As JSON");
@@ -342,6 +345,13 @@ void add_machine(CommandLine& c) {
   });
 }
 
+/// What was printed has to have arrived: a full disk behind a redirection is no success.
+int printed(int code) {
+  if (std::cout.flush()) return code;
+  std::cerr << "trocar: standard output could not be written\n";
+  return code == 0 ? 3 : code;
+}
+
 int fail(const std::exception& error, int code) {
   std::cerr << "trocar: " << error.what() << '\n';
   return code;
@@ -357,7 +367,7 @@ int run_command_line(int argc, char** argv) {
   }
   try {
     c.app.parse(argc, argv);
-    return c.chosen();
+    return printed(c.chosen());
   } catch (const CLI::RequiredError& error) {
     // CLI11 asks for a subcommand before it looks at the word that is none.
     const auto unknown = c.app.remaining(true);

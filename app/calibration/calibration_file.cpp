@@ -13,6 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr double kLeastGain = 0.004, kLargestGain = 10;  // A/V; nominal 0.431, and a chain may be ten times off
 constexpr double kLargestOffset = 1;  // V: a tenth of the DAC's range is no offset any more
 
 double number_of(const Json& channel, const char* key, const std::string& where) {
@@ -26,7 +27,8 @@ double number_of(const Json& channel, const char* key, const std::string& where)
 
 ChannelCalibration channel_of(const Json& channel, int index, const std::string& where) {
   if (!channel.is_object()) throw InputError(where + ": not an object");
-  const std::string name = channel.value("channel", "");
+  const auto named = channel.find("channel");
+  const std::string name = named != channel.end() && named->is_string() ? named->get<std::string>() : "";
   if (name != calibration_channel(index)) {
     throw InputError(where + ".channel: \"" + name + "\" where \"" + calibration_channel(index) + "\" belongs");
   }
@@ -38,6 +40,9 @@ ChannelCalibration channel_of(const Json& channel, int index, const std::string&
   c.stiction_nm = number_of(channel, "stiction_nm", where);
   c.residual_nm = number_of(channel, "residual_nm", where);
   if (c.amps_per_volt <= 0) throw InputError(where + ".amps_per_volt: must be positive");
+  if (c.amps_per_volt < kLeastGain || c.amps_per_volt > kLargestGain) {
+    throw InputError(where + ".amps_per_volt: no amplifier of this device; 0.004 to 10 A/V");
+  }
   if (std::abs(c.offset_v) >= kLargestOffset) throw InputError(where + ".offset_v: must be under 1 V");
   return c;
 }

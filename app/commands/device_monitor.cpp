@@ -17,6 +17,7 @@
 #include "app/device_files.h"
 #include "app/interrupt.h"
 #include "haptics/haptic_loop.h"
+#include "haptics/input_error.h"
 
 namespace trocar {
 namespace {
@@ -182,6 +183,7 @@ int monitor(const MonitorOptions& options, std::ostream& out, std::ostream& err)
 }
 
 int device_monitor(const MonitorOptions& given, std::ostream& out, std::ostream& err) {
+  if (!std::isfinite(given.seconds)) throw InputError("device monitor: --seconds is a number");
   InterruptWatch interrupt;
   MonitorOptions options = given;
   options.terminal = isatty(STDOUT_FILENO) != 0;

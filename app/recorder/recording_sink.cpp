@@ -14,7 +14,10 @@ FileSink::FileSink(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code error;
   if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), error);
   if (error) fail("its folder cannot be created", error.value());
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  // Created here and nowhere else: two at once with one name may not write into each other. What is no file (a pipe, a
+  // device) has nothing to lose.
+  const bool plain = !std::filesystem::exists(file_, error) || std::filesystem::is_regular_file(file_, error);
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (plain ? O_EXCL : O_TRUNC), 0644);
   if (descriptor_ < 0) fail("the recording cannot be created", errno);
 }
 

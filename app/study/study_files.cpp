@@ -166,7 +166,9 @@ std::string table_markdown(const StudyResult& result) {
 }
 
 void write_study(const StudyResult& result, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw EnvironmentError(folder.string() + ": cannot be made a folder: " + error.message());
   for (const StudyCurves& curves : result.curves) {
     write_file(folder / (curves.file + ".csv"), curves_csv(curves));
     write_file(folder / (curves.file + ".svg"), curves_svg(curves));

@@ -89,6 +89,9 @@ TEST_F(CalibrationFile, RefusesChannelsAndNumbersThatCannotBe) {
                  "channels[0].amps_per_volt: not a finite");
   expect_refusal([](Json& j) { j["channels"][6]["amps_per_volt"] = 0; }, "channels[6].amps_per_volt: must be positive");
   expect_refusal([](Json& j) { j["channels"][6]["amps_per_volt"] = -0.4; }, "must be positive");
+  expect_refusal([](Json& j) { j["channels"][6]["amps_per_volt"] = 431; }, "channels[6].amps_per_volt: no amplifier of this device");
+  expect_refusal([](Json& j) { j["channels"][6]["amps_per_volt"] = 1e-300; }, "no amplifier of this device");
+  expect_refusal([](Json& j) { j["channels"][2]["channel"] = 3; }, "channels[2].channel");
   expect_refusal([](Json& j) { j["channels"][3]["offset_v"] = 1.5; }, "channels[3].offset_v: must be under 1 V");
 }
 

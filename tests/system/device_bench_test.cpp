@@ -33,6 +33,16 @@ TEST_F(DeviceBench, CalibrationWritesAFileAndNamesBadInput) {
   expect_refusal({"device", "calibrate", "--out", "no/such/folder.json"}, 3, "cannot be written");
 }
 
+TEST_F(DeviceBench, SeedsBelowNothingEmptyNamesAndTimesThatAreNoneAreRefused) {
+  expect_refusal({"device", "selftest", "--seed", "-1"}, 2, "--seed");
+  expect_refusal({"device", "plant", "--seed", "99999999999999999999"}, 2, "--seed");
+  expect_refusal({"device", "plant", "--plant", ""}, 2, "a file is asked for");
+  expect_refusal({"device", "monitor", "--device", ""}, 2, "a file is asked for");
+  expect_refusal({"device", "monitor", "--lockstep", "--seconds", "nan"}, 2, "--seconds");
+  std::ofstream(folder_ / "taken") << "a file";
+  expect_refusal({"study", "motor", "--quick", "--out", (folder_ / "taken").string()}, 3, "cannot be made a folder");
+}
+
 TEST_F(DeviceBench, StudiesInTheirQuickFormWriteTheSameBytesTwice) {
   for (const char* name : {"kinematics", "motor", "workspace"}) {
     const Json json = json_of({"study", name, "--quick", "--out", "a", "--json"}, 0);
