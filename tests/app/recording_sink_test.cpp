@@ -7,7 +7,7 @@
 
 #include "app/recorder/recording_sink.h"
 #include "haptics/input_error.h"
-#include "support/temporary_folder.h"
+#include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar {
 namespace {
