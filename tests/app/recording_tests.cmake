@@ -1,6 +1,6 @@
 # Recording: codec, container, crash behaviour; and its benchmark.
 trocar_test(test_recording
-  SOURCES recording_codec_test.cpp recording_container_test.cpp recording_damage_test.cpp recording_disk_test.cpp recording_schedule_test.cpp recording_stiffness_test.cpp
+  SOURCES recording_codec_test.cpp recording_container_test.cpp recording_damage_test.cpp recording_disk_test.cpp recording_schedule_test.cpp recording_sink_test.cpp recording_stiffness_test.cpp
           recording_samples.cpp
   LINK trocar_recorder trocar_digest)
 
