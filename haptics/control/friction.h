@@ -14,7 +14,7 @@ namespace trocar {
 
 struct FrictionFeedForward {
   double share = 0.7;             ///< the most that budgets allow
-  double knee_rad_s = 0.03;      ///< v0: 4 times the noise of the smoothed rates (`trocar study transparency`)
+  double knee_rad_s = 0.03;      ///< v0: 3 times the noise of the smoothed rates (`trocar study transparency`)
   double dead_band_rad_s = 0.02;
   double smoothing_s = 0.02;     ///< time constant of the rates' low-pass
   double debt_j = 1e-5;          ///< most that the passivity budget may owe: in free air DAC rounding alone owes up to 1e-6 J
