@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "haptics/input_error.h"
+#include "tissue/imaging/axis_order.h"
 #include "tissue/imaging/itk_volume.h"
 #include "tissue/imaging/nifti_header.h"
 
@@ -12,38 +13,6 @@ namespace trocar {
 namespace {
 
 constexpr double kWholeNumberTolerance = 1e-3;  // resampled maps stored as float carry rounding noise
-
-/// Which stored axis runs along each RAS axis, and whether it must be flipped.
-struct AxisOrder {
-  std::array<int, 3> stored{};
-  std::array<bool, 3> flipped{};
-};
-
-AxisOrder ras_order(const Eigen::Matrix3d& linear) {
-  const Eigen::Matrix3d axes = linear.colwise().normalized();
-  AxisOrder order;
-  std::array<int, 3> best{0, 1, 2}, trial{0, 1, 2};
-  double best_score = -1;
-  do {
-    double score = 0;
-    for (int world = 0; world < 3; ++world) score += std::abs(axes(world, trial[static_cast<std::size_t>(world)]));
-    if (score > best_score + 1e-9) best_score = score, best = trial;
-  } while (std::next_permutation(trial.begin(), trial.end()));
-  order.stored = best;
-  for (std::size_t world = 0; world < 3; ++world) order.flipped[world] = axes(static_cast<int>(world), best[world]) < 0;
-  return order;
-}
-
-Eigen::Affine3d reordered_frame(const LabelVolume& volume, const AxisOrder& order) {
-  Eigen::Affine3d frame = volume.index_to_ras_mm;
-  for (std::size_t world = 0; world < 3; ++world) {
-    const Eigen::Vector3d step = volume.index_to_ras_mm.linear().col(order.stored[world]);
-    const int last = volume.size[static_cast<std::size_t>(order.stored[world])] - 1;
-    frame.linear().col(static_cast<int>(world)) = order.flipped[world] ? Eigen::Vector3d(-step) : step;
-    if (order.flipped[world]) frame.translation() += step * last;
-  }
-  return frame;
-}
 
 std::uint16_t whole_label(double value, std::size_t voxel, const std::string& file) {
   const double rounded = std::round(value);
@@ -72,20 +41,10 @@ std::map<int, std::size_t> LabelVolume::label_counts() const {
 LabelVolume in_ras_order(LabelVolume volume) {
   const AxisOrder order = ras_order(volume.index_to_ras_mm.linear());
   LabelVolume result;
-  result.notes = volume.notes;
-  for (std::size_t world = 0; world < 3; ++world)
-    result.size[world] = volume.size[static_cast<std::size_t>(order.stored[world])];
-  result.index_to_ras_mm = reordered_frame(volume, order);
-  result.labels.reserve(volume.labels.size());
-  std::array<int, 3> index{}, stored{};
-  for (index[2] = 0; index[2] < result.size[2]; ++index[2])
-    for (index[1] = 0; index[1] < result.size[1]; ++index[1])
-      for (index[0] = 0; index[0] < result.size[0]; ++index[0]) {
-        for (std::size_t world = 0; world < 3; ++world)
-          stored[static_cast<std::size_t>(order.stored[world])] =
-              order.flipped[world] ? result.size[world] - 1 - index[world] : index[world];
-        result.labels.push_back(volume.labels[volume.offset(stored[0], stored[1], stored[2])]);
-      }
+  result.size = reordered_size(volume.size, order);
+  result.index_to_ras_mm = reordered_frame(volume.index_to_ras_mm, volume.size, order);
+  result.labels = reordered(volume.labels, volume.size, order);
+  result.notes = std::move(volume.notes);
   return result;
 }
 
