@@ -1,6 +1,7 @@
 #include "tissue/organ.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "haptics/digest/digest.h"
@@ -8,6 +9,7 @@
 #include "tissue/mesh/organ_manifest.h"
 #include "tissue/mesh/ply_file.h"
 #include "tissue/mesh/topology.h"
+#include "tissue/organ_set.h"
 
 namespace trocar {
 namespace {
@@ -28,10 +30,27 @@ TriangleSurface load_surface(const OrganManifest& manifest, const std::filesyste
   return surface;
 }
 
+/// "a.scene.toml#liver" -> the file and the organ; a file that has such a name as a whole is that file.
+std::pair<std::string, std::string> split_subject(const std::string& given) {
+  const std::size_t mark = given.rfind('#');
+  if (mark == std::string::npos || std::filesystem::is_regular_file(given)) return {given, ""};
+  return {given.substr(0, mark), given.substr(mark + 1)};
+}
+
+/// "phantom-liver" of a file that ships, "" of any other file.
+std::string shipped_name(const std::string& file) {
+  for (const std::string_view suffix : {kOrganSuffix, kOrganSetSuffix})
+    if (file.ends_with(suffix)) return file.substr(0, file.size() - suffix.size());
+  return "";
+}
+
 }  // namespace
 
-Organ load_organ(const std::filesystem::path& manifest) {
-  const OrganManifest read = parse_manifest(read_bytes(manifest), manifest.string());
+Organ load_organ(const std::filesystem::path& given) {
+  const auto [manifest, subject] = split_subject(given.string());
+  if (manifest.ends_with(kOrganSetSuffix)) return load_organ_set(manifest, subject);
+  if (!subject.empty()) throw InputError(given.string() + ": only a scene has a subject to choose");
+  const OrganManifest read = parse_manifest(read_bytes(manifest), manifest);
   Organ organ;
   organ.name = read.name;
   organ.material = read.material;
@@ -44,27 +63,29 @@ Organ load_organ(const std::filesystem::path& manifest) {
   organ.licence = read.licence;
   organ.credit = read.credit;
   organ.sha256 = read.surface_sha256;
-  organ.manifest = manifest;
+  organ.manifest = given;
   return organ;
 }
 
 std::filesystem::path find_organ(const std::string& name_or_path, const std::filesystem::path& assets) {
-  if (std::filesystem::is_regular_file(name_or_path)) return name_or_path;
+  const auto [name, subject] = split_subject(name_or_path);
+  if (std::filesystem::is_regular_file(name)) return name_or_path;
   const std::filesystem::path folder = assets / "organs";
-  std::filesystem::path shipped = folder / (name_or_path + std::string(kOrganSuffix));
-  if (std::filesystem::path(name_or_path).filename() == name_or_path && std::filesystem::is_regular_file(shipped))
-    return shipped;
+  for (const std::string_view suffix : {kOrganSuffix, kOrganSetSuffix}) {
+    const std::filesystem::path shipped = folder / (name + std::string(suffix));
+    if (std::filesystem::path(name).filename() == name && std::filesystem::is_regular_file(shipped))
+      return shipped.string() + (subject.empty() ? "" : "#" + subject);
+  }
   std::vector<std::string> names;
   std::error_code missing;
   for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {
-    const std::string file = entry.path().filename().string();
-    if (file.ends_with(kOrganSuffix)) names.push_back(file.substr(0, file.size() - kOrganSuffix.size()));
+    const std::string shipped = shipped_name(entry.path().filename().string());
+    if (!shipped.empty()) names.push_back(shipped);
   }
   std::sort(names.begin(), names.end());
   std::string known;
-  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-  throw InputError(name_or_path + ": neither a file nor an organ that ships (" + (known.empty() ? "none" : known) +
-                   ")");
+  for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
+  throw InputError(name_or_path + ": neither a file nor an organ that ships (" + (known.empty() ? "none" : known) + ")");
 }
 
 }  // namespace trocar

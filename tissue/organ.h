@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tissue/mesh/triangle_surface.h"
 
@@ -23,13 +24,15 @@ struct Organ {
   std::string credit;          ///< one line to show with the organ
   std::string sha256;          ///< of the surface file's bytes: identifies the organ in records
   std::filesystem::path manifest;
+  std::vector<Organ> neighbours;  ///< the other organs of its scene, in the same frame; without neighbours of their own
 };
 
-/// Reads NAME.organ.toml and the surface it names.
+/// Reads NAME.organ.toml and the surface it names; or NAME.scene.toml, whose subject it is (NAME.scene.toml#spleen: another one).
 /// @throws InputError naming file and place: missing file, unknown key, wrong hash, surface open or empty.
 Organ load_organ(const std::filesystem::path& manifest);
 
-/// The manifest meant by a user: a path to one, or the name of an organ that ships ("phantom-liver").
+/// The manifest meant by a user: a path to one, or the name of an organ or a scene that ships ("phantom-liver"). "#ORGAN" behind a
+/// scene chooses its subject.
 /// @param assets root of the shipped assets; organs lie in its folder `organs`
 /// @throws InputError listing the names that there are
 std::filesystem::path find_organ(const std::string& name_or_path, const std::filesystem::path& assets);

@@ -1,0 +1,69 @@
+#include "app/progress_display.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace trocar {
+namespace {
+
+constexpr int kBarWidth = 24;
+constexpr auto kRedraw = std::chrono::milliseconds(100);
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay(std::ostream& err, bool terminal) : err_(err), terminal_(terminal) {}
+
+ProgressDisplay::~ProgressDisplay() { clear(); }
+
+void ProgressDisplay::show(std::string_view stage, double share) {
+  if (watch_.seen()) throw Interrupted();
+  const bool fresh = stage != stage_;
+  if (fresh) {
+    stage_ = stage;
+    quarter_ = -1;
+  }
+  if (!terminal_) return line(share);
+  const auto now = std::chrono::steady_clock::now();
+  if (!fresh && now - last_ < kRedraw) return;
+  last_ = now;
+  draw(share);
+}
+
+void ProgressDisplay::line(double share) {
+  const int quarter = share < 0 ? 0 : static_cast<int>(std::floor(std::clamp(share, 0.0, 1.0) * 4));
+  if (quarter <= quarter_) return;
+  if (quarter_ < 0)
+    err_ << stage_ << '\n';
+  else
+    err_ << stage_ << ": " << 25 * quarter << " %\n";
+  quarter_ = quarter;
+  err_.flush();
+}
+
+void ProgressDisplay::draw(double share) {
+  std::string text = stage_;
+  if (share >= 0) {
+    const int filled = static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * kBarWidth));
+    text = "[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), ' ') +
+           "] " + stage_;
+  }
+  const std::size_t wiped = std::max(drawn_, text.size());
+  err_ << '\r' << text << std::string(wiped - text.size(), ' ') << std::flush;
+  drawn_ = text.size();
+}
+
+void ProgressDisplay::clear() {
+  if (drawn_ > 0) err_ << '\r' << std::string(drawn_, ' ') << '\r' << std::flush;
+  drawn_ = 0;
+}
+
+Progress ProgressDisplay::function() {
+  return [this](std::string_view stage, double share) { show(stage, share); };
+}
+
+bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+}  // namespace trocar

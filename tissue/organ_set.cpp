@@ -1,0 +1,160 @@
+#include "tissue/organ_set.h"
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include "haptics/digest/digest.h"
+#include "haptics/input_error.h"
+#include "tissue/mesh/ply_file.h"
+#include "tissue/mesh/staged_file.h"
+#include "tissue/mesh/toml_table.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kM2PerCm2 = 1e-4;
+
+bool plain_name(const std::string& file) { return !file.empty() && std::filesystem::path(file).filename() == file; }
+
+/// Distinct texts of the organs, the subject's first.
+std::string joined(const std::vector<std::string>& texts) {
+  std::vector<std::string> distinct;
+  for (const std::string& text : texts)
+    if (!text.empty() && std::find(distinct.begin(), distinct.end(), text) == distinct.end()) distinct.push_back(text);
+  std::string all;
+  for (const std::string& text : distinct) all += (all.empty() ? "" : "; ") + text;
+  return all;
+}
+
+std::vector<Organ> load_members(const OrganSet& set, const std::filesystem::path& path) {
+  std::vector<Organ> organs;
+  std::set<std::string> names;
+  for (std::size_t n = 0; n < set.files.size(); ++n) {
+    const std::filesystem::path member = path.parent_path() / set.files[n];
+    if (digest::of_bytes(read_bytes(member)) != set.sha256[n])
+      throw InputError(member.string() + ": its sha256 is not the one in " + path.string() + ": the file was changed");
+    organs.push_back(load_organ(member));
+    if (!names.insert(organs.back().name).second)
+      throw InputError(path.string() + ": two organs are named \"" + organs.back().name + "\"");
+  }
+  return organs;
+}
+
+std::string listed(const std::vector<Organ>& organs) {
+  std::string names;
+  for (const Organ& organ : organs) names += (names.empty() ? "" : ", ") + organ.name;
+  return names;
+}
+
+/// Credits, licences and flags of the whole scene, shown wherever it is shown.
+void speak_for_all(Organ& subject) {
+  std::vector<std::string> credits{subject.credit}, licences{subject.licence};
+  for (const Organ& organ : subject.neighbours) {
+    credits.push_back(organ.credit);
+    licences.push_back(organ.licence);
+    subject.synthetic = subject.synthetic || organ.synthetic;
+    subject.cut_at_border = subject.cut_at_border || organ.cut_at_border;
+  }
+  subject.credit = joined(credits);
+  subject.licence = joined(licences);
+}
+
+}  // namespace
+
+std::string organ_set_text(const OrganSet& set) {
+  TomlWriter out;
+  out.add("format", kOrganSetFormat);
+  out.add("name", set.name);
+  out.add("frame", "RAS");
+  out.add("unit", "m");
+  out.add("subject", set.subject);
+  out.add("files", set.more_files);
+  for (std::size_t n = 0; n < set.files.size(); ++n) {
+    out.array_table("organ");
+    out.add("file", set.files[n]);
+    out.add("sha256", set.sha256[n]);
+  }
+  for (const OrganContact& contact : set.contacts) {
+    out.array_table("contact");
+    out.add("a", contact.a);
+    out.add("b", contact.b);
+    out.add("area_cm2", contact.area_m2 / kM2PerCm2, 3);
+    out.add("shared", contact.shared);
+  }
+  return std::move(out).text();
+}
+
+OrganSet parse_organ_set(const std::string& text, const std::string& file) {
+  TomlTable table = TomlTable::parse(text, file);
+  if (table.integer("format") != kOrganSetFormat) table.refuse("format", "format must be 1");
+  table.expect("frame", "RAS");
+  table.expect("unit", "m");
+  OrganSet set;
+  set.name = table.text("name");
+  set.subject = table.text("subject");
+  set.more_files = table.texts("files");
+  for (TomlTable& organ : table.tables("organ")) {
+    set.files.push_back(organ.text("file"));
+    set.sha256.push_back(organ.text("sha256"));
+    if (!plain_name(set.files.back())) organ.refuse("file", "file must be the name of a file beside the scene");
+    organ.finish();
+  }
+  if (set.files.empty()) table.refuse("organ", "a scene holds at least one organ");
+  if (table.has("contact"))
+    for (TomlTable& contact : table.tables("contact")) {
+      set.contacts.push_back({contact.text("a"), contact.text("b"), contact.number("area_cm2") * kM2PerCm2, contact.boolean("shared")});
+      contact.finish();
+    }
+  table.finish();
+  return set;
+}
+
+Organ load_organ_set(const std::filesystem::path& path, const std::string& subject) {
+  const std::string bytes = read_bytes(path);
+  const OrganSet set = parse_organ_set(bytes, path.string());
+  std::vector<Organ> organs = load_members(set, path);
+  const std::string wanted = subject.empty() ? set.subject : subject;
+  const auto found = std::find_if(organs.begin(), organs.end(), [&](const Organ& organ) { return organ.name == wanted; });
+  if (found == organs.end())
+    throw InputError(path.string() + ": no organ \"" + wanted + "\" to be the subject; there are " + listed(organs));
+  Organ result = std::move(*found);
+  organs.erase(found);
+  result.neighbours = std::move(organs);
+  result.sha256 = digest::of_bytes(result.sha256 + digest::of_bytes(bytes));
+  result.manifest = path;
+  speak_for_all(result);
+  return result;
+}
+
+std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members,
+                                      const std::vector<SceneFile>& more) {
+  std::vector<std::unique_ptr<StagedFile>> staged;
+  const auto stage = [&](const std::filesystem::path& path, const std::string& bytes) {
+    staged.push_back(std::make_unique<StagedFile>(path, bytes));
+  };
+  set.files.clear();
+  set.sha256.clear();
+  for (CompiledMember& member : members) {
+    const std::string name = stem.string() + "-" + member.manifest.name;
+    const std::string surface = ply_bytes(member.surface);
+    member.manifest.surface = std::filesystem::path(name).filename().string() + ".ply";
+    member.manifest.surface_sha256 = digest::of_bytes(surface);
+    const std::string text = manifest_text(member.manifest);
+    stage(name + ".ply", surface);
+    stage(name + std::string(kOrganSuffix), text);
+    set.files.push_back(std::filesystem::path(name).filename().string() + std::string(kOrganSuffix));
+    set.sha256.push_back(digest::of_bytes(text));
+  }
+  set.more_files.clear();
+  for (const SceneFile& file : more) {
+    stage(stem.parent_path() / file.name, file.bytes);
+    set.more_files.push_back(file.name);
+  }
+  std::filesystem::path path = stem.string() + std::string(kOrganSetSuffix);
+  stage(path, organ_set_text(set));
+  for (const auto& file : staged) file->commit();
+  return path;
+}
+
+}  // namespace trocar

@@ -1,0 +1,66 @@
+// Several organs of one image in one frame: a TOML file NAME.scene.toml that names the organ files beside it.
+//
+// One organ is the subject, on which an exercise is done; the others lie round it where the image had them, are seen and touched.
+// Frame RAS, metres. Thread: any, not the tick.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tissue/mesh/organ_manifest.h"
+#include "tissue/organ.h"
+
+namespace trocar {
+
+/// Two organs that lie against each other.
+struct OrganContact {
+  std::string a, b;     ///< names; a before b in the file's order
+  double area_m2 = 0;   ///< of the common face
+  bool shared = false;  ///< the common face is made of the same triangles in both
+  bool operator==(const OrganContact&) const = default;
+};
+
+struct OrganSet {
+  std::string name;
+  std::string subject;                ///< name of one of the organs
+  std::vector<std::string> files;     ///< manifests beside the scene file
+  std::vector<std::string> sha256;    ///< of the manifests' bytes, in their order
+  std::vector<OrganContact> contacts;
+  std::vector<std::string> more_files;  ///< others that belong to it, "abdomen.vessels.toml"
+};
+
+inline constexpr int kOrganSetFormat = 1;
+inline constexpr std::string_view kOrganSetSuffix = ".scene.toml";
+
+std::string organ_set_text(const OrganSet& set);
+
+/// @param file name for messages. @throws InputError with line and column
+OrganSet parse_organ_set(const std::string& text, const std::string& file);
+
+/// The subject as an organ, with the others as its neighbours; credits and licences of all joined, sha256 that of the scene file.
+/// @param subject another subject than the file's; "" for that
+/// @throws InputError naming file and place: a member missing, changed or damaged, an unknown subject, two organs of one name
+Organ load_organ_set(const std::filesystem::path& path, const std::string& subject = "");
+
+/// One organ to be written.
+struct CompiledMember {
+  OrganManifest manifest;
+  TriangleSurface surface;
+};
+
+/// A further file of the scene: name without folder, and bytes.
+struct SceneFile {
+  std::string name, bytes;
+};
+
+/// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing: everything is
+/// staged beside its place and then renamed, the scene file last.
+/// @param members manifests; their surface names and hashes are filled in
+/// @return path of the scene file
+/// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
+std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members,
+                                      const std::vector<SceneFile>& more);
+
+}  // namespace trocar
