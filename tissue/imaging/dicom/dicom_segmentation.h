@@ -1,0 +1,22 @@
+// DICOM Segmentation objects (SEG) as label maps.
+//
+// Source: DICOM PS3.3 A.51 and C.8.20; decoded by dcmseg in a child process. Every segment is one Segment; segments that share a
+// voxel lie in different layers. A fractional segmentation counts from one half of its maximum on (a note says so). Frame RAS, mm.
+// Thread: as dicom_reader.h.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "tissue/imaging/label_map.h"
+#include "tissue/progress.h"
+
+namespace trocar {
+
+/// @param input a SEG file; or a folder, zip or DICOMDIR that holds one
+/// @param series number as list_dicom gives it, where the input holds several segmentations
+/// @throws InputError naming the file and what is wrong
+LabelMap read_dicom_segmentation(const std::filesystem::path& input, const Progress& progress = {},
+                                 std::optional<int> series = {});
+
+}  // namespace trocar

@@ -1,0 +1,24 @@
+// DICOM structure sets (RTSTRUCT): contours drawn in planes, filled on a grid of voxels.
+//
+// Source: DICOM PS3.3 C.8.8.5 and C.8.8.6; decoded by dcmrt in a child process. A voxel belongs to a structure when its centre lies
+// inside by the even-odd rule over all contours of the plane: holes by a second contour and by a keyhole both come out. Frame RAS,
+// mm. Thread: as dicom_reader.h.
+#pragma once
+
+#include <filesystem>
+
+#include "tissue/imaging/image_volume.h"
+#include "tissue/imaging/label_map.h"
+#include "tissue/progress.h"
+
+namespace trocar {
+
+/// Filled on the grid of the image that was drawn on. Contours must lie in slices of that grid, or evenly between them.
+/// @throws InputError naming the file, the structure by its number and name, and what is wrong
+LabelMap read_rtstruct(const std::filesystem::path& path, const ImageVolume& grid, const Progress& progress = {});
+
+/// Filled on a grid of its own: slices where the contours lie, square voxels in them (a note gives their size).
+/// @throws InputError as above; also when the planes of the contours are not evenly spaced or not parallel
+LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progress = {});
+
+}  // namespace trocar
