@@ -119,7 +119,8 @@ void count_kept(LabelMask& mask, const LabelVolume& volume) {
 
 }  // namespace
 
-LabelMask cut_out_label(const LabelVolume& volume, int label, int margin) {
+LabelMask cut_out_label(const LabelVolume& volume, int label, int margin, const PartsRule& rule) {
+  static_cast<void>(rule);
   const Box box = bounding_box(volume, label);
   if (box.high[0] < 0) throw InputError("label " + std::to_string(label) + " marks no voxel");
   LabelMask mask = copy_box(volume, label, box, margin);

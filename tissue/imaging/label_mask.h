@@ -12,6 +12,13 @@
 
 namespace trocar {
 
+/// Which face-connected parts of a label are kept. Every other part is lost, and reported.
+struct PartsRule {
+  bool only_largest = false;   ///< nothing but the largest part; then the rest of the rule is not used
+  double least_share = 0.05;   ///< parts of at least this share of the label's voxels are kept
+  int bridge_voxels = 2;       ///< parts no more voxels apart (0: touching by edge or corner) are joined by a voxel path
+};
+
 struct LabelMask {
   std::array<int, 3> size{};            ///< of the box cut out, margin included
   std::array<int, 3> first{};           ///< index in the label map of the box's voxel (0, 0, 0); may be negative
@@ -19,6 +26,8 @@ struct LabelMask {
   std::size_t label_voxels = 0;         ///< voxels that carry the label
   std::vector<std::size_t> lost_parts;  ///< voxels of each smaller part, largest first
   std::vector<std::size_t> cavities;    ///< voxels of each cavity that was filled, largest first
+  std::size_t bridge_voxels = 0;        ///< voxels added to join parts
+  std::size_t parts = 1;                ///< pieces that stay apart in the mask
   std::size_t kept_voxels = 0;          ///< voxels inside the mask
   std::size_t border_voxels = 0;        ///< kept voxels in the outermost slices of the label map
 
@@ -31,6 +40,6 @@ struct LabelMask {
 
 /// @param margin empty voxels round the organ's bounding box, >= 1
 /// @throws InputError when no voxel carries the label, or fewer than 8 hang together
-LabelMask cut_out_label(const LabelVolume& volume, int label, int margin);
+LabelMask cut_out_label(const LabelVolume& volume, int label, int margin, const PartsRule& rule = {.only_largest = true});
 
 }  // namespace trocar

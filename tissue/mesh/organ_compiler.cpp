@@ -117,6 +117,7 @@ CompiledOrgan measured(Remeshed&& mesh, MeshFacts facts, double kept_m3, const T
   facts.volume_error_pct = (facts.volume_ml / facts.label_volume_ml.value_or(facts.kept_volume_ml) - 1) * 100;
   facts.distance = distance_from_to(mesh.surface, reference);
   facts.distance_back = distance_from_to(reference, mesh.surface);
+  facts.quality = mesh_quality(mesh.surface);
   return {std::move(mesh.surface), std::move(facts)};
 }
 

@@ -6,14 +6,18 @@
 // Thread: any, not the tick.
 #pragma once
 
+#include "tissue/imaging/label_mask.h"
 #include "tissue/imaging/label_volume.h"
 #include "tissue/mesh/mesh_facts.h"
 #include "tissue/mesh/triangle_surface.h"
+#include "tissue/progress.h"
 
 namespace trocar {
 
 struct CompileOptions {
   int triangles = 6000;  ///< wanted number, met within a few per cent; 200..200000
+  PartsRule parts = {};   ///< which parts of the label become the organ
+  Progress progress = {};
 };
 
 struct CompiledOrgan {

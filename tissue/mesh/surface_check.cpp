@@ -120,9 +120,11 @@ SurfaceDistance distance_from_to(const TriangleSurface& from, const TriangleSurf
   double below = 0;
   for (const Sample& sample : samples) {
     result.mean_m += sample.distance_m * sample.area_m2 / area;
+    result.rms_m += sample.distance_m * sample.distance_m * sample.area_m2 / area;
     if (below < 0.99 * area) result.p99_m = sample.distance_m;
     below += sample.area_m2;
   }
+  result.rms_m = std::sqrt(result.rms_m);
   result.max_m = samples.empty() ? 0 : samples.back().distance_m;
   return result;
 }

@@ -20,6 +20,7 @@ struct SurfaceDistance {
   double mean_m = 0;
   double p99_m = 0;
   double max_m = 0;
+  double rms_m = 0;
 };
 
 /// Sampled on every triangle of `from` (centroid; edge midpoints too when the surface is coarse), exact at each sample.
