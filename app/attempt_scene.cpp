@@ -216,6 +216,7 @@ SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const Tri
     out.organ = organ_T;
     out.material = view.scene.organ.material;
     out.targets = marks(view.director);
+    for (const NeighbourOrgan& organ : view.scene.neighbours.organs) out.neighbours.push_back({organ.surface_T, organ.material});
   }
   if (has_pens(view.scene)) add_pens(view, out.objects);
   auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);

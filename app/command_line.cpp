@@ -20,18 +20,14 @@
 #include "app/commands/device_plant.h"
 #include "app/commands/doctor_command.h"
 #include "app/commands/identify_command.h"
-#include "app/commands/organ_import.h"
-#include "app/commands/organ_info.h"
-#include "app/commands/organ_phantom.h"
-#include "app/commands/organ_render.h"
 #include "app/commands/recording_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/study_command.h"
 #include "app/commands/sweep_command.h"
 #include "app/commands/trainee_command.h"
+#include "app/organ_command_line.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
-#include "tissue/organ.h"
 
 namespace trocar {
 namespace {
@@ -60,11 +56,7 @@ struct CommandLine {
   SelfTestOptions selftest;
   MonitorOptions monitor;
   PlantOptionsGiven plant;
-  OrganImportOptions import;
-  OrganInfoOptions info;
-  OrganRenderOptions render;
-  OrganPhantomOptions phantom;
-  std::string organ;
+  std::shared_ptr<OrganCommandLine> organs;
   TraineeOptions trainee;
   CohortOptions cohort;
   DbOptions db;
@@ -255,47 +247,8 @@ void add_device(CommandLine& c) {
   identify->add_flag("--json", c.identify.json, "As JSON");
 }
 
-void add_organ_import(CommandLine& c, CLI::App& organ) {
-  CLI::App* import = c.add(organ, "import", "An organ from a label map (NIfTI) or a surface (PLY)",
-                           [&c] { return organ_import(c.import, std::cout, std::cerr); });
-  import->add_option("input", c.import.input, "Label map .nii or .nii.gz, volume with --labels, or .ply")->required();
-  import->add_option("--labels", c.import.labels, "Label map of the volume");
-  import->add_option("--label", c.import.label, "Label number or name");
-  import->add_option("--triangles", c.import.triangles, "Triangles aimed at")->capture_default_str();
-  import->add_option("--unit", c.import.unit, "Length unit of a surface: mm, cm or m");
-  import->add_option("-o,--output", c.import.output, "NAME of the organ files")->required();
-  import->add_option("--name", c.import.name, "Name of the organ");
-  import->add_option("--material", c.import.material, "Material name");
-  import->add_option("--modality", c.import.modality, "CT or MR");
-  import->add_option("--licence", c.import.licence, "Licence of the source")->capture_default_str();
-  import->add_option("--credit", c.import.credit, "One line to show with the organ");
-  import->add_flag("--json", c.import.json, "Report as JSON");
-}
-
 void add_organ(CommandLine& c) {
-  CLI::App* organ = c.group("organ", "Organs from images and surfaces");
-  add_organ_import(c, *organ);
-  const auto manifest = [&c] { return find_organ(c.organ, find_assets().assets); };
-  CLI::App* info = c.add(*organ, "info", "What an organ is and how good its surface", [&c, manifest] {
-    c.info.manifest = manifest();
-    return organ_info(c.info, std::cout, std::cerr);
-  });
-  info->add_flag("--json", c.info.json, "As JSON");
-  CLI::App* render = c.add(*organ, "render", "A picture of an organ", [&c, manifest] {
-    c.render.manifest = manifest();
-    return organ_render(c.render, find_assets().assets, std::cout, std::cerr);
-  });
-  render->add_option("-o,--output", c.render.output, "PNG file")->required();
-  render->add_option("--width", c.render.width, "px")->capture_default_str();
-  render->add_option("--height", c.render.height, "px")->capture_default_str();
-  for (CLI::App* command : {info, render}) {
-    command->add_option("organ", c.organ, "NAME.organ.toml or a shipped organ")->required();
-  }
-  CLI::App* phantom = c.add(*organ, "phantom", "The synthetic abdominal CT phantom and its organs",
-                            [&c] { return organ_phantom(c.phantom, std::cout, std::cerr); });
-  phantom->add_option("--out", c.phantom.out, "Folder")->required();
-  phantom->add_option("--seed", c.phantom.seed, "Seed of the noise")->capture_default_str();
-  phantom->add_flag("--json", c.phantom.json, "Report as JSON");
+  c.organs = add_organ_commands(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
 
 void add_trainees(CommandLine& c) {

@@ -18,6 +18,10 @@
 #include "tissue/collision/patch_extraction.h"
 
 namespace trocar {
+const TriangleSurface& felt_surface(const Scene& scene) {
+  return scene.neighbours.felt_T.triangles.empty() ? scene.organ_T : scene.neighbours.felt_T;
+}
+
 namespace {
 
 constexpr int kFormat = 1;
@@ -64,7 +68,7 @@ namespace {
 /// 0.1 m/s makes of the 15 ms between the state that a patch is cut for and the last tick that feels it.
 void require_reach(const Scene& scene) {
   constexpr double kMargin = 3e-3 + 0.1 * 0.015;
-  PatchExtraction extraction(scene.organ_T);
+  PatchExtraction extraction(felt_surface(scene));
   const auto patch = std::make_unique<ContactPatch>();
   const Mat3 R_TI = scene.loop.map.instrument_pose(home_pose()).R;
   const double needed = scene.loop.tool.radius_m + kMargin;
@@ -109,8 +113,14 @@ double force_scale(const Scene& scene) {
 /// Organ, board, force scale, and the instrument that the exercise takes.
 void set_stage(Scene& scene) {
   const Exercise& exercise = scene.setup.exercise;
-  if (needs_organ(exercise.kind))
-    scene.organ_T = scene.organ.surface.transformed(place_organ(scene.organ.surface, exercise.layout));
+  if (needs_organ(exercise.kind)) {
+    const Pose X_TO = place_organ(scene.organ.surface, exercise.layout);
+    scene.organ_T = scene.organ.surface.transformed(X_TO);
+    if (!scene.organ.neighbours.empty()) {
+      const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
+      scene.neighbours = place_neighbours(scene.organ, scene.organ_T, X_TO, exercise, materials);
+    }
+  }
   scene.board = lay_out(scene, scene.setup.board);
   if (needs_organ(exercise.kind)) require_reach(scene);
   if (exercise.kind == ExerciseKind::kGrasp) scene.loop.tool.jaw_length_m = kJawLength;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/device_files.h"
+#include "app/neighbours.h"
 #include "haptics/control/contact_renderer.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/haptic_loop.h"
@@ -65,10 +66,14 @@ struct Scene {
   ExerciseLevel level;
   Organ organ;
   TriangleSurface organ_T;
+  Neighbours neighbours;               ///< what lies round the organ, when it is one of several
   Board board;
   HapticLoopConfig loop;
   double room_share = 1;               ///< of the region, where the device can give the soft force limit
 };
+
+/// Everything that the instrument can touch: the organ, with what lies round it.
+const TriangleSurface& felt_surface(const Scene& scene);
 
 /// @param daq rate and DAC bits of the back-end. @throws InputError.
 Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq);

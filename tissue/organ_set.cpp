@@ -128,7 +128,7 @@ Organ load_organ_set(const std::filesystem::path& path, const std::string& subje
 }
 
 std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members,
-                                      const std::vector<SceneFile>& more) {
+                                      const std::vector<SideFile>& more) {
   std::vector<std::unique_ptr<StagedFile>> staged;
   const auto stage = [&](const std::filesystem::path& path, const std::string& bytes) {
     staged.push_back(std::make_unique<StagedFile>(path, bytes));
@@ -147,7 +147,7 @@ std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSe
     set.sha256.push_back(digest::of_bytes(text));
   }
   set.more_files.clear();
-  for (const SceneFile& file : more) {
+  for (const SideFile& file : more) {
     stage(stem.parent_path() / file.name, file.bytes);
     set.more_files.push_back(file.name);
   }

@@ -50,17 +50,12 @@ struct CompiledMember {
   TriangleSurface surface;
 };
 
-/// A further file of the scene: name without folder, and bytes.
-struct SceneFile {
-  std::string name, bytes;
-};
-
 /// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing: everything is
 /// staged beside its place and then renamed, the scene file last.
 /// @param members manifests; their surface names and hashes are filled in
 /// @return path of the scene file
 /// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
 std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members,
-                                      const std::vector<SceneFile>& more);
+                                      const std::vector<SideFile>& more);
 
 }  // namespace trocar

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "haptics/control/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
@@ -19,8 +21,11 @@
 namespace trocar {
 
 struct TissueSetup {
-  const TriangleSurface* organ_T = nullptr;   ///< must outlive the world; nullptr: none
+  const TriangleSurface* organ_T = nullptr;   ///< with its neighbours; must outlive the world; nullptr: none
   ContactMaterial organ;
+  /// Of each triangle: 0 the organ, n the n-th of `neighbours`; empty: all the organ. Must outlive the world.
+  std::span<const std::int32_t> triangle_material = {};
+  std::vector<ContactMaterial> neighbours = {};  ///< at most kMaxPatchMaterials - 1, and only without rigid things
   RigidScene rigid;
   ToolShape tool;
 };
@@ -37,6 +42,7 @@ class TissueWorld {
 
  private:
   ContactMaterial organ_;
+  std::vector<ContactMaterial> neighbours_;
   ToolShape tool_;
   std::optional<PatchExtraction> extraction_;
   std::optional<RigidWorld> rigid_;

@@ -1,14 +1,19 @@
 #include "app/commands/organ_import.h"
 
-#include <charconv>
+#include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <ostream>
 
 #include "app/commands/organ_report.h"
+#include "app/import/chosen_labels.h"
+#include "app/import/import_source.h"
+#include "app/import/organ_page.h"
+#include "app/import/volume_files.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
-#include "tissue/imaging/label_table.h"
+#include "tissue/mesh/organ_compiler.h"
+#include "tissue/mesh/scene_compiler.h"
+#include "tissue/mesh/staged_file.h"
 #include "tissue/mesh/surface_import.h"
 
 namespace trocar {
@@ -16,95 +21,123 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "liver" from "dir/liver.nii.gz".
-std::string plain_stem(const fs::path& path) {
-  const std::string file = path.filename().string();
-  for (const std::string_view suffix : {".nii.gz", ".nii", ".ply"})
-    if (file.ends_with(suffix)) return file.substr(0, file.size() - suffix.size());
-  return path.stem().string();
+constexpr const char* kProgram = "trocar " TROCAR_VERSION;
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+/// What is the same for every organ of an import.
+OrganManifest common_manifest(const OrganImportOptions& options, const OrganSource& source) {
+  OrganManifest manifest;
+  manifest.program = kProgram;
+  manifest.source = source;
+  manifest.licence = options.licence.empty() ? "unknown" : options.licence;
+  manifest.credit = options.credit;
+  manifest.synthetic = options.synthetic;
+  return manifest;
 }
 
-std::optional<int> whole_number(const std::string& text) {
-  int number = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-std::string listed(const std::map<int, std::size_t>& counts) {
-  std::string text;
-  for (const auto& [label, voxels] : counts) text += (text.empty() ? "" : ", ") + std::to_string(label);
-  return text;
-}
-
-/// A label as the user meant it, checked against the map.
-struct ChosenLabel {
-  int number = 0;
-  std::string name;   ///< "" when no table was used or it does not name the number
-  std::string table;  ///< "" when no table was used
-};
-
-ChosenLabel choose_label(const OrganImportOptions& options, const LabelVolume& volume, const std::string& file,
-                         std::ostream& err) {
-  const auto counts = volume.label_counts();
-  const LabelTable& table = label_table(options.label_table);
-  const auto number = whole_number(options.label);
-  ChosenLabel chosen;
-  if (options.label.empty()) {
-    if (counts.size() > 1) throw InputError(file + ": holds labels " + listed(counts) + ": say which with --label");
-    chosen.number = counts.begin()->first;
-  } else if (number) {
-    chosen.number = *number;
-  } else {
-    const auto found = table.number_of(options.label);
-    if (!found) throw InputError("--label " + options.label + ": not in the table " + std::string(table.name));
-    chosen.number = *found;
-  }
-  const bool by_name = !options.label.empty() && !number;
-  if (by_name || counts.size() > 1) {
-    chosen.table = table.name;
-    chosen.name = table.name_of(chosen.number).value_or("");
-    err << "label " << chosen.number
-        << (chosen.name.empty() ? " has no name in the table " : " is \"" + chosen.name + "\" in the table ")
-        << chosen.table << ", which was assumed\n";
-  }
-  if (!counts.contains(chosen.number))
-    throw InputError(file + ": label " + std::to_string(chosen.number) + (by_name ? " (" + options.label + ")" : "") +
-                     " marks no voxel; the map holds " + listed(counts));
-  return chosen;
-}
-
-CompiledOrgan compile_map(const OrganImportOptions& options, OrganManifest& manifest, std::ostream& err) {
-  const fs::path map = options.labels.empty() ? options.input : options.labels;
-  const LabelVolume volume = read_label_volume(map);
-  const ChosenLabel label = choose_label(options, volume, map.string(), err);
-  manifest.source.file = map.filename().string();
-  manifest.source.sha256 = digest::of_file(map);
-  manifest.source.unit = "mm";
-  manifest.source.label = label.number;
-  manifest.source.label_name = label.name;
+OrganManifest label_manifest(const OrganImportOptions& options, const ImportSource& source, const ChosenLabel& label) {
+  OrganManifest manifest = common_manifest(options, source.source);
+  manifest.source.label = label.segment.number;
+  manifest.source.label_name = label.segment.name;
   manifest.source.label_table = label.table;
-  manifest.source.modality = !options.modality.empty() ? options.modality
-                             : options.labels.empty()  ? "unknown"
-                                                       : guess_modality(options.input);
-  manifest.name = !label.name.empty() ? label.name : plain_stem(map);
-  return compile_label(volume, label.number, {options.triangles});
+  return manifest;
 }
 
-CompiledOrgan compile_ply(const OrganImportOptions& options, OrganManifest& manifest) {
+void name_organ(const OrganImportOptions& options, const std::string& by_default, OrganManifest& manifest) {
+  manifest.name = options.name.empty() ? by_default : options.name;
+  manifest.material = options.material.empty() ? manifest.name : options.material;
+}
+
+WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& source, const ChosenLabel& label,
+                           const std::vector<std::string>& decisions, const fs::path& stem) {
+  OrganManifest manifest = label_manifest(options, source, label);
+  name_organ(options, label.segment.name.empty() ? source.stem : file_name_of(label.segment), manifest);
+  manifest.decisions = decisions;
+  const LabelVolume& layer = source.map.layers[label.segment.layer];
+  CompiledOrgan organ = compile_label(layer, label.segment.number, {options.triangles, {.only_largest = options.largest_only}, options.progress});
+  manifest.mesh = std::move(organ.facts);
+  std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {&layer, label.segment.number}, manifest);
+  WrittenOrgans written;
+  written.organs.push_back({std::move(manifest), std::move(organ.surface)});
+  written.manifest = write_organ(stem, written.organs[0].manifest, written.organs[0].surface, files);
+  written.image = std::move(source.image);
+  written.labels = std::move(source.map);
+  return written;
+}
+
+WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::path& stem) {
   const fs::path path = options.input;
-  if (!options.labels.empty() || !options.label.empty())
-    throw InputError("--label and --labels go with a label map, not with " + options.input);
-  const ImportedSurface source = import_surface(path, options.unit);
-  manifest.source.file = path.filename().string();
-  manifest.source.sha256 = digest::of_file(path);
-  manifest.source.unit = options.unit;
-  manifest.source.modality = "surface";
-  manifest.name = plain_stem(path);
-  CompiledOrgan organ = compile_surface(source.surface, {options.triangles});
+  if (!options.labels.empty() || !options.label.empty() || options.all || options.threshold.window)
+    throw InputError("--label, --labels, --all and --threshold go with images, not with " + options.input);
+  SurfaceImportOptions how{.unit = options.surface.unit, .frame = options.surface.frame, .up_axis = options.surface.up_axis,
+                           .part = options.surface.part, .organ = options.name, .fill_holes_mm = options.surface.fill_holes_mm, .wrap = {}};
+  if (options.surface.wrap) how.wrap = WrapSettings{.alpha_mm = options.surface.wrap_alpha_mm};
+  const ImportedSurface source = import_surface(path, how, options.progress);
+  OrganManifest manifest = common_manifest(options, {path.filename().string(), digest::of_file(path), "surface", source.unit, {}, "", ""});
+  name_organ(options, options.surface.part.empty() ? path.stem().string() : file_name_of({0, 0, options.surface.part}), manifest);
+  manifest.decisions = source.decisions;
+  append(manifest.decisions, source.warnings);
+  CompiledOrgan organ = compile_surface(source.surface, {options.triangles, {}, options.progress});
   organ.facts.repairs.insert(organ.facts.repairs.begin(), source.repairs.begin(), source.repairs.end());
   for (const double volume : source.lost_volumes_m3) organ.facts.lost.push_back({"part", 0, volume * 1e6});
-  return organ;
+  manifest.mesh = std::move(organ.facts);
+  std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {}, manifest);
+  WrittenOrgans written;
+  written.organs.push_back({std::move(manifest), std::move(organ.surface)});
+  written.manifest = write_organ(stem, written.organs[0].manifest, written.organs[0].surface, files);
+  return written;
+}
+
+/// The organ that exercises are done on: as asked, else the liver, else the largest.
+std::string subject_of(const OrganImportOptions& options, const std::vector<CompiledMember>& organs) {
+  const auto named = [&](const std::string& name) {
+    return std::any_of(organs.begin(), organs.end(), [&](const CompiledMember& organ) { return organ.manifest.name == name; });
+  };
+  if (!options.subject.empty() && !named(options.subject)) throw InputError("--subject " + options.subject + ": not one of the organs of the scene");
+  if (!options.subject.empty()) return options.subject;
+  if (named("liver")) return "liver";
+  const auto largest = std::max_element(organs.begin(), organs.end(), [](const CompiledMember& a, const CompiledMember& b) {
+    return a.manifest.mesh.volume_ml < b.manifest.mesh.volume_ml;
+  });
+  return largest->manifest.name;
+}
+
+std::vector<SceneRequest> requests_of(const OrganImportOptions& options, const std::vector<ChosenLabel>& labels) {
+  std::vector<SceneRequest> requests;
+  for (const ChosenLabel& label : labels)
+    requests.push_back({label.segment.layer, label.segment.number, file_name_of(label.segment), options.triangles});
+  return requests;
+}
+
+WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& source, const std::vector<ChosenLabel>& labels,
+                           const std::vector<std::string>& decisions, const fs::path& stem) {
+  if (!options.material.empty()) throw InputError("--material goes with one organ; those of a scene have theirs by name");
+  CompiledScene scene = compile_scene(source.map, requests_of(options, labels), {{.only_largest = options.largest_only}, options.progress});
+  WrittenOrgans written;
+  std::vector<SideFile> more;
+  for (std::size_t n = 0; n < labels.size(); ++n) {
+    OrganManifest manifest = label_manifest(options, source, labels[n]);
+    manifest.name = manifest.material = file_name_of(labels[n].segment);
+    manifest.decisions = decisions;
+    manifest.mesh = std::move(scene.organs[n].facts);
+    const fs::path member = stem.string() + "-" + manifest.name;
+    const LabelledOrgan made_from{&source.map.layers[labels[n].segment.layer], labels[n].segment.number};
+    for (SideFile& file : volume_meshes(options, member, scene.organs[n].surface, made_from, manifest)) more.push_back(std::move(file));
+    for (SideFile& file : vessel_files(options, member, made_from, manifest.name)) more.push_back(std::move(file));
+    written.organs.push_back({std::move(manifest), std::move(scene.organs[n].surface)});
+  }
+  OrganSet set;
+  set.name = options.name.empty() ? stem.filename().string() : options.name;
+  set.subject = subject_of(options, written.organs);
+  for (const SharedInterface& shared : scene.shared)
+    set.contacts.push_back({written.organs[shared.first].manifest.name, written.organs[shared.second].manifest.name, shared.area_m2, true});
+  written.manifest = write_organ_set(stem, set, written.organs, more);
+  written.set = std::move(set);
+  written.image = std::move(source.image);
+  written.labels = std::move(source.map);
+  written.notes = std::move(scene.notes);
+  return written;
 }
 
 void check_options(const OrganImportOptions& options) {
@@ -113,10 +146,13 @@ void check_options(const OrganImportOptions& options) {
   if (options.output.empty()) throw InputError("-o: no output name");
   if (options.triangles < kFewest || options.triangles > kMost)
     throw InputError("--triangles " + std::to_string(options.triangles) + ": 200 to 200000 are wanted");
+  if (!fs::exists(options.input)) throw InputError(options.input + ": no such file or folder");
 }
 
 fs::path stem_of(const std::string& output) {
-  fs::path stem = output.ends_with(kOrganSuffix) ? output.substr(0, output.size() - kOrganSuffix.size()) : output;
+  fs::path stem = output;
+  for (const std::string_view suffix : {kOrganSuffix, kOrganSetSuffix})
+    if (output.ends_with(suffix)) stem = output.substr(0, output.size() - suffix.size());
   if (stem.filename().empty() || stem.filename() == "." || stem.filename() == "..")
     throw InputError("-o " + output + ": names a folder, not an organ");
   return stem;
@@ -125,40 +161,59 @@ fs::path stem_of(const std::string& output) {
 /// Two names of one file: the surface would replace what it was made from.
 void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
   std::error_code missing;
-  const fs::path ply = stem.string() + ".ply";
-  if (fs::equivalent(ply, options.input, missing))
-    throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
+  for (const std::string& suffix : {std::string(".ply"), std::string(".lattice"), std::string(".msh")})
+    if (fs::equivalent(stem.string() + suffix, options.input, missing))
+      throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
+}
+
+void remark(const WrittenOrgans& written, std::ostream& err) {
+  for (const CompiledMember& organ : written.organs) {
+    const MeshFacts& mesh = organ.manifest.mesh;
+    for (const std::string& decision : organ.manifest.decisions) {
+      if (&organ == &written.organs.front()) err << "note: " << decision << "\n";
+    }
+    if (mesh.self_intersections > 0)
+      err << "warning: " << organ.manifest.name << ": the surface cuts itself in " << mesh.self_intersections << " places; try another --triangles\n";
+    if (mesh.cut_at_border())
+      err << "note: " << organ.manifest.name << " is cut at the volume border: the image ends inside it, the flat cap is not anatomy\n";
+  }
+  for (const std::string& note : written.notes) err << "note: " << note << "\n";
 }
 
 }  // namespace
 
-WrittenOrgan import_organ(const OrganImportOptions& options, std::ostream& err) {
+WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err) {
   check_options(options);
   const fs::path stem = stem_of(options.output);
   check_not_input(stem, options);
-  OrganManifest manifest;
-  const bool surface = options.input.ends_with(".ply");
-  if (!surface && !options.unit.empty() && options.unit != "mm")
-    throw InputError("--unit " + options.unit + ": label maps are in mm");
-  CompiledOrgan organ = surface ? compile_ply(options, manifest) : compile_map(options, manifest, err);
-  if (!options.name.empty()) manifest.name = options.name;
-  manifest.material = options.material.empty() ? manifest.name : options.material;
-  manifest.licence = options.licence.empty() ? "unknown" : options.licence;
-  manifest.credit = options.credit;
-  manifest.synthetic = options.synthetic;
-  manifest.mesh = std::move(organ.facts);
-  write_organ(stem, manifest, organ.surface);
-  if (manifest.mesh.self_intersections > 0)
-    err << "warning: the surface cuts itself in " << manifest.mesh.self_intersections
-        << " places; try another --triangles\n";
-  if (manifest.mesh.cut_at_border()) err << "note: the image ends inside the organ; the flat cap is not anatomy\n";
-  return {std::move(manifest), std::move(organ.surface)};
+  WrittenOrgans written;
+  if (is_surface_input(options)) {
+    written = import_surface_file(options, stem);
+  } else {
+    ImportSource source = read_import_source(options);
+    std::vector<std::string> decisions = source.map.notes;
+    if (source.image) append(decisions, source.image->notes);
+    const std::vector<ChosenLabel> labels = choose_labels(options, source.map, source.file, decisions);
+    const bool scene = labels.size() > 1 || options.all || options.output.ends_with(kOrganSetSuffix);
+    written = scene ? import_scene(options, std::move(source), labels, decisions, stem)
+                    : import_label(options, std::move(source), labels.front(), decisions, stem);
+  }
+  remark(written, err);
+  return written;
 }
 
 int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostream& err) {
-  const WrittenOrgan organ = import_organ(options, err);
-  out << (options.json ? organ_json(organ.manifest, organ.surface.bounds())
-                       : organ_text(organ.manifest, organ.surface.bounds()));
+  const WrittenOrgans written = import_organs(options, err);
+  if (!options.report.empty()) {
+    StagedFile page(options.report, organ_page({written.organs, written.set ? &*written.set : nullptr, written.image ? &*written.image : nullptr,
+                                                written.labels ? &*written.labels : nullptr, written.notes, options.assets}));
+    page.commit();
+  }
+  if (written.set)
+    out << (options.json ? scene_report_json(*written.set, written.organs) : scene_report_text(*written.set, written.organs));
+  else
+    out << (options.json ? organ_json(written.organs[0].manifest, written.organs[0].surface.bounds())
+                         : organ_text(written.organs[0].manifest, written.organs[0].surface.bounds()));
   return 0;
 }
 

@@ -3,18 +3,38 @@
 #include <ostream>
 
 #include "app/commands/organ_report.h"
-#include "tissue/mesh/organ_manifest.h"
+#include "haptics/input_error.h"
 #include "tissue/organ.h"
+#include "tissue/organ_set.h"
 
 namespace trocar {
+namespace {
+
+/// The manifest with what can be proved on the surface proved anew.
+CompiledMember proved(const std::filesystem::path& path, std::ostream& err) {
+  const Organ organ = load_organ(path);
+  CompiledMember member{parse_manifest(read_bytes(path), path.string()), organ.surface};
+  member.manifest.mesh.topology = analyse_topology(organ.surface);
+  member.manifest.mesh.quality = mesh_quality(organ.surface);
+  member.manifest.mesh.self_intersections = count_self_intersections(organ.surface);
+  if (member.manifest.mesh.self_intersections > 0) err << "warning: " << organ.name << ": the surface cuts itself\n";
+  return member;
+}
+
+}  // namespace
 
 int organ_info(const OrganInfoOptions& options, std::ostream& out, std::ostream& err) {
-  const Organ organ = load_organ(options.manifest);
-  OrganManifest manifest = parse_manifest(read_bytes(options.manifest), options.manifest.string());
-  manifest.mesh.topology = analyse_topology(organ.surface);
-  manifest.mesh.self_intersections = count_self_intersections(organ.surface);
-  if (manifest.mesh.self_intersections > 0) err << "warning: the surface cuts itself\n";
-  out << (options.json ? organ_json(manifest, organ.surface.bounds()) : organ_text(manifest, organ.surface.bounds()));
+  const std::string file = options.manifest.string();
+  if (!file.ends_with(kOrganSetSuffix)) {
+    const CompiledMember organ = proved(options.manifest, err);
+    out << (options.json ? organ_json(organ.manifest, organ.surface.bounds()) : organ_text(organ.manifest, organ.surface.bounds()));
+    return 0;
+  }
+  const OrganSet set = parse_organ_set(read_bytes(options.manifest), file);
+  load_organ(options.manifest);  // every member is there and unchanged
+  std::vector<CompiledMember> organs;
+  for (const std::string& member : set.files) organs.push_back(proved(options.manifest.parent_path() / member, err));
+  out << (options.json ? scene_report_json(set, organs) : scene_report_text(set, organs));
   return 0;
 }
 

@@ -41,18 +41,19 @@ void write_volumes(const std::filesystem::path& folder, const PhantomOptions& op
   text.commit();
 }
 
-WrittenOrgan import_phantom_organ(const std::filesystem::path& folder, const std::string& label, int triangles,
+CompiledMember import_phantom_organ(const std::filesystem::path& folder, const std::string& label, int triangles,
                                   std::ostream& err) {
   OrganImportOptions import;
   import.input = (folder / "ct.nii.gz").string();
   import.labels = (folder / "labels.nii.gz").string();
-  import.label = label;
+  import.label = {label};
+  import.label_table = kDefaultLabelTable;
   import.triangles = triangles;
   import.output = (folder / ("phantom-" + label)).string();
   import.licence = kLicence;
   import.credit = kCredit;
   import.synthetic = true;
-  return import_organ(import, err);
+  return std::move(import_organs(import, err).organs[0]);
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
   write_volumes(options.out, {.seed = options.seed});
   nlohmann::ordered_json organs = nlohmann::ordered_json::array();
   for (const auto& [label, triangles] : {std::pair("liver", 6000), std::pair("gallbladder", 2000)}) {
-    const WrittenOrgan organ = import_phantom_organ(options.out, label, triangles, err);
+    const CompiledMember organ = import_phantom_organ(options.out, label, triangles, err);
     if (options.json)
       organs.push_back(nlohmann::ordered_json::parse(organ_json(organ.manifest, organ.surface.bounds())));
     if (!options.json) out << organ_text(organ.manifest, organ.surface.bounds());

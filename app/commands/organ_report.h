@@ -1,18 +1,20 @@
-// The report of an organ as people and programs read it: the keys of `trocar organ import --json` and a text form.
+// What is known about an organ or a scene as text for people or as JSON for programs (keys: docs/commands.md).
 //
-// Lengths in metres unless the key says otherwise. Thread: any.
+// Pure; nothing in it names a patient. Thread: any.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
-#include "tissue/mesh/organ_manifest.h"
+#include "tissue/organ_set.h"
 
 namespace trocar {
 
-/// One JSON object, indented, with a closing newline. @param bounds of the surface, m
 std::string organ_json(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds);
-
-/// A few lines for a person.
 std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds);
+
+std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMember>& organs);
+std::string scene_report_text(const OrganSet& set, const std::vector<CompiledMember>& organs);
 
 }  // namespace trocar

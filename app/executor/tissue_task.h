@@ -34,7 +34,12 @@ class TissueTask final : public Task {
   TissueTask(const Scene& scene, Director& director, const TissuePorts& ports)
       : director_(director),
         ports_(ports),
-        world_({&scene.organ_T, scene.setup.exercise.surface, scene.board.rigid, scene.loop.tool}),
+        world_({.organ_T = &felt_surface(scene),
+                .organ = scene.setup.exercise.surface,
+                .triangle_material = scene.neighbours.triangle_material,
+                .neighbours = scene.neighbours.materials,
+                .rigid = scene.board.rigid,
+                .tool = scene.loop.tool}),
         period_(static_cast<std::uint32_t>(scene.loop.daq.rate_hz / kTissueRateHz)) {}
 
   std::uint32_t period() const override { return period_; }

@@ -17,6 +17,12 @@ std::string credit_line(const Organ& organ) {
   return line;
 }
 
+Eigen::AlignedBox3d whole_box(const Organ& organ) {
+  Eigen::AlignedBox3d box = organ.surface.bounds();
+  for (const Organ& neighbour : organ.neighbours) box.extend(neighbour.surface.bounds());
+  return box;
+}
+
 /// Highest point of the surface near the vertical through `x`, `y`.
 Vec3 crest(const TriangleSurface& surface, double x, double y, double within) {
   Vec3 best(x, y, surface.bounds().min().z());
@@ -31,11 +37,15 @@ SceneView organ_scene(const Organ& organ) {
   Pose to_centre;
   // RAS: turn anterior (y) up (z), so that the organ lies as in a supine patient; x stays.
   to_centre.R = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
-  to_centre.p = -(to_centre.R * organ.surface.bounds().center());
+  to_centre.p = -(to_centre.R * whole_box(organ).center());
   SceneView view;
   view.organ = std::make_shared<TriangleSurface>(organ.surface.transformed(to_centre));
   view.material = organ.material;
-  const Vec3 size = view.organ->bounds().sizes();
+  for (const Organ& neighbour : organ.neighbours)
+    view.neighbours.push_back({std::make_shared<TriangleSurface>(neighbour.surface.transformed(to_centre)), neighbour.material});
+  Eigen::AlignedBox3d box = view.organ->bounds();
+  for (const NeighbourView& neighbour : view.neighbours) box.extend(neighbour.surface->bounds());
+  const Vec3 size = box.sizes();
   const double reach = size.maxCoeff();
   view.camera.look_at_T = Vec3(0, 0, 0.1 * size.z());
   view.camera.eye_T = view.camera.look_at_T + Vec3(-0.10, -0.72, 0.62).normalized() * (0.95 * reach + 0.02);

@@ -18,19 +18,13 @@
 #include "app/graphics/render_surfaces.h"
 #include "app/graphics/scene_block.h"
 #include "app/graphics/solid_noise.h"
+#include "app/graphics/tissue_painter.h"
 
 namespace trocar {
 namespace {
 
 constexpr int kNoiseSize = 64, kShadowSize = 768, kGlowDivisor = 6;
 enum TextureUnit { kNoiseUnit = 0, kShadowUnit = 1, kSceneUnit = 2, kGlowUnit = 3 };
-
-std::string tissue_look(const std::string& material) {
-  if (material == "liver") return "LOOK_LIVER";
-  if (material == "gallbladder") return "LOOK_GALLBLADDER";
-  if (material == "fat") return "LOOK_FAT";
-  return "LOOK_FLESH";
-}
 
 /// The gallbladder lies on the liver; everything else on fat.
 std::string bed_look(const std::string& material) { return material == "gallbladder" ? "LOOK_LIVER" : "LOOK_FAT"; }
@@ -56,6 +50,13 @@ Eigen::Matrix4f matrix(const Pose& X) {
 
 void set_vector(int location, const Vec3& v) {
   glUniform3f(location, static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
+}
+
+/// Box of the organ and what lies round it: the lining of the abdomen lies outside of all.
+Eigen::AlignedBox3d tissue_bounds(const SceneView& view) {
+  Eigen::AlignedBox3d box = view.organ->bounds();
+  for (const NeighbourView& neighbour : view.neighbours) box.extend(neighbour.surface->bounds());
+  return box;
 }
 
 /// Everything about one organ that is worth keeping between frames.
@@ -85,6 +86,7 @@ struct Renderer::Impl {
   std::vector<Decal> decals;
   GpuMesh shaft, jaw;
   ObjectPainter objects;
+  TissuePainter neighbours;
   TrainerBackdrop trainer;
   double shaft_radius_m = 0, shaft_length_m = 0;
 
@@ -153,7 +155,7 @@ void Renderer::Impl::ensure_organ(const SceneView& view) {
   fresh.source = view.organ;
   fresh.mesh = build_picture_mesh(*view.organ);
   fresh.gpu = GpuMesh(fresh.mesh);
-  const Eigen::AlignedBox3d bounds = view.organ->bounds();
+  const Eigen::AlignedBox3d bounds = tissue_bounds(view);
   fresh.cavity = GpuMesh(build_cavity(bounds));
   fresh.fat = GpuMesh(build_fat_bed(bounds));
   organ.emplace(std::move(fresh));
@@ -214,6 +216,7 @@ void Renderer::Impl::shadow_pass(const SceneView& view) {
   glUniformMatrix4fv(program.uniform("u_model"), 1, GL_FALSE, matrix(Pose{}).data());
   glCullFace(GL_FRONT);  // far sides cast: no self-shadow speckle on the lit side
   if (organ) organ->gpu.draw();
+  neighbours.draw_shadows();
   objects.draw_shadows(program, view.objects);
   glCullFace(GL_BACK);
 }
@@ -238,6 +241,7 @@ void Renderer::Impl::scene_pass(const SceneView& view, const ScopeOptics& optics
     return bind(vertex, fragment, std::move(defines));
   };
   objects.draw_solids(binder, view);
+  neighbours.draw(binder);
   if (organ)
     tissue_pass(view, optics);
   else if (!view.stage_T.isEmpty())
@@ -367,6 +371,7 @@ Image Renderer::render(const SceneView& view, int width, int height) {
   const ScopeOptics optics(view.camera, window);
   r.ensure_surfaces(window.width, window.height);
   r.ensure_organ(view);
+  r.neighbours.prepare(view.neighbours);
   r.ensure_decals(view);
   r.ensure_instrument(view);
   const SceneBlock block = make_scene_block(view, optics);

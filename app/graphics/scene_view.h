@@ -82,9 +82,16 @@ struct Camera {
   double diagonal_fov_deg = 70;
 };
 
+/// An organ beside the one in the middle.
+struct NeighbourView {
+  std::shared_ptr<const TriangleSurface> surface;  ///< in T; shared between frames
+  std::string material;                            ///< selects the look
+};
+
 struct SceneView {
   std::shared_ptr<const TriangleSurface> organ;  ///< already in T; shared between frames
   std::string material;                          ///< selects the tissue look: "liver", "gallbladder", ...
+  std::vector<NeighbourView> neighbours;
   std::vector<TargetMark> targets;
   std::vector<SceneObject> objects;  ///< board, blocks, rings, ghost pens, port
   Eigen::AlignedBox3d stage_T;       ///< without an organ: work space that the box trainer surrounds

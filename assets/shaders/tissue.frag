@@ -1,5 +1,6 @@
 // Wet tissue under a scope's own light (recipe: solid noise at the rest position, wrapped diffuse per channel, two-lobe
-// wet film). One of LOOK_LIVER, LOOK_GALLBLADDER, LOOK_WALL, LOOK_FAT is defined, else plain flesh.
+// wet film). One of LOOK_LIVER, LOOK_GALLBLADDER, LOOK_WALL, LOOK_FAT, LOOK_SPLEEN, LOOK_KIDNEY, LOOK_PANCREAS, LOOK_DUCT, LOOK_ARTERY,
+// LOOK_VEIN, LOOK_BONE is defined, else plain flesh (stomach, bowel).
 in vec3 v_position;
 in vec3 v_rest;
 in vec3 v_normal;
@@ -41,6 +42,27 @@ vec3 albedo(vec4 coarse, vec4 middle, vec4 fine, vec3 rest_mm) {
   c *= 0.88 + 0.24 * middle.w;
   float v = vessels(rest_mm * 0.0075 + 0.02 * coarse.xyz + 0.61, 0.055, coarse.w);
   return mix(c, vec3(0.46, 0.07, 0.03), 0.60 * v);
+#elif defined(LOOK_SPLEEN)
+  vec3 c = mix(vec3(0.190, 0.030, 0.048), vec3(0.285, 0.055, 0.075), smoothstep(0.25, 0.75, broad.w));
+  return mix(c, vec3(0.34, 0.12, 0.15), 0.35 * smoothstep(0.45, 0.80, coarse.w)) * (0.84 + 0.28 * middle.w);
+#elif defined(LOOK_KIDNEY)
+  vec3 c = mix(vec3(0.30, 0.075, 0.045), vec3(0.42, 0.120, 0.075), smoothstep(0.25, 0.75, broad.w));
+  return mix(c, vec3(0.62, 0.36, 0.14), 0.30 * smoothstep(0.55, 0.80, coarse.w)) * (0.86 + 0.26 * middle.w);
+#elif defined(LOOK_PANCREAS)
+  vec3 c = mix(vec3(0.62, 0.35, 0.20), vec3(0.74, 0.49, 0.30), smoothstep(0.30, 0.70, middle.w));
+  return mix(c, vec3(0.50, 0.22, 0.14), 0.45 * smoothstep(0.45, 0.80, coarse.w));
+#elif defined(LOOK_DUCT)
+  vec3 c = mix(vec3(0.44, 0.42, 0.24), vec3(0.60, 0.54, 0.32), smoothstep(0.30, 0.70, coarse.w));
+  return c * (0.88 + 0.24 * middle.w);
+#elif defined(LOOK_ARTERY)
+  vec3 c = mix(vec3(0.60, 0.14, 0.10), vec3(0.72, 0.26, 0.19), smoothstep(0.30, 0.70, coarse.w));
+  return c * (0.88 + 0.24 * middle.w);
+#elif defined(LOOK_VEIN)
+  vec3 c = mix(vec3(0.20, 0.12, 0.22), vec3(0.30, 0.19, 0.29), smoothstep(0.30, 0.70, coarse.w));
+  return c * (0.88 + 0.24 * middle.w);
+#elif defined(LOOK_BONE)
+  vec3 c = mix(vec3(0.70, 0.62, 0.48), vec3(0.80, 0.74, 0.62), smoothstep(0.30, 0.70, coarse.w));
+  return mix(c, vec3(0.58, 0.30, 0.22), 0.25 * smoothstep(0.5, 0.8, broad.w));
 #else
   vec3 c = mix(vec3(0.44, 0.135, 0.105), vec3(0.58, 0.25, 0.19), smoothstep(0.25, 0.75, broad.w));
   float v = max(vessels(rest_mm * 0.0095 + 0.03 * coarse.xyz + 0.31, 0.050, coarse.w), 0.5 * vessels(rest_mm * 0.022 + 0.11, 0.060, broad.w));

@@ -95,16 +95,16 @@ TEST(OrganImport, MultiLabelMapsNeedALabelAndSayTheTable) {
   test::TemporaryFolder folder;
   OrganImportOptions options = options_for(write_map(folder, "map.nii.gz", true), folder / "out.organ.toml");
   EXPECT_CONTAINS(refusal(options), "holds labels 4, 5");
-  options.label = "liver";
+  options.label = {"liver"};
   const Outcome by_name = imported(options);
   EXPECT_CONTAINS(by_name.remarks, "totalsegmentator-v1");
-  options.label = "5";
+  options.label = {"5"};
   const Outcome by_number = imported(options);
   EXPECT_EQ(by_number.report, by_name.report);
   EXPECT_EQ(by_name.report["source"]["label_table"], "totalsegmentator-v1");
-  options.label = "tail";
+  options.label = {"tail"};
   EXPECT_CONTAINS(refusal(options), "--label tail");
-  options.label = "spleen";
+  options.label = {"spleen"};
   EXPECT_CONTAINS(refusal(options), "label 1 (spleen) marks no voxel; the map holds 4, 5");
 }
 
@@ -112,7 +112,7 @@ TEST(OrganImport, TakesNameLicenceAndMaterialFromTheUser) {
   test::TemporaryFolder folder;
   OrganImportOptions options = options_for(write_map(folder, "map.nii.gz", false), folder / "out");
   options.name = "ball", options.licence = "CC-BY-4.0", options.credit = "me", options.modality = "MR";
-  options.label = "5";
+  options.label = {"5"};
   const Json report = imported(options).report;
   EXPECT_EQ(report["name"], "ball");
   EXPECT_EQ(report["material"], "ball");
@@ -125,13 +125,13 @@ TEST(OrganImport, RefusalsLeaveNothingBehind) {
   test::TemporaryFolder folder;
   const auto map = write_map(folder, "map.nii.gz", false);
   OrganImportOptions options = options_for(map, folder / "out");
-  options.label = "7";
+  options.label = {"7"};
   EXPECT_CONTAINS(refusal(options), "label 7 marks no voxel");
-  options.label = "5", options.triangles = 10;
+  options.label = {"5"}, options.triangles = 10;
   EXPECT_CONTAINS(refusal(options), "--triangles");
-  options.triangles = 500, options.unit = "cm";
+  options.triangles = 500, options.surface.unit = "cm";
   EXPECT_CONTAINS(refusal(options), "label maps are in mm");
-  options.unit.clear(), options.output = folder.path().string() + "/";
+  options.surface.unit.clear(), options.output = folder.path().string() + "/";
   EXPECT_CONTAINS(refusal(options), "names a folder");
   options.output.clear();
   EXPECT_CONTAINS(refusal(options), "-o");
@@ -143,13 +143,13 @@ TEST(OrganImport, SurfacesCarryNoLabelVolume) {
   OrganImportOptions options =
       options_for(folder.write("sac.ply", test::ascii_ply(test::sphere(Vec3::Zero(), 0.03, 3), 1e3)), folder / "organ");
   EXPECT_CONTAINS(refusal(options), "--unit");
-  options.unit = "mm";
+  options.surface.unit = "mm";
   const Json report = imported(options).report;
   EXPECT_TRUE(report["label_volume_ml"].is_null());
   EXPECT_TRUE(report["source"]["label"].is_null());
   EXPECT_EQ(report["source"]["modality"], "surface");
   EXPECT_NEAR(report["volume_error_pct"].get<double>(), 0, 0.05);
-  options.label = "5";
+  options.label = {"5"};
   EXPECT_CONTAINS(refusal(options), "go with a label map");
 }
 
@@ -157,7 +157,7 @@ TEST(OrganImport, ReplacingTheInputIsRefused) {
   test::TemporaryFolder folder;
   OrganImportOptions options =
       options_for(folder.write("sac.ply", test::ascii_ply(test::sphere(Vec3::Zero(), 0.03, 3), 1e3)), folder / "sac");
-  options.unit = "mm";
+  options.surface.unit = "mm";
   EXPECT_CONTAINS(refusal(options), "would overwrite its input");
 }
 

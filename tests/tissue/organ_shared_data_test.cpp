@@ -36,7 +36,7 @@ class SharedData : public ::testing::Test {
   Json import(const std::filesystem::path& input, const std::string& label, const std::string& unit = "",
               int triangles = 6000) {
     OrganImportOptions options;
-    options.input = input.string(), options.label = label, options.unit = unit, options.triangles = triangles,
+    options.input = input.string(), options.label = label.empty() ? std::vector<std::string>{} : std::vector<std::string>{label}, options.surface.unit = unit, options.triangles = triangles,
     options.json = true;
     options.output = (folder_ / "organ").string();
     std::ostringstream out, err;
@@ -104,12 +104,12 @@ TEST_F(SharedData, PancreasInSixPartsSaysWhatIsLost) {
 
 TEST_F(SharedData, ThreeVoxelsOfHeartAndTheCtItselfAreRefused) {
   OrganImportOptions options;
-  options.input = mask("heart_myocardium").string(), options.label = "1", options.output = (folder_ / "x").string();
+  options.input = mask("heart_myocardium").string(), options.label = {"1"}, options.output = (folder_ / "x").string();
   std::ostringstream out, err;
   EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_import(options, out, err); }), "only 3 voxels");
   options.input = (data_ / "ct_abdomen_totalseg" / "example_ct.nii.gz").string();
   EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_import(options, out, err); }), "not a label map");
-  options.labels = (data_ / "ct_abdomen_totalseg" / "example_seg.nii.gz").string(), options.label = "liver";
+  options.labels = (data_ / "ct_abdomen_totalseg" / "example_seg.nii.gz").string(), options.label = {"liver"};
   EXPECT_EQ(organ_import(options, out, err), 0);
   EXPECT_EQ(load_organ(folder_ / "x.organ.toml").modality, "CT");
 }

@@ -5,7 +5,10 @@
 
 namespace trocar {
 
-PatchExtraction::PatchExtraction(const TriangleSurface& surface) : tree_(surface) { hits_.reserve(kMaxPatchTriangles + 1); }
+PatchExtraction::PatchExtraction(const TriangleSurface& surface, std::span<const std::int32_t> material)
+    : tree_(surface), material_(material) {
+  hits_.reserve(kMaxPatchTriangles + 1);
+}
 
 void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch, double jaw_opening_m) {
   const ToolCapsules capsules = tool_capsules(tool, jaw_opening_m, patch.held);
@@ -24,7 +27,8 @@ void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPa
     const std::int32_t id = hits_[i].triangle;
     const auto& [a, b, c] = surface.triangles[id];
     const auto& v = surface.vertices;
-    patch.triangle[i] = {{v[a], v[b], v[c]}, (v[b] - v[a]).cross(v[c] - v[a]).normalized(), id};
+    patch.triangle[i] = {{v[a], v[b], v[c]}, (v[b] - v[a]).cross(v[c] - v[a]).normalized(), id,
+                         material_.empty() ? 0 : material_[static_cast<std::size_t>(id)]};
   }
 }
 

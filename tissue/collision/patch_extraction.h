@@ -6,6 +6,7 @@
 // Frame T. Thread: tissue task; allocates nothing once its buffer has grown.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "haptics/control/tool_shape.h"
@@ -17,7 +18,8 @@ namespace trocar {
 class PatchExtraction {
  public:
   /// @param surface in T; must outlive this object.
-  explicit PatchExtraction(const TriangleSurface& surface);
+  /// @param material of each triangle, as an index into ContactPatch::material; empty: all 0. Must outlive this object.
+  explicit PatchExtraction(const TriangleSurface& surface, std::span<const std::int32_t> material = {});
 
   /// The surface's vertices have moved.
   void refit() { tree_.refit(); }
@@ -28,6 +30,7 @@ class PatchExtraction {
 
  private:
   SurfaceTree tree_;
+  std::span<const std::int32_t> material_;
   std::vector<SurfaceTree::Hit> hits_;
 };
 

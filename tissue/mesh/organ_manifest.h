@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tissue/mesh/mesh_facts.h"
 
@@ -22,7 +23,19 @@ struct OrganSource {
   std::string label_table;   ///< "" when none was needed
 };
 
+/// A lattice or a mesh of tetrahedra beside the surface.
+struct VolumeMeshFile {
+  std::string file;         ///< name beside the manifest
+  std::string sha256;
+  std::size_t nodes = 0;
+  std::size_t cells = 0;    ///< cubes or tetrahedra
+  double size_mm = 0;       ///< edge of a cube; largest circumradius of a tetrahedron
+  double volume_error_pct = 0;
+  double worst = 0;         ///< lattice: share of cells below the least fill; tetrahedra: smallest dihedral angle, degrees
+};
+
 struct OrganManifest {
+  std::string program;  ///< that made it, "trocar 0.1.0"; "" in files of format 1
   std::string name;
   std::string material;
   bool synthetic = false;
@@ -31,10 +44,12 @@ struct OrganManifest {
   std::string licence;
   std::string credit;
   OrganSource source;
+  std::vector<std::string> decisions;  ///< on unit, frame and whatever the source left open, as sentences
   MeshFacts mesh;
+  std::optional<VolumeMeshFile> lattice, tetrahedra;
 };
 
-inline constexpr int kOrganFormat = 1;
+inline constexpr int kOrganFormat = 2;  ///< 1, without quality, decisions and volume meshes, is read too
 inline constexpr std::string_view kOrganSuffix = ".organ.toml";
 
 std::string manifest_text(const OrganManifest& manifest);
@@ -46,11 +61,16 @@ OrganManifest parse_manifest(const std::string& text, const std::string& file);
 /// Whole file as bytes. @throws InputError when it cannot be read
 std::string read_bytes(const std::filesystem::path& path);
 
-/// Writes NAME.organ.toml and NAME.ply whole or not at all: both are staged beside their place and then renamed.
+/// A further file: name without folder, and bytes.
+struct SideFile {
+  std::string name, bytes;
+};
+
+/// Writes NAME.organ.toml, NAME.ply and the further files whole or not at all: all are staged beside their place and then renamed.
 /// @param stem path without the suffixes; its folder is made when missing
 /// @return path of the manifest
 /// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
 std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
-                                  const TriangleSurface& surface);
+                                  const TriangleSurface& surface, const std::vector<SideFile>& more = {});
 
 }  // namespace trocar
