@@ -16,7 +16,7 @@ constexpr std::size_t kMostFrames = 200000;
 
 using Key = std::tuple<std::string, long, std::string, DicomKind>;
 
-std::string short_hash(const std::string& series_uid) { return digest::of_bytes(series_uid).substr(0, 8); }
+std::string short_hash(const std::string& identity) { return digest::of_bytes(identity).substr(0, 8); }
 
 const char* plural(int count) { return count == 1 ? " image" : " images"; }
 
@@ -44,7 +44,7 @@ void describe_series(CataloguedSeries& series, const std::string& input) {
   const DicomInstance& first = series.instances.front();
   series.facts.kind = first.kind;
   series.facts.modality = first.modality;
-  series.facts.hash = short_hash(first.series);
+  series.facts.hash = short_hash(first.study + "|" + first.series + "|" + std::to_string(first.series_number));
   if (first.kind == DicomKind::kImage) return measure(series, input);
   for (const DicomInstance& instance : series.instances) {
     if (series.facts.problem.empty()) series.facts.problem = instance.problem;
@@ -102,7 +102,7 @@ DicomCatalogue catalogue(const DicomInput& input, const Progress& progress) {
     describe_series(series, input.name());
   }
   if (!all.series.empty()) return all;
-  if (input.single()) throw InputError(input.name() + ": is not a DICOM file");
+  if (input.single()) throw InputError(input.name() + ": is not a DICOM file: it has no DICOM signature and does not start as one");
   throw InputError(input.name() + ": holds no DICOM files (" + std::to_string(input.files().size()) + " files were looked at)");
 }
 

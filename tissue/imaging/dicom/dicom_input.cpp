@@ -68,7 +68,7 @@ bool DicomInput::follow_directory(const fs::path& file) {
   const auto elements = read_dicom_elements(file, name_, budget);
   const DicomElement* records = elements ? elements->data.find(tag::kDirectoryRecords) : nullptr;
   if (records == nullptr) return false;
-  if (!elements->damage.empty()) throw InputError(elements->damage);
+  if (!elements->damage.empty()) throw InputError(elements->damage + ", or give the folder in which the DICOMDIR lies");
   std::set<fs::path> found;  // ordered: the result does not depend on the order of the records
   std::size_t named = 0, missing = 0;
   for (const DicomItem& record : records->items) {
