@@ -1,0 +1,107 @@
+#include <cmath>
+
+#include "haptics/input_error.h"
+#include "tissue/imaging/dicom/dicom_instance.h"
+#include "tissue/imaging/dicom/dicom_tags.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kFarthest = 1e5;                        // mm: a position of 100 m is no position
+constexpr double kSmallestStep = 1e-3, kLargestStep = 100;  // mm between pixels
+constexpr double kCosineError = 2e-3;
+
+/// The functional group macro of one frame: its own, else the shared one, else the data set itself (plain images).
+class Groups {
+ public:
+  Groups(const DicomItem& data, std::size_t frame) : data_(data), shared_(data.first_item(tag::kSharedGroups)) {
+    const DicomElement* frames = data.find(tag::kFrameGroups);
+    if (frames != nullptr && frame < frames->items.size()) own_ = &frames->items[frame];
+  }
+  const DicomItem* find(DicomTag group) const {
+    if (own_ == nullptr && shared_ == nullptr) return &data_;
+    for (const DicomItem* where : {own_, shared_})
+      if (where != nullptr)
+        if (const DicomItem* item = where->first_item(group)) return item;
+    return nullptr;
+  }
+
+ private:
+  const DicomItem& data_;
+  const DicomItem* own_ = nullptr;
+  const DicomItem* shared_;
+};
+
+struct Place {
+  std::string where;  ///< begins messages
+
+  std::vector<double> numbers(const DicomItem* item, DicomTag tag, std::size_t count, const char* what) const {
+    const auto values = item != nullptr ? item->decimals(tag) : std::nullopt;
+    if (!values)
+      throw InputError(where + ": has no usable " + what + ": without it nobody can tell where the image lies; " +
+                       "scanned pictures, screen shots and reports cannot become a volume");
+    if (values->size() != count)
+      throw InputError(where + ": " + what + " holds " + std::to_string(values->size()) + " numbers instead of " +
+                       std::to_string(count));
+    return *values;
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(where + ": " + what); }
+};
+
+void read_orientation(const Place& at, const DicomItem* item, SlicePlace& place) {
+  const auto cosines = at.numbers(item, tag::kOrientation, 6, "ImageOrientationPatient");
+  place.along_row = Eigen::Vector3d(cosines[0], cosines[1], cosines[2]);
+  place.along_column = Eigen::Vector3d(cosines[3], cosines[4], cosines[5]);
+  const bool unit = std::abs(place.along_row.norm() - 1) < kCosineError && std::abs(place.along_column.norm() - 1) < kCosineError;
+  if (!unit || std::abs(place.along_row.dot(place.along_column)) > kCosineError)
+    at.refuse("ImageOrientationPatient is not two unit vectors at right angles");
+  place.along_row.normalize();
+  place.along_column -= place.along_column.dot(place.along_row) * place.along_row;
+  place.along_column.normalize();
+}
+
+void read_rescale(const Place& at, const DicomItem* item, SlicePlace& place) {
+  for (const auto& [tag, into] : {std::pair(tag::kSlope, &place.slope), std::pair(tag::kIntercept, &place.intercept)}) {
+    if (item == nullptr || item->text(tag).empty()) continue;
+    const auto value = item->decimals(tag);
+    if (!value || value->size() != 1 || std::abs((*value)[0]) > 1e9) at.refuse("RescaleSlope or RescaleIntercept is not one number");
+    *into = (*value)[0];
+  }
+  if (place.slope.has_value() != place.intercept.has_value()) at.refuse("has one of RescaleSlope and RescaleIntercept without the other");
+  if (place.slope && std::abs(*place.slope) < 1e-12) at.refuse("RescaleSlope is 0: it would erase the image");
+}
+
+SlicePlace place_of(const DicomItem& data, std::size_t frame, const Place& at) {
+  const Groups groups(data, frame);
+  SlicePlace place;
+  const auto position = at.numbers(groups.find(tag::kPlanePosition), tag::kPosition, 3, "ImagePositionPatient");
+  place.position = Eigen::Vector3d(position[0], position[1], position[2]);
+  if (place.position.cwiseAbs().maxCoeff() > kFarthest) at.refuse("ImagePositionPatient lies more than 100 m away");
+  read_orientation(at, groups.find(tag::kPlaneOrientation), place);
+  const auto spacing = at.numbers(groups.find(tag::kPixelMeasures), tag::kPixelSpacing, 2, "PixelSpacing");
+  for (const double step : spacing)
+    if (!(step >= kSmallestStep && step <= kLargestStep)) at.refuse("PixelSpacing is not between 0.001 and 100 mm");
+  place.column_step = spacing[0], place.row_step = spacing[1];  // PS3.3 10.7.1.3: first between rows, then between columns
+  const DicomItem* rescale = groups.find(tag::kValueTransformation);
+  read_rescale(at, rescale != nullptr ? rescale : &data, place);
+  return place;
+}
+
+}  // namespace
+
+std::vector<SlicePlace> slice_places(const DicomItem& data, int frames, const std::string& name) {
+  const DicomElement* groups = data.find(tag::kFrameGroups);
+  if (groups != nullptr && groups->items.size() != static_cast<std::size_t>(frames))
+    throw InputError(name + ": says that it has " + std::to_string(frames) + " frames but describes " +
+                     std::to_string(groups->items.size()));
+  if (groups == nullptr && frames > 1)
+    throw InputError(name + ": holds " + std::to_string(frames) + " frames without a position for each (an older multi-frame kind); " +
+                     "export the series as single slices or as an enhanced multi-frame image");
+  std::vector<SlicePlace> places;
+  for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames); ++frame)
+    places.push_back(place_of(data, frame, {frames > 1 ? name + ": frame " + std::to_string(frame + 1) : name}));
+  return places;
+}
+
+}  // namespace trocar

@@ -1,0 +1,57 @@
+// The DICOM files of a zip archive, unpacked into a private temporary folder that is gone when this object is.
+//
+// Names in the archive never become paths: files are numbered. Number, size, sum and ratio of what is unpacked are limited as it
+// comes out, whatever the archive claims. Unpacking runs in a child process. Thread: one owner.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tissue/progress.h"
+
+namespace trocar {
+
+struct ZipLimits {
+  std::uint64_t entries = 50000;
+  std::uint64_t file_bytes = std::uint64_t{1} << 30;
+  std::uint64_t all_bytes = std::uint64_t{4} << 30;
+  std::uint64_t free_bytes = std::uint64_t{64} << 20;  ///< that may come out whatever the ratio
+  std::uint64_t ratio = 200;                           ///< of all bytes to the size of the archive beyond that
+};
+
+class UnpackedZip {
+ public:
+  struct File {
+    std::filesystem::path path;
+    std::string name;  ///< in the archive, printable
+  };
+
+  /// @throws InputError naming the archive: damaged, encrypted, beyond the limits
+  UnpackedZip(const std::filesystem::path& archive, const ZipLimits& limits, const Progress& progress);
+  ~UnpackedZip();
+  UnpackedZip(const UnpackedZip&) = delete;
+  UnpackedZip& operator=(const UnpackedZip&) = delete;
+
+  /// Files that may be DICOM, by name.
+  const std::vector<File>& files() const { return files_; }
+  const std::filesystem::path& folder() const { return folder_.path; }
+
+ private:
+  struct Folder {
+    std::filesystem::path path;
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+  };
+
+  Folder folder_;
+  std::vector<File> files_;
+};
+
+/// Whether a file starts as a zip archive does.
+bool is_zip(const std::filesystem::path& file);
+
+}  // namespace trocar
