@@ -1,146 +1,181 @@
 #include "tissue/mesh/surface_import.h"
 
-#include <assimp/mesh.h>
-#include <assimp/scene.h>
-
-#include <array>
-#include <assimp/Importer.hpp>
-#include <sstream>
-#include <stdexcept>
+#include <algorithm>
 
 #include "haptics/input_error.h"
-#include "tissue/mesh/organ_manifest.h"
-#include "tissue/mesh/ply_check.h"
-#include "tissue/mesh/surface_check.h"
-#include "tissue/mesh/topology.h"
+#include "tissue/mesh/surface_files/closing.h"
+#include "tissue/mesh/surface_files/file_kind.h"
+#include "tissue/mesh/surface_files/placement.h"
+#include "tissue/mesh/surface_files/read_surface_file.h"
+#include "tissue/mesh/surface_files/tetrahedra.h"
 
 namespace trocar {
 namespace {
 
-constexpr std::array<std::pair<const char*, double>, 3> kUnits{{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}}};
-constexpr std::uintmax_t kMaxBytes = 512u << 20;
-constexpr double kLeastVolumeM3 = 1e-9;  // 1 mm^3: a flat or collinear shape encloses nothing
-constexpr double kWeldTolerance = 1e-6;  // of the bounding box's diagonal: float32 keeps 1e-7
-
-void check_file(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  if (!std::filesystem::is_regular_file(path)) throw InputError(file + ": no such file");
-  if (path.extension() != ".ply") throw InputError(file + ": extension: surfaces are read from .ply");
-  if (std::filesystem::file_size(path) > kMaxBytes) throw InputError(file + ": larger than 512 MiB");
-  const std::string bytes = read_bytes(path);
-  if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n"))
-    throw InputError(file + ": signature: does not start with \"ply\"");
-  check_ply(bytes, file);
+std::vector<SurfacePart> solid_parts(const FileTetrahedra& mesh) {
+  std::vector<SurfacePart> parts;
+  for (const std::string& name : mesh.region_names) parts.push_back({name, 0});
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    ++parts[mesh.regions.empty() ? 0 : static_cast<std::size_t>(mesh.regions[t])].triangles;
+  return parts;
 }
 
-/// Polygons become fans. assimp 5.2.5 hands indices on unseen, so its own triangulation must not touch them first.
-void add_mesh(const aiMesh& mesh, TriangleSurface& surface, const std::string& file) {
-  const auto first = static_cast<std::int32_t>(surface.vertices.size());
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v)
-    surface.vertices.emplace_back(mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z);
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& face = mesh.mFaces[f];
-    for (unsigned corner = 0; corner < face.mNumIndices; ++corner)
-      if (face.mIndices[corner] >= mesh.mNumVertices)
-        throw InputError(file + ": face " + std::to_string(f) + " names vertex " +
-                         std::to_string(face.mIndices[corner]) + " of " + std::to_string(mesh.mNumVertices));
-    const auto vertex = [&](unsigned corner) { return first + static_cast<std::int32_t>(face.mIndices[corner]); };
-    for (unsigned corner = 2; corner < face.mNumIndices; ++corner)
-      surface.triangles.push_back({vertex(0), vertex(corner - 1), vertex(corner)});
-  }
+/// Tetrahedra go before surfaces that are stored beside them.
+std::vector<SurfacePart> parts_of(const SurfaceFile& file) {
+  if (!file.tetrahedra.tetrahedra.empty()) return solid_parts(file.tetrahedra);
+  std::vector<SurfacePart> parts;
+  for (const FilePart& part : file.parts) parts.push_back({part.name, part.surface.triangles.size()});
+  return parts;
 }
 
-TriangleSurface read_with_assimp(const std::filesystem::path& path) {
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path.string(), 0);
-  if (scene == nullptr) throw InputError(path.string() + ": damaged PLY: " + importer.GetErrorString());
-  TriangleSurface surface;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) add_mesh(*scene->mMeshes[m], surface, path.string());
-  if (surface.triangles.empty()) throw InputError(path.string() + ": holds no triangles");
-  for (const Vec3& vertex : surface.vertices)
-    if (!vertex.allFinite()) throw InputError(path.string() + ": holds a vertex that is not finite");
+/// " (its parts: a, b, c and 7 more)", "" for one without a name.
+std::string listed(const std::vector<SurfacePart>& parts) {
+  constexpr std::size_t kListed = 12;
+  if (parts.size() < 2 && (parts.empty() || parts[0].name.empty())) return {};
+  std::string text;
+  for (std::size_t n = 0; n < std::min(parts.size(), kListed); ++n) text += (n > 0 ? ", " : "") + parts[n].name;
+  if (parts.size() > kListed) text += " and " + std::to_string(parts.size() - kListed) + " more";
+  return " (its parts: " + text + ")";
+}
+
+void append(TriangleSurface& whole, const TriangleSurface& part) {
+  const auto shift = static_cast<std::int32_t>(whole.vertices.size());
+  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const auto& [a, b, c] : part.triangles) whole.triangles.push_back({a + shift, b + shift, c + shift});
+}
+
+bool is_taken(const FilePart& part, const std::string& wanted) {
+  return wanted.empty() || part.name == wanted || std::find(part.groups.begin(), part.groups.end(), wanted) != part.groups.end();
+}
+
+[[noreturn]] void no_such_part(const std::string& wanted, const std::vector<SurfacePart>& parts, const std::string& file) {
+  throw InputError(file + ": has no part \"" + printable(wanted) + "\"" + listed(parts));
+}
+
+std::optional<std::int32_t> wanted_region(const FileTetrahedra& mesh, const std::string& wanted, const std::string& file) {
+  if (wanted.empty()) return std::nullopt;
+  for (std::size_t n = 0; n < mesh.region_names.size(); ++n)
+    if (mesh.region_names[n] == wanted) return static_cast<std::int32_t>(n);
+  no_such_part(wanted, solid_parts(mesh), file);
+}
+
+TriangleSurface taken_from_solid(SurfaceFile& read, const SurfaceImportOptions& options, const std::string& file) {
+  const FileTetrahedra& mesh = read.tetrahedra;
+  const TriangleSurface surface = outer_surface(mesh, wanted_region(mesh, options.part, file));
+  read.remarks.push_back("took the outer surface (" + std::to_string(surface.triangles.size()) + " triangles) of " +
+                         std::to_string(mesh.tetrahedra.size()) + " tetrahedra" +
+                         (read.parts.empty() ? "" : "; surfaces stored beside them were left out"));
   return surface;
 }
 
-bool plausible(double diagonal_m) { return diagonal_m >= kSmallestOrganM && diagonal_m <= kLargestOrganM; }
-
-/// "bounding box 221.9 x 214.3 x 190.3; an organ of 5..600 mm would have it in mm"
-std::string size_hint(const TriangleSurface& surface) {
-  const Vec3 extent = surface.bounds().sizes();
-  std::ostringstream out;
-  out << "bounding box " << extent.x() << " x " << extent.y() << " x " << extent.z() << "; ";
-  std::string candidates;
-  for (const auto& [name, factor] : kUnits)
-    if (plausible(extent.norm() * factor)) candidates += (candidates.empty() ? "" : " or ") + std::string(name);
-  out << "an organ measures 5 to 600 mm across, so "
-      << (candidates.empty() ? "no unit among mm, cm, m fits" : "it would be in " + candidates);
-  return out.str();
-}
-
-void check_closed(const TriangleSurface& surface, const std::string& file) {
-  const SurfaceTopology facts = analyse_topology(surface);
-  if (facts.boundary_edges > 0)
-    throw InputError(file + ": the surface is open: " + std::to_string(facts.boundary_edges) +
-                     " boundary edges (holes are not filled)");
-  if (facts.nonmanifold_edges > 0)
-    throw InputError(file + ": not a manifold: " + std::to_string(facts.nonmanifold_edges) +
-                     " edges of more than two triangles");
-  if (facts.nonmanifold_vertices > 0)
-    throw InputError(file + ": not a manifold: " + std::to_string(facts.nonmanifold_vertices) +
-                     " vertices where parts touch");
-}
-
-void keep_largest(ImportedSurface& result) {
-  const std::size_t before = result.surface.triangles.size();
-  result.surface = largest_component(result.surface, &result.lost_volumes_m3);
-  if (result.lost_volumes_m3.empty()) return;
-  result.repairs.push_back("kept the largest of " + std::to_string(result.lost_volumes_m3.size() + 1) +
-                           " components (" + std::to_string(result.surface.triangles.size()) + " of " +
-                           std::to_string(before) + " triangles)");
-}
-
-void orient(ImportedSurface& result, const std::string& file) {
-  try {
-    const std::size_t turned = orient_outward(result.surface);
-    if (turned > 0) result.repairs.push_back("turned " + std::to_string(turned) + " triangles outwards");
-  } catch (const std::invalid_argument&) {
-    throw InputError(file + ": the surface has no inside and outside");
+TriangleSurface taken(SurfaceFile& read, const SurfaceImportOptions& options, const std::string& file) {
+  if (!read.tetrahedra.tetrahedra.empty()) return taken_from_solid(read, options, file);
+  TriangleSurface surface;
+  std::size_t count = 0;
+  for (FilePart& part : read.parts) {
+    if (!is_taken(part, options.part)) continue;
+    ++count;
+    append(surface, part.surface);
+    part.surface = {};
   }
+  if (count == 0) no_such_part(options.part, parts_of(read), file);
+  if (count > 1 || count < read.parts.size())
+    read.remarks.push_back("took " + std::to_string(count) + " of " + std::to_string(read.parts.size()) +
+                           " parts as one surface, welded across them");
+  return surface;
+}
+
+Eigen::AlignedBox3d bounds_of_triangles(const TriangleSurface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : surface.triangles)
+    for (const std::int32_t vertex : triangle) box.extend(surface.vertices[static_cast<std::size_t>(vertex)]);
+  return box;
+}
+
+std::string organ_of(const SurfaceImportOptions& options, const std::filesystem::path& path) {
+  return !options.organ.empty() ? options.organ : options.part + " " + path.stem().string();
+}
+
+void place(TriangleSurface& surface, const Placement& placement) {
+  for (Vec3& vertex : surface.vertices) vertex = placement.placed(vertex);
+  if (!placement.mirrors()) return;
+  for (auto& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+void check_options(const SurfaceImportOptions& options, const std::string& file) {
+  if (!options.unit.empty()) metres_per(options.unit);
+  if (options.fill_holes_mm && !(*options.fill_holes_mm > 0 && *options.fill_holes_mm <= 1000))
+    throw InputError(file + ": the widest hole to fill must lie between 0 and 1000 mm");
+  if (options.wrap && !(options.wrap->alpha_mm > 0 && options.wrap->alpha_mm <= 1000 && options.wrap->offset_mm > 0))
+    throw InputError(file + ": alpha and offset of a wrap must be above 0 (and at most 1000 mm)");
 }
 
 }  // namespace
 
-double metres_per(const std::string& unit) {
-  for (const auto& [name, factor] : kUnits)
-    if (unit == name) return factor;
-  throw InputError("--unit " + unit + ": mm, cm or m is wanted");
+bool is_surface_file(const std::filesystem::path& path) { return kind_by_extension(path).has_value(); }
+
+ImportedSurface import_surface(const std::filesystem::path& path, const SurfaceImportOptions& options, const Progress& progress) {
+  const std::string file = path.string();
+  check_options(options, file);
+  SurfaceFile read = read_surface_file(path, progress);
+  ImportedSurface result;
+  result.parts = parts_of(read);
+  TriangleSurface surface = taken(read, options, file);
+  const std::string organ = organ_of(options, path);
+  const Placement placement = placement_of(read, options, bounds_of_triangles(surface), organ, file);
+  result.unit = placement.unit, result.frame = placement.frame, result.decisions = placement.decisions;
+  result.decisions.insert(result.decisions.end(), read.remarks.begin(), read.remarks.end());
+  read = {};
+  place(surface, placement);
+  try {
+    close_surface(surface, options, organ, file, result, progress);
+  } catch (const InputError& refusal) {
+    if (result.parts.size() < 2 || !options.part.empty()) throw;
+    throw InputError(refusal.what() + std::string("; or take one part with --part") + listed(result.parts));
+  }
+  report(progress, "checking", 1);
+  return result;
 }
 
 ImportedSurface import_surface(const std::filesystem::path& path, const std::string& unit) {
+  SurfaceImportOptions options;
+  options.unit = unit;
+  return import_surface(path, options);
+}
+
+std::vector<SurfacePart> list_surface_parts(const std::filesystem::path& path, const Progress& progress) {
+  return parts_of(read_surface_file(path, progress));
+}
+
+ImportedTetrahedra read_tetrahedra(const std::filesystem::path& path, const SurfaceImportOptions& options, const Progress& progress) {
   const std::string file = path.string();
-  check_file(path);
-  ImportedSurface result;
-  result.surface = read_with_assimp(path);
-  if (unit.empty())
-    throw InputError(file + ": PLY carries no unit, say --unit mm, cm or m: " + size_hint(result.surface));
-  const double factor = metres_per(unit);
-  if (!plausible(result.surface.bounds().diagonal().norm() * factor))
-    throw InputError(file + ": --unit " + unit + " is not plausible: " + size_hint(result.surface));
-  for (Vec3& vertex : result.surface.vertices) vertex *= factor;
-  const std::size_t before = result.surface.vertices.size();
-  result.surface = welded(result.surface, kWeldTolerance * result.surface.bounds().diagonal().norm());
-  if (result.surface.vertices.size() < before)
-    result.repairs.push_back("welded " + std::to_string(before) + " vertices to " +
-                             std::to_string(result.surface.vertices.size()));
-  check_closed(result.surface, file);
-  keep_largest(result);
-  orient(result, file);
-  if (result.surface.volume_m3() < kLeastVolumeM3)
-    throw InputError(file + ": the surface encloses no volume (less than 1 mm^3): it is flat or collinear");
-  result.source_self_intersections = count_self_intersections(result.surface);
-  if (result.source_self_intersections > 0)
-    result.repairs.push_back("the source cut itself in " + std::to_string(result.source_self_intersections) +
-                             " pairs of triangles");
+  const SurfaceFile read = read_surface_file(path, progress);
+  const FileTetrahedra& mesh = read.tetrahedra;
+  if (mesh.tetrahedra.empty()) throw InputError(file + ": holds no tetrahedra, only triangles");
+  const auto region = wanted_region(mesh, options.part, file);
+  const TriangleSurface outside = outer_surface(mesh, region);
+  const Placement placement = placement_of(read, options, bounds_of_triangles(outside), organ_of(options, path), file);
+  ImportedTetrahedra result;
+  result.unit = placement.unit, result.frame = placement.frame, result.decisions = placement.decisions;
+  result.repairs = read.remarks;
+  result.parts = solid_parts(mesh);
+  std::vector<std::int32_t> renumbered(mesh.vertices.size(), -1);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::int32_t number = mesh.regions.empty() ? 0 : mesh.regions[t];
+    if (region && number != *region) continue;
+    auto corners = mesh.tetrahedra[t];
+    for (std::int32_t& corner : corners) {
+      std::int32_t& target = renumbered[static_cast<std::size_t>(corner)];
+      if (target < 0) {
+        target = static_cast<std::int32_t>(result.vertices.size());
+        result.vertices.push_back(placement.placed(mesh.vertices[static_cast<std::size_t>(corner)]));
+      }
+      corner = target;
+    }
+    if (placement.mirrors()) std::swap(corners[2], corners[3]);
+    result.tetrahedra.push_back(corners);
+    result.regions.push_back(number);
+  }
   return result;
 }
 
