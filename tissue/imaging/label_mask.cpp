@@ -89,15 +89,99 @@ Parts connected_parts(const LabelMask& mask, std::uint8_t value) {
   return parts;
 }
 
-/// Keeps the voxels of one part at `value`, turns the others over and returns their sizes, largest first.
-std::vector<std::size_t> keep_part(LabelMask& mask, const Parts& parts, std::int32_t keep, std::uint8_t value) {
+/// Fewest background voxels that connect two parts over faces.
+struct Gap {
+  std::array<std::size_t, 2> voxels{};  ///< the same one twice when one is enough
+  std::int32_t first = 0, second = 0;   ///< parts
+  int length() const { return voxels[0] == voxels[1] ? 1 : 2; }
+};
+
+/// Parts that a background voxel touches over its faces, each once.
+std::vector<std::int32_t> touched(const LabelMask& mask, const Parts& parts, std::size_t voxel) {
+  const std::size_t row = static_cast<std::size_t>(mask.size[0]), slice = row * static_cast<std::size_t>(mask.size[1]);
+  std::vector<std::int32_t> result;
+  for (const std::size_t neighbour : {voxel - 1, voxel + 1, voxel - row, voxel + row, voxel - slice, voxel + slice})
+    if (parts.number[neighbour] != 0 && std::find(result.begin(), result.end(), parts.number[neighbour]) == result.end())
+      result.push_back(parts.number[neighbour]);
+  return result;
+}
+
+/// Gaps of one voxel, then of two, in voxel order. Voxels on the box's border are left out: they lie in the margin.
+std::vector<Gap> gaps_of(const LabelMask& mask, const Parts& parts, int longest) {
+  const std::size_t row = static_cast<std::size_t>(mask.size[0]), slice = row * static_cast<std::size_t>(mask.size[1]);
+  std::vector<Gap> single, twice;
+  for (int k = 1; k + 2 < mask.size[2]; ++k)
+    for (int j = 1; j + 2 < mask.size[1]; ++j)
+      for (int i = 1; i + 2 < mask.size[0]; ++i) {
+        const std::size_t voxel = mask.offset(i, j, k);
+        if (mask.inside[voxel] != 0) continue;
+        const auto here = touched(mask, parts, voxel);
+        for (std::size_t n = 1; n < here.size(); ++n) single.push_back({{voxel, voxel}, here[0], here[n]});
+        if (here.empty() || longest < 2) continue;
+        for (const std::size_t next : {voxel + 1, voxel + row, voxel + slice})
+          if (mask.inside[next] == 0)
+            for (const auto there : touched(mask, parts, next))
+              for (const auto part : here)
+                if (part != there) twice.push_back({{voxel, next}, part, there});
+      }
+  if (longest < 1) single.clear();
+  single.insert(single.end(), twice.begin(), twice.end());
+  return single;
+}
+
+/// Joins parts over gaps; `root[part]` then names the smallest part of each joined group.
+std::vector<std::int32_t> bridge(LabelMask& mask, Parts& parts, int longest) {
+  std::vector<std::int32_t> root(parts.voxels.size());
+  for (std::size_t n = 0; n < root.size(); ++n) root[n] = static_cast<std::int32_t>(n);
+  if (parts.voxels.size() <= 2) return root;
+  for (const Gap& gap : gaps_of(mask, parts, longest)) {
+    const std::int32_t a = root[static_cast<std::size_t>(gap.first)], b = root[static_cast<std::size_t>(gap.second)];
+    if (a == b) continue;
+    std::replace(root.begin(), root.end(), std::max(a, b), std::min(a, b));
+    for (int n = 0; n < gap.length(); ++n) {
+      const std::size_t voxel = gap.voxels[static_cast<std::size_t>(n)];
+      if (parts.number[voxel] != 0) continue;
+      parts.number[voxel] = gap.first;
+      ++parts.voxels[static_cast<std::size_t>(gap.first)];
+      mask.inside[voxel] = 1;
+      ++mask.bridge_voxels;
+    }
+  }
+  return root;
+}
+
+/// Keeps the groups of parts that the rule keeps, empties the others.
+/// @throws InputError when even the largest has too few voxels
+void keep_parts(LabelMask& mask, const PartsRule& rule, int label) {
+  Parts parts = connected_parts(mask, 1);
+  const auto root = bridge(mask, parts, rule.only_largest ? 0 : std::min(rule.bridge_voxels, 2));
+  std::vector<std::size_t> voxels(parts.voxels.size(), 0);
+  for (std::size_t part = 1; part < root.size(); ++part) voxels[static_cast<std::size_t>(root[part])] += parts.voxels[part];
+  const auto largest = static_cast<std::size_t>(std::max_element(voxels.begin(), voxels.end()) - voxels.begin());
+  if (voxels[largest] < kFewestVoxels)
+    throw InputError("label " + std::to_string(label) + ": its largest part has only " + std::to_string(voxels[largest]) +
+                     " voxels");
+  const double least = std::max(static_cast<double>(kFewestVoxels), rule.least_share * static_cast<double>(mask.label_voxels));
+  std::vector<bool> kept(voxels.size(), false);
+  mask.parts = 0;
+  for (std::size_t part = 1; part < voxels.size(); ++part) {
+    kept[part] = part == largest || (!rule.only_largest && static_cast<double>(voxels[part]) >= least);
+    if (kept[part]) ++mask.parts;
+    if (!kept[part] && voxels[part] > 0) mask.lost_parts.push_back(voxels[part]);
+  }
   for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel)
-    if (parts.number[voxel] != 0 && parts.number[voxel] != keep) mask.inside[voxel] = value == 0 ? 1 : 0;
-  std::vector<std::size_t> others;
-  for (std::size_t part = 1; part < parts.voxels.size(); ++part)
-    if (part != static_cast<std::size_t>(keep)) others.push_back(parts.voxels[part]);
-  std::sort(others.rbegin(), others.rend());
-  return others;
+    if (mask.inside[voxel] != 0 && !kept[static_cast<std::size_t>(root[static_cast<std::size_t>(parts.number[voxel])])])
+      mask.inside[voxel] = 0;
+  std::sort(mask.lost_parts.rbegin(), mask.lost_parts.rend());
+}
+
+/// Background that does not hang together with the box's corner becomes inside.
+void fill_cavities(LabelMask& mask) {
+  const Parts parts = connected_parts(mask, 0);
+  for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel)
+    if (parts.number[voxel] > 1) mask.inside[voxel] = 1;  // the corner voxel lies in the margin: part 1 is outside
+  for (std::size_t part = 2; part < parts.voxels.size(); ++part) mask.cavities.push_back(parts.voxels[part]);
+  std::sort(mask.cavities.rbegin(), mask.cavities.rend());
 }
 
 void count_kept(LabelMask& mask, const LabelVolume& volume) {
@@ -112,6 +196,8 @@ void count_kept(LabelMask& mask, const LabelVolume& volume) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const int place = index[axis] + mask.first[axis];
           outermost = outermost || place == 0 || place == volume.size[axis] - 1;
+          if (place == 0) mask.cut[axis][0] = true;
+          if (place == volume.size[axis] - 1) mask.cut[axis][1] = true;
         }
         mask.border_voxels += outermost ? 1 : 0;
       }
@@ -120,18 +206,11 @@ void count_kept(LabelMask& mask, const LabelVolume& volume) {
 }  // namespace
 
 LabelMask cut_out_label(const LabelVolume& volume, int label, int margin, const PartsRule& rule) {
-  static_cast<void>(rule);
   const Box box = bounding_box(volume, label);
   if (box.high[0] < 0) throw InputError("label " + std::to_string(label) + " marks no voxel");
   LabelMask mask = copy_box(volume, label, box, margin);
-  const Parts parts = connected_parts(mask, 1);
-  const auto largest = std::max_element(parts.voxels.begin(), parts.voxels.end());
-  if (*largest < kFewestVoxels)
-    throw InputError("label " + std::to_string(label) + ": its largest part has only " + std::to_string(*largest) +
-                     " voxels");
-  mask.lost_parts = keep_part(mask, parts, static_cast<std::int32_t>(largest - parts.voxels.begin()), 1);
-  mask.cavities =
-      keep_part(mask, connected_parts(mask, 0), 1, 0);  // the corner voxel lies in the margin: part 1 is outside
+  keep_parts(mask, rule, label);
+  fill_cavities(mask);
   count_kept(mask, volume);
   return mask;
 }

@@ -8,7 +8,7 @@ namespace trocar {
 namespace {
 
 std::vector<float> gaussian_kernel(double sigma) {
-  const int radius = std::min(kSmoothingMargin - 1, static_cast<int>(std::ceil(3.5 * sigma)));
+  const int radius = static_cast<int>(std::ceil(std::min(3.5 * sigma, sigma + 2.4)));
   std::vector<double> weights;
   double sum = 0;
   for (int offset = -radius; offset <= radius; ++offset) {
@@ -20,24 +20,24 @@ std::vector<float> gaussian_kernel(double sigma) {
   return kernel;
 }
 
-/// Convolves along one axis; beyond the box the field is 0.
+/// Convolves along one axis, whole rows at a time; beyond the box the field is 0.
 void convolve_axis(ScalarField& field, std::size_t axis, const std::vector<float>& kernel) {
-  const std::array<std::size_t, 3> strides{
-      1, static_cast<std::size_t>(field.size[0]),
-      static_cast<std::size_t>(field.size[0]) * static_cast<std::size_t>(field.size[1])};
-  const std::size_t stride = strides[axis];
-  const int length = field.size[axis], radius = static_cast<int>(kernel.size() / 2);
-  std::vector<float> line(static_cast<std::size_t>(length + 2 * radius), 0.0F);
-  for (std::size_t start = 0; start < field.values.size(); ++start) {
-    if (start / stride % static_cast<std::size_t>(length) != 0) continue;
-    for (int n = 0; n < length; ++n)
-      line[static_cast<std::size_t>(n + radius)] = field.values[start + static_cast<std::size_t>(n) * stride];
-    for (int n = 0; n < length; ++n) {
-      float sum = 0;
-      for (std::size_t tap = 0; tap < kernel.size(); ++tap)
-        sum += kernel[tap] * line[static_cast<std::size_t>(n) + tap];
-      field.values[start + static_cast<std::size_t>(n) * stride] = sum;
-    }
+  std::size_t stride = 1;
+  for (std::size_t n = 0; n < axis; ++n) stride *= static_cast<std::size_t>(field.size[n]);
+  const auto length = static_cast<std::size_t>(field.size[axis]);
+  const std::size_t block = stride * length, radius = kernel.size() / 2;
+  std::vector<float> padded((length + 2 * radius) * stride, 0.0F);
+  for (std::size_t start = 0; start < field.values.size(); start += block) {
+    float* values = field.values.data() + start;
+    std::copy(values, values + block, padded.begin() + static_cast<std::ptrdiff_t>(radius * stride));
+    std::fill(values, values + block, 0.0F);
+    for (std::size_t n = 0; n < length; ++n)
+      for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
+        const float weight = kernel[tap];
+        const float* from = padded.data() + (n + tap) * stride;
+        float* to = values + n * stride;
+        for (std::size_t m = 0; m < stride; ++m) to[m] += weight * from[m];
+      }
   }
 }
 
@@ -88,6 +88,72 @@ void widen(ScalarField& thin) {
   blur(thin, 1.0);
 }
 
+/// Index of slice `n` along `axis`, the last slice of the image at a cut side: what lies beyond repeats it.
+struct CutSide {
+  std::size_t axis;
+  int last;  ///< slice inside
+  int step;  ///< from there outwards
+};
+
+std::vector<CutSide> cut_sides(const LabelMask& mask, const std::array<int, 3>& size, const Sampling& sampling) {
+  std::vector<CutSide> sides;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = kSmoothingMargin - 0.5, high = mask.size[axis] - kSmoothingMargin - 0.5;  // the image's border
+    if (mask.cut[axis][0]) {
+      int last = 0;
+      while (sample_place(last, sampling[axis]) < low) ++last;
+      sides.push_back({axis, last, -1});
+    }
+    if (mask.cut[axis][1]) {
+      int last = size[axis] - 1;
+      while (sample_place(last, sampling[axis]) > high) --last;
+      sides.push_back({axis, last, 1});
+    }
+  }
+  return sides;
+}
+
+/// Calls set(outside value, value of the last slice inside) for every sample beyond a cut side.
+template <typename Set>
+void beyond(ScalarField& field, const CutSide& side, Set set) {
+  std::array<int, 3> index{};
+  std::size_t sample = 0;
+  for (index[2] = 0; index[2] < field.size[2]; ++index[2])
+    for (index[1] = 0; index[1] < field.size[1]; ++index[1])
+      for (index[0] = 0; index[0] < field.size[0]; ++index[0], ++sample) {
+        if ((index[side.axis] - side.last) * side.step <= 0) continue;
+        auto inner = index;
+        inner[side.axis] = side.last;
+        set(field.values[sample], field.values[field.offset(inner[0], inner[1], inner[2])]);
+      }
+}
+
+/// The values at the voxels on the grid of samples: repeated, or averaged.
+ScalarField resampled(const ScalarField& voxels, const Sampling& sampling) {
+  ScalarField field;
+  std::array<int, 3> step{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    step[axis] = std::max(1, -sampling[axis]);
+    field.size[axis] = sampling[axis] > 0 ? voxels.size[axis] * sampling[axis] : (voxels.size[axis] + step[axis] - 1) / step[axis];
+  }
+  field.values.assign(field.offset(0, 0, field.size[2]), 0.0F);
+  const auto cell = [&](std::size_t axis, int voxel) { return voxel / step[axis]; };
+  const float share = 1.0F / static_cast<float>(step[0] * step[1] * step[2]);
+  const std::array<int, 3> copies{std::max(1, sampling[0]), std::max(1, sampling[1]), std::max(1, sampling[2])};
+  std::size_t voxel = 0;
+  for (int k = 0; k < voxels.size[2]; ++k)
+    for (int j = 0; j < voxels.size[1]; ++j)
+      for (int i = 0; i < voxels.size[0]; ++i, ++voxel) {
+        if (voxels.values[voxel] == 0) continue;
+        for (int c = 0; c < copies[2]; ++c)
+          for (int b = 0; b < copies[1]; ++b)
+            for (int a = 0; a < copies[0]; ++a)
+              field.values[field.offset(cell(0, i) * copies[0] + a, cell(1, j) * copies[1] + b, cell(2, k) * copies[2] + c)] +=
+                  share * voxels.values[voxel];
+      }
+  return field;
+}
+
 }  // namespace
 
 ScalarField sharp_field(const LabelMask& mask) {
@@ -96,17 +162,42 @@ ScalarField sharp_field(const LabelMask& mask) {
   return field;
 }
 
-ScalarField smooth_field(const LabelMask& mask, const SmoothingWidths& widths) {
-  ScalarField broad = sharp_field(mask);
-  blur(broad, widths.broad);
+double sample_place(int sample, int sampling) {
+  return sampling > 0 ? (sample + 0.5) / sampling - 0.5 : (sample + 0.5) * -sampling - 0.5;
+}
+
+std::size_t count_thin_voxels(const LabelMask& mask) {
+  const ScalarField thin = thin_parts(mask);
+  return static_cast<std::size_t>(std::count_if(thin.values.begin(), thin.values.end(), [](float value) { return value > 0; }));
+}
+
+ScalarField smooth_field(const LabelMask& mask, const SmoothingWidths& widths, const Sampling& sampling) {
+  ScalarField voxels = sharp_field(mask);
+  for (const CutSide& side : cut_sides(mask, mask.size, {1, 1, 1}))
+    beyond(voxels, side, [](float& outside, float last) { outside = last; });
+  ScalarField broad = resampled(voxels, sampling);
+  std::array<double, 3> per_voxel{};
+  for (std::size_t axis = 0; axis < 3; ++axis) per_voxel[axis] = std::max(1, sampling[axis]);
   ScalarField weight = thin_parts(mask);
-  if (std::none_of(weight.values.begin(), weight.values.end(), [](float value) { return value > 0; })) return broad;
+  const bool thin = std::any_of(weight.values.begin(), weight.values.end(), [](float value) { return value > 0; });
+  ScalarField narrow;
+  if (thin) narrow = broad;
+  for (std::size_t axis = 0; axis < 3; ++axis) convolve_axis(broad, axis, gaussian_kernel(widths.broad * per_voxel[axis]));
+  if (!thin) return broad;
   widen(weight);
-  ScalarField narrow = sharp_field(mask);
-  blur(narrow, widths.thin);
-  for (std::size_t voxel = 0; voxel < broad.values.size(); ++voxel)
-    broad.values[voxel] += weight.values[voxel] * (narrow.values[voxel] - broad.values[voxel]);
+  weight = resampled(weight, sampling);
+  for (std::size_t axis = 0; axis < 3; ++axis) convolve_axis(narrow, axis, gaussian_kernel(widths.thin * per_voxel[axis]));
+  for (std::size_t n = 0; n < broad.values.size(); ++n)
+    broad.values[n] += weight.values[n] * (narrow.values[n] - broad.values[n]);
   return broad;
+}
+
+ScalarField signed_field(const ScalarField& field, const LabelMask& mask, const Sampling& sampling, double level) {
+  ScalarField result = field;
+  for (float& value : result.values) value -= static_cast<float>(level);
+  for (const CutSide& side : cut_sides(mask, field.size, sampling))
+    beyond(result, side, [](float& outside, float last) { outside = -std::abs(last); });
+  return result;
 }
 
 }  // namespace trocar

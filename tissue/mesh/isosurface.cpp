@@ -1,6 +1,7 @@
 #include "tissue/mesh/isosurface.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 namespace trocar {
@@ -122,6 +123,26 @@ class Marcher {
   TriangleSurface surface_;
 };
 
+/// Share of a tetrahedron in which a linear function with these corner values is positive.
+double positive_share(std::array<double, 4> v) {
+  std::sort(v.begin(), v.end(), std::greater<>());
+  const auto cut = [](double in, double out) { return in / (in - out); };
+  if (v[0] <= 0) return 0;
+  if (v[3] > 0) return 1;
+  if (v[1] <= 0) return cut(v[0], v[1]) * cut(v[0], v[2]) * cut(v[0], v[3]);
+  if (v[2] > 0) return 1 - cut(v[3], v[0]) * cut(v[3], v[1]) * cut(v[3], v[2]);
+  const double s = cut(v[0], v[2]), t = cut(v[0], v[3]), u = cut(v[1], v[2]), w = cut(v[1], v[3]);
+  return s * t + w * s * (1 - t) + (1 - s) * u * w;
+}
+
+double cube_share(const std::array<double, 8>& corners) {
+  double sum = 0;
+  for (const auto& t : kTetrahedra)
+    sum += positive_share({corners[static_cast<std::size_t>(t[0])], corners[static_cast<std::size_t>(t[1])],
+                           corners[static_cast<std::size_t>(t[2])], corners[static_cast<std::size_t>(t[3])]});
+  return sum / 6;
+}
+
 void check_border(const ScalarField& field, double level) {
   for (int k = 0; k < field.size[2]; ++k)
     for (int j = 0; j < field.size[1]; ++j)
@@ -138,6 +159,27 @@ void check_border(const ScalarField& field, double level) {
 TriangleSurface isosurface(const ScalarField& field, const Vec3& spacing_m, double level) {
   check_border(field, level);
   return Marcher(field, spacing_m, level).march();
+}
+
+double enclosed_volume_m3(const ScalarField& field, const Vec3& spacing_m, double level) {
+  const std::size_t row = static_cast<std::size_t>(field.size[0]), slice = row * static_cast<std::size_t>(field.size[1]);
+  const std::array<std::size_t, 8> step{0, 1, row, row + 1, slice, slice + 1, slice + row, slice + row + 1};
+  const auto limit = static_cast<float>(level);
+  double cubes = 0;
+  for (int k = 0; k + 1 < field.size[2]; ++k)
+    for (int j = 0; j + 1 < field.size[1]; ++j) {
+      const float* values = field.values.data() + field.offset(0, j, k);
+      for (int i = 0; i + 1 < field.size[0]; ++i, ++values) {
+        int inside = 0;
+        for (const std::size_t s : step) inside += values[s] > limit ? 1 : 0;
+        if (inside == 8) cubes += 1;
+        if (inside == 0 || inside == 8) continue;
+        std::array<double, 8> corners{};
+        for (std::size_t n = 0; n < 8; ++n) corners[n] = values[step[n]] - level;
+        cubes += cube_share(corners);
+      }
+    }
+  return cubes * spacing_m.prod();
 }
 
 }  // namespace trocar

@@ -15,4 +15,7 @@ namespace trocar {
 /// @throws std::invalid_argument when a border sample lies above the level
 TriangleSurface isosurface(const ScalarField& field, const Vec3& spacing_m, double level);
 
+/// Volume that `isosurface` encloses, without making it, m^3.
+double enclosed_volume_m3(const ScalarField& field, const Vec3& spacing_m, double level);
+
 }  // namespace trocar

@@ -168,6 +168,23 @@ TriangleSurface largest_component(const TriangleSurface& surface, std::vector<do
   return kept;
 }
 
+TriangleSurface without_specks(const TriangleSurface& surface, double least_m3, std::vector<double>* lost_volumes_m3) {
+  const auto component = triangle_components(surface);
+  std::vector<double> volumes;
+  for (std::size_t t = 0; t < component.size(); ++t) {
+    const auto number = static_cast<std::size_t>(component[t]);
+    if (number >= volumes.size()) volumes.resize(number + 1, 0);
+    volumes[number] += six_volumes(surface, surface.triangles[t]) / 6;
+  }
+  if (lost_volumes_m3 != nullptr) {
+    lost_volumes_m3->clear();
+    for (const double volume : volumes)
+      if (volume > 0 && volume < least_m3) lost_volumes_m3->push_back(volume);
+    std::sort(lost_volumes_m3->rbegin(), lost_volumes_m3->rend());
+  }
+  return subset(surface, [&](std::size_t t) { return volumes[static_cast<std::size_t>(component[t])] >= least_m3; });
+}
+
 TriangleSurface welded(const TriangleSurface& surface, double tolerance_m) {
   std::map<std::array<std::int64_t, 3>, Index> cells;
   std::vector<Index> target;

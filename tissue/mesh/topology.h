@@ -34,6 +34,11 @@ std::vector<std::int32_t> triangle_components(const TriangleSurface& surface);
 /// @param lost_volumes_m3 when given: absolute volumes of the others, largest first
 TriangleSurface largest_component(const TriangleSurface& surface, std::vector<double>* lost_volumes_m3 = nullptr);
 
+/// The surface without its components that enclose less than `least_m3` (absolute), vertices renumbered in order of first use.
+/// Inner walls (components of negative volume) go too: they bound cavities.
+/// @param lost_volumes_m3 when given: volumes of the dropped ones that are not inner walls, largest first
+TriangleSurface without_specks(const TriangleSurface& surface, double least_m3, std::vector<double>* lost_volumes_m3 = nullptr);
+
 /// Merges vertices that lie in one cell of a grid of `tolerance_m`, drops triangles that collapse or repeat.
 TriangleSurface welded(const TriangleSurface& surface, double tolerance_m);
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/tissue/support/shapes.h"
+#include "tissue/mesh/mesh_quality.h"
 #include "tissue/mesh/remesh.h"
 #include "tissue/mesh/surface_fit.h"
 #include "tissue/mesh/topology.h"
@@ -59,7 +60,7 @@ TEST(SurfaceCheck, DistanceSeesWhatOnlyOneSurfaceHas) {
 
 TEST(Remesh, GivesTrianglesOfTheWantedSizeOnTheSameSurface) {
   const TriangleSurface dense = test::sphere(Vec3(0.1, 0.2, 0.3), 0.05, 5);
-  const TriangleSurface coarse = remeshed(dense, 0.008, 5);
+  const TriangleSurface coarse = remeshed(dense, std::vector<double>(dense.vertices.size(), 0.008), {});
   const SurfaceTopology facts = analyse_topology(coarse);
   EXPECT_TRUE(facts.closed() && facts.manifold());
   EXPECT_EQ(facts.genus, 0);
@@ -73,17 +74,20 @@ TEST(Remesh, GivesTrianglesOfTheWantedSizeOnTheSameSurface) {
     }
   EXPECT_GT(shortest, 0.3 * 0.008);
   EXPECT_LT(longest, 1.6 * 0.008);
+  EXPECT_GT(mesh_quality(coarse).min_angle_deg, 25);
   for (const Vec3& vertex : coarse.vertices) EXPECT_NEAR((vertex - Vec3(0.1, 0.2, 0.3)).norm(), 0.05, 1e-4);
 }
 
 TEST(Remesh, RefusesWhatIsNoManifold) {
   TriangleSurface fin = box(Vec3::Zero(), Vec3::Ones());
   fin.triangles.push_back({0, 1, 7});
-  EXPECT_THROW(remeshed(fin, 0.3, 1), std::invalid_argument);
+  EXPECT_THROW(remeshed(fin, std::vector<double>(8, 0.3), {}), std::invalid_argument);
+  EXPECT_THROW(remeshed(box(Vec3::Zero(), Vec3::Ones()), {0.3}, {}), std::invalid_argument);
 }
 
 TEST(SurfaceFit, BringsFacetsCloserToTheShape) {
-  const TriangleSurface dense = test::sphere(Vec3::Zero(), 1, 6), coarse = remeshed(dense, 0.4, 5);
+  const TriangleSurface dense = test::sphere(Vec3::Zero(), 1, 6);
+  const TriangleSurface coarse = remeshed(dense, std::vector<double>(dense.vertices.size(), 0.4), {});
   const double before = distance_from_to(coarse, dense).mean_m,
                after = distance_from_to(fitted(coarse, dense, 4), dense).mean_m;
   EXPECT_LT(after, 0.5 * before);
