@@ -9,7 +9,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/label_table.h"
 #include "tissue/imaging/nifti_writer.h"
-#include "tissue/imaging/phantom.h"
+#include "tissue/imaging/phantom/phantom.h"
 #include "tissue/mesh/staged_file.h"
 
 namespace trocar {

@@ -1,4 +1,4 @@
-#include "tissue/imaging/phantom.h"
+#include "tissue/imaging/phantom/phantom.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +148,7 @@ double phantom_liver_mm(const Vec& p) {
   return without(liver, phantom_gallbladder_mm(p) - 2, 4);
 }
 
-CtPhantom make_phantom(const PhantomOptions& options) {
+CtPhantom make_phantom(const PhantomOptions& options, const Progress&) {
   const Vec low(-175, -120, -120), high(175, 135, 115);
   CtPhantom phantom;
   LabelVolume& labels = phantom.labels;
@@ -164,7 +164,7 @@ CtPhantom make_phantom(const PhantomOptions& options) {
       for (int i = 0; i < labels.size[0]; ++i) {
         const Tissue tissue = tissue_at(labels.index_to_ras_mm * Vec(i, j, k));
         labels.labels.push_back(tissue.label);
-        values.push_back(tissue.hounsfield + options.noise_hu * noise());
+        values.push_back(tissue.hounsfield + options.noise_hu * 4 * noise());
       }
   blur(values, labels.size);
   for (const double value : values)
