@@ -60,7 +60,7 @@ struct PhantomTube {
   double length_mm() const;
 };
 
-/// Cystic, common hepatic and common bile duct; hepatic, right hepatic, left hepatic and cystic artery.
+/// Common bile, common hepatic and cystic duct; hepatic, right hepatic, left hepatic and cystic artery.
 std::vector<PhantomTube> phantom_hilum(PhantomVariant variant, std::uint64_t patient = 0);
 
 /// Signed distance (approximate, mm, negative inside) of the standard patient's organs, for tests and pictures.
