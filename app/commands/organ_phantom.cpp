@@ -1,5 +1,6 @@
 #include "app/commands/organ_phantom.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
@@ -9,7 +10,9 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/label_table.h"
 #include "tissue/imaging/nifti_writer.h"
-#include "tissue/imaging/phantom.h"
+#include "tissue/imaging/phantom/dicom_writer.h"
+#include "tissue/imaging/phantom/phantom.h"
+#include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/mesh/staged_file.h"
 
 namespace trocar {
@@ -18,24 +21,41 @@ namespace {
 constexpr const char* kCredit = "synthetic CT phantom made by Trocar";
 constexpr const char* kLicence = "CC0-1.0";
 
-std::string readme(const PhantomOptions& options, const LabelVolume& labels) {
-  const LabelTable& table = label_table(kDefaultLabelTable);
+PhantomOptions drawn(const OrganPhantomOptions& options) {
+  PhantomOptions phantom;
+  phantom.voxel_mm = options.voxel_mm, phantom.seed = options.seed, phantom.patient = options.patient;
+  phantom.variant = phantom_variant(options.variant);
+  return phantom;
+}
+
+std::string readme(const OrganPhantomOptions& options, const LabelVolume& labels) {
+  const LabelTable& table = label_table(kPhantomTable);
   std::ostringstream text;
-  text << "# Synthetic CT phantom\n\nDrawn from analytic shapes by `trocar organ phantom --seed " << options.seed
-       << "`; no patient, no scanner. Licence " << kLicence << ".\n\n- ct.nii.gz: Hounsfield units, int16, voxels of "
-       << options.voxel_mm << " mm, RAS\n- labels.nii.gz: labels numbered as in the table " << table.name << ":\n\n";
-  for (const auto& [number, voxels] : labels.label_counts())
-    text << "  - " << number << " " << table.name_of(number).value_or("unnamed") << ", "
-         << std::lround(static_cast<double>(voxels) * labels.voxel_volume_ml()) << " mL\n";
+  text << "# Synthetic CT phantom\n\nDrawn from analytic shapes by `trocar organ phantom --variant " << options.variant
+       << " --patient " << options.patient << " --voxel " << options.voxel_mm << " --seed " << options.seed
+       << "`; no patient, no scanner. Licence " << kLicence
+       << ".\n\n- ct.nii.gz: Hounsfield units, int16, portal venous phase, voxels of " << options.voxel_mm
+       << " mm, RAS\n- labels.nii.gz: labels numbered as in the table " << table.name << ":\n\n";
+  for (const auto& [number, voxels] : labels.label_counts()) {
+    const double volume = static_cast<double>(voxels) * labels.voxel_volume_ml();
+    text << "  - " << number << " " << table.name_of(number).value_or("unnamed") << ", ";
+    if (volume >= 10) text << std::lround(volume) << " mL\n";
+    if (volume < 10) text << std::lround(volume * 100) / 100.0 << " mL\n";
+  }
+  text << "\nDucts and arteries, centreline length and outer diameter as drawn:\n\n";
+  for (const PhantomTube& tube : phantom_hilum(phantom_variant(options.variant), options.patient))
+    text << "  - " << tube.name << ", " << std::lround(tube.length_mm()) << " mm, "
+         << std::lround(20 * tube.radii_mm.front()) / 10.0 << " mm\n";
   return text.str();
 }
 
-void write_volumes(const std::filesystem::path& folder, const PhantomOptions& options) {
-  const CtPhantom phantom = make_phantom(options);
+void write_volumes(const OrganPhantomOptions& options) {
+  const CtPhantom phantom = make_phantom(drawn(options));
   const LabelVolume& labels = phantom.labels;
-  StagedFile ct(folder / "ct.nii.gz", nifti_gz_bytes(labels.size, labels.index_to_ras_mm, phantom.hounsfield));
-  StagedFile map(folder / "labels.nii.gz", nifti_gz_bytes(labels.size, labels.index_to_ras_mm, labels.labels));
-  StagedFile text(folder / "README.md", readme(options, labels));
+  StagedFile ct(options.out / "ct.nii.gz", nifti_gz_bytes(labels.size, labels.index_to_ras_mm, phantom.hounsfield));
+  StagedFile map(options.out / "labels.nii.gz", nifti_gz_bytes(labels.size, labels.index_to_ras_mm, labels.labels));
+  StagedFile text(options.out / "README.md", readme(options, labels));
+  if (options.dicom) write_phantom_dicom(options.out / "dicom", phantom);
   ct.commit();
   map.commit();
   text.commit();
@@ -47,7 +67,7 @@ CompiledMember import_phantom_organ(const std::filesystem::path& folder, const s
   import.input = (folder / "ct.nii.gz").string();
   import.labels = (folder / "labels.nii.gz").string();
   import.label = {label};
-  import.label_table = kDefaultLabelTable;
+  import.label_table = kPhantomTable;
   import.triangles = triangles;
   import.output = (folder / ("phantom-" + label)).string();
   import.licence = kLicence;
@@ -60,7 +80,7 @@ CompiledMember import_phantom_organ(const std::filesystem::path& folder, const s
 
 int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::ostream& err) {
   if (options.out.empty()) throw InputError("--out: no folder given");
-  write_volumes(options.out, {.seed = options.seed});
+  write_volumes(options);
   nlohmann::ordered_json organs = nlohmann::ordered_json::array();
   for (const auto& [label, triangles] : {std::pair("liver", 6000), std::pair("gallbladder", 2000)}) {
     const CompiledMember organ = import_phantom_organ(options.out, label, triangles, err);
@@ -70,6 +90,10 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
   }
   const nlohmann::ordered_json report{{"synthetic", true},
                                       {"seed", options.seed},
+                                      {"variant", options.variant},
+                                      {"patient", options.patient},
+                                      {"voxel_mm", options.voxel_mm},
+                                      {"label_table", kPhantomTable},
                                       {"volume", "ct.nii.gz"},
                                       {"labels", "labels.nii.gz"},
                                       {"organs", organs}};

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "haptics/input_error.h"
+#include "tissue/imaging/phantom/phantom_labels.h"
 
 namespace trocar {
 namespace {
@@ -59,8 +60,10 @@ constexpr std::array<LabelName, 15> kMr{{{1, "spleen"},
                                          {24, "inferior_vena_cava"},
                                          {25, "portal_vein_and_splenic_vein"}}};
 
-constexpr std::array<LabelTable, 3> kTables{
-    {{"totalsegmentator-v1", kV1}, {"totalsegmentator-v2", kV2}, {"totalsegmentator-mr", kMr}}};
+constexpr std::array<LabelTable, 4> kTables{{{"totalsegmentator-v1", kV1},
+                                             {"totalsegmentator-v2", kV2},
+                                             {"totalsegmentator-mr", kMr},
+                                             {kPhantomTable, kPhantomLabels}}};
 
 }  // namespace
 

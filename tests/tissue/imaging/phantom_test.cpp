@@ -1,4 +1,4 @@
-#include "tissue/imaging/phantom.h"
+#include "tissue/imaging/phantom/phantom.h"
 
 #include <gtest/gtest.h>
 
