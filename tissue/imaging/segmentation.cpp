@@ -31,6 +31,7 @@ struct Work {
   Region region;
   RegionShape shape;
   std::vector<std::uint8_t> mask;
+  Eigen::Array3i seed = Eigen::Array3i::Zero();  ///< in the region
 
   std::size_t offset(const Eigen::Array3i& place) const {
     return static_cast<std::size_t>(place[0]) +
@@ -160,11 +161,18 @@ Eigen::Array3i near_seed(const Work& work, const Eigen::Array3i& seed, double re
   return best;
 }
 
-void check_seed(const Work& work, const Eigen::Array3i& seed) {
-  const Eigen::Array3i place = seed - work.region.low;
-  if ((place >= 0).all() && (place < work.region.extent()).all() && work.mask[work.offset(place)] == 1) return;
-  throw InputError("--seed: its voxel holds " + plain(work.image.values[work.image.offset(seed[0], seed[1], seed[2])]) +
-                   ", outside the window " + plain(work.options.low) + " to " + plain(work.options.high));
+/// Noise may put the seed's own voxel outside the window: its neighbours within two voxels stand in for it.
+void settle_seed(Work& work) {
+  const Eigen::Array3i place = seed_voxel(work.image, *work.options.seed_ras_mm);
+  const double edge = *std::max_element(work.shape.spacing_mm.begin(), work.shape.spacing_mm.end());
+  work.seed = near_seed(work, place - work.region.low, 2 * edge);
+  const std::string held = plain(work.image.values[work.image.offset(place[0], place[1], place[2])]);
+  const bool inside = (work.seed >= 0).all() && (work.seed < work.region.extent()).all();
+  if (!inside || work.mask[work.offset(work.seed)] == 0)
+    throw InputError("--seed: its voxel holds " + held + ", outside the window " + plain(work.options.low) + " to " +
+                     plain(work.options.high) + ", and so do its neighbours");
+  if ((work.seed != place - work.region.low).any())
+    work.notes.push_back("the seed's own voxel holds " + held + ", outside the window; a neighbour in it was taken instead");
 }
 
 void open_mask(Work& work) {
@@ -183,8 +191,7 @@ void open_mask(Work& work) {
 void choose_piece(Work& work) {
   report(work.progress, "connected pieces", -1);
   if (work.options.seed_ras_mm) {
-    const Eigen::Array3i seed = seed_voxel(work.image, *work.options.seed_ras_mm) - work.region.low;
-    const Eigen::Array3i start = near_seed(work, seed, work.options.opening_mm);
+    const Eigen::Array3i start = near_seed(work, work.seed, work.options.opening_mm);
     if (work.mask[work.offset(start)] == 0)
       throw InputError("--seed: the opening took away everything round it; choose a seed deeper inside or a smaller ball");
     keep_connected(work.mask, work.shape, {start[0], start[1], start[2]});
@@ -264,13 +271,13 @@ void tell_extent(const Work& work, const Extent& extent, std::vector<std::string
 
 LabelVolume segment(const ImageVolume& image, const SegmentationOptions& options, const Progress& progress) {
   check_options(options);
-  Work work{image, options, progress, {}, {}, {}, {}};
+  Work work{.image = image, .options = options, .progress = progress, .notes = {}, .region = {}, .shape = {}, .mask = {}};
   work.notes.push_back("marked by values from " + plain(options.low) + " to " + plain(options.high) +
                        ", not by anatomy: what has equal values and touches is one piece; look at the result before use");
   if (options.seed_ras_mm) seed_voxel(image, *options.seed_ras_mm);
   choose_region(work);
   threshold(work);
-  if (options.seed_ras_mm) check_seed(work, seed_voxel(image, *options.seed_ras_mm));
+  if (options.seed_ras_mm) settle_seed(work);
   if (marked(work.mask) == 0) refuse_empty_window(image, options);
   open_mask(work);
   choose_piece(work);

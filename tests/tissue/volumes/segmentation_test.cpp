@@ -161,7 +161,9 @@ TEST(Segmentation, MistakesAreRefusedByOption) {
   options.seed_ras_mm = Eigen::Vector3d(900, 0, 0);
   EXPECT_CONTAINS(refused(options), "outside the image, which reaches from (-4.5, -4.5, -4.5)");
   options.seed_ras_mm = Eigen::Vector3d(-4.4, 0, 0);
-  EXPECT_CONTAINS(refused(options), "its voxel holds -4.5, outside the window 0 to 10");
+  EXPECT_CONTAINS(refused(options), "its voxel holds -4.5, outside the window 0 to 10, and so do its neighbours");
+  options.seed_ras_mm = Eigen::Vector3d(-0.6, 0.1, 0.1);
+  EXPECT_TRUE(test::has_note(segment(image, options).notes, "holds -0.5, outside the window; a neighbour"));
   options = window(0, 10), options.opening_mm = -1;
   EXPECT_CONTAINS(refused(options), "opening");
 }

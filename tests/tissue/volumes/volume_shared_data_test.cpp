@@ -148,8 +148,8 @@ TEST_F(SharedVolumes, SeededOrgansOfTheAbdomenAgainstTheirMasks) {
     for (const std::string& note : result.notes) std::cout << "  " << note << "\n";
     return value;
   };
-  EXPECT_GT(score("liver", 80, 160, 5, 140), 0.5);
-  EXPECT_GT(score("spleen", 90, 180, 5, 80), 0.5);
+  EXPECT_GT(score("liver", 25, 80, 6, 140), 0.8);
+  EXPECT_GT(score("spleen", 15, 70, 6, 70), 0.7);
 }
 
 }  // namespace
