@@ -1,6 +1,7 @@
 // What the numbers of a label map mean: named tables, because one number means different organs in different tables.
 //
-// Source: the class maps of TotalSegmentator (v1 "total", v2 "total", "total_mr"), abdomen only. Thread: constant data.
+// Source of the built-in ones: the class maps of TotalSegmentator (v1 "total", v2 "total", "total_mr"), in full
+// (totalsegmentator_tables.h); a table of the user's own comes from label_table_file.h. Thread: constant data.
 #pragma once
 
 #include <optional>

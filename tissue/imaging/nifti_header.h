@@ -1,21 +1,23 @@
-// The NIfTI-1 header, read and judged by ourselves before any library sees the file.
+// The NIfTI header, read and judged by ourselves before a voxel is touched.
 //
-// Layout: nifti1.h (NIfTI-1.1, 348 bytes). Voxel (i, j, k) counts from 0, its centre lies at index_to_ras_mm * (i, j,
-// k) in the RAS patient frame (x right, y anterior, z superior), millimetres. A signed header alone is no proof of
-// data: the length of the voxel block is measured too, through the inflater for .nii.gz. Thread: any, not the tick
-// (file I/O).
+// Versions 1 and 2 (nifti_fields.h), one file (.nii, .nii.gz) or a pair (.hdr with .img). Voxel (i, j, k) counts from 0, its centre
+// lies at index_to_ras_mm * (i, j, k) in the RAS patient frame (x right, y anterior, z superior), millimetres. A signed header alone
+// is no proof of data: the length of the voxel block is measured too, through the inflater for .nii.gz. Thread: any, not the tick.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "tissue/imaging/volume_header.h"
+
 namespace trocar {
 
-/// NIfTI-1 data type codes that hold one real number a voxel.
+/// NIfTI data type codes that hold one real number a voxel.
 enum class NiftiType : std::int16_t {
   kUint8 = 2,
   kInt16 = 4,
@@ -25,13 +27,17 @@ enum class NiftiType : std::int16_t {
   kInt8 = 256,
   kUint16 = 512,
   kUint32 = 768,
+  kInt64 = 1024,
+  kUint64 = 1280,
 };
 
 struct NiftiHeader {
+  int version = 1;
   std::array<int, 3> size{};  ///< voxels along i, j, k
   NiftiType type = NiftiType::kUint8;
   bool swapped = false;  ///< stored in the other byte order
   bool gzip = false;
+  bool pair = false;         ///< the voxels lie in an .img file
   double data_offset = 352;  ///< bytes before the first voxel
   double slope = 1;          ///< value = slope * stored + intercept; slope 0 in the file means 1
   double intercept = 0;
@@ -44,16 +50,17 @@ struct NiftiHeader {
   Eigen::Vector3d spacing_mm() const;
 };
 
-/// Largest volume accepted: 2^28 voxels (a 512 x 512 x 1024 series).
-inline constexpr std::size_t kMaxVoxels = std::size_t{1} << 28;
-
-/// Judges the 348 header bytes alone.
+/// Judges the header bytes alone.
 /// @param file name used in messages
 /// @throws InputError "FILE: field: what is wrong"
-NiftiHeader parse_nifti_header(const std::array<unsigned char, 348>& bytes, const std::string& file);
+NiftiHeader parse_nifti_header(std::span<const unsigned char> bytes, const std::string& file);
 
-/// Extension (.nii, .nii.gz) and signature, header, and presence of every voxel byte.
+/// Extension and signature, header, and presence of every voxel byte of a single file.
 /// @throws InputError naming file and field
 NiftiHeader read_nifti_header(const std::filesystem::path& path);
+
+/// The same as the other formats' headers are told; the voxels are not looked at. .nii, .nii.gz, .hdr or .img (also .gz) of a pair.
+/// @throws InputError naming file and field
+VolumeHeader nifti_volume_header(const std::filesystem::path& path);
 
 }  // namespace trocar

@@ -62,8 +62,6 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"sizeof_hdr", [](NiftiFixture& f) { f.put<std::int32_t>(0, 347); }},
         Spoiled{"NIfTI-2", [](NiftiFixture& f) { f.put<std::int32_t>(0, 540); }},
         Spoiled{"magic", [](NiftiFixture& f) { f.put<char>(344, 'x'); }},
-        Spoiled{".hdr/.img",
-                [](NiftiFixture& f) { f.put<char>(345, 'i'), f.put<char>(344, 'n'), f.put<char>(346, '1'); }},
         Spoiled{"dim[0]", [](NiftiFixture& f) { f.put<std::int16_t>(40, 2); }},
         Spoiled{"dim[0]", [](NiftiFixture& f) { f.put<std::int16_t>(40, -1); }},
         Spoiled{"dim[2]", [](NiftiFixture& f) { f.put<std::int16_t>(44, 1); }},
@@ -87,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"not finite", [](NiftiFixture& f) { f.put(280, kNan); }},
         Spoiled{"not finite", [](NiftiFixture& f) { f.put(292, std::numeric_limits<float>::infinity()); }},
         Spoiled{"voxel size", [](NiftiFixture& f) { f.put(280, 0.0F); }},
-        Spoiled{"right angles", [](NiftiFixture& f) { f.put(284, 0.3F); }},
+        Spoiled{"one plane", [](NiftiFixture& f) { f.put(284, 9.0F); }},
         Spoiled{"quatern", [](NiftiFixture& f) { f.put<std::int16_t>(252, 1), f.put(256, kNan); }},
         Spoiled{"100 m", [](NiftiFixture& f) { f.put(292, 1e9F); }}));
 
@@ -135,6 +133,14 @@ TEST(NiftiHeader, SaysWhenSformAndQformDisagree) {
   const NiftiHeader header = parse_nifti_header(file.header_array(), "scan.nii");
   ASSERT_EQ(header.notes.size(), 1U);
   EXPECT_CONTAINS(header.notes[0], "25 mm apart");
+}
+
+TEST(NiftiHeader, KeepsShearedAxesAndSaysSo) {
+  NiftiFixture file;
+  file.put(284, 0.3F);
+  const NiftiHeader header = parse_nifti_header(file.header_array(), "scan.nii");
+  ASSERT_EQ(header.notes.size(), 1U);
+  EXPECT_CONTAINS(header.notes[0], "right angles");
 }
 
 // ITK places voxels in LPS: x and y of its world are ours with the sign turned.

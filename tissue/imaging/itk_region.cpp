@@ -1,0 +1,136 @@
+#include "tissue/imaging/itk_region.h"
+
+#include <itkBinaryFillholeImageFilter.h>
+#include <itkBinaryThresholdImageFilter.h>
+#include <itkConnectedComponentImageFilter.h>
+#include <itkConnectedThresholdImageFilter.h>
+#include <itkCurvatureFlowImageFilter.h>
+#include <itkImage.h>
+#include <itkMultiThreaderBase.h>
+#include <itkRelabelComponentImageFilter.h>
+#include <itkSignedMaurerDistanceMapImageFilter.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace trocar {
+namespace {
+
+using Mask = itk::Image<std::uint8_t, 3>;
+using Values = itk::Image<float, 3>;
+using Numbers = itk::Image<std::uint32_t, 3>;
+
+/// An ITK image over our own memory; nothing is copied.
+template <typename Image>
+typename Image::Pointer over(std::vector<typename Image::PixelType>& voxels, const RegionShape& shape) {
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1);
+  const auto image = Image::New();
+  typename Image::RegionType region;
+  typename Image::SpacingType spacing;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    region.SetSize(axis, static_cast<itk::SizeValueType>(shape.size[axis]));
+    spacing[axis] = shape.spacing_mm[axis];
+  }
+  image->SetRegions(region);
+  image->SetSpacing(spacing);
+  image->GetPixelContainer()->SetImportPointer(voxels.data(), voxels.size(), false);
+  return image;
+}
+
+template <typename Image>
+void copy_back(const Image& image, std::vector<typename Image::PixelType>& voxels) {
+  std::copy_n(image.GetBufferPointer(), voxels.size(), voxels.begin());
+}
+
+bool any(const std::vector<std::uint8_t>& mask) {
+  return std::find(mask.begin(), mask.end(), std::uint8_t{1}) != mask.end();
+}
+
+/// Adds every voxel within the radius of the voxels that hold `value`.
+void spread(std::vector<std::uint8_t>& mask, const RegionShape& shape, double radius_mm, std::uint8_t value) {
+  for (std::uint8_t& voxel : mask) voxel = voxel == value ? 1 : 0;
+  if (any(mask)) {
+    const auto filter = itk::SignedMaurerDistanceMapImageFilter<Mask, Values>::New();
+    filter->SetInput(over<Mask>(mask, shape));
+    filter->SetUseImageSpacing(true);
+    filter->SetSquaredDistance(false);
+    filter->SetInsideIsPositive(false);
+    filter->Update();
+    const float* distance = filter->GetOutput()->GetBufferPointer();
+    const auto reach = static_cast<float>(radius_mm * (1 + 1e-6));  // voxels at the radius itself belong to the ball
+    for (std::size_t voxel = 0; voxel < mask.size(); ++voxel)
+      if (distance[voxel] <= reach) mask[voxel] = 1;
+  }
+  for (std::uint8_t& voxel : mask) voxel = voxel == 1 ? value : static_cast<std::uint8_t>(1 - value);
+}
+
+}  // namespace
+
+void curvature_flow(std::vector<float>& values, const RegionShape& shape, int steps) {
+  const auto filter = itk::CurvatureFlowImageFilter<Values, Values>::New();
+  filter->SetInput(over<Values>(values, shape));
+  filter->SetNumberOfIterations(static_cast<itk::IdentifierType>(steps));
+  filter->SetTimeStep(0.0625);  // the largest that is stable in three dimensions
+  filter->Update();
+  copy_back(*filter->GetOutput(), values);
+}
+
+std::vector<std::uint8_t> window_mask(const std::vector<float>& values, const RegionShape& shape, float low, float high) {
+  const auto filter = itk::BinaryThresholdImageFilter<Values, Mask>::New();
+  filter->SetInput(over<Values>(const_cast<std::vector<float>&>(values), shape));
+  filter->SetLowerThreshold(low);
+  filter->SetUpperThreshold(high);
+  filter->SetInsideValue(1);
+  filter->SetOutsideValue(0);
+  filter->Update();
+  std::vector<std::uint8_t> mask(values.size());
+  copy_back(*filter->GetOutput(), mask);
+  return mask;
+}
+
+void dilate(std::vector<std::uint8_t>& mask, const RegionShape& shape, double radius_mm) {
+  spread(mask, shape, radius_mm, 1);
+}
+
+void erode(std::vector<std::uint8_t>& mask, const RegionShape& shape, double radius_mm) {
+  spread(mask, shape, radius_mm, 0);
+}
+
+void keep_connected(std::vector<std::uint8_t>& mask, const RegionShape& shape, const std::array<int, 3>& seed) {
+  const auto filter = itk::ConnectedThresholdImageFilter<Mask, Mask>::New();
+  filter->SetInput(over<Mask>(mask, shape));
+  filter->SetLower(1);
+  filter->SetUpper(1);
+  filter->SetReplaceValue(1);
+  filter->SetConnectivity(itk::ConnectedThresholdImageFilter<Mask, Mask>::FaceConnectivity);
+  filter->SetSeed({{seed[0], seed[1], seed[2]}});
+  filter->Update();
+  copy_back(*filter->GetOutput(), mask);
+}
+
+std::vector<std::size_t> keep_largest(std::vector<std::uint8_t>& mask, const RegionShape& shape) {
+  const auto pieces = itk::ConnectedComponentImageFilter<Mask, Numbers>::New();
+  pieces->SetInput(over<Mask>(mask, shape));
+  pieces->SetFullyConnected(false);
+  const auto sorted = itk::RelabelComponentImageFilter<Numbers, Numbers>::New();
+  sorted->SetInput(pieces->GetOutput());
+  sorted->InPlaceOn();
+  sorted->Update();
+  const std::uint32_t* number = sorted->GetOutput()->GetBufferPointer();
+  for (std::size_t voxel = 0; voxel < mask.size(); ++voxel) mask[voxel] = number[voxel] == 1 ? 1 : 0;
+  const auto& sizes = sorted->GetSizeOfObjectsInPixels();
+  return {sizes.begin(), sizes.end()};
+}
+
+std::size_t fill_holes(std::vector<std::uint8_t>& mask, const RegionShape& shape) {
+  const auto before = std::count(mask.begin(), mask.end(), std::uint8_t{1});
+  const auto filter = itk::BinaryFillholeImageFilter<Mask>::New();
+  filter->SetInput(over<Mask>(mask, shape));
+  filter->SetForegroundValue(1);
+  filter->SetFullyConnected(false);
+  filter->Update();
+  copy_back(*filter->GetOutput(), mask);
+  return static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{1}) - before);
+}
+
+}  // namespace trocar

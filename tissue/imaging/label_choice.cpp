@@ -1,0 +1,107 @@
+#include "tissue/imaging/label_choice.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+std::optional<int> whole(std::string_view text) {
+  int number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && stop == text.data() + text.size() ? std::optional<int>(number) : std::nullopt;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+/// The name that the file or the table gives a segment.
+std::string name_of(const Segment& segment, const LabelTable* table) {
+  if (!segment.name.empty() || table == nullptr) return segment.name;
+  return std::string(table->name_of(segment.number).value_or(""));
+}
+
+Segment named(const Segment& segment, const LabelTable* table) {
+  return {segment.layer, segment.number, name_of(segment, table)};
+}
+
+[[noreturn]] void refuse_name(const LabelMap& map, std::string_view wanted, const LabelTable* table,
+                              const std::string& file) {
+  const std::string holds = "; it holds " + listed_segments(map, table);
+  if (table != nullptr) {
+    const auto number = table->number_of(wanted);
+    throw InputError(file + ": " + quoted(wanted) +
+                     (number ? " is number " + std::to_string(*number) + " in the table " + std::string(table->name) +
+                                   ", which marks no voxel"
+                             : " is no name in the table " + std::string(table->name)) +
+                     holds);
+  }
+  std::vector<std::string> knowing;
+  for (const std::string& name : label_table_names())
+    if (const auto number = label_table(name).number_of(wanted)) knowing.push_back(name + " (" + std::to_string(*number) + ")");
+  throw InputError(file + ": " + quoted(wanted) + ": the file gives no such name" +
+                   (knowing.empty() ? ", and no table that is known here does"
+                                    : "; say which table its numbers follow with --label-table: " + joined(knowing) + " know it") +
+                   holds);
+}
+
+Segment only_one(const std::vector<Segment>& found, std::string_view wanted, const std::string& file) {
+  if (found.size() == 1) return found.front();
+  std::string places;
+  for (const Segment& segment : found)
+    places += (places.empty() ? "" : ", ") + std::to_string(segment.number) + " in layer " + std::to_string(segment.layer);
+  throw InputError(file + ": " + quoted(wanted) + " is the name of several segments: " + places +
+                   "; give one of them by number, or rename one");
+}
+
+}  // namespace
+
+std::vector<std::string> guess_label_table(const LabelMap& map) {
+  std::vector<std::string> fitting;
+  for (const std::string& name : label_table_names()) {
+    const LabelTable& table = label_table(name);
+    const bool fits = std::all_of(map.segments.begin(), map.segments.end(), [&](const Segment& segment) {
+      return !segment.name.empty() || table.name_of(segment.number).has_value();
+    });
+    if (fits) fitting.push_back(name);
+  }
+  return fitting;
+}
+
+Segment choose_segment(const LabelMap& map, std::string_view wanted, const LabelTable* table, const std::string& file) {
+  if (wanted.empty()) {
+    if (map.segments.size() == 1) return named(map.segments.front(), table);
+    throw InputError(file + ": holds " + std::to_string(map.segments.size()) + " segments: say which with --label; " +
+                     listed_segments(map, table));
+  }
+  std::vector<Segment> found;
+  const auto number = whole(wanted);
+  for (const Segment& segment : map.segments)
+    if (number ? segment.number == *number : name_of(segment, table) == wanted) found.push_back(named(segment, table));
+  if (!found.empty()) return only_one(found, wanted, file);
+  if (number)
+    throw InputError(file + ": label " + std::to_string(*number) + " marks no voxel; it holds " + listed_segments(map, table));
+  refuse_name(map, wanted, table, file);
+}
+
+std::string listed_segments(const LabelMap& map, const LabelTable* table, std::size_t most) {
+  std::string text;
+  std::size_t count = 0;
+  for (const Segment& segment : map.segments) {
+    if (++count > most) break;
+    const std::string name = name_of(segment, table);
+    text += (text.empty() ? "" : ", ") + std::to_string(segment.number) + (name.empty() ? "" : " " + name);
+  }
+  if (map.segments.size() > most) text += " and " + std::to_string(map.segments.size() - most) + " more";
+  return text;
+}
+
+}  // namespace trocar
