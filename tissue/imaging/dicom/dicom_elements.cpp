@@ -33,7 +33,7 @@ void parse(DicomFile& file, ByteSource& source, const TransferSyntax& syntax, st
   try {
     ElementReader(source, syntax, file.pixels).read_all(file.data, from);
   } catch (const InputError& error) {
-    file.damage = error.what();
+    if (file.damage.empty()) file.damage = error.what();
   }
 }
 
@@ -47,8 +47,11 @@ std::uint64_t read_file_header(DicomFile& file, ByteSource& source) {
   }
 }
 
-std::unique_ptr<ByteSource> inflated(ByteSource& source, std::uint64_t from, InflateBudget& budget) {
-  return std::make_unique<ByteSource>(inflate_raw(source, from, budget), source.name());
+/// What a deflated file inflates to; what comes before its damage is kept.
+std::unique_ptr<ByteSource> inflated(DicomFile& file, ByteSource& source, std::uint64_t from, InflateBudget& budget) {
+  Inflated all = inflate_raw(source, from, budget);
+  file.damage = std::move(all.damage);
+  return std::make_unique<ByteSource>(std::move(all.bytes), source.name());
 }
 
 }  // namespace
@@ -106,12 +109,9 @@ std::optional<DicomFile> read_dicom_elements(const std::filesystem::path& path, 
   } else if ((file.syntax = guessed(*bytes)) == nullptr) {
     return {};
   }
-  try {
-    if (file.damage.empty() && file.syntax != nullptr && file.syntax->deflated) bytes = inflated(*bytes, std::exchange(from, 0), budget);
-  } catch (const InputError& error) {
-    file.damage = error.what();
-  }
-  if (file.damage.empty()) parse(file, *bytes, file.syntax != nullptr ? *file.syntax : explicit_little_endian(), from);
+  const bool header_holds = file.damage.empty();
+  if (header_holds && file.syntax != nullptr && file.syntax->deflated) bytes = inflated(file, *bytes, std::exchange(from, 0), budget);
+  if (header_holds) parse(file, *bytes, file.syntax != nullptr ? *file.syntax : explicit_little_endian(), from);
   if (source != nullptr) *source = std::move(bytes);
   return file;
 }

@@ -3,7 +3,7 @@
 // Frame of positions and directions: LPS, mm, as DICOM has it. Thread: any.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -9,8 +9,13 @@
 
 namespace trocar {
 
+struct Inflated {
+  std::string bytes;   ///< up to the damage
+  std::string damage;  ///< "" or what is wrong: damaged, cut off, beyond the budget
+};
+
 /// @param budget what may still be inflated; lowered by what was
-/// @throws InputError when the stream is damaged, cut off or beyond the budget
-std::string inflate_raw(ByteSource& source, std::uint64_t from, InflateBudget& budget);
+/// @throws InputError when the file cannot be read
+Inflated inflate_raw(ByteSource& source, std::uint64_t from, InflateBudget& budget);
 
 }  // namespace trocar

@@ -4,7 +4,7 @@
 // step h and one in-plane shift s (a tilted gantry). Frame LPS, mm. Thread: any.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,7 @@
 // Runs dcmrt in a child process. Frame LPS, mm. Thread: as dicom_reader.h.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
 #include <vector>
