@@ -101,6 +101,9 @@ TriangleSurface holes_filled(const TriangleSurface& surface, double widest_m, st
     if (faces.empty())
       throw InputError(file + ": the hole of " + std::to_string(holes[n].edges) + " edges cannot be filled: wrap the surface instead");
     holes[n].area_m2 = patch_area(mesh, faces);
+    for (const auto vertex : vertices)  // the fairing has no solution on flat or folded rims
+      if (!point_of(mesh, vertex).allFinite())
+        throw InputError(file + ": the hole of " + std::to_string(holes[n].edges) + " edges cannot be filled smoothly: wrap the surface instead");
   }
   return from_mesh(mesh);
 }

@@ -81,7 +81,7 @@ TriangleSurface taken(SurfaceFile& read, const SurfaceImportOptions& options, co
   if (count == 0) no_such_part(options.part, parts_of(read), file);
   if (count > 1 || count < read.parts.size())
     read.remarks.push_back("took " + std::to_string(count) + " of " + std::to_string(read.parts.size()) +
-                           " parts as one surface, welded across them");
+                           " parts" + (count > 1 ? " as one surface, welded across them" : ""));
   return surface;
 }
 

@@ -102,7 +102,7 @@ TEST(SurfaceImport, CountsWhereTheSourceCutsItself) {
 
 TEST(SurfaceImport, RefusesWhatIsNoPly) {
   test::TemporaryFolder folder;
-  EXPECT_CONTAINS(refusal(folder.write("a.stl", "solid"), "mm"), "extension");
+  EXPECT_CONTAINS(refusal(folder.write("a.txt", "solid"), "mm"), "extension");
   EXPECT_CONTAINS(refusal(folder.write("a.ply", "solid"), "mm"), "signature");
   EXPECT_CONTAINS(refusal("no/a.ply", "mm"), "no such file");
   const std::string good = ascii_ply(test::box(Vec3::Zero(), Vec3::Constant(0.1)), 1e3);

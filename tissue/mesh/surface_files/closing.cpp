@@ -146,7 +146,7 @@ void close_surface(const TriangleSurface& soup, const SurfaceImportOptions& opti
   if (!wind_outward(result.surface, turned)) throw InputError(file + ": the surface has no inside and outside");
   keep_largest(result);
   if (turned > 0) result.repairs.push_back("turned " + std::to_string(turned) + " triangles outwards");
-  if (result.surface.volume_m3() < kLeastVolumeM3)
+  if (!(result.surface.volume_m3() >= kLeastVolumeM3))
     throw InputError(file + ": the surface encloses no volume (less than 1 mm^3): it is flat or collinear");
   report(progress, "checking", 0.5);
   count_intersections(result);

@@ -28,6 +28,7 @@ class ObjReader {
   ObjReader(std::string_view bytes, const std::string& file) : text_(bytes), file_(file) {}
 
   SurfaceFile read() {
+    text_ = text_.substr(0, text_.find_last_not_of(std::string_view(" \t\r\n\0", 5)) + 1);  // some programs end a text with a zero
     while (offset_ < text_.size()) statement(next_line());
     if (curves_) result_.remarks.push_back("curves and free-form surfaces in the file were left out");
     if (lines_) result_.remarks.push_back("lines and points in the file were left out");

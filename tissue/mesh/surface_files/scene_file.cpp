@@ -7,6 +7,7 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "haptics/input_error.h"
@@ -244,7 +245,7 @@ void fbx_frame(const aiScene& scene, SurfaceFile& result) {
 void fbx_unit(const aiScene& scene, SurfaceFile& result, const std::string& file) {
   const double centimetres = setting<double>(scene, "UnitScaleFactor").value_or(1);
   if (!(centimetres > 1e-6 && centimetres < 1e6)) throw InputError(file + ": UnitScaleFactor of the FBX settings is no scale");
-  result.unit_m = centimetres * 0.01;
+  result.unit_m = std::round(centimetres * 1e6) * 1e-8;  // assimp keeps it as a 32-bit float
   result.unit_source = "the FBX settings say UnitScaleFactor " + short_number(centimetres) + " (times a centimetre)";
 }
 

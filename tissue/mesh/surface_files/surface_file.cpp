@@ -37,6 +37,11 @@ bool is_ear(const TriangleSurface& surface, const Corners& corners, std::size_t 
   return true;
 }
 
+/// Whether a four-sided outline is narrower between its second and fourth corner.
+bool shorter_across(const TriangleSurface& surface, const Corners& c) {
+  return (at(surface, c[3]) - at(surface, c[1])).squaredNorm() < (at(surface, c[2]) - at(surface, c[0])).squaredNorm() * (1 - 1e-9);
+}
+
 }  // namespace
 
 void add_polygon(TriangleSurface& surface, const Corners& corners) {
@@ -45,6 +50,7 @@ void add_polygon(TriangleSurface& surface, const Corners& corners) {
   while (left.size() > 3) {
     const std::size_t count = left.size();
     std::size_t tip = 1;  // a convex polygon becomes the fan round its first corner
+    if (count == 4 && shorter_across(surface, left)) tip = 2;
     for (std::size_t tried = 0; tried < count && !is_ear(surface, left, tip, normal); ++tried) tip = (tip + 1) % count;
     surface.triangles.push_back({left[(tip + count - 1) % count], left[tip], left[(tip + 1) % count]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(tip));
