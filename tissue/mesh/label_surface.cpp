@@ -87,21 +87,6 @@ Eigen::Affine3d samples_to_voxels(const Vec3& sample_m, const Sampling& sampling
   return transform;
 }
 
-/// Half a voxel beyond the outermost voxel centres.
-std::vector<CapPlane> cap_planes(const LabelMask& mask, const Eigen::Affine3d& to_ras) {
-  std::vector<CapPlane> caps;
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-    for (const std::size_t side : {0U, 1U}) {
-      const auto n = static_cast<std::size_t>(axis);
-      if (!mask.cut[n][side]) continue;
-      Vec3 place = Vec3::Zero();
-      place[axis] = side == 0 ? kSmoothingMargin - 0.5 : mask.size[n] - kSmoothingMargin - 0.5;
-      const Vec3 along = to_ras.linear().inverse().transpose().col(axis).normalized() * (side == 0 ? -1 : 1);
-      caps.push_back({along, along.dot(to_ras * place)});
-    }
-  return caps;
-}
-
 }  // namespace
 
 Eigen::Affine3d box_to_ras_m(const LabelVolume& volume, const LabelMask& mask) {

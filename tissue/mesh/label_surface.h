@@ -11,16 +11,11 @@
 #include "tissue/imaging/label_mask.h"
 #include "tissue/imaging/label_volume.h"
 #include "tissue/imaging/smooth_field.h"
+#include "tissue/mesh/cap_planes.h"
 #include "tissue/mesh/triangle_surface.h"
 #include "tissue/progress.h"
 
 namespace trocar {
-
-/// The plane in which the image ends; the organ lies where normal . x <= offset.
-struct CapPlane {
-  Vec3 normal;
-  double offset_m;
-};
 
 struct LabelSurface {
   TriangleSurface dense;               ///< closed, outward; of one or several components

@@ -7,6 +7,7 @@
 #include "tissue/imaging/smooth_field.h"
 #include "tissue/mesh/edge_sizes.h"
 #include "tissue/mesh/label_surface.h"
+#include "tissue/mesh/measured_facts.h"
 #include "tissue/mesh/remesh.h"
 #include "tissue/mesh/surface_fit.h"
 
@@ -27,41 +28,17 @@ void round_to_float(TriangleSurface& surface) {
   for (Vec3& vertex : surface.vertices) vertex = vertex.cast<float>().cast<double>();
 }
 
-/// Keeps a surface within the image: no vertex beyond a cap, and those that lay in it stay in it.
-class Caps {
- public:
-  Caps(const std::vector<CapPlane>& planes, const TriangleSurface& surface) : planes_(planes) {
-    for (const CapPlane& plane : planes) {
-      auto& flat = on_plane_.emplace_back();
-      for (const Vec3& vertex : surface.vertices) flat.push_back(std::abs(plane.normal.dot(vertex) - plane.offset_m) < kOnCapM);
-    }
-  }
-
-  void apply(TriangleSurface& surface) const {
-    for (std::size_t n = 0; n < planes_.size(); ++n)
-      for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
-        const double beyond = planes_[n].normal.dot(surface.vertices[v]) - planes_[n].offset_m;
-        if (beyond > 0 || on_plane_[n][v]) surface.vertices[v] -= beyond * planes_[n].normal;
-      }
-  }
-
- private:
-  static constexpr double kOnCapM = 2e-5;
-  const std::vector<CapPlane>& planes_;
-  std::vector<std::vector<bool>> on_plane_;
-};
-
 /// Moves every vertex along its normal until the enclosed volume is right. @return the shift, m
-double correct_volume(TriangleSurface& surface, double volume_m3, const Caps& caps) {
+double correct_volume(TriangleSurface& surface, double volume_m3, const CapKeeper& caps) {
   double shift = 0;
-  caps.apply(surface);
+  caps.apply(surface.vertices);
   for (int round = 0; round < 10; ++round) {
     const double missing = volume_m3 - surface.volume_m3();
     if (std::abs(missing) < kVolumeTolerance * volume_m3) break;
     const double step = missing / surface_area_m2(surface);
     const std::vector<Vec3> normals = surface.vertex_normals();
     for (std::size_t v = 0; v < normals.size(); ++v) surface.vertices[v] += step * normals[v];
-    caps.apply(surface);
+    caps.apply(surface.vertices);
     shift += step;
   }
   return shift;
@@ -98,7 +75,7 @@ Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options,
     RemeshOptions remesh;
     remesh.triangles = triangles, remesh.progress = options.progress;
     result.surface = remeshed(source, sizes_for(source, triangles, smoothing_m, attempt.even), remesh);
-    const Caps caps(planes, result.surface);
+    const CapKeeper caps(planes, result.surface.vertices);
     report(options.progress, "fitting", 0);
     result.surface = fitted(result.surface, source, attempt.fit_sweeps);
     const double shift = correct_volume(result.surface, volume_m3, caps);
@@ -116,40 +93,6 @@ Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options,
   return result;
 }
 
-CompiledOrgan measured(Remeshed&& mesh, MeshFacts facts, double kept_m3, const TriangleSurface& reference) {
-  facts.self_intersections = mesh.self_intersections;
-  facts.topology = analyse_topology(mesh.surface);
-  facts.volume_ml = mesh.surface.volume_m3() * kMlPerM3;
-  facts.kept_volume_ml = kept_m3 * kMlPerM3;
-  facts.kept_error_pct = (facts.volume_ml / facts.kept_volume_ml - 1) * 100;
-  facts.volume_error_pct = (facts.volume_ml / facts.label_volume_ml.value_or(facts.kept_volume_ml) - 1) * 100;
-  facts.distance = distance_from_to(mesh.surface, reference);
-  facts.distance_back = distance_from_to(reference, mesh.surface);
-  facts.quality = mesh_quality(mesh.surface);
-  return {std::move(mesh.surface), std::move(facts)};
-}
-
-void report_mask(const LabelMask& mask, double voxel_ml, MeshFacts& facts) {
-  const auto ml = [&](std::size_t voxels) { return static_cast<double>(voxels) * voxel_ml; };
-  facts.label_volume_ml = ml(mask.label_voxels);
-  facts.border_voxels = mask.border_voxels;
-  for (const std::size_t voxels : mask.lost_parts) facts.lost.push_back({"part", voxels, ml(voxels)});
-  if (!mask.lost_parts.empty())
-    facts.repairs.push_back("left out " + std::to_string(mask.lost_parts.size()) + " small parts");
-  if (mask.bridge_voxels > 0) {
-    facts.added.push_back({"bridge", mask.bridge_voxels, ml(mask.bridge_voxels)});
-    facts.repairs.push_back("joined parts by " + std::to_string(mask.bridge_voxels) + " voxels");
-  }
-  if (mask.parts > 1) facts.repairs.push_back("kept " + std::to_string(mask.parts) + " parts that lie apart");
-  for (const std::size_t voxels : mask.cavities) {
-    facts.added.push_back({"cavity", voxels, ml(voxels)});
-    facts.repairs.push_back("filled a cavity of " + std::to_string(voxels) + " voxels");
-  }
-  if (mask.border_voxels > 0)
-    facts.repairs.push_back("closed the cut at the image border with a flat cap (" +
-                            std::to_string(mask.border_voxels) + " voxels)");
-}
-
 std::string sampling_text(const Sampling& sampling) {
   if (sampling == Sampling{1, 1, 1}) return "";
   if (sampling[0] == 2) return ", sampled at half voxels because much of it is thin";
@@ -165,7 +108,7 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
   const double voxel_ml = volume.voxel_volume_ml();
   MeshFacts facts;
   facts.repairs = volume.notes;
-  report_mask(mask, voxel_ml, facts);
+  note_mask(mask, voxel_ml, facts);
   const LabelSurface source = label_surface(volume, label, mask, options.triangles, options.progress);
   for (const double lost : source.fallen_off_m3)
     facts.lost.push_back({"neck", static_cast<std::size_t>(std::llround(lost * kMlPerM3 / voxel_ml)), lost * kMlPerM3});
@@ -174,18 +117,19 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
   Remeshed mesh = remesh_to(source.dense, options, source.kept_m3, 2 * source.spacing_m.maxCoeff(),
                             source.caps, facts.repairs);
   report(options.progress, "measuring", 0);
-  facts.centroid_offset_m = (volume_centroid_m(mesh.surface) - source.centroid_m).norm();
-  return measured(std::move(mesh), std::move(facts), source.kept_m3, source.sharp);
+  facts.self_intersections = mesh.self_intersections;
+  measure(mesh.surface, source.kept_m3, source.sharp, source.centroid_m, facts);
+  return {std::move(mesh.surface), std::move(facts)};
 }
 
 CompiledOrgan compile_surface(const TriangleSurface& surface, const CompileOptions& options) {
   MeshFacts facts;
-  const double volume = surface.volume_m3();
   const double smoothing_m = std::sqrt(surface_area_m2(surface) / options.triangles);
-  Remeshed mesh = remesh_to(surface, options, volume, smoothing_m, {}, facts.repairs);
+  Remeshed mesh = remesh_to(surface, options, surface.volume_m3(), smoothing_m, {}, facts.repairs);
   report(options.progress, "measuring", 0);
-  facts.centroid_offset_m = (volume_centroid_m(mesh.surface) - volume_centroid_m(surface)).norm();
-  return measured(std::move(mesh), std::move(facts), volume, surface);
+  facts.self_intersections = mesh.self_intersections;
+  measure(mesh.surface, surface.volume_m3(), surface, volume_centroid_m(surface), facts);
+  return {std::move(mesh.surface), std::move(facts)};
 }
 
 }  // namespace trocar
