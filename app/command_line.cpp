@@ -25,7 +25,7 @@
 #include "app/commands/study_command.h"
 #include "app/commands/sweep_command.h"
 #include "app/commands/trainee_command.h"
-#include "app/organ_command_line.h"
+#include "app/command_line_organs.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
 

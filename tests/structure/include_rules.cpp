@@ -50,7 +50,7 @@ struct Territory {
 
 const std::vector<Territory>& territories() {
   static const std::vector<Territory> table{
-      {"^(CGAL|assimp|fcl|gdcm|vtk)/|^itk", "^tissue/.*\\.cpp$",
+      {"^(CGAL|assimp|dcmtk|fcl|gdcm|vtk)/|^(itk|expat)", "^tissue/.*\\.cpp$",
        "geometry and image libraries stay in sources of tissue"},
       {"^sqlite3", "^trainees/.*\\.cpp$", "SQLite stays in sources of trainees"},
       {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/graphics/.*\\.cpp$",

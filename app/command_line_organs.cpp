@@ -1,4 +1,4 @@
-#include "app/organ_command_line.h"
+#include "app/command_line_organs.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
