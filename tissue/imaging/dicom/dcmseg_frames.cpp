@@ -67,6 +67,7 @@ std::string load(const std::filesystem::path& path, const std::string& name, boo
 
 SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, const std::string& name, bool with_pixels,
                                             const Progress& progress) {
+  load_dcmtk_dictionary();
   const std::string bytes = in_child(name, ChildLimits{std::uint64_t{3} << 29, 300}, progress, [&] { return load(path, name, with_pixels); });
   PackedReader in(bytes, name);
   SegmentationFrames frames;
