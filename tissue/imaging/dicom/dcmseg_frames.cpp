@@ -25,20 +25,8 @@ std::string label_of(DcmSegment& segment) {
   return text.substr(0, 64);  // what the standard allows
 }
 
-/// Bytes of values to bits, from one half of the maximum on.
-std::string thresholded(const DcmIODTypes::Frame& frame, unsigned maximum) {
-  std::string bits((frame.length + 7) / 8, '\0');
-  for (std::size_t n = 0; n < frame.length; ++n)
-    if (2U * frame.pixData[n] >= maximum && frame.pixData[n] != 0) bits[n / 8] = static_cast<char>(bits[n / 8] | 1 << n % 8);
-  return bits;
-}
-
-std::string packed(DcmSegmentation& object, unsigned maximum) {
-  PackedWriter out;
-  const std::size_t segments = object.getNumberOfSegments(), frames = object.getNumberOfFrames();
-  const bool fractional = object.getSegmentationType() == DcmSegTypes::ST_FRACTIONAL;
-  std::vector<int> segment_of(frames, 0);
-  out.put(static_cast<std::uint8_t>(fractional));
+void pack_segments(PackedWriter& out, DcmSegmentation& object, std::vector<int>& segment_of) {
+  const std::size_t segments = object.getNumberOfSegments();
   out.put(static_cast<std::uint64_t>(segments));
   for (std::size_t n = 1; n <= segments; ++n) {
     DcmSegment* segment = object.getSegment(n);
@@ -47,46 +35,49 @@ std::string packed(DcmSegmentation& object, unsigned maximum) {
     OFVector<std::size_t> of_segment;
     object.getFramesForSegment(n, of_segment);
     for (const std::size_t frame : of_segment)
-      if (frame < frames) segment_of[frame] = static_cast<int>(n);
+      if (frame < segment_of.size()) segment_of[frame] = static_cast<int>(n);
   }
-  out.put(static_cast<std::uint64_t>(frames));
-  for (std::size_t n = 0; n < frames; ++n) {
-    const DcmIODTypes::Frame* frame = object.getFrame(n);
+}
+
+std::string packed(DcmSegmentation& object, bool with_pixels) {
+  PackedWriter out;
+  std::vector<int> segment_of(object.getNumberOfFrames(), 0);
+  pack_segments(out, object, segment_of);
+  out.put(static_cast<std::uint64_t>(segment_of.size()));
+  for (std::size_t n = 0; n < segment_of.size(); ++n) {
+    const DcmIODTypes::Frame* frame = with_pixels ? object.getFrame(n) : nullptr;
+    if (with_pixels && (frame == nullptr || frame->pixData == nullptr)) throw std::runtime_error("a frame is missing");
     out.put(static_cast<std::int32_t>(segment_of[n]));
-    if (frame == nullptr || frame->pixData == nullptr) throw std::runtime_error("a frame is missing");
-    out.put_text(fractional ? thresholded(*frame, maximum) : std::string(reinterpret_cast<const char*>(frame->pixData), frame->length));
+    out.put_text(with_pixels ? std::string_view(reinterpret_cast<const char*>(frame->pixData), frame->length) : std::string_view());
   }
   return out.take();
 }
 
-std::string load(const std::filesystem::path& path, const std::string& name) {
+std::string load(const std::filesystem::path& path, const std::string& name, bool with_pixels) {
   silence_dcmtk();
   DcmRLEDecoderRegistration::registerCodecs();
-  DcmFileFormat file;
   DcmSegmentation* loaded = nullptr;
-  OFCondition condition = file.loadFile(OFFilename(path.c_str()));
-  Uint16 maximum = 255;
-  if (condition.good()) file.getDataset()->findAndGetUint16(DCM_MaximumFractionalValue, maximum);
-  if (condition.good()) condition = DcmSegmentation::loadDataset(*file.getDataset(), loaded);
+  const OFCondition condition = DcmSegmentation::loadFile(path.c_str(), loaded);
   const std::unique_ptr<DcmSegmentation> object(loaded);
   if (condition.bad() || object == nullptr) throw InputError(name + ": dcmseg refuses this segmentation: " + std::string(condition.text()));
-  return packed(*object, maximum == 0 ? 255 : maximum);
+  return packed(*object, with_pixels);
 }
 
 }  // namespace
 
-SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, const std::string& name, const Progress& progress) {
-  const std::string bytes = in_child(name, ChildLimits{std::uint64_t{3} << 29, 300}, progress, [&] { return load(path, name); });
+SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, const std::string& name, bool with_pixels,
+                                            const Progress& progress) {
+  load_dcmtk_dictionary();
+  const std::string bytes = in_child(name, ChildLimits{std::uint64_t{3} << 29, 300}, progress, [&] { return load(path, name, with_pixels); });
   PackedReader in(bytes, name);
   SegmentationFrames frames;
-  frames.fractional = in.get<std::uint8_t>() != 0;
   for (std::uint64_t left = in.get_count(12); left > 0; --left) {
     const int number = in.get<std::int32_t>();
     frames.segments.push_back({number, std::string(in.get_text())});
   }
   for (std::uint64_t left = in.get_count(12); left > 0; --left) {
     frames.segment_of.push_back(in.get<std::int32_t>());
-    frames.bits.emplace_back(in.get_text());
+    frames.values.emplace_back(in.get_text());
   }
   return frames;
 }

@@ -1,11 +1,18 @@
 #include "tissue/imaging/dicom/dcmtk_silence.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdict.h>
 #include <dcmtk/oflog/oflog.h>
 #include <fcntl.h>
 #include <unistd.h>
 
 namespace trocar {
+
+void load_dcmtk_dictionary() {
+  OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+  dcmDataDict.rdlock();
+  dcmDataDict.rdunlock();
+}
 
 void silence_dcmtk() {
   OFLog::configure(OFLogger::OFF_LOG_LEVEL);

@@ -117,7 +117,8 @@ const CataloguedSeries& choose(const DicomCatalogue& all, DicomKind kind, std::o
     if (fits) ++fitting, chosen = &series;
   }
   if (number && chosen == nullptr) throw InputError(input + ": has no series " + std::to_string(*number) + "; it holds" + list);
-  if (fitting == 0 && all.series.size() == 1 && !all.series[0].facts.problem.empty()) throw InputError(all.series[0].facts.problem);
+  const DicomSeries& first = all.series.front().facts;
+  if (fitting == 0 && all.series.size() == 1 && first.kind == DicomKind::kOther && !first.problem.empty()) throw InputError(first.problem);
   if (fitting == 0) throw InputError(input + ": holds no series of " + what + "; it holds" + list);
   if (fitting > 1) throw InputError(input + ": holds " + std::to_string(fitting) + " series of " + what + "; choose one with --series N:" + list);
   if (chosen->facts.kind != kind) throw InputError(input + ": series " + std::to_string(*number) + " is not one of " + what + "; it holds" + list);

@@ -18,7 +18,13 @@ constexpr double kSameDirection = 2e-3, kSameSpacing = 5e-4;
 
 struct Header {
   int rows = 0, columns = 0, frames = 0;
+  bool fractional = false, compressed = false;
+  unsigned maximum = 1;
+  std::uint64_t offset = 0;  ///< of native pixels in `source`
+  std::unique_ptr<ByteSource> source;
   std::vector<SlicePlace> places;
+
+  std::size_t pixels() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
 };
 
 [[noreturn]] void refuse(const DicomInstance& file, const std::string& what) { throw InputError(file.name + ": " + what); }
@@ -32,25 +38,42 @@ void require_decodable(const DicomInstance& file, const DicomFile& elements) {
   if (!elements.pixels.present || elements.pixels.floating) refuse(file, "holds no pixel data");
 }
 
+void read_coding(Header& header, const DicomItem& data, const DicomInstance& file) {
+  const std::uint32_t bits = data.whole(tag::kBitsAllocated).value_or(0);
+  const std::string type = data.text(tag::kSegmentationType);
+  header.fractional = type == "FRACTIONAL";
+  if (type != "BINARY" && !header.fractional) refuse(file, "is neither a binary nor a fractional segmentation");
+  if (bits != (header.fractional ? 8U : 1U)) refuse(file, "stores " + std::to_string(bits) + " bits a pixel, which does not fit its kind");
+  if (!header.fractional) return;
+  header.maximum = data.whole(tag::kMaximumFraction).value_or(0);
+  if (header.maximum < 1 || header.maximum > 255) refuse(file, "MaximumFractionalValue is not between 1 and 255");
+}
+
+void require_length(Header& header, const PixelSpan& pixels, const DicomInstance& file) {
+  header.compressed = pixels.encapsulated, header.offset = pixels.offset;
+  if (header.compressed && !header.fractional) refuse(file, "holds compressed bits, which are not read: export it uncompressed");
+  if (header.compressed) return;
+  const std::uint64_t all = header.pixels() * static_cast<std::uint64_t>(header.frames), need = header.fractional ? all : (all + 7) / 8;
+  const std::uint64_t there = std::min(pixels.length, header.source->size() - std::min(header.source->size(), pixels.offset));
+  if (there < need)
+    refuse(file, "pixel data are cut off: " + std::to_string(there) + " of " + std::to_string(need) + " bytes are there; copy or export it again");
+}
+
 /// Everything that dcmseg would trust is checked first.
 Header checked_header(const DicomInstance& file) {
-  std::unique_ptr<ByteSource> source;
+  Header header;
   InflateBudget budget;
-  const auto elements = read_dicom_elements(file.path, file.name, budget, &source);
+  const auto elements = read_dicom_elements(file.path, file.name, budget, &header.source);
   if (!elements) refuse(file, "is not a DICOM file");
   require_decodable(file, *elements);
-  Header header{file.rows, file.columns, file.frames, {}};
-  const auto pixels = static_cast<std::uint64_t>(file.rows) * static_cast<std::uint64_t>(file.columns);
+  header.rows = file.rows, header.columns = file.columns, header.frames = file.frames;
+  const std::uint64_t pixels = header.pixels();
   if (pixels == 0 || file.frames < 1) refuse(file, "holds no frames");
   if (pixels > kMostPixels / static_cast<std::uint64_t>(file.frames))
     refuse(file, "claims " + std::to_string(file.frames) + " frames of " + std::to_string(file.columns) + " x " + std::to_string(file.rows) +
                      " pixels: more than an import may hold");
-  const std::uint32_t bits = elements->data.whole(tag::kBitsAllocated).value_or(0);
-  if (bits != 1 && bits != 8) refuse(file, "stores " + std::to_string(bits) + " bits a pixel: a segmentation has 1 or 8");
-  const std::uint64_t need = (pixels * static_cast<std::uint64_t>(file.frames) * bits + 7) / 8;
-  const std::uint64_t there = std::min(elements->pixels.length, source->size() - std::min(source->size(), elements->pixels.offset));
-  if (!elements->pixels.encapsulated && there < need)
-    refuse(file, "pixel data are cut off: " + std::to_string(there) + " of " + std::to_string(need) + " bytes are there; copy or export it again");
+  read_coding(header, elements->data, file);
+  require_length(header, elements->pixels, file);
   header.places = slice_places(elements->data, file.frames, file.name);
   return header;
 }
@@ -108,46 +131,59 @@ class SegmentationGrid {
   std::array<int, 3> size_{};
 };
 
-void paint(SegmentMask& mask, const std::string& bits, const std::array<int, 3>& size, int slice) {
-  const std::size_t pixels = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
-  const std::size_t from = pixels * static_cast<std::size_t>(slice);
-  bool any = false;
-  for (std::size_t n = 0; n < pixels; ++n) {
-    if ((static_cast<unsigned char>(bits[n / 8]) >> n % 8 & 1) == 0) continue;
-    mask.voxels[from + n] = true;
-    any = true;
+/// Calls `mark(n)` for every pixel of a frame that counts.
+template <typename Mark>
+void for_marked(const Header& header, const SegmentationFrames& frames, std::size_t frame, const Mark& mark) {
+  const std::size_t pixels = header.pixels();
+  if (header.fractional) {
+    const std::string bytes = header.compressed ? frames.values[frame] : header.source->bytes(header.offset + frame * pixels, pixels);
+    for (std::size_t n = 0; n < pixels; ++n) {
+      const unsigned value = static_cast<unsigned char>(bytes[n]);
+      if (value != 0 && 2 * value >= header.maximum) mark(n);
+    }
+    return;
   }
-  if (any) mask.mark_slice(slice);
+  const std::uint64_t first = frame * static_cast<std::uint64_t>(pixels);  // bits run on from frame to frame (PS3.5 8.1.1)
+  const std::string bytes = header.source->bytes(header.offset + first / 8, static_cast<std::size_t>((first % 8 + pixels + 7) / 8));
+  for (std::size_t n = 0; n < pixels; ++n)
+    if ((static_cast<unsigned char>(bytes[(first % 8 + n) / 8]) >> (first + n) % 8 & 1) != 0) mark(n);
 }
 
-SegmentMask mask_of(int number, const SegmentationFrames& frames, const SegmentationGrid& grid) {
+SegmentMask mask_of(int number, const Header& header, const SegmentationFrames& frames, const SegmentationGrid& grid) {
   SegmentMask mask(grid.size());
-  for (std::size_t n = 0; n < frames.bits.size(); ++n)
-    if (frames.segment_of[n] == number) paint(mask, frames.bits[n], grid.size(), grid.slice_of(n));
+  for (std::size_t frame = 0; frame < frames.segment_of.size(); ++frame) {
+    if (frames.segment_of[frame] != number) continue;
+    const int slice = grid.slice_of(frame);
+    const std::size_t from = header.pixels() * static_cast<std::size_t>(slice);
+    for_marked(header, frames, frame, [&](std::size_t n) {
+      mask.voxels[from + n] = true;
+      mask.mark_slice(slice);
+    });
+  }
   return mask;
 }
 
 void require_frames(const SegmentationFrames& frames, const Header& header, const DicomInstance& file) {
-  if (frames.bits.size() != header.places.size()) refuse(file, "dcmseg finds another number of frames than the header says");
-  const std::size_t bytes = (static_cast<std::size_t>(header.rows) * static_cast<std::size_t>(header.columns) + 7) / 8;
-  for (const std::string& bits : frames.bits)
-    if (bits.size() < bytes) refuse(file, "a frame is cut off");
+  if (frames.segment_of.size() != header.places.size()) refuse(file, "dcmseg finds another number of frames than the header says");
+  for (const std::string& values : frames.values)
+    if (header.compressed && values.size() < header.pixels()) refuse(file, "a frame is cut off");
   if (frames.segments.size() > 65535) refuse(file, "holds more than 65535 segments");
 }
 
-LabelMap assembled(const SegmentationFrames& frames, const SegmentationGrid& grid, const DicomInstance& file, const Progress& progress) {
+LabelMap assembled(const Header& header, const SegmentationFrames& frames, const SegmentationGrid& grid, const DicomInstance& file,
+                   const Progress& progress) {
   SegmentLayers layers(grid.size(), grid.ras_frame(), file.name);
   std::vector<std::string> notes;
   double done = 0;
   for (const SegmentationFrames::Named& segment : frames.segments) {
     report(progress, "segments", done++ / static_cast<double>(frames.segments.size()));
-    const SegmentMask mask = mask_of(segment.number, frames, grid);
+    const SegmentMask mask = mask_of(segment.number, header, frames, grid);
     if (mask.empty()) notes.push_back("Segment " + std::to_string(segment.number) + " (" + segment.label + ") marks no voxel and was left out.");
     layers.add(segment.number, segment.label, mask);
   }
   LabelMap map = layers.take();
   if (map.layers.empty()) refuse(file, "marks no voxel at all");
-  if (frames.fractional) notes.emplace_back("The segmentation is fractional: a voxel counts from one half of the maximum on.");
+  if (header.fractional) notes.emplace_back("The segmentation is fractional: a voxel counts from one half of the maximum on.");
   if (const int empty = grid.empty_slices(); empty > 0)
     notes.push_back("The segmentation leaves " + std::to_string(empty) + " slices out between its first and last; they are empty.");
   if (map.layers.size() > 1) notes.push_back("Segments overlap: they lie in " + std::to_string(map.layers.size()) + " layers.");
@@ -167,9 +203,9 @@ LabelMap read_dicom_segmentation(const std::filesystem::path& input, const Progr
   const DicomInstance& file = series.instances.front();
   const Header header = checked_header(file);
   const SegmentationGrid grid(header, file);
-  const SegmentationFrames frames = read_segmentation_frames(file.path, file.name, progress);
+  const SegmentationFrames frames = read_segmentation_frames(file.path, file.name, header.compressed, progress);
   require_frames(frames, header, file);
-  LabelMap map = assembled(frames, grid, file, progress);
+  LabelMap map = assembled(header, frames, grid, file, progress);
   map.notes.insert(map.notes.begin(), all.notes.begin(), all.notes.end());
   return map;
 }

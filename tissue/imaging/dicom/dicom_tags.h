@@ -19,6 +19,7 @@ inline constexpr DicomTag kIntercept = 0x00281052, kSlope = 0x00281053, kLossy =
 inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230;
 inline constexpr DicomTag kPlanePosition = 0x00209113, kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110;
 inline constexpr DicomTag kValueTransformation = 0x00289145;
+inline constexpr DicomTag kSegmentationType = 0x00620001, kMaximumFraction = 0x0062000E;
 inline constexpr DicomTag kFloatPixels = 0x7FE00008, kDoublePixels = 0x7FE00009, kPixels = 0x7FE00010;
 inline constexpr DicomTag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
 

@@ -28,6 +28,7 @@ constexpr Wanted kWanted[] = {
     {tag::kBitsStored, 'w'},       {tag::kHighBit, 'w'},          {tag::kPixelRepresentation, 'w'}, {tag::kIntercept, 't'},
     {tag::kSlope, 't'},            {tag::kLossy, 't'},            {tag::kSharedGroups, 'q'},   {tag::kFrameGroups, 'q'},
     {tag::kPlanePosition, 'q'},    {tag::kPlaneOrientation, 'q'}, {tag::kPixelMeasures, 'q'},  {tag::kValueTransformation, 'q'},
+    {tag::kSegmentationType, 't'}, {tag::kMaximumFraction, 'w'},
 };
 
 char wanted_type(DicomTag tag) {

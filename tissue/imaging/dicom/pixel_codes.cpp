@@ -61,9 +61,11 @@ CodedSize jpeg2000_size(const Bytes& bytes) {
   return {static_cast<int>(height - top), static_cast<int>(width - left), static_cast<int>(parts), (depth & 0x7F) + 1};
 }
 
+/// The end marker, but for padding: writers put zeros, blanks or a single 0xFF behind it.
 bool ends_with_end_marker(std::string_view bytes) {
   while (!bytes.empty() && (bytes.back() == '\0' || bytes.back() == ' ')) bytes.remove_suffix(1);
-  return bytes.size() >= 2 && bytes.substr(bytes.size() - 2) == std::string_view("\xFF\xD9", 2);
+  const std::string_view end("\xFF\xD9", 2);
+  return bytes.ends_with(end) || (bytes.ends_with('\xFF') && bytes.substr(0, bytes.size() - 1).ends_with(end));
 }
 
 /// Bytes that one RLE segment gives, stopping at `enough`.

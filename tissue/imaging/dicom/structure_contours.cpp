@@ -122,6 +122,7 @@ void require_structure_set(const std::filesystem::path& path, const std::string&
 std::vector<Structure> read_structures(const std::filesystem::path& path, const Progress& progress) {
   const std::string file = path.string();
   require_structure_set(path, file);
+  load_dcmtk_dictionary();
   const std::string bytes = in_child(file, ChildLimits{std::uint64_t{1} << 30, 300}, progress, [&] { return load(path, file); });
   PackedReader in(bytes, file);
   std::vector<Structure> structures;
