@@ -75,7 +75,8 @@ void curvature_flow(std::vector<float>& values, const RegionShape& shape, int st
   copy_back(*filter->GetOutput(), values);
 }
 
-std::vector<std::uint8_t> window_mask(const std::vector<float>& values, const RegionShape& shape, float low, float high) {
+std::vector<std::uint8_t> window_mask(const std::vector<float>& values, const RegionShape& shape, float low,
+                                      float high) {
   const auto filter = itk::BinaryThresholdImageFilter<Values, Mask>::New();
   filter->SetInput(over<Values>(const_cast<std::vector<float>&>(values), shape));
   filter->SetLowerThreshold(low);

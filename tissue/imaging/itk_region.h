@@ -1,4 +1,5 @@
-// The steps of a segmentation that ITK does, on one block of voxels, seen without any ITK or Eigen type (ITK carries an Eigen of its own).
+// The steps of a segmentation that ITK does, on one block of voxels, seen without any ITK or Eigen type (ITK carries an
+// Eigen of its own).
 //
 // Masks hold 0 and 1, i fastest. One ITK thread: same input, same bytes. Thread: any, one at a time.
 #pragma once
@@ -18,7 +19,8 @@ struct RegionShape {
 void curvature_flow(std::vector<float>& values, const RegionShape& shape, int steps);
 
 /// 1 where low <= value <= high.
-std::vector<std::uint8_t> window_mask(const std::vector<float>& values, const RegionShape& shape, float low, float high);
+std::vector<std::uint8_t> window_mask(const std::vector<float>& values, const RegionShape& shape, float low,
+                                      float high);
 
 /// Every voxel within `radius_mm` of the mask joins it (centres, straight distance, exact on unequal edges).
 void dilate(std::vector<std::uint8_t>& mask, const RegionShape& shape, double radius_mm);

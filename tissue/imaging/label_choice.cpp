@@ -46,10 +46,12 @@ Segment named(const Segment& segment, const LabelTable* table) {
   }
   std::vector<std::string> knowing;
   for (const std::string& name : label_table_names())
-    if (const auto number = label_table(name).number_of(wanted)) knowing.push_back(name + " (" + std::to_string(*number) + ")");
+    if (const auto number = label_table(name).number_of(wanted))
+      knowing.push_back(name + " (" + std::to_string(*number) + ")");
   throw InputError(file + ": " + quoted(wanted) + ": the file gives no such name" +
-                   (knowing.empty() ? ", and no table that is known here does"
-                                    : "; say which table its numbers follow with --label-table: " + joined(knowing) + " know it") +
+                   (knowing.empty()
+                        ? ", and no table that is known here does"
+                        : "; say which table its numbers follow with --label-table: " + joined(knowing) + " know it") +
                    holds);
 }
 
@@ -57,7 +59,8 @@ Segment only_one(const std::vector<Segment>& found, std::string_view wanted, con
   if (found.size() == 1) return found.front();
   std::string places;
   for (const Segment& segment : found)
-    places += (places.empty() ? "" : ", ") + std::to_string(segment.number) + " in layer " + std::to_string(segment.layer);
+    places +=
+        (places.empty() ? "" : ", ") + std::to_string(segment.number) + " in layer " + std::to_string(segment.layer);
   throw InputError(file + ": " + quoted(wanted) + " is the name of several segments: " + places +
                    "; give one of them by number, or rename one");
 }
@@ -88,7 +91,8 @@ Segment choose_segment(const LabelMap& map, std::string_view wanted, const Label
     if (number ? segment.number == *number : name_of(segment, table) == wanted) found.push_back(named(segment, table));
   if (!found.empty()) return only_one(found, wanted, file);
   if (number)
-    throw InputError(file + ": label " + std::to_string(*number) + " marks no voxel; it holds " + listed_segments(map, table));
+    throw InputError(file + ": label " + std::to_string(*number) + " marks no voxel; it holds " +
+                     listed_segments(map, table));
   refuse_name(map, wanted, table, file);
 }
 

@@ -1,7 +1,7 @@
 // Which segment of a label map a person means: by number, by the file's own names, or by a table that they name.
 //
-// One number means different organs in different tables, so a bare map never gets names unasked: without a table a name is refused,
-// listing the tables that know it. Thread: any.
+// One number means different organs in different tables, so a bare map never gets names unasked: without a table a name
+// is refused, listing the tables that know it. Thread: any.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@
 
 namespace trocar {
 
-/// Built-in tables that name every number of the map's unnamed segments; a hint for people, never used to name a segment.
+/// Built-in tables that name every number of the map's unnamed segments; a hint for people, never used to name a
+/// segment.
 std::vector<std::string> guess_label_table(const LabelMap& map);
 
 /// @param wanted number ("5"), name ("liver"); "" when the map has one segment only

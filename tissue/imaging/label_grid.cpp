@@ -75,7 +75,8 @@ LabelVolume resampled_to(const LabelVolume& volume, const VoxelGrid& grid, const
   std::size_t voxel = 0;
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
-      // Half a voxel up, so that cutting off gives the nearest; the nudge lets exact middles fall one way on every machine.
+      // Half a voxel up, so that cutting off gives the nearest; the nudge lets exact middles fall one way on every
+      // machine.
       const Eigen::Vector3d first = map * Eigen::Vector3d(0, j, k) + Eigen::Vector3d::Constant(0.5 - 1e-6);
       for (int i = 0; i < grid.size[0]; ++i, ++voxel) {
         const Eigen::Vector3d place = first + i * step;
@@ -102,10 +103,11 @@ LabelVolume on_grid_of(const ImageVolume& image, const LabelVolume& labels, cons
     throw InputError(name + ": the label map lies " + (gap > 0 ? plain(gap) + " mm outside" : "between the voxels of") +
                      " the image: do the two belong together?");
   }
-  const double kept = static_cast<double>(after) * result.voxel_volume_ml() /
-                      (static_cast<double>(before) * labels.voxel_volume_ml());
-  result.notes.push_back("the label map has a grid of its own; carried to the image's grid by the nearest voxel, which keeps " +
-                         plain(std::round(1000 * kept) / 10) + " % of the labelled volume");
+  const double kept =
+      static_cast<double>(after) * result.voxel_volume_ml() / (static_cast<double>(before) * labels.voxel_volume_ml());
+  result.notes.push_back(
+      "the label map has a grid of its own; carried to the image's grid by the nearest voxel, which keeps " +
+      plain(std::round(1000 * kept) / 10) + " % of the labelled volume");
   return result;
 }
 

@@ -28,7 +28,8 @@ bool same_grid(const VoxelGrid& a, const VoxelGrid& b, double tolerance_mm = 1e-
 /// @throws InputError when the grid is not a grid (size below 1, singular affine)
 LabelVolume resampled_to(const LabelVolume& volume, const VoxelGrid& grid, const Progress& progress = {});
 
-/// Least distance between the boxes that two grids fill, mm; 0 when they touch or overlap. Boxes along the patient's axes.
+/// Least distance between the boxes that two grids fill, mm; 0 when they touch or overlap. Boxes along the patient's
+/// axes.
 double gap_mm(const VoxelGrid& a, const VoxelGrid& b);
 
 /// The map on the image's grid: as it is when the grids agree, otherwise resampled, which a note on the result tells.
@@ -36,7 +37,8 @@ double gap_mm(const VoxelGrid& a, const VoxelGrid& b);
 LabelVolume on_grid_of(const ImageVolume& image, const LabelVolume& labels, const std::string& name,
                        const Progress& progress = {});
 
-/// Grid with axes at right angles that holds every voxel of a sheared one (gantry tilt): i as it is, k along the slice normal.
+/// Grid with axes at right angles that holds every voxel of a sheared one (gantry tilt): i as it is, k along the slice
+/// normal.
 VoxelGrid squared_grid(const VoxelGrid& grid);
 /// Largest cosine between two axes: 0 at right angles.
 double skew_of(const Eigen::Affine3d& index_to_ras_mm);

@@ -47,14 +47,17 @@ std::vector<Line> lines_of(std::string_view text) {
 /// Parts between separators; quotation marks hold a part together and are left out. Blanks in a row are one separator.
 std::vector<Word> words_of(std::string_view line, char separator) {
   std::vector<Word> words;
-  const auto is_gap = [&](char letter) { return separator == ' ' ? letter == ' ' || letter == '\t' : letter == separator; };
+  const auto is_gap = [&](char letter) {
+    return separator == ' ' ? letter == ' ' || letter == '\t' : letter == separator;
+  };
   for (std::size_t place = 0; place < line.size();) {
     if (separator == ' ' && is_gap(line[place])) {
       ++place;
       continue;
     }
     std::size_t end = place;
-    for (bool quoted = false; end < line.size() && (quoted || !is_gap(line[end])); ++end) quoted = quoted != (line[end] == '"');
+    for (bool quoted = false; end < line.size() && (quoted || !is_gap(line[end])); ++end)
+      quoted = quoted != (line[end] == '"');
     std::string_view word = line.substr(place, end - place);
     const auto first = word.find_first_not_of(" \t\""), last = word.find_last_not_of(" \t\"");
     const std::size_t shift = first == std::string_view::npos ? 0 : first;
@@ -76,9 +79,10 @@ struct Entry {
 
 /// ITK-SNAP: eight columns, the name last and in quotation marks. 3D Slicer: number, name, colour.
 Entry entry_of(const Line& line, const std::string& file) {
-  const char separator = line.text.find('\t') != std::string_view::npos && line.text.find(',') == std::string_view::npos ? '\t'
-                         : line.text.find(',') != std::string_view::npos                                                  ? ','
-                                                                                                                          : ' ';
+  const char separator = line.text.find('\t') != std::string_view::npos && line.text.find(',') == std::string_view::npos
+                             ? '\t'
+                         : line.text.find(',') != std::string_view::npos ? ','
+                                                                         : ' ';
   std::vector<Word> words = words_of(line.text, separator);
   if (separator == '\t' && words.size() < 2) words = words_of(line.text, ' ');
   if (words.size() < 2) throw InputError(file, line.number, 1, "\"number,name\" is wanted");

@@ -1,8 +1,9 @@
-// A label table of the user's own, from a file: CSV or TSV "number,name", a 3D Slicer colour table (.ctbl) or an ITK-SNAP label file.
+// A label table of the user's own, from a file: CSV or TSV "number,name", a 3D Slicer colour table (.ctbl) or an
+// ITK-SNAP label file.
 //
-// Lines: "5,liver" / "5<TAB>liver" (a heading line is skipped when its number is none), "5 liver 221 130 101 255" (.ctbl, five or six
-// columns), "    5  221 130 101  1  1  1  \"liver\"" (ITK-SNAP). '#' starts a comment. Background (0) may stand there and is left out.
-// Thread: any, not the tick (file I/O).
+// Lines: "5,liver" / "5<TAB>liver" (a heading line is skipped when its number is none), "5 liver 221 130 101 255"
+// (.ctbl, five or six columns), "    5  221 130 101  1  1  1  \"liver\"" (ITK-SNAP). '#' starts a comment. Background
+// (0) may stand there and is left out. Thread: any, not the tick (file I/O).
 #pragma once
 
 #include <filesystem>

@@ -112,8 +112,8 @@ bool flag(const MetaText& meta, const std::string& key, bool otherwise) {
 VoxelType voxel_type(const MetaText& meta) {
   using enum VoxelType;
   static const std::map<std::string, VoxelType> types{
-      {"MET_CHAR", kInt8},     {"MET_UCHAR", kUint8},       {"MET_SHORT", kInt16},      {"MET_USHORT", kUint16},
-      {"MET_INT", kInt32},     {"MET_UINT", kUint32},       {"MET_LONG_LONG", kInt64},  {"MET_ULONG_LONG", kUint64},
+      {"MET_CHAR", kInt8},     {"MET_UCHAR", kUint8},   {"MET_SHORT", kInt16},     {"MET_USHORT", kUint16},
+      {"MET_INT", kInt32},     {"MET_UINT", kUint32},   {"MET_LONG_LONG", kInt64}, {"MET_ULONG_LONG", kUint64},
       {"MET_FLOAT", kFloat32}, {"MET_DOUBLE", kFloat64}};
   const auto found = types.find(meta.wanted("ElementType"));
   if (found != types.end()) return found->second;
@@ -130,8 +130,8 @@ void read_scale(const MetaText& meta, VolumeHeader& volume) {
   if (!std::isfinite(volume.block.slope) || volume.block.slope == 0 || !std::isfinite(volume.block.intercept))
     meta.refuse(slope.empty() ? offset : slope, "zero or not finite");
   if (volume.block.slope != 1 || volume.block.intercept != 0)
-    volume.notes.push_back("values multiplied by " + plain(volume.block.slope) + " plus " + plain(volume.block.intercept) +
-                           ", as ElementToIntensityFunction says");
+    volume.notes.push_back("values multiplied by " + plain(volume.block.slope) + " plus " +
+                           plain(volume.block.intercept) + ", as ElementToIntensityFunction says");
 }
 
 void read_block(const MetaText& meta, const fs::path& path, VolumeHeader& volume) {
@@ -173,10 +173,12 @@ std::optional<Eigen::Matrix3d> directions_of_letters(const std::string& letters)
 
 Eigen::Matrix3d directions_of(const MetaText& meta, std::vector<std::string>& notes) {
   const std::string key = meta.first_of({"TransformMatrix", "Rotation", "Orientation"});
-  const auto letters = meta.has("AnatomicalOrientation") ? directions_of_letters(meta.wanted("AnatomicalOrientation"))
-                                                         : std::nullopt;
+  const auto letters =
+      meta.has("AnatomicalOrientation") ? directions_of_letters(meta.wanted("AnatomicalOrientation")) : std::nullopt;
   if (key.empty()) {
-    if (!letters) notes.push_back("neither TransformMatrix nor AnatomicalOrientation: axes to the left, the back and the head (LPS) assumed");
+    if (!letters)
+      notes.push_back(
+          "neither TransformMatrix nor AnatomicalOrientation: axes to the left, the back and the head (LPS) assumed");
     return letters.value_or(Eigen::Matrix3d::Identity());
   }
   const std::vector<double> matrix = numbers(meta, key, 9);
@@ -254,8 +256,7 @@ void read_size(const MetaText& meta, VolumeHeader& volume) {
 
 VolumeHeader meta_image_header(const fs::path& path, const VolumeReading& reading) {
   const MetaText meta = read_keys(path);
-  if (meta.has("ObjectType") && lower_case(meta.wanted("ObjectType")) != "image")
-    meta.refuse("ObjectType", "no image");
+  if (meta.has("ObjectType") && lower_case(meta.wanted("ObjectType")) != "image") meta.refuse("ObjectType", "no image");
   VolumeHeader volume;
   volume.format = "MetaImage";
   read_size(meta, volume);

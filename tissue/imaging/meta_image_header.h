@@ -1,7 +1,8 @@
 // The header of a MetaImage (.mha with its voxels, .mhd beside them), judged.
 //
-// World of the format: LPS, as ITK reads it; TransformMatrix holds the axes' directions one after the other. The format has no unit:
-// lengths that cannot be millimetres of a patient are refused unless the caller names one. Thread: any, not the tick (file I/O).
+// World of the format: LPS, as ITK reads it; TransformMatrix holds the axes' directions one after the other. The format
+// has no unit: lengths that cannot be millimetres of a patient are refused unless the caller names one. Thread: any,
+// not the tick (file I/O).
 #pragma once
 
 #include <filesystem>

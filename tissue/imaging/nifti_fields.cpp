@@ -90,7 +90,8 @@ void check_magic(std::span<const unsigned char> bytes, const std::string& file, 
   fields.pair = is_magic(bytes, offset, two.data(), two.size());
   if (fields.pair || is_magic(bytes, offset, one.data(), one.size())) return;
   if (fields.version == 1 && is_magic(bytes, offset, "\0\0\0\0", 4))
-    refuse(file, "magic", "empty: an Analyze 7.5 header, which does not say where left and right are; save it as NIfTI");
+    refuse(file, "magic",
+           "empty: an Analyze 7.5 header, which does not say where left and right are; save it as NIfTI");
   refuse(file, "magic", "not \"" + one.substr(0, 3) + "\": not a NIfTI-" + std::to_string(fields.version) + " file");
 }
 
@@ -112,8 +113,9 @@ NiftiFields decode_nifti(std::span<const unsigned char> bytes, const std::string
     refuse(file, "sizeof_hdr",
            std::to_string(FieldReader(bytes, false).at<std::int32_t>(0)) + " instead of 348 or 540: not a NIfTI file");
   if (bytes.size() < size)
-    refuse(file, "sizeof_hdr", std::to_string(size) + (size == kNifti2Bytes ? " is NIfTI-2" : " is NIfTI-1") +
-                                   ", but only " + std::to_string(bytes.size()) + " header bytes are there");
+    refuse(file, "sizeof_hdr",
+           std::to_string(size) + (size == kNifti2Bytes ? " is NIfTI-2" : " is NIfTI-1") + ", but only " +
+               std::to_string(bytes.size()) + " header bytes are there");
   NiftiFields fields;
   fields.version = size == kNifti2Bytes ? 2 : 1;
   fields.swapped = FieldReader(bytes, false).at<std::int32_t>(0) != static_cast<std::int32_t>(size);

@@ -161,7 +161,8 @@ fs::path image_beside(const fs::path& header) {
   const fs::path image = partner(header, ".hdr", ".img");
   if (fs::is_regular_file(image)) return image;
   const std::string name = image.string();
-  const fs::path other = lower_case(name).ends_with(".gz") ? fs::path(name.substr(0, name.size() - 3)) : fs::path(name + ".gz");
+  const fs::path other =
+      lower_case(name).ends_with(".gz") ? fs::path(name.substr(0, name.size() - 3)) : fs::path(name + ".gz");
   if (fs::is_regular_file(other)) return other;
   refuse(header.string(), "pair", "its voxels, " + image.filename().string() + ", are not beside it");
 }
@@ -196,14 +197,16 @@ NiftiHeader open_header(const fs::path& path) {
            named_gzip ? "named .gz, but the bytes are not gzip" : "not named .gz, but the bytes are gzip");
   std::vector<unsigned char> bytes(kNifti2Bytes);
   const std::size_t got = stream.read(bytes.data(), bytes.size());
-  const std::size_t wanted = nifti_header_bytes(std::span(bytes).first(got)) == kNifti2Bytes ? kNifti2Bytes : kNifti1Bytes;
+  const std::size_t wanted =
+      nifti_header_bytes(std::span(bytes).first(got)) == kNifti2Bytes ? kNifti2Bytes : kNifti1Bytes;
   if (got < wanted)
     refuse(file, "header",
            "the file ends after " + std::to_string(got) + " of " + std::to_string(wanted) + " header bytes");
   NiftiHeader header = parse_nifti_header(std::span(bytes).first(got), file);
   if (header.pair != pair)
-    refuse(file, "magic", pair ? "a header of a single file (.nii) under the name of a .hdr/.img pair"
-                               : "a header of a .hdr/.img pair under the name of a single file");
+    refuse(file, "magic",
+           pair ? "a header of a single file (.nii) under the name of a .hdr/.img pair"
+                : "a header of a .hdr/.img pair under the name of a single file");
   header.gzip = named_gzip;
   return header;
 }
@@ -247,7 +250,8 @@ VolumeHeader nifti_volume_header(const fs::path& path) {
     const std::string other = lower_case(header.string()).ends_with(".gz")
                                   ? header.string().substr(0, header.string().size() - 3)
                                   : header.string() + ".gz";
-    if (!fs::is_regular_file(other)) refuse(path.string(), "pair", "its header, " + header.filename().string() + ", is not beside it");
+    if (!fs::is_regular_file(other))
+      refuse(path.string(), "pair", "its header, " + header.filename().string() + ", is not beside it");
     header = other;
   }
   return described(open_header(header), header);

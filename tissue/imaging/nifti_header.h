@@ -1,8 +1,9 @@
 // The NIfTI header, read and judged by ourselves before a voxel is touched.
 //
-// Versions 1 and 2 (nifti_fields.h), one file (.nii, .nii.gz) or a pair (.hdr with .img). Voxel (i, j, k) counts from 0, its centre
-// lies at index_to_ras_mm * (i, j, k) in the RAS patient frame (x right, y anterior, z superior), millimetres. A signed header alone
-// is no proof of data: the length of the voxel block is measured too, through the inflater for .nii.gz. Thread: any, not the tick.
+// Versions 1 and 2 (nifti_fields.h), one file (.nii, .nii.gz) or a pair (.hdr with .img). Voxel (i, j, k) counts from
+// 0, its centre lies at index_to_ras_mm * (i, j, k) in the RAS patient frame (x right, y anterior, z superior),
+// millimetres. A signed header alone is no proof of data: the length of the voxel block is measured too, through the
+// inflater for .nii.gz. Thread: any, not the tick.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -59,7 +60,8 @@ NiftiHeader parse_nifti_header(std::span<const unsigned char> bytes, const std::
 /// @throws InputError naming file and field
 NiftiHeader read_nifti_header(const std::filesystem::path& path);
 
-/// The same as the other formats' headers are told; the voxels are not looked at. .nii, .nii.gz, .hdr or .img (also .gz) of a pair.
+/// The same as the other formats' headers are told; the voxels are not looked at. .nii, .nii.gz, .hdr or .img (also
+/// .gz) of a pair.
 /// @throws InputError naming file and field
 VolumeHeader nifti_volume_header(const std::filesystem::path& path);
 

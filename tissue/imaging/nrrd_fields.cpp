@@ -56,7 +56,8 @@ double number_of(const std::string& word, const NrrdFields& header, const std::s
   double value = 0;
   const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
   const auto [stop, error] = std::from_chars(first, word.data() + word.size(), value);
-  if (error != std::errc() || stop != word.data() + word.size()) header.refuse(field, "holds something that is no number");
+  if (error != std::errc() || stop != word.data() + word.size())
+    header.refuse(field, "holds something that is no number");
   return value;
 }
 
@@ -149,7 +150,8 @@ std::vector<std::optional<Eigen::Vector3d>> nrrd_vectors(const NrrdFields& heade
       place += 4;
     } else {
       const auto close = text.find(')', place);
-      if (text[place] != '(' || close == std::string::npos) header.refuse(field, "neither \"none\" nor a vector (x,y,z)");
+      if (text[place] != '(' || close == std::string::npos)
+        header.refuse(field, "neither \"none\" nor a vector (x,y,z)");
       vectors.emplace_back(vector_of(text.substr(place + 1, close - place - 1), header, field));
       place = close + 1;
     }

@@ -1,7 +1,7 @@
 // The text of a NRRD header, taken apart: fields "name: value" and keys "name:=value", each with its line.
 //
-// Source: the format definition of Teem, NRRD0001 to NRRD0006. Names of fields are kept in lower case without blanks ("spaceorigin"),
-// keys as they are. Thread: any.
+// Source: the format definition of Teem, NRRD0001 to NRRD0006. Names of fields are kept in lower case without blanks
+// ("spaceorigin"), keys as they are. Thread: any.
 #pragma once
 
 #include <Eigen/Core>

@@ -17,26 +17,44 @@ using Vectors = std::vector<std::optional<Eigen::Vector3d>>;
 
 VoxelType voxel_type(const NrrdFields& header) {
   using enum VoxelType;
-  static constexpr std::array<std::pair<std::string_view, VoxelType>, 38> kTypes{
-      {{"signed char", kInt8},     {"int8", kInt8},
-       {"int8_t", kInt8},          {"uchar", kUint8},
-       {"unsigned char", kUint8},  {"uint8", kUint8},
-       {"uint8_t", kUint8},        {"short", kInt16},
-       {"short int", kInt16},      {"signed short", kInt16},
-       {"signed short int", kInt16}, {"int16", kInt16},
-       {"int16_t", kInt16},        {"ushort", kUint16},
-       {"unsigned short", kUint16}, {"unsigned short int", kUint16},
-       {"uint16", kUint16},        {"uint16_t", kUint16},
-       {"int", kInt32},            {"signed int", kInt32},
-       {"int32", kInt32},          {"int32_t", kInt32},
-       {"uint", kUint32},          {"unsigned int", kUint32},
-       {"uint32", kUint32},        {"uint32_t", kUint32},
-       {"longlong", kInt64},       {"long long", kInt64},
-       {"long long int", kInt64},  {"int64", kInt64},
-       {"int64_t", kInt64},        {"ulonglong", kUint64},
-       {"unsigned long long", kUint64}, {"unsigned long long int", kUint64},
-       {"uint64", kUint64},        {"uint64_t", kUint64},
-       {"float", kFloat32},        {"double", kFloat64}}};
+  static constexpr std::array<std::pair<std::string_view, VoxelType>, 38> kTypes{{{"signed char", kInt8},
+                                                                                  {"int8", kInt8},
+                                                                                  {"int8_t", kInt8},
+                                                                                  {"uchar", kUint8},
+                                                                                  {"unsigned char", kUint8},
+                                                                                  {"uint8", kUint8},
+                                                                                  {"uint8_t", kUint8},
+                                                                                  {"short", kInt16},
+                                                                                  {"short int", kInt16},
+                                                                                  {"signed short", kInt16},
+                                                                                  {"signed short int", kInt16},
+                                                                                  {"int16", kInt16},
+                                                                                  {"int16_t", kInt16},
+                                                                                  {"ushort", kUint16},
+                                                                                  {"unsigned short", kUint16},
+                                                                                  {"unsigned short int", kUint16},
+                                                                                  {"uint16", kUint16},
+                                                                                  {"uint16_t", kUint16},
+                                                                                  {"int", kInt32},
+                                                                                  {"signed int", kInt32},
+                                                                                  {"int32", kInt32},
+                                                                                  {"int32_t", kInt32},
+                                                                                  {"uint", kUint32},
+                                                                                  {"unsigned int", kUint32},
+                                                                                  {"uint32", kUint32},
+                                                                                  {"uint32_t", kUint32},
+                                                                                  {"longlong", kInt64},
+                                                                                  {"long long", kInt64},
+                                                                                  {"long long int", kInt64},
+                                                                                  {"int64", kInt64},
+                                                                                  {"int64_t", kInt64},
+                                                                                  {"ulonglong", kUint64},
+                                                                                  {"unsigned long long", kUint64},
+                                                                                  {"unsigned long long int", kUint64},
+                                                                                  {"uint64", kUint64},
+                                                                                  {"uint64_t", kUint64},
+                                                                                  {"float", kFloat32},
+                                                                                  {"double", kFloat64}}};
   const std::string name = lower_case(header.wanted("type").text);
   for (const auto& [known, type] : kTypes)
     if (name == known) return type;
@@ -116,7 +134,8 @@ bool is_list(const std::string& kind) {
 std::vector<bool> not_in_space(const NrrdFields& header, std::size_t dimension) {
   std::vector<bool> outside(dimension, false);
   const auto check = [&](std::size_t count, const char* field) {
-    if (count != dimension) header.refuse(field, std::to_string(count) + " entries for " + std::to_string(dimension) + " axes");
+    if (count != dimension)
+      header.refuse(field, std::to_string(count) + " entries for " + std::to_string(dimension) + " axes");
   };
   if (header.has("spacedirections")) {
     const Vectors directions = nrrd_vectors(header, "spacedirections");
@@ -222,7 +241,8 @@ Eigen::Vector3d space_signs(const NrrdFields& header, const VolumeReading& readi
     notes.push_back("the header names no space; " + reading.space + " was asked for");
     return ras_signs(reading.space, "the space asked for", header.file);
   }
-  header.refuse("space", "missing: the file does not say where left and right are; say so with --space LPS (or RAS, LAS)");
+  header.refuse("space",
+                "missing: the file does not say where left and right are; say so with --space LPS (or RAS, LAS)");
 }
 
 double unit_mm(const NrrdFields& header, const VolumeReading& reading, std::vector<std::string>& notes) {
@@ -272,8 +292,7 @@ VolumeHeader nrrd_volume_header(const fs::path& path, const VolumeReading& readi
   VolumeHeader volume;
   volume.format = "NRRD";
   const Axes axes = read_axes(header);
-  const long long components =
-      axes.sizes.size() == 4 ? axes.sizes[static_cast<std::size_t>(axes.component_axis)] : 1;
+  const long long components = axes.sizes.size() == 4 ? axes.sizes[static_cast<std::size_t>(axes.component_axis)] : 1;
   for (std::size_t n = 0; n < 3; ++n) volume.size[n] = static_cast<int>(axes.sizes[axes.spatial[n]]);
   check_size({volume.size[0], volume.size[1], volume.size[2]}, components, "sizes", header.file);
   volume.components = static_cast<int>(components);

@@ -1,8 +1,8 @@
 // The header of a NRRD file (.nrrd, detached .nhdr) and of a 3D Slicer segmentation (.seg.nrrd), judged.
 //
-// Spaces RAS, LAS and LPS; encodings raw, gzip and ascii; three axes in space, and at most one that is not (layers of a segmentation).
-// Segment numbers, layers and names come from the SegmentN_... keys. Files of Slicer before 4.11 have no such layers: each segment is
-// one component of 0 and 1. Frame RAS, millimetres. Thread: any, not the tick (file I/O).
+// Spaces RAS, LAS and LPS; encodings raw, gzip and ascii; three axes in space, and at most one that is not (layers of a
+// segmentation). Segment numbers, layers and names come from the SegmentN_... keys. Files of Slicer before 4.11 have no
+// such layers: each segment is one component of 0 and 1. Frame RAS, millimetres. Thread: any, not the tick (file I/O).
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,8 @@ VolumeHeader nrrd_volume_header(const std::filesystem::path& path, const VolumeR
 std::vector<NamedSegment> nrrd_segments(const NrrdFields& header, int components);
 
 /// The voxel file that a header names, beside the header or in a folder below it.
-/// @throws InputError for an absolute name, one that leads out of the folder, patterns and lists of files, a missing file
+/// @throws InputError for an absolute name, one that leads out of the folder, patterns and lists of files, a missing
+/// file
 std::filesystem::path detached_file(const std::filesystem::path& header, const std::string& name,
                                     const std::string& field);
 

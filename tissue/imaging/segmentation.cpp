@@ -12,9 +12,9 @@
 namespace trocar {
 namespace {
 
-constexpr std::uint64_t kMostRegion = std::uint64_t{1} << 27;   // of masks and piece numbers: 0.7 GiB
+constexpr std::uint64_t kMostRegion = std::uint64_t{1} << 27;    // of masks and piece numbers: 0.7 GiB
 constexpr std::uint64_t kMostSmoothed = std::uint64_t{1} << 25;  // of values in three copies: 0.4 GiB
-constexpr double kBodyHu = -300;  // fat is above, lung and air below
+constexpr double kBodyHu = -300;                                 // fat is above, lung and air below
 constexpr int kFlowSteps = 5;
 
 /// A block of the image: indices low..high, both inside it.
@@ -36,7 +36,8 @@ struct Work {
   std::size_t offset(const Eigen::Array3i& place) const {
     return static_cast<std::size_t>(place[0]) +
            static_cast<std::size_t>(shape.size[0]) *
-               (static_cast<std::size_t>(place[1]) + static_cast<std::size_t>(shape.size[1]) * static_cast<std::size_t>(place[2]));
+               (static_cast<std::size_t>(place[1]) +
+                static_cast<std::size_t>(shape.size[1]) * static_cast<std::size_t>(place[2]));
   }
 };
 
@@ -125,13 +126,16 @@ void threshold(Work& work) {
   report(work.progress, "threshold", -1);
   std::vector<float> values;
   values.reserve(work.offset({0, 0, work.shape.size[2]}));
-  each_voxel(work.region, [&](int i, int j, int k) { values.push_back(work.image.values[work.image.offset(i, j, k)]); });
+  each_voxel(work.region,
+             [&](int i, int j, int k) { values.push_back(work.image.values[work.image.offset(i, j, k)]); });
   if (work.options.smooth) {
     report(work.progress, "smoothing", -1);
     curvature_flow(values, work.shape, kFlowSteps);
-    work.notes.push_back("values smoothed by " + std::to_string(kFlowSteps) + " steps of curvature flow before the threshold");
+    work.notes.push_back("values smoothed by " + std::to_string(kFlowSteps) +
+                         " steps of curvature flow before the threshold");
   }
-  work.mask = window_mask(values, work.shape, static_cast<float>(work.options.low), static_cast<float>(work.options.high));
+  work.mask =
+      window_mask(values, work.shape, static_cast<float>(work.options.low), static_cast<float>(work.options.high));
   if (!work.options.seed_ras_mm || work.options.reach_mm <= 0) return;
   std::size_t voxel = 0;
   each_voxel(work.region, [&](int i, int j, int k) {
@@ -172,7 +176,8 @@ void settle_seed(Work& work) {
     throw InputError("--seed: its voxel holds " + held + ", outside the window " + plain(work.options.low) + " to " +
                      plain(work.options.high) + ", and so do its neighbours");
   if ((work.seed != place - work.region.low).any())
-    work.notes.push_back("the seed's own voxel holds " + held + ", outside the window; a neighbour in it was taken instead");
+    work.notes.push_back("the seed's own voxel holds " + held +
+                         ", outside the window; a neighbour in it was taken instead");
 }
 
 void open_mask(Work& work) {
@@ -183,7 +188,8 @@ void open_mask(Work& work) {
   dilate(work.mask, work.shape, work.options.opening_mm);
   const std::size_t after = marked(work.mask);
   if (after == 0)
-    throw InputError("--opening " + plain(work.options.opening_mm) + ": nothing is left; nothing that thick lies in the window");
+    throw InputError("--opening " + plain(work.options.opening_mm) +
+                     ": nothing is left; nothing that thick lies in the window");
   work.notes.push_back("opened by a ball of " + plain(work.options.opening_mm) + " mm, which took away " +
                        std::to_string(before - after) + " voxels");
 }
@@ -193,7 +199,8 @@ void choose_piece(Work& work) {
   if (work.options.seed_ras_mm) {
     const Eigen::Array3i start = near_seed(work, work.seed, work.options.opening_mm);
     if (work.mask[work.offset(start)] == 0)
-      throw InputError("--seed: the opening took away everything round it; choose a seed deeper inside or a smaller ball");
+      throw InputError(
+          "--seed: the opening took away everything round it; choose a seed deeper inside or a smaller ball");
     keep_connected(work.mask, work.shape, {start[0], start[1], start[2]});
     work.notes.push_back("kept what hangs together with the seed");
   } else if (work.options.keep == Keep::kLargest) {
@@ -236,23 +243,27 @@ Extent write_labels(const Work& work, LabelVolume& result) {
     ++extent.inside;
     extent.border += (place == 0).any() || (place == last).any() ? 1 : 0;
     if (bounded)
-      extent.at_reach += (work.image.index_to_ras_mm * place.matrix().cast<double>() - *work.options.seed_ras_mm).norm() >
-                                 work.options.reach_mm - edge
-                             ? 1
-                             : 0;
+      extent.at_reach +=
+          (work.image.index_to_ras_mm * place.matrix().cast<double>() - *work.options.seed_ras_mm).norm() >
+                  work.options.reach_mm - edge
+              ? 1
+              : 0;
   });
   for (const float value : work.image.values) extent.body += value > kBodyHu ? 1 : 0;
   return extent;
 }
 
 std::string percent(std::size_t part, std::size_t all) {
-  return plain(std::round(1000.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1))) / 10) + " %";
+  return plain(std::round(1000.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1))) /
+               10) +
+         " %";
 }
 
 void tell_extent(const Work& work, const Extent& extent, std::vector<std::string>& notes) {
   const float lowest = *std::min_element(work.image.values.begin(), work.image.values.end());
   const bool hounsfield = work.image.modality == "CT" || lowest < -500;
-  const double volume_ml = static_cast<double>(extent.inside) * std::abs(work.image.index_to_ras_mm.linear().determinant()) * 1e-3;
+  const double volume_ml =
+      static_cast<double>(extent.inside) * std::abs(work.image.index_to_ras_mm.linear().determinant()) * 1e-3;
   notes.push_back(std::to_string(extent.inside) + " voxels, " + plain(volume_ml) + " mL, " +
                   percent(extent.inside, work.image.values.size()) + " of the image" +
                   (hounsfield ? " and " + percent(extent.inside, extent.body) + " of the body in it" : ""));
@@ -271,9 +282,11 @@ void tell_extent(const Work& work, const Extent& extent, std::vector<std::string
 
 LabelVolume segment(const ImageVolume& image, const SegmentationOptions& options, const Progress& progress) {
   check_options(options);
-  Work work{.image = image, .options = options, .progress = progress, .notes = {}, .region = {}, .shape = {}, .mask = {}};
-  work.notes.push_back("marked by values from " + plain(options.low) + " to " + plain(options.high) +
-                       ", not by anatomy: what has equal values and touches is one piece; look at the result before use");
+  Work work{
+      .image = image, .options = options, .progress = progress, .notes = {}, .region = {}, .shape = {}, .mask = {}};
+  work.notes.push_back(
+      "marked by values from " + plain(options.low) + " to " + plain(options.high) +
+      ", not by anatomy: what has equal values and touches is one piece; look at the result before use");
   if (options.seed_ras_mm) seed_voxel(image, *options.seed_ras_mm);
   choose_region(work);
   threshold(work);

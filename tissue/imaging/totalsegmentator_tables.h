@@ -1,6 +1,7 @@
 // The classes of TotalSegmentator's three main models, in full: v1 "total" (104), v2 "total" (117), "total_mr" (50).
 //
-// Source: the class maps "total_v1", "total" and "total_mr" of the program wasserth/TotalSegmentator (map_to_binary.py). Thread: constant data.
+// Source: the class maps "total_v1", "total" and "total_mr" of the program wasserth/TotalSegmentator
+// (map_to_binary.py). Thread: constant data.
 #pragma once
 
 #include <span>

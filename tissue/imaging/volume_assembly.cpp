@@ -53,20 +53,35 @@ class Placing {
   /// put(component, place, value) for every value; place -1 for a voxel that fell off the end of the pairs.
   template <typename Put>
   void scatter(std::span<const double> values, Put put) {
-    for (const double value : values) {
-      std::int64_t place = 0;
-      bool dropped = false;
-      for (std::size_t axis = 0; axis < 4; ++axis) {
-        const std::int64_t step = steps_[axis][index_[axis]];
-        dropped = dropped || step < 0;
-        place += step;
+    for (std::size_t done = 0; done < values.size();) {
+      const auto [row, dropped] = start_of_row();
+      const std::size_t run = std::min(values.size() - done, steps_[0].size() - index_[0]);
+      for (std::size_t n = 0; n < run; ++n) {
+        const std::int64_t step = steps_[0][index_[0] + n];
+        put(component_axis_ == 0 ? index_[0] + n : index_[component_axis_], dropped || step < 0 ? -1 : row + step,
+            values[done + n]);
       }
-      put(index_[component_axis_], dropped ? -1 : place, value);
-      for (std::size_t axis = 0; axis < 4 && ++index_[axis] == steps_[axis].size(); ++axis) index_[axis] = 0;
+      done += run;
+      index_[0] += run;
+      if (index_[0] < steps_[0].size()) return;
+      index_[0] = 0;
+      for (std::size_t axis = 1; axis < 4 && ++index_[axis] == steps_[axis].size(); ++axis) index_[axis] = 0;
     }
   }
 
  private:
+  /// Place of the row's first voxel but for the step along the row; whether the whole row falls off the pairs.
+  std::pair<std::int64_t, bool> start_of_row() const {
+    std::int64_t place = 0;
+    bool dropped = false;
+    for (std::size_t axis = 1; axis < 4; ++axis) {
+      const std::int64_t step = steps_[axis][index_[axis]];
+      dropped = dropped || step < 0;
+      place += step;
+    }
+    return {place, dropped};
+  }
+
   void fill_steps(std::vector<std::int64_t>& steps, const AxisOrder& order, int spatial,
                   const std::array<int, 3>& whole, const std::array<std::int64_t, 3>& stride) {
     std::size_t axis = 0;
@@ -128,7 +143,9 @@ void mend_values(const VolumeHeader& header, ImageVolume& volume) {
 }
 
 void note_rest(const VolumeHeader& header, bool more, std::vector<std::string>& notes) {
-  if (more) notes.push_back(header.block.file.filename().string() + " holds more bytes than its voxels need; they were left unread");
+  if (more)
+    notes.push_back(header.block.file.filename().string() +
+                    " holds more bytes than its voxels need; they were left unread");
 }
 
 /// Takes voxels one by one and judges them.
@@ -152,7 +169,8 @@ class LabelTaker {
  private:
   [[noreturn]] void refuse_value(double value) const {
     if (!std::isfinite(value)) refuse(header_, "holds a voxel that is not a finite number");
-    refuse(header_, "voxel " + std::to_string(taken_) + " holds " + plain(value) + ", no whole number in 0..65535" + kWhatToDo);
+    refuse(header_,
+           "voxel " + std::to_string(taken_) + " holds " + plain(value) + ", no whole number in 0..65535" + kWhatToDo);
   }
 
   const VolumeHeader& header_;
@@ -174,7 +192,8 @@ void list_segments(const VolumeHeader& header, const LabelTaker& taker, LabelMap
     std::size_t marked = 0;
     for (std::size_t number = 1; number < 65536; ++number) {
       if (taker.counts(layer)[number] == 0) continue;
-      map.segments.push_back({layers.size(), static_cast<int>(number), name_of(header, layer, static_cast<int>(number))});
+      map.segments.push_back(
+          {layers.size(), static_cast<int>(number), name_of(header, layer, static_cast<int>(number))});
       ++marked;
     }
     if (marked > 0) layers.push_back(std::move(map.layers[layer]));
@@ -217,7 +236,8 @@ ImageVolume assemble_image(const VolumeHeader& header, const Progress& progress,
 
 LabelMap assemble_labels(const VolumeHeader& header, const Progress& progress) {
   if (header.components > 1 && !header.segmentation)
-    refuse(header, std::to_string(header.components) + " values a voxel, and no segments named: colours or vectors, no label map");
+    refuse(header, std::to_string(header.components) +
+                       " values a voxel, and no segments named: colours or vectors, no label map");
   if (header.components > kMostLayers)
     refuse(header, std::to_string(header.components) + " layers, more than " + std::to_string(kMostLayers));
   Placing placing(header, {1, 1, 1});
@@ -232,7 +252,8 @@ LabelMap assemble_labels(const VolumeHeader& header, const Progress& progress) {
   for (LabelVolume& each : map.layers) each.labels.assign(static_cast<std::size_t>(voxels_of(layer.size)), 0);
   LabelTaker taker(header, map);
   const bool more = stream_voxels(header.block, header.value_count(), progress, [&](std::span<const double> values) {
-    placing.scatter(values, [&](std::size_t component, std::int64_t place, double value) { taker.take(component, place, value); });
+    placing.scatter(
+        values, [&](std::size_t component, std::int64_t place, double value) { taker.take(component, place, value); });
   });
   note_rest(header, more, map.notes);
   list_segments(header, taker, map);

@@ -10,8 +10,9 @@
 
 namespace trocar {
 
-/// One value a voxel. More than `most` voxels are averaged over pairs, along the axes with the shortest edges first, with a note.
-/// Values that are not finite become the lowest finite one, with a note. @throws InputError for colours, damaged or missing data
+/// One value a voxel. More than `most` voxels are averaged over pairs, along the axes with the shortest edges first,
+/// with a note. Values that are not finite become the lowest finite one, with a note. @throws InputError for colours,
+/// damaged or missing data
 ImageVolume assemble_image(const VolumeHeader& header, const Progress& progress, std::uint64_t most = kMostVoxels);
 
 /// One layer a component, as stored (sheared axes stay). @throws InputError for what is no label map

@@ -54,14 +54,16 @@ void check_size(const std::array<long long, 3>& size, long long components, cons
   double count = static_cast<double>(components);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (size[axis] < 2)
-      refuse(file, field, std::to_string(size[axis]) + " voxels along axis " + std::to_string(axis + 1) +
-                              ": a volume needs at least 2");
+      refuse(file, field,
+             std::to_string(size[axis]) + " voxels along axis " + std::to_string(axis + 1) +
+                 ": a volume needs at least 2");
     count *= static_cast<double>(size[axis]);
   }
   if (components < 1) refuse(file, field, std::to_string(components) + " values a voxel");
   if (count > static_cast<double>(kMostLabelVoxels))
-    refuse(file, field, plain(count) + " voxels, more than " + std::to_string(kMostLabelVoxels) +
-                            ": crop the volume or sample it coarser");
+    refuse(file, field,
+           plain(count) + " voxels, more than " + std::to_string(kMostLabelVoxels) +
+               ": crop the volume or sample it coarser");
 }
 
 Eigen::Affine3d settled_frame(const Eigen::Affine3d& frame) {

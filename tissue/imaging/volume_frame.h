@@ -16,7 +16,8 @@ inline constexpr double kSkewTolerance = 1e-4;
 
 /// @param field the header field that gave the frame
 /// @param hint what to do about implausible lengths, "" for nothing
-/// @throws InputError "FILE: FIELD: ...": not finite, origin more than 100 m away, voxel edges outside 0.01..100 mm, axes (nearly) in one
+/// @throws InputError "FILE: FIELD: ...": not finite, origin more than 100 m away, voxel edges outside 0.01..100 mm,
+/// axes (nearly) in one
 ///         plane; sheared axes are passed with a note
 void check_frame(const Eigen::Affine3d& index_to_ras_mm, const std::string& field, const std::string& file,
                  const std::string& hint, std::vector<std::string>& notes);
@@ -29,7 +30,8 @@ void check_size(const std::array<long long, 3>& size, long long components, cons
 /// Steps rounded to 2^-20 mm, origin to 2^-10 mm: below what matters, above what float32 or text storage leaves.
 Eigen::Affine3d settled_frame(const Eigen::Affine3d& frame);
 
-/// +1 or -1 a row: what turns coordinates of a space into RAS. "RAS", "LAS", "LPS", their long NRRD names, any upper or lower case.
+/// +1 or -1 a row: what turns coordinates of a space into RAS. "RAS", "LAS", "LPS", their long NRRD names, any upper or
+/// lower case.
 /// @throws InputError naming `file` and `field` for any other
 Eigen::Vector3d ras_signs(std::string_view space, const std::string& field, const std::string& file);
 

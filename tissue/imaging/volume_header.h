@@ -1,4 +1,5 @@
-// What the header of a volume file says, whichever format it came from: size, frame, and where and how the voxels are stored.
+// What the header of a volume file says, whichever format it came from: size, frame, and where and how the voxels are
+// stored.
 //
 // Frame RAS, millimetres; index (0, 0, 0) is the centre of the first stored voxel. Thread: any.
 #pragma once
@@ -22,10 +23,10 @@ struct VoxelBlock {
   std::filesystem::path file;
   VoxelEncoding encoding = VoxelEncoding::kRaw;
   VoxelType type = VoxelType::kUint8;
-  bool swapped = false;          ///< stored in the other byte order
-  std::uint64_t offset = 0;      ///< bytes of the file before the block
-  std::uint64_t skipped = 0;     ///< bytes before the first voxel once unpacked
-  bool last_in_file = false;     ///< raw: the voxels are the last bytes of the file, behind a header of unknown length
+  bool swapped = false;       ///< stored in the other byte order
+  std::uint64_t offset = 0;   ///< bytes of the file before the block
+  std::uint64_t skipped = 0;  ///< bytes before the first voxel once unpacked
+  bool last_in_file = false;  ///< raw: the voxels are the last bytes of the file, behind a header of unknown length
   double slope = 1, intercept = 0;  ///< value = slope * stored + intercept
 };
 
@@ -36,7 +37,7 @@ struct NamedSegment {
 };
 
 struct VolumeHeader {
-  std::string format;        ///< "NIfTI-1", for messages
+  std::string format;         ///< "NIfTI-1", for messages
   std::array<int, 3> size{};  ///< voxels along the three stored axes that lie in space
   int components = 1;         ///< values a voxel
   int component_axis = 3;     ///< place of the components among the four stored axes, 0 the fastest

@@ -85,7 +85,8 @@ VolumeHeader header_of(const fs::path& path, const VolumeReading& reading) {
   if (fs::is_directory(path, error)) throw InputError(name + ": a folder, not a volume file");
   const Format format = format_of_name(path);
   if (format == Format::kNone)
-    throw InputError(name + ": extension: no volume file that is known here; volumes are read from " + volume_formats());
+    throw InputError(name + ": extension: no volume file that is known here; volumes are read from " +
+                     volume_formats());
   if (!fs::is_regular_file(path, error)) throw InputError(name + ": no such file");
   check_signature(path, format);
   if (format == Format::kNrrd) return nrrd_volume_header(path, reading);
@@ -102,8 +103,8 @@ void straighten(LabelMap& map, const Progress& progress) {
     const VoxelGrid grid = squared_grid(grid_of(layer));
     layer = resampled_to(layer, grid, progress);
     if (&layer == &map.layers.front())
-      map.notes.push_back("straightened to axes at right angles by the nearest voxel, " + std::to_string(grid.size[0]) + " x " +
-                          std::to_string(grid.size[1]) + " x " + std::to_string(grid.size[2]) + " voxels");
+      map.notes.push_back("straightened to axes at right angles by the nearest voxel, " + std::to_string(grid.size[0]) +
+                          " x " + std::to_string(grid.size[1]) + " x " + std::to_string(grid.size[2]) + " voxels");
   }
 }
 
@@ -131,7 +132,8 @@ LabelMap read_label_map(const fs::path& path, const Progress& progress, const Vo
 LabelVolume read_label_volume(const fs::path& path) {
   LabelMap map = read_label_map(path);
   if (map.layers.size() > 1)
-    throw InputError(path.string() + ": " + std::to_string(map.layers.size()) + " layers of segments that overlap; one is wanted");
+    throw InputError(path.string() + ": " + std::to_string(map.layers.size()) +
+                     " layers of segments that overlap; one is wanted");
   return std::move(map.layers.front());
 }
 

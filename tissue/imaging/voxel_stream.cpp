@@ -158,8 +158,9 @@ bool stream_voxels(const VoxelBlock& block, std::uint64_t count, const Progress&
   if (block.encoding == VoxelEncoding::kText) return stream_text(block, count, progress, take);
   const std::size_t width = bytes_of(block.type);
   const std::uint64_t wanted = block.offset + block.skipped + count * width;
-  const auto bytes = block.encoding == VoxelEncoding::kDeflated ? open_deflated(block.file, block.offset)
-                                                                : open_plain(block.file, first_byte(block, count * width));
+  const auto bytes = block.encoding == VoxelEncoding::kDeflated
+                         ? open_deflated(block.file, block.offset)
+                         : open_plain(block.file, first_byte(block, count * width));
   if (!block.last_in_file) pass_over(*bytes, block, wanted);
   std::vector<unsigned char> raw(kPiece * width);
   std::vector<double> values(kPiece);

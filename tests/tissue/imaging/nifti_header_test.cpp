@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/support/itk_volume.h"
 #include "tests/tissue/support/nifti_fixture.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/gzip_stream.h"
-#include "tissue/imaging/itk_volume.h"
 
 namespace trocar {
 namespace {

@@ -24,7 +24,8 @@ TEST(LabelGrid, TakesTheNearestVoxelOnAnObliqueGrid) {
   volume.index_to_ras_mm.linear() = Eigen::Vector3d(2, 2, 2).asDiagonal();
   for (int n = 0; n < 5 * 6 * 7; ++n) volume.labels.push_back(static_cast<std::uint16_t>(1 + random() % 9));
   VoxelGrid grid{{9, 8, 7}, Eigen::Affine3d::Identity()};
-  grid.index_to_ras_mm.linear() = Eigen::AngleAxisd(0.6, Eigen::Vector3d(1, 1, 2).normalized()).toRotationMatrix() * 1.1;
+  grid.index_to_ras_mm.linear() =
+      Eigen::AngleAxisd(0.6, Eigen::Vector3d(1, 1, 2).normalized()).toRotationMatrix() * 1.1;
   grid.index_to_ras_mm.translation() = Eigen::Vector3d(1, 0.3, 2);
   const LabelVolume result = resampled_to(volume, grid);
   std::size_t outside = 0;
@@ -70,7 +71,8 @@ TEST(LabelGrid, MapOfAnotherGridGoesThroughThePatient) {
   image.values.assign(8000, 0);
   const LabelVolume coarse = on_grid_of(image, fine, "map.nii");
   EXPECT_TRUE(same_grid(grid_of(coarse), grid_of(image)));
-  EXPECT_NEAR(static_cast<double>(coarse.label_counts().at(1)) * 8, static_cast<double>(fine.label_counts().at(1)), 300);
+  EXPECT_NEAR(static_cast<double>(coarse.label_counts().at(1)) * 8, static_cast<double>(fine.label_counts().at(1)),
+              300);
   EXPECT_TRUE(test::has_note(coarse.notes, "grid of its own"));
   LabelVolume far = fine;
   far.index_to_ras_mm.translation().x() += 500;
@@ -110,7 +112,8 @@ TEST(SquaredGrid, HoldsEveryVoxelAndKeepsTheSlices) {
   EXPECT_EQ(squared.size[1], 30 + 11);  // the last slice slid by 9 * 0.8 mm = 10.3 voxels
   const Eigen::Affine3d back = squared.index_to_ras_mm.inverse() * tilted.index_to_ras_mm;
   for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d index = back * Eigen::Vector3d((corner & 1) * 19, (corner >> 1 & 1) * 29, (corner >> 2 & 1) * 9);
+    const Eigen::Vector3d index =
+        back * Eigen::Vector3d((corner & 1) * 19, (corner >> 1 & 1) * 29, (corner >> 2 & 1) * 9);
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_GE(index[axis], -1e-9);
       EXPECT_LE(index[axis], squared.size[static_cast<std::size_t>(axis)] - 1 + 1e-9);

@@ -26,15 +26,36 @@ TEST(FullTables, HaveEveryClassOnce) {
 TEST(FullTables, AgreeWithThePublishedClassMaps) {
   const LabelTable &v1 = label_table("totalsegmentator-v1"), &v2 = label_table("totalsegmentator-v2"),
                    &mr = label_table("totalsegmentator-mr");
-  for (const auto& [number, name] : {std::pair{13, "lung_upper_lobe_left"}, {41, "vertebrae_C1"}, {50, "brain"}, {55, "small_bowel"},
-                                     {69, "rib_left_12"}, {81, "rib_right_12"}, {92, "sacrum"}, {93, "face"}, {104, "urinary_bladder"}})
+  for (const auto& [number, name] : {std::pair{13, "lung_upper_lobe_left"},
+                                     {41, "vertebrae_C1"},
+                                     {50, "brain"},
+                                     {55, "small_bowel"},
+                                     {69, "rib_left_12"},
+                                     {81, "rib_right_12"},
+                                     {92, "sacrum"},
+                                     {93, "face"},
+                                     {104, "urinary_bladder"}})
     EXPECT_EQ(v1.name_of(number), name);
-  for (const auto& [number, name] : {std::pair{17, "thyroid_gland"}, {21, "urinary_bladder"}, {26, "vertebrae_S1"}, {51, "heart"},
-                                     {52, "aorta"}, {64, "portal_vein_and_splenic_vein"}, {79, "spinal_cord"}, {91, "skull"},
-                                     {103, "rib_left_12"}, {116, "sternum"}, {117, "costal_cartilages"}})
+  for (const auto& [number, name] : {std::pair{17, "thyroid_gland"},
+                                     {21, "urinary_bladder"},
+                                     {26, "vertebrae_S1"},
+                                     {51, "heart"},
+                                     {52, "aorta"},
+                                     {64, "portal_vein_and_splenic_vein"},
+                                     {79, "spinal_cord"},
+                                     {91, "skull"},
+                                     {103, "rib_left_12"},
+                                     {116, "sternum"},
+                                     {117, "costal_cartilages"}})
     EXPECT_EQ(v2.name_of(number), name);
-  for (const auto& [number, name] : {std::pair{10, "lung_left"}, {16, "urinary_bladder"}, {19, "vertebrae"}, {22, "heart"}, {23, "aorta"},
-                                     {25, "portal_vein_and_splenic_vein"}, {40, "gluteus_maximus_left"}, {50, "brain"}})
+  for (const auto& [number, name] : {std::pair{10, "lung_left"},
+                                     {16, "urinary_bladder"},
+                                     {19, "vertebrae"},
+                                     {22, "heart"},
+                                     {23, "aorta"},
+                                     {25, "portal_vein_and_splenic_vein"},
+                                     {40, "gluteus_maximus_left"},
+                                     {50, "brain"}})
     EXPECT_EQ(mr.name_of(number), name);
 }
 
@@ -50,11 +71,14 @@ TEST(OwnTable, FourWaysToWriteOneTable) {
   EXPECT_EQ(parsed("number,name\n1,liver\n5,gall bladder\n"), wanted);
   EXPECT_EQ(parsed("\xef\xbb\xbf\"number\",\"name\"\r\n1,\"liver\",0,0,0\r\n5,\"gall bladder\"\r\n"), wanted);
   EXPECT_EQ(parsed("# mine\n1\tliver\n\n5\tgall bladder\n"), wanted);
-  EXPECT_EQ(parsed("    0     0    0    0        0  0  0    \"Clear Label\"\n    1   255    0    0        1  1  1    \"liver\"\n"
-                   "    5     0  255    0        1  1  1    \"gall bladder\"\n"),
-            wanted);
+  EXPECT_EQ(
+      parsed(
+          "    0     0    0    0        0  0  0    \"Clear Label\"\n    1   255    0    0        1  1  1    \"liver\"\n"
+          "    5     0  255    0        1  1  1    \"gall bladder\"\n"),
+      wanted);
   const std::vector<std::pair<int, std::string>> slicer{{1, "liver"}, {5, "gallbladder"}};
-  EXPECT_EQ(parsed("# Color table file\n0 background 0 0 0 0\n1 liver 221 130 101 255\n5 gallbladder 139 150 98 255\n"), slicer);
+  EXPECT_EQ(parsed("# Color table file\n0 background 0 0 0 0\n1 liver 221 130 101 255\n5 gallbladder 139 150 98 255\n"),
+            slicer);
   EXPECT_EQ(parsed("LabelValue,Name,Color_R,Color_G\n1,liver,1,2\n5,gallbladder,3,4"), slicer);
 }
 
@@ -112,16 +136,19 @@ TEST(ChooseSegment, ANumberIsNeverSilentlyGivenAName) {
   EXPECT_CONTAINS(message, "totalsegmentator-v1 (7), totalsegmentator-v2 (52), totalsegmentator-mr (23)");
   EXPECT_EQ(choose_segment(map, "aorta", &label_table("totalsegmentator-v1"), "m").number, 7);
   EXPECT_EQ(choose_segment(map, "pancreas", &label_table("totalsegmentator-v2"), "m").number, 7);
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "colon", &label_table("totalsegmentator-v1"), "m"); }),
-                  "number 57 in the table totalsegmentator-v1, which marks no voxel; it holds 1 spleen, 7 aorta");
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "tail", nullptr, "m"); }), "no table that is known here does");
+  EXPECT_CONTAINS(
+      test::message_of<InputError>([&] { choose_segment(map, "colon", &label_table("totalsegmentator-v1"), "m"); }),
+      "number 57 in the table totalsegmentator-v1, which marks no voxel; it holds 1 spleen, 7 aorta");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "tail", nullptr, "m"); }),
+                  "no table that is known here does");
 }
 
 TEST(ChooseSegment, TheFilesOwnNamesComeFirst) {
   LabelMap map = bare_map({1, 2});
   map.segments[0].name = "liver", map.segments[1].name = "liver";
   map.segments[1].layer = 1;
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "liver", nullptr, "m"); }), "several segments");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "liver", nullptr, "m"); }),
+                  "several segments");
   map.segments[1].name = "tumour";
   EXPECT_EQ(choose_segment(map, "liver", &label_table("totalsegmentator-v1"), "m").number, 1);
   EXPECT_TRUE(guess_label_table(map).size() == 3);  // nothing is left to name
@@ -129,7 +156,8 @@ TEST(ChooseSegment, TheFilesOwnNamesComeFirst) {
 
 TEST(GuessTable, NamesTheTablesThatCouldBeMeant) {
   EXPECT_EQ(guess_label_table(bare_map({5, 117})), (std::vector<std::string>{"totalsegmentator-v2"}));
-  EXPECT_EQ(guess_label_table(bare_map({5, 104})), (std::vector<std::string>{"totalsegmentator-v1", "totalsegmentator-v2"}));
+  EXPECT_EQ(guess_label_table(bare_map({5, 104})),
+            (std::vector<std::string>{"totalsegmentator-v1", "totalsegmentator-v2"}));
   EXPECT_TRUE(guess_label_table(bare_map({500})).empty());
   EXPECT_EQ(listed_segments(bare_map({1, 2, 3}), nullptr, 2), "1, 2 and 1 more");
 }

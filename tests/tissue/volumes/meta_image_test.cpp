@@ -34,11 +34,14 @@ TEST(MetaImage, StoresInTheImageOrBesideIt) {
   };
   const std::vector<double> values = told_indices();
   EXPECT_TRUE(check("a.mha", plain_file()).empty());
-  check("a.mha", rest("ElementType = MET_USHORT\nBinaryDataByteOrderMSB = True\n") + packed<std::uint16_t>(values, true));
+  check("a.mha",
+        rest("ElementType = MET_USHORT\nBinaryDataByteOrderMSB = True\n") + packed<std::uint16_t>(values, true));
   check("a.mha", rest("ElementType = MET_DOUBLE\nElementByteOrderMSB = True\n") + packed<double>(values, true));
   check("a.mha", rest("ElementType = MET_UCHAR\nisPerpective = 0\n") + packed<std::uint8_t>(values));
   const std::string zlib = test::zlib_packed(packed<float>(values));
-  check("a.mha", rest("ElementType = MET_FLOAT\nCompressedData = True\nCompressedDataSize = " + std::to_string(zlib.size()) + "\n") + zlib);
+  check("a.mha", rest("ElementType = MET_FLOAT\nCompressedData = True\nCompressedDataSize = " +
+                      std::to_string(zlib.size()) + "\n") +
+                     zlib);
   std::string text;
   for (const double value : values) text += std::to_string(value) + " ";
   check("a.mha", rest("ElementType = MET_INT\nBinaryData = False\n") + text);
@@ -68,11 +71,14 @@ TEST(MetaImage, LettersStandInForAMissingMatrix) {
   const ImageVolume lps = read_image_volume(folder.write("a.mha", plain_file(place)));
   test::expect_told_indices(lps, expected());
   EXPECT_TRUE(test::has_note(lps.notes, "LPS"));
-  const ImageVolume same = read_image_volume(folder.write("a.mha", plain_file(place + "AnatomicalOrientation = RAI\n")));
+  const ImageVolume same =
+      read_image_volume(folder.write("a.mha", plain_file(place + "AnatomicalOrientation = RAI\n")));
   test::expect_told_indices(same, expected());
-  const ImageVolume turned = read_image_volume(folder.write("a.mha", plain_file(place + "AnatomicalOrientation = LPS\n")));
+  const ImageVolume turned =
+      read_image_volume(folder.write("a.mha", plain_file(place + "AnatomicalOrientation = LPS\n")));
   test::expect_told_indices(turned, expected(-Eigen::Matrix3d::Identity()));
-  const ImageVolume torn = read_image_volume(folder.write("a.mha", plain_file(kPlace + "AnatomicalOrientation = LPS\n")));
+  const ImageVolume torn =
+      read_image_volume(folder.write("a.mha", plain_file(kPlace + "AnatomicalOrientation = LPS\n")));
   test::expect_told_indices(torn, expected());
   EXPECT_TRUE(test::has_note(torn.notes, "contradict"));
 }
@@ -80,7 +86,10 @@ TEST(MetaImage, LettersStandInForAMissingMatrix) {
 TEST(MetaImage, ScaleAndModalityAreTold) {
   test::TemporaryFolder folder;
   const ImageVolume image = read_image_volume(folder.write(
-      "a.mha", plain_file(kPlace + "Modality = MET_MOD_CT\nElementToIntensityFunctionSlope = 2\nElementToIntensityFunctionOffset = -1000\n")));
+      "a.mha",
+      plain_file(
+          kPlace +
+          "Modality = MET_MOD_CT\nElementToIntensityFunctionSlope = 2\nElementToIntensityFunctionOffset = -1000\n")));
   EXPECT_EQ(image.modality, "CT");
   EXPECT_EQ(test::value_at(image, {10, -20, 30}), -1000);
   EXPECT_EQ(test::value_at(image, {8, -20, 30}), -998);
@@ -91,7 +100,8 @@ TEST(MetaImage, ScaleAndModalityAreTold) {
 
 TEST(MetaImage, LengthsThatAreNoMillimetresNeedAUnit) {
   test::TemporaryFolder folder;
-  const auto path = folder.write("a.mha", plain_file("ElementSpacing = 0.002 0.003 0.004\nOffset = -0.010 0.020 0.030\n"));
+  const auto path =
+      folder.write("a.mha", plain_file("ElementSpacing = 0.002 0.003 0.004\nOffset = -0.010 0.020 0.030\n"));
   const std::string message = test::image_refusal(path);
   EXPECT_CONTAINS(message, "voxel size 0.002 mm");
   EXPECT_CONTAINS(message, "m makes it 9 mm long");
@@ -122,15 +132,18 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Wrong{"ObjectType = Image", "ObjectType = Tube", "ObjectType"}, Wrong{"NDims = 3", "NDims = 4", "4 dimensions"},
         Wrong{"DimSize = 4 3 2", "DimSize = 4 3", "3 numbers"}, Wrong{"DimSize = 4 3 2", "DimSize = 4 3 -2", "DimSize"},
-        Wrong{"DimSize = 4 3 2", "DimSize = 9e4 9e4 9e4", "more than"}, Wrong{"DimSize = 4 3 2", "DimSize = 4 3 2 1", "3 numbers"},
+        Wrong{"DimSize = 4 3 2", "DimSize = 9e4 9e4 9e4", "more than"},
+        Wrong{"DimSize = 4 3 2", "DimSize = 4 3 2 1", "3 numbers"},
         Wrong{"DimSize = 4 3 2", "DimSize = 40 30 20", "the file ends after"},
         Wrong{"DimSize = 4 3 2", "DimSize = 4 3 2\nDimSize = 4 3 2", "given before"},
         Wrong{"ElementSpacing = 2 3 4", "ElementSpacing = 2 3 0", "voxel size 0"},
         Wrong{"ElementSpacing = 2 3 4", "ElementSpacing = 2 3 nan", "not finite"},
         Wrong{"ElementSpacing = 2 3 4\n", "", "how large is a voxel"},
-        Wrong{"1 0 0 0 1 0 0 0 1", "1 0 0 1 0 0 0 0 1", "one plane"}, Wrong{"1 0 0 0 1 0 0 0 1", "1 0 0 0 1 0 0 0 3", "length 1"},
-        Wrong{"1 0 0 0 1 0 0 0 1", "1 0 0 0 1 0", "9 numbers"}, Wrong{"MET_SHORT", "MET_LONG", "depends on the machine"},
-        Wrong{"MET_SHORT", "MET_STRING", "no number type"}, Wrong{"MET_SHORT", "MET_SHORT\nHeaderSize = -7", "HeaderSize"},
+        Wrong{"1 0 0 0 1 0 0 0 1", "1 0 0 1 0 0 0 0 1", "one plane"},
+        Wrong{"1 0 0 0 1 0 0 0 1", "1 0 0 0 1 0 0 0 3", "length 1"},
+        Wrong{"1 0 0 0 1 0 0 0 1", "1 0 0 0 1 0", "9 numbers"},
+        Wrong{"MET_SHORT", "MET_LONG", "depends on the machine"}, Wrong{"MET_SHORT", "MET_STRING", "no number type"},
+        Wrong{"MET_SHORT", "MET_SHORT\nHeaderSize = -7", "HeaderSize"},
         Wrong{"MET_SHORT", "MET_SHORT\nElementNumberOfChannels = 3", "3 values a voxel"},
         Wrong{"MET_SHORT", "MET_SHORT\nCompressedData = Maybe", "neither True nor False"},
         Wrong{"MET_SHORT", "MET_SHORT\nCompressedData = True", "damaged gzip"},
@@ -141,7 +154,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(MetaImage, ColoursAreNoImage) {
   test::TemporaryFolder folder;
-  const std::string bytes = kStart + kPlace + "ElementType = MET_UCHAR\nElementNumberOfChannels = 3\nElementDataFile = LOCAL\n" +
+  const std::string bytes = kStart + kPlace +
+                            "ElementType = MET_UCHAR\nElementNumberOfChannels = 3\nElementDataFile = LOCAL\n" +
                             std::string(72, '\1');
   EXPECT_CONTAINS(test::image_refusal(folder.write("a.mha", bytes)), "3 values a voxel");
   EXPECT_CONTAINS(test::map_refusal(folder.path() / "a.mha"), "no label map");

@@ -94,7 +94,8 @@ TEST(NiftiPair, HalvesAloneAndAnalyzeAreRefused) {
   const NiftiFixture file = pair_header();
   EXPECT_CONTAINS(test::image_refusal(folder.write("a.hdr", file.header)), "a.img, are not beside it");
   EXPECT_CONTAINS(test::image_refusal(folder.write("b.img", "voxels")), "b.hdr, is not beside it");
-  EXPECT_CONTAINS(test::image_refusal(folder.write("c.nii", file.bytes())), ".hdr/.img pair under the name of a single file");
+  EXPECT_CONTAINS(test::image_refusal(folder.write("c.nii", file.bytes())),
+                  ".hdr/.img pair under the name of a single file");
   EXPECT_CONTAINS(test::image_refusal(folder.write("d.hdr", NiftiFixture().bytes())), "a header of a single file");
   std::string analyze = file.header;
   std::memset(analyze.data() + 344, 0, 4);
@@ -207,9 +208,12 @@ TEST(BigImages, AreAveragedOverPairsAndSaySo) {
 TEST(VolumeNames, DispatchGoesByEndingAndSignature) {
   test::TemporaryFolder folder;
   const std::string nifti = NiftiFixture().bytes();
-  EXPECT_CONTAINS(test::image_refusal(folder.write("a.nrrd", nifti)), "the name says NRRD, but the bytes look like a NIfTI header");
-  EXPECT_CONTAINS(test::image_refusal(folder.write("a.mha", "NRRD0004\n")), "the name says MetaImage, but the bytes look like NRRD");
-  EXPECT_CONTAINS(test::image_refusal(folder.write("a.nii", "NRRD0004\n")), "the name says NIfTI, but the bytes look like NRRD");
+  EXPECT_CONTAINS(test::image_refusal(folder.write("a.nrrd", nifti)),
+                  "the name says NRRD, but the bytes look like a NIfTI header");
+  EXPECT_CONTAINS(test::image_refusal(folder.write("a.mha", "NRRD0004\n")),
+                  "the name says MetaImage, but the bytes look like NRRD");
+  EXPECT_CONTAINS(test::image_refusal(folder.write("a.nii", "NRRD0004\n")),
+                  "the name says NIfTI, but the bytes look like NRRD");
   EXPECT_CONTAINS(test::image_refusal(folder.write("b.nrrd", gzip_compressed(nifti))), "look like a gzip file");
   EXPECT_CONTAINS(test::image_refusal(folder.write("c.nrrd", std::string(128, '\0') + "DICM....")), "look like DICOM");
   EXPECT_CONTAINS(test::image_refusal(folder.write("d.mha", "")), "the file is empty");

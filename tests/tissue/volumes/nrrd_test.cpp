@@ -10,15 +10,15 @@ using test::frame_of;
 using test::packed;
 using test::told_indices;
 
-const std::string kPlace =
-    "space directions: (2,0,0) (0,3,0) (0,0,4)\nspace origin: (-10,20,30)\n";
+const std::string kPlace = "space directions: (2,0,0) (0,3,0) (0,0,4)\nspace origin: (-10,20,30)\n";
 
 std::string header(const std::string& more, const std::string& type = "short") {
   return "NRRD0004\n# a comment\ntype: " + type + "\ndimension: 3\nsizes: 4 3 2\n" + more;
 }
 
 std::string plain_file(const std::string& space) {
-  return header("encoding: raw\nendian: little\nspace: " + space + "\n" + kPlace) + "\n" + packed<std::int16_t>(told_indices());
+  return header("encoding: raw\nendian: little\nspace: " + space + "\n" + kPlace) + "\n" +
+         packed<std::int16_t>(told_indices());
 }
 
 TEST(Nrrd, ThreeSpacesTurnIntoRas) {
@@ -44,12 +44,16 @@ TEST(Nrrd, EncodingsAndByteOrdersGiveOneImage) {
     test::expect_told_indices(read_image_volume(folder.write("a.nrrd", bytes)), frame);
   };
   check(header(place + "encoding: raw\nendian: big\n") + "\n" + packed<std::int16_t>(told_indices(), true));
-  check(header(place + "encoding: gzip\nendian: little\n", "float") + "\n" + gzip_compressed(packed<float>(told_indices())));
-  check(header(place + "encoding: gz\nendian: big\n", "double") + "\n" + gzip_compressed(packed<double>(told_indices(), true)));
+  check(header(place + "encoding: gzip\nendian: little\n", "float") + "\n" +
+        gzip_compressed(packed<float>(told_indices())));
+  check(header(place + "encoding: gz\nendian: big\n", "double") + "\n" +
+        gzip_compressed(packed<double>(told_indices(), true)));
   check(header(place + "encoding: raw\n", "uchar") + "\n" + packed<std::uint8_t>(told_indices()));
-  check(header(place + "encoding: raw\nendian: little\n", "unsigned long long int") + "\n" + packed<std::uint64_t>(told_indices()));
+  check(header(place + "encoding: raw\nendian: little\n", "unsigned long long int") + "\n" +
+        packed<std::uint64_t>(told_indices()));
   std::string text;
-  for (const double value : told_indices()) text += std::to_string(static_cast<int>(value)) + (value > 100 ? "\n" : " ");
+  for (const double value : told_indices())
+    text += std::to_string(static_cast<int>(value)) + (value > 100 ? "\n" : " ");
   check(header(place + "encoding: ascii\n") + "\n" + text);
   std::string windows = header(place + "encoding: raw\nendian: little\n") + "\n";
   for (std::size_t n = 0; (n = windows.find('\n', n)) != std::string::npos; n += 2) windows.insert(n, "\r");
@@ -89,7 +93,9 @@ TEST(Nrrd, SpacingsAndAxisMinsNeedASpaceThatSomebodyNames) {
 
 TEST(Nrrd, UnitsComeFromTheHeaderOrTheCaller) {
   test::TemporaryFolder folder;
-  const std::string place = "space: RAS\nencoding: raw\nendian: little\nspace directions: (0.002,0,0) (0,0.003,0) (0,0,0.004)\nspace origin: (0,0,0)\n";
+  const std::string place =
+      "space: RAS\nencoding: raw\nendian: little\nspace directions: (0.002,0,0) (0,0.003,0) (0,0,0.004)\nspace origin: "
+      "(0,0,0)\n";
   const std::string data = "\n" + packed<std::int16_t>(told_indices());
   const auto unnamed = folder.write("a.nrrd", header(place) + data);
   EXPECT_CONTAINS(test::image_refusal(unnamed), "--unit");
@@ -115,9 +121,7 @@ TEST(Nrrd, DetachedVoxelsBesideTheHeaderAndNowhereElse) {
   test::expect_told_indices(read("datafile: voxels.raw\nbyte skip: 10\n"), frame);
   test::expect_told_indices(read("data file: voxels.raw\nbyte skip: -1\n"), frame);
   test::expect_told_indices(read("data file: below/voxels.raw\n"), frame);
-  const auto refused = [&](const std::string& more) {
-    return test::message_of<InputError>([&] { read(more); });
-  };
+  const auto refused = [&](const std::string& more) { return test::message_of<InputError>([&] { read(more); }); };
   EXPECT_CONTAINS(refused("data file: /etc/hostname\n"), "out of the header's own folder");
   EXPECT_CONTAINS(refused("data file: ../voxels.raw\n"), "out of the header's own folder");
   EXPECT_CONTAINS(refused("data file: below/../../voxels.raw\n"), "out of the header's own folder");
@@ -154,25 +158,26 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"encoding: raw", "encoding: bzip2", "bzip2 is not read here"},
         Wrong{"encoding: raw", "encoding: hex", "hex is not read"}, Wrong{"encoding: raw", "encoding: zip", "unknown"},
         Wrong{"encoding: raw\n", "", "encoding: missing"}, Wrong{"endian: little\n", "", "endian"},
-        Wrong{"endian: little", "endian: middle", "neither little nor big"}, Wrong{"type: short", "type: block", "type"},
-        Wrong{"space: RAS", "space: 3D-right-handed", "left and right"},
+        Wrong{"endian: little", "endian: middle", "neither little nor big"},
+        Wrong{"type: short", "type: block", "type"}, Wrong{"space: RAS", "space: 3D-right-handed", "left and right"},
         Wrong{"space: RAS", "space: left-posterior-superior-time", "series"},
         Wrong{"sizes: 4 3 2", "sizes: 4 3", "2 entries for 3 axes"}, Wrong{"sizes: 4 3 2", "sizes: 4 -3 2", "sizes"},
         Wrong{"sizes: 4 3 2", "sizes: 4 3 1", "at least 2"}, Wrong{"sizes: 4 3 2", "sizes: 1e5 1e5 1e5", "more than"},
         Wrong{"sizes: 4 3 2", "sizes: 400 300 200", "the file ends after"},
         Wrong{"sizes: 4 3 2", "sizes: 4 3 two", "no number"}, Wrong{"dimension: 3", "dimension: 2", "a volume has 3"},
-        Wrong{"dimension: 3", "dimension: 99", "no whole number"}, Wrong{"type: short", "type: short\ntype: short", "given twice"},
-        Wrong{"(0,0,4)", "(0,0,0)", "voxel size 0"}, Wrong{"(0,0,4)", "(0,0,nan)", "not finite"},
-        Wrong{"(0,0,4)", "(0,0)", "another length"}, Wrong{"(0,0,4)", "none", "lie in space"},
-        Wrong{"(0,0,4)", "(2,0,0.1)", "one plane"}, Wrong{"(0,0,4)", "(0,0,4", "neither"},
-        Wrong{"(-10,20,30)", "(-1e9,20,30)", "100 m"}, Wrong{"NRRD0004", "NRRD0009", "NRRD0006"},
-        Wrong{"# a comment", "a comment", "neither a field nor a key"},
+        Wrong{"dimension: 3", "dimension: 99", "no whole number"},
+        Wrong{"type: short", "type: short\ntype: short", "given twice"}, Wrong{"(0,0,4)", "(0,0,0)", "voxel size 0"},
+        Wrong{"(0,0,4)", "(0,0,nan)", "not finite"}, Wrong{"(0,0,4)", "(0,0)", "another length"},
+        Wrong{"(0,0,4)", "none", "lie in space"}, Wrong{"(0,0,4)", "(2,0,0.1)", "one plane"},
+        Wrong{"(0,0,4)", "(0,0,4", "neither"}, Wrong{"(-10,20,30)", "(-1e9,20,30)", "100 m"},
+        Wrong{"NRRD0004", "NRRD0009", "NRRD0006"}, Wrong{"# a comment", "a comment", "neither a field nor a key"},
         Wrong{"space: RAS", "space: RAS\nkinds: domain domain time", "series over time"}));
 
 TEST(Nrrd, TruncatedAndSpoiledDataIsRefused) {
   test::TemporaryFolder folder;
   const std::string whole = plain_file("RAS");
-  EXPECT_CONTAINS(test::image_refusal(folder.write("a.nrrd", whole.substr(0, whole.size() - 1))), "the file ends after");
+  EXPECT_CONTAINS(test::image_refusal(folder.write("a.nrrd", whole.substr(0, whole.size() - 1))),
+                  "the file ends after");
   const std::string start = header("space: RAS\nencoding: gzip\nendian: little\n" + kPlace) + "\n";
   const std::string data = gzip_compressed(packed<std::int16_t>(told_indices()));
   std::string damaged = start + data;
@@ -180,7 +185,8 @@ TEST(Nrrd, TruncatedAndSpoiledDataIsRefused) {
   EXPECT_CONTAINS(test::image_refusal(folder.write("b.nrrd", damaged)), "damaged gzip");
   EXPECT_CONTAINS(test::image_refusal(folder.write("c.nrrd", start + data.substr(0, data.size() / 2))), "damaged gzip");
   const auto text = [&](const std::string& numbers) {
-    return test::image_refusal(folder.write("d.nrrd", header("space: RAS\nencoding: ascii\n" + kPlace) + "\n" + numbers));
+    return test::image_refusal(
+        folder.write("d.nrrd", header("space: RAS\nencoding: ascii\n" + kPlace) + "\n" + numbers));
   };
   EXPECT_CONTAINS(text("1 2 3"), "too short");
   EXPECT_CONTAINS(text("1 2 3" + std::string(60, ' ')), "the text ends after 3 of 24 values");

@@ -10,8 +10,9 @@ const std::string kFrame3 = "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: d
 const std::string kFrame4 = "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: list domain domain domain\n";
 
 std::string start(const std::string& sizes, const std::string& frame, const std::string& keys) {
-  return "NRRD0004\ntype: unsigned char\ndimension: " + std::string(sizes.size() > 6 ? "4" : "3") + "\nspace: right-anterior-superior\nsizes: " + sizes +
-         "\n" + frame + "encoding: gzip\nspace origin: (0,0,0)\n" + keys + "\n";
+  return "NRRD0004\ntype: unsigned char\ndimension: " + std::string(sizes.size() > 6 ? "4" : "3") +
+         "\nspace: right-anterior-superior\nsizes: " + sizes + "\n" + frame +
+         "encoding: gzip\nspace origin: (0,0,0)\n" + keys + "\n";
 }
 
 /// Two layers of 2 x 2 x 2 voxels; the first value of each pair is layer 0.
@@ -46,9 +47,12 @@ TEST(SegNrrd, OverlappingSegmentsLieInLayers) {
 
 TEST(SegNrrd, OneLayerKeepsItsNames) {
   test::TemporaryFolder folder;
-  const std::string keys = "Segment0_Name:=gall\tbladder\nSegment0_LabelValue:=7\nSegment0_Layer:=0\nSegment1_Name:=never\nSegment1_LabelValue:=8\n";
-  const LabelMap map = read_label_map(
-      folder.write("a.seg.nrrd", start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>({7, 0, 0, 7, 3, 0, 0, 0}))));
+  const std::string keys =
+      "Segment0_Name:=gall\tbladder\nSegment0_LabelValue:=7\nSegment0_Layer:=0\nSegment1_Name:=never\nSegment1_"
+      "LabelValue:=8\n";
+  const LabelMap map = read_label_map(folder.write(
+      "a.seg.nrrd",
+      start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>({7, 0, 0, 7, 3, 0, 0, 0}))));
   ASSERT_EQ(map.segments.size(), 2U);
   EXPECT_EQ(map.segments[0].number, 3);
   EXPECT_EQ(map.segments[0].name, "");  // the file does not name it
@@ -69,7 +73,9 @@ TEST(SegNrrd, OldFormHasOneComponentASegment) {
 
 TEST(SegNrrd, EmptyLayersAreLeftOut) {
   test::TemporaryFolder folder;
-  const std::string keys = "Segment0_Name:=gone\nSegment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_Name:=here\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n";
+  const std::string keys =
+      "Segment0_Name:=gone\nSegment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_Name:=here\nSegment1_LabelValue:="
+      "1\nSegment1_Layer:=1\n";
   const LabelMap map = read_label_map(folder.write("a.seg.nrrd", layered(keys, {0, 1})));
   ASSERT_EQ(map.layers.size(), 1U);
   ASSERT_EQ(map.segments.size(), 1U);
@@ -82,8 +88,8 @@ TEST(SegNrrd, LayersLastAmongTheAxesAreReadToo) {
   const std::string frame = "space directions: (1,0,0) (0,1,0) (0,0,1) none\nkinds: domain domain domain list\n";
   std::vector<double> values(16, 0);
   values[0] = 2, values[8 + 1] = 1;
-  const LabelMap map = read_label_map(
-      folder.write("a.seg.nrrd", start("2 2 2 2", frame, kOverlap) + gzip_compressed(test::packed<std::uint8_t>(values))));
+  const LabelMap map = read_label_map(folder.write(
+      "a.seg.nrrd", start("2 2 2 2", frame, kOverlap) + gzip_compressed(test::packed<std::uint8_t>(values))));
   ASSERT_EQ(map.layers.size(), 2U);
   EXPECT_EQ(map.layers[0].labels[0], 2);
   EXPECT_EQ(map.layers[1].labels[1], 1);
@@ -107,7 +113,8 @@ TEST(SegNrrd, ColoursAndSeriesAreNoVolume) {
   const auto path = folder.write("a.nrrd", layered("", {1, 2}));
   EXPECT_CONTAINS(test::image_refusal(path), "2 values a voxel");
   const std::string four = "space directions: (1,0,0) (0,1,0) (0,0,1) (0,0,1)\n";
-  EXPECT_CONTAINS(test::image_refusal(folder.write("b.nrrd", start("2 2 2 2", four, "") + "x")), "4 axes that lie in space");
+  EXPECT_CONTAINS(test::image_refusal(folder.write("b.nrrd", start("2 2 2 2", four, "") + "x")),
+                  "4 axes that lie in space");
 }
 
 }  // namespace

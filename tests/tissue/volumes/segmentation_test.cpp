@@ -23,7 +23,8 @@ ImageVolume image_of(const std::array<int, 3>& size, const Eigen::Vector3d& edge
   for (int k = 0; k < size[2]; ++k)
     for (int j = 0; j < size[1]; ++j)
       for (int i = 0; i < size[0]; ++i)
-        image.values.push_back(static_cast<float>(value(Eigen::Vector3d(image.index_to_ras_mm * Eigen::Vector3d(i, j, k)))));
+        image.values.push_back(
+            static_cast<float>(value(Eigen::Vector3d(image.index_to_ras_mm * Eigen::Vector3d(i, j, k)))));
   return image;
 }
 
@@ -54,7 +55,8 @@ SegmentationOptions window(double low, double high) {
 }
 
 TEST(Segmentation, LargestPieceOfAWindow) {
-  const ImageVolume image = image_of(kSize, kEdges, [](const Eigen::Vector3d& p) { return std::abs(p.x()) < 2 ? -100 : two_balls(p); });
+  const ImageVolume image =
+      image_of(kSize, kEdges, [](const Eigen::Vector3d& p) { return std::abs(p.x()) < 2 ? -100 : two_balls(p); });
   const LabelVolume result = segment(image, window(50, 150));
   std::size_t wanted = 0;
   for (std::size_t voxel = 0; voxel < image.values.size(); ++voxel) {
@@ -101,7 +103,8 @@ TEST(Segmentation, ReachKeepsALeakSmallAndSaysSo) {
 }
 
 TEST(Segmentation, HolesAreFilledWhenAsked) {
-  const ImageVolume image = image_of(kSize, kEdges, [](const Eigen::Vector3d& p) { return p.norm() < 15 && p.norm() > 6 ? 100.0 : 0.0; });
+  const ImageVolume image =
+      image_of(kSize, kEdges, [](const Eigen::Vector3d& p) { return p.norm() < 15 && p.norm() > 6 ? 100.0 : 0.0; });
   SegmentationOptions options = window(50, 150);
   const LabelVolume filled = segment(image, options);
   EXPECT_EQ(filled.labels, truth(image, {0, 0, 0}, 15).labels);
@@ -140,7 +143,8 @@ TEST(Segmentation, TellsTheShareOfTheBody) {
 }
 
 TEST(Segmentation, ShearedImagesGiveStraightLabels) {
-  ImageVolume image = image_of({40, 40, 20}, {1, 1, 2}, [](const Eigen::Vector3d& p) { return p.norm() < 12 ? 100.0 : 0.0; });
+  ImageVolume image =
+      image_of({40, 40, 20}, {1, 1, 2}, [](const Eigen::Vector3d& p) { return p.norm() < 12 ? 100.0 : 0.0; });
   image.index_to_ras_mm.linear()(1, 2) = 0.5;
   const LabelVolume result = segment(image, window(50, 150));
   EXPECT_LT(skew_of(result.index_to_ras_mm), 1e-12);
@@ -188,8 +192,7 @@ TEST(Region, BallsAreMeasuredInMillimetresOnUnequalEdges) {
           for (int c = 0; c < 9; ++c)
             for (int b = 0; b < 12; ++b)
               for (int a = 0; a < 11; ++a, ++other)
-                if (mask[other] != 0)
-                  least = std::min(least, std::hypot(1.0 * (i - a), 0.7 * (j - b), 2.5 * (k - c)));
+                if (mask[other] != 0) least = std::min(least, std::hypot(1.0 * (i - a), 0.7 * (j - b), 2.5 * (k - c)));
           EXPECT_EQ(grown[voxel], least <= radius + 1e-6 ? 1 : 0);
           EXPECT_EQ(shrunk[voxel], 1 - grown[voxel]);
         }

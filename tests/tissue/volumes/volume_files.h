@@ -1,4 +1,5 @@
-// Small volume files of several formats, made byte by byte for tests, and the value that lies at a place in patient space.
+// Small volume files of several formats, made byte by byte for tests, and the value that lies at a place in patient
+// space.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -41,7 +42,8 @@ std::string packed(const std::vector<double>& values, bool big_endian = false) {
 inline std::string zlib_packed(const std::string& bytes) {
   std::string result(compressBound(bytes.size()), '\0');
   uLongf length = result.size();
-  compress(reinterpret_cast<Bytef*>(result.data()), &length, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  compress(reinterpret_cast<Bytef*>(result.data()), &length, reinterpret_cast<const Bytef*>(bytes.data()),
+           bytes.size());
   result.resize(length);
   return result;
 }
@@ -59,8 +61,10 @@ inline double value_at(const ImageVolume& image, const Eigen::Vector3d& ras_mm) 
   return image.values[image.offset(place[0], place[1], place[2])];
 }
 
-/// Every stored voxel (i, j, k) must lie at `frame` * (i, j, k), and steps must run to the right, the front and the head.
-inline void expect_told_indices(const ImageVolume& image, const Eigen::Affine3d& frame, int ni = 4, int nj = 3, int nk = 2) {
+/// Every stored voxel (i, j, k) must lie at `frame` * (i, j, k), and steps must run to the right, the front and the
+/// head.
+inline void expect_told_indices(const ImageVolume& image, const Eigen::Affine3d& frame, int ni = 4, int nj = 3,
+                                int nk = 2) {
   ASSERT_EQ(image.values.size(), static_cast<std::size_t>(ni * nj * nk));
   for (int k = 0; k < nk; ++k)
     for (int j = 0; j < nj; ++j)
@@ -83,7 +87,8 @@ inline std::string map_refusal(const std::filesystem::path& path) {
 }
 
 inline bool has_note(const std::vector<std::string>& notes, const std::string& part) {
-  return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.find(part) != std::string::npos; });
+  return std::any_of(notes.begin(), notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 }  // namespace trocar::test

@@ -1,4 +1,5 @@
-// Hostile volume files of every format: whatever the bytes, the answer is a volume or an InputError that names the file.
+// Hostile volume files of every format: whatever the bytes, the answer is a volume or an InputError that names the
+// file.
 //
 // Each format runs for a second or two; TROCAR_FUZZ_SECONDS in the environment makes each run that long.
 #include <chrono>
@@ -16,9 +17,38 @@ namespace {
 constexpr int kRounds = 700;  // of the normal suite: the same on every machine
 
 /// Words that sit at places where headers break.
-const std::vector<std::string> kWords{"-1", "0", "1e400", "nan", "inf", "99999999999999999999", "none", "LIST", "(", ")", ",", ":", ":=", "=", "\n",
-                                      "\n\n", "\"", "4294967296", "2147483647", "-2147483648", "../", "/", "%d", "1e-320", "True", "gzip", "ascii",
-                                      "raw", "byte skip: -1\n", "HeaderSize = -1\n", "Segment0_Layer:=1\n", "kinds: list domain domain\n"};
+const std::vector<std::string> kWords{"-1",
+                                      "0",
+                                      "1e400",
+                                      "nan",
+                                      "inf",
+                                      "99999999999999999999",
+                                      "none",
+                                      "LIST",
+                                      "(",
+                                      ")",
+                                      ",",
+                                      ":",
+                                      ":=",
+                                      "=",
+                                      "\n",
+                                      "\n\n",
+                                      "\"",
+                                      "4294967296",
+                                      "2147483647",
+                                      "-2147483648",
+                                      "../",
+                                      "/",
+                                      "%d",
+                                      "1e-320",
+                                      "True",
+                                      "gzip",
+                                      "ascii",
+                                      "raw",
+                                      "byte skip: -1\n",
+                                      "HeaderSize = -1\n",
+                                      "Segment0_Layer:=1\n",
+                                      "kinds: list domain domain\n"};
 
 void damage(std::string& bytes, std::mt19937_64& random, std::size_t head) {
   for (std::uint64_t hits = 1 + random() % 4; hits > 0 && !bytes.empty(); --hits) {
@@ -37,7 +67,8 @@ void damage(std::string& bytes, std::mt19937_64& random, std::size_t head) {
         bytes.erase(place, 1 + random() % 12);
         break;
       case 4:
-        bytes.replace(place, std::min<std::size_t>(1 + random() % 4, bytes.size() - place), kWords[random() % kWords.size()]);
+        bytes.replace(place, std::min<std::size_t>(1 + random() % 4, bytes.size() - place),
+                      kWords[random() % kWords.size()]);
         break;
       default:
         bytes.resize(bytes.size() - random() % std::min<std::size_t>(bytes.size(), 40));
@@ -75,7 +106,8 @@ void read_both(const std::filesystem::path& path, int& accepted) {
 template <typename Attempt>
 void fuzz(std::uint64_t seed, Attempt attempt) {
   const char* seconds = std::getenv("TROCAR_FUZZ_SECONDS");
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds != nullptr ? std::atof(seconds) : 0);
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds != nullptr ? std::atof(seconds) : 0);
   std::mt19937_64 random(seed);
   int rounds = 0;
   for (; rounds < kRounds || std::chrono::steady_clock::now() < end; ++rounds) attempt(random);
@@ -112,8 +144,10 @@ TEST(VolumeFuzz, Nrrd) {
 TEST(VolumeFuzz, SegNrrd) {
   const std::string start =
       "NRRD0004\ntype: unsigned char\ndimension: 4\nspace: left-posterior-superior\nsizes: 2 4 3 2\n"
-      "space directions: none (2,0,0) (0,3,0) (0,0,4)\nkinds: list domain domain domain\nencoding: gzip\nspace origin: (1,2,3)\n"
-      "Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_Name:=lobe\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n";
+      "space directions: none (2,0,0) (0,3,0) (0,0,4)\nkinds: list domain domain domain\nencoding: gzip\nspace origin: "
+      "(1,2,3)\n"
+      "Segment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_Name:=lobe\nSegment1_LabelValue:="
+      "1\nSegment1_Layer:=1\n";
   std::vector<double> values(48, 0);
   values[3] = values[8] = 1;
   fuzz_file("fuzzed.seg.nrrd", {start + "\n" + gzip_compressed(test::packed<std::uint8_t>(values))}, 2);
@@ -122,7 +156,8 @@ TEST(VolumeFuzz, SegNrrd) {
 TEST(VolumeFuzz, MetaImage) {
   const std::string start =
       "ObjectType = Image\nNDims = 3\nBinaryData = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 1 2 3\n"
-      "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\nElementSpacing = 2 3 4\nDimSize = 4 3 2\nElementType = MET_SHORT\n";
+      "CenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\nElementSpacing = 2 3 4\nDimSize = 4 3 2\nElementType = "
+      "MET_SHORT\n";
   const std::string voxels = test::packed<std::int16_t>(test::told_indices());
   fuzz_file("fuzzed.mha",
             {start + "ElementDataFile = LOCAL\n" + voxels,
@@ -155,8 +190,9 @@ TEST(VolumeFuzz, PackedNifti) {
 }
 
 TEST(VolumeFuzz, LabelTables) {
-  const std::vector<std::string> whole{"number,name\n1,liver\n5,\"gall bladder\"\n", "1 liver 1 2 3 4\n5 spleen 1 2 3 4\n",
-                                       "    1  255 0 0  1 1 1  \"liver\"\n", "1\tliver\n2\tspleen\n"};
+  const std::vector<std::string> whole{"number,name\n1,liver\n5,\"gall bladder\"\n",
+                                       "1 liver 1 2 3 4\n5 spleen 1 2 3 4\n", "    1  255 0 0  1 1 1  \"liver\"\n",
+                                       "1\tliver\n2\tspleen\n"};
   int accepted = 0;
   fuzz(6, [&](std::mt19937_64& random) {
     std::string bytes = whole[random() % whole.size()];

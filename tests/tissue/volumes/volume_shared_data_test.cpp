@@ -36,7 +36,8 @@ std::vector<std::uint16_t> only(const LabelVolume& volume, int label) {
 TEST_F(SharedVolumes, OneLiverInSixContainersIsOneArrayInOnePlace) {
   const LabelMap wanted = read_label_map(abdomen("masks_v1/liver.nii.gz"));
   EXPECT_EQ(wanted.layers.front().label_counts().at(1), 41602U);
-  for (const char* file : {"liver_u8_plain.nii", "liver_u8_LAS.nii.gz", "liver_u8_lps.nrrd", "liver_u8.mha", "abdomen.seg.nrrd"}) {
+  for (const char* file :
+       {"liver_u8_plain.nii", "liver_u8_LAS.nii.gz", "liver_u8_lps.nrrd", "liver_u8.mha", "abdomen.seg.nrrd"}) {
     const LabelMap map = read_label_map(abdomen("derived_same_liver") / file);
     ASSERT_EQ(map.layers.size(), 1U) << file;
     const LabelVolume& layer = map.layers.front();
@@ -48,7 +49,8 @@ TEST_F(SharedVolumes, OneLiverInSixContainersIsOneArrayInOnePlace) {
   }
   const LabelMap segments = read_label_map(abdomen("derived_same_liver/abdomen.seg.nrrd"));
   ASSERT_EQ(segments.segments.size(), 3U);
-  for (const char* name : {"liver", "gallbladder", "spleen"}) EXPECT_NO_THROW(choose_segment(segments, name, nullptr, "abdomen"));
+  for (const char* name : {"liver", "gallbladder", "spleen"})
+    EXPECT_NO_THROW(choose_segment(segments, name, nullptr, "abdomen"));
 }
 
 TEST_F(SharedVolumes, LiverCentroidIsWhereItWasMeasured) {
@@ -65,7 +67,8 @@ TEST_F(SharedVolumes, LiverCentroidIsWhereItWasMeasured) {
 TEST_F(SharedVolumes, NamedTablesAgreeWithTheMasks) {
   const LabelMap v1 = read_label_map(abdomen("example_seg.nii.gz"));
   const LabelTable& table = label_table("totalsegmentator-v1");
-  for (const char* name : {"liver", "spleen", "kidney_right", "urinary_bladder", "hip_left", "vertebrae_L3", "heart_myocardium", "colon"}) {
+  for (const char* name : {"liver", "spleen", "kidney_right", "urinary_bladder", "hip_left", "vertebrae_L3",
+                           "heart_myocardium", "colon"}) {
     const Segment segment = choose_segment(v1, name, &table, "example_seg");
     const LabelVolume mask = read_label_volume(abdomen("masks_v1/" + std::string(name) + ".nii.gz"));
     EXPECT_EQ(only(v1.layers.front(), segment.number), mask.labels) << name;
@@ -90,7 +93,8 @@ TEST_F(SharedVolumes, ImagesHaveTheirPublishedRange) {
   const ImageVolume ct = read_image_volume(abdomen("example_ct.nii.gz"));
   EXPECT_EQ(range(ct), (std::pair<float, float>(-1207, 3382)));
   EXPECT_EQ(guess_modality(abdomen("example_ct.nii.gz")), "CT");
-  EXPECT_EQ(range(read_image_volume(data_ / "mr_abdomen_totalseg" / "example_mr_sm.nii.gz")), (std::pair<float, float>(-47, 833)));
+  EXPECT_EQ(range(read_image_volume(data_ / "mr_abdomen_totalseg" / "example_mr_sm.nii.gz")),
+            (std::pair<float, float>(-47, 833)));
   const ImageVolume lung = read_image_volume(other("3DCT_lung_baseline_small.mha"));
   EXPECT_EQ(range(lung), (std::pair<float, float>(-1130, 1379)));
   EXPECT_EQ(lung.size, (std::array<int, 3>{57, 78, 64}));
@@ -113,7 +117,8 @@ TEST_F(SharedVolumes, LungMaskGoesToTheGridOfItsVolume) {
   }
   EXPECT_LT(inside / static_cast<double>(count), -600);  // the mask holds lung: air
   const LabelVolume liver = read_label_volume(abdomen("masks_v1/liver.nii.gz"));
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { on_grid_of(image, liver, "liver.nii.gz"); }), "mm outside the image");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { on_grid_of(image, liver, "liver.nii.gz"); }),
+                  "mm outside the image");
 }
 
 TEST_F(SharedVolumes, ImagesAndUnitlessVolumesAreRefusedWithAHint) {
@@ -140,7 +145,8 @@ TEST_F(SharedVolumes, SeededOrgansOfTheAbdomenAgainstTheirMasks) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& place : inside) middle += place / static_cast<double>(inside.size());
     SegmentationOptions options;
-    options.low = low, options.high = high, options.opening_mm = opening, options.closing_mm = 4, options.reach_mm = reach;
+    options.low = low, options.high = high, options.opening_mm = opening, options.closing_mm = 4,
+    options.reach_mm = reach;
     options.smooth = true, options.seed_ras_mm = middle;
     const LabelVolume result = segment(ct, options);
     const double value = dice(result, 1, mask, 1);

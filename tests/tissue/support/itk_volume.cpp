@@ -1,4 +1,4 @@
-#include "tissue/imaging/itk_volume.h"
+#include "tests/tissue/support/itk_volume.h"
 
 #include <itkImage.h>
 #include <itkImageFileReader.h>
