@@ -3,7 +3,7 @@
 
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
-#include "tests/tissue/surfaces/file_writers.h"
+#include "tests/tissue/surfaces/scene_writers.h"
 #include "tissue/mesh/surface_import.h"
 #include "tissue/mesh/topology.h"
 

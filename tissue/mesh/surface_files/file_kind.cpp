@@ -140,13 +140,13 @@ std::string looks_like(std::string_view bytes) {
   if (bytes.size() > 132 && bytes.substr(128, 4) == "DICM") return "a DICOM file";
   if (is_binary_stl(bytes)) return "an STL file";
   const std::string_view text = without_blanks(bytes.substr(0, 4096));
-  if (!is_text(text)) return {};
-  if (text.starts_with("solid")) return "an STL file";
   if (text.starts_with("; FBX")) return "an FBX file";
   if (text.starts_with("OFF") || text.starts_with("COFF") || text.starts_with("NOFF")) return "an OFF file";
   if (text.starts_with("$MeshFormat") || text.starts_with("$NOD")) return "a Gmsh mesh";
-  if (text.starts_with('{')) return "a JSON file (glTF?)";
   if (text.starts_with('<')) return xml_kind(text);
+  if (!is_text(text)) return {};
+  if (text.starts_with("solid")) return "an STL file";
+  if (text.starts_with('{')) return "a JSON file (glTF?)";
   if (has_obj_vertex(bytes.substr(0, 65536))) return "a Wavefront OBJ file";
   return {};
 }

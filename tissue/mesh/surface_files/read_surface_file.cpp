@@ -32,7 +32,7 @@ SurfaceFile read_kind(const std::filesystem::path& path, std::string_view bytes,
 void check_places(const std::vector<Vec3>& vertices, const std::string& file) {
   constexpr double kFarthest = 1e9;
   for (std::size_t v = 0; v < vertices.size(); ++v)
-    if (!(vertices[v].cwiseAbs().maxCoeff() <= kFarthest))
+    if (!vertices[v].allFinite() || vertices[v].cwiseAbs().maxCoeff() > kFarthest)  // a maximum may step over a NaN
       throw InputError(file + ": vertex " + std::to_string(v) + " is not finite or absurdly far away");
 }
 

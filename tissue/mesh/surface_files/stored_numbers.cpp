@@ -70,7 +70,7 @@ std::vector<Vec3> points_from(const std::vector<double>& values, const std::stri
   points.reserve(values.size() / 3);
   for (std::size_t n = 0; n + 3 <= values.size(); n += 3) {
     const Vec3 point(values[n], values[n + 1], values[n + 2]);
-    if (!(point.cwiseAbs().maxCoeff() <= kFarthest))
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kFarthest)  // a maximum may step over a NaN
       throw InputError(file + ": vertex " + std::to_string(n / 3) + " is not finite or absurdly far away");
     points.push_back(point);
   }
