@@ -19,6 +19,7 @@ using Kind = ComplexMesh::Kind;
 using Pair = std::array<std::int16_t, 2>;
 
 constexpr double kSplitAbove = 4.0 / 3, kCollapseBelow = 4.0 / 5;
+constexpr double kMostScale = 1.2;  ///< an organ whose neighbours are finer gets more triangles rather than long edges
 constexpr double kLeastAgreement = 0.5, kSpikeCosine = 0.95;
 
 std::size_t at(Index index) { return static_cast<std::size_t>(index); }
@@ -185,7 +186,8 @@ class ComplexRemesher {
     const LabelComplex now = mesh_.compact();
     for (const auto& [low, high] : now.regions) ++count[static_cast<std::size_t>(low)], ++count[static_cast<std::size_t>(high)];
     for (std::size_t region = 1; region < scale_.size(); ++region)
-      scale_[region] *= std::clamp(std::sqrt(count[region] / options_.triangles[region - 1]), 0.8, 1.25);
+      scale_[region] = std::clamp(
+          scale_[region] * std::clamp(std::sqrt(count[region] / options_.triangles[region - 1]), 0.8, 1.25), 0.6, kMostScale);
   }
 
   void split_long() {
@@ -213,6 +215,7 @@ class ComplexRemesher {
     if (mesh_.around(a, b).empty() || length(a, b) >= kCollapseBelow * wanted(a, b)) return false;
     const Kind kind_a = mesh_.kind(a), kind_b = mesh_.kind(b);
     if (kind_a == Kind::corner && kind_b == Kind::corner) return false;
+    if (kind_a == Kind::curve && kind_b == Kind::curve && in_small_loop(a)) return false;
     if (kind_b > kind_a) return collapse_into(b, a, {mesh_.place(b)});
     if (kind_a > kind_b) return collapse_into(a, b, {mesh_.place(a)});
     return collapse_into(a, b, {(mesh_.place(a) + mesh_.place(b)) / 2, mesh_.place(a), mesh_.place(b)});
@@ -297,6 +300,7 @@ class ComplexRemesher {
       const auto v = static_cast<Index>(n);
       if (!mesh_.alive(v)) continue;
       const auto curve = mesh_.curve_neighbours(v);
+      if (curve.size() == 2 && in_small_loop(v)) continue;
       if (curve.size() == 2) {
         moves.emplace_back(v, on_curve(v, curve));
       } else if (curve.empty()) {
@@ -307,6 +311,20 @@ class ComplexRemesher {
     }
     for (const auto& [v, place] : moves)
       if (!turns_over(v, place)) mesh_.place(v) = place;
+  }
+
+  /// Whether the curve through a vertex closes within five edges: relaxed, such a loop would shrink to a point.
+  bool in_small_loop(Index v) const {
+    Index previous = v, here = mesh_.curve_neighbours(v)[0];
+    constexpr int kFewest = 5;
+    for (int n = 1; n < kFewest; ++n) {
+      const auto next = mesh_.curve_neighbours(here);
+      if (next.size() != 2) return false;
+      const Index step = next[0] == previous ? next[1] : next[0];
+      previous = here, here = step;
+      if (here == v) return true;
+    }
+    return false;
   }
 
   Vec3 on_curve(Index v, const std::vector<Index>& curve) const {
@@ -367,6 +385,26 @@ class ComplexRemesher {
 };
 
 }  // namespace
+
+void untangle(LabelComplex& complex, const std::vector<std::int32_t>& triangles) {
+  const ComplexMesh mesh(complex);
+  std::vector<Index> near;
+  for (const Index t : triangles)
+    for (const Index corner : mesh.triangle(t)) {
+      const auto round = mesh.neighbours(corner);
+      near.insert(near.end(), round.begin(), round.end());
+    }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (const Index v : near) {
+    auto round = mesh.curve_neighbours(v);
+    if (!round.empty() && round.size() != 2) continue;
+    if (round.empty()) round = mesh.neighbours(v);
+    Vec3 middle = Vec3::Zero();
+    for (const Index other : round) middle += mesh.place(other) / static_cast<double>(round.size());
+    complex.vertices[at(v)] = (mesh.place(v) + middle) / 2;
+  }
+}
 
 LabelComplex remeshed(const LabelComplex& dense, const ComplexRemeshOptions& options) {
   return ComplexRemesher(dense, options).run();

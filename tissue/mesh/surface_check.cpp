@@ -93,6 +93,18 @@ std::size_t count_self_intersections(const TriangleSurface& surface) {
   return pairs.size();
 }
 
+std::vector<std::int32_t> self_intersecting(const TriangleSurface& surface) {
+  const Mesh mesh = to_cgal(surface);
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  pmp::self_intersections(mesh, std::back_inserter(pairs));
+  std::vector<std::int32_t> faces;
+  for (const auto& [a, b] : pairs)
+    for (const auto face : {a, b}) faces.push_back(static_cast<std::int32_t>(face.idx()));
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
 std::size_t orient_outward(TriangleSurface& surface) {
   auto points = points_of(surface);
   auto soup = soup_of(surface);

@@ -10,6 +10,9 @@ namespace trocar {
 /// Pairs of triangles that cut each other although they share no edge, or overlap although they do (exact predicates).
 std::size_t count_self_intersections(const TriangleSurface& surface);
 
+/// The triangles of those pairs, ascending, each once.
+std::vector<std::int32_t> self_intersecting(const TriangleSurface& surface);
+
 /// Turns triangles over so that neighbours agree and the surface bounds a volume from outside.
 /// @return triangles that had to be turned
 /// @throws std::invalid_argument when the surface is open or not manifold
