@@ -14,7 +14,8 @@ constexpr auto kRedraw = std::chrono::milliseconds(100);
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(std::ostream& err, bool terminal) : err_(err), terminal_(terminal) {}
+ProgressDisplay::ProgressDisplay(std::ostream& err, bool terminal, std::chrono::milliseconds moment)
+    : err_(err), terminal_(terminal), moment_(moment) {}
 
 ProgressDisplay::~ProgressDisplay() { clear(); }
 
@@ -27,14 +28,16 @@ void ProgressDisplay::show(std::string_view stage, double share) {
   }
   if (!terminal_) return line(share);
   const auto now = std::chrono::steady_clock::now();
-  if (!fresh && now - last_ < kRedraw) return;
+  if (drawn_ > 0 && !fresh && now - last_ < kRedraw) return;
   last_ = now;
   draw(share);
 }
 
 void ProgressDisplay::line(double share) {
   const int quarter = share < 0 ? 0 : static_cast<int>(std::floor(std::clamp(share, 0.0, 1.0) * 4));
-  if (quarter <= quarter_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (quarter <= quarter_ || now - last_ < moment_) return;
+  last_ = now;
   if (quarter_ < 0)
     err_ << stage_ << '\n';
   else

@@ -1,7 +1,7 @@
 // Progress of long work on standard error, and Ctrl-C as an orderly stop.
 //
-// On a terminal one line that is drawn over, with a bar; otherwise a line when a stage begins and one each quarter of it, so that a
-// log stays short. The shown times and shares are for people: no result depends on them. Thread: the one that does the work.
+// On a terminal one line that is drawn over, with a bar; otherwise, once work takes longer than a moment, a line when a stage begins and
+// one each quarter of it, so that a log stays short. The shown times and shares are for people: no result depends on them. Thread: the one that does the work.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,8 @@ class Interrupted : public EnvironmentError {
 class ProgressDisplay {
  public:
   /// @param terminal draw over one line; otherwise print lines
-  ProgressDisplay(std::ostream& err, bool terminal);
+  /// @param moment without a terminal: between two lines, and before the first
+  ProgressDisplay(std::ostream& err, bool terminal, std::chrono::milliseconds moment = std::chrono::seconds(2));
   /// Leaves the cursor on a clean line.
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
@@ -46,7 +47,8 @@ class ProgressDisplay {
   std::string stage_;
   int quarter_ = -1;        ///< of the stage, printed last
   std::size_t drawn_ = 0;   ///< characters of the bar on the terminal
-  std::chrono::steady_clock::time_point last_;
+  std::chrono::milliseconds moment_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 /// Whether standard error is a terminal.

@@ -12,12 +12,19 @@ namespace {
 TEST(ProgressDisplay, WithoutATerminalPrintsStagesAndQuarters) {
   std::ostringstream err;
   {
-    ProgressDisplay display(err, false);
+    ProgressDisplay display(err, false, std::chrono::milliseconds(0));
     for (int n = 0; n <= 100; ++n) display.show("reading", n / 100.0);
     display.show("meshing", -1);
     display.show("meshing", -1);
   }
   EXPECT_EQ(err.str(), "reading\nreading: 25 %\nreading: 50 %\nreading: 75 %\nreading: 100 %\nmeshing\n");
+}
+
+TEST(ProgressDisplay, WorkOfAMomentPrintsNothing) {
+  std::ostringstream err;
+  ProgressDisplay display(err, false, std::chrono::hours(1));
+  for (int n = 0; n <= 100; ++n) display.show("reading", n / 100.0);
+  EXPECT_EQ(err.str(), "");
 }
 
 TEST(ProgressDisplay, OnATerminalOneLineIsDrawnOverAndWiped) {
