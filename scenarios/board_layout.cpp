@@ -14,6 +14,7 @@ namespace {
 constexpr double kCell = 0.004;            // m, raster of the search for a region
 constexpr double kSurroundings = 0.006;    // m round a target in which the surface must stay near its tangent plane
 constexpr double kUnevenness = 0.003;      // m, "near"
+constexpr double kCloserBy = 0.001;        // m by which targets on a small organ may move together, step by step
 constexpr int kDraws = 3000, kRestarts = 8;
 constexpr double kWantedLeg = 0.035;       // m, travel between neighbours in the order of lighting
 constexpr double kLegClearance = 0.004;    // m between the ideal path and the surface
@@ -93,6 +94,16 @@ std::vector<Target> throw_darts(const HeightField& field, const TargetLayout& la
       targets.push_back({point->position, point->normal, layout.radius_m, {}, Mat3::Identity()});
   }
   return targets;
+}
+
+/// The best of several rounds.
+std::vector<Target> best_throw(const HeightField& field, const TargetLayout& layout, double centre_z, std::mt19937_64& generator) {
+  std::vector<Target> best;
+  for (int restart = 0; restart < kRestarts && static_cast<int>(best.size()) < layout.count; ++restart) {
+    std::vector<Target> targets = throw_darts(field, layout, centre_z, generator);
+    if (targets.size() > best.size()) best = std::move(targets);
+  }
+  return best;
 }
 
 /// Is the straight way between two lifted targets free of the surface?
@@ -191,10 +202,12 @@ Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, co
   const auto centre = field.top(0, 0);
   if (!centre) throw InputError("the organ does not lie under the middle of the board region: place it first");
   std::mt19937_64 generator(0x9E3779B97F4A7C15ull * (static_cast<std::uint64_t>(board) + 1));
-  std::vector<Target> best;
-  for (int restart = 0; restart < kRestarts && static_cast<int>(best.size()) < layout.count; ++restart) {
-    std::vector<Target> targets = throw_darts(field, layout, centre->position.z(), generator);
-    if (targets.size() > best.size()) best = std::move(targets);
+  TargetLayout tried = layout;
+  std::vector<Target> best = best_throw(field, tried, centre->position.z(), generator);
+  const double closest = 2 * (layout.radius_m + layout.wrong_place_m);
+  while (static_cast<int>(best.size()) < layout.count && tried.min_spacing_m > closest) {
+    tried.min_spacing_m = std::max(closest, tried.min_spacing_m - kCloserBy);
+    best = best_throw(field, tried, centre->position.z(), generator);
   }
   if (static_cast<int>(best.size()) < layout.count) {
     throw InputError("board " + std::to_string(board) + " of exercise '" + exercise.id + "': the organ has room for " +
@@ -206,6 +219,7 @@ Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, co
   Board result;
   result.centre_T = centre->position;
   result.start_T = centre->position + exercise.start_above_m;
+  result.spacing_m = tried.min_spacing_m;
   result.targets = std::move(best);
   return result;
 }

@@ -20,6 +20,8 @@ Pose place_organ(const TriangleSurface& organ_RAS, const TargetLayout& layout);
 /// Targets of one board on the placed organ, seen from above (topmost hit of the vertical line), in the order in which
 /// they light. Each lies at least its radius and the wrong-place margin inside the region, within slope and relief,
 /// min_spacing apart, on a surface that stays within reach of its tangent plane.
+/// On an organ too small for the exercise's spacing the targets move together, down to where their wrong-place rims touch; the
+/// board says how far apart they are. An organ that has room is laid out as ever.
 /// Several bands of a level are dealt out evenly, in an order drawn by the board.
 /// @throws InputError when they do not fit, saying how many do.
 Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board);

@@ -37,6 +37,7 @@ struct Board {
   Vec3 start_T = Vec3::Zero();         ///< centre of the start sphere
   std::vector<Target> targets;         ///< discs, pens, or the rings in which blocks shall stand
   RigidScene rigid;                    ///< board, blocks, ring marks, port; empty on an organ
+  double spacing_m = 0;   ///< least distance that the targets were laid out with; 0 where none was asked
 };
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };

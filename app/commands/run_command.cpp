@@ -158,6 +158,9 @@ void say_beginning(const Scene& scene, std::ostream& err) {
       << (scene.setup.plant ? " of " + plant_words(*scene.setup.plant) : "") << '\n';
   const std::string plant = scene.setup.plant ? simulated_plant_words(plant_words(*scene.setup.plant))
                                               : simulated_plant_words(static_cast<std::uint64_t>(scene.setup.seed));
+  const double spacing_m = scene.setup.exercise.layout.min_spacing_m;
+  if (scene.board.spacing_m > 0 && scene.board.spacing_m < spacing_m)
+    err << "trocar: the organ is small: targets lie from " << scene.board.spacing_m * 1e3 << " mm apart instead of " << spacing_m * 1e3 << " mm\n";
   for (const std::string& name : scene.neighbours.set_aside)
     err << "trocar: " << name << " lies over the region and is set aside: neither seen nor felt\n";
   for (const std::string& doubt : device_doubts(scene.setup.device, plant)) err << "trocar: " << doubt << '\n';

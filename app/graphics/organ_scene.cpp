@@ -1,7 +1,6 @@
 #include "app/graphics/organ_scene.h"
 
 #include <memory>
-#include <numbers>
 #include <string>
 
 namespace trocar {
@@ -35,8 +34,8 @@ Vec3 crest(const TriangleSurface& surface, double x, double y, double within) {
 
 SceneView organ_scene(const Organ& organ) {
   Pose to_centre;
-  // RAS: turn anterior (y) up (z), so that the organ lies as in a supine patient; x stays.
-  to_centre.R = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  // As in the theatre: anterior up (z), head away from the scope (y), the patient's left on the right (x).
+  to_centre.R << -1, 0, 0, 0, 0, 1, 0, 1, 0;
   to_centre.p = -(to_centre.R * whole_box(organ).center());
   SceneView view;
   view.organ = std::make_shared<TriangleSurface>(organ.surface.transformed(to_centre));
