@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/tissue/dicom/dicom_folder.h"
+#include "tests/tissue/dicom/gdcm_fixture.h"
 #include "tests/tissue/dicom/segmentation_fixture.h"
 #include "tests/tissue/dicom/zip_fixture.h"
 #include "tissue/imaging/dicom/dicom_segmentation.h"
@@ -116,6 +117,23 @@ TEST(DicomFuzz, CompressedPixels) {
   for (const SliceFixture& slice : slices) pieces.push_back(rle_frame(slice.pixels(), 2));
   data.fragments(pieces);
   fuzz({dicom_file(data, kRle)}, 1200, [&](const std::string& bytes) { require_sound(read_dicom_series(folder.write("multi", bytes))); });
+}
+
+/// Frames as encoders write them, damaged where the code lies: JPEG lossless and baseline, JPEG-LS, JPEG 2000.
+TEST(DicomFuzz, CodesOfEveryDecoder) {
+  const DicomFolder folder;
+  SliceFixture like;
+  like.columns = 24, like.rows = 16, like.allocated = like.stored = 8, like.is_signed = false;
+  auto slices = stack_of(3, 2, like);
+  folder.write_all(slices);
+  std::vector<std::string> seeds;
+  for (const char* syntax : {"50", "70", "80", "90"}) seeds.push_back(compressed(slices[1].file(), "1.2.840.10008.1.2.4." + std::string(syntax)));
+  const std::size_t code = seeds.front().find(std::string("\xE0\x7F\x10\0OB", 6));
+  ASSERT_NE(code, std::string::npos);
+  fuzz(seeds, code - 60, [&](const std::string& bytes) {
+    folder.write("a01", bytes);
+    require_sound(folder.read());
+  });
 }
 
 TEST(DicomFuzz, Segmentations) {

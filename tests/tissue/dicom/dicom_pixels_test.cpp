@@ -1,35 +1,15 @@
 // Stored bytes to values: bits, signs, byte orders and compressed syntaxes; what is damaged or not an image is refused.
-#include <gdcmImageChangeTransferSyntax.h>
-#include <gdcmImageReader.h>
-#include <gdcmImageWriter.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "tests/tissue/dicom/dicom_folder.h"
+#include "tests/tissue/dicom/gdcm_fixture.h"
 #include "tissue/imaging/dicom/dicom_pixels.h"
 
 namespace trocar::test {
 namespace {
 
-/// The file compressed by GDCM's encoders.
-std::string compressed(const std::string& file, gdcm::TransferSyntax::TSType syntax) {
-  std::istringstream in(file);
-  gdcm::ImageReader reader;
-  reader.SetStream(in);
-  EXPECT_TRUE(reader.Read());
-  gdcm::ImageChangeTransferSyntax change;
-  change.SetTransferSyntax(gdcm::TransferSyntax(syntax));
-  change.SetInput(reader.GetImage());
-  EXPECT_TRUE(change.Change());
-  std::ostringstream out;
-  gdcm::ImageWriter writer;
-  writer.SetFile(reader.GetFile());
-  writer.SetImage(change.GetOutput());
-  writer.SetStream(out);
-  EXPECT_TRUE(writer.Write());
-  return out.str();
-}
+constexpr const char *kJpegBaseline = "1.2.840.10008.1.2.4.50", *kJpegLossless = "1.2.840.10008.1.2.4.70", *kJpegProcess14 = "1.2.840.10008.1.2.4.57",
+                     *kJpegLs = "1.2.840.10008.1.2.4.80", *kJpeg2000 = "1.2.840.10008.1.2.4.90";
 
 void expect_reads(const std::vector<SliceFixture>& slices, const std::function<std::string(const SliceFixture&)>& file) {
   const DicomFolder folder;
@@ -97,7 +77,7 @@ TEST(DicomPixels, Monochrome1KeepsItsValues) {
 
 struct Compressed {
   const char* name;
-  gdcm::TransferSyntax::TSType syntax;
+  const char* syntax;
   int allocated, stored;
   bool is_signed;
 };
@@ -116,7 +96,7 @@ TEST_P(DicomCompressed, LosslessSyntaxesGiveTheSameValues) {
       return how.is_signed && i % 2 == 0 ? -value : value;
     };
   expect_reads(slices, [&](const SliceFixture& slice) {
-    if (how.syntax != gdcm::TransferSyntax::RLELossless) return compressed(slice.file(), how.syntax);
+    if (std::string(how.syntax) != kRle) return compressed(slice.file(), how.syntax);
     SliceFixture coded = slice;  // GDCM's own RLE encoder refuses odd sizes
     coded.change = [&](Elements& data) { data.fragments({rle_frame(slice.pixels().substr(0, 33 * 21 * static_cast<std::size_t>(how.allocated / 8)), how.allocated / 8)}); };
     return coded.file(kRle);
@@ -124,18 +104,18 @@ TEST_P(DicomCompressed, LosslessSyntaxesGiveTheSameValues) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DicomCompressed,
-                         ::testing::Values(Compressed{"rle16", gdcm::TransferSyntax::RLELossless, 16, 16, true},
-                                           Compressed{"rle8", gdcm::TransferSyntax::RLELossless, 8, 8, false},
-                                           Compressed{"jpeg", gdcm::TransferSyntax::JPEGLosslessProcess14_1, 16, 16, false},
-                                           Compressed{"jpeg12", gdcm::TransferSyntax::JPEGLosslessProcess14_1, 16, 12, false},
-                                           Compressed{"jpegsigned", gdcm::TransferSyntax::JPEGLosslessProcess14_1, 16, 16, true},
-                                           Compressed{"jpeg14", gdcm::TransferSyntax::JPEGLosslessProcess14, 8, 8, false},
-                                           Compressed{"jpegls", gdcm::TransferSyntax::JPEGLSLossless, 16, 16, false},
-                                           Compressed{"jpegls12", gdcm::TransferSyntax::JPEGLSLossless, 16, 12, false},
-                                           Compressed{"jpeglssigned", gdcm::TransferSyntax::JPEGLSLossless, 16, 16, true},
-                                           Compressed{"j2k", gdcm::TransferSyntax::JPEG2000Lossless, 16, 16, false},
-                                           Compressed{"j2ksigned", gdcm::TransferSyntax::JPEG2000Lossless, 16, 16, true},
-                                           Compressed{"j2k8", gdcm::TransferSyntax::JPEG2000Lossless, 8, 8, false}),
+                         ::testing::Values(Compressed{"rle16", kRle, 16, 16, true},
+                                           Compressed{"rle8", kRle, 8, 8, false},
+                                           Compressed{"jpeg", kJpegLossless, 16, 16, false},
+                                           Compressed{"jpeg12", kJpegLossless, 16, 12, false},
+                                           Compressed{"jpegsigned", kJpegLossless, 16, 16, true},
+                                           Compressed{"jpeg14", kJpegProcess14, 8, 8, false},
+                                           Compressed{"jpegls", kJpegLs, 16, 16, false},
+                                           Compressed{"jpegls12", kJpegLs, 16, 12, false},
+                                           Compressed{"jpeglssigned", kJpegLs, 16, 16, true},
+                                           Compressed{"j2k", kJpeg2000, 16, 16, false},
+                                           Compressed{"j2ksigned", kJpeg2000, 16, 16, true},
+                                           Compressed{"j2k8", kJpeg2000, 8, 8, false}),
                          [](const auto& compressed_as) { return compressed_as.param.name; });
 
 TEST(DicomPixels, LossyBaselineJpegIsReadWithANote) {
@@ -145,7 +125,7 @@ TEST(DicomPixels, LossyBaselineJpegIsReadWithANote) {
   for (SliceFixture& slice : slices) slice.value = [](int i, int j) { return 60 + 3 * i + 2 * j; };
   const DicomFolder folder;
   for (std::size_t n = 0; n < slices.size(); ++n)
-    folder.write(std::to_string(n), compressed(slices[n].file(), gdcm::TransferSyntax::JPEGBaselineProcess1));
+    folder.write(std::to_string(n), compressed(slices[n].file(), kJpegBaseline));
   const ImageVolume volume = folder.read();
   EXPECT_CONTAINS(volume.notes.at(0), "compressed with loss");
   EXPECT_NEAR(value_at(volume, centre_of(slices[1], 10, 10)), 110, 4);
@@ -216,19 +196,18 @@ TEST(DicomPixels, CutOffOrForeignCompressedPixelsAreRefused) {
 TEST(DicomPixels, CompressedPixelsOfAnotherSizeOrWithoutEndAreRefused) {
   SliceFixture larger;
   larger.columns = 32, larger.rows = 32, larger.is_signed = false;
-  for (const auto syntax : {gdcm::TransferSyntax::JPEG2000Lossless, gdcm::TransferSyntax::JPEGLSLossless, gdcm::TransferSyntax::JPEGLosslessProcess14_1}) {
+  for (const std::string syntax : {kJpeg2000, kJpegLs, kJpegLossless}) {
     const std::string file = compressed(larger.file(), syntax);
-    const std::size_t start = file.find(syntax == gdcm::TransferSyntax::JPEG2000Lossless ? "\xFF\x4F\xFF" : "\xFF\xD8\xFF");
+    const std::size_t start = file.find(syntax == kJpeg2000 ? "\xFF\x4F\xFF" : "\xFF\xD8\xFF");
     const std::string code = file.substr(start, file.size() - start - 8);
-    const std::string uid = gdcm::TransferSyntax::GetTSString(syntax);
     EXPECT_CONTAINS(refusal_of([&](SliceFixture s) {
                       s.is_signed = false, s.change = [&](Elements& data) { data.fragments({code}); };
-                      return s.file(uid);
+                      return s.file(syntax);
                     }),
                     "compressed pixels are 32 x 32 in 1 colours, its header says 6 x 5 grey");
     EXPECT_CONTAINS(refusal_of([&](SliceFixture s) {
                       s.change = [&](Elements& data) { data.fragments({code.substr(0, code.size() / 2 / 2 * 2)}); };
-                      return s.file(uid);
+                      return s.file(syntax);
                     }, larger),
                     "cut off");
   }

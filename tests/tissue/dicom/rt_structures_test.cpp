@@ -187,12 +187,23 @@ TEST_F(RtStructures, OtherFilesAreRefused) {
     return message_of<InputError>([&] { read_rtstruct(folder_.write("x", bytes), axial_grid(3)); });
   };
   EXPECT_CONTAINS(refusal("text"), "is not a DICOM file");
-  EXPECT_CONTAINS(refusal(stack_of(1, 1)[0].file()), "no structure set");
+  EXPECT_CONTAINS(refusal(stack_of(1, 1)[0].file()), "holds no series of structures");
   StructureFixture far;
   far.contours = {{{0, 0, 0}, {1e9, 0, 0}, {0, 5, 0}}};
   EXPECT_CONTAINS(refusal(dicom_file(structure_set({far}))), "more than 100 m away");
   const std::string whole = dicom_file(structure_set({StructureFixture{1, "a", {rectangle(0, 0, 1, 1, 0)}, "CLOSED_PLANAR"}}));
   EXPECT_CONTAINS(refusal(whole.substr(0, whole.size() - 30)), "damaged DICOM");
+}
+
+TEST_F(RtStructures, AFolderThatHoldsOneWillDo) {
+  StructureFixture box;
+  for (int k = 0; k < 4; ++k) box.contours.push_back(rectangle(-5.5, -5.5, 5.5, 5.5, 2.0 * k));
+  folder_.write("set", dicom_file(structure_set({box})));
+  folder_.write("image", stack_of(1, 1)[0].file());
+  EXPECT_NEAR(volume_ml(read_rtstruct(folder_.path(), axial_grid(6))), 11 * 11 * 8 / 1000.0, 1e-9);
+  EXPECT_EQ(read_rtstruct(folder_.path(), {}, 2).segments.size(), 1U);
+  folder_.write("set2", dicom_file(structure_set({box})));
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_rtstruct(folder_.path()); }), "holds 2 structure sets");
 }
 
 TEST_F(RtStructures, AFileWithoutHeaderIsReadToo) {

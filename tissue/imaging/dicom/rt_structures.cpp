@@ -121,8 +121,8 @@ LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& struct
   return map;
 }
 
-std::vector<Structure> structures_with_contours(const std::filesystem::path& path, const Progress& progress) {
-  std::vector<Structure> structures = read_structures(path, progress);
+std::vector<Structure> structures_with_contours(const std::filesystem::path& path, const Progress& progress, std::optional<int> series) {
+  std::vector<Structure> structures = read_structures(path, progress, series);
   if (structures.size() > 65535) throw InputError(path.string() + ": holds more than 65535 structures");
   const bool any = std::any_of(structures.begin(), structures.end(), [](const Structure& one) { return !one.closed.empty(); });
   if (!any) throw InputError(path.string() + ": holds no closed contours: nothing to fill");
@@ -131,15 +131,15 @@ std::vector<Structure> structures_with_contours(const std::filesystem::path& pat
 
 }  // namespace
 
-LabelMap read_rtstruct(const std::filesystem::path& path, const ImageVolume& grid, const Progress& progress) {
-  const std::vector<Structure> structures = structures_with_contours(path, progress);
+LabelMap read_rtstruct(const std::filesystem::path& path, const ImageVolume& grid, const Progress& progress, std::optional<int> series) {
+  const std::vector<Structure> structures = structures_with_contours(path, progress, series);
   LabelMap map = filled_on(image_contour_grid(grid, structures, path.string()), structures, path.string(), progress);
   map.modality = grid.modality;
   return map;
 }
 
-LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progress) {
-  const std::vector<Structure> structures = structures_with_contours(path, progress);
+LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progress, std::optional<int> series) {
+  const std::vector<Structure> structures = structures_with_contours(path, progress, series);
   const ContourGrid grid = own_contour_grid(structures, path.string());
   LabelMap map = filled_on(grid, structures, path.string(), progress);
   char note[160];

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "tissue/imaging/image_volume.h"
 #include "tissue/imaging/label_map.h"
@@ -14,11 +15,14 @@
 namespace trocar {
 
 /// Filled on the grid of the image that was drawn on. Contours must lie in slices of that grid, or evenly between them.
+/// @param input an RTSTRUCT file; or a folder, zip or DICOMDIR that holds one
+/// @param series number as list_dicom gives it, where the input holds several structure sets
 /// @throws InputError naming the file, the structure by its number and name, and what is wrong
-LabelMap read_rtstruct(const std::filesystem::path& path, const ImageVolume& grid, const Progress& progress = {});
+LabelMap read_rtstruct(const std::filesystem::path& input, const ImageVolume& grid, const Progress& progress = {},
+                       std::optional<int> series = {});
 
 /// Filled on a grid of its own: slices where the contours lie, square voxels in them (a note gives their size).
 /// @throws InputError as above; also when the planes of the contours are not evenly spaced or not parallel
-LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progress = {});
+LabelMap read_rtstruct(const std::filesystem::path& input, const Progress& progress = {}, std::optional<int> series = {});
 
 }  // namespace trocar

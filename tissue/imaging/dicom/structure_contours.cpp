@@ -11,7 +11,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/child_process.h"
 #include "tissue/imaging/dicom/dcmtk_silence.h"
-#include "tissue/imaging/dicom/dicom_instance.h"
+#include "tissue/imaging/dicom/dicom_catalogue.h"
 #include "tissue/imaging/dicom/packed_bytes.h"
 
 namespace trocar {
@@ -105,23 +105,27 @@ Structure unpacked_structure(PackedReader& in, const std::string& file) {
   return structure;
 }
 
-/// The file as our own parser sees it, before dcmtk does.
-void require_structure_set(const std::filesystem::path& path, const std::string& file) {
-  InflateBudget budget;
-  std::unique_ptr<ByteSource> source;
-  const auto elements = read_dicom_elements(path, file, budget, &source);
-  if (!elements) throw InputError(file + ": is not a DICOM file");
-  if (!elements->damage.empty()) throw InputError(elements->damage);
-  if (source->size() > kMostBytes) throw InputError(file + ": is larger than a structure set may be (512 MiB)");
-  if (instance_of(*elements, path, file, source->size()).kind != DicomKind::kStructureSet)
-    throw InputError(file + ": is DICOM but no structure set (RTSTRUCT)");
+/// The one file of a series of structures, which our own parser has passed.
+const DicomInstance& structure_file(const CataloguedSeries& series, const std::string& input) {
+  if (series.instances.size() != 1)
+    throw InputError(input + ": the series holds " + std::to_string(series.instances.size()) + " structure sets (" + series.instances[0].name + ", " +
+                     series.instances[1].name + ", ...): give one of them");
+  const DicomInstance& file = series.instances.front();
+  if (!file.problem.empty()) throw InputError(file.problem);
+  std::error_code error;
+  if (std::filesystem::file_size(file.path, error) > kMostBytes || error)
+    throw InputError(file.name + ": is larger than a structure set may be (512 MiB)");
+  return file;
 }
 
 }  // namespace
 
-std::vector<Structure> read_structures(const std::filesystem::path& path, const Progress& progress) {
-  const std::string file = path.string();
-  require_structure_set(path, file);
+std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress, std::optional<int> number) {
+  const DicomInput files(input, progress);
+  const DicomCatalogue all = catalogue(files, progress);
+  const CataloguedSeries& series = choose(all, DicomKind::kStructureSet, number, files.name(), "structures");
+  const std::filesystem::path path = structure_file(series, files.name()).path;
+  const std::string file = series.instances.front().name;
   load_dcmtk_dictionary();
   const std::string bytes = in_child(file, ChildLimits{std::uint64_t{1} << 30, 300}, progress, [&] { return load(path, file); });
   PackedReader in(bytes, file);

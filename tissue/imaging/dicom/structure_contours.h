@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct Structure {
 };
 
 /// By number; structures without any contour are among them.
+/// @param input and series as read_rtstruct has them
 /// @throws InputError naming the file
-std::vector<Structure> read_structures(const std::filesystem::path& path, const Progress& progress);
+std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress, std::optional<int> series = {});
 
 }  // namespace trocar

@@ -110,8 +110,9 @@ class Unpacking {
 }  // namespace
 
 UnpackedZip::Folder::Folder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "trocar-zip-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw EnvironmentError("no temporary folder can be made for a zip archive");
+  std::error_code error;
+  std::string pattern = (std::filesystem::temp_directory_path(error) / "trocar-zip-XXXXXX").string();
+  if (error || mkdtemp(pattern.data()) == nullptr) throw EnvironmentError("no temporary folder can be made for a zip archive");
   path = pattern;
 }
 
@@ -133,6 +134,7 @@ UnpackedZip::UnpackedZip(const std::filesystem::path& archive, const ZipLimits& 
     from = end + 1;
   }
   std::stable_sort(files_.begin(), files_.end(), [](const File& a, const File& b) { return a.name < b.name; });
+  for (File& file : files_) file.name.erase(0, file.name.rfind('/') + 1);  // folders are often called like the patient
 }
 
 UnpackedZip::~UnpackedZip() = default;

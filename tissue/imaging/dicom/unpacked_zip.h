@@ -25,7 +25,7 @@ class UnpackedZip {
  public:
   struct File {
     std::filesystem::path path;
-    std::string name;  ///< in the archive, printable
+    std::string name;  ///< in the archive, printable, without its folders
   };
 
   /// @throws InputError naming the archive: damaged, encrypted, beyond the limits
@@ -34,7 +34,7 @@ class UnpackedZip {
   UnpackedZip(const UnpackedZip&) = delete;
   UnpackedZip& operator=(const UnpackedZip&) = delete;
 
-  /// Files that may be DICOM, by name.
+  /// Files that may be DICOM, in the order of their names in the archive.
   const std::vector<File>& files() const { return files_; }
   const std::filesystem::path& folder() const { return folder_.path; }
 
