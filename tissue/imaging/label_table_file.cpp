@@ -146,4 +146,20 @@ OwnLabelTable read_label_table(const std::filesystem::path& path) {
   return parse_label_table(text, path.string());
 }
 
+OwnLabelTable label_table_or_file(const std::string& name) {
+  const std::vector<std::string> known = label_table_names();
+  const bool built_in = std::find(known.begin(), known.end(), name) != known.end();
+  std::error_code error;
+  if (!built_in && std::filesystem::is_regular_file(name, error)) return read_label_table(name);
+  auto contents = std::make_shared<OwnLabelTable::Contents>();
+  try {
+    contents->table = label_table(name);
+  } catch (const InputError& unknown) {
+    throw InputError(std::string(unknown.what()) + "; nor is it a file");
+  }
+  OwnLabelTable table;
+  table.contents_ = std::move(contents);
+  return table;
+}
+
 }  // namespace trocar

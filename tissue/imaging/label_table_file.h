@@ -23,6 +23,7 @@ class OwnLabelTable {
 
  private:
   friend OwnLabelTable parse_label_table(std::string_view text, const std::string& file);
+  friend OwnLabelTable label_table_or_file(const std::string& name);
   struct Contents;
   std::shared_ptr<const Contents> contents_;
 };
@@ -31,5 +32,9 @@ class OwnLabelTable {
 /// @throws InputError "FILE:LINE:COLUMN: what": no number, no name, number or name given twice, not one entry
 OwnLabelTable parse_label_table(std::string_view text, const std::string& file);
 OwnLabelTable read_label_table(const std::filesystem::path& path);
+
+/// What a person gives as --label-table: the name of a built-in table, or a file.
+/// @throws InputError listing the built-in tables when it is neither
+OwnLabelTable label_table_or_file(const std::string& name);
 
 }  // namespace trocar

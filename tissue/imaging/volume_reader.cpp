@@ -124,6 +124,8 @@ ImageVolume read_image_volume(const fs::path& path, const Progress& progress, co
 
 LabelMap read_label_map(const fs::path& path, const Progress& progress, const VolumeReading& reading) {
   LabelMap map = assemble_labels(header_of(path, reading), progress);
+  if (lower_case(path.filename().string()).ends_with(".seg.nrrd") && map.segments.front().name.empty())
+    map.notes.push_back("named as a segmentation (.seg.nrrd), but its header names no segment");
   straighten(map, progress);
   for (LabelVolume& layer : map.layers) layer.notes = map.notes;
   return map;

@@ -2,8 +2,10 @@
 
 #include <itkImage.h>
 #include <itkImageFileReader.h>
+#include <itkMetaImageIO.h>
 #include <itkMultiThreaderBase.h>
 #include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -36,7 +38,13 @@ ItkVolume read_itk_volume(const std::filesystem::path& path) {
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1);
   try {
     const auto reader = itk::ImageFileReader<Image>::New();
-    reader->SetImageIO(itk::NiftiImageIO::New());
+    const std::string ending = path.extension().string();
+    if (ending == ".nrrd")
+      reader->SetImageIO(itk::NrrdImageIO::New());
+    else if (ending == ".mha")
+      reader->SetImageIO(itk::MetaImageIO::New());
+    else
+      reader->SetImageIO(itk::NiftiImageIO::New());
     reader->SetFileName(path.string());
     reader->Update();
     return copy_out(*reader->GetOutput());

@@ -1,5 +1,5 @@
-// The voxels of a NIfTI file through ITK: an oracle for our own reader, without any ITK or Eigen type (ITK carries an
-// Eigen of its own).
+// The voxels of a NIfTI, NRRD or MetaImage file through ITK: an oracle for our own readers, without any ITK or Eigen
+// type (ITK carries an Eigen of its own).
 //
 // Hand over only files that read_nifti_header has passed: ITK 5.2.1 fills missing voxels with 0 and aborts on a
 // non-finite transform. Frame of origin and direction: LPS, mm, as ITK has it. Thread: any, one at a time; ITK's own

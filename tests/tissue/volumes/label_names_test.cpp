@@ -109,6 +109,15 @@ TEST(OwnTable, MistakesAreNamedWithTheirLine) {
   EXPECT_CONTAINS(test::message_of<InputError>([] { read_label_table("no/such.csv"); }), "no such file");
 }
 
+TEST(TableOrFile, TakesEither) {
+  test::TemporaryFolder folder;
+  EXPECT_EQ(label_table_or_file("totalsegmentator-mr").table().number_of("colon"), 15);
+  EXPECT_EQ(label_table_or_file(folder.write("own.tsv", "3\tcolon\n").string()).table().number_of("colon"), 3);
+  const std::string message = test::message_of<InputError>([] { label_table_or_file("mine"); });
+  EXPECT_CONTAINS(message, "known: totalsegmentator-v1");
+  EXPECT_CONTAINS(message, "nor is it a file");
+}
+
 LabelMap bare_map(const std::vector<int>& numbers) {
   LabelMap map;
   map.layers.resize(1);
