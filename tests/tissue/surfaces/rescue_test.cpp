@@ -191,6 +191,15 @@ TEST(Closing, LargePartsThatAreLeftOutAreWarnedOf) {
   EXPECT_CONTAINS(kept.warnings.at(0), "51.2 % of what was kept");
 }
 
+TEST(Closing, CavitiesAreFilledAndSaid) {
+  TriangleSurface hollow = joined(sphere(Vec3::Zero(), 0.05, 3), sphere(Vec3(0.01, 0, 0), 0.01, 2));
+  hollow = joined(hollow, sphere(Vec3(0.1, 0, 0), 0.005, 2));  // this one lies outside
+  const ImportedSurface kept = closed(hollow);
+  EXPECT_EQ(kept.lost_volumes_m3.size(), 2U);
+  EXPECT_CONTAINS(all(kept.repairs), "1 of these lie within it: cavities, which are filled so");
+  EXPECT_NEAR(kept.surface.volume_m3(), sphere(Vec3::Zero(), 0.05, 3).volume_m3(), 1e-12);
+}
+
 TEST(Closing, ThinDoubleWallsAreNamed) {
   // Half a ball's shell of two walls, 1 mm apart.
   TriangleSurface outer = open_ball(0.05, 0.0, 4), inner = open_ball(0.049, 0.0, 4);
