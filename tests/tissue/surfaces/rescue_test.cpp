@@ -163,7 +163,7 @@ TEST(Wrap, HolesAndFinsAreRescued) {
 
 TEST(Wrap, SettingsThatWouldNeverEndAreRefused) {
   const TriangleSurface ball = sphere(Vec3::Zero(), 0.1, 3);
-  EXPECT_CONTAINS(refusal(ball, wrapping(0.1, 0.01)), "is too fine: at least");
+  EXPECT_CONTAINS(refusal(ball, wrapping(0.1, 0.01)), "is too fine: at least 1.3856");  // its diagonal of 346.4 mm by 250
   EXPECT_CONTAINS(refusal(ball, wrapping(5, 0.001)), "between a hundredth of alpha and alpha");
   EXPECT_CONTAINS(refusal(ball, wrapping(5, 50)), "between a hundredth of alpha and alpha");
 }
