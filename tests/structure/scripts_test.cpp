@@ -62,6 +62,7 @@ TEST(Scripts, EveryLibraryThatCMakeLooksForIsOnTheList) {
                                                                    {"fcl", "libfcl-dev"},
                                                                    {"assimp", "libassimp-dev"},
                                                                    {"ITK", "libinsighttoolkit5-dev"},
+                                                                   {"EXPAT", "libexpat1-dev"},
                                                                    {"SQLite3", "libsqlite3-dev"},
                                                                    {"OpenSSL", "libssl-dev"},
                                                                    {"Threads", "g++"},

@@ -103,7 +103,7 @@ TriangleSurface pulled_back(const TriangleSurface& laid, const Tree& input, doub
 }
 
 void check_settings(const TriangleSurface& soup, double alpha_m, double offset_m, const std::string& file) {
-  constexpr double kFinest = 400, kThinnest = 100;  // of the diagonal by alpha, of alpha by offset: bound time and memory
+  constexpr double kFinest = 250, kThinnest = 100;  // of the diagonal by alpha, of alpha by offset: bound time and memory
   const double diagonal_m = soup.bounds().diagonal().norm();
   if (alpha_m < diagonal_m / kFinest)
     throw InputError(file + ": a wrap alpha of " + std::to_string(alpha_m * 1e3) + " mm is too fine: at least " +

@@ -163,7 +163,7 @@ TEST(Wrap, HolesAndFinsAreRescued) {
 
 TEST(Wrap, SettingsThatWouldNeverEndAreRefused) {
   const TriangleSurface ball = sphere(Vec3::Zero(), 0.1, 3);
-  EXPECT_CONTAINS(refusal(ball, wrapping(0.1, 0.01)), "is too fine: at least");
+  EXPECT_CONTAINS(refusal(ball, wrapping(0.1, 0.01)), "is too fine: at least 1.3856");  // its diagonal of 346.4 mm by 250
   EXPECT_CONTAINS(refusal(ball, wrapping(5, 0.001)), "between a hundredth of alpha and alpha");
   EXPECT_CONTAINS(refusal(ball, wrapping(5, 50)), "between a hundredth of alpha and alpha");
 }
@@ -191,15 +191,25 @@ TEST(Closing, LargePartsThatAreLeftOutAreWarnedOf) {
   EXPECT_CONTAINS(kept.warnings.at(0), "51.2 % of what was kept");
 }
 
+TEST(Closing, CavitiesAreFilledAndSaid) {
+  TriangleSurface hollow = joined(sphere(Vec3::Zero(), 0.05, 3), sphere(Vec3(0.01, 0, 0), 0.01, 2));
+  hollow = joined(hollow, sphere(Vec3(0.1, 0, 0), 0.005, 2));  // this one lies outside
+  const ImportedSurface kept = closed(hollow);
+  EXPECT_EQ(kept.lost_volumes_m3.size(), 2U);
+  EXPECT_CONTAINS(all(kept.repairs), "1 of these lie within it: cavities, which are filled so");
+  EXPECT_NEAR(kept.surface.volume_m3(), sphere(Vec3::Zero(), 0.05, 3).volume_m3(), 1e-12);
+}
+
 TEST(Closing, ThinDoubleWallsAreNamed) {
   // Half a ball's shell of two walls, 1 mm apart.
   TriangleSurface outer = open_ball(0.05, 0.0, 4), inner = open_ball(0.049, 0.0, 4);
   for (auto& t : inner.triangles) std::swap(t[1], t[2]);
   TriangleSurface shell = joined(outer, inner);
   EXPECT_CONTAINS(refusal(shell), "the surface is open");
-  // Its walls, closed by a wrap finer than the gap between them, are a shell still.
-  const ImportedSurface wrapped = closed(shell, wrapping(1.2, 0.1));
+  // Wrapped, it is a bowl as thin as its walls lie apart.
+  const ImportedSurface wrapped = closed(shell, wrapping(4, 0.4));
   ASSERT_FALSE(wrapped.warnings.empty());
+  EXPECT_CONTAINS(wrapped.warnings.back(), "a hollow shell or a tree of tubes");
 }
 
 TEST(Closing, SizesAreComparedWithTheOrgan) {

@@ -183,6 +183,20 @@ TEST_F(SharedSurfaces, WrapRescuesThePancreasAndTheLiver) {
   }
 }
 
+TEST_F(SharedSurfaces, HolesOfRealOrgansAreFilledOrRefusedBySize) {
+  SurfaceImportOptions options;
+  for (const auto& [organ, widest_mm] : {std::pair("VH_M_Biliary_Tree", 40.0), {"VH_M_Small_Intestine", 60.0}, {"VH_M_Ureter_L", 40.0}}) {
+    options.fill_holes_mm = 0.5;
+    EXPECT_CONTAINS(refusal(std::string("hra_male_glb/") + organ + ".glb", options), "holes are wider than the 0.5");
+    options.fill_holes_mm = widest_mm;
+    const ImportedSurface filled = import(std::string("hra_male_glb/") + organ + ".glb", options);
+    const SurfaceTopology facts = analyse_topology(filled.surface);
+    EXPECT_TRUE(facts.closed() && facts.manifold()) << organ;
+    EXPECT_CONTAINS(sentences(filled), "filled a hole of");
+    std::cout << "  " << organ << ": " << filled.surface.volume_m3() * 1e6 << " mL" << sentences(filled) << "\n";
+  }
+}
+
 TEST_F(SharedSurfaces, ArbitraryUnitsAreRefusedWithAHint) {
   EXPECT_CONTAINS(refusal("sofa_arbitrary_units/liver.obj"), "OBJ carries no unit, say --unit mm, cm or m");
   EXPECT_CONTAINS(refusal("sofa_arbitrary_units/liver.obj"), "of a liver one expects 150 to 300 mm, which no unit gives");

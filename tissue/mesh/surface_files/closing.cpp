@@ -91,6 +91,21 @@ void rescue(const SurfaceImportOptions& options, const std::string& file, Import
   fill(options, file, result);
 }
 
+/// How many of the components that were left out lie within the one that was kept: cavities, which are so filled.
+std::size_t cavities(const TriangleSurface& before, const TriangleSurface& kept) {
+  constexpr std::size_t kMostLookedAt = 200;  // each costs a walk over the surface
+  const auto component = triangle_components(before);
+  std::int32_t next = 0;
+  std::size_t inside = 0;
+  for (std::size_t t = 0; t < component.size() && next < static_cast<std::int32_t>(kMostLookedAt); ++t) {
+    if (component[t] != next) continue;
+    ++next;
+    const Vec3& first = before.vertices[static_cast<std::size_t>(before.triangles[t][0])];
+    if (first != kept.vertices[0]) inside += encloses(kept, first) ? 1 : 0;
+  }
+  return inside;
+}
+
 void keep_largest(ImportedSurface& result) {
   const TriangleSurface before = std::move(result.surface);
   result.surface = largest_component(before, &result.lost_volumes_m3);
@@ -99,6 +114,8 @@ void keep_largest(ImportedSurface& result) {
   result.repairs.push_back("kept the largest of " + std::to_string(result.lost_volumes_m3.size() + 1) + " components (" +
                            std::to_string(result.surface.triangles.size()) + " of " + std::to_string(before.triangles.size()) +
                            " triangles); the others enclose " + ml(lost) + ", the largest of them " + ml(result.lost_volumes_m3[0]));
+  const std::size_t filled = cavities(before, result.surface);
+  if (filled > 0) result.repairs.push_back(std::to_string(filled) + " of these lie within it: cavities, which are filled so");
   if (lost > 0.02 * result.surface.volume_m3())
     result.warnings.push_back("the parts that were left out enclose " + fixed(100 * lost / result.surface.volume_m3(), 1) +
                               " % of what was kept");

@@ -284,7 +284,7 @@ void ply_frame(std::string_view bytes, SurfaceFile& result) {
 
 SurfaceFile read_scene(const fs::path& path, SurfaceKind kind, std::string_view bytes, const Progress& progress) {
   const std::string file = path.string();
-  const std::string answer = in_child(file, {std::uint64_t{1} << 31, 120}, progress, [&] {
+  const std::string answer = in_child(file, {std::uint64_t{1536} << 20, 120}, progress, [&] {
     std::vector<std::string> remarks;
     if (kind == SurfaceKind::kPly) check_ply(bytes, file);
     if (kind == SurfaceKind::kGlb || kind == SurfaceKind::kGltf) remarks = check_gltf(bytes, path);

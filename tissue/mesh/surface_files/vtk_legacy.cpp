@@ -14,7 +14,7 @@
 namespace trocar {
 namespace {
 
-constexpr std::int64_t kMost = 4 * std::int64_t{kMaxVertices};  ///< numbers of one array
+constexpr std::int64_t kMost = 8 * std::int64_t{kMaxTriangles};  ///< numbers of one list of cells
 
 NumberType type_of(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, NumberType>, 18> kTypes{

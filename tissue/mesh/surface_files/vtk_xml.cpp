@@ -185,11 +185,21 @@ class PieceReader {
       throw InputError(file_ + ": an array has numbers of a type that is not read");
   }
 
+  /// Small numbers grow when they are read: their count is checked before.
+  std::string checked_bytes(const XmlArray& array) const {
+    std::string raw = bytes(array);
+    check_count(raw.size() / bytes_of(array.type), 3 * kMaxVertices, "numbers of an array", file_);
+    return raw;
+  }
+
   std::vector<double> reals(const XmlArray& array) const {
     check_type(array, false);
-    if (array.format != "ascii") return stored_reals(bytes(array), array.type, packing_.big_endian);
+    if (array.format != "ascii") return stored_reals(checked_bytes(array), array.type, packing_.big_endian);
     std::vector<double> values;
-    for (TextScanner text(array.text, file_); !text.at_end();) values.push_back(text.number("number of an array"));
+    for (TextScanner text(array.text, file_); !text.at_end();) {
+      values.push_back(text.number("number of an array"));
+      check_count(values.size(), 3 * kMaxVertices, "numbers of an array", file_);
+    }
     return values;
   }
 
@@ -200,10 +210,12 @@ class PieceReader {
     check_type(array->second, true);
     const bool bare = array->second.format == "binary" && array->second.text.find_first_not_of(" \t\r\n") == std::string::npos;
     if (bare) return {};
-    if (array->second.format != "ascii") return stored_wholes(bytes(array->second), array->second.type, packing_.big_endian);
+    if (array->second.format != "ascii") return stored_wholes(checked_bytes(array->second), array->second.type, packing_.big_endian);
     std::vector<std::int64_t> values;
-    for (TextScanner text(array->second.text, file_); !text.at_end();)
+    for (TextScanner text(array->second.text, file_); !text.at_end();) {
       values.push_back(text.whole("corner or offset of a cell", 0, std::int64_t{1} << 40));
+      check_count(values.size(), 3 * kMaxVertices, "numbers of an array", file_);
+    }
     return values;
   }
 
