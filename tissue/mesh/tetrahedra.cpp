@@ -9,6 +9,7 @@
 #include "tissue/mesh/label_surface.h"
 #include "tissue/mesh/surface_check.h"
 #include "tissue/mesh/tetrahedra_mesher.h"
+#include "tissue/mesh/topology.h"
 
 namespace trocar {
 namespace {
@@ -111,6 +112,33 @@ TetrahedraFacts facts_of(const TetrahedraMesh& mesh, const std::vector<LabelFiel
   return facts;
 }
 
+double volume_m3(const TetrahedraMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.tetrahedra) sum += six_volumes(mesh, t) / 6;
+  return sum;
+}
+
+/// Facets are chords: the mesh is a little small. Moves the outer nodes along the normals until it holds the voxels' volume.
+/// @return the shift, m; 0 when it would have squeezed a tetrahedron
+double correct_volume(TetrahedraMesh& mesh, double volume) {
+  const TetrahedraMesh before = mesh;
+  TriangleSurface surface = boundary_of(mesh);
+  double shift = 0;
+  for (int round = 0; round < 4; ++round) {
+    const double step = (volume - volume_m3(mesh)) / surface_area_m2(surface);
+    const std::vector<Vec3> normals = surface.vertex_normals();
+    for (std::size_t n = 0; n < normals.size(); ++n) mesh.nodes[n] += step * normals[n];
+    surface.vertices = mesh.nodes;
+    shift += step;
+  }
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    if (six_volumes(mesh, mesh.tetrahedra[t]) < 0.3 * six_volumes(before, before.tetrahedra[t])) {
+      mesh = before;
+      return 0;
+    }
+  return shift;
+}
+
 void check(const std::vector<int>& labels, const TetrahedraOptions& options) {
   if (labels.empty()) throw InputError("no label was asked for");
   if (!(options.cell_m > 1e-4 && options.cell_m < 1)) throw InputError("tetrahedra of that size cannot be made: 0.1 mm to 1 m are possible");
@@ -164,6 +192,11 @@ BuiltTetrahedra make_tetrahedra(const LabelVolume& volume, const std::vector<int
   for (auto& label : built.mesh.labels) label = labels[static_cast<std::size_t>(label - 1)];
   for (auto& t : built.mesh.tetrahedra)
     if (six_volumes(built.mesh, t) < 0) std::swap(t[2], t[3]);
+  double voxels = 0;
+  for (const LabelField& field : fields) voxels += static_cast<double>(field.voxels());
+  const double shift = correct_volume(built.mesh, voxels * volume.voxel_volume_ml() * 1e-6);
+  built.notes.push_back(shift == 0 ? "the outer nodes were not moved: the volume error stays"
+                                   : "moved the outer nodes by " + std::to_string(shift * 1e3) + " mm along the normals to keep the volume");
   built.facts = facts_of(built.mesh, fields, volume.voxel_volume_ml() * 1e-6);
   if (built.facts.min_dihedral_deg < 10)
     built.notes.push_back("some tetrahedra have a dihedral angle under 10 degrees: smaller cells help");

@@ -31,7 +31,13 @@ class VoxelTree {
     for (std::size_t v = 0; v < covered_.size(); ++v) covered_[v] = mask.inside[v] == 0;
   }
 
-  double radius_mm(std::size_t voxel) const { return std::max(wall_[voxel] - spacing_.mean() / 2, spacing_.minCoeff() / 2); }
+  /// Of the largest ball whose middle is the voxel or one beside it: paths run on voxels, the true centre lies between them.
+  double radius_mm(std::size_t voxel) const {
+    double wall = wall_[voxel];
+    for (const auto& [step, mm] : steps_)
+      if (const std::size_t next = voxel + static_cast<std::size_t>(step); mask_.inside[next] != 0) wall = std::max(wall, wall_[next]);
+    return std::max(wall - spacing_.mean() / 4, spacing_.minCoeff() / 2);  // the wall lies up to half a voxel before its voxel
+  }
   Vec3 index(std::size_t voxel) const {
     const auto row = static_cast<std::size_t>(mask_.size[0]), slice = row * static_cast<std::size_t>(mask_.size[1]);
     return {static_cast<double>(voxel % row), static_cast<double>(voxel % slice / row), static_cast<double>(voxel / slice)};

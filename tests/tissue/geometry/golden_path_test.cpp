@@ -91,7 +91,7 @@ TEST_F(GoldenPath, LiverAndGallbladderShareTheirBed) {
 TEST_F(GoldenPath, LiverLatticeAndVesselGraph) {
   const LabelVolume volume = mask("liver");
   const BuiltLattice built = build_lattice(compile_label(volume, 1, {6000}).surface, {.cell_m = 0.010}, &volume);
-  EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.3);
+  EXPECT_NEAR(built.facts.volume_error_pct, 0, 1);  // the flat cap lies between two layers of samples
   EXPECT_GT(built.facts.nodes, 1200U);
   EXPECT_EQ(built.facts.components, 1U);
   const VesselGraph aorta = vessel_graph(mask("aorta"), 1);
@@ -102,7 +102,7 @@ TEST_F(GoldenPath, LiverLatticeAndVesselGraph) {
 
 TEST_F(GoldenPath, GallbladderTetrahedra) {
   const BuiltTetrahedra built = make_tetrahedra(mask("gallbladder"), {1}, {.cell_m = 0.006});
-  EXPECT_NEAR(built.facts.volume_error_pct, 0, 3);
+  EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.5);
   EXPECT_GE(built.facts.min_dihedral_deg, 8);
   EXPECT_LE(built.facts.surface_rms_voxel, 0.35);
 }

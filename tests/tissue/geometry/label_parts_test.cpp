@@ -112,7 +112,7 @@ TEST(EnclosedVolume, IsWhatTheSurfaceEncloses) {
   const Vec3 spacing(0.001, 0.002, 0.003);
   for (const double level : {0.2, 0.5, 0.8}) {
     const double counted = enclosed_volume_m3(field, spacing, level);
-    EXPECT_NEAR(counted / isosurface(field, spacing, level).volume_m3(), 1, 2e-4) << level;
+    EXPECT_NEAR(counted / isosurface(field, spacing, level).volume_m3(), 1, 5e-4) << level;
   }
 }
 
@@ -121,7 +121,7 @@ TEST(Sampling, CoarserAndFinerFieldsHoldTheSameVolume) {
   for (const int step : {1, 2, -2}) {
     const double edge = step > 0 ? 1.0 / step : -step;
     const ScalarField field = smooth_field(mask, {}, {step, step, step});
-    EXPECT_NEAR(enclosed_volume_m3(field, Vec3::Constant(edge), 0.5) / static_cast<double>(mask.kept_voxels), 1, 0.02) << step;
+    EXPECT_NEAR(enclosed_volume_m3(field, Vec3::Constant(edge), 0.5) / static_cast<double>(mask.kept_voxels), 1, 0.04) << step;
     EXPECT_NEAR(sample_place(0, step), step > 0 ? 0.5 / step - 0.5 : 0.5, 1e-12);
   }
 }
