@@ -34,7 +34,7 @@ class SharedData : public ::testing::Test {
   }
 
   Json import(const std::filesystem::path& input, const std::string& label, const std::string& unit = "",
-              int triangles = 6000) {
+              int triangles = 6000, int components = 1) {
     OrganImportOptions options;
     options.input = input.string(), options.label = label.empty() ? std::vector<std::string>{} : std::vector<std::string>{label}, options.surface.unit = unit, options.triangles = triangles,
     options.json = true;
@@ -44,7 +44,7 @@ class SharedData : public ::testing::Test {
     const Json report = Json::parse(out.str());
     EXPECT_TRUE(report["closed"].get<bool>() && report["manifold"].get<bool>());
     EXPECT_EQ(report["self_intersections"], 0);
-    EXPECT_EQ(report["components"], 1);
+    EXPECT_EQ(report["components"], components);
     EXPECT_EQ(report["degenerate_triangles"], 0);
     return report;
   }
@@ -95,11 +95,11 @@ TEST_F(SharedData, KidneyCavitiesAreFilledAndNamed) {
 }
 
 TEST_F(SharedData, PancreasInSixPartsSaysWhatIsLost) {
-  const Json report = import(mask("pancreas"), "1", "", 2000);
-  EXPECT_EQ(report["lost"].size(), 5U);
-  EXPECT_EQ(report["lost"][0]["voxels"], 387);
+  const Json report = import(mask("pancreas"), "1", "", 2000, 2);
+  EXPECT_EQ(report["lost"].size(), 2U);
+  EXPECT_EQ(report["lost"][0]["voxels"], 2);
   EXPECT_NEAR(report["kept_error_pct"].get<double>(), 0, 2);
-  EXPECT_LT(report["volume_error_pct"].get<double>(), -40);
+  EXPECT_NEAR(report["volume_error_pct"].get<double>(), 0, 2);
 }
 
 TEST_F(SharedData, ThreeVoxelsOfHeartAndTheCtItselfAreRefused) {

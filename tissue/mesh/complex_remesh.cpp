@@ -386,26 +386,6 @@ class ComplexRemesher {
 
 }  // namespace
 
-void untangle(LabelComplex& complex, const std::vector<std::int32_t>& triangles) {
-  const ComplexMesh mesh(complex);
-  std::vector<Index> near;
-  for (const Index t : triangles)
-    for (const Index corner : mesh.triangle(t)) {
-      const auto round = mesh.neighbours(corner);
-      near.insert(near.end(), round.begin(), round.end());
-    }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  for (const Index v : near) {
-    auto round = mesh.curve_neighbours(v);
-    if (!round.empty() && round.size() != 2) continue;
-    if (round.empty()) round = mesh.neighbours(v);
-    Vec3 middle = Vec3::Zero();
-    for (const Index other : round) middle += mesh.place(other) / static_cast<double>(round.size());
-    complex.vertices[at(v)] = (mesh.place(v) + middle) / 2;
-  }
-}
-
 LabelComplex remeshed(const LabelComplex& dense, const ComplexRemeshOptions& options) {
   return ComplexRemesher(dense, options).run();
 }

@@ -9,6 +9,7 @@
 
 #include "haptics/input_error.h"
 #include "tissue/mesh/complex_remesh.h"
+#include "tissue/mesh/complex_volume.h"
 #include "tissue/mesh/isosurface.h"
 #include "tissue/mesh/label_surface.h"
 #include "tissue/mesh/measured_facts.h"
@@ -268,36 +269,9 @@ class GroupCompiler {
       for (const CapPlane& plane : cap_planes(m.mask, box_to_ras_m(volume_, m.mask)))
         if (std::none_of(planes.begin(), planes.end(), [&](const CapPlane& p) { return (p.normal - plane.normal).norm() < 1e-9; }))
           planes.push_back(plane);
-    const CapKeeper caps(planes, complex.vertices);
-    std::vector<std::set<std::array<std::int16_t, 2>>> pairs(complex.vertices.size());
-    for (std::size_t t = 0; t < complex.triangles.size(); ++t)
-      for (const auto corner : complex.triangles[t]) pairs[static_cast<std::size_t>(corner)].insert(complex.regions[t]);
-    caps.apply(complex.vertices);
-    constexpr int kRounds = 6;  // of a tenth of a voxel at most: the offsets of the fields leave little
-    for (int round = 0; round < kRounds; ++round)
-      for (std::size_t n = 0; n < members_.size(); ++n) correct_volume(complex, n, pairs, caps);
-  }
-
-  void correct_volume(LabelComplex& complex, std::size_t n, const std::vector<std::set<std::array<std::int16_t, 2>>>& pairs,
-                      const CapKeeper& caps) const {
-    const auto region = static_cast<std::int16_t>(n + 1);
-    const double missing = members_[n].target_m3 - complex.border(region).volume_m3();
-    if (std::abs(missing) < 1e-4 * members_[n].target_m3) return;
-    std::vector<Vec3> normals(complex.vertices.size(), Vec3::Zero());
-    double area = 0;
-    for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
-      if (complex.regions[t] != std::array<std::int16_t, 2>{0, region}) continue;
-      const auto& [a, b, c] = complex.triangles[t];
-      const auto at = [&](std::int32_t v) -> const Vec3& { return complex.vertices[static_cast<std::size_t>(v)]; };
-      const Vec3 doubled = (at(b) - at(a)).cross(at(c) - at(a));  // into the organ: from the rest to the region
-      area += doubled.norm() / 2;
-      for (const auto corner : {a, b, c}) normals[static_cast<std::size_t>(corner)] -= doubled;
-    }
-    if (!(area > 0)) return;
-    const double step = std::clamp(missing / area, -0.1 * spacing_m_.minCoeff(), 0.1 * spacing_m_.minCoeff());
-    for (std::size_t v = 0; v < normals.size(); ++v)
-      if (pairs[v].size() == 1 && normals[v].norm() > 0) complex.vertices[v] += step * normals[v].normalized();
-    caps.apply(complex.vertices);
+    std::vector<double> targets;
+    for (const Member& m : members_) targets.push_back(m.target_m3);
+    trocar::correct_volumes(complex, targets, 0.1 * spacing_m_.minCoeff(), CapKeeper(planes, complex.vertices));
   }
 
   void add_organs(const LabelComplex& complex, CompiledScene& scene) {

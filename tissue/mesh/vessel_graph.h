@@ -16,7 +16,7 @@ namespace trocar {
 
 struct VesselNode {
   Vec3 place_m;
-  double radius_m = 0;  ///< of the largest ball round the place that stays inside the label
+  double radius_m = 0;  ///< of about the largest ball round the place that stays inside the label, to a third of a voxel
 };
 
 struct VesselGraph {
