@@ -10,7 +10,7 @@ namespace {
 
 namespace label = phantom_label;
 
-constexpr double kStomachReachMm = 60;  ///< farther than any fillet that leans on it
+constexpr double kSwirlMm = 3.6;
 
 const Tube& stomach_tube() {
   static const Tube tube({{Vec(-70, -4, 52), 27}, {Vec(-71, 10, 28), 28}, {Vec(-68, 30, 4), 25}, {Vec(-54, 46, -18), 20}, {Vec(-30, 54, -28), 17}, {Vec(-8, 53, -28), 13}, {Vec(3, 49, -26), 8.5}});
@@ -24,7 +24,7 @@ Tube duodenum_tube() {
 }
 
 Tube pancreas_tube() {
-  return Tube({{Vec(14, -7, -68), 11}, {Vec(13, -5, -52), 13}, {Vec(0, 1, -42), 8}, {Vec(-24, -2, -36), 9}, {Vec(-52, -10, -29), 9}, {Vec(-80, -15, -20), 7}});
+  return Tube({{Vec(13, -7, -72), 12}, {Vec(13, -5, -54), 15}, {Vec(0, 1, -42), 9.5}, {Vec(-24, -2, -36), 11}, {Vec(-52, -9, -29), 11}, {Vec(-80, -14, -20), 9}});
 }
 
 Tube colon_tube() {
@@ -38,7 +38,7 @@ Tube colon_tube() {
 /// Slow swirl that makes loops of straight rows. Its gradient stays under 0.45, so it never folds: rows that do not touch
 /// before it do not touch after it.
 Vec swirled(const Vec& p) {
-  return p + 3.6 * Vec(std::sin(0.085 * p.z() + 0.05 * p.y()), std::sin(0.075 * p.x() + 1), std::sin(0.08 * p.x() + 0.06 * p.y() + 2));
+  return p + kSwirlMm * Vec(std::sin(0.085 * p.z() + 0.05 * p.y()), std::sin(0.075 * p.x() + 1), std::sin(0.08 * p.x() + 0.06 * p.y() + 2));
 }
 
 Tube small_bowel_tube() {
@@ -70,7 +70,7 @@ std::function<double(const Vec&, double)> gut(double wall_mm, double wall, doubl
 
 void add_adrenals(std::vector<Structure>& to) {
   const auto limb = [&](std::uint16_t number, const Vec& from, const Vec& end) {
-    to.push_back(tube_structure(number, Tube({{from, 2.8}, {0.5 * (from + end) + Vec(0, 1, 0), 2.6}, {end, 1.8}}), filled(72)));
+    to.push_back(tube_structure(number, Tube({{from, 4}, {0.5 * (from + end) + Vec(0, 1, 0), 3.6}, {end, 2.6}}), filled(72)));
   };
   limb(label::kAdrenalRight, Vec(37, -46, 14), Vec(45, -56, -2));
   limb(label::kAdrenalRight, Vec(37, -46, 14), Vec(33, -58, 0));
@@ -80,7 +80,7 @@ void add_adrenals(std::vector<Structure>& to) {
 
 }  // namespace
 
-double stomach_mass(const Vec& p) { return stomach_tube().distance(p, kStomachReachMm); }
+double stomach_mass(const Vec& p, double reach) { return stomach_tube().distance(p, reach); }
 
 void add_upper_gut(std::vector<Structure>& to, const Anatomy& a) {
   to.push_back(tube_structure(label::kDuodenum, duodenum_tube(), gut(2.2, 92, 22, 1e6)));
@@ -94,7 +94,7 @@ void add_upper_gut(std::vector<Structure>& to, const Anatomy& a) {
                   const double mass = stomach_tube().distance(p, 4);
                   return mass > 3 ? mass : without(mass, std::min(liver(p, a), spleen(p, a)) - 2, 6);
                 },
-                gut(3.2, 88, 18, 50)});
+                gut(3.2, 88, 18, 50), [](const Box& box) { return stomach_tube().misses(box); }});
   to.push_back(tube_structure(label::kOesophagus, gullet, filled(62)));
   add_adrenals(to);
 }
@@ -114,8 +114,12 @@ void add_bowel(std::vector<Structure>& to) {
   box.extend(Vec(box.min() - Vec::Constant(8))), box.extend(Vec(box.max() + Vec::Constant(8)));
   to.push_back({label::kSmallBowel, box, [tube, colon](const Vec& p) {
                   const double d = tube.distance(swirled(p), 0.5);
-                  return d < 0 ? std::max(d, 1.5 - colon.distance(p, 4)) : d;  // lies against the colon, not in it
-                }, gut(2, 98, 22, 78)});
+                  return d < 0 ? std::max(d, 3 - colon.distance(p, 16)) : d;  // lies against the colon, not in it
+                },
+                gut(2, 98, 22, 78), [tube](const Box& region) {
+                  const Vec swirl = Vec::Constant(kSwirlMm);
+                  return tube.misses(Box(region.min() - swirl, region.max() + swirl));
+                }});
 }
 
 }  // namespace trocar::phantom

@@ -97,8 +97,10 @@ std::function<double(const Vec&, double)> filled(double hounsfield) {
 }
 
 Structure tube_structure(std::uint16_t label, Tube tube, std::function<double(const Vec&, double)> hounsfield) {
-  const Box box = tube.box();
-  return {label, box, [tube = std::move(tube)](const Vec& p) { return tube.distance(p, 0.5); }, std::move(hounsfield)};
+  Structure structure{label, tube.box(), {}, std::move(hounsfield)};
+  structure.misses = [tube](const Box& box) { return tube.misses(box); };
+  structure.distance = [tube = std::move(tube)](const Vec& p) { return tube.distance(p, 0.5); };
+  return structure;
 }
 
 Patient draw_patient(const Anatomy& anatomy, double sheet_mm) {
