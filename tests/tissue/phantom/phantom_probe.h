@@ -58,6 +58,28 @@ inline std::map<int, Count> contacts_of(const LabelVolume& volume) {
   return contacts;
 }
 
+/// Euler number of a label whose voxels hang together over faces: parts - tunnels + cavities.
+inline long euler_number(const LabelVolume& volume, int label) {
+  long number = 0;
+  const auto holds = [&](int i, int j, int k) { return volume.labels[volume.offset(i, j, k)] == label; };
+  for (int k = 0; k < volume.size[2]; ++k)
+    for (int j = 0; j < volume.size[1]; ++j)
+      for (int i = 0; i < volume.size[0]; ++i) {
+        if (!holds(i, j, k)) continue;
+        for (int box = 0; box < 8; ++box) {  // voxels, pairs, squares and cubes that start here
+          bool full = true;
+          for (int corner = 0; corner < 8 && full; ++corner) {
+            if ((corner & ~box) != 0) continue;
+            const int x = i + (corner & 1), y = j + (corner >> 1 & 1), z = k + (corner >> 2);
+            full = x < volume.size[0] && y < volume.size[1] && z < volume.size[2] && holds(x, y, z);
+          }
+          const int dimension = (box & 1) + (box >> 1 & 1) + (box >> 2);
+          number += full ? (dimension % 2 == 0 ? 1 : -1) : 0;
+        }
+      }
+  return number;
+}
+
 inline double mean_hounsfield(const CtPhantom& phantom, int label) {
   double sum = 0, count = 0;
   for (std::size_t n = 0; n < phantom.hounsfield.size(); ++n)

@@ -134,14 +134,13 @@ TEST_P(PhantomVariants, OrgansEndWithinTheFieldUnlessTheyLeaveIt) {
 }
 
 TEST(PhantomVolume, FinerVoxelsDrawTheSameOrgans) {
-  const LabelVolume coarse = make_phantom({.voxel_mm = 3, .noise_hu = 0}).labels, fine = make_phantom({.voxel_mm = 1.5, .noise_hu = 0}).labels;
-  expect_whole(fine);
+  const LabelVolume coarse = make_phantom({.voxel_mm = 4, .noise_hu = 0}).labels, fine = make_phantom({.voxel_mm = 2, .noise_hu = 0}).labels;
   const auto few = coarse.label_counts(), many = fine.label_counts();
   for (const int number : {label::kLiver, label::kSpleen, label::kStomach, label::kColon, label::kSmallBowel, label::kDuodenum})
     EXPECT_NEAR(static_cast<double>(many.at(number)) / static_cast<double>(few.at(number)), 8, 0.16) << number;
   const PhantomTube duct = test::tube_of(phantom_hilum(PhantomVariant::kNormal), label::kBileDuct);
   const double drawn = duct.length_mm() * 3.14159 * duct.radii_mm[0] * duct.radii_mm[0] / 1000;
-  EXPECT_NEAR(static_cast<double>(many.at(label::kBileDuct)) * fine.voxel_volume_ml() / drawn, 1, 0.12);
+  EXPECT_NEAR(static_cast<double>(many.at(label::kBileDuct)) * fine.voxel_volume_ml() / drawn, 1, 0.15);
 }
 
 TEST(PhantomVolume, HounsfieldValuesAreThoseOfThePortalVenousPhase) {
@@ -185,18 +184,17 @@ TEST(PhantomVolume, NoiseHasTheStatedDeviationAndLeavesTheLabels) {
   EXPECT_EQ(quiet.labels.labels, other.labels.labels);
 }
 
-TEST(PhantomVolume, BowelDoesNotCrossItself) {
-  // A tube that crossed itself would enclose less than its course times its cross-section.
-  const LabelVolume labels = make_phantom({.voxel_mm = 2, .noise_hu = 0}).labels;
+/// A tube that touched itself would close a ring: an Euler number of one says one part, no tunnel, no cavity.
+TEST(PhantomVolume, BowelAndVesselsNeitherCrossNorTouchThemselves) {
+  const LabelVolume labels = make_phantom({.voxel_mm = 1.5, .noise_hu = 0}).labels;
+  expect_whole(labels);
+  for (const int number : {label::kSmallBowel, label::kColon, label::kDuodenum, label::kStomach, label::kSpleen, label::kPortalVein, label::kCysticDuct,
+                           label::kHepaticDuct, label::kBileDuct, label::kHepaticArtery, label::kRightHepaticArtery, label::kCysticArtery,
+                           label::kLiver, label::kGallbladder})
+    EXPECT_EQ(test::euler_number(labels, number), 1) << number;
   const auto contacts = test::contacts_of(labels);
-  EXPECT_EQ(contacts.at(label::kSmallBowel).count(label::kColon), 0U);
-  EXPECT_EQ(contacts.at(label::kSmallBowel).count(label::kLiver), 0U);
-  EXPECT_EQ(contacts.at(label::kSmallBowel).count(label::kGallbladder), 0U);
-  // A serpentine's surface is long: 2 / r of its volume, where a lump of that volume would have a sixth of it.
-  double faces = 0;
-  for (const auto& [other, count] : contacts.at(label::kSmallBowel)) faces += static_cast<double>(count);
-  const double area = faces * 4 / 1.5, volume = static_cast<double>(labels.label_counts().at(label::kSmallBowel)) * 8;  // faces overstate area by 3/2
-  EXPECT_NEAR(area / volume * 11.4 / 2, 1, 0.12);
+  for (const int other : {label::kColon, label::kLiver, label::kGallbladder})
+    EXPECT_EQ(contacts.at(label::kSmallBowel).count(other), 0U) << other;
 }
 
 TEST(PhantomVolume, RefusesSizesThatMakeNoSense) {

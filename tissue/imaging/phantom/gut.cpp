@@ -42,7 +42,7 @@ Vec swirled(const Vec& p) {
 }
 
 Tube small_bowel_tube() {
-  constexpr double r = 11.4;
+  constexpr double r = 11;
   std::vector<Knot> knots{{Vec(-42, 1, -77), 6}, {Vec(-45, 6, -73), 8}, {Vec(-52, 15, -74), r}};
   const auto row = [&](double y, double z, double from, double to) {
     for (int n = 0; n <= 5; ++n) knots.push_back({Vec(from + (to - from) * n / 5, y, z), r});
@@ -55,8 +55,8 @@ Tube small_bowel_tube() {
   knots.push_back({Vec(80, 34, -128), r});
   knots.push_back({Vec(79, 54, -131), r});
   row(70, -135, 68, -62);
-  knots.push_back({Vec(-76, 62, -146), r});
-  knots.push_back({Vec(-78, 56, -180), r});
+  knots.push_back({Vec(-74, 69, -150), r});
+  knots.push_back({Vec(-76, 68, -185), r});
   return Tube(knots);
 }
 
