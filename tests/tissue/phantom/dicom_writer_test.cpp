@@ -85,7 +85,9 @@ TEST_F(PhantomDicom, PixelsAndPlacesAreThoseOfTheVolume) {
         // Rows and columns of this orientation step along +y and +x of the LPS frame, which is RAS with x and y turned.
         const Eigen::Vector3d ras(-(corner[0] + spacing[1] * c), -(corner[1] + spacing[0] * r), corner[2]);
         const Eigen::Vector3d index = grid.index_to_ras_mm.inverse() * ras;
-        const std::size_t at = grid.offset(static_cast<int>(std::lround(index.x())), static_cast<int>(std::lround(index.y())), static_cast<int>(std::lround(index.z())));
+        const std::size_t at =
+            grid.offset(static_cast<int>(std::lround(index.x())), static_cast<int>(std::lround(index.y())),
+                        static_cast<int>(std::lround(index.z())));
         EXPECT_NEAR((index - index.array().round().matrix()).norm(), 0, 1e-6);
         EXPECT_EQ(stored[r * columns + c] * slope + intercept, phantom().hounsfield[at]);
       }
@@ -100,7 +102,8 @@ TEST_F(PhantomDicom, TagsAscendAndValuesFitTheirRepresentation) {
     DcmElement* element = set.getElement(n);
     EXPECT_TRUE(before < element->getTag()) << element->getTag().toString();
     before = element->getTag();
-    EXPECT_TRUE(element->getVR() == EVR_OW || element->checkValue("1-n", OFTrue).good()) << element->getTag().toString();
+    EXPECT_TRUE(element->getVR() == EVR_OW || element->checkValue("1-n", OFTrue).good())
+        << element->getTag().toString();
     EXPECT_EQ(element->getLength() % 2, 0U);
   }
   EXPECT_EQ(text(file, DCM_PatientName), "PHANTOM");
@@ -123,7 +126,8 @@ TEST_F(PhantomDicom, NothingStaysWhereTheFolderCannotBe) {
   bad.hounsfield.back() = 4000;
   EXPECT_THROW(write_phantom_dicom(folder_ / "bad", bad), std::invalid_argument);
   std::size_t left = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "bad")) left += entry.is_regular_file() ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "bad"))
+    left += entry.is_regular_file() ? 1 : 0;
   EXPECT_EQ(left, 0U);
 }
 

@@ -34,9 +34,10 @@ TEST_P(Hilum, TubesHaveTheCalibresOfAdults) {
     double least, most;  // outer diameter, mm
   };
   for (const std::uint64_t patient : kPatients)
-    for (const Range& range : {Range{label::kCysticDuct, 2, 4}, Range{label::kHepaticDuct, 4, 6}, Range{label::kBileDuct, 4, 7},
-                               Range{label::kHepaticArtery, 4, 6}, Range{label::kRightHepaticArtery, 2.5, 4.5},
-                               Range{label::kLeftHepaticArtery, 2.5, 4}, Range{label::kCysticArtery, 1.5, 2.5}}) {
+    for (const Range& range :
+         {Range{label::kCysticDuct, 2, 4}, Range{label::kHepaticDuct, 4, 6}, Range{label::kBileDuct, 4, 7},
+          Range{label::kHepaticArtery, 4, 6}, Range{label::kRightHepaticArtery, 2.5, 4.5},
+          Range{label::kLeftHepaticArtery, 2.5, 4}, Range{label::kCysticArtery, 1.5, 2.5}}) {
       const PhantomTube tube = tube_of(phantom_hilum(variant(), patient), range.label);
       ASSERT_FALSE(tube.points_mm.empty()) << range.label;
       EXPECT_EQ(tube.points_mm.size(), tube.radii_mm.size());
@@ -62,7 +63,8 @@ TEST_P(Hilum, DuctsMeetInOnePointAndTheBileDuctEndsInTheDuodenum) {
     const Vec junction = tube_of(tubes, label::kCysticDuct).points_mm.back();
     EXPECT_EQ(tube_of(tubes, label::kHepaticDuct).points_mm.back(), junction);
     EXPECT_EQ(tube_of(tubes, label::kBileDuct).points_mm.front(), junction);
-    EXPECT_LT((tube_of(tubes, label::kBileDuct).points_mm.back() - Vec(35, -5, -75)).norm(), 12.5);  // wall of the descending part
+    EXPECT_LT((tube_of(tubes, label::kBileDuct).points_mm.back() - Vec(35, -5, -75)).norm(),
+              12.5);  // wall of the descending part
   }
 }
 
@@ -83,7 +85,8 @@ TEST_P(Hilum, OnlyWhatBelongsThereEntersTheLiver) {
   for (const std::uint64_t patient : kPatients) {
     const phantom::Anatomy anatomy = phantom::anatomy_of(variant(), patient);
     for (const PhantomTube& tube : phantom_hilum(variant(), patient)) {
-      const bool enters = tube.label == label::kHepaticDuct || tube.label == label::kRightHepaticArtery || tube.label == label::kLeftHepaticArtery;
+      const bool enters = tube.label == label::kHepaticDuct || tube.label == label::kRightHepaticArtery ||
+                          tube.label == label::kLeftHepaticArtery;
       std::size_t crossings = 0;
       double nearest = 1e9;
       for (std::size_t n = 0; n < tube.points_mm.size(); ++n) {
@@ -98,24 +101,32 @@ TEST_P(Hilum, OnlyWhatBelongsThereEntersTheLiver) {
 }
 
 TEST_P(Hilum, TubesThatDoNotMeetKeepApart) {
-  const std::set<std::pair<int, int>> meet{{label::kBileDuct, label::kHepaticDuct},        {label::kBileDuct, label::kCysticDuct},
-                                           {label::kHepaticDuct, label::kCysticDuct},      {label::kHepaticArtery, label::kRightHepaticArtery},
-                                           {label::kHepaticArtery, label::kLeftHepaticArtery}, {label::kRightHepaticArtery, label::kLeftHepaticArtery}};
+  const std::set<std::pair<int, int>> meet{{label::kBileDuct, label::kHepaticDuct},
+                                           {label::kBileDuct, label::kCysticDuct},
+                                           {label::kHepaticDuct, label::kCysticDuct},
+                                           {label::kHepaticArtery, label::kRightHepaticArtery},
+                                           {label::kHepaticArtery, label::kLeftHepaticArtery},
+                                           {label::kRightHepaticArtery, label::kLeftHepaticArtery}};
   for (const std::uint64_t patient : kPatients) {
     const auto tubes = phantom_hilum(variant(), patient);
     for (std::size_t a = 0; a < tubes.size(); ++a)
       for (std::size_t b = a + 1; b < tubes.size(); ++b) {
         if (meet.count({tubes[a].label, tubes[b].label}) > 0) continue;
         const bool anterior = variant() == PhantomVariant::kArteryAnterior;
-        const bool gives_the_cystic = tubes[b].label == label::kCysticArtery &&
-                                      (anterior ? tubes[a].label != label::kHepaticDuct && tubes[a].label <= label::kLeftHepaticArtery && tubes[a].label >= label::kHepaticArtery
-                                                : tubes[a].label == label::kRightHepaticArtery);
+        const bool gives_the_cystic =
+            tubes[b].label == label::kCysticArtery &&
+            (anterior ? tubes[a].label != label::kHepaticDuct && tubes[a].label <= label::kLeftHepaticArtery &&
+                            tubes[a].label >= label::kHepaticArtery
+                      : tubes[a].label == label::kRightHepaticArtery);
         double gap = 1e9;  // outside the gallbladder, in whose neck duct and artery end
         for (std::size_t n = 0; n < tubes[a].points_mm.size(); ++n)
           for (std::size_t m = 0; m < tubes[b].points_mm.size(); ++m)
-            if (phantom_gallbladder_mm(tubes[a].points_mm[n]) > 0.5 && phantom_gallbladder_mm(tubes[b].points_mm[m]) > 0)
-              gap = std::min(gap, (tubes[a].points_mm[n] - tubes[b].points_mm[m]).norm() - tubes[a].radii_mm[n] - tubes[b].radii_mm[m]);
-        EXPECT_TRUE(gives_the_cystic || gap > 0.4) << tubes[a].name << " " << tubes[b].name << " " << patient << ": " << gap;
+            if (phantom_gallbladder_mm(tubes[a].points_mm[n]) > 0.5 &&
+                phantom_gallbladder_mm(tubes[b].points_mm[m]) > 0)
+              gap = std::min(gap, (tubes[a].points_mm[n] - tubes[b].points_mm[m]).norm() - tubes[a].radii_mm[n] -
+                                      tubes[b].radii_mm[m]);
+        EXPECT_TRUE(gives_the_cystic || gap > 0.4)
+            << tubes[a].name << " " << tubes[b].name << " " << patient << ": " << gap;
       }
   }
 }
@@ -123,7 +134,8 @@ TEST_P(Hilum, TubesThatDoNotMeetKeepApart) {
 TEST_P(Hilum, TheCysticArteryArisesFromAnArtery) {
   for (const std::uint64_t patient : kPatients) {
     const auto tubes = phantom_hilum(variant(), patient);
-    const int origin = variant() == PhantomVariant::kArteryAnterior ? label::kHepaticArtery : label::kRightHepaticArtery;
+    const int origin =
+        variant() == PhantomVariant::kArteryAnterior ? label::kHepaticArtery : label::kRightHepaticArtery;
     const PhantomTube artery = tube_of(tubes, label::kCysticArtery), parent = tube_of(tubes, origin);
     double nearest = 1e9;
     for (std::size_t n = 0; n < parent.points_mm.size(); ++n)
@@ -172,7 +184,8 @@ TEST(HilumVariants, FatIsTheNormalCourseHidden) {
     EXPECT_EQ(normal[n].points_mm, fat[n].points_mm);
     EXPECT_EQ(normal[n].name, std::string(label_table(kPhantomTable).name_of(normal[n].label).value_or("")));
   }
-  const phantom::Anatomy thin = phantom::anatomy_of(PhantomVariant::kNormal, 0), thick = phantom::anatomy_of(PhantomVariant::kFat, 0);
+  const phantom::Anatomy thin = phantom::anatomy_of(PhantomVariant::kNormal, 0),
+                         thick = phantom::anatomy_of(PhantomVariant::kFat, 0);
   EXPECT_GE(thick.hilum_fat_mm, 2 * thin.hilum_fat_mm);
   EXPECT_GE(thick.omentum_mm, 2 * thin.omentum_mm);
   EXPECT_GT(thick.outer_fat_mm, thin.outer_fat_mm + 15);
@@ -188,7 +201,8 @@ TEST(HilumVariants, LowInsertionRunsBesideTheHepaticDuct) {
     beside += p.z() < -5 && nearest < 12 ? 1 : 0;
   }
   EXPECT_GT(beside, 35);  // mm
-  EXPECT_LT(cystic.points_mm.back().z(), tube_of(phantom_hilum(PhantomVariant::kNormal), label::kCysticDuct).points_mm.back().z() - 25);
+  EXPECT_LT(cystic.points_mm.back().z(),
+            tube_of(phantom_hilum(PhantomVariant::kNormal), label::kCysticDuct).points_mm.back().z() - 25);
 }
 
 }  // namespace

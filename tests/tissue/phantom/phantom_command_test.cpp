@@ -20,7 +20,8 @@ std::string file_bytes(const std::filesystem::path& path) {
 TEST(PhantomCommand, DrawsAVariantOfAPatientWithItsDicomSeries) {
   test::TemporaryFolder folder;
   OrganPhantomOptions options;
-  options.out = folder / "ct", options.variant = "low-insertion", options.patient = 4, options.voxel_mm = 4, options.dicom = true, options.json = true;
+  options.out = folder / "ct", options.variant = "low-insertion", options.patient = 4, options.voxel_mm = 4,
+  options.dicom = true, options.json = true;
   std::ostringstream out, err;
   EXPECT_EQ(organ_phantom(options, out, err), 0);
   const nlohmann::json report = nlohmann::json::parse(out.str());
@@ -36,7 +37,8 @@ TEST(PhantomCommand, DrawsAVariantOfAPatientWithItsDicomSeries) {
   const LabelVolume labels = read_label_volume(folder / "ct/labels.nii.gz");
   EXPECT_GT(labels.label_counts().at(201), 10U);
   std::size_t slices = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "ct/dicom")) slices += entry.path().extension() == ".dcm" ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "ct/dicom"))
+    slices += entry.path().extension() == ".dcm" ? 1 : 0;
   EXPECT_EQ(slices, static_cast<std::size_t>(labels.size[2]));
 }
 
@@ -45,7 +47,8 @@ TEST(PhantomCommand, RefusesBeforeItWritesAnything) {
   std::ostringstream out, err;
   OrganPhantomOptions options;
   options.out = folder / "ct", options.variant = "mirrored";
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_phantom(options, out, err); }), "no phantom variant \"mirrored\"; known: normal");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_phantom(options, out, err); }),
+                  "no phantom variant \"mirrored\"; known: normal");
   options.variant = "fat", options.voxel_mm = 0.1;
   EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_phantom(options, out, err); }), "outside 0.75 to 12 mm");
   options.out = "";

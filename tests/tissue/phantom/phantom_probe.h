@@ -16,7 +16,8 @@ using Count = std::map<int, std::size_t>;
 /// Calls visit(offset, neighbour's offset) for each of the up to six neighbours of a voxel.
 template <typename Visit>
 void for_each_neighbour(const LabelVolume& volume, std::size_t at, Visit visit) {
-  const std::array<std::size_t, 3> size{static_cast<std::size_t>(volume.size[0]), static_cast<std::size_t>(volume.size[1]),
+  const std::array<std::size_t, 3> size{static_cast<std::size_t>(volume.size[0]),
+                                        static_cast<std::size_t>(volume.size[1]),
                                         static_cast<std::size_t>(volume.size[2])};
   const std::array<std::size_t, 3> stride{1, size[0], size[0] * size[1]};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -92,7 +93,8 @@ inline double core_hounsfield(const CtPhantom& phantom, int label) {
   double sum = 0, count = 0;
   for (std::size_t n = 0; n < phantom.hounsfield.size(); ++n) {
     bool inner = phantom.labels.labels[n] == label;
-    for_each_neighbour(phantom.labels, n, [&](std::size_t, std::size_t b) { inner = inner && phantom.labels.labels[b] == label; });
+    for_each_neighbour(phantom.labels, n,
+                       [&](std::size_t, std::size_t b) { inner = inner && phantom.labels.labels[b] == label; });
     if (inner) sum += phantom.hounsfield[n], ++count;
   }
   return sum / count;

@@ -41,17 +41,18 @@ TEST(PhantomShapes, TriangleDistanceAgreesWithADenseCloudOfItsPoints) {
     const Vec p = random_point(engine, 15);
     double nearest = 1e9;
     for (int u = 0; u <= 100; ++u)
-      for (int v = 0; u + v <= 100; ++v) nearest = std::min(nearest, (p - (a + (b - a) * u / 100.0 + (c - a) * v / 100.0)).norm());
+      for (int v = 0; u + v <= 100; ++v)
+        nearest = std::min(nearest, (p - (a + (b - a) * u / 100.0 + (c - a) * v / 100.0)).norm());
     EXPECT_NEAR(triangle_distance(p, a, b, c), nearest, 0.1);
     EXPECT_LE(triangle_distance(p, a, b, c), nearest + 1e-9);
   }
 }
 
 TEST(PhantomShapes, JoiningAddsAFilletAndCuttingTakesOneAway) {
-  EXPECT_DOUBLE_EQ(joined(1, 20, 5), 1);       // far apart: the plain union
-  EXPECT_DOUBLE_EQ(joined(2, 2, 4), 1);        // on the seam: a quarter of the width
+  EXPECT_DOUBLE_EQ(joined(1, 20, 5), 1);  // far apart: the plain union
+  EXPECT_DOUBLE_EQ(joined(2, 2, 4), 1);   // on the seam: a quarter of the width
   EXPECT_DOUBLE_EQ(common(2, 2, 4), 3);
-  EXPECT_DOUBLE_EQ(without(-3, -20, 4), 20);   // deep in what is cut away
+  EXPECT_DOUBLE_EQ(without(-3, -20, 4), 20);  // deep in what is cut away
   for (double a = -5; a <= 5; a += 0.5)
     for (double b = -5; b <= 5; b += 0.5) {
       EXPECT_LE(joined(a, b, 3), std::min(a, b));
@@ -72,7 +73,8 @@ TEST(PhantomShapes, ATubeGoesThroughItsKnotsWithoutCorners) {
   for (const Knot& knot : knots) EXPECT_NEAR(tube.distance(knot.at), -knot.radius, 0.02);
   const auto& course = tube.course();
   for (std::size_t n = 1; n + 1 < course.size(); ++n) {
-    const Vec before = (course[n].at - course[n - 1].at).normalized(), after = (course[n + 1].at - course[n].at).normalized();
+    const Vec before = (course[n].at - course[n - 1].at).normalized(),
+              after = (course[n + 1].at - course[n].at).normalized();
     EXPECT_GT(before.dot(after), std::cos(0.35)) << n;
     EXPECT_LT((course[n].at - course[n - 1].at).norm(), 1.6);
   }
@@ -85,7 +87,8 @@ TEST(PhantomShapes, ReachOnlyCutsOffWhatIsFarther) {
     const Vec p = random_point(engine, 70);
     double nearest = 1e9;
     for (std::size_t m = 0; m + 1 < tube.course().size(); ++m)
-      nearest = std::min(nearest, swept_ball(p, tube.course()[m].at, tube.course()[m].radius, tube.course()[m + 1].at, tube.course()[m + 1].radius));
+      nearest = std::min(nearest, swept_ball(p, tube.course()[m].at, tube.course()[m].radius, tube.course()[m + 1].at,
+                                             tube.course()[m + 1].radius));
     EXPECT_DOUBLE_EQ(tube.distance(p), nearest);
     EXPECT_DOUBLE_EQ(tube.distance(p, 4), std::min(nearest, 4.0));
   }

@@ -16,7 +16,8 @@ TEST(PhantomVariantNames, GoBothWays) {
     names.insert(phantom_variant_name(variant));
   }
   EXPECT_EQ(names, (std::set<std::string_view>{"normal", "short-duct", "low-insertion", "fat", "artery-anterior"}));
-  EXPECT_CONTAINS(test::message_of<InputError>([] { phantom_variant("Normal"); }), "no phantom variant \"Normal\"; known: normal, short-duct");
+  EXPECT_CONTAINS(test::message_of<InputError>([] { phantom_variant("Normal"); }),
+                  "no phantom variant \"Normal\"; known: normal, short-duct");
 }
 
 TEST(PhantomVariantNames, SeedsGoThroughTheFive) {
@@ -30,7 +31,8 @@ TEST(PhantomVariantNames, SeedsGoThroughTheFive) {
 TEST(PhantomPatients, VaryWithinAFewPerCentAndAreAlwaysTheSame) {
   std::set<double> sizes;
   for (std::uint64_t patient = 1; patient <= 200; ++patient) {
-    const phantom::Anatomy a = phantom::anatomy_of(PhantomVariant::kNormal, patient), again = phantom::anatomy_of(PhantomVariant::kNormal, patient);
+    const phantom::Anatomy a = phantom::anatomy_of(PhantomVariant::kNormal, patient),
+                           again = phantom::anatomy_of(PhantomVariant::kNormal, patient);
     EXPECT_NEAR(a.liver_scale, 1, 0.03);
     EXPECT_NEAR(a.sac_scale, 0.99, 0.07);
     EXPECT_NEAR(a.duct_calibre, 1, 0.12);

@@ -13,16 +13,39 @@ namespace {
 
 namespace label = phantom_label;
 
-const std::set<int> kWholeOrgans{label::kSpleen,        label::kKidneyRight, label::kKidneyLeft,         label::kGallbladder,
-                                 label::kLiver,         label::kStomach,     label::kAorta,              label::kVenaCava,
-                                 label::kPortalVein,    label::kPancreas,    label::kAdrenalRight,       label::kAdrenalLeft,
-                                 label::kOesophagus,    label::kSmallBowel,  label::kDuodenum,           label::kColon,
-                                 label::kCysticDuct,    label::kHepaticDuct, label::kBileDuct,           label::kHepaticArtery,
-                                 label::kRightHepaticArtery, label::kLeftHepaticArtery, label::kCysticArtery, label::kSkin,
-                                 label::kSubcutaneousFat, label::kHilumFat,  label::kOmentum,            label::kDiaphragm,
-                                 label::kVertebrae,     label::kHeart};
+const std::set<int> kWholeOrgans{label::kSpleen,
+                                 label::kKidneyRight,
+                                 label::kKidneyLeft,
+                                 label::kGallbladder,
+                                 label::kLiver,
+                                 label::kStomach,
+                                 label::kAorta,
+                                 label::kVenaCava,
+                                 label::kPortalVein,
+                                 label::kPancreas,
+                                 label::kAdrenalRight,
+                                 label::kAdrenalLeft,
+                                 label::kOesophagus,
+                                 label::kSmallBowel,
+                                 label::kDuodenum,
+                                 label::kColon,
+                                 label::kCysticDuct,
+                                 label::kHepaticDuct,
+                                 label::kBileDuct,
+                                 label::kHepaticArtery,
+                                 label::kRightHepaticArtery,
+                                 label::kLeftHepaticArtery,
+                                 label::kCysticArtery,
+                                 label::kSkin,
+                                 label::kSubcutaneousFat,
+                                 label::kHilumFat,
+                                 label::kOmentum,
+                                 label::kDiaphragm,
+                                 label::kVertebrae,
+                                 label::kHeart};
 
-/// The liver and the gallbladder of the first phantom, voxel by voxel: exercises, recordings and shipped organs stand on them.
+/// The liver and the gallbladder of the first phantom, voxel by voxel: exercises, recordings and shipped organs stand
+/// on them.
 TEST(PhantomVolume, StandardLiverAndGallbladderAreThoseThatShip) {
   const LabelVolume labels = make_phantom({}).labels;
   auto counts = labels.label_counts();
@@ -60,7 +83,8 @@ void expect_whole(const LabelVolume& labels) {
   const test::Count parts = test::parts_of(labels);
   for (const LabelName& entry : kPhantomLabels) {
     ASSERT_TRUE(parts.count(entry.number) > 0) << entry.name << " marks no voxel";
-    EXPECT_TRUE(kWholeOrgans.count(entry.number) == 0 || parts.at(entry.number) == 1) << entry.name << ": " << parts.at(entry.number) << " parts";
+    EXPECT_TRUE(kWholeOrgans.count(entry.number) == 0 || parts.at(entry.number) == 1)
+        << entry.name << ": " << parts.at(entry.number) << " parts";
   }
 }
 
@@ -83,8 +107,10 @@ void expect_contacts(const LabelVolume& labels, bool anterior) {
   // The critical view can be reached: two structures enter the gallbladder, and fat lies between it and its bed.
   std::size_t all = 0, bed = 0;
   for (const auto& [neighbour, faces] : contacts.at(label::kGallbladder)) {
-    const bool tube = (neighbour >= label::kCysticDuct && neighbour <= label::kLeftHepaticArtery) || (neighbour >= label::kAorta && neighbour <= label::kPortalVein);
-    EXPECT_TRUE(!tube || neighbour == label::kCysticDuct || neighbour == label::kCysticArtery) << "the gallbladder touches " << neighbour;
+    const bool tube = (neighbour >= label::kCysticDuct && neighbour <= label::kLeftHepaticArtery) ||
+                      (neighbour >= label::kAorta && neighbour <= label::kPortalVein);
+    EXPECT_TRUE(!tube || neighbour == label::kCysticDuct || neighbour == label::kCysticArtery)
+        << "the gallbladder touches " << neighbour;
     all += faces, bed += neighbour == label::kLiver ? faces : 0;
   }
   EXPECT_LT(static_cast<double>(bed), 0.03 * static_cast<double>(all));
@@ -96,11 +122,21 @@ TEST_P(PhantomVariants, OrgansAreWholeInPlaceAndOfAdultSize) {
     const LabelVolume labels = make_phantom({.noise_hu = 0, .variant = GetParam(), .patient = patient}).labels;
     expect_whole(labels);
     expect_contacts(labels, GetParam() == PhantomVariant::kArteryAnterior);
-    expect_volumes(labels, {{label::kLiver, 1000, 1800},    {label::kGallbladder, 20, 60},    {label::kSpleen, 100, 250},
-                            {label::kKidneyRight, 120, 200}, {label::kKidneyLeft, 120, 200},   {label::kStomach, 150, 600},
-                            {label::kPancreas, 25, 110},     {label::kDuodenum, 50, 130},      {label::kPortalVein, 8, 40},
-                            {label::kAdrenalRight, 0.5, 6},  {label::kAdrenalLeft, 0.5, 6},    {label::kSmallBowel, 250, 900},
-                            {label::kColon, 200, 900},       {label::kVertebrae, 300, 700},    {label::kBileDuct, 0.3, 4}});
+    expect_volumes(labels, {{label::kLiver, 1000, 1800},
+                            {label::kGallbladder, 20, 60},
+                            {label::kSpleen, 100, 250},
+                            {label::kKidneyRight, 120, 200},
+                            {label::kKidneyLeft, 120, 200},
+                            {label::kStomach, 150, 600},
+                            {label::kPancreas, 25, 110},
+                            {label::kDuodenum, 50, 130},
+                            {label::kPortalVein, 8, 40},
+                            {label::kAdrenalRight, 0.5, 6},
+                            {label::kAdrenalLeft, 0.5, 6},
+                            {label::kSmallBowel, 250, 900},
+                            {label::kColon, 200, 900},
+                            {label::kVertebrae, 300, 700},
+                            {label::kBileDuct, 0.3, 4}});
   }
 }
 
@@ -134,9 +170,11 @@ TEST_P(PhantomVariants, OrgansEndWithinTheFieldUnlessTheyLeaveIt) {
 }
 
 TEST(PhantomVolume, FinerVoxelsDrawTheSameOrgans) {
-  const LabelVolume coarse = make_phantom({.voxel_mm = 4, .noise_hu = 0}).labels, fine = make_phantom({.voxel_mm = 2, .noise_hu = 0}).labels;
+  const LabelVolume coarse = make_phantom({.voxel_mm = 4, .noise_hu = 0}).labels,
+                    fine = make_phantom({.voxel_mm = 2, .noise_hu = 0}).labels;
   const auto few = coarse.label_counts(), many = fine.label_counts();
-  for (const int number : {label::kLiver, label::kSpleen, label::kStomach, label::kColon, label::kSmallBowel, label::kDuodenum})
+  for (const int number :
+       {label::kLiver, label::kSpleen, label::kStomach, label::kColon, label::kSmallBowel, label::kDuodenum})
     EXPECT_NEAR(static_cast<double>(many.at(number)) / static_cast<double>(few.at(number)), 8, 0.16) << number;
   const PhantomTube duct = test::tube_of(phantom_hilum(PhantomVariant::kNormal), label::kBileDuct);
   const double drawn = duct.length_mm() * 3.14159 * duct.radii_mm[0] * duct.radii_mm[0] / 1000;
@@ -149,11 +187,12 @@ TEST(PhantomVolume, HounsfieldValuesAreThoseOfThePortalVenousPhase) {
     int label;
     double hounsfield, within;
   };
-  for (const Value& value : {Value{label::kLiver, 113, 4}, Value{label::kSpleen, 122, 4}, Value{label::kKidneyRight, 180, 14},
-                             Value{label::kGallbladder, 10, 8}, Value{label::kAorta, 152, 12}, Value{label::kVenaCava, 140, 4},
-                             Value{label::kPortalVein, 170, 5}, Value{label::kPancreas, 92, 12}, Value{label::kMuscle, 57, 6},
-                             Value{label::kSubcutaneousFat, -105, 4}, Value{label::kVisceralFat, -100, 4}, Value{label::kLungs, -850, 12},
-                             Value{0, -1000, 4}})
+  for (const Value& value :
+       {Value{label::kLiver, 113, 4}, Value{label::kSpleen, 122, 4}, Value{label::kKidneyRight, 180, 14},
+        Value{label::kGallbladder, 10, 8}, Value{label::kAorta, 152, 12}, Value{label::kVenaCava, 140, 4},
+        Value{label::kPortalVein, 170, 5}, Value{label::kPancreas, 92, 12}, Value{label::kMuscle, 57, 6},
+        Value{label::kSubcutaneousFat, -105, 4}, Value{label::kVisceralFat, -100, 4}, Value{label::kLungs, -850, 12},
+        Value{0, -1000, 4}})
     EXPECT_NEAR(test::core_hounsfield(phantom, value.label), value.hounsfield, value.within) << value.label;
   EXPECT_GT(test::core_hounsfield(phantom, label::kVertebrae), 150);
   EXPECT_GE(*std::min_element(phantom.hounsfield.begin(), phantom.hounsfield.end()), -1024);
@@ -169,8 +208,10 @@ TEST(PhantomVolume, ThinArteriesShowByPartialVolume) {
 }
 
 TEST(PhantomVolume, NoiseHasTheStatedDeviationAndLeavesTheLabels) {
-  const CtPhantom quiet = make_phantom({.voxel_mm = 4, .noise_hu = 0}), noisy = make_phantom({.voxel_mm = 4, .noise_hu = 12, .seed = 9}),
-                  again = make_phantom({.voxel_mm = 4, .noise_hu = 12, .seed = 9}), other = make_phantom({.voxel_mm = 4, .noise_hu = 12, .seed = 10});
+  const CtPhantom quiet = make_phantom({.voxel_mm = 4, .noise_hu = 0}),
+                  noisy = make_phantom({.voxel_mm = 4, .noise_hu = 12, .seed = 9}),
+                  again = make_phantom({.voxel_mm = 4, .noise_hu = 12, .seed = 9}),
+                  other = make_phantom({.voxel_mm = 4, .noise_hu = 12, .seed = 10});
   double sum = 0, square = 0, count = 0;
   for (std::size_t n = 0; n < quiet.hounsfield.size(); ++n) {
     if (quiet.hounsfield[n] < -900) continue;  // clamped below
@@ -188,9 +229,10 @@ TEST(PhantomVolume, NoiseHasTheStatedDeviationAndLeavesTheLabels) {
 TEST(PhantomVolume, BowelAndVesselsNeitherCrossNorTouchThemselves) {
   const LabelVolume labels = make_phantom({.voxel_mm = 1.5, .noise_hu = 0}).labels;
   expect_whole(labels);
-  for (const int number : {label::kSmallBowel, label::kColon, label::kDuodenum, label::kStomach, label::kSpleen, label::kPortalVein, label::kCysticDuct,
-                           label::kHepaticDuct, label::kBileDuct, label::kHepaticArtery, label::kRightHepaticArtery, label::kCysticArtery,
-                           label::kLiver, label::kGallbladder})
+  for (const int number :
+       {label::kSmallBowel, label::kColon, label::kDuodenum, label::kStomach, label::kSpleen, label::kPortalVein,
+        label::kCysticDuct, label::kHepaticDuct, label::kBileDuct, label::kHepaticArtery, label::kRightHepaticArtery,
+        label::kCysticArtery, label::kLiver, label::kGallbladder})
     EXPECT_EQ(test::euler_number(labels, number), 1) << number;
   const auto contacts = test::contacts_of(labels);
   for (const int other : {label::kColon, label::kLiver, label::kGallbladder})

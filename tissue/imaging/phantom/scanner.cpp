@@ -16,7 +16,8 @@ class Noise {
 
   double operator()() {
     if (has_spare_) return has_spare_ = false, spare_;
-    const double u = (static_cast<double>(engine_() >> 11) + 1) * 0x1p-53, v = static_cast<double>(engine_() >> 11) * 0x1p-53;
+    const double u = (static_cast<double>(engine_() >> 11) + 1) * 0x1p-53,
+                 v = static_cast<double>(engine_() >> 11) * 0x1p-53;
     const double radius = std::sqrt(-2 * std::log(u)), angle = 2 * std::numbers::pi * v;
     spare_ = radius * std::sin(angle), has_spare_ = true;
     return radius * std::cos(angle);

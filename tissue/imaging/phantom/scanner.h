@@ -1,7 +1,8 @@
 // What a scanner does to the truth: noise, and a point spread of 1.5 mm full width at half maximum.
 //
-// White noise is drawn strong enough to have the wanted standard deviation after the Gaussian point spread, which gives it the
-// grain of a reconstructed image. One seed, one noise, on every machine (mt19937_64, Box and Muller). Thread: any.
+// White noise is drawn strong enough to have the wanted standard deviation after the Gaussian point spread, which gives
+// it the grain of a reconstructed image. One seed, one noise, on every machine (mt19937_64, Box and Muller). Thread:
+// any.
 #pragma once
 
 #include <array>

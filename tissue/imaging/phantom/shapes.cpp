@@ -82,7 +82,8 @@ void Tube::index() {
   steps_.clear();
   for (std::size_t n = 0; n + 1 < course_.size(); ++n) {
     const Vec axis = course_[n + 1].at - course_[n].at;
-    steps_.push_back({course_[n].at, axis, 1 / axis.squaredNorm(), course_[n].radius, course_[n + 1].radius - course_[n].radius});
+    steps_.push_back(
+        {course_[n].at, axis, 1 / axis.squaredNorm(), course_[n].radius, course_[n + 1].radius - course_[n].radius});
   }
   for (std::size_t first = 0; first + 1 < course_.size(); first += kRun) {
     Run run{{}, 0, first, std::min(first + kRun, course_.size() - 1)};
@@ -114,7 +115,8 @@ double Tube::distance(const Vec& p, double reach) const {
 }
 
 bool Tube::misses(const Box& region) const {
-  return std::all_of(runs_.begin(), runs_.end(), [&](const Run& run) { return run.box.exteriorDistance(region) >= run.radius; });
+  return std::all_of(runs_.begin(), runs_.end(),
+                     [&](const Run& run) { return run.box.exteriorDistance(region) >= run.radius; });
 }
 
 Box Tube::box() const {

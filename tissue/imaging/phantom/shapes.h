@@ -1,5 +1,5 @@
-// Implicit shapes that the phantom is drawn from: signed distances (approximate where a shape is squashed), mm, negative
-// inside, RAS. Thread: any.
+// Implicit shapes that the phantom is drawn from: signed distances (approximate where a shape is squashed), mm,
+// negative inside, RAS. Thread: any.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -41,8 +41,9 @@ Structure kidney_structure(std::uint16_t label, double side) {
 void add_solid_organs(std::vector<Structure>& to, const Anatomy& a) {
   to.push_back(measured(gallbladder_structure(a)));
   to.push_back(measured(liver_structure(a)));
-  to.push_back(measured({label::kSpleen, around(Vec(-112, -26, 32), Vec(32, 55, 55)), [a](const Vec& p) { return spleen(p, a); },
-                         [](const Vec& p, double) { return 122 + mottle(p, 2); }}));
+  to.push_back(
+      measured({label::kSpleen, around(Vec(-112, -26, 32), Vec(32, 55, 55)), [a](const Vec& p) { return spleen(p, a); },
+                [](const Vec& p, double) { return 122 + mottle(p, 2); }}));
   to.push_back(measured(kidney_structure(label::kKidneyRight, 1)));
   to.push_back(measured(kidney_structure(label::kKidneyLeft, -1)));
 }

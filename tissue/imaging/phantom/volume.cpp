@@ -18,7 +18,7 @@ using phantom::Structure;
 using phantom::Vec;
 
 constexpr int kBlock = 6;
-constexpr float kEdgeHu = 20;            ///< neighbours that differ by more are sampled finely
+constexpr float kEdgeHu = 20;  ///< neighbours that differ by more are sampled finely
 
 struct Grid {
   std::array<int, 3> size{};
@@ -26,10 +26,14 @@ struct Grid {
   double voxel;
 
   std::size_t offset(int i, int j, int k) const {
-    return static_cast<std::size_t>(i) + static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+    return static_cast<std::size_t>(i) +
+           static_cast<std::size_t>(size[0]) *
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
   }
   Vec centre(int i, int j, int k) const { return low + voxel * Vec(i, j, k); }
-  bool holds(const Eigen::Array3i& at) const { return (at >= 0).all() && at[0] < size[0] && at[1] < size[1] && at[2] < size[2]; }
+  bool holds(const Eigen::Array3i& at) const {
+    return (at >= 0).all() && at[0] < size[0] && at[1] < size[1] && at[2] < size[2];
+  }
 };
 
 struct Image {
@@ -89,16 +93,17 @@ void for_each_block(const Patient& patient, const Grid& grid, const Progress& pr
 
 void sample_centres(const Patient& patient, Image& image, const Progress& progress) {
   const Grid& grid = image.grid;
-  for_each_block(patient, grid, progress, "drawing organs", [&](const Candidates& candidates, const auto& first, const auto& last) {
-    for (int k = first[2]; k < last[2]; ++k)
-      for (int j = first[1]; j < last[1]; ++j)
-        for (int i = first[0]; i < last[0]; ++i) {
-          const Sample sample = sample_at(candidates, grid.centre(i, j, k));
-          const std::size_t at = grid.offset(i, j, k);
-          image.labels[at] = sample.label;
-          image.hounsfield[at] = static_cast<float>(sample.hounsfield);
-        }
-  });
+  for_each_block(patient, grid, progress, "drawing organs",
+                 [&](const Candidates& candidates, const auto& first, const auto& last) {
+                   for (int k = first[2]; k < last[2]; ++k)
+                     for (int j = first[1]; j < last[1]; ++j)
+                       for (int i = first[0]; i < last[0]; ++i) {
+                         const Sample sample = sample_at(candidates, grid.centre(i, j, k));
+                         const std::size_t at = grid.offset(i, j, k);
+                         image.labels[at] = sample.label;
+                         image.hounsfield[at] = static_cast<float>(sample.hounsfield);
+                       }
+                 });
 }
 
 void mark_edges(Image& image) {
@@ -108,7 +113,8 @@ void mark_edges(Image& image) {
     const auto extent = static_cast<std::size_t>(size[axis]);
     for (std::size_t at = 0; at + stride < image.hounsfield.size(); ++at) {
       if (at / stride % extent + 1 == extent) continue;
-      if (std::abs(image.hounsfield[at] - image.hounsfield[at + stride]) > kEdgeHu) image.fine[at] = image.fine[at + stride] = 1;
+      if (std::abs(image.hounsfield[at] - image.hounsfield[at + stride]) > kEdgeHu)
+        image.fine[at] = image.fine[at + stride] = 1;
     }
     stride *= extent;
   }
@@ -135,8 +141,8 @@ std::vector<Eigen::Array3i> voxels_along(const Grid& grid, const phantom::Tube& 
   return chain;
 }
 
-/// Ducts and arteries thinner than two voxels keep a chain of voxels: a tube of a voxel's width, where sampling at centres
-/// would leave crumbs. Liver, gallbladder and other thin tubes are not overwritten.
+/// Ducts and arteries thinner than two voxels keep a chain of voxels: a tube of a voxel's width, where sampling at
+/// centres would leave crumbs. Liver, gallbladder and other thin tubes are not overwritten.
 void keep_thin_courses(const Patient& patient, Image& image) {
   for (const phantom::ThinCourse& each : patient.thin)
     for (const Eigen::Array3i& at : voxels_along(image.grid, each.tube)) {
@@ -173,7 +179,8 @@ std::vector<std::size_t> part_at(const Image& image, std::size_t start, std::vec
 
 /// Organs that are one part in anatomy. Liver and gallbladder are left as they are drawn.
 bool is_one_part(int label) {
-  return (label != 0 && label < phantom_label::kSkin && label != phantom_label::kLiver && label != phantom_label::kGallbladder) ||
+  return (label != 0 && label < phantom_label::kSkin && label != phantom_label::kLiver &&
+          label != phantom_label::kGallbladder) ||
          label == phantom_label::kHilumFat;
 }
 
@@ -194,26 +201,28 @@ void drop_crumbs(Image& image) {
 void sample_finely(const Patient& patient, Image& image, const Progress& progress) {
   const Grid& grid = image.grid;
   const int n = grid.voxel > 3 ? 3 : 2;  // samples along each edge of a voxel
-  for_each_block(patient, grid, progress, "partial volume", [&](const Candidates& candidates, const auto& first, const auto& last) {
-    for (int k = first[2]; k < last[2]; ++k)
-      for (int j = first[1]; j < last[1]; ++j)
-        for (int i = first[0]; i < last[0]; ++i) {
-          const std::size_t at = grid.offset(i, j, k);
-          if (image.fine[at] == 0) continue;
-          double sum = 0;
-          for (int s = 0; s < n * n * n; ++s) {
-            const Vec shift = (Vec(s % n, s / n % n, s / (n * n)).array() - 0.5 * (n - 1)) / n;
-            sum += sample_at(candidates, grid.centre(i, j, k) + grid.voxel * shift).hounsfield;
-          }
-          image.hounsfield[at] = static_cast<float>(sum / (n * n * n));
-        }
-  });
+  for_each_block(patient, grid, progress, "partial volume",
+                 [&](const Candidates& candidates, const auto& first, const auto& last) {
+                   for (int k = first[2]; k < last[2]; ++k)
+                     for (int j = first[1]; j < last[1]; ++j)
+                       for (int i = first[0]; i < last[0]; ++i) {
+                         const std::size_t at = grid.offset(i, j, k);
+                         if (image.fine[at] == 0) continue;
+                         double sum = 0;
+                         for (int s = 0; s < n * n * n; ++s) {
+                           const Vec shift = (Vec(s % n, s / n % n, s / (n * n)).array() - 0.5 * (n - 1)) / n;
+                           sum += sample_at(candidates, grid.centre(i, j, k) + grid.voxel * shift).hounsfield;
+                         }
+                         image.hounsfield[at] = static_cast<float>(sum / (n * n * n));
+                       }
+                 });
 }
 
 void require(double value, double least, double most, const char* name, const char* unit) {
   if (value >= least && value <= most) return;
   std::ostringstream text;
-  text << "phantom: " << name << " of " << value << " " << unit << " is outside " << least << " to " << most << " " << unit;
+  text << "phantom: " << name << " of " << value << " " << unit << " is outside " << least << " to " << most << " "
+       << unit;
   throw InputError(text.str());
 }
 
