@@ -88,15 +88,10 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
       organs.push_back(nlohmann::ordered_json::parse(organ_json(organ.manifest, organ.surface.bounds())));
     if (!options.json) out << organ_text(organ.manifest, organ.surface.bounds());
   }
-  const nlohmann::ordered_json report{{"synthetic", true},
-                                      {"seed", options.seed},
-                                      {"variant", options.variant},
-                                      {"patient", options.patient},
-                                      {"voxel_mm", options.voxel_mm},
-                                      {"label_table", kPhantomTable},
-                                      {"volume", "ct.nii.gz"},
-                                      {"labels", "labels.nii.gz"},
-                                      {"organs", organs}};
+  const nlohmann::ordered_json report{
+      {"synthetic", true},          {"seed", options.seed},         {"variant", options.variant},
+      {"patient", options.patient}, {"voxel_mm", options.voxel_mm}, {"label_table", kPhantomTable},
+      {"volume", "ct.nii.gz"},      {"labels", "labels.nii.gz"},    {"organs", organs}};
   if (options.json) out << report.dump(2) << "\n";
   return 0;
 }

@@ -1,9 +1,8 @@
 // `trocar organ phantom`: draws the synthetic CT phantom, writes it, and imports its liver and gallbladder from those
 // files.
 //
-// DIR receives ct.nii.gz, labels.nii.gz, README.md, phantom-liver and phantom-gallbladder (.organ.toml, .ply), and dicom/
-// when asked for.
-// Errors leave as EnvironmentError (exit code 3) when DIR cannot be written.
+// DIR receives ct.nii.gz, labels.nii.gz, README.md, phantom-liver and phantom-gallbladder (.organ.toml, .ply), and
+// dicom/ when asked for. Errors leave as EnvironmentError (exit code 3) when DIR cannot be written.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,7 @@ TEST(Phantom, OrgansHaveAdultVolumes) {
     double least, most;
   };
   for (const Range& range :
-       {Range{5, 1200, 1800}, Range{4, 25, 50}, Range{1, 120, 320}, Range{2, 100, 200}, Range{3, 100, 200}}) {
+       {Range{5, 1200, 1800}, Range{4, 25, 50}, Range{1, 100, 250}, Range{2, 120, 200}, Range{3, 120, 200}}) {
     EXPECT_GT(millilitres(range.label), range.least) << range.label;
     EXPECT_LT(millilitres(range.label), range.most) << range.label;
   }

@@ -37,8 +37,7 @@ void vary(Anatomy& anatomy, std::uint64_t patient) {
 Anatomy anatomy_of(PhantomVariant variant, std::uint64_t patient) {
   Anatomy anatomy;
   anatomy.variant = variant;
-  if (variant == PhantomVariant::kFat)
-    anatomy.outer_fat_mm = 22, anatomy.omentum_mm = 18, anatomy.hilum_fat_mm = 9;
+  if (variant == PhantomVariant::kFat) anatomy.outer_fat_mm = 22, anatomy.omentum_mm = 18, anatomy.hilum_fat_mm = 9;
   if (patient != 0) vary(anatomy, patient);
   return anatomy;
 }

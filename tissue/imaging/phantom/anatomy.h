@@ -11,8 +11,8 @@ namespace trocar::phantom {
 
 struct Anatomy {
   PhantomVariant variant = PhantomVariant::kNormal;
-  double liver_scale = 1;     ///< of the radii of its lobes; the visceral face stays
-  double sac_scale = 1;       ///< of the gallbladder's radii; the neck stays
+  double liver_scale = 1;  ///< of the radii of its lobes; the visceral face stays
+  double sac_scale = 1;    ///< of the gallbladder's radii; the neck stays
   double spleen_scale = 1;
   double duct_calibre = 1;    ///< of every bile duct
   double artery_calibre = 1;  ///< of every hepatic and cystic artery

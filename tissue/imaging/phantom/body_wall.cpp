@@ -14,13 +14,19 @@ constexpr double kFatDepthMm = 16, kWallDepthMm = 28, kVertebraMm = 36;
 
 /// What lies outside an inset of the trunk, which is convex: a box whose corners lie within holds nothing of it.
 Structure outside_of(std::uint16_t label, double inset, std::function<double(const Vec&, double)> hounsfield) {
-  return {label, everywhere(), [inset](const Vec& p) { return -trunk(p, inset); }, std::move(hounsfield),
+  return {label,
+          everywhere(),
+          [inset](const Vec& p) { return -trunk(p, inset); },
+          std::move(hounsfield),
           [inset](const Box& box) {
             for (const auto x : {box.min().x(), box.max().x()})
               for (const auto y : {box.min().y(), box.max().y()})
                 if (trunk(Vec(x, y, 0), inset) >= 0) return false;
             return true;
-          }, true};
+          },
+          0,
+          0,
+          true};
 }
 
 double within_vertebra(const Vec& p) { return std::abs(p.z() - kVertebraMm * std::round(p.z() / kVertebraMm)); }
@@ -58,7 +64,7 @@ double draped(const Vec& p, const Anatomy& a) {
   const double organs = joined(liver_lobes(p, a), spleen(p, a), 40);
   const double mediastinum = pillar(p, 2, -34, 42, 46);
   const double retroperitoneum = joined(mediastinum, ellipsoid(p, Vec(-52, -44, 6), Vec(50, 40, 62)), 20);
-  return joined(joined(joined(organs, stomach_mass(p), 30), heart_mass(p), 20), retroperitoneum, 20) - 5;
+  return joined(joined(joined(organs, stomach_mass(p, organs + 30), 30), heart_mass(p), 20), retroperitoneum, 20) - 5;
 }
 
 constexpr double kFloorFilletMm = 12;
@@ -70,7 +76,8 @@ double lungs(const Vec& p, const Anatomy& a) {
 
 double wall_hounsfield(const Vec& p, double) {
   const double side = std::abs(p.x());
-  if (p.y() > 30 && p.z() < 30 && (side < 2 || std::abs(side - 68 - 0.1 * p.y()) < 1.5)) return -60;  // white and semilunar line
+  if (p.y() > 30 && p.z() < 30 && (side < 2 || std::abs(side - 68 - 0.1 * p.y()) < 1.5))
+    return -60;  // white and semilunar line
   const double depth = -trunk(p, kFatDepthMm);
   return side > 72 && std::abs(std::fmod(depth, 4) - 2) < 0.35 ? 5 : 58;  // three layers at the side
 }
@@ -78,7 +85,10 @@ double wall_hounsfield(const Vec& p, double) {
 double back_muscles(const Vec& p) { return std::min(pillar(p, 32, -86, 30, 16), pillar(p, -32, -86, 30, 16)); }
 
 Tube psoas(double side) {
-  return Tube({{Vec(side * 25, -60, 14), 6}, {Vec(side * 31, -58, -50), 13}, {Vec(side * 39, -54, -105), 19}, {Vec(side * 46, -48, -165), 23}});
+  return Tube({{Vec(side * 25, -60, 14), 6},
+               {Vec(side * 31, -58, -50), 13},
+               {Vec(side * 39, -54, -105), 19},
+               {Vec(side * 46, -48, -165), 23}});
 }
 
 }  // namespace
@@ -91,7 +101,8 @@ void add_outside(std::vector<Structure>& to, const Anatomy& a, double sheet_mm) 
                           [a](const Vec& p, double) { return trunk(p, 2 - a.outer_fat_mm) > 0 ? 30.0 : -105.0; }));
   to.push_back(outside_of(label::kSubcutaneousFat, kFatDepthMm,
                           [](const Vec& p, double) { return -105 + 4 * std::sin(0.4 * p.x() + 0.3 * p.y()); }));
-  to.push_back({label::kVertebrae, Box(Vec(-24, -116, -1e6), Vec(24, -36, 1e6)), spine, spine_hounsfield, {}, true});
+  to.push_back(
+      {label::kVertebrae, Box(Vec(-24, -116, -1e6), Vec(24, -36, 1e6)), spine, spine_hounsfield, {}, 0, 0, true});
 }
 
 void add_wall(std::vector<Structure>& to, const Anatomy& a, double sheet_mm) {
@@ -104,12 +115,15 @@ void add_wall(std::vector<Structure>& to, const Anatomy& a, double sheet_mm) {
   to.push_back(outside_of(label::kMuscle, kWallDepthMm, wall_hounsfield));
   to.push_back({label::kMuscle, Box(Vec(-64, -104, -1e6), Vec(64, -68, 1e6)), back_muscles, filled(56)});
   for (const double side : {1.0, -1.0}) to.push_back(tube_structure(label::kMuscle, psoas(side), filled(60)));
-  const Box chest(Vec(-150, -100, -20), Vec(150, 110, 1e6));
-  to.push_back(measured({label::kLungs, chest, [a](const Vec& p) { return lungs(p, a); },
-                [](const Vec& p, double) { return -850 + 25 * std::sin(0.22 * p.x()) * std::sin(0.2 * p.y()) * std::sin(0.25 * p.z()); }}));
   const double sheet = std::max(3.5, sheet_mm);
-  to.push_back(measured({label::kDiaphragm, Box(Vec(-150, -100, -30), Vec(150, 110, 1e6)),
-                [a, sheet](const Vec& p) { return lungs(p, a) - sheet; }, filled(58)}));
+  Structure chest{label::kDiaphragm, Box(Vec(-150, -100, -30), Vec(150, 110, 1e6)),
+                  [a, sheet](const Vec& p) { return lungs(p, a) - sheet; },
+                  [sheet](const Vec& p, double d) {
+                    if (d > -sheet) return 58.0;
+                    return -850 + 25 * std::sin(0.22 * p.x()) * std::sin(0.2 * p.y()) * std::sin(0.25 * p.z());
+                  }};
+  chest.core_label = label::kLungs, chest.core_depth = sheet;
+  to.push_back(measured(std::move(chest)));
 }
 
 }  // namespace trocar::phantom

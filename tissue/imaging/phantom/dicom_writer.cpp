@@ -25,7 +25,8 @@ void append(std::string& bytes, T value) {
 }
 
 /// One data element with an explicit value representation; values are padded to an even length.
-void element(std::string& bytes, std::uint16_t group, std::uint16_t number, const char* representation, std::string value) {
+void element(std::string& bytes, std::uint16_t group, std::uint16_t number, const char* representation,
+             std::string value) {
   const std::string_view vr(representation);
   const bool binary = vr == "UI" || vr == "OB" || vr == "OW";
   if (value.size() % 2 != 0) value += binary ? '\0' : ' ';
@@ -57,7 +58,8 @@ std::string decimal(double value) {
 /// FNV-1a of the image: the same image, the same identifiers.
 std::uint64_t fingerprint(const CtPhantom& phantom) {
   std::uint64_t hash = 14695981039346656037ULL;
-  for (const std::int16_t value : phantom.hounsfield) hash = (hash ^ static_cast<std::uint16_t>(value)) * 1099511628211ULL;
+  for (const std::int16_t value : phantom.hounsfield)
+    hash = (hash ^ static_cast<std::uint16_t>(value)) * 1099511628211ULL;
   return hash;
 }
 
@@ -70,7 +72,8 @@ struct Identifiers {
 };
 
 Identifiers identifiers_of(std::uint64_t image, int k) {
-  return {identifier(image, 1), identifier(image, 2), identifier(image, 3), identifier(image, 16 + static_cast<std::uint64_t>(k))};
+  return {identifier(image, 1), identifier(image, 2), identifier(image, 3),
+          identifier(image, 16 + static_cast<std::uint64_t>(k))};
 }
 
 std::string file_meta(const Identifiers& id) {

@@ -1,8 +1,8 @@
 // Writes the phantom's CT as a DICOM series, so that the way from a hospital's folder can be tried without a patient.
 //
-// CT Image Storage, explicit VR little endian, one file a slice, 12 bits stored with an intercept of -1024. Patient name and ID
-// read PHANTOM; dates are those of no study; UIDs (2.25, made from the image) are the same for the same image.
-// DICOM PS3.5 section 7 (elements), PS3.3 A.3 (CT IOD). Axial slices, patient frame LPS. Thread: any.
+// CT Image Storage, explicit VR little endian, one file a slice, 12 bits stored with an intercept of -1024. Patient
+// name and ID read PHANTOM; dates are those of no study; UIDs (2.25, made from the image) are the same for the same
+// image. DICOM PS3.5 section 7 (elements), PS3.3 A.3 (CT IOD). Axial slices, patient frame LPS. Thread: any.
 #pragma once
 
 #include <filesystem>

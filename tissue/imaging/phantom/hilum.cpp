@@ -21,9 +21,11 @@ Course cystic_duct(const Anatomy& a) {
   if (a.variant == PhantomVariant::kShortDuct) return {neck, tip, Vec(15.5, -1.8, 7.6 + bow), junction(a)};
   Course course{neck, tip, Vec(17, -2.2, 9), Vec(14.8 + bow, -3.8, 4.5)};
   if (a.variant == PhantomVariant::kLowInsertion)
-    for (const Vec& at : {Vec(14.5, -6, -8), Vec(14.5, -8, -22), Vec(15.5, -10.5, -38)}) course.push_back(at + Vec(bow, 0, 0));
+    for (const Vec& at : {Vec(14.5, -6, -8), Vec(14.5, -8, -22), Vec(15.5, -10.5, -38)})
+      course.push_back(at + Vec(bow, 0, 0));
   else
-    for (const Vec& at : {Vec(14.3, -4.5, -4), Vec(12, -4.3, -13)}) course.push_back(at + Vec(bow, 0, 0.5 * a.junction_mm));
+    for (const Vec& at : {Vec(14.3, -4.5, -4), Vec(12, -4.3, -13)})
+      course.push_back(at + Vec(bow, 0, 0.5 * a.junction_mm));
   course.push_back(junction(a));
   return course;
 }
@@ -49,7 +51,7 @@ Course bile_duct(const Anatomy& a) {
 Course cystic_artery(const Anatomy& a) {
   const double bow = a.artery_bow_mm;
   if (a.variant == PhantomVariant::kArteryAnterior)
-    return {Vec(-3, -0.5, 8),      Vec(-2.5, 4.5, 8.5 + bow), Vec(0.5, 8.6, 9 + bow), Vec(5.5, 9.3, 9.5 + bow),
+    return {Vec(-3, -0.5, 8),       Vec(-2.5, 4.5, 8.5 + bow), Vec(0.5, 8.6, 9 + bow), Vec(5.5, 9.3, 9.5 + bow),
             Vec(11, 7.6, 10 + bow), Vec(16.5, 5, 10.6),        Vec(22, 2, 7)};
   return {Vec(12, -4.2, 14.2), Vec(16, -6, 12.8 + bow), Vec(20, -6.2, 10 + bow), Vec(23, -4.2, 6.5), Vec(25.2, 1, 4)};
 }
@@ -65,8 +67,10 @@ Tube even(const Course& course, double radius) {
 std::vector<NamedTube> hilum(const Anatomy& a) {
   namespace label = phantom_label;
   const double duct = a.duct_calibre, artery = a.artery_calibre;
-  const Course hepatic{Vec(-14, -23, 2), Vec(-13, -13, 4), Vec(-10, -5, -2), Vec(-6, -2, -5), Vec(-4, -1, 2), Vec(-3, -0.5, 8)};
-  const Course right{Vec(-3, -0.5, 8), Vec(0, -3.5, 11), Vec(4, -5, 12.5), Vec(9, -4.5, 13), Vec(14, -4, 15), Vec(20, -2, 21)};
+  const Course hepatic{Vec(-14, -23, 2), Vec(-13, -13, 4), Vec(-10, -5, -2),
+                       Vec(-6, -2, -5),  Vec(-4, -1, 2),   Vec(-3, -0.5, 8)};
+  const Course right{Vec(-3, -0.5, 8), Vec(0, -3.5, 11), Vec(4, -5, 12.5),
+                     Vec(9, -4.5, 13), Vec(14, -4, 15),  Vec(20, -2, 21)};
   const Course left{Vec(-3, -0.5, 8), Vec(-3, 1, 14), Vec(-6, 6, 22), Vec(-10, 10, 30)};
   return {{label::kBileDuct, even(bile_duct(a), 2.75 * duct)},
           {label::kHepaticDuct, even(hepatic_duct(a), 2.4 * duct)},

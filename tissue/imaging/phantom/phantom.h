@@ -53,8 +53,7 @@ CtPhantom make_phantom(const PhantomOptions& options, const Progress& progress =
 struct PhantomTube {
   std::string name;  ///< of its label
   int label = 0;
-  std::vector<Eigen::Vector3d> points_mm;  ///< centreline, steps of about 1 mm, from the end nearer the gallbladder (ducts) or the
-                                           ///< heart (arteries)
+  std::vector<Eigen::Vector3d> points_mm;  ///< centreline, steps of about 1 mm, the way that bile or blood flows
   std::vector<double> radii_mm;            ///< outer, one a point
 
   double length_mm() const;

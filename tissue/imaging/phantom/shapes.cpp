@@ -79,6 +79,12 @@ void Tube::ripple(double depth, double wave_mm) {
 void Tube::index() {
   runs_.clear();
   whole_ = {{}, 0, 0, course_.size() - 1};
+  steps_.clear();
+  for (std::size_t n = 0; n + 1 < course_.size(); ++n) {
+    const Vec axis = course_[n + 1].at - course_[n].at;
+    steps_.push_back(
+        {course_[n].at, axis, 1 / axis.squaredNorm(), course_[n].radius, course_[n + 1].radius - course_[n].radius});
+  }
   for (std::size_t first = 0; first + 1 < course_.size(); first += kRun) {
     Run run{{}, 0, first, std::min(first + kRun, course_.size() - 1)};
     for (std::size_t n = run.first; n <= run.last; ++n) {
@@ -98,10 +104,19 @@ double Tube::distance(const Vec& p, double reach) const {
   for (const Run& run : runs_) {
     const double limit = nearest + run.radius;
     if (limit <= 0 || run.box.squaredExteriorDistance(p) >= limit * limit) continue;
-    for (std::size_t n = run.first; n < run.last; ++n)
-      nearest = std::min(nearest, swept_ball(p, course_[n].at, course_[n].radius, course_[n + 1].at, course_[n + 1].radius));
+    for (std::size_t n = run.first; n < run.last; ++n) {
+      const Step& step = steps_[n];
+      const Vec to = p - step.from;
+      const double t = std::clamp(to.dot(step.axis) * step.per_length2, 0.0, 1.0);
+      nearest = std::min(nearest, (to - t * step.axis).norm() - (step.radius + t * step.growth));
+    }
   }
   return nearest;
+}
+
+bool Tube::misses(const Box& region) const {
+  return std::all_of(runs_.begin(), runs_.end(),
+                     [&](const Run& run) { return run.box.exteriorDistance(region) >= run.radius; });
 }
 
 Box Tube::box() const {

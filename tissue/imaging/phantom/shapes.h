@@ -1,5 +1,5 @@
-// Implicit shapes that the phantom is drawn from: signed distances (approximate where a shape is squashed), mm, negative
-// inside, RAS. Thread: any.
+// Implicit shapes that the phantom is drawn from: signed distances (approximate where a shape is squashed), mm,
+// negative inside, RAS. Thread: any.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -38,6 +38,8 @@ class Tube {
   /// @param reach parts farther than this are passed over: where the answer would be more, it is `reach`
   double distance(const Vec& p, double reach = 1e9) const;
   Box box() const;
+  /// No point of the tube lies in the box.
+  bool misses(const Box& region) const;
   const std::vector<Knot>& course() const { return course_; }
 
  private:
@@ -48,7 +50,13 @@ class Tube {
   };
   void index();
 
+  /// Between two points of the course, ready for the distance.
+  struct Step {
+    Vec from, axis;
+    double per_length2, radius, growth;
+  };
   std::vector<Knot> course_;
+  std::vector<Step> steps_;
   Run whole_;
   std::vector<Run> runs_;
 };

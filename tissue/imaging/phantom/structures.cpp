@@ -41,8 +41,9 @@ Structure kidney_structure(std::uint16_t label, double side) {
 void add_solid_organs(std::vector<Structure>& to, const Anatomy& a) {
   to.push_back(measured(gallbladder_structure(a)));
   to.push_back(measured(liver_structure(a)));
-  to.push_back(measured({label::kSpleen, around(Vec(-112, -26, 32), Vec(32, 55, 55)), [a](const Vec& p) { return spleen(p, a); },
-                         [](const Vec& p, double) { return 122 + mottle(p, 2); }}));
+  to.push_back(
+      measured({label::kSpleen, around(Vec(-112, -26, 32), Vec(32, 55, 55)), [a](const Vec& p) { return spleen(p, a); },
+                [](const Vec& p, double) { return 122 + mottle(p, 2); }}));
   to.push_back(measured(kidney_structure(label::kKidneyRight, 1)));
   to.push_back(measured(kidney_structure(label::kKidneyLeft, -1)));
 }
@@ -97,8 +98,10 @@ std::function<double(const Vec&, double)> filled(double hounsfield) {
 }
 
 Structure tube_structure(std::uint16_t label, Tube tube, std::function<double(const Vec&, double)> hounsfield) {
-  const Box box = tube.box();
-  return {label, box, [tube = std::move(tube)](const Vec& p) { return tube.distance(p, 0.5); }, std::move(hounsfield)};
+  Structure structure{label, tube.box(), {}, std::move(hounsfield)};
+  structure.misses = [tube](const Box& box) { return tube.misses(box); };
+  structure.distance = [tube = std::move(tube)](const Vec& p) { return tube.distance(p, 0.5); };
+  return structure;
 }
 
 Patient draw_patient(const Anatomy& anatomy, double sheet_mm) {

@@ -21,6 +21,8 @@ PhantomVariant phantom_variant(std::string_view name) {
   throw InputError("no phantom variant \"" + std::string(name) + "\"; known: " + known);
 }
 
-PhantomVariant phantom_variant_of_seed(std::uint64_t seed) { return kPhantomVariants.at(seed % kPhantomVariants.size()); }
+PhantomVariant phantom_variant_of_seed(std::uint64_t seed) {
+  return kPhantomVariants.at(seed % kPhantomVariants.size());
+}
 
 }  // namespace trocar

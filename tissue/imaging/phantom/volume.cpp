@@ -1,14 +1,12 @@
-// From shapes to voxels: labels at voxel centres, HU with partial volume, the scanner's point spread and its noise.
+// From shapes to voxels: labels at voxel centres, HU with partial volume.
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <random>
-#include <set>
 #include <sstream>
 
 #include "haptics/input_error.h"
 #include "tissue/imaging/phantom/phantom_labels.h"
+#include "tissue/imaging/phantom/scanner.h"
 #include "tissue/imaging/phantom/structures.h"
 
 namespace trocar {
@@ -20,8 +18,7 @@ using phantom::Structure;
 using phantom::Vec;
 
 constexpr int kBlock = 6;
-constexpr double kPointSpreadMm = 0.65;  ///< standard deviation: 1.5 mm full width at half maximum
-constexpr float kEdgeHu = 20;            ///< neighbours that differ by more are sampled finely
+constexpr float kEdgeHu = 20;  ///< neighbours that differ by more are sampled finely
 
 struct Grid {
   std::array<int, 3> size{};
@@ -29,10 +26,14 @@ struct Grid {
   double voxel;
 
   std::size_t offset(int i, int j, int k) const {
-    return static_cast<std::size_t>(i) + static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+    return static_cast<std::size_t>(i) +
+           static_cast<std::size_t>(size[0]) *
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
   }
   Vec centre(int i, int j, int k) const { return low + voxel * Vec(i, j, k); }
-  bool holds(const Eigen::Array3i& at) const { return (at >= 0).all() && at[0] < size[0] && at[1] < size[1] && at[2] < size[2]; }
+  bool holds(const Eigen::Array3i& at) const {
+    return (at >= 0).all() && at[0] < size[0] && at[1] < size[1] && at[2] < size[2];
+  }
 };
 
 struct Image {
@@ -66,7 +67,9 @@ Sample sample_at(const Candidates& candidates, const Vec& p) {
   for (const Structure* each : candidates) {
     if (!each->box.contains(p)) continue;
     const double d = each->distance(p);
-    if (d < 0) return {each->label, each->hounsfield(p, d)};
+    if (d >= 0) continue;
+    const bool core = each->core_label != 0 && d < -each->core_depth;
+    return {core ? each->core_label : each->label, each->hounsfield(p, d)};
   }
   return {0, -1000};
 }
@@ -90,16 +93,17 @@ void for_each_block(const Patient& patient, const Grid& grid, const Progress& pr
 
 void sample_centres(const Patient& patient, Image& image, const Progress& progress) {
   const Grid& grid = image.grid;
-  for_each_block(patient, grid, progress, "drawing organs", [&](const Candidates& candidates, const auto& first, const auto& last) {
-    for (int k = first[2]; k < last[2]; ++k)
-      for (int j = first[1]; j < last[1]; ++j)
-        for (int i = first[0]; i < last[0]; ++i) {
-          const Sample sample = sample_at(candidates, grid.centre(i, j, k));
-          const std::size_t at = grid.offset(i, j, k);
-          image.labels[at] = sample.label;
-          image.hounsfield[at] = static_cast<float>(sample.hounsfield);
-        }
-  });
+  for_each_block(patient, grid, progress, "drawing organs",
+                 [&](const Candidates& candidates, const auto& first, const auto& last) {
+                   for (int k = first[2]; k < last[2]; ++k)
+                     for (int j = first[1]; j < last[1]; ++j)
+                       for (int i = first[0]; i < last[0]; ++i) {
+                         const Sample sample = sample_at(candidates, grid.centre(i, j, k));
+                         const std::size_t at = grid.offset(i, j, k);
+                         image.labels[at] = sample.label;
+                         image.hounsfield[at] = static_cast<float>(sample.hounsfield);
+                       }
+                 });
 }
 
 void mark_edges(Image& image) {
@@ -109,7 +113,8 @@ void mark_edges(Image& image) {
     const auto extent = static_cast<std::size_t>(size[axis]);
     for (std::size_t at = 0; at + stride < image.hounsfield.size(); ++at) {
       if (at / stride % extent + 1 == extent) continue;
-      if (std::abs(image.hounsfield[at] - image.hounsfield[at + stride]) > kEdgeHu) image.fine[at] = image.fine[at + stride] = 1;
+      if (std::abs(image.hounsfield[at] - image.hounsfield[at + stride]) > kEdgeHu)
+        image.fine[at] = image.fine[at + stride] = 1;
     }
     stride *= extent;
   }
@@ -136,8 +141,8 @@ std::vector<Eigen::Array3i> voxels_along(const Grid& grid, const phantom::Tube& 
   return chain;
 }
 
-/// Ducts and arteries thinner than two voxels keep a chain of voxels: a tube of a voxel's width, where sampling at centres
-/// would leave crumbs. Liver, gallbladder and other thin tubes are not overwritten.
+/// Ducts and arteries thinner than two voxels keep a chain of voxels: a tube of a voxel's width, where sampling at
+/// centres would leave crumbs. Liver, gallbladder and other thin tubes are not overwritten.
 void keep_thin_courses(const Patient& patient, Image& image) {
   for (const phantom::ThinCourse& each : patient.thin)
     for (const Eigen::Array3i& at : voxels_along(image.grid, each.tube)) {
@@ -150,130 +155,74 @@ void keep_thin_courses(const Patient& patient, Image& image) {
     }
 }
 
-/// One part of `voxels` (sorted), hanging together over faces; taken out of `left`.
-std::vector<std::size_t> part_of(const Grid& grid, std::set<std::size_t>& left) {
-  const auto plane = static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1]);
-  std::vector<std::size_t> part{*left.begin()};
-  left.erase(left.begin());
-  for (std::size_t n = 0; n < part.size(); ++n)
-    for (const std::size_t step : {std::size_t{1}, static_cast<std::size_t>(grid.size[0]), plane})
-      for (const std::size_t next : {part[n] + step, part[n] - step})
-        if (left.erase(next) > 0) part.push_back(next);
+/// The voxels of the part that holds `start`, hanging together over faces; marks them in `seen`.
+std::vector<std::size_t> part_at(const Image& image, std::size_t start, std::vector<bool>& seen) {
+  const auto& size = image.grid.size;
+  std::vector<std::size_t> part{start};
+  seen[start] = true;
+  for (std::size_t n = 0; n < part.size(); ++n) {
+    std::size_t stride = 1;
+    for (const int extent : size) {
+      const auto length = static_cast<std::size_t>(extent), index = part[n] / stride % length;
+      for (const bool up : {false, true}) {
+        if (up ? index + 1 == length : index == 0) continue;
+        const std::size_t next = up ? part[n] + stride : part[n] - stride;
+        if (seen[next] || image.labels[next] != image.labels[start]) continue;
+        seen[next] = true;
+        part.push_back(next);
+      }
+      stride *= length;
+    }
+  }
   return part;
 }
 
-/// Where a tube slips behind a wider one, single voxels of it may come out on the other side: they are called fat, so that
-/// each duct, each artery and the fat of the hilum is one part.
+/// Organs that are one part in anatomy. Liver and gallbladder are left as they are drawn.
+bool is_one_part(int label) {
+  return (label != 0 && label < phantom_label::kSkin && label != phantom_label::kLiver &&
+          label != phantom_label::kGallbladder) ||
+         label == phantom_label::kHilumFat;
+}
+
+/// Where an organ slips behind another, single voxels may come out on the other side: they are called fat.
 void drop_crumbs(Image& image) {
-  std::map<std::uint16_t, std::set<std::size_t>> voxels;
-  for (std::size_t at = 0; at < image.labels.size(); ++at)
-    if (is_thin(image.labels[at]) || image.labels[at] == phantom_label::kHilumFat) voxels[image.labels[at]].insert(at);
-  for (auto& [label, left] : voxels) {
-    std::vector<std::vector<std::size_t>> parts;
-    while (!left.empty()) parts.push_back(part_of(image.grid, left));
-    const auto largest = std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    for (auto part = parts.begin(); part != parts.end(); ++part)
-      if (part != largest)
-        for (const std::size_t at : *part) image.labels[at] = phantom_label::kVisceralFat;
+  std::vector<bool> seen(image.labels.size());
+  std::map<std::uint16_t, std::vector<std::size_t>> largest;
+  for (std::size_t at = 0; at < image.labels.size(); ++at) {
+    const std::uint16_t label = image.labels[at];
+    if (seen[at] || !is_one_part(label)) continue;
+    std::vector<std::size_t> part = part_at(image, at, seen);
+    std::vector<std::size_t>& kept = largest[label];
+    if (part.size() > kept.size()) std::swap(part, kept);
+    for (const std::size_t crumb : part) image.labels[crumb] = phantom_label::kVisceralFat;
   }
 }
 
 void sample_finely(const Patient& patient, Image& image, const Progress& progress) {
   const Grid& grid = image.grid;
-  const int n = grid.voxel >= 2 ? 3 : 2;
-  for_each_block(patient, grid, progress, "partial volume", [&](const Candidates& candidates, const auto& first, const auto& last) {
-    for (int k = first[2]; k < last[2]; ++k)
-      for (int j = first[1]; j < last[1]; ++j)
-        for (int i = first[0]; i < last[0]; ++i) {
-          const std::size_t at = grid.offset(i, j, k);
-          if (image.fine[at] == 0) continue;
-          double sum = 0;
-          for (int s = 0; s < n * n * n; ++s) {
-            const Vec shift = (Vec(s % n, s / n % n, s / (n * n)).array() - 0.5 * (n - 1)) / n;
-            sum += sample_at(candidates, grid.centre(i, j, k) + grid.voxel * shift).hounsfield;
-          }
-          image.hounsfield[at] = static_cast<float>(sum / (n * n * n));
-        }
-  });
-}
-
-/// Normal deviates by Box and Muller from a named generator: the same on every machine.
-class Noise {
- public:
-  explicit Noise(std::uint64_t seed) : engine_(seed) {}
-
-  double operator()() {
-    if (has_spare_) return has_spare_ = false, spare_;
-    const double u = (static_cast<double>(engine_() >> 11) + 1) * 0x1p-53, v = static_cast<double>(engine_() >> 11) * 0x1p-53;
-    const double radius = std::sqrt(-2 * std::log(u)), angle = 2 * std::numbers::pi * v;
-    spare_ = radius * std::sin(angle), has_spare_ = true;
-    return radius * std::cos(angle);
-  }
-
- private:
-  std::mt19937_64 engine_;
-  double spare_ = 0;
-  bool has_spare_ = false;
-};
-
-/// Half of a symmetric kernel of sum 1: [0] the middle.
-std::vector<float> point_spread(double voxel) {
-  const double sigma = kPointSpreadMm / voxel;
-  std::vector<double> half;
-  double sum = 0;
-  for (int n = 0; n <= static_cast<int>(std::ceil(3 * sigma)); ++n) {
-    half.push_back(std::exp(-0.5 * n * n / (sigma * sigma)));
-    sum += n == 0 ? half.back() : 2 * half.back();
-  }
-  std::vector<float> kernel;
-  for (const double value : half) kernel.push_back(static_cast<float>(value / sum));
-  return kernel;
-}
-
-void blur_line(std::vector<float>& line, const std::vector<float>& from, const std::vector<float>& kernel) {
-  const auto length = static_cast<std::ptrdiff_t>(line.size()), reach = static_cast<std::ptrdiff_t>(kernel.size()) - 1;
-  for (std::ptrdiff_t n = 0; n < length; ++n) {
-    float sum = kernel[0] * from[static_cast<std::size_t>(n)];
-    for (std::ptrdiff_t s = 1; s <= reach; ++s)
-      sum += kernel[static_cast<std::size_t>(s)] * (from[static_cast<std::size_t>(std::max(n - s, std::ptrdiff_t{0}))] +
-                                                    from[static_cast<std::size_t>(std::min(n + s, length - 1))]);
-    line[static_cast<std::size_t>(n)] = sum;
-  }
-}
-
-void blur(std::vector<float>& values, const std::array<int, 3>& size, const std::vector<float>& kernel) {
-  std::size_t stride = 1;
-  for (const int extent : size) {
-    const auto length = static_cast<std::size_t>(extent);
-    std::vector<float> from(length), line(length);
-    for (std::size_t start = 0; start < values.size(); ++start) {
-      if (start / stride % length != 0) {
-        start += stride * (length - 1) - 1;  // to the next line's first voxel
-        continue;
-      }
-      for (std::size_t n = 0; n < length; ++n) from[n] = values[start + n * stride];
-      blur_line(line, from, kernel);
-      for (std::size_t n = 0; n < length; ++n) values[start + n * stride] = line[n];
-    }
-    stride *= length;
-  }
-}
-
-/// White noise strong enough to have `deviation` after the blur, then the blur.
-void scan(Image& image, const PhantomOptions& options) {
-  const std::vector<float> kernel = point_spread(options.voxel_mm);
-  double left = 0;
-  for (std::size_t n = 0; n < kernel.size(); ++n) left += (n == 0 ? 1 : 2) * static_cast<double>(kernel[n]) * kernel[n];
-  const double white = options.noise_hu / std::pow(left, 1.5);  // the same kernel along three axes
-  Noise noise(options.seed);
-  for (float& value : image.hounsfield) value += static_cast<float>(white * noise());
-  blur(image.hounsfield, image.grid.size, kernel);
+  const int n = grid.voxel > 3 ? 3 : 2;  // samples along each edge of a voxel
+  for_each_block(patient, grid, progress, "partial volume",
+                 [&](const Candidates& candidates, const auto& first, const auto& last) {
+                   for (int k = first[2]; k < last[2]; ++k)
+                     for (int j = first[1]; j < last[1]; ++j)
+                       for (int i = first[0]; i < last[0]; ++i) {
+                         const std::size_t at = grid.offset(i, j, k);
+                         if (image.fine[at] == 0) continue;
+                         double sum = 0;
+                         for (int s = 0; s < n * n * n; ++s) {
+                           const Vec shift = (Vec(s % n, s / n % n, s / (n * n)).array() - 0.5 * (n - 1)) / n;
+                           sum += sample_at(candidates, grid.centre(i, j, k) + grid.voxel * shift).hounsfield;
+                         }
+                         image.hounsfield[at] = static_cast<float>(sum / (n * n * n));
+                       }
+                 });
 }
 
 void require(double value, double least, double most, const char* name, const char* unit) {
   if (value >= least && value <= most) return;
   std::ostringstream text;
-  text << "phantom: " << name << " of " << value << " " << unit << " is outside " << least << " to " << most << " " << unit;
+  text << "phantom: " << name << " of " << value << " " << unit << " is outside " << least << " to " << most << " "
+       << unit;
   throw InputError(text.str());
 }
 
@@ -302,7 +251,7 @@ CtPhantom make_phantom(const PhantomOptions& options, const Progress& progress) 
   drop_crumbs(image);
   sample_finely(patient, image, progress);
   report(progress, "noise and point spread", 0);
-  scan(image, options);
+  phantom::scan(image.hounsfield, image.grid.size, {options.voxel_mm, options.noise_hu, options.seed});
   CtPhantom phantom;
   phantom.labels.size = image.grid.size;
   phantom.labels.index_to_ras_mm.linear() = Eigen::Matrix3d::Identity() * options.voxel_mm;
