@@ -1,6 +1,7 @@
 #include "tissue/imaging/dicom/dicom_catalogue.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <tuple>
@@ -20,11 +21,14 @@ std::string short_hash(const std::string& identity) { return digest::of_bytes(id
 
 const char* plural(int count) { return count == 1 ? " image" : " images"; }
 
+/// Frames as files claim them, which may be any number.
+int sum_of(int a, int b) { return static_cast<int>(std::min(std::int64_t{a} + b, std::int64_t{1000000000})); }
+
 /// What can be said of a series of images without decoding any.
 void measure(CataloguedSeries& series, const std::string& input) {
   DicomSeries& facts = series.facts;
   for (const DicomInstance& instance : series.instances) {
-    facts.images += instance.frames;
+    facts.images = sum_of(facts.images, instance.frames);
     if (facts.rows == 0) facts.rows = instance.rows, facts.columns = instance.columns;
   }
   try {
@@ -49,7 +53,7 @@ void describe_series(CataloguedSeries& series, const std::string& input) {
   for (const DicomInstance& instance : series.instances) {
     if (series.facts.problem.empty()) series.facts.problem = instance.problem;
     if (first.kind != DicomKind::kSegmentation) continue;
-    series.facts.images += instance.frames;
+    series.facts.images = sum_of(series.facts.images, instance.frames);
     series.facts.rows = instance.rows, series.facts.columns = instance.columns;
   }
 }
