@@ -11,10 +11,14 @@ namespace {
 
 const char* syntax_of(Encoding encoding) {
   switch (encoding) {
-    case Encoding::kImplicit: return "1.2.840.10008.1.2";
-    case Encoding::kBigEndian: return "1.2.840.10008.1.2.2";
-    case Encoding::kDeflated: return "1.2.840.10008.1.2.1.99";
-    case Encoding::kExplicit: break;
+    case Encoding::kImplicit:
+      return "1.2.840.10008.1.2";
+    case Encoding::kBigEndian:
+      return "1.2.840.10008.1.2.2";
+    case Encoding::kDeflated:
+      return "1.2.840.10008.1.2.1.99";
+    case Encoding::kExplicit:
+      break;
   }
   return "1.2.840.10008.1.2.1";
 }
@@ -81,7 +85,9 @@ Elements& Elements::text(std::uint32_t tag, const char* vr, const std::string& v
   return bytes(tag, vr, padded);
 }
 
-Elements& Elements::numbers(std::uint32_t tag, const std::vector<double>& values) { return text(tag, "DS", joined(values)); }
+Elements& Elements::numbers(std::uint32_t tag, const std::vector<double>& values) {
+  return text(tag, "DS", joined(values));
+}
 
 Elements& Elements::word(std::uint32_t tag, unsigned value) { return bytes(tag, "US", number(value, 2)); }
 
@@ -127,7 +133,8 @@ std::string dicom_file(const Elements& data, const std::string& syntax) {
   const std::string inside = meta.encoded(), body = data.encoded();
   Elements length;
   length.bytes(0x00020000, "UL", std::string{static_cast<char>(inside.size()), 0, 0, 0});
-  return std::string(128, '\0') + "DICM" + length.encoded() + inside + (data.encoding() == Encoding::kDeflated ? deflated(body) : body);
+  return std::string(128, '\0') + "DICM" + length.encoded() + inside +
+         (data.encoding() == Encoding::kDeflated ? deflated(body) : body);
 }
 
 std::string SliceFixture::pixels() const {
@@ -149,10 +156,12 @@ std::string SliceFixture::pixels() const {
 Elements SliceFixture::elements() const {
   Elements data(encoding);
   data.text(0x00080008, "CS", "ORIGINAL\\PRIMARY\\AXIAL").text(0x00080016, "UI", sop_class);
-  data.text(0x00080018, "UI", series + "." + std::to_string(std::lround(1000 * position.z()))).text(0x00080060, "CS", modality);
+  data.text(0x00080018, "UI", series + "." + std::to_string(std::lround(1000 * position.z())))
+      .text(0x00080060, "CS", modality);
   data.text(0x0020000D, "UI", study).text(0x0020000E, "UI", series).text(0x00200011, "IS", series_number);
   data.numbers(0x00200032, {position.x(), position.y(), position.z()});
-  data.numbers(0x00200037, {along_row.x(), along_row.y(), along_row.z(), along_column.x(), along_column.y(), along_column.z()});
+  data.numbers(0x00200037,
+               {along_row.x(), along_row.y(), along_row.z(), along_column.x(), along_column.y(), along_column.z()});
   data.text(0x00200052, "UI", "1.2.9").word(0x00280002, 1).text(0x00280004, "CS", photometric);
   data.word(0x00280010, static_cast<unsigned>(rows)).word(0x00280011, static_cast<unsigned>(columns));
   data.numbers(0x00280030, {column_step, row_step});
@@ -188,8 +197,10 @@ Elements enhanced(const std::vector<SliceFixture>& slices) {
   std::string pixels;
   for (const SliceFixture& slice : slices) {
     Elements frame(as);
-    frame.sequence(0x00209113, {Elements(as).numbers(0x00200032, {slice.position.x(), slice.position.y(), slice.position.z()})});
-    frame.sequence(0x00289145, {Elements(as).numbers(0x00281052, {slice.intercept}).numbers(0x00281053, {slice.slope})});
+    frame.sequence(0x00209113,
+                   {Elements(as).numbers(0x00200032, {slice.position.x(), slice.position.y(), slice.position.z()})});
+    frame.sequence(0x00289145,
+                   {Elements(as).numbers(0x00281052, {slice.intercept}).numbers(0x00281053, {slice.slope})});
     frames.push_back(frame);
     pixels += slice.pixels();
   }

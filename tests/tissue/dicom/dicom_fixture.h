@@ -54,7 +54,7 @@ std::string dicom_file(const Elements& data, const std::string& syntax = "");
 /// One slice of a series; every field may be changed before `file()`.
 struct SliceFixture {
   int columns = 6, rows = 5;
-  Eigen::Vector3d position{-10, -20, 30};                         ///< LPS
+  Eigen::Vector3d position{-10, -20, 30};  ///< LPS
   Eigen::Vector3d along_row{1, 0, 0}, along_column{0, 1, 0};
   double row_step = 0.5, column_step = 0.75;
   int allocated = 16, stored = 16;
@@ -65,9 +65,9 @@ struct SliceFixture {
   double slope = 1, intercept = -1024;
   Encoding encoding = Encoding::kExplicit;
   std::function<int(int i, int j)> value = [](int i, int j) { return 100 + i + 10 * j; };
-  std::function<void(Elements&)> change = [](Elements&) {};       ///< last word on the elements
+  std::function<void(Elements&)> change = [](Elements&) {};  ///< last word on the elements
 
-  std::string pixels() const;   ///< native bytes in the encoding's order
+  std::string pixels() const;  ///< native bytes in the encoding's order
   Elements elements() const;
   std::string file(const std::string& syntax = "") const { return dicom_file(elements(), syntax); }
 };

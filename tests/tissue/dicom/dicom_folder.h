@@ -17,7 +17,9 @@ namespace trocar::test {
 
 class DicomFolder {
  public:
-  std::filesystem::path write(const std::string& name, const std::string& bytes) const { return folder_.write(name, bytes); }
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    return folder_.write(name, bytes);
+  }
   /// Files "a00", "a01", ... without extension.
   void write_all(const std::vector<SliceFixture>& slices, const std::string& prefix = "a") const {
     for (std::size_t n = 0; n < slices.size(); ++n)
@@ -56,8 +58,9 @@ inline void expect_holds(const ImageVolume& volume, const std::vector<SliceFixtu
   for (const SliceFixture& slice : slices)
     for (int j = 0; j < slice.rows; ++j)
       for (int i = 0; i < slice.columns; ++i)
-        ASSERT_FLOAT_EQ(value_at(volume, centre_of(slice, i, j)),
-                        static_cast<float>(slice.rescale ? slice.slope * slice.value(i, j) + slice.intercept : slice.value(i, j)))
+        ASSERT_FLOAT_EQ(
+            value_at(volume, centre_of(slice, i, j)),
+            static_cast<float>(slice.rescale ? slice.slope * slice.value(i, j) + slice.intercept : slice.value(i, j)))
             << i << " " << j;
 }
 

@@ -26,7 +26,9 @@ TEST(DicomGeometry, AxialStackLiesWhereItsPositionsSay) {
 TEST(DicomGeometry, TagsThatContradictThePositionsAreNotBelieved) {
   const DicomFolder folder;
   SliceFixture like;
-  like.change = [](Elements& data) { data.text(0x00180050, "DS", "9.5").text(0x00180088, "DS", "7").text(0x00201041, "DS", "-500"); };
+  like.change = [](Elements& data) {
+    data.text(0x00180050, "DS", "9.5").text(0x00180088, "DS", "7").text(0x00201041, "DS", "-500");
+  };
   const auto slices = stack_of(3, 2, like);
   folder.write_all(slices);
   EXPECT_NEAR(folder.read().index_to_ras_mm.linear()(2, 2), 2, 1e-9);
@@ -55,7 +57,8 @@ TEST_P(DicomOrientation, EveryVoxelIsFoundAgain) {
     like.along_column = Eigen::Vector3d::Unit(v) * (GetParam() / 12 == 0 ? 1 : -1);
   } else {
     std::normal_distribution<double> normal;
-    const Eigen::Quaterniond turn = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
     like.along_row = turn * Eigen::Vector3d::UnitX(), like.along_column = turn * Eigen::Vector3d::UnitY();
   }
   const DicomFolder folder;
@@ -74,19 +77,23 @@ TEST_P(DicomOrientation, EveryVoxelIsFoundAgain) {
 
 INSTANTIATE_TEST_SUITE_P(All, DicomOrientation, ::testing::Range(0, 40));
 
-/// A field that is linear in patient space, seen through a tilted pile, is the same field in the volume: linear interpolation is exact.
+/// A field that is linear in patient space, seen through a tilted pile, is the same field in the volume: linear
+/// interpolation is exact.
 TEST(DicomGeometry, TiltedGantryIsShearedBack) {
   const DicomFolder folder;
   const double tilt = 18.5 * std::numbers::pi / 180;
   SliceFixture like;
-  like.columns = 12, like.rows = 20, like.row_step = like.column_step = 0.5, like.rescale = true, like.slope = 0.01, like.intercept = 0;
+  like.columns = 12, like.rows = 20, like.row_step = like.column_step = 0.5, like.rescale = true, like.slope = 0.01,
+  like.intercept = 0;
   like.along_column = Eigen::Vector3d(0, std::cos(tilt), -std::sin(tilt));
   const auto field = [](const Eigen::Vector3d& lps) { return 30 + 0.7 * lps.x() - 1.3 * lps.y() + 2.1 * lps.z(); };
   std::vector<SliceFixture> slices;
   for (int k = 0; k < 6; ++k) {
     SliceFixture slice = like;
     slice.position = Eigen::Vector3d(-3, -5, 10 + 2.5 * k);  // the table moves along z, not along the normal
-    slice.value = [slice, field](int i, int j) { return static_cast<int>(std::lround(100 * field(centre_of(slice, i, j)))); };
+    slice.value = [slice, field](int i, int j) {
+      return static_cast<int>(std::lround(100 * field(centre_of(slice, i, j))));
+    };
     slices.push_back(slice);
   }
   folder.write_all(slices);
@@ -156,10 +163,12 @@ TEST(DicomGeometry, TwoSlicesInOnePlaceAreRefusedByName) {
 
 TEST(DicomGeometry, OtherOrientationSizeSpacingAndFrameOfReferenceAreRefusedByName) {
   const std::vector<std::pair<std::function<void(SliceFixture&)>, std::string>> cases{
-      {[](SliceFixture& s) { s.along_row = Eigen::Vector3d(0, 1, 0), s.along_column = Eigen::Vector3d(0, 0, -1); }, "different orientations"},
+      {[](SliceFixture& s) { s.along_row = Eigen::Vector3d(0, 1, 0), s.along_column = Eigen::Vector3d(0, 0, -1); },
+       "different orientations"},
       {[](SliceFixture& s) { s.rows = 7; }, "different sizes (6 x 5 and 6 x 7 pixels)"},
       {[](SliceFixture& s) { s.row_step = 0.6; }, "different pixel spacings"},
-      {[](SliceFixture& s) { s.change = [](Elements& data) { data.text(0x00200052, "UI", "1.2.77"); }; }, "different frames of reference"},
+      {[](SliceFixture& s) { s.change = [](Elements& data) { data.text(0x00200052, "UI", "1.2.77"); }; },
+       "different frames of reference"},
       {[](SliceFixture& s) { s.position.x() += 4; }, "to the side"},
       {[](SliceFixture& s) { s.position.z() += 0.8; }, "unevenly spaced"},
       {[](SliceFixture& s) { s.rescale = false; }, "only one of them has RescaleSlope"},
@@ -221,13 +230,15 @@ TEST(DicomGeometry, EnhancedFilesWithWrongCountsOrDoublePlacesAreRefused) {
   auto slices = stack_of(4, 1.5);
   Elements wrong = enhanced(slices);
   wrong.text(0x00280008, "IS", "3");
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("a", dicom_file(wrong))); }), "3 frames but describes 4");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("a", dicom_file(wrong))); }),
+                  "3 frames but describes 4");
   slices[3].position = slices[0].position;
   EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("b", dicom_file(enhanced(slices)))); }),
                   "b frame 1 and " + folder.path().string() + "/b frame 4 lie in the same place");
   Elements old = stack_of(1, 1)[0].elements();
   old.text(0x00280008, "IS", "2").bytes(0x7FE00010, "OW", std::string(120, '\0'));
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("c", dicom_file(old))); }), "older multi-frame kind");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("c", dicom_file(old))); }),
+                  "older multi-frame kind");
 }
 
 TEST(DicomGeometry, UnusablePlacesAreRefusedByElement) {
@@ -236,11 +247,23 @@ TEST(DicomGeometry, UnusablePlacesAreRefusedByElement) {
       {[](Elements& data) { data.text(0x00200032, "DS", "1\\2\\abc"); }, "no usable ImagePositionPatient"},
       {[](Elements& data) { data.text(0x00200032, "DS", "1\\2\\nan"); }, "no usable ImagePositionPatient"},
       {[](Elements& data) { data.text(0x00200032, "DS", "1\\2\\1e30"); }, "more than 100 m away"},
-      {[](Elements& data) { data.numbers(0x00200032, {1, 2}); }, "holds 2 numbers instead of 3"},
-      {[](Elements& data) { data.numbers(0x00200037, {1, 0, 0, 0.5, 0.5, 0}); }, "not two unit vectors at right angles"},
+      {[](Elements& data) {
+         data.numbers(0x00200032, {1, 2});
+       },
+       "holds 2 numbers instead of 3"},
+      {[](Elements& data) {
+         data.numbers(0x00200037, {1, 0, 0, 0.5, 0.5, 0});
+       },
+       "not two unit vectors at right angles"},
       {[](Elements& data) { data.erase(0x00200037); }, "no usable ImageOrientationPatient"},
-      {[](Elements& data) { data.numbers(0x00280030, {0, 1}); }, "PixelSpacing is not between"},
-      {[](Elements& data) { data.numbers(0x00280030, {1, -1}); }, "PixelSpacing is not between"},
+      {[](Elements& data) {
+         data.numbers(0x00280030, {0, 1});
+       },
+       "PixelSpacing is not between"},
+      {[](Elements& data) {
+         data.numbers(0x00280030, {1, -1});
+       },
+       "PixelSpacing is not between"},
       {[](Elements& data) { data.text(0x00281053, "DS", "0"); }, "RescaleSlope is 0"},
       {[](Elements& data) { data.erase(0x00281052); }, "one of RescaleSlope and RescaleIntercept without the other"},
   };

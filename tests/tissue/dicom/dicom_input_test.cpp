@@ -21,7 +21,9 @@ SliceFixture like(const std::string& series, const std::string& number, const st
 
 Elements report_file() {
   Elements data;
-  data.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.88.11").text(0x00080018, "UI", "1.9").text(0x00080060, "CS", "SR");
+  data.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.88.11")
+      .text(0x00080018, "UI", "1.9")
+      .text(0x00080060, "CS", "SR");
   return data.text(0x0020000D, "UI", "1.2.3").text(0x0020000E, "UI", "1.2.3.99").text(0x00200011, "IS", "99");
 }
 
@@ -45,7 +47,8 @@ TEST(DicomInput, SeriesOfAFolderAreListedByNumberAndModality) {
   fill(folder.path());
   const auto list = list_dicom(folder.path());
   ASSERT_EQ(list.size(), 3U);
-  EXPECT_EQ(describe(list[0]), "1: MR, 4 images of 6 x 5, 0.500 x 0.750 x 3.000 mm, 3 x 4 x 12.0 mm [" + list[0].hash + "]");
+  EXPECT_EQ(describe(list[0]),
+            "1: MR, 4 images of 6 x 5, 0.500 x 0.750 x 3.000 mm, 3 x 4 x 12.0 mm [" + list[0].hash + "]");
   EXPECT_EQ(list[1].modality, "CT");
   EXPECT_EQ(list[1].images, 5);
   EXPECT_EQ(list[1].rows, 5);
@@ -69,15 +72,18 @@ TEST(DicomInput, SeveralSeriesMustBeChosenFrom) {
   EXPECT_EQ(read_dicom_series(folder.path(), 1).modality, "MR");
   EXPECT_EQ(read_dicom_series(folder.path(), 2).size[2], 5);
   EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.path(), 7); }), "has no series 7");
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.path(), 3); }), "series 3 is not one of images");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.path(), 3); }),
+                  "series 3 is not one of images");
 }
 
 TEST(DicomInput, WhatIsNotThereOrNotDicomIsRefused) {
   const TemporaryFolder folder;
   EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(folder / "nowhere"); }), "does not exist");
   EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(folder.write("text", "hello")); }), "is not a DICOM file");
-  EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(folder.path()); }), "holds no DICOM files (1 files were looked at)");
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("r", dicom_file(report_file()))); }), "holds no series of images");
+  EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(folder.path()); }),
+                  "holds no DICOM files (1 files were looked at)");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("r", dicom_file(report_file()))); }),
+                  "holds no series of images");
 }
 
 TEST(DicomInput, AZipGivesWhatItsFolderGives) {
@@ -87,7 +93,8 @@ TEST(DicomInput, AZipGivesWhatItsFolderGives) {
   for (const auto& entry : fs::recursive_directory_iterator(folder / "disc"))
     if (entry.is_regular_file()) {
       std::ifstream in(entry.path(), std::ios::binary);
-      files.emplace_back(fs::relative(entry.path(), folder / "disc").string(), std::string(std::istreambuf_iterator<char>(in), {}));
+      files.emplace_back(fs::relative(entry.path(), folder / "disc").string(),
+                         std::string(std::istreambuf_iterator<char>(in), {}));
     }
   const fs::path zip = write_zip(folder / "disc.zip", files);
   const auto as_folder = list_dicom(folder / "disc"), as_zip = list_dicom(zip);
@@ -118,7 +125,11 @@ TEST(DicomInput, UnpackedFilesAreGoneAfterwardsAlsoAfterErrors) {
   EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(bad); }), "bad.zip: a and ");
   EXPECT_EQ(temporary_zip_folders(), 0);
   struct Stop {};
-  EXPECT_THROW(read_dicom_series(good, {}, [](std::string_view stage, double) { if (stage == "decoding slices") throw Stop(); }), Stop);
+  EXPECT_THROW(read_dicom_series(good, {},
+                                 [](std::string_view stage, double) {
+                                   if (stage == "decoding slices") throw Stop();
+                                 }),
+               Stop);
   EXPECT_EQ(temporary_zip_folders(), 0);
   unsetenv("TMPDIR");
 }
@@ -126,8 +137,9 @@ TEST(DicomInput, UnpackedFilesAreGoneAfterwardsAlsoAfterErrors) {
 TEST(DicomInput, NamesInAZipNeverBecomePaths) {
   const TemporaryFolder folder;
   const auto slices = stack_of(3, 2);
-  const fs::path zip = write_zip(folder / "evil.zip", {{"../../escaped", slices[0].file()}, {"/tmp/trocar-absolute", slices[1].file()},
-                                                       {"a\nb", slices[2].file()}});
+  const fs::path zip = write_zip(
+      folder / "evil.zip",
+      {{"../../escaped", slices[0].file()}, {"/tmp/trocar-absolute", slices[1].file()}, {"a\nb", slices[2].file()}});
   EXPECT_EQ(read_dicom_series(zip).size[2], 3);
   EXPECT_FALSE(fs::exists(folder.path().parent_path() / "escaped"));
   EXPECT_FALSE(fs::exists("/tmp/trocar-absolute"));
@@ -138,7 +150,9 @@ TEST(DicomInput, ZipsBeyondTheLimitsAreRefused) {
   const std::string slice = stack_of(1, 1)[0].file();
   const std::string bomb = slice + std::string(std::size_t{8} << 20, '\0');
   const fs::path zip = write_zip(folder / "bomb.zip", {{"a", bomb}, {"b", slice}});
-  const auto refusal = [&](const ZipLimits& limits) { return message_of<InputError>([&] { const UnpackedZip unpacked(zip, limits, {}); }); };
+  const auto refusal = [&](const ZipLimits& limits) {
+    return message_of<InputError>([&] { const UnpackedZip unpacked(zip, limits, {}); });
+  };
   ZipLimits limits;
   EXPECT_EQ(UnpackedZip(zip, limits, {}).files().size(), 2U);
   limits.entries = 1;
@@ -157,15 +171,21 @@ TEST(DicomInput, DamagedAndEncryptedZipsAreRefused) {
   const fs::path zip = write_zip(folder / "good.zip", {{"a", slices[0].file()}, {"b", slices[1].file()}});
   std::ifstream in(zip, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(folder.write("cut.zip", bytes.substr(0, bytes.size() / 2))); }), "is damaged");
+  EXPECT_CONTAINS(
+      message_of<InputError>([&] { list_dicom(folder.write("cut.zip", bytes.substr(0, bytes.size() / 2))); }),
+      "is damaged");
   const fs::path locked = write_zip(folder / "locked.zip", {{"a", slices[0].file()}}, "secret");
   EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(locked); }), "is encrypted");
-  EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(write_zip(folder / "none.zip", {{"a.txt", "text"}})); }), "holds no DICOM files");
+  EXPECT_CONTAINS(message_of<InputError>([&] {
+                    list_dicom(write_zip(folder / "none.zip", {{"a.txt", "text"}}));
+                  }),
+                  "holds no DICOM files");
 }
 
 Elements directory_of(const std::vector<std::string>& names) {
   std::vector<Elements> records{Elements().text(0x00041430, "CS", "PATIENT").text(0x00100010, "PN", "Nobody")};
-  for (const std::string& name : names) records.push_back(Elements().text(0x00041430, "CS", "IMAGE").text(0x00041500, "CS", name));
+  for (const std::string& name : names)
+    records.push_back(Elements().text(0x00041430, "CS", "IMAGE").text(0x00041500, "CS", name));
   return Elements().text(0x00041130, "CS", "DISC").sequence(0x00041220, records);
 }
 
@@ -175,7 +195,8 @@ TEST(DicomInput, ADicomdirNamesItsFiles) {
   const auto slices = stack_of(4, 2);
   for (std::size_t n = 0; n < 3; ++n) folder.write("IMG/A/I" + std::to_string(n), slices[n].file());
   folder.write("IMG/A/UNNAMED", slices[3].file());
-  const fs::path directory = folder.write("DICOMDIR", dicom_file(directory_of({"IMG\\A\\I0", "IMG\\A\\I1", "IMG\\A\\I2", "IMG\\A\\I9"})));
+  const fs::path directory =
+      folder.write("DICOMDIR", dicom_file(directory_of({"IMG\\A\\I0", "IMG\\A\\I1", "IMG\\A\\I2", "IMG\\A\\I9"})));
   const ImageVolume volume = read_dicom_series(directory);
   EXPECT_EQ(volume.size[2], 3);
   ASSERT_EQ(volume.notes.size(), 1U);
@@ -191,7 +212,9 @@ TEST(DicomInput, ADicomdirCannotLeaveItsFolder) {
   fs::create_symlink(folder / "outside", folder / "disc/LINK", ignored);
   for (const char* name : {"..\\outside", "LINK", "\\outside", "disc/../../outside", "."}) {
     const fs::path directory = folder.write("disc/DICOMDIR", dicom_file(directory_of({name})));
-    EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(directory); }), "names 1 files, none of which lies beside it") << name;
+    EXPECT_CONTAINS(message_of<InputError>([&] { list_dicom(directory); }),
+                    "names 1 files, none of which lies beside it")
+        << name;
   }
 }
 
@@ -253,7 +276,8 @@ TEST(DicomInput, ProgressIsAskedAndMayStopTheWork) {
     last = share;
   });
   EXPECT_EQ(stages, (std::vector<std::string>{"looking at the files", "decoding slices"}));
-  EXPECT_THROW(list_dicom(folder.path(), [](std::string_view, double) { throw std::runtime_error("stop"); }), std::runtime_error);
+  EXPECT_THROW(list_dicom(folder.path(), [](std::string_view, double) { throw std::runtime_error("stop"); }),
+               std::runtime_error);
 }
 
 }  // namespace

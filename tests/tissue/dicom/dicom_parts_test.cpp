@@ -25,7 +25,8 @@ DicomFile parsed(const TemporaryFolder& folder, const std::string& bytes) {
 
 TEST(DicomElements, ValuesComeTheSameInEveryEncoding) {
   const TemporaryFolder folder;
-  for (const Encoding encoding : {Encoding::kExplicit, Encoding::kImplicit, Encoding::kBigEndian, Encoding::kDeflated}) {
+  for (const Encoding encoding :
+       {Encoding::kExplicit, Encoding::kImplicit, Encoding::kBigEndian, Encoding::kDeflated}) {
     SliceFixture slice;
     slice.encoding = encoding;
     const DicomFile file = parsed(folder, slice.file());
@@ -42,12 +43,18 @@ TEST(DicomElements, ValuesComeTheSameInEveryEncoding) {
 TEST(DicomElements, OnlyListedElementsAreKept) {
   const TemporaryFolder folder;
   SliceFixture slice;
-  slice.change = [](Elements& data) { data.text(0x00100010, "PN", "A^B").text(0x00100020, "LO", "1").text(0x00081030, "LO", "text"); };
-  const std::set<DicomTag> allowed{tag::kTransferSyntax, tag::kImageType, tag::kSopClass, tag::kSopInstance, tag::kModality, tag::kStudy, tag::kSeries,
-                                   tag::kSeriesNumber, tag::kPosition, tag::kOrientation, tag::kFrameOfReference, tag::kSamples, tag::kPhotometric,
-                                   tag::kRows, tag::kColumns, tag::kPixelSpacing, tag::kBitsAllocated, tag::kBitsStored, tag::kHighBit,
-                                   tag::kPixelRepresentation, tag::kIntercept, tag::kSlope};
-  for (const auto& [tag, element] : parsed(folder, slice.file()).data.elements) EXPECT_TRUE(allowed.contains(tag)) << std::hex << tag;
+  slice.change = [](Elements& data) {
+    data.text(0x00100010, "PN", "A^B").text(0x00100020, "LO", "1").text(0x00081030, "LO", "text");
+  };
+  const std::set<DicomTag> allowed{
+      tag::kTransferSyntax, tag::kImageType,   tag::kSopClass,         tag::kSopInstance,
+      tag::kModality,       tag::kStudy,       tag::kSeries,           tag::kSeriesNumber,
+      tag::kPosition,       tag::kOrientation, tag::kFrameOfReference, tag::kSamples,
+      tag::kPhotometric,    tag::kRows,        tag::kColumns,          tag::kPixelSpacing,
+      tag::kBitsAllocated,  tag::kBitsStored,  tag::kHighBit,          tag::kPixelRepresentation,
+      tag::kIntercept,      tag::kSlope};
+  for (const auto& [tag, element] : parsed(folder, slice.file()).data.elements)
+    EXPECT_TRUE(allowed.contains(tag)) << std::hex << tag;
 }
 
 TEST(DicomElements, DecimalsAreNumbersOrNothing) {
@@ -58,7 +65,8 @@ TEST(DicomElements, DecimalsAreNumbersOrNothing) {
   };
   EXPECT_EQ(read("1.5"), (std::vector<double>{1.5}));
   EXPECT_EQ(read(" +1e-3 \\ -7\\0"), (std::vector<double>{0.001, -7, 0}));
-  for (const char* bad : {"", "abc", "1\\", "1,5", "0x10", "inf", "nan", "1e999", "1 2", "--1"}) EXPECT_FALSE(read(bad).has_value()) << bad;
+  for (const char* bad : {"", "abc", "1\\", "1,5", "0x10", "inf", "nan", "1e999", "1 2", "--1"})
+    EXPECT_FALSE(read(bad).has_value()) << bad;
 }
 
 TEST(DicomElements, EveryTruncationIsDamageOrCutPixels) {
@@ -66,7 +74,8 @@ TEST(DicomElements, EveryTruncationIsDamageOrCutPixels) {
   const std::string whole = SliceFixture{}.file();
   for (std::size_t length = 140; length < whole.size(); ++length) {
     const DicomFile file = parsed(folder, whole.substr(0, length));
-    const bool at_an_end = file.damage.empty() && !file.pixels.present;  // between two elements nothing is visibly missing
+    const bool at_an_end =
+        file.damage.empty() && !file.pixels.present;  // between two elements nothing is visibly missing
     const bool cut_pixels = file.pixels.present && file.pixels.offset + file.pixels.length > length;
     EXPECT_TRUE(!file.damage.empty() || cut_pixels || at_an_end) << length;
   }
@@ -87,7 +96,8 @@ TEST(DicomElements, FilesWithoutSignatureAreRecognisedByTheirFirstElement) {
   ASSERT_TRUE(file.has_value());
   EXPECT_FALSE(file->has_header);
   EXPECT_EQ(file->data.text(tag::kModality), "CT");
-  EXPECT_FALSE(read_dicom_elements(folder.write("text", "Dear colleague, thank you for the referral."), "text", budget).has_value());
+  EXPECT_FALSE(read_dicom_elements(folder.write("text", "Dear colleague, thank you for the referral."), "text", budget)
+                   .has_value());
 }
 
 TEST(DicomElements, InflatingStopsAtTheBudget) {
@@ -122,7 +132,10 @@ TEST(EvenPlanes, HeightsAreSlicesOfOneStep) {
   EXPECT_EQ(planes.slice, (std::vector<int>{3, 0, 1, 6, 1}));
   EXPECT_EQ(even_planes({7, 7}, "frames", "f").step, 0);
   EXPECT_CONTAINS(message_of<InputError>([] { even_planes({0, 1, 2.4, 3}, "frames", "f"); }), "not evenly spaced");
-  EXPECT_CONTAINS(message_of<InputError>([] { even_planes({0, 0.02, 1000}, "frames", "f"); }), "span more than 20000 slices");
+  EXPECT_CONTAINS(message_of<InputError>([] {
+                    even_planes({0, 0.02, 1000}, "frames", "f");
+                  }),
+                  "span more than 20000 slices");
 }
 
 /// Positions rounded to 0.01 mm: the smallest distance alone would count a slice too many.
@@ -147,7 +160,8 @@ TEST(PackedBytes, ComeBackAndAreChecked) {
   EXPECT_THROW(in.get<char>(), InputError);
   PackedReader again(bytes, "f");
   EXPECT_THROW(again.get_count(100), InputError) << "three things of 100 bytes cannot be there";
-  PackedReader text(bytes.substr(8), "f");
+  const std::string tail = bytes.substr(8);  // its first number is no length
+  PackedReader text(tail, "f");
   EXPECT_CONTAINS(message_of<InputError>([&] { text.get_text(); }), "f: the reader gave no sensible answer");
 }
 

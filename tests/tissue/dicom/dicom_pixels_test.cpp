@@ -8,10 +8,12 @@
 namespace trocar::test {
 namespace {
 
-constexpr const char *kJpegBaseline = "1.2.840.10008.1.2.4.50", *kJpegLossless = "1.2.840.10008.1.2.4.70", *kJpegProcess14 = "1.2.840.10008.1.2.4.57",
-                     *kJpegLs = "1.2.840.10008.1.2.4.80", *kJpeg2000 = "1.2.840.10008.1.2.4.90";
+constexpr const char *kJpegBaseline = "1.2.840.10008.1.2.4.50", *kJpegLossless = "1.2.840.10008.1.2.4.70",
+                     *kJpegProcess14 = "1.2.840.10008.1.2.4.57", *kJpegLs = "1.2.840.10008.1.2.4.80",
+                     *kJpeg2000 = "1.2.840.10008.1.2.4.90";
 
-void expect_reads(const std::vector<SliceFixture>& slices, const std::function<std::string(const SliceFixture&)>& file) {
+void expect_reads(const std::vector<SliceFixture>& slices,
+                  const std::function<std::string(const SliceFixture&)>& file) {
   const DicomFolder folder;
   for (std::size_t n = 0; n < slices.size(); ++n) folder.write(std::to_string(n), file(slices[n]));
   expect_holds(folder.read(), slices);
@@ -21,7 +23,8 @@ TEST(DicomPixels, EveryNativeEncodingGivesTheSameValues) {
   for (const Encoding encoding : {Encoding::kExplicit, Encoding::kImplicit, Encoding::kBigEndian, Encoding::kDeflated})
     for (const int allocated : {8, 16, 32}) {
       SliceFixture like;
-      like.encoding = encoding, like.allocated = like.stored = allocated, like.is_signed = false, like.columns = 5, like.rows = 3;
+      like.encoding = encoding, like.allocated = like.stored = allocated, like.is_signed = false, like.columns = 5,
+      like.rows = 3;
       auto slices = stack_of(3, 1, like);
       for (SliceFixture& slice : slices) slice.value = [](int i, int j) { return 50 + 7 * i + 31 * j; };
       expect_reads(slices, [](const SliceFixture& slice) { return slice.file(); });
@@ -47,7 +50,8 @@ TEST(DicomPixels, StoredBitsAndSignDecideTheValue) {
 
 TEST(DicomPixels, RescaleIsAppliedFileByFile) {
   auto slices = stack_of(4, 2);
-  for (std::size_t k = 0; k < slices.size(); ++k) slices[k].slope = 0.5 + static_cast<double>(k), slices[k].intercept = -10.0 * static_cast<double>(k);
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    slices[k].slope = 0.5 + static_cast<double>(k), slices[k].intercept = -10.0 * static_cast<double>(k);
   expect_reads(slices, [](const SliceFixture& slice) { return slice.file(); });
 }
 
@@ -98,29 +102,30 @@ TEST_P(DicomCompressed, LosslessSyntaxesGiveTheSameValues) {
   expect_reads(slices, [&](const SliceFixture& slice) {
     if (std::string(how.syntax) != kRle) return compressed(slice.file(), how.syntax);
     SliceFixture coded = slice;  // GDCM's own RLE encoder refuses odd sizes
-    coded.change = [&](Elements& data) { data.fragments({rle_frame(slice.pixels().substr(0, 33 * 21 * static_cast<std::size_t>(how.allocated / 8)), how.allocated / 8)}); };
+    coded.change = [&](Elements& data) {
+      data.fragments({rle_frame(slice.pixels().substr(0, 33 * 21 * static_cast<std::size_t>(how.allocated / 8)),
+                                how.allocated / 8)});
+    };
     return coded.file(kRle);
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DicomCompressed,
-                         ::testing::Values(Compressed{"rle16", kRle, 16, 16, true},
-                                           Compressed{"rle8", kRle, 8, 8, false},
-                                           Compressed{"jpeg", kJpegLossless, 16, 16, false},
-                                           Compressed{"jpeg12", kJpegLossless, 16, 12, false},
-                                           Compressed{"jpegsigned", kJpegLossless, 16, 16, true},
-                                           Compressed{"jpeg14", kJpegProcess14, 8, 8, false},
-                                           Compressed{"jpegls", kJpegLs, 16, 16, false},
-                                           Compressed{"jpegls12", kJpegLs, 16, 12, false},
-                                           Compressed{"jpeglssigned", kJpegLs, 16, 16, true},
-                                           Compressed{"j2k", kJpeg2000, 16, 16, false},
-                                           Compressed{"j2ksigned", kJpeg2000, 16, 16, true},
-                                           Compressed{"j2k8", kJpeg2000, 8, 8, false}),
-                         [](const auto& compressed_as) { return compressed_as.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, DicomCompressed,
+    ::testing::Values(Compressed{"rle16", kRle, 16, 16, true}, Compressed{"rle8", kRle, 8, 8, false},
+                      Compressed{"jpeg", kJpegLossless, 16, 16, false},
+                      Compressed{"jpeg12", kJpegLossless, 16, 12, false},
+                      Compressed{"jpegsigned", kJpegLossless, 16, 16, true},
+                      Compressed{"jpeg14", kJpegProcess14, 8, 8, false}, Compressed{"jpegls", kJpegLs, 16, 16, false},
+                      Compressed{"jpegls12", kJpegLs, 16, 12, false}, Compressed{"jpeglssigned", kJpegLs, 16, 16, true},
+                      Compressed{"j2k", kJpeg2000, 16, 16, false}, Compressed{"j2ksigned", kJpeg2000, 16, 16, true},
+                      Compressed{"j2k8", kJpeg2000, 8, 8, false}),
+    [](const auto& compressed_as) { return compressed_as.param.name; });
 
 TEST(DicomPixels, LossyBaselineJpegIsReadWithANote) {
   SliceFixture like;
-  like.allocated = like.stored = 8, like.is_signed = false, like.columns = 32, like.rows = 24, like.rescale = false, like.modality = "MR";
+  like.allocated = like.stored = 8, like.is_signed = false, like.columns = 32, like.rows = 24, like.rescale = false,
+  like.modality = "MR";
   auto slices = stack_of(3, 2, like);
   for (SliceFixture& slice : slices) slice.value = [](int i, int j) { return 60 + 3 * i + 2 * j; };
   const DicomFolder folder;
@@ -149,20 +154,23 @@ TEST(DicomPixels, FragmentsOfSeveralFrames) {
   EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("three", dicom_file(data, kRle))); }),
                   "3 frames come in 4 pieces without a table");
   data.fragments(split, {0, 4, 8});
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("four", dicom_file(data, kRle))); }), "table of frames does not fit");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_series(folder.write("four", dicom_file(data, kRle))); }),
+                  "table of frames does not fit");
 }
 
 std::string refusal_of(const std::function<std::string(const SliceFixture&)>& file, const SliceFixture& like = {}) {
   const DicomFolder folder;
   const auto slices = stack_of(3, 2, like);
-  for (std::size_t n = 0; n < slices.size(); ++n) folder.write("s" + std::to_string(n), n == 1 ? file(slices[n]) : slices[n].file());
+  for (std::size_t n = 0; n < slices.size(); ++n)
+    folder.write("s" + std::to_string(n), n == 1 ? file(slices[n]) : slices[n].file());
   const std::string message = folder.refusal();
   EXPECT_CONTAINS(message, "s1");
   return message;
 }
 
 TEST(DicomPixels, CutOffNativePixelsAreRefused) {
-  EXPECT_CONTAINS(refusal_of([](const SliceFixture& s) { return s.file().substr(0, s.file().size() - 2); }), "pixel data are cut off: 58 of 60 bytes");
+  EXPECT_CONTAINS(refusal_of([](const SliceFixture& s) { return s.file().substr(0, s.file().size() - 2); }),
+                  "pixel data are cut off: 58 of 60 bytes");
   EXPECT_CONTAINS(refusal_of([](SliceFixture s) {
                     s.change = [](Elements& data) { data.bytes(0x7FE00010, "OW", std::string(40, 'x')); };
                     return s.file();
@@ -205,17 +213,22 @@ TEST(DicomPixels, CompressedPixelsOfAnotherSizeOrWithoutEndAreRefused) {
                       return s.file(syntax);
                     }),
                     "compressed pixels are 32 x 32 in 1 colours, its header says 6 x 5 grey");
-    EXPECT_CONTAINS(refusal_of([&](SliceFixture s) {
-                      s.change = [&](Elements& data) { data.fragments({code.substr(0, code.size() / 2 / 2 * 2)}); };
-                      return s.file(syntax);
-                    }, larger),
+    EXPECT_CONTAINS(refusal_of(
+                        [&](SliceFixture s) {
+                          s.change = [&](Elements& data) { data.fragments({code.substr(0, code.size() / 2 / 2 * 2)}); };
+                          return s.file(syntax);
+                        },
+                        larger),
                     "cut off");
   }
 }
 
 TEST(DicomPixels, WhatCannotBeDecodedIsRefusedByItsName) {
-  const auto as = [](const std::string& syntax) { return refusal_of([&](const SliceFixture& s) { return s.file(syntax); }); };
-  EXPECT_CONTAINS(as("1.2.840.10008.1.2.4.201"), "High-Throughput JPEG 2000 (Lossless Only), which cannot be decoded here");
+  const auto as = [](const std::string& syntax) {
+    return refusal_of([&](const SliceFixture& s) { return s.file(syntax); });
+  };
+  EXPECT_CONTAINS(as("1.2.840.10008.1.2.4.201"),
+                  "High-Throughput JPEG 2000 (Lossless Only), which cannot be decoded here");
   EXPECT_CONTAINS(as("1.2.840.10008.1.2.4.100"), "MPEG2 Main Profile / Main Level");
   EXPECT_CONTAINS(as("1.2.840.10008.1.2.4.94"), "JPIP Referenced");
   EXPECT_CONTAINS(as("1.2.3.4.5"), "a transfer syntax that is not in the DICOM standard's list");
@@ -231,13 +244,15 @@ TEST(DicomPixels, WhatIsNoGreyImageIsRefused) {
   };
   EXPECT_CONTAINS(with([](Elements& d) { d.word(0x00280002, 3).text(0x00280004, "CS", "RGB"); }), "is a colour image");
   EXPECT_CONTAINS(with([](Elements& d) { d.text(0x00280004, "CS", "PALETTE COLOR"); }), "is a colour image");
-  EXPECT_CONTAINS(with([](Elements& d) { d.word(0x00280100, 1).word(0x00280101, 1).word(0x00280102, 0); }), "1-bit pixels");
+  EXPECT_CONTAINS(with([](Elements& d) { d.word(0x00280100, 1).word(0x00280101, 1).word(0x00280102, 0); }),
+                  "1-bit pixels");
   EXPECT_CONTAINS(with([](Elements& d) { d.word(0x00280100, 12); }), "BitsAllocated is 12");
   EXPECT_CONTAINS(with([](Elements& d) { d.word(0x00280101, 17); }), "do not fit into BitsAllocated");
   EXPECT_CONTAINS(with([](Elements& d) { d.word(0x00280102, 16); }), "do not fit into BitsAllocated");
   EXPECT_CONTAINS(with([](Elements& d) { d.word(0x00280103, 2); }), "PixelRepresentation");
   EXPECT_CONTAINS(with([](Elements& d) { d.erase(0x7FE00010); }), "holds no pixel data");
-  EXPECT_CONTAINS(with([](Elements& d) { d.erase(0x7FE00010).bytes(0x7FE00008, "OF", std::string(120, '\0')); }), "floating point");
+  EXPECT_CONTAINS(with([](Elements& d) { d.erase(0x7FE00010).bytes(0x7FE00008, "OF", std::string(120, '\0')); }),
+                  "floating point");
   EXPECT_CONTAINS(with([](Elements& d) { d.text(0x00280008, "IS", "1A"); }), "NumberOfFrames");
   EXPECT_CONTAINS(with([](Elements& d) { d.text(0x00280008, "IS", "-2"); }), "NumberOfFrames");
 }
@@ -245,7 +260,9 @@ TEST(DicomPixels, WhatIsNoGreyImageIsRefused) {
 TEST(DicomPixels, ClaimsOfHugeImagesAreRefusedAtOnce) {
   const auto claim = [](unsigned rows, unsigned columns, const char* frames) {
     return refusal_of([&](SliceFixture s) {
-      s.change = [&](Elements& d) { d.word(0x00280010, rows).word(0x00280011, columns).text(0x00280008, "IS", frames); };
+      s.change = [&](Elements& d) {
+        d.word(0x00280010, rows).word(0x00280011, columns).text(0x00280008, "IS", frames);
+      };
       return s.file();
     });
   };
@@ -259,7 +276,9 @@ TEST(DicomPixels, PaddedPixelDataAreReadWithANote) {
   const DicomFolder folder;
   auto slices = stack_of(3, 2);
   for (SliceFixture& slice : slices)
-    slice.change = [bytes = slice.pixels()](Elements& data) { data.bytes(0x7FE00010, "OW", bytes + std::string(50, 'x')); };
+    slice.change = [bytes = slice.pixels()](Elements& data) {
+      data.bytes(0x7FE00010, "OW", bytes + std::string(50, 'x'));
+    };
   folder.write_all(slices);
   const ImageVolume volume = folder.read();
   expect_holds(volume, slices);

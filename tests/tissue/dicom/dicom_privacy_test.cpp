@@ -1,4 +1,5 @@
-// Nothing that names a patient leaves the readers: not in lists, notes, labels of refusals, nor on standard output and error.
+// Nothing that names a patient leaves the readers: not in lists, notes, labels of refusals, nor on standard output and
+// error.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -16,13 +17,20 @@ constexpr const char* kMarkers[] = {"MARKER", "marker", "1.9.8.7.6", "19010203",
 
 /// Puts a marker into every element that may name a patient, a person, a place or a time, and into all UIDs.
 void mark(Elements& data) {
-  for (const std::uint32_t tag : {0x00100010U, 0x00080090U, 0x00081050U, 0x00081070U, 0x00321032U}) data.text(tag, "PN", "MARKER^NAME");
-  for (const std::uint32_t tag : {0x00100020U, 0x00080080U, 0x00081010U, 0x00081030U, 0x0008103EU, 0x00081040U, 0x00102160U, 0x00180015U,
-                                  0x00181030U, 0x00204000U, 0x00401001U, 0x00080050U, 0x00200010U, 0x00181000U, 0x00081090U})
+  for (const std::uint32_t tag : {0x00100010U, 0x00080090U, 0x00081050U, 0x00081070U, 0x00321032U})
+    data.text(tag, "PN", "MARKER^NAME");
+  for (const std::uint32_t tag :
+       {0x00100020U, 0x00080080U, 0x00081010U, 0x00081030U, 0x0008103EU, 0x00081040U, 0x00102160U, 0x00180015U,
+        0x00181030U, 0x00204000U, 0x00401001U, 0x00080050U, 0x00200010U, 0x00181000U, 0x00081090U})
     data.text(tag, "LO", "MARKER TEXT");
-  for (const std::uint32_t tag : {0x00100030U, 0x00080020U, 0x00080021U, 0x00080022U, 0x00080023U}) data.text(tag, "DA", "19010203");
-  data.text(0x00080018, "UI", "1.9.8.7.6.1").text(0x0020000D, "UI", "1.9.8.7.6.2").text(0x0020000E, "UI", "1.9.8.7.6.3");
-  data.text(0x00200052, "UI", "1.9.8.7.6.4").text(0x00200011, "IS", "77123").text(0x00080060, "CS", data.encoded().find("RTSTRUCT") == std::string::npos ? "CT" : "RTSTRUCT");
+  for (const std::uint32_t tag : {0x00100030U, 0x00080020U, 0x00080021U, 0x00080022U, 0x00080023U})
+    data.text(tag, "DA", "19010203");
+  data.text(0x00080018, "UI", "1.9.8.7.6.1")
+      .text(0x0020000D, "UI", "1.9.8.7.6.2")
+      .text(0x0020000E, "UI", "1.9.8.7.6.3");
+  data.text(0x00200052, "UI", "1.9.8.7.6.4")
+      .text(0x00200011, "IS", "77123")
+      .text(0x00080060, "CS", data.encoded().find("RTSTRUCT") == std::string::npos ? "CT" : "RTSTRUCT");
 }
 
 /// Everything that reading gives as text.
@@ -39,7 +47,8 @@ std::string all_texts(const std::filesystem::path& input) {
     for (const std::string& note : notes) text += note + "\n";
   };
   run([&] {
-    for (const DicomSeries& series : list_dicom(input)) text += describe(series) + series.modality + series.problem + series.hash + "\n";
+    for (const DicomSeries& series : list_dicom(input))
+      text += describe(series) + series.modality + series.problem + series.hash + "\n";
   });
   run([&] {
     const ImageVolume volume = read_dicom_series(input);
@@ -95,7 +104,9 @@ TEST(DicomPrivacy, RefusedSeries) {
       [](auto& s) { s[1].change = [](Elements& d) { mark(d), d.text(0x00080060, "CS", "MARKER"); }; },
       [](auto& s) { s[1].change = [](Elements& d) { mark(d), d.text(0x00080016, "UI", "1.9.8.7.6"); }; },
       [](auto& s) { s[1].change = [](Elements& d) { mark(d), d.text(0x0020000E, "UI", "1.9.8.7.6.9"); }; },
-      [](auto& s) { s[1].change = [](Elements& d) { mark(d), d.raw(0x00100020, std::string("\x10\0\x20\0??MARKER", 12)); }; },
+      [](auto& s) {
+        s[1].change = [](Elements& d) { mark(d), d.raw(0x00100020, std::string("\x10\0\x20\0??MARKER", 12)); };
+      },
       [](auto& s) { s[1].change = [](Elements& d) { mark(d), d.bytes(0x7FE00010, "OW", "MARKER"); }; },
   };
   for (std::size_t n = 0; n < faults.size(); ++n) {
@@ -112,17 +123,20 @@ TEST(DicomPrivacy, RefusedSeries) {
 TEST(DicomPrivacy, TruncatedAtEveryPlace) {
   const DicomFolder folder;
   const std::string whole = marked_slices()[1].file();
-  for (std::size_t length = 132; length < whole.size(); length += 29) expect_private(folder.write("cut", whole.substr(0, length)));
+  for (std::size_t length = 132; length < whole.size(); length += 29)
+    expect_private(folder.write("cut", whole.substr(0, length)));
 }
 
 TEST(DicomPrivacy, CompressedPixelsThatDecodersComplainAbout) {
   const DicomFolder folder;
-  for (const char* syntax : {"1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80", kRle, "1.9.8.7.6"}) {
+  for (const char* syntax :
+       {"1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80", kRle, "1.9.8.7.6"}) {
     auto slices = marked_slices(2);
     for (std::size_t n = 0; n < 2; ++n) {
       slices[n].change = [](Elements& d) {
         mark(d);
-        d.fragments({std::string("\xFF\xD8\xFF\xC3\0\x0B\x10\0\x05\0\x06\x01\x01\x11\0MARKER", 21) + std::string("\xFF\xD9", 2)});
+        d.fragments({std::string("\xFF\xD8\xFF\xC3\0\x0B\x10\0\x05\0\x06\x01\x01\x11\0MARKER", 21) +
+                     std::string("\xFF\xD9", 2)});
       };
       folder.write(std::to_string(n), slices[n].file(syntax));
     }
@@ -134,7 +148,9 @@ TEST(DicomPrivacy, SegmentationsAndStructureSets) {
   const DicomFolder folder;
   SegmentationFixture segmentation;
   for (int k = 0; k < 3; ++k) segmentation.frames.push_back({1, {0, 0, 3.0 * k}, std::vector<int>(35, 1)});
-  segmentation.change = [](Elements& d) { mark(d), d.text(0x00080060, "CS", "SEG").text(0x00700084, "PN", "MARKER^NAME"); };
+  segmentation.change = [](Elements& d) {
+    mark(d), d.text(0x00080060, "CS", "SEG").text(0x00700084, "PN", "MARKER^NAME");
+  };
   const std::string seg = segmentation.file();
   expect_private(folder.write("seg", seg));
   expect_private(folder.write("seg", seg.substr(0, seg.size() - 3)));

@@ -21,7 +21,8 @@ SegmentationFixture random_segmentation(unsigned seed, int segments, int slices,
     for (int k = 0; k < slices; ++k) {
       SegmentationFrame frame{segment, {-40, 12, 100 + 2.5 * k}, {}};
       for (int n = 0; n < fixture.rows * fixture.columns; ++n)
-        frame.values.push_back(maximum == 0 ? static_cast<int>(random() % 2) : static_cast<int>(random() % static_cast<unsigned>(maximum + 1)));
+        frame.values.push_back(maximum == 0 ? static_cast<int>(random() % 2)
+                                            : static_cast<int>(random() % static_cast<unsigned>(maximum + 1)));
       fixture.frames.push_back(frame);
     }
   }
@@ -39,15 +40,18 @@ int label_at(const LabelVolume& layer, const Eigen::Vector3d& lps) {
 
 void expect_holds(const LabelMap& map, const SegmentationFixture& fixture) {
   for (const SegmentationFrame& frame : fixture.frames) {
-    const auto segment = std::find_if(map.segments.begin(), map.segments.end(), [&](const Segment& one) { return one.number == frame.segment; });
+    const auto segment = std::find_if(map.segments.begin(), map.segments.end(),
+                                      [&](const Segment& one) { return one.number == frame.segment; });
     ASSERT_NE(segment, map.segments.end());
     EXPECT_EQ(segment->name, fixture.labels[static_cast<std::size_t>(frame.segment - 1)]);
     for (int j = 0; j < fixture.rows; ++j)
       for (int i = 0; i < fixture.columns; ++i) {
         const int value = frame.values[static_cast<std::size_t>(j * fixture.columns + i)];
         const bool marked = fixture.maximum == 0 ? value != 0 : value != 0 && 2 * value >= fixture.maximum;
-        const Eigen::Vector3d at = frame.position + fixture.along_row * fixture.row_step * i + fixture.along_column * fixture.column_step * j;
-        ASSERT_EQ(label_at(map.layers[segment->layer], at) == frame.segment, marked) << frame.segment << " " << i << " " << j;
+        const Eigen::Vector3d at =
+            frame.position + fixture.along_row * fixture.row_step * i + fixture.along_column * fixture.column_step * j;
+        ASSERT_EQ(label_at(map.layers[segment->layer], at) == frame.segment, marked)
+            << frame.segment << " " << i << " " << j;
       }
   }
 }
@@ -109,7 +113,8 @@ TEST_F(DicomSegmentation, ObliqueFramesLieWhereTheySay) {
   for (SegmentationFrame& frame : fixture.frames) frame.position = turn * frame.position;
   const LabelMap map = read(fixture.file());
   for (const SegmentationFrame& frame : fixture.frames) {
-    const Eigen::Vector3d lps = frame.position + fixture.along_row * fixture.row_step * 3 + fixture.along_column * fixture.column_step * 2;
+    const Eigen::Vector3d lps =
+        frame.position + fixture.along_row * fixture.row_step * 3 + fixture.along_column * fixture.column_step * 2;
     const LabelVolume& layer = map.layers[0];
     const Eigen::Vector3d index = layer.index_to_ras_mm.inverse() * Eigen::Vector3d(-lps.x(), -lps.y(), lps.z());
     const Eigen::Vector3i at = index.array().round().cast<int>();
@@ -120,7 +125,8 @@ TEST_F(DicomSegmentation, ObliqueFramesLieWhereTheySay) {
 
 TEST_F(DicomSegmentation, SlicesLeftOutAreEmpty) {
   SegmentationFixture fixture = random_segmentation(6, 1, 8);
-  std::sort(fixture.frames.begin(), fixture.frames.end(), [](const auto& a, const auto& b) { return a.position.z() < b.position.z(); });
+  std::sort(fixture.frames.begin(), fixture.frames.end(),
+            [](const auto& a, const auto& b) { return a.position.z() < b.position.z(); });
   fixture.frames.erase(fixture.frames.begin() + 3, fixture.frames.begin() + 5);
   const LabelMap map = read(fixture.file());
   EXPECT_EQ(map.layers[0].size[2], 8);
@@ -194,7 +200,8 @@ TEST_F(DicomSegmentation, AFolderWithItsImagesWillDo) {
   folder_.write("seg", fixture.file());
   expect_holds(read_dicom_segmentation(folder_.path()), fixture);
   folder_.write("seg2", fixture.file());
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_segmentation(folder_.path()); }), "holds 2 segmentation files");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_segmentation(folder_.path()); }),
+                  "holds 2 segmentation files");
 }
 
 }  // namespace

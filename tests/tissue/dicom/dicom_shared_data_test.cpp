@@ -99,7 +99,8 @@ TEST_F(DicomSharedData, SegmentationLiesOnItsImages) {
   EXPECT_EQ(image.size, map.layers[0].size);
   EXPECT_LT((image.index_to_ras_mm.matrix() - map.layers[0].index_to_ras_mm.matrix()).norm(), 1e-3);
   double sum = 0;
-  for (std::size_t n = 0; n < image.values.size(); ++n) sum += map.layers[0].labels[n] != 0 ? static_cast<double>(image.values[n]) : 0;
+  for (std::size_t n = 0; n < image.values.size(); ++n)
+    sum += map.layers[0].labels[n] != 0 ? static_cast<double>(image.values[n]) : 0;
   EXPECT_NEAR(sum / 107098, 45, 20) << "liver without contrast medium, Hounsfield units";
 }
 
@@ -110,13 +111,15 @@ TEST_F(DicomSharedData, GenericMrEqualsItsNifti) {
   ASSERT_EQ(image.size, truth.size);
   EXPECT_LT((image.index_to_ras_mm.matrix() - truth.index_to_ras_mm.matrix()).norm(), 1e-3);
   std::size_t different = 0;
-  for (std::size_t n = 0; n < image.values.size(); ++n) different += image.values[n] != static_cast<float>(truth.labels[n]) ? 1 : 0;
+  for (std::size_t n = 0; n < image.values.size(); ++n)
+    different += image.values[n] != static_cast<float>(truth.labels[n]) ? 1 : 0;
   EXPECT_EQ(different, 0U);
   EXPECT_EQ(image.modality, "MR");
 }
 
 TEST_F(DicomSharedData, Jpeg2000AndRleGiveTheSameSeries) {
-  const ImageVolume j2k = read_dicom_series(data_ / "mr_generic_j2k"), rle = read_dicom_series(data_ / "mr_generic_rle");
+  const ImageVolume j2k = read_dicom_series(data_ / "mr_generic_j2k"),
+                    rle = read_dicom_series(data_ / "mr_generic_rle");
   EXPECT_EQ(j2k.values, rle.values);
   EXPECT_EQ(j2k.index_to_ras_mm.matrix(), rle.index_to_ras_mm.matrix());
   EXPECT_EQ(range(j2k.values), (std::pair<float, float>{0, 254}));
@@ -167,16 +170,19 @@ TEST_F(DicomSharedData, TiltedHeadIsShearedBack) {
   int count = 0;
   for (int j = 100; j < 400; j += 3)
     for (int i = 100; i < 400; i += 3) {
-      const Eigen::Vector3d lps = place.position + place.along_row * place.row_step * i + place.along_column * place.column_step * j;
+      const Eigen::Vector3d lps =
+          place.position + place.along_row * place.row_step * i + place.along_column * place.column_step * j;
       const Eigen::Vector3d at = image.index_to_ras_mm.inverse() * Eigen::Vector3d(-lps.x(), -lps.y(), lps.z());
       ASSERT_NEAR(at.z(), std::round(at.z()), 0.02) << "slices stay in their planes";
       ASSERT_NEAR(at.x(), std::round(at.x()), 0.02) << "nothing moves across the tilt";
       const int row = static_cast<int>(std::floor(at.y()));
       const auto value = [&](int y) {
-        return static_cast<double>(image.values[image.offset(static_cast<int>(std::lround(at.x())), y, static_cast<int>(std::lround(at.z())))]);
+        return static_cast<double>(image.values[image.offset(static_cast<int>(std::lround(at.x())), y,
+                                                             static_cast<int>(std::lround(at.z())))]);
       };
       const double there = value(row) + (at.y() - row) * (value(row + 1) - value(row));
-      const float slope = static_cast<float>(place.slope.value_or(1)), intercept = static_cast<float>(place.intercept.value_or(0));
+      const float slope = static_cast<float>(place.slope.value_or(1)),
+                  intercept = static_cast<float>(place.intercept.value_or(0));
       sum += std::abs(there - static_cast<double>(slope * pixels[static_cast<std::size_t>(j * 512 + i)] + intercept));
       ++count;
     }
@@ -242,7 +248,8 @@ TEST_F(DicomSharedData, StructureSetsHaveTheirPolygonsVolumes) {
       area += contour_area(flat);
     }
     const LabelVolume& layer = map.layers[map.segments[n].layer];
-    const double filled = static_cast<double>(layer.label_counts().at(map.segments[n].number)) * layer.voxel_volume_ml() * 1000;
+    const double filled =
+        static_cast<double>(layer.label_counts().at(map.segments[n].number)) * layer.voxel_volume_ml() * 1000;
     EXPECT_NEAR(filled / (5 * area), 1, 0.01) << structures[n].name << ": planes 5 mm apart";
   }
   EXPECT_EQ(map.segments[0].name, "ROI-1");
@@ -252,12 +259,16 @@ TEST_F(DicomSharedData, StructureSetsFillTheirImages) {
   const ImageVolume image = read_dicom_series(data_ / "rtstruct_phantom");
   const LabelMap hollow = read_rtstruct(data_ / "rtstruct_phantom/rt.dcm", image);
   const double area = static_cast<double>(hollow.layers[0].label_counts().at(1)) * 0.488281 * 0.488281;
-  EXPECT_NEAR(area, 24 * 24 - 224.5, 0.5 * 0.488281 * (4 * 24 + 4 * 15)) << "a square with a hole, to half a pixel along its edges";
+  EXPECT_NEAR(area, 24 * 24 - 224.5, 0.5 * 0.488281 * (4 * 24 + 4 * 15))
+      << "a square with a hole, to half a pixel along its edges";
   const LabelMap tall = read_rtstruct(data_ / "rtstruct_phantom/invalid_reference_rt.dcm", image);
   EXPECT_CONTAINS(tall.notes.at(0), "lie outside the grid and were left out: it is cut there");
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_rtstruct(data_ / "single_small/rtstruct.dcm", image); }), "belongs to another series");
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_rtstruct(data_ / "rtstruct_phantom/rt.dcm"); }), "lie in a single plane");
-  EXPECT_EQ(read_rtstruct(data_ / "single_small/rtstruct.dcm").layers[0].label_counts().at(1), 360000U) << "400 x 300 x 3 voxels";
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_rtstruct(data_ / "single_small/rtstruct.dcm", image); }),
+                  "belongs to another series");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_rtstruct(data_ / "rtstruct_phantom/rt.dcm"); }),
+                  "lie in a single plane");
+  EXPECT_EQ(read_rtstruct(data_ / "single_small/rtstruct.dcm").layers[0].label_counts().at(1), 360000U)
+      << "400 x 300 x 3 voxels";
 }
 
 TEST_F(DicomSharedData, NothingIsPrinted) {
@@ -276,7 +287,8 @@ TEST_F(DicomSharedData, NothingIsPrinted) {
     }
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  for (const char* name : {"JANCT", "Doe^", "PHANTOM_EXAMPLE", "1.2.840.", "1.3.6.1.4"}) EXPECT_EQ(text.find(name), std::string::npos) << name;
+  for (const char* name : {"JANCT", "Doe^", "PHANTOM_EXAMPLE", "1.2.840.", "1.3.6.1.4"})
+    EXPECT_EQ(text.find(name), std::string::npos) << name;
 }
 
 }  // namespace

@@ -50,16 +50,19 @@ TEST(SliceStack, ASmallUnevennessIsTakenALargeOneNot) {
   slices[2].place.position.z() += 0.4;
   EXPECT_NEAR(stacked(slices, "in").slice_step, 5, 1e-12);
   slices[2].place.position.z() += 0.2;
-  EXPECT_CONTAINS(message_of<InputError>([&] { stacked(slices, "in"); }), "f2: lies 0.6 mm from where evenly spaced slices (5 mm)");
+  EXPECT_CONTAINS(message_of<InputError>([&] { stacked(slices, "in"); }),
+                  "f2: lies 0.6 mm from where evenly spaced slices (5 mm)");
 }
 
 TEST(SliceStack, SlicesInOnePlaneButNotInOnePlaceAreToldApart) {
   auto slices = pile(4, {0, 0, 5});
   slices[3].place.position = slices[1].place.position + Eigen::Vector3d(40, 0, 0);
-  EXPECT_CONTAINS(message_of<InputError>([&] { stacked(slices, "in"); }), "f1 and f3 lie in the same plane, side by side");
+  EXPECT_CONTAINS(message_of<InputError>([&] { stacked(slices, "in"); }),
+                  "f1 and f3 lie in the same plane, side by side");
   slices[3].place.position = slices[1].place.position;
   slices.push_back(slices[0]);
-  EXPECT_CONTAINS(message_of<InputError>([&] { stacked(slices, "in"); }), "lie in the same place, and so do 1 other pairs");
+  EXPECT_CONTAINS(message_of<InputError>([&] { stacked(slices, "in"); }),
+                  "lie in the same place, and so do 1 other pairs");
   EXPECT_CONTAINS(message_of<InputError>([&] { stacked({}, "in"); }), "in: holds no images");
 }
 
@@ -86,7 +89,8 @@ TEST(SliceVolume, AShiftByWholePixelsMovesValuesExactly) {
 TEST(SliceVolume, AShearThatWouldNeedTooManyVoxelsIsRefused) {
   auto slices = pile(300, {1000, 1000, 1});
   const SliceStack stack = stacked(slices, "in");
-  EXPECT_CONTAINS(message_of<InputError>([&] { const SliceVolume volume(stack, 0, "in"); }), "more than an import may hold");
+  EXPECT_CONTAINS(message_of<InputError>([&] { const SliceVolume volume(stack, 0, "in"); }),
+                  "more than an import may hold");
 }
 
 ImageVolume grid_of(const std::array<int, 3>& size) {
@@ -138,13 +142,21 @@ TEST(ContourGrid, AnOwnGridHoldsEveryPointAndResolvesTheSmallest) {
 
 TEST(ContourGrid, WhatMakesNoGridIsRefused) {
   EXPECT_CONTAINS(message_of<InputError>([] { own_contour_grid({structure_in_plane(2, 1)}, "f"); }), "single plane");
-  EXPECT_CONTAINS(message_of<InputError>([] { own_contour_grid({structure_in_plane(2, 1), structure_in_plane(2, 2), structure_in_plane(2, 3.5)}, "f"); }),
-                  "not evenly spaced");
-  EXPECT_CONTAINS(message_of<InputError>([] { own_contour_grid({structure_in_plane(2, 1), structure_in_plane(1, 2)}, "f"); }), "parallel planes");
+  EXPECT_CONTAINS(
+      message_of<InputError>([] {
+        own_contour_grid({structure_in_plane(2, 1), structure_in_plane(2, 2), structure_in_plane(2, 3.5)}, "f");
+      }),
+      "not evenly spaced");
+  EXPECT_CONTAINS(message_of<InputError>([] {
+                    own_contour_grid({structure_in_plane(2, 1), structure_in_plane(1, 2)}, "f");
+                  }),
+                  "parallel planes");
   Structure line{1, "line", {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}, 0};
   EXPECT_CONTAINS(message_of<InputError>([&] { own_contour_grid({line}, "f"); }), "enclose no area");
-  Structure wide{1, "wide", {{{0, 0, 0}, {90000, 0, 0}, {90000, 90000, 0}}, {{0, 0, 1}, {90000, 0, 1}, {90000, 90000, 1}}}, 0};
-  EXPECT_CONTAINS(message_of<InputError>([&] { own_contour_grid({wide}, "f"); }), "more voxels than an import may hold");
+  Structure wide{
+      1, "wide", {{{0, 0, 0}, {90000, 0, 0}, {90000, 90000, 0}}, {{0, 0, 1}, {90000, 0, 1}, {90000, 90000, 1}}}, 0};
+  EXPECT_CONTAINS(message_of<InputError>([&] { own_contour_grid({wide}, "f"); }),
+                  "more voxels than an import may hold");
 }
 
 TEST(ContourGrid, ContoursThatWindWithoutEndAreRefused) {
@@ -157,7 +169,8 @@ TEST(ContourGrid, ContoursThatWindWithoutEndAreRefused) {
     winding.contours.push_back(points);
   }
   const auto file = folder.write("rt", dicom_file(structure_set({winding})));
-  EXPECT_CONTAINS(message_of<InputError>([&] { read_rtstruct(file); }), "wind to and fro more often than any drawing does");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_rtstruct(file); }),
+                  "wind to and fro more often than any drawing does");
 }
 
 TEST(ByteSource, ReadsInsideAndNothingOutside) {
@@ -167,7 +180,8 @@ TEST(ByteSource, ReadsInsideAndNothingOutside) {
   ByteSource file(folder.write("f", bytes), "f"), memory(bytes, "m");
   for (ByteSource* source : {&file, &memory}) {
     ASSERT_EQ(source->size(), 40000U);
-    for (const std::size_t at : {std::size_t{0}, std::size_t{16380}, std::size_t{39990}, std::size_t{5}, std::size_t{20000}})
+    for (const std::size_t at :
+         {std::size_t{0}, std::size_t{16380}, std::size_t{39990}, std::size_t{5}, std::size_t{20000}})
       EXPECT_EQ(source->bytes(at, 10), bytes.substr(at, 10)) << at;
     EXPECT_EQ(source->bytes(100, 39000), bytes.substr(100, 39000));
     char one = 0;
@@ -177,8 +191,10 @@ TEST(ByteSource, ReadsInsideAndNothingOutside) {
     EXPECT_FALSE(source->read(1, &one, ~std::size_t{0}));
     EXPECT_THROW(source->bytes(39999, 2), InputError);
   }
-  EXPECT_CONTAINS(message_of<InputError>([&] { const ByteSource none(folder / "none", "none"); }), "none: cannot be opened as a file");
-  EXPECT_CONTAINS(message_of<InputError>([&] { const ByteSource none(folder.path(), "folder"); }), "folder: cannot be opened as a file");
+  EXPECT_CONTAINS(message_of<InputError>([&] { const ByteSource none(folder / "none", "none"); }),
+                  "none: cannot be opened as a file");
+  EXPECT_CONTAINS(message_of<InputError>([&] { const ByteSource none(folder.path(), "folder"); }),
+                  "folder: cannot be opened as a file");
 }
 
 DicomImage coded(const char* syntax, int rows, int columns, int allocated) {
@@ -192,8 +208,9 @@ DicomImage coded(const char* syntax, int rows, int columns, int allocated) {
 TEST(PixelCodes, WhatAFrameSaysOfItselfMustFitTheHeader) {
   constexpr const char *kJpegLossless = "1.2.840.10008.1.2.4.70", *kJpegLs = "1.2.840.10008.1.2.4.80";
   const auto jpeg = [](char marker, int bits, int rows, int columns, int parts) {
-    return std::string("\xFF\xD8\xFF\xE0\0\x04xx\xFF", 9) + marker + std::string("\0\x0B", 2) + static_cast<char>(bits) + '\0' + static_cast<char>(rows) +
-           '\0' + static_cast<char>(columns) + static_cast<char>(parts) + "\1\x11" + '\0' + std::string("data\xFF\xD9", 6);
+    return std::string("\xFF\xD8\xFF\xE0\0\x04xx\xFF", 9) + marker + std::string("\0\x0B", 2) +
+           static_cast<char>(bits) + '\0' + static_cast<char>(rows) + '\0' + static_cast<char>(columns) +
+           static_cast<char>(parts) + "\1\x11" + '\0' + std::string("data\xFF\xD9", 6);
   };
   const auto refusal = [](const std::string& bytes, const DicomImage& image) {
     return message_of<InputError>([&] { check_compressed_frame(bytes, image, "f"); });

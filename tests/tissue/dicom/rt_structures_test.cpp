@@ -48,13 +48,27 @@ TEST(ContourFill, PixelsWhoseCentresLieInsideAreFilled) {
     fill_even_odd(contours, 20, 20, [&](int first, int last, int) { count += last - first; });
     return count;
   };
-  const auto square = [](double low, double high) { return PlaneContour{{low, low}, {high, low}, {high, high}, {low, high}}; };
+  const auto square = [](double low, double high) {
+    return PlaneContour{{low, low}, {high, low}, {high, high}, {low, high}};
+  };
   EXPECT_EQ(filled({square(1.5, 9.5)}), 64);
   EXPECT_EQ(filled({square(2, 10)}), 64) << "an edge through centres counts on one side only";
   EXPECT_EQ(filled({square(1.5, 9.5), square(3.5, 5.5)}), 60) << "a second contour is a hole";
   EXPECT_EQ(filled({square(1.5, 9.5), square(1.5, 9.5)}), 0);
   EXPECT_EQ(filled({square(-5, 50)}), 400) << "cut at the grid";
-  EXPECT_EQ(filled({{{1.5, 1.5}, {9.5, 1.5}, {9.5, 9.5}, {1.5, 9.5}, {1.5, 5}, {3.5, 5}, {3.5, 5.5}, {5.5, 5.5}, {5.5, 3.5}, {3.5, 3.5}, {3.5, 5}, {1.5, 5}}}), 60)
+  EXPECT_EQ(filled({{{1.5, 1.5},
+                     {9.5, 1.5},
+                     {9.5, 9.5},
+                     {1.5, 9.5},
+                     {1.5, 5},
+                     {3.5, 5},
+                     {3.5, 5.5},
+                     {5.5, 5.5},
+                     {5.5, 3.5},
+                     {3.5, 3.5},
+                     {3.5, 5},
+                     {1.5, 5}}}),
+            60)
       << "a keyhole is a hole";
   EXPECT_EQ(filled({{{1.5, 1.5}, {1.5, 9.5}}}), 0);
   EXPECT_EQ(crossing_count({square(1.5, 9.5)}, 20), 16U);
@@ -67,7 +81,8 @@ TEST_F(RtStructures, ACylinderHasItsVolumeAndPlace) {
   for (int k = 2; k < 12; ++k) cylinder.contours.push_back(circle({5, -8, 2.0 * k}, 14, 720));
   const LabelMap map = read({cylinder}, axial_grid(20));
   const double exact = kPi * 14 * 14 * 20 / 1000;
-  EXPECT_NEAR(volume_ml(map), exact, 0.01 * exact) << "a circle of radius 14 holds 613 lattice points, its area is 615.8";
+  EXPECT_NEAR(volume_ml(map), exact, 0.01 * exact)
+      << "a circle of radius 14 holds 613 lattice points, its area is 615.8";
   EXPECT_EQ(map.segments[0].name, "Liver");
   EXPECT_EQ(map.modality, "CT");
   EXPECT_TRUE(map.notes.empty()) << map.notes[0];
@@ -84,8 +99,18 @@ TEST_F(RtStructures, HolesByASecondContourAndByAKeyhole) {
     const double z = 2.0 * k;
     ring.contours.push_back(rectangle(-20.5, -20.5, -0.5, -0.5, z));
     ring.contours.push_back(rectangle(-15.5, -15.5, -5.5, -5.5, z));
-    keyhole.contours.push_back({{0.5, 0.5, z}, {20.5, 0.5, z}, {20.5, 20.5, z}, {0.5, 20.5, z}, {0.5, 10, z}, {5.5, 10, z}, {5.5, 15.5, z},
-                                {15.5, 15.5, z}, {15.5, 5.5, z}, {5.5, 5.5, z}, {5.5, 10, z}, {0.5, 10, z}});
+    keyhole.contours.push_back({{0.5, 0.5, z},
+                                {20.5, 0.5, z},
+                                {20.5, 20.5, z},
+                                {0.5, 20.5, z},
+                                {0.5, 10, z},
+                                {5.5, 10, z},
+                                {5.5, 15.5, z},
+                                {15.5, 15.5, z},
+                                {15.5, 5.5, z},
+                                {5.5, 5.5, z},
+                                {5.5, 10, z},
+                                {0.5, 10, z}});
   }
   ring.type = "CLOSEDPLANAR_XOR";
   const LabelMap map = read({ring, keyhole}, axial_grid(6));
@@ -109,7 +134,8 @@ TEST_F(RtStructures, OverlappingStructuresLieInLayers) {
 
 TEST_F(RtStructures, PlanesBetweenSlicesFillTheNearestWithANote) {
   StructureFixture sparse;
-  for (int k = 0; k < 5; ++k) sparse.contours.push_back(rectangle(-10.5, -10.5, 10.5, 10.5, 5 + 6.0 * k));  // every third slice, between two
+  for (int k = 0; k < 5; ++k)
+    sparse.contours.push_back(rectangle(-10.5, -10.5, 10.5, 10.5, 5 + 6.0 * k));  // every third slice, between two
   const LabelMap map = read({sparse}, axial_grid(20));
   EXPECT_NEAR(volume_ml(map), 21 * 21 * 30 / 1000.0, 21 * 21 * 2 / 1000.0);
   EXPECT_CONTAINS(map.notes.at(0), "slices were filled from the nearest plane");
@@ -145,8 +171,10 @@ TEST_F(RtStructures, SagittalContoursFillASagittalGrid) {
 
 TEST_F(RtStructures, ContoursAcrossTheSlicesAreRefused) {
   StructureFixture oblique;
-  for (int k = 0; k < 4; ++k) oblique.contours.push_back({{-10, -10, 2.0 * k}, {10, -11, 2.0 * k + 3}, {11, 10, 2.0 * k + 8}});
-  EXPECT_CONTAINS(message_of<InputError>([&] { read({oblique}, axial_grid(8)); }), "structure 1 (Liver): its contours do not lie in the slices");
+  for (int k = 0; k < 4; ++k)
+    oblique.contours.push_back({{-10, -10, 2.0 * k}, {10, -11, 2.0 * k + 3}, {11, 10, 2.0 * k + 8}});
+  EXPECT_CONTAINS(message_of<InputError>([&] { read({oblique}, axial_grid(8)); }),
+                  "structure 1 (Liver): its contours do not lie in the slices");
   oblique.contours[1][0].z() += 1;
   EXPECT_CONTAINS(message_of<InputError>([&] { read({oblique}); }), "do not lie in parallel planes");
 }
@@ -174,7 +202,8 @@ TEST_F(RtStructures, TiltedPlanesMakeATiltedGrid) {
 }
 
 TEST_F(RtStructures, PointsAndOpenLinesAreLeftOutWithANote) {
-  StructureFixture good, point{2, "Isocentre", {{{1, 2, 3}}}, "POINT"}, line{3, "Ruler", {rectangle(0, 0, 5, 5, 2)}, "OPEN_PLANAR"};
+  StructureFixture good, point{2, "Isocentre", {{{1, 2, 3}}}, "POINT"},
+      line{3, "Ruler", {rectangle(0, 0, 5, 5, 2)}, "OPEN_PLANAR"};
   for (int k = 0; k < 4; ++k) good.contours.push_back(rectangle(-5, -5, 5, 5, 2.0 * k));
   const LabelMap map = read({good, point, line}, axial_grid(6));
   EXPECT_EQ(map.segments.size(), 1U);
@@ -191,7 +220,8 @@ TEST_F(RtStructures, OtherFilesAreRefused) {
   StructureFixture far;
   far.contours = {{{0, 0, 0}, {1e9, 0, 0}, {0, 5, 0}}};
   EXPECT_CONTAINS(refusal(dicom_file(structure_set({far}))), "more than 100 m away");
-  const std::string whole = dicom_file(structure_set({StructureFixture{1, "a", {rectangle(0, 0, 1, 1, 0)}, "CLOSED_PLANAR"}}));
+  const std::string whole =
+      dicom_file(structure_set({StructureFixture{1, "a", {rectangle(0, 0, 1, 1, 0)}, "CLOSED_PLANAR"}}));
   EXPECT_CONTAINS(refusal(whole.substr(0, whole.size() - 30)), "damaged DICOM");
 }
 

@@ -12,7 +12,9 @@ Elements code(const char* value, const char* meaning) {
 
 Elements segment_of(int number, const std::string& label) {
   Elements segment;
-  segment.sequence(0x00620003, {code("85756007", "Tissue")}).word(0x00620004, static_cast<unsigned>(number)).text(0x00620005, "LO", label);
+  segment.sequence(0x00620003, {code("85756007", "Tissue")})
+      .word(0x00620004, static_cast<unsigned>(number))
+      .text(0x00620005, "LO", label);
   return segment.text(0x00620008, "CS", "MANUAL").sequence(0x0062000F, {code("10200004", "Liver")});
 }
 
@@ -31,7 +33,8 @@ std::string packed(const std::vector<SegmentationFrame>& frames, bool bits) {
   for (const SegmentationFrame& frame : frames)
     for (const int value : frame.values) {
       if (!bits || at % 8 == 0) bytes += '\0';
-      bytes.back() = static_cast<char>(bits ? static_cast<unsigned char>(bytes.back()) | (value != 0 ? 1 << at % 8 : 0) : value);
+      bytes.back() =
+          static_cast<char>(bits ? static_cast<unsigned char>(bytes.back()) | (value != 0 ? 1 << at % 8 : 0) : value);
       ++at;
     }
   if (bytes.size() % 2 != 0) bytes += '\0';
@@ -53,14 +56,25 @@ Elements dimensions() {
 Elements SegmentationFixture::elements() const {
   Elements data = dimensions();
   data.sequence(0x00209221, {Elements().text(0x00209164, "UI", "1.2.7")});
-  data.text(0x00080008, "CS", "DERIVED\\PRIMARY").text(0x00080016, "UI", kSegmentationClass).text(0x00080018, "UI", "1.2.3.8.1");
-  data.text(0x00080060, "CS", "SEG").text(0x0020000D, "UI", "1.2.3").text(0x0020000E, "UI", "1.2.3.8").text(0x00200011, "IS", "8");
+  data.text(0x00080008, "CS", "DERIVED\\PRIMARY")
+      .text(0x00080016, "UI", kSegmentationClass)
+      .text(0x00080018, "UI", "1.2.3.8.1");
+  data.text(0x00080060, "CS", "SEG")
+      .text(0x0020000D, "UI", "1.2.3")
+      .text(0x0020000E, "UI", "1.2.3.8")
+      .text(0x00200011, "IS", "8");
   data.text(0x00200013, "IS", "1").text(0x00200052, "UI", "1.2.9").text(0x00209311, "CS", "3D");
   data.word(0x00280002, 1).text(0x00280004, "CS", "MONOCHROME2").text(0x00280008, "IS", std::to_string(frames.size()));
   data.word(0x00280010, static_cast<unsigned>(rows)).word(0x00280011, static_cast<unsigned>(columns));
   const unsigned bits = maximum == 0 ? 1 : 8;
-  data.word(0x00280100, bits).word(0x00280101, bits).word(0x00280102, bits - 1).word(0x00280103, 0).text(0x00282110, "CS", "00");
-  data.text(0x00620001, "CS", maximum == 0 ? "BINARY" : "FRACTIONAL").text(0x00700080, "CS", "SEG").text(0x00700081, "LO", "");
+  data.word(0x00280100, bits)
+      .word(0x00280101, bits)
+      .word(0x00280102, bits - 1)
+      .word(0x00280103, 0)
+      .text(0x00282110, "CS", "00");
+  data.text(0x00620001, "CS", maximum == 0 ? "BINARY" : "FRACTIONAL")
+      .text(0x00700080, "CS", "SEG")
+      .text(0x00700081, "LO", "");
   if (maximum != 0) data.text(0x00620010, "CS", "OCCUPANCY").word(0x0062000E, static_cast<unsigned>(maximum));
   std::vector<Elements> segments, groups;
   for (std::size_t n = 0; n < labels.size(); ++n) segments.push_back(segment_of(static_cast<int>(n + 1), labels[n]));
@@ -79,20 +93,28 @@ Elements structure_set(const std::vector<StructureFixture>& structures) {
   std::vector<Elements> names, contours;
   for (const StructureFixture& structure : structures) {
     const std::string number = std::to_string(structure.number);
-    names.push_back(Elements(Encoding::kImplicit).text(0x30060022, "IS", number).text(0x30060024, "UI", "1.2.9").text(0x30060026, "LO", structure.name));
+    names.push_back(Elements(Encoding::kImplicit)
+                        .text(0x30060022, "IS", number)
+                        .text(0x30060024, "UI", "1.2.9")
+                        .text(0x30060026, "LO", structure.name));
     std::vector<Elements> of_structure;
     for (const auto& contour : structure.contours) {
       std::vector<double> numbers;
       for (const Eigen::Vector3d& point : contour) numbers.insert(numbers.end(), {point.x(), point.y(), point.z()});
       Elements item(Encoding::kImplicit);
-      item.text(0x30060042, "CS", structure.type).text(0x30060046, "IS", std::to_string(contour.size())).numbers(0x30060050, numbers);
+      item.text(0x30060042, "CS", structure.type)
+          .text(0x30060046, "IS", std::to_string(contour.size()))
+          .numbers(0x30060050, numbers);
       of_structure.push_back(item);
     }
     contours.push_back(Elements(Encoding::kImplicit).sequence(0x30060040, of_structure).text(0x30060084, "IS", number));
   }
   Elements data(Encoding::kImplicit);
   data.text(0x00080016, "UI", kStructureClass).text(0x00080018, "UI", "1.2.3.9.1").text(0x00080060, "CS", "RTSTRUCT");
-  data.text(0x0020000D, "UI", "1.2.3").text(0x0020000E, "UI", "1.2.3.9").text(0x00200011, "IS", "9").text(0x30060002, "SH", "set");
+  data.text(0x0020000D, "UI", "1.2.3")
+      .text(0x0020000E, "UI", "1.2.3.9")
+      .text(0x00200011, "IS", "9")
+      .text(0x30060002, "SH", "set");
   return data.sequence(0x30060020, names).sequence(0x30060039, contours);
 }
 

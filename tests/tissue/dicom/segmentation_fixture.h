@@ -11,7 +11,8 @@
 
 namespace trocar::test {
 
-/// One frame of a segmentation: the segment (from 1), where it lies (LPS) and its values, row by row (0 or 1, or 0..maximum).
+/// One frame of a segmentation: the segment (from 1), where it lies (LPS) and its values, row by row (0 or 1, or
+/// 0..maximum).
 struct SegmentationFrame {
   int segment = 1;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();

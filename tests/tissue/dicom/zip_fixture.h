@@ -11,7 +11,8 @@
 namespace trocar::test {
 
 /// @param password "" for none
-std::filesystem::path write_zip(const std::filesystem::path& path, const std::vector<std::pair<std::string, std::string>>& files,
+std::filesystem::path write_zip(const std::filesystem::path& path,
+                                const std::vector<std::pair<std::string, std::string>>& files,
                                 const std::string& password = "");
 
 }  // namespace trocar::test

@@ -16,10 +16,12 @@ std::pair<int, int> rows_of(double low, double high, int height) {
 void add_crossings(const PlaneContour& contour, int height, std::vector<std::vector<double>>& crossings) {
   for (std::size_t n = 0; n < contour.size(); ++n) {
     const Eigen::Vector2d &a = contour[n], &b = contour[(n + 1) % contour.size()];
-    const Eigen::Vector2d &low = a.y() < b.y() ? a : b, &high = a.y() < b.y() ? b : a;  // same arithmetic both ways: keyholes cancel
+    const Eigen::Vector2d &low = a.y() < b.y() ? a : b,
+                          &high = a.y() < b.y() ? b : a;  // same arithmetic both ways: keyholes cancel
     const auto [first, last] = rows_of(low.y(), high.y(), height);
     for (int row = first; row < last; ++row)
-      crossings[static_cast<std::size_t>(row)].push_back(low.x() + (row - low.y()) / (high.y() - low.y()) * (high.x() - low.x()));
+      crossings[static_cast<std::size_t>(row)].push_back(low.x() +
+                                                         (row - low.y()) / (high.y() - low.y()) * (high.x() - low.x()));
   }
 }
 
@@ -36,7 +38,8 @@ std::uint64_t crossing_count(const std::vector<PlaneContour>& contours, int heig
   return count;
 }
 
-void fill_even_odd(const std::vector<PlaneContour>& contours, int width, int height, const std::function<void(int, int, int)>& run) {
+void fill_even_odd(const std::vector<PlaneContour>& contours, int width, int height,
+                   const std::function<void(int, int, int)>& run) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(height));
   for (const PlaneContour& contour : contours) add_crossings(contour, height, crossings);
   for (int row = 0; row < height; ++row) {

@@ -9,10 +9,10 @@
 namespace trocar {
 namespace {
 
-constexpr double kFlat = 0.2;                         // of a slice: how far a contour may leave its plane
-constexpr double kFlatMm = 0.25;                      // the same where there are no slices yet
-constexpr double kFinest = 0.25, kCoarsest = 1;       // mm, pixels of an own grid
-constexpr double kPixelsAcross = 60;                  // of the smallest structure
+constexpr double kFlat = 0.2;                    // of a slice: how far a contour may leave its plane
+constexpr double kFlatMm = 0.25;                 // the same where there are no slices yet
+constexpr double kFinest = 0.25, kCoarsest = 1;  // mm, pixels of an own grid
+constexpr double kPixelsAcross = 60;             // of the smallest structure
 constexpr int kMargin = 2;
 
 /// Thickness of the thickest contour along each axis of a frame, and the structure it belongs to.
@@ -28,7 +28,8 @@ Thickness thickness(const ContourGrid& grid, const std::vector<Structure>& struc
       Eigen::AlignedBox3d box;
       for (const Eigen::Vector3d& point : contour) box.extend(grid.index_of(point));
       for (int axis = 0; axis < 3; ++axis)
-        if (box.sizes()[axis] > result.most[axis]) result.most[axis] = box.sizes()[axis], result.of[static_cast<std::size_t>(axis)] = &structure;
+        if (box.sizes()[axis] > result.most[axis])
+          result.most[axis] = box.sizes()[axis], result.of[static_cast<std::size_t>(axis)] = &structure;
     }
   return result;
 }
@@ -64,17 +65,20 @@ Eigen::Vector3d common_normal(const std::vector<Structure>& structures, const st
   best.normalize();
   int main_axis = 0;
   best.cwiseAbs().maxCoeff(&main_axis);
-  if ((main_axis == 2) != (best[main_axis] > 0)) best = -best;  // LPS: z towards the head, x and y away from right and front
+  if ((main_axis == 2) != (best[main_axis] > 0))
+    best = -best;  // LPS: z towards the head, x and y away from right and front
   return best;
 }
 
 /// Heights of the contours along the normal; each must be flat.
-std::vector<double> plane_heights(const std::vector<Structure>& structures, const Eigen::Vector3d& normal, const std::string& file) {
+std::vector<double> plane_heights(const std::vector<Structure>& structures, const Eigen::Vector3d& normal,
+                                  const std::string& file) {
   std::vector<double> heights;
   for (const Structure& structure : structures)
     for (const Contour& contour : structure.closed) {
       double low = normal.dot(contour[0]), high = low;
-      for (const Eigen::Vector3d& point : contour) low = std::min(low, normal.dot(point)), high = std::max(high, normal.dot(point));
+      for (const Eigen::Vector3d& point : contour)
+        low = std::min(low, normal.dot(point)), high = std::max(high, normal.dot(point));
       if (high - low > kFlatMm)
         throw InputError(file + ": structure " + std::to_string(structure.number) + " (" + structure.name +
                          "): its contours do not lie in parallel planes; give the image that they were drawn on");
@@ -97,7 +101,8 @@ double pixel_size(const std::vector<Structure>& structures, const Eigen::Vector3
 
 }  // namespace
 
-ContourGrid image_contour_grid(const ImageVolume& image, const std::vector<Structure>& structures, const std::string& file) {
+ContourGrid image_contour_grid(const ImageVolume& image, const std::vector<Structure>& structures,
+                               const std::string& file) {
   const ContourGrid grid{image.size, image.index_to_ras_mm};
   const Thickness thick = thickness(grid, structures);
   int axis = 0;
@@ -111,7 +116,8 @@ ContourGrid image_contour_grid(const ImageVolume& image, const std::vector<Struc
 ContourGrid own_contour_grid(const std::vector<Structure>& structures, const std::string& file) {
   const Eigen::Vector3d normal = common_normal(structures, file);
   const EvenPlanes planes = even_planes(plane_heights(structures, normal, file), "contours", file);
-  if (planes.step == 0) throw InputError(file + ": its contours lie in a single plane: a volume needs two at least, an organ some dozens");
+  if (planes.step == 0)
+    throw InputError(file + ": its contours lie in a single plane: a volume needs two at least, an organ some dozens");
   const Eigen::Vector3d side = std::abs(normal.x()) < 0.8 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   const Eigen::Vector3d u = (side - normal.dot(side) * normal).normalized(), v = normal.cross(u);
   const double pixel = pixel_size(structures, u, v);
@@ -123,10 +129,12 @@ ContourGrid own_contour_grid(const std::vector<Structure>& structures, const std
   if ((extent.x() + 6) * (extent.y() + 6) * planes.count > static_cast<double>(kMostVoxels))
     throw InputError(file + ": its contours would need more voxels than an import may hold (268 million)");
   ContourGrid grid;
-  grid.size = {static_cast<int>(std::ceil(extent.x())) + 1 + 2 * kMargin, static_cast<int>(std::ceil(extent.y())) + 1 + 2 * kMargin, planes.count};
+  grid.size = {static_cast<int>(std::ceil(extent.x())) + 1 + 2 * kMargin,
+               static_cast<int>(std::ceil(extent.y())) + 1 + 2 * kMargin, planes.count};
   Eigen::Affine3d lps = Eigen::Affine3d::Identity();
   lps.linear() << u * pixel, v * pixel, normal * planes.step;
-  lps.translation() = u * (box.min().x() - kMargin * pixel) + v * (box.min().y() - kMargin * pixel) + normal * planes.first;
+  lps.translation() =
+      u * (box.min().x() - kMargin * pixel) + v * (box.min().y() - kMargin * pixel) + normal * planes.first;
   grid.index_to_ras_mm = Eigen::Affine3d(Eigen::Scaling(-1.0, -1.0, 1.0)) * lps;
   return grid;
 }

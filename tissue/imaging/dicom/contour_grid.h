@@ -1,7 +1,8 @@
-// The grid on which contours are filled: slices along the last axis, so that every contour lies in a plane of constant k.
+// The grid on which contours are filled: slices along the last axis, so that every contour lies in a plane of constant
+// k.
 //
-// Either an image's grid with its axes turned so, or one made from the planes of the contours themselves. Frame RAS, mm; contours come
-// in LPS. Thread: any.
+// Either an image's grid with its axes turned so, or one made from the planes of the contours themselves. Frame RAS,
+// mm; contours come in LPS. Thread: any.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,7 +16,7 @@
 namespace trocar {
 
 inline constexpr double kSamePlaneSlices = 0.05;  ///< contours closer than this share a plane
-inline constexpr double kOnSlice = 0.1;           ///< a plane farther than this from a slice's middle lies between slices
+inline constexpr double kOnSlice = 0.1;  ///< a plane farther than this from a slice's middle lies between slices
 
 struct ContourGrid {
   std::array<int, 3> size{};
@@ -23,7 +24,8 @@ struct ContourGrid {
 
   std::size_t offset(int i, int j, int k) const {
     return static_cast<std::size_t>(i) +
-           static_cast<std::size_t>(size[0]) * (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+           static_cast<std::size_t>(size[0]) *
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
   }
   double step_mm(int axis) const { return index_to_ras_mm.linear().col(axis).norm(); }
   /// @param lps mm
@@ -34,7 +36,8 @@ struct ContourGrid {
 
 /// The image's grid with the axis that the contours are normal to as the last.
 /// @throws InputError when the contours do not lie in planes of one of its axes
-ContourGrid image_contour_grid(const ImageVolume& image, const std::vector<Structure>& structures, const std::string& file);
+ContourGrid image_contour_grid(const ImageVolume& image, const std::vector<Structure>& structures,
+                               const std::string& file);
 
 /// Slices where the contours lie; in them square pixels of 1 mm, less for small structures, with a margin of two.
 /// @throws InputError when the planes are not parallel or not evenly spaced, or the grid would be too large

@@ -48,7 +48,8 @@ std::string packed(DcmSegmentation& object, bool with_pixels) {
     const DcmIODTypes::Frame* frame = with_pixels ? object.getFrame(n) : nullptr;
     if (with_pixels && (frame == nullptr || frame->pixData == nullptr)) throw std::runtime_error("a frame is missing");
     out.put(static_cast<std::int32_t>(segment_of[n]));
-    out.put_text(with_pixels ? std::string_view(reinterpret_cast<const char*>(frame->pixData), frame->length) : std::string_view());
+    out.put_text(with_pixels ? std::string_view(reinterpret_cast<const char*>(frame->pixData), frame->length)
+                             : std::string_view());
   }
   return out.take();
 }
@@ -59,16 +60,18 @@ std::string load(const std::filesystem::path& path, const std::string& name, boo
   DcmSegmentation* loaded = nullptr;
   const OFCondition condition = DcmSegmentation::loadFile(path.c_str(), loaded);
   const std::unique_ptr<DcmSegmentation> object(loaded);
-  if (condition.bad() || object == nullptr) throw InputError(name + ": dcmseg refuses this segmentation: " + std::string(condition.text()));
+  if (condition.bad() || object == nullptr)
+    throw InputError(name + ": dcmseg refuses this segmentation: " + std::string(condition.text()));
   return packed(*object, with_pixels);
 }
 
 }  // namespace
 
-SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, const std::string& name, bool with_pixels,
-                                            const Progress& progress) {
+SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, const std::string& name,
+                                            bool with_pixels, const Progress& progress) {
   load_dcmtk_dictionary();
-  const std::string bytes = in_child(name, ChildLimits{std::uint64_t{3} << 29, 300}, progress, [&] { return load(path, name, with_pixels); });
+  const std::string bytes =
+      in_child(name, ChildLimits{std::uint64_t{3} << 29, 300}, progress, [&] { return load(path, name, with_pixels); });
   PackedReader in(bytes, name);
   SegmentationFrames frames;
   for (std::uint64_t left = in.get_count(12); left > 0; --left) {

@@ -1,7 +1,8 @@
 // The frames of a DICOM segmentation through dcmseg, seen without any of its types.
 //
-// Runs dcmseg in a child process. Of native pixels nothing is taken: dcmseg 3.6.7 shifts the bits of binary frames whose pixels do not
-// fill whole bytes (a test shows it), and they are easily read without it. Thread: as dicom_reader.h.
+// Runs dcmseg in a child process. Of native pixels nothing is taken: dcmseg 3.6.7 shifts the bits of binary frames
+// whose pixels do not fill whole bytes (a test shows it), and they are easily read without it. Thread: as
+// dicom_reader.h.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +19,13 @@ struct SegmentationFrames {
     std::string label;
   };
   std::vector<Named> segments;
-  std::vector<int> segment_of;     ///< number, frame by frame; 0: belongs to none
-  std::vector<std::string> values; ///< of compressed fractional frames: one byte a pixel; empty otherwise
+  std::vector<int> segment_of;      ///< number, frame by frame; 0: belongs to none
+  std::vector<std::string> values;  ///< of compressed fractional frames: one byte a pixel; empty otherwise
 };
 
 /// @param with_pixels whether the frames are compressed, so that their pixels must be decoded
 /// @throws InputError naming the file
-SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, const std::string& name, bool with_pixels,
-                                            const Progress& progress);
+SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, const std::string& name,
+                                            bool with_pixels, const Progress& progress);
 
 }  // namespace trocar

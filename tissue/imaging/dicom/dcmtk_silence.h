@@ -1,4 +1,5 @@
-// Keeps dcmtk quiet and its messages (which may quote a file's contents) away from every output. Frames and contours are read in child processes.
+// Keeps dcmtk quiet and its messages (which may quote a file's contents) away from every output. Frames and contours
+// are read in child processes.
 //
 // Thread: any.
 #pragma once

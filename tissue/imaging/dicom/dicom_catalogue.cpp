@@ -1,6 +1,7 @@
 #include "tissue/imaging/dicom/dicom_catalogue.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <tuple>
@@ -20,11 +21,14 @@ std::string short_hash(const std::string& identity) { return digest::of_bytes(id
 
 const char* plural(int count) { return count == 1 ? " image" : " images"; }
 
+/// Frames as files claim them, which may be any number.
+int sum_of(int a, int b) { return static_cast<int>(std::min(std::int64_t{a} + b, std::int64_t{1000000000})); }
+
 /// What can be said of a series of images without decoding any.
 void measure(CataloguedSeries& series, const std::string& input) {
   DicomSeries& facts = series.facts;
   for (const DicomInstance& instance : series.instances) {
-    facts.images += instance.frames;
+    facts.images = sum_of(facts.images, instance.frames);
     if (facts.rows == 0) facts.rows = instance.rows, facts.columns = instance.columns;
   }
   try {
@@ -49,7 +53,7 @@ void describe_series(CataloguedSeries& series, const std::string& input) {
   for (const DicomInstance& instance : series.instances) {
     if (series.facts.problem.empty()) series.facts.problem = instance.problem;
     if (first.kind != DicomKind::kSegmentation) continue;
-    series.facts.images += instance.frames;
+    series.facts.images = sum_of(series.facts.images, instance.frames);
     series.facts.rows = instance.rows, series.facts.columns = instance.columns;
   }
 }
@@ -82,7 +86,8 @@ std::map<Key, std::vector<DicomInstance>> grouped(const DicomInput& input, const
     if (!elements || (is_directory_file(*elements) && !input.single())) continue;
     DicomInstance instance = instance_of(*elements, file.path, file.name, source->size());
     if (instance.image) frames += instance.image->places.size();
-    if (frames > kMostFrames) throw InputError(input.name() + ": holds more than " + std::to_string(kMostFrames) + " images");
+    if (frames > kMostFrames)
+      throw InputError(input.name() + ": holds more than " + std::to_string(kMostFrames) + " images");
     const Key key{instance.study, instance.series_number, instance.series, instance.kind};
     groups[key].push_back(std::move(instance));
   }
@@ -102,12 +107,14 @@ DicomCatalogue catalogue(const DicomInput& input, const Progress& progress) {
     describe_series(series, input.name());
   }
   if (!all.series.empty()) return all;
-  if (input.single()) throw InputError(input.name() + ": is not a DICOM file: it has no DICOM signature and does not start as one");
-  throw InputError(input.name() + ": holds no DICOM files (" + std::to_string(input.files().size()) + " files were looked at)");
+  if (input.single())
+    throw InputError(input.name() + ": is not a DICOM file: it has no DICOM signature and does not start as one");
+  throw InputError(input.name() + ": holds no DICOM files (" + std::to_string(input.files().size()) +
+                   " files were looked at)");
 }
 
-const CataloguedSeries& choose(const DicomCatalogue& all, DicomKind kind, std::optional<int> number, const std::string& input,
-                               const std::string& what) {
+const CataloguedSeries& choose(const DicomCatalogue& all, DicomKind kind, std::optional<int> number,
+                               const std::string& input, const std::string& what) {
   const CataloguedSeries* chosen = nullptr;
   std::string list;
   int fitting = 0;
@@ -116,12 +123,17 @@ const CataloguedSeries& choose(const DicomCatalogue& all, DicomKind kind, std::o
     const bool fits = number ? series.facts.number == *number : series.facts.kind == kind;
     if (fits) ++fitting, chosen = &series;
   }
-  if (number && chosen == nullptr) throw InputError(input + ": has no series " + std::to_string(*number) + "; it holds" + list);
+  if (number && chosen == nullptr)
+    throw InputError(input + ": has no series " + std::to_string(*number) + "; it holds" + list);
   const DicomSeries& first = all.series.front().facts;
-  if (fitting == 0 && all.series.size() == 1 && first.kind == DicomKind::kOther && !first.problem.empty()) throw InputError(first.problem);
+  if (fitting == 0 && all.series.size() == 1 && first.kind == DicomKind::kOther && !first.problem.empty())
+    throw InputError(first.problem);
   if (fitting == 0) throw InputError(input + ": holds no series of " + what + "; it holds" + list);
-  if (fitting > 1) throw InputError(input + ": holds " + std::to_string(fitting) + " series of " + what + "; choose one with --series N:" + list);
-  if (chosen->facts.kind != kind) throw InputError(input + ": series " + std::to_string(*number) + " is not one of " + what + "; it holds" + list);
+  if (fitting > 1)
+    throw InputError(input + ": holds " + std::to_string(fitting) + " series of " + what +
+                     "; choose one with --series N:" + list);
+  if (chosen->facts.kind != kind)
+    throw InputError(input + ": series " + std::to_string(*number) + " is not one of " + what + "; it holds" + list);
   return *chosen;
 }
 
@@ -135,8 +147,9 @@ std::vector<StackSlice> slices_of(const CataloguedSeries& series) {
       throw InputError(series.instances.front().name + " and " + instance.name +
                        " have different frames of reference: the patient moved between them, they are not one volume");
     for (std::size_t frame = 0; frame < image.places.size(); ++frame)
-      slices.push_back({image.places[frame], image.rows, image.columns,
-                        image.places.size() > 1 ? instance.name + " frame " + std::to_string(frame + 1) : instance.name});
+      slices.push_back(
+          {image.places[frame], image.rows, image.columns,
+           image.places.size() > 1 ? instance.name + " frame " + std::to_string(frame + 1) : instance.name});
   }
   return slices;
 }
@@ -155,7 +168,8 @@ std::string describe(const DicomSeries& series) {
   if (series.kind == DicomKind::kOther) text += ", no image";
   if (series.images > 0) {
     const char* frames = series.images == 1 ? " frame" : " frames";
-    text += ", " + std::to_string(series.images) + (series.kind == DicomKind::kSegmentation ? frames : plural(series.images)) + " of " +
+    text += ", " + std::to_string(series.images) +
+            (series.kind == DicomKind::kSegmentation ? frames : plural(series.images)) + " of " +
             std::to_string(series.columns) + " x " + std::to_string(series.rows);
   }
   if (series.spacing_mm[0] > 0) {

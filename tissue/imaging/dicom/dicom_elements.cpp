@@ -91,13 +91,15 @@ std::optional<std::vector<double>> DicomItem::decimals(DicomTag tag) const {
 std::optional<std::uint32_t> DicomItem::whole(DicomTag tag) const {
   const DicomElement* element = find(tag);
   if (element == nullptr || element->value.size() < 2) return {};
-  const auto byte = [&](std::size_t at) { return static_cast<std::uint32_t>(static_cast<unsigned char>(element->value[at])); };
+  const auto byte = [&](std::size_t at) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(element->value[at]));
+  };
   const std::uint32_t low = byte(0) | byte(1) << 8;
   return element->value.size() >= 4 ? low | byte(2) << 16 | byte(3) << 24 : low;
 }
 
-std::optional<DicomFile> read_dicom_elements(const std::filesystem::path& path, const std::string& name, InflateBudget& budget,
-                                             std::unique_ptr<ByteSource>* source) {
+std::optional<DicomFile> read_dicom_elements(const std::filesystem::path& path, const std::string& name,
+                                             InflateBudget& budget, std::unique_ptr<ByteSource>* source) {
   auto bytes = std::make_unique<ByteSource>(path, name);
   char signature[4];
   DicomFile file;
@@ -110,7 +112,8 @@ std::optional<DicomFile> read_dicom_elements(const std::filesystem::path& path, 
     return {};
   }
   const bool header_holds = file.damage.empty();
-  if (header_holds && file.syntax != nullptr && file.syntax->deflated) bytes = inflated(file, *bytes, std::exchange(from, 0), budget);
+  if (header_holds && file.syntax != nullptr && file.syntax->deflated)
+    bytes = inflated(file, *bytes, std::exchange(from, 0), budget);
   if (header_holds) parse(file, *bytes, file.syntax != nullptr ? *file.syntax : explicit_little_endian(), from);
   if (source != nullptr) *source = std::move(bytes);
   return file;

@@ -1,8 +1,8 @@
 // The elements of a DICOM file that the readers need, parsed and checked by ourselves before any library sees the file.
 //
-// Source: DICOM PS3.5 section 7 (elements, sequences) and annex A (encodings), PS3.10 section 7 (file header). Only elements of a fixed
-// list are kept, none of which names a patient; everything else is stepped over. Pixel data stay in the file: only their place is kept.
-// Thread: any.
+// Source: DICOM PS3.5 section 7 (elements, sequences) and annex A (encodings), PS3.10 section 7 (file header). Only
+// elements of a fixed list are kept, none of which names a patient; everything else is stepped over. Pixel data stay in
+// the file: only their place is kept. Thread: any.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,8 @@ struct DicomItem {
 struct PixelSpan {
   bool present = false;
   bool encapsulated = false;
-  bool words = false;            ///< stored as 16-bit words (OW): bytes of big endian files come swapped
-  bool floating = false;         ///< float or double pixel data, which no reader here takes
+  bool words = false;                    ///< stored as 16-bit words (OW): bytes of big endian files come swapped
+  bool floating = false;                 ///< float or double pixel data, which no reader here takes
   std::uint64_t offset = 0, length = 0;  ///< native: of the bytes. Encapsulated: of all fragments with their headers
   std::vector<std::pair<std::uint64_t, std::uint32_t>> fragments;  ///< offset and length, without the offset table
   std::vector<std::uint32_t> frame_offsets;                        ///< the basic offset table
@@ -66,7 +66,7 @@ struct InflateBudget {
 /// nullopt when the file is not DICOM. Damage of a file that is DICOM is told in `damage`.
 /// @param source receives the bytes in which `pixels` lie (those of an inflated file are in memory)
 /// @throws InputError when the file cannot be read at all
-std::optional<DicomFile> read_dicom_elements(const std::filesystem::path& path, const std::string& name, InflateBudget& budget,
-                                             std::unique_ptr<ByteSource>* source = nullptr);
+std::optional<DicomFile> read_dicom_elements(const std::filesystem::path& path, const std::string& name,
+                                             InflateBudget& budget, std::unique_ptr<ByteSource>* source = nullptr);
 
 }  // namespace trocar

@@ -22,8 +22,11 @@ std::optional<fs::path> relative_path(const std::string& text, bool lower) {
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t to = std::min(text.find('\\', from), text.size());
     std::string part = text.substr(from, to - from);
-    if (part.empty() || part == "." || part == ".." || part.size() > 64 || part.find('/') != std::string::npos) return {};
-    if (lower) std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (part.empty() || part == "." || part == ".." || part.size() > 64 || part.find('/') != std::string::npos)
+      return {};
+    if (lower)
+      std::transform(part.begin(), part.end(), part.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     path /= part;
     from = to + 1;
   }
@@ -52,7 +55,8 @@ void DicomInput::walk(const fs::path& folder) {
   for (; entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     if (error) throw InputError(name_ + ": the folder cannot be read: " + error.message());
     if (!entry->is_regular_file(error)) continue;
-    if (files_.size() >= kMostFiles) throw InputError(name_ + ": holds more than " + std::to_string(kMostFiles) + " files");
+    if (files_.size() >= kMostFiles)
+      throw InputError(name_ + ": holds more than " + std::to_string(kMostFiles) + " files");
     files_.push_back({entry->path(), entry->path().string()});
   }
   std::sort(files_.begin(), files_.end(), [](const File& a, const File& b) { return a.name < b.name; });
@@ -80,10 +84,11 @@ bool DicomInput::follow_directory(const fs::path& file) {
     missing += path ? 0 : 1;
   }
   if (found.empty())
-    throw InputError(name_ + ": this DICOMDIR names " + std::to_string(named) + " files, none of which lies beside it; " +
-                     "give the whole disc or folder");
+    throw InputError(name_ + ": this DICOMDIR names " + std::to_string(named) +
+                     " files, none of which lies beside it; " + "give the whole disc or folder");
   if (missing > 0)
-    notes_.push_back("The DICOMDIR names " + std::to_string(named) + " files, of which " + std::to_string(missing) + " are not there.");
+    notes_.push_back("The DICOMDIR names " + std::to_string(named) + " files, of which " + std::to_string(missing) +
+                     " are not there.");
   for (const fs::path& path : found) files_.push_back({path, path.string()});
   return true;
 }

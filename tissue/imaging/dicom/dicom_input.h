@@ -1,6 +1,7 @@
 // What somebody gives as "the scan": a folder, a zip, a DICOMDIR or one file, as a list of files.
 //
-// Folders are walked without following links to folders; a DICOMDIR may name files below its own folder only. Thread: one owner.
+// Folders are walked without following links to folders; a DICOMDIR may name files below its own folder only. Thread:
+// one owner.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// One DICOM file as the readers use it: which series it belongs to, and, where it holds an image, its checked description.
+// One DICOM file as the readers use it: which series it belongs to, and, where it holds an image, its checked
+// description.
 //
 // Frame of positions and directions: LPS, mm, as DICOM has it. Thread: any.
 #pragma once
@@ -27,13 +28,14 @@ struct PixelFormat {
   bool is_signed = false;
 };
 
-/// An image whose header holds: sizes within limits, places finite and at right angles, pixel data as long as they must be.
+/// An image whose header holds: sizes within limits, places finite and at right angles, pixel data as long as they must
+/// be.
 struct DicomImage {
   int rows = 0, columns = 0, frames = 0;
   PixelFormat format;
-  bool inverted = false;          ///< MONOCHROME1: meant to be shown with dark and bright exchanged
+  bool inverted = false;  ///< MONOCHROME1: meant to be shown with dark and bright exchanged
   bool lossy = false;
-  bool padded = false;            ///< more bytes than the image needs
+  bool padded = false;  ///< more bytes than the image needs
   const TransferSyntax* syntax = nullptr;
   PixelSpan pixels;
   std::vector<SlicePlace> places;  ///< one a frame
@@ -43,7 +45,7 @@ struct DicomInstance {
   std::filesystem::path path;
   std::string name;  ///< of the file in messages
   DicomKind kind = DicomKind::kOther;
-  std::string modality = "unknown";  ///< one of a fixed list, or "unknown"
+  std::string modality = "unknown";               ///< one of a fixed list, or "unknown"
   std::string study, series, frame_of_reference;  ///< for grouping: never shown
   long series_number = 0;
   int rows = 0, columns = 0, frames = 0;

@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 
 std::size_t frame_bytes(const DicomImage& image) {
-  return static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns) * static_cast<std::size_t>(image.format.allocated / 8);
+  return static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns) *
+         static_cast<std::size_t>(image.format.allocated / 8);
 }
 
 /// The bytes in which the pixels lie: the file, or what it inflates to.
@@ -31,7 +32,8 @@ std::unique_ptr<ByteSource> pixel_source(const DicomInstance& instance) {
 
 void to_little_endian(std::string& bytes, std::size_t width) {
   for (std::size_t n = 0; n + width <= bytes.size(); n += width)
-    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(n), bytes.begin() + static_cast<std::ptrdiff_t>(n + width));
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(n),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(n + width));
 }
 
 std::string native_frame(ByteSource& source, const DicomImage& image, std::size_t frame) {
@@ -52,7 +54,8 @@ std::string native_frame(ByteSource& source, const DicomImage& image, std::size_
   return result;
 }
 
-/// First and last + 1 of the fragments of one frame (PS3.5 A.4): one each, or by the offset table, or all of the only frame.
+/// First and last + 1 of the fragments of one frame (PS3.5 A.4): one each, or by the offset table, or all of the only
+/// frame.
 std::pair<std::size_t, std::size_t> fragments_of(const DicomImage& image, std::size_t frame, const std::string& name) {
   const auto& pixels = image.pixels;
   const auto frames = static_cast<std::size_t>(image.frames);
@@ -65,8 +68,8 @@ std::pair<std::size_t, std::size_t> fragments_of(const DicomImage& image, std::s
     throw InputError(name + ": its table of frames does not fit its compressed pixels: it is damaged");
   };
   if (pixels.frame_offsets.size() != frames)
-    throw InputError(name + ": its " + std::to_string(frames) + " frames come in " + std::to_string(pixels.fragments.size()) +
-                     " pieces without a table of where each begins");
+    throw InputError(name + ": its " + std::to_string(frames) + " frames come in " +
+                     std::to_string(pixels.fragments.size()) + " pieces without a table of where each begins");
   const std::size_t first = starts_at(pixels.frame_offsets[frame]);
   return {first, frame + 1 < frames ? starts_at(pixels.frame_offsets[frame + 1]) : pixels.fragments.size()};
 }
@@ -74,7 +77,8 @@ std::pair<std::size_t, std::size_t> fragments_of(const DicomImage& image, std::s
 std::string compressed_frame(ByteSource& source, const DicomImage& image, std::size_t frame, const std::string& name) {
   const auto [first, last] = fragments_of(image, frame, name);
   std::string bytes;
-  for (std::size_t n = first; n < last; ++n) bytes += source.bytes(image.pixels.fragments[n].first, image.pixels.fragments[n].second);
+  for (std::size_t n = first; n < last; ++n)
+    bytes += source.bytes(image.pixels.fragments[n].first, image.pixels.fragments[n].second);
   return bytes;
 }
 
@@ -96,7 +100,8 @@ std::string decode_batch(const std::vector<DicomPixels::Wish>& wishes, std::size
     const DicomInstance& instance = *wishes[n].instance;
     const DicomImage& image = *instance.image;
     ByteSource source(instance.path, instance.name);
-    const std::string name = image.frames > 1 ? instance.name + ": frame " + std::to_string(wishes[n].frame + 1) : instance.name;
+    const std::string name =
+        image.frames > 1 ? instance.name + ": frame " + std::to_string(wishes[n].frame + 1) : instance.name;
     const std::string bytes = compressed_frame(source, image, wishes[n].frame, name);
     check_compressed_frame(bytes, image, name);
     all += decode_frame_gdcm(bytes, image, name);
@@ -111,7 +116,8 @@ std::size_t take_compressed(const std::vector<DicomPixels::Wish>& wishes, std::s
   while (last < wishes.size() && compressed(wishes[last]) && (last == first || bytes < kBatchBytes))
     bytes += frame_bytes(*wishes[last++].instance->image);
   const bool several = wishes[first].instance != wishes[last - 1].instance;
-  const std::string what = wishes[first].instance->name + (several ? " or one of the files after it" : "") + ": decoding";
+  const std::string what =
+      wishes[first].instance->name + (several ? " or one of the files after it" : "") + ": decoding";
   const std::string all = in_child(what, ChildLimits{std::uint64_t{1} << 30, 300}, progress,
                                    [&] { return decode_batch(wishes, first, last); });
   if (all.size() != bytes) throw InputError(wishes[first].instance->name + ": was not decoded whole");
@@ -133,7 +139,8 @@ std::vector<float> unpacked_as(const std::string& bytes, const PixelFormat& form
     std::memcpy(&stored, bytes.data() + n * sizeof(Stored), sizeof(Stored));
     const std::uint64_t bits = (std::uint64_t{stored} >> shift) & mask;
     const bool negative = format.is_signed && (bits & sign) != 0;
-    values[n] = static_cast<float>(negative ? static_cast<std::int64_t>(bits) - static_cast<std::int64_t>(mask) - 1 : static_cast<std::int64_t>(bits));
+    values[n] = static_cast<float>(negative ? static_cast<std::int64_t>(bits) - static_cast<std::int64_t>(mask) - 1
+                                            : static_cast<std::int64_t>(bits));
   }
   return values;
 }

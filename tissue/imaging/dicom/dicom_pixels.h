@@ -1,6 +1,7 @@
 // Slices of one DICOM file as numbers: native bytes read by ourselves, compressed ones decoded in a child process.
 //
-// Thread: one owner, as dicom_reader.h. Memory: native, one frame at a time; compressed, some 32 MiB of frames at a time.
+// Thread: one owner, as dicom_reader.h. Memory: native, one frame at a time; compressed, some 32 MiB of frames at a
+// time.
 #pragma once
 
 #include <cstdint>

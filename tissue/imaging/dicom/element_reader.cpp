@@ -20,15 +20,40 @@ struct Wanted {
 };
 
 constexpr Wanted kWanted[] = {
-    {tag::kTransferSyntax, 't'},   {tag::kDirectoryRecords, 'q'}, {tag::kReferencedFile, 't'}, {tag::kImageType, 't'},
-    {tag::kSopClass, 't'},         {tag::kSopInstance, 't'},      {tag::kModality, 't'},       {tag::kStudy, 't'},
-    {tag::kSeries, 't'},           {tag::kSeriesNumber, 't'},     {tag::kPosition, 't'},       {tag::kOrientation, 't'},
-    {tag::kFrameOfReference, 't'}, {tag::kSamples, 'w'},          {tag::kPhotometric, 't'},    {tag::kFrames, 't'},
-    {tag::kRows, 'w'},             {tag::kColumns, 'w'},          {tag::kPixelSpacing, 't'},   {tag::kBitsAllocated, 'w'},
-    {tag::kBitsStored, 'w'},       {tag::kHighBit, 'w'},          {tag::kPixelRepresentation, 'w'}, {tag::kIntercept, 't'},
-    {tag::kSlope, 't'},            {tag::kLossy, 't'},            {tag::kSharedGroups, 'q'},   {tag::kFrameGroups, 'q'},
-    {tag::kPlanePosition, 'q'},    {tag::kPlaneOrientation, 'q'}, {tag::kPixelMeasures, 'q'},  {tag::kValueTransformation, 'q'},
-    {tag::kSegmentationType, 't'}, {tag::kMaximumFraction, 'w'},
+    {tag::kTransferSyntax, 't'},
+    {tag::kDirectoryRecords, 'q'},
+    {tag::kReferencedFile, 't'},
+    {tag::kImageType, 't'},
+    {tag::kSopClass, 't'},
+    {tag::kSopInstance, 't'},
+    {tag::kModality, 't'},
+    {tag::kStudy, 't'},
+    {tag::kSeries, 't'},
+    {tag::kSeriesNumber, 't'},
+    {tag::kPosition, 't'},
+    {tag::kOrientation, 't'},
+    {tag::kFrameOfReference, 't'},
+    {tag::kSamples, 'w'},
+    {tag::kPhotometric, 't'},
+    {tag::kFrames, 't'},
+    {tag::kRows, 'w'},
+    {tag::kColumns, 'w'},
+    {tag::kPixelSpacing, 't'},
+    {tag::kBitsAllocated, 'w'},
+    {tag::kBitsStored, 'w'},
+    {tag::kHighBit, 'w'},
+    {tag::kPixelRepresentation, 'w'},
+    {tag::kIntercept, 't'},
+    {tag::kSlope, 't'},
+    {tag::kLossy, 't'},
+    {tag::kSharedGroups, 'q'},
+    {tag::kFrameGroups, 'q'},
+    {tag::kPlanePosition, 'q'},
+    {tag::kPlaneOrientation, 'q'},
+    {tag::kPixelMeasures, 'q'},
+    {tag::kValueTransformation, 'q'},
+    {tag::kSegmentationType, 't'},
+    {tag::kMaximumFraction, 'w'},
 };
 
 char wanted_type(DicomTag tag) {
@@ -38,7 +63,8 @@ char wanted_type(DicomTag tag) {
 }
 
 bool known_vr(std::array<char, 2> vr) {
-  constexpr std::string_view kAll = "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC UI UL UN UR US UT UV";
+  constexpr std::string_view kAll =
+      "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC UI UL UN UR US UT UV";
   const std::size_t at = kAll.find(std::string_view(vr.data(), 2));
   return at != std::string_view::npos && at % 3 == 0;
 }
@@ -66,7 +92,8 @@ std::string trimmed_text(std::string text) {
 }  // namespace
 
 void ElementReader::damaged(DicomTag tag, const std::string& what) const {
-  throw InputError(source_.name() + ": damaged DICOM: " + what + " at element " + printed(tag) + "; copy or export it again");
+  throw InputError(source_.name() + ": damaged DICOM: " + what + " at element " + printed(tag) +
+                   "; copy or export it again");
 }
 
 std::uint32_t ElementReader::number(const unsigned char* bytes, int size) const {
@@ -92,7 +119,8 @@ ElementReader::Head ElementReader::read_head(std::uint64_t at, std::uint64_t end
   unsigned char bytes[8];
   Head head;
   if (end < at || end - at < 8 || !source_.read(at, bytes, 8))
-    throw InputError(source_.name() + ": damaged DICOM: the file ends in the middle of an element; copy or export it again");
+    throw InputError(source_.name() +
+                     ": damaged DICOM: the file ends in the middle of an element; copy or export it again");
   head.tag = number(bytes, 2) << 16 | number(bytes + 2, 2);
   head.value_at = at + 8;
   head.length = number(bytes + 4, 4);
@@ -170,7 +198,8 @@ void ElementReader::read_fragments(std::uint64_t at) {
     const Head head = read_head(at, source_.size());
     if (head.tag == tag::kSequenceEnd) break;
     if (head.tag != tag::kItem || head.undefined()) damaged(tag::kPixels, "compressed pixels that are not in items");
-    if (head.length > source_.size() - head.value_at) damaged(tag::kPixels, "the file ends inside the compressed pixels");
+    if (head.length > source_.size() - head.value_at)
+      damaged(tag::kPixels, "the file ends inside the compressed pixels");
     if (pixels_.fragments.size() >= kMostFragments) damaged(tag::kPixels, "more fragments than a reader can hold");
     if (first) read_offset_table(head);
     if (!first) pixels_.fragments.emplace_back(head.value_at, head.length);

@@ -1,7 +1,7 @@
 // Walks the elements of a DICOM data set (PS3.5 section 7) and keeps those of dicom_tags.h.
 //
-// Every length is checked against the end of what holds it; sequences are followed to a depth of 12; what is kept is bounded.
-// Thread: one owner.
+// Every length is checked against the end of what holds it; sequences are followed to a depth of 12; what is kept is
+// bounded. Thread: one owner.
 #pragma once
 
 #include <array>

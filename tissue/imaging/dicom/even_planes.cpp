@@ -41,8 +41,9 @@ EvenPlanes even_planes(const std::vector<double>& heights, const std::string& wh
     const double at = (heights[n] - planes.first) / planes.step;
     planes.slice[n] = static_cast<int>(std::lround(at));
     if (std::abs(at - planes.slice[n]) > kOff)
-      throw InputError(name + ": its " + what + " are not evenly spaced: one lies " + std::to_string(heights[n] - planes.first) +
-                       " mm from the first where slices are " + std::to_string(planes.step) + " mm apart");
+      throw InputError(name + ": its " + what + " are not evenly spaced: one lies " +
+                       std::to_string(heights[n] - planes.first) + " mm from the first where slices are " +
+                       std::to_string(planes.step) + " mm apart");
   }
   return planes;
 }

@@ -1,6 +1,7 @@
 // Parallel planes as slices of an even grid in which some may be empty.
 //
-// Heights h_n along the normal are multiples of one step: the middle one of the distances near the smallest. Thread: any.
+// Heights h_n along the normal are multiples of one step: the middle one of the distances near the smallest. Thread:
+// any.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@ namespace trocar {
 struct EvenPlanes {
   double first = 0, step = 0;  ///< mm; step 0 when there is one plane only
   int count = 0;
-  std::vector<int> slice;      ///< of each height given
+  std::vector<int> slice;  ///< of each height given
 };
 
 /// @param heights mm, in any order, with repeats

@@ -36,7 +36,8 @@ std::string decode_frame_gdcm(const std::string& bytes, const DicomImage& image,
   frame.SetNumberOfDimensions(2);
   frame.SetDimension(0, static_cast<unsigned>(image.columns));
   frame.SetDimension(1, static_cast<unsigned>(image.rows));
-  frame.SetPixelFormat(gdcm::PixelFormat(1, static_cast<unsigned short>(format.allocated), static_cast<unsigned short>(format.stored),
+  frame.SetPixelFormat(gdcm::PixelFormat(1, static_cast<unsigned short>(format.allocated),
+                                         static_cast<unsigned short>(format.stored),
                                          static_cast<unsigned short>(format.high_bit), format.is_signed ? 1 : 0));
   frame.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
   frame.SetTransferSyntax(gdcm::TransferSyntax::GetTSType(std::string(image.syntax->uid).c_str()));
@@ -45,7 +46,8 @@ std::string decode_frame_gdcm(const std::string& bytes, const DicomImage& image,
                            static_cast<std::size_t>(format.allocated / 8);
   std::string values(frame.GetBufferLength(), '\0');
   if (values.size() < need || !frame.GetBuffer(values.data()))
-    throw InputError(name + ": its pixels (" + std::string(image.syntax->name) + ") cannot be decoded: they are damaged");
+    throw InputError(name + ": its pixels (" + std::string(image.syntax->name) +
+                     ") cannot be decoded: they are damaged");
   if (frame.GetPixelFormat().GetBitsAllocated() != format.allocated)
     throw InputError(name + ": its compressed pixels have other bits than its header says");
   values.resize(need);

@@ -1,7 +1,7 @@
 // One compressed frame through GDCM, seen without any of its types.
 //
-// GDCM gets the bytes of the frame and our own checked description, never a file. Call it in a child process: its decoders may crash
-// on damaged bytes. Thread: any.
+// GDCM gets the bytes of the frame and our own checked description, never a file. Call it in a child process: its
+// decoders may crash on damaged bytes. Thread: any.
 #pragma once
 
 #include <string>

@@ -37,7 +37,8 @@ std::string run(Inflater& inflater, ByteSource& source, std::uint64_t from, std:
   std::string in, out(kBlock, '\0');
   inflater.stream.avail_out = 1;  // nothing waits to be put out
   for (int state = Z_OK; state != Z_STREAM_END;) {
-    if (inflater.stream.avail_in == 0 && inflater.stream.avail_out != 0 && !feed(inflater, source, from, in)) return "are cut off";
+    if (inflater.stream.avail_in == 0 && inflater.stream.avail_out != 0 && !feed(inflater, source, from, in))
+      return "are cut off";
     inflater.stream.next_out = reinterpret_cast<Bytef*>(out.data());
     inflater.stream.avail_out = static_cast<uInt>(kBlock);
     state = inflate(&inflater.stream, Z_NO_FLUSH);
@@ -55,7 +56,8 @@ Inflated inflate_raw(ByteSource& source, std::uint64_t from, InflateBudget& budg
   Inflated result;
   const std::string fault = run(inflater, source, from, std::min(kMostOfOneFile, budget.left), result.bytes);
   budget.left -= std::min<std::uint64_t>(budget.left, result.bytes.size());
-  if (!fault.empty()) result.damage = source.name() + ": damaged DICOM: the deflated data " + fault + "; copy or export it again";
+  if (!fault.empty())
+    result.damage = source.name() + ": damaged DICOM: the deflated data " + fault + "; copy or export it again";
   return result;
 }
 

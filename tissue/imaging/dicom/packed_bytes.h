@@ -46,7 +46,8 @@ class PackedReader {
   /// A count of things of at least `least` bytes each: no more than can be there.
   std::uint64_t get_count(std::uint64_t least) {
     const auto count = get<std::uint64_t>();
-    if (count > bytes_.size() / least) throw InputError(name_ + ": the reader gave no sensible answer: the file is damaged");
+    if (count > bytes_.size() / least)
+      throw InputError(name_ + ": the reader gave no sensible answer: the file is damaged");
     return count;
   }
 

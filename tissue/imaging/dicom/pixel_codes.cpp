@@ -27,7 +27,9 @@ struct Bytes {
   }
 };
 
-bool frame_header(int marker) { return (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) || marker == 0xF7; }
+bool frame_header(int marker) {
+  return (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) || marker == 0xF7;
+}
 
 /// Walks the marker segments of JPEG and JPEG-LS to the frame header.
 CodedSize jpeg_size(const Bytes& bytes) {
@@ -42,7 +44,8 @@ CodedSize jpeg_size(const Bytes& bytes) {
     const std::int64_t length = bytes.big(at + 2, 2);
     if (length < 2) return {};
     if (frame_header(marker))
-      return {static_cast<int>(bytes.big(at + 5, 2)), static_cast<int>(bytes.big(at + 7, 2)), bytes.at(at + 9), bytes.at(at + 4)};
+      return {static_cast<int>(bytes.big(at + 5, 2)), static_cast<int>(bytes.big(at + 7, 2)), bytes.at(at + 9),
+              bytes.at(at + 4)};
     at += 2 + static_cast<std::size_t>(length);
   }
   return {};
@@ -50,14 +53,19 @@ CodedSize jpeg_size(const Bytes& bytes) {
 
 CodedSize jpeg2000_size(const Bytes& bytes) {
   const std::size_t start = bytes.all.find(std::string_view("\xFF\x4F\xFF\x51", 4));
-  if (start == std::string_view::npos || (start != 0 && bytes.big(0, 4) != 12)) return {};  // 12: a JP2 file round the code
-  const std::size_t field = start + 8;                                                      // Xsiz of the SIZ segment
+  if (start == std::string_view::npos || (start != 0 && bytes.big(0, 4) != 12))
+    return {};                          // 12: a JP2 file round the code
+  const std::size_t field = start + 8;  // Xsiz of the SIZ segment
   const std::int64_t width = bytes.big(field, 4), height = bytes.big(field + 4, 4);
   const std::int64_t left = bytes.big(field + 8, 4), top = bytes.big(field + 12, 4), parts = bytes.big(field + 32, 2);
   const std::int64_t tile_width = bytes.big(field + 16, 4), tile_height = bytes.big(field + 20, 4);
   const int depth = bytes.at(field + 34);
-  if (depth < 0 || left < 0 || top < 0 || width - left > 65535 || height - top > 65535 || width <= left || height <= top) return {};
-  if (tile_width < 1 || tile_height < 1 || ((width + tile_width - 1) / tile_width) * ((height + tile_height - 1) / tile_height) > 4096) return {};
+  if (depth < 0 || left < 0 || top < 0 || width - left > 65535 || height - top > 65535 || width <= left ||
+      height <= top)
+    return {};
+  if (tile_width < 1 || tile_height < 1 ||
+      ((width + tile_width - 1) / tile_width) * ((height + tile_height - 1) / tile_height) > 4096)
+    return {};
   return {static_cast<int>(height - top), static_cast<int>(width - left), static_cast<int>(parts), (depth & 0x7F) + 1};
 }
 
@@ -90,7 +98,8 @@ std::size_t unpacked_length(const Bytes& bytes, std::size_t from, std::size_t to
 void check_rle(const Bytes& bytes, const DicomImage& image, const std::string& name) {
   const auto segments = static_cast<std::size_t>(image.format.allocated / 8);
   if (bytes.all.size() < 64 || bytes.little32(0) != segments)
-    throw InputError(name + ": its RLE frame does not hold " + std::to_string(segments) + " planes of bytes: it is damaged");
+    throw InputError(name + ": its RLE frame does not hold " + std::to_string(segments) +
+                     " planes of bytes: it is damaged");
   const std::size_t need = static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns);
   for (std::size_t n = 0; n < segments; ++n) {
     const std::size_t from = bytes.little32(4 + 4 * n);
@@ -109,13 +118,15 @@ void check_compressed_frame(std::string_view bytes, const DicomImage& image, con
   const std::string kind(image.syntax->name);
   if (size.rows <= 0) throw InputError(name + ": its pixels are not " + kind + ", as the header says, or are damaged");
   if (size.rows != image.rows || size.columns != image.columns || size.components != 1)
-    throw InputError(name + ": its compressed pixels are " + std::to_string(size.columns) + " x " + std::to_string(size.rows) + " in " +
-                     std::to_string(size.components) + " colours, its header says " + std::to_string(image.columns) + " x " +
-                     std::to_string(image.rows) + " grey");
+    throw InputError(name + ": its compressed pixels are " + std::to_string(size.columns) + " x " +
+                     std::to_string(size.rows) + " in " + std::to_string(size.components) +
+                     " colours, its header says " + std::to_string(image.columns) + " x " + std::to_string(image.rows) +
+                     " grey");
   if (size.bits < 1 || size.bits > image.format.allocated)
     throw InputError(name + ": its compressed pixels have " + std::to_string(size.bits) + " bits, its header says " +
                      std::to_string(image.format.allocated));
-  if (!ends_with_end_marker(bytes)) throw InputError(name + ": its compressed pixels are cut off; copy or export it again");
+  if (!ends_with_end_marker(bytes))
+    throw InputError(name + ": its compressed pixels are cut off; copy or export it again");
 }
 
 }  // namespace trocar

@@ -13,9 +13,12 @@
 namespace trocar {
 namespace {
 
-constexpr std::uint64_t kMostInPlane = std::uint64_t{1} << 24, kMostInAll = std::uint64_t{1} << 29;  // crossings of rows and edges
+constexpr std::uint64_t kMostInPlane = std::uint64_t{1} << 24,
+                        kMostInAll = std::uint64_t{1} << 29;  // crossings of rows and edges
 
-std::string called(const Structure& structure) { return "structure " + std::to_string(structure.number) + " (" + structure.name + ")"; }
+std::string called(const Structure& structure) {
+  return "structure " + std::to_string(structure.number) + " (" + structure.name + ")";
+}
 
 /// Contours of one structure by the height of their plane, in slices of the grid.
 std::map<double, std::vector<PlaneContour>> by_plane(const Structure& structure, const ContourGrid& grid) {
@@ -36,13 +39,14 @@ std::map<double, std::vector<PlaneContour>> by_plane(const Structure& structure,
 }
 
 /// Bounds memory and time: no drawing crosses a row a million times.
-void require_fillable(const std::map<double, std::vector<PlaneContour>>& planes, const ContourGrid& grid, const Structure& structure,
-                      const std::string& file, std::uint64_t& all) {
+void require_fillable(const std::map<double, std::vector<PlaneContour>>& planes, const ContourGrid& grid,
+                      const Structure& structure, const std::string& file, std::uint64_t& all) {
   for (const auto& [height, contours] : planes) {
     const std::uint64_t here = crossing_count(contours, grid.size[1]);
     all += here;
     if (here > kMostInPlane || all > kMostInAll)
-      throw InputError(file + ": " + called(structure) + ": its contours wind to and fro more often than any drawing does: the file is damaged");
+      throw InputError(file + ": " + called(structure) +
+                       ": its contours wind to and fro more often than any drawing does: the file is damaged");
   }
 }
 
@@ -59,8 +63,8 @@ double plane_step(const std::map<double, std::vector<PlaneContour>>& planes) {
 
 struct Filling {
   SegmentMask mask;
-  std::size_t beyond = 0;     ///< planes outside the grid
-  std::size_t between = 0;    ///< slices filled from a plane that is not theirs
+  std::size_t beyond = 0;   ///< planes outside the grid
+  std::size_t between = 0;  ///< slices filled from a plane that is not theirs
 };
 
 /// Every slice takes the nearest plane within half a step of the planes (half a slice at least).
@@ -70,7 +74,9 @@ Filling filled(const std::map<double, std::vector<PlaneContour>>& planes, const 
   for (const auto& [height, contours] : planes) result.beyond += height < -0.5 || height > grid.size[2] - 0.5 ? 1 : 0;
   for (int slice = 0; slice < grid.size[2]; ++slice) {
     auto nearest = planes.lower_bound(slice);
-    if (nearest == planes.end() || (nearest != planes.begin() && slice - std::prev(nearest)->first <= nearest->first - slice)) --nearest;
+    if (nearest == planes.end() ||
+        (nearest != planes.begin() && slice - std::prev(nearest)->first <= nearest->first - slice))
+      --nearest;
     if (std::abs(nearest->first - slice) > reach) continue;
     bool any = false;
     fill_even_odd(nearest->second, grid.size[0], grid.size[1], [&](int first, int last, int row) {
@@ -86,7 +92,8 @@ Filling filled(const std::map<double, std::vector<PlaneContour>>& planes, const 
   return result;
 }
 
-void note_filling(const Structure& structure, const Filling& filling, std::size_t planes, std::vector<std::string>& notes) {
+void note_filling(const Structure& structure, const Filling& filling, std::size_t planes,
+                  std::vector<std::string>& notes) {
   const std::string name = called(structure);
   if (filling.beyond > 0)
     notes.push_back("Of the " + std::to_string(planes) + " planes of " + name + ", " + std::to_string(filling.beyond) +
@@ -97,7 +104,8 @@ void note_filling(const Structure& structure, const Filling& filling, std::size_
   if (filling.mask.empty()) notes.push_back("The " + name + " marks no voxel and was left out.");
 }
 
-LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& structures, const std::string& file, const Progress& progress) {
+LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& structures, const std::string& file,
+                   const Progress& progress) {
   SegmentLayers layers(grid.size, grid.index_to_ras_mm, file);
   std::vector<std::string> notes;
   std::uint64_t crossings = 0;
@@ -105,7 +113,8 @@ LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& struct
   for (const Structure& structure : structures) {
     report(progress, "structures", static_cast<double>(number++) / static_cast<double>(structures.size()));
     if (structure.others > 0)
-      notes.push_back("Left out of " + called(structure) + ": " + std::to_string(structure.others) + " points or open lines, which enclose nothing.");
+      notes.push_back("Left out of " + called(structure) + ": " + std::to_string(structure.others) +
+                      " points or open lines, which enclose nothing.");
     if (structure.closed.empty()) continue;
     const auto planes = by_plane(structure, grid);
     require_fillable(planes, grid, structure, file, crossings);
@@ -116,22 +125,26 @@ LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& struct
   LabelMap map = layers.take();
   if (map.layers.empty())
     throw InputError(file + ": none of its contours lies within the image: it belongs to another series of images");
-  if (map.layers.size() > 1) notes.push_back("Structures overlap: they lie in " + std::to_string(map.layers.size()) + " layers.");
+  if (map.layers.size() > 1)
+    notes.push_back("Structures overlap: they lie in " + std::to_string(map.layers.size()) + " layers.");
   map.notes = std::move(notes);
   return map;
 }
 
-std::vector<Structure> structures_with_contours(const std::filesystem::path& path, const Progress& progress, std::optional<int> series) {
+std::vector<Structure> structures_with_contours(const std::filesystem::path& path, const Progress& progress,
+                                                std::optional<int> series) {
   std::vector<Structure> structures = read_structures(path, progress, series);
   if (structures.size() > 65535) throw InputError(path.string() + ": holds more than 65535 structures");
-  const bool any = std::any_of(structures.begin(), structures.end(), [](const Structure& one) { return !one.closed.empty(); });
+  const bool any =
+      std::any_of(structures.begin(), structures.end(), [](const Structure& one) { return !one.closed.empty(); });
   if (!any) throw InputError(path.string() + ": holds no closed contours: nothing to fill");
   return structures;
 }
 
 }  // namespace
 
-LabelMap read_rtstruct(const std::filesystem::path& path, const ImageVolume& grid, const Progress& progress, std::optional<int> series) {
+LabelMap read_rtstruct(const std::filesystem::path& path, const ImageVolume& grid, const Progress& progress,
+                       std::optional<int> series) {
   const std::vector<Structure> structures = structures_with_contours(path, progress, series);
   LabelMap map = filled_on(image_contour_grid(grid, structures, path.string()), structures, path.string(), progress);
   map.modality = grid.modality;
@@ -143,8 +156,9 @@ LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progre
   const ContourGrid grid = own_contour_grid(structures, path.string());
   LabelMap map = filled_on(grid, structures, path.string(), progress);
   char note[160];
-  std::snprintf(note, sizeof note, "The contours were filled on a grid of their own: %d x %d x %d voxels of %.3f x %.3f x %.3f mm.", grid.size[0],
-                grid.size[1], grid.size[2], grid.step_mm(0), grid.step_mm(1), grid.step_mm(2));
+  std::snprintf(note, sizeof note,
+                "The contours were filled on a grid of their own: %d x %d x %d voxels of %.3f x %.3f x %.3f mm.",
+                grid.size[0], grid.size[1], grid.size[2], grid.step_mm(0), grid.step_mm(1), grid.step_mm(2));
   map.notes.insert(map.notes.begin(), note);
   return map;
 }

@@ -1,8 +1,8 @@
 // DICOM structure sets (RTSTRUCT): contours drawn in planes, filled on a grid of voxels.
 //
-// Source: DICOM PS3.3 C.8.8.5 and C.8.8.6; decoded by dcmrt in a child process. A voxel belongs to a structure when its centre lies
-// inside by the even-odd rule over all contours of the plane: holes by a second contour and by a keyhole both come out. Frame RAS,
-// mm. Thread: as dicom_reader.h.
+// Source: DICOM PS3.3 C.8.8.5 and C.8.8.6; decoded by dcmrt in a child process. A voxel belongs to a structure when its
+// centre lies inside by the even-odd rule over all contours of the plane: holes by a second contour and by a keyhole
+// both come out. Frame RAS, mm. Thread: as dicom_reader.h.
 #pragma once
 
 #include <filesystem>
@@ -23,6 +23,7 @@ LabelMap read_rtstruct(const std::filesystem::path& input, const ImageVolume& gr
 
 /// Filled on a grid of its own: slices where the contours lie, square voxels in them (a note gives their size).
 /// @throws InputError as above; also when the planes of the contours are not evenly spaced or not parallel
-LabelMap read_rtstruct(const std::filesystem::path& input, const Progress& progress = {}, std::optional<int> series = {});
+LabelMap read_rtstruct(const std::filesystem::path& input, const Progress& progress = {},
+                       std::optional<int> series = {});
 
 }  // namespace trocar

@@ -17,7 +17,9 @@ struct SegmentMask {
   int first_slice = 0, last_slice = -1;
 
   explicit SegmentMask(const std::array<int, 3>& size)
-      : voxels(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2])), first_slice(size[2]) {}
+      : voxels(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+               static_cast<std::size_t>(size[2])),
+        first_slice(size[2]) {}
   bool empty() const { return last_slice < first_slice; }
   void mark_slice(int slice) {
     first_slice = slice < first_slice ? slice : first_slice;

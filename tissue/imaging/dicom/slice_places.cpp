@@ -7,7 +7,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kFarthest = 1e5;                        // mm: a position of 100 m is no position
+constexpr double kFarthest = 1e5;                           // mm: a position of 100 m is no position
 constexpr double kSmallestStep = 1e-3, kLargestStep = 100;  // mm between pixels
 constexpr double kCosineError = 2e-3;
 
@@ -53,7 +53,8 @@ void read_orientation(const Place& at, const DicomItem* item, SlicePlace& place)
   const auto cosines = at.numbers(item, tag::kOrientation, 6, "ImageOrientationPatient");
   place.along_row = Eigen::Vector3d(cosines[0], cosines[1], cosines[2]);
   place.along_column = Eigen::Vector3d(cosines[3], cosines[4], cosines[5]);
-  const bool unit = std::abs(place.along_row.norm() - 1) < kCosineError && std::abs(place.along_column.norm() - 1) < kCosineError;
+  const bool unit =
+      std::abs(place.along_row.norm() - 1) < kCosineError && std::abs(place.along_column.norm() - 1) < kCosineError;
   if (!unit || std::abs(place.along_row.dot(place.along_column)) > kCosineError)
     at.refuse("ImageOrientationPatient is not two unit vectors at right angles");
   place.along_row.normalize();
@@ -65,10 +66,12 @@ void read_rescale(const Place& at, const DicomItem* item, SlicePlace& place) {
   for (const auto& [tag, into] : {std::pair(tag::kSlope, &place.slope), std::pair(tag::kIntercept, &place.intercept)}) {
     if (item == nullptr || item->text(tag).empty()) continue;
     const auto value = item->decimals(tag);
-    if (!value || value->size() != 1 || std::abs((*value)[0]) > 1e9) at.refuse("RescaleSlope or RescaleIntercept is not one number");
+    if (!value || value->size() != 1 || std::abs((*value)[0]) > 1e9)
+      at.refuse("RescaleSlope or RescaleIntercept is not one number");
     *into = (*value)[0];
   }
-  if (place.slope.has_value() != place.intercept.has_value()) at.refuse("has one of RescaleSlope and RescaleIntercept without the other");
+  if (place.slope.has_value() != place.intercept.has_value())
+    at.refuse("has one of RescaleSlope and RescaleIntercept without the other");
   if (place.slope && std::abs(*place.slope) < 1e-12) at.refuse("RescaleSlope is 0: it would erase the image");
 }
 
@@ -82,7 +85,8 @@ SlicePlace place_of(const DicomItem& data, std::size_t frame, const Place& at) {
   const auto spacing = at.numbers(groups.find(tag::kPixelMeasures), tag::kPixelSpacing, 2, "PixelSpacing");
   for (const double step : spacing)
     if (!(step >= kSmallestStep && step <= kLargestStep)) at.refuse("PixelSpacing is not between 0.001 and 100 mm");
-  place.column_step = spacing[0], place.row_step = spacing[1];  // PS3.3 10.7.1.3: first between rows, then between columns
+  place.column_step = spacing[0],
+  place.row_step = spacing[1];  // PS3.3 10.7.1.3: first between rows, then between columns
   const DicomItem* rescale = groups.find(tag::kValueTransformation);
   read_rescale(at, rescale != nullptr ? rescale : &data, place);
   return place;
@@ -96,7 +100,8 @@ std::vector<SlicePlace> slice_places(const DicomItem& data, int frames, const st
     throw InputError(name + ": says that it has " + std::to_string(frames) + " frames but describes " +
                      std::to_string(groups->items.size()));
   if (groups == nullptr && frames > 1)
-    throw InputError(name + ": holds " + std::to_string(frames) + " frames without a position for each (an older multi-frame kind); " +
+    throw InputError(name + ": holds " + std::to_string(frames) +
+                     " frames without a position for each (an older multi-frame kind); " +
                      "export the series as single slices or as an enhanced multi-frame image");
   std::vector<SlicePlace> places;
   for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames); ++frame)

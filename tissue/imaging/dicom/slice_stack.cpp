@@ -29,15 +29,18 @@ std::string both(const StackSlice& a, const StackSlice& b) { return a.name + " a
 
 void require_same_kind(const StackSlice& first, const StackSlice& other) {
   if (first.rows != other.rows || first.columns != other.columns)
-    throw InputError(both(first, other) + " have different sizes (" + std::to_string(first.columns) + " x " + std::to_string(first.rows) +
-                     " and " + std::to_string(other.columns) + " x " + std::to_string(other.rows) + " pixels): they are not one volume");
+    throw InputError(both(first, other) + " have different sizes (" + std::to_string(first.columns) + " x " +
+                     std::to_string(first.rows) + " and " + std::to_string(other.columns) + " x " +
+                     std::to_string(other.rows) + " pixels): they are not one volume");
   const SlicePlace &a = first.place, &b = other.place;
   if ((a.along_row - b.along_row).norm() > kSameDirection || (a.along_column - b.along_column).norm() > kSameDirection)
-    throw InputError(both(first, other) + " have different orientations: a series of slices in one direction is needed, " +
+    throw InputError(both(first, other) +
+                     " have different orientations: a series of slices in one direction is needed, " +
                      "this looks like a localiser (scout) or several scans in one series");
-  if (std::abs(a.row_step / b.row_step - 1) > kSameSpacing || std::abs(a.column_step / b.column_step - 1) > kSameSpacing)
-    throw InputError(both(first, other) + " have different pixel spacings (" + mm(a.row_step) + " and " + mm(b.row_step) +
-                     "): they are not one volume");
+  if (std::abs(a.row_step / b.row_step - 1) > kSameSpacing ||
+      std::abs(a.column_step / b.column_step - 1) > kSameSpacing)
+    throw InputError(both(first, other) + " have different pixel spacings (" + mm(a.row_step) + " and " +
+                     mm(b.row_step) + "): they are not one volume");
 }
 
 struct Sorted {
@@ -63,7 +66,8 @@ void require_no_duplicates(const Sorted& pile) {
     if (pile.height(n) - pile.height(n - 1) < kSamePlace && doubles++ == 0) first = n;
   if (doubles == 0) return;
   const bool shifted = (pile.at(first).place.position - pile.at(first - 1).place.position).norm() > 1;
-  throw InputError(both(pile.at(first - 1), pile.at(first)) + " lie in the same " + (shifted ? "plane, side by side" : "place") +
+  throw InputError(both(pile.at(first - 1), pile.at(first)) + " lie in the same " +
+                   (shifted ? "plane, side by side" : "place") +
                    (doubles > 1 ? ", and so do " + std::to_string(doubles - 1) + " other pairs" : "") +
                    ": a copy, or several phases, echoes or directions in one series; leave one image for every place");
 }
@@ -74,8 +78,9 @@ void require_no_gap(const Sorted& pile) {
     const double step = pile.height(n) - pile.height(n - 1);
     if (step < kGap * usual) continue;
     const long missing = std::max(1L, std::lround(step / usual) - 1);
-    throw InputError("between " + both(pile.at(n - 1), pile.at(n)) + " lies a gap of " + mm(step) + " where slices are " + mm(usual) +
-                     " apart: " + std::to_string(missing) + (missing == 1 ? " slice is" : " slices are") +
+    throw InputError("between " + both(pile.at(n - 1), pile.at(n)) + " lies a gap of " + mm(step) +
+                     " where slices are " + mm(usual) + " apart: " + std::to_string(missing) +
+                     (missing == 1 ? " slice is" : " slices are") +
                      " missing; get the missing images or choose another series");
   }
 }
@@ -84,8 +89,8 @@ void require_even(const Sorted& pile, const SliceStack& stack) {
   for (std::size_t n = 1; n < pile.count(); ++n) {
     const double off = pile.height(n) - pile.height(0) - static_cast<double>(n) * stack.slice_step;
     if (std::abs(off) > kUneven * stack.slice_step)
-      throw InputError(pile.at(n).name + ": lies " + mm(std::abs(off)) + " from where evenly spaced slices (" + mm(stack.slice_step) +
-                       ") would put it: the slices are unevenly spaced or some are missing");
+      throw InputError(pile.at(n).name + ": lies " + mm(std::abs(off)) + " from where evenly spaced slices (" +
+                       mm(stack.slice_step) + ") would put it: the slices are unevenly spaced or some are missing");
   }
 }
 
@@ -99,10 +104,12 @@ void find_shift(const Sorted& pile, SliceStack& stack) {
   const Eigen::Vector2d all = in_plane(stack, pile.at(pile.count() - 1).place.position - stack.origin);
   stack.shift = all / last;
   for (std::size_t n = 1; n < pile.count(); ++n) {
-    const Eigen::Vector2d off = in_plane(stack, pile.at(n).place.position - stack.origin) - static_cast<double>(n) * stack.shift;
+    const Eigen::Vector2d off =
+        in_plane(stack, pile.at(n).place.position - stack.origin) - static_cast<double>(n) * stack.shift;
     if (off.norm() > std::max(0.5 * pixel, 0.2))
-      throw InputError(pile.at(n).name + ": lies " + mm(off.norm()) + " to the side of where the slices before and after it put it: " +
-                       "the slices are not one straight pile");
+      throw InputError(
+          pile.at(n).name + ": lies " + mm(off.norm()) +
+          " to the side of where the slices before and after it put it: " + "the slices are not one straight pile");
   }
   if (all.norm() < kShiftMatters * pixel) stack.shift.setZero();
   stack.tilt_deg = std::atan2(stack.shift.norm(), stack.slice_step) * 180 / std::numbers::pi;
@@ -114,8 +121,9 @@ SliceStack stacked(const std::vector<StackSlice>& slices, const std::string& inp
   if (slices.empty()) throw InputError(input + ": holds no images");
   const StackSlice& first = slices.front();
   if (slices.size() == 1)
-    throw InputError(first.name + ": is a single image of " + std::to_string(first.columns) + " x " + std::to_string(first.rows) +
-                     " pixels: a volume needs two slices at least, an organ some dozens; give the folder with the whole series");
+    throw InputError(
+        first.name + ": is a single image of " + std::to_string(first.columns) + " x " + std::to_string(first.rows) +
+        " pixels: a volume needs two slices at least, an organ some dozens; give the folder with the whole series");
   for (const StackSlice& slice : slices) require_same_kind(first, slice);
   SliceStack stack;
   stack.rows = first.rows, stack.columns = first.columns;

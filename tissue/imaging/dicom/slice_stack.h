@@ -1,7 +1,8 @@
-// A pile of slices as a regular grid: order, steps and shear from the slices' positions, never from tags such as SliceThickness.
+// A pile of slices as a regular grid: order, steps and shear from the slices' positions, never from tags such as
+// SliceThickness.
 //
-// With normal n = along_row x along_column and positions p_k sorted by n.p, the grid is regular when p_k = p_0 + k (h n + s) with one
-// step h and one in-plane shift s (a tilted gantry). Frame LPS, mm. Thread: any.
+// With normal n = along_row x along_column and positions p_k sorted by n.p, the grid is regular when p_k = p_0 + k (h n
+// + s) with one step h and one in-plane shift s (a tilted gantry). Frame LPS, mm. Thread: any.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -28,7 +29,8 @@ struct SliceStack {
 };
 
 /// @param input begins messages that are not about one file
-/// @throws InputError naming the slices: other size, spacing or orientation, two in one place, gaps, uneven distances or shifts;
+/// @throws InputError naming the slices: other size, spacing or orientation, two in one place, gaps, uneven distances
+/// or shifts;
 ///         fewer than two
 SliceStack stacked(const std::vector<StackSlice>& slices, const std::string& input);
 

@@ -29,15 +29,18 @@ Eigen::Affine3d ras_frame(const SliceStack& stack, const Eigen::Vector2i& margin
 
 }  // namespace
 
-SliceVolume::SliceVolume(const SliceStack& stack, float outside, const std::string& input) : stack_(stack), outside_(outside) {
+SliceVolume::SliceVolume(const SliceStack& stack, float outside, const std::string& input)
+    : stack_(stack), outside_(outside) {
   const Eigen::Vector2d last = last_shift(stack);
   margin_ = (-last.cwiseMin(0.0)).array().ceil().cast<int>();
   const Eigen::Vector2i after = last.cwiseMax(0.0).array().ceil().cast<int>();
-  stored_size_ = {stack.columns + margin_.x() + after.x(), stack.rows + margin_.y() + after.y(), static_cast<int>(stack.order.size())};
+  stored_size_ = {stack.columns + margin_.x() + after.x(), stack.rows + margin_.y() + after.y(),
+                  static_cast<int>(stack.order.size())};
   const double voxels = static_cast<double>(stored_size_[0]) * stored_size_[1] * stored_size_[2];
   if (voxels > static_cast<double>(kMostVoxels))
-    throw InputError(input + ": the series has " + std::to_string(stored_size_[0]) + " x " + std::to_string(stored_size_[1]) + " x " +
-                     std::to_string(stored_size_[2]) + " voxels: more than an import may hold (268 million); cut it down");
+    throw InputError(input + ": the series has " + std::to_string(stored_size_[0]) + " x " +
+                     std::to_string(stored_size_[1]) + " x " + std::to_string(stored_size_[2]) +
+                     " voxels: more than an import may hold (268 million); cut it down");
   const Eigen::Affine3d frame = ras_frame(stack, margin_);
   const AxisOrder order = ras_order(frame.linear());
   volume_.size = reordered_size(stored_size_, order);
@@ -56,11 +59,13 @@ std::vector<float> SliceVolume::sheared(std::size_t place, const std::vector<flo
   const int width = stored_size_[0], height = stored_size_[1];
   std::vector<float> moved(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), outside_);
   const double share = static_cast<double>(place) / static_cast<double>(stack_.order.size() - 1);
-  const Eigen::Vector2d at = -(last_shift(stack_) * share) - margin_.cast<double>();  // of output pixel (0, 0) in the slice
+  const Eigen::Vector2d at =
+      -(last_shift(stack_) * share) - margin_.cast<double>();  // of output pixel (0, 0) in the slice
   const Eigen::Vector2i base = at.array().floor().cast<int>();
   const Eigen::Vector2d part = at - base.cast<double>();
   const auto value = [&](int x, int y) {
-    return static_cast<double>(values[static_cast<std::size_t>(y) * static_cast<std::size_t>(stack_.columns) + static_cast<std::size_t>(x)]);
+    return static_cast<double>(
+        values[static_cast<std::size_t>(y) * static_cast<std::size_t>(stack_.columns) + static_cast<std::size_t>(x)]);
   };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {

@@ -1,7 +1,8 @@
 // Slices put into a volume one by one: in RAS order at once, and sheared back where the gantry was tilted.
 //
-// A tilted pile has positions p_k = p_0 + k (h n + s): every slice is moved by k s within its own plane (linear interpolation), so
-// the grid becomes one with right angles and every value stays where it was in the patient. Frame RAS, mm. Thread: one owner.
+// A tilted pile has positions p_k = p_0 + k (h n + s): every slice is moved by k s within its own plane (linear
+// interpolation), so the grid becomes one with right angles and every value stays where it was in the patient. Frame
+// RAS, mm. Thread: one owner.
 #pragma once
 
 #include <vector>
@@ -28,10 +29,10 @@ class SliceVolume {
 
   const SliceStack& stack_;
   float outside_;
-  std::array<int, 3> stored_size_{};           ///< columns, rows, slices of the upright grid
+  std::array<int, 3> stored_size_{};                  ///< columns, rows, slices of the upright grid
   Eigen::Vector2i margin_ = Eigen::Vector2i::Zero();  ///< pixels before the first of the first slice
   std::ptrdiff_t first_ = 0;
-  std::array<std::ptrdiff_t, 3> stride_{};     ///< of the stored axes in the RAS array
+  std::array<std::ptrdiff_t, 3> stride_{};  ///< of the stored axes in the RAS array
   ImageVolume volume_;
 };
 

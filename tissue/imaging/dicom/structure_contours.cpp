@@ -108,8 +108,8 @@ Structure unpacked_structure(PackedReader& in, const std::string& file) {
 /// The one file of a series of structures, which our own parser has passed.
 const DicomInstance& structure_file(const CataloguedSeries& series, const std::string& input) {
   if (series.instances.size() != 1)
-    throw InputError(input + ": the series holds " + std::to_string(series.instances.size()) + " structure sets (" + series.instances[0].name + ", " +
-                     series.instances[1].name + ", ...): give one of them");
+    throw InputError(input + ": the series holds " + std::to_string(series.instances.size()) + " structure sets (" +
+                     series.instances[0].name + ", " + series.instances[1].name + ", ...): give one of them");
   const DicomInstance& file = series.instances.front();
   if (!file.problem.empty()) throw InputError(file.problem);
   std::error_code error;
@@ -120,18 +120,21 @@ const DicomInstance& structure_file(const CataloguedSeries& series, const std::s
 
 }  // namespace
 
-std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress, std::optional<int> number) {
+std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress,
+                                       std::optional<int> number) {
   const DicomInput files(input, progress);
   const DicomCatalogue all = catalogue(files, progress);
   const CataloguedSeries& series = choose(all, DicomKind::kStructureSet, number, files.name(), "structures");
   const std::filesystem::path path = structure_file(series, files.name()).path;
   const std::string file = series.instances.front().name;
   load_dcmtk_dictionary();
-  const std::string bytes = in_child(file, ChildLimits{std::uint64_t{1} << 30, 300}, progress, [&] { return load(path, file); });
+  const std::string bytes =
+      in_child(file, ChildLimits{std::uint64_t{1} << 30, 300}, progress, [&] { return load(path, file); });
   PackedReader in(bytes, file);
   std::vector<Structure> structures;
   for (std::uint64_t left = in.get_count(20); left > 0; --left) structures.push_back(unpacked_structure(in, file));
-  std::stable_sort(structures.begin(), structures.end(), [](const Structure& a, const Structure& b) { return a.number < b.number; });
+  std::stable_sort(structures.begin(), structures.end(),
+                   [](const Structure& a, const Structure& b) { return a.number < b.number; });
   return structures;
 }
 

@@ -25,6 +25,7 @@ struct Structure {
 /// By number; structures without any contour are among them.
 /// @param input and series as read_rtstruct has them
 /// @throws InputError naming the file
-std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress, std::optional<int> series = {});
+std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress,
+                                       std::optional<int> series = {});
 
 }  // namespace trocar

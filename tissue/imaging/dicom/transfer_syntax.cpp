@@ -4,12 +4,14 @@ namespace trocar {
 namespace {
 
 constexpr PixelCoding kNative = PixelCoding::kNative, kRle = PixelCoding::kRle, kJpeg = PixelCoding::kJpeg,
-                      kJpegLs = PixelCoding::kJpegLs, kJpeg2000 = PixelCoding::kJpeg2000, kCannot = PixelCoding::kCannot;
+                      kJpegLs = PixelCoding::kJpegLs, kJpeg2000 = PixelCoding::kJpeg2000,
+                      kCannot = PixelCoding::kCannot;
 
 constexpr TransferSyntax kImplicit{"1.2.840.10008.1.2", "Implicit VR Little Endian", kNative, false};
 constexpr TransferSyntax kExplicit{"1.2.840.10008.1.2.1", "Explicit VR Little Endian"};
 
-constexpr TransferSyntax encapsulated(std::string_view uid, std::string_view name, PixelCoding coding, bool lossy = false) {
+constexpr TransferSyntax encapsulated(std::string_view uid, std::string_view name, PixelCoding coding,
+                                      bool lossy = false) {
   return {uid, name, coding, true, false, false, lossy};
 }
 

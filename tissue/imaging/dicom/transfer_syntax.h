@@ -1,4 +1,5 @@
-// The ways in which DICOM stores bytes (PS3.5 annex A, PS3.6 table A-1), by name, and which of them can be decoded here.
+// The ways in which DICOM stores bytes (PS3.5 annex A, PS3.6 table A-1), by name, and which of them can be decoded
+// here.
 //
 // Thread: any.
 #pragma once

@@ -44,7 +44,10 @@ bool may_be_dicom(std::string_view start) {
 class Unpacking {
  public:
   Unpacking(std::string name, const std::filesystem::path& folder, const ZipLimits& limits, std::uint64_t archive_bytes)
-      : name_(std::move(name)), folder_(folder), limits_(limits), most_(limits.free_bytes + limits.ratio * archive_bytes) {}
+      : name_(std::move(name)),
+        folder_(folder),
+        limits_(limits),
+        most_(limits.free_bytes + limits.ratio * archive_bytes) {}
 
   /// One line a file: number in the folder, space, name in the archive.
   std::string unpack(const std::filesystem::path& file) {
@@ -82,8 +85,10 @@ class Unpacking {
       filled += static_cast<std::size_t>(got);
     }
     all_ += filled;
-    if (all_ > limits_.all_bytes) refuse("unpacks to more than " + std::to_string(limits_.all_bytes >> 20) + " MiB, the limit");
-    if (all_ > most_) refuse("unpacks to more than " + std::to_string(limits_.ratio) + " times its size, as no scan does");
+    if (all_ > limits_.all_bytes)
+      refuse("unpacks to more than " + std::to_string(limits_.all_bytes >> 20) + " MiB, the limit");
+    if (all_ > most_)
+      refuse("unpacks to more than " + std::to_string(limits_.ratio) + " times its size, as no scan does");
     return filled;
   }
 
@@ -92,8 +97,10 @@ class Unpacking {
     if (!may_be_dicom({block_.data(), count})) return;
     std::ofstream out(folder_ / std::to_string(index), std::ios::binary);
     for (std::uint64_t written = 0; count > 0; count = read_block(entry)) {
-      if ((written += count) > limits_.file_bytes) refuse("holds a file above " + std::to_string(limits_.file_bytes >> 20) + " MiB, the limit");
-      if (!out.write(block_.data(), static_cast<std::streamsize>(count))) refuse("does not fit into the temporary folder");
+      if ((written += count) > limits_.file_bytes)
+        refuse("holds a file above " + std::to_string(limits_.file_bytes >> 20) + " MiB, the limit");
+      if (!out.write(block_.data(), static_cast<std::streamsize>(count)))
+        refuse("does not fit into the temporary folder");
     }
     if (!out.flush()) refuse("does not fit into the temporary folder");
     list_ += std::to_string(index) + " " + entry_name + "\n";
@@ -112,7 +119,8 @@ class Unpacking {
 UnpackedZip::Folder::Folder() {
   std::error_code error;
   std::string pattern = (std::filesystem::temp_directory_path(error) / "trocar-zip-XXXXXX").string();
-  if (error || mkdtemp(pattern.data()) == nullptr) throw EnvironmentError("no temporary folder can be made for a zip archive");
+  if (error || mkdtemp(pattern.data()) == nullptr)
+    throw EnvironmentError("no temporary folder can be made for a zip archive");
   path = pattern;
 }
 
@@ -125,9 +133,8 @@ UnpackedZip::UnpackedZip(const std::filesystem::path& archive, const ZipLimits& 
   const std::string name = archive.string();
   const std::uint64_t bytes = ByteSource(archive, name).size();
   report(progress, "unpacking", -1);
-  const std::string list = in_child(name, ChildLimits{}, progress, [&] {
-    return Unpacking(name, folder_.path, limits, bytes).unpack(archive);
-  });
+  const std::string list = in_child(name, ChildLimits{}, progress,
+                                    [&] { return Unpacking(name, folder_.path, limits, bytes).unpack(archive); });
   for (std::size_t from = 0; from < list.size();) {
     const std::size_t space = list.find(' ', from), end = list.find('\n', from);
     files_.push_back({folder_.path / list.substr(from, space - from), list.substr(space + 1, end - space - 1)});

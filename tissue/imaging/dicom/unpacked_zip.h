@@ -1,7 +1,7 @@
 // The DICOM files of a zip archive, unpacked into a private temporary folder that is gone when this object is.
 //
-// Names in the archive never become paths: files are numbered. Number, size, sum and ratio of what is unpacked are limited as it
-// comes out, whatever the archive claims. Unpacking runs in a child process. Thread: one owner.
+// Names in the archive never become paths: files are numbered. Number, size, sum and ratio of what is unpacked are
+// limited as it comes out, whatever the archive claims. Unpacking runs in a child process. Thread: one owner.
 #pragma once
 
 #include <cstdint>
