@@ -12,6 +12,7 @@
 #include "tissue/imaging/dicom/dicom_segmentation.h"
 #include "tissue/imaging/label_choice.h"
 #include "tissue/imaging/label_table.h"
+#include "tissue/imaging/label_table_file.h"
 #include "tissue/imaging/volume_reader.h"
 #include "tissue/mesh/surface_import.h"
 
@@ -57,7 +58,9 @@ Json image_json(const ImageVolume& image) {
 
 /// A label map, or the image that it turns out to be.
 Json volume_json(const OrganInspectOptions& options) {
-  const LabelTable* table = options.label_table.empty() ? nullptr : &label_table(options.label_table);
+  std::optional<OwnLabelTable> own;
+  if (!options.label_table.empty()) own = label_table_or_file(options.label_table);
+  const LabelTable* table = own ? &own->table() : nullptr;
   try {
     return segments_json(read_label_map(options.input, options.progress), table);
   } catch (const InputError& no_labels) {

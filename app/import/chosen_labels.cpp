@@ -14,9 +14,9 @@
 namespace trocar {
 namespace {
 
-/// The table of the user: a built-in one, or a file.
+/// The table that the user names: a built-in one, or a file.
 struct NamedTable {
-  OwnLabelTable own;
+  std::optional<OwnLabelTable> own;
   const LabelTable* table = nullptr;
   std::string name;
 };
@@ -24,15 +24,9 @@ struct NamedTable {
 NamedTable named_table(const std::string& given) {
   NamedTable named;
   if (given.empty()) return named;
-  const std::vector<std::string> built_in = label_table_names();
-  if (std::find(built_in.begin(), built_in.end(), given) != built_in.end() || !std::filesystem::exists(given)) {
-    named.table = &label_table(given);
-    named.name = given;
-  } else {
-    named.own = read_label_table(given);
-    named.table = &named.own.table();
-    named.name = std::filesystem::path(given).filename().string();
-  }
+  named.own = label_table_or_file(given);
+  named.table = &named.own->table();
+  named.name = std::filesystem::path(given).filename().string();
   return named;
 }
 

@@ -52,10 +52,10 @@ LabelMap read_dicom_labels(const std::string& input, std::optional<int> number, 
   const DicomSeries* one = chosen(series, number);
   const bool segmentation = one ? one->kind == DicomKind::kSegmentation : count_of(series, DicomKind::kSegmentation) > 0;
   const bool structures = one ? one->kind == DicomKind::kStructureSet : count_of(series, DicomKind::kStructureSet) > 0;
-  if (segmentation)
-    return read_dicom_segmentation(input, progress, one ? std::optional<int>(one->number) : std::nullopt);
-  if (structures && image) return read_rtstruct(input, *image, progress);
-  if (structures) return read_rtstruct(input, progress);
+  const std::optional<int> which = one ? std::optional<int>(one->number) : std::nullopt;
+  if (segmentation) return read_dicom_segmentation(input, progress, which);
+  if (structures && image) return read_rtstruct(input, *image, progress, which);
+  if (structures) return read_rtstruct(input, progress, which);
   throw InputError(input + ": holds DICOM images and no labels: give the labels with --labels FILE (SEG, RTSTRUCT, NIfTI, NRRD), or "
                    "segment by values with --threshold LOW HIGH" + listed(series));
 }

@@ -242,7 +242,7 @@ Eigen::Vector3d space_signs(const NrrdFields& header, const VolumeReading& readi
     return ras_signs(reading.space, "the space asked for", header.file);
   }
   header.refuse("space",
-                "missing: the file does not say where left and right are; say so with --space LPS (or RAS, LAS)");
+                "missing: the file does not say where left and right are; say so with --frame LPS (or RAS, LAS)");
 }
 
 double unit_mm(const NrrdFields& header, const VolumeReading& reading, std::vector<std::string>& notes) {

@@ -58,8 +58,8 @@ void check_options(const SegmentationOptions& options) {
   for (const double length : {options.opening_mm, options.closing_mm, options.reach_mm})
     if (!(length >= 0 && length <= 1000)) throw InputError("opening, closing and reach: 0 to 1000 mm are wanted");
   if (options.keep == Keep::kSeeded && !options.seed_ras_mm)
-    throw InputError("--seed: to keep the piece at a seed, a seed is wanted (x,y,z in RAS mm)");
-  if (options.seed_ras_mm && !options.seed_ras_mm->allFinite()) throw InputError("--seed: not three numbers");
+    throw InputError("--seed-point: to keep the piece at a seed, a seed is wanted (x,y,z in RAS mm)");
+  if (options.seed_ras_mm && !options.seed_ras_mm->allFinite()) throw InputError("--seed-point: not three numbers");
 }
 
 /// Index of the voxel that holds the seed. @throws InputError when it lies outside
@@ -70,7 +70,7 @@ Eigen::Array3i seed_voxel(const ImageVolume& image, const Eigen::Vector3d& seed)
     if (!(index[axis] >= -0.5 && index[axis] <= all.high[axis] + 0.5)) {
       const Eigen::Vector3d first = image.index_to_ras_mm.translation();
       const Eigen::Vector3d last = image.index_to_ras_mm * all.high.matrix().cast<double>();
-      throw InputError("--seed " + plain(seed[0]) + "," + plain(seed[1]) + "," + plain(seed[2]) +
+      throw InputError("--seed-point " + plain(seed[0]) + "," + plain(seed[1]) + "," + plain(seed[2]) +
                        ": outside the image, which reaches from (" + plain(first[0]) + ", " + plain(first[1]) + ", " +
                        plain(first[2]) + ") to (" + plain(last[0]) + ", " + plain(last[1]) + ", " + plain(last[2]) +
                        ") in RAS mm");
@@ -115,7 +115,7 @@ void choose_region(Work& work) {
   const std::uint64_t count = extent.cast<std::uint64_t>().prod();
   if (count > (work.options.smooth ? kMostSmoothed : kMostRegion))
     throw InputError("--threshold: " + std::to_string(count) + " voxels to look at are too many" +
-                     (work.options.smooth ? " to smooth" : "") + ": give --seed with a reach, or a narrower window");
+                     (work.options.smooth ? " to smooth" : "") + ": give --seed-point with a reach, or a narrower window");
   for (int axis = 0; axis < 3; ++axis) {
     work.shape.size[static_cast<std::size_t>(axis)] = extent[axis];
     work.shape.spacing_mm[static_cast<std::size_t>(axis)] = work.image.index_to_ras_mm.linear().col(axis).norm();
@@ -173,7 +173,7 @@ void settle_seed(Work& work) {
   const std::string held = plain(work.image.values[work.image.offset(place[0], place[1], place[2])]);
   const bool inside = (work.seed >= 0).all() && (work.seed < work.region.extent()).all();
   if (!inside || work.mask[work.offset(work.seed)] == 0)
-    throw InputError("--seed: its voxel holds " + held + ", outside the window " + plain(work.options.low) + " to " +
+    throw InputError("--seed-point: its voxel holds " + held + ", outside the window " + plain(work.options.low) + " to " +
                      plain(work.options.high) + ", and so do its neighbours");
   if ((work.seed != place - work.region.low).any())
     work.notes.push_back("the seed's own voxel holds " + held +
@@ -200,7 +200,7 @@ void choose_piece(Work& work) {
     const Eigen::Array3i start = near_seed(work, work.seed, work.options.opening_mm);
     if (work.mask[work.offset(start)] == 0)
       throw InputError(
-          "--seed: the opening took away everything round it; choose a seed deeper inside or a smaller ball");
+          "--seed-point: the opening took away everything round it; choose a seed deeper inside or a smaller ball");
     keep_connected(work.mask, work.shape, {start[0], start[1], start[2]});
     work.notes.push_back("kept what hangs together with the seed");
   } else if (work.options.keep == Keep::kLargest) {
