@@ -25,6 +25,15 @@ constexpr const char* kProgram = "trocar " TROCAR_VERSION;
 
 void append(std::vector<std::string>& all, const std::vector<std::string>& more) { all.insert(all.end(), more.begin(), more.end()); }
 
+/// Decisions that the list of repairs does not tell already, each once.
+std::vector<std::string> untold(const std::vector<std::string>& decisions, const std::vector<std::string>& repairs) {
+  std::vector<std::string> fresh;
+  for (const std::string& decision : decisions)
+    if (std::find(repairs.begin(), repairs.end(), decision) == repairs.end() && std::find(fresh.begin(), fresh.end(), decision) == fresh.end())
+      fresh.push_back(decision);
+  return fresh;
+}
+
 /// What is the same for every organ of an import.
 OrganManifest common_manifest(const OrganImportOptions& options, const OrganSource& source) {
   OrganManifest manifest;
@@ -53,10 +62,10 @@ WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& sou
                            const std::vector<std::string>& decisions, const fs::path& stem) {
   OrganManifest manifest = label_manifest(options, source, label);
   name_organ(options, label.segment.name.empty() ? source.stem : file_name_of(label.segment), manifest);
-  manifest.decisions = decisions;
   const LabelVolume& layer = source.map.layers[label.segment.layer];
   CompiledOrgan organ = compile_label(layer, label.segment.number, {options.triangles, {.only_largest = options.largest_only}, options.progress});
   manifest.mesh = std::move(organ.facts);
+  manifest.decisions = untold(decisions, manifest.mesh.repairs);
   std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {&layer, label.segment.number}, manifest);
   WrittenOrgans written;
   written.organs.push_back({std::move(manifest), std::move(organ.surface)});
@@ -119,8 +128,8 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   for (std::size_t n = 0; n < labels.size(); ++n) {
     OrganManifest manifest = label_manifest(options, source, labels[n]);
     manifest.name = manifest.material = file_name_of(labels[n].segment);
-    manifest.decisions = decisions;
     manifest.mesh = std::move(scene.organs[n].facts);
+    manifest.decisions = untold(decisions, manifest.mesh.repairs);
     const fs::path member = stem.string() + "-" + manifest.name;
     const LabelledOrgan made_from{&source.map.layers[labels[n].segment.layer], labels[n].segment.number};
     for (SideFile& file : volume_meshes(options, member, scene.organs[n].surface, made_from, manifest)) more.push_back(std::move(file));

@@ -102,8 +102,9 @@ std::string histograms(const CompiledMember& organ) {
       if (triangle[n] < triangle[(n + 1) % 3])
         edges.push_back(1e3 * (organ.surface.vertices[static_cast<std::size_t>(triangle[n])] - organ.surface.vertices[static_cast<std::size_t>(triangle[(n + 1) % 3])]).norm());
   const double longest = edges.empty() ? 1 : *std::max_element(edges.begin(), edges.end());
-  return "<div class=\"two\">" + histogram(edges, 0, longest, "mm", "Edge lengths") +
-         histogram(smallest_angles_deg(organ.surface), 0, 60, "\u00b0", "Smallest angle of each triangle") + "</div>";
+  const double step = svg::nice_step(longest, 4);
+  return "<div class=\"row\"><figure>" + histogram(edges, 0, 4 * step >= longest ? 4 * step : longest, "mm", "Edge lengths") + "</figure><figure>" +
+         histogram(smallest_angles_deg(organ.surface), 0, 60, "\u00b0", "Smallest angle of each triangle") + "</figure></div>";
 }
 
 template <typename Part>

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <numbers>
+#include <tuple>
 
 #include "app/graphics/headless_context.h"
 #include "app/graphics/organ_scene.h"
@@ -25,6 +26,20 @@ const CompiledMember& subject_of(const OrganPageContent& content) {
   return content.organs.front();
 }
 
+/// Middle of all organs, but along the normal the middle of the subject, mm.
+Vec3 centre_of(const Eigen::AlignedBox3d& box_m, const Vec3& through_mm, int normal) {
+  Vec3 centre = 1e3 * box_m.center();
+  centre[normal] = through_mm[normal];
+  return centre;
+}
+
+/// The longer side of the box in the plane, with some room, mm.
+double extent_of(const Eigen::AlignedBox3d& box_m, int normal) {
+  Vec3 sizes = box_m.sizes();
+  sizes[normal] = 0;
+  return kRoom * 1e3 * sizes.maxCoeff();
+}
+
 std::vector<PagePicture> slices_of(const OrganPageContent& content) {
   Eigen::AlignedBox3d box;
   std::vector<SliceOutline> outlines;
@@ -32,16 +47,13 @@ std::vector<PagePicture> slices_of(const OrganPageContent& content) {
     box.extend(content.organs[n].surface.bounds());
     outlines.push_back({&content.organs[n].surface, outline_colour(n)});
   }
-  const Vec3 centre = 1e3 * volume_centroid_m(subject_of(content).surface);
-  double extent = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    extent = std::max(extent, 2e3 * std::max(box.max()[axis] - centre[axis] * 1e-3, centre[axis] * 1e-3 - box.min()[axis]));
+  const Vec3 through = 1e3 * volume_centroid_m(subject_of(content).surface);
   std::vector<PagePicture> pictures;
   const SliceGround ground{content.image, content.labels};
-  for (const auto& [plane, name] : {std::pair(SlicePlane::kAxial, "Axial"), std::pair(SlicePlane::kCoronal, "Coronal"),
-                                    std::pair(SlicePlane::kSagittal, "Sagittal")})
+  for (const auto& [plane, name, normal] : {std::tuple(SlicePlane::kAxial, "Axial", 2), std::tuple(SlicePlane::kCoronal, "Coronal", 1),
+                                            std::tuple(SlicePlane::kSagittal, "Sagittal", 0)})
     pictures.push_back({std::string(name) + " slice through the middle of " + subject_of(content).manifest.name,
-                        encode_png(slice_picture(ground, outlines, plane, centre, kRoom * extent, kSlicePx))});
+                        encode_png(slice_picture(ground, outlines, plane, centre_of(box, through, normal), extent_of(box, normal), kSlicePx))});
   return pictures;
 }
 

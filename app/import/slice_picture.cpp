@@ -83,7 +83,7 @@ void annotate(Image& image, const PlaneAxes& axes, const Vec3& centre_mm, double
   text(std::string(axes.name) + ", " + letter + std::to_string(static_cast<int>(std::lround(centre_mm[axes.normal]))) + " mm", kInset, kInset + 12);
   const double bar = 50 / mm_per_px;
   canvas.line(w - kInset - bar, h - 12, w - kInset, h - 12, 3, ink);
-  text("5 cm", w - kInset - bar, h - 18);
+  text("5 cm", w - kInset - fonts.width("5 cm", kSize, true), h - 18);
 }
 
 }  // namespace
