@@ -1,6 +1,7 @@
 #include "tissue/organ_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -60,6 +61,16 @@ void speak_for_all(Organ& subject) {
   subject.licence = joined(licences);
 }
 
+OrganAttachment read_attachment(TomlTable& table) {
+  OrganAttachment attachment{table.text("organ"), table.text("label"), table.number("area_cm2") * kM2PerCm2, {}};
+  for (const double triangle : table.numbers("triangles")) {
+    if (triangle < 0 || triangle > 1e9 || triangle != std::floor(triangle)) table.refuse("triangles", "triangles holds numbers of triangles");
+    attachment.triangles.push_back(static_cast<std::int32_t>(triangle));
+  }
+  table.finish();
+  return attachment;
+}
+
 }  // namespace
 
 std::string organ_set_text(const OrganSet& set) {
@@ -81,6 +92,15 @@ std::string organ_set_text(const OrganSet& set) {
     out.add("b", contact.b);
     out.add("area_cm2", contact.area_m2 / kM2PerCm2, 3);
     out.add("shared", contact.shared);
+  }
+  for (const OrganAttachment& attachment : set.attachments) {
+    out.array_table("attachment");
+    out.add("organ", attachment.organ);
+    out.add("label", attachment.label);
+    out.add("area_cm2", attachment.area_m2 / kM2PerCm2, 3);
+    std::string triangles;
+    for (const std::int32_t triangle : attachment.triangles) triangles += (triangles.empty() ? "" : ", ") + std::to_string(triangle);
+    out.raw("triangles", "[" + triangles + "]");
   }
   return std::move(out).text();
 }
@@ -106,6 +126,8 @@ OrganSet parse_organ_set(const std::string& text, const std::string& file) {
       set.contacts.push_back({contact.text("a"), contact.text("b"), contact.number("area_cm2") * kM2PerCm2, contact.boolean("shared")});
       contact.finish();
     }
+  if (table.has("attachment"))
+    for (TomlTable& attachment : table.tables("attachment")) set.attachments.push_back(read_attachment(attachment));
   table.finish();
   return set;
 }

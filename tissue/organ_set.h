@@ -4,6 +4,7 @@
 // Frame RAS, metres. Thread: any, not the tick.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -22,12 +23,22 @@ struct OrganContact {
   bool operator==(const OrganContact&) const = default;
 };
 
+/// Where an organ lies against something of the image that is not in the scene: what holds it, or what was left out.
+struct OrganAttachment {
+  std::string organ;                    ///< name
+  std::string label;                    ///< name of the label that it lies against, or its number
+  double area_m2 = 0;
+  std::vector<std::int32_t> triangles;  ///< of the organ's surface
+  bool operator==(const OrganAttachment&) const = default;
+};
+
 struct OrganSet {
   std::string name;
   std::string subject;                ///< name of one of the organs
   std::vector<std::string> files;     ///< manifests beside the scene file
   std::vector<std::string> sha256;    ///< of the manifests' bytes, in their order
   std::vector<OrganContact> contacts;
+  std::vector<OrganAttachment> attachments;
   std::vector<std::string> more_files;  ///< others that belong to it, "abdomen.vessels.toml"
 };
 

@@ -11,6 +11,7 @@
 #include "app/import/volume_files.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "tissue/imaging/label_table_file.h"
 #include "tissue/mesh/organ_compiler.h"
 #include "tissue/mesh/scene_compiler.h"
 #include "tissue/mesh/staged_file.h"
@@ -112,6 +113,15 @@ std::string subject_of(const OrganImportOptions& options, const std::vector<Comp
   return largest->manifest.name;
 }
 
+/// Name of what an organ lies against: the file's, the named table's, or the number.
+std::string label_words(const LabelMap& map, const Attachment& attachment, const OrganImportOptions& options) {
+  for (const Segment& segment : map.segments)
+    if (segment.layer == attachment.layer && segment.number == attachment.number && !segment.name.empty()) return segment.name;
+  if (!options.label_table.empty())
+    if (const auto name = label_table_or_file(options.label_table).table().name_of(attachment.number)) return std::string(*name);
+  return "label " + std::to_string(attachment.number);
+}
+
 std::vector<SceneRequest> requests_of(const OrganImportOptions& options, const std::vector<ChosenLabel>& labels) {
   std::vector<SceneRequest> requests;
   for (const ChosenLabel& label : labels)
@@ -141,6 +151,8 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   set.subject = subject_of(options, written.organs);
   for (const SharedInterface& shared : scene.shared)
     set.contacts.push_back({written.organs[shared.first].manifest.name, written.organs[shared.second].manifest.name, shared.area_m2, true});
+  for (const Attachment& attachment : scene.attachments)
+    set.attachments.push_back({written.organs[attachment.organ].manifest.name, label_words(source.map, attachment, options), attachment.area_m2, attachment.triangles});
   written.manifest = write_organ_set(stem, set, written.organs, more);
   written.set = std::move(set);
   written.image = std::move(source.image);

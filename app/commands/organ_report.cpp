@@ -161,6 +161,9 @@ std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMem
   json["contacts"] = Json::array();
   for (const OrganContact& contact : set.contacts)
     json["contacts"].push_back({{"a", contact.a}, {"b", contact.b}, {"area_cm2", rounded(contact.area_m2 * 1e4, 3)}, {"shared", contact.shared}});
+  json["attachments"] = Json::array();
+  for (const OrganAttachment& attachment : set.attachments)
+    json["attachments"].push_back({{"organ", attachment.organ}, {"label", attachment.label}, {"area_cm2", rounded(attachment.area_m2 * 1e4, 3)}});
   json["files"] = set.more_files;
   return json.dump(2) + "\n";
 }

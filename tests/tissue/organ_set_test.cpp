@@ -28,7 +28,7 @@ struct Written {
 
 Written write(const test::TemporaryFolder& folder) {
   Written written;
-  written.set = {.name = "abdomen", .subject = "liver", .files = {}, .sha256 = {}, .contacts = {{"liver", "spleen", 12.5e-4, true}}, .more_files = {}};
+  written.set = {.name = "abdomen", .subject = "liver", .files = {}, .sha256 = {}, .contacts = {{"liver", "spleen", 12.5e-4, true}}, .attachments = {{"liver", "diaphragm", 40e-4, {3, 4, 9}}}, .more_files = {}};
   written.organs = {member("liver", Vec3::Zero(), "CC0-1.0", "one"), member("spleen", Vec3(0.1, 0, 0), "CC-BY-4.0", "two")};
   written.organs[1].manifest.synthetic = true;
   written.path = write_organ_set(folder / "abdomen", written.set, written.organs, {{"abdomen.vessels.toml", "format = 1\n"}});
@@ -84,6 +84,7 @@ TEST(OrganSet, TextReadsBackWordForWord) {
   const OrganSet read = parse_organ_set(text, "x.scene.toml");
   EXPECT_EQ(organ_set_text(read), text);
   EXPECT_EQ(read.contacts, written.set.contacts);
+  EXPECT_EQ(read.attachments, written.set.attachments);
   EXPECT_EQ(read.more_files, std::vector<std::string>{"abdomen.vessels.toml"});
   EXPECT_TRUE(std::filesystem::exists(folder / "abdomen.vessels.toml"));
 }
@@ -101,6 +102,7 @@ TEST(OrganSet, RefusesWithLineAndColumn) {
   EXPECT_CONTAINS(changed("subject = 'liver'", "colour = 'red'"), "key \"subject\" is missing");
   EXPECT_CONTAINS(changed("'abdomen-liver.organ.toml'", "'../liver.organ.toml'"), "beside the scene");
   EXPECT_CONTAINS(changed("area_cm2 = 12.500", "area_cm2 = 'much'"), "area_cm2 must be a number");
+  EXPECT_CONTAINS(changed("[3, 4, 9]", "[3, -4, 9]"), "triangles holds numbers of triangles");
   EXPECT_CONTAINS(changed("name = 'abdomen'", "name = 'abdomen'\nextra = 1"), "unknown key \"extra\"");
 }
 
@@ -127,7 +129,7 @@ TEST(OrganSet, TwoOrgansOfOneNameAreRefused) {
 TEST(OrganSet, WritesAllOrNothing) {
   test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "abdomen.scene.toml.part");  // the last file cannot be staged
-  OrganSet set{.name = "abdomen", .subject = "liver", .files = {}, .sha256 = {}, .contacts = {}, .more_files = {}};
+  OrganSet set{.name = "abdomen", .subject = "liver", .files = {}, .sha256 = {}, .contacts = {}, .attachments = {}, .more_files = {}};
   std::vector<CompiledMember> organs{member("liver", Vec3::Zero(), "CC0-1.0", "one")};
   EXPECT_THROW(write_organ_set(folder / "abdomen", set, organs, {}), EnvironmentError);
   EXPECT_FALSE(std::filesystem::exists(folder / "abdomen-liver.ply"));
