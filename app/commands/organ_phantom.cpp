@@ -61,18 +61,41 @@ void write_volumes(const OrganPhantomOptions& options) {
   text.commit();
 }
 
-CompiledMember import_phantom_organ(const std::filesystem::path& folder, const std::string& label, int triangles,
-                                  std::ostream& err) {
+/// What the scene holds: everything that a cholecystectomy sees, and what lies round it.
+const std::vector<std::string>& scene_labels() {
+  static const std::vector<std::string> labels{
+      "liver", "gallbladder", "cystic_duct", "common_hepatic_duct", "common_bile_duct", "hepatic_artery", "right_hepatic_artery",
+      "left_hepatic_artery", "cystic_artery", "portal_vein_and_splenic_vein", "stomach", "duodenum", "pancreas", "colon", "small_bowel",
+      "spleen", "kidney_right", "kidney_left", "omentum", "muscle"};
+  return labels;
+}
+
+OrganImportOptions phantom_import(const OrganPhantomOptions& options, const std::string& name) {
   OrganImportOptions import;
-  import.input = (folder / "ct.nii.gz").string();
-  import.labels = (folder / "labels.nii.gz").string();
-  import.label = {label};
+  import.input = (options.out / "ct.nii.gz").string();
+  import.labels = (options.out / "labels.nii.gz").string();
   import.label_table = kPhantomTable;
-  import.triangles = triangles;
-  import.output = (folder / ("phantom-" + label)).string();
+  import.output = (options.out / ("phantom-" + name)).string();
   import.licence = kLicence;
   import.credit = kCredit;
   import.synthetic = true;
+  import.progress = options.progress;
+  return import;
+}
+
+WrittenOrgans import_phantom_scene(const OrganPhantomOptions& options, std::ostream& err) {
+  constexpr int kTriangles = 2400;
+  OrganImportOptions import = phantom_import(options, "abdomen");
+  import.label = scene_labels();
+  import.triangles = kTriangles;
+  import.name = "phantom-abdomen";
+  return import_organs(import, err);
+}
+
+CompiledMember import_phantom_organ(const OrganPhantomOptions& options, const std::string& label, int triangles, std::ostream& err) {
+  OrganImportOptions import = phantom_import(options, label);
+  import.label = {label};
+  import.triangles = triangles;
   return std::move(import_organs(import, err).organs[0]);
 }
 
@@ -83,15 +106,22 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
   write_volumes(options);
   nlohmann::ordered_json organs = nlohmann::ordered_json::array();
   for (const auto& [label, triangles] : {std::pair("liver", 6000), std::pair("gallbladder", 2000)}) {
-    const CompiledMember organ = import_phantom_organ(options.out, label, triangles, err);
+    const CompiledMember organ = import_phantom_organ(options, label, triangles, err);
     if (options.json)
       organs.push_back(nlohmann::ordered_json::parse(organ_json(organ.manifest, organ.surface.bounds())));
     if (!options.json) out << organ_text(organ.manifest, organ.surface.bounds());
   }
+  nlohmann::ordered_json scene;
+  if (options.scene) {
+    const WrittenOrgans abdomen = import_phantom_scene(options, err);
+    scene = nlohmann::ordered_json::parse(scene_report_json(*abdomen.set, abdomen.organs));
+    if (!options.json) out << scene_report_text(*abdomen.set, abdomen.organs);
+  }
   const nlohmann::ordered_json report{
       {"synthetic", true},          {"seed", options.seed},         {"variant", options.variant},
       {"patient", options.patient}, {"voxel_mm", options.voxel_mm}, {"label_table", kPhantomTable},
-      {"volume", "ct.nii.gz"},      {"labels", "labels.nii.gz"},    {"organs", organs}};
+      {"volume", "ct.nii.gz"},      {"labels", "labels.nii.gz"},    {"organs", organs},
+      {"scene", scene}};
   if (options.json) out << report.dump(2) << "\n";
   return 0;
 }

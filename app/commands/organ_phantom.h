@@ -10,6 +10,8 @@
 #include <iosfwd>
 #include <string>
 
+#include "tissue/progress.h"
+
 namespace trocar {
 
 struct OrganPhantomOptions {
@@ -18,8 +20,10 @@ struct OrganPhantomOptions {
   std::string variant = "normal";  ///< see phantom_variant
   std::uint64_t patient = 0;       ///< natural variation; 0 the standard patient
   double voxel_mm = 2.5;           ///< the shipped organs are made at 2.5
+  bool scene = false;              ///< the organs round the hilum as one scene as well, phantom-abdomen
   bool dicom = false;              ///< the CT as a DICOM series as well, in DIR/dicom
   bool json = false;
+  Progress progress;
 };
 
 /// @return exit code 0

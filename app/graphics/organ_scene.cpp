@@ -16,9 +16,13 @@ std::string credit_line(const Organ& organ) {
   return line;
 }
 
+/// The abdominal wall round everything would hide what the picture is about.
+bool surrounds(const Organ& neighbour, const Organ& organ) { return neighbour.surface.bounds().contains(organ.surface.bounds()); }
+
 Eigen::AlignedBox3d whole_box(const Organ& organ) {
   Eigen::AlignedBox3d box = organ.surface.bounds();
-  for (const Organ& neighbour : organ.neighbours) box.extend(neighbour.surface.bounds());
+  for (const Organ& neighbour : organ.neighbours)
+    if (!surrounds(neighbour, organ)) box.extend(neighbour.surface.bounds());
   return box;
 }
 
@@ -41,7 +45,7 @@ SceneView organ_scene(const Organ& organ) {
   view.organ = std::make_shared<TriangleSurface>(organ.surface.transformed(to_centre));
   view.material = organ.material;
   for (const Organ& neighbour : organ.neighbours)
-    view.neighbours.push_back({std::make_shared<TriangleSurface>(neighbour.surface.transformed(to_centre)), neighbour.material});
+    if (!surrounds(neighbour, organ)) view.neighbours.push_back({std::make_shared<TriangleSurface>(neighbour.surface.transformed(to_centre)), neighbour.material});
   Eigen::AlignedBox3d box = view.organ->bounds();
   for (const NeighbourView& neighbour : view.neighbours) box.extend(neighbour.surface->bounds());
   const Vec3 size = box.sizes();
