@@ -149,7 +149,7 @@ void add_phantom(OrganCommandLine& c, CLI::App& organ) {
   phantom->add_option("--variant", c.phantom.variant, "normal, short-duct, low-insertion, fat or artery-anterior")->capture_default_str();
   phantom->add_option("--patient", c.phantom.patient, "Natural variation; 0: the standard patient")->capture_default_str();
   phantom->add_option("--voxel", c.phantom.voxel_mm, "Voxel in mm; 1.25 shows ducts and arteries well")->capture_default_str();
-  phantom->add_flag("--scene", c.phantom.scene, "Twenty organs round the gallbladder as one scene as well");
+  phantom->add_flag("--scene", c.phantom.scene, "The organs round the gallbladder as one scene as well");
   phantom->add_flag("--dicom", c.phantom.dicom, "The CT as a DICOM series as well");
   phantom->add_flag("--json", c.phantom.json, "Report as JSON");
 }

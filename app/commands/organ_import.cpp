@@ -129,10 +129,27 @@ std::vector<SceneRequest> requests_of(const OrganImportOptions& options, const s
   return requests;
 }
 
+/// An organ that cuts itself in the common mesh is meshed alone: a clean surface goes before a shared one, and that is said.
+void mesh_alone_what_cuts_itself(const OrganImportOptions& options, const LabelMap& map, const std::vector<ChosenLabel>& labels, CompiledScene& scene,
+                                 std::vector<bool>& alone) {
+  for (std::size_t n = 0; n < labels.size(); ++n) {
+    if (scene.organs[n].facts.self_intersections == 0) continue;
+    const Segment& segment = labels[n].segment;
+    CompiledOrgan fresh = compile_label(map.layers[segment.layer], segment.number, {options.triangles, {.only_largest = options.largest_only}, options.progress});
+    if (fresh.facts.self_intersections >= scene.organs[n].facts.self_intersections) continue;
+    scene.notes.push_back(file_name_of(segment) + " cut itself in " + std::to_string(scene.organs[n].facts.self_intersections) +
+                          " places of the common mesh and was meshed alone: it lies against its neighbours, but shares no triangles with them");
+    scene.organs[n] = std::move(fresh);
+    alone[n] = true;
+  }
+}
+
 WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& source, const std::vector<ChosenLabel>& labels,
                            const std::vector<std::string>& decisions, const fs::path& stem) {
   if (!options.material.empty()) throw InputError("--material goes with one organ; those of a scene have theirs by name");
   CompiledScene scene = compile_scene(source.map, requests_of(options, labels), {{.only_largest = options.largest_only}, options.progress});
+  std::vector<bool> alone(labels.size(), false);
+  mesh_alone_what_cuts_itself(options, source.map, labels, scene, alone);
   WrittenOrgans written;
   std::vector<SideFile> more;
   for (std::size_t n = 0; n < labels.size(); ++n) {
@@ -150,9 +167,11 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   set.name = options.name.empty() ? stem.filename().string() : options.name;
   set.subject = subject_of(options, written.organs);
   for (const SharedInterface& shared : scene.shared)
-    set.contacts.push_back({written.organs[shared.first].manifest.name, written.organs[shared.second].manifest.name, shared.area_m2, true});
+    set.contacts.push_back({written.organs[shared.first].manifest.name, written.organs[shared.second].manifest.name, shared.area_m2,
+                            !alone[shared.first] && !alone[shared.second]});
   for (const Attachment& attachment : scene.attachments)
-    set.attachments.push_back({written.organs[attachment.organ].manifest.name, label_words(source.map, attachment, options), attachment.area_m2, attachment.triangles});
+    if (!alone[attachment.organ])  // the list names triangles of the common mesh
+      set.attachments.push_back({written.organs[attachment.organ].manifest.name, label_words(source.map, attachment, options), attachment.area_m2, attachment.triangles});
   written.manifest = write_organ_set(stem, set, written.organs, more);
   written.set = std::move(set);
   written.image = std::move(source.image);

@@ -66,7 +66,7 @@ const std::vector<std::string>& scene_labels() {
   static const std::vector<std::string> labels{
       "liver", "gallbladder", "cystic_duct", "common_hepatic_duct", "common_bile_duct", "hepatic_artery", "right_hepatic_artery",
       "left_hepatic_artery", "cystic_artery", "portal_vein_and_splenic_vein", "stomach", "duodenum", "pancreas", "colon", "small_bowel",
-      "spleen", "kidney_right", "kidney_left", "omentum", "muscle"};
+      "spleen", "kidney_right", "kidney_left"};
   return labels;
 }
 
@@ -84,7 +84,7 @@ OrganImportOptions phantom_import(const OrganPhantomOptions& options, const std:
 }
 
 WrittenOrgans import_phantom_scene(const OrganPhantomOptions& options, std::ostream& err) {
-  constexpr int kTriangles = 2400;
+  constexpr int kTriangles = 2000;
   OrganImportOptions import = phantom_import(options, "abdomen");
   import.label = scene_labels();
   import.triangles = kTriangles;
