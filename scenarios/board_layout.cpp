@@ -106,6 +106,42 @@ std::vector<Target> best_throw(const HeightField& field, const TargetLayout& lay
   return best;
 }
 
+/// Points of a hexagonal lattice of random place and turn that qualify: denser than darts, for organs with little room.
+std::vector<Target> lattice_throw(const HeightField& field, const TargetLayout& layout, double centre_z, std::mt19937_64& generator) {
+  const double margin = layout.radius_m + layout.wrong_place_m, pitch = layout.min_spacing_m;
+  const double half_x = layout.region_x_m / 2 - margin, half_y = layout.region_y_m / 2 - margin;
+  const Eigen::Rotation2Dd turn(uniform(generator) * M_PI / 3);
+  const Eigen::Vector2d shift(uniform(generator) * pitch, uniform(generator) * pitch);
+  const int reach = static_cast<int>(std::hypot(half_x, half_y) / pitch) + 2;
+  std::vector<Target> targets;
+  for (int row = -reach; row <= reach; ++row)
+    for (int column = -reach; column <= reach; ++column) {
+      const Eigen::Vector2d at = turn * Eigen::Vector2d(pitch * (column + 0.5 * (row & 1)), pitch * std::sqrt(0.75) * row) + shift;
+      if (std::abs(at.x()) > half_x || std::abs(at.y()) > half_y) continue;
+      const auto point = field.top(at.x(), at.y());
+      if (point && qualifies(field, *point, centre_z, layout))
+        targets.push_back({point->position, point->normal, layout.radius_m, {}, Mat3::Identity()});
+    }
+  while (static_cast<int>(targets.size()) > layout.count)
+    targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(uniform(generator) * static_cast<double>(targets.size())));
+  return targets;
+}
+
+/// The exercise's spacing where the organ has room; else closer together, down to where the wrong-place rims touch.
+std::vector<Target> place_targets(const HeightField& field, TargetLayout& layout, double centre_z, std::mt19937_64& generator) {
+  constexpr int kLattices = 1000;
+  std::vector<Target> best = best_throw(field, layout, centre_z, generator);
+  const double closest = 2 * (layout.radius_m + layout.wrong_place_m);
+  while (static_cast<int>(best.size()) < layout.count && layout.min_spacing_m > closest) {
+    layout.min_spacing_m = std::max(closest, layout.min_spacing_m - kCloserBy);
+    for (int n = 0; n < kLattices && static_cast<int>(best.size()) < layout.count; ++n) {
+      std::vector<Target> targets = lattice_throw(field, layout, centre_z, generator);
+      if (targets.size() > best.size()) best = std::move(targets);
+    }
+  }
+  return best;
+}
+
 /// Is the straight way between two lifted targets free of the surface?
 bool leg_is_free(const HeightField& field, const Target& a, const Target& b, double retract_m) {
   for (double share = 0.1; share < 0.95; share += 0.1) {
@@ -203,12 +239,7 @@ Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, co
   if (!centre) throw InputError("the organ does not lie under the middle of the board region: place it first");
   std::mt19937_64 generator(0x9E3779B97F4A7C15ull * (static_cast<std::uint64_t>(board) + 1));
   TargetLayout tried = layout;
-  std::vector<Target> best = best_throw(field, tried, centre->position.z(), generator);
-  const double closest = 2 * (layout.radius_m + layout.wrong_place_m);
-  while (static_cast<int>(best.size()) < layout.count && tried.min_spacing_m > closest) {
-    tried.min_spacing_m = std::max(closest, tried.min_spacing_m - kCloserBy);
-    best = best_throw(field, tried, centre->position.z(), generator);
-  }
+  std::vector<Target> best = place_targets(field, tried, centre->position.z(), generator);
   if (static_cast<int>(best.size()) < layout.count) {
     throw InputError("board " + std::to_string(board) + " of exercise '" + exercise.id + "': the organ has room for " +
                      std::to_string(best.size()) + " of " + std::to_string(layout.count) +
