@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <set>
 
 #include "app/scene.h"
+#include "scenarios/exercise_loader.h"
 #include "tests/tissue/support/shapes.h"
 #include "tissue/tissue_world.h"
 
@@ -103,6 +106,45 @@ TEST(Neighbours, ThePatchGivesEachTriangleItsMaterial) {
   EXPECT_GT(of_neighbour, 0);
   EXPECT_EQ(patch->material[0].stiffness_n_per_m, 150);
   EXPECT_EQ(patch->material[1].stiffness_n_per_m, all.materials[0].stiffness_n_per_m);
+}
+
+TEST(ShippedAbdomen, IsOneFrameOfOrgansForTheTouchExercise) {
+  const AssetRoots assets = find_assets();
+  const Organ organ = load_organ(find_organ("phantom-abdomen", assets.assets));
+  EXPECT_EQ(organ.name, "liver");
+  EXPECT_TRUE(organ.synthetic);
+  EXPECT_EQ(organ.licence, "CC0-1.0");
+  std::set<std::string> names;
+  for (const Organ& neighbour : organ.neighbours) names.insert(neighbour.name);
+  for (const char* name : {"gallbladder", "cystic_duct", "common_bile_duct", "cystic_artery", "hepatic_artery", "stomach", "colon", "small_bowel", "kidney_right", "spleen"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  AttemptSetup setup;
+  setup.exercise = find_exercise("surface-touch", assets.exercises);
+  setup.organ = "phantom-abdomen";
+  setup.hand = "expert";
+  const Scene scene = build_scene(setup, assets, {"simulated", 1000, 16});
+  EXPECT_EQ(scene.neighbours.organs.size() + scene.neighbours.set_aside.size(), names.size());
+  EXPECT_GT(scene.neighbours.felt_T.triangles.size(), scene.organ_T.triangles.size());
+  EXPECT_EQ(scene.board.targets.size(), 12U);
+  EXPECT_EQ(scene.board.spacing_m, setup.exercise.layout.min_spacing_m) << "a whole liver has room";
+}
+
+TEST(ShippedAbdomen, TheCysticDuctAndArteryLieAtTheGallbladder) {
+  const Organ organ = load_organ(find_organ("phantom-abdomen#gallbladder", find_assets().assets));
+  ASSERT_EQ(organ.name, "gallbladder");
+  const auto gap = [&](const std::string& name) {
+    for (const Organ& other : organ.neighbours) {
+      if (other.name != name) continue;
+      double nearest = 1;
+      for (const Vec3& a : other.surface.vertices)
+        for (const Vec3& b : organ.surface.vertices) nearest = std::min(nearest, (a - b).norm());
+      return nearest;
+    }
+    return 1.0;
+  };
+  EXPECT_LT(gap("cystic_duct"), 1e-6) << "they share triangles";
+  EXPECT_LT(gap("cystic_artery"), 1e-6);
+  EXPECT_GT(gap("spleen"), 0.02);
 }
 
 }  // namespace
