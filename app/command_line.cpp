@@ -88,7 +88,7 @@ void add_run(CommandLine& c) {
   run->add_option("--board", c.run.board, "Practice board 0-19, refused at level exam (default: an unseen one drawn by the seed)");
   run->add_option("--trainee", c.run.trainee, "Trainee code, created when new")->capture_default_str();
   run->add_option("--db", c.run.database, "Database file, or :memory:");
-  run->add_option("--organ", c.run.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  run->add_option("--organ", c.run.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   run->add_option("--record", c.run.record, "Recording file (default: beside the database)");
   run->add_option("--frames", c.run.frames, "Folder for PNG frames");
   run->add_option("--fps", c.run.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
@@ -111,7 +111,7 @@ void add_sweep(CommandLine& c) {
   sweep->add_option("--hand", c.sweep.hands, "Hands, separated by commas")->delimiter(',')->capture_default_str();
   sweep->add_option("--level", c.sweep.levels, "Levels, separated by commas (default: all)")->delimiter(',');
   sweep->add_option("--seeds", c.sweep.seeds, "First and last seed, A..B")->capture_default_str();
-  sweep->add_option("--organ", c.sweep.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  sweep->add_option("--organ", c.sweep.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   sweep->add_option("--jobs", c.sweep.jobs, "Attempts at once (0: one a processor)")->capture_default_str()->check(CLI::Range(0, 256));
   sweep->add_flag("--json", c.sweep.json, "As JSON");
 }
@@ -140,10 +140,10 @@ void add_first_contact(CommandLine& c) {
   demo->add_option("--out", c.demo.output, "Folder")->capture_default_str();
   demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
   demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
-  demo->add_option("--organ", c.demo.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  demo->add_option("--organ", c.demo.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   CLI::App* bench = c.add(c.app, "bench", "What one tick costs, by stage",
                           [&c] { return bench_command(c.bench, std::cout, std::cerr); });
-  bench->add_option("--organ", c.bench.organ, "NAME.organ.toml or a shipped organ")->capture_default_str();
+  bench->add_option("--organ", c.bench.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   bench->add_flag("--json", c.bench.json, "As JSON");
   std::string studies;
   for (const std::string& name : study_names()) studies += (studies.empty() ? "" : ", ") + name;

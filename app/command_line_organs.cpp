@@ -77,7 +77,7 @@ void add_threshold_options(OrganCommandLine& c, CLI::App& import) {
 
 void add_surface_options(OrganCommandLine& c, CLI::App& import) {
   const char* group = "Surfaces";
-  import.add_option("--unit", c.import.surface.unit, "Length unit of the file: mm, cm or m")->group(group);
+  import.add_option("--unit", c.import.surface.unit, "Length unit of the file: mm, cm or m; of a volume that says none also dm, um")->group(group);
   import.add_option("--frame", c.import.surface.frame, "What x, y, z of the file point at: RAS, LPS, ...")->group(group);
   import.add_option("--up", c.import.surface.up_axis, "Axis of the file that points to the head: x, y or z")->group(group);
   import.add_option("--part", c.import.surface.part, "Node or region to take (names: organ inspect)")->group(group);
@@ -97,7 +97,7 @@ void add_import(OrganCommandLine& c, CLI::App& organ) {
   import->add_option("--name", c.import.name, "Name of the organ or the scene");
   import->add_option("--material", c.import.material, "Material name (default: by the organ's name)");
   import->add_option("--modality", c.import.modality, "CT or MR");
-  import->add_option("--licence", c.import.licence, "Licence of the source; without one it cannot be packaged")->capture_default_str();
+  import->add_option("--licence", c.import.licence, "Licence of the source; unknown when not given, and then it cannot be packaged");
   import->add_option("--credit", c.import.credit, "One line to show with the organ");
   import->add_flag("--json", c.import.json, "Report as JSON");
   add_label_options(c, *import);
@@ -128,7 +128,7 @@ void add_others(OrganCommandLine& c, CLI::App& organ) {
   render->add_option("--width", c.render.width, "px")->capture_default_str();
   render->add_option("--height", c.render.height, "px")->capture_default_str();
   for (CLI::App* command : {info, render})
-    command->add_option("organ", c.organ, "NAME.organ.toml, NAME.scene.toml or a shipped organ")->required();
+    command->add_option("organ", c.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->required();
   CLI::App* package = c.add(organ, "package", "Organs with a licence, and their credits, as a zip to pass on", [&c] {
     c.package.assets = find_assets().assets;
     return organ_package(c.package, std::cout, std::cerr);
@@ -145,9 +145,9 @@ void add_phantom(OrganCommandLine& c, CLI::App& organ) {
                               return organ_phantom(c.phantom, std::cout, std::cerr);
                             });
   phantom->add_option("--out", c.phantom.out, "Folder")->required();
-  phantom->add_option("--seed", c.phantom.seed, "Seed of the noise")->capture_default_str();
+  phantom->add_option("--seed", c.phantom.seed, "Seed of the noise")->capture_default_str()->check(CLI::Range(0.0, 9e18, "SEED"));
   phantom->add_option("--variant", c.phantom.variant, "normal, short-duct, low-insertion, fat or artery-anterior")->capture_default_str();
-  phantom->add_option("--patient", c.phantom.patient, "Natural variation; 0: the standard patient")->capture_default_str();
+  phantom->add_option("--patient", c.phantom.patient, "Natural variation; 0: the standard patient")->capture_default_str()->check(CLI::Range(0.0, 9e18, "PATIENT"));
   phantom->add_option("--voxel", c.phantom.voxel_mm, "Voxel in mm; 1.25 shows ducts and arteries well")->capture_default_str();
   phantom->add_flag("--scene", c.phantom.scene, "The organs round the gallbladder as one scene as well");
   phantom->add_flag("--dicom", c.phantom.dicom, "The CT as a DICOM series as well");

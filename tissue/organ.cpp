@@ -67,6 +67,8 @@ Organ load_organ(const std::filesystem::path& given) {
   return organ;
 }
 
+std::filesystem::path without_subject(const std::filesystem::path& given) { return split_subject(given.string()).first; }
+
 std::filesystem::path find_organ(const std::string& name_or_path, const std::filesystem::path& assets) {
   const auto [name, subject] = split_subject(name_or_path);
   if (std::filesystem::is_regular_file(name)) return name_or_path;

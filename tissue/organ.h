@@ -31,6 +31,9 @@ struct Organ {
 /// @throws InputError naming file and place: missing file, unknown key, wrong hash, surface open or empty.
 Organ load_organ(const std::filesystem::path& manifest);
 
+/// The file of "FILE#ORGAN".
+std::filesystem::path without_subject(const std::filesystem::path& given);
+
 /// The manifest meant by a user: a path to one, or the name of an organ or a scene that ships ("phantom-liver"). "#ORGAN" behind a
 /// scene chooses its subject.
 /// @param assets root of the shipped assets; organs lie in its folder `organs`

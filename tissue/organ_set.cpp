@@ -7,7 +7,6 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
-#include "tissue/mesh/ply_file.h"
 #include "tissue/mesh/staged_file.h"
 #include "tissue/mesh/toml_table.h"
 
@@ -149,6 +148,8 @@ Organ load_organ_set(const std::filesystem::path& path, const std::string& subje
   return result;
 }
 
+std::filesystem::path member_stem(const std::filesystem::path& stem, const std::string& name) { return stem.string() + "-" + name; }
+
 std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members,
                                       const std::vector<SideFile>& more) {
   std::vector<std::unique_ptr<StagedFile>> staged;
@@ -158,10 +159,8 @@ std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSe
   set.files.clear();
   set.sha256.clear();
   for (CompiledMember& member : members) {
-    const std::string name = stem.string() + "-" + member.manifest.name;
-    const std::string surface = ply_bytes(member.surface);
-    member.manifest.surface = std::filesystem::path(name).filename().string() + ".ply";
-    member.manifest.surface_sha256 = digest::of_bytes(surface);
+    const std::string name = member_stem(stem, member.manifest.name).string();
+    const std::string surface = enter_surface(name, member.manifest, member.surface);
     const std::string text = manifest_text(member.manifest);
     stage(name + ".ply", surface);
     stage(name + std::string(kOrganSuffix), text);
@@ -171,7 +170,7 @@ std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSe
   set.more_files.clear();
   for (const SideFile& file : more) {
     stage(stem.parent_path() / file.name, file.bytes);
-    set.more_files.push_back(file.name);
+    if (plain_name(file.name)) set.more_files.push_back(file.name);
   }
   std::filesystem::path path = stem.string() + std::string(kOrganSetSuffix);
   stage(path, organ_set_text(set));

@@ -61,6 +61,9 @@ struct CompiledMember {
   TriangleSurface surface;
 };
 
+/// Path without suffix of one organ of a scene: STEM-NAME.
+std::filesystem::path member_stem(const std::filesystem::path& stem, const std::string& name);
+
 /// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing: everything is
 /// staged beside its place and then renamed, the scene file last.
 /// @param members manifests; their surface names and hashes are filled in

@@ -12,9 +12,9 @@
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/imaging/label_table_file.h"
+#include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/mesh/organ_compiler.h"
 #include "tissue/mesh/scene_compiler.h"
-#include "tissue/mesh/staged_file.h"
 #include "tissue/mesh/surface_import.h"
 
 namespace trocar {
@@ -42,7 +42,7 @@ OrganManifest common_manifest(const OrganImportOptions& options, const OrganSour
   manifest.source = source;
   manifest.licence = options.licence.empty() ? "unknown" : options.licence;
   manifest.credit = options.credit;
-  manifest.synthetic = options.synthetic;
+  manifest.synthetic = options.synthetic || options.label_table == kPhantomTable;
   return manifest;
 }
 
@@ -62,7 +62,7 @@ void name_organ(const OrganImportOptions& options, const std::string& by_default
 WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& source, const ChosenLabel& label,
                            const std::vector<std::string>& decisions, const fs::path& stem) {
   OrganManifest manifest = label_manifest(options, source, label);
-  name_organ(options, label.segment.name.empty() ? source.stem : file_name_of(label.segment), manifest);
+  name_organ(options, label.segment.name.empty() && source.map.segments.size() == 1 ? source.stem : file_name_of(label.segment), manifest);
   const LabelVolume& layer = source.map.layers[label.segment.layer];
   CompiledOrgan organ = compile_label(layer, label.segment.number, {options.triangles, {.only_largest = options.largest_only}, options.progress});
   manifest.mesh = std::move(organ.facts);
@@ -70,7 +70,7 @@ WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& sou
   std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {&layer, label.segment.number}, manifest);
   WrittenOrgans written;
   written.organs.push_back({std::move(manifest), std::move(organ.surface)});
-  written.manifest = write_organ(stem, written.organs[0].manifest, written.organs[0].surface, files);
+  written.files = std::move(files);
   written.image = std::move(source.image);
   written.labels = std::move(source.map);
   return written;
@@ -95,7 +95,7 @@ WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::p
   std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {}, manifest);
   WrittenOrgans written;
   written.organs.push_back({std::move(manifest), std::move(organ.surface)});
-  written.manifest = write_organ(stem, written.organs[0].manifest, written.organs[0].surface, files);
+  written.files = std::move(files);
   return written;
 }
 
@@ -157,7 +157,7 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
     manifest.name = manifest.material = file_name_of(labels[n].segment);
     manifest.mesh = std::move(scene.organs[n].facts);
     manifest.decisions = untold(decisions, manifest.mesh.repairs);
-    const fs::path member = stem.string() + "-" + manifest.name;
+    const fs::path member = member_stem(stem, manifest.name);
     const LabelledOrgan made_from{&source.map.layers[labels[n].segment.layer], labels[n].segment.number};
     for (SideFile& file : volume_meshes(options, member, scene.organs[n].surface, made_from, manifest)) more.push_back(std::move(file));
     for (SideFile& file : vessel_files(options, member, made_from, manifest.name)) more.push_back(std::move(file));
@@ -172,7 +172,7 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   for (const Attachment& attachment : scene.attachments)
     if (!alone[attachment.organ])  // the list names triangles of the common mesh
       set.attachments.push_back({written.organs[attachment.organ].manifest.name, label_words(source.map, attachment, options), attachment.area_m2, attachment.triangles});
-  written.manifest = write_organ_set(stem, set, written.organs, more);
+  written.files = std::move(more);
   written.set = std::move(set);
   written.image = std::move(source.image);
   written.labels = std::move(source.map);
@@ -186,6 +186,8 @@ void check_options(const OrganImportOptions& options) {
   if (options.output.empty()) throw InputError("-o: no output name");
   if (options.triangles < kFewest || options.triangles > kMost)
     throw InputError("--triangles " + std::to_string(options.triangles) + ": 200 to 200000 are wanted");
+  if (!options.report.empty() && options.report.extension() != ".html" && options.report.extension() != ".htm")
+    throw InputError("--report " + options.report.string() + ": the page is HTML: name it NAME.html");
   if (!fs::exists(options.input)) throw InputError(options.input + ": no such file or folder");
 }
 
@@ -204,6 +206,20 @@ void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
   for (const std::string& suffix : {std::string(".ply"), std::string(".lattice"), std::string(".msh")})
     if (fs::equivalent(stem.string() + suffix, options.input, missing))
       throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
+}
+
+/// The page is made before anything is written, and written with the rest.
+void add_page(const OrganImportOptions& options, WrittenOrgans& written) {
+  for (CompiledMember& organ : written.organs)
+    enter_surface(written.set ? member_stem(written.stem, organ.manifest.name) : written.stem, organ.manifest, organ.surface);
+  const OrganPageContent content{written.organs, written.set ? &*written.set : nullptr, written.image ? &*written.image : nullptr,
+                                 written.labels ? &*written.labels : nullptr, written.notes, options.assets};
+  written.files.push_back({fs::absolute(options.report).string(), organ_page(content)});
+}
+
+void write(WrittenOrgans& written) {
+  written.manifest = written.set ? write_organ_set(written.stem, *written.set, written.organs, written.files)
+                                 : write_organ(written.stem, written.organs[0].manifest, written.organs[0].surface, written.files);
 }
 
 void remark(const WrittenOrgans& written, std::ostream& err) {
@@ -238,17 +254,15 @@ WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err
     written = scene ? import_scene(options, std::move(source), labels, decisions, stem)
                     : import_label(options, std::move(source), labels.front(), decisions, stem);
   }
+  written.stem = stem;
+  if (!options.report.empty()) add_page(options, written);
+  write(written);
   remark(written, err);
   return written;
 }
 
 int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostream& err) {
   const WrittenOrgans written = import_organs(options, err);
-  if (!options.report.empty()) {
-    StagedFile page(options.report, organ_page({written.organs, written.set ? &*written.set : nullptr, written.image ? &*written.image : nullptr,
-                                                written.labels ? &*written.labels : nullptr, written.notes, options.assets}));
-    page.commit();
-  }
   if (written.set)
     out << (options.json ? scene_report_json(*written.set, written.organs) : scene_report_text(*written.set, written.organs));
   else

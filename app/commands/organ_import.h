@@ -24,7 +24,9 @@ int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostr
 struct WrittenOrgans {
   std::vector<CompiledMember> organs;  ///< one, or those of the scene
   std::optional<OrganSet> set;         ///< of a scene
-  std::filesystem::path manifest;      ///< of the organ, or the scene file
+  std::filesystem::path stem;          ///< path of all files without their suffixes
+  std::vector<SideFile> files;         ///< lattices, tetrahedra, centrelines, the page
+  std::filesystem::path manifest;      ///< of the organ, or the scene file, once written
   std::optional<ImageVolume> image;    ///< that the labels were drawn on
   std::optional<LabelMap> labels;      ///< that they were made from
   std::vector<std::string> notes;      ///< of the scene as a whole

@@ -24,16 +24,17 @@ CompiledMember proved(const std::filesystem::path& path, std::ostream& err) {
 }  // namespace
 
 int organ_info(const OrganInfoOptions& options, std::ostream& out, std::ostream& err) {
-  const std::string file = options.manifest.string();
+  const std::filesystem::path path = without_subject(options.manifest);
+  const std::string file = path.string();
   if (!file.ends_with(kOrganSetSuffix)) {
-    const CompiledMember organ = proved(options.manifest, err);
+    const CompiledMember organ = proved(path, err);
     out << (options.json ? organ_json(organ.manifest, organ.surface.bounds()) : organ_text(organ.manifest, organ.surface.bounds()));
     return 0;
   }
-  const OrganSet set = parse_organ_set(read_bytes(options.manifest), file);
-  load_organ(options.manifest);  // every member is there and unchanged
+  const OrganSet set = parse_organ_set(read_bytes(path), file);
+  load_organ(path);  // every member is there and unchanged
   std::vector<CompiledMember> organs;
-  for (const std::string& member : set.files) organs.push_back(proved(options.manifest.parent_path() / member, err));
+  for (const std::string& member : set.files) organs.push_back(proved(path.parent_path() / member, err));
   out << (options.json ? scene_report_json(set, organs) : scene_report_text(set, organs));
   return 0;
 }

@@ -42,7 +42,8 @@ Json segments_json(const LabelMap& map, const LabelTable* table) {
     json["segments"].push_back({{"layer", segment.layer}, {"number", segment.number}, {"name", name}, {"voxels", voxels},
                                 {"volume_ml", std::round(static_cast<double>(voxels) * layer.voxel_volume_ml() * 1e3) / 1e3}});
   }
-  json["tables_that_fit"] = guess_label_table(map);
+  const bool unnamed = std::any_of(map.segments.begin(), map.segments.end(), [](const Segment& segment) { return segment.name.empty(); });
+  json["tables_that_fit"] = unnamed ? guess_label_table(map) : std::vector<std::string>{};
   return json;
 }
 

@@ -15,7 +15,7 @@ struct OrganInspectOptions {
   std::string input;
   std::string label_table;  ///< names for the numbers; "" the file's own, and what the built-in tables agree on is not guessed
   bool json = false;
-  Progress progress;
+  Progress progress = {};
 };
 
 /// @return exit code 0

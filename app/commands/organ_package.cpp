@@ -1,5 +1,7 @@
 #include "app/commands/organ_package.h"
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <ostream>
 
@@ -14,8 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether somebody said under what terms it may be passed on.
+bool has_licence(std::string licence) {
+  std::erase_if(licence, [](unsigned char letter) { return std::isspace(letter) != 0; });
+  std::transform(licence.begin(), licence.end(), licence.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return !licence.empty() && licence != "unknown" && licence != "none";
+}
+
 void require_licence(const Organ& organ, const fs::path& manifest) {
-  if (organ.licence.empty() || organ.licence == "unknown")
+  if (!has_licence(organ.licence))
     throw InputError(manifest.string() + ": " + organ.name + " has no licence: it may not be passed on; import it again with --licence when you know it");
 }
 
@@ -66,9 +75,10 @@ class Package {
 
 int organ_package(const OrganPackageOptions& options, std::ostream& out, std::ostream&) {
   if (options.organs.empty()) throw InputError("organ package: no organ was named");
+  if (options.output.extension() != ".zip") throw InputError(options.output.string() + ": a package is a zip: name it NAME.zip");
   Package package;
   for (const std::string& name : options.organs) {
-    const fs::path path = find_organ(name, options.assets);
+    const fs::path path = without_subject(find_organ(name, options.assets));
     if (path.string().ends_with(kOrganSetSuffix))
       package.add_set(path);
     else

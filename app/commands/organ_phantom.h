@@ -23,7 +23,7 @@ struct OrganPhantomOptions {
   bool scene = false;              ///< the organs round the hilum as one scene as well, phantom-abdomen
   bool dicom = false;              ///< the CT as a DICOM series as well, in DIR/dicom
   bool json = false;
-  Progress progress;
+  Progress progress = {};
 };
 
 /// @return exit code 0

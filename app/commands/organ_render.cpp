@@ -1,11 +1,15 @@
 #include "app/commands/organ_render.h"
 
 #include <ostream>
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/graphics/organ_scene.h"
 #include "app/graphics/renderer.h"
 #include "haptics/input_error.h"
+#include "tissue/mesh/staged_file.h"
 #include "tissue/organ.h"
 
 namespace trocar {
@@ -19,7 +23,9 @@ int organ_render(const OrganRenderOptions& options, const std::filesystem::path&
   HeadlessContext context;
   err << "drawing " << organ.name << " with " << context.info().renderer << "\n";
   Renderer renderer(context, asset_root);
-  write_png(options.output, renderer.render(organ_scene(organ), options.width, options.height));
+  const std::vector<std::uint8_t> png = encode_png(renderer.render(organ_scene(organ), options.width, options.height));
+  StagedFile file(options.output, std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
+  file.commit();
   out << options.output.string() << "\n";
   return 0;
 }

@@ -8,6 +8,7 @@
 
 #include "haptics/input_error.h"
 #include "tissue/imaging/label_choice.h"
+#include "tissue/imaging/label_mask.h"
 #include "tissue/imaging/label_table.h"
 #include "tissue/imaging/label_table_file.h"
 
@@ -30,9 +31,18 @@ NamedTable named_table(const std::string& given) {
   return named;
 }
 
+/// Numbers 1, 2, ... n: whoever drew them counted, and no table numbered them.
+bool counted(const LabelMap& map) {
+  int next = 1;
+  for (const Segment& segment : map.segments)
+    if (segment.number != next++) return false;
+  return true;
+}
+
 /// Built-in tables of scans of patients: those that a bare map may have been numbered by.
 std::vector<const LabelTable*> candidates(const LabelMap& map) {
   std::vector<const LabelTable*> tables;
+  if (counted(map)) return tables;
   for (const std::string& name : label_table_names()) {
     const LabelTable& table = label_table(name);
     const bool fits = name.starts_with("totalsegmentator") && std::all_of(map.segments.begin(), map.segments.end(), [&](const Segment& segment) {
@@ -104,7 +114,10 @@ class Chooser {
   void name_by_agreement(ChosenLabel& chosen, const std::string& wanted) {
     if (!chosen.segment.name.empty() || (wanted.empty() && map_.segments.size() == 1)) return;
     const auto name = agreed_name(assumed_, chosen.segment.number);
-    if (!name) return;
+    if (!name) {
+      decisions_.push_back("label " + std::to_string(chosen.segment.number) + " stays without a name: the map has numbers only and no table was named (--label-table)");
+      return;
+    }
     chosen.segment.name = *name;
     chosen.table = listed_names(assumed_);
     decisions_.push_back("label " + std::to_string(chosen.segment.number) + " is \"" + *name + "\" in every table that could have numbered this map (" +
@@ -117,6 +130,16 @@ class Chooser {
   std::vector<std::string>& decisions_;
   std::vector<const LabelTable*> assumed_;
 };
+
+/// A label of a few voxels cannot be meshed; among all labels of a map it is left out instead of stopping the rest.
+bool too_small(const LabelMap& map, const Segment& segment, bool only_largest) {
+  try {
+    cut_out_label(map.layers[segment.layer], segment.number, 1, {.only_largest = only_largest});
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
 
 void refuse_twice(const std::vector<ChosenLabel>& chosen, const std::string& file) {
   std::set<std::pair<std::size_t, int>> seen;
@@ -139,6 +162,10 @@ std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const 
   if (options.all) {
     if (!options.label.empty()) throw InputError("--all takes every label; it does not go with --label");
     for (const Segment& segment : map.segments) {
+      if (too_small(map, segment, options.largest_only)) {
+        decisions.push_back("label " + std::to_string(segment.number) + (segment.name.empty() ? "" : " (" + segment.name + ")") + " is left out: no piece of it has 8 voxels");
+        continue;
+      }
       const std::string wanted = segment.name.empty() ? std::to_string(segment.number) : segment.name;
       chosen.push_back(chooser.choose(wanted));
     }

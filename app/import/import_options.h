@@ -55,7 +55,7 @@ struct OrganImportOptions {
   std::string material;    ///< default: by the name
   std::string modality;    ///< "CT", "MR"; default: what the files tell, else guessed, else "unknown"
   bool synthetic = false;  ///< set for our own phantom
-  Progress progress;
+  Progress progress = {};
 };
 
 }  // namespace trocar

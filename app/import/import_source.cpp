@@ -152,6 +152,10 @@ ImportSource read_import_source(const OrganImportOptions& options) {
   for (const std::string& file : {options.input, options.labels})
     if (!file.empty() && !fs::exists(file, missing)) throw InputError(file + ": no such file or folder");
   const bool by_window = options.threshold.window.has_value();
+  if (by_window && (!options.label.empty() || options.all)) throw InputError("--threshold makes one label; it does not go with --label or --all");
+  if (!by_window && (options.threshold.seed_mm || options.threshold.reach_mm > 0 || options.threshold.opening_mm > 0 || options.threshold.closing_mm > 0 || options.threshold.smooth))
+    throw InputError("--seed-point, --reach, --opening, --closing and --smooth go with --threshold LOW HIGH");
+  if (options.threshold.reach_mm > 0 && !options.threshold.seed_mm) throw InputError("--reach counts from a --seed-point");
   if (by_window && !options.labels.empty()) throw InputError("--threshold makes the labels; it does not go with --labels");
   if (by_window || !options.labels.empty()) source.image = read_image(options);
   source.file = options.labels.empty() ? options.input : options.labels;

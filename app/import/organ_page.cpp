@@ -29,6 +29,7 @@ std::string verdict(const CompiledMember& organ) {
   std::string tags = tag(mesh.topology.closed(), mesh.topology.closed() ? "closed" : "OPEN") +
                      tag(mesh.topology.manifold(), mesh.topology.manifold() ? "manifold" : "NOT MANIFOLD") +
                      tag(mesh.self_intersections == 0, std::to_string(mesh.self_intersections) + " self-intersections");
+  if (mesh.quality.share_above_15 < 0.99) tags += tag(false, "thin triangles: " + fixed_text(100 * (1 - mesh.quality.share_above_15), 2) + " % below 15\u00b0");
   if (mesh.cut_at_border()) tags += tag(false, "cut at the volume border");
   if (!mesh.lost.empty()) tags += tag(false, "parts were lost");
   if (organ.manifest.synthetic) tags += tag(false, "SYNTHETIC: made by a program, not a patient");

@@ -69,8 +69,9 @@ std::vector<double> sizes_for(const TriangleSurface& source, int triangles, doub
 /// Remeshes to about `triangles`, fits, corrects the volume, and tries again when the result cuts itself.
 Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options, double volume_m3, double smoothing_m,
                    const std::vector<CapPlane>& planes, std::vector<std::string>& repairs) {
-  Remeshed result;
+  Remeshed best;
   for (const Attempt& attempt : kAttempts) {
+    Remeshed result;
     const int triangles = static_cast<int>(options.triangles * attempt.triangles);
     RemeshOptions remesh;
     remesh.triangles = triangles, remesh.progress = options.progress;
@@ -86,11 +87,13 @@ Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options,
                              " sweeps, moved " + fixed(shift * 1e3, 3) + " mm along the normals to keep the volume";
     if (result.self_intersections == 0) {
       repairs.push_back(what);
-      break;
+      return result;
     }
-    repairs.push_back(what + ": " + std::to_string(result.self_intersections) + " self-intersections, not kept");
+    repairs.push_back(what + ": " + std::to_string(result.self_intersections) + " self-intersections");
+    if (best.surface.triangles.empty() || result.self_intersections < best.self_intersections) best = std::move(result);
   }
-  return result;
+  repairs.push_back("kept the attempt with the fewest self-intersections, " + std::to_string(best.self_intersections));
+  return best;
 }
 
 std::string sampling_text(const Sampling& sampling) {

@@ -227,11 +227,16 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
-                                  const TriangleSurface& surface, const std::vector<SideFile>& more) {
-  const std::string bytes = ply_bytes(surface);
+std::string enter_surface(const std::filesystem::path& stem, OrganManifest& manifest, const TriangleSurface& surface) {
+  std::string bytes = ply_bytes(surface);
   manifest.surface = stem.filename().string() + ".ply";
   manifest.surface_sha256 = digest::of_bytes(bytes);
+  return bytes;
+}
+
+std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
+                                  const TriangleSurface& surface, const std::vector<SideFile>& more) {
+  const std::string bytes = enter_surface(stem, manifest, surface);
   std::filesystem::path path = stem.string() + std::string(kOrganSuffix);
   std::vector<std::unique_ptr<StagedFile>> staged;
   staged.push_back(std::make_unique<StagedFile>(stem.string() + ".ply", bytes));

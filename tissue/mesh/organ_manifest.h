@@ -61,10 +61,13 @@ OrganManifest parse_manifest(const std::string& text, const std::string& file);
 /// Whole file as bytes. @throws InputError when it cannot be read
 std::string read_bytes(const std::filesystem::path& path);
 
-/// A further file: name without folder, and bytes.
+/// A further file: name without folder (it lies beside the organ) or absolute path, and bytes.
 struct SideFile {
   std::string name, bytes;
 };
+
+/// Enters the name and the hash of the surface's file into the manifest. @return the file's bytes
+std::string enter_surface(const std::filesystem::path& stem, OrganManifest& manifest, const TriangleSurface& surface);
 
 /// Writes NAME.organ.toml, NAME.ply and the further files whole or not at all: all are staged beside their place and then renamed.
 /// @param stem path without the suffixes; its folder is made when missing

@@ -1,6 +1,7 @@
 #include "tissue/mesh/staged_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -38,17 +39,23 @@ int write_all(int descriptor, std::string_view bytes) {
 StagedFile::StagedFile(std::filesystem::path target, std::string_view bytes)
     : target_(std::move(target)), temporary_(target_.string() + ".part") {
   make_folder(target_);
-  const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) fail(target_, errno);
-  int code = write_all(descriptor, bytes);
-  if (::close(descriptor) != 0 && code == 0) code = errno;
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) fail(target_, errno);
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor_);
+    throw EnvironmentError(target_.string() + ": another program is just writing it");
+  }
+  int code = ::ftruncate(descriptor_, 0) == 0 ? 0 : errno;
+  if (code == 0) code = write_all(descriptor_, bytes);
   if (code == 0) return;
   ::unlink(temporary_.c_str());
+  ::close(descriptor_);
   fail(target_, code);
 }
 
 StagedFile::~StagedFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void StagedFile::commit() {

@@ -10,7 +10,8 @@ namespace trocar {
 
 class StagedFile {
  public:
-  /// Writes and flushes the bytes under the temporary name; the folder is made when missing.
+  /// Writes and flushes the bytes under the temporary name, which is locked until the end; the folder is made when missing.
+  /// @throws EnvironmentError also when another process is just writing this file
   StagedFile(std::filesystem::path target, std::string_view bytes);
   /// Removes the temporary file unless it was renamed.
   ~StagedFile();
@@ -23,6 +24,7 @@ class StagedFile {
  private:
   std::filesystem::path target_;
   std::filesystem::path temporary_;
+  int descriptor_ = -1;  ///< holds the lock
 };
 
 }  // namespace trocar

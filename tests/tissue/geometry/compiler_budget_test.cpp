@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "tissue/imaging/phantom.h"
+#include "tissue/imaging/phantom/phantom.h"
 #include "tissue/mesh/organ_compiler.h"
 
 namespace trocar {
