@@ -146,8 +146,43 @@ TEST(OrganReportPage, HoldsPicturesFiguresAndNothingForeign) {
   EXPECT_EQ(pictures, 3U) << "three slices; views need the assets";
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is loaded from anywhere";
-  for (const char* words : {"closed", "manifold", "Volume of the mesh", "Distance, mesh to source", "sha256 of the source", "cut"})
-    if (std::string(words) != "cut") EXPECT_CONTAINS(page, words);
+  for (const char* words : {"closed", "manifold", "Volume of the mesh", "Distance, mesh to source", "sha256 of the source"}) EXPECT_CONTAINS(page, words);
+}
+
+TEST(OrganReportPage, IsRefusedWhereItWouldOverwriteAndLeavesNoOrganWithoutIt) {
+  Files files;
+  OrganImportOptions options = files.options("liver");
+  options.label = {"liver"};
+  options.report = files.map;
+  EXPECT_CONTAINS(refusal(options), "name it NAME.html");
+  std::filesystem::create_directories(files.folder / "page.html.part");  // the page cannot be staged
+  options.report = files.folder / "page.html";
+  std::ostringstream out, err;
+  EXPECT_THROW(organ_import(options, out, err), EnvironmentError);
+  EXPECT_TRUE(left(files.folder, "liver").empty()) << "all or nothing";
+}
+
+TEST(SceneImport, ALabelOfAFewVoxelsDoesNotStopTheOthers) {
+  Files files;
+  files.labels.labels[0] = 9;
+  files.map = files.folder.write("map.nii.gz", nifti_gz_bytes(files.labels.size, files.labels.index_to_ras_mm, files.labels.labels));
+  OrganImportOptions options = files.options("most");
+  options.all = true;
+  const Json report = imported(options);
+  EXPECT_EQ(report["organs"].size(), 2U);
+  EXPECT_CONTAINS(report["organs"][0]["decisions"].dump(), "label 9 is left out");
+}
+
+TEST(OrganImport, ACountedMapGetsNoNamesFromTables) {
+  Files files;
+  for (std::uint16_t& label : files.labels.labels) label = label == 5 ? 2 : label;
+  files.map = files.folder.write("map.nii.gz", nifti_gz_bytes(files.labels.size, files.labels.index_to_ras_mm, files.labels.labels));
+  OrganImportOptions options = files.options("one");
+  options.label = {"1"};
+  const Json report = imported(options);
+  EXPECT_EQ(report["name"], "label-1") << "1 is the spleen in every table, and here just the first";
+  options.label = {"spleen"};
+  EXPECT_CONTAINS(refusal(options), "spleen");
 }
 
 TEST(OrganImportByThreshold, IsHonestAboutWhatItIs) {
@@ -219,6 +254,8 @@ TEST(OrganPackage, RefusesWhatHasNoLicence) {
   const OrganPackageOptions package{{(files.folder / "scene.scene.toml").string()}, files.folder.path(), files.folder / "out.zip"};
   EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_package(package, out, err); }), "has no licence");
   EXPECT_FALSE(std::filesystem::exists(package.output));
+  const OrganPackageOptions wrong{{(files.folder / "scene.scene.toml").string()}, files.folder.path(), files.folder / "scene.scene.toml"};
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_package(wrong, out, err); }), "name it NAME.zip");
 }
 
 TEST(OrganPackage, HoldsEveryFileAndTheCreditsAlwaysTheSameBytes) {

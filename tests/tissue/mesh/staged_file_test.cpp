@@ -83,5 +83,16 @@ TEST(StagedFile, AFullDiskIsAnEnvironmentErrorAndLeavesTheOldFile) {
   EXPECT_EQ(entries(folder.path()), 1U);
 }
 
+TEST(StagedFile, ASecondWriterOfTheSameFileIsRefused) {
+  test::TemporaryFolder folder;
+  StagedFile first(folder / "x.ply", "one");
+  EXPECT_CONTAINS(test::message_of<EnvironmentError>([&] { StagedFile second(folder / "x.ply", "two"); }), "just writing it");
+  first.commit();
+  std::ifstream in(folder / "x.ply");
+  std::string text;
+  in >> text;
+  EXPECT_EQ(text, "one");
+}
+
 }  // namespace
 }  // namespace trocar
