@@ -39,13 +39,13 @@ bool counted(const LabelMap& map) {
   return true;
 }
 
-/// Built-in tables of scans of patients: those that a bare map may have been numbered by.
+/// Built-in tables that a bare map may have been numbered by: those that name every number of it.
 std::vector<const LabelTable*> candidates(const LabelMap& map) {
   std::vector<const LabelTable*> tables;
   if (counted(map)) return tables;
   for (const std::string& name : label_table_names()) {
     const LabelTable& table = label_table(name);
-    const bool fits = name.starts_with("totalsegmentator") && std::all_of(map.segments.begin(), map.segments.end(), [&](const Segment& segment) {
+    const bool fits = std::all_of(map.segments.begin(), map.segments.end(), [&](const Segment& segment) {
       return !segment.name.empty() || table.name_of(segment.number).has_value();
     });
     if (fits) tables.push_back(&table);
@@ -64,6 +64,14 @@ std::optional<std::string> agreed_name(const std::vector<const LabelTable*>& tab
   std::set<std::string> names;
   for (const LabelTable* table : tables) names.insert(std::string(table->name_of(number).value_or("")));
   return names.size() == 1 && !names.begin()->empty() ? std::optional<std::string>(*names.begin()) : std::nullopt;
+}
+
+/// Every built-in table, for a name in a map whose numbers no single table knows; none for a counted map.
+std::vector<const LabelTable*> all_tables(const LabelMap& map) {
+  std::vector<const LabelTable*> tables;
+  if (!counted(map))
+    for (const std::string& name : label_table_names()) tables.push_back(&label_table(name));
+  return tables;
 }
 
 /// The number that all candidates give this name. @throws InputError when they know it and differ
@@ -100,7 +108,7 @@ class Chooser {
   ChosenLabel choose(const std::string& wanted) {
     std::string asked = wanted;
     if (!named_.table && !wanted.empty() && !is_number(wanted) && !named_in_file(map_, wanted))
-      if (const auto number = agreed_number(assumed_, wanted, file_)) asked = std::to_string(*number);
+      if (const auto number = agreed_number(assumed_.empty() ? all_tables(map_) : assumed_, wanted, file_)) asked = std::to_string(*number);
     ChosenLabel chosen{choose_segment(map_, asked, named_.table, file_), named_.table ? named_.name : ""};
     if (!named_.table) name_by_agreement(chosen, wanted);
     const bool from_file = std::any_of(map_.segments.begin(), map_.segments.end(), [&](const Segment& s) {
@@ -111,15 +119,17 @@ class Chooser {
   }
 
  private:
+  static bool named_by_user(const std::string& wanted) { return !wanted.empty() && !is_number(wanted); }
+
   void name_by_agreement(ChosenLabel& chosen, const std::string& wanted) {
     if (!chosen.segment.name.empty() || (wanted.empty() && map_.segments.size() == 1)) return;
-    const auto name = agreed_name(assumed_, chosen.segment.number);
+    const auto name = named_by_user(wanted) ? std::optional<std::string>(wanted) : agreed_name(assumed_, chosen.segment.number);
     if (!name) {
       decisions_.push_back("label " + std::to_string(chosen.segment.number) + " stays without a name: the map has numbers only and no table was named (--label-table)");
       return;
     }
     chosen.segment.name = *name;
-    chosen.table = listed_names(assumed_);
+    chosen.table = listed_names(assumed_.empty() ? all_tables(map_) : assumed_);
     decisions_.push_back("label " + std::to_string(chosen.segment.number) + " is \"" + *name + "\" in every table that could have numbered this map (" +
                          chosen.table + "), which was assumed");
   }
