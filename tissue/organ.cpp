@@ -85,6 +85,9 @@ std::filesystem::path find_organ(const std::string& name_or_path, const std::fil
     if (!shipped.empty()) names.push_back(shipped);
   }
   std::sort(names.begin(), names.end());
+  for (std::size_t scene = 0; scene < names.size(); ++scene)  // the members of a scene come with it
+    if (std::filesystem::exists(folder / (names[scene] + std::string(kOrganSetSuffix))))
+      std::erase_if(names, [prefix = names[scene] + "-"](const std::string& one) { return one.starts_with(prefix); });
   std::string known;
   for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
   throw InputError(name_or_path + ": neither a file nor an organ that ships (" + (known.empty() ? "none" : known) + ")");

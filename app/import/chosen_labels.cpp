@@ -109,7 +109,8 @@ class Chooser {
     std::string asked = wanted;
     if (!named_.table && !wanted.empty() && !is_number(wanted) && !named_in_file(map_, wanted))
       if (const auto number = agreed_number(assumed_.empty() ? all_tables(map_) : assumed_, wanted, file_)) asked = std::to_string(*number);
-    ChosenLabel chosen{choose_segment(map_, asked, named_.table, file_), named_.table ? named_.name : ""};
+    require_marked(asked, wanted);
+    ChosenLabel chosen{segment(asked, wanted), named_.table ? named_.name : ""};
     if (!named_.table) name_by_agreement(chosen, wanted);
     const bool from_file = std::any_of(map_.segments.begin(), map_.segments.end(), [&](const Segment& s) {
       return s.layer == chosen.segment.layer && s.number == chosen.segment.number && !s.name.empty();
@@ -119,6 +120,22 @@ class Chooser {
   }
 
  private:
+  /// A number that marks no voxel, with the name that led to it.
+  void require_marked(const std::string& asked, const std::string& wanted) const {
+    if (!is_number(asked) || std::any_of(map_.segments.begin(), map_.segments.end(), [&](const Segment& s) { return std::to_string(s.number) == asked || s.name == asked; }))
+      return;
+    throw InputError(file_ + ": label " + asked + (asked == wanted ? "" : " (" + wanted + ")") + " marks no voxel; the map holds " +
+                     listed_segments(map_, named_.table));
+  }
+
+  Segment segment(const std::string& asked, const std::string& wanted) const {
+    try {
+      return choose_segment(map_, asked, named_.table, file_);
+    } catch (const InputError& error) {
+      throw InputError(std::string(error.what()) + (wanted.empty() ? "" : " (--label " + wanted + ")"));
+    }
+  }
+
   static bool named_by_user(const std::string& wanted) { return !wanted.empty() && !is_number(wanted); }
 
   void name_by_agreement(ChosenLabel& chosen, const std::string& wanted) {

@@ -216,10 +216,11 @@ TEST_F(PictureTest, TissueLooksAreToldApart) {
     view.targets.clear();
     return mean_at(renderer.render(view, kWidth, kHeight), {kWidth / 2.0, kHeight / 2.0}, 40);
   };
-  const Pixel liver = look("liver"), gallbladder = look("gallbladder"), other = look("spleen");
+  const Pixel liver = look("liver"), gallbladder = look("gallbladder"), other = look("stomach"), spleen = look("spleen");
   EXPECT_GT(liver[0], 1.6 * liver[1]);              // red-brown
   EXPECT_LT(gallbladder[0], 1.4 * gallbladder[1]);  // pale, greenish
   EXPECT_GT(std::abs(other[1] - liver[1]), 8);
+  EXPECT_GT(spleen[2], 1.3 * liver[2]);  // purple beside the liver's brown
 }
 
 TEST_F(PictureTest, SoftPresetShowsTheSameSceneCheaper) {

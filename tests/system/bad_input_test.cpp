@@ -42,7 +42,7 @@ TEST_F(BadInput, UnknownNamesComeWithTheKnownOnes) {
   expect_refusal({"run", exercise, "--hand", "octopus", "--db", ":memory:"}, 2,
                  "unknown hand 'octopus': known are clumsy, expert");
   expect_refusal(short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2,
-                 "heart-of-gold: neither a file nor an organ that ships (phantom-gallbladder, phantom-liver)");
+                 "heart-of-gold: neither a file nor an organ that ships (phantom-abdomen, phantom-gallbladder, phantom-liver)");
   expect_refusal(short_run({"--level", "L9", "--db", ":memory:"}), 2, "no level 'L9': known are L1");
   expect_refusal(short_run({"--inject", "gremlin@3", "--db", ":memory:"}), 2, "known are channel-invalid");
   expect_refusal(short_run({"--inject", "encoder-jump:7@3", "--db", ":memory:"}), 2, "channels are 0 to 6");
