@@ -130,7 +130,7 @@ TEST(OrganImport, RefusalsLeaveNothingBehind) {
   options.label = {"5"}, options.triangles = 10;
   EXPECT_CONTAINS(refusal(options), "--triangles");
   options.triangles = 500, options.surface.unit = "cm";
-  EXPECT_CONTAINS(refusal(options), "label maps are in mm");
+  EXPECT_CONTAINS(refusal(options), "NIfTI is in mm");
   options.surface.unit.clear(), options.output = folder.path().string() + "/";
   EXPECT_CONTAINS(refusal(options), "names a folder");
   options.output.clear();
@@ -150,7 +150,7 @@ TEST(OrganImport, SurfacesCarryNoLabelVolume) {
   EXPECT_EQ(report["source"]["modality"], "surface");
   EXPECT_NEAR(report["volume_error_pct"].get<double>(), 0, 0.05);
   options.label = {"5"};
-  EXPECT_CONTAINS(refusal(options), "go with a label map");
+  EXPECT_CONTAINS(refusal(options), "go with images");
 }
 
 TEST(OrganImport, ReplacingTheInputIsRefused) {

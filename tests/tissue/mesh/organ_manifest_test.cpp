@@ -79,10 +79,10 @@ TEST(OrganManifest, SurfacesHaveNoLabel) {
 TEST(OrganManifest, RefusesWithLineAndColumn) {
   EXPECT_CONTAINS(refusal("format = 1\nname = \n"), "x.organ.toml:2:");
   EXPECT_CONTAINS(refusal(with("synthetic = true", "synthetic = true\ncolour = 'red'")),
-                  "x.organ.toml:5:1: unknown key \"colour\"");
-  EXPECT_CONTAINS(refusal(with("format = 1", "format = 2")), "x.organ.toml:1:10: format must be 1");
+                  "x.organ.toml:6:1: unknown key \"colour\"");
+  EXPECT_CONTAINS(refusal(with("format = 2", "format = 3")), "x.organ.toml:1:10: format must be 1 or 2");
   EXPECT_CONTAINS(refusal(with("synthetic = true", "synthetic = 'yes'")),
-                  "x.organ.toml:4:13: synthetic must be true or false");
+                  "x.organ.toml:5:13: synthetic must be true or false");
   EXPECT_CONTAINS(refusal(with("unit = 'm'", "unit = 'mm'")), "unit must be \"m\"");
   EXPECT_CONTAINS(refusal(with("material = 'liver'\n", "")), "key \"material\" is missing");
   EXPECT_CONTAINS(refusal(with("vertices = 10", "vertices = -1")), "vertices is negative");
