@@ -196,6 +196,7 @@ std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const 
       const std::string wanted = segment.name.empty() ? std::to_string(segment.number) : segment.name;
       chosen.push_back(chooser.choose(wanted));
     }
+    if (chosen.empty()) throw InputError(file + ": no label of it has a piece of 8 voxels");
   } else if (options.label.empty()) {
     if (map.segments.size() > 1)
       throw InputError(file + ": holds labels " + listed_segments(map, named.table) + ": say which with --label, or --all");

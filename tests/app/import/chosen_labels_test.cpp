@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
 
@@ -16,7 +18,8 @@ LabelMap map_of(const std::vector<Segment>& segments) {
       map.layers.back().size = {4, 4, 4};
       map.layers.back().labels.assign(64, 0);
     }
-    map.layers[segment.layer].labels[static_cast<std::size_t>(segment.number)] = static_cast<std::uint16_t>(segment.number);
+    const auto slice = static_cast<std::ptrdiff_t>(16 * (segment.number % 4));  // large enough to be an organ
+    std::fill_n(map.layers[segment.layer].labels.begin() + slice, 16, static_cast<std::uint16_t>(segment.number));
     map.segments.push_back(segment);
   }
   return map;
