@@ -193,7 +193,8 @@ TEST(OrganImportByThreshold, IsHonestAboutWhatItIs) {
   const Json report = imported(options);
   EXPECT_EQ(report["source"]["modality"], "CT");
   EXPECT_NEAR(report["label_volume_ml"].get<double>(), test::sphere_volume(0.034) * 1e6 / 2, 6);
-  EXPECT_CONTAINS(report["repairs"].dump(), "anatomy");
+  EXPECT_CONTAINS(report["repairs"].dump(), "connected pieces");
+  EXPECT_CONTAINS(report["repairs"].dump(), "50");
   options.labels = files.map.string();
   EXPECT_CONTAINS(refusal(options), "--threshold");
 }
