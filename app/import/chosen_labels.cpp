@@ -139,7 +139,7 @@ class Chooser {
   static bool named_by_user(const std::string& wanted) { return !wanted.empty() && !is_number(wanted); }
 
   void name_by_agreement(ChosenLabel& chosen, const std::string& wanted) {
-    if (!chosen.segment.name.empty() || (wanted.empty() && map_.segments.size() == 1)) return;
+    if (!chosen.segment.name.empty() || (map_.segments.size() == 1 && !named_by_user(wanted))) return;
     const auto name = named_by_user(wanted) ? std::optional<std::string>(wanted) : agreed_name(assumed_, chosen.segment.number);
     if (!name) {
       decisions_.push_back("label " + std::to_string(chosen.segment.number) + " stays without a name: the map has numbers only and no table was named (--label-table)");
