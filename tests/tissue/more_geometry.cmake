@@ -1,0 +1,3 @@
+trocar_test(geometry_more_test SOURCES
+  geometry_more/surface_facts_test.cpp
+  LINK trocar_tissue)
