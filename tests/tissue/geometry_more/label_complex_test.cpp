@@ -76,7 +76,7 @@ TEST(HalvedBall, RegionsMeetInADiscAndFillTheBall) {
   const double low = complex.border(1).volume_m3(), high = complex.border(2).volume_m3();
   EXPECT_NEAR(low + high, test::sphere_volume(8e-3), 0.03 * test::sphere_volume(8e-3));
   EXPECT_NEAR(low, high, 0.02 * low);
-  // On the plane both halves are half of the field of the ball; the rest is as large where that is 2/3: kFall / 6 within.
+  // On the plane both halves are half of that of the ball; the rest is as large where that is 2/3: kFall / 6 within.
   const double radius = (8 - kFall / 6) * 1e-3, disc = std::numbers::pi * radius * radius;
   EXPECT_NEAR(area_of_pair(complex, 1, 2), disc, 0.03 * disc);
 }
