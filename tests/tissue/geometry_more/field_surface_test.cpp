@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
-#include <set>
 
 #include "haptics/input_error.h"
 #include "tests/tissue/support/shapes.h"
