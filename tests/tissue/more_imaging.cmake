@@ -2,6 +2,7 @@
 find_package(ZLIB REQUIRED)
 trocar_test(imaging_more_test
   SOURCES imaging_more/axis_order_test.cpp
+          imaging_more/grid_segmentation_more_test.cpp
           imaging_more/label_tables_more_test.cpp
           imaging_more/phantom_structures_test.cpp
           imaging_more/shape_laws_test.cpp
