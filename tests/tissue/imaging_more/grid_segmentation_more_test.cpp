@@ -172,8 +172,8 @@ TEST(SquaredGrids, OfShearedGridsAreStraightAndLoseNoVoxel) {
   std::uniform_real_distribution<double> even(-0.4, 0.4);
   for (int round = 0; round < 50; ++round) {
     VoxelGrid sheared{{7, 6, 9}, random_frame(engine, {0.8, 0.9, 2.5})};
-    sheared.index_to_ras_mm.linear().col(2) += even(engine) * sheared.index_to_ras_mm.linear().col(1) +
-                                               even(engine) * sheared.index_to_ras_mm.linear().col(0);
+    sheared.index_to_ras_mm.linear().col(2) +=
+        even(engine) * sheared.index_to_ras_mm.linear().col(1) + even(engine) * sheared.index_to_ras_mm.linear().col(0);
     const VoxelGrid squared = squared_grid(sheared);
     EXPECT_LT(skew_of(squared.index_to_ras_mm), 1e-9);
     const Eigen::Affine3d map = squared.index_to_ras_mm.inverse() * sheared.index_to_ras_mm;
@@ -215,9 +215,9 @@ TEST(SegmentationOracle, AllLargestAndSeededPiecesAreThoseOfAFlood) {
     while (pieces.number[start] == 0) start = (start + 1) % image.values.size();
     const auto ni = static_cast<std::size_t>(image.size[0]), nj = static_cast<std::size_t>(image.size[1]);
     options.keep = Keep::kSeeded;
-    options.seed_ras_mm = image.index_to_ras_mm * Eigen::Vector3d(static_cast<double>(start % ni),
-                                                                  static_cast<double>(start / ni % nj),
-                                                                  static_cast<double>(start / (ni * nj)));
+    options.seed_ras_mm =
+        image.index_to_ras_mm * Eigen::Vector3d(static_cast<double>(start % ni), static_cast<double>(start / ni % nj),
+                                                static_cast<double>(start / (ni * nj)));
     const LabelVolume seeded = segment(image, options);
     for (std::size_t n = 0; n < seeded.labels.size(); ++n)
       EXPECT_EQ(seeded.labels[n] != 0, pieces.number[n] == pieces.number[start]);

@@ -73,7 +73,10 @@ TEST(LabelTableText, TheBackgroundTheHeadingAndTheMarkOfASpreadsheetAreNoEntries
   const Entries liver{{5, "liver"}};
   EXPECT_EQ(entries_of(parse_label_table("0,background\n5,liver\n", "t")), liver);
   EXPECT_EQ(entries_of(parse_label_table("number,name\n5,liver\n", "t")), liver);
-  EXPECT_EQ(entries_of(parse_label_table("\xef\xbb\xbf" "5,liver\n", "t")), liver);
+  EXPECT_EQ(entries_of(parse_label_table("\xef\xbb\xbf"
+                                         "5,liver\n",
+                                         "t")),
+            liver);
   EXPECT_EQ(entries_of(parse_label_table("\n\n# table of mine\nLabel\tOrgan\n\n5\tliver", "t")), liver);
   EXPECT_CONTAINS(refused("5,liver\nnumber,name\n"), "own.csv:2:1");  // a heading is the first line only
   EXPECT_CONTAINS(refused("0,background\n"), "no entry");

@@ -15,9 +15,7 @@ class ShapeLaws : public ::testing::Test {
  protected:
   Vec point(double reach) { return {even(-reach, reach), even(-reach, reach), even(-reach, reach)}; }
   double even(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  Eigen::Matrix3d turn() {
-    return Eigen::AngleAxisd(even(0.1, 3), point(1).normalized()).toRotationMatrix();
-  }
+  Eigen::Matrix3d turn() { return Eigen::AngleAxisd(even(0.1, 3), point(1).normalized()).toRotationMatrix(); }
 
   std::mt19937_64 engine_{20};
 };

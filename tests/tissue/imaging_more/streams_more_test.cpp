@@ -124,9 +124,8 @@ TEST(GzipStream, WhatCannotBeReadIsNamed) {
   EXPECT_CONTAINS(test::message_of<InputError>([&] { GzipStream stream(folder / "none"); }), "none: no such file");
   EXPECT_CONTAINS(test::message_of<InputError>([&] { GzipStream stream(folder.path()); }), "no such file");
   for (const bool deflated : {false, true})
-    EXPECT_CONTAINS(test::message_of<InputError>([&] {
-                      deflated ? open_deflated(folder / "none", 0) : open_plain(folder / "none", 0);
-                    }),
+    EXPECT_CONTAINS(test::message_of<InputError>(
+                        [&] { deflated ? open_deflated(folder / "none", 0) : open_plain(folder / "none", 0); }),
                     "none: no such file");
 }
 
