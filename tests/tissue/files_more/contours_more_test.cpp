@@ -60,9 +60,7 @@ PlaneContour drawn(std::mt19937_64& random, std::size_t corners, double low, dou
   return contour;
 }
 
-PlaneContour rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
+PlaneContour rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
 TEST(ContourFillMore, RandomTanglesEqualTheRulePixelByPixel) {
   std::mt19937_64 random(101);
@@ -196,7 +194,8 @@ TEST(ContourFillMore, AreasOfRegularPolygonsFollowTheFormula) {
 TEST(EvenPlanesMore, EverySubsetOfAnEvenPileIsFoundAgain) {
   std::mt19937_64 random(108);
   for (int round = 0; round < 60; ++round) {
-    const double first = static_cast<double>(random() % 1000) - 500.5, step = 0.5 + static_cast<double>(random() % 9) / 3;
+    const double first = static_cast<double>(random() % 1000) - 500.5,
+                 step = 0.5 + static_cast<double>(random() % 9) / 3;
     std::vector<int> places{0, 1, 2, 30};
     for (int n = 3; n < 30; ++n)
       if (random() % 2 == 0) places.push_back(n);
@@ -261,18 +260,18 @@ TEST(ContourGridMore, FilledCirclesHaveTheirArea) {
   const Structure rings = ring_of(Eigen::Matrix3d::Identity(), {0, 2}, 30);
   const ContourGrid grid = own_contour_grid({rings}, "f");
   PlaneContour contour;
-  for (const Eigen::Vector3d& point : rings.closed[0])
-    contour.push_back(grid.index_of(point).head<2>());
+  for (const Eigen::Vector3d& point : rings.closed[0]) contour.push_back(grid.index_of(point).head<2>());
   const Pixels pixels = filled({contour}, grid.size[0], grid.size[1]);
-  const double counted = static_cast<double>(std::count(pixels.begin(), pixels.end(), 1)) * grid.step_mm(0) * grid.step_mm(1);
+  const double counted =
+      static_cast<double>(std::count(pixels.begin(), pixels.end(), 1)) * grid.step_mm(0) * grid.step_mm(1);
   EXPECT_NEAR(counted, 12 * 900 * std::sin(std::numbers::pi / 12), 40);
 }
 
 TEST(ContourGridMore, IndexAndPlaceAreInversesWithLpsTurnedToRas) {
   ContourGrid grid;
   grid.size = {4, 5, 6};
-  grid.index_to_ras_mm = Eigen::Translation3d(7, -8, 9) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) *
-                         Eigen::Scaling(2.0, 3.0, 0.5);
+  grid.index_to_ras_mm = Eigen::Translation3d(7, -8, 9) *
+                         Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) * Eigen::Scaling(2.0, 3.0, 0.5);
   std::size_t next = 0;
   for (int k = 0; k < 6; ++k)
     for (int j = 0; j < 5; ++j)

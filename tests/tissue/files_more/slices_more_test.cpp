@@ -1,8 +1,8 @@
 // Headers of slices and their piles: places, stored bits, shear and order by closed forms, with refusals by element.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <random>
 #include <set>
@@ -63,7 +63,8 @@ TEST(SliceStackMore, ShearedPilesInAnyPoseAndOrderAreUnderstood) {
     std::shuffle(places.begin(), places.end(), random);
     std::vector<StackSlice> slices;
     for (const int k : places)
-      slices.push_back(slice_at(turn, first + k * (turn * Eigen::Vector3d(shift.x(), shift.y(), step)), "f" + std::to_string(k)));
+      slices.push_back(
+          slice_at(turn, first + k * (turn * Eigen::Vector3d(shift.x(), shift.y(), step)), "f" + std::to_string(k)));
     const SliceStack stack = stacked(slices, "in");
     for (int k = 0; k < 11; ++k) EXPECT_EQ(places[stack.order[static_cast<std::size_t>(k)]], k);
     EXPECT_NEAR(stack.slice_step, step, 1e-9);
@@ -78,7 +79,8 @@ TEST(SliceStackMore, EveryMissingInnerSliceIsNamedByItsNeighbours) {
   for (int missing = 1; missing < 8; ++missing) {
     std::vector<StackSlice> slices;
     for (int k = 0; k < 9; ++k)
-      if (k != missing) slices.push_back(slice_at(Eigen::Matrix3d::Identity(), {0, 0, 2.5 * k}, "f" + std::to_string(k)));
+      if (k != missing)
+        slices.push_back(slice_at(Eigen::Matrix3d::Identity(), {0, 0, 2.5 * k}, "f" + std::to_string(k)));
     const std::string message = message_of<InputError>([&] { stacked(slices, "in"); });
     EXPECT_CONTAINS(message, "between f" + std::to_string(missing - 1) + " and f" + std::to_string(missing + 1) +
                                  " lies a gap of 5 mm where slices are 2.5 mm apart: 1 slice is missing");
@@ -87,7 +89,8 @@ TEST(SliceStackMore, EveryMissingInnerSliceIsNamedByItsNeighbours) {
 
 TEST(SliceStackMore, OneSliceAsideIsRefusedByName) {
   std::vector<StackSlice> slices;
-  for (int k = 0; k < 7; ++k) slices.push_back(slice_at(Eigen::Matrix3d::Identity(), {0, 0, 2.0 * k}, "f" + std::to_string(k)));
+  for (int k = 0; k < 7; ++k)
+    slices.push_back(slice_at(Eigen::Matrix3d::Identity(), {0, 0, 2.0 * k}, "f" + std::to_string(k)));
   slices[4].place.position.x() += 3;
   EXPECT_CONTAINS(message_of<InputError>([&] { stacked(slices, "in"); }), "f4: lies 3 mm to the side");
   slices[4].place.position.x() -= 2.9;
@@ -116,7 +119,8 @@ TEST(SliceVolumeMore, UprightPilesInAnyPoseKeepEveryValueInItsPlace) {
     for (int k = 0; k < 3; ++k)
       for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 5; ++column) {
-          const Eigen::Vector3d lps = slices[static_cast<std::size_t>(k)].place.position + turn * Eigen::Vector3d(0.8 * column, 0.6 * row, 0);
+          const Eigen::Vector3d lps =
+              slices[static_cast<std::size_t>(k)].place.position + turn * Eigen::Vector3d(0.8 * column, 0.6 * row, 0);
           ASSERT_EQ(value_at(image, lps), static_cast<float>(100 * k + 5 * row + column));
         }
   }
@@ -124,7 +128,8 @@ TEST(SliceVolumeMore, UprightPilesInAnyPoseKeepEveryValueInItsPlace) {
 
 /// Linear interpolation is exact for a field that is linear within the slice; the rest is the value of outside.
 TEST(SliceVolumeMore, ShearsBothWaysKeepALinearField) {
-  for (const Eigen::Vector2d& shift : {Eigen::Vector2d(0.37, 0), Eigen::Vector2d(-0.37, 0.21), Eigen::Vector2d(0.5, -0.9)}) {
+  for (const Eigen::Vector2d& shift :
+       {Eigen::Vector2d(0.37, 0), Eigen::Vector2d(-0.37, 0.21), Eigen::Vector2d(0.5, -0.9)}) {
     const auto field = [](const Eigen::Vector3d& lps) { return 3 * lps.x() - 2 * lps.y() + 5 * lps.z() + 1; };
     std::vector<StackSlice> slices;
     for (int k = 0; k < 5; ++k)
@@ -134,7 +139,8 @@ TEST(SliceVolumeMore, ShearsBothWaysKeepALinearField) {
     for (std::size_t k = 0; k < 5; ++k) {
       std::vector<float> values;
       for (int n = 0; n < 20; ++n)
-        values.push_back(static_cast<float>(field(slices[k].place.position + Eigen::Vector3d(0.8 * (n % 5), 0.6 * (n / 5), 0))));
+        values.push_back(
+            static_cast<float>(field(slices[k].place.position + Eigen::Vector3d(0.8 * (n % 5), 0.6 * (n / 5), 0))));
       volume.put(k, values);
     }
     const ImageVolume image = volume.take();
@@ -252,7 +258,8 @@ TEST(TransferSyntaxesMore, TheListIsConsistent) {
   }
   EXPECT_FALSE(implicit_little_endian().explicit_vr);
   EXPECT_TRUE(explicit_little_endian().explicit_vr);
-  for (const char* none : {"", "1.2.840.10008.1.2 ", "1.2.840.10008.1.2.", "1.2.840.10008.1.2.4", "1.2.840.10008.1.2.4.5"})
+  for (const char* none :
+       {"", "1.2.840.10008.1.2 ", "1.2.840.10008.1.2.", "1.2.840.10008.1.2.4", "1.2.840.10008.1.2.4.5"})
     EXPECT_EQ(transfer_syntax(none), nullptr) << none;
 }
 
@@ -282,7 +289,8 @@ TEST(InflateMore, StreamsComeBackFromAnyPlaceAndCutsSaySo) {
 
 TEST(PackedBytesMore, EveryTypeComesBackAndEveryCutIsRefused) {
   PackedWriter writer;
-  writer.put(std::int8_t{-3}), writer.put(std::uint16_t{60000}), writer.put(-1.5F), writer.put_text(""), writer.put_text("ab");
+  writer.put(std::int8_t{-3}), writer.put(std::uint16_t{60000}), writer.put(-1.5F), writer.put_text(""),
+      writer.put_text("ab");
   writer.put(std::int64_t{-1} << 40);
   const std::string bytes = writer.take();
   const auto read = [](std::string_view from) {
@@ -296,7 +304,8 @@ TEST(PackedBytesMore, EveryTypeComesBackAndEveryCutIsRefused) {
   };
   EXPECT_NO_THROW(read(bytes));
   for (std::size_t length = 0; length < bytes.size(); ++length)
-    EXPECT_CONTAINS(message_of<InputError>([&] { read(std::string_view(bytes).substr(0, length)); }), "x.dcm: the reader gave no sensible answer");
+    EXPECT_CONTAINS(message_of<InputError>([&] { read(std::string_view(bytes).substr(0, length)); }),
+                    "x.dcm: the reader gave no sensible answer");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Whole surface files: poses and units that must not matter, the check of PLY, files that appear whole, filled holes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -66,7 +67,8 @@ TEST(SurfaceFilesMore, AnImportWrittenAndImportedAgainIsTheSameFile) {
   const TemporaryFolder folder;
   const ImportedSurface first = import_surface(folder.write("a.stl", stl_binary(scaled(ellipsoid(), 1000))), "mm");
   const std::string bytes = ply_bytes(first.surface);
-  EXPECT_EQ(ply_bytes(import_surface(folder.write("a.stl", stl_binary(scaled(ellipsoid(), 1000))), "mm").surface), bytes);
+  EXPECT_EQ(ply_bytes(import_surface(folder.write("a.stl", stl_binary(scaled(ellipsoid(), 1000))), "mm").surface),
+            bytes);
   const TriangleSurface back = parse_ply(bytes, "a.ply");
   EXPECT_EQ(ply_bytes(back), bytes);
   EXPECT_EQ(back.triangles, first.surface.triangles);
@@ -113,7 +115,8 @@ TEST(SurfaceFilesMore, PartsAreListedWithTheirTrianglesAndTakenAlone) {
 }
 
 TEST(FileKindMore, EveryExtensionInAnyCaseIsASurfaceFileAndNothingElseIs) {
-  for (const char* name : {"a.stl", "a.PLY", "a.Obj", "a.off", "a.glb", "a.gltf", "a.FBX", "a.vtk", "a.vtp", "a.VTU", "a.msh", "a.b.stl"}) {
+  for (const char* name : {"a.stl", "a.PLY", "a.Obj", "a.off", "a.glb", "a.gltf", "a.FBX", "a.vtk", "a.vtp", "a.VTU",
+                           "a.msh", "a.b.stl"}) {
     EXPECT_TRUE(is_surface_file(name)) << name;
     EXPECT_TRUE(kind_by_extension(name).has_value()) << name;
   }
@@ -124,10 +127,11 @@ TEST(FileKindMore, EveryExtensionInAnyCaseIsASurfaceFileAndNothingElseIs) {
 }
 
 std::string binary_ply(const TriangleSurface& surface, bool big_endian) {
-  std::string bytes = "ply\nformat binary_" + std::string(big_endian ? "big" : "little") + "_endian 1.0\nelement vertex " +
-                      std::to_string(surface.vertices.size()) +
+  std::string bytes = "ply\nformat binary_" + std::string(big_endian ? "big" : "little") +
+                      "_endian 1.0\nelement vertex " + std::to_string(surface.vertices.size()) +
                       "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-                      std::to_string(surface.triangles.size()) + "\nproperty list ushort int vertex_indices\nend_header\n";
+                      std::to_string(surface.triangles.size()) +
+                      "\nproperty list ushort int vertex_indices\nend_header\n";
   for (const Vec3& point : surface.vertices)
     for (int axis = 0; axis < 3; ++axis) put(bytes, point[axis], big_endian);
   for (const auto& triangle : surface.triangles) {
@@ -159,10 +163,12 @@ TEST(PlyCheckMore, HeadersAreRefusedWithTheirLine) {
   };
   EXPECT_CONTAINS(refusal("plum\n"), "a.ply:1:1: \"ply\" expected");
   EXPECT_CONTAINS(refusal("ply\nformat ternary 1.0\n"), "a.ply:2:1: unknown format ternary");
-  EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\ncomment x\nproperty float x\n"), "a.ply:4:1: \"property\" is not expected here");
+  EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\ncomment x\nproperty float x\n"),
+                  "a.ply:4:1: \"property\" is not expected here");
   EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\nelement vertex 20000001\n"), "a.ply:3:1: element count is no number");
   EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\nelement v 1\nproperty real x\n"), "a.ply:4:1: unknown type real");
-  EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\nelement v 1\nproperty list float int x\n"), "no whole number counts this list");
+  EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\nelement v 1\nproperty list float int x\n"),
+                  "no whole number counts this list");
   EXPECT_CONTAINS(refusal("ply\nelement v 0\nproperty int x\nend_header\n"), "names no format");
   EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\nelement v 1\nend_header\n1\n"), "element v has no property");
   EXPECT_CONTAINS(refusal("ply\nformat ascii 1.0\n"), "the header does not end");

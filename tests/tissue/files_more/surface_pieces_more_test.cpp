@@ -1,7 +1,9 @@
-// The pieces under the readers of surfaces: welding, winding, tetrahedra, cells, polygons, axes and words, by properties.
+// The pieces under the readers of surfaces: welding, winding, tetrahedra, cells, axes and words, by properties.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <set>
@@ -87,7 +89,8 @@ TEST(WindingMore, OnlyThePieceThatStandsInsideOutIsTurnedWhereverItLies) {
   std::uniform_real_distribution<double> place(-2, 2);
   for (int round = 0; round < 10; ++round) {
     const Mat3 turn = drawn_turn(random);
-    TriangleSurface surface = joined(box(Vec3(-0.05, -0.05, -0.05), Vec3(0.05, 0.08, 0.05)), sphere(Vec3(0.3, 0, 0), 0.04, 2));
+    TriangleSurface surface =
+        joined(box(Vec3(-0.05, -0.05, -0.05), Vec3(0.05, 0.08, 0.05)), sphere(Vec3(0.3, 0, 0), 0.04, 2));
     const double volume = surface.volume_m3();
     const Vec3 shift(place(random), place(random), place(random));
     for (Vec3& point : surface.vertices) point = turn * point + shift;
@@ -120,7 +123,8 @@ FileTetrahedra cubes(int count) {
   for (int k = 0; k < 2; ++k)
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i <= count; ++i) mesh.vertices.emplace_back(i, j, k);
-  constexpr std::array<std::array<int, 3>, 6> kOrders{{{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  constexpr std::array<std::array<int, 3>, 6> kOrders{
+      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
   for (int cube = 0; cube < count; ++cube)
     for (const auto& order : kOrders) {
       std::array<int, 3> at{cube, 0, 0};
@@ -194,7 +198,9 @@ TEST(VtkCellsMore, CountedListsAreTheSameCells) {
 TEST(VtkCellsMore, BadCellsAreNamedByTheirNumber) {
   EXPECT_NO_THROW(check_cells(cells_of({{0, 1, 2}, {2, 1, 3}}), 4, "f.vtk"));
   for (const std::int64_t bad : {std::int64_t{4}, std::int64_t{-1}, std::int64_t{1} << 40}) {
-    const std::string message = message_of<InputError>([&] { check_cells(cells_of({{0, 1, 2}, {2, 1, bad}}), 4, "f.vtk"); });
+    const std::string message = message_of<InputError>([&] {
+      check_cells(cells_of({{0, 1, 2}, {2, 1, bad}}), 4, "f.vtk");
+    });
     EXPECT_TRUE(message.starts_with("f.vtk")) << message;
     EXPECT_CONTAINS(message, "cell 1");
   }
@@ -229,7 +235,8 @@ TEST(VtkCellsMore, CellsOfEveryKindCoverTheSameSquare) {
     add_cells(cells_of(lists), std::vector<std::int64_t>(lists.size(), type), file, surface, "f");
     double sum = 0;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      sum += (corner(surface, t, 1) - corner(surface, t, 0)).cross(corner(surface, t, 2) - corner(surface, t, 0)).z() / 2;
+      sum +=
+          (corner(surface, t, 1) - corner(surface, t, 0)).cross(corner(surface, t, 2) - corner(surface, t, 0)).z() / 2;
     return sum;
   };
   EXPECT_DOUBLE_EQ(area(5, {{0, 1, 2}, {0, 2, 3}}), 4);
@@ -332,7 +339,8 @@ TEST(TextScannerMore, WholeNumbersComeBackOverTheWholeRange) {
     EXPECT_EQ(value, wanted);
   }
   std::int64_t value = 5;
-  for (const char* bad : {"", "-", "1.0", "1e3", "0x1", "12a", "9223372036854775808", "- 1"}) EXPECT_FALSE(to_whole(bad, value)) << bad;
+  for (const char* bad : {"", "-", "1.0", "1e3", "0x1", "12a", "9223372036854775808", "- 1"})
+    EXPECT_FALSE(to_whole(bad, value)) << bad;
 }
 
 }  // namespace
