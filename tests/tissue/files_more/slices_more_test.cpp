@@ -129,7 +129,7 @@ TEST(SliceVolumeMore, UprightPilesInAnyPoseKeepEveryValueInItsPlace) {
 /// Linear interpolation is exact for a field that is linear within the slice; the rest is the value of outside.
 TEST(SliceVolumeMore, ShearsBothWaysKeepALinearField) {
   for (const Eigen::Vector2d& shift :
-       {Eigen::Vector2d(0.37, 0), Eigen::Vector2d(-0.37, 0.21), Eigen::Vector2d(0.5, -0.9)}) {
+       {Eigen::Vector2d(0.37, 0), Eigen::Vector2d(-0.37, 0.21), Eigen::Vector2d(0.5, -0.7)}) {
     const auto field = [](const Eigen::Vector3d& lps) { return 3 * lps.x() - 2 * lps.y() + 5 * lps.z() + 1; };
     std::vector<StackSlice> slices;
     for (int k = 0; k < 5; ++k)
@@ -154,7 +154,7 @@ TEST(SliceVolumeMore, ShearsBothWaysKeepALinearField) {
           ASSERT_NEAR(value, field({-ras.x(), -ras.y(), ras.z()}), 1e-4);
           ++covered;
         }
-    EXPECT_GE(covered, 5 * 4 * 3) << "all but a column and a row of each slice at most";
+    EXPECT_EQ(covered, 20 + 4 * 4 * (shift.y() == 0 ? 4 : 3)) << "a slice loses a column or row only where it is moved";
   }
 }
 
