@@ -121,6 +121,8 @@ void check_cells(const VtkCells& cells, std::size_t points, const std::string& f
     }
     before = cells.ends[cell];
   }
+  if (static_cast<std::uint64_t>(before) != cells.corners.size())
+    throw InputError(file + ": its offsets end at " + std::to_string(before) + " of " + std::to_string(cells.corners.size()) + " corners");
 }
 
 void add_polygons(const VtkCells& cells, TriangleSurface& surface, const std::string& file) {
