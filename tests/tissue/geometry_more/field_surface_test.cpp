@@ -156,8 +156,7 @@ TEST(SmoothFields, TurnWithTheMask) {
   ASSERT_EQ(a.values.size(), b.values.size());
   for (int k = 0; k < a.size[2]; ++k)
     for (int j = 0; j < a.size[1]; ++j)
-      for (int i = 0; i < a.size[0]; ++i)
-        EXPECT_NEAR(a.values[a.offset(i, j, k)], b.values[b.offset(k, i, j)], 2e-6);
+      for (int i = 0; i < a.size[0]; ++i) EXPECT_NEAR(a.values[a.offset(i, j, k)], b.values[b.offset(k, i, j)], 2e-6);
 }
 
 TEST(Isosurfaces, LevelsNestAndTheirVolumeIsWhatIsCounted) {
@@ -191,8 +190,8 @@ TEST(Isosurfaces, OfALinearRampLieAtTheLevelExactly) {
 TEST(Caps, LieHalfAVoxelBeyondTheLastCentreInAnyFrame) {
   LabelVolume volume = grid({12, 10, 9});
   fill(volume, {0, 2, 2}, {6, 7, 8}, 1);
-  volume.index_to_ras_mm.linear() = Eigen::AngleAxisd(0.4, Vec3(1, 1, 0).normalized()).toRotationMatrix() *
-                                    Eigen::Scaling(2.0, 1.0, 3.0);
+  volume.index_to_ras_mm.linear() =
+      Eigen::AngleAxisd(0.4, Vec3(1, 1, 0).normalized()).toRotationMatrix() * Eigen::Scaling(2.0, 1.0, 3.0);
   volume.index_to_ras_mm.translation() = Vec3(10, -20, 30);
   const LabelMask mask = cut_out_label(volume, 1, kSmoothingMargin);
   const auto caps = cap_planes(mask, box_to_ras_m(volume, mask));

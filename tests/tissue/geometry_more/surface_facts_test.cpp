@@ -85,8 +85,7 @@ TEST(TopologyFacts, GenusAddsUpOverComponents) {
   EXPECT_TRUE(one.closed() && one.manifold());
   EXPECT_EQ(one.genus, 1);
   TriangleSurface all = ring;
-  for (int n = 1; n < 4; ++n)
-    all = test::joined(all, ring.transformed({Mat3::Identity(), Vec3(0, 0, n)}));
+  for (int n = 1; n < 4; ++n) all = test::joined(all, ring.transformed({Mat3::Identity(), Vec3(0, 0, n)}));
   all = test::joined(all, test::sphere(Vec3(9, 0, 0), 1, 2));
   const SurfaceTopology facts = analyse_topology(all);
   EXPECT_EQ(facts.components, 5U);
@@ -261,8 +260,8 @@ TEST(NearestSurfaceFacts, AgreesWithEveryTriangleTried) {
     EXPECT_NEAR((hit.place - p).norm(), best, 1e-12);
     const auto& [a, b, c] = ring.triangles.at(hit.triangle);
     const Vec3& first = ring.vertices[static_cast<std::size_t>(a)];
-    const Vec3 normal = (ring.vertices[static_cast<std::size_t>(b)] - first)
-                            .cross(ring.vertices[static_cast<std::size_t>(c)] - first);
+    const Vec3 normal =
+        (ring.vertices[static_cast<std::size_t>(b)] - first).cross(ring.vertices[static_cast<std::size_t>(c)] - first);
     EXPECT_LT((hit.normal - normal).norm(), 1e-12);
     EXPECT_NEAR(normal.normalized().dot(hit.place - first), 0, 1e-12);
   }
@@ -313,7 +312,9 @@ TEST(ColumnSamples, OverlapIsToldOnceAndACavityNotAtAll) {
 TEST(ColumnSamples, AreToldByRowThenColumnThenHeight) {
   std::vector<Sample> order;
   for_inside_samples(test::sphere(Vec3::Zero(), 1, 3), Vec3::Constant(-1.03), 0.11, {20, 20, 20},
-                     [&](int i, int j, int k) { order.push_back({j, i, k}); });
+                     [&](int i, int j, int k) {
+                       order.push_back({j, i, k});
+                     });
   EXPECT_GT(order.size(), 1000U);
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
@@ -322,6 +323,7 @@ TEST(ColumnSamples, StayWithinTheAskedGrid) {
   const TriangleSurface ball = test::sphere(Vec3::Zero(), 10, 2);
   EXPECT_EQ(inside_samples(ball, Vec3::Constant(-1), 0.5, {3, 4, 5}).size(), 60U);
   EXPECT_TRUE(inside_samples(ball, Vec3::Constant(30), 0.5, {3, 4, 5}).empty());
+  EXPECT_TRUE(inside_samples(turned_over(ball), Vec3::Constant(-1), 0.5, {3, 4, 5}).empty()) << "inside out";
 }
 
 TEST(MeasuredFacts, MaskIsToldInNumbersAndWords) {
