@@ -21,8 +21,14 @@ constexpr double kRadius = 0.003, kWrong = 0.002, kClosest = 2 * (kRadius + kWro
 Exercise touch(int count, double spacing_m) {
   Exercise exercise;
   exercise.id = "touch";
-  exercise.layout = {.count = count, .radius_m = kRadius, .region_x_m = 0.1, .region_y_m = 0.08, .relief_m = 0.02,
-                     .min_spacing_m = spacing_m, .max_slope_rad = 0.7, .wrong_place_m = kWrong};
+  exercise.layout = {.count = count,
+                     .radius_m = kRadius,
+                     .region_x_m = 0.1,
+                     .region_y_m = 0.08,
+                     .relief_m = 0.02,
+                     .min_spacing_m = spacing_m,
+                     .max_slope_rad = 0.7,
+                     .wrong_place_m = kWrong};
   exercise.start_above_m = Vec3(0.01, -0.02, 0.045);
   exercise.retract_height_m = 0.012;
   return exercise;
@@ -84,7 +90,8 @@ TEST(BoardSpacing, LessRoomNeverMeansMoreSpace) {
 
 TEST(BoardSpacing, WhereEvenTouchingRimsDoNotFitTheRefusalCounts) {
   const Exercise exercise = touch(12, 0.014);
-  const std::string message = test::message_of<InputError>([&] { lay_out_board(slab(0.03, 0.03), exercise, level(), 7); });
+  const std::string message =
+      test::message_of<InputError>([&] { lay_out_board(slab(0.03, 0.03), exercise, level(), 7); });
   EXPECT_CONTAINS(message, "board 7 of exercise 'touch'");
   EXPECT_CONTAINS(message, "of 12 targets");
   EXPECT_EQ(message.find("room for 0 "), std::string::npos) << "some fit: " << message;
@@ -93,7 +100,8 @@ TEST(BoardSpacing, WhereEvenTouchingRimsDoNotFitTheRefusalCounts) {
 TEST(BoardSpacing, ASpacingBelowTheRimsIsLeftAsItIs) {
   const Exercise exercise = touch(5, 0.008);
   EXPECT_EQ(lay_out_board(slab(0.2, 0.2), exercise, level(), 0).spacing_m, 0.008);
-  const std::string message = test::message_of<InputError>([&] { lay_out_board(slab(0.018, 0.018), exercise, level(), 0); });
+  const std::string message =
+      test::message_of<InputError>([&] { lay_out_board(slab(0.018, 0.018), exercise, level(), 0); });
   EXPECT_CONTAINS(message, "of 5 targets");
 }
 

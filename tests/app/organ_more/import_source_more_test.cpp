@@ -1,4 +1,5 @@
-// What an import starts from: DICOM in a folder or a zip, volumes with and without labels, and what provenance may say of them.
+// What an import starts from: DICOM in a folder or a zip, volumes with and without labels, and what provenance may say
+// of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -166,7 +167,8 @@ TEST(ImportSource, ValuesThatOnlyCtHasMakeItCt) {
   test::TemporaryFolder folder;
   const LabelVolume ball = test::ball_volume(12, 3, {0, 0, 0}, 12);
   const auto labels = folder.write("ball.nii.gz", nifti_gz_bytes(ball.size, ball.index_to_ras_mm, ball.labels));
-  for (const auto& [air, modality] : {std::pair<std::int16_t, const char*>(-1000, "CT"), {std::int16_t{0}, "unknown"}}) {
+  for (const auto& [air, modality] :
+       {std::pair<std::int16_t, const char*>(-1000, "CT"), {std::int16_t{0}, "unknown"}}) {
     const std::vector<std::int16_t> values(ball.labels.size(), air);
     const auto image = folder.write("image.nii.gz", nifti_gz_bytes(ball.size, ball.index_to_ras_mm, values));
     EXPECT_EQ(read_import_source(asking(image, labels)).source.modality, modality) << air;
@@ -182,8 +184,14 @@ TEST(ImportSource, OptionsThatContradictEachOtherAreRefused) {
     return refusal(options);
   };
   EXPECT_CONTAINS(changed([](auto& o) { o.threshold.window = {{0, 1}}, o.all = true; }), "--threshold makes one label");
-  EXPECT_CONTAINS(changed([](auto& o) { o.threshold.window = {{0, 1}}, o.label = {"5"}; }), "--threshold makes one label");
-  EXPECT_CONTAINS(changed([](auto& o) { o.threshold.window = {{0, 1}}, o.labels = o.input; }), "it does not go with --labels");
+  EXPECT_CONTAINS(changed([](auto& o) {
+                    o.threshold.window = {{0, 1}}, o.label = {"5"};
+                  }),
+                  "--threshold makes one label");
+  EXPECT_CONTAINS(changed([](auto& o) {
+                    o.threshold.window = {{0, 1}}, o.labels = o.input;
+                  }),
+                  "it does not go with --labels");
   EXPECT_CONTAINS(changed([](auto& o) { o.threshold.window = {{0, 1}}, o.threshold.reach_mm = 5; }), "--seed-point");
   EXPECT_CONTAINS(changed([](auto& o) { o.threshold.seed_mm = {{0, 0, 0}}; }), "go with --threshold");
   EXPECT_CONTAINS(changed([](auto& o) { o.threshold.opening_mm = 1; }), "go with --threshold");
@@ -217,8 +225,9 @@ TEST(HashOfInput, OfAFolderDependsOnContentAndNotOnNames) {
 TEST(IsSurfaceInput, GoesByExtensionAndNeverForAFolder) {
   test::TemporaryFolder folder;
   fs::create_directories(folder / "organ.stl");
-  for (const auto& [name, surface] : {std::pair("liver.ply", true), std::pair("liver.stl", true), std::pair("liver.obj", true),
-                                      std::pair("liver.nii.gz", false), std::pair("liver.dcm", false), std::pair("liver.zip", false)})
+  for (const auto& [name, surface] :
+       {std::pair("liver.ply", true), std::pair("liver.stl", true), std::pair("liver.obj", true),
+        std::pair("liver.nii.gz", false), std::pair("liver.dcm", false), std::pair("liver.zip", false)})
     EXPECT_EQ(is_surface_input(asking(folder / name)), surface) << name;
   EXPECT_FALSE(is_surface_input(asking(folder / "organ.stl")));
 }

@@ -34,8 +34,12 @@ struct Abdomen {
     exercise.layout.region_x_m = 0.08, exercise.layout.region_y_m = 0.06;
     exercise.surface = {.stiffness_n_per_m = 100, .damping_s_per_m = 0.4, .mu_static = 0, .mu_dynamic = 0};
   }
-  void add(const std::string& name, const Vec3& low, const Vec3& high) { organ.neighbours.push_back(organ_of(name, test::box(low, high))); }
-  Neighbours placed() const { return place_neighbours(organ, organ.surface.transformed(X_TO), X_TO, exercise, materials); }
+  void add(const std::string& name, const Vec3& low, const Vec3& high) {
+    organ.neighbours.push_back(organ_of(name, test::box(low, high)));
+  }
+  Neighbours placed() const {
+    return place_neighbours(organ, organ.surface.transformed(X_TO), X_TO, exercise, materials);
+  }
 };
 
 /// Organs of the given names in a row beside the subject, far from its region.
@@ -55,7 +59,8 @@ TEST(NeighbourSurfaces, FeltIsTheSubjectThenEachNeighbourInOrder) {
   ASSERT_EQ(all.triangle_material.size(), 48U);
   EXPECT_EQ(all.felt_T.vertices.size(), 32U);
   for (std::size_t n = 0; n < 48; ++n)
-    for (const std::int32_t corner : all.felt_T.triangles[n]) EXPECT_EQ(static_cast<std::size_t>(corner) / 8, n / 12) << "of the organ's own vertices";
+    for (const std::int32_t corner : all.felt_T.triangles[n])
+      EXPECT_EQ(static_cast<std::size_t>(corner) / 8, n / 12) << "of the organ's own vertices";
   double volume = 0.16 * 0.16 * 0.05;
   for (const NeighbourOrgan& neighbour : all.organs) volume += neighbour.surface_T->volume_m3();
   EXPECT_NEAR(all.felt_T.volume_m3(), volume, 1e-12);
@@ -69,7 +74,8 @@ TEST(NeighbourSurfaces, OfOneMaterialShareOneEntry) {
   EXPECT_EQ(all.triangle_material[48], all.triangle_material[60]) << "both arteries";
   for (std::size_t n = 0; n < all.organs.size(); ++n) {
     const MaterialTable materials = MaterialTable::load(kAssets / "materials.toml");
-    const ContactMaterial wanted = materials.beside({.stiffness_n_per_m = 100, .damping_s_per_m = 0.4}, "liver", all.organs[n].material);
+    const ContactMaterial wanted =
+        materials.beside({.stiffness_n_per_m = 100, .damping_s_per_m = 0.4}, "liver", all.organs[n].material);
     const auto index = static_cast<std::size_t>(all.triangle_material[12 * (n + 1)]);
     EXPECT_DOUBLE_EQ(all.materials.at(index - 1).stiffness_n_per_m, wanted.stiffness_n_per_m);
     EXPECT_EQ(all.materials.at(index - 1).damping_s_per_m, 0.4);
@@ -86,7 +92,8 @@ TEST(NeighbourSurfaces, AnotherOrderOfTheFileIsTheSameAbdomen) {
     const std::size_t m = names.size() - 1 - n;
     EXPECT_EQ(before.organs[n].name, after.organs[m].name);
     EXPECT_EQ(before.organs[n].surface_T->vertices, after.organs[m].surface_T->vertices);
-    const auto a = static_cast<std::size_t>(before.triangle_material[12 * (n + 1)]), b = static_cast<std::size_t>(after.triangle_material[12 * (m + 1)]);
+    const auto a = static_cast<std::size_t>(before.triangle_material[12 * (n + 1)]),
+               b = static_cast<std::size_t>(after.triangle_material[12 * (m + 1)]);
     EXPECT_EQ(before.materials.at(a - 1).stiffness_n_per_m, after.materials.at(b - 1).stiffness_n_per_m);
   }
 }
@@ -99,7 +106,9 @@ TEST(NeighbourSurfaces, MoveRigidlyWithTheSubject) {
   for (std::size_t n = 0; n < 2; ++n) {
     const TriangleSurface& before = abdomen.organ.neighbours[n].surface;
     for (std::size_t v = 0; v < before.vertices.size(); ++v)
-      EXPECT_NEAR((all.organs[n].surface_T->vertices[v] - (abdomen.X_TO.R * before.vertices[v] + abdomen.X_TO.p)).norm(), 0, 1e-15);
+      EXPECT_NEAR(
+          (all.organs[n].surface_T->vertices[v] - (abdomen.X_TO.R * before.vertices[v] + abdomen.X_TO.p)).norm(), 0,
+          1e-15);
   }
 }
 
@@ -138,7 +147,8 @@ TEST(NeighbourMaterials, NoTriangleEverPointsBeyondThePatch) {
   const MaterialTable table = MaterialTable::load(kAssets / "materials.toml");
   for (int n = 0; n < 20; ++n) {
     std::vector<std::string> names;
-    for (int m = static_cast<int>(generator() % 14); m >= 0; --m) names.push_back(table.all()[generator() % table.all().size()].name);
+    for (int m = static_cast<int>(generator() % 14); m >= 0; --m)
+      names.push_back(table.all()[generator() % table.all().size()].name);
     const Neighbours all = row_of(names).placed();
     ASSERT_EQ(all.organs.size(), names.size());
     ASSERT_LT(all.materials.size(), static_cast<std::size_t>(kMaxPatchMaterials));
@@ -154,11 +164,14 @@ TEST(NeighbourMaterials, NoTriangleEverPointsBeyondThePatch) {
 }
 
 TEST(TissueLook, GoesByTheWordInTheName) {
-  for (const auto& [name, look] : {std::pair("liver", "LOOK_LIVER"), std::pair("liver_segment_4", "LOOK_LIVER"), std::pair("gallbladder", "LOOK_GALLBLADDER"),
-                                   std::pair("cystic_duct", "LOOK_DUCT"), std::pair("cystic_artery", "LOOK_ARTERY"), std::pair("aorta", "LOOK_ARTERY"),
-                                   std::pair("portal_vein_and_splenic_vein", "LOOK_VEIN"), std::pair("inferior_vena_cava", "LOOK_VEIN"),
-                                   std::pair("spleen", "LOOK_SPLEEN"), std::pair("kidney_left", "LOOK_KIDNEY"), std::pair("vertebrae_L3", "LOOK_BONE"),
-                                   std::pair("colon", "LOOK_FLESH"), std::pair("", "LOOK_FLESH"), std::pair("label-7", "LOOK_FLESH")})
+  for (const auto& [name, look] :
+       {std::pair("liver", "LOOK_LIVER"), std::pair("liver_segment_4", "LOOK_LIVER"),
+        std::pair("gallbladder", "LOOK_GALLBLADDER"), std::pair("cystic_duct", "LOOK_DUCT"),
+        std::pair("cystic_artery", "LOOK_ARTERY"), std::pair("aorta", "LOOK_ARTERY"),
+        std::pair("portal_vein_and_splenic_vein", "LOOK_VEIN"), std::pair("inferior_vena_cava", "LOOK_VEIN"),
+        std::pair("spleen", "LOOK_SPLEEN"), std::pair("kidney_left", "LOOK_KIDNEY"),
+        std::pair("vertebrae_L3", "LOOK_BONE"), std::pair("colon", "LOOK_FLESH"), std::pair("", "LOOK_FLESH"),
+        std::pair("label-7", "LOOK_FLESH")})
     EXPECT_EQ(tissue_look(name), look) << name;
 }
 

@@ -1,4 +1,5 @@
-// Manifests of both formats, strict tables, scenes and materials: round trips, places of refusals, and what may not depend on order.
+// Manifests of both formats, strict tables, scenes and materials: round trips, places of refusals, and what may not
+// depend on order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,30 +27,42 @@ double decimals(std::mt19937& generator, int digits) {
 }
 
 std::string words(std::mt19937& generator) {
-  static const std::vector<std::string> kPieces{"liver", " ", "\"", "'", "\\", "ä", "#", "=", "[x]", "\t", "½ mL", "'''", "end"};
+  static const std::vector<std::string> kPieces{"liver", " ",   "\"", "'",    "\\",  "ä",  "#",
+                                                "=",     "[x]", "\t", "½ mL", "'''", "end"};
   std::string text;
-  for (int n = std::uniform_int_distribution<int>(0, 6)(generator); n > 0; --n) text += kPieces[generator() % kPieces.size()];
+  for (int n = std::uniform_int_distribution<int>(0, 6)(generator); n > 0; --n)
+    text += kPieces[generator() % kPieces.size()];
   return text;
 }
 
 VolumeMeshFile volume_mesh(std::mt19937& generator, const std::string& file) {
-  return {file, digest::of_bytes(file), generator() % 100000, generator() % 100000, decimals(generator, 4), -decimals(generator, 4), decimals(generator, 4)};
+  return {file,
+          digest::of_bytes(file),
+          generator() % 100000,
+          generator() % 100000,
+          decimals(generator, 4),
+          -decimals(generator, 4),
+          decimals(generator, 4)};
 }
 
 OrganManifest random_manifest(std::mt19937& generator) {
   OrganManifest manifest;
   manifest.program = "trocar 0.1.0";
-  manifest.name = words(generator), manifest.material = words(generator), manifest.credit = words(generator), manifest.licence = words(generator);
+  manifest.name = words(generator), manifest.material = words(generator), manifest.credit = words(generator),
+  manifest.licence = words(generator);
   manifest.synthetic = generator() % 2 == 0;
   manifest.surface = "a.ply", manifest.surface_sha256 = digest::of_bytes(manifest.name);
-  manifest.source = {"map.nii.gz", digest::of_bytes("map"), "CT", "mm", std::nullopt, words(generator), words(generator)};
+  manifest.source = {"map.nii.gz",     digest::of_bytes("map"), "CT", "mm", std::nullopt,
+                     words(generator), words(generator)};
   if (generator() % 2 == 0) manifest.source.label = static_cast<int>(generator() % 65536);
-  for (int n = static_cast<int>(generator() % 4); n > 0; --n) manifest.decisions.push_back(words(generator)), manifest.mesh.repairs.push_back(words(generator));
+  for (int n = static_cast<int>(generator() % 4); n > 0; --n)
+    manifest.decisions.push_back(words(generator)), manifest.mesh.repairs.push_back(words(generator));
   MeshFacts& mesh = manifest.mesh;
   mesh.topology.vertices = generator() % 10000, mesh.topology.triangles = generator() % 10000;
   mesh.volume_ml = decimals(generator, 4), mesh.kept_volume_ml = decimals(generator, 4);
   if (generator() % 2 == 0) mesh.label_volume_ml = decimals(generator, 4);
-  mesh.distance.mean_m = decimals(generator, 7), mesh.distance.max_m = decimals(generator, 7), mesh.border_voxels = generator() % 100;
+  mesh.distance.mean_m = decimals(generator, 7), mesh.distance.max_m = decimals(generator, 7),
+  mesh.border_voxels = generator() % 100;
   mesh.lost = {{"part", generator() % 100, decimals(generator, 4)}};
   mesh.added = {{"cavity", generator() % 100, decimals(generator, 4)}};
   mesh.quality.min_angle_deg = decimals(generator, 4), mesh.quality.edge_max_m = decimals(generator, 6);
@@ -72,7 +85,8 @@ TEST(ManifestRoundTrip, OneTextIsOneManifestForAHundredRandomOnes) {
     EXPECT_EQ(read.lattice.has_value(), wanted.lattice.has_value());
     EXPECT_EQ(read.tetrahedra.has_value(), wanted.tetrahedra.has_value());
     const double base = wanted.mesh.label_volume_ml.value_or(wanted.mesh.kept_volume_ml);
-    EXPECT_NEAR(read.mesh.volume_error_pct, 100 * (wanted.mesh.volume_ml - base) / base, 1e-3 * (1 + std::abs(read.mesh.volume_error_pct)));
+    EXPECT_NEAR(read.mesh.volume_error_pct, 100 * (wanted.mesh.volume_ml - base) / base,
+                1e-3 * (1 + std::abs(read.mesh.volume_error_pct)));
   }
 }
 
@@ -82,7 +96,8 @@ TEST(ManifestRoundTrip, LatticeAndTetrahedraComeBackFieldByField) {
   wanted.lattice = VolumeMeshFile{"a.lattice", "12ab", 1331, 1000, 10, -0.25, 0.125};
   wanted.tetrahedra = VolumeMeshFile{"a.msh", "34cd", 500, 2000, 7.5, 0.5, 12.25};
   const OrganManifest read = parse_manifest(manifest_text(wanted), "x");
-  for (const auto& [mine, other] : {std::pair(*read.lattice, *wanted.lattice), std::pair(*read.tetrahedra, *wanted.tetrahedra)}) {
+  for (const auto& [mine, other] :
+       {std::pair(*read.lattice, *wanted.lattice), std::pair(*read.tetrahedra, *wanted.tetrahedra)}) {
     EXPECT_EQ(mine.file, other.file);
     EXPECT_EQ(mine.sha256, other.sha256);
     EXPECT_EQ(mine.nodes, other.nodes);
@@ -101,7 +116,8 @@ std::string without(std::string text, const std::string& from, const std::string
 
 std::string plain_text() {
   OrganManifest manifest;
-  manifest.name = manifest.material = "liver", manifest.program = "trocar 0.1.0", manifest.surface = "a.ply", manifest.licence = "CC0-1.0";
+  manifest.name = manifest.material = "liver", manifest.program = "trocar 0.1.0", manifest.surface = "a.ply",
+  manifest.licence = "CC0-1.0";
   manifest.source = {"map.nii.gz", "ab", "CT", "mm", 5, "liver", ""};
   manifest.mesh.kept_volume_ml = manifest.mesh.volume_ml = 10;
   manifest.lattice = VolumeMeshFile{"a.lattice", "12", 8, 1, 10, 0, 0};
@@ -133,14 +149,17 @@ TEST(ManifestFormats, WhatBelongsToTheNewOneIsRefusedInTheOldAndMissedInTheNew) 
   EXPECT_CONTAINS(refusal(swapped(plain_text(), "format = 2", "format = 1")), "unknown key");
   EXPECT_CONTAINS(refusal(without(plain_text(), "[quality]", "[lattice]")), "key \"quality\" is missing");
   EXPECT_CONTAINS(refusal(without(plain_text(), "program = ", "name = ")), "key \"program\" is missing");
-  EXPECT_CONTAINS(refusal(swapped(plain_text(), "format = 2", "format = 3")), "x.organ.toml:1:10: format must be 1 or 2");
+  EXPECT_CONTAINS(refusal(swapped(plain_text(), "format = 2", "format = 3")),
+                  "x.organ.toml:1:10: format must be 1 or 2");
   EXPECT_CONTAINS(refusal(swapped(plain_text(), "format = 2", "format = 0")), "format must be 1 or 2");
 }
 
 TEST(ManifestFormats, FilesBesideItMayNotLieElsewhere) {
   for (const char* file : {"../a.lattice", "/etc/passwd", "sub/a.lattice", ""})
-    EXPECT_CONTAINS(refusal(swapped(plain_text(), "'a.lattice'", "'" + std::string(file) + "'")), "beside the manifest") << file;
-  EXPECT_CONTAINS(refusal(swapped(plain_text(), "'a.ply'", "'../a.ply'")), "surface must be the name of a file beside the manifest");
+    EXPECT_CONTAINS(refusal(swapped(plain_text(), "'a.lattice'", "'" + std::string(file) + "'")), "beside the manifest")
+        << file;
+  EXPECT_CONTAINS(refusal(swapped(plain_text(), "'a.ply'", "'../a.ply'")),
+                  "surface must be the name of a file beside the manifest");
 }
 
 TEST(ManifestFormats, EveryKeyIsNeededOrAbsentOnPurpose) {
@@ -224,7 +243,8 @@ TEST(OrganSetFiles, EveryMemberCanBeTheSubjectWithAllOthersRoundIt) {
   test::TemporaryFolder folder;
   const std::vector<std::string> names{"liver", "spleen", "colon", "aorta"};
   std::vector<CompiledMember> members;
-  for (const std::string& name : names) members.push_back(member(name, Vec3(0.1 * static_cast<double>(members.size()), 0, 0)));
+  for (const std::string& name : names)
+    members.push_back(member(name, Vec3(0.1 * static_cast<double>(members.size()), 0, 0)));
   OrganSet set = named_set("liver");
   const auto path = write_organ_set(folder / "all", set, members, {});
   std::set<std::string> hashes;
@@ -261,21 +281,25 @@ TEST(OrganSetFiles, HashesAreThoseOfTheWrittenManifests) {
 }
 
 std::string material(const std::string& name, double stiffness, const std::string& aliases) {
-  return "[[material]]\nname = '" + name + "'\naliases = [" + aliases + "]\nstiffness_n_per_m = " + std::to_string(stiffness) +
+  return "[[material]]\nname = '" + name + "'\naliases = [" + aliases +
+         "]\nstiffness_n_per_m = " + std::to_string(stiffness) +
          "\nrange_n_per_m = [1, 1000]\nmu_static = 0.2\nmu_dynamic = 0.1\nsource = 's'\nchecked = false\n";
 }
 
 TEST(MaterialLookUp, OwnNamesGoBeforeAliasesAndStarsStandForAnyEnding) {
   const MaterialTable table = MaterialTable::parse(
-      material("soft_tissue", 40, "") + material("tube", 60, "'vein', 'artery_*'") + material("vein", 20, ""), "m.toml");
+      material("soft_tissue", 40, "") + material("tube", 60, "'vein', 'artery_*'") + material("vein", 20, ""),
+      "m.toml");
   EXPECT_EQ(table.find("vein").stiffness_n_per_m, 20);
-  for (const auto& [name, found] : {std::pair("artery_left", "tube"), std::pair("artery_", "tube"), std::pair("artery", "soft_tissue"),
-                                    std::pair("", "soft_tissue"), std::pair("Vein", "soft_tissue"), std::pair("my_artery_left", "soft_tissue")})
+  for (const auto& [name, found] :
+       {std::pair("artery_left", "tube"), std::pair("artery_", "tube"), std::pair("artery", "soft_tissue"),
+        std::pair("", "soft_tissue"), std::pair("Vein", "soft_tissue"), std::pair("my_artery_left", "soft_tissue")})
     EXPECT_EQ(table.find(name).name, found) << name;
 }
 
 TEST(MaterialLookUp, BesideIsOneForTheSameMaterialAndBoundedForEveryPair) {
-  const MaterialTable table = MaterialTable::load(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "materials.toml");
+  const MaterialTable table =
+      MaterialTable::load(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "materials.toml");
   const ContactMaterial subject{.stiffness_n_per_m = 150, .mu_static = 0.3, .mu_dynamic = 0.2};
   for (const TissueMaterial& mine : table.all()) {
     EXPECT_DOUBLE_EQ(table.beside(subject, mine.name, mine.name).stiffness_n_per_m, 150) << mine.name;

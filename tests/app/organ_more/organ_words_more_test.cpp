@@ -1,4 +1,5 @@
-// What reports, pages and packages say of an organ: the same facts in every form, and refusals that leave nothing behind.
+// What reports, pages and packages say of an organ: the same facts in every form, and refusals that leave nothing
+// behind.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -31,7 +32,8 @@ CompiledMember member(const std::string& name, const Vec3& centre = Vec3::Zero()
   return organ;
 }
 
-std::filesystem::path written(const test::TemporaryFolder& folder, CompiledMember organ, const std::vector<SideFile>& more = {}) {
+std::filesystem::path written(const test::TemporaryFolder& folder, CompiledMember organ,
+                              const std::vector<SideFile>& more = {}) {
   return write_organ(folder / organ.manifest.name, organ.manifest, organ.surface, more);
 }
 
@@ -85,7 +87,8 @@ TEST(OrganReport, TextSaysTheCutTheRepairsAndWhoMadeIt) {
   EXPECT_EQ(text().find("CUT"), std::string::npos);
   organ.manifest.mesh.border_voxels = 12, organ.manifest.synthetic = true;
   organ.manifest.mesh.repairs = {"filled a hole"}, organ.manifest.decisions = {"the frame is RAS"};
-  for (const char* words : {"CUT", "12 voxels", "liver (synthetic)", "repair     filled a hole", "decided    the frame is RAS"})
+  for (const char* words :
+       {"CUT", "12 voxels", "liver (synthetic)", "repair     filled a hole", "decided    the frame is RAS"})
     EXPECT_CONTAINS(text(), words);
   organ.manifest.mesh.lost.assign(11, {"part", 1, 0.1});
   EXPECT_CONTAINS(text(), "and 3 smaller parts");
@@ -123,7 +126,8 @@ TEST(OrganPage, TakesNoWordsForMarkupAndIsTheSameTwice) {
   organs[0].manifest.decisions = {"<b>bold</b>"};
   const OrganPageContent content{.organs = organs, .notes = {"note <i>1</i>"}, .assets = {}};
   const std::string page = organ_page(content);
-  for (const char* words : {"<img src=x", "<b>bold", "<i>1", "<script", "http://", "https://"}) EXPECT_EQ(page.find(words), std::string::npos) << words;
+  for (const char* words : {"<img src=x", "<b>bold", "<i>1", "<script", "http://", "https://"})
+    EXPECT_EQ(page.find(words), std::string::npos) << words;
   EXPECT_CONTAINS(page, "&lt;b&gt;bold");
   EXPECT_CONTAINS(page, "a&lt;b&gt;&amp;");
   EXPECT_EQ(organ_page(content), page);
@@ -177,13 +181,19 @@ TEST(OrganCommands, RefuseSizesAndVariantsOutsideTheirRanges) {
   test::TemporaryFolder folder;
   std::ostringstream out, err;
   const auto file = written(folder, member("liver"));
-  for (const auto& [width, height] : {std::pair(319, 240), std::pair(320, 239), std::pair(7681, 4320), std::pair(7680, 4321), std::pair(-1, 500)}) {
-    const auto call = [&, w = width, h = height] { organ_render({file, folder / "x.png", w, h}, folder.path(), out, err); };
-    EXPECT_CONTAINS(test::message_of<InputError>(call), "not " + std::to_string(width) + " x " + std::to_string(height));
+  for (const auto& [width, height] :
+       {std::pair(319, 240), std::pair(320, 239), std::pair(7681, 4320), std::pair(7680, 4321), std::pair(-1, 500)}) {
+    const auto call = [&, w = width, h = height] {
+      organ_render({file, folder / "x.png", w, h}, folder.path(), out, err);
+    };
+    EXPECT_CONTAINS(test::message_of<InputError>(call),
+                    "not " + std::to_string(width) + " x " + std::to_string(height));
   }
   for (const double voxel : {0.7, 12.5, 0.0, -1.0})
     EXPECT_THROW(organ_phantom({.out = folder / "p", .voxel_mm = voxel}, out, err), InputError) << voxel;
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_phantom({.out = folder / "p", .variant = "odd"}, out, err); }), "short-duct");
+  EXPECT_CONTAINS(
+      test::message_of<InputError>([&] { organ_phantom({.out = folder / "p", .variant = "odd"}, out, err); }),
+      "short-duct");
   EXPECT_FALSE(std::filesystem::exists(folder / "p"));
 }
 

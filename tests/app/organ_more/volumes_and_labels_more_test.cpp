@@ -1,4 +1,5 @@
-// Archives, files beside a surface, chosen labels and slices: round trips, closed forms, and what must not depend on order.
+// Archives, files beside a surface, chosen labels and slices: round trips, closed forms, and what must not depend on
+// order.
 #include <gtest/gtest.h>
 #include <zip.h>
 
@@ -109,9 +110,11 @@ TEST(VesselFiles, AreForTubesWithLabelsOnly) {
   EXPECT_TRUE(vessel_files({}, "s", {&volume, 4}, "liver").empty());
   EXPECT_TRUE(vessel_files({}, "s", {nullptr, 0}, "aorta").empty());
   EXPECT_THROW(vessel_files({}, "s", {&volume, 9}, "aorta"), InputError);
-  for (const char* name : {"aorta", "cystic_artery", "portal_vein_and_splenic_vein", "inferior_vena_cava", "common_bile_duct", "ureter_left"})
+  for (const char* name : {"aorta", "cystic_artery", "portal_vein_and_splenic_vein", "inferior_vena_cava",
+                           "common_bile_duct", "ureter_left"})
     EXPECT_TRUE(is_tubular(name)) << name;
-  for (const char* name : {"liver", "gallbladder", "spleen", "colon", "label-7", ""}) EXPECT_FALSE(is_tubular(name)) << name;
+  for (const char* name : {"liver", "gallbladder", "spleen", "colon", "label-7", ""})
+    EXPECT_FALSE(is_tubular(name)) << name;
 }
 
 TEST(VolumeMeshes, TheLatticeOfABoxFillsItAndItsFactsAreInTheManifest) {
@@ -133,7 +136,8 @@ TEST(VolumeMeshes, TheLatticeOfABoxFillsItAndItsFactsAreInTheManifest) {
     Vec3 place = Vec3::Zero();
     for (std::size_t c = 0; c < 8; ++c)
       place += static_cast<double>(lattice.embedding[v].weights[c]) *
-               lattice.node_m(static_cast<std::size_t>(lattice.cells[static_cast<std::size_t>(lattice.embedding[v].cell)].corners[c]));
+               lattice.node_m(static_cast<std::size_t>(
+                   lattice.cells[static_cast<std::size_t>(lattice.embedding[v].cell)].corners[c]));
     EXPECT_NEAR((place - box.vertices[v]).norm(), 0, 1e-7) << v;
   }
 }
@@ -145,7 +149,8 @@ TEST(VolumeMeshes, NothingIsMadeUnaskedAndTetrahedraNeedLabels) {
   EXPECT_FALSE(manifest.lattice || manifest.tetrahedra);
   OrganImportOptions options;
   options.tetrahedra_mm = 5;
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { volume_meshes(options, "box", box, {}, manifest); }), "made from labels");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { volume_meshes(options, "box", box, {}, manifest); }),
+                  "made from labels");
 }
 
 TEST(VolumeMeshes, TetrahedraOfABallCarryItsLabelAndVolume) {
@@ -172,13 +177,15 @@ LabelMap bare_map(const std::vector<int>& numbers) {
   volume.labels.assign(static_cast<std::size_t>(48 * static_cast<int>(numbers.size())), 0);
   for (std::size_t n = 0; n < numbers.size(); ++n) {
     for (int v = 0; v < 8; ++v)
-      volume.labels[volume.offset(static_cast<int>(3 * n) + (v & 1), 1 + ((v >> 1) & 1), 1 + (v >> 2))] = static_cast<std::uint16_t>(numbers[n]);
+      volume.labels[volume.offset(static_cast<int>(3 * n) + (v & 1), 1 + ((v >> 1) & 1), 1 + (v >> 2))] =
+          static_cast<std::uint16_t>(numbers[n]);
     map.segments.push_back({0, numbers[n], ""});
   }
   return map;
 }
 
-std::vector<ChosenLabel> chosen(const OrganImportOptions& options, const LabelMap& map, std::vector<std::string>& said) {
+std::vector<ChosenLabel> chosen(const OrganImportOptions& options, const LabelMap& map,
+                                std::vector<std::string>& said) {
   return choose_labels(options, map, "map.nii.gz", said);
 }
 
@@ -214,7 +221,9 @@ TEST(ChosenLabelsByTable, CountedMapsStayNumbersAndAllTakesTheLargeOnes) {
   ASSERT_EQ(labels.size(), 2U);
   EXPECT_EQ(file_name_of(labels[0].segment), "label-1");
   EXPECT_EQ(file_name_of(labels[1].segment), "label-3");
-  EXPECT_EQ(std::count_if(said.begin(), said.end(), [](const auto& line) { return line.find("label 2 is left out") == 0; }), 1);
+  EXPECT_EQ(
+      std::count_if(said.begin(), said.end(), [](const auto& line) { return line.find("label 2 is left out") == 0; }),
+      1);
 }
 
 TEST(ChosenLabelsByTable, FileNamesAreFixedPoints) {
@@ -248,7 +257,8 @@ TEST(Slices, TheCutOfAClosedSurfaceIsClosedAlsoThroughVertices) {
     std::map<std::array<long, 3>, int> ends;
     for (const auto& segment : cut_by_plane(ball, 0, value)) {
       if ((segment[0] - segment[1]).norm() < 1e-9) continue;
-      for (const Vec3& end : segment) ++ends[{std::lround(1e6 * end.x()), std::lround(1e6 * end.y()), std::lround(1e6 * end.z())}];
+      for (const Vec3& end : segment)
+        ++ends[{std::lround(1e6 * end.x()), std::lround(1e6 * end.y()), std::lround(1e6 * end.z())}];
     }
     EXPECT_FALSE(ends.empty());
     for (const auto& [place, count] : ends) EXPECT_EQ(count % 2, 0) << value;
