@@ -7,7 +7,7 @@
 
 namespace trocar {
 
-/// Pairs of name and version: CGAL, ITK, GDCM, DCMTK, assimp, Eigen.
+/// Pairs of name and version: CGAL, ITK (which brings GDCM), assimp, Eigen.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace trocar

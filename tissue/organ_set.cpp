@@ -113,6 +113,8 @@ OrganSet parse_organ_set(const std::string& text, const std::string& file) {
   set.name = table.text("name");
   set.subject = table.text("subject");
   set.more_files = table.texts("files");
+  for (const std::string& name : set.more_files)
+    if (!plain_name(name)) table.refuse("files", "files holds names of files beside the scene");
   for (TomlTable& organ : table.tables("organ")) {
     set.files.push_back(organ.text("file"));
     set.sha256.push_back(organ.text("sha256"));

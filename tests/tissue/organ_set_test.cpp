@@ -102,6 +102,7 @@ TEST(OrganSet, RefusesWithLineAndColumn) {
   EXPECT_CONTAINS(changed("subject = 'liver'", "colour = 'red'"), "key \"subject\" is missing");
   EXPECT_CONTAINS(changed("'abdomen-liver.organ.toml'", "'../liver.organ.toml'"), "beside the scene");
   EXPECT_CONTAINS(changed("area_cm2 = 12.500", "area_cm2 = 'much'"), "area_cm2 must be a number");
+  EXPECT_CONTAINS(changed("'abdomen.vessels.toml'", "'../secret.toml'"), "files holds names of files beside the scene");
   EXPECT_CONTAINS(changed("[3, 4, 9]", "[3, -4, 9]"), "triangles holds numbers of triangles");
   EXPECT_CONTAINS(changed("name = 'abdomen'", "name = 'abdomen'\nextra = 1"), "unknown key \"extra\"");
 }

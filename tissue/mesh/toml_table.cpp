@@ -1,7 +1,9 @@
 #include "tissue/mesh/toml_table.h"
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -131,7 +133,19 @@ void TomlWriter::add(const std::string& key, const std::vector<std::string>& tex
 }
 
 std::string TomlWriter::quoted(const std::string& text) {
+  const auto control = [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; };
   std::ostringstream out;
+  if (std::any_of(text.begin(), text.end(), control)) {  // one line whatever is in it
+    out << '"' << std::hex << std::setfill('0');
+    for (const char letter : text) {
+      if (control(static_cast<unsigned char>(letter)))
+        out << "\\u" << std::setw(4) << static_cast<int>(letter);
+      else
+        out << (letter == '"' || letter == '\\' ? "\\" : "") << letter;
+    }
+    out << '"';
+    return out.str();
+  }
   out << toml::value<std::string>(text);
   return out.str();
 }

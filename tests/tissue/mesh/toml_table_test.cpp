@@ -43,6 +43,17 @@ TEST(TomlTable, ReadsWhatTheWriterWrote) {
   EXPECT_NO_THROW(table.finish());
 }
 
+TEST(TomlTable, AnyTextComesBackWhateverItHolds) {
+  for (const std::string text : {"\nx", "a\n'''b\"\"\"", "tab\there", "\x7f\x01 \\ \"q\"", "plain", "", "it's", "\r\n"}) {
+    TomlWriter out;
+    out.add("key", text);
+    out.add("after", 1);
+    TomlTable table = TomlTable::parse(std::move(out).text(), "f.toml");
+    EXPECT_EQ(table.text("key"), text);
+    EXPECT_EQ(table.integer("after"), 1);
+  }
+}
+
 TEST(TomlTable, RefusesWithLineAndColumn) {
   EXPECT_CONTAINS(refusal("a = \n", [](TomlTable&) {}), "f.toml:1:");
   EXPECT_CONTAINS(refusal("a = 1\nb = 2\n", [](TomlTable& t) { t.integer("a"); }), "f.toml:2:1: unknown key \"b\"");
