@@ -7,27 +7,22 @@
 
 #include <string>
 
+#include "app/graphics/graphics_context.h"
+
 namespace trocar {
 
-struct ContextInfo {
-  std::string platform;   ///< "device 0", "surfaceless"
-  std::string renderer;   ///< GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string version;    ///< GL_VERSION
-  bool software = false;  ///< drawn by the CPU
-};
-
-class HeadlessContext {
+class HeadlessContext final : public GraphicsContext {
  public:
   /// Creates the context and makes it current on this thread.
   /// @throws EnvironmentError saying what was tried and which package is missing.
   HeadlessContext();
-  ~HeadlessContext();
+  ~HeadlessContext() override;
   HeadlessContext(const HeadlessContext&) = delete;
   HeadlessContext& operator=(const HeadlessContext&) = delete;
 
   /// @throws EnvironmentError when another thread holds it.
-  void make_current();
-  const ContextInfo& info() const { return info_; }
+  void make_current() override;
+  const ContextInfo& info() const override { return info_; }
 
  private:
   bool try_display(void* display, const std::string& platform);

@@ -76,7 +76,7 @@ struct Decal {
 }  // namespace
 
 struct Renderer::Impl {
-  HeadlessContext& context;
+  GraphicsContext& context;
   RenderOptions options;
   ShaderLibrary shaders;
   FontSet fonts;
@@ -90,8 +90,9 @@ struct Renderer::Impl {
   TrainerBackdrop trainer;
   double shaft_radius_m = 0, shaft_length_m = 0;
 
-  Impl(HeadlessContext& ctx, const std::filesystem::path& asset_root, const RenderOptions& opts);
+  Impl(GraphicsContext& ctx, const std::filesystem::path& asset_root, const RenderOptions& opts);
 
+  void draw(const SceneView& view, const PixelRect& window);
   void ensure_surfaces(int width, int height);
   void ensure_organ(const SceneView& view);
   void ensure_decals(const SceneView& view);
@@ -112,7 +113,7 @@ struct Renderer::Impl {
   void read_back(Image& image, const PixelRect& window);
 };
 
-Renderer::Impl::Impl(HeadlessContext& ctx, const std::filesystem::path& asset_root, const RenderOptions& opts)
+Renderer::Impl::Impl(GraphicsContext& ctx, const std::filesystem::path& asset_root, const RenderOptions& opts)
     : context(ctx), options(opts), shaders(asset_root) {
   context.make_current();
   noise = GlObject(GlObject::Kind::kTexture);
@@ -352,7 +353,7 @@ void Renderer::Impl::read_back(Image& image, const PixelRect& window) {
   }
 }
 
-Renderer::Renderer(HeadlessContext& context, const std::filesystem::path& asset_root, const RenderOptions& options)
+Renderer::Renderer(GraphicsContext& context, const std::filesystem::path& asset_root, const RenderOptions& options)
     : impl_(std::make_unique<Impl>(context, asset_root, options)) {}
 
 Renderer::~Renderer() {
@@ -360,36 +361,47 @@ Renderer::~Renderer() {
 }
 Renderer::Renderer(Renderer&&) noexcept = default;
 
-Image Renderer::render(const SceneView& view, int width, int height) {
-  if (width < 320 || height < 240) throw std::invalid_argument("a picture needs at least 320 x 240 pixels");
+/// All passes up to the finished picture of the scope.
+void Renderer::Impl::draw(const SceneView& view, const PixelRect& window) {
   if (!view.camera.eye_T.allFinite() || !view.camera.look_at_T.allFinite() ||
       view.camera.eye_T == view.camera.look_at_T)
     throw std::invalid_argument("the scope's pose is not finite or looks at its own lens");
-  Impl& r = *impl_;
-  r.context.make_current();
-  const PixelRect window = hud_scene_window(view.hud, width, height, r.options.text_scale);
+  context.make_current();
   const ScopeOptics optics(view.camera, window);
-  r.ensure_surfaces(window.width, window.height);
-  r.ensure_organ(view);
-  r.neighbours.prepare(view.neighbours);
-  r.ensure_decals(view);
-  r.ensure_instrument(view);
+  ensure_surfaces(window.width, window.height);
+  ensure_organ(view);
+  neighbours.prepare(view.neighbours);
+  ensure_decals(view);
+  ensure_instrument(view);
   const SceneBlock block = make_scene_block(view, optics);
-  glBindBuffer(GL_UNIFORM_BUFFER, r.scene_buffer.id());
+  glBindBuffer(GL_UNIFORM_BUFFER, scene_buffer.id());
   glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, r.scene_buffer.id());
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, scene_buffer.id());
   glActiveTexture(GL_TEXTURE0 + kNoiseUnit);
-  glBindTexture(GL_TEXTURE_3D, r.noise.id());
-  r.shadow_pass(view);
+  glBindTexture(GL_TEXTURE_3D, noise.id());
+  shadow_pass(view);
   glActiveTexture(GL_TEXTURE0 + kShadowUnit);
-  glBindTexture(GL_TEXTURE_2D, r.shadow.texture.id());
-  r.scene_pass(view, optics);
-  r.glow_pass();
-  r.post_pass(view, optics, window);
+  glBindTexture(GL_TEXTURE_2D, shadow.texture.id());
+  scene_pass(view, optics);
+  glow_pass();
+  post_pass(view, optics, window);
+}
+
+Image Renderer::render(const SceneView& view, int width, int height) {
+  if (width < 320 || height < 240) throw std::invalid_argument("a picture needs at least 320 x 240 pixels");
+  Impl& r = *impl_;
+  const PixelRect window = hud_scene_window(view.hud, width, height, r.options.text_scale);
+  r.draw(view, window);
   Image image(width, height);
   r.read_back(image, window);
   paint_hud(image, layout_hud(view.hud, width, height, r.options.text_scale, r.fonts), r.fonts);
   return image;
+}
+
+unsigned Renderer::draw_scope(const SceneView& view, int width, int height) {
+  if (width < 64 || height < 48) throw std::invalid_argument("the scope's picture needs at least 64 x 48 pixels");
+  impl_->draw(view, {0, 0, width, height});
+  return impl_->picture.texture.id();
 }
 
 }  // namespace trocar

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/graphics/headless_context.h"
+#include "app/graphics/graphics_context.h"
 #include "app/graphics/image.h"
 #include "app/graphics/scene_view.h"
 
@@ -24,7 +24,7 @@ class Renderer {
  public:
   /// @param asset_root folder that holds shaders/.
   /// @throws EnvironmentError when a shader or the font is missing or refused.
-  Renderer(HeadlessContext& context, const std::filesystem::path& asset_root, const RenderOptions& options = {});
+  Renderer(GraphicsContext& context, const std::filesystem::path& asset_root, const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
@@ -32,6 +32,10 @@ class Renderer {
   /// @param width,height px, at least 320 x 240.
   /// @throws std::invalid_argument for a smaller image or non-finite camera.
   Image render(const SceneView& view, int width, int height);
+
+  /// The scope's picture alone, left on the GPU: for a window, whose screens draw round and over it.
+  /// @param width,height px, at least 64 x 48. @return GL name of an RGBA8 texture, lowest row first, kept until the next call.
+  unsigned draw_scope(const SceneView& view, int width, int height);
 
  private:
   struct Impl;

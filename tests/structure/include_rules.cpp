@@ -56,7 +56,10 @@ const std::vector<Territory>& territories() {
       {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/graphics/.*\\.cpp$",
        "graphics libraries stay in sources of app/graphics"},
       {"^CLI/", "^app/command_line(_[a-z]+)?\\.cpp$", "the command line is read in one place"},
-      {"^toml", "^(scenarios|tissue)/.*\\.cpp$", "TOML is read in sources of scenarios and tissue"},
+      {"^toml", "^(scenarios|tissue|app/(words|practice))/.*\\.cpp$", "TOML is read in sources of scenarios, tissue, words and settings"},
+      {"^imgui|^GLFW/", "^app/(screens|window)/.*\\.cpp$", "the window's libraries stay in sources of app/screens and app/window"},
+      {"^AL/", "^app/sound/.*\\.cpp$", "OpenAL stays in sources of app/sound"},
+      {"^hidapi", "^app/input/.*\\.cpp$", "HID stays in sources of app/input"},
   };
   return table;
 }

@@ -1,0 +1,41 @@
+// What a person's hands do to mouse, keys, pad or six-axis puck, as plain values: made by the window, or by a test.
+//
+// Pixels of the window, y down; axes -1..1. Plain values, any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace trocar {
+
+/// Keys by what is printed on a US keyboard; letters and digits by their ASCII code, others from 256.
+enum Key : std::int32_t {
+  kKeyUnknown = 0,
+  kKeySpace = ' ',
+  kKeyEscape = 256, kKeyEnter, kKeyTab, kKeyBackspace, kKeyInsert, kKeyDelete,
+  kKeyRight, kKeyLeft, kKeyDown, kKeyUp, kKeyPageUp, kKeyPageDown, kKeyHome, kKeyEnd,
+  kKeyF1, kKeyF2, kKeyF3, kKeyF4, kKeyF5, kKeyF6, kKeyF7, kKeyF8, kKeyF9, kKeyF10, kKeyF11, kKeyF12,
+  kKeyShift, kKeyControl, kKeyAlt,
+};
+
+enum class MouseButton : std::uint8_t { kLeft, kRight, kMiddle };
+
+struct InputEvent {
+  enum class Kind : std::uint8_t {
+    kKeyDown, kKeyUp, kMouseMove, kButtonDown, kButtonUp, kWheel, kPad, kPuck, kFocusLost
+  } kind = Kind::kMouseMove;
+  std::int32_t key = kKeyUnknown;
+  bool repeat = false;                  ///< a key that is held
+  bool shift = false, control = false, alt = false;
+  MouseButton button = MouseButton::kLeft;
+  double x = 0, y = 0;                  ///< px: pointer
+  double wheel = 0;                     ///< notches, away from the person is positive
+  std::array<double, 6> axis{};         ///< pad: left x y, right x y, left and right trigger (0..1); puck: translation x y z, rotation x y z
+  std::uint32_t buttons = 0;            ///< pad or puck: bit n for button n, as held now
+};
+
+/// What moves the hand; stored with the attempt.
+enum class InputKind : std::uint8_t { kMouse, kKeyboard, kPad, kPuck, kDevice };
+const char* input_name(InputKind kind);   ///< "mouse", "keyboard", "gamepad", "spacemouse", "device"
+
+}  // namespace trocar

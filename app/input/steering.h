@@ -1,0 +1,48 @@
+// Turns what hands do to mouse, keys, pad or puck into where a person's hand wants the instrument (HandIntent).
+//
+// The intent pulls the simulated device's stylus through the impedance of the hand: nothing here sets the stylus. Movements are in
+// the picture's plane about the view's own axes; depth is along the line of sight. Speeds are limited, and the target stays in a ball
+// about the work space. Frame T, m, rad. Same events and same steps give the same intents. Thread: the window's.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/graphics/scene_view.h"
+#include "app/input/input_event.h"
+#include "app/input/key_map.h"
+#include "haptics/device/hand.h"
+
+namespace trocar {
+
+struct SteeringOptions {
+  bool left_handed = false;      ///< mirrored picture plane for the wrist, left column for the panel
+  bool like_a_fulcrum = false;   ///< a movement of the hand moves the tip the other way, as through a real port
+  double sensitivity = 1;        ///< 0.25 to 4
+};
+
+class Steering {
+ public:
+  Steering(const KeyMap& keys, const SteeringOptions& options);
+  ~Steering();
+
+  /// Where the instrument is when steering begins (and after a restart).
+  void begin(const Pose& X_TI, double jaw_opening_m, const Vec3& centre_T);
+  /// @return true when the event was one of steering; false: it may be a command (KeyMap::command_of) or nothing.
+  bool handle(const InputEvent& event);
+  /// Moves what is held (keys, sticks) by dt and gives the newest intent. @param camera axes of the picture.
+  /// @param height_px of the scope's picture, for the mouse.
+  const HandIntent& advance(double dt_s, const Camera& camera, double height_px);
+  const HandIntent& intent() const;
+
+  InputKind kind() const;            ///< what moved the hand last
+  /// Scope turned by the person: light post (30 degree scope) and shift about its port, rad and m.
+  struct ScopeMove { double post_rad = 0, yaw_rad = 0, pitch_rad = 0, depth_m = 0; };
+  ScopeMove scope() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trocar

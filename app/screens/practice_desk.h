@@ -1,0 +1,99 @@
+// What the trainee's program holds between screens: who is here, what is chosen, the attempt that runs, the last result.
+//
+// Screens read and change it; nothing here draws. Thread: the window's.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/input/key_map.h"
+#include "app/input/steering.h"
+#include "app/practice/attempt_runner.h"
+#include "app/practice/settings.h"
+#include "app/sound/sound.h"
+#include "app/words/words.h"
+#include "scenarios/exercise.h"
+#include "trainees/attempt_store.h"
+
+namespace trocar {
+
+struct DeskOptions {
+  std::filesystem::path database = {};   ///< empty: the default; ":memory:" keeps nothing
+  std::string trainee = {};              ///< code, empty: guest
+  std::string exercise = {};             ///< straight to its briefing
+  std::string level = "L1";
+  std::string organ = "phantom-liver";
+  std::string input = "auto";
+  std::filesystem::path settings = {};   ///< empty: settings_file()
+  std::string hand = {};                 ///< scripted hand in place of a person ("expert"): films and tests
+  std::optional<std::int64_t> seed = {}; ///< given: every attempt draws from it
+};
+
+/// One exercise of the catalogue at one level, as the trainee stands to it.
+struct Standing {
+  int attempts = 0, passed = 0;
+  int passed_in_a_row = 0;               ///< on different boards, newest attempts first
+  std::optional<double> best, last;      ///< scores
+  bool unlocked = true;                  ///< levels open one after the other: three passes in a row
+  std::vector<AttemptSummary> newest_first = {};
+};
+
+class PracticeDesk {
+ public:
+  PracticeDesk(const DeskOptions& options, const AssetRoots& assets);
+  ~PracticeDesk();
+
+  const AssetRoots& assets() const;
+  const std::vector<Exercise>& exercises() const;
+  const Words& words() const;
+  Settings& settings();
+  /// Saves the settings and takes up what they say (language, keys, sound). A full disk is a notice, not an end.
+  void settings_changed();
+  const KeyMap& keys() const;
+  Steering& steering();
+  Sound& sound();
+
+  // who
+  const std::string& trainee() const;    ///< "guest" without sign-in
+  bool is_guest() const;
+  /// @return what was wrong with the code, in the trainee's language; empty when signed in.
+  std::string sign_in(const std::string& code);
+  void sign_out();
+
+  // what
+  std::string exercise_id, level = "L1", organ = "phantom-liver";
+  const Exercise& exercise() const;      ///< the chosen one
+  Standing standing(const std::string& exercise_id, const std::string& level) const;
+  /// What to do next, and why: exercise id, level, one sentence.
+  struct Advice { std::string exercise_id, level, why; };
+  Advice next() const;
+  /// Newest note of a teacher for this trainee; none until the record has notes.
+  std::optional<std::string> teacher_note() const;
+
+  // the attempt
+  /// Starts one at what is chosen, with a fresh board. @return what hindered it, empty when it runs.
+  std::string begin_attempt();
+  AttemptRunner* running();              ///< null: none
+  /// Takes over the result of a finished or aborted attempt. @return false: it had none, notice() says why.
+  bool end_attempt();
+  const std::optional<AttemptResult>& result() const;
+  /// Scene of the last attempt, for pictures of the debrief; null before the first.
+  std::shared_ptr<const Scene> last_scene() const;
+  std::filesystem::path recording() const;       ///< of result(), empty: none kept
+  /// Recording of the expert at the same exercise and level, made when first asked for (headless, cached). Empty: not yet.
+  std::filesystem::path expert_recording();
+
+  /// At most one thing that the trainee should know now (database busy, disk full); shown by every screen.
+  std::string notice;
+  std::filesystem::path replay_file;             ///< what the replay screen shall show; empty: recording()
+  std::filesystem::path replay_beside;           ///< second run beside it; empty: none
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trocar

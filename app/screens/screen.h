@@ -1,0 +1,39 @@
+// A screen of the trainee's window: draws one frame with ImGui over the scene's picture and says where to go next.
+//
+// Screens know the desk (practice_desk.h: what is chosen, what was done) and the words; they know neither window nor OpenGL.
+// The same code draws in a window and headless, for pictures and layout tests. Thread: the window's.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/graphics/scene_view.h"
+#include "app/input/input_event.h"
+
+namespace trocar {
+
+class Ui;             // app/screens/ui.h
+class PracticeDesk;   // app/screens/practice_desk.h
+
+enum class ScreenName : std::uint8_t {
+  kStart, kCurriculum, kBriefing, kRun, kDebrief, kProgress, kReplay, kSettings, kNotch, kQuit
+};
+
+class Screen {
+ public:
+  virtual ~Screen() = default;
+  /// Draws one frame. @param dt_s since the last one. @return where to go, nothing to stay.
+  virtual std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) = 0;
+  /// Events that ImGui did not take. @return as frame().
+  virtual std::optional<ScreenName> handle(const InputEvent& /*event*/, PracticeDesk& /*desk*/) { return {}; }
+  /// What the renderer shall draw behind or within this frame, and where (px of the window); nothing: a plain ground.
+  struct Stage {
+    SceneView view;
+    double x = 0, y = 0, width = 0, height = 0;   ///< 0 wide: the whole window
+    double dim = 0;                                ///< 0 as it is .. 1 black, behind panels
+  };
+  virtual std::optional<Stage> stage(PracticeDesk& /*desk*/, int /*width*/, int /*height*/) { return {}; }
+};
+
+}  // namespace trocar

@@ -1,0 +1,78 @@
+// The few pieces that screens are made of, drawn by ImGui in the theme's colours; every text is measured and noted, so
+// that clipping and overlap can be tested (text_audit()).
+//
+// Sizes in px at 720 lines and scale 1; the Ui multiplies. Colours: Okabe and Ito, and never colour alone. Thread: the window's,
+// between begin and end of a frame of the UiLayer.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/words/words.h"
+
+namespace trocar {
+
+enum class Ink : std::uint8_t { kText, kDim, kHeading, kGood, kCaution, kAlarm, kAccent };
+enum class Mark : std::uint8_t { kNone, kTick, kHalf, kOpen, kLock, kWarning, kInfo, kUp, kDown, kPlay };
+
+/// A text as it was drawn: for tests of layout.
+struct DrawnText {
+  std::string text;
+  double x = 0, y = 0, width = 0, height = 0;   ///< px needed
+  double room = 0;                              ///< px that there were; narrower than width: clipped
+  bool shortened = false;                       ///< ends with an ellipsis, the whole is shown on hover
+};
+
+struct Area {
+  double x = 0, y = 0, width = 0, height = 0;   ///< px of the window
+};
+
+class Ui {
+ public:
+  Ui(const Words& words, double scale, int width_px, int height_px);
+
+  const Words& words() const { return words_; }
+  double px(double at_720) const;               ///< length at this scale
+  double width() const { return width_; }
+  double height() const { return height_; }
+
+  /// A panel; what follows stands in it, from the top, until end_panel(). Scrolls when it must (never in a briefing).
+  void begin_panel(const char* id, const Area& area, double opacity = 0.92);
+  void end_panel();
+  double room() const;                          ///< px to the panel's right edge
+
+  void title(const std::string& text);
+  void heading(const std::string& text);
+  void text(const std::string& text, Ink ink = Ink::kText);       ///< wraps
+  void line(const std::string& text, Ink ink = Ink::kText);       ///< one line, shortened with an ellipsis when it must
+  void marked(Mark mark, const std::string& text, Ink ink = Ink::kText);
+  void gap(double at_720 = 8);
+  void same_line(double at_720 = 12);
+  /// @param key shown in brackets, "Enter"; pressing it counts as a click. @return true when chosen.
+  bool button(const char* id, const std::string& text, const std::string& key = "", bool strong = false, double width_at_720 = 0);
+  bool toggle(const char* id, const std::string& text, bool& value);
+  bool choice(const char* id, const std::string& text, const std::vector<std::string>& options, int& chosen);
+  bool slider(const char* id, const std::string& text, double& value, double low, double high, const std::string& format);
+  bool field(const char* id, const std::string& text, std::string& value, bool secret = false);
+  bool selectable(const char* id, Mark mark, const std::string& text, bool selected, const std::string& right = "");
+  /// Table: `shares` of the width, 0..1. @return index of a clicked row, -1 none.
+  struct Cell { std::string text; Ink ink = Ink::kText; Mark mark = Mark::kNone; bool right = false; };
+  int table(const char* id, const std::vector<std::string>& heads, const std::vector<double>& shares,
+            const std::vector<std::vector<Cell>>& rows, double height_at_720 = 0);
+  /// Square of the given height to draw into by plot.h; returns its place and takes the room.
+  Area drawing(const char* id, double height_at_720);
+  /// Help on the last item, when hovered or focused.
+  void explain(const std::string& text);
+
+  const std::vector<DrawnText>& text_audit() const { return drawn_; }
+
+ private:
+  friend class UiParts;
+  const Words& words_;
+  double scale_, width_, height_;
+  std::vector<DrawnText> drawn_;
+};
+
+}  // namespace trocar
