@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/graphics/organ_scene.h"
+#include "app/graphics/headless_context.h"
 #include "app/graphics/renderer.h"
 #include "haptics/input_error.h"
 #include "tissue/mesh/staged_file.h"

@@ -2,6 +2,7 @@
 // rasteriser's threads, so that the figure also means something on a busy machine: 50 ms of wall time are 100 ms of it.
 #include <benchmark/benchmark.h>
 
+#include "app/graphics/headless_context.h"
 #include "app/graphics/renderer.h"
 #include "tests/support/board_scene.h"
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "app/graphics/headless_context.h"
 #include "app/graphics/renderer.h"
 
 namespace trocar::testing_support {
