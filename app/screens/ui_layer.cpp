@@ -209,6 +209,8 @@ bool UiLayer::wants_keys() const {
   return g.IO.WantTextInput || g.OpenPopupStack.Size > 0 || state_->memory.focus_shown;
 }
 
+bool UiLayer::popup_open() const { return state_->imgui->OpenPopupStack.Size > 0; }
+
 void UiLayer::end() {
   ImGui::SetCurrentContext(state_->imgui);
   ImGui::Render();
