@@ -1,7 +1,9 @@
 #include "app/screens/practice_desk.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <future>
 #include <random>
 
 #include "app/recorded_result.h"
@@ -28,6 +30,19 @@ std::string language_of_machine(const std::filesystem::path& folder) {
   return "en";
 }
 
+/// The abdomen that ships, with the instrument over the liver. Null: it cannot be loaded; the start page does without.
+std::shared_ptr<const Scene> load_show_scene(const Exercise& exercise, const AssetRoots& assets) {
+  AttemptSetup setup;
+  setup.exercise = exercise;
+  setup.level = exercise.levels.front().name;
+  setup.organ = "phantom-abdomen";
+  try {
+    return std::make_shared<const Scene>(build_scene(setup, assets, {"simulated", setup.rate_hz, 16}));
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 struct PracticeDesk::State {
@@ -46,7 +61,7 @@ struct PracticeDesk::State {
   std::shared_ptr<const Scene> last_scene;
   std::vector<AttemptSummary> unkept;          // of this sitting, newest first, when nothing is kept
   ExpertRun expert;
-  std::int64_t next_seed = 0;
+  std::shared_future<std::shared_ptr<const Scene>> show_scene;
 
   std::filesystem::path settings_file_path() const { return options.settings.empty() ? settings_file() : options.settings; }
   void take_up(std::string& notice);
@@ -112,6 +127,9 @@ PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets)
   s.assets = assets;
   s.exercises = list_exercises(assets.exercises);
   if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
+  const auto touch = std::find_if(s.exercises.begin(), s.exercises.end(), [](const Exercise& e) { return needs_organ(e.kind); });
+  if (touch != s.exercises.end())
+    s.show_scene = std::async(std::launch::async, load_show_scene, *touch, assets).share();
   s.settings = load_settings(s.settings_file_path());
   notice = s.settings.note;
   s.take_up(notice);
@@ -160,6 +178,12 @@ void PracticeDesk::settings_changed() {
   } catch (const EnvironmentError& error) {
     notice = s.words("The settings hold now but cannot be kept: {0}", {error.what()});
   }
+}
+
+std::shared_ptr<const Scene> PracticeDesk::show_scene(double wait_s) const {
+  const auto& scene = state_->show_scene;
+  if (!scene.valid() || scene.wait_for(std::chrono::duration<double>(wait_s)) != std::future_status::ready) return nullptr;
+  return scene.get();
 }
 
 const std::string& PracticeDesk::trainee() const { return state_->trainee; }

@@ -141,6 +141,10 @@ void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
   using Kind = InputEvent::Kind;
   const bool covered = menu || help;
   for (const InputEvent& event : events) {
+    if (screen && !covered && screen->takes_all()) {
+      if (const auto to = screen->handle(event, desk)) show(*to);
+      continue;
+    }
     if (command(event) || covered || !screen) continue;
     const bool key = event.kind == Kind::kKeyDown || event.kind == Kind::kText;
     const bool press = event.kind == Kind::kButtonDown || event.kind == Kind::kWheel;

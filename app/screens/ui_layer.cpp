@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -171,7 +172,7 @@ void UiLayer::State::move_focus(const std::vector<InputEvent>& events) {
   memory.focus_shown = (ring || g.ActiveId == g.NavId) && g.NavId != 0 &&
                        std::any_of(memory.items_before.begin(), memory.items_before.end(),
                                    [&g](const UiMemory::Item& item) { return item.id == g.NavId; });
-  if (memory.keys_to_screen) return;
+  if (memory.screen_has_keys) return;
   for (const InputEvent& event : events) {
     if (event.kind != InputEvent::Kind::kKeyDown || event.key != kKeyTab || event.control || event.alt) continue;
     const unsigned from = memory.focus_wanted != 0 ? memory.focus_wanted : g.NavId;
@@ -188,14 +189,14 @@ void UiLayer::begin(int width, int height, double dt_s, const std::vector<InputE
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   io.DeltaTime = static_cast<float>(std::clamp(dt_s, 1e-4, 1.0));
-  io.ConfigFlags = s.memory.keys_to_screen ? ImGuiConfigFlags_None : ImGuiConfigFlags_NavEnableKeyboard;
+  s.memory.screen_has_keys = std::exchange(s.memory.keys_to_screen, false);
+  io.ConfigFlags = s.memory.screen_has_keys ? ImGuiConfigFlags_None : ImGuiConfigFlags_NavEnableKeyboard;
   s.feed_all(events);
   s.memory.items_before.swap(s.memory.items);
   s.memory.items.clear();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   s.move_focus(events);
-  s.memory.keys_to_screen = false;
 }
 
 bool UiLayer::wants_pointer() const {
@@ -206,6 +207,7 @@ bool UiLayer::wants_pointer() const {
 bool UiLayer::wants_keys() const {
   ImGui::SetCurrentContext(state_->imgui);
   const ImGuiContext& g = *state_->imgui;
+  if (state_->memory.screen_has_keys && !g.IO.WantTextInput) return false;
   return g.IO.WantTextInput || g.OpenPopupStack.Size > 0 || state_->memory.focus_shown;
 }
 
