@@ -22,7 +22,7 @@ enum class MouseButton : std::uint8_t { kLeft, kRight, kMiddle };
 
 struct InputEvent {
   enum class Kind : std::uint8_t {
-    kKeyDown, kKeyUp, kMouseMove, kButtonDown, kButtonUp, kWheel, kPad, kPuck, kFocusLost
+    kKeyDown, kKeyUp, kMouseMove, kButtonDown, kButtonUp, kWheel, kPad, kPuck, kFocusLost, kText
   } kind = Kind::kMouseMove;
   std::int32_t key = kKeyUnknown;
   bool repeat = false;                  ///< a key that is held
@@ -32,6 +32,7 @@ struct InputEvent {
   double wheel = 0;                     ///< notches, away from the person is positive
   std::array<double, 6> axis{};         ///< pad: left x y, right x y, left and right trigger (0..1); puck: translation x y z, rotation x y z
   std::uint32_t buttons = 0;            ///< pad or puck: bit n for button n, as held now
+  std::uint32_t character = 0;          ///< kText: Unicode code point as the keyboard's layout gives it
 };
 
 /// What moves the hand; stored with the attempt.

@@ -1,12 +1,15 @@
 // What the program says to a trainee, in the language that was chosen: English sentences are the keys.
 //
 // assets/languages/fr.toml and de.toml give for each English sentence its translation; English needs no file. A sentence
-// that has none comes back in English and is listed by missing(). Places for values are {0}, {1}, ... Plain value, any thread
-// (missing() aside).
+// that has none comes back in English and is listed by missing(). Places for values are {0}, {1}, ...
+//
+// A catalogue: name = "Français", decimal = ",", and a table [words] of "English" = "translation". A translation has the
+// places of its key, each once; what else stands in the file is refused. Plain value, any thread (missing() aside).
 #pragma once
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -24,15 +27,24 @@ class Words {
   std::string operator()(std::string_view english) const;
   /// With {0}, {1}, ... replaced. A brace that names no value stays as it is.
   std::string operator()(std::string_view english, const std::vector<std::string>& values) const;
+  /// A sentence that another part made with its values in it ("Reach 0.4 to 0.8 N and hold."): found by the key that it
+  /// fills ("Reach {0} to {1} N and hold."), the one with most words first. Values are translated too, and numbers take
+  /// the decimal sign.
+  std::string made(std::string_view english) const;
   /// A number with the decimal sign of the language: "0,48".
   std::string number(double value, int decimals) const;
 
   const std::string& language() const { return language_; }
+  /// All keys with their translations.
+  const std::map<std::string, std::string, std::less<>>& catalogue() const { return translations_; }
   /// Sentences asked for that the catalogue lacks.
   const std::set<std::string>& missing() const { return missing_; }
 
  private:
-  std::string language_ = "en";
+  std::optional<std::string> filled(std::string_view english) const;
+
+  std::string language_ = "en", decimal_ = ".";
+  std::vector<std::string> forms_;  ///< keys with places, most text first
   std::map<std::string, std::string, std::less<>> translations_;
   mutable std::set<std::string> missing_;
 };
@@ -42,5 +54,8 @@ struct Language {
   std::string code, name;
 };
 std::vector<Language> languages(const std::filesystem::path& folder);
+
+/// Places of a sentence, sorted: "{1} of {0}" has 0 and 1.
+std::vector<int> places(std::string_view sentence);
 
 }  // namespace trocar
