@@ -50,10 +50,11 @@ double followed(const Exercise& exercise, const ExerciseLevel& level, double lea
 
 TEST(SteeringReach, PrintsWhatTheWristCanFollow) {
   const Exercise exercise = shipped("surface-touch");
-  for (const double lean : {0.0, 20.0, 35.0, 45.0})
-    for (const double roll : {-150.0, -90.0, 0.0, 90.0, 150.0})
+  for (const int level : {0, 2})
+  for (const double lean : {0.0, 10.0, 15.0, 20.0, 25.0, 30.0})
+    for (const double roll : {-150.0, -60.0, -45.0, -30., -20.0, 0.0, 20.0, 30., 45.0, 60.0, 150.0})
       std::printf("lean %3.0f roll %4.0f: %.2f\n", lean, roll,
-                  followed(exercise, exercise.levels[0], lean * std::numbers::pi / 180, roll * std::numbers::pi / 180));
+                  followed(exercise, exercise.levels[level], lean * std::numbers::pi / 180, roll * std::numbers::pi / 180));
 }
 
 }  // namespace
