@@ -36,6 +36,8 @@ std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) 
                {"lost_records", lost},
                {"lanes", Json::object()}};
   for (const LaneReport* report : executor.reports()) json["lanes"][report->name] = lane(*report);
+  for (const ThreadedExecutor::Pause& pause : executor.pauses())
+    json["pauses"].push_back({{"at_s", pause.at_s}, {"seconds", pause.seconds}});
   return json.dump();
 }
 

@@ -2,7 +2,8 @@
 // words on stderr where something is missing.
 //
 // {"kernel_realtime", "memory_locked", "lost_records", "lanes": {NAME: {"policy", "rate_hz", "wakes", "missed", "overruns",
-//  "longest_gap_ms", "late_us": {"p50","p99","p99.9","p99.99","max","above_1ms"}, "cpu_us": {...}}}}. Thread: any, after the run.
+//  "longest_gap_ms", "late_us": {"p50","p99","p99.9","p99.99","max","above_1ms"}, "cpu_us": {...}}}, and only where the run
+// stood still "pauses": [{"at_s", "seconds"}]}. Thread: any, after the run.
 #pragma once
 
 #include <cstdint>

@@ -17,6 +17,7 @@ struct RunMoment {
   TissueFrame tissue;
   double t_s = 0;          ///< loop time
   bool seen = false;       ///< false: nothing has been seen of the run yet
+  std::uint64_t steered = 0;   ///< number of the newest intent of a person that the device had felt by then; 0: none
 };
 
 /// The moment as pictures and displays take it. Refers to both arguments.

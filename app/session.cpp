@@ -124,11 +124,10 @@ class ObserverTask final : public Task {
 
 /// A whole attempt on the simulated device: the rig, the world beside it and what keeps books.
 struct Attempt {
-  Attempt(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer, Timing timing)
+  Attempt(const Scene& scene, std::unique_ptr<Hand> person, RecordingWriter& writer, Timing timing)
       : daq(simulated_device(scene.setup)),
         rig(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
-        hand(scene, rig.haptic, *rig.hand_frames,
-             make_hand(scene.setup.hand, seed_of(scene), assets.hands, scene.setup.attempt), daq),
+        hand(scene, rig.haptic, *rig.hand_frames, std::move(person), daq),
         forces(make_channel<StylusForces>(timing)),
         tap(daq, rig.haptic, scene.loop.map.X_TW.R, *forces, sensor_of(scene).fixture_kg * sensor_of(scene).gravity),
         sensor(*forces, sensor_of(scene).force, seed_of(scene) ^ kSensorSeed, scene.loop.daq.rate_hz),
@@ -155,30 +154,34 @@ struct Attempt {
   RecorderTask recorder;
 };
 
-SessionOutcome run_lockstep(Attempt& attempt, const SessionObserver& observe, const std::function<bool()>& interrupted) {
+SessionOutcome run_lockstep(Attempt& attempt, const SessionHooks& hooks) {
   Rig& rig = attempt.rig;
-  ObserverTask observer(rig, observe, rig.tissue.period());
+  ObserverTask observer(rig, hooks.observe, rig.tissue.period());
   LockstepExecutor executor;
   for (Task* task : std::initializer_list<Task*>{&attempt.hand, &rig.haptic, &attempt.tap, &rig.tissue, &attempt.sensor,
                                                  &attempt.recorder, &observer}) {
     executor.add(*task);
   }
-  executor.run(interrupted);
+  executor.run(hooks.interrupted);
   return attempt.outcome();
 }
 
-/// Lanes of their own for what must be on time; pictures in this thread, to which their context belongs.
-SessionOutcome run_live(Attempt& attempt, const SessionObserver& observe, const std::function<bool()>& interrupted) {
+/// Lanes of their own for what must be on time; pictures in this thread, to which their context belongs, or wherever an observer
+/// of each step takes them.
+SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   Rig& rig = attempt.rig;
   const double rate_hz = rig.scene.loop.daq.rate_hz;
-  ObserverTask observer(rig, observe, static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
-  ThreadedExecutor executor(rate_hz);
+  const bool each_step = hooks.observe && hooks.observe_each_step;
+  ObserverTask observer(rig, hooks.observe, each_step ? rig.tissue.period() : static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
+  ThreadedExecutor executor(rate_hz, hooks.pause);
+  std::vector<Task*> tissue{&rig.tissue};
+  if (each_step) tissue.push_back(&observer);
   executor.add_lane("haptic", {&attempt.hand, &rig.haptic, &attempt.tap}, kHapticPriority);
-  executor.add_lane("tissue", {&rig.tissue}, kTissuePriority, kTissueOffset);
+  executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
   executor.add_lane("force-sensor", {&attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);
-  if (observe) executor.add_own_lane("pictures", {&observer});
-  executor.run(interrupted);
+  if (hooks.observe && !each_step) executor.add_own_lane("pictures", {&observer});
+  executor.run(hooks.interrupted);
   SessionOutcome out = attempt.outcome();
   out.device.realtime = realtime_json(executor, attempt.recorder.lost());
   out.notes = realtime_notes(executor, attempt.recorder.lost());
@@ -202,13 +205,13 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
   return config;
 }
 
-SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
-                           const SessionObserver& observe, const std::function<bool()>& interrupted) {
+SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks, RecordingWriter& writer) {
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
-  const auto attempt = std::make_unique<Attempt>(scene, assets, writer, timing);
-  SessionOutcome out = timing == Timing::kLive ? run_live(*attempt, observe, interrupted)
-                                                     : run_lockstep(*attempt, observe, interrupted);
-  if (out.status == AttemptStatus::kAborted && interrupted && interrupted()) {
+  auto hand = hooks.hand ? hooks.hand()
+                         : make_hand(scene.setup.hand, Attempt::seed_of(scene), assets.hands, scene.setup.attempt);
+  const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing);
+  SessionOutcome out = timing == Timing::kLive ? run_live(*attempt, hooks) : run_lockstep(*attempt, hooks);
+  if (out.status == AttemptStatus::kAborted && hooks.interrupted && hooks.interrupted()) {
     out.device.reason = "interrupted before its end";
   }
   RecordingEnd end;
@@ -219,18 +222,25 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
   return out;
 }
 
-std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
-                                                    const std::filesystem::path& file, const SessionObserver& observe,
-                                                    const std::function<bool()>& interrupted) {
+SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
+                           const SessionObserver& observe, const std::function<bool()>& interrupted) {
+  SessionHooks hooks;
+  hooks.observe = observe;
+  hooks.interrupted = interrupted;
+  return run_session(scene, assets, hooks, writer);
+}
+
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
+                                                    const std::filesystem::path& file) {
   const std::string header = scene_json(scene);
   if (file.empty()) {
     MemorySink memory;
     RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
-    SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
+    SessionOutcome outcome = run_session(scene, assets, hooks, writer);
     return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
   }
   RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
-  SessionOutcome outcome = run_session(scene, assets, writer, observe, interrupted);
+  SessionOutcome outcome = run_session(scene, assets, hooks, writer);
   return {std::move(outcome), read_recording(file)};
 }
 

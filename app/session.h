@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/executor/pause_switch.h"
 #include "app/recorder/recording_reader.h"
 #include "app/recorder/recording_writer.h"
 #include "app/scene.h"
@@ -42,6 +44,16 @@ struct SessionView {
 };
 using SessionObserver = std::function<void(const SessionView&)>;
 
+/// What a run may be given beside its setup.
+struct SessionHooks {
+  SessionObserver observe = {};
+  /// Live: observe in the tissue task's thread after each of its steps, so that nothing newer can be had. It must not wait.
+  bool observe_each_step = false;
+  std::function<bool()> interrupted = {};         ///< asked now and then: true ends the attempt as aborted
+  std::function<std::unique_ptr<Hand>()> hand = {};   ///< in place of the one that the setup names
+  const PauseSwitch* pause = nullptr;             ///< live: lets everything stand still, the simulated device too
+};
+
 /// What one run of the loop leaves behind, before grading.
 struct SessionOutcome {
   AttemptStatus status = AttemptStatus::kAborted;
@@ -55,17 +67,15 @@ struct SessionOutcome {
   std::string scoring_json;             ///< what grading must know (scenarios/scoring_context.h): summary of END
 };
 
-/// An attempt on the simulated device with a scripted hand. @param writer receives every tick and is closed.
-/// Live when the setup says so (threads, the clock), else in lockstep.
-/// @param interrupted asked now and then: true ends the attempt as aborted. @throws EnvironmentError of the writer.
+/// An attempt on the simulated device. @param writer receives every tick and is closed.
+/// Live when the setup says so (threads, the clock), else in lockstep. @throws EnvironmentError of the writer.
+SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks, RecordingWriter& writer);
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
                            const SessionObserver& observe = {}, const std::function<bool()>& interrupted = {});
 
 /// Runs into a file, or into memory when none is given, and reads the recording back: what is graded is what was written.
-std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
-                                                    const std::filesystem::path& file,
-                                                    const SessionObserver& observe = {},
-                                                    const std::function<bool()>& interrupted = {});
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
+                                                    const std::filesystem::path& file);
 
 /// The same loop fed with the recorded device input. @param scene built from the recording's own setup.
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe = {});

@@ -6,15 +6,13 @@
 #include <map>
 #include <ostream>
 
+#include "app/attempt_keeping.h"
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
 #include "app/commands/open_database.h"
 #include "app/device_files.h"
 #include "app/interrupt.h"
-#include "app/recorded_result.h"
-#include "app/recorder/safety_file.h"
 #include "app/true_plant.h"
-#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"
@@ -64,91 +62,6 @@ int board_of(const RunOptions& options) {
   }
   if (exam) throw InputError(given + ": is for practice; an exam's board is unseen, and drawn by --seed");
   return *options.board;
-}
-
-AttemptStart start_of(const RunOptions& options, const Scene& scene) {
-  AttemptStart start;
-  start.trainee = options.trainee;
-  start.exercise_id = scene.setup.exercise.id;
-  start.exercise_version = scene.setup.exercise.version;
-  start.exercise_number = scene.setup.exercise.number;
-  start.exercise_title = scene.setup.exercise.title;
-  start.program = TROCAR_VERSION;
-  start.exercise_text = scene.setup.exercise.text;
-  start.level = scene.level.name;
-  start.seed = scene.setup.seed;
-  start.board = scene.setup.board;
-  start.hand = scene.setup.hand;
-  start.organ_name = scene.organ.name;
-  start.organ_source = scene.organ.source_file;
-  start.organ_sha256 = scene.organ.sha256;
-  start.organ_credit = scene.organ.credit;
-  start.organ_synthetic = scene.organ.synthetic;
-  if (!options.record.empty()) start.recording = options.record;
-  return start;
-}
-
-/// What the attempt began with, and what its recording says.
-AttemptResult result_of(const AttemptStart& start, const AttemptId& id, const Recording& recording) {
-  AttemptResult result = recorded_result(recording, id.recording);
-  result.uuid = id.uuid;
-  result.started_utc = id.started_utc;
-  result.exercise_id = start.exercise_id;
-  result.exercise_version = start.exercise_version;
-  result.level = start.level;
-  result.seed = start.seed;
-  result.board = start.board;
-  result.trainee = start.trainee;
-  result.hand = start.hand;
-  result.organ_name = start.organ_name;
-  result.organ_source = start.organ_source;
-  result.organ_sha256 = start.organ_sha256;
-  result.organ_credit = start.organ_credit;
-  result.organ_synthetic = start.organ_synthetic;
-  result.rubric_sha256 = id.rubric_sha256;
-  return result;
-}
-
-/// Records the attempt; when the machine fails it (a full disk), it is ended as aborted with the reason.
-std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const AttemptId& id, const Scene& scene,
-                                                     const AssetRoots& assets, const SessionObserver& observe,
-                                                     const std::function<bool()>& interrupted) {
-  try {
-    return record_session(scene, assets, id.recording, observe, interrupted);
-  } catch (const EnvironmentError& error) {
-    AttemptResult result;
-    result.grade.grade = "not graded";
-    result.integrity = error.what();
-    if (std::filesystem::is_regular_file(id.recording)) result.recording_sha256 = digest::of_readable_file(id.recording);
-    try {
-      store.finish_attempt(id, result);
-    } catch (const EnvironmentError&) {
-      // The same disk: the attempt is ended as aborted when the database is next opened. The first reason is the news.
-    }
-    throw;
-  }
-}
-
-/// A result that cannot be stored is not lost: its recording is whole, and graded again at the next opening.
-void store_or_say(AttemptStore& store, const AttemptId& id, const AttemptResult& result) {
-  try {
-    store.finish_attempt(id, result);
-  } catch (const EnvironmentError& error) {
-    if (id.recording.empty()) throw;
-    std::string score = status_name(result.grade.status);
-    if (result.grade.score) score += ", score " + std::to_string(*result.grade.score);
-    throw EnvironmentError(std::string(error.what()) + "\ntrocar: the attempt was not stored (" + score +
-                           "); its recording " + id.recording.string() +
-                           " holds the result, which is stored when the database is next opened");
-  }
-}
-
-/// What the loop remembers of a stop, beside the recording. @return the file, empty without one.
-std::string keep_stop(const AttemptId& id, const SessionOutcome& outcome) {
-  if (outcome.safety_csv.empty() || id.recording.empty()) return "";
-  const std::filesystem::path file = safety_file_of(id.recording);
-  write_safety_file(file, outcome.safety_csv);
-  return file.string();
 }
 
 void say_beginning(const Scene& scene, std::ostream& err) {
@@ -240,16 +153,19 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   }
   Database database = open_database(options.database, OpenMode::kCreate, err);
   AttemptStore store(database);
-  const AttemptStart start = start_of(options, scene);
+  AttemptStart start = attempt_start(scene, options.trainee);
+  if (!options.record.empty()) start.recording = options.record;
   Scene taught = scene;
   if (options.attempt == 0)
     taught.setup.attempt = 1 + static_cast<int>(store.list({start.trainee, start.exercise_id}).size());
   const AttemptId id = store.begin_attempt(start);
   say_beginning(scene, err);
-  const auto [outcome, recording] = record_or_abort(store, id, taught, assets, observe, options.interrupted);
+  SessionHooks hooks;
+  hooks.observe = observe;
+  hooks.interrupted = options.interrupted;
+  const auto [outcome, recording] = record_or_abort(store, id, taught, assets, hooks);
   for (const std::string& note : outcome.notes) err << "trocar: " << note << '\n';
-  AttemptResult result = result_of(start, id, recording);
-  result.safety_log_path = keep_stop(id, outcome);
+  const AttemptResult result = kept_result(start, id, outcome, recording);
   store_or_say(store, id, result);
   if (!result.device.reason.empty()) err << "trocar: " << result.device.reason << '\n';
   if (outcome.patch_triangles_dropped > 0) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kWatchPeriod = 20'000'000;   // ns: how often an idle calling thread looks for the end
+constexpr std::int64_t kPauseLook = 2'000'000;     // ns: how soon a lane sees that a pause is over
 constexpr std::int64_t kSettle = 5'000'000;         // ns for the threads to be there before the first period
 
 std::int64_t now_ns(clockid_t clock) {
@@ -34,12 +35,14 @@ struct ThreadedExecutor::Lane {
   std::vector<Task*> tasks;
   int priority = 0;
   std::int64_t period_ns = 0, offset_ns = 0;
+  std::int64_t wished_ns = 0, last_ns = 0;  // next wake, and when the one before was
+  std::int64_t stood_ns = 0;                // pauses that the wished times have been moved by
   LaneReport report;
   std::thread thread;
   std::exception_ptr thrown;
 };
 
-ThreadedExecutor::ThreadedExecutor(double rate_hz) : rate_hz_(rate_hz) {}
+ThreadedExecutor::ThreadedExecutor(double rate_hz, const PauseSwitch* pause) : rate_hz_(rate_hz), pause_(pause) {}
 ThreadedExecutor::~ThreadedExecutor() { join(); }
 
 void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> tasks, int priority, double offset) {
@@ -107,25 +110,53 @@ void ThreadedExecutor::work(Lane& lane) noexcept {
   }
 }
 
+/// Waits out a pause. @return true when there was one since the lane last asked: its wished times now lie later.
+bool ThreadedExecutor::stood_still(Lane& lane, const std::function<bool()>& interrupted) {
+  if (!pause_) return false;
+  while (pause_->paused() && !stop_.load()) {
+    sleep_until(now_ns(CLOCK_MONOTONIC) + kPauseLook);
+    if (interrupted && interrupted()) stop_.store(true);
+  }
+  const std::int64_t since = pause_->stood_ns() - lane.stood_ns;
+  lane.stood_ns += since;
+  lane.wished_ns += since;
+  lane.last_ns += since;
+  return since > 0;
+}
+
 void ThreadedExecutor::pace(Lane& lane, const std::function<bool()>& interrupted) {
   const FlushDenormals flush;
   LaneReport& report = lane.report;
   if (report.policy.empty()) report.policy = "SCHED_OTHER";
-  std::int64_t wished = start_ns_ + lane.offset_ns, last = wished - lane.period_ns;
-  for (; !stop_.load(std::memory_order_relaxed); wished += lane.period_ns) {
-    sleep_until(wished);
+  lane.wished_ns = start_ns_ + lane.offset_ns;
+  lane.last_ns = lane.wished_ns - lane.period_ns;
+  for (; !stop_.load(std::memory_order_relaxed); lane.wished_ns += lane.period_ns) {
+    do sleep_until(lane.wished_ns);
+    while (stood_still(lane, interrupted));
+    if (stop_.load(std::memory_order_relaxed)) break;
     const std::int64_t woken = now_ns(CLOCK_MONOTONIC);
-    report.late.add(woken - wished);
-    const std::int64_t missed = std::max<std::int64_t>(0, (woken - wished) / lane.period_ns);
-    wished += missed * lane.period_ns;
+    report.late.add(woken - lane.wished_ns);
+    const std::int64_t missed = std::max<std::int64_t>(0, (woken - lane.wished_ns) / lane.period_ns);
+    lane.wished_ns += missed * lane.period_ns;
     report.missed += static_cast<std::uint64_t>(missed);
-    report.longest_gap_ns = std::max(report.longest_gap_ns, woken - last);
-    last = woken;
+    report.longest_gap_ns = std::max(report.longest_gap_ns, woken - lane.last_ns);
+    lane.last_ns = woken;
     call(lane, static_cast<std::uint64_t>(missed));
-    if (now_ns(CLOCK_MONOTONIC) > wished + lane.period_ns) ++report.overruns;
+    if (now_ns(CLOCK_MONOTONIC) > lane.wished_ns + lane.period_ns) ++report.overruns;
     if (interrupted && interrupted()) stop_.store(true);
   }
-  report.seconds = static_cast<double>(now_ns(CLOCK_MONOTONIC) - start_ns_) * 1e-9;
+  report.seconds = static_cast<double>(now_ns(CLOCK_MONOTONIC) - start_ns_ - lane.stood_ns) * 1e-9;
+}
+
+std::vector<ThreadedExecutor::Pause> ThreadedExecutor::pauses() const {
+  std::vector<Pause> out;
+  std::int64_t stood = 0;
+  for (const PauseSwitch::Pause& pause : pause_ ? pause_->pauses() : std::vector<PauseSwitch::Pause>{}) {
+    const std::int64_t took = pause.end_ns - pause.begin_ns;
+    out.push_back({static_cast<double>(pause.begin_ns - start_ns_ - stood) * 1e-9, static_cast<double>(took) * 1e-9});
+    stood += took;
+  }
+  return out;
 }
 
 void ThreadedExecutor::call(Lane& lane, std::uint64_t missed) {

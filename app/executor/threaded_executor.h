@@ -5,7 +5,7 @@
 // burst: the periods that passed are told to its tasks (Task::missed), which run once, and the next wake is the next boundary.
 // The last lane may be the calling thread's (pictures belong to the thread that made their context). The run ends when a task has
 // finished, `interrupted` says so, or a task throws; then all lanes are joined, every task is stopped in its order, and what was
-// thrown is thrown again. Threads: construct, add and run from one.
+// thrown is thrown again. A PauseSwitch lets all lanes stand still (pause_switch.h). Threads: construct, add and run from one.
 #pragma once
 
 #include <atomic>
@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "app/executor/pause_switch.h"
 #include "app/executor/task.h"
 #include "app/executor/timing.h"
 
@@ -27,14 +28,15 @@ struct LaneReport {
   std::string refusal;                 ///< why the policy asked for was not given, else empty
   std::uint64_t wakes = 0, missed = 0; ///< calls, and periods that passed without one
   std::uint64_t overruns = 0;          ///< wakes whose tasks were still at work when the next period began
-  double seconds = 0;                  ///< from the first wish to the end
+  double seconds = 0;                  ///< from the first wish to the end, pauses aside
   DurationCounts late, cpu;
   std::int64_t longest_gap_ns = 0;     ///< between two wakes
 };
 
 class ThreadedExecutor {
  public:
-  explicit ThreadedExecutor(double rate_hz);
+  /// @param pause outlives the executor; nullptr: it never stands still.
+  explicit ThreadedExecutor(double rate_hz, const PauseSwitch* pause = nullptr);
   ~ThreadedExecutor();
 
   /// @param tasks run in this order, at the period of the first; they outlive the executor. @param priority of SCHED_FIFO, 0: none.
@@ -50,15 +52,22 @@ class ThreadedExecutor {
   std::vector<const LaneReport*> reports() const;
   bool memory_locked() const { return lock_refusal_.empty(); }
   const std::string& lock_refusal() const { return lock_refusal_; }
+  /// When the run stood still and for how long; times of the run, in which pauses do not pass.
+  struct Pause {
+    double at_s = 0, seconds = 0;
+  };
+  std::vector<Pause> pauses() const;
 
  private:
   struct Lane;
+  bool stood_still(Lane& lane, const std::function<bool()>& interrupted);
   void work(Lane& lane) noexcept;
   void pace(Lane& lane, const std::function<bool()>& interrupted);
   void call(Lane& lane, std::uint64_t missed);
   void join();
 
   double rate_hz_;
+  const PauseSwitch* pause_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   Lane* own_ = nullptr;
   std::atomic<bool> stop_{false};

@@ -22,7 +22,7 @@ enum class MouseButton : std::uint8_t { kLeft, kRight, kMiddle };
 
 struct InputEvent {
   enum class Kind : std::uint8_t {
-    kKeyDown, kKeyUp, kMouseMove, kButtonDown, kButtonUp, kWheel, kPad, kPuck, kFocusLost
+    kKeyDown, kKeyUp, kMouseMove, kButtonDown, kButtonUp, kWheel, kPad, kPuck, kFocusLost, kText
   } kind = Kind::kMouseMove;
   std::int32_t key = kKeyUnknown;
   bool repeat = false;                  ///< a key that is held
@@ -33,6 +33,7 @@ struct InputEvent {
   std::array<double, 6> axis{};         ///< pad: left x y, right x y (y towards the person), left and right trigger (0..1);
                                         ///< puck: translation x y z, rotation x y z (x right, y up, z towards the person)
   std::uint32_t buttons = 0;            ///< pad (PadButton) or puck: bit n for button n, as held now
+  std::uint32_t character = 0;          ///< kText: Unicode code point as the keyboard's layout gives it
 };
 
 /// Bits of InputEvent::buttons for pads, as GLFW numbers a gamepad's buttons.

@@ -4,13 +4,16 @@
 //   while (!run.finished()) { run.steer(intent); draw(run.newest()); }
 //   run.result();                                 // graded and stored, or throws what went wrong
 //
-// The 1 kHz loop never waits for a picture. Threads: all members from the window's thread; the attempt owns the others.
+// The 1 kHz loop never waits for a picture. Whatever its end, the attempt is kept as `trocar run` keeps it: recorded to disk ten times
+// a second, graded from the recording, stored; a database that is busy at the end is asked again until the runner goes.
+// Threads: all members from the window's thread; the attempt owns the others.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/input/input_event.h"
 #include "app/run_moment.h"
@@ -29,21 +32,34 @@ struct AttemptRequest {
 
 class AttemptRunner {
  public:
-  /// Builds the scene and starts. @throws InputError, EnvironmentError before anything is stored.
+  /// Builds the scene and starts; live, whatever the setup says. @throws InputError, EnvironmentError (disk nearly full, database busy)
+  /// before anything is stored.
   AttemptRunner(const AttemptRequest& request, const AssetRoots& assets);
-  /// Aborts what still runs, and waits for it.
+  /// The same on a scene that has been built already.
+  AttemptRunner(const AttemptRequest& request, const AssetRoots& assets, std::shared_ptr<const Scene> scene);
+  /// Aborts what still runs, and waits for it: graded, and stored if the database takes it at once.
   ~AttemptRunner();
 
   const Scene& scene() const;
+  std::shared_ptr<const Scene> shared_scene() const;
   /// The newest moment; its reference stays until the next call.
   const RunMoment& newest();
-  void steer(const HandIntent& intent);
-  /// Everything stands still, device and clock of the exercise too; nothing is lost.
-  void pause(bool paused);
+  /// @return number of the intent, from 1: RunMoment::steered tells when the device has felt it.
+  std::uint64_t steer(const HandIntent& intent);
+  /// Whether the hand moves: the device is active. Before, intents wait.
+  bool ready() const;
+  /// Where the hand pulls to now: the newest intent, or what its speed has let it reach of that.
+  const HandIntent& target();
+  /// Everything stands still, simulated device and clock of the exercise too; nothing is lost, and the receipt says when and how long.
+  /// An exam has no pause. @return whether it is as asked.
+  bool pause(bool paused);
   bool paused() const;
   void abort();
+  /// The result is there (stored or not).
   bool finished() const;
-  /// After finished(). @throws what ended the run if it was no grade.
+  /// The database has it.
+  bool stored() const;
+  /// After finished(), or after abort(): then it waits for the end. @throws what ended the run if it was no grade.
   const AttemptResult& result() const;
   /// Lines for the trainee (late loop, organ small): of the run so far.
   std::vector<std::string> notes() const;

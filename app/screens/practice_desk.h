@@ -13,6 +13,7 @@
 #include "app/input/steering.h"
 #include "app/practice/attempt_runner.h"
 #include "app/practice/settings.h"
+#include "app/screens/standing.h"
 #include "app/sound/sound.h"
 #include "app/words/words.h"
 #include "scenarios/exercise.h"
@@ -30,15 +31,8 @@ struct DeskOptions {
   std::filesystem::path settings = {};   ///< empty: settings_file()
   std::string hand = {};                 ///< scripted hand in place of a person ("expert"): films and tests
   std::optional<std::int64_t> seed = {}; ///< given: every attempt draws from it
-};
-
-/// One exercise of the catalogue at one level, as the trainee stands to it.
-struct Standing {
-  int attempts = 0, passed = 0;
-  int passed_in_a_row = 0;               ///< on different boards, newest attempts first
-  std::optional<double> best, last;      ///< scores
-  bool unlocked = true;                  ///< levels open one after the other: three passes in a row
-  std::vector<AttemptSummary> newest_first = {};
+  std::optional<double> scale = {};      ///< given: this time only, whatever the settings say
+  std::string language = {};             ///< given: this time only
 };
 
 class PracticeDesk {
@@ -49,12 +43,17 @@ class PracticeDesk {
   const AssetRoots& assets() const;
   const std::vector<Exercise>& exercises() const;
   const Words& words() const;
+  double scale() const;                  ///< of text and buttons, 1 to 2
   Settings& settings();
   /// Saves the settings and takes up what they say (language, keys, sound). A full disk is a notice, not an end.
   void settings_changed();
   const KeyMap& keys() const;
   Steering& steering();
   Sound& sound();
+
+  /// The scene behind the start page, loaded in the background from the beginning. @param wait_s how long to wait for it; null: not yet, or
+  /// the shipped organ is missing.
+  std::shared_ptr<const Scene> show_scene(double wait_s) const;
 
   // who
   const std::string& trainee() const;    ///< "guest" without sign-in
@@ -74,7 +73,7 @@ class PracticeDesk {
   std::optional<std::string> teacher_note() const;
 
   // the attempt
-  /// Starts one at what is chosen, with a fresh board. @return what hindered it, empty when it runs.
+  /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when it runs.
   std::string begin_attempt();
   AttemptRunner* running();              ///< null: none
   /// Takes over the result of a finished or aborted attempt. @return false: it had none, notice() says why.
@@ -85,6 +84,9 @@ class PracticeDesk {
   std::filesystem::path recording() const;       ///< of result(), empty: none kept
   /// Recording of the expert at the same exercise and level, made when first asked for (headless, cached). Empty: not yet.
   std::filesystem::path expert_recording();
+
+  /// Where this desk keeps attempts: ":memory:" when nothing is kept.
+  std::filesystem::path database() const;
 
   /// At most one thing that the trainee should know now (database busy, disk full); shown by every screen.
   std::string notice;

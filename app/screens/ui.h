@@ -66,13 +66,49 @@ class Ui {
   /// Help on the last item, when hovered or focused.
   void explain(const std::string& text);
 
+  /// The pointer in the last drawing(): px of the window. `clicked` in this frame, `held` while dragged out of it too.
+  struct Pointer { bool over = false, clicked = false, held = false; double x = 0, y = 0; };
+  Pointer pointer() const;
+  /// Steps asked of the last drawing() while it has the focus: comma and full stop one, page keys ten. 0: none.
+  int key_steps() const;
+  /// A text at a place of its own, no wider than `room` (0: as wide as it is): in plots, on bars. @param anchor 0 from, 0.5 round, 1 up to x.
+  void text_at(double x, double y, const std::string& text, Ink ink = Ink::kText, double room = 0, double anchor = 0, bool heading = false);
+  double text_width(const std::string& text, bool heading = false) const;
+  double line_height() const;
+  /// Shapes, px of the window; colours of the theme's shapes; within the panel that is open, or on the ground.
+  void paint_box(const Area& area, Ink shape, double opacity = 1, double corner = 0);
+  void paint_frame(const Area& area, Ink shape, double thickness = 1, double corner = 0);
+  void paint_ground(const Area& area, double opacity = 1, double corner = 0);   ///< the panel's own colour
+  void paint_hatch(const Area& area, Ink shape, double pitch = 7, double thickness = 1.5);
+  void paint_line(double x0, double y0, double x1, double y1, Ink shape, double thickness = 1.5, bool dashed = false);
+  void paint_disc(double x, double y, double radius, Ink shape, double opacity = 1);
+  void paint_ring(double x, double y, double radius, Ink shape, double thickness = 2);
+  void paint_triangle(double x0, double y0, double x1, double y1, double x2, double y2, Ink shape);
+  struct Point { double x = 0, y = 0; };
+  void paint_curve(const std::vector<Point>& points, Ink shape, double thickness = 2);
+  /// A mark in a square of the given side.
+  void paint_mark(Mark mark, double x, double y, double side);
+
+  /// Was the key pressed, and is nobody typing? @param key as key_name() says it.
+  bool pressed(const std::string& key) const;
+  /// Arrows and Tab are the screen's in the next frame (steering), not the focus'.
+  void keys_to_screen();
+  /// Where what follows stands in the panel, px from its top; and how tall the panel is.
+  double used_height() const;
+  double room_below() const;                    ///< px to the panel's lower edge
+  void to_bottom(double height_at_720);         ///< what follows stands at the panel's foot, when there is room
+
   const std::vector<DrawnText>& text_audit() const { return drawn_; }
+  /// Panels whose content is taller than they are.
+  const std::vector<std::string>& scrolling() const { return scrolling_; }
 
  private:
   friend class UiParts;
   const Words& words_;
   double scale_, width_, height_;
   std::vector<DrawnText> drawn_;
+  std::vector<std::string> scrolling_;
+  std::string panel_;
 };
 
 }  // namespace trocar

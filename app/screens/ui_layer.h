@@ -1,7 +1,7 @@
 // Dear ImGui on an OpenGL context: one frame's begin and end, fonts of the chosen scale, input from a window or from a script.
 //
-// With a window ImGui gets GLFW's input; without one (pictures, tests) the events given to begin(). The old key-map interface of
-// ImGui 1.86 is wrapped here and nowhere else. Thread: the one on which the context is current.
+// ImGui's input is the events given to begin(), whether a window or a script made them: one path, so that headless frames run the same
+// code. The old key-map interface of ImGui 1.86 is wrapped here and nowhere else. Thread: the one on which the context is current.
 #pragma once
 
 #include <memory>
@@ -23,6 +23,7 @@ class UiLayer {
   /// Whether ImGui wants the pointer, or the keys, now: then no screen gets these events.
   bool wants_pointer() const;
   bool wants_keys() const;
+  bool popup_open() const;               ///< a list is down: Esc closes it
   /// Draws into the framebuffer that is bound.
   void end();
 

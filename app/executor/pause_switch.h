@@ -1,0 +1,56 @@
+// Lets the lanes of a live run stand still, and the clock of the run with them: a pause is time that has not passed.
+//
+// Only for a device that can stand still, which is the simulated one. A lane that wakes during a pause waits; afterwards all its
+// wished times lie later by what the pause took, so that nothing counts as missed and no lane moves against another.
+// Threads: set() from one, the rest from any.
+#pragma once
+
+#include <time.h>
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace trocar {
+
+class PauseSwitch {
+ public:
+  struct Pause {
+    std::int64_t begin_ns = 0, end_ns = 0;   ///< CLOCK_MONOTONIC
+  };
+
+  void set(bool paused) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (paused == paused_.load()) return;
+    const std::int64_t now = now_ns();
+    if (paused) {
+      pauses_.push_back({now, now});
+    } else {
+      pauses_.back().end_ns = now;
+      stood_ns_ += now - pauses_.back().begin_ns;  // before the lanes may go on
+    }
+    paused_.store(paused);
+  }
+  bool paused() const noexcept { return paused_.load(); }
+  /// All pauses that have ended, together. A lane asks after paused() said no.
+  std::int64_t stood_ns() const noexcept { return stood_ns_.load(); }
+  std::vector<Pause> pauses() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return pauses_;
+  }
+
+ private:
+  static std::int64_t now_ns() {
+    timespec now;
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+  }
+
+  std::atomic<bool> paused_{false};
+  std::atomic<std::int64_t> stood_ns_{0};
+  mutable std::mutex mutex_;
+  std::vector<Pause> pauses_;
+};
+
+}  // namespace trocar

@@ -1,0 +1,216 @@
+#include "app/screens/practice_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <optional>
+
+#include "app/graphics/frame_target.h"
+#include "app/graphics/renderer.h"
+#include "app/screens/overlays.h"
+#include "app/screens/screen_table.h"
+#include "app/screens/ui_layer.h"
+#include "haptics/input_error.h"
+#include "trainees/database.h"
+
+namespace trocar {
+namespace {
+
+std::string file_stamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+  return text;
+}
+
+}  // namespace
+
+std::filesystem::path pictures_folder() {
+  if (const char* folder = std::getenv("XDG_PICTURES_DIR"); folder && *folder) return folder;
+  return default_database_path().parent_path() / "pictures";
+}
+
+struct PracticeLoop::State {
+  PracticeDesk& desk;
+  FrameTarget target;
+  UiLayer layer;
+  Renderer renderer;
+  ScreenName name = ScreenName::kStart;
+  std::unique_ptr<Screen> screen;
+  bool menu = false, help = false, fullscreen = false, picture_wanted = false;
+  bool paused_by_menu = false;
+  int help_page = 0;
+  double notice_age_s = 0;
+  std::string notice;
+  std::vector<DrawnText> texts;
+  std::vector<std::string> scrolling;
+
+  State(PracticeDesk& given, GraphicsContext& context, bool to_window)
+      : desk(given), target(context, to_window), layer(context, given.scale()), renderer(context, given.assets().assets) {}
+
+  void show(ScreenName to);
+  void open_menu(bool open);
+  void choose(MenuChoice choice);
+  bool command(const InputEvent& event);
+  void dispatch(const std::vector<InputEvent>& events);
+  void draw_stage(int width, int height);
+  void draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events);
+  void save_picture();
+};
+
+PracticeLoop::PracticeLoop(PracticeDesk& desk, GraphicsContext& context, bool to_window)
+    : state_(std::make_unique<State>(desk, context, to_window)) {
+  state_->show(ScreenName::kStart);
+}
+
+PracticeLoop::~PracticeLoop() {
+  if (state_->desk.running()) state_->desk.end_attempt();
+}
+
+void PracticeLoop::State::show(ScreenName to) {
+  if (to == ScreenName::kQuit) {
+    name = to;
+    return;
+  }
+  std::unique_ptr<Screen> made = make_screen(to);
+  if (!made) {
+    desk.notice = desk.words()("This page does not exist yet.");
+    return;
+  }
+  screen = std::move(made);
+  name = to;
+}
+
+/// An attempt stands still while the menu or the help is over it; an exam goes on.
+void PracticeLoop::State::open_menu(bool open) {
+  AttemptRunner* run = desk.running();
+  menu = open;
+  const bool covered = menu || help;
+  if (run && covered && !run->paused()) {
+    run->pause(true);
+    paused_by_menu = true;
+  } else if (run && !covered && paused_by_menu) {
+    run->pause(false);
+  }
+  if (!covered) paused_by_menu = false;
+}
+
+void PracticeLoop::State::choose(MenuChoice choice) {
+  if (choice == MenuChoice::kNone) return;
+  open_menu(false);
+  const auto leave = [this](ScreenName to) {
+    if (desk.running()) desk.end_attempt();
+    show(to);
+  };
+  switch (choice) {
+    case MenuChoice::kLeaveAttempt: return leave(ScreenName::kBriefing);
+    case MenuChoice::kStart: return leave(ScreenName::kStart);
+    case MenuChoice::kSettings: return leave(ScreenName::kSettings);
+    case MenuChoice::kQuit: return show(ScreenName::kQuit);
+    case MenuChoice::kFullscreen: fullscreen = !fullscreen; return;
+    case MenuChoice::kNone: case MenuChoice::kBack: return;
+  }
+}
+
+/// Keys that work on every screen. @return true when the event was one.
+bool PracticeLoop::State::command(const InputEvent& event) {
+  if (event.kind != InputEvent::Kind::kKeyDown || event.repeat) return false;
+  if (event.key == kKeyF11) {
+    fullscreen = !fullscreen;
+    return true;
+  }
+  const std::optional<Action> action = desk.keys().action_of(event.key);
+  if (action == Action::kPicture) {
+    picture_wanted = true;
+  } else if (action == Action::kHelp) {
+    help = !help;
+    open_menu(false);
+  } else if (action == Action::kMenu && !layer.popup_open()) {
+    const bool close_help = std::exchange(help, false);
+    open_menu(!close_help && !menu);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
+  using Kind = InputEvent::Kind;
+  const bool covered = menu || help;
+  for (const InputEvent& event : events) {
+    if (screen && !covered && screen->takes_all()) {
+      if (const auto to = screen->handle(event, desk)) show(*to);
+      continue;
+    }
+    if (command(event) || covered || !screen) continue;
+    const bool key = event.kind == Kind::kKeyDown || event.kind == Kind::kText;
+    const bool press = event.kind == Kind::kButtonDown || event.kind == Kind::kWheel;
+    // What was let go is told to the screen always: nothing stays held because a panel lay under the pointer.
+    if ((key && layer.wants_keys()) || (press && layer.wants_pointer())) continue;
+    if (const auto to = screen->handle(event, desk)) show(*to);
+  }
+}
+
+void PracticeLoop::State::draw_stage(int width, int height) {
+  const std::optional<Screen::Stage> stage = screen ? screen->stage(desk, width, height) : std::nullopt;
+  PixelRect part{0, 0, width, height};
+  if (stage && stage->width > 0)
+    part = {static_cast<int>(stage->x), static_cast<int>(stage->y), static_cast<int>(stage->width), static_cast<int>(stage->height)};
+  const bool drawable = stage && part.width >= 64 && part.height >= 48;
+  const unsigned texture = drawable ? renderer.draw_scope(stage->view, part.width, part.height) : 0;
+  target.begin(width, height);
+  if (drawable) target.place(texture, part, std::max(stage->dim, menu || help ? 0.6 : 0.0));
+}
+
+void PracticeLoop::State::draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events) {
+  layer.set_scale(desk.scale());
+  layer.begin(width, height, dt_s, events);
+  Ui ui(desk.words(), desk.scale(), width, height);
+  std::optional<ScreenName> to;
+  if (menu) choose(menu_overlay(ui, desk, desk.running() != nullptr));
+  else if (help && help_overlay(ui, desk, help_page)) { help = false; open_menu(false); }
+  else if (!help && screen) to = screen->frame(ui, desk, dt_s);
+  notice_overlay(ui, desk, dt_s, notice_age_s, notice);
+  texts = ui.text_audit();
+  scrolling = ui.scrolling();
+  layer.end();
+  if (to) show(*to);
+}
+
+void PracticeLoop::State::save_picture() {
+  picture_wanted = false;
+  try {
+    const std::filesystem::path folder = pictures_folder();
+    std::filesystem::create_directories(folder);
+    std::filesystem::path file = folder / ("trocar-" + file_stamp() + ".png");
+    for (int n = 2; std::filesystem::exists(file); ++n) file = folder / ("trocar-" + file_stamp() + "-" + std::to_string(n) + ".png");
+    write_png(file, target.read());
+    desk.notice = desk.words()("Picture saved: {0}", {file.string()});
+  } catch (const std::exception& error) {
+    desk.notice = desk.words()("No picture could be saved: {0}", {error.what()});
+  }
+}
+
+bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<InputEvent>& events) {
+  State& s = *state_;
+  s.dispatch(events);
+  if (width >= 64 && height >= 48) {
+    s.draw_stage(width, height);
+    s.draw_interface(width, height, dt_s, events);
+    if (s.picture_wanted) s.save_picture();
+  }
+  return s.name != ScreenName::kQuit;
+}
+
+void PracticeLoop::go(ScreenName name) { state_->show(name); }
+ScreenName PracticeLoop::here() const { return state_->name; }
+bool PracticeLoop::menu_open() const { return state_->menu; }
+bool PracticeLoop::fullscreen() const { return state_->fullscreen; }
+Image PracticeLoop::picture() const { return state_->target.read(); }
+const std::vector<DrawnText>& PracticeLoop::texts() const { return state_->texts; }
+const std::vector<std::string>& PracticeLoop::scrolling() const { return state_->scrolling; }
+
+}  // namespace trocar

@@ -1,0 +1,51 @@
+// The frames of the trainee's program: events to the screen that is up, its scene by the renderer, the interface over it.
+//
+//   PracticeLoop loop(desk, context, true);
+//   while (loop.frame(width, height, dt_s, events)) present();
+//
+// The same in a window and headless. Menu, help, notices, pictures and the screen's size are dealt with here, so no screen has to.
+// Thread: the one on which the context is current.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/graphics/graphics_context.h"
+#include "app/graphics/image.h"
+#include "app/input/input_event.h"
+#include "app/screens/practice_desk.h"
+#include "app/screens/screen.h"
+#include "app/screens/ui.h"
+
+namespace trocar {
+
+class PracticeLoop {
+ public:
+  /// Start page, or the briefing when the desk was given an exercise.
+  /// @param to_window frames go to the window's framebuffer. @throws EnvironmentError: font or shaders missing.
+  PracticeLoop(PracticeDesk& desk, GraphicsContext& context, bool to_window);
+  /// Ends an attempt that runs: aborted, and stored so.
+  ~PracticeLoop();
+
+  /// One frame. Smaller than 64 x 48 px: nothing is drawn. @return false when the program shall end.
+  bool frame(int width, int height, double dt_s, const std::vector<InputEvent>& events);
+  /// To another screen, as from the next frame.
+  void go(ScreenName name);
+  ScreenName here() const;
+  bool menu_open() const;
+  bool fullscreen() const;                      ///< wanted
+  /// The last frame. @throws EnvironmentError.
+  Image picture() const;
+  const std::vector<DrawnText>& texts() const;  ///< of the last frame
+  const std::vector<std::string>& scrolling() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// $XDG_PICTURES_DIR, else the pictures folder beside the program's data.
+std::filesystem::path pictures_folder();
+
+}  // namespace trocar

@@ -1,0 +1,40 @@
+#include "app/screens/screen_table.h"
+
+#include "app/screens/settings_screen.h"
+#include "app/screens/start_screen.h"
+
+namespace trocar {
+
+std::unique_ptr<Screen> make_screen(ScreenName name) {
+  switch (name) {
+    case ScreenName::kStart: return std::make_unique<StartScreen>();
+    case ScreenName::kSettings: return std::make_unique<SettingsScreen>();
+    case ScreenName::kCurriculum: return nullptr;
+    case ScreenName::kBriefing: return nullptr;
+    case ScreenName::kRun: return nullptr;
+    case ScreenName::kDebrief: return nullptr;
+    case ScreenName::kProgress: return nullptr;
+    case ScreenName::kReplay: return nullptr;
+    case ScreenName::kNotch: return nullptr;
+    case ScreenName::kQuit: return nullptr;
+  }
+  return nullptr;
+}
+
+const char* screen_name(ScreenName name) {
+  switch (name) {
+    case ScreenName::kStart: return "start";
+    case ScreenName::kSettings: return "settings";
+    case ScreenName::kCurriculum: return "curriculum";
+    case ScreenName::kBriefing: return "briefing";
+    case ScreenName::kRun: return "run";
+    case ScreenName::kDebrief: return "debrief";
+    case ScreenName::kProgress: return "progress";
+    case ScreenName::kReplay: return "replay";
+    case ScreenName::kNotch: return "notch";
+    case ScreenName::kQuit: return "quit";
+  }
+  return "quit";
+}
+
+}  // namespace trocar

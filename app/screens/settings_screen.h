@@ -1,0 +1,30 @@
+// The settings: language, size, hand, input, picture, sound, and which key does what.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/input/key_map.h"
+#include "app/screens/screen.h"
+#include "app/words/words.h"
+
+namespace trocar {
+
+class SettingsScreen final : public Screen {
+ public:
+  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  std::optional<ScreenName> handle(const InputEvent& event, PracticeDesk& desk) override;
+  bool takes_all() const override { return waiting_for_.has_value(); }
+
+ private:
+  void general(Ui& ui, PracticeDesk& desk);
+  void hand(Ui& ui, PracticeDesk& desk);
+  void keys(Ui& ui, PracticeDesk& desk);
+
+  std::optional<Action> waiting_for_;    ///< the next key is this action's
+  std::string wrong_;
+  std::vector<Language> languages_;
+};
+
+}  // namespace trocar

@@ -1,0 +1,60 @@
+#include "app/screens/standing.h"
+
+#include <algorithm>
+#include <set>
+
+namespace trocar {
+namespace {
+
+bool counts(const AttemptSummary& attempt) {
+  return attempt.status != "running" && attempt.status != status_name(AttemptStatus::kFault) &&
+         attempt.status != status_name(AttemptStatus::kVoid);
+}
+
+std::vector<AttemptSummary> at_level(const std::vector<AttemptSummary>& attempts, const std::string& level) {
+  std::vector<AttemptSummary> out;
+  std::copy_if(attempts.begin(), attempts.end(), std::back_inserter(out), [&level](const AttemptSummary& a) { return a.level == level; });
+  return out;
+}
+
+}  // namespace
+
+int passes_in_a_row(const std::vector<AttemptSummary>& newest_first) {
+  std::set<int> boards;
+  for (const AttemptSummary& attempt : newest_first) {
+    if (!counts(attempt)) continue;
+    if (!attempt.passed) break;
+    boards.insert(attempt.board);
+  }
+  return static_cast<int>(boards.size());
+}
+
+bool opens_next(const std::vector<AttemptSummary>& newest_first) {
+  std::set<int> boards;
+  for (const AttemptSummary& attempt : newest_first) {
+    if (!counts(attempt)) continue;
+    if (attempt.passed) boards.insert(attempt.board);
+    else boards.clear();
+    if (static_cast<int>(boards.size()) >= kPassesToUnlock) return true;
+  }
+  return false;
+}
+
+Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts) {
+  Standing out;
+  out.newest_first = at_level(attempts, level);
+  for (const AttemptSummary& attempt : out.newest_first) {
+    if (attempt.status == "running") continue;
+    ++out.attempts;
+    out.passed += attempt.passed ? 1 : 0;
+    if (!attempt.score) continue;
+    if (!out.last) out.last = attempt.score;
+    out.best = std::max(out.best.value_or(*attempt.score), *attempt.score);
+  }
+  out.passed_in_a_row = passes_in_a_row(out.newest_first);
+  const auto at = std::find_if(exercise.levels.begin(), exercise.levels.end(), [&level](const ExerciseLevel& l) { return l.name == level; });
+  if (at != exercise.levels.begin() && at != exercise.levels.end()) out.unlocked = opens_next(at_level(attempts, std::prev(at)->name));
+  return out;
+}
+
+}  // namespace trocar

@@ -1,0 +1,32 @@
+// T1: the first page. Try as a guest, sign in, language and size; behind it the abdomen that ships.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/scene.h"
+#include "app/screens/screen.h"
+#include "app/words/words.h"
+
+namespace trocar {
+
+class StartScreen final : public Screen {
+ public:
+  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
+
+ private:
+  std::optional<ScreenName> guest_part(Ui& ui, PracticeDesk& desk);
+  std::optional<ScreenName> trainee_part(Ui& ui, PracticeDesk& desk);
+  std::optional<ScreenName> foot(Ui& ui, PracticeDesk& desk);
+  void caption(Ui& ui, const PracticeDesk& desk) const;
+
+  double t_s_ = 0, panel_right_ = 0;
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const TriangleSurface> organ_T_;
+  std::vector<Language> languages_;
+  std::string code_, wrong_;
+};
+
+}  // namespace trocar
