@@ -30,9 +30,16 @@ struct InputEvent {
   MouseButton button = MouseButton::kLeft;
   double x = 0, y = 0;                  ///< px: pointer
   double wheel = 0;                     ///< notches, away from the person is positive
-  std::array<double, 6> axis{};         ///< pad: left x y, right x y, left and right trigger (0..1); puck: translation x y z, rotation x y z
-  std::uint32_t buttons = 0;            ///< pad or puck: bit n for button n, as held now
+  std::array<double, 6> axis{};         ///< pad: left x y, right x y (y towards the person), left and right trigger (0..1);
+                                        ///< puck: translation x y z, rotation x y z (x right, y up, z towards the person)
+  std::uint32_t buttons = 0;            ///< pad (PadButton) or puck: bit n for button n, as held now
   std::uint32_t character = 0;          ///< kText: Unicode code point as the keyboard's layout gives it
+};
+
+/// Bits of InputEvent::buttons for pads, as GLFW numbers a gamepad's buttons.
+enum PadButton : std::uint32_t {
+  kPadA = 1u << 0, kPadB = 1u << 1, kPadX = 1u << 2, kPadY = 1u << 3, kPadLeftBumper = 1u << 4, kPadRightBumper = 1u << 5,
+  kPadUp = 1u << 11, kPadRight = 1u << 12, kPadDown = 1u << 13, kPadLeft = 1u << 14,
 };
 
 /// What moves the hand; stored with the attempt.

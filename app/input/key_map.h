@@ -1,6 +1,7 @@
 // Which key does what: actions with their names, default keys (reference: docs/trainee_guide.md), and a person's own choice.
 //
-// Text form: one line an action, "coagulate = F". Thread: plain value, any thread.
+// Text form: one line an action, "roll-left = Q". The device has one hand: Tab, 1 and 2, which other trainers use to change
+// hands, do nothing in a run. Thread: plain value, any thread.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ class KeyMap {
   std::optional<Action> action_of(std::int32_t key) const;
   std::int32_t key_of(Action action) const;
   /// Gives the key to the action; an action that had it before gets what this one had, so nothing is left without.
-  /// @throws InputError for keys that must stay (Escape, F1).
+  /// @throws InputError for keys that must stay (Escape, F1) or only modify others (Shift, Ctrl).
   void assign(Action action, std::int32_t key);
   /// Only what differs from the defaults.
   std::map<std::string, std::string> changes() const;

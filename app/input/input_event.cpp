@@ -1,0 +1,16 @@
+#include "app/input/input_event.h"
+
+namespace trocar {
+
+const char* input_name(InputKind kind) {
+  switch (kind) {
+    case InputKind::kMouse: return "mouse";
+    case InputKind::kKeyboard: return "keyboard";
+    case InputKind::kPad: return "gamepad";
+    case InputKind::kPuck: return "spacemouse";
+    case InputKind::kDevice: return "device";
+  }
+  return "unknown";
+}
+
+}  // namespace trocar
