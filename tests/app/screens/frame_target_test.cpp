@@ -38,8 +38,8 @@ TEST_F(FrameTargetTest, BeginClearsToTheGround) {
   const Image image = target.read();
   EXPECT_EQ(image.width, 80);
   EXPECT_EQ(image.height, 60);
-  EXPECT_EQ(at(image, 0, 0), (Rgb3{6, 7, 9}));
-  EXPECT_EQ(at(image, 79, 59), (Rgb3{6, 7, 9}));
+  EXPECT_EQ(at(image, 0, 0), (Rgb3{0, 0, 0}));
+  EXPECT_EQ(at(image, 79, 59), (Rgb3{0, 0, 0}));
 }
 
 TEST_F(FrameTargetTest, PlacesLowestRowFirstAndYDown) {
@@ -51,10 +51,10 @@ TEST_F(FrameTargetTest, PlacesLowestRowFirstAndYDown) {
   EXPECT_EQ(at(image, 47, 22), (Rgb3{255, 255, 255}));
   EXPECT_EQ(at(image, 12, 38), (Rgb3{255, 0, 0}));
   EXPECT_EQ(at(image, 47, 38), (Rgb3{0, 255, 0}));
-  EXPECT_EQ(at(image, 9, 30), (Rgb3{6, 7, 9})) << "nothing outside its part";
-  EXPECT_EQ(at(image, 50, 30), (Rgb3{6, 7, 9}));
-  EXPECT_EQ(at(image, 30, 19), (Rgb3{6, 7, 9}));
-  EXPECT_EQ(at(image, 30, 40), (Rgb3{6, 7, 9}));
+  EXPECT_EQ(at(image, 9, 30), (Rgb3{0, 0, 0})) << "nothing outside its part";
+  EXPECT_EQ(at(image, 50, 30), (Rgb3{0, 0, 0}));
+  EXPECT_EQ(at(image, 30, 19), (Rgb3{0, 0, 0}));
+  EXPECT_EQ(at(image, 30, 40), (Rgb3{0, 0, 0}));
 }
 
 TEST_F(FrameTargetTest, DimsDownToBlack) {
