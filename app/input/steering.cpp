@@ -193,6 +193,7 @@ struct Steering::State {
       case Kind::kWheel: wheel(event); break;
       case Kind::kPad: sticks(event, pad, pad_buttons, InputKind::kPad); break;
       case Kind::kPuck: sticks(event, puck, puck_buttons, InputKind::kPuck); break;
+      case Kind::kText: return false;
       case Kind::kFocusLost: break;
     }
     return true;
