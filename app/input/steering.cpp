@@ -17,7 +17,6 @@ constexpr double kKeySlow = 0.008, kKeyFast = 0.080, kKeyRamp = 1.2;  // m/s whe
 constexpr double kStickSpeed = 0.10;          // m/s at full deflection
 constexpr double kFine = 0.25;                // of all that keys and sticks do, with Shift
 constexpr double kWheel = 0.005, kWheelFine = 0.001;  // m a notch
-constexpr double kMostLean = 35 * kDegree, kMostRoll = 150 * kDegree;
 constexpr double kLeanSpeed = 90 * kDegree, kRollSpeed = 270 * kDegree;  // rad/s, of the target
 constexpr double kKeyTurn = 45 * kDegree, kKeyRoll = 90 * kDegree;       // rad/s
 constexpr double kDragTurn = 120 * kDegree, kDragRoll = 360 * kDegree;   // over the picture's height
@@ -252,9 +251,9 @@ struct Steering::State {
       const Vec3 seen = std::abs(axis.dot(far0)) < 0.95 ? axis : view.away;
       return Vec3((seen - far0 * seen.dot(far0)).normalized());
     };
-    wanted_lean_T = no_longer(wanted_lean_T + across(view.right) * wish.lean.x() + across(view.up) * wish.lean.y(), kMostLean);
+    wanted_lean_T = no_longer(wanted_lean_T + across(view.right) * wish.lean.x() + across(view.up) * wish.lean.y(), reach.most_lean_rad);
     lean_T = toward(lean_T, wanted_lean_T, kLeanSpeed * dt_s);
-    wanted_roll = std::clamp(wanted_roll + wish.roll, -kMostRoll, kMostRoll);
+    wanted_roll = std::clamp(wanted_roll + wish.roll, -reach.most_roll_rad, reach.most_roll_rad);
     roll += std::clamp(wanted_roll - roll, -kRollSpeed * dt_s, kRollSpeed * dt_s);
 
     const double angle = lean_T.norm();

@@ -8,6 +8,7 @@
 namespace trocar {
 namespace {
 constexpr double kToSpare_m = 0.015;
+constexpr double kRollThroughPort = 150 * std::numbers::pi / 180;
 }
 
 SteeringReach steering_reach(const Exercise& exercise, const ExerciseLevel& level) {
@@ -16,7 +17,10 @@ SteeringReach steering_reach(const Exercise& exercise, const ExerciseLevel& leve
   const double start = exercise.start_above_m.norm() + exercise.start_sphere_m;
   SteeringReach reach;
   reach.radius_m = std::max(corner.norm(), start) + kToSpare_m;
-  if (level.mapping == Mapping::kFulcrum) reach.port_T = level.port_m;
+  if (level.mapping == Mapping::kFulcrum) {
+    reach.port_T = level.port_m;
+    reach.most_roll_rad = kRollThroughPort;
+  }
   return reach;
 }
 

@@ -1,17 +1,15 @@
 // Sounds of the window: contact, warnings, cautery. Never required: without a device everything is silent, and every sound has a
-// twin on the screen.
+// twin on the screen (docs/trainee_guide.md lists them).
 //
-// Sounds are made by formulas, not from files. Thread: the window's; the library plays in its own.
+// Sounds are made by formulas (tones.h), not from files. Thread: the window's; the library plays in its own.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
+
+#include "app/sound/tones.h"
 
 namespace trocar {
-
-enum class Tone : std::uint8_t { kTouch, kRelease, kGood, kTooMuch, kWarning, kFault, kDone };
 
 class Sound {
  public:
@@ -19,18 +17,17 @@ class Sound {
   explicit Sound(bool wanted);
   ~Sound();
   void play(Tone tone);
-  /// A tone that lasts while the level is above 0: force over its band (0..1), cautery (0..1).
+  /// A tone that lasts while the level is above 0: force over its band (0..1), cautery (0..1). Say it with every picture: it
+  /// comes and goes within some of them.
   void hold_force(double level);
   void hold_cautery(double level);
   bool audible() const;
+  /// Why it is silent though it was wanted; empty otherwise.
   const std::string& refusal() const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// Samples of a tone, mono, -1..1, at `rate_hz`: what the tests listen to.
-std::vector<float> tone_samples(Tone tone, double rate_hz);
 
 }  // namespace trocar

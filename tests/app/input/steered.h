@@ -1,6 +1,8 @@
 // A steering with a camera and short words for events: what the tests of steering share.
 #pragma once
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "app/input/steering.h"
@@ -24,8 +26,11 @@ inline InputEvent key_event(std::int32_t key, bool down) {
 /// Looking down onto the board from the person's side.
 inline Camera front_camera() { return {Vec3(0, -0.1, 0.1), Vec3::Zero(), Vec3::UnitZ(), 70}; }
 
+/// Of a wrist that follows far.
+inline SteeringReach wide_reach() { return {0.08, {}, 35 * std::numbers::pi / 180, 150 * std::numbers::pi / 180}; }
+
 struct Steered {
-  explicit Steered(const SteeringOptions& options = {}, const SteeringReach& reach = {}) : steering(KeyMap(), options) {
+  explicit Steered(const SteeringOptions& options = {}, const SteeringReach& reach = wide_reach()) : steering(KeyMap(), options) {
     steering.begin({resting(), Vec3::Zero()}, 0.02, Vec3::Zero(), reach);
     move(640, 360);
   }

@@ -48,12 +48,25 @@ double followed(const Exercise& exercise, const ExerciseLevel& level, double lea
   return static_cast<double>(can) / all;
 }
 
-TEST(SteeringReach, PrintsWhatTheWristCanFollow) {
+TEST(SteeringReach, TheWristFollowsToItsLimits) {
+  for (const char* id : {"reach-and-orient", "surface-touch", "limited-grasp"}) {
+    const Exercise exercise = shipped(id);
+    const ExerciseLevel& direct = exercise.levels[0];
+    const SteeringReach reach = steering_reach(exercise, direct);
+    EXPECT_EQ(followed(exercise, direct, 0, 0), 1) << id;
+    EXPECT_GE(followed(exercise, direct, reach.most_lean_rad, 0), 0.9) << id;  // the rest lies high over a corner of the board
+    for (const double sign : {-1.0, 1.0}) {
+      EXPECT_GE(followed(exercise, direct, 0, sign * reach.most_roll_rad), 0.85) << id;  // limited-grasp starts 55 mm up
+      EXPECT_GE(followed(exercise, direct, reach.most_lean_rad, sign * reach.most_roll_rad), 0.75) << id;
+    }
+  }
+}
+
+TEST(SteeringReach, ThroughAPortTheStylusRolls) {
   const Exercise exercise = shipped("surface-touch");
-  for (const double lean : {0.0, 20.0, 35.0, 45.0})
-    for (const double roll : {-150.0, -90.0, 0.0, 90.0, 150.0})
-      std::printf("lean %3.0f roll %4.0f: %.2f\n", lean, roll,
-                  followed(exercise, exercise.levels[0], lean * std::numbers::pi / 180, roll * std::numbers::pi / 180));
+  const ExerciseLevel& level = exercise.levels[2];
+  const double roll = steering_reach(exercise, level).most_roll_rad;
+  for (const double sign : {-1.0, 1.0}) EXPECT_EQ(followed(exercise, level, 0, sign * roll), 1);
 }
 
 }  // namespace

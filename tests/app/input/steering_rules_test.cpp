@@ -69,7 +69,7 @@ TEST(SteeringWrist, KeysTurnWhereTheySay) {
 TEST(SteeringWrist, AShaftUprightInThePictureLeansAway) {
   Steered s;
   const Axes axes = axes_of(s.camera);
-  s.steering.begin({Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axes.up).toRotationMatrix(), Vec3::Zero()}, 0.02, Vec3::Zero());
+  s.steering.begin({Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axes.up).toRotationMatrix(), Vec3::Zero()}, 0.02, Vec3::Zero(), wide_reach());
   s.press('Z');
   s.run(0.3);
   EXPECT_GT(s.far().dot(axes.away), 0.1);
@@ -91,8 +91,21 @@ TEST(SteeringWrist, StaysWithinItsLimitsAndARotation) {
   EXPECT_LT(std::acos(s.far().dot(-Steered::resting().col(2))), 25 * kDegree);  // back at once
 }
 
+TEST(SteeringWrist, LimitsAreThoseOfTheReach) {
+  Steered s({}, SteeringReach());
+  for (const int key : std::initializer_list<int>{'E', kKeyEnd}) s.press(key);
+  s.run(3);
+  EXPECT_NEAR(std::acos(s.far().dot(-Steered::resting().col(2))), 24 * kDegree, 1e-9);
+  s.release(kKeyEnd);
+  s.press(kKeyHome);
+  s.run(24.0 / 45);
+  s.release(kKeyHome);
+  s.run(0.2);
+  EXPECT_NEAR(roll_of(s), 20 * kDegree, 2e-2);
+}
+
 TEST(SteeringPort, OnlyTipAndRollCanBeHad) {
-  SteeringReach reach;
+  SteeringReach reach = wide_reach();
   reach.port_T = Vec3(0.05, -0.05, 0.12);
   Steered s({}, reach);
   s.press('Z');

@@ -145,7 +145,7 @@ TEST(Steering, APointerThatWasElsewhereLeapsNothing) {
 TEST(Steering, BeginsWhereTheInstrumentIsEvenOutsideTheBall) {
   Steered s;
   const Pose start{Steered::resting(), Vec3(0, 0, 0.2)};
-  s.steering.begin(start, 0.02, Vec3::Zero(), {0.06, {}});
+  s.steering.begin(start, 0.02, Vec3::Zero(), wide_reach());
   EXPECT_EQ(s.run(0.5).X_TI.p, start.p);
   EXPECT_EQ(s.steering.intent().X_TI.R, start.R);
 }
