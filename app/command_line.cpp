@@ -26,6 +26,7 @@
 #include "app/commands/sweep_command.h"
 #include "app/commands/trainee_command.h"
 #include "app/command_line_organs.h"
+#include "app/command_line_practice.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
 
@@ -57,6 +58,7 @@ struct CommandLine {
   MonitorOptions monitor;
   PlantOptionsGiven plant;
   std::shared_ptr<OrganCommandLine> organs;
+  std::shared_ptr<PracticeCommandLine> practice;
   TraineeOptions trainee;
   CohortOptions cohort;
   DbOptions db;
@@ -136,7 +138,7 @@ void add_recordings(CommandLine& c) {
 void add_first_contact(CommandLine& c) {
   CLI::App* demo = c.add(c.app, "demo", "The whole chain once: picture, score, report",
                          [&c] { return demo_command(c.demo, std::cout, std::cerr); });
-  demo->add_flag("--headless", c.headless, "Without a window (this version has none)");
+  demo->add_flag("--headless", c.headless, "Without a window, as it always is; trocar practice is the window");
   demo->add_option("--out", c.demo.output, "Folder")->capture_default_str();
   demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
   demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
@@ -251,6 +253,10 @@ void add_organ(CommandLine& c) {
   c.organs = add_organ_commands(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
 
+void add_practice(CommandLine& c) {
+  c.practice = add_practice_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
+}
+
 void add_trainees(CommandLine& c) {
   CLI::App* trainee = c.group("trainee", "Trainees of a database");
   CLI::App* add = c.add(*trainee, "add", "Add a trainee", [&c] { return trainee_add(c.trainee, std::cout, std::cerr); });
@@ -315,7 +321,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_run, add_sweep, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
     add(c);
   }
   try {

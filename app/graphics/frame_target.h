@@ -17,7 +17,7 @@ class FrameTarget {
   /// @param to_window draw() goes to the window's framebuffer; else to one in memory.
   FrameTarget(GraphicsContext& context, bool to_window);
   ~FrameTarget();
-  /// Binds and clears to the ground colour. @param width,height px, at least 64 x 48; may change from frame to frame.
+  /// Binds and clears to black, the scope's field. @param width,height px, at least 64 x 48; may change from frame to frame.
   void begin(int width, int height);
   /// Puts a texture (lowest row first) into a part. @param dim 0 as it is .. 1 black.
   void place(unsigned texture, const PixelRect& part, double dim);

@@ -52,6 +52,7 @@ MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs) {
   const Words& w = desk.words();
   MenuChoice choice = MenuChoice::kNone;
   ui.begin_panel("menu", middle(ui, 460, attempt_runs ? 400 : 350), 0.97);
+  ui.in_front();
   ui.title(w("Menu"));
   const auto item = [&](const char* id, const std::string& text, MenuChoice what, bool strong = false) {
     if (ui.button(id, text, "", strong, 424)) choice = what;
@@ -71,12 +72,14 @@ bool help_overlay(Ui& ui, const PracticeDesk& desk, int& page) {
   const Area all = middle(ui, 900, 680);
   const double foot = ui.px(74);
   ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot}, 0.97);
+  ui.in_front();
   ui.title(page == 0 ? w("Keys") : w("What is measured"));
   if (page == 0) key_tables(ui, desk);
   else metric_table(ui, desk);
   ui.end_panel();
   ui.begin_panel("help.foot", {all.x, all.y + all.height - foot, all.width, foot}, 0.97);
-  const bool close = ui.button("close", w("Close"), "F1", true);
+  ui.in_front();
+  const bool close = ui.button("close", w("Close"), "Enter", true);
   ui.same_line();
   if (ui.button("page", page == 0 ? w("What is measured") : w("Keys"), "F2")) page = 1 - page;
   ui.end_panel();
@@ -95,6 +98,7 @@ void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std:
   const double lines = std::ceil(ui.text_width(shown) / std::max(1.0, inner) + 0.15);
   const double high = std::min(ui.px(40) + lines * ui.line_height(), ui.height());
   ui.begin_panel("notice", {(ui.width() - wide) / 2, ui.height() - high - ui.px(14), wide, high}, 0.97);
+  ui.in_front();
   ui.marked(Mark::kInfo, shown);
   ui.end_panel();
 }

@@ -54,9 +54,11 @@ struct PracticeDesk::State {
   KeyMap keys;
   std::unique_ptr<Steering> steering;
   std::unique_ptr<Sound> sound;
+  bool sound_wanted = true;
   std::unique_ptr<Database> database;
   std::string trainee = kGuest;
   std::unique_ptr<AttemptRunner> runner;
+  std::vector<std::unique_ptr<AttemptRunner>> unstored;   // over, but the database has not taken them yet
   std::optional<AttemptResult> result;
   std::shared_ptr<const Scene> last_scene;
   std::vector<AttemptSummary> unkept;          // of this sitting, newest first, when nothing is kept
@@ -88,8 +90,11 @@ void PracticeDesk::State::take_up(std::string& notice) {
     keys = KeyMap();
     notice = words("Your keys cannot be used, the usual ones hold: {0}", {error.what()});
   }
-  steering = std::make_unique<Steering>(keys, SteeringOptions{settings.left_handed, settings.like_a_fulcrum, settings.sensitivity});
-  if (!sound || sound->audible() != settings.sound) sound = std::make_unique<Sound>(settings.sound);
+  const SteeringOptions steered{settings.left_handed, settings.like_a_fulcrum, settings.sensitivity};
+  if (steering) steering->retune(keys, steered);
+  else steering = std::make_unique<Steering>(keys, steered);
+  if (!sound || sound_wanted != settings.sound) sound = std::make_unique<Sound>(settings.sound);
+  sound_wanted = settings.sound;
 }
 
 void PracticeDesk::State::open_database(std::string& notice) {
@@ -169,10 +174,6 @@ void PracticeDesk::settings_changed() {
   s.options.scale.reset();
   s.options.language.clear();
   s.take_up(notice);
-  if (s.runner) {
-    const StylusState& stylus = s.runner->newest().record.stylus;
-    s.steering->begin(stylus.X_TI, stylus.jaw_opening_m, s.runner->scene().board.centre_T);
-  }
   try {
     save_settings(s.settings_file_path(), s.settings);
   } catch (const EnvironmentError& error) {
@@ -258,9 +259,7 @@ std::string PracticeDesk::begin_attempt() {
   request.steered = !scripted;
   try {
     s.runner = std::make_unique<AttemptRunner>(request, s.assets);
-    s.last_scene = std::make_shared<const Scene>(s.runner->scene());
-    const StylusState& stylus = s.runner->newest().record.stylus;
-    s.steering->begin(stylus.X_TI, stylus.jaw_opening_m, s.last_scene->board.centre_T);
+    s.last_scene = s.runner->shared_scene();
     return "";
   } catch (const InputError& error) {
     return error.what();
@@ -269,15 +268,28 @@ std::string PracticeDesk::begin_attempt() {
   }
 }
 
+void PracticeDesk::begin_steering() {
+  State& s = *state_;
+  if (!s.runner) return;
+  const Scene& scene = s.runner->scene();
+  const StylusState& stylus = s.runner->newest().record.stylus;
+  s.steering->begin(stylus.X_TI, stylus.jaw_opening_m, scene.board.centre_T, steering_reach(scene.setup.exercise, scene.level));
+}
+
 AttemptRunner* PracticeDesk::running() { return state_->runner.get(); }
 
 bool PracticeDesk::end_attempt() {
   State& s = *state_;
   if (!s.runner) return false;
-  const std::unique_ptr<AttemptRunner> runner = std::move(s.runner);
+  std::erase_if(s.unstored, [](const std::unique_ptr<AttemptRunner>& old) { return old->stored(); });
+  std::unique_ptr<AttemptRunner> runner = std::move(s.runner);
   try {
     if (!runner->finished()) runner->abort();
     s.result = runner->result();
+    if (!runner->stored()) {
+      notice = s.words("The database is busy: the result is kept and will be stored as soon as it answers.");
+      s.unstored.push_back(std::move(runner));
+    }
   } catch (const std::exception& error) {
     s.result.reset();
     notice = s.words("The attempt ended without a result: {0}", {error.what()});

@@ -76,6 +76,8 @@ class PracticeDesk {
   /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when it runs.
   std::string begin_attempt();
   AttemptRunner* running();              ///< null: none
+  /// The trainee's hand takes hold where the instrument is. Once an attempt, when running()->ready().
+  void begin_steering();
   /// Takes over the result of a finished or aborted attempt. @return false: it had none, notice() says why.
   bool end_attempt();
   const std::optional<AttemptResult>& result() const;

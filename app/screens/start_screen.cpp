@@ -114,7 +114,9 @@ void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
   const double free = free_width(ui, panel_right_);
   if (!scene_ || free <= 0) return;
   const double room = free - ui.px(2 * kMargin), x = panel_right_ + ui.px(kMargin), high = ui.line_height();
-  const double y = ui.height() - 2 * high - ui.px(18);
+  const double y = ui.height() - 2 * high - ui.px(22), pad = ui.px(10);
+  const double wide = std::min(room, std::max(ui.text_width(scene_->organ.credit), ui.text_width(w("Still scene: {0}", {scene_->organ.name}))));
+  ui.paint_ground({x - pad, y - pad / 2, wide + 2 * pad, 2 * high + ui.px(4) + pad}, 0.85, ui.px(6));
   ui.text_at(x, y, w("Still scene: {0}", {scene_->organ.name}), Ink::kText, room);
   ui.text_at(x, y + high + ui.px(4), scene_->organ.credit, Ink::kDim, room);
 }
@@ -131,7 +133,7 @@ std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double 
   ui.text(w("Practise laparoscopy and feel what you touch."), Ink::kDim);
   ui.gap(10);
   std::optional<ScreenName> to = desk.is_guest() ? guest_part(ui, desk) : trainee_part(ui, desk);
-  ui.gap(6);
+  ui.to_bottom(246);
   ui.heading(w("Teacher"));
   ui.text(w("Results, trends and export: trocar cohort, trocar trainee show."), Ink::kDim);
   ui.gap(10);

@@ -58,7 +58,7 @@ Rgb shape_colour(Ink ink) {
 
 Rgb ground_colour(Ground ground) {
   switch (ground) {
-    case Ground::kBackdrop: return {6, 7, 9};
+    case Ground::kBackdrop: return {0, 0, 0};
     case Ground::kPanel: return {17, 20, 24};
     case Ground::kField: return {32, 38, 45};
     case Ground::kButton: return {38, 45, 53};

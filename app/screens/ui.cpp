@@ -80,6 +80,8 @@ void Ui::begin_panel(const char* id, const Area& area, double opacity) {
   ImGui::PushFont(font_of(UiFont::kBody));
 }
 
+void Ui::in_front() { ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow()); }
+
 void Ui::end_panel() {
   if (ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y > ImGui::GetWindowHeight() + 1)
     scrolling_.push_back(panel_);

@@ -40,6 +40,8 @@ class Ui {
 
   /// A panel; what follows stands in it, from the top, until end_panel(). Scrolls when it must (never in a briefing).
   void begin_panel(const char* id, const Area& area, double opacity = 0.92);
+  /// The open panel lies over all that others have drawn: menus, notices.
+  void in_front();
   void end_panel();
   double room() const;                          ///< px to the panel's right edge
 

@@ -172,6 +172,7 @@ void UiLayer::State::move_focus(const std::vector<InputEvent>& events) {
   memory.focus_shown = (ring || g.ActiveId == g.NavId) && g.NavId != 0 &&
                        std::any_of(memory.items_before.begin(), memory.items_before.end(),
                                    [&g](const UiMemory::Item& item) { return item.id == g.NavId; });
+  memory.focus_wanted = 0;  // an item that is no longer drawn is not waited for
   if (memory.screen_has_keys) return;
   for (const InputEvent& event : events) {
     if (event.kind != InputEvent::Kind::kKeyDown || event.key != kKeyTab || event.control || event.alt) continue;

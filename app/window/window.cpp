@@ -8,6 +8,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "app/input/puck.h"
 #include "app/window/window_events.h"
 #include "haptics/input_error.h"
 
@@ -74,6 +75,7 @@ struct Window::State {
   GLFWwindow* window = nullptr;
   ContextInfo info;
   WindowEvents events;
+  Puck puck;
   int x = 0, y = 0, width = 0, height = 0;   // as it was before it filled the screen
 };
 
@@ -113,6 +115,7 @@ const ContextInfo& Window::info() const { return state_->info; }
 std::vector<InputEvent> Window::poll() {
   glfwPollEvents();
   state_->events.sample_pads();
+  if (const auto moved = state_->puck.newest()) state_->events.queue.push_back(*moved);
   return std::exchange(state_->events.queue, {});
 }
 

@@ -1,0 +1,209 @@
+#include "app/screens/practice_desk.h"
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "haptics/input_error.h"
+#include "scenarios/board_numbers.h"
+#include "tests/app/screens/desk_bench.h"
+
+namespace trocar {
+namespace {
+
+using testing_support::DeskBench;
+
+/// Stores a graded attempt, as the runner does.
+void store(const std::filesystem::path& database, const Exercise& exercise, const std::string& level, int board, bool passed) {
+  Database db(database);
+  AttemptStore attempts(db);
+  AttemptStart start;
+  start.trainee = "T-1";
+  start.exercise_id = exercise.id;
+  start.exercise_version = exercise.version;
+  start.exercise_number = exercise.number;
+  start.exercise_title = exercise.title;
+  start.exercise_text = exercise.text;
+  start.level = level;
+  start.board = board;
+  start.hand = "mouse";
+  start.program = "test";
+  start.recording = std::filesystem::path();
+  const AttemptId id = attempts.begin_attempt(start);
+  AttemptResult result;
+  result.grade.status = AttemptStatus::kCompleted;
+  result.grade.score = passed ? 85 : 30;
+  result.grade.passed = passed;
+  result.grade.grade = passed ? "proficient" : "below pass";
+  attempts.finish_attempt(id, result);
+}
+
+TEST(PracticeDesk, BeginsAsAGuestAtTheFirstExercise) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  EXPECT_TRUE(desk->is_guest());
+  EXPECT_EQ(desk->exercise_id, desk->exercises().front().id);
+  EXPECT_EQ(desk->level, "L1");
+  EXPECT_FALSE(desk->running());
+  EXPECT_FALSE(desk->result());
+  EXPECT_TRUE(desk->recording().empty());
+  EXPECT_TRUE(desk->notice.empty()) << desk->notice;
+}
+
+TEST(PracticeDesk, SignsInByCodeAndSaysWhatIsWrongWithOne) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  EXPECT_NE(desk->sign_in(""), "");
+  EXPECT_NE(desk->sign_in("no spaces"), "");
+  EXPECT_TRUE(desk->is_guest());
+  EXPECT_EQ(desk->sign_in("T-1"), "");
+  EXPECT_EQ(desk->trainee(), "T-1");
+  desk->sign_out();
+  EXPECT_TRUE(desk->is_guest());
+}
+
+TEST(PracticeDesk, OptionsChooseTraineeExerciseAndLevel) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.trainee = "T-9";
+  options.exercise = "E02";
+  options.level = "L2";
+  const auto desk = bench.desk(options);
+  EXPECT_EQ(desk->trainee(), "T-9");
+  EXPECT_EQ(desk->exercise().id, "surface-touch");
+  EXPECT_EQ(desk->level, "L2");
+}
+
+TEST(PracticeDesk, WrongOptionsAreRefusedBeforeAWindowOpens) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.exercise = "E99";
+  EXPECT_THROW(bench.desk(options), InputError);
+  options = bench.options();
+  options.level = "L9";
+  EXPECT_THROW(bench.desk(options), InputError);
+  options = bench.options();
+  options.trainee = "a b";
+  EXPECT_THROW(bench.desk(options), InputError);
+  options = bench.options();
+  options.language = "xx";
+  EXPECT_THROW(bench.desk(options), InputError);
+}
+
+TEST(PracticeDesk, StandingsComeFromTheStoreOfThisTraineeAlone) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  const Exercise& first = desk->exercises().front();
+  store(bench.options().database, first, "L1", 1, true);
+  EXPECT_EQ(desk->standing(first.id, "L1").attempts, 0) << "that was not the guest";
+  ASSERT_EQ(desk->sign_in("T-1"), "");
+  EXPECT_EQ(desk->standing(first.id, "L1").attempts, 1);
+  EXPECT_EQ(desk->standing(first.id, "L1").best, 85);
+  EXPECT_EQ(desk->standing("unknown", "L1").attempts, 0);
+}
+
+TEST(PracticeDesk, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  ASSERT_EQ(desk->sign_in("T-1"), "");
+  const Exercise& first = desk->exercises().front();
+  EXPECT_EQ(desk->next().exercise_id, first.id);
+  EXPECT_EQ(desk->next().level, "L1");
+  EXPECT_FALSE(desk->standing(first.id, "L2").unlocked);
+  for (const int board : {1001, 1002, 1003}) {
+    EXPECT_EQ(desk->next().exercise_id, first.id);
+    store(bench.options().database, first, "L1", board, true);
+  }
+  EXPECT_TRUE(desk->standing(first.id, "L2").unlocked);
+  EXPECT_EQ(desk->next().exercise_id, desk->exercises()[1].id) << "all exercises at a level before the next level";
+  EXPECT_EQ(desk->next().level, "L1");
+}
+
+TEST(PracticeDesk, ALockedLevelIsRefusedInWords) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  desk->level = "L2";
+  EXPECT_NE(desk->begin_attempt().find("L2"), std::string::npos);
+  EXPECT_FALSE(desk->running());
+}
+
+TEST(PracticeDesk, AnAttemptThatIsLeftIsStoredAsAborted) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  ASSERT_EQ(desk->sign_in("T-1"), "");
+  ASSERT_EQ(desk->begin_attempt(), "");
+  ASSERT_TRUE(desk->running());
+  EXPECT_NE(desk->begin_attempt(), "") << "one at a time";
+  while (!desk->running()->ready()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(desk->end_attempt()) << desk->notice;
+  EXPECT_FALSE(desk->running());
+  ASSERT_TRUE(desk->result());
+  EXPECT_EQ(desk->result()->grade.status, AttemptStatus::kAborted);
+  EXPECT_EQ(desk->result()->hand, "mouse");
+  EXPECT_EQ(desk->result()->board, drawn_board(7, false));
+  ASSERT_TRUE(desk->last_scene());
+  const Standing s = desk->standing(desk->exercise_id, "L1");
+  ASSERT_EQ(s.attempts, 1);
+  EXPECT_EQ(s.newest_first.front().status, "aborted");
+}
+
+TEST(PracticeDesk, InMemoryTheSittingIsKeptInMind) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.database = ":memory:";
+  const auto desk = bench.desk(options);
+  ASSERT_EQ(desk->begin_attempt(), "");
+  ASSERT_TRUE(desk->end_attempt()) << desk->notice;
+  EXPECT_EQ(desk->standing(desk->exercise_id, "L1").attempts, 1);
+  EXPECT_EQ(desk->database(), ":memory:");
+}
+
+TEST(PracticeDesk, SettingsAreKeptForTheNextTime) {
+  const DeskBench bench;
+  {
+    const auto desk = bench.desk();
+    desk->settings().scale = 1.5;
+    desk->settings().keys = {{"roll-left", "I"}};
+    desk->settings_changed();
+    EXPECT_EQ(desk->scale(), 1.5);
+    EXPECT_EQ(desk->keys().action_of('I'), Action::kRollLeft);
+  }
+  const auto again = bench.desk();
+  EXPECT_EQ(again->scale(), 1.5);
+  EXPECT_EQ(again->keys().key_of(Action::kRollLeft), 'I');
+}
+
+TEST(PracticeDesk, ScaleOfTheCommandLineHoldsThisTimeOnly) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.scale = 2;
+  const auto desk = bench.desk(options);
+  EXPECT_EQ(desk->scale(), 2);
+  EXPECT_EQ(desk->settings().scale, 1);
+}
+
+TEST(PracticeDesk, KeysThatContradictEachOtherAreANoticeNotAnEnd) {
+  const DeskBench bench;
+  std::ofstream(bench.options().settings) << "version = 1\n[keys]\nroll-left = \"Esc\"\n";
+  const auto desk = bench.desk();
+  EXPECT_FALSE(desk->notice.empty());
+  EXPECT_EQ(desk->keys().key_of(Action::kRollLeft), KeyMap().key_of(Action::kRollLeft));
+}
+
+TEST(PracticeDesk, ADatabaseThatIsNoneIsRefused) {
+  const DeskBench bench;
+  std::ofstream(bench.options().database) << "this is no database, but long enough to look at: " << std::string(200, 'x');
+  EXPECT_THROW(bench.desk(), InputError);
+}
+
+TEST(PracticeDesk, TheShowSceneLoadsBehindTheDesk) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  const auto scene = desk->show_scene(60);
+  ASSERT_TRUE(scene);
+  EXPECT_FALSE(scene->organ_T.triangles.empty());
+  EXPECT_EQ(desk->show_scene(0), scene) << "loaded once";
+}
+
+}  // namespace
+}  // namespace trocar
