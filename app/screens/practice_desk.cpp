@@ -211,6 +211,8 @@ const Exercise& PracticeDesk::exercise() const {
   return at == all.end() ? all.front() : *at;
 }
 
+bool PracticeDesk::exercise_given() const { return !state_->options.exercise.empty(); }
+
 Standing PracticeDesk::standing(const std::string& id, const std::string& of_level) const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [&id](const Exercise& e) { return e.id == id; });
