@@ -1,11 +1,14 @@
 #include "app/screens/debrief_page.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace trocar {
 namespace {
 
-constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 128, kNarrowPlots = 300;   // px at 720 lines and scale 1
+constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 122, kNarrowPlots = 300, kTableShare = 0.645;   // px at 720 lines and scale 1
 
 Mark verdict_mark(Outcome outcome) {
   switch (outcome) {
@@ -36,58 +39,60 @@ void score_bar(Ui& ui, const DebriefFacts& facts, const Area& area) {
   ui.text_at(pass_x, y + bar + ui.px(6), w("pass {0}", {w.number(facts.pass_at, 0)}), Ink::kDim, 0, 0.5);
 }
 
-Ui::Cell median_cell(const DebriefRow& row) {
-  const Mark mark = row.against_median > 0 ? Mark::kUp : row.against_median < 0 ? Mark::kDown : Mark::kNone;
-  return {row.median, Ink::kDim, mark, false};
-}
-
-struct Columns {
-  std::vector<std::string> heads;
-  std::vector<double> shares;
-  bool anchors, own, expert;
+/// A column of the table: its head, its cells, and whether it can be done without.
+struct Column {
+  std::string head;
+  std::vector<Ui::Cell> cells = {};
+  int spare = 0;   ///< 0: always there; columns of the highest number go first
 };
 
-/// As many columns as fit; what is left out stands in the explanation.
-Columns columns(const Ui& ui, const DebriefFacts& facts, double room) {
-  const Words& w = ui.words();
-  const auto any = [&](std::string DebriefRow::*text) {
-    return std::any_of(facts.rows.begin(), facts.rows.end(), [&](const DebriefRow& row) { return !(row.*text).empty(); });
-  };
-  Columns c{{w("Part"), w("Measured"), w("You")}, {0.17, 0.25, 0.13}, room >= ui.px(560), false, false};
-  c.own = c.anchors && any(&DebriefRow::median);
-  c.expert = c.anchors && any(&DebriefRow::expert);
-  if (c.anchors) {
-    c.heads.insert(c.heads.end(), {w("All at"), w("None at")});
-    c.shares.insert(c.shares.end(), {0.12, 0.13});
-  }
-  c.heads.push_back(w("Lost"));
-  c.shares.push_back(0.11);
-  if (c.own) {
-    c.heads.insert(c.heads.end(), {w("Best"), w("Median")});
-    c.shares.insert(c.shares.end(), {0.12, 0.15});
-  }
-  if (c.expert) {
-    c.heads.push_back(w("Expert"));
-    c.shares.push_back(0.12);
-  }
-  return c;
+void add_column(std::vector<Column>& all, const std::string& head, int spare, const std::vector<DebriefRow>& rows,
+                const std::function<Ui::Cell(const DebriefRow&)>& cell) {
+  Column column{head, {}, spare};
+  for (const DebriefRow& row : rows) column.cells.push_back(cell(row));
+  const bool empty = std::all_of(column.cells.begin(), column.cells.end(), [](const Ui::Cell& c) { return c.text.empty(); });
+  if (!empty) all.push_back(std::move(column));
 }
 
-std::vector<Ui::Cell> cells(const Words& w, const DebriefRow& row, bool first_of_group, const Columns& c) {
-  std::vector<Ui::Cell> out{{first_of_group ? group_name(w, row.group) : "", Ink::kDim},
-                            {row.name, row.failed ? Ink::kAlarm : Ink::kText, row_mark(row)},
-                            {row.value, Ink::kText}};
-  if (c.anchors) {
-    out.push_back({row.full, Ink::kDim});
-    out.push_back({row.none, Ink::kDim});
-  }
-  out.push_back({w.number(row.lost, 1), row.lost >= 0.05 ? Ink::kText : Ink::kDim});
-  if (c.own) {
-    out.push_back({row.best, Ink::kDim});
-    out.push_back(median_cell(row));
-  }
-  if (c.expert) out.push_back({row.expert, Ink::kDim});
-  return out;
+std::vector<Column> columns_of(const Words& w, const std::vector<DebriefRow>& rows) {
+  using Row = DebriefRow;
+  const auto dim = [](const std::string Row::*text) { return [text](const Row& row) { return Ui::Cell{row.*text, Ink::kDim}; }; };
+  std::vector<Column> all;
+  std::optional<ScoreGroup> before;
+  add_column(all, w("Part"), 1, rows, [&](const Row& row) {
+    const bool first = before != row.group;
+    before = row.group;
+    return Ui::Cell{first ? group_name(w, row.group) : "", Ink::kDim};
+  });
+  add_column(all, w("Measured"), 0, rows, [](const Row& row) { return Ui::Cell{row.name, row.failed ? Ink::kAlarm : Ink::kText, row_mark(row)}; });
+  add_column(all, w("You"), 0, rows, [](const Row& row) { return Ui::Cell{row.value}; });
+  add_column(all, w("All at"), 2, rows, dim(&Row::full));
+  add_column(all, w("None at"), 2, rows, dim(&Row::none));
+  add_column(all, w("Lost"), 0, rows, [&](const Row& row) { return Ui::Cell{w.number(row.lost, 1), row.lost >= 0.05 ? Ink::kText : Ink::kDim}; });
+  add_column(all, w("Best"), 4, rows, dim(&Row::best));
+  add_column(all, w("Median"), 3, rows, [](const Row& row) {
+    const Mark mark = row.against_median > 0 ? Mark::kUp : row.against_median < 0 ? Mark::kDown : Mark::kNone;
+    return Ui::Cell{row.median, Ink::kDim, mark};
+  });
+  add_column(all, w("Expert"), 5, rows, dim(&Row::expert));
+  return all;
+}
+
+/// px that a column needs, air to the next included.
+double need(const Ui& ui, const Column& column) {
+  double wide = ui.text_width(column.head);
+  for (const Ui::Cell& cell : column.cells)
+    wide = std::max(wide, ui.text_width(cell.text) + (cell.mark == Mark::kNone ? 0 : ui.line_height() + ui.px(8)));
+  return wide + ui.px(11) + 1;
+}
+
+/// As many columns as fit; what is left out stands in the explanation.
+std::vector<Column> fitting(const Ui& ui, std::vector<Column> all, double room) {
+  const auto total = [&] {
+    return std::accumulate(all.begin(), all.end(), ui.px(10), [&](double sum, const Column& c) { return sum + need(ui, c); });
+  };
+  for (int spare = 5; spare > 0 && total() > room; --spare) std::erase_if(all, [spare](const Column& c) { return c.spare == spare; });
+  return all;
 }
 
 /// px that a button takes.
@@ -112,29 +117,40 @@ void DebriefPage::verdict(Ui& ui, const DebriefContent& content) const {
 void DebriefPage::rows(Ui& ui, const DebriefContent& content) {
   const Words& w = ui.words();
   const DebriefFacts& facts = content.facts;
+  for (const std::string& sentence : facts.more) ui.marked(Mark::kInfo, sentence, Ink::kText);
   if (facts.rows.empty()) return;
-  const Columns c = columns(ui, facts, ui.room());
-  std::vector<std::vector<Ui::Cell>> table;
-  for (std::size_t i = 0; i < facts.rows.size(); ++i)
-    table.push_back(cells(w, facts.rows[i], i == 0 || facts.rows[i].group != facts.rows[i - 1].group, c));
-  const int chosen = ui.table("rows", c.heads, c.shares, table);
+  const std::vector<Column> shown = fitting(ui, columns_of(w, facts.rows), ui.room());
+  std::vector<std::string> heads;
+  std::vector<double> shares;
+  std::vector<std::vector<Ui::Cell>> table(facts.rows.size());
+  for (const Column& column : shown) {
+    heads.push_back(column.head);
+    shares.push_back(need(ui, column));
+    for (std::size_t r = 0; r < table.size(); ++r) table[r].push_back(column.cells[r]);
+  }
+  const int chosen = ui.table("rows", heads, shares, table);
   const int count = static_cast<int>(facts.rows.size());
   if (chosen >= 0) explained_ = explained_ == chosen ? -1 : chosen;
   else if (ui.pressed("E")) explained_ = explained_ + 1 >= count ? -1 : explained_ + 1;
   if (facts.lost_to_caps >= 0.05)
     ui.marked(Mark::kWarning, w("A cap took {0} more points: the score counts no higher while a safety rule is broken or the task undone.",
                                 {w.number(facts.lost_to_caps, 1)}), Ink::kCaution);
-  ui.text(w("[E] or a row: what a part means and how it is scored. Arrows: better or worse than your median."), Ink::kDim);
+  ui.gap(2);
+  if (explained_ >= 0) return explanation(ui, content);
+  const bool arrows = std::any_of(facts.rows.begin(), facts.rows.end(), [](const DebriefRow& r) { return r.against_median != 0; });
+  ui.text(w("[E] or a row: what a part means and how it is scored."), Ink::kDim);
+  if (arrows) ui.text(w("Arrows: better or worse than your median."), Ink::kDim);
 }
 
 void DebriefPage::explanation(Ui& ui, const DebriefContent& content) {
   const auto row = static_cast<std::size_t>(explained_);
   ui.heading(content.facts.rows[row].name);
-  for (const std::string& sentence : content.explained[row]) ui.text(sentence);
   const DebriefRow& shown = content.facts.rows[row];
-  if (!shown.median.empty())
-    ui.text(ui.words()("Your best so far {0}, your median {1}.", {shown.best, shown.median}), Ink::kDim);
-  if (!shown.expert.empty()) ui.text(ui.words()("The expert hand on the same board: {0}.", {shown.expert}), Ink::kDim);
+  std::string text;
+  for (const std::string& sentence : content.explained[row]) text += (text.empty() ? "" : " ") + sentence;
+  if (!shown.median.empty()) text += " " + ui.words()("Your best so far {0}, your median {1}.", {shown.best, shown.median});
+  if (!shown.expert.empty()) text += " " + ui.words()("The expert hand on the same board: {0}.", {shown.expert});
+  ui.text(text);
 }
 
 DebriefChoice DebriefPage::plots(Ui& ui, const DebriefContent& content, double height_at_720) {
@@ -153,7 +169,6 @@ DebriefChoice DebriefPage::plots(Ui& ui, const DebriefContent& content, double h
 DebriefChoice DebriefPage::foot(Ui& ui, const DebriefContent& content) {
   const Words& w = ui.words();
   DebriefChoice choice = DebriefChoice::kNone;
-  ui.marked(Mark::kInfo, content.advice, Ink::kHeading);
   bool first = true;
   const auto add = [&](const char* id, const std::string& text, const std::string& key, DebriefChoice means, bool strong = false) {
     const std::string shown = strong ? "Enter" : key;
@@ -186,40 +201,40 @@ DebriefChoice DebriefPage::draw(Ui& ui, const DebriefContent& content) {
   const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin;
   const bool two = wide >= ui.px(kTwoColumns);
   if (explained_ >= static_cast<int>(content.facts.rows.size())) explained_ = -1;
-  const auto reasons = [&] {
-    ui.gap(2);
-    ui.heading(content.facts.reason);
-    for (const std::string& sentence : content.facts.more) ui.marked(Mark::kInfo, sentence, Ink::kText);
-  };
-  DebriefChoice choice = DebriefChoice::kNone;
-  const auto take = [&](DebriefChoice made) { choice = made == DebriefChoice::kNone ? choice : made; };
-  const double foot_high = ui.px(two ? 116 : 150), head = two ? ui.px(kHead) : 0;
-  if (two) {
-    ui.begin_panel("debrief.head", {margin, margin, wide, head});
-    verdict(ui, content);
-    reasons();
-    ui.end_panel();
-    const double left = 0.56 * wide, body = high - head - foot_high - 2 * gap;
-    ui.begin_panel("debrief.rows", {margin, margin + head + gap, left, body});
-    rows(ui, content);
-    ui.end_panel();
-    ui.begin_panel("debrief.plots", {margin + left + gap, margin + head + gap, wide - left - gap, body});
-    if (explained_ >= 0) explanation(ui, content);
-    else take(plots(ui, content, ui.room_below() / ui.px(1)));
-    ui.end_panel();
-  } else {
-    ui.begin_panel("debrief", {margin, margin, wide, high - foot_high - gap});
-    verdict(ui, content);
-    reasons();
-    ui.gap(6);
-    rows(ui, content);
-    if (explained_ >= 0) explanation(ui, content);
-    ui.gap(6);
-    take(plots(ui, content, kNarrowPlots));
-    ui.end_panel();
-  }
+  const double foot_high = ui.px(two ? 116 : 112);
+  const DebriefChoice chosen = two ? beside(ui, content, {margin, margin, wide, high - foot_high - gap})
+                                   : below(ui, content, {margin, margin, wide, high - foot_high - gap});
   ui.begin_panel("debrief.foot", {margin, margin + high - foot_high, wide, foot_high});
-  take(foot(ui, content));
+  if (two) ui.marked(Mark::kInfo, content.advice, Ink::kHeading);
+  const DebriefChoice by_foot = foot(ui, content);
+  ui.end_panel();
+  return by_foot == DebriefChoice::kNone ? chosen : by_foot;
+}
+
+DebriefChoice DebriefPage::beside(Ui& ui, const DebriefContent& content, const Area& area) {
+  const double gap = ui.px(8), head = ui.px(kHead), left = std::round(kTableShare * area.width), body = area.height - head - gap;
+  ui.begin_panel("debrief.head", {area.x, area.y, area.width, head});
+  verdict(ui, content);
+  ui.heading(content.facts.reason);
+  ui.end_panel();
+  ui.begin_panel("debrief.rows", {area.x, area.y + head + gap, left, body});
+  rows(ui, content);
+  ui.end_panel();
+  ui.begin_panel("debrief.plots", {area.x + left + gap, area.y + head + gap, area.width - left - gap, body});
+  const DebriefChoice choice = plots(ui, content, ui.room_below() / ui.px(1));
+  ui.end_panel();
+  return choice;
+}
+
+DebriefChoice DebriefPage::below(Ui& ui, const DebriefContent& content, const Area& area) {
+  ui.begin_panel("debrief", area);
+  verdict(ui, content);
+  ui.heading(content.facts.reason);
+  ui.marked(Mark::kInfo, content.advice, Ink::kHeading);
+  ui.gap(4);
+  rows(ui, content);
+  ui.gap(4);
+  const DebriefChoice choice = plots(ui, content, kNarrowPlots);
   ui.end_panel();
   return choice;
 }

@@ -1,6 +1,6 @@
 // The page of the debrief as it is drawn: verdict, table, plots, one advice, what to do next. Knows no desk: tests give it any result.
 //
-// Wide windows: table on the left, plots (or what a metric means) on the right. Narrow ones: below each other, scrolling.
+// Wide windows: table, and what a part means, on the left, plots on the right. Narrow ones: below each other, scrolling.
 // Thread: the window's, within a frame.
 #pragma once
 
@@ -39,6 +39,8 @@ class DebriefPage {
   void explanation(Ui& ui, const DebriefContent& content);
   DebriefChoice plots(Ui& ui, const DebriefContent& content, double height_at_720);
   DebriefChoice foot(Ui& ui, const DebriefContent& content);
+  DebriefChoice beside(Ui& ui, const DebriefContent& content, const Area& area);
+  DebriefChoice below(Ui& ui, const DebriefContent& content, const Area& area);
 
   std::optional<double> cursor_s_;
   bool cursor_set_ = false;

@@ -171,7 +171,7 @@ std::optional<double> draw_debrief_plots(Ui& ui, const DebriefPlots& plots, std:
   std::vector<PlotScales> scales;
   double left = 0;
   for (const Pane& pane : all) {
-    scales.push_back({x_axis(ui, *plots.trace, area.width), y_axis(ui, pane, each - 2.4 * line), "s", pane.title, &pane == &all.back(), 0});
+    scales.push_back({x_axis(ui, *plots.trace, area.width), y_axis(ui, pane, each - 2.4 * line), "s", pane.title, &pane == &all.back(), false, 0});
     left = std::max(left, Plot::left_room(ui, scales.back().y));
   }
   std::optional<double> clicked;

@@ -36,7 +36,7 @@ double Plot::left_room(const Ui& ui, const Axis& y) {
 Plot::Plot(Ui& ui, const Area& area, const PlotScales& scales) : ui_(ui), scales_(scales) {
   const double line = ui.line_height(), air = ui.px(kAir);
   const double left = std::max(scales.left_px, left_room(ui, scales.y));
-  const double top = scales.title.empty() ? line / 2 : line + air, bottom = scales.x_labels ? line + air : air;
+  const double top = scales.title.empty() ? line / 2 : 1.5 * line + ui.px(1), bottom = scales.x_labels ? line + air : air;
   inner_ = {area.x + left, area.y + top, std::max(8.0, area.width - left - air), std::max(8.0, area.height - top - bottom)};
   draw_axes(area);
 }
@@ -93,7 +93,7 @@ void Plot::band(double low, double high, const std::string& text, Ink ink) {
   ui_.paint_box({inner_.x, top, inner_.width, std::max(1.0, bottom - top)}, ink, 0.22);
   ui_.paint_line(inner_.x, top, right, top, ink, 1);
   ui_.paint_line(inner_.x, bottom, right, bottom, ink, 1);
-  label(scales_.x.high, high, text, Ink::kGood);
+  label(label_x(), high, text, ink);
 }
 
 void Plot::limit(double y, const std::string& text) {
@@ -101,13 +101,13 @@ void Plot::limit(double y, const std::string& text) {
   const double at = clamped_y(y);
   ui_.paint_hatch({inner_.x, inner_.y, inner_.width, at - inner_.y}, Ink::kAlarm, 9, 0.8);
   ui_.paint_line(inner_.x, at, inner_.x + inner_.width, at, Ink::kAlarm, 2);
-  label(scales_.x.high, y, text, Ink::kAlarm);
+  label(label_x(), y, text, Ink::kAlarm);
 }
 
 void Plot::line(double y, const std::string& text, Ink ink, bool dashed) {
   if (y < scales_.y.low || y > scales_.y.high) return;
   ui_.paint_line(inner_.x, y_px(y), inner_.x + inner_.width, y_px(y), ink, 1.5, dashed);
-  label(scales_.x.high, y, text, ink);
+  label(label_x(), y, text, ink);
 }
 
 void Plot::rule(double x, const std::string& text, Ink ink) {
@@ -143,6 +143,8 @@ void Plot::curve(const std::vector<Ui::Point>& values, Ink ink, bool dashed) {
 }
 
 void Plot::mark(double x, double y, PlotMark shape, Ink ink) { paint_plot_mark(ui_, shape, x_px(x), clamped_y(y), ui_.px(kMark), ink); }
+
+double Plot::label_x() const { return scales_.labels_left ? scales_.x.low : scales_.x.high; }
 
 void Plot::cursor(double x, const std::string& text) {
   const double at = x_px(std::clamp(x, scales_.x.low, scales_.x.high));

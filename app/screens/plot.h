@@ -21,6 +21,7 @@ struct PlotScales {
   std::string x_unit = {};      ///< behind the last tick
   std::string title = {};       ///< above the axes, with the unit of y
   bool x_labels = true;
+  bool labels_left = false;     ///< of bands and lines: where the curve leaves room
   double left_px = 0;           ///< room for the ticks of y, so that plots below each other align; 0: as needed
 };
 
@@ -53,6 +54,7 @@ class Plot {
   void draw_axes(const Area& area);
   void draw_x_ticks();
   double clamped_y(double y) const;
+  double label_x() const;
 
   Ui& ui_;
   PlotScales scales_;

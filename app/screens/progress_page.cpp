@@ -73,11 +73,13 @@ void ProgressPage::curve_plot(Ui& ui, const ProgressEntry& entry, double height_
   const Ui::Pointer pointer = ui.pointer();
   if (const int steps = ui.key_steps(); steps != 0) attempt_ = std::clamp((attempt_ < 0 ? count - 1 : attempt_) + steps, 0, count - 1);
   Plot plot(ui, area, {attempts_axis(ui, attempts.size(), area.width), nice_axis(0, 100, y_ticks_for(ui, area.height - 2.4 * ui.line_height())), "",
-                       w("Score by attempt; full disc: passed, ring: not yet, triangle: left"), true, 0});
-  if (entry.curve.band)
-    plot.band(entry.curve.band->low, entry.curve.band->high, w("middle half of your last {0}", {std::to_string(std::min(kBandAttempts, entry.curve.graded))}), Ink::kHeading);
-  if (entry.curve.band) plot.line(entry.curve.band->median, w("your median {0}", {w.number(entry.curve.band->median, 1)}), Ink::kHeading, true);
+                       w("Score by attempt; full disc: passed, ring: not yet, triangle: left"), true, true, 0});
   plot.line(entry.pass_at, w("pass {0}", {w.number(entry.pass_at, 0)}), Ink::kText, false);
+  if (const auto& band = entry.curve.band) {
+    plot.band(band->low, band->high, "", Ink::kHeading);
+    plot.line(band->median, w("your median {0} and the middle half of your last {1}",
+                              {w.number(band->median, 1), std::to_string(std::min(kBandAttempts, entry.curve.graded))}), Ink::kHeading, true);
+  }
   std::vector<Ui::Point> points;
   for (int i = 0; i < count; ++i)
     if (attempts[static_cast<std::size_t>(i)].summary.score) points.push_back({i + 1.0, score_of(attempts[static_cast<std::size_t>(i)])});
@@ -100,7 +102,7 @@ void ProgressPage::cusum_plot(Ui& ui, const ProgressEntry& entry, double height_
   double high = rule.shown_at * 1.25;
   for (const CusumPoint& point : entry.cusum) high = std::max(high, point.value * 1.05);
   Plot plot(ui, area, {attempts_axis(ui, entry.cusum.size(), area.width), nice_axis(0, high, y_ticks_for(ui, area.height - 2.4 * ui.line_height())), "",
-                       w("CUSUM by attempt; disc: showing competence, diamond: keeping it"), true, 0});
+                       w("CUSUM by attempt; disc: showing competence, diamond: keeping it"), true, true, 0});
   const bool keeps = std::any_of(entry.cusum.begin(), entry.cusum.end(), [](const CusumPoint& p) { return p.test == Test::kKeeping; });
   plot.line(rule.shown_at, w("shown at {0}", {w.number(rule.shown_at, 1)}), Ink::kGood, false);
   if (keeps) plot.line(rule.relapse_at, w("relapse at {0}", {w.number(rule.relapse_at, 1)}), Ink::kAlarm, true);
@@ -152,21 +154,18 @@ ProgressChoice ProgressPage::foot(Ui& ui, const std::vector<ProgressEntry>& entr
 
 ProgressChoice ProgressPage::draw(Ui& ui, const std::vector<ProgressEntry>& entries, const std::string& who) {
   const Words& w = ui.words();
-  const double margin = std::min(ui.px(kMargin), 0.02 * ui.width()), gap = ui.px(8), foot_high = ui.px(62);
+  const double margin = std::min(ui.px(kMargin), 0.02 * ui.width()), gap = ui.px(8), foot_high = ui.px(74);
   const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin - foot_high - gap;
   const bool two = wide >= ui.px(kTwoColumns);
   chosen_ = std::clamp(chosen_, 0, std::max(0, static_cast<int>(entries.size()) - 1));
-  const double left = two ? ui.px(kList) : wide, list_high = two ? high : 0.4 * high;
-  ui.begin_panel("progress.list", {margin, margin, left, list_high});
+  const double left = two ? ui.px(kList) : wide;
+  ui.begin_panel("progress.list", {margin, margin, left, high});
   list(ui, entries, who);
   if (entries.empty()) ui.text(w("No attempt yet. After the first one its score, your pass line and your own median stand here."));
-  ui.end_panel();
-  if (!entries.empty()) {
-    const Area right = two ? Area{margin + left + gap, margin, wide - left - gap, high} : Area{margin, margin + list_high + gap, wide, high - list_high - gap};
-    ui.begin_panel("progress.curve", right);
-    details(ui, entries[static_cast<std::size_t>(chosen_)]);
-    ui.end_panel();
-  }
+  if (two) ui.end_panel();
+  if (two && !entries.empty()) ui.begin_panel("progress.curve", {margin + left + gap, margin, wide - left - gap, high});
+  if (!entries.empty()) details(ui, entries[static_cast<std::size_t>(chosen_)]);
+  if (!two || !entries.empty()) ui.end_panel();
   ui.begin_panel("progress.foot", {margin, margin + high + gap, wide, foot_high});
   const ProgressChoice choice = foot(ui, entries);
   ui.end_panel();

@@ -89,7 +89,7 @@ class PlotTest : public testing_support::UiBench {
     frame([&](Ui& ui) {
       ui.begin_panel("all", {0, 0, 700, 500});
       const Area area = ui.drawing("plot", height);
-      Plot plot(ui, area, {nice_axis(0, 60, 7, false), nice_axis(0, 2, 5), "s", "Force, N", true, 0});
+      Plot plot(ui, area, {nice_axis(0, 60, 7, false), nice_axis(0, 2, 5), "s", "Force, N", true, false, 0});
       use(plot);
       plot.labels();
       ui.end_panel();

@@ -45,7 +45,7 @@ TEST_F(ProgressPageTest, ShowsCurvePassLineBandAndCusum) {
   picture("progress");
   for (const char* said : {"My progress", "E02 Surface touch L1, by mouse", "pass 75", "shown at 2.5"}) EXPECT_TRUE(text(said)) << said;
   EXPECT_TRUE(says("your median"));
-  EXPECT_TRUE(says("middle half of your last 10"));
+  EXPECT_TRUE(says("the middle half of your last 10"));
   EXPECT_TRUE(scrolling_.empty());
   expect_clear("progress");
 }
