@@ -35,6 +35,7 @@ class Words {
   std::string number(double value, int decimals) const;
 
   const std::string& language() const { return language_; }
+  const std::string& decimal_sign() const { return decimal_; }
   /// All keys with their translations.
   const std::map<std::string, std::string, std::less<>>& catalogue() const { return translations_; }
   /// Sentences asked for that the catalogue lacks.
