@@ -20,6 +20,7 @@
 #include "app/commands/device_plant.h"
 #include "app/commands/doctor_command.h"
 #include "app/commands/identify_command.h"
+#include "app/commands/picture_command.h"
 #include "app/commands/recording_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/study_command.h"
@@ -63,6 +64,7 @@ struct CommandLine {
   CohortOptions cohort;
   DbOptions db;
   DoctorOptions doctor;
+  PictureOptions picture;
   std::string shell;
 
   /// A subcommand that runs `action` when chosen.
@@ -161,6 +163,19 @@ void add_first_contact(CommandLine& c) {
     std::cout << "trocar " TROCAR_VERSION "\n";
     return 0;
   });
+}
+
+void add_picture(CommandLine& c) {
+  std::string scenes;
+  for (const std::string& name : picture_scenes()) scenes += (scenes.empty() ? "" : ", ") + name;
+  CLI::App* picture = c.add(c.app, "picture", "A picture of the show scene, as this machine draws it",
+                            [&c] { return picture_command(c.picture, find_assets().assets, std::cout, std::cerr); });
+  picture->add_option("--out", c.picture.output, "PNG file")->required()->check(kNamed);
+  picture->add_option("--scene", c.picture.scene, "One of: " + scenes)->capture_default_str();
+  picture->add_option("--preset", c.picture.preset, "potato, soft, full, or auto: chosen by timing")->capture_default_str();
+  picture->add_option("--width", c.picture.width, "Pixels")->capture_default_str();
+  picture->add_option("--height", c.picture.height, "Pixels")->capture_default_str();
+  picture->add_option("--seed", c.picture.seed, "Of lumps and lobes")->capture_default_str()->check(kSeed);
 }
 
 void add_catalogue(CommandLine& c) {
@@ -321,7 +336,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
     add(c);
   }
   try {

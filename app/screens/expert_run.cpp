@@ -16,7 +16,9 @@ std::string make_recording(const AttemptSetup& setup, const AssetRoots& assets, 
     const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
     const std::filesystem::path part = file.string() + ".part";
     std::filesystem::remove(part);
-    record_session(scene, assets, part, {}, [&stop] { return stop.load(); });
+    SessionHooks hooks;
+    hooks.interrupted = [&stop] { return stop.load(); };
+    record_session(scene, assets, hooks, part);
     if (stop) {
       std::filesystem::remove(part);
       return "stopped";

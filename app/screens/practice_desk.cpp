@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <future>
 #include <random>
+#include <thread>
 
 #include "app/recorded_result.h"
 #include "app/screens/expert_run.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr const char* kGuest = "guest";
 constexpr int kBusy_ms = 2000;
+constexpr int kStoring_ms = 500;   // that a result may take to the database before the person is told
 
 /// Of LANG, when there is a catalogue for it.
 std::string language_of_machine(const std::filesystem::path& folder) {
@@ -212,6 +214,8 @@ const Exercise& PracticeDesk::exercise() const {
   return at == all.end() ? all.front() : *at;
 }
 
+bool PracticeDesk::exercise_given() const { return !state_->options.exercise.empty(); }
+
 Standing PracticeDesk::standing(const std::string& id, const std::string& of_level) const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [&id](const Exercise& e) { return e.id == id; });
@@ -303,6 +307,7 @@ bool PracticeDesk::end_attempt() {
   try {
     if (!runner->finished()) runner->abort();
     s.result = runner->result();
+    for (int i = 0; i < kStoring_ms && !runner->stored(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (!runner->stored()) {
       notice = s.words("The database is busy: the result is kept and will be stored as soon as it answers.");
       s.unstored.push_back(std::move(runner));

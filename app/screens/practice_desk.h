@@ -66,6 +66,7 @@ class PracticeDesk {
   // what
   std::string exercise_id, level = "L1", organ = "phantom-liver";
   const Exercise& exercise() const;      ///< the chosen one
+  bool exercise_given() const;           ///< by the options: straight to its briefing
   Standing standing(const std::string& exercise_id, const std::string& level) const;
   /// What to do next, and why: exercise id, level, one sentence.
   struct Advice { std::string exercise_id, level, why; };

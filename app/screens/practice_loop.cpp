@@ -63,7 +63,8 @@ struct PracticeLoop::State {
 
 PracticeLoop::PracticeLoop(PracticeDesk& desk, GraphicsContext& context, bool to_window)
     : state_(std::make_unique<State>(desk, context, to_window)) {
-  state_->show(ScreenName::kStart);
+  const bool briefing = desk.exercise_given() && make_screen(ScreenName::kBriefing);
+  state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
 }
 
 PracticeLoop::~PracticeLoop() {

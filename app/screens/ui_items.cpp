@@ -50,7 +50,9 @@ void UiParts::in_order(bool types) {
   g.NavDisableHighlight = false;
   g.NavDisableMouseHover = true;
   if (!ImGui::IsItemVisible()) ImGui::SetScrollHereY();
-  if (types) ImGui::ActivateItem(id);
+  if (!types) return;
+  g.NavNextActivateId = id;
+  g.NavNextActivateFlags = ImGuiActivateFlags_PreferInput;
 }
 
 bool UiParts::chosen_by_key(const std::string& key) {
