@@ -42,6 +42,7 @@ class Words {
   const std::set<std::string>& missing() const { return missing_; }
 
  private:
+  void note_missing(std::string_view english) const;
   std::optional<std::string> filled(std::string_view english, int depth) const;
   std::optional<std::string> found(std::string_view english, int depth) const;
 
