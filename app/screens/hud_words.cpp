@@ -10,9 +10,17 @@ void put(std::string& text, const Words& in) {
   if (!text.empty()) text = in.made(text);
 }
 
+void put_labels(HudLabels& labels, const Words& in) {
+  for (std::string* text : {&labels.match, &labels.force, &labels.steps, &labels.so_far, &labels.device, &labels.tip, &labels.angle,
+                            &labels.error, &labels.limit, &labels.peak, &labels.band, &labels.more})
+    *text = in(*text);
+  labels.decimal = in.decimal_sign();
+}
+
 }  // namespace
 
 Hud in_words(Hud hud, const Words& in) {
+  put_labels(hud.labels, in);
   put(hud.trainee, in);
   put(hud.title, in);
   for (ForceBar& bar : hud.bars) put(bar.label, in), put(bar.hidden_note, in);

@@ -35,12 +35,14 @@ class Words {
   std::string number(double value, int decimals) const;
 
   const std::string& language() const { return language_; }
+  const std::string& decimal_sign() const { return decimal_; }
   /// All keys with their translations.
   const std::map<std::string, std::string, std::less<>>& catalogue() const { return translations_; }
   /// Sentences asked for that the catalogue lacks.
   const std::set<std::string>& missing() const { return missing_; }
 
  private:
+  void note_missing(std::string_view english) const;
   std::optional<std::string> filled(std::string_view english, int depth) const;
   std::optional<std::string> found(std::string_view english, int depth) const;
 

@@ -103,6 +103,13 @@ TEST_F(Catalogue, SentencesInSentences) {
   EXPECT_EQ(french.missing().size(), 2u);
 }
 
+TEST_F(Catalogue, TheListOfWhatIsMissingStaysShort) {
+  write("fr", kSmall);
+  const Words french(folder_, "fr");
+  for (int i = 0; i < 5000; ++i) french.made("no such sentence " + std::to_string(i));
+  EXPECT_EQ(french.missing().size(), 1000u);
+}
+
 TEST_F(Catalogue, PlacesOfASentence) {
   EXPECT_EQ(places("{1} of {0} {1}"), (std::vector<int>{0, 1, 1}));
   EXPECT_TRUE(places("{} {a} { 0}").empty());
