@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/bench_contact.h"
+#include "app/commands/bench_pictures.h"
 #include "app/commands/run_command.h"
 #include "app/recorder/recording_reader.h"
 #include "app/screens/latency_bench.h"
@@ -187,6 +188,10 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
   json["input_to_picture"] = input_to_picture(assets, err);
+  json["pictures"] = nlohmann::ordered_json::array();
+  const std::vector<PictureCost> pictures = picture_costs(assets.assets, err);
+  for (const PictureCost& cost : pictures)
+    json["pictures"].push_back({{"scene", cost.scene}, {"preset", cost.preset}, {"cpu_ms", cost.cpu_ms}, {"per_s", cost.per_s}});
   if (options.json) {
     out << json.dump(2) << '\n';
     return 0;
@@ -201,6 +206,7 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   }
   print_contact(json["contact_us"], out);
   print_latency(json["input_to_picture"], out);
+  print_pictures(pictures, out);
   out << "\nwall seconds per simulated second  " << std::setprecision(4) << seconds / simulated << "  ("
       << std::setprecision(1) << simulated / seconds << " x real time, plant and hand included)\n"
       << "recording                          " << std::setprecision(3)
