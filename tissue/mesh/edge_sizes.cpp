@@ -77,6 +77,7 @@ void limit_growth(std::vector<double>& sizes, const TriangleSurface& surface, co
     bool changed = false;
     for (std::size_t n = neighbours.begin[v]; n < neighbours.begin[v + 1]; ++n) {
       const auto other = at(neighbours.vertex[n]);
+      if (sizes[v] <= sizes[other]) continue;
       const double most = sizes[other] + growth * (surface.vertices[v] - surface.vertices[other]).norm();
       if (sizes[v] > most * (1 + 1e-9)) sizes[v] = most, changed = true;
     }
