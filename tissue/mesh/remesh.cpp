@@ -90,7 +90,8 @@ class Source {
 class Remesher {
  public:
   Remesher(const TriangleSurface& surface, const std::vector<double>& sizes)
-      : source_(surface, sizes), mesh_(to_cgal(surface)), size_(mesh_.add_property_map<Vertex, double>("v:size", 0).first) {
+      : source_(surface, sizes), mesh_(to_cgal(surface)), size_(mesh_.add_property_map<Vertex, double>("v:size", 0).first),
+        stamped_(mesh_.add_property_map<Vertex, std::uint32_t>("v:stamped", 0).first) {
     for (const auto v : mesh_.vertices()) size_[v] = sizes[v.idx()];
   }
 
@@ -154,10 +155,20 @@ class Remesher {
     }
   }
 
+  /// The link condition of a closed surface: the two ends share the two vertices across the edge and no other.
+  /// (CGAL's does_satisfy_link_condition says the same in several times the time.)
+  bool keeps_manifold(Vertex a, Vertex b) {
+    ++stamp_;
+    for (const Vertex v : CGAL::vertices_around_target(a, mesh_)) stamped_[v] = stamp_;
+    int common = 0;
+    for (const Vertex v : CGAL::vertices_around_target(b, mesh_)) common += stamped_[v] == stamp_ ? 1 : 0;
+    return common == 2 && (mesh_.degree(a) > 3 || mesh_.degree(b) > 3);  // both 3: a tetrahedron
+  }
+
   bool collapse(Mesh::Edge_index edge) {
     const Halfedge h = mesh_.halfedge(edge);
     const Vertex a = mesh_.source(h), b = mesh_.target(h);
-    if (length(a, b) >= kCollapseBelow * wanted(a, b) || !CGAL::Euler::does_satisfy_link_condition(edge, mesh_)) return false;
+    if (length(a, b) >= kCollapseBelow * wanted(a, b) || !keeps_manifold(a, b)) return false;
     for (const Vec3& place : {Vec3((at(a) + at(b)) / 2), at(a), at(b)}) {
       if (!may_move(a, b, place) || !may_move(b, a, place)) continue;
       const double size = (size_[a] + size_[b]) / 2;
@@ -270,6 +281,8 @@ class Remesher {
   Source source_;
   Mesh mesh_;
   Mesh::Property_map<Vertex, double> size_;
+  Mesh::Property_map<Vertex, std::uint32_t> stamped_;
+  std::uint32_t stamp_ = 0;
   double scale_ = 1;
 };
 
