@@ -140,8 +140,8 @@ nlohmann::ordered_json compiler_figures(std::ostream& err) {
 }
 
 void print_compiler(const nlohmann::ordered_json& row, std::ostream& out) {
-  out << "\norgan compiler, a liver on 512 x 512 x 80 voxels made in memory: " << row["raw_triangles"] << " raw triangles to " << row["triangles"]
-      << "\n  " << std::setprecision(2) << row["cpu_s"].get<double>() << " s CPU, peak memory grown by " << std::setprecision(0)
+  out << "\norgan compiler, a liver on 512 x 512 x 80 voxels made in memory: " << row["raw_triangles"] << " raw triangles to "
+      << row["triangles"] << "\n  " << std::setprecision(2) << row["cpu_s"].get<double>() << " s CPU, peak memory grown by " << std::setprecision(0)
       << row["peak_memory_growth_mb"].get<double>() << " MB, to the label " << std::setprecision(2) << row["distance_mm"]["mean"].get<double>()
       << " mm on average, p99 " << row["distance_mm"]["p99"].get<double>() << " mm\n";
 }

@@ -112,8 +112,7 @@ Parts connected_parts(const LabelMask& mask, std::uint8_t value) {
     std::int32_t& number = parts.number[runs[root].begin];  // the root comes first
     if (root == n) number = static_cast<std::int32_t>(parts.voxels.size()), parts.voxels.push_back(0);
     parts.voxels[static_cast<std::size_t>(number)] += runs[n].end - runs[n].begin;
-    std::fill(parts.number.begin() + static_cast<std::ptrdiff_t>(runs[n].begin), parts.number.begin() + static_cast<std::ptrdiff_t>(runs[n].end),
-              std::int32_t{number});
+    std::fill_n(parts.number.begin() + static_cast<std::ptrdiff_t>(runs[n].begin), runs[n].end - runs[n].begin, std::int32_t{number});
   }
   return parts;
 }

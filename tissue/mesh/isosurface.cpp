@@ -178,7 +178,8 @@ double enclosed_volume_m3(const ScalarField& field, const Vec3& spacing_m, doubl
   const std::array<std::size_t, 8> step{0, 1, row, row + 1, slice, slice + 1, slice + row, slice + row + 1};
   const auto limit = static_cast<float>(level);
   const auto column = [&](const float* values) {
-    return (values[0] > limit ? 1 : 0) + (values[row] > limit ? 1 : 0) + (values[slice] > limit ? 1 : 0) + (values[slice + row] > limit ? 1 : 0);
+    return (values[0] > limit ? 1 : 0) + (values[row] > limit ? 1 : 0) + (values[slice] > limit ? 1 : 0) +
+           (values[slice + row] > limit ? 1 : 0);
   };
   double cubes = 0;
   for (int k = 0; k + 1 < field.size[2]; ++k)

@@ -52,7 +52,8 @@ struct NearestSurface::Visit {
 
 NearestSurface::NearestSurface(const TriangleSurface& surface) {
   if (surface.triangles.empty()) throw std::invalid_argument("NearestSurface: no triangles");
-  if (surface.triangles.size() >= std::numeric_limits<std::uint32_t>::max()) throw std::invalid_argument("NearestSurface: too many triangles");
+  if (surface.triangles.size() >= std::numeric_limits<std::uint32_t>::max())
+    throw std::invalid_argument("NearestSurface: too many triangles");
   sort_along_curve(surface);
   build_levels();
 }
@@ -91,7 +92,8 @@ void NearestSurface::build_levels() {
   levels_.emplace_back((corners_.size() + kFan - 1) / kFan, empty);
   for (std::size_t slot = 0; slot < corners_.size(); ++slot) {
     const auto& [a, b, c] = corners_[slot];
-    set_box(levels_[0][slot / kFan], static_cast<Eigen::Index>(slot % kFan), a.cwiseMin(b).cwiseMin(c) - centre_, a.cwiseMax(b).cwiseMax(c) - centre_);
+    set_box(levels_[0][slot / kFan], static_cast<Eigen::Index>(slot % kFan), a.cwiseMin(b).cwiseMin(c) - centre_,
+            a.cwiseMax(b).cwiseMax(c) - centre_);
   }
   while (levels_.back().size() > 1) {
     const std::vector<Node>& below = levels_.back();

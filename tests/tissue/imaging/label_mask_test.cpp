@@ -76,7 +76,8 @@ TEST(LabelMask, PartsAndCavitiesOfNoiseAreThoseThatGrowFromAVoxel) {
     grid.inside.assign(grid.offset(0, 0, 14), 0);
     for (int k = 0; k < 10; ++k)
       for (int j = 0; j < 12; ++j)
-        for (int i = 0; i < 14; ++i) grid.inside[grid.offset(i + 2, j + 2, k + 2)] = static_cast<std::uint8_t>(volume.labels[volume.offset(i, j, k)]);
+        for (int i = 0; i < 14; ++i)
+          grid.inside[grid.offset(i + 2, j + 2, k + 2)] = static_cast<std::uint8_t>(volume.labels[volume.offset(i, j, k)]);
     const LabelMask mask = cut_out_label(volume, 1, 2);
     const auto parts = grown_parts(grid, 1);
     ASSERT_EQ(mask.inside.size(), grid.inside.size());

@@ -49,7 +49,8 @@ TEST(SmoothField, IsTheProductOfItsAxes) {
   const auto along = [&](std::size_t axis, int place) {
     double inside = 0;
     for (int n = -kReach; n <= kReach; ++n)
-      if (const int from = place + n - kSmoothingMargin; from >= 0 && from < extent[axis]) inside += std::exp(-0.5 * n * n / (kSigma * kSigma));
+      if (const int from = place + n - kSmoothingMargin; from >= 0 && from < extent[axis])
+        inside += std::exp(-0.5 * n * n / (kSigma * kSigma));
     return inside / sum;
   };
   const ScalarField field = smooth_field(block(extent), {});
@@ -66,8 +67,8 @@ TEST(SmoothField, ThinVoxelsAreThoseFarFromAnyCore) {
   for (auto& voxel : mask.inside) voxel = voxel != 0 && engine() % 100 < 85 ? 1 : 0;
   const auto inside = [&](int i, int j, int k) { return mask.inside[mask.offset(i, j, k)] != 0; };
   const auto core = [&](int i, int j, int k) {
-    return inside(i, j, k) && inside(i - 1, j, k) && inside(i + 1, j, k) && inside(i, j - 1, k) && inside(i, j + 1, k) && inside(i, j, k - 1) &&
-           inside(i, j, k + 1);
+    return inside(i, j, k) && inside(i - 1, j, k) && inside(i + 1, j, k) && inside(i, j - 1, k) && inside(i, j + 1, k) &&
+           inside(i, j, k - 1) && inside(i, j, k + 1);
   };
   const auto near_core = [&](int i, int j, int k) {
     for (int n = 0; n < 125; ++n)

@@ -28,7 +28,9 @@ double least_distance(const TriangleSurface& surface, const Vec3& point) {
 
 class Dice {
  public:
-  double real(double low, double high) { return low + (high - low) * static_cast<double>(engine_()) / static_cast<double>(std::mt19937::max()); }
+  double real(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_()) / static_cast<double>(std::mt19937::max());
+  }
   Vec3 point(double low, double high) {
     const double x = real(low, high), y = real(low, high);
     return {x, y, real(low, high)};
