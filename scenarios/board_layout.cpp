@@ -7,6 +7,7 @@
 
 #include "haptics/input_error.h"
 #include "scenarios/height_field.h"
+#include "tissue/theatre_frame.h"
 
 namespace trocar {
 namespace {
@@ -18,12 +19,6 @@ constexpr double kCloserBy = 0.001;        // m by which targets on a small orga
 constexpr int kDraws = 3000, kRestarts = 8;
 constexpr double kWantedLeg = 0.035;       // m, travel between neighbours in the order of lighting
 constexpr double kLegClearance = 0.004;    // m between the ideal path and the surface
-
-Mat3 theatre_from_ras() {
-  Mat3 R;
-  R << -1, 0, 0, 0, 0, 1, 0, 1, 0;
-  return R;
-}
 
 /// Uniform number in [0, 1) by an explicit formula: the same on every standard library.
 double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }

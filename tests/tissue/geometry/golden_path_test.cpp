@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/mesh/lattice.h"
 #include "tissue/mesh/scene_compiler.h"
@@ -23,7 +24,7 @@ class GoldenPath : public ::testing::Test {
     GTEST_SKIP() << "no shared data in " << data_;
   }
 
-  LabelVolume mask(const std::string& name) const { return read_label_volume(data_ / "masks_v1" / (name + ".nii.gz")); }
+  LabelVolume mask(const std::string& name) const { return test::read_label_volume(data_ / "masks_v1" / (name + ".nii.gz")); }
 
   static void expect_sound(const MeshFacts& facts, const std::string& name) {
     EXPECT_TRUE(facts.topology.closed() && facts.topology.manifold()) << name;
@@ -74,7 +75,7 @@ TEST_F(GoldenPath, PancreasOfSixPartsLosesCrumbsOnly) {
 
 TEST_F(GoldenPath, LiverAndGallbladderShareTheirBed) {
   LabelMap map;
-  map.layers.push_back(read_label_volume(data_ / "example_seg.nii.gz"));
+  map.layers.push_back(test::read_label_volume(data_ / "example_seg.nii.gz"));
   const CompiledScene scene = compile_scene(map, {{0, 5, "liver", 3000}, {0, 4, "gallbladder", 2000}, {0, 1, "spleen", 2000}}, {});
   for (const CompiledOrgan& organ : scene.organs) {
     EXPECT_TRUE(organ.facts.topology.closed() && organ.facts.topology.manifold());
