@@ -67,15 +67,13 @@ TEST(PlacementForTheShaft, BehindAWallDiscsForTheTipAloneCannotBeReached) {
   EXPECT_EQ(blocked, 5) << "on every board that asked the tip alone, some disc lay under the shaft";
 }
 
-TEST(PlacementForTheShaft, AHighWallIsTurnedAwayFromTheInstrument) {
+TEST(PlacementForTheShaft, BesideAHighWallEveryBoardKeepsToWhereTheInstrumentHasRoom) {
   const Exercise exercise = shipped();
   const TriangleSurface organ = in_ras(walled_ground(0.070));
   const OrganPlacement found = place_organ(organ, exercise, exercise.levels[0], instrument());
-  EXPECT_NE(turned_words(found), "") << found.free_m2;
-  EXPECT_NE(found.turn_rad, 0) << turned_words(found);
-  const OrganPlacement upright = measure_placement(organ, place_organ(organ, exercise.layout), exercise.layout, instrument());
-  EXPECT_LT(upright.free_m2, 0.5 * upright.even_m2) << "upright, the wall stands in the way";
-  EXPECT_GT(found.free_m2, 2 * upright.free_m2);
+  const OrganPlacement before = measure_placement(organ, place_organ(organ, exercise.layout), exercise.layout, instrument());
+  EXPECT_LT(before.free_m2, 0.5 * before.even_m2) << "where the tip has most ground, the wall stands in the way";
+  EXPECT_GE(found.free_m2, before.free_m2);
   const TriangleSurface organ_T = organ.transformed(found.X_TO);
   const ShaftRoom room(organ_T, instrument().tool, instrument().map);
   for (int number = 0; number < 20; ++number)
@@ -108,7 +106,7 @@ TEST(PlacementForTheShaft, ATubIsRefusedBecauseOfTheShaft) {
 
 TEST(PlacementForTheShaft, AnOrganTooSmallIsRefusedForItsSizeNotForTheShaft) {
   const Exercise exercise = shipped();
-  const TriangleSurface organ = gallbladder_like();
+  const TriangleSurface organ = bumpy_ellipsoid(Vec3(0.015, 0.015, 0.015), 24, 0);
   const OrganPlacement found = place_organ(organ, exercise, exercise.levels[0], instrument());
   const TriangleSurface organ_T = organ.transformed(found.X_TO);
   const ShaftRoom room(organ_T, instrument().tool, instrument().map);

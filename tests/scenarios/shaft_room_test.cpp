@@ -69,6 +69,7 @@ TEST(ShaftRoom, ThroughAPortTheShaftPassesIt) {
   InstrumentMap map;
   Fulcrum fulcrum;
   fulcrum.port_T = Vec3(0.05, -0.05, 0.12);
+  fulcrum.R_TI_reference = pointing_from(fulcrum.port_T.normalized());
   map.fulcrum = fulcrum;
   const TriangleSurface wall = test::box(Vec3(0.010, -0.2, -0.01), Vec3(0.012, 0.2, 0.030));
   const ShaftRoom room(wall, {}, map);
