@@ -89,6 +89,21 @@ TEST_F(GoldenPath, LiverAndGallbladderShareTheirBed) {
   EXPECT_FALSE(scene.attachments.empty());
 }
 
+TEST_F(GoldenPath, LiverAmongItsNeighboursHasNoThinTrianglesAndDoesNotCutItself) {
+  LabelMap map;
+  map.layers.push_back(read_label_volume(data_ / "example_seg.nii.gz"));
+  const CompiledScene scene = compile_scene(
+      map, {{0, 5, "liver"}, {0, 2, "right kidney"}, {0, 11, "right adrenal"}, {0, 4, "gallbladder"}, {0, 8, "vena cava"}}, {});
+  for (const CompiledOrgan& organ : scene.organs) {
+    EXPECT_TRUE(organ.facts.topology.closed() && organ.facts.topology.manifold());
+    EXPECT_EQ(organ.facts.self_intersections, 0U);
+    EXPECT_GE(organ.facts.quality.share_above_15, 0.99);
+    EXPECT_LE(organ.facts.distance.mean_m, 0.6e-3);
+    EXPECT_LE(organ.facts.distance_back.p99_m, 3e-3);  // the adrenal melted away at its thin ends before: 5.5 mm
+    EXPECT_NEAR(organ.facts.kept_error_pct, 0, 0.2);
+  }
+}
+
 TEST_F(GoldenPath, LiverLatticeAndVesselGraph) {
   const LabelVolume volume = mask("liver");
   const BuiltLattice built = build_lattice(compile_label(volume, 1, {6000}).surface, {.cell_m = 0.010}, &volume);
@@ -101,11 +116,20 @@ TEST_F(GoldenPath, LiverLatticeAndVesselGraph) {
   EXPECT_LT(aorta.branchings(), 6U);
 }
 
-TEST_F(GoldenPath, GallbladderTetrahedra) {
-  const BuiltTetrahedra built = make_tetrahedra(mask("gallbladder"), {1}, {.cell_m = 0.006});
-  EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.5);
-  EXPECT_GE(built.facts.min_dihedral_deg, 8);
-  EXPECT_LE(built.facts.surface_rms_voxel, 0.35);
+TEST_F(GoldenPath, TetrahedraOfEveryGoldenOrganHaveNoDihedralAngleUnderTenDegrees) {
+  for (const std::string name : {"gallbladder", "spleen", "kidney_left", "kidney_right", "urinary_bladder", "liver"}) {
+    const BuiltTetrahedra built = make_tetrahedra(mask(name), {1}, {.cell_m = 0.010});
+    EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.5) << name;
+    EXPECT_GE(built.facts.min_dihedral_deg, 10) << name;
+    EXPECT_LE(built.facts.surface_rms_voxel, 0.35) << name;
+    EXPECT_LE(built.facts.surface_max_voxel, 1) << name;
+    for (std::size_t t = 0; t < built.mesh.tetrahedra.size(); ++t) ASSERT_GE(smallest_dihedral_deg(built.mesh, t), 10) << name << ' ' << t;
+  }
+}
+
+TEST_F(GoldenPath, SmallerTetrahedraKeepTenDegreesToo) {
+  for (const std::string name : {"gallbladder", "spleen"})
+    EXPECT_GE(make_tetrahedra(mask(name), {1}, {.cell_m = 0.006}).facts.min_dihedral_deg, 10) << name;
 }
 
 }  // namespace

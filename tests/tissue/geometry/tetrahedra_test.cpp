@@ -23,7 +23,7 @@ TEST(Tetrahedra, BallMeetsTheFigures) {
   const BuiltTetrahedra built = make_tetrahedra(volume, {1}, {.cell_m = 0.008});
   EXPECT_GT(built.facts.tetrahedra, 300U);
   EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.5);
-  EXPECT_GE(built.facts.min_dihedral_deg, 8);
+  EXPECT_GE(built.facts.min_dihedral_deg, 10);
   EXPECT_LT(built.facts.share_below_15, 0.05);
   EXPECT_LT(built.facts.surface_rms_voxel, 0.35);
   EXPECT_LT(built.facts.surface_max_voxel, 1);
