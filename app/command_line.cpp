@@ -145,7 +145,7 @@ void add_first_contact(CommandLine& c) {
   demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
   demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
   demo->add_option("--organ", c.demo.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
-  CLI::App* bench = c.add(c.app, "bench", "What one tick and one picture cost, by stage, scene and preset",
+  CLI::App* bench = c.add(c.app, "bench", "What one tick, one picture and the organ compiler cost",
                           [&c] { return bench_command(c.bench, std::cout, std::cerr); });
   bench->add_option("--organ", c.bench.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   bench->add_flag("--json", c.bench.json, "As JSON");
