@@ -174,6 +174,13 @@ void print_compiler(const nlohmann::ordered_json& row, std::ostream& out) {
       << " mm on average, p99 " << row["distance_mm"]["p99"].get<double>() << " mm\n";
 }
 
+nlohmann::ordered_json pictures_json(const std::vector<PictureCost>& costs) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const PictureCost& cost : costs)
+    out.push_back({{"scene", cost.scene}, {"preset", cost.preset}, {"cpu_ms", cost.cpu_ms}, {"per_s", cost.per_s}});
+  return out;
+}
+
 }  // namespace
 
 int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err) {
@@ -206,10 +213,8 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
   json["input_to_picture"] = input_to_picture(assets, err);
-  json["pictures"] = nlohmann::ordered_json::array();
   const std::vector<PictureCost> pictures = picture_costs(assets.assets, err);
-  for (const PictureCost& cost : pictures)
-    json["pictures"].push_back({{"scene", cost.scene}, {"preset", cost.preset}, {"cpu_ms", cost.cpu_ms}, {"per_s", cost.per_s}});
+  json["pictures"] = pictures_json(pictures);
   json["organ_compiler"] = compiler;
   if (options.json) {
     out << json.dump(2) << '\n';

@@ -14,6 +14,19 @@ namespace {
 constexpr int kColumns = 4, kRows = 3, kGap = 4;
 constexpr Colour kInk{86, 180, 233, 1}, kGround{13, 15, 18, 0.82}, kWords{240, 240, 240, 1};
 
+/// Mean of k x k pixels: small tiles come from pictures of the least size that the renderer draws, or larger.
+Image reduced(const Image& from, int k) {
+  Image out(from.width / k, from.height / k);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        int sum = 0;
+        for (int i = 0; i < k * k; ++i) sum += from.pixel(k * x + i % k, k * y + i / k)[c];
+        out.pixel(x, y)[c] = static_cast<std::uint8_t>((sum + k * k / 2) / (k * k));
+      }
+  return out;
+}
+
 /// Part of a picture, cut at its borders.
 struct Cut {
   int left, top;
@@ -67,8 +80,9 @@ Image marks_montage(Renderer& renderer, int width, int height, std::uint64_t see
   for (const MarkPointer& mark : twelve_marks()) {
     const bool board = std::string(mark.scene) == "board";
     const SceneView view = board ? show_scene("board", seed) : with_fields(abdomen, mark.scene, seed);
-    const int whole_w = std::max(320, static_cast<int>(std::lround(mark.zoom * w))), whole_h = std::max(240, static_cast<int>(std::lround(mark.zoom * h)));
-    const Image whole = renderer.render(view, whole_w, whole_h);
+    const int whole_w = static_cast<int>(std::lround(mark.zoom * w)), whole_h = static_cast<int>(std::lround(mark.zoom * h));
+    const int k = whole_w < 320 || whole_h < 240 ? 3 : 1;
+    const Image whole = reduced(renderer.render(view, k * whole_w, k * whole_h), k);
     const Cut cut = cut_of(mark, whole_w, whole_h, w, h);
     const int left = (i % kColumns) * (w + kGap), top = (i / kColumns) * (h + kGap);
     copy(whole, cut, out, left, top, w, h);

@@ -31,7 +31,7 @@ float lamp_power(vec3 to_lamp) {
   float c2 = c * c;
   // Beyond the working distance the camera's gain and light thrown back by the walls soften the fall.
   float plain = lamp.w * c2 * c2 / (d2_mm + 60.0);
-  return plain < 1.0 ? pow(plain, 0.68) : pow(plain, 0.80);
+  return plain < 1.0 ? pow(plain, 0.62) : pow(plain, 0.80);
 }
 
 // What the air adds and takes over a distance: the far wall is paler and flatter than the organ before the lens.

@@ -57,7 +57,7 @@ vec3 albedo(vec4 broad, vec4 coarse, vec4 middle, vec4 fine, vec3 rest_mm) {
   c *= 0.90 + 0.2 * middle.w;
   return with_vessels(c, vessels(rest_mm, 0.0125, coarse, broad.w + 0.10), vec3(0.27, 0.040, 0.030), vec3(0.34, 0.085, 0.055), 0.66);
 #elif defined(LOOK_WALL)
-  vec3 c = mix(vec3(0.52, 0.145, 0.105), vec3(0.68, 0.30, 0.215), smoothstep(0.30, 0.75, broad.w));
+  vec3 c = mix(vec3(0.58, 0.150, 0.105), vec3(0.74, 0.31, 0.215), smoothstep(0.30, 0.75, broad.w));
   c = mix(c, vec3(0.76, 0.47, 0.32), 0.35 * smoothstep(0.45, 0.8, coarse.w));
   return with_vessels(c, vessels(rest_mm, 0.0062, coarse, broad.w), vec3(0.29, 0.030, 0.045), vec3(0.42, 0.07, 0.06), 0.62);
 #elif defined(LOOK_FAT)
@@ -103,7 +103,7 @@ const vec4 kBend = vec4(0.60, 0.42, 0.30, 0.80);
 const vec3 kWet = vec3(1.2, 1.5, 0.50);
 #elif defined(LOOK_WALL)
 const vec4 kBend = vec4(0.50, 0.55, 0.34, 0.40);
-const vec3 kWet = vec3(1.5, 2.0, 0.60);
+const vec3 kWet = vec3(1.2, 1.7, 0.70);
 #elif defined(LOOK_GALLBLADDER) || defined(LOOK_DUCT)
 const vec4 kBend = vec4(0.22, 0.20, 0.16, 0.30);
 const vec3 kWet = vec3(2.0, 3.0, 0.60);
@@ -232,6 +232,7 @@ void main() {
   float footprint_mm = length(fwidth(rest_mm));
   float sharp = 1.0 - smoothstep(0.30, 1.3, footprint_mm);  // the finest octave fades before it streaks
   fine = mix(vec4(0.5), textureLod(u_noise, rest_mm * 0.31 + 0.11, 0.0), sharp);
+  middle.xyz = mix(vec3(0.5), middle.xyz, 1.0 - 0.75 * smoothstep(0.7, 2.2, footprint_mm));  // far glints do not glitter
 #endif
   Surface s = Surface(albedo(broad, coarse, middle, fine, rest_mm), 1.0, 1.0, 0.0);
   vec3 n = normalize(v_normal);
