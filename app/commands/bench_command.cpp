@@ -11,10 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/bench_contact.h"
+#include "app/commands/bench_pictures.h"
 #include "app/commands/run_command.h"
 #include "app/recorder/recording_reader.h"
+#include "app/screens/latency_bench.h"
 #include "app/session.h"
 #include "haptics/control/gravity.h"
+#include "haptics/input_error.h"
 #include "haptics/kinematics/hybrid_arm.h"
 #include "tissue/collision/patch_extraction.h"
 
@@ -129,6 +132,31 @@ void print_contact(const nlohmann::ordered_json& rows, std::ostream& out) {
   }
 }
 
+/// From a person's event to the frame that shows it; says why not where there is no OpenGL.
+nlohmann::ordered_json input_to_picture(const AssetRoots& assets, std::ostream& err) {
+  constexpr double kSeconds = 8;
+  err << "trocar: a live attempt with its pictures for " << kSeconds << " s: from a mouse event to the frame that shows it\n";
+  try {
+    const PictureLatency l = measure_picture_latency(assets, kSeconds);
+    return {{"renderer", l.renderer}, {"width", l.width}, {"height", l.height}, {"frames", l.frames}, {"events", l.events},
+            {"frame_ms", {{"median", 1e3 * l.frame_median_s}, {"p95", 1e3 * l.frame_p95_s}}},
+            {"event_to_picture_ms", {{"median", 1e3 * l.median_s}, {"p95", 1e3 * l.p95_s}, {"max", 1e3 * l.longest_s}}},
+            {"bar_ms", 1e3 * l.bar_s()}};
+  } catch (const EnvironmentError& error) {
+    err << "trocar: not measured: " << error.what() << '\n';
+    return nullptr;
+  }
+}
+
+void print_latency(const nlohmann::ordered_json& json, std::ostream& out) {
+  if (json.is_null()) return;
+  const auto& ms = json["event_to_picture_ms"];
+  out << "\ninput to picture  " << std::setprecision(1) << ms["median"].get<double>() << " ms median, " << ms["p95"].get<double>()
+      << " ms 95 %, " << ms["max"].get<double>() << " ms longest; bar (2 frames + 1 tissue step) " << json["bar_ms"].get<double>()
+      << " ms\n  frames of " << json["width"] << " x " << json["height"] << " take "
+      << json["frame_ms"]["median"].get<double>() << " ms (95 %: " << json["frame_ms"]["p95"].get<double>() << " ms) on " << json["renderer"].get<std::string>() << '\n';
+}
+
 }  // namespace
 
 int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err) {
@@ -159,6 +187,11 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   StageTimes fixed = fixed_work(10000);
   json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
+  json["input_to_picture"] = input_to_picture(assets, err);
+  json["pictures"] = nlohmann::ordered_json::array();
+  const std::vector<PictureCost> pictures = picture_costs(assets.assets, err);
+  for (const PictureCost& cost : pictures)
+    json["pictures"].push_back({{"scene", cost.scene}, {"preset", cost.preset}, {"cpu_ms", cost.cpu_ms}, {"per_s", cost.per_s}});
   if (options.json) {
     out << json.dump(2) << '\n';
     return 0;
@@ -172,6 +205,8 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
     out << '\n';
   }
   print_contact(json["contact_us"], out);
+  print_latency(json["input_to_picture"], out);
+  print_pictures(pictures, out);
   out << "\nwall seconds per simulated second  " << std::setprecision(4) << seconds / simulated << "  ("
       << std::setprecision(1) << simulated / seconds << " x real time, plant and hand included)\n"
       << "recording                          " << std::setprecision(3)

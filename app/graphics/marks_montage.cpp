@@ -42,16 +42,16 @@ void label(Canvas& canvas, FontSet& fonts, const MarkPointer& mark, int number, 
 
 const std::array<MarkPointer, 12>& twelve_marks() {
   static const std::array<MarkPointer, 12> kMarks = {{{"Round field with its notch", "abdomen", 1.0, 0.5, 0.0, 0.07},
-                                                      {"Light falls off to rim and depth", "abdomen", 1.0, 0.24, 0.40, 0.16},
-                                                      {"Wet glints that move with the scope", "wet", 2.4, 0.60, 0.16, 0.30},
+                                                      {"Light falls off to the rim", "abdomen", 1.0, 0.11, 0.60, 0.14},
+                                                      {"Wet glints that move", "abdomen", 2.4, 0.700, 0.31, 0.22},
                                                       {"Crevices tinted red, not grey", "abdomen", 2.6, 0.45, 0.80, 0.20},
-                                                      {"Vessels in two scales", "abdomen", 3.0, 0.63, 0.46, 0.26},
-                                                      {"Shadow of the instrument", "abdomen", 2.4, 0.33, 0.72, 0.22},
-                                                      {"Barrel distortion of straight lines", "board", 1.3, 0.50, 0.60, 0.0},
-                                                      {"Haze with depth", "abdomen", 2.2, 0.44, 0.36, 0.20},
-                                                      {"Whitening where tissue is pressed", "whitening", 2.8, 0.655, 0.45, 0.24},
-                                                      {"Blood: dark, smooth, glossy", "blood", 2.4, 0.56, 0.72, 0.32},
-                                                      {"Char with its singed rim", "char", 3.0, 0.49, 0.45, 0.26},
+                                                      {"Vessels in two scales", "abdomen", 3.0, 0.68, 0.41, 0.26},
+                                                      {"Shadow of the instrument", "whitening", 2.2, 0.85, 0.56, 0.20},
+                                                      {"Barrel distortion", "board", 1.3, 0.50, 0.60, 0.0},
+                                                      {"Haze with depth", "abdomen", 2.2, 0.47, 0.30, 0.18},
+                                                      {"Whitening under pressure", "whitening", 2.8, 0.655, 0.435, 0.22},
+                                                      {"Blood: dark, smooth, glossy", "blood", 2.4, 0.56, 0.74, 0.34},
+                                                      {"Char with its singed rim", "char", 3.0, 0.63, 0.546, 0.20},
                                                       {"Smoke, thicker with distance", "smoke", 1.3, 0.50, 0.45, 0.0}}};
   return kMarks;
 }

@@ -334,6 +334,20 @@ bool PracticeDesk::end_attempt() {
   return true;
 }
 
+bool PracticeDesk::open_result(const std::string& uuid) {
+  State& s = *state_;
+  try {
+    AttemptResult found = AttemptStore(*s.database).load(uuid);
+    exercise_id = found.exercise_id;
+    level = found.level;
+    s.result = std::move(found);
+    return true;
+  } catch (const std::exception& error) {
+    notice = s.words("This attempt cannot be opened: {0}", {error.what()});
+    return false;
+  }
+}
+
 const std::optional<AttemptResult>& PracticeDesk::result() const { return state_->result; }
 std::shared_ptr<const Scene> PracticeDesk::last_scene() const { return state_->last_scene; }
 std::filesystem::path PracticeDesk::recording() const { return state_->result ? state_->result->recording_path : ""; }

@@ -83,6 +83,8 @@ class PracticeDesk {
   /// Takes over the result of a finished or aborted attempt. @return false: it had none, notice() says why.
   bool end_attempt();
   const std::optional<AttemptResult>& result() const;
+  /// An attempt that the database keeps, as if it had just ended: to look at it again. @return whether it is there.
+  bool open_result(const std::string& uuid);
   /// Scene of the last attempt, for pictures of the debrief; null before the first.
   std::shared_ptr<const Scene> last_scene() const;
   std::filesystem::path recording() const;       ///< of result(), empty: none kept

@@ -208,6 +208,7 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
 
 void PracticeLoop::go(ScreenName name) { state_->show(name); }
 ScreenName PracticeLoop::here() const { return state_->name; }
+const Screen* PracticeLoop::screen() const { return state_->screen.get(); }
 bool PracticeLoop::menu_open() const { return state_->menu; }
 bool PracticeLoop::fullscreen() const { return state_->fullscreen; }
 Image PracticeLoop::picture() const { return state_->target.read(); }

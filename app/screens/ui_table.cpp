@@ -99,6 +99,9 @@ int Ui::key_steps() const {
   for (const std::int32_t key : ui_memory().pressed) {
     if (key == '.' || key == kKeyPageDown) steps += key == '.' ? 1 : 10;
     if (key == ',' || key == kKeyPageUp) steps -= key == ',' ? 1 : 10;
+    if (key != kKeyLeft && key != kKeyRight) continue;
+    steps += key == kKeyRight ? 1 : -1;
+    ImGui::NavMoveRequestCancel();   // the focus stays
   }
   return steps;
 }
