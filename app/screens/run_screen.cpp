@@ -173,7 +173,7 @@ std::optional<ScreenName> RunScreen::handle(const InputEvent& event, PracticeDes
   if (!desk.running() || !s.begun) return {};
   if (event.kind == InputEvent::Kind::kFocusLost) {
     desk.steering().handle(event);
-    s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
+    if (!s.overlay) s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
     return {};
   }
   if (s.overlay) return {};
