@@ -49,7 +49,7 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")}, {"auto", "potato", "soft", "full"},
                          s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);
-  if (!desk.sound().refusal().empty()) ui.text(desk.sound().refusal(), Ink::kDim);
+  if (!desk.sound().refusal().empty()) ui.text(w.made(desk.sound().refusal()), Ink::kDim);
   if (changed) desk.settings_changed();
 }
 
