@@ -122,7 +122,7 @@ void RunScreen::State::lay_out(const Hud& hud, PracticeDesk& desk, int width, in
   for (ForceBar& bar : shown.bars) {
     if (bars || bar.hidden) continue;
     bar.hidden = true;
-    bar.hidden_note = desk.words()("hidden ({0} shows it)", {key_name(desk.keys().key_of(Action::kForceBars))});
+    bar.hidden_note = desk.words()("hidden ({0} shows it)", {desk.words().name(key_name(desk.keys().key_of(Action::kForceBars)))});
   }
   picture = hud_scene_window(shown, width, height, desk.scale());
   layout = layout_hud(shown, width, height, desk.scale(), fonts);
@@ -173,7 +173,7 @@ std::optional<ScreenName> RunScreen::handle(const InputEvent& event, PracticeDes
   if (!desk.running() || !s.begun) return {};
   if (event.kind == InputEvent::Kind::kFocusLost) {
     desk.steering().handle(event);
-    s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
+    if (!s.overlay) s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
     return {};
   }
   if (s.overlay) return {};
@@ -249,8 +249,8 @@ void RunScreen::State::coach_panel(Ui& ui, PracticeDesk& desk) const {
 /// In the black corner below the round field.
 void RunScreen::State::key_hints(Ui& ui, const PracticeDesk& desk) const {
   const Words& w = desk.words();
-  const std::string lines[] = {key_name(desk.keys().key_of(Action::kPause)) + "  " + w("Pause"),
-                               key_name(desk.keys().key_of(Action::kHelp)) + "  " + w("Help")};
+  const std::string lines[] = {w.name(key_name(desk.keys().key_of(Action::kPause))) + "  " + w("Pause"),
+                               w.name(key_name(desk.keys().key_of(Action::kHelp))) + "  " + w("Help")};
   const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
   double y = picture.y + picture.height - 2 * ui.line_height() - ui.px(6);
   for (const std::string& line : lines) {

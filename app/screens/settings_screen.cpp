@@ -49,7 +49,7 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")}, {"auto", "potato", "soft", "full"},
                          s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);
-  if (!desk.sound().refusal().empty()) ui.text(desk.sound().refusal(), Ink::kDim);
+  if (!desk.sound().refusal().empty()) ui.text(w.made(desk.sound().refusal()), Ink::kDim);
   if (changed) desk.settings_changed();
 }
 
@@ -72,7 +72,7 @@ void SettingsScreen::keys(Ui& ui, PracticeDesk& desk) {
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
   for (const ActionName& action : action_names()) {
     const bool waits = waiting_for_ == action.action;
-    const std::string right = waits ? w("press a key") : key_name(desk.keys().key_of(action.action));
+    const std::string right = waits ? w("press a key") : w.name(key_name(desk.keys().key_of(action.action)));
     if (ui.selectable(action.name, waits ? Mark::kPlay : Mark::kNone, w(action.words), waits, right)) {
       waiting_for_ = action.action;
       wrong_.clear();

@@ -74,7 +74,7 @@ bool UiParts::chosen_by_key(const std::string& key) {
 }
 
 bool Ui::button(const char* id, const std::string& text, const std::string& key, bool strong, double width_at_720) {
-  const std::string hint = key.empty() ? "" : "[" + key + "]";
+  const std::string hint = key.empty() ? "" : "[" + words_.name(key) + "]";
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
   const double gap = px(10), hint_width = hint.empty() ? 0 : UiParts::width(hint) + gap;
   const double wanted = width_at_720 > 0 ? px(width_at_720) : UiParts::width(text) + hint_width + 2 * pad.x;

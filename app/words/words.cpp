@@ -157,6 +157,11 @@ std::string Words::operator()(std::string_view english) const {
   return std::string(english);
 }
 
+std::string Words::name(std::string_view english) const {
+  const auto found = translations_.find(english);
+  return found != translations_.end() ? found->second : std::string(english);
+}
+
 std::string Words::operator()(std::string_view english, const std::vector<std::string>& values) const {
   return put_in((*this)(english), values);
 }

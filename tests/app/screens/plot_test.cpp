@@ -70,8 +70,7 @@ TEST(PlaceLabels, NeverOverlapEachOtherOrLeaveTheirArea) {
       EXPECT_GE(std::min(a.x, a.y), -0.02);
       EXPECT_LE(a.x + a.width, 300.02);
       EXPECT_LE(a.y + a.height, 120.02);
-      for (std::size_t j = 0; j < i; ++j)
-        if (places[j]) EXPECT_FALSE(overlap(a, *places[j])) << round;
+      for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(places[j] && overlap(a, *places[j])) << round;
     }
   }
 }

@@ -74,6 +74,10 @@ TEST_F(RunScreenBench, AWindowThatNobodyLooksAtPauses) {
   frame({key(0, InputEvent::Kind::kFocusLost)});
   frame();
   EXPECT_TRUE(desk_->running()->paused());
+  frame({key(0, InputEvent::Kind::kFocusLost)});
+  tap('P');
+  frame();
+  EXPECT_FALSE(desk_->running()->paused()) << "continuing holds";
 }
 
 TEST_F(RunScreenBench, RFromThePauseBeginsAnewAndTheOldOneIsKeptAsAborted) {

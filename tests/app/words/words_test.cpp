@@ -61,6 +61,8 @@ TEST_F(Catalogue, SentencesAndValues) {
   EXPECT_EQ(french("{1} after {0}", {"A", "B"}), "après A, B");
   EXPECT_EQ(french.number(-1.5, 1), "-1,5");
   EXPECT_EQ(french.number(3, 0), "3");
+  EXPECT_EQ(french.name("Start"), "Commencer");
+  EXPECT_EQ(french.name("F12"), "F12");
   EXPECT_TRUE(french.missing().empty());
 }
 
