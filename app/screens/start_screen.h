@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "app/scene.h"
 #include "app/screens/screen.h"
 #include "app/words/words.h"
 
@@ -23,8 +22,7 @@ class StartScreen final : public Screen {
   void caption(Ui& ui, const PracticeDesk& desk) const;
 
   double t_s_ = 0, panel_right_ = 0;
-  std::shared_ptr<const Scene> scene_;
-  std::shared_ptr<const TriangleSurface> organ_T_;
+  std::shared_ptr<const SceneView> scene_;
   std::vector<Language> languages_;
   std::string code_, wrong_;
 };
