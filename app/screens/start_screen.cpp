@@ -135,7 +135,7 @@ std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double 
   ui.text(w("Practise laparoscopy and feel what you touch."), Ink::kDim);
   ui.gap(10);
   std::optional<ScreenName> to = desk.is_guest() ? guest_part(ui, desk) : trainee_part(ui, desk);
-  ui.to_bottom(202);
+  ui.to_bottom(236);
   if (const auto chosen = foot(ui, desk)) to = chosen;
   ui.gap(4);
   ui.marked(Mark::kInfo, w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."), Ink::kDim);

@@ -1,4 +1,4 @@
-// T1: the first page. Try as a guest, sign in, language and size; behind it the abdomen that ships.
+// T1: the first page. Try as a guest, sign in, language and size; behind it the show scene.
 #pragma once
 
 #include <memory>
