@@ -21,7 +21,7 @@ class StartScreen final : public Screen {
   std::optional<ScreenName> foot(Ui& ui, PracticeDesk& desk);
   void caption(Ui& ui, const PracticeDesk& desk) const;
 
-  double t_s_ = 0, panel_right_ = 0;
+  double t_s_ = 0;
   std::shared_ptr<const SceneView> scene_;
   std::vector<Language> languages_;
   std::string code_, wrong_;
