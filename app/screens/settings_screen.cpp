@@ -108,16 +108,19 @@ std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeDesk& desk, doub
   const double margin = std::min(ui.px(24), 0.02 * ui.width()), gap = ui.px(12);
   const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin, foot = ui.px(74);
   const bool beside = wide >= ui.px(860);
-  const double left = beside ? 0.5 * (wide - gap) : wide, upper = beside ? high - foot : 0.5 * (high - foot);
+  const double left = beside ? 0.5 * (wide - gap) : wide, upper = high - foot;
   ui.begin_panel("settings", {margin, margin, left, upper});
   ui.title(w("Settings"));
   general(ui, desk);
   ui.gap(6);
   ui.heading(w("Hand"));
   hand(ui, desk);
-  ui.end_panel();
-  ui.begin_panel("settings.keys", {beside ? margin + left + gap : margin, beside ? margin : margin + upper, beside ? left : wide,
-                                   beside ? high - foot : high - foot - upper});
+  if (beside) {
+    ui.end_panel();
+    ui.begin_panel("settings.keys", {margin + left + gap, margin, left, upper});
+  } else {
+    ui.gap(6);
+  }
   keys(ui, desk);
   ui.end_panel();
   ui.begin_panel("settings.foot", {margin, margin + high - foot, wide, foot});

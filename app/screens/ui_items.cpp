@@ -78,7 +78,7 @@ bool Ui::button(const char* id, const std::string& text, const std::string& key,
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
   const double gap = px(10), hint_width = hint.empty() ? 0 : UiParts::width(hint) + gap;
   const double wanted = width_at_720 > 0 ? px(width_at_720) : UiParts::width(text) + hint_width + 2 * pad.x;
-  const double wide = std::min(wanted, room()), high = UiParts::height() + 2 * pad.y * (strong ? 1.5 : 1.0);
+  const double wide = std::min(wanted, room()), high = UiParts::height() + 2 * pad.y * (strong && width_at_720 > 0 ? 1.5 : 1.0);
   if (strong) {
     ImGui::PushStyleColor(ImGuiCol_Button, vec(ground_colour(Ground::kStrong)));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, vec(ground_colour(Ground::kStrongHover)));
