@@ -55,21 +55,22 @@ const std::vector<std::string>& hud_sentences() {
       words("Device switched off"), words("A graded attempt cannot be paused: it is void."), words("Device fault"),
       words("This attempt is not graded."),
       // discs and block
-      words("Too hard - ease off"), words("Stay between {0} to {1} N."), words("Wrong place"),
-      words("Lift off and touch inside the lit disc."), words("Touch the lit disc"), words("Disc {0} of {1}: {2} to {3} N."),
-      words("Move onto the lit disc"), words("The tip is beside it."), words("Hold by feel"), words("Wanted: {0} to {1} N."),
-      words("A little softer"), words("Press gently"), words("Reach {0} to {1} N and hold."), words("Good - hold"),
+      words("Too hard - ease off"), words("Stay between {0}."), words("Wrong place"),
+      words("Lift off and touch inside the lit disc."), words("Touch the lit disc"), words("Disc {0}: {1}."),
+      words("Move onto the lit disc"), words("The tip is beside it."), words("Hold by feel"), words("Wanted: {0}."),
+      words("A little softer"), words("Press gently"), words("Reach {0} and hold."), words("Good - hold"),
       words("Keep the force steady."), words("Open the jaws"), words("A block will be placed between them."),
-      words("Squeeze the block by feel"), words("Too tight - ease off"), words("Squeeze with {0} to {1} N."),
+      words("Squeeze the block by feel"), words("Too tight - ease off"), words("Squeeze with {0}."),
       words("Keep the squeeze steady."),
       // pens
-      words("Pen {0} of {1}."), words("Bring the tip to the lit pen"), words("Turn the instrument along the pen"),
+      words("Pen {0}."), words("Bring the tip to the lit pen"), words("Turn the instrument along the pen"),
       words("The tip is right."),
       // foam blocks
-      words("Block {0}."), words("Block {0} of {1}."), words("Hold it with {0} to {1} N."), words("A little tighter"),
+      words("Block {0}."), words("Hold it with {0}."), words("A little tighter"),
       words("Pick up the lit block"), words("Set it down within the ring"), words("Let go when it stands."),
       words("Carry it to its ring"), words("Lift it well clear of the others."), words("Crushed - hold it more gently"),
-      words("It slips - hold it tighter"), words("Dropped - pick it up again"), words("Lift it higher on the way")};
+      words("It slips - hold it tighter"), words("Dropped - pick it up again"), words("Lift it higher on the way"),
+      words("{0} to {1} N"), words("{0} of {1}")};
   return kSentences;
 }
 

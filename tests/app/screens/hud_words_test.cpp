@@ -60,7 +60,7 @@ TEST(HudWords, EveryTextOfADisplayIsAsked) {
   const fs::path folder = fs::temp_directory_path() / "hud-words";
   fs::create_directories(folder);
   std::ofstream(folder / "xx.toml") << "name = \"X\"\ndecimal = \",\"\n[words]\n"
-                                       "\"Press gently\" = \"SANFT\"\n\"Reach {0} to {1} N and hold.\" = \"ERREICHE {0} bis {1} N\"\n"
+                                       "\"Press gently\" = \"SANFT\"\n\"Reach {0} and hold.\" = \"ERREICHE {0}\"\n\"{0} to {1} N\" = \"{0} bis {1} N\"\n"
                                        "\"Tip force\" = \"KRAFT\"\n\"Discs held\" = \"SCHEIBEN\"\n\"simulated\" = \"SIMULIERT\"\n"
                                        "\"Rest at the start\" = \"RUHE\"\n\"Trainee: {0}\" = \"WER: {0}\"\n";
   const Words words(folder, "xx");
