@@ -145,7 +145,7 @@ void add_first_contact(CommandLine& c) {
   demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
   demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
   demo->add_option("--organ", c.demo.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
-  CLI::App* bench = c.add(c.app, "bench", "What one tick costs, by stage",
+  CLI::App* bench = c.add(c.app, "bench", "What one tick, one picture and the organ compiler cost",
                           [&c] { return bench_command(c.bench, std::cout, std::cerr); });
   bench->add_option("--organ", c.bench.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   bench->add_flag("--json", c.bench.json, "As JSON");
@@ -175,6 +175,7 @@ void add_picture(CommandLine& c) {
   picture->add_option("--preset", c.picture.preset, "potato, soft, full, or auto: chosen by timing")->capture_default_str();
   picture->add_option("--width", c.picture.width, "Pixels")->capture_default_str();
   picture->add_option("--height", c.picture.height, "Pixels")->capture_default_str();
+  picture->add_flag("--no-grain", c.picture.no_grain, "Without sensor grain: smaller files");
   picture->add_option("--seed", c.picture.seed, "Of lumps and lobes")->capture_default_str()->check(kSeed);
 }
 

@@ -46,6 +46,7 @@ int picture_command(const PictureOptions& options, const std::filesystem::path& 
   check(options);
   HeadlessContext context;
   RenderOptions render;
+  render.grain = !options.no_grain;
   render.preset = options.preset == "auto" ? measure_preset(context, asset_root, options.width, options.height) : *preset_named(options.preset);
   err << "drawing " << options.scene << ", preset " << preset_name(render.preset) << ", with " << context.info().renderer << "\n";
   Renderer renderer(context, asset_root, render);

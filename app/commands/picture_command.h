@@ -17,6 +17,7 @@ struct PictureOptions {
   std::string preset = "full";     ///< "potato", "soft", "full", or "auto": chosen by timing
   int width = 1280, height = 720;  ///< px, 320 x 240 to 7680 x 4320
   std::uint64_t seed = 1;          ///< of lumps and lobes
+  bool no_grain = false;           ///< without sensor grain: smaller files
 };
 
 /// Every scene that the command knows.

@@ -14,6 +14,19 @@ namespace {
 constexpr int kColumns = 4, kRows = 3, kGap = 4;
 constexpr Colour kInk{86, 180, 233, 1}, kGround{13, 15, 18, 0.82}, kWords{240, 240, 240, 1};
 
+/// Mean of k x k pixels: small tiles come from pictures of the least size that the renderer draws, or larger.
+Image reduced(const Image& from, int k) {
+  Image out(from.width / k, from.height / k);
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        int sum = 0;
+        for (int i = 0; i < k * k; ++i) sum += from.pixel(k * x + i % k, k * y + i / k)[c];
+        out.pixel(x, y)[c] = static_cast<std::uint8_t>((sum + k * k / 2) / (k * k));
+      }
+  return out;
+}
+
 /// Part of a picture, cut at its borders.
 struct Cut {
   int left, top;
@@ -42,16 +55,16 @@ void label(Canvas& canvas, FontSet& fonts, const MarkPointer& mark, int number, 
 
 const std::array<MarkPointer, 12>& twelve_marks() {
   static const std::array<MarkPointer, 12> kMarks = {{{"Round field with its notch", "abdomen", 1.0, 0.5, 0.0, 0.07},
-                                                      {"Light falls off to rim and depth", "abdomen", 1.0, 0.24, 0.40, 0.16},
-                                                      {"Wet glints that move with the scope", "wet", 2.4, 0.60, 0.16, 0.30},
+                                                      {"Light falls off to the rim", "abdomen", 1.0, 0.11, 0.60, 0.14},
+                                                      {"Wet glints that move", "abdomen", 2.4, 0.700, 0.31, 0.22},
                                                       {"Crevices tinted red, not grey", "abdomen", 2.6, 0.45, 0.80, 0.20},
-                                                      {"Vessels in two scales", "abdomen", 3.0, 0.63, 0.46, 0.26},
-                                                      {"Shadow of the instrument", "abdomen", 2.4, 0.33, 0.72, 0.22},
-                                                      {"Barrel distortion of straight lines", "board", 1.3, 0.50, 0.60, 0.0},
-                                                      {"Haze with depth", "abdomen", 2.2, 0.44, 0.36, 0.20},
-                                                      {"Whitening where tissue is pressed", "whitening", 2.8, 0.655, 0.45, 0.24},
-                                                      {"Blood: dark, smooth, glossy", "blood", 2.4, 0.56, 0.72, 0.32},
-                                                      {"Char with its singed rim", "char", 3.0, 0.49, 0.45, 0.26},
+                                                      {"Vessels in two scales", "abdomen", 3.0, 0.68, 0.41, 0.26},
+                                                      {"Shadow of the instrument", "whitening", 2.2, 0.85, 0.56, 0.20},
+                                                      {"Barrel distortion", "board", 1.3, 0.50, 0.60, 0.0},
+                                                      {"Haze with depth", "abdomen", 2.2, 0.47, 0.30, 0.18},
+                                                      {"Whitening under pressure", "whitening", 2.8, 0.655, 0.435, 0.22},
+                                                      {"Blood: dark, smooth, glossy", "blood", 2.4, 0.56, 0.74, 0.34},
+                                                      {"Char with its singed rim", "char", 3.0, 0.63, 0.546, 0.20},
                                                       {"Smoke, thicker with distance", "smoke", 1.3, 0.50, 0.45, 0.0}}};
   return kMarks;
 }
@@ -67,8 +80,9 @@ Image marks_montage(Renderer& renderer, int width, int height, std::uint64_t see
   for (const MarkPointer& mark : twelve_marks()) {
     const bool board = std::string(mark.scene) == "board";
     const SceneView view = board ? show_scene("board", seed) : with_fields(abdomen, mark.scene, seed);
-    const int whole_w = std::max(320, static_cast<int>(std::lround(mark.zoom * w))), whole_h = std::max(240, static_cast<int>(std::lround(mark.zoom * h)));
-    const Image whole = renderer.render(view, whole_w, whole_h);
+    const int whole_w = static_cast<int>(std::lround(mark.zoom * w)), whole_h = static_cast<int>(std::lround(mark.zoom * h));
+    const int k = whole_w < 320 || whole_h < 240 ? 3 : 1;
+    const Image whole = reduced(renderer.render(view, k * whole_w, k * whole_h), k);
     const Cut cut = cut_of(mark, whole_w, whole_h, w, h);
     const int left = (i % kColumns) * (w + kGap), top = (i / kColumns) * (h + kGap);
     copy(whole, cut, out, left, top, w, h);

@@ -7,6 +7,7 @@
 #include <random>
 #include <thread>
 
+#include "app/graphics/show_scene.h"
 #include "app/recorded_result.h"
 #include "app/screens/expert_run.h"
 #include "haptics/input_error.h"
@@ -32,19 +33,6 @@ std::string language_of_machine(const std::filesystem::path& folder) {
   return "en";
 }
 
-/// The abdomen that ships, with the instrument over the liver. Null: it cannot be loaded; the start page does without.
-std::shared_ptr<const Scene> load_show_scene(const Exercise& exercise, const AssetRoots& assets) {
-  AttemptSetup setup;
-  setup.exercise = exercise;
-  setup.level = exercise.levels.front().name;
-  setup.organ = "phantom-abdomen";
-  try {
-    return std::make_shared<const Scene>(build_scene(setup, assets, {"simulated", setup.rate_hz, 16}));
-  } catch (const std::exception&) {
-    return nullptr;
-  }
-}
-
 }  // namespace
 
 struct PracticeDesk::State {
@@ -66,7 +54,7 @@ struct PracticeDesk::State {
   std::vector<AttemptSummary> unkept;          // of this sitting, newest first, when nothing is kept
   std::vector<PastAttempt> unkept_numbers;     // the same with their metrics
   ExpertRun expert;
-  std::shared_future<std::shared_ptr<const Scene>> show_scene;
+  std::shared_future<std::shared_ptr<const SceneView>> show_scene;
 
   std::filesystem::path settings_file_path() const { return options.settings.empty() ? settings_file() : options.settings; }
   void take_up(std::string& notice);
@@ -135,9 +123,7 @@ PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets)
   s.assets = assets;
   s.exercises = list_exercises(assets.exercises);
   if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
-  const auto touch = std::find_if(s.exercises.begin(), s.exercises.end(), [](const Exercise& e) { return needs_organ(e.kind); });
-  if (touch != s.exercises.end())
-    s.show_scene = std::async(std::launch::async, load_show_scene, *touch, assets).share();
+  s.show_scene = std::async(std::launch::async, [] { return std::make_shared<const SceneView>(trocar::show_scene("abdomen")); }).share();
   s.settings = load_settings(s.settings_file_path());
   notice = s.settings.note;
   s.take_up(notice);
@@ -184,7 +170,7 @@ void PracticeDesk::settings_changed() {
   }
 }
 
-std::shared_ptr<const Scene> PracticeDesk::show_scene(double wait_s) const {
+std::shared_ptr<const SceneView> PracticeDesk::show_scene(double wait_s) const {
   const auto& scene = state_->show_scene;
   if (!scene.valid() || scene.wait_for(std::chrono::duration<double>(wait_s)) != std::future_status::ready) return nullptr;
   return scene.get();

@@ -52,9 +52,8 @@ class PracticeDesk {
   Steering& steering();
   Sound& sound();
 
-  /// The scene behind the start page, loaded in the background from the beginning. @param wait_s how long to wait for it; null: not yet, or
-  /// the shipped organ is missing.
-  std::shared_ptr<const Scene> show_scene(double wait_s) const;
+  /// The scene behind the start page, made in the background from the beginning. @param wait_s how long to wait for it; null: not yet.
+  std::shared_ptr<const SceneView> show_scene(double wait_s) const;
 
   // who
   const std::string& trainee() const;    ///< "guest" without sign-in

@@ -1,11 +1,10 @@
-// T1: the first page. Try as a guest, sign in, language and size; behind it the abdomen that ships.
+// T1: the first page. Try as a guest, sign in, language and size; behind it the show scene.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "app/scene.h"
 #include "app/screens/screen.h"
 #include "app/words/words.h"
 
@@ -22,9 +21,8 @@ class StartScreen final : public Screen {
   std::optional<ScreenName> foot(Ui& ui, PracticeDesk& desk);
   void caption(Ui& ui, const PracticeDesk& desk) const;
 
-  double t_s_ = 0, panel_right_ = 0;
-  std::shared_ptr<const Scene> scene_;
-  std::shared_ptr<const TriangleSurface> organ_T_;
+  double t_s_ = 0;
+  std::shared_ptr<const SceneView> scene_;
   std::vector<Language> languages_;
   std::string code_, wrong_;
 };

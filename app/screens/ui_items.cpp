@@ -74,11 +74,11 @@ bool UiParts::chosen_by_key(const std::string& key) {
 }
 
 bool Ui::button(const char* id, const std::string& text, const std::string& key, bool strong, double width_at_720) {
-  const std::string hint = key.empty() ? "" : "[" + key + "]";
+  const std::string hint = key.empty() ? "" : "[" + words_.name(key) + "]";
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
   const double gap = px(10), hint_width = hint.empty() ? 0 : UiParts::width(hint) + gap;
   const double wanted = width_at_720 > 0 ? px(width_at_720) : UiParts::width(text) + hint_width + 2 * pad.x;
-  const double wide = std::min(wanted, room()), high = UiParts::height() + 2 * pad.y * (strong ? 1.5 : 1.0);
+  const double wide = std::min(wanted, room()), high = UiParts::height() + 2 * pad.y * (strong && width_at_720 > 0 ? 1.5 : 1.0);
   if (strong) {
     ImGui::PushStyleColor(ImGuiCol_Button, vec(ground_colour(Ground::kStrong)));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, vec(ground_colour(Ground::kStrongHover)));

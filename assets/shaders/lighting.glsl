@@ -30,14 +30,14 @@ float lamp_power(vec3 to_lamp) {
   float c = max(dot(-normalize(to_lamp), axis.xyz), 0.0);
   float c2 = c * c;
   // Beyond the working distance the camera's gain and light thrown back by the walls soften the fall.
-  float plain = lamp.w * c2 * c2 * c / (d2_mm + 60.0);
-  return plain < 1.0 ? pow(plain, 0.68) : pow(plain, 0.80);
+  float plain = lamp.w * c2 * c2 / (d2_mm + 60.0);
+  return plain < 1.0 ? pow(plain, 0.62) : pow(plain, 0.80);
 }
 
 // What the air adds and takes over a distance: the far wall is paler and flatter than the organ before the lens.
 vec3 hazed(vec3 light, vec3 at) {
   float thick = 1.0 - exp(-1.4 * max(length(at - eye.xyz) - 0.06, 0.0));
-  return mix(light, vec3(0.080, 0.048, 0.040), thick);
+  return mix(light, vec3(0.070, 0.036, 0.029), thick);
 }
 
 #ifdef PRESET_POTATO

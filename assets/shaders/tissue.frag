@@ -57,12 +57,12 @@ vec3 albedo(vec4 broad, vec4 coarse, vec4 middle, vec4 fine, vec3 rest_mm) {
   c *= 0.90 + 0.2 * middle.w;
   return with_vessels(c, vessels(rest_mm, 0.0125, coarse, broad.w + 0.10), vec3(0.27, 0.040, 0.030), vec3(0.34, 0.085, 0.055), 0.66);
 #elif defined(LOOK_WALL)
-  vec3 c = mix(vec3(0.52, 0.145, 0.105), vec3(0.68, 0.30, 0.215), smoothstep(0.30, 0.75, broad.w));
+  vec3 c = mix(vec3(0.58, 0.150, 0.105), vec3(0.74, 0.31, 0.215), smoothstep(0.30, 0.75, broad.w));
   c = mix(c, vec3(0.76, 0.47, 0.32), 0.35 * smoothstep(0.45, 0.8, coarse.w));
   return with_vessels(c, vessels(rest_mm, 0.0062, coarse, broad.w), vec3(0.29, 0.030, 0.045), vec3(0.42, 0.07, 0.06), 0.62);
 #elif defined(LOOK_FAT)
-  vec3 c = mix(vec3(0.70, 0.360, 0.062), vec3(0.86, 0.580, 0.150), smoothstep(0.28, 0.70, broad.w));
-  c = mix(c, vec3(0.90, 0.74, 0.37), 0.55 * smoothstep(0.42, 0.78, coarse.w));
+  vec3 c = mix(vec3(0.72, 0.338, 0.058), vec3(0.88, 0.552, 0.140), smoothstep(0.28, 0.70, broad.w));
+  c = mix(c, vec3(0.93, 0.71, 0.35), 0.55 * smoothstep(0.42, 0.78, coarse.w));
   // Septa between the lobules.
   float septum = 1.0 - smoothstep(0.015, 0.075, abs(middle.w - 0.47));
   c = mix(c, vec3(0.56, 0.235, 0.050), 0.42 * septum);
@@ -103,7 +103,7 @@ const vec4 kBend = vec4(0.60, 0.42, 0.30, 0.80);
 const vec3 kWet = vec3(1.2, 1.5, 0.50);
 #elif defined(LOOK_WALL)
 const vec4 kBend = vec4(0.50, 0.55, 0.34, 0.40);
-const vec3 kWet = vec3(1.5, 2.0, 0.60);
+const vec3 kWet = vec3(1.2, 1.7, 0.70);
 #elif defined(LOOK_GALLBLADDER) || defined(LOOK_DUCT)
 const vec4 kBend = vec4(0.22, 0.20, 0.16, 0.30);
 const vec3 kWet = vec3(2.0, 3.0, 0.60);
@@ -133,7 +133,7 @@ vec4 marks_at(vec3 rest, vec4 coarse, vec4 middle) {
   return sum + smoothstep(vec4(0.03), vec4(0.20), sum) * vec4(0.42, 0.30, 0.24, 0.24) * vec4(middle.w + 0.8 * coarse.w - 0.90, coarse.w + middle.w - 1.0, middle.w - 0.5, coarse.w - 0.5);
 }
 
-void mark(inout Surface s, vec4 coarse, vec4 middle, vec4 fine) {
+void mark(inout Surface s, inout vec3 n, vec4 coarse, vec4 middle, vec4 fine) {
   vec4 there = marks_at(v_rest, coarse, middle);
   float white = smoothstep(0.14, 0.60, there.z);
   float grey = dot(s.base, vec3(0.4, 0.35, 0.25));
@@ -156,9 +156,14 @@ void mark(inout Surface s, vec4 coarse, vec4 middle, vec4 fine) {
 
   float blood = smoothstep(0.235, 0.275, there.x), deep = smoothstep(0.26, 0.62, there.x);
   s.base = mix(s.base, mix(vec3(0.34, 0.012, 0.008), vec3(0.175, 0.0036, 0.0036), deep), 0.97 * blood);
-  s.bump *= 1.0 - 0.74 * blood;
-  s.film = mix(s.film, 1.7, blood);
-  s.sharp = mix(s.sharp, 1.0, blood);
+  s.bump *= 1.0 - 0.72 * blood;
+  s.film = mix(s.film, 3.0, blood);
+  s.sharp = mix(s.sharp, 0.85, blood);
+  // A pool's rim is rounded: the film tilts down the slope of the field.
+  vec3 dx = dFdx(v_position), dy = dFdy(v_position);
+  vec3 slope = dFdx(there.x) * dx / max(dot(dx, dx), 1e-12) + dFdy(there.x) * dy / max(dot(dy, dy), 1e-12);
+  float rim = blood * (1.0 - smoothstep(0.27, 0.46, there.x));
+  n = normalize(n - rim * 0.0042 * slope);
 }
 #endif
 
@@ -227,6 +232,7 @@ void main() {
   float footprint_mm = length(fwidth(rest_mm));
   float sharp = 1.0 - smoothstep(0.30, 1.3, footprint_mm);  // the finest octave fades before it streaks
   fine = mix(vec4(0.5), textureLod(u_noise, rest_mm * 0.31 + 0.11, 0.0), sharp);
+  middle.xyz = mix(vec3(0.5), middle.xyz, 1.0 - 0.75 * smoothstep(0.7, 2.2, footprint_mm));  // far glints do not glitter
 #endif
   Surface s = Surface(albedo(broad, coarse, middle, fine, rest_mm), 1.0, 1.0, 0.0);
   vec3 n = normalize(v_normal);
@@ -234,7 +240,7 @@ void main() {
   n = press(s, n);
 #endif
 #ifdef MARKED
-  mark(s, coarse, middle, fine);
+  mark(s, n, coarse, middle, fine);
 #endif
   vec3 to_lamp = lamp.xyz - v_position;
   vec3 lit = lit_by_lamp(s, n, normalize(to_lamp), normalize(eye.xyz - v_position), coarse, middle, fine);

@@ -65,7 +65,7 @@ TEST_F(FieldsTest, BloodIsDarkRedAndSmooth) {
   const Pixel before = mean_at(plain_, pixel(at), 8), after = mean_at(image, pixel(at), 8);
   EXPECT_LT(brightness(after), 0.85 * brightness(before));
   EXPECT_GT(after[0] / after[1], 1.3 * before[0] / before[1]);
-  EXPECT_LT(roughness(image, pixel(at), 8), 0.6 * roughness(plain_, pixel(at), 8));
+  EXPECT_LT(roughness(image, pixel(at), 8), 0.7 * roughness(plain_, pixel(at), 8));
 }
 
 TEST_F(FieldsTest, CharIsBlackInTheMiddleWithABrownRim) {
@@ -193,12 +193,12 @@ TEST_F(FieldsTest, GlintsMoveWithTheScopeThoughTheTissueStays) {
     return out;
   };
   const std::vector<double> before = glints(plain_);
-  view_.camera.eye_T += Vec3(0.012, 0, 0);
+  view_.camera.eye_T += Vec3(0.018, 0, 0);
   const std::vector<double> after = glints(draw());
   int bright = 0, gone = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     bright += before[i] > 120;
-    gone += before[i] > 120 && after[i] < 90;
+    gone += before[i] > 120 && after[i] < 0.65 * before[i];
   }
   EXPECT_GT(bright, 15);
   EXPECT_GT(gone, bright / 4);

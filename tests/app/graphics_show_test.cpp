@@ -188,9 +188,9 @@ struct Patch {
   const char* what;
   double x, y, red, green, blue;
 };
-constexpr Patch kAbdomenPatches[] = {{"liver", 0.40, 0.12, 134, 46, 34},       {"gallbladder", 0.62, 0.40, 202, 201, 174},
-                                     {"fat", 0.45, 0.85, 194, 163, 87},       {"stomach", 0.42, 0.42, 190, 139, 122},
-                                     {"fat aside", 0.80, 0.60, 130, 90, 38}, {"sheath", 0.24, 0.72, 33, 28, 24}};
+constexpr Patch kAbdomenPatches[] = {{"liver", 0.40, 0.12, 139, 48, 35},       {"gallbladder", 0.62, 0.40, 202, 201, 174},
+                                     {"fat", 0.45, 0.85, 200, 166, 89},       {"stomach", 0.42, 0.42, 190, 139, 122},
+                                     {"fat aside", 0.80, 0.60, 137, 91, 38}, {"sheath", 0.24, 0.72, 33, 28, 24}};
 
 /// Mean colours of places: what a picture looks like from afar, whatever the driver's last bits.
 TEST_F(ShowPicture, TheAbdomenLooksAsItDidFromAfar) {

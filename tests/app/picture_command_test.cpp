@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "app/commands/bench_pictures.h"
 #include "app/commands/picture_command.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
@@ -49,6 +50,14 @@ TEST_F(PictureCommand, WritesThePictureAndSaysWhere) {
   EXPECT_NE(err_.str().find("preset soft"), std::string::npos);
 }
 
+TEST_F(PictureCommand, WithoutGrainTheFileIsSmaller) {
+  run();
+  const auto grainy = std::filesystem::file_size(options_.output);
+  options_.no_grain = true;
+  run();
+  EXPECT_LT(static_cast<double>(std::filesystem::file_size(options_.output)), 0.95 * static_cast<double>(grainy));
+}
+
 TEST_F(PictureCommand, RefusesUnknownScenesAndNamesTheKnown) {
   options_.scene = "theatre";
   const std::string said = refusal();
@@ -77,6 +86,28 @@ TEST_F(PictureCommand, AFileInPlaceOfTheFolderIsTheMachinesFault) {
   std::ofstream(folder_ / "none") << "in the way";
   options_.output = folder_ / "none" / "picture.png";
   EXPECT_THROW(run(), EnvironmentError);
+}
+
+TEST(PictureCosts, EveryPresetOfBothScenesIsTimedAndPrinted) {
+  std::ostringstream err, out;
+  const std::vector<PictureCost> costs = picture_costs(find_assets().assets, err);
+  if (costs.empty()) GTEST_SKIP() << err.str();
+  ASSERT_EQ(costs.size(), 6U);
+  for (const PictureCost& cost : costs) {
+    EXPECT_GT(cost.cpu_ms, 0);
+    EXPECT_GT(cost.per_s, 0);
+  }
+  EXPECT_LT(costs[4].cpu_ms, costs[5].cpu_ms);  // soft against full, by a factor of three
+  print_pictures(costs, out);
+  for (const char* word : {"board", "abdomen", "potato", "soft", "full"}) EXPECT_NE(out.str().find(word), std::string::npos) << word;
+}
+
+TEST(PictureCosts, WhereNothingCanBeDrawnItIsSaidAndNothingIsPrinted) {
+  std::ostringstream err, out;
+  EXPECT_TRUE(picture_costs("/nowhere", err).empty());
+  EXPECT_NE(err.str().find("no picture is timed"), std::string::npos);
+  print_pictures({}, out);
+  EXPECT_EQ(out.str(), "");
 }
 
 }  // namespace
