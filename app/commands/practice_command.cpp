@@ -84,7 +84,8 @@ int picture_screens(const PracticeOptions& given, std::ostream& out) {
   PracticeLoop loop(desk, context, false);
   const std::vector<InputEvent> help{key_event(InputEvent::Kind::kKeyDown, kKeyF1), key_event(InputEvent::Kind::kKeyUp, kKeyF1)};
   const std::vector<InputEvent> menu{key_event(InputEvent::Kind::kKeyDown, kKeyEscape), key_event(InputEvent::Kind::kKeyUp, kKeyEscape)};
-  for (const ScreenName name : {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kBriefing, ScreenName::kSettings, ScreenName::kNotch}) {
+  for (const ScreenName name : {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kBriefing, ScreenName::kSettings,
+                                ScreenName::kNotch}) {
     if (!make_screen(name)) continue;
     loop.go(name);
     if (loop.here() == name) take(loop, options, screen_name(name), out);
@@ -122,7 +123,8 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
     if (loop.fullscreen() != fullscreen) window.set_fullscreen(fullscreen = loop.fullscreen());
   }
   if (options.timing)
-    err << "trocar: first frame after " << first_s << " s (" << first_cpu_s << " s of CPU), " << frames << " frames in " << seconds_since(begin) << " s on "
+    err << "trocar: first frame after " << first_s << " s (" << first_cpu_s << " s of CPU), " << frames << " frames in "
+        << seconds_since(begin) << " s on "
         << window.info().renderer << '\n';
 }
 

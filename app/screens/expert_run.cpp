@@ -10,7 +10,8 @@
 namespace trocar {
 namespace {
 
-std::string make_recording(const AttemptSetup& setup, const AssetRoots& assets, const std::filesystem::path& file, const std::atomic<bool>& stop) {
+std::string make_recording(const AttemptSetup& setup, const AssetRoots& assets, const std::filesystem::path& file,
+                           const std::atomic<bool>& stop) {
   try {
     std::filesystem::create_directories(file.parent_path());
     const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
@@ -31,7 +32,8 @@ std::string make_recording(const AttemptSetup& setup, const AssetRoots& assets, 
 }
 
 std::filesystem::path file_of(const AttemptSetup& setup) {
-  const std::string all = setup.exercise.text + '\n' + setup.organ + '\n' + std::to_string(setup.seed) + '\n' + setup.hand + '\n' + TROCAR_VERSION;
+  const std::string all = setup.exercise.text + '\n' + setup.organ + '\n' + std::to_string(setup.seed) + '\n' + setup.hand +
+                          '\n' + TROCAR_VERSION;
   return cache_folder() / ("expert-" + setup.exercise.id + "-" + setup.level + "-" + std::to_string(setup.board) + "-" +
                            digest::of_bytes(all).substr(0, 12) + ".trocar");
 }

@@ -15,8 +15,8 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// A list of names of which one is kept in the settings.
-bool name_choice(Ui& ui, const char* id, const std::string& text, const std::vector<std::string>& shown, const std::vector<std::string>& names,
-                 std::string& kept) {
+bool name_choice(Ui& ui, const char* id, const std::string& text, const std::vector<std::string>& shown,
+                 const std::vector<std::string>& names, std::string& kept) {
   int chosen = index_of(names, kept);
   if (!ui.choice(id, text, shown, chosen)) return false;
   kept = names[static_cast<std::size_t>(chosen)];
@@ -46,8 +46,8 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
     s.scale = std::stod(percent) / 100;
     changed = true;
   }
-  changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")}, {"auto", "potato", "soft", "full"},
-                         s.preset);
+  changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
+                         {"auto", "potato", "soft", "full"}, s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);
   if (!desk.sound().refusal().empty()) ui.text(w.made(desk.sound().refusal()), Ink::kDim);
   if (changed) desk.settings_changed();

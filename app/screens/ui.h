@@ -73,7 +73,8 @@ class Ui {
   Pointer pointer() const;
   /// Steps asked of the last drawing() while it has the focus: left and right, comma and full stop one, page keys ten. 0: none.
   int key_steps() const;
-  /// A text at a place of its own, no wider than `room` (0: as wide as it is): in plots, on bars. @param anchor 0 from, 0.5 round, 1 up to x.
+  /// A text at a place of its own, no wider than `room` (0: as wide as it is): in plots, on bars.
+  /// @param anchor 0 from, 0.5 round, 1 up to x.
   void text_at(double x, double y, const std::string& text, Ink ink = Ink::kText, double room = 0, double anchor = 0, bool heading = false);
   double text_width(const std::string& text, bool heading = false) const;
   double line_height() const;

@@ -70,6 +70,7 @@ bool UiParts::chosen_by_key(const std::string& key) {
   const auto typing = std::any_of(memory.items_before.begin(), memory.items_before.end(),
                                   [&g](const UiMemory::Item& item) { return item.types && item.id == g.ActiveId; });
   if (typing) return code == kKeyEnter || code == kKeyEscape || code >= kKeyF1;
+  if (g.IO.WantTextInput) return false;  // a slider's number is being typed
   return code != kKeyEnter || !memory.focus_shown;
 }
 
