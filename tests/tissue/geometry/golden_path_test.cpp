@@ -91,7 +91,7 @@ TEST_F(GoldenPath, LiverAndGallbladderShareTheirBed) {
 
 TEST_F(GoldenPath, LiverAmongItsNeighboursHasNoThinTrianglesAndDoesNotCutItself) {
   LabelMap map;
-  map.layers.push_back(read_label_volume(data_ / "example_seg.nii.gz"));
+  map.layers.push_back(test::read_label_volume(data_ / "example_seg.nii.gz"));
   const CompiledScene scene = compile_scene(
       map, {{0, 5, "liver"}, {0, 2, "right kidney"}, {0, 11, "right adrenal"}, {0, 4, "gallbladder"}, {0, 8, "vena cava"}}, {});
   for (const CompiledOrgan& organ : scene.organs) {
