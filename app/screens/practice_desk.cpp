@@ -6,8 +6,8 @@
 #include <future>
 #include <random>
 
+#include "app/playback/expert_run.h"
 #include "app/recorded_result.h"
-#include "app/screens/expert_run.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"

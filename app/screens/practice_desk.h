@@ -94,6 +94,7 @@ class PracticeDesk {
   std::string notice;
   std::filesystem::path replay_file;             ///< what the replay screen shall show; empty: recording()
   std::filesystem::path replay_beside;           ///< second run beside it; empty: none
+  std::optional<double> replay_at_s;             ///< loop time at which the replay shall begin; nothing: the run's beginning
 
  private:
   struct State;

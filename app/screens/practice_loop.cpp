@@ -37,7 +37,9 @@ struct PracticeLoop::State {
   PracticeDesk& desk;
   FrameTarget target;
   UiLayer layer;
+  GraphicsContext& context;
   Renderer renderer;
+  std::unique_ptr<Renderer> second_renderer;   // keeps its own organ on the GPU; while two runs are compared
   ScreenName name = ScreenName::kStart;
   std::unique_ptr<Screen> screen;
   bool menu = false, help = false, fullscreen = false, picture_wanted = false;
@@ -48,8 +50,8 @@ struct PracticeLoop::State {
   std::vector<DrawnText> texts;
   std::vector<std::string> scrolling;
 
-  State(PracticeDesk& given, GraphicsContext& context, bool to_window)
-      : desk(given), target(context, to_window), layer(context, given.scale()), renderer(context, given.assets().assets) {}
+  State(PracticeDesk& given, GraphicsContext& graphics, bool to_window)
+      : desk(given), target(graphics, to_window), layer(graphics, given.scale()), context(graphics), renderer(graphics, given.assets().assets) {}
 
   void show(ScreenName to);
   void open_menu(bool open);
@@ -128,6 +130,8 @@ bool PracticeLoop::State::command(const InputEvent& event) {
   } else if (action == Action::kHelp) {
     help = !help;
     open_menu(false);
+  } else if (action == Action::kMenu && !menu && !help && screen && screen->takes_escape()) {
+    return true;   // its button hears it
   } else if (action == Action::kMenu && !layer.popup_open()) {
     const bool close_help = std::exchange(help, false);
     open_menu(!close_help && !menu);
@@ -154,15 +158,30 @@ void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
   }
 }
 
+/// Both pictures first, then both into the frame: drawing a picture binds framebuffers of its own.
 void PracticeLoop::State::draw_stage(int width, int height) {
-  const std::optional<Screen::Stage> stage = screen ? screen->stage(desk, width, height) : std::nullopt;
-  PixelRect part{0, 0, width, height};
-  if (stage && stage->width > 0)
-    part = {static_cast<int>(stage->x), static_cast<int>(stage->y), static_cast<int>(stage->width), static_cast<int>(stage->height)};
-  const bool drawable = stage && part.width >= 64 && part.height >= 48;
-  const unsigned texture = drawable ? renderer.draw_scope(stage->view, part.width, part.height) : 0;
+  struct Placed {
+    unsigned texture;
+    PixelRect part;
+    double dim;
+  };
+  std::vector<Placed> placed;
+  const auto draw = [&](const std::optional<Screen::Stage>& stage, Renderer& with) {
+    PixelRect part{0, 0, width, height};
+    if (stage->width > 0)
+      part = {static_cast<int>(stage->x), static_cast<int>(stage->y), static_cast<int>(stage->width), static_cast<int>(stage->height)};
+    if (part.width < 64 || part.height < 48) return;
+    placed.push_back({with.draw_scope(stage->view, part.width, part.height), part, std::max(stage->dim, menu || help ? 0.6 : 0.0)});
+  };
+  if (const auto stage = screen ? screen->stage(desk, width, height) : std::nullopt) draw(stage, renderer);
+  if (const auto beside = screen ? screen->second_stage(desk, width, height) : std::nullopt) {
+    if (!second_renderer) second_renderer = std::make_unique<Renderer>(context, desk.assets().assets);
+    draw(beside, *second_renderer);
+  } else {
+    second_renderer.reset();
+  }
   target.begin(width, height);
-  if (drawable) target.place(texture, part, std::max(stage->dim, menu || help ? 0.6 : 0.0));
+  for (const Placed& one : placed) target.place(one.texture, one.part, one.dim);
 }
 
 void PracticeLoop::State::draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events) {

@@ -1,5 +1,6 @@
 #include "app/screens/screen_table.h"
 
+#include "app/screens/replay_screen.h"
 #include "app/screens/settings_screen.h"
 #include "app/screens/start_screen.h"
 
@@ -14,7 +15,7 @@ std::unique_ptr<Screen> make_screen(ScreenName name) {
     case ScreenName::kRun: return nullptr;
     case ScreenName::kDebrief: return nullptr;
     case ScreenName::kProgress: return nullptr;
-    case ScreenName::kReplay: return nullptr;
+    case ScreenName::kReplay: return std::make_unique<ReplayScreen>();
     case ScreenName::kNotch: return nullptr;
     case ScreenName::kQuit: return nullptr;
   }

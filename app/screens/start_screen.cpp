@@ -32,10 +32,11 @@ std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, i
   if (!scene_) {
     scene_ = desk.show_scene(t_s_ == 0 ? kFirstWait_s : 0);
     if (scene_) organ_T_ = std::make_shared<const TriangleSurface>(scene_->organ_T);
+    if (scene_) film_ = std::make_unique<FilmLoop>(scene_->setup, desk.assets());
   }
   if (!scene_) return {};
   Stage stage;
-  stage.view = show_view(*scene_, organ_T_, t_s_);
+  stage.view = film_->ready() ? film_->view() : show_view(*scene_, organ_T_, t_s_);
   const double left = panel_right_ > 0 && width - panel_right_ >= 0.4 * width ? panel_right_ : 0;
   stage.x = left;
   stage.width = width - left;
@@ -115,14 +116,16 @@ void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
   if (!scene_ || free <= 0) return;
   const double room = free - ui.px(2 * kMargin), x = panel_right_ + ui.px(kMargin), high = ui.line_height();
   const double y = ui.height() - 2 * high - ui.px(22), pad = ui.px(10);
-  const double wide = std::min(room, std::max(ui.text_width(scene_->organ.credit), ui.text_width(w("Still scene: {0}", {scene_->organ.name}))));
+  const std::string seen = film_->ready() ? w("Replay of the expert: {0}", {scene_->organ.name}) : w("Still scene: {0}", {scene_->organ.name});
+  const double wide = std::min(room, std::max(ui.text_width(scene_->organ.credit), ui.text_width(seen)));
   ui.paint_ground({x - pad, y - pad / 2, wide + 2 * pad, 2 * high + ui.px(4) + pad}, 0.85, ui.px(6));
-  ui.text_at(x, y, w("Still scene: {0}", {scene_->organ.name}), Ink::kText, room);
+  ui.text_at(x, y, seen, Ink::kText, room);
   ui.text_at(x, y + high + ui.px(4), scene_->organ.credit, Ink::kDim, room);
 }
 
 std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
   t_s_ += dt_s;
+  if (film_) film_->advance(dt_s);
   const Words& w = desk.words();
   const double margin = std::min(ui.px(kMargin), 0.02 * ui.width());
   const Area area{margin, margin, std::min(ui.px(kPanelWidth), ui.width() - 2 * margin), ui.height() - 2 * margin};

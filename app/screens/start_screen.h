@@ -1,10 +1,11 @@
-// T1: the first page. Try as a guest, sign in, language and size; behind it the abdomen that ships.
+// T1: the first page. Try as a guest, sign in, language and size; behind it the abdomen that ships, where the expert plays.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/playback/film_loop.h"
 #include "app/scene.h"
 #include "app/screens/screen.h"
 #include "app/words/words.h"
@@ -24,6 +25,7 @@ class StartScreen final : public Screen {
 
   double t_s_ = 0, panel_right_ = 0;
   std::shared_ptr<const Scene> scene_;
+  std::unique_ptr<FilmLoop> film_;   ///< over the still scene, as soon as there is one
   std::shared_ptr<const TriangleSurface> organ_T_;
   std::vector<Language> languages_;
   std::string code_, wrong_;

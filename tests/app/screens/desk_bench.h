@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "app/screens/practice_desk.h"
@@ -17,6 +18,8 @@ inline AssetRoots source_assets() {
 
 struct DeskBench {
   test::TemporaryFolder folder;
+
+  DeskBench() { ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); }
 
   DeskOptions options() const {
     DeskOptions o;
