@@ -188,6 +188,13 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   return out;
 }
 
+SessionHooks hooks_of(const SessionObserver& observe, const std::function<bool()>& interrupted) {
+  SessionHooks hooks;
+  hooks.observe = observe;
+  hooks.interrupted = interrupted;
+  return hooks;
+}
+
 }  // namespace
 
 SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
@@ -224,10 +231,13 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
 
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
                            const SessionObserver& observe, const std::function<bool()>& interrupted) {
-  SessionHooks hooks;
-  hooks.observe = observe;
-  hooks.interrupted = interrupted;
-  return run_session(scene, assets, hooks, writer);
+  return run_session(scene, assets, hooks_of(observe, interrupted), writer);
+}
+
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
+                                                    const std::filesystem::path& file, const SessionObserver& observe,
+                                                    const std::function<bool()>& interrupted) {
+  return record_session(scene, assets, hooks_of(observe, interrupted), file);
 }
 
 std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,

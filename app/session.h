@@ -76,6 +76,9 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, Recordi
 /// Runs into a file, or into memory when none is given, and reads the recording back: what is graded is what was written.
 std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
                                                     const std::filesystem::path& file);
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
+                                                    const std::filesystem::path& file, const SessionObserver& observe = {},
+                                                    const std::function<bool()>& interrupted = {});
 
 /// The same loop fed with the recorded device input. @param scene built from the recording's own setup.
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe = {});

@@ -39,7 +39,7 @@ Beside find_beside(const RecordingOptions& options, const Subject& subject, cons
 bool is_film(const RecordingOptions& options) {
   const bool film = !options.video.empty() || !options.beside.empty() || options.speed != 1;
   if (film && options.video.empty() && options.frames.empty())
-    throw InputError("--beside and --speed say how a film shall be: name it with --video FILE, or a folder for its pictures with --frames DIR");
+    throw InputError("--beside and --speed are of a film: name it with --video FILE, or a folder for its pictures with --frames DIR");
   if (!options.video.empty() && !options.frames.empty()) throw InputError("--video and --frames: one of the two");
   return film;
 }

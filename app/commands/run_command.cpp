@@ -211,7 +211,8 @@ AttemptResult run_with_pictures(const RunOptions& options, const Scene& scene, c
   std::optional<VideoWriter> video;
   const double fps = options.fps.value_or(options.video.empty() ? 10 : 25);
   if (!options.video.empty()) video.emplace(options.video, 1280, 720, fps);
-  FrameWriter frames(painter, video ? PictureSink([&video](const Image& image) { video->add(image); }) : numbered_pictures(options.frames), fps);
+  const PictureSink sink = video ? PictureSink([&video](const Image& image) { video->add(image); }) : numbered_pictures(options.frames);
+  FrameWriter frames(painter, sink, fps);
   const AttemptResult result = run_attempt(options, scene, assets, err, [&](const SessionView& view) { frames.observe(view); });
   if (video) video->close();
   err << "trocar: " << frames.written() << " frames in " << (video ? options.video : options.frames).string() << '\n';

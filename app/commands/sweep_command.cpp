@@ -84,7 +84,7 @@ void run_job(Job& job, const SweepOptions& options, const AssetRoots& assets) {
   run.organ = options.organ;
   const AttemptSetup setup = attempt_setup(run, assets);
   const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
-  const auto [outcome, recording] = record_session(scene, assets, {}, {});
+  const auto [outcome, recording] = record_session(scene, assets, {});
   job.grade = grade_recording(recording, "recording in memory");
   job.fault = outcome.device.fault;
 }

@@ -22,22 +22,16 @@ struct Plan {
   int device_lines = 2;  ///< of the flowing form
 };
 
-std::string number(double value, int decimals) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
-
-std::string short_number(double value) {
-  std::string text = number(value, 2);
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
+/// A label with its numbers in it.
+std::string put_in(std::string label, const std::string& first, const std::string& second = "") {
+  for (const auto& [place, value] : {std::pair("{1}", second), std::pair("{0}", first)})
+    if (const std::size_t at = label.find(place); at != std::string::npos) label.replace(at, 3, value);
+  return label;
 }
 
 class Column {
  public:
-  Column(HudPen& pen, const Hud& hud, const HudFrame& frame) : pen_(pen), hud_(hud), frame_(frame), body_(frame.body) {
+  Column(HudPen& pen, const Hud& hud, const HudFrame& frame) : pen_(pen), hud_(hud), labels_(hud.labels), frame_(frame), body_(frame.body) {
     box_ = {frame.width - frame.column_width, frame.top, frame.column_width, frame.height - frame.top};
     x_ = box_.x + frame.px(14);
     room_ = box_.width - frame.px(28);
@@ -56,6 +50,26 @@ class Column {
   }
 
  private:
+  std::string number(double value, int decimals) const {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+    return with_sign(text.data());
+  }
+
+  std::string short_number(double value) const {
+    std::array<char, 40> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.2f", value);
+    std::string text = buffer.data();
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return with_sign(text);
+  }
+
+  std::string with_sign(std::string text) const {
+    if (const std::size_t at = text.find('.'); at != std::string::npos) text.replace(at, 1, labels_.decimal);
+    return text;
+  }
+
   double line() const { return plan_.pitch * body_; }
   double heading_height() const { return 1.45 * body_; }
   double bar_height() const { return (1.40 + 1.15 + 1.35 + 0.35) * body_; }
@@ -139,9 +153,9 @@ class Column {
     const PoseDial& d = *hud_.dial;
     const double mm = 1e3, deg = 180 / std::numbers::pi;
     if (d.hidden) return lay_hidden_dial(d);
-    heading("Match the pen");
+    heading(labels_.match);
     const auto fault = [&](double error, double tolerance, const char* unit, int decimals) {
-      return number(error, decimals) + " of " + short_number(tolerance) + unit;
+      return put_in(labels_.error, number(error, decimals), short_number(tolerance)) + unit;
     };
     const std::string tip = fault(d.position_error_m * mm, d.position_tolerance_m * mm, " mm", 1),
                       turn = fault(d.angle_error_rad * deg, d.angle_tolerance_rad * deg, "\u00b0", 0);
@@ -160,7 +174,7 @@ class Column {
 
   void lay_hidden_dial(const PoseDial& dial) {
     const double end = y_ + dial_height();
-    heading("Match the pen");
+    heading(labels_.match);
     pen_.text(dial.hidden_note, x_, y_ + 1.02 * body_, body_, false, HudInk::kDim, room_);
     y_ = end;
   }
@@ -180,7 +194,7 @@ class Column {
   }
 
   void lay_dial_rows(const std::string& tip, bool tip_in, const std::string& turn, bool turn_in) {
-    for (const auto& [name, value, inside] : {std::tuple("Tip", tip, tip_in), std::tuple("Angle", turn, turn_in)}) {
+    for (const auto& [name, value, inside] : {std::tuple(labels_.tip, tip, tip_in), std::tuple(labels_.angle, turn, turn_in)}) {
       const double baseline = y_ + 0.98 * body_;
       pen_.shape(inside ? HudShape::Kind::kTick : HudShape::Kind::kOpen,
                  {x_, y_ + 0.1 * body_, 1.05 * body_, 1.05 * body_});
@@ -193,7 +207,7 @@ class Column {
 
   void lay_bars() {
     if (plan_.bars == 0) return;
-    heading("Force");
+    heading(labels_.force);
     for (int i = 0; i < plan_.bars; ++i) lay_bar(hud_.bars[static_cast<std::size_t>(i)]);
   }
 
@@ -242,15 +256,16 @@ class Column {
     double right = x_ + room_;
     if (bar.limit_n > 0)
       right =
-          pen_.text_right("limit " + short_number(bar.limit_n), right, baseline, body_, false, HudInk::kDim) - space;
+          pen_.text_right(put_in(labels_.limit, short_number(bar.limit_n)), right, baseline, body_, false, HudInk::kDim) - space;
     const std::string range =
         bar.band_high_n > 0 ? short_number(bar.band_low_n) + "\u2013" + short_number(bar.band_high_n) : "";
-    const std::string peak = "peak " + number(bar.peak_n, 1);
+    const std::string peak = put_in(labels_.peak, number(bar.peak_n, 1));
     const double peak_width = pen_.width(peak, body_, false);
     double left = x_;
     if (!range.empty()) {
       const double free = right - left - peak_width - space;
-      const std::string band = pen_.width("band " + range, body_, false) <= free ? "band " + range : range;
+      const std::string named = put_in(labels_.band, range);
+      const std::string band = pen_.width(named, body_, false) <= free ? named : range;
       left = pen_.text(band, x_, baseline, body_, false, HudInk::kDim, right - left) + space;
     }
     if (bar.peak_n > 0 && right - left >= peak_width)  // no peak yet, or none kept: say nothing rather than 0
@@ -262,7 +277,7 @@ class Column {
     y_ += plan_.gap * body_;
     const auto done = std::count_if(hud_.steps.begin(), hud_.steps.end(),
                                     [](const HudStep& s) { return s.state == HudStep::State::kDone; });
-    heading("Steps  " + std::to_string(done) + "/" + std::to_string(hud_.steps.size()));
+    heading(labels_.steps + "  " + std::to_string(done) + "/" + std::to_string(hud_.steps.size()));
     const auto [first, last] = step_window();
     for (std::size_t i = first; i < last; ++i) {
       const HudStep& step = hud_.steps[i];
@@ -295,12 +310,11 @@ class Column {
   void lay_rows() {
     if (plan_.rows == 0) return;
     y_ += plan_.gap * body_;
-    heading("So far");
+    heading(labels_.so_far);
     for (int i = 0; i < plan_.rows; ++i) row(hud_.rows[static_cast<std::size_t>(i)], i % 2 == 0);
     const int left_out = static_cast<int>(hud_.rows.size()) - plan_.rows;
     if (left_out > 0) {
-      pen_.text("+ " + std::to_string(left_out) + " more after the run", x_, y_ + 0.98 * body_, body_, false,
-                HudInk::kDim, room_);
+      pen_.text(put_in(labels_.more, std::to_string(left_out)), x_, y_ + 0.98 * body_, body_, false, HudInk::kDim, room_);
       y_ += line();
     }
   }
@@ -309,7 +323,7 @@ class Column {
     if (hud_.device.empty() || (!plan_.device_as_rows && plan_.device_lines == 0)) return;
     y_ += plan_.gap * body_;
     if (plan_.device_as_rows) {
-      heading("Device");
+      heading(labels_.device);
       for (std::size_t i = 0; i < hud_.device.size(); ++i) row(hud_.device[i], i % 2 == 0);
       return;
     }
@@ -321,6 +335,7 @@ class Column {
 
   HudPen& pen_;
   const Hud& hud_;
+  const HudLabels& labels_;
   const HudFrame& frame_;
   int body_;
   HudBox box_;

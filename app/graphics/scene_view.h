@@ -60,7 +60,15 @@ struct HudRow {
   std::string name, value, unit;
 };
 
+/// What the column says by itself, in the language that was chosen; {0} is a number.
+struct HudLabels {
+  std::string match = "Match the pen", force = "Force", steps = "Steps", so_far = "So far", device = "Device", tip = "Tip", angle = "Angle",
+              error = "{0} of {1}", limit = "limit {0}", peak = "peak {0}", band = "band {0}", more = "+ {0} more after the run";
+  std::string decimal = ".";
+};
+
 struct Hud {
+  HudLabels labels = {};
   std::string trainee;  ///< "Trainee: T-expert"
   std::string title;    ///< "E02 Surface touch - L1"
   double elapsed_s = 0, limit_s = 0;

@@ -42,10 +42,11 @@ std::string number(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-std::vector<std::string> arguments(const std::string& ffmpeg, const std::filesystem::path& file, const std::filesystem::path& part, int width,
-                                   int height, double fps) {
-  std::vector<std::string> out{ffmpeg, "-hide_banner", "-loglevel", "error", "-nostdin", "-f", "rawvideo", "-pix_fmt", "rgb24",
-                               "-video_size", std::to_string(width) + "x" + std::to_string(height), "-framerate", number(fps), "-i", "pipe:0",
+std::vector<std::string> arguments(const std::string& ffmpeg, const std::filesystem::path& file, const std::filesystem::path& part,
+                                   int width, int height, double fps) {
+  std::vector<std::string> out{ffmpeg, "-hide_banner", "-loglevel", "error", "-xerror", "-nostdin", "-f", "rawvideo", "-pix_fmt", "rgb24",
+                               "-video_size", std::to_string(width) + "x" + std::to_string(height),
+                               "-framerate", number(fps), "-i", "pipe:0",
                                "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-fflags", "+bitexact", "-flags:v", "+bitexact"};
   const auto& encoder = encoders().at(file.extension().string());
   out.insert(out.end(), encoder.begin(), encoder.end());
@@ -98,7 +99,8 @@ pid_t spawn(const std::vector<std::string>& words, int input, int output, int er
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
   pid_t pid = -1;
-  if (const int error = posix_spawn(&pid, words.front().c_str(), &rules.files, &rules.attributes, argv.data(), environ)) no_start(words.front(), error);
+  const int error = posix_spawn(&pid, words.front().c_str(), &rules.files, &rules.attributes, argv.data(), environ);
+  if (error != 0) no_start(words.front(), error);
   return pid;
 }
 
@@ -119,7 +121,8 @@ std::string find_ffmpeg() {
 
 void check_video_file(const std::filesystem::path& file) {
   if (!encoders().contains(file.extension().string())) throw InputError(file.string() + ": a film's name ends with .mp4, .webm or .mkv");
-  if (std::filesystem::exists(std::filesystem::symlink_status(file))) throw InputError(file.string() + ": exists; a film is never overwritten");
+  if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+    throw InputError(file.string() + ": exists; a film is never overwritten");
   if (!find_ffmpeg().empty()) return;
   throw EnvironmentError("ffmpeg is not on PATH (Debian: apt install ffmpeg); without it --frames DIR writes numbered pictures");
 }

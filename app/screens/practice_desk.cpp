@@ -62,6 +62,7 @@ struct PracticeDesk::State {
   std::optional<AttemptResult> result;
   std::shared_ptr<const Scene> last_scene;
   std::vector<AttemptSummary> unkept;          // of this sitting, newest first, when nothing is kept
+  std::vector<PastAttempt> unkept_numbers;     // the same with their metrics
   ExpertRun expert;
   std::shared_future<std::shared_ptr<const Scene>> show_scene;
 
@@ -238,6 +239,22 @@ PracticeDesk::Advice PracticeDesk::next() const {
 
 std::optional<std::string> PracticeDesk::teacher_note() const { return std::nullopt; }
 
+std::vector<PastAttempt> PracticeDesk::past(const std::string& id) const {
+  const State& s = *state_;
+  std::vector<PastAttempt> out;
+  if (s.database->in_memory()) {
+    std::copy_if(s.unkept_numbers.begin(), s.unkept_numbers.end(), std::back_inserter(out), [&](const PastAttempt& a) {
+      return a.summary.trainee == s.trainee && (id.empty() || a.summary.exercise_id == id);
+    });
+    return out;
+  }
+  try {
+    return past_attempts(*s.database, s.trainee, id);
+  } catch (const EnvironmentError&) {
+    return {};
+  }
+}
+
 std::string PracticeDesk::begin_attempt() {
   State& s = *state_;
   if (s.runner) return s.words("An attempt is running.");
@@ -307,6 +324,8 @@ bool PracticeDesk::end_attempt() {
   summary.score = s.result->grade.score;
   summary.passed = s.result->grade.passed;
   s.unkept.insert(s.unkept.begin(), summary);
+  s.unkept_numbers.insert(s.unkept_numbers.begin(), past_attempt(*s.result));
+  s.unkept_numbers.front().summary.trainee = s.trainee;
   return true;
 }
 
@@ -325,5 +344,7 @@ std::filesystem::path PracticeDesk::expert_recording() {
   setup.board = s.result ? s.result->board : drawn_board(setup.seed, false);
   return s.expert.ask(setup, s.assets);
 }
+
+const std::string& PracticeDesk::expert_refusal() const { return state_->expert.refusal(); }
 
 }  // namespace trocar

@@ -18,6 +18,7 @@
 #include "app/words/words.h"
 #include "scenarios/exercise.h"
 #include "trainees/attempt_store.h"
+#include "trainees/progress/past_attempts.h"
 
 namespace trocar {
 
@@ -86,6 +87,9 @@ class PracticeDesk {
   std::filesystem::path recording() const;       ///< of result(), empty: none kept
   /// Recording of the expert at the same exercise and level, made when first asked for (headless, cached). Empty: not yet.
   std::filesystem::path expert_recording();
+  const std::string& expert_refusal() const;     ///< why there will be none, empty while it may still come
+  /// Finished attempts of whoever is here, newest first. @param exercise_id empty: all. Nothing while the database does not answer.
+  std::vector<PastAttempt> past(const std::string& exercise_id = "") const;
 
   /// Where this desk keeps attempts: ":memory:" when nothing is kept.
   std::filesystem::path database() const;

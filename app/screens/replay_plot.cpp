@@ -70,7 +70,8 @@ class TimeLine {
 
   void ground() {
     ui_.paint_ground(inner_, 0.6);
-    if (c_.band.high_n > 0) ui_.paint_box({inner_.x, y_of(c_.band.high_n), inner_.width, y_of(c_.band.low_n) - y_of(c_.band.high_n)}, Ink::kGood, 0.28);
+    const double band_top = y_of(c_.band.high_n);
+    if (c_.band.high_n > 0) ui_.paint_box({inner_.x, band_top, inner_.width, y_of(c_.band.low_n) - band_top}, Ink::kGood, 0.28);
     if (c_.limit_n > 0 && c_.limit_n < top_n_) ui_.paint_hatch({inner_.x, inner_.y, inner_.width, y_of(c_.limit_n) - inner_.y}, Ink::kAlarm);
   }
 
@@ -84,7 +85,8 @@ class TimeLine {
     for (double s = std::ceil(clock_.from_s() / step_s) * step_s; s <= clock_.to_s(); s += step_s) {
       const double x = x_of(s);
       ui_.paint_line(x, inner_.y + inner_.height, x, inner_.y + inner_.height + ui_.px(4), Ink::kDim, 1);
-      if (x + ui_.px(40) < inner_.x + inner_.width) ui_.text_at(x, inner_.y + inner_.height + ui_.px(4), ui_.words().number(s, 0) + " s", Ink::kDim, 0, 0.5);
+      if (x + ui_.px(40) > inner_.x + inner_.width) continue;
+      ui_.text_at(x, inner_.y + inner_.height + ui_.px(4), ui_.words().number(s, 0) + " s", Ink::kDim, 0, 0.5);
     }
   }
 
@@ -107,7 +109,8 @@ class TimeLine {
   /// What is still being run again.
   void not_known() {
     const double from = x_of(c_.run.available_until() - c_.run.begin_s()), end = inner_.x + inner_.width;
-    if (c_.run.stage() == RecordedRun::Stage::kReplaying && from < end) ui_.paint_hatch({from, inner_.y, end - from, inner_.height}, Ink::kDim, 14, 1);
+    if (c_.run.stage() != RecordedRun::Stage::kReplaying || from >= end) return;
+    ui_.paint_hatch({from, inner_.y, end - from, inner_.height}, Ink::kDim, 14, 1);
   }
 
   Ui& ui_;

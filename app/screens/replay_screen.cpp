@@ -154,7 +154,8 @@ std::string ReplayScreen::state_words(const Words& w) const {
 void ReplayScreen::heading(Ui& ui) const {
   const Words& w = ui.words();
   const Area area = ui.drawing("heading", ui.line_height() / ui.px(1));
-  const std::string time = w("{0} s of {1} s", {w.number(clock_.now_s(), 2), w.number(clock_.to_s(), 1)}) + ", " + speed_words(w, clock_.speed());
+  const std::string place = w("{0} s of {1} s", {w.number(clock_.now_s(), 2), w.number(clock_.to_s(), 1)});
+  const std::string time = place + ", " + speed_words(w, clock_.speed());
   const double mark = ui.line_height();
   ui.paint_mark(clock_.playing() ? Mark::kPlay : Mark::kHalf, area.x, area.y, mark);
   const double first = std::min(ui.text_width(time), 0.5 * area.width);
@@ -171,12 +172,13 @@ void ReplayScreen::force_of(Ui& ui, const Side& side, const Area& area) const {
   const std::optional<ForceBar> bar = telling_bar(side.run->scene(), moment);
   const std::string name = over ? w("{0}: ended", {side.name}) : side.name;
   if (!bar) {
-    const std::string far = moment.status.demand.oriented
-        ? w("{0} mm and {1} degrees from the pen", {w.number(1e3 * moment.status.position_error_m, 1), w.number(moment.status.angle_error_rad * 57.29578, 0)}) : "";
+    const std::string mm = w.number(1e3 * moment.status.position_error_m, 1), degrees = w.number(moment.status.angle_error_rad * 57.29578, 0);
+    const std::string far = moment.status.demand.oriented ? w("{0} mm and {1} degrees from the pen", {mm, degrees}) : "";
     ui.text_at(area.x, area.y, name + (far.empty() ? "" : ". " + far), Ink::kText, area.width);
     return;
   }
-  const bool above = bar->band_high_n > 0 && bar->value_n > bar->band_high_n, in = !above && bar->band_high_n > 0 && bar->value_n >= bar->band_low_n;
+  const bool banded = bar->band_high_n > 0, above = banded && bar->value_n > bar->band_high_n;
+  const bool in = banded && !above && bar->value_n >= bar->band_low_n;
   const std::string value = w.number(bar->value_n, 2) + " N";
   ui.text_at(area.x, area.y, name + ", " + w.made(bar->label), Ink::kText, area.width - ui.text_width("00.00 N") - ui.px(20));
   ui.text_at(area.x + area.width, area.y, value, above ? Ink::kAlarm : in ? Ink::kGood : Ink::kText, 0, 1);
@@ -184,10 +186,12 @@ void ReplayScreen::force_of(Ui& ui, const Side& side, const Area& area) const {
   const auto x = [&](double n) { return track.x + track.width * std::clamp(n / std::max(1e-6, bar->full_scale_n), 0.0, 1.0); };
   ui.paint_ground(track, 1, 3);
   ui.paint_frame(track, Ink::kDim, 1, 3);
-  if (bar->band_high_n > 0) ui.paint_box({x(bar->band_low_n), track.y, x(bar->band_high_n) - x(bar->band_low_n), track.height}, Ink::kGood, 0.35);
+  const double low = x(bar->band_low_n), high = x(bar->band_high_n);
+  if (banded) ui.paint_box({low, track.y, high - low, track.height}, Ink::kGood, 0.35);
   if (bar->limit_n > 0) ui.paint_hatch({x(bar->limit_n), track.y, track.x + track.width - x(bar->limit_n), track.height}, Ink::kAlarm);
   const double inset = ui.px(3);
-  ui.paint_box({track.x, track.y + inset, x(bar->value_n) - track.x, track.height - 2 * inset}, above ? Ink::kAlarm : in ? Ink::kGood : Ink::kAccent);
+  const Ink ink = above ? Ink::kAlarm : in ? Ink::kGood : Ink::kAccent;
+  ui.paint_box({track.x, track.y + inset, x(bar->value_n) - track.x, track.height - 2 * inset}, ink);
 }
 
 void ReplayScreen::forces(Ui& ui) const {

@@ -1,6 +1,7 @@
 #include "app/screens/screen_table.h"
 
 #include "app/screens/replay_screen.h"
+#include "app/screens/run_screen.h"
 #include "app/screens/settings_screen.h"
 #include "app/screens/start_screen.h"
 
@@ -12,7 +13,7 @@ std::unique_ptr<Screen> make_screen(ScreenName name) {
     case ScreenName::kSettings: return std::make_unique<SettingsScreen>();
     case ScreenName::kCurriculum: return nullptr;
     case ScreenName::kBriefing: return nullptr;
-    case ScreenName::kRun: return nullptr;
+    case ScreenName::kRun: return std::make_unique<RunScreen>();
     case ScreenName::kDebrief: return nullptr;
     case ScreenName::kProgress: return nullptr;
     case ScreenName::kReplay: return std::make_unique<ReplayScreen>();

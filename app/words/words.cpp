@@ -95,6 +95,19 @@ bool plain_code(const std::string& language) {
 /// Letters that a form says by itself: the more, the surer the match.
 std::size_t own_text(const std::string& form) { return form.size() - 3 * places(form).size(); }
 
+constexpr int kDeepest = 3;       // sentences in sentences
+constexpr std::size_t kSaysLittle = 6;
+
+/// "0.4", "3 / 12", "12.5 mm/s": a number with at most a unit.
+bool numeric(std::string_view text) {
+  const auto count = [&](auto is) { return std::count_if(text.begin(), text.end(), [&](unsigned char c) { return is(c) != 0; }); };
+  const auto letters = count([](int c) { return std::isalpha(c); }), digits = count([](int c) { return std::isdigit(c); });
+  return digits > 0 && letters <= 4 && !std::isalpha(static_cast<unsigned char>(text.front()));
+}
+
+/// A form such as "{0} of {1}" would fit half of all sentences: it is for numbers only.
+bool bare(const std::string& form) { return place_at(form, 0) && own_text(form) <= kSaysLittle; }
+
 }  // namespace
 
 std::vector<int> places(std::string_view sentence) {
@@ -143,25 +156,28 @@ std::string Words::operator()(std::string_view english, const std::vector<std::s
   return put_in((*this)(english), values);
 }
 
-std::optional<std::string> Words::filled(std::string_view english) const {
+std::optional<std::string> Words::filled(std::string_view english, int depth) const {
   for (const std::string& form : forms_) {
     auto values = values_in(form, english);
-    if (!values) continue;
-    for (std::string& value : *values) {
-      const auto found = translations_.find(value);
-      value = found != translations_.end() ? found->second : with_decimals(value, decimal_);
-    }
+    if (!values || (bare(form) && !std::all_of(values->begin(), values->end(), numeric))) continue;
+    for (std::string& value : *values) value = found(value, depth + 1).value_or(value);
     return put_in(translations_.at(form), *values);
   }
   return std::nullopt;
 }
 
+std::optional<std::string> Words::found(std::string_view english, int depth) const {
+  if (const auto whole = translations_.find(english); whole != translations_.end()) return whole->second;
+  if (depth < kDeepest)
+    if (auto sentence = filled(english, depth)) return sentence;
+  return numeric(english) ? std::optional(with_decimals(std::string(english), decimal_)) : std::nullopt;
+}
+
 std::string Words::made(std::string_view english) const {
   if (language_ == "en" || english.empty()) return std::string(english);
-  if (const auto found = translations_.find(english); found != translations_.end()) return found->second;
-  if (auto sentence = filled(english)) return *sentence;
+  if (auto sentence = found(english, 0)) return *sentence;
   missing_.emplace(english);
-  return with_decimals(std::string(english), decimal_);
+  return std::string(english);
 }
 
 std::string Words::number(double value, int decimals) const {

@@ -28,8 +28,8 @@ class Words {
   /// With {0}, {1}, ... replaced. A brace that names no value stays as it is.
   std::string operator()(std::string_view english, const std::vector<std::string>& values) const;
   /// A sentence that another part made with its values in it ("Reach 0.4 to 0.8 N and hold."): found by the key that it
-  /// fills ("Reach {0} to {1} N and hold."), the one with most words first. Values are translated too, and numbers take
-  /// the decimal sign.
+  /// fills ("Reach {0} and hold."), the one with most words first. Values are translated likewise ("{0} to {1} N"), and
+  /// numbers take the decimal sign. A form that says little by itself is for numbers only.
   std::string made(std::string_view english) const;
   /// A number with the decimal sign of the language: "0,48".
   std::string number(double value, int decimals) const;
@@ -41,7 +41,8 @@ class Words {
   const std::set<std::string>& missing() const { return missing_; }
 
  private:
-  std::optional<std::string> filled(std::string_view english) const;
+  std::optional<std::string> filled(std::string_view english, int depth) const;
+  std::optional<std::string> found(std::string_view english, int depth) const;
 
   std::string language_ = "en", decimal_ = ".";
   std::vector<std::string> forms_;  ///< keys with places, most text first

@@ -159,7 +159,7 @@ TEST(RunPlant, TheAttemptHappensOnTheFilesDeviceAndItsReceiptSaysSo) {
   EXPECT_EQ(simulated_device(setup).hand.grip_stiffness, hand_parameters(GripPreset::kFirm).grip_stiffness);
   EXPECT_TRUE(simulated_device(setup).plant->options.heat.on);
   const Scene scene = build_scene(setup, find_assets(), {"simulated", 1000, 16});
-  const auto [outcome, recording] = record_session(scene, find_assets(), {}, {});
+  const auto [outcome, recording] = record_session(scene, find_assets(), {});
   EXPECT_EQ(outcome.status, AttemptStatus::kCompleted);
   const AttemptResult result = recorded_result(recording, {});
   const std::string receipt = "\"plant\":{\"file\":\"arm.toml\",\"sha256\":\"" + digest::of_bytes(text) + "\"}";
@@ -173,7 +173,7 @@ TEST(RunPlant, AFileThatOnlyNamesTheSeedIsTheDefaultToTheBit) {
   AttemptSetup setup = short_setup();
   const auto hash = [&] {
     const Scene scene = build_scene(setup, find_assets(), {"simulated", 1000, 16});
-    return record_session(scene, find_assets(), {}, {}).first;
+    return record_session(scene, find_assets(), {}).first;
   };
   const SessionOutcome plain = hash();
   EXPECT_TRUE(plain.device.plant.empty());

@@ -28,6 +28,7 @@ class ReplayFilms : public testing_support::HeadlessFixture {
     options_.height = 240;
     options_.fps = 1;
   }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
   int run() {
     out_.str("");
     err_.str("");
@@ -35,6 +36,7 @@ class ReplayFilms : public testing_support::HeadlessFixture {
   }
   test::TemporaryFolder folder_;
   RecordingOptions options_;
+  const std::string path_ = std::getenv("PATH");
   std::ostringstream out_, err_;
 };
 

@@ -150,6 +150,7 @@ TEST_F(Videos, AFullDiskIsSaidAndLeavesNothing) {
 /// ffmpeg is a script in a folder of its own.
 class FakeFfmpeg : public ::testing::Test {
  protected:
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
   void use(const std::string& script) {
     folder_.write("ffmpeg", "#!/bin/sh\n" + script);
     ::chmod((folder_ / "ffmpeg").c_str(), 0755);
@@ -157,6 +158,7 @@ class FakeFfmpeg : public ::testing::Test {
     ASSERT_EQ(find_ffmpeg(), (folder_ / "ffmpeg").string());
   }
   test::TemporaryFolder folder_;
+  const std::string path_ = std::getenv("PATH");
 };
 
 TEST_F(FakeFfmpeg, ThatDiesIsHeardToItsLastWords) {

@@ -37,6 +37,10 @@ decimal = ","
 "Disc {0} of {1}: {2} to {3} N." = "Disque {0} sur {1} : de {2} à {3} N."
 "Attempt {0}" = "Essai {0}"
 "{1} after {0}" = "après {0}, {1}"
+"Reach {0} and hold." = "Atteignez {0} et tenez."
+"{0} to {1} N" = "{0} à {1} N"
+"{0} of {1}" = "{0} sur {1}"
+"Pen {0}." = "Stylo {0}."
 )";
 
 TEST_F(Catalogue, EnglishNeedsNoFile) {
@@ -82,7 +86,20 @@ TEST_F(Catalogue, SentencesMadeElsewhereAreFoundByTheirForm) {
   EXPECT_EQ(french.made(""), "");
   EXPECT_TRUE(french.missing().empty());
   EXPECT_EQ(french.made("Attempt "), "Attempt ");  // a place takes at least one letter
-  EXPECT_EQ(french.made("Reach 0.4 N."), "Reach 0,4 N.");
+  EXPECT_EQ(french.made("Force 0.4 N."), "Force 0.4 N.");
+  EXPECT_EQ(french.missing().size(), 2u);
+}
+
+TEST_F(Catalogue, SentencesInSentences) {
+  write("fr", kSmall);
+  const Words french(folder_, "fr");
+  EXPECT_EQ(french.made("Reach 0.4 to 0.8 N and hold."), "Atteignez 0,4 à 0,8 N et tenez.");
+  EXPECT_EQ(french.made("Pen 3 of 8."), "Stylo 3 sur 8.");
+  EXPECT_EQ(french.made("0.82"), "0,82");
+  EXPECT_EQ(french.made("12.5 mm/s"), "12,5 mm/s");
+  EXPECT_TRUE(french.missing().empty());
+  EXPECT_EQ(french.made("sum of the tip's way"), "sum of the tip's way");  // "{0} of {1}" is for numbers
+  EXPECT_EQ(french.made("CC BY 4.0"), "CC BY 4.0");
   EXPECT_EQ(french.missing().size(), 2u);
 }
 

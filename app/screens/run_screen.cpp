@@ -1,0 +1,271 @@
+#include "app/screens/run_screen.h"
+
+#include <chrono>
+
+#include "app/attempt_picture.h"
+#include "app/attempt_scene.h"
+#include "app/screens/coach.h"
+#include "app/screens/hud_draw_list.h"
+#include "app/screens/hud_words.h"
+#include "app/screens/practice_desk.h"
+#include "app/screens/run_sounds.h"
+#include "app/screens/run_view.h"
+#include "app/screens/ui.h"
+#include "haptics/kinematics/device_geometry.h"
+
+namespace trocar {
+namespace {
+
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Before anything has been seen of the run: the instrument as the jig holds it.
+RunMoment first_moment(const Scene& scene) {
+  RunMoment moment;
+  moment.record.stylus.X_TI = scene.loop.map.instrument_pose(home_pose());
+  moment.record.stylus.jaw_opening_m = 0.02;
+  return moment;
+}
+
+}  // namespace
+
+struct RunScreen::State {
+  enum class Asked : std::uint8_t { kNothing, kPause, kRestart };
+
+  FontSet fonts;
+  bool begun = false, steering = false, was_paused = false, overlay = false;
+  std::shared_ptr<const TriangleSurface> organ_T;
+  RunMoment before;                 // shown while nothing has been seen
+  Camera camera;
+  PixelRect picture;
+  HudLayout layout;
+  std::optional<double> rim;        // where the tip is when it is out of view
+  bool bars = true, guides = true;
+  Asked asked = Asked::kNothing;
+  double dt_s = 0, event_s = 0;     // last frame's step; when the first event since the last intent was handed over
+  Coach coach;
+  RunSounds sounds;
+  LatencyMeter latency;
+
+  void begin(PracticeDesk& desk);
+  void steer(PracticeDesk& desk);
+  void command(Action action, PracticeDesk& desk);
+  SceneView view(PracticeDesk& desk);
+  void lay_out(const Hud& hud, PracticeDesk& desk, int width, int height);
+  void pause(PracticeDesk& desk, bool paused);
+  std::optional<ScreenName> pause_panel(Ui& ui, PracticeDesk& desk);
+  std::optional<ScreenName> restart(PracticeDesk& desk);
+  std::optional<ScreenName> ended(PracticeDesk& desk);
+  void coach_panel(Ui& ui, PracticeDesk& desk) const;
+  void key_hints(Ui& ui, const PracticeDesk& desk) const;
+};
+
+RunScreen::RunScreen() : state_(std::make_unique<State>()) {}
+RunScreen::~RunScreen() = default;
+
+const LatencyMeter& RunScreen::latency() const { return state_->latency; }
+
+/// An attempt that has just begun.
+void RunScreen::State::begin(PracticeDesk& desk) {
+  const Scene& scene = desk.running()->scene();
+  organ_T = std::make_shared<const TriangleSurface>(scene.organ_T);
+  before = first_moment(scene);
+  camera = attempt_camera(scene);
+  steering = was_paused = overlay = false;
+  bars = true;
+  guides = scene.level.guides;
+  asked = Asked::kNothing;
+  latency.forget();
+  sounds = RunSounds();
+  const Standing standing = desk.standing(desk.exercise_id, desk.level);
+  coach.begin(desk.is_guest() && standing.passed == 0 && standing.attempts <= 1);
+  begun = true;
+}
+
+/// Hands the newest intent to the attempt; from where the instrument is, once the device is ready.
+void RunScreen::State::steer(PracticeDesk& desk) {
+  AttemptRunner& run = *desk.running();
+  Steering& hand = desk.steering();
+  if (run.paused() != was_paused) hand.handle({.kind = InputEvent::Kind::kFocusLost});  // what was held is let go
+  was_paused = run.paused();
+  if (was_paused || !run.ready()) return;
+  if (!steering) {
+    const HandIntent& from = run.target();
+    const Scene& scene = run.scene();
+    hand.begin(from.X_TI, from.jaw_opening_m, scene.board.centre_T, steering_reach(scene.setup.exercise, scene.level));
+    steering = true;
+  }
+  const Camera seen = moved_camera(camera, hand.scope());
+  const std::uint64_t number = run.steer(hand.advance(dt_s, seen, picture.height));
+  if (event_s > 0) latency.steered(number, event_s);
+  event_s = 0;
+}
+
+SceneView RunScreen::State::view(PracticeDesk& desk) {
+  AttemptRunner& run = *desk.running();
+  const RunMoment& newest = run.newest();
+  const RunMoment& moment = newest.seen ? newest : before;
+  if (newest.seen) latency.drawn(newest.steered);
+  sounds.hear(run.scene(), moment, desk.sound());
+  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T, desk.is_guest() ? "" : desk.trainee());
+  out.camera = moved_camera(camera, desk.steering().scope());
+  if (!guides) hide_guides(out);
+  if (steering) add_ghost(out, run.target());
+  return out;
+}
+
+void RunScreen::State::lay_out(const Hud& hud, PracticeDesk& desk, int width, int height) {
+  Hud shown = in_words(hud, desk.words());
+  for (ForceBar& bar : shown.bars) {
+    if (bars || bar.hidden) continue;
+    bar.hidden = true;
+    bar.hidden_note = desk.words()("hidden ({0} shows it)", {key_name(desk.keys().key_of(Action::kForceBars))});
+  }
+  picture = hud_scene_window(shown, width, height, desk.scale());
+  layout = layout_hud(shown, width, height, desk.scale(), fonts);
+  if (!desk.settings().left_handed) return;
+  picture = picture_right(picture, width);
+  layout = column_left(std::move(layout));
+}
+
+std::optional<Screen::Stage> RunScreen::stage(PracticeDesk& desk, int width, int height) {
+  State& s = *state_;
+  if (!desk.running()) return std::nullopt;
+  if (!s.begun) s.begin(desk);
+  s.latency.shown(now_s());  // the picture before this one is complete
+  s.steer(desk);
+  Stage out;
+  out.view = s.view(desk);
+  s.lay_out(out.view.hud, desk, width, height);
+  s.rim = rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
+  out.x = s.picture.x;
+  out.y = s.picture.y;
+  out.width = s.picture.width;
+  out.height = s.picture.height;
+  out.dim = s.overlay ? 0.55 : 0;
+  return out;
+}
+
+void RunScreen::State::pause(PracticeDesk& desk, bool paused) {
+  if (!desk.running()->pause(paused)) desk.notice = desk.words()("An exam has no pause: the clock runs on.");
+  overlay = paused;
+  RunSounds::hush(desk.sound());
+}
+
+void RunScreen::State::command(Action action, PracticeDesk& desk) {
+  switch (action) {
+    case Action::kPause: asked = Asked::kPause; break;
+    case Action::kRestart: asked = Asked::kRestart; break;
+    case Action::kForceBars: bars = !bars; break;
+    case Action::kGuidance:
+      if (desk.running()->scene().level.guides) guides = !guides;
+      else desk.notice = desk.words()("This level has no guidance.");
+      break;
+    default: break;
+  }
+}
+
+std::optional<ScreenName> RunScreen::handle(const InputEvent& event, PracticeDesk& desk) {
+  State& s = *state_;
+  if (!desk.running() || !s.begun) return {};
+  if (event.kind == InputEvent::Kind::kFocusLost) {
+    desk.steering().handle(event);
+    s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
+    return {};
+  }
+  if (s.overlay) return {};
+  s.coach.saw(event, desk.keys());
+  if (s.steering && desk.steering().handle(event)) {
+    if (s.event_s <= 0) s.event_s = now_s();
+    return {};
+  }
+  const bool pressed = event.kind == InputEvent::Kind::kKeyDown && !event.repeat;
+  if (const auto action = desk.keys().action_of(event.key); pressed && action) s.command(*action, desk);
+  return {};
+}
+
+/// Aborts this one and begins anew with a fresh board.
+std::optional<ScreenName> RunScreen::State::restart(PracticeDesk& desk) {
+  RunSounds::hush(desk.sound());
+  desk.end_attempt();
+  begun = overlay = false;
+  if (const std::string hindered = desk.begin_attempt(); !hindered.empty()) {
+    desk.notice = hindered;
+    return ScreenName::kBriefing;
+  }
+  return {};
+}
+
+std::optional<ScreenName> RunScreen::State::ended(PracticeDesk& desk) {
+  RunSounds::hush(desk.sound());
+  begun = overlay = false;
+  return desk.end_attempt() ? ScreenName::kDebrief : ScreenName::kBriefing;
+}
+
+std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& desk) {
+  const Words& w = desk.words();
+  const bool stands = desk.running()->paused();
+  const auto key = [&](Action action) { return key_name(desk.keys().key_of(action)); };
+  const double width = std::min(ui.px(430), ui.width()), height = std::min(ui.px(310), ui.height());
+  ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
+  ui.title(stands ? w("Paused") : w("The exam goes on"));
+  ui.text(stands ? w("Instrument and clock stand still. The pause is noted in the result.")
+                 : w("An exam has no pause: the clock runs on."), Ink::kDim);
+  ui.gap();
+  std::optional<ScreenName> to;
+  if (ui.button("continue", w("Continue"), key(Action::kPause), true, 390)) pause(desk, false);
+  if (ui.button("restart", w("Start again with a fresh board"), key(Action::kRestart), false, 390)) to = restart(desk);
+  else if (ui.button("leave", w("Leave this attempt"), "", false, 390)) {
+    desk.end_attempt();
+    begun = overlay = false;
+    to = ScreenName::kBriefing;
+  }
+  ui.end_panel();
+  return to;
+}
+
+void RunScreen::State::coach_panel(Ui& ui, PracticeDesk& desk) const {
+  if (!coach.speaks() || !steering) return;
+  const double width = std::min(ui.px(420), 0.5 * picture.width), height = ui.px(20) + 3.2 * ui.line_height() + ui.px(24);
+  ui.begin_panel("coach", {picture.x + ui.px(10), picture.y + ui.px(10), width, height}, 0.85);
+  for (const Coach::CoachMark& mark : coach.marks(desk.words(), desk.keys(), desk.steering().kind()))
+    ui.marked(mark.done ? Mark::kTick : Mark::kOpen, mark.text, mark.done ? Ink::kDim : Ink::kText);
+  ui.end_panel();
+}
+
+/// In the black corner below the round field.
+void RunScreen::State::key_hints(Ui& ui, const PracticeDesk& desk) const {
+  const Words& w = desk.words();
+  const std::string lines[] = {key_name(desk.keys().key_of(Action::kPause)) + "  " + w("Pause"),
+                               key_name(desk.keys().key_of(Action::kHelp)) + "  " + w("Help")};
+  const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
+  double y = picture.y + picture.height - 2 * ui.line_height() - ui.px(6);
+  for (const std::string& line : lines) {
+    if (ui.text_width(line) < room) ui.text_at(picture.x + ui.px(10), y, line, Ink::kDim);
+    y += ui.line_height();
+  }
+}
+
+std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
+  State& s = *state_;
+  s.dt_s = dt_s;
+  if (!desk.running()) return ScreenName::kBriefing;
+  if (desk.running()->finished()) return s.ended(desk);
+  if (!s.begun) return {};
+  ui.keys_to_screen();
+  s.coach.pass(dt_s);
+  draw_hud(s.layout);
+  if (s.rim) {
+    const double radius = std::min(0.64 * s.picture.height, 0.49 * s.picture.width), size = ui.px(26);
+    const double x = s.picture.x + 0.5 * s.picture.width, y = s.picture.y + 0.5 * s.picture.height;
+    const double rise = std::abs(std::sin(*s.rim));
+    const double reach = std::min(radius, rise > 1e-3 ? (0.5 * s.picture.height - size) / rise : radius) - ui.px(4);
+    draw_rim_arrow(x, y, reach, *s.rim, size);
+  }
+  s.key_hints(ui, desk);
+  if (s.overlay) return s.pause_panel(ui, desk);
+  s.coach_panel(ui, desk);
+  if (std::exchange(s.asked, State::Asked::kNothing) != State::Asked::kNothing) s.pause(desk, true);
+  return {};
+}
+
+}  // namespace trocar

@@ -1,0 +1,66 @@
+#include "app/screens/run_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trocar {
+namespace {
+
+constexpr double kPortBehind = 0.09;     // m from the lens back to where the scope passes the wall
+constexpr double kThreadFrom = 0.004;    // m
+constexpr double kRing = 0.009, kWire = 0.0007, kThread = 0.0005;
+
+SceneObject ghost(SceneObject::Shape shape, const Vec3& size_m, const Pose& X_TO) {
+  SceneObject object;
+  object.shape = shape;
+  object.style = SceneObject::Style::kGhost;
+  object.size_m = size_m;
+  object.X_TO = X_TO;
+  return object;
+}
+
+}  // namespace
+
+Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move) {
+  const Vec3 away = (camera.look_at_T - camera.eye_T).normalized();
+  const Vec3 right = away.cross(camera.up_T).normalized(), up = right.cross(away);
+  const Vec3 port = camera.eye_T - kPortBehind * away;
+  const Mat3 turn = (Eigen::AngleAxisd(-move.yaw_rad, up) * Eigen::AngleAxisd(move.pitch_rad, right)).toRotationMatrix();
+  Camera moved = camera;
+  const Vec3 turned = turn * away;
+  moved.eye_T = port + (kPortBehind + move.depth_m) * turned;
+  moved.look_at_T = moved.eye_T + (camera.look_at_T - camera.eye_T).norm() * turned;
+  return moved;
+}
+
+void add_ghost(SceneView& view, const HandIntent& target) {
+  const Vec3 way = target.X_TI.p - view.X_TI.p;
+  const double distance = way.norm();
+  if (!(distance > kGhostFrom)) return;
+  view.objects.push_back(ghost(SceneObject::Shape::kRing, {kRing, kRing, kWire}, target.X_TI));
+  if (distance < kThreadFrom) return;
+  const Mat3 along = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), way).toRotationMatrix();
+  view.objects.push_back(ghost(SceneObject::Shape::kCylinder, {kThread, kThread, distance}, {along, view.X_TI.p + 0.5 * way}));
+}
+
+std::optional<double> rim_angle(const Camera& camera, const PixelRect& picture, const Vec3& tip_T) {
+  const ScopeOptics optics(camera, picture);
+  if (const auto seen = optics.project(tip_T)) {
+    const bool inside = seen->x() >= picture.x && seen->x() <= picture.x + picture.width && seen->y() >= picture.y &&
+                        seen->y() <= picture.y + picture.height;  // the frame cuts the circle above and below
+    if (inside) return std::nullopt;
+  }
+  const Vec3 way = tip_T - optics.eye();
+  return std::atan2(way.dot(optics.up()), way.dot(optics.right()));
+}
+
+void hide_guides(SceneView& view) {
+  std::erase_if(view.targets, [](const TargetMark& mark) { return mark.state != TargetMark::State::kLit; });
+  std::erase_if(view.objects, [](const SceneObject& object) {
+    using Shape = SceneObject::Shape;
+    const bool plumb = object.style == SceneObject::Style::kGhostLit && (object.shape == Shape::kCylinder || object.shape == Shape::kRing);
+    return plumb || (object.shape == Shape::kPen && object.style != SceneObject::Style::kGhostLit);
+  });
+}
+
+}  // namespace trocar

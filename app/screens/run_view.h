@@ -1,0 +1,29 @@
+// What the picture of a steered attempt shows beyond the attempt itself: the scope where the person has turned it, the ring that shows
+// where the hand pulls to, and on which side an instrument out of view is.
+//
+// The ring stands off the tip by what the spring of the hand is drawn out: a person without a device sees the force that a hand would
+// feel. Frame T, m, rad. Pure. Thread: any.
+#pragma once
+
+#include <optional>
+
+#include "app/graphics/scope_optics.h"
+#include "app/input/steering.h"
+#include "haptics/device/hand.h"
+
+namespace trocar {
+
+/// The camera after the scope has been turned about its port and pushed in.
+Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move);
+
+/// Ring round the shaft's axis at the target, and a thread from it to the tip; nothing while they are within kGhostFrom.
+void add_ghost(SceneView& view, const HandIntent& target);
+inline constexpr double kGhostFrom = 0.0012;   // m
+
+/// Where on the rim a tip that is out of the picture lies: angle from the right, up positive; empty while it is in view.
+std::optional<double> rim_angle(const Camera& camera, const PixelRect& picture, const Vec3& tip_T);
+
+/// Without guidance only the lit target is marked, and neither its plumb line nor the waiting ones.
+void hide_guides(SceneView& view);
+
+}  // namespace trocar

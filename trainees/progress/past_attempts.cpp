@@ -1,0 +1,55 @@
+#include "trainees/progress/past_attempts.h"
+
+#include <cmath>
+
+#include "trainees/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+constexpr const char* kMetrics = R"sql(
+SELECT s.attempt_id, m.name, m.value FROM metric m
+JOIN score s ON s.id = m.score_id AND s.revision = 0
+JOIN attempt a ON a.id = s.attempt_id
+JOIN known_trainee t ON t.id = a.trainee_id
+WHERE t.code = ?1 COLLATE NOCASE AND (?2 = '' OR a.exercise_id = ?2) AND m.value IS NOT NULL
+)sql";
+
+}  // namespace
+
+PastAttempt past_attempt(const AttemptResult& result) {
+  PastAttempt out;
+  AttemptSummary& s = out.summary;
+  s.uuid = result.uuid;
+  s.trainee = result.trainee;
+  s.exercise_id = result.exercise_id;
+  s.exercise_version = result.exercise_version;
+  s.level = result.level;
+  s.hand = result.hand;
+  s.started_utc = result.started_utc;
+  s.seed = result.seed;
+  s.board = result.board;
+  s.status = status_name(result.grade.status);
+  s.score = result.grade.score;
+  s.passed = result.grade.passed;
+  s.grade = result.grade.grade;
+  s.organ_synthetic = result.organ_synthetic;
+  s.rubric_sha256 = result.rubric_sha256;
+  s.integrity = result.integrity;
+  for (const Metric& metric : result.grade.metrics)
+    if (metric.value && std::isfinite(*metric.value)) out.metrics[metric.name] = *metric.value;
+  return out;
+}
+
+std::vector<PastAttempt> past_attempts(Database& database, const std::string& trainee, const std::string& exercise_id) {
+  std::map<std::int64_t, std::map<std::string, double>> metrics;
+  sql::Statement rows(database.connection(), kMetrics);
+  rows.bind(trainee).bind(exercise_id);
+  while (rows.step()) metrics[rows.integer(0)][rows.text(1)] = rows.real(2);
+  std::vector<PastAttempt> out;
+  for (const AttemptSummary& summary : AttemptStore(database).list({trainee, exercise_id}))
+    if (summary.status != "running") out.push_back({summary, metrics[summary.row]});
+  return out;
+}
+
+}  // namespace trocar
