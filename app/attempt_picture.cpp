@@ -40,19 +40,30 @@ Image AttemptPainter::paint(const SessionView& view) {
   return impl_->renderer.render(attempt_view(view, impl_->organ_T, impl_->trainee), impl_->width, impl_->height);
 }
 
-FrameWriter::FrameWriter(AttemptPainter& painter, std::filesystem::path directory, double fps)
-    : painter_(painter), directory_(std::move(directory)), period_s_(1 / fps) {
+PictureSink numbered_pictures(const std::filesystem::path& directory) {
   std::error_code error;
-  std::filesystem::create_directories(directory_, error);
-  if (error) throw EnvironmentError(directory_.string() + ": cannot be made: " + error.message());
+  std::filesystem::create_directories(directory, error);
+  if (error) throw EnvironmentError(directory.string() + ": cannot be made: " + error.message());
+  return [directory, number = 0](const Image& image) mutable {
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%05d.png", ++number);
+    write_png(directory / name, image);
+  };
 }
+
+FrameWriter::FrameWriter(AttemptPainter& painter, PictureSink sink, double fps)
+    : painter_(painter), sink_(std::move(sink)), period_s_(1 / fps) {}
+
+FrameWriter::FrameWriter(AttemptPainter& painter, const std::filesystem::path& directory, double fps)
+    : FrameWriter(painter, numbered_pictures(directory), fps) {}
 
 void FrameWriter::observe(const SessionView& view) {
   if (view.t_s + 1e-9 < next_s_) return;
-  next_s_ += period_s_;
-  char name[32];
-  std::snprintf(name, sizeof name, "frame_%05d.png", ++written_);
-  write_png(directory_ / name, painter_.paint(view));
+  const Image image = painter_.paint(view);
+  while (view.t_s + 1e-9 >= next_s_) {
+    sink_(image);
+    next_s_ = ++written_ * period_s_;
+  }
 }
 
 }  // namespace trocar

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "app/graphics/image.h"
 #include "app/graphics/scene_view.h"
@@ -30,17 +32,25 @@ class AttemptPainter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Writes numbered frames. Call observe() at the tissue rate.
+/// Takes pictures one by one: a folder of numbered files, a film.
+using PictureSink = std::function<void(const Image&)>;
+
+/// DIR/frame_00001.png and on. @param directory made when missing. @throws EnvironmentError.
+PictureSink numbered_pictures(const std::filesystem::path& directory);
+
+/// A picture every 1/fps s of loop time. Call observe() at the tissue rate; what comes later shows the same picture again, so that
+/// a film keeps its time.
 class FrameWriter {
  public:
-  /// @param directory made when missing. @throws EnvironmentError.
-  FrameWriter(AttemptPainter& painter, std::filesystem::path directory, double fps);
+  FrameWriter(AttemptPainter& painter, PictureSink sink, double fps);
+  /// Numbered files. @throws EnvironmentError.
+  FrameWriter(AttemptPainter& painter, const std::filesystem::path& directory, double fps);
   void observe(const SessionView& view);
   int written() const { return written_; }
 
  private:
   AttemptPainter& painter_;
-  std::filesystem::path directory_;
+  PictureSink sink_;
   double period_s_, next_s_ = 0;
   int written_ = 0;
 };

@@ -95,7 +95,8 @@ void add_run(CommandLine& c) {
   run->add_option("--organ", c.run.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   run->add_option("--record", c.run.record, "Recording file (default: beside the database)");
   run->add_option("--frames", c.run.frames, "Folder for PNG frames");
-  run->add_option("--fps", c.run.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
+  run->add_option("--video", c.run.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kNamed);
+  run->add_option("--fps", c.run.fps, "Frames per second of loop time (default: 10, of a film 25)")->check(CLI::Range(0.1, 50.0));
   run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
   run->add_option("--passivity", c.run.passivity_law, "Passivity law: budgeted, distributed, increment, cap, reference, thesis or off")->capture_default_str();
@@ -125,7 +126,12 @@ void add_recordings(CommandLine& c) {
                            [&c] { return replay_command(c.recording, std::cout, std::cerr); });
   replay->add_flag("--verify", c.recording.verify, "Compare the state hash with the recorded one");
   replay->add_option("--frames", c.recording.frames, "Folder for PNG frames");
-  replay->add_option("--fps", c.recording.fps, "Frames per second of loop time")->capture_default_str()->check(CLI::Range(0.1, 50.0));
+  replay->add_option("--video", c.recording.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kNamed);
+  replay->add_option("--fps", c.recording.fps, "Frames per second (default: 10, of a film 25)")->check(CLI::Range(0.1, 60.0));
+  replay->add_option("--speed", c.recording.speed, "Of the film: 0.25 is slow motion, 4 four times as fast")->capture_default_str()->check(CLI::Range(0.05, 20.0));
+  replay->add_option("--width", c.recording.width, "Of the pictures, px")->capture_default_str()->check(CLI::Range(320, 7680));
+  replay->add_option("--height", c.recording.height, "Of the pictures, px")->capture_default_str()->check(CLI::Range(240, 4320));
+  replay->add_option("--beside", c.recording.beside, "Second run in the same film: recording, attempt, or 'expert'")->check(kNamed);
   replay->add_option("--organ", c.recording.organ, "Where the recorded organ lies now");
   CLI::App* score = c.add(c.app, "score", "Grade again from the raw record",
                           [&c] { return score_command(c.recording, std::cout, std::cerr); });
@@ -142,6 +148,7 @@ void add_first_contact(CommandLine& c) {
                          [&c] { return demo_command(c.demo, std::cout, std::cerr); });
   demo->add_flag("--headless", c.headless, "Without a window, as it always is; trocar practice is the window");
   demo->add_option("--out", c.demo.output, "Folder")->capture_default_str();
+  demo->add_option("--video", c.demo.video, "Film of it too: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kNamed);
   demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
   demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
   demo->add_option("--organ", c.demo.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();

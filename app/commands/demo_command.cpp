@@ -6,7 +6,9 @@
 
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
+#include "app/commands/replay_film.h"
 #include "app/commands/run_command.h"
+#include "app/playback/video_writer.h"
 #include "app/report/report.h"
 #include "haptics/input_error.h"
 #include "tissue/tissue_frame.h"
@@ -79,6 +81,7 @@ ReportContext report_context(const Scene& scene, const std::filesystem::path& pi
 
 int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& err) {
   const AssetRoots assets = find_assets();
+  if (!options.video.empty()) check_video_file(options.video);
   std::error_code error;
   std::filesystem::create_directories(options.output, error);
   if (error) throw EnvironmentError(options.output.string() + ": cannot be made: " + error.message());
@@ -103,6 +106,11 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
   const Recording recording = read_recording(result.recording_path);
   write_report(report, result, rebuild_trace(recording.ticks, recording.rate_hz),
                report_context(scene, photographer.picture() ? picture : std::filesystem::path{}));
+  if (!options.video.empty()) {
+    RecordingOptions film;
+    film.video = options.video;
+    replay_as_film(film, find_subject(result.recording_path, {}, err), assets, err);
+  }
   print_result(result, out);
   out << "picture  " << picture.string() << "\nscore    " << score.string() << "\nreport   " << report.string() << '\n';
   return exit_code(result);

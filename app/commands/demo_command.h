@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 
 namespace trocar {
 
@@ -11,9 +12,10 @@ struct DemoOptions {
   std::string exercise = "surface-touch";
   std::string level = "L1";
   std::string organ = "phantom-liver";
+  std::filesystem::path video = {};   ///< empty: no film
 };
 
-/// Leaves picture.png, score.json, report.html and demo.db with its recordings in the folder; again and again. @return exit code.
+/// Leaves picture.png, score.json, report.html and demo.db with its recordings in the folder, and the film where it shall be; again and again. @return exit code.
 int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace trocar

@@ -6,83 +6,43 @@
 
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
-#include "app/commands/open_database.h"
+#include "app/commands/recording_subject.h"
+#include "app/commands/replay_film.h"
 #include "app/commands/run_command.h"
 #include "app/executor/state_hash.h"
+#include "app/playback/video_writer.h"
 #include "app/recorded_result.h"
+#include "app/recorded_scene.h"
 #include "app/recorder/chunk.h"
 #include "app/recorder/event_codec.h"
-#include "app/recorder/recording_reader.h"
 #include "app/session.h"
 #include "haptics/input_error.h"
 #include "scenarios/exercise_loader.h"
-#include "trainees/attempt_store.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kSameScore = 1e-9;
+constexpr double kPicturesPerSecond = 10;
 
-/// A recording and, when it was named by an attempt, what the database says of it.
-struct Subject {
-  std::filesystem::path file;
-  Recording recording;
-  std::optional<AttemptResult> stored;
-};
-
-Subject find_subject(const RecordingOptions& options, std::ostream& err) {
-  Subject subject;
-  if (std::filesystem::is_regular_file(options.subject)) {
-    subject.file = options.subject;
-  } else {
-    if (options.subject.find('/') != std::string::npos || options.subject.find('.') != std::string::npos) {
-      throw InputError(options.subject + ": no such recording");
-    }
-    Database open = open_database(options.database, OpenMode::kExisting, err);
-    subject.stored = AttemptStore(open).load(options.subject);
-    subject.file = subject.stored->recording_path;
-    if (subject.file.empty()) throw InputError("attempt " + subject.stored->uuid + " was not recorded to a file");
-  }
-  subject.recording = read_recording(subject.file);
-  if (!subject.recording.torn.empty()) err << "trocar: " << subject.file.string() << ": " << subject.recording.torn << '\n';
-  if (subject.stored && subject.stored->recording_sha256 != subject.recording.sha256) {
-    throw InputError(subject.file.string() + ": the recording is not the one that was graded (its sha256 differs)");
-  }
-  return subject;
-}
-
-Scene recorded_scene(const RecordingOptions& options, const Subject& subject, const AssetRoots& assets) {
-  RecordedSetup recorded = parse_scene_json(subject.recording.session, subject.file.string());
-  if (!options.organ.empty()) recorded.setup.organ = options.organ;
-  // Before anything is laid out on it: another organ may well have no room for the board.
-  Organ organ = organ_of(recorded.setup, assets);
-  if (organ.sha256 != recorded.organ_sha256) {
-    throw InputError(organ.manifest.string() +
-                     ": not the organ of the recording (its sha256 differs); name that one with --organ");
-  }
-  const Scene scene = build_scene(recorded.setup, std::move(organ), recorded.daq);
-  if (scene.loop.map.force_scale != recorded.force_scale) {
-    throw InputError(subject.file.string() + ": recorded with another force scale than this program computes; it can be "
-                     "graded (trocar score) but not replayed");
-  }
-  return scene;
+/// Once, with pictures at the times of `trocar run --frames`.
+SessionOutcome replay_plainly(const RecordingOptions& options, const Subject& subject, const AssetRoots& assets, std::ostream& err) {
+  const Scene scene = recorded_scene(subject.recording, subject.file, assets, options.organ);
+  if (options.frames.empty()) return replay_session(scene, subject.recording);
+  AttemptPainter painter(scene, assets, subject.stored ? subject.stored->trainee : "", options.width, options.height);
+  FrameWriter frames(painter, options.frames, options.fps.value_or(kPicturesPerSecond));
+  const SessionOutcome outcome = replay_session(scene, subject.recording, [&](const SessionView& view) { frames.observe(view); });
+  err << "trocar: " << frames.written() << " frames in " << options.frames.string() << '\n';
+  return outcome;
 }
 
 }  // namespace
 
 int replay_command(const RecordingOptions& options, std::ostream& out, std::ostream& err) {
   const AssetRoots assets = find_assets();
-  const Subject subject = find_subject(options, err);
-  const Scene scene = recorded_scene(options, subject, assets);
-  SessionOutcome outcome;
-  if (options.frames.empty()) {
-    outcome = replay_session(scene, subject.recording);
-  } else {
-    AttemptPainter painter(scene, assets, subject.stored ? subject.stored->trainee : "");
-    FrameWriter frames(painter, options.frames, options.fps);
-    outcome = replay_session(scene, subject.recording, [&](const SessionView& view) { frames.observe(view); });
-    err << "trocar: " << frames.written() << " frames in " << options.frames.string() << '\n';
-  }
+  if (!options.video.empty()) check_video_file(options.video);  // before minutes of work
+  const Subject subject = find_subject(options.subject, options.database, err);
+  const SessionOutcome outcome = is_film(options) ? replay_as_film(options, subject, assets, err) : replay_plainly(options, subject, assets, err);
   out << "ticks     " << outcome.device.ticks << '\n' << "replayed  " << outcome.state_hash_hex << '\n';
   if (!options.verify) return 0;
   if (subject.recording.version < kOldestVerifiable) {
@@ -101,7 +61,7 @@ int replay_command(const RecordingOptions& options, std::ostream& out, std::ostr
 }
 
 int score_command(const RecordingOptions& options, std::ostream& out, std::ostream& err) {
-  const Subject subject = find_subject(options, err);
+  const Subject subject = find_subject(options.subject, options.database, err);
   std::optional<Exercise> other;
   if (!options.rubric.empty()) other = load_exercise(options.rubric);
   AttemptResult result = subject.stored.value_or(AttemptResult{});

@@ -13,6 +13,7 @@
 #include "app/device_files.h"
 #include "app/interrupt.h"
 #include "app/patch_fit.h"
+#include "app/playback/video_writer.h"
 #include "app/true_plant.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
@@ -204,6 +205,22 @@ void print_result(const AttemptResult& result, std::ostream& out) {
   out << "attempt  " << result.uuid << '\n';
 }
 
+/// Pictures and film are taken while it runs; neither changes the result.
+AttemptResult run_with_pictures(const RunOptions& options, const Scene& scene, const AssetRoots& assets, std::ostream& err) {
+  if (!options.video.empty() && !options.frames.empty()) throw InputError("--video and --frames: one of the two");
+  if (options.video.empty() && options.frames.empty()) return run_attempt(options, scene, assets, err, {});
+  AttemptPainter painter(scene, assets, options.trainee);
+  std::optional<VideoWriter> video;
+  const double fps = options.fps.value_or(options.video.empty() ? 10 : 25);
+  if (!options.video.empty()) video.emplace(options.video, 1280, 720, fps);
+  const PictureSink sink = video ? PictureSink([&video](const Image& image) { video->add(image); }) : numbered_pictures(options.frames);
+  FrameWriter frames(painter, sink, fps);
+  const AttemptResult result = run_attempt(options, scene, assets, err, [&](const SessionView& view) { frames.observe(view); });
+  if (video) video->close();
+  err << "trocar: " << frames.written() << " frames in " << (video ? options.video : options.frames).string() << '\n';
+  return result;
+}
+
 int run_command(const RunOptions& given, std::ostream& out, std::ostream& err) {
   InterruptWatch interrupt;  // before any library starts threads: they must inherit what it blocks
   RunOptions options = given;
@@ -211,15 +228,7 @@ int run_command(const RunOptions& given, std::ostream& out, std::ostream& err) {
   const AssetRoots assets = find_assets();
   const AttemptSetup setup = attempt_setup(options, assets);
   const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
-  AttemptResult result;
-  if (options.frames.empty()) {
-    result = run_attempt(options, scene, assets, err, {});
-  } else {
-    AttemptPainter painter(scene, assets, options.trainee);
-    FrameWriter frames(painter, options.frames, options.fps);
-    result = run_attempt(options, scene, assets, err, [&](const SessionView& view) { frames.observe(view); });
-    err << "trocar: " << frames.written() << " frames in " << options.frames.string() << '\n';
-  }
+  const AttemptResult result = run_with_pictures(options, scene, assets, err);
   if (options.json) out << attempt_json(result);
   else print_result(result, out);
   return exit_code(result);

@@ -26,7 +26,8 @@ struct RunOptions {
   std::filesystem::path database;       ///< empty: the default path; ":memory:" keeps nothing
   std::filesystem::path record;         ///< empty: beside the database
   std::filesystem::path frames;         ///< empty: no pictures
-  double fps = 10;
+  std::filesystem::path video = {};     ///< empty: no film
+  std::optional<double> fps;            ///< none: 10 of pictures, 25 of a film
   double rate_hz = 1000;
   std::string contact_law = "proxy", passivity_law = "budgeted";
   bool clamp = false;                   ///< contacts stiffer than K_max are weakened to it

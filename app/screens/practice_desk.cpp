@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "app/graphics/show_scene.h"
+#include "app/playback/expert_run.h"
 #include "app/recorded_result.h"
-#include "app/screens/expert_run.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"
@@ -174,6 +174,16 @@ std::shared_ptr<const SceneView> PracticeDesk::show_scene(double wait_s) const {
   const auto& scene = state_->show_scene;
   if (!scene.valid() || scene.wait_for(std::chrono::duration<double>(wait_s)) != std::future_status::ready) return nullptr;
   return scene.get();
+}
+
+AttemptSetup PracticeDesk::show_setup() const {
+  const std::vector<Exercise>& all = state_->exercises;
+  const auto touch = std::find_if(all.begin(), all.end(), [](const Exercise& e) { return e.kind == ExerciseKind::kTouch; });
+  AttemptSetup setup;
+  setup.exercise = touch == all.end() ? all.front() : *touch;
+  setup.level = setup.exercise.levels.front().name;
+  setup.organ = "phantom-abdomen";
+  return setup;
 }
 
 const std::string& PracticeDesk::trainee() const { return state_->trainee; }

@@ -54,6 +54,8 @@ class PracticeDesk {
 
   /// The scene behind the start page, made in the background from the beginning. @param wait_s how long to wait for it; null: not yet.
   std::shared_ptr<const SceneView> show_scene(double wait_s) const;
+  /// The attempt that the expert plays behind the start page.
+  AttemptSetup show_setup() const;
 
   // who
   const std::string& trainee() const;    ///< "guest" without sign-in

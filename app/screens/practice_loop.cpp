@@ -44,6 +44,7 @@ struct PracticeLoop::State {
   FrameTarget target;
   UiLayer layer;
   Renderer renderer;
+  std::unique_ptr<Renderer> second_renderer;   // keeps its own organ on the GPU; while two runs are compared
   ScreenName name = ScreenName::kStart;
   std::unique_ptr<Screen> screen;
   bool menu = false, help = false, fullscreen = false, picture_wanted = false;
@@ -144,6 +145,8 @@ bool PracticeLoop::State::command(const InputEvent& event) {
   } else if (action == Action::kHelp) {
     help = !help;
     open_menu(false);
+  } else if (action == Action::kMenu && !menu && !help && screen && screen->takes_escape()) {
+    return true;   // its button hears it
   } else if (action == Action::kMenu && !layer.popup_open()) {
     const bool close_help = std::exchange(help, false);
     open_menu(!close_help && !menu);
@@ -181,18 +184,34 @@ void PracticeLoop::State::follow_preset(int width, int height) {
   options.preset = named ? *named : timed_now ? measure_preset(context, desk.assets().assets, width, height) : guessed_preset(context);
   preset = wanted;
   renderer.set_options(options);
+  if (second_renderer) second_renderer->set_options(options);
 }
 
+/// Both pictures first, then both into the frame: drawing a picture binds framebuffers of its own.
 void PracticeLoop::State::draw_stage(int width, int height) {
   follow_preset(width, height);
-  const std::optional<Screen::Stage> stage = screen ? screen->stage(desk, width, height) : std::nullopt;
-  PixelRect part{0, 0, width, height};
-  if (stage && stage->width > 0)
-    part = {static_cast<int>(stage->x), static_cast<int>(stage->y), static_cast<int>(stage->width), static_cast<int>(stage->height)};
-  const bool drawable = stage && part.width >= 64 && part.height >= 48;
-  const unsigned texture = drawable ? renderer.draw_scope(stage->view, part.width, part.height) : 0;
+  struct Placed {
+    unsigned texture;
+    PixelRect part;
+    double dim;
+  };
+  std::vector<Placed> placed;
+  const auto draw = [&](const std::optional<Screen::Stage>& stage, Renderer& with) {
+    PixelRect part{0, 0, width, height};
+    if (stage->width > 0)
+      part = {static_cast<int>(stage->x), static_cast<int>(stage->y), static_cast<int>(stage->width), static_cast<int>(stage->height)};
+    if (part.width < 64 || part.height < 48) return;
+    placed.push_back({with.draw_scope(stage->view, part.width, part.height), part, std::max(stage->dim, menu || help ? 0.6 : 0.0)});
+  };
+  if (const auto stage = screen ? screen->stage(desk, width, height) : std::nullopt) draw(stage, renderer);
+  if (const auto beside = screen ? screen->second_stage(desk, width, height) : std::nullopt) {
+    if (!second_renderer) second_renderer = std::make_unique<Renderer>(context, desk.assets().assets, renderer.options());
+    draw(beside, *second_renderer);
+  } else {
+    second_renderer.reset();
+  }
   target.begin(width, height);
-  if (drawable) target.place(texture, part, std::max(stage->dim, menu || help ? 0.6 : 0.0));
+  for (const Placed& one : placed) target.place(one.texture, one.part, one.dim);
 }
 
 void PracticeLoop::State::draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events) {

@@ -2,6 +2,7 @@
 
 #include "app/screens/debrief_screen.h"
 #include "app/screens/progress_screen.h"
+#include "app/screens/replay_screen.h"
 #include "app/screens/run_screen.h"
 #include "app/screens/settings_screen.h"
 #include "app/screens/start_screen.h"
@@ -17,7 +18,7 @@ std::unique_ptr<Screen> make_screen(ScreenName name) {
     case ScreenName::kRun: return std::make_unique<RunScreen>();
     case ScreenName::kDebrief: return std::make_unique<DebriefScreen>();
     case ScreenName::kProgress: return std::make_unique<ProgressScreen>();
-    case ScreenName::kReplay: return nullptr;
+    case ScreenName::kReplay: return std::make_unique<ReplayScreen>();
     case ScreenName::kNotch: return nullptr;
     case ScreenName::kQuit: return nullptr;
   }

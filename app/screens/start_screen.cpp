@@ -46,8 +46,9 @@ std::string title_of(const PracticeDesk& desk, const std::string& id) {
 std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, int height) {
   if (!scene_) scene_ = desk.show_scene(t_s_ == 0 ? kFirstWait_s : 0);
   if (!scene_) return {};
+  if (!film_) film_ = std::make_unique<FilmLoop>(desk.show_setup(), desk.assets());
   Stage stage;
-  stage.view = show_view(*scene_, t_s_);
+  stage.view = film_->ready() ? film_->view() : show_view(*scene_, t_s_);
   const double beside = free_width(panel_area(desk.scale(), width, height), width);
   stage.x = beside > 0 ? width - beside : 0;
   stage.width = beside > 0 ? beside : width;
@@ -125,7 +126,8 @@ void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
   const Area panel = panel_area(desk.scale(), ui.width(), ui.height());
   const double free = free_width(panel, ui.width());
   if (!scene_ || free <= 0) return;
-  const std::string said = desk.words()("Still scene, synthetic: no patient.");
+  const Words& w = desk.words();
+  const std::string said = film_ && film_->ready() ? w("Replay of the expert: {0}", {w.name(film_->scene().organ.name)}) : w("Still scene, synthetic: no patient.");
   const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), high = ui.line_height(), pad = ui.px(10);
   const double y = ui.height() - high - ui.px(22);
   ui.paint_ground({x - pad, y - pad / 2, std::min(room, ui.text_width(said)) + 2 * pad, high + pad}, 0.85, ui.px(6));
@@ -134,6 +136,7 @@ void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
 
 std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
   t_s_ += dt_s;
+  if (film_) film_->advance(dt_s);
   const Words& w = desk.words();
   caption(ui, desk);
   ui.begin_panel("start", panel_area(desk.scale(), ui.width(), ui.height()));

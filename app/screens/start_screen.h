@@ -1,10 +1,11 @@
-// T1: the first page. Try as a guest, sign in, language and size; behind it the show scene.
+// T1: the first page. Try as a guest, sign in, language and size; behind it the show scene, then the expert at work.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/playback/film_loop.h"
 #include "app/screens/screen.h"
 #include "app/words/words.h"
 
@@ -23,6 +24,7 @@ class StartScreen final : public Screen {
 
   double t_s_ = 0;
   std::shared_ptr<const SceneView> scene_;
+  std::unique_ptr<FilmLoop> film_;   ///< over the show scene, as soon as there is one
   std::vector<Language> languages_;
   std::string code_, wrong_;
 };

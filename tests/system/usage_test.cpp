@@ -11,15 +11,15 @@ using Usage = SystemTest;
 const std::map<std::string, Words>& commands_and_flags() {
   static const std::map<std::string, Words> table{
       {"run",
-       {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--fps",
+       {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--video", "--fps",
         "--rate", "--contact", "--passivity", "--clamp", "--calibration", "--device", "--inject", "--json"}},
       {"practice",
        {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed", "--width", "--height",
         "--fullscreen", "--screens", "--timing"}},
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
-      {"replay", {"--frames", "--fps", "--verify", "--organ", "--db"}},
+      {"replay", {"--frames", "--fps", "--verify", "--organ", "--db", "--video", "--speed", "--width", "--height", "--beside"}},
       {"score", {"--rubric", "--db", "--json"}},
-      {"demo", {"--headless", "--out", "--organ", "--exercise", "--level"}},
+      {"demo", {"--headless", "--out", "--organ", "--exercise", "--level", "--video"}},
       {"bench", {"--organ", "--json"}},
       {"study", {"--out", "--quick", "--seed", "--json"}},
       {"version", {}},

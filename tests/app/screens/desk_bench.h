@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "app/screens/practice_desk.h"
@@ -17,6 +18,8 @@ inline AssetRoots source_assets() {
 
 struct DeskBench {
   test::TemporaryFolder folder;
+
+  DeskBench() { ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); }
 
   /// Without sound: a machine that tests has none, and its library says so at length.
   DeskOptions options() const {

@@ -1,4 +1,4 @@
-#include "app/screens/expert_run.h"
+#include "app/playback/expert_run.h"
 
 #include <chrono>
 #include <cstdlib>

@@ -1,16 +1,24 @@
-// A recording of the scripted expert at an exercise, made once in the background and kept in the cache folder.
+// A recording of the scripted expert at an exercise, made once in lockstep and kept in the cache folder.
 //
-// The file's name holds all that it depends on, so a changed exercise or organ makes a new one. Thread: the window's; the run has its own.
+// The file's name holds all that it depends on (version of the program, exercise, organ, board), so a changed one makes a new file; what
+// lies in the folder may be deleted at any time. Thread: the caller's; the run has its own, at a low priority.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <string>
 
 #include "app/scene.h"
 
 namespace trocar {
+
+/// The expert's attempt at what somebody else did: same exercise, level, board, organ; no faults, nominal device.
+AttemptSetup expert_setup(const AttemptSetup& of);
+
+/// Makes the recording unless it lies there. @return where it lies; empty when it was interrupted. @throws InputError, EnvironmentError.
+std::filesystem::path expert_recording(const AttemptSetup& setup, const AssetRoots& assets, const std::function<bool()>& interrupted = {});
 
 class ExpertRun {
  public:

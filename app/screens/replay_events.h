@@ -1,0 +1,25 @@
+// What happened in a run, in words, and how it is marked on a time line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/screens/ui.h"
+#include "scenarios/scoring/trace.h"
+
+namespace trocar {
+
+/// A moment worth jumping to.
+struct ReplayEvent {
+  double clock_s = 0;      ///< since RUN began
+  Severity severity = Severity::kInfo;
+  std::string words;
+};
+
+/// Those that a person saw happen; what only the grade reads is left out. @param begin_s loop time of RUN's beginning.
+std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Words& words);
+
+/// By shape and colour: a disc, a diamond, a warning triangle.
+void paint_event(Ui& ui, Severity severity, double x, double y, double radius);
+
+}  // namespace trocar
