@@ -8,7 +8,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 122, kNarrowPlots = 300, kTableShare = 0.645;   // px at 720 lines and scale 1
+constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 120, kHeadLine = 25, kNarrowPlots = 300, kTableShare = 0.645;   // px at 720 lines and scale 1
 
 Mark verdict_mark(Outcome outcome) {
   switch (outcome) {
@@ -105,7 +105,7 @@ double button_width(const Ui& ui, const std::string& text, const std::string& ke
 void DebriefPage::verdict(Ui& ui, const DebriefContent& content) const {
   const DebriefFacts& facts = content.facts;
   const double all = ui.room(), side = ui.px(44), bar = facts.score && all >= ui.px(700) ? ui.px(250) : 0;
-  const Area area = ui.drawing("verdict", 48);
+  const Area area = ui.drawing("verdict", bar > 0 ? 62 : 48);
   ui.paint_mark(verdict_mark(facts.outcome), area.x, area.y, side);
   const double x = area.x + side + ui.px(14);
   const double room = area.x + area.width - x - (bar > 0 ? bar + ui.px(24) : 0);
@@ -201,7 +201,7 @@ DebriefChoice DebriefPage::draw(Ui& ui, const DebriefContent& content) {
   const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin;
   const bool two = wide >= ui.px(kTwoColumns);
   if (explained_ >= static_cast<int>(content.facts.rows.size())) explained_ = -1;
-  const double foot_high = ui.px(two ? 116 : 112);
+  const double foot_high = ui.px(two ? 124 : 112);
   const DebriefChoice chosen = two ? beside(ui, content, {margin, margin, wide, high - foot_high - gap})
                                    : below(ui, content, {margin, margin, wide, high - foot_high - gap});
   ui.begin_panel("debrief.foot", {margin, margin + high - foot_high, wide, foot_high});
@@ -212,7 +212,9 @@ DebriefChoice DebriefPage::draw(Ui& ui, const DebriefContent& content) {
 }
 
 DebriefChoice DebriefPage::beside(Ui& ui, const DebriefContent& content, const Area& area) {
-  const double gap = ui.px(8), head = ui.px(kHead), left = std::round(kTableShare * area.width), body = area.height - head - gap;
+  const double more_lines = std::floor(ui.text_width(content.facts.reason, true) / (area.width - ui.px(60)));
+  const double gap = ui.px(8), head = ui.px(kHead + kHeadLine * more_lines);
+  const double left = std::round(kTableShare * area.width), body = area.height - head - gap;
   ui.begin_panel("debrief.head", {area.x, area.y, area.width, head});
   verdict(ui, content);
   ui.heading(content.facts.reason);

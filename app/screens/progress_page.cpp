@@ -77,8 +77,7 @@ void ProgressPage::curve_plot(Ui& ui, const ProgressEntry& entry, double height_
   plot.line(entry.pass_at, w("pass {0}", {w.number(entry.pass_at, 0)}), Ink::kText, false);
   if (const auto& band = entry.curve.band) {
     plot.band(band->low, band->high, "", Ink::kHeading);
-    plot.line(band->median, w("your median {0} and the middle half of your last {1}",
-                              {w.number(band->median, 1), std::to_string(std::min(kBandAttempts, entry.curve.graded))}), Ink::kHeading, true);
+    plot.line(band->median, w("your median {0}", {w.number(band->median, 1)}), Ink::kHeading, true);
   }
   std::vector<Ui::Point> points;
   for (int i = 0; i < count; ++i)
@@ -129,9 +128,12 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
   std::string line = w("{0} attempts, {1} passed, {2} of 3 in a row on different boards; {3} trained.",
                        {std::to_string(c.attempts.size()), std::to_string(c.passed), std::to_string(std::min(3, entry.in_a_row)), minutes(w, c.trained_s)});
   if (c.best) line += " " + w("Best {0}, last {1}.", {w.number(*c.best, 1), w.number(*c.last, 1)});
+  if (const auto& band = c.band)
+    line += " " + w("Last {0}: median {1}, middle half {2} to {3}.", {std::to_string(std::min(kBandAttempts, c.graded)), w.number(band->median, 1),
+                                                                  w.number(band->low, 1), w.number(band->high, 1)});
   ui.text(line);
   if (entry.older_rubric) ui.marked(Mark::kInfo, w("Graded by an older version of the exercise: not comparable with today's."), Ink::kCaution);
-  const double room = ui.room_below() / ui.px(1) - 2.6 * ui.line_height() / ui.px(1) - 16;
+  const double room = ui.room_below() / ui.px(1) - 2.2 * ui.line_height() / ui.px(1) - 16;
   curve_plot(ui, entry, std::max(190.0, 0.56 * room));
   cusum_plot(ui, entry, std::max(150.0, 0.44 * room));
   ui.text(competence_words(w, entry.cusum), Ink::kDim);

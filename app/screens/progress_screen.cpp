@@ -38,7 +38,7 @@ ProgressEntry entry_of(const PracticeDesk& desk, LearningCurve curve) {
   const auto exercise = std::find_if(all.begin(), all.end(), [&](const Exercise& e) { return e.id == key.exercise_id; });
   out.name = key.exercise_id + " " + key.level;
   if (exercise != all.end()) {
-    out.name = w("{0} {1} {2}", {exercise->number, w.made(exercise->title), key.level});
+    out.name = exercise->number + " " + w.made(exercise->title) + " " + key.level;
     const ExerciseLevel* level = level_named(*exercise, key.level);
     out.pass_at = level ? level->rubric.pass_at : exercise->rubric.pass_at;
     out.older_rubric = exercise->rubric.sha256 != key.rubric_sha256;

@@ -44,11 +44,71 @@ TEST_F(DebriefPageTest, LeadsWithVerdictReasonAndScore) {
 
 TEST_F(DebriefPageTest, NothingScrollsAtTheSmallestUsualWindow) {
   for (const auto run : {heavy_run, good_run}) {
-    settle(touch(run));
+    DebriefContent content = touch(run);
+    content.guest = run == heavy_run;
+    settle(content);
     EXPECT_TRUE(scrolling_.empty()) << scrolling_.front();
     expect_clear("debrief");
   }
   picture("debrief-pass");
+}
+
+TEST_F(DebriefPageTest, AReasonOfTwoLinesHasRoom) {
+  DebriefContent content = touch();
+  for (int i = 0; i < 3; ++i) content.facts.reason += " " + content.facts.reason.substr(0, 40);
+  settle(content);
+  EXPECT_TRUE(scrolling_.empty()) << scrolling_.front();
+  expect_clear("long reason");
+}
+
+TEST_F(DebriefPageTest, WhileTheForcesAreReadThePageStandsWithoutThem) {
+  DebriefContent content = touch();
+  content.plots.trace = nullptr;
+  content.plots_note = "Reading the forces...";
+  settle(content);
+  EXPECT_TRUE(text("Reading the forces..."));
+  EXPECT_TRUE(text("NOT YET"));
+  EXPECT_FALSE(page_.chosen_s());
+  content.plots.trace = &trace_;
+  settle(content);
+  EXPECT_TRUE(page_.chosen_s()) << "then the cursor stands at the worst moment";
+}
+
+TEST_F(DebriefPageTest, WithoutAReplayItsKeyDoesNothing) {
+  DebriefContent content = touch();
+  content.can_watch = content.can_compare = false;
+  settle(content);
+  for (const char key : {'W', 'S', 'I'}) {
+    show(content, press(key));
+    EXPECT_EQ(choice_, DebriefChoice::kNone) << key;
+  }
+}
+
+TEST(ForceLinesOf, AreThoseOfTheExercise) {
+  const Exercise touch = shipped_exercise("surface-touch"), reach = shipped_exercise("reach-and-orient"), grasp = shipped_exercise("limited-grasp");
+  EXPECT_EQ(force_lines(touch, "L1").tip, (std::vector<WantedForce>{{0.4, 0.8}}));
+  EXPECT_EQ(force_lines(touch, "L3").tip.size(), 3u);
+  EXPECT_EQ(force_lines(touch, "L1").tip_hard_n, 1.5);
+  EXPECT_EQ(force_lines(touch, "L1").grip_hard_n, 2.5);
+  EXPECT_TRUE(force_lines(touch, "no such level").tip.empty());
+  EXPECT_TRUE(force_lines(reach, "L1").speed);
+  EXPECT_TRUE(force_lines(grasp, "L1").grip.empty()) << "blocks want different grips";
+}
+
+TEST(PlotEvents, LieWithinTheTraceAndTheWorstIsTheFirstOfItsKind) {
+  const Words w;
+  ForceTrace trace;
+  trace.begin_s = 2;
+  trace.end_s = 20;
+  const std::vector<Event> events{event(1, "WRONG_PLACE", Severity::kMinor), event(3, "TARGET_HELD"), event(4, "TARGET_LIT"),
+                                  event(5, "WRONG_PLACE", Severity::kMinor), event(7, "EXCESS_FORCE", Severity::kMajor),
+                                  event(9, "EXCESS_FORCE", Severity::kMajor), event(21, "CRITICAL_FORCE", Severity::kCritical)};
+  const auto shown = plot_events(w, events, trace);
+  ASSERT_EQ(shown.size(), 4u);
+  EXPECT_EQ(shown[0].text, "Target held");
+  EXPECT_EQ(worst_moment(shown), 7);
+  EXPECT_FALSE(worst_moment({shown[0]})) << "nothing went wrong";
+  EXPECT_FALSE(worst_moment({}));
 }
 
 TEST_F(DebriefPageTest, GroupsStandInTheOrderSafetyToTime) {
@@ -146,6 +206,25 @@ TEST_F(DebriefPageTest, DeviceStopStandsForItselfWithoutAnyScore) {
   EXPECT_TRUE(scrolling_.empty());
   expect_clear("fault");
 }
+
+class DebriefLanguages : public DebriefPageTest, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(DebriefLanguages, NothingIsCutNothingCollidesNothingScrolls) {
+  words_ = Words(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", GetParam());
+  for (const double scale : {1.0, 1.5, 2.0}) {
+    scale_ = scale;
+    for (const auto run : {heavy_run, good_run}) {
+      page_ = {};
+      const DebriefContent content = touch(run);
+      settle(content);
+      expect_clear(GetParam() + " at " + std::to_string(scale));
+      EXPECT_TRUE(scale > 1 || scrolling_.empty()) << scrolling_.front();
+    }
+    picture("debrief-" + GetParam() + "-" + std::to_string(static_cast<int>(100 * scale)));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogues, DebriefLanguages, ::testing::Values("fr", "de"));
 
 struct Case {
   int width, height;

@@ -45,7 +45,7 @@ TEST_F(ProgressPageTest, ShowsCurvePassLineBandAndCusum) {
   picture("progress");
   for (const char* said : {"My progress", "E02 Surface touch L1, by mouse", "pass 75", "shown at 2.5"}) EXPECT_TRUE(text(said)) << said;
   EXPECT_TRUE(says("your median"));
-  EXPECT_TRUE(says("the middle half of your last 10"));
+  EXPECT_TRUE(says("Last 10: median 93.0, middle half 93.0 to 93.0."));
   EXPECT_TRUE(scrolling_.empty());
   expect_clear("progress");
 }
@@ -107,6 +107,20 @@ TEST_F(ProgressPageTest, NothingIsCutAndNothingCollidesAtAnyScale) {
       for (int i = 0; i < 3; ++i) show();
       expect_clear("progress at " + std::to_string(scale));
       picture("progress-" + std::to_string(static_cast<int>(100 * scale)) + "-" + shown.input);
+    }
+  }
+}
+
+TEST_F(ProgressPageTest, NothingIsCutInAnyLanguage) {
+  for (const char* language : {"fr", "de"}) {
+    words_ = Words(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", language);
+    for (const double scale : {1.0, 2.0}) {
+      scale_ = scale;
+      entries_ = {entry("mouse", 40, 12), entry("device", 6, 3)};
+      page_ = {};
+      for (int i = 0; i < 3; ++i) show();
+      expect_clear(std::string(language) + " at " + std::to_string(scale));
+      picture("progress-" + std::string(language) + "-" + std::to_string(static_cast<int>(100 * scale)));
     }
   }
 }
