@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
 constexpr double kStill_s = 1.0 / 30;   // between frames of a picture
+constexpr double kMade_s = 30;          // for what a screen makes in the background
 constexpr int kSettleFrames = 3;        // a panel knows its content's height in the second frame
 
 void make_folder(const std::filesystem::path& folder) {
@@ -38,6 +39,8 @@ InputEvent key_event(InputEvent::Kind kind, std::int32_t key) {
 
 /// A picture of the screen that is up, after some still frames.
 void take(PracticeLoop& loop, const PracticeOptions& options, const std::string& name, std::ostream& out) {
+  loop.frame(options.width, options.height, kStill_s, {});
+  loop.settle(kMade_s);
   for (int i = 0; i < kSettleFrames; ++i) loop.frame(options.width, options.height, kStill_s, {});
   const std::filesystem::path file = options.screens / (name + ".png");
   write_png(file, loop.picture());

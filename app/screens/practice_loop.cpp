@@ -9,6 +9,7 @@
 #include "app/graphics/frame_target.h"
 #include "app/graphics/preset.h"
 #include "app/graphics/renderer.h"
+#include "app/screens/device_panel.h"
 #include "app/screens/overlays.h"
 #include "app/screens/screen_table.h"
 #include "app/screens/ui_layer.h"
@@ -47,6 +48,7 @@ struct PracticeLoop::State {
   std::unique_ptr<Renderer> second_renderer;   // keeps its own organ on the GPU; while two runs are compared
   ScreenName name = ScreenName::kStart;
   std::unique_ptr<Screen> screen;
+  DevicePanel device;
   bool menu = false, help = false, fullscreen = false, picture_wanted = false;
   bool paused_by_menu = false;
   int help_page = 0;
@@ -145,6 +147,8 @@ bool PracticeLoop::State::command(const InputEvent& event) {
   } else if (action == Action::kHelp) {
     help = !help;
     open_menu(false);
+  } else if (action == Action::kDevicePanel && desk.running()) {
+    device.open = !device.open;
   } else if (action == Action::kMenu && !menu && !help && screen && screen->takes_escape()) {
     return true;   // its button hears it
   } else if (action == Action::kMenu && !layer.popup_open()) {
@@ -222,6 +226,8 @@ void PracticeLoop::State::draw_interface(int width, int height, double dt_s, con
   if (menu) choose(menu_overlay(ui, desk, desk.running() != nullptr));
   else if (help && help_overlay(ui, desk, help_page)) { help = false; open_menu(false); }
   else if (!help && screen) to = screen->frame(ui, desk, dt_s);
+  if (AttemptRunner* run = desk.running(); run && !menu && !help)
+    device.frame(ui, desk, run->newest().record, run->scene().loop, dt_s, device_panel_area(ui, desk.settings().left_handed));
   notice_overlay(ui, desk, dt_s, notice_age_s, notice);
   texts = ui.text_audit();
   scrolling = ui.scrolling();
@@ -253,6 +259,10 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
     if (s.picture_wanted) s.save_picture();
   }
   return s.name != ScreenName::kQuit;
+}
+
+void PracticeLoop::settle(double wait_s) {
+  if (state_->screen) state_->screen->settle(state_->desk, wait_s);
 }
 
 void PracticeLoop::go(ScreenName name) { state_->show(name); }

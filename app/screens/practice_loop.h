@@ -30,6 +30,8 @@ class PracticeLoop {
 
   /// One frame. Smaller than 64 x 48 px: nothing is drawn. @return false when the program shall end.
   bool frame(int width, int height, double dt_s, const std::vector<InputEvent>& events);
+  /// Waits for what the screen that is up makes in the background; wait_s at most.
+  void settle(double wait_s);
   /// To another screen, as from the next frame.
   void go(ScreenName name);
   ScreenName here() const;

@@ -27,6 +27,8 @@ class Screen {
   virtual std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) = 0;
   /// Events that ImGui did not take. @return as frame().
   virtual std::optional<ScreenName> handle(const InputEvent& /*event*/, PracticeDesk& /*desk*/) { return {}; }
+  /// Waits for what the screen makes in the background: pictures of screens, and tests.
+  virtual void settle(PracticeDesk& /*desk*/, double /*wait_s*/) {}
   /// Esc is this screen's own (it has a button for it), and does not open the menu.
   virtual bool takes_escape() const { return false; }
   /// Every event goes to handle() before anything else looks at it: while a key is being chosen.

@@ -1,6 +1,9 @@
 #include "app/screens/screen_table.h"
 
+#include "app/screens/briefing_screen.h"
+#include "app/screens/curriculum_screen.h"
 #include "app/screens/debrief_screen.h"
+#include "app/screens/notch_screen.h"
 #include "app/screens/progress_screen.h"
 #include "app/screens/replay_screen.h"
 #include "app/screens/run_screen.h"
@@ -13,13 +16,13 @@ std::unique_ptr<Screen> make_screen(ScreenName name) {
   switch (name) {
     case ScreenName::kStart: return std::make_unique<StartScreen>();
     case ScreenName::kSettings: return std::make_unique<SettingsScreen>();
-    case ScreenName::kCurriculum: return nullptr;
-    case ScreenName::kBriefing: return nullptr;
+    case ScreenName::kCurriculum: return std::make_unique<CurriculumScreen>();
+    case ScreenName::kBriefing: return std::make_unique<BriefingScreen>();
     case ScreenName::kRun: return std::make_unique<RunScreen>();
     case ScreenName::kDebrief: return std::make_unique<DebriefScreen>();
     case ScreenName::kProgress: return std::make_unique<ProgressScreen>();
     case ScreenName::kReplay: return std::make_unique<ReplayScreen>();
-    case ScreenName::kNotch: return nullptr;
+    case ScreenName::kNotch: return std::make_unique<NotchScreen>();
     case ScreenName::kQuit: return nullptr;
   }
   return nullptr;

@@ -91,6 +91,12 @@ void Ui::end_panel() {
 }
 
 double Ui::room() const { return std::max(1.0F, ImGui::GetContentRegionAvail().x); }
+void Ui::scroll_by_keys() {
+  const float page = 0.8F * ImGui::GetWindowHeight();
+  if (pressed("Page down")) ImGui::SetScrollY(std::min(ImGui::GetScrollY() + page, ImGui::GetScrollMaxY()));
+  if (pressed("Page up")) ImGui::SetScrollY(std::max(ImGui::GetScrollY() - page, 0.0F));
+}
+
 double Ui::used_height() const { return ImGui::GetCursorPosY(); }
 double Ui::room_below() const { return std::max(1.0F, ImGui::GetContentRegionAvail().y); }
 
@@ -116,6 +122,13 @@ Area wrapped(const std::string& text, Ink ink, UiFont font, double room) {
 }
 
 }  // namespace
+
+double UiParts::wrapped_at(Ui& ui, const Area& place, const std::string& text, Ink ink) {
+  ImGui::SetCursorScreenPos(at(place.x, place.y));
+  const Area a = wrapped(text, ink, UiFont::kBody, place.width);
+  note(ui, text, a.x, a.y, a.width, a.height, place.width);
+  return a.height;
+}
 
 void Ui::title(const std::string& text) {
   const double there = room();
@@ -150,6 +163,29 @@ void Ui::marked(Mark mark, const std::string& text, Ink ink) {
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + static_cast<float>(indent));
   const Area a = wrapped(text, ink, UiFont::kBody, there);
   UiParts::note(*this, text, a.x, a.y, a.width, a.height, there);
+}
+
+void Ui::pair(const std::string& name, const std::string& value, Ink ink) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const double there = room(), air = px(12), right_width = std::min(UiParts::width(value) + 1, 0.58 * there), left = there - right_width - air;
+  const double named = UiParts::wrapped_at(*this, {from.x, from.y, left, 0}, name, Ink::kDim);
+  const double valued = UiParts::wrapped_at(*this, {from.x + left + air, from.y, right_width, 0}, value, ink);
+  ImGui::SetCursorScreenPos(from);
+  ImGui::Dummy(at(there, std::max(named, valued)));
+}
+
+Area Ui::placed(double height_at_720) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const Area area{from.x, from.y, room(), std::max(1.0, px(height_at_720))};
+  ImGui::Dummy(at(area.width, area.height));
+  return area;
+}
+
+void Ui::text_in(const Area& area, const std::string& text, Ink ink) {
+  const ImVec2 keep = ImGui::GetCursorScreenPos();
+  const double high = size_of(text, UiFont::kBody, static_cast<float>(area.width)).y;
+  UiParts::wrapped_at(*this, {area.x, area.y + std::max(0.0, (area.height - high) / 2), area.width, 0}, text, ink);
+  ImGui::SetCursorScreenPos(keep);
 }
 
 void Ui::gap(double at_720) { ImGui::Dummy(at(1, px(at_720))); }

@@ -44,12 +44,20 @@ class Ui {
   void in_front();
   void end_panel();
   double room() const;                          ///< px to the panel's right edge
+  /// Page keys move what does not fit into the open panel up and down, also while the keys are the screen's.
+  void scroll_by_keys();
 
   void title(const std::string& text);
   void heading(const std::string& text);
   void text(const std::string& text, Ink ink = Ink::kText);       ///< wraps
   void line(const std::string& text, Ink ink = Ink::kText);       ///< one line, shortened with an ellipsis when it must
   void marked(Mark mark, const std::string& text, Ink ink = Ink::kText);
+  /// Name left, value right, both wrapped to their halves' room.
+  void pair(const std::string& name, const std::string& value, Ink ink = Ink::kText);
+  /// Room for something painted, as wide as there is; no item, so Tab passes it by.
+  Area placed(double height_at_720);
+  /// Wrapped text in the middle of a place of its own, from its left edge.
+  void text_in(const Area& area, const std::string& text, Ink ink = Ink::kText);
   void gap(double at_720 = 8);
   void same_line(double at_720 = 12);
   /// @param key shown in brackets, "Enter"; pressing it counts as a click. @return true when chosen.

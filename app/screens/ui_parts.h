@@ -20,6 +20,8 @@ class UiParts {
   static double height(UiFont font = UiFont::kBody);
   /// Draws `text` at a place of the current panel, shortened to `room`, and notes it. @return its width.
   static double draw(Ui& ui, double x, double y, const std::string& text, Ink ink, double room, UiFont font = UiFont::kBody);
+  /// Wrapped text at a place; moves the cursor. @return its height.
+  static double wrapped_at(Ui& ui, const Area& place, const std::string& text, Ink ink);
   /// The item that was just submitted takes part in Tab; one that types goes into typing when Tab comes to it.
   static void in_order(bool types = false);
   /// Enter on the item that has the ring; pressing `key` counts as well. @return chosen.

@@ -41,8 +41,8 @@ std::vector<Vec3> base_ring() {
 
 double width_of(Part part, double links) {
   switch (part) {
-    case Part::kLink1:
-    case Part::kLink2:
+    case Part::kFirstLink:
+    case Part::kSecondLink:
       return links;
     case Part::kStylus:
       return 1.6 * links;
@@ -127,8 +127,8 @@ std::vector<DeviceStroke> device_strokes(const JointVector& q, const ForwardSolu
   }
   for (DeviceStroke& stroke : strokes)
     for (Vec3& p : stroke.points) p = (rotation_W_Wprime().transpose() * p).eval();
-  strokes.push_back({Part::kLink1, {Vec3::Zero(), elbow}});
-  strokes.push_back({Part::kLink2, {elbow, X.p}});
+  strokes.push_back({Part::kFirstLink, {Vec3::Zero(), elbow}});
+  strokes.push_back({Part::kSecondLink, {elbow, X.p}});
   strokes.push_back({Part::kStylus, {X.p, X.p + kStylusLength * X.R.col(2)}});
   return strokes;
 }
@@ -144,7 +144,7 @@ std::string device_group(const std::vector<DeviceStroke>& strokes, const Drawing
   for (const DeviceStroke& stroke : strokes) {
     out += "<polyline stroke-width=\"" + svg::px(width_of(stroke.part, width)) + "\" points=\"" +
            points_of(stroke.points, view) + "\"/>\n";
-    const bool link = stroke.part == Part::kLink1 || stroke.part == Part::kLink2 || stroke.part == Part::kStylus;
+    const bool link = stroke.part == Part::kFirstLink || stroke.part == Part::kSecondLink || stroke.part == Part::kStylus;
     if (!link) continue;
     const Eigen::Vector2d at = view.project(stroke.points.front());  // centre, elbow, stylus origin
     joints += "<circle cx=\"" + svg::px(at.x()) + "\" cy=\"" + svg::px(at.y()) + "\" r=\"" + svg::px(1.2 * width) +

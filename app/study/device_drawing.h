@@ -29,7 +29,7 @@ struct DrawingView {
 
 /// One polyline of the device in W'.
 struct DeviceStroke {
-  enum class Part { kBaseRing, kMotor, kProximalArc, kDistalArc, kPlatform, kLink1, kLink2, kStylus };
+  enum class Part { kBaseRing, kMotor, kProximalArc, kDistalArc, kPlatform, kFirstLink, kSecondLink, kStylus };
   Part part;
   std::vector<Vec3> points;
 };

@@ -114,8 +114,8 @@ TEST(DeviceDrawing, StrokesHaveTheLengthsOfTable23) {
     int arcs = 0;
     for (const DeviceStroke& stroke : device_strokes(s.q)) {
       const Vec3 first = stroke.points.front(), last = stroke.points.back();
-      const bool link1 = stroke.part == Part::kLink1;
-      if (link1 || stroke.part == Part::kLink2) {
+      const bool link1 = stroke.part == Part::kFirstLink;
+      if (link1 || stroke.part == Part::kSecondLink) {
         EXPECT_NEAR((last - first).norm(), link1 ? 0.146 : 0.128, 1e-12);
       }
       const bool arc = stroke.part == Part::kProximalArc || stroke.part == Part::kDistalArc;
@@ -136,8 +136,8 @@ TEST(DeviceDrawing, HangsInEverySolutionAsItsMatricesSay) {
   for (const ForwardSolution& solution : forward_solutions(q)) {
     Vec3 elbow = Vec3::Zero(), stylus = Vec3::Zero();
     for (const DeviceStroke& stroke : device_strokes(q, solution)) {
-      if (stroke.part == DeviceStroke::Part::kLink1) elbow = stroke.points.back();
-      if (stroke.part == DeviceStroke::Part::kLink2) stylus = stroke.points.back();
+      if (stroke.part == DeviceStroke::Part::kFirstLink) elbow = stroke.points.back();
+      if (stroke.part == DeviceStroke::Part::kSecondLink) stylus = stroke.points.back();
     }
     EXPECT_LT((stylus - solution.X_WS.p).norm(), 1e-15) << solution.meaning;
     EXPECT_NEAR((stylus - elbow).norm(), kLink2, 1e-12) << solution.meaning;
@@ -152,7 +152,7 @@ TEST(DeviceDrawing, ChainHangsTogether) {
   const auto strokes = device_strokes(home_angles());
   EXPECT_LT((strokes.back().points.front() - home_pose().p).norm(), 1e-12) << "the stylus begins at its origin";
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    if (strokes[i].part != DeviceStroke::Part::kLink2) continue;
+    if (strokes[i].part != DeviceStroke::Part::kSecondLink) continue;
     EXPECT_LT((strokes[i].points.front() - strokes[i - 1].points.back()).norm(), 1e-15) << "elbow";
     EXPECT_LT((strokes[i].points.back() - strokes[i + 1].points.front()).norm(), 1e-15) << "wrist";
   }
