@@ -8,7 +8,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 120, kHeadLine = 25, kNarrowPlots = 300, kTableShare = 0.645;   // px at 720 lines and scale 1
+constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 128, kHeadLine = 25, kNarrowPlots = 300, kTableShare = 0.645;   // px at 720 lines and scale 1
 
 Mark verdict_mark(Outcome outcome) {
   switch (outcome) {
