@@ -58,6 +58,7 @@ std::string fixed_number(double value, int width, int decimals) {
   char text[48];
   std::snprintf(text, sizeof text, "%+.*f", decimals, value);
   std::string out = text;
+  if (out.find_first_not_of("-0.") == std::string::npos) out.front() = '+';   // nothing has no sign that could flicker
   if (!std::isfinite(value)) out = value > 0 ? "inf" : "-";
   const int length = static_cast<int>(out.size());
   if (length > width) return std::string(static_cast<std::size_t>(width), '>');

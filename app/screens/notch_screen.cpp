@@ -128,12 +128,6 @@ void NotchScreen::settle(PracticeDesk& desk, double wait_s) {
 }
 
 std::optional<ScreenName> NotchScreen::handle(const InputEvent& event, PracticeDesk& desk) {
-  const bool down = event.kind == InputEvent::Kind::kKeyDown && !event.repeat;
-  // The side's buttons hear their own keys; with the panel over all of it nothing else closes the panel.
-  if (down && !side_shown_ && desk.keys().action_of(event.key) == Action::kDevicePanel) {
-    panel_.open = false;
-    return {};
-  }
   desk.steering().handle(event);
   return {};
 }
@@ -156,8 +150,9 @@ std::string NotchScreen::side(Ui& ui, PracticeDesk& desk, const Area& area) {
     if (run_->finished()) ui.marked(Mark::kWarning, w("The device has stopped: {0}", {run_->fault()}), Ink::kAlarm);
   }
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
+  const std::string panel_key = key_name(desk.keys().key_of(Action::kDevicePanel));
   const std::string chosen = button_rows(
-      ui, {{"soft", w("20 N/m"), "1"}, {"firm", w("150 N/m"), "2"}, {"panel", w("Device"), "F3"}, {"back", w("Course"), "Esc"}});
+      ui, {{"soft", w("20 N/m"), "1"}, {"firm", w("150 N/m"), "2"}, {"panel", w("Device"), panel_key}, {"back", w("Course"), "Esc"}});
   ui.text(w("Arrow: the force on the tip. Axes of the tip: x red with a ball, y green with a box, z blue with a ring."), Ink::kDim);
   ui.end_panel();
   return chosen;
@@ -170,6 +165,8 @@ std::optional<ScreenName> NotchScreen::frame(Ui& ui, PracticeDesk& desk, double 
   const double m = ui.px(kMargin);
   const Area panel = device_panel_area(ui, true);
   const bool beside = panel.x > ui.px(kSide) + 3 * m;   // else the panel lies over all
+  if (!seen_) panel_.open = beside;
+  seen_ = true;
   const double left = std::min(ui.px(kSide), ui.width() - 2 * m);
   const double picture_right = panel_.open && beside ? panel.x - m : ui.width();
   const bool stacked = panel_.open && beside;
@@ -182,7 +179,8 @@ std::optional<ScreenName> NotchScreen::frame(Ui& ui, PracticeDesk& desk, double 
   if (run_) panel_.frame(ui, desk, run_->newest().record, run_->scene().loop, dt_s, panel);
   if (run_ && chosen == "soft") run_->set_stiffness(kThesisWall_n_per_m);
   if (run_ && chosen == "firm") run_->set_stiffness(kFirmWall_n_per_m);
-  if (chosen == "panel") panel_.open = !panel_.open;
+  const bool hidden_key = !side_shown_ && ui.pressed(key_name(desk.keys().key_of(Action::kDevicePanel)));
+  if (chosen == "panel" || hidden_key) panel_.open = !panel_.open;
   if (chosen == "back" || (!side_shown_ && ui.pressed("Esc"))) return ScreenName::kCurriculum;
   return std::nullopt;
 }

@@ -20,7 +20,6 @@ SceneView notch_view(const Scene& scene, const Notch& notch, const RunMoment& mo
 
 class NotchScreen final : public Screen {
  public:
-  NotchScreen() { panel_.open = true; }
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
   std::optional<ScreenName> handle(const InputEvent& event, PracticeDesk& desk) override;
   std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
@@ -37,7 +36,7 @@ class NotchScreen final : public Screen {
 
   std::unique_ptr<NotchRun> run_;
   std::string wrong_;
-  bool steering_ = false, side_shown_ = true;
+  bool seen_ = false, steering_ = false, side_shown_ = true;
   Area picture_;
   Camera camera_;
   DevicePanel panel_;

@@ -36,6 +36,8 @@ TEST(DeviceNumbers, NumbersKeepTheirColumns) {
   for (const double value : {0.0, -0.0, 1.0, -1.0, 12.345, -99.994, 179.99, -160.0})
     EXPECT_EQ(fixed_number(value, 8, 2).find('.'), fixed_number(value, 8, 2).size() - 3) << value << ": two decimals, always";
   EXPECT_EQ(fixed_number(5, 8, 2), "+5.00") << "with its sign";
+  EXPECT_EQ(fixed_number(-0.001, 8, 2), "+0.00") << "what is shown as nothing does not flicker between signs";
+  EXPECT_EQ(fixed_number(-0.02, 8, 2), "-0.02");
   EXPECT_EQ(fixed_number(std::numeric_limits<double>::infinity(), 6, 0), "inf");
   EXPECT_EQ(fixed_number(std::nan(""), 6, 0), "-");
 }

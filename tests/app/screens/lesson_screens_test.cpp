@@ -240,6 +240,21 @@ TEST_F(LessonScreens, NotchIsEnteredFromTheCourseShowsTheDeviceAndIsLeftByEsc) {
   EXPECT_EQ(loop_->here(), ScreenName::kCurriculum);
 }
 
+TEST_F(LessonScreens, WhereThereIsNoRoomBesideItThePanelWaitsForF3AndEscStillLeaves) {
+  window(1280, 720, 2);
+  go(ScreenName::kNotch);
+  EXPECT_TRUE(sees("The notch"));
+  EXPECT_FALSE(sees("q1"));
+  tap(kKeyF3);
+  frame();
+  EXPECT_TRUE(sees("q1"));
+  tap(kKeyF3);
+  frame();
+  EXPECT_FALSE(sees("q1"));
+  tap(kKeyEscape);
+  EXPECT_EQ(loop_->here(), ScreenName::kCurriculum);
+}
+
 TEST_F(LessonScreens, DevicePanelKeepsItsColumnsFromFrameToFrame) {
   window(1280, 720, 1);
   go(ScreenName::kNotch, 1);
