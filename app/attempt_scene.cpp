@@ -159,6 +159,14 @@ void pinch(SceneObject& block, const StylusState& stylus) {
   block.pinch_depth_m = std::clamp(block.size_m[axis] - stylus.jaw_opening_m, 0.0, 0.6 * block.size_m[axis]);
 }
 
+/// Blood, char and the like, smoke, and what is on the lens.
+void add_marks(const TissueFrame& tissue, SceneView& out) {
+  out.marks.assign(tissue.mark.begin(), tissue.mark.begin() + tissue.mark_count);
+  out.smoke_per_m = tissue.smoke_per_m;
+  out.lens.fog = tissue.lens_fog;
+  out.lens.blood = tissue.lens_blood;
+}
+
 }  // namespace
 
 std::vector<SceneObject> rigid_objects(const RigidScene& rigid, const TissueFrame* frame, int lit_block) {
@@ -242,6 +250,7 @@ SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const Tri
     out.dimple_normal_T = stylus.contact_normal_T;
     out.dimple_depth_m = stylus.depth_m;
   }
+  if (view.tissue) add_marks(*view.tissue, out);
   out.camera = attempt_camera(view.scene);
   return out;
 }

@@ -20,6 +20,7 @@
 #include "app/commands/device_plant.h"
 #include "app/commands/doctor_command.h"
 #include "app/commands/identify_command.h"
+#include "app/commands/picture_command.h"
 #include "app/commands/recording_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/study_command.h"
@@ -63,6 +64,7 @@ struct CommandLine {
   CohortOptions cohort;
   DbOptions db;
   DoctorOptions doctor;
+  PictureOptions picture;
   std::string shell;
 
   /// A subcommand that runs `action` when chosen.
@@ -150,7 +152,7 @@ void add_first_contact(CommandLine& c) {
   demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
   demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
   demo->add_option("--organ", c.demo.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
-  CLI::App* bench = c.add(c.app, "bench", "What one tick costs, by stage",
+  CLI::App* bench = c.add(c.app, "bench", "What one tick, one picture and the organ compiler cost",
                           [&c] { return bench_command(c.bench, std::cout, std::cerr); });
   bench->add_option("--organ", c.bench.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
   bench->add_flag("--json", c.bench.json, "As JSON");
@@ -168,6 +170,20 @@ void add_first_contact(CommandLine& c) {
     std::cout << "trocar " TROCAR_VERSION "\n";
     return 0;
   });
+}
+
+void add_picture(CommandLine& c) {
+  std::string scenes;
+  for (const std::string& name : picture_scenes()) scenes += (scenes.empty() ? "" : ", ") + name;
+  CLI::App* picture = c.add(c.app, "picture", "A picture of the show scene, as this machine draws it",
+                            [&c] { return picture_command(c.picture, find_assets().assets, std::cout, std::cerr); });
+  picture->add_option("--out", c.picture.output, "PNG file")->required()->check(kNamed);
+  picture->add_option("--scene", c.picture.scene, "One of: " + scenes)->capture_default_str();
+  picture->add_option("--preset", c.picture.preset, "potato, soft, full, or auto: chosen by timing")->capture_default_str();
+  picture->add_option("--width", c.picture.width, "Pixels")->capture_default_str();
+  picture->add_option("--height", c.picture.height, "Pixels")->capture_default_str();
+  picture->add_flag("--no-grain", c.picture.no_grain, "Without sensor grain: smaller files");
+  picture->add_option("--seed", c.picture.seed, "Of lumps and lobes")->capture_default_str()->check(kSeed);
 }
 
 void add_catalogue(CommandLine& c) {
@@ -328,7 +344,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
     add(c);
   }
   try {

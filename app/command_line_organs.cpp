@@ -57,7 +57,7 @@ int run_import(OrganCommandLine& c) {
 void add_label_options(OrganCommandLine& c, CLI::App& import) {
   const char* group = "Labels";
   import.add_option("--labels", c.import.labels, "Label map, DICOM SEG or RTSTRUCT of the image INPUT")->group(group);
-  import.add_option("--label", c.import.label, "Label number or name; several make a scene (--label liver,gallbladder)")->delimiter(',')->group(group);
+  import.add_option("--label", c.import.label, "Label number, name, or LAYER:NUMBER where segments overlap; several make a scene (--label liver,gallbladder)")->delimiter(',')->group(group);
   import.add_flag("--all", c.import.all, "Every label, as a scene")->group(group);
   import.add_option("--label-table", c.import.label_table, "What the numbers mean: totalsegmentator-v1, -v2, -mr, trocar-phantom, or a file (CSV, .ctbl, ITK-SNAP)")->group(group);
   import.add_option("--series", c.series, "Which of several DICOM series (numbers: organ inspect)")->check(CLI::Range(1, 100000))->group(group);
@@ -145,8 +145,8 @@ void add_phantom(OrganCommandLine& c, CLI::App& organ) {
                               return organ_phantom(c.phantom, std::cout, std::cerr);
                             });
   phantom->add_option("--out", c.phantom.out, "Folder")->required();
-  phantom->add_option("--seed", c.phantom.seed, "Seed of the noise")->capture_default_str()->check(CLI::Range(0.0, 9e18, "SEED"));
-  phantom->add_option("--variant", c.phantom.variant, "normal, short-duct, low-insertion, fat or artery-anterior")->capture_default_str();
+  phantom->add_option("--seed", c.phantom.seed, "Seed of the noise, and of --variant by-seed")->capture_default_str()->check(CLI::Range(0.0, 9e18, "SEED"));
+  phantom->add_option("--variant", c.phantom.variant, "normal, short-duct, low-insertion, fat or artery-anterior; by-seed: the one that --seed stands for")->capture_default_str();
   phantom->add_option("--patient", c.phantom.patient, "Natural variation; 0: the standard patient")->capture_default_str()->check(CLI::Range(0.0, 9e18, "PATIENT"));
   phantom->add_option("--voxel", c.phantom.voxel_mm, "Voxel in mm; 1.25 shows ducts and arteries well")->capture_default_str();
   phantom->add_flag("--scene", c.phantom.scene, "The organs round the gallbladder as one scene as well");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/force_scale.h"
+#include "app/patch_fit.h"
 #include "app/placement.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
@@ -15,7 +16,7 @@
 #include "scenarios/exercise_loader.h"
 #include "scenarios/grasp_layout.h"
 #include "scenarios/pen_layout.h"
-#include "tissue/collision/patch_extraction.h"
+#include "scenarios/shaft_room.h"
 
 namespace trocar {
 const TriangleSurface& felt_surface(const Scene& scene) {
@@ -64,28 +65,17 @@ AssetRoots find_assets() {
 
 namespace {
 
-/// Refuses a surface so fine that the patch would end before the tool can reach its end: 3 mm round the shaft and what
-/// 0.1 m/s makes of the 15 ms between the state that a patch is cut for and the last tick that feels it.
+/// Refuses a surface so fine that a patch would end before the tool can reach its end.
 void require_reach(const Scene& scene) {
-  constexpr double kMargin = 3e-3 + 0.1 * 0.015;
-  PatchExtraction extraction(felt_surface(scene));
-  const auto patch = std::make_unique<ContactPatch>();
-  const Mat3 R_TI = scene.loop.map.instrument_pose(home_pose()).R;
-  const double needed = scene.loop.tool.radius_m + kMargin;
-  for (const Target& target : scene.board.targets) {
-    extraction.extract({R_TI, target.centre_T}, scene.loop.tool, *patch);
-    if (patch->reach_m >= needed) continue;
-    throw InputError(scene.organ.manifest.string() + ": the surface is too fine to be felt: the " +
-                     std::to_string(kMaxPatchTriangles) + " triangles of a patch end " +
-                     std::to_string(patch->reach_m * 1e3).substr(0, 4) + " mm from the tool's axis, " +
-                     std::to_string(needed * 1e3).substr(0, 4) + " mm are needed; import it again with fewer --triangles");
-  }
+  const PatchFit fit = patch_fit(scene);
+  if (fit.felt()) return;
+  throw InputError(scene.organ.manifest.string() + ": the surface is too fine to be felt: " + fit.words());
 }
 
 constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
 
 /// Board of the exercise's kind. The loop's map is set before: pens turn from the resting instrument.
-Board lay_out(const Scene& scene, int board) {
+Board lay_out(const Scene& scene, int board, const ShaftRoom* room) {
   const Exercise& exercise = scene.setup.exercise;
   switch (exercise.kind) {
     case ExerciseKind::kGrasp: return lay_out_blocks(exercise, scene.level, board);
@@ -93,38 +83,48 @@ Board lay_out(const Scene& scene, int board) {
       return lay_out_pens(exercise, scene.level, scene.loop.map.instrument_pose(home_pose()).R, board);
     case ExerciseKind::kTouch: break;
   }
-  return lay_out_board(scene.organ_T, exercise, scene.level, board);
+  return lay_out_board(scene.organ_T, exercise, scene.level, board, room);
 }
 
 /// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be
 /// met, and asks nothing.
-double force_scale(const Scene& scene) {
+double force_scale(const Scene& scene, const ShaftRoom* room) {
   if (scene.level.force_scale > 0) return std::min(1.0, scene.level.force_scale);
   std::vector<Board> boards;
   for (int k = 0; k < kPracticeBoards + kProvedUnseen; ++k) {
     try {
-      boards.push_back(lay_out(scene, k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, scene.level.exam)));
+      boards.push_back(lay_out(scene, k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, scene.level.exam), room));
     } catch (const InputError&) {
     }
   }
   return auto_force_scale(scene.loop.map, scene.loop.device, scene.setup.exercise, boards);
 }
 
+/// Lays the organ, and what lies round it, into the theatre.
+void place(Scene& scene) {
+  const Exercise& exercise = scene.setup.exercise;
+  scene.placement = scene.setup.placement
+                        ? *scene.setup.placement
+                        : place_organ(scene.organ.surface, exercise, scene.level, {scene.loop.tool, scene.loop.map});
+  scene.organ_T = scene.organ.surface.transformed(scene.placement.X_TO);
+  if (scene.organ.neighbours.empty()) return;
+  const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
+  scene.neighbours = place_neighbours(scene.organ, scene.organ_T, scene.placement.X_TO, exercise, materials);
+}
+
 /// Organ, board, force scale, and the instrument that the exercise takes.
 void set_stage(Scene& scene) {
   const Exercise& exercise = scene.setup.exercise;
+  std::optional<ShaftRoom> room;
   if (needs_organ(exercise.kind)) {
-    const Pose X_TO = place_organ(scene.organ.surface, exercise.layout);
-    scene.organ_T = scene.organ.surface.transformed(X_TO);
-    if (!scene.organ.neighbours.empty()) {
-      const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
-      scene.neighbours = place_neighbours(scene.organ, scene.organ_T, X_TO, exercise, materials);
-    }
+    place(scene);
+    room.emplace(felt_surface(scene), scene.loop.tool, scene.loop.map);
   }
-  scene.board = lay_out(scene, scene.setup.board);
+  const ShaftRoom* behind_tip = room ? &*room : nullptr;
+  scene.board = lay_out(scene, scene.setup.board, behind_tip);
   if (needs_organ(exercise.kind)) require_reach(scene);
   if (exercise.kind == ExerciseKind::kGrasp) scene.loop.tool.jaw_length_m = kJawLength;
-  scene.loop.map.force_scale = force_scale(scene);
+  scene.loop.map.force_scale = force_scale(scene, behind_tip);
 }
 
 }  // namespace

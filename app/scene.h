@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "haptics/haptic_loop.h"
 #include "scenarios/director.h"
 #include "scenarios/exercise.h"
+#include "scenarios/organ_placement.h"
 #include "scenarios/plant_file.h"
 #include "tissue/organ.h"
 
@@ -56,6 +58,7 @@ struct AttemptSetup {
   DeviceFiles device;                  ///< what the loop knows of its device beyond the nominal model
   std::vector<InjectedFault> faults;   ///< simulated back-end only
   std::shared_ptr<const PlantFile> plant;  ///< of the simulated back-end; none: drawn by the seed. A replay needs none
+  std::optional<OrganPlacement> placement;  ///< where the organ lies, when that is known; none: it is looked for
   bool realtime = false;               ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;
 };
@@ -65,6 +68,7 @@ struct Scene {
   AttemptSetup setup;
   ExerciseLevel level;
   Organ organ;
+  OrganPlacement placement;
   TriangleSurface organ_T;
   Neighbours neighbours;               ///< what lies round the organ, when it is one of several
   Board board;

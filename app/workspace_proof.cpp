@@ -47,6 +47,14 @@ double heat_of(const Scene& scene, const std::vector<Stop>& stops) {
   return hottest;
 }
 
+/// Least room behind the tip, of all discs.
+double least_shaft_gap(const Scene& scene) {
+  const ShaftRoom room(felt_surface(scene), scene.loop.tool, scene.loop.map);
+  double least = ShaftRoom::kFarthest;
+  for (const Target& target : scene.board.targets) least = std::min(least, room.gap_m(target.centre_T, target.normal_T));
+  return least;
+}
+
 void judge(LevelProof& proof, const std::string& what) {
   if (what.empty()) return;
   if (proof.sound) proof.why = what;
@@ -62,6 +70,7 @@ void Reach::add(const Reach& o) {
   off_axis = std::min(off_axis, o.off_axis);
   clearance_m = std::min(clearance_m, o.clearance_m);
   handle_to_port_m = std::min(handle_to_port_m, o.handle_to_port_m);
+  shaft_gap_m = std::min(shaft_gap_m, o.shaft_gap_m);
   torque_share = std::max(torque_share, o.torque_share);
   held_s = std::min(held_s, o.held_s);
 }
@@ -73,6 +82,7 @@ std::string Reach::broken(const ReachRules& rules) const {
   if (off_axis < rules.off_axis) return "the stylus axis comes too near to the line to O";
   if (clearance_m <= 0) return "link l1 meets the base ring or a leg";
   if (handle_to_port_m < rules.handle_to_port_m) return "the handle comes too near to the port";
+  if (shaft_gap_m < rules.shaft_gap_m) return "the instrument's shaft would press on the organ where the tip is to touch";
   if (torque_share > 1) return "gravity and the hard limit ask more torque than a motor can give";
   if (held_s < rules.held_s) return "the hard limit overheats a motor at once";
   return "";
@@ -124,6 +134,10 @@ LevelProof prove_level(const Exercise& exercise, const std::string& level, const
     for (const Stop& stop : stops) {
       const Wrench hard{exercise.hard_force_n * stop.normal_T, Vec3::Zero()};
       board.worst.add(reach_of(scene.loop.device, scene.loop.map, stop.X_TI, hard));
+    }
+    if (needs_organ(exercise.kind)) {
+      board.worst.shaft_gap_m = least_shaft_gap(scene);
+      setup.placement = proof.placement = scene.placement;  // the same for every board of the level
     }
     const std::string why = board.worst.broken(rules);
     judge(proof, why.empty() ? "" : "board " + std::to_string(setup.board) + ": " + why);

@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kM2PerCm2 = 1e-4;
 
-bool plain_name(const std::string& file) { return !file.empty() && std::filesystem::path(file).filename() == file; }
-
 /// Distinct texts of the organs, the subject's first.
 std::string joined(const std::vector<std::string>& texts) {
   std::vector<std::string> distinct;
@@ -32,8 +30,7 @@ std::vector<Organ> load_members(const OrganSet& set, const std::filesystem::path
   std::set<std::string> names;
   for (std::size_t n = 0; n < set.files.size(); ++n) {
     const std::filesystem::path member = path.parent_path() / set.files[n];
-    if (digest::of_bytes(read_bytes(member)) != set.sha256[n])
-      throw InputError(member.string() + ": its sha256 is not the one in " + path.string() + ": the file was changed");
+    read_unchanged(member, set.sha256[n], path.string());
     organs.push_back(load_organ(member));
     if (!names.insert(organs.back().name).second)
       throw InputError(path.string() + ": two organs are named \"" + organs.back().name + "\"");
@@ -114,11 +111,11 @@ OrganSet parse_organ_set(const std::string& text, const std::string& file) {
   set.subject = table.text("subject");
   set.more_files = table.texts("files");
   for (const std::string& name : set.more_files)
-    if (!plain_name(name)) table.refuse("files", "files holds names of files beside the scene");
+    if (!is_plain_name(name)) table.refuse("files", "files holds names of files beside the scene");
   for (TomlTable& organ : table.tables("organ")) {
     set.files.push_back(organ.text("file"));
     set.sha256.push_back(organ.text("sha256"));
-    if (!plain_name(set.files.back())) organ.refuse("file", "file must be the name of a file beside the scene");
+    if (!is_plain_name(set.files.back())) organ.refuse("file", "file must be the name of a file beside the scene");
     organ.finish();
   }
   if (set.files.empty()) table.refuse("organ", "a scene holds at least one organ");
@@ -162,9 +159,9 @@ std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSe
   set.sha256.clear();
   for (CompiledMember& member : members) {
     const std::string name = member_stem(stem, member.manifest.name).string();
-    const std::string surface = enter_surface(name, member.manifest, member.surface);
+    if (member.surface_bytes.empty()) member.surface_bytes = enter_surface(name, member.manifest, member.surface);
     const std::string text = manifest_text(member.manifest);
-    stage(name + ".ply", surface);
+    stage(name + ".ply", member.surface_bytes);
     stage(name + std::string(kOrganSuffix), text);
     set.files.push_back(std::filesystem::path(name).filename().string() + std::string(kOrganSuffix));
     set.sha256.push_back(digest::of_bytes(text));
@@ -172,7 +169,7 @@ std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSe
   set.more_files.clear();
   for (const SideFile& file : more) {
     stage(stem.parent_path() / file.name, file.bytes);
-    if (plain_name(file.name)) set.more_files.push_back(file.name);
+    if (is_plain_name(file.name)) set.more_files.push_back(file.name);
   }
   std::filesystem::path path = stem.string() + std::string(kOrganSetSuffix);
   stage(path, organ_set_text(set));

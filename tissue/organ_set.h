@@ -59,14 +59,15 @@ Organ load_organ_set(const std::filesystem::path& path, const std::string& subje
 struct CompiledMember {
   OrganManifest manifest;
   TriangleSurface surface;
+  std::string surface_bytes = {};  ///< of the surface's file, once enter_surface made them
 };
 
 /// Path without suffix of one organ of a scene: STEM-NAME.
 std::filesystem::path member_stem(const std::filesystem::path& stem, const std::string& name);
 
-/// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing: everything is
-/// staged beside its place and then renamed, the scene file last.
-/// @param members manifests; their surface names and hashes are filled in
+/// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing:
+/// everything is staged beside its place and then renamed, the scene file last.
+/// @param members manifests; their surface names and hashes are filled in, unless surface_bytes tells that they are
 /// @return path of the scene file
 /// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
 std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members,

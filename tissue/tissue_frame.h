@@ -1,5 +1,5 @@
 // What the tissue task knows after a step beyond the contact patch: where the rigid objects are, what the jaws hold,
-// what touches what. Read by the director, the picture and the state hash.
+// what touches what, and what marks the tissue bears. Read by the director, the picture and the state hash.
 //
 // Frame T, SI units. Fixed size: copying it allocates nothing. Thread: written by the tissue task.
 #pragma once
@@ -13,6 +13,7 @@ namespace trocar {
 
 inline constexpr int kMaxObjects = 16;
 inline constexpr int kMaxContactPairs = 32;
+inline constexpr int kMaxTissueMarks = 32;
 
 enum class ObjectMotion : std::uint8_t { kResting, kMoving, kHeld };
 
@@ -41,6 +42,18 @@ struct ContactPair {
   double force_n = 0;                    ///< by the displayed stiffness; 0 between two objects
 };
 
+enum class TissueMarkKind : std::uint8_t { kBlood, kChar, kWhitening, kWet };
+
+/// A place on the tissue that looks different from now on. It sticks to the tissue: its place is one at rest.
+struct TissueMark {
+  TissueMarkKind kind = TissueMarkKind::kBlood;
+  Vec3 centre_T = Vec3::Zero();          ///< on the undeformed surface
+  double radius_m = 0;
+  double strength = 0;                   ///< 0 none .. 1 full
+
+  bool operator==(const TissueMark&) const = default;
+};
+
 struct TissueFrame {
   std::uint64_t stamp = 0;               ///< frame number, from 1
   double t_s = 0;                        ///< loop time of the state that it was made from
@@ -51,6 +64,10 @@ struct TissueFrame {
   double slipped_m = 0;                  ///< how far it has slid through the jaws since it was grasped
   std::int32_t pair_count = 0;
   std::array<ContactPair, kMaxContactPairs> pair;
+  std::int32_t mark_count = 0;
+  std::array<TissueMark, kMaxTissueMarks> mark;
+  double smoke_per_m = 0;                ///< extinction of the smoke in the cavity, 1/m: sight falls as exp(-k d)
+  double lens_fog = 0, lens_blood = 0;   ///< on the scope's lens, 0 clean .. 1 blind
 
   bool held() const { return grip == GripState::kHolding || grip == GripState::kSlipping; }
 };

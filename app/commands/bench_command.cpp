@@ -10,11 +10,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/commands/bench_compiler.h"
 #include "app/commands/bench_contact.h"
+#include "app/commands/bench_pictures.h"
 #include "app/commands/run_command.h"
 #include "app/recorder/recording_reader.h"
+#include "app/screens/latency_bench.h"
 #include "app/session.h"
 #include "haptics/control/gravity.h"
+#include "haptics/input_error.h"
 #include "haptics/kinematics/hybrid_arm.h"
 #include "tissue/collision/patch_extraction.h"
 
@@ -129,9 +133,58 @@ void print_contact(const nlohmann::ordered_json& rows, std::ostream& out) {
   }
 }
 
+/// From a person's event to the frame that shows it; says why not where there is no OpenGL.
+nlohmann::ordered_json input_to_picture(const AssetRoots& assets, std::ostream& err) {
+  constexpr double kSeconds = 8;
+  err << "trocar: a live attempt with its pictures for " << kSeconds << " s: from a mouse event to the frame that shows it\n";
+  try {
+    const PictureLatency l = measure_picture_latency(assets, kSeconds);
+    return {{"renderer", l.renderer}, {"width", l.width}, {"height", l.height}, {"frames", l.frames}, {"events", l.events},
+            {"frame_ms", {{"median", 1e3 * l.frame_median_s}, {"p95", 1e3 * l.frame_p95_s}}},
+            {"event_to_picture_ms", {{"median", 1e3 * l.median_s}, {"p95", 1e3 * l.p95_s}, {"max", 1e3 * l.longest_s}}},
+            {"bar_ms", 1e3 * l.bar_s()}};
+  } catch (const EnvironmentError& error) {
+    err << "trocar: not measured: " << error.what() << '\n';
+    return nullptr;
+  }
+}
+
+void print_latency(const nlohmann::ordered_json& json, std::ostream& out) {
+  if (json.is_null()) return;
+  const auto& ms = json["event_to_picture_ms"];
+  out << "\ninput to picture  " << std::setprecision(1) << ms["median"].get<double>() << " ms median, " << ms["p95"].get<double>()
+      << " ms 95 %, " << ms["max"].get<double>() << " ms longest; bar (2 frames + 1 tissue step) " << json["bar_ms"].get<double>()
+      << " ms\n  frames of " << json["width"] << " x " << json["height"] << " take "
+      << json["frame_ms"]["median"].get<double>() << " ms (95 %: " << json["frame_ms"]["p95"].get<double>() << " ms) on " << json["renderer"].get<std::string>() << '\n';
+}
+
+/// A liver of a CT of 512 x 512 x 80 voxels to 10 000 triangles: what the bars of the organ compiler are stated for.
+nlohmann::ordered_json compiler_figures(std::ostream& err) {
+  err << "trocar: organ compiler on 512 x 512 x 80 voxels\n";
+  const CompilerCost cost = compiler_cost({512, 512, 80}, 10000);
+  return {{"voxels", cost.size}, {"raw_triangles", cost.raw_triangles}, {"triangles", cost.triangles},
+          {"cpu_s", cost.cpu_s}, {"peak_memory_growth_mb", cost.peak_growth_mb},
+          {"distance_mm", {{"mean", cost.mean_mm}, {"p99", cost.p99_mm}}}};
+}
+
+void print_compiler(const nlohmann::ordered_json& row, std::ostream& out) {
+  out << "\norgan compiler, a liver on 512 x 512 x 80 voxels made in memory: " << row["raw_triangles"] << " raw triangles to "
+      << row["triangles"] << "\n  " << std::setprecision(2) << row["cpu_s"].get<double>() << " s CPU, peak memory grown by " << std::setprecision(0)
+      << row["peak_memory_growth_mb"].get<double>() << " MB, to the label " << std::setprecision(2) << row["distance_mm"]["mean"].get<double>()
+      << " mm on average, p99 " << row["distance_mm"]["p99"].get<double>() << " mm\n";
+}
+
+nlohmann::ordered_json pictures_json(const std::vector<PictureCost>& costs) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const PictureCost& cost : costs)
+    out.push_back({{"scene", cost.scene}, {"preset", cost.preset}, {"cpu_ms", cost.cpu_ms}, {"per_s", cost.per_s}});
+  return out;
+}
+
 }  // namespace
 
 int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err) {
+  const nlohmann::ordered_json compiler = compiler_figures(err);  // first: later stages hold more memory
   const AssetRoots assets = find_assets();
   RunOptions run;
   run.exercise = "surface-touch";
@@ -159,6 +212,10 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   StageTimes fixed = fixed_work(10000);
   json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
+  json["input_to_picture"] = input_to_picture(assets, err);
+  const std::vector<PictureCost> pictures = picture_costs(assets.assets, err);
+  json["pictures"] = pictures_json(pictures);
+  json["organ_compiler"] = compiler;
   if (options.json) {
     out << json.dump(2) << '\n';
     return 0;
@@ -172,6 +229,9 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
     out << '\n';
   }
   print_contact(json["contact_us"], out);
+  print_latency(json["input_to_picture"], out);
+  print_pictures(pictures, out);
+  print_compiler(compiler, out);
   out << "\nwall seconds per simulated second  " << std::setprecision(4) << seconds / simulated << "  ("
       << std::setprecision(1) << simulated / seconds << " x real time, plant and hand included)\n"
       << "recording                          " << std::setprecision(3)

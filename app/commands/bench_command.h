@@ -1,4 +1,4 @@
-// `trocar bench`: what one tick costs, by stage, and how fast the lockstep runs. Prints; never a test.
+// `trocar bench`: what one tick costs, by stage, how fast the lockstep runs, and what the organ compiler costs. Prints; never a test.
 #pragma once
 
 #include <iosfwd>
@@ -12,7 +12,7 @@ struct BenchOptions {
   bool json = false;
 };
 
-/// Runs one attempt in memory, then times the loop and its stages over the recorded ticks. @return 0.
+/// Compiles one organ, runs one attempt in memory, then times the loop and its stages over the recorded ticks. @return 0.
 int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace trocar

@@ -23,6 +23,7 @@ Json reach_json(const Reach& reach) {
                {"torque_share", reach.torque_share},
                {"held_s", reach.held_s}};
   if (reach.handle_to_port_m < 1) json["handle_to_port_m"] = reach.handle_to_port_m;
+  if (reach.shaft_gap_m < 1) json["shaft_gap_m"] = reach.shaft_gap_m;
   return json;
 }
 
@@ -39,6 +40,8 @@ Json proof_json(const LevelProof& proof) {
           {"kappa", proof.kappa},
           {"room_share", proof.room_share},
           {"room_n", proof.room_n},
+          {"organ_roll_deg", proof.placement.roll_rad / kDegree},
+          {"organ_turn_deg", proof.placement.turn_rad / kDegree},
           {"hottest_winding_c", proof.hottest_c},
           {"worst", reach_json(proof.worst)},
           {"boards", std::move(boards)}};
@@ -52,6 +55,9 @@ void print(const LevelProof& proof, std::ostream& out) {
       << w.joint_margin_rad / kDegree << " deg, det A " << std::setprecision(2) << w.det_a << ", |AO x Z6| " << w.off_axis
       << ", link clearance " << std::setprecision(1) << 1e3 * w.clearance_m << " mm";
   if (proof.fulcrum) out << ", handle to port " << 1e3 * w.handle_to_port_m << " mm";
+  if (w.shaft_gap_m < 1) out << ", shaft to organ " << 1e3 * w.shaft_gap_m << " mm";
+  const std::string turned = turned_words(proof.placement);
+  if (!turned.empty()) out << "\n  " << turned;
   out << "\n  gravity and hard limit take " << std::setprecision(0) << 100 * w.torque_share
       << " % of a motor's torque, held " << w.held_s << " s from cold; winding " << proof.hottest_c
       << " C after the time limit\n  kappa " << std::setprecision(2) << proof.kappa << ", soft limit given in "

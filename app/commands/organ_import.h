@@ -1,7 +1,8 @@
-// `trocar organ import`: an image with labels, a label map or a surface of another program becomes an organ file, or a scene of organs.
+// `trocar organ import`: an image with labels, a label map or a surface of another program becomes an organ file, or a
+// scene of organs.
 //
-// Report on `out`, remarks on `err`. Nothing is written unless everything was made. Errors leave as InputError (exit code 2),
-// EnvironmentError (3).
+// Report on `out`, remarks on `err`. Nothing is written unless everything was made. Errors leave as InputError (exit
+// code 2), EnvironmentError (3).
 #pragma once
 
 #include <iosfwd>
@@ -12,6 +13,7 @@
 #include "app/import/import_options.h"
 #include "tissue/imaging/image_volume.h"
 #include "tissue/imaging/label_map.h"
+#include "tissue/imaging/label_values.h"
 #include "tissue/mesh/organ_manifest.h"
 #include "tissue/organ_set.h"
 
@@ -29,7 +31,9 @@ struct WrittenOrgans {
   std::filesystem::path manifest;      ///< of the organ, or the scene file, once written
   std::optional<ImageVolume> image;    ///< that the labels were drawn on
   std::optional<LabelMap> labels;      ///< that they were made from
+  std::vector<LabelValues> values;     ///< of the image in each organ; empty without an image or a page
   std::vector<std::string> notes;      ///< of the scene as a whole
+  std::vector<std::string> removed;    ///< files of an older organ of this name that this one does not have
 };
 
 /// The work of organ_import without its report.

@@ -32,17 +32,26 @@ std::size_t voxels_of(const LabelVolume& layer, int number) {
 }
 
 Json segments_json(const LabelMap& map, const LabelTable* table) {
-  Json json{{"kind", "label map"}, {"modality", map.modality}, {"layers", Json::array()}, {"segments", Json::array()}, {"notes", map.notes}};
+  Json json{{"kind", "label map"},
+            {"modality", map.modality},
+            {"layers", Json::array()},
+            {"segments", Json::array()},
+            {"notes", map.notes}};
   for (const LabelVolume& layer : map.layers) json["layers"].push_back(grid_json(layer.size, layer.index_to_ras_mm));
   for (const Segment& segment : map.segments) {
     const LabelVolume& layer = map.layers[segment.layer];
     const std::size_t voxels = voxels_of(layer, segment.number);
     std::string name = segment.name;
     if (name.empty() && table) name = std::string(table->name_of(segment.number).value_or(""));
-    json["segments"].push_back({{"layer", segment.layer}, {"number", segment.number}, {"name", name}, {"voxels", voxels},
-                                {"volume_ml", std::round(static_cast<double>(voxels) * layer.voxel_volume_ml() * 1e3) / 1e3}});
+    json["segments"].push_back(
+        {{"layer", segment.layer},
+         {"number", segment.number},
+         {"name", name},
+         {"voxels", voxels},
+         {"volume_ml", std::round(static_cast<double>(voxels) * layer.voxel_volume_ml() * 1e3) / 1e3}});
   }
-  const bool unnamed = std::any_of(map.segments.begin(), map.segments.end(), [](const Segment& segment) { return segment.name.empty(); });
+  const bool unnamed = std::any_of(map.segments.begin(), map.segments.end(),
+                                   [](const Segment& segment) { return segment.name.empty(); });
   json["tables_that_fit"] = unnamed ? guess_label_table(map) : std::vector<std::string>{};
   return json;
 }
@@ -75,10 +84,14 @@ Json volume_json(const OrganInspectOptions& options) {
 
 const char* kind_name(DicomKind kind) {
   switch (kind) {
-    case DicomKind::kImage: return "image";
-    case DicomKind::kSegmentation: return "segmentation";
-    case DicomKind::kStructureSet: return "structure set";
-    case DicomKind::kOther: break;
+    case DicomKind::kImage:
+      return "image";
+    case DicomKind::kSegmentation:
+      return "segmentation";
+    case DicomKind::kStructureSet:
+      return "structure set";
+    case DicomKind::kOther:
+      break;
   }
   return "other";
 }
@@ -86,9 +99,17 @@ const char* kind_name(DicomKind kind) {
 Json dicom_json(const OrganInspectOptions& options) {
   Json json{{"kind", "DICOM"}, {"series", Json::array()}};
   for (const DicomSeries& one : list_dicom(options.input, options.progress)) {
-    json["series"].push_back({{"number", one.number}, {"kind", kind_name(one.kind)}, {"modality", one.modality}, {"images", one.images}, {"rows", one.rows},
-                              {"columns", one.columns}, {"spacing_mm", one.spacing_mm}, {"extent_mm", one.extent_mm}, {"hash", one.hash},
-                              {"problem", one.problem}, {"words", describe(one)}});
+    json["series"].push_back({{"number", one.number},
+                              {"kind", kind_name(one.kind)},
+                              {"modality", one.modality},
+                              {"images", one.images},
+                              {"rows", one.rows},
+                              {"columns", one.columns},
+                              {"spacing_mm", one.spacing_mm},
+                              {"extent_mm", one.extent_mm},
+                              {"hash", one.hash},
+                              {"problem", one.problem},
+                              {"words", describe(one)}});
     if (one.kind != DicomKind::kSegmentation) continue;
     const LabelMap map = read_dicom_segmentation(options.input, options.progress, one.number);
     json["series"].back()["segments"] = segments_json(map, nullptr)["segments"];
@@ -106,7 +127,8 @@ Json surface_json(const OrganInspectOptions& options) {
 std::string segment_lines(const Json& segments) {
   std::ostringstream out;
   for (const Json& segment : segments) {
-    out << "  " << segment["number"].get<int>() << (segment["name"].get<std::string>().empty() ? "" : " " + segment["name"].get<std::string>());
+    out << "  " << segment["number"].get<int>()
+        << (segment["name"].get<std::string>().empty() ? "" : " " + segment["name"].get<std::string>());
     if (segment["layer"].get<int>() > 0) out << " (layer " << segment["layer"].get<int>() << ")";
     out << ": " << segment["voxels"].get<std::size_t>() << " voxels, " << segment["volume_ml"].get<double>() << " mL\n";
   }
@@ -115,8 +137,8 @@ std::string segment_lines(const Json& segments) {
 
 std::string grid_words(const Json& grid) {
   std::ostringstream out;
-  out << grid["size"][0] << " x " << grid["size"][1] << " x " << grid["size"][2] << " voxels of " << grid["spacing_mm"][0] << " x " << grid["spacing_mm"][1]
-      << " x " << grid["spacing_mm"][2] << " mm";
+  out << grid["size"][0] << " x " << grid["size"][1] << " x " << grid["size"][2] << " voxels of "
+      << grid["spacing_mm"][0] << " x " << grid["spacing_mm"][1] << " x " << grid["spacing_mm"][2] << " mm";
   return out.str();
 }
 
@@ -124,19 +146,24 @@ std::string words(const Json& json) {
   std::ostringstream out;
   const std::string kind = json["kind"];
   if (kind == "label map") {
-    out << "label map, " << grid_words(json["layers"][0]) << (json["layers"].size() > 1 ? ", " + std::to_string(json["layers"].size()) + " layers" : "") << "\n"
+    out << "label map, " << grid_words(json["layers"][0])
+        << (json["layers"].size() > 1 ? ", " + std::to_string(json["layers"].size()) + " layers" : "") << "\n"
         << segment_lines(json["segments"]);
     std::string tables;
     for (const Json& table : json["tables_that_fit"]) tables += (tables.empty() ? "" : ", ") + table.get<std::string>();
     if (!tables.empty()) out << "tables that could have numbered it: " << tables << "\n";
   } else if (kind == "image") {
-    out << "image (" << json["modality"].get<std::string>() << "), " << grid_words(json) << ", values " << json["values"][0] << " to " << json["values"][1] << "\n";
+    out << "image (" << json["modality"].get<std::string>() << "), " << grid_words(json) << ", values "
+        << json["values"][0] << " to " << json["values"][1] << "\n";
   } else if (kind == "surface") {
     out << "surface\n";
-    for (const Json& part : json["parts"]) out << "  " << part["name"].get<std::string>() << ": " << part["triangles"] << " triangles\n";
+    for (const Json& part : json["parts"])
+      out << "  " << part["name"].get<std::string>() << ": " << part["triangles"] << " triangles\n";
   } else {
     for (const Json& series : json["series"]) {
-      out << series["words"].get<std::string>() << (series["problem"].get<std::string>().empty() ? "" : "\n     " + series["problem"].get<std::string>()) << "\n";
+      out << series["words"].get<std::string>()
+          << (series["problem"].get<std::string>().empty() ? "" : "\n     " + series["problem"].get<std::string>())
+          << "\n";
       if (series.contains("segments")) out << segment_lines(series["segments"]);
     }
   }

@@ -19,18 +19,19 @@ namespace fs = std::filesystem;
 /// Whether somebody said under what terms it may be passed on.
 bool has_licence(std::string licence) {
   std::erase_if(licence, [](unsigned char letter) { return std::isspace(letter) != 0; });
-  std::transform(licence.begin(), licence.end(), licence.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  for (char& letter : licence) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   return !licence.empty() && licence != "unknown" && licence != "none";
 }
 
 void require_licence(const Organ& organ, const fs::path& manifest) {
   if (!has_licence(organ.licence))
-    throw InputError(manifest.string() + ": " + organ.name + " has no licence: it may not be passed on; import it again with --licence when you know it");
+    throw InputError(manifest.string() + ": " + organ.name +
+                     " has no licence: it may not be passed on; import it again with --licence when you know it");
 }
 
 std::string credit_line(const Organ& organ) {
-  return organ.name + (organ.synthetic ? " (synthetic)" : "") + ": made from " + organ.source_file + " (" + organ.modality + "), licence " + organ.licence +
-         (organ.credit.empty() ? "" : ", " + organ.credit) + "\n";
+  return organ.name + (organ.synthetic ? " (synthetic)" : "") + ": made from " + organ.source_file + " (" +
+         organ.modality + "), licence " + organ.licence + (organ.credit.empty() ? "" : ", " + organ.credit) + "\n";
 }
 
 class Package {
@@ -42,7 +43,9 @@ class Package {
     add_file(path);
     add_file(path.parent_path() / manifest.surface);
     for (const auto& mesh : {manifest.lattice, manifest.tetrahedra})
-      if (mesh) add_file(path.parent_path() / mesh->file);
+      if (mesh)
+        add_bytes(path.parent_path() / mesh->file,
+                  read_unchanged(path.parent_path() / mesh->file, mesh->sha256, path.string()));
     credits_ += credit_line(organ);
   }
 
@@ -61,10 +64,12 @@ class Package {
   std::size_t files() const { return files_.size(); }
 
  private:
-  void add_file(const fs::path& path) {
-    const std::string name = path.filename().string(), bytes = read_bytes(path);
-    const auto [place, fresh] = files_.emplace(name, bytes);
-    if (!fresh && place->second != bytes) throw InputError(path.string() + ": another organ of the package has a different file of this name");
+  void add_file(const fs::path& path) { add_bytes(path, read_bytes(path)); }
+
+  void add_bytes(const fs::path& path, const std::string& bytes) {
+    const auto [place, fresh] = files_.emplace(path.filename().string(), bytes);
+    if (!fresh && place->second != bytes)
+      throw InputError(path.string() + ": another organ of the package has a different file of this name");
   }
 
   std::map<std::string, std::string> files_;
@@ -75,7 +80,8 @@ class Package {
 
 int organ_package(const OrganPackageOptions& options, std::ostream& out, std::ostream&) {
   if (options.organs.empty()) throw InputError("organ package: no organ was named");
-  if (options.output.extension() != ".zip") throw InputError(options.output.string() + ": a package is a zip: name it NAME.zip");
+  if (options.output.extension() != ".zip")
+    throw InputError(options.output.string() + ": a package is a zip: name it NAME.zip");
   Package package;
   for (const std::string& name : options.organs) {
     const fs::path path = without_subject(find_organ(name, options.assets));

@@ -21,19 +21,24 @@ namespace {
 constexpr const char* kCredit = "synthetic CT phantom made by Trocar";
 constexpr const char* kLicence = "CC0-1.0";
 
+/// The variant by its name; "by-seed": the one that the seed stands for.
+PhantomVariant variant_of(const OrganPhantomOptions& options) {
+  return options.variant == "by-seed" ? phantom_variant_of_seed(options.seed) : phantom_variant(options.variant);
+}
+
 PhantomOptions drawn(const OrganPhantomOptions& options) {
   PhantomOptions phantom;
   phantom.voxel_mm = options.voxel_mm, phantom.seed = options.seed, phantom.patient = options.patient;
-  phantom.variant = phantom_variant(options.variant);
+  phantom.variant = variant_of(options);
   return phantom;
 }
 
 std::string readme(const OrganPhantomOptions& options, const LabelVolume& labels) {
   const LabelTable& table = label_table(kPhantomTable);
   std::ostringstream text;
-  text << "# Synthetic CT phantom\n\nDrawn from analytic shapes by `trocar organ phantom --variant " << options.variant
-       << " --patient " << options.patient << " --voxel " << options.voxel_mm << " --seed " << options.seed
-       << "`; no patient, no scanner. Licence " << kLicence
+  text << "# Synthetic CT phantom\n\nDrawn from analytic shapes by `trocar organ phantom --variant "
+       << phantom_variant_name(variant_of(options)) << " --patient " << options.patient << " --voxel "
+       << options.voxel_mm << " --seed " << options.seed << "`; no patient, no scanner. Licence " << kLicence
        << ".\n\n- ct.nii.gz: Hounsfield units, int16, portal venous phase, voxels of " << options.voxel_mm
        << " mm, RAS\n- labels.nii.gz: labels numbered as in the table " << table.name << ":\n\n";
   for (const auto& [number, voxels] : labels.label_counts()) {
@@ -43,7 +48,7 @@ std::string readme(const OrganPhantomOptions& options, const LabelVolume& labels
     if (volume < 10) text << std::lround(volume * 100) / 100.0 << " mL\n";
   }
   text << "\nDucts and arteries, centreline length and outer diameter as drawn:\n\n";
-  for (const PhantomTube& tube : phantom_hilum(phantom_variant(options.variant), options.patient))
+  for (const PhantomTube& tube : phantom_hilum(variant_of(options), options.patient))
     text << "  - " << tube.name << ", " << std::lround(tube.length_mm()) << " mm, "
          << std::lround(20 * tube.radii_mm.front()) / 10.0 << " mm\n";
   return text.str();
@@ -63,10 +68,24 @@ void write_volumes(const OrganPhantomOptions& options) {
 
 /// What the scene holds: everything that a cholecystectomy sees, and what lies round it.
 const std::vector<std::string>& scene_labels() {
-  static const std::vector<std::string> labels{
-      "liver", "gallbladder", "cystic_duct", "common_hepatic_duct", "common_bile_duct", "hepatic_artery", "right_hepatic_artery",
-      "left_hepatic_artery", "cystic_artery", "portal_vein_and_splenic_vein", "stomach", "duodenum", "pancreas", "colon", "small_bowel",
-      "spleen", "kidney_right", "kidney_left"};
+  static const std::vector<std::string> labels{"liver",
+                                               "gallbladder",
+                                               "cystic_duct",
+                                               "common_hepatic_duct",
+                                               "common_bile_duct",
+                                               "hepatic_artery",
+                                               "right_hepatic_artery",
+                                               "left_hepatic_artery",
+                                               "cystic_artery",
+                                               "portal_vein_and_splenic_vein",
+                                               "stomach",
+                                               "duodenum",
+                                               "pancreas",
+                                               "colon",
+                                               "small_bowel",
+                                               "spleen",
+                                               "kidney_right",
+                                               "kidney_left"};
   return labels;
 }
 
@@ -92,7 +111,8 @@ WrittenOrgans import_phantom_scene(const OrganPhantomOptions& options, std::ostr
   return import_organs(import, err);
 }
 
-CompiledMember import_phantom_organ(const OrganPhantomOptions& options, const std::string& label, int triangles, std::ostream& err) {
+CompiledMember import_phantom_organ(const OrganPhantomOptions& options, const std::string& label, int triangles,
+                                    std::ostream& err) {
   OrganImportOptions import = phantom_import(options, label);
   import.label = {label};
   import.triangles = triangles;
@@ -117,11 +137,16 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
     scene = nlohmann::ordered_json::parse(scene_report_json(*abdomen.set, abdomen.organs));
     if (!options.json) out << scene_report_text(*abdomen.set, abdomen.organs);
   }
-  const nlohmann::ordered_json report{
-      {"synthetic", true},          {"seed", options.seed},         {"variant", options.variant},
-      {"patient", options.patient}, {"voxel_mm", options.voxel_mm}, {"label_table", kPhantomTable},
-      {"volume", "ct.nii.gz"},      {"labels", "labels.nii.gz"},    {"organs", organs},
-      {"scene", scene}};
+  const nlohmann::ordered_json report{{"synthetic", true},
+                                      {"seed", options.seed},
+                                      {"variant", phantom_variant_name(variant_of(options))},
+                                      {"patient", options.patient},
+                                      {"voxel_mm", options.voxel_mm},
+                                      {"label_table", kPhantomTable},
+                                      {"volume", "ct.nii.gz"},
+                                      {"labels", "labels.nii.gz"},
+                                      {"organs", organs},
+                                      {"scene", scene}};
   if (options.json) out << report.dump(2) << "\n";
   return 0;
 }

@@ -16,8 +16,8 @@ namespace trocar {
 
 struct OrganPhantomOptions {
   std::filesystem::path out;
-  std::uint64_t seed = 1;          ///< of the noise
-  std::string variant = "normal";  ///< see phantom_variant
+  std::uint64_t seed = 1;          ///< of the noise, and of the variant "by-seed"
+  std::string variant = "normal";  ///< see phantom_variant; "by-seed": phantom_variant_of_seed
   std::uint64_t patient = 0;       ///< natural variation; 0 the standard patient
   double voxel_mm = 2.5;           ///< the shipped organs are made at 2.5
   bool scene = false;              ///< the organs round the hilum as one scene as well, phantom-abdomen

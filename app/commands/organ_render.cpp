@@ -1,7 +1,7 @@
 #include "app/commands/organ_render.h"
 
-#include <ostream>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -61,9 +61,14 @@ void add_mesh(Json& json, const MeshFacts& mesh) {
   json["nonmanifold_edges"] = mesh.topology.nonmanifold_edges;
   json["misoriented_edges"] = mesh.topology.misoriented_edges;
   const MeshQuality& quality = mesh.quality;
-  json["angles_deg"] = {{"min", rounded(quality.min_angle_deg, 3)}, {"p01", rounded(quality.p01_angle_deg, 3)}, {"share_above_15", rounded(quality.share_above_15, 5)}};
-  json["edges_mm"] = {{"min", rounded(quality.edge_min_m * 1e3, 3)}, {"p05", rounded(quality.edge_p05_m * 1e3, 3)}, {"median", rounded(quality.edge_median_m * 1e3, 3)},
-                      {"p95", rounded(quality.edge_p95_m * 1e3, 3)}, {"max", rounded(quality.edge_max_m * 1e3, 3)}};
+  json["angles_deg"] = {{"min", rounded(quality.min_angle_deg, 3)},
+                        {"p01", rounded(quality.p01_angle_deg, 3)},
+                        {"share_above_15", rounded(quality.share_above_15, 5)}};
+  json["edges_mm"] = {{"min", rounded(quality.edge_min_m * 1e3, 3)},
+                      {"p05", rounded(quality.edge_p05_m * 1e3, 3)},
+                      {"median", rounded(quality.edge_median_m * 1e3, 3)},
+                      {"p95", rounded(quality.edge_p95_m * 1e3, 3)},
+                      {"max", rounded(quality.edge_max_m * 1e3, 3)}};
 }
 
 template <typename Part>
@@ -76,8 +81,13 @@ Json parts_json(const std::vector<Part>& parts) {
 
 Json volume_mesh_json(const std::optional<VolumeMeshFile>& mesh, const char* worst) {
   if (!mesh) return nullptr;
-  return {{"file", mesh->file}, {"sha256", mesh->sha256}, {"nodes", mesh->nodes}, {"cells", mesh->cells}, {"size_mm", rounded(mesh->size_mm, 4)},
-          {"volume_error_pct", rounded(mesh->volume_error_pct, 4)}, {worst, rounded(mesh->worst, 4)}};
+  return {{"file", mesh->file},
+          {"sha256", mesh->sha256},
+          {"nodes", mesh->nodes},
+          {"cells", mesh->cells},
+          {"size_mm", rounded(mesh->size_mm, 4)},
+          {"volume_error_pct", rounded(mesh->volume_error_pct, 4)},
+          {worst, rounded(mesh->worst, 4)}};
 }
 
 Json organ_object(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds) {
@@ -110,12 +120,21 @@ Json organ_object(const OrganManifest& manifest, const Eigen::AlignedBox3d& boun
   return json;
 }
 
+void text_of_volume_mesh(std::ostream& out, const char* title, const std::optional<VolumeMeshFile>& mesh,
+                         const char* worst) {
+  if (!mesh) return;
+  out << "  " << title << mesh->file << ", " << mesh->nodes << " nodes, " << mesh->cells << " cells of "
+      << mesh->size_mm << " mm, volume " << mesh->volume_error_pct << " %, " << worst << mesh->worst << "\n";
+}
+
 void text_of_parts(std::ostream& out, const MeshFacts& mesh) {
   constexpr std::size_t kMost = 8;
   for (std::size_t n = 0; n < std::min(mesh.lost.size(), kMost); ++n)
-    out << "  lost       " << mesh.lost[n].kind << " of " << mesh.lost[n].volume_ml << " mL (" << mesh.lost[n].voxels << " voxels)\n";
+    out << "  lost       " << mesh.lost[n].kind << " of " << mesh.lost[n].volume_ml << " mL (" << mesh.lost[n].voxels
+        << " voxels)\n";
   if (mesh.lost.size() > kMost) out << "  lost       and " << mesh.lost.size() - kMost << " smaller parts\n";
-  for (const AddedPart& part : mesh.added) out << "  added      " << part.kind << " of " << part.volume_ml << " mL (" << part.voxels << " voxels)\n";
+  for (const AddedPart& part : mesh.added)
+    out << "  added      " << part.kind << " of " << part.volume_ml << " mL (" << part.voxels << " voxels)\n";
 }
 
 }  // namespace
@@ -141,10 +160,13 @@ std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d&
       << "  distance   mean " << mesh.distance.mean_m * 1e3 << ", p99 " << mesh.distance.p99_m * 1e3 << ", max "
       << mesh.distance.max_m * 1e3 << " mm from the original surface\n"
       << "  triangles  smallest angle " << mesh.quality.min_angle_deg << " deg, " << 100 * mesh.quality.share_above_15
-      << " % from 15 deg on; edges " << mesh.quality.edge_min_m * 1e3 << " to " << mesh.quality.edge_max_m * 1e3 << " mm\n"
+      << " % from 15 deg on; edges " << mesh.quality.edge_min_m * 1e3 << " to " << mesh.quality.edge_max_m * 1e3
+      << " mm\n"
       << "  source     " << manifest.source.file << " (" << manifest.source.modality << ", " << manifest.source.unit
       << "), sha256 " << manifest.source.sha256.substr(0, 16) << "\n"
       << "  licence    " << manifest.licence << (manifest.credit.empty() ? "" : "; ") << manifest.credit << "\n";
+  text_of_volume_mesh(out, "lattice    ", manifest.lattice, "share of nearly empty cells ");
+  text_of_volume_mesh(out, "tetrahedra ", manifest.tetrahedra, "smallest dihedral angle, degrees ");
   if (mesh.cut_at_border())
     out << "  CUT        the image ends inside the organ (" << mesh.border_voxels
         << " voxels): the flat cap is not anatomy\n";
@@ -157,25 +179,32 @@ std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d&
 std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMember>& organs) {
   Json json{{"name", set.name}, {"subject", set.subject}, {"frame", "RAS"}, {"unit", "m"}};
   json["organs"] = Json::array();
-  for (const CompiledMember& organ : organs) json["organs"].push_back(organ_object(organ.manifest, organ.surface.bounds()));
+  for (const CompiledMember& organ : organs)
+    json["organs"].push_back(organ_object(organ.manifest, organ.surface.bounds()));
   json["contacts"] = Json::array();
   for (const OrganContact& contact : set.contacts)
-    json["contacts"].push_back({{"a", contact.a}, {"b", contact.b}, {"area_cm2", rounded(contact.area_m2 * 1e4, 3)}, {"shared", contact.shared}});
+    json["contacts"].push_back({{"a", contact.a},
+                                {"b", contact.b},
+                                {"area_cm2", rounded(contact.area_m2 * 1e4, 3)},
+                                {"shared", contact.shared}});
   json["attachments"] = Json::array();
   for (const OrganAttachment& attachment : set.attachments)
-    json["attachments"].push_back({{"organ", attachment.organ}, {"label", attachment.label}, {"area_cm2", rounded(attachment.area_m2 * 1e4, 3)}});
+    json["attachments"].push_back(
+        {{"organ", attachment.organ}, {"label", attachment.label}, {"area_cm2", rounded(attachment.area_m2 * 1e4, 3)}});
   json["files"] = set.more_files;
   return json.dump(2) + "\n";
 }
 
 std::string scene_report_text(const OrganSet& set, const std::vector<CompiledMember>& organs) {
-  std::string text = set.name + ": " + std::to_string(organs.size()) + " organs, exercises are done on " + set.subject + "\n";
+  std::string text =
+      set.name + ": " + std::to_string(organs.size()) + " organs, exercises are done on " + set.subject + "\n";
   for (const CompiledMember& organ : organs) text += organ_text(organ.manifest, organ.surface.bounds());
   std::ostringstream out;
   out.setf(std::ios::fixed);
   out.precision(2);
   for (const OrganContact& contact : set.contacts)
-    out << contact.a << " lies against " << contact.b << " over " << contact.area_m2 * 1e4 << " cm2" << (contact.shared ? ", the same triangles in both" : "") << "\n";
+    out << contact.a << " lies against " << contact.b << " over " << contact.area_m2 * 1e4 << " cm2"
+        << (contact.shared ? ", the same triangles in both" : "") << "\n";
   return text + out.str();
 }
 

@@ -1,6 +1,7 @@
 #include "app/commands/practice_command.h"
 
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <ostream>
 #include <thread>
@@ -83,7 +84,8 @@ int picture_screens(const PracticeOptions& given, std::ostream& out) {
   PracticeLoop loop(desk, context, false);
   const std::vector<InputEvent> help{key_event(InputEvent::Kind::kKeyDown, kKeyF1), key_event(InputEvent::Kind::kKeyUp, kKeyF1)};
   const std::vector<InputEvent> menu{key_event(InputEvent::Kind::kKeyDown, kKeyEscape), key_event(InputEvent::Kind::kKeyUp, kKeyEscape)};
-  for (const ScreenName name : {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kBriefing, ScreenName::kSettings, ScreenName::kNotch}) {
+  for (const ScreenName name : {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kBriefing, ScreenName::kSettings,
+                                ScreenName::kNotch}) {
     if (!make_screen(name)) continue;
     loop.go(name);
     if (loop.here() == name) take(loop, options, screen_name(name), out);
@@ -105,7 +107,7 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
   PracticeLoop loop(desk, window, true);
   bool fullscreen = options.fullscreen, going = true;
   Clock::time_point last = Clock::now();
-  double first_s = 0;
+  double first_s = 0, first_cpu_s = 0;
   long frames = 0;
   while (going && !window.close_asked() && !interrupt.seen()) {
     const std::vector<InputEvent> events = window.poll();
@@ -114,11 +116,15 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
     going = loop.frame(window.width(), window.height(), dt_s, events);
     if (window.width() == 0 || window.height() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     window.present();
-    if (++frames == 1) first_s = seconds_since(begin);
+    if (++frames == 1) {
+      first_s = seconds_since(begin);
+      first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    }
     if (loop.fullscreen() != fullscreen) window.set_fullscreen(fullscreen = loop.fullscreen());
   }
   if (options.timing)
-    err << "trocar: first frame after " << first_s << " s, " << frames << " frames in " << seconds_since(begin) << " s on "
+    err << "trocar: first frame after " << first_s << " s (" << first_cpu_s << " s of CPU), " << frames << " frames in "
+        << seconds_since(begin) << " s on "
         << window.info().renderer << '\n';
 }
 

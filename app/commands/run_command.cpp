@@ -12,6 +12,7 @@
 #include "app/commands/open_database.h"
 #include "app/device_files.h"
 #include "app/interrupt.h"
+#include "app/patch_fit.h"
 #include "app/playback/video_writer.h"
 #include "app/true_plant.h"
 #include "haptics/input_error.h"
@@ -75,6 +76,8 @@ void say_beginning(const Scene& scene, std::ostream& err) {
   const double spacing_m = scene.setup.exercise.layout.min_spacing_m;
   if (scene.board.spacing_m > 0 && scene.board.spacing_m < spacing_m)
     err << "trocar: the organ is small: targets lie from " << scene.board.spacing_m * 1e3 << " mm apart instead of " << spacing_m * 1e3 << " mm\n";
+  const std::string turned = turned_words(scene.placement);
+  if (!turned.empty()) err << "trocar: " << turned << '\n';
   for (const std::string& name : scene.neighbours.set_aside)
     err << "trocar: " << name << " lies over the region and is set aside: neither seen nor felt\n";
   for (const std::string& doubt : device_doubts(scene.setup.device, plant)) err << "trocar: " << doubt << '\n';
@@ -170,8 +173,7 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   store_or_say(store, id, result);
   if (!result.device.reason.empty()) err << "trocar: " << result.device.reason << '\n';
   if (outcome.patch_triangles_dropped > 0) {
-    err << "trocar: " << outcome.patch_triangles_dropped
-        << " triangles near the tool did not fit into contact patches: the surface is too fine\n";
+    err << "trocar: the surface is finer than need be: " << patch_fit(scene).words() << '\n';
   }
   return result;
 }

@@ -84,6 +84,23 @@ void StateHash::add(const TissueFrame& frame) {
     add(pair.depth_m);
     add(pair.force_n);
   }
+  add_marks(frame);
+}
+
+/// Nothing at all while the tissue is unmarked and the air and the lens are clear: runs without them keep their hash.
+void StateHash::add_marks(const TissueFrame& frame) {
+  if (frame.mark_count == 0 && frame.smoke_per_m == 0 && frame.lens_fog == 0 && frame.lens_blood == 0) return;
+  add(static_cast<std::uint64_t>(frame.mark_count));
+  for (int i = 0; i < frame.mark_count; ++i) {
+    const TissueMark& mark = frame.mark[static_cast<std::size_t>(i)];
+    add(std::uint64_t(mark.kind));
+    add(mark.centre_T);
+    add(mark.radius_m);
+    add(mark.strength);
+  }
+  add(frame.smoke_per_m);
+  add(frame.lens_fog);
+  add(frame.lens_blood);
 }
 
 void StateHash::add(const DirectorStatus& status) {

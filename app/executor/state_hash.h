@@ -42,6 +42,7 @@ class StateHash {
   std::string hex() const;
 
  private:
+  void add_marks(const TissueFrame& frame);
   std::uint64_t state_ = 0;
 };
 

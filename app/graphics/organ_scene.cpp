@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "tissue/theatre_frame.h"
+
 namespace trocar {
 namespace {
 
@@ -38,8 +40,7 @@ Vec3 crest(const TriangleSurface& surface, double x, double y, double within) {
 
 SceneView organ_scene(const Organ& organ) {
   Pose to_centre;
-  // As in the theatre: anterior up (z), head away from the scope (y), the patient's left on the right (x).
-  to_centre.R << -1, 0, 0, 0, 0, 1, 0, 1, 0;
+  to_centre.R = theatre_from_ras();
   to_centre.p = -(to_centre.R * whole_box(organ).center());
   SceneView view;
   view.organ = std::make_shared<TriangleSurface>(organ.surface.transformed(to_centre));

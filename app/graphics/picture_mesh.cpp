@@ -8,102 +8,13 @@
 namespace trocar {
 namespace {
 
+constexpr double kFlat_per_m = 15, kDeep_per_m = 190;  // curvature of folds that begin to, and fully, hold light back
+constexpr double kReach_m = 0.014;    // how far a neighbour takes light away
 constexpr double kCurvature = 0.55;  // share of the way onto the tangent planes (Boubekeur and Alexa use 3/4 at most)
-constexpr int kGrid = 64;            // voxels along the longest side
 
 Vec3 onto_plane(const Vec3& point, const Vec3& origin, const Vec3& normal) {
   return point - normal * normal.dot(point - origin);
 }
-
-/// Solid voxels of a closed surface: crossings along z per column, filled by parity, then blurred.
-class SolidGrid {
- public:
-  explicit SolidGrid(const TriangleSurface& surface) {
-    const Eigen::AlignedBox3d box = surface.bounds();
-    cell_ = std::max(box.sizes().maxCoeff(), 1e-6) / (kGrid - 8);
-    origin_ = box.center() - Vec3::Constant(cell_ * kGrid / 2);
-    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(kGrid) * kGrid);
-    for (const auto& t : surface.triangles)
-      add_crossings(surface.vertices[static_cast<std::size_t>(t[0])], surface.vertices[static_cast<std::size_t>(t[1])],
-                    surface.vertices[static_cast<std::size_t>(t[2])], crossings);
-    fill(crossings);
-    for (int axis = 0; axis < 3; ++axis) blur(axis);
-  }
-
-  double cell() const { return cell_; }
-
-  /// Share of solid around a point, trilinear, 0 outside the grid.
-  double density(const Vec3& point) const {
-    const Vec3 g = (point - origin_) / cell_ - Vec3::Constant(0.5);
-    const Eigen::Vector3i i = g.array().floor().cast<int>();
-    if ((i.array() < 0).any() || (i.array() >= kGrid - 1).any()) return 0;
-    const Vec3 f = g - i.cast<double>();
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const int a = corner & 1, b = (corner >> 1) & 1, c = corner >> 2;
-      sum += solid_[index(i.x() + a, i.y() + b, i.z() + c)] * (a ? f.x() : 1 - f.x()) * (b ? f.y() : 1 - f.y()) *
-             (c ? f.z() : 1 - f.z());
-    }
-    return sum;
-  }
-
- private:
-  static std::size_t index(int x, int y, int z) { return static_cast<std::size_t>((z * kGrid + y) * kGrid + x); }
-
-  void add_crossings(const Vec3& a, const Vec3& b, const Vec3& c, std::vector<std::vector<double>>& crossings) const {
-    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    // A column passes at an irrational offset in its cell, so that it does not hit vertices of regular meshes.
-    const auto column = [this](int i, int axis) { return origin_[axis] + (i + 0.4142135 + 0.1 * axis) * cell_; };
-    const auto first = [&](int axis) { return std::max(0, static_cast<int>((low[axis] - origin_[axis]) / cell_) - 1); };
-    const auto last = [&](int axis) {
-      return std::min(kGrid - 1, static_cast<int>((high[axis] - origin_[axis]) / cell_) + 1);
-    };
-    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    if (area == 0) return;
-    for (int y = first(1); y <= last(1); ++y)
-      for (int x = first(0); x <= last(0); ++x) {
-        const double px = column(x, 0), py = column(y, 1);
-        const double u = ((b.x() - px) * (c.y() - py) - (b.y() - py) * (c.x() - px)) / area;
-        const double v = ((c.x() - px) * (a.y() - py) - (c.y() - py) * (a.x() - px)) / area;
-        const double w = 1 - u - v;
-        if (u >= 0 && v >= 0 && w >= 0)
-          crossings[static_cast<std::size_t>(y * kGrid + x)].push_back(u * a.z() + v * b.z() + w * c.z());
-      }
-  }
-
-  void fill(std::vector<std::vector<double>>& crossings) {
-    solid_.assign(static_cast<std::size_t>(kGrid) * kGrid * kGrid, 0.0F);
-    for (int y = 0; y < kGrid; ++y)
-      for (int x = 0; x < kGrid; ++x) {
-        auto& heights = crossings[static_cast<std::size_t>(y * kGrid + x)];
-        std::sort(heights.begin(), heights.end());
-        for (std::size_t pair = 0; pair + 1 < heights.size(); pair += 2)
-          for (int z = 0; z < kGrid; ++z) {
-            const double height = origin_.z() + (z + 0.5) * cell_;
-            if (height > heights[pair] && height < heights[pair + 1]) solid_[index(x, y, z)] = 1;
-          }
-      }
-  }
-
-  /// Binomial blur of five cells along one axis.
-  void blur(int axis) {
-    const std::vector<float> from = solid_;
-    const auto at = [&](int x, int y, int z) {
-      return from[index(std::clamp(x, 0, kGrid - 1), std::clamp(y, 0, kGrid - 1), std::clamp(z, 0, kGrid - 1))];
-    };
-    const int dx = axis == 0, dy = axis == 1, dz = axis == 2;
-    for (int z = 0; z < kGrid; ++z)
-      for (int y = 0; y < kGrid; ++y)
-        for (int x = 0; x < kGrid; ++x)
-          solid_[index(x, y, z)] = (at(x - 2 * dx, y - 2 * dy, z - 2 * dz) + at(x + 2 * dx, y + 2 * dy, z + 2 * dz) +
-                                    4 * (at(x - dx, y - dy, z - dz) + at(x + dx, y + dy, z + dz)) + 6 * at(x, y, z)) /
-                                   16;
-  }
-
-  double cell_ = 0;
-  Vec3 origin_ = Vec3::Zero();
-  std::vector<float> solid_;
-};
 
 }  // namespace
 
@@ -149,12 +60,58 @@ std::vector<float> bake_openness(const TriangleSurface& surface) {
   return openness;
 }
 
+void darken_beside(PictureMesh& mesh, const SolidGrid& other) {
+  Eigen::AlignedBox3d near = other.bounds();
+  near.min().array() -= kReach_m;
+  near.max().array() += kReach_m;
+  for (PictureVertex& vertex : mesh.vertices) {
+    const Vec3 p(vertex.position[0], vertex.position[1], vertex.position[2]);
+    if (!near.contains(p)) continue;
+    const Vec3 n(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
+    double met = 0;
+    for (const double step : {0.2, 0.45, 0.8}) met += other.density(p + n * (step * kReach_m));
+    vertex.light[0] *= static_cast<float>(std::clamp(1.0 - 0.42 * met, 0.12, 1.0));
+  }
+}
+
+std::vector<float> bake_creases(const TriangleSurface& surface) {
+  const std::vector<Vec3> normals = surface.vertex_normals();
+  std::vector<double> rise(surface.vertices.size(), 0.0), weight(surface.vertices.size(), 0.0);
+  const auto each_edge = [&](const auto& visit) {
+    for (const auto& t : surface.triangles)
+      for (std::size_t i = 0; i < 3; ++i) visit(static_cast<std::size_t>(t[i]), static_cast<std::size_t>(t[(i + 1) % 3]));
+  };
+  each_edge([&](std::size_t a, std::size_t b) {
+    const Vec3 along = surface.vertices[b] - surface.vertices[a];
+    const double length = std::max(along.norm(), 1e-9);
+    // Turn of the normal along the edge: negative where the surface folds inwards.
+    rise[a] -= (normals[b] - normals[a]).dot(along) / length;
+    weight[a] += length;
+  });
+  std::vector<double> bend(rise.size());
+  for (std::size_t i = 0; i < rise.size(); ++i) bend[i] = weight[i] > 0 ? rise[i] / weight[i] : 0;
+  std::vector<double> sum = bend;
+  std::vector<int> count(bend.size(), 1);
+  each_edge([&](std::size_t a, std::size_t b) {  // once over the neighbours, so that single vertices do not speckle
+    sum[a] += bend[b];
+    ++count[a];
+  });
+  std::vector<float> shade(bend.size());
+  for (std::size_t i = 0; i < bend.size(); ++i) {
+    const double per_m = sum[i] / count[i];
+    shade[i] = static_cast<float>(1 - 0.72 * std::clamp((per_m - kFlat_per_m) / (kDeep_per_m - kFlat_per_m), 0.0, 1.0));
+  }
+  return shade;
+}
+
 PictureMesh build_picture_mesh(const TriangleSurface& surface, std::size_t max_triangles) {
   TriangleSurface fine = surface;
   if (fine.volume_m3() < 0)  // inside out: culling would show the far wall
     for (auto& triangle : fine.triangles) std::swap(triangle[1], triangle[2]);
   while (!fine.triangles.empty() && fine.triangles.size() * 4 <= max_triangles) fine = subdivide_curved(fine);
-  const std::vector<float> openness = bake_openness(fine);
+  std::vector<float> openness = bake_openness(fine);
+  const std::vector<float> creases = bake_creases(fine);
+  for (std::size_t i = 0; i < openness.size(); ++i) openness[i] *= creases[i];
   const std::vector<Vec3> normals = fine.vertex_normals();
   PictureMesh mesh;
   mesh.vertices.reserve(fine.vertices.size());

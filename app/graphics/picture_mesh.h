@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "app/graphics/solid_grid.h"
 #include "tissue/mesh/triangle_surface.h"
 
 namespace trocar {
@@ -29,8 +30,14 @@ TriangleSurface subdivide_curved(const TriangleSurface& surface);
 /// Openness per vertex in [0, 1]: 1 in the open, towards 0 in crevices.
 std::vector<float> bake_openness(const TriangleSurface& surface);
 
+/// Light that fine folds let through per vertex, 1 on flat and bulging places: from the curvature along the edges, smoothed once.
+std::vector<float> bake_creases(const TriangleSurface& surface);
+
 /// Subdivides while the result stays within `max_triangles`, then bakes normals and openness.
 PictureMesh build_picture_mesh(const TriangleSurface& surface, std::size_t max_triangles = 36000);
+
+/// Takes light from where another solid stands close before the surface.
+void darken_beside(PictureMesh& mesh, const SolidGrid& other);
 
 /// Indices (three a triangle) of the triangles that come within `radius` of `centre`, both m.
 std::vector<std::uint32_t> triangles_near(const PictureMesh& mesh, const Vec3& centre, double radius);

@@ -1,7 +1,7 @@
 // Draws a SceneView to an image: the scope's picture through OpenGL, the head-up display on top by the CPU.
 //
-// Passes: lamp's shadow map, organ and surroundings, target decals, instrument, glow, camera (post). Same scene, same
-// size, same driver: same bytes. Frame T, metres. Thread: the one on which the context is current.
+// Passes: lamp's shadow map, instruments, objects, tissue with its marks and targets, then the camera (camera_pass.h). Same scene,
+// same size, same preset, same driver: same bytes. Frame T, metres. Thread: the one on which the context is current.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,16 @@
 
 #include "app/graphics/graphics_context.h"
 #include "app/graphics/image.h"
+#include "app/graphics/preset.h"
 #include "app/graphics/scene_view.h"
 
 namespace trocar {
 
 struct RenderOptions {
-  double text_scale = 1;  ///< 1 to 2
-  double scene_scale =
-      1;              ///< resolution of the 3-D picture relative to its window, 0.4 to 1; below 1 is the soft preset
-  bool grain = true;  ///< sensor grain; off for picture tests
+  double text_scale = 1;            ///< 1 to 2
+  double scene_scale = 1;           ///< resolution of the 3-D picture relative to what the preset asks for, 0.4 to 1
+  bool grain = true;                ///< sensor grain; off for picture tests
+  Preset preset = Preset::kFull;
 };
 
 class Renderer {
@@ -28,6 +29,10 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
+  /// From the next picture on; a change of preset builds programs and meshes anew.
+  void set_options(const RenderOptions& options);
+  const RenderOptions& options() const;
+
   /// Scope picture and head-up display. A view whose `hud` is empty fills the whole image with the scope's picture.
   /// @param width,height px, at least 320 x 240.
   /// @throws std::invalid_argument for a smaller image or non-finite camera.
@@ -36,6 +41,9 @@ class Renderer {
   /// The scope's picture alone, left on the GPU: for a window, whose screens draw round and over it.
   /// @param width,height px, at least 64 x 48. @return GL name of an RGBA8 texture, lowest row first, kept until the next call.
   unsigned draw_scope(const SceneView& view, int width, int height);
+
+  /// Waits until the last picture is finished: for timing.
+  void finish();
 
  private:
   struct Impl;

@@ -24,7 +24,7 @@ SceneBlock make_scene_block(const SceneView& view, const ScopeOptics& optics) {
   put(block.eye, optics.eye(), 0);
   // The camera's automatic gain: what it looks at comes out equally bright from 50 to 200 mm.
   const double distance_mm = 1000 * std::clamp((view.camera.look_at_T - view.camera.eye_T).norm(), 0.05, 0.20);
-  put(block.lamp, optics.lamp(), 1.45 * (distance_mm * distance_mm + 60));
+  put(block.lamp, optics.lamp(), 1.75 * (distance_mm * distance_mm + 60));
   put(block.axis, optics.forward(), view.hud.elapsed_s);
   put(block.tip, view.X_TI.p, view.shaft_radius_m);
   put(block.shaft, -view.X_TI.R.col(2), view.shaft_length_m);

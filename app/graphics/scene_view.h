@@ -12,6 +12,7 @@
 #include "app/graphics/scene_object.h"
 #include "haptics/quantities.h"
 #include "tissue/mesh/triangle_surface.h"
+#include "tissue/tissue_frame.h"
 
 namespace trocar {
 
@@ -88,6 +89,22 @@ struct Camera {
   Vec3 look_at_T = Vec3::Zero();
   Vec3 up_T = Vec3::UnitZ();
   double diagonal_fov_deg = 70;
+  double notch_rad = 0;             ///< the field's notch, clockwise from 12 o'clock: it sits in the scope, not in the camera head
+  std::optional<double> level_rad;  ///< small tick on the rim where "up" is, clockwise from 12 o'clock; empty: no tick
+};
+
+/// What lies on the scope's lens, 0 none .. 1 blind. @see TissueFrame
+struct LensState {
+  double fog = 0, blood = 0;
+  double wipe = 0;                  ///< share of the field that a wipe has cleaned, 0..1
+};
+
+/// An instrument beside the first one.
+struct InstrumentView {
+  Pose X_TI;
+  double shaft_radius_m = 0.0025, shaft_length_m = 0.30;
+  double jaw_opening_m = 0;
+  bool roll_stripe = false;
 };
 
 /// An organ beside the one in the middle.
@@ -110,6 +127,11 @@ struct SceneView {
   std::optional<Vec3> dimple_T;  ///< surface point under the tip while touching
   Vec3 dimple_normal_T = Vec3::UnitZ();
   double dimple_depth_m = 0;  ///< drawn as a local dent with whitening
+  std::vector<InstrumentView> more_instruments = {};
+  std::vector<TissueMark> marks = {};   ///< blood, char, whitening, wet; the first kMaxTissueMarks are drawn
+  double smoke_per_m = 0;               ///< extinction of the smoke
+  LensState lens;
+  Vec3 breath_T = Vec3::Zero();         ///< how far breathing has moved the organs just now; scenery, not felt
   Camera camera;
   Hud hud;
 };

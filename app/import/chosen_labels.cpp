@@ -75,7 +75,8 @@ std::vector<const LabelTable*> all_tables(const LabelMap& map) {
 }
 
 /// The number that all candidates give this name. @throws InputError when they know it and differ
-std::optional<int> agreed_number(const std::vector<const LabelTable*>& tables, const std::string& name, const std::string& file) {
+std::optional<int> agreed_number(const std::vector<const LabelTable*>& tables, const std::string& name,
+                                 const std::string& file) {
   std::set<int> numbers;
   std::string said;
   for (const LabelTable* table : tables)
@@ -84,7 +85,8 @@ std::optional<int> agreed_number(const std::vector<const LabelTable*>& tables, c
       said += (said.empty() ? "" : ", ") + std::to_string(*number) + " in " + std::string(table->name);
     }
   if (numbers.size() > 1)
-    throw InputError(file + ": --label " + name + ": the map has numbers only, and " + name + " is " + said + ": say which table numbered it with --label-table");
+    throw InputError(file + ": --label " + name + ": the map has numbers only, and " + name + " is " + said +
+                     ": say which table numbered it with --label-table");
   return numbers.empty() ? std::nullopt : std::optional<int>(*numbers.begin());
 }
 
@@ -94,8 +96,12 @@ bool is_number(const std::string& text) {
   return error == std::errc() && stop == text.data() + text.size();
 }
 
+/// Asked for by number, or by layer and number: not by a name.
+bool is_numeric(const std::string& text) { return is_number(text) || layer_and_number(text).has_value(); }
+
 bool named_in_file(const LabelMap& map, const std::string& name) {
-  return std::any_of(map.segments.begin(), map.segments.end(), [&](const Segment& segment) { return segment.name == name; });
+  return std::any_of(map.segments.begin(), map.segments.end(),
+                     [&](const Segment& segment) { return segment.name == name; });
 }
 
 class Chooser {
@@ -107,8 +113,9 @@ class Chooser {
 
   ChosenLabel choose(const std::string& wanted) {
     std::string asked = wanted;
-    if (!named_.table && !wanted.empty() && !is_number(wanted) && !named_in_file(map_, wanted))
-      if (const auto number = agreed_number(assumed_.empty() ? all_tables(map_) : assumed_, wanted, file_)) asked = std::to_string(*number);
+    if (!named_.table && named_by_user(wanted) && !named_in_file(map_, wanted))
+      if (const auto number = agreed_number(assumed_.empty() ? all_tables(map_) : assumed_, wanted, file_))
+        asked = std::to_string(*number);
     require_marked(asked, wanted);
     ChosenLabel chosen{segment(asked, wanted), named_.table ? named_.name : ""};
     if (!named_.table) name_by_agreement(chosen, wanted);
@@ -122,10 +129,12 @@ class Chooser {
  private:
   /// A number that marks no voxel, with the name that led to it.
   void require_marked(const std::string& asked, const std::string& wanted) const {
-    if (!is_number(asked) || std::any_of(map_.segments.begin(), map_.segments.end(), [&](const Segment& s) { return std::to_string(s.number) == asked || s.name == asked; }))
-      return;
-    throw InputError(file_ + ": label " + asked + (asked == wanted ? "" : " (" + wanted + ")") + " marks no voxel; the map holds " +
-                     listed_segments(map_, named_.table));
+    const auto meant = [&](const Segment& segment) {
+      return std::to_string(segment.number) == asked || segment.name == asked;
+    };
+    if (!is_number(asked) || std::any_of(map_.segments.begin(), map_.segments.end(), meant)) return;
+    throw InputError(file_ + ": label " + asked + (asked == wanted ? "" : " (" + wanted + ")") +
+                     " marks no voxel; the map holds " + listed_segments(map_, named_.table));
   }
 
   Segment segment(const std::string& asked, const std::string& wanted) const {
@@ -136,19 +145,22 @@ class Chooser {
     }
   }
 
-  static bool named_by_user(const std::string& wanted) { return !wanted.empty() && !is_number(wanted); }
+  static bool named_by_user(const std::string& wanted) { return !wanted.empty() && !is_numeric(wanted); }
 
   void name_by_agreement(ChosenLabel& chosen, const std::string& wanted) {
     if (!chosen.segment.name.empty() || (map_.segments.size() == 1 && !named_by_user(wanted))) return;
-    const auto name = named_by_user(wanted) ? std::optional<std::string>(wanted) : agreed_name(assumed_, chosen.segment.number);
+    const auto name =
+        named_by_user(wanted) ? std::optional<std::string>(wanted) : agreed_name(assumed_, chosen.segment.number);
     if (!name) {
-      decisions_.push_back("label " + std::to_string(chosen.segment.number) + " stays without a name: the map has numbers only and no table was named (--label-table)");
+      decisions_.push_back("label " + std::to_string(chosen.segment.number) +
+                           " stays without a name: the map has numbers only and no table was named (--label-table)");
       return;
     }
     chosen.segment.name = *name;
     chosen.table = listed_names(assumed_.empty() ? all_tables(map_) : assumed_);
-    decisions_.push_back("label " + std::to_string(chosen.segment.number) + " is \"" + *name + "\" in every table that could have numbered this map (" +
-                         chosen.table + "), which was assumed");
+    decisions_.push_back("label " + std::to_string(chosen.segment.number) + " is \"" + *name +
+                         "\" in every table that could have numbered this map (" + chosen.table +
+                         "), which was assumed");
   }
 
   const LabelMap& map_;
@@ -175,7 +187,10 @@ void refuse_twice(const std::vector<ChosenLabel>& chosen, const std::string& fil
     const std::string name = file_name_of(label.segment);
     if (!seen.insert({label.segment.layer, label.segment.number}).second)
       throw InputError(file + ": --label: label " + std::to_string(label.segment.number) + " was asked for twice");
-    if (!names.insert(name).second) throw InputError(file + ": two of the labels would both be written as \"" + name + "\"; import one of them by its number");
+    if (!names.insert(name).second)
+      throw InputError(file + ": two of the labels would both be written as \"" + name +
+                       "\"; import each by itself: --label " + std::to_string(label.segment.layer) + ":" +
+                       std::to_string(label.segment.number) + " and the other");
   }
 }
 
@@ -190,16 +205,18 @@ std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const 
     if (!options.label.empty()) throw InputError("--all takes every label; it does not go with --label");
     for (const Segment& segment : map.segments) {
       if (too_small(map, segment, options.largest_only)) {
-        decisions.push_back("label " + std::to_string(segment.number) + (segment.name.empty() ? "" : " (" + segment.name + ")") + " is left out: no piece of it has 8 voxels");
+        decisions.push_back("label " + std::to_string(segment.number) +
+                            (segment.name.empty() ? "" : " (" + segment.name + ")") +
+                            " is left out: no piece of it has 8 voxels");
         continue;
       }
-      const std::string wanted = segment.name.empty() ? std::to_string(segment.number) : segment.name;
-      chosen.push_back(chooser.choose(wanted));
+      chosen.push_back(chooser.choose(std::to_string(segment.layer) + ":" + std::to_string(segment.number)));
     }
     if (chosen.empty()) throw InputError(file + ": no label of it has a piece of 8 voxels");
   } else if (options.label.empty()) {
     if (map.segments.size() > 1)
-      throw InputError(file + ": holds labels " + listed_segments(map, named.table) + ": say which with --label, or --all");
+      throw InputError(file + ": holds labels " + listed_segments(map, named.table) +
+                       ": say which with --label, or --all");
     chosen.push_back(chooser.choose(""));
   } else {
     for (const std::string& wanted : options.label) chosen.push_back(chooser.choose(wanted));

@@ -1,7 +1,7 @@
 // Which labels of a map the user means, with their names: by the file's own names, a table that was named, or a number.
 //
-// A bare number is never given a name from a table that nobody named, except where every built-in table that could have numbered the
-// map agrees on it ("5 liver"); that is said. Thread: any.
+// A bare number is never given a name from a table that nobody named, except where every built-in table that could have
+// numbered the map agrees on it ("5 liver"); that is said. Thread: any.
 #pragma once
 
 #include <string>

@@ -16,9 +16,9 @@ namespace trocar {
 
 /// Segmentation without labels; it knows no anatomy (tissue/imaging/segmentation.h).
 struct ThresholdOptions {
-  std::optional<std::array<double, 2>> window;     ///< lowest and highest value of the image, HU for CT
-  std::optional<std::array<double, 3>> seed_mm;    ///< RAS; the piece at this point, grown from it
-  double reach_mm = 0;                             ///< with a seed: nothing further from it is looked at; 0 no bound
+  std::optional<std::array<double, 2>> window;   ///< lowest and highest value of the image, HU for CT
+  std::optional<std::array<double, 3>> seed_mm;  ///< RAS; the piece at this point, grown from it
+  double reach_mm = 0;                           ///< with a seed: nothing further from it is looked at; 0 no bound
   double opening_mm = 0, closing_mm = 0;
   bool smooth = false;
 };
@@ -41,11 +41,11 @@ struct OrganImportOptions {
   ThresholdOptions threshold;
   SurfaceChoices surface;
   int triangles = 6000;
-  bool largest_only = false;  ///< nothing but the largest part of a label
-  double lattice_mm = 0;      ///< edge of the lattice's cells; 0: no lattice
-  double tetrahedra_mm = 0;   ///< size of the tetrahedra; 0: none
-  std::string output;         ///< NAME, or NAME.organ.toml, or NAME.scene.toml
-  std::string subject;        ///< of a scene: the organ that exercises are done on; "" the liver, else the largest
+  bool largest_only = false;     ///< nothing but the largest part of a label
+  double lattice_mm = 0;         ///< edge of the lattice's cells; 0: no lattice
+  double tetrahedra_mm = 0;      ///< size of the tetrahedra; 0: none
+  std::string output;            ///< NAME, or NAME.organ.toml, or NAME.scene.toml
+  std::string subject;           ///< of a scene: the organ that exercises are done on; "" the liver, else the largest
   std::filesystem::path report;  ///< HTML page; "": none
   std::filesystem::path assets;  ///< root of the shipped assets, for the page's pictures; "": no 3-D pictures
   bool json = false;

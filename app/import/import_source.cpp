@@ -7,6 +7,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_reader.h"
 #include "tissue/imaging/dicom/dicom_segmentation.h"
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/rt_structures.h"
 #include "tissue/imaging/label_grid.h"
 #include "tissue/imaging/segmentation.h"
@@ -17,8 +18,6 @@ namespace trocar {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kCertainlyHounsfield = -500;  // no MR magnitude image goes below 0
 
 /// "liver" from "dir/liver.nii.gz".
 std::string plain_stem(const fs::path& path) {
@@ -33,52 +32,74 @@ std::size_t count_of(const std::vector<DicomSeries>& series, DicomKind kind) {
       std::count_if(series.begin(), series.end(), [&](const DicomSeries& one) { return one.kind == kind; }));
 }
 
-const DicomSeries* chosen(const std::vector<DicomSeries>& series, std::optional<int> number) {
-  for (const DicomSeries& one : series)
-    if (number && one.number == *number) return &one;
-  return nullptr;
-}
-
 std::string listed(const std::vector<DicomSeries>& series) {
   std::string text;
   for (const DicomSeries& one : series) text += "\n  " + describe(one);
   return text;
 }
 
-/// Labels of a DICOM input: a segmentation or a structure set, on the grid of the image when there is one.
-LabelMap read_dicom_labels(const std::string& input, std::optional<int> number, const std::optional<ImageVolume>& image,
-                           const Progress& progress) {
-  const std::vector<DicomSeries> series = list_dicom(input, progress);
-  const DicomSeries* one = chosen(series, number);
-  const bool segmentation = one ? one->kind == DicomKind::kSegmentation : count_of(series, DicomKind::kSegmentation) > 0;
-  const bool structures = one ? one->kind == DicomKind::kStructureSet : count_of(series, DicomKind::kStructureSet) > 0;
-  const std::optional<int> which = one ? std::optional<int>(one->number) : std::nullopt;
-  if (segmentation) return read_dicom_segmentation(input, progress, which);
-  if (structures && image) return read_rtstruct(input, *image, progress, which);
-  if (structures) return read_rtstruct(input, progress, which);
-  throw InputError(input + ": holds DICOM images and no labels: give the labels with --labels FILE (SEG, RTSTRUCT, NIfTI, NRRD), or "
-                   "segment by values with --threshold LOW HIGH" + listed(series));
+/// Neither images nor labels: a damaged file, or an object of another kind (a report, a dose, a presentation state).
+/// Nothing to import without --threshold: damaged, of another kind (a report, a plan, a presentation state), or images alone.
+void require_labels(const std::string& input, const std::vector<DicomSeries>& series) {
+  if (count_of(series, DicomKind::kSegmentation) + count_of(series, DicomKind::kStructureSet) > 0) return;
+  if (series.size() == 1 && !series.front().problem.empty()) throw InputError(series.front().problem);
+  if (count_of(series, DicomKind::kImage) == 0)
+    throw InputError(input +
+                     ": holds neither images nor labels, but DICOM of another kind (reports, plans, presentation states) "
+                     "or damaged files: give the folder of the images, a SEG or an RTSTRUCT" +
+                     listed(series));
+  throw InputError(input +
+                   ": holds DICOM images and no labels: give the labels with --labels FILE (SEG, RTSTRUCT, NIfTI, "
+                   "NRRD), or segment by values with --threshold LOW HIGH" +
+                   listed(series));
 }
 
-LabelMap read_labels(const std::string& file, const OrganImportOptions& options, const std::optional<ImageVolume>& image) {
-  if (is_volume_file(file)) return read_label_map(file, options.progress, {.unit = options.surface.unit, .space = options.surface.frame});
-  return read_dicom_labels(file, options.labels.empty() ? options.series : std::nullopt, image, options.progress);
+/// Labels of a DICOM input: a segmentation or a structure set, on the grid of the image when there is one.
+LabelMap read_dicom_labels(const DicomStudy& study, std::optional<int> number, const std::optional<ImageVolume>& image,
+                           const Progress& progress) {
+  const std::vector<DicomSeries> series = study.series();
+  const auto holds = [&](DicomKind kind) {
+    return std::any_of(series.begin(), series.end(),
+                       [&](const DicomSeries& one) { return one.kind == kind && (!number || one.number == *number); });
+  };
+  if (holds(DicomKind::kSegmentation)) return read_dicom_segmentation(study, progress, number);
+  if (holds(DicomKind::kStructureSet))
+    return image ? read_rtstruct(study, *image, progress, number) : read_rtstruct(study, progress, number);
+  throw InputError(study.path().string() + ": series " + std::to_string(number.value_or(0)) + " holds no labels" +
+                   listed(series));
+}
+
+VolumeReading reading_of(const OrganImportOptions& options) {
+  return {.unit = options.surface.unit, .space = options.surface.frame};
 }
 
 ImageVolume read_image(const OrganImportOptions& options) {
-  if (is_volume_file(options.input))
-    return read_image_volume(options.input, options.progress, {.unit = options.surface.unit, .space = options.surface.frame});
+  if (is_volume_file(options.input)) return read_image_volume(options.input, options.progress, reading_of(options));
   return read_dicom_series(options.input, options.series, options.progress);
 }
 
-/// The images beside the labels of one DICOM input, when there is just one series of them: pictures are drawn on it, no more.
-std::optional<ImageVolume> images_beside(const OrganImportOptions& options) {
-  if (is_volume_file(options.input)) return std::nullopt;
-  const std::vector<DicomSeries> series = list_dicom(options.input, options.progress);
+/// The images beside the labels of one DICOM input, when there is just one series of them: pictures are drawn on it, no
+/// more.
+std::optional<ImageVolume> images_beside(const DicomStudy& study, const Progress& progress) {
+  const std::vector<DicomSeries> series = study.series();
   if (count_of(series, DicomKind::kImage) != 1) return std::nullopt;
-  const auto images = std::find_if(series.begin(), series.end(), [](const DicomSeries& one) { return one.kind == DicomKind::kImage; });
+  const auto images =
+      std::find_if(series.begin(), series.end(), [](const DicomSeries& one) { return one.kind == DicomKind::kImage; });
   if (!images->problem.empty()) return std::nullopt;
-  return read_dicom_series(options.input, images->number, options.progress);
+  return read_dicom_series(study, images->number, progress);
+}
+
+/// The labels of the file that holds them, and the images beside them in a DICOM input that was given alone.
+void read_labels(const OrganImportOptions& options, ImportSource& source) {
+  if (is_volume_file(source.file)) {
+    source.map = read_label_map(source.file, options.progress, reading_of(options));
+    return;
+  }
+  const DicomStudy study(source.file, options.progress);
+  require_labels(source.file, study.series());
+  if (!source.image && !is_volume_file(options.input)) source.image = images_beside(study, options.progress);
+  source.map =
+      read_dicom_labels(study, options.labels.empty() ? options.series : std::nullopt, source.image, options.progress);
 }
 
 LabelMap segmented(const OrganImportOptions& options, const ImageVolume& image) {
@@ -96,25 +117,21 @@ LabelMap segmented(const OrganImportOptions& options, const ImageVolume& image) 
   return map;
 }
 
-/// Labels that lie elsewhere than the image are not its labels.
-void check_place(const ImageVolume& image, const LabelMap& map, const std::string& file, std::vector<std::string>& notes) {
-  bool alike = true;
-  for (const LabelVolume& layer : map.layers) {
-    const double gap = gap_mm(grid_of(image), grid_of(layer));
-    if (gap > 0)
-      throw InputError(file + ": the label map lies " + std::to_string(gap).substr(0, 6) + " mm outside the image: not its labels");
-    alike = alike && same_grid(grid_of(image), grid_of(layer));
+/// Labels that lie elsewhere than the image are not its labels; labels on a grid of their own are carried to it for
+/// image values.
+void relate(ImportSource& source, const Progress& progress) {
+  const VoxelGrid grid = grid_of(*source.image);
+  if (same_grid(grid, grid_of(source.map.layers.front()))) return;  // one map has one grid in all its layers
+  for (const LabelVolume& layer : source.map.layers) {
+    source.on_image.push_back(on_grid_of(*source.image, layer, source.file, progress));
+    if (source.on_image.size() == 1) source.map.notes.push_back(source.on_image.front().notes.back());
   }
-  if (!alike)
-    notes.push_back("the labels have another grid than the image; both lie in one patient space, surfaces are made on the labels' grid");
 }
 
 std::string modality_of(const OrganImportOptions& options, const ImportSource& source) {
   if (!options.modality.empty()) return options.modality;
   if (source.image && source.image->modality != "unknown") return source.image->modality;
-  if (source.image && !source.image->values.empty() &&
-      *std::min_element(source.image->values.begin(), source.image->values.end()) < kCertainlyHounsfield)
-    return "CT";
+  if (source.image && certainly_hounsfield(*source.image)) return "CT";
   return source.map.modality;
 }
 
@@ -127,6 +144,22 @@ void tell_origin(const OrganImportOptions& options, ImportSource& source) {
   source.source.file = dicom ? "DICOM" : fs::path(file).filename().string();
   source.source.unit = options.surface.unit.empty() ? "mm" : options.surface.unit;
   source.source.modality = modality_of(options, source);
+}
+
+void check_options(const OrganImportOptions& options) {
+  std::error_code missing;
+  for (const std::string& file : {options.input, options.labels})
+    if (!file.empty() && !fs::exists(file, missing)) throw InputError(file + ": no such file or folder");
+  const ThresholdOptions& asked = options.threshold;
+  const bool by_window = asked.window.has_value();
+  if (by_window && (!options.label.empty() || options.all))
+    throw InputError("--threshold makes one label; it does not go with --label or --all");
+  if (!by_window &&
+      (asked.seed_mm || asked.reach_mm > 0 || asked.opening_mm > 0 || asked.closing_mm > 0 || asked.smooth))
+    throw InputError("--seed-point, --reach, --opening, --closing and --smooth go with --threshold LOW HIGH");
+  if (asked.reach_mm > 0 && !asked.seed_mm) throw InputError("--reach counts from a --seed-point");
+  if (by_window && !options.labels.empty())
+    throw InputError("--threshold makes the labels; it does not go with --labels");
 }
 
 }  // namespace
@@ -147,27 +180,25 @@ std::string hash_of_input(const std::string& input) {
 }
 
 ImportSource read_import_source(const OrganImportOptions& options) {
+  check_options(options);
   ImportSource source;
-  std::error_code missing;
-  for (const std::string& file : {options.input, options.labels})
-    if (!file.empty() && !fs::exists(file, missing)) throw InputError(file + ": no such file or folder");
-  const bool by_window = options.threshold.window.has_value();
-  if (by_window && (!options.label.empty() || options.all)) throw InputError("--threshold makes one label; it does not go with --label or --all");
-  if (!by_window && (options.threshold.seed_mm || options.threshold.reach_mm > 0 || options.threshold.opening_mm > 0 || options.threshold.closing_mm > 0 || options.threshold.smooth))
-    throw InputError("--seed-point, --reach, --opening, --closing and --smooth go with --threshold LOW HIGH");
-  if (options.threshold.reach_mm > 0 && !options.threshold.seed_mm) throw InputError("--reach counts from a --seed-point");
-  if (by_window && !options.labels.empty()) throw InputError("--threshold makes the labels; it does not go with --labels");
-  if (by_window || !options.labels.empty()) source.image = read_image(options);
   source.file = options.labels.empty() ? options.input : options.labels;
-  if (by_window) {
+  const bool by_window = options.threshold.window.has_value();
+  if (by_window || !options.labels.empty()) source.image = read_image(options);
+  if (by_window)
     source.map = segmented(options, *source.image);
-  } else {
-    if (!source.image) source.image = images_beside(options);
-    source.map = read_labels(source.file, options, source.image);
-  }
-  if (source.image && !by_window) check_place(*source.image, source.map, source.file, source.map.notes);
+  else
+    read_labels(options, source);
+  if (source.image && !by_window) relate(source, options.progress);
   tell_origin(options, source);
   return source;
+}
+
+LabelValues image_values(const ImportSource& source, const Segment& segment) {
+  if (!source.image) return {};
+  const LabelVolume& layer =
+      source.on_image.empty() ? source.map.layers[segment.layer] : source.on_image[segment.layer];
+  return layer.size == source.image->size ? values_under(*source.image, layer, segment.number) : LabelValues{};
 }
 
 }  // namespace trocar

@@ -1,7 +1,9 @@
-// The page of an import: what the organ is, what is true of it and what is not, with pictures. One HTML file, no script, no request.
+// The page of an import: what the organ is, what is true of it and what is not, with pictures. One HTML file, no
+// script, no request.
 //
-// Order: name and origin, verdict on the mesh, pictures, figures, what was lost and added, decisions and repairs, hashes and versions.
-// It holds nothing that names a patient. Same input, same bytes but for the 3-D pictures, which depend on the driver. Thread: any.
+// Order: name and origin, verdict on the mesh, pictures, figures, what was lost and added, decisions and repairs,
+// hashes and versions. It holds nothing that names a patient. Same input, same bytes but for the 3-D pictures, which
+// depend on the driver. Thread: any.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +13,7 @@
 
 #include "tissue/imaging/image_volume.h"
 #include "tissue/imaging/label_map.h"
+#include "tissue/imaging/label_values.h"
 #include "tissue/organ_set.h"
 
 namespace trocar {
@@ -21,7 +24,8 @@ struct OrganPageContent {
   const ImageVolume* image = nullptr;
   const LabelMap* labels = nullptr;
   std::vector<std::string> notes;
-  std::filesystem::path assets;  ///< for the 3-D pictures; "": none
+  std::filesystem::path assets;          ///< for the 3-D pictures; "": none
+  std::vector<LabelValues> values = {};  ///< of the image in each organ; empty without an image
 };
 
 /// The whole page as UTF-8 text.

@@ -50,10 +50,12 @@ std::vector<PagePicture> slices_of(const OrganPageContent& content) {
   const Vec3 through = 1e3 * volume_centroid_m(subject_of(content).surface);
   std::vector<PagePicture> pictures;
   const SliceGround ground{content.image, content.labels};
-  for (const auto& [plane, name, normal] : {std::tuple(SlicePlane::kAxial, "Axial", 2), std::tuple(SlicePlane::kCoronal, "Coronal", 1),
-                                            std::tuple(SlicePlane::kSagittal, "Sagittal", 0)})
+  for (const auto& [plane, name, normal] :
+       {std::tuple(SlicePlane::kAxial, "Axial", 2), std::tuple(SlicePlane::kCoronal, "Coronal", 1),
+        std::tuple(SlicePlane::kSagittal, "Sagittal", 0)})
     pictures.push_back({std::string(name) + " slice through the middle of " + subject_of(content).manifest.name,
-                        encode_png(slice_picture(ground, outlines, plane, centre_of(box, through, normal), extent_of(box, normal), kSlicePx))});
+                        encode_png(slice_picture(ground, outlines, plane, centre_of(box, through, normal),
+                                                 extent_of(box, normal), kSlicePx))});
   return pictures;
 }
 
@@ -79,7 +81,8 @@ SceneView turned(const SceneView& view, double angle_rad, double lift) {
   out.hud = {};
   const Vec3 back = view.camera.eye_T - view.camera.look_at_T;
   const Mat3 turn = Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()).toRotationMatrix();
-  out.camera.eye_T = view.camera.look_at_T + (turn * Vec3(back.x(), back.y(), lift * back.z())).normalized() * back.norm();
+  out.camera.eye_T =
+      view.camera.look_at_T + (turn * Vec3(back.x(), back.y(), lift * back.z())).normalized() * back.norm();
   out.X_TI.p = Vec3(0, 0, 10);
   return out;
 }
@@ -101,8 +104,14 @@ std::vector<PagePicture> views_of(const OrganPageContent& content) {
 }  // namespace
 
 Colour outline_colour(std::size_t n) {
-  static constexpr std::array<Colour, 8> kColours{{{86, 180, 233, 1}, {240, 228, 66, 1}, {0, 158, 115, 1}, {230, 159, 0, 1},
-                                                   {204, 121, 167, 1}, {213, 94, 0, 1}, {0, 114, 178, 1}, {230, 230, 230, 1}}};
+  static constexpr std::array<Colour, 8> kColours{{{86, 180, 233, 1},
+                                                   {240, 228, 66, 1},
+                                                   {0, 158, 115, 1},
+                                                   {230, 159, 0, 1},
+                                                   {204, 121, 167, 1},
+                                                   {213, 94, 0, 1},
+                                                   {0, 114, 178, 1},
+                                                   {230, 230, 230, 1}}};
   return kColours[n % kColours.size()];
 }
 

@@ -15,16 +15,20 @@ struct PlaneAxes {
 
 PlaneAxes axes_of(SlicePlane plane) {
   switch (plane) {
-    case SlicePlane::kAxial: return {2, -Vec3::UnitX(), -Vec3::UnitY(), "R", "L", "A", "P", "axial"};
-    case SlicePlane::kCoronal: return {1, -Vec3::UnitX(), -Vec3::UnitZ(), "R", "L", "S", "I", "coronal"};
-    case SlicePlane::kSagittal: break;
+    case SlicePlane::kAxial:
+      return {2, -Vec3::UnitX(), -Vec3::UnitY(), "R", "L", "A", "P", "axial"};
+    case SlicePlane::kCoronal:
+      return {1, -Vec3::UnitX(), -Vec3::UnitZ(), "R", "L", "S", "I", "coronal"};
+    case SlicePlane::kSagittal:
+      break;
   }
   return {0, -Vec3::UnitY(), -Vec3::UnitZ(), "A", "P", "S", "I", "sagittal"};
 }
 
 /// Value of the nearest voxel; empty outside.
 template <typename Volume, typename Values>
-bool nearest(const Volume& volume, const Values& values, const Eigen::Affine3d& to_index, const Vec3& place_mm, double& value) {
+bool nearest(const Volume& volume, const Values& values, const Eigen::Affine3d& to_index, const Vec3& place_mm,
+             double& value) {
   const Vec3 index = to_index * place_mm;
   std::array<int, 3> at{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +55,8 @@ class Ground {
     double value = 0;
     if (ground_.image) {
       if (!nearest(*ground_.image, ground_.image->values, to_index_[0], place_mm, value)) return 0;
-      return static_cast<std::uint8_t>(std::lround(255 * std::clamp((value - window_[0]) / (window_[1] - window_[0]), 0.0, 1.0)));
+      return static_cast<std::uint8_t>(
+          std::lround(255 * std::clamp((value - window_[0]) / (window_[1] - window_[0]), 0.0, 1.0)));
     }
     if (!ground_.labels) return 24;
     for (std::size_t n = 0; n < to_index_.size(); ++n) {
@@ -74,13 +79,17 @@ void annotate(Image& image, const PlaneAxes& axes, const Vec3& centre_mm, double
   Canvas canvas(image);
   const double w = image.width, h = image.height;
   const Colour ink{235, 235, 235, 1};
-  const auto text = [&](const std::string& words, double x, double baseline) { canvas.text(words, x, baseline, kSize, true, ink, fonts); };
+  const auto text = [&](const std::string& words, double x, double baseline) {
+    canvas.text(words, x, baseline, kSize, true, ink, fonts);
+  };
   text(axes.left_word, kInset, h / 2 + 5);
   text(axes.right_word, w - kInset - fonts.width(axes.right_word, kSize, true), h / 2 + 5);
   text(axes.top_word, w / 2 - 5, kInset + 12);
   text(axes.bottom_word, w / 2 - 5, h - kInset);
   const char* letter = axes.normal == 0 ? "x " : axes.normal == 1 ? "y " : "z ";
-  text(std::string(axes.name) + ", " + letter + std::to_string(static_cast<int>(std::lround(centre_mm[axes.normal]))) + " mm", kInset, kInset + 12);
+  text(std::string(axes.name) + ", " + letter + std::to_string(static_cast<int>(std::lround(centre_mm[axes.normal]))) +
+           " mm",
+       kInset, kInset + 12);
   const double bar = 50 / mm_per_px;
   canvas.line(w - kInset - bar, h - 12, w - kInset, h - 12, 3, ink);
   text("5 cm", w - kInset - fonts.width("5 cm", kSize, true), h - 18);
@@ -119,15 +128,16 @@ std::vector<std::array<Vec3, 2>> cut_by_plane(const TriangleSurface& surface, in
   return segments;
 }
 
-Image slice_picture(const SliceGround& ground, const std::vector<SliceOutline>& outlines, SlicePlane plane, const Vec3& centre_mm,
-                    double extent_mm, int size_px) {
+Image slice_picture(const SliceGround& ground, const std::vector<SliceOutline>& outlines, SlicePlane plane,
+                    const Vec3& centre_mm, double extent_mm, int size_px) {
   const PlaneAxes axes = axes_of(plane);
   const double mm_per_px = extent_mm / size_px;
   Image image(size_px, size_px);
   const Ground picture(ground);
   for (int y = 0; y < size_px; ++y)
     for (int x = 0; x < size_px; ++x) {
-      const Vec3 place = centre_mm + mm_per_px * ((x + 0.5 - size_px / 2.0) * axes.right + (y + 0.5 - size_px / 2.0) * axes.down);
+      const Vec3 place =
+          centre_mm + mm_per_px * ((x + 0.5 - size_px / 2.0) * axes.right + (y + 0.5 - size_px / 2.0) * axes.down);
       std::fill_n(image.pixel(x, y), 3, picture.grey(place));
     }
   Canvas canvas(image);

@@ -1,6 +1,7 @@
 // The files beside an organ's surface: lattice, tetrahedra, vessel graph; made when they are asked for.
 //
-// Names: STEM.lattice (tissue/mesh/lattice.h), STEM.msh (Gmsh 2.2, metres, RAS), STEM.vessels.toml. Thread: any, not the tick.
+// Names: STEM.lattice (tissue/mesh/lattice.h), STEM.msh (Gmsh 2.2, metres, RAS), STEM.vessels.toml. Thread: any, not
+// the tick.
 #pragma once
 
 #include <filesystem>
@@ -21,14 +22,15 @@ struct LabelledOrgan {
 
 /// Lattice and tetrahedra as the options ask; their facts enter the manifest.
 /// @throws InputError when tetrahedra are asked of an organ without labels
-std::vector<SideFile> volume_meshes(const OrganImportOptions& options, const std::filesystem::path& stem, const TriangleSurface& surface,
-                                    const LabelledOrgan& made_from, OrganManifest& manifest);
+std::vector<SideFile> volume_meshes(const OrganImportOptions& options, const std::filesystem::path& stem,
+                                    const TriangleSurface& surface, const LabelledOrgan& made_from,
+                                    OrganManifest& manifest);
 
 /// Whether an organ of this name is a tube that a centreline describes: artery, vein, duct, vena cava, ureter.
 bool is_tubular(const std::string& name);
 
 /// Centrelines of a tubular organ with the radii: one file, or none when the organ is no tube.
-std::vector<SideFile> vessel_files(const OrganImportOptions& options, const std::filesystem::path& stem, const LabelledOrgan& made_from,
-                                   const std::string& name);
+std::vector<SideFile> vessel_files(const OrganImportOptions& options, const std::filesystem::path& stem,
+                                   const LabelledOrgan& made_from, const std::string& name);
 
 }  // namespace trocar

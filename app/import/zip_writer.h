@@ -1,4 +1,5 @@
-// Files as one zip archive in memory, through libzip: names in order, fixed time stamps, so that the same files give the same bytes.
+// Files as one zip archive in memory, through libzip: names in order, fixed time stamps, so that the same files give
+// the same bytes.
 //
 // Thread: any, not the tick.
 #pragma once

@@ -54,7 +54,8 @@ void check_pair(Action action, std::int32_t key) {
   const std::string where = std::string("keys: ") + named(action).name + ": ";
   if (stays(action)) throw InputError(where + "keeps the key " + key_name(default_keys().at(action)));
   for (const Action fixed : {Action::kMenu, Action::kHelp})
-    if (key == default_keys().at(fixed)) throw InputError(where + key_name(key) + " is kept for '" + named(fixed).words + "'; choose another key");
+    if (key == default_keys().at(fixed))
+      throw InputError(where + key_name(key) + " is kept for '" + named(fixed).words + "'; choose another key");
   if (key == kKeyShift || key == kKeyControl) throw InputError(where + key_name(key) + " only changes what others do; choose another key");
   if (key_name(key).empty()) throw InputError(where + "no such key");
 }
@@ -134,7 +135,8 @@ void KeyMap::apply(const std::map<std::string, std::string>& changes) {
   std::map<std::int32_t, Action> taken;
   for (const auto& [action, key] : keys) {
     const auto [at, fresh] = taken.emplace(key, action);
-    if (!fresh) throw InputError(std::string("keys: ") + named(action).name + " and " + named(at->second).name + " both have " + key_name(key));
+    if (!fresh)
+      throw InputError(std::string("keys: ") + named(action).name + " and " + named(at->second).name + " both have " + key_name(key));
   }
   keys_ = keys;
 }

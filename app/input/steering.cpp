@@ -79,7 +79,8 @@ struct Steering::State {
   InputKind kind = InputKind::kMouse;
   // held
   std::map<Action, double> held = {};   ///< and for how long, s
-  bool shift_key = false, control_key = false, shift = false, control = false, left = false, right = false, middle = false, alt = false, pointer_known = false;
+  bool shift_key = false, control_key = false, shift = false, control = false;
+  bool left = false, right = false, middle = false, alt = false, pointer_known = false;
   double x = 0, y = 0;                  ///< px
   std::array<double, 6> pad{}, puck{};
   std::uint32_t pad_buttons = 0, puck_buttons = 0;

@@ -3,7 +3,8 @@
 // The intent pulls the simulated device's stylus through the impedance of the hand: nothing here sets the stylus. Movements are in
 // the picture's plane about the view's own axes; depth is along the line of sight. Speeds are limited, and the target stays in a ball
 // about the work space. The wrist turns the shaft about the tip: its far end goes where the hand goes, within what the device's
-// wrist can follow (steering_reach.h); roll is about the shaft. Through a port only tip and roll can be had. Frame T, m, rad. Same events and same steps give the same intents. Thread: the window's.
+// wrist can follow (steering_reach.h); roll is about the shaft. Through a port only tip and roll can be had. Frame T,
+// m, rad. Same events and same steps give the same intents. Thread: the window's.
 #pragma once
 
 #include <memory>

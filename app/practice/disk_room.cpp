@@ -14,7 +14,9 @@ constexpr double kMiB = 1024 * 1024;
 constexpr double kMinute = 0.6 * kMiB;      // of a recording at 1 kHz
 constexpr double kReserve = 8 * kMiB;       // database, journal, what else writes meanwhile
 
-std::string mebibytes(std::uintmax_t bytes) { return std::to_string(static_cast<std::uintmax_t>(static_cast<double>(bytes) / kMiB)) + " MiB"; }
+std::string mebibytes(std::uintmax_t bytes) {
+  return std::to_string(static_cast<std::uintmax_t>(static_cast<double>(bytes) / kMiB)) + " MiB";
+}
 
 }  // namespace
 

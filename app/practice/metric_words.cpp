@@ -55,9 +55,9 @@ std::string metric_text(const Words& words, const std::string& metric, const std
 }
 
 std::string subscore_words(const Words& words, const std::string& name) {
-  std::string out = words.made(name);
-  if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
-  return out;
+  std::string heading = name;  // the English one: the first letter of "économie" is no byte
+  if (!heading.empty()) heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
+  return words.made(heading);
 }
 
 const ExerciseLevel* level_named(const Exercise& exercise, const std::string& level) {

@@ -41,24 +41,26 @@ void Coach::saw(const InputEvent& event, const KeyMap& keys) {
 }
 
 std::vector<Coach::CoachMark> Coach::marks(const Words& words, const KeyMap& keys, InputKind kind) const {
+  const auto name = [&](Action action) { return words.name(key_name(keys.key_of(action))); };
   switch (kind) {
     case InputKind::kPad:
-      return {{words("The left stick moves the tip"), done_[0]},
-              {words("The shoulder buttons go deeper and back"), done_[1]},
-              {words("A trigger closes the jaws"), done_[2]}};
+      return {{words("Left stick: move the tip"), done_[0]},
+              {words("Shoulder buttons: deeper, back"), done_[1]},
+              {words("Trigger: close the jaws"), done_[2]}};
     case InputKind::kPuck:
-      return {{words("Push the cap: the tip moves"), done_[0]},
-              {words("Press it down or lift it: deeper and back"), done_[1]},
-              {words("Its first button closes the jaws"), done_[2]}};
-    case InputKind::kDevice:
-      return {{words("Move the stylus: the tip moves"), true}, {words("Press the pads to grip"), true}};
-    case InputKind::kMouse:
-    case InputKind::kKeyboard: break;
+      return {{words("Push the cap: move the tip"), done_[0]},
+              {words("Press or lift it: deeper, back"), done_[1]},
+              {words("First button: close the jaws"), done_[2]}};
+    case InputKind::kKeyboard:
+      return {{words("Arrow keys: move the tip"), done_[0]},
+              {words("{0}, {1}: deeper, back", {name(Action::kInsert), name(Action::kWithdraw)}), done_[1]},
+              {words("{0}: close the jaws", {name(Action::kClose)}), done_[2]}};
+    case InputKind::kDevice: return {{words("Move the stylus: the tip moves"), true}, {words("Press the pads to grip"), true}};
+    case InputKind::kMouse: break;
   }
-  return {{words("The mouse moves the tip (or the arrow keys)"), done_[0]},
-          {words("The wheel goes deeper and back (or {0}, {1})", {key_name(keys.key_of(Action::kInsert)), key_name(keys.key_of(Action::kWithdraw))}),
-           done_[1]},
-          {words("The left button closes the jaws (or {0})", {key_name(keys.key_of(Action::kClose))}), done_[2]}};
+  return {{words("Mouse: move the tip"), done_[0]},
+          {words("Wheel: deeper, back"), done_[1]},
+          {words("Left button: close the jaws"), done_[2]}};
 }
 
 }  // namespace trocar

@@ -48,7 +48,9 @@ class Pencil {
   }
   void disc(double x, double y, double r, Paint paint) { list_.AddCircleFilled(at(x, y), px(r), paint, 0); }
   /// @param r outer radius.
-  void ring(double x, double y, double r, double width, Paint paint) { list_.AddCircle(at(x, y), px(r - 0.5 * width), paint, 0, px(width)); }
+  void ring(double x, double y, double r, double width, Paint paint) {
+    list_.AddCircle(at(x, y), px(r - 0.5 * width), paint, 0, px(width));
+  }
   void line(double x0, double y0, double x1, double y1, double width, Paint paint) {
     list_.AddLine(at(x0, y0), at(x1, y1), paint, px(width));
   }
@@ -152,7 +154,8 @@ void draw_bar(Pencil& pen, const HudBar& bar) {
   if (bar.limit < 1) pen.box({x_of(bar.limit) - 1, t.y, 2, t.height}, kVermillion);
   if (bar.peak > 0) {
     pen.box({x_of(bar.peak) - 1.5, t.y, 3, t.height}, kWhite);
-    pen.triangle(x_of(bar.peak) - 0.24 * t.height, t.y, x_of(bar.peak) + 0.24 * t.height, t.y, x_of(bar.peak), t.y + 0.3 * t.height, kWhite);
+    const double x = x_of(bar.peak), half = 0.24 * t.height;
+    pen.triangle(x - half, t.y, x + half, t.y, x, t.y + 0.3 * t.height, kWhite);
   }
 }
 

@@ -15,7 +15,8 @@ HudLayout column_left(HudLayout layout);
 /// Part of the window left to the scope's picture then.
 PixelRect picture_right(const PixelRect& picture, int width);
 
-/// Arrow at the rim of the round field, pointing outwards. @param x,y centre of the field, px. @param angle_rad 0 to the right, up positive.
+/// Arrow at the rim of the round field, pointing outwards. @param x,y centre of the field, px.
+/// @param angle_rad 0 to the right, up positive.
 void draw_rim_arrow(double x, double y, double radius, double angle_rad, double size);
 
 }  // namespace trocar

@@ -19,7 +19,7 @@ Area middle(const Ui& ui, double width_at_720, double height_at_720) {
 }
 
 std::vector<Ui::Cell> key_row(const PracticeDesk& desk, const ActionName& action) {
-  return {{key_name(desk.keys().key_of(action.action)), Ink::kAccent}, {desk.words()(action.words)}};
+  return {{desk.words().name(key_name(desk.keys().key_of(action.action))), Ink::kAccent}, {desk.words()(action.words)}};
 }
 
 void key_tables(Ui& ui, const PracticeDesk& desk) {

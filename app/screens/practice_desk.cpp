@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <future>
 #include <random>
+#include <thread>
 
+#include "app/graphics/show_scene.h"
 #include "app/playback/expert_run.h"
 #include "app/recorded_result.h"
 #include "haptics/input_error.h"
@@ -18,6 +20,7 @@ namespace {
 
 constexpr const char* kGuest = "guest";
 constexpr int kBusy_ms = 2000;
+constexpr int kStoring_ms = 500;   // that a result may take to the database before the person is told
 
 /// Of LANG, when there is a catalogue for it.
 std::string language_of_machine(const std::filesystem::path& folder) {
@@ -28,19 +31,6 @@ std::string language_of_machine(const std::filesystem::path& folder) {
     return std::filesystem::is_regular_file(folder / (code + ".toml")) ? code : "en";
   }
   return "en";
-}
-
-/// The abdomen that ships, with the instrument over the liver. Null: it cannot be loaded; the start page does without.
-std::shared_ptr<const Scene> load_show_scene(const Exercise& exercise, const AssetRoots& assets) {
-  AttemptSetup setup;
-  setup.exercise = exercise;
-  setup.level = exercise.levels.front().name;
-  setup.organ = "phantom-abdomen";
-  try {
-    return std::make_shared<const Scene>(build_scene(setup, assets, {"simulated", setup.rate_hz, 16}));
-  } catch (const std::exception&) {
-    return nullptr;
-  }
 }
 
 }  // namespace
@@ -64,7 +54,7 @@ struct PracticeDesk::State {
   std::vector<AttemptSummary> unkept;          // of this sitting, newest first, when nothing is kept
   std::vector<PastAttempt> unkept_numbers;     // the same with their metrics
   ExpertRun expert;
-  std::shared_future<std::shared_ptr<const Scene>> show_scene;
+  std::shared_future<std::shared_ptr<const SceneView>> show_scene;
 
   std::filesystem::path settings_file_path() const { return options.settings.empty() ? settings_file() : options.settings; }
   void take_up(std::string& notice);
@@ -133,9 +123,7 @@ PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets)
   s.assets = assets;
   s.exercises = list_exercises(assets.exercises);
   if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
-  const auto touch = std::find_if(s.exercises.begin(), s.exercises.end(), [](const Exercise& e) { return needs_organ(e.kind); });
-  if (touch != s.exercises.end())
-    s.show_scene = std::async(std::launch::async, load_show_scene, *touch, assets).share();
+  s.show_scene = std::async(std::launch::async, [] { return std::make_shared<const SceneView>(trocar::show_scene("abdomen")); }).share();
   s.settings = load_settings(s.settings_file_path());
   notice = s.settings.note;
   s.take_up(notice);
@@ -182,7 +170,7 @@ void PracticeDesk::settings_changed() {
   }
 }
 
-std::shared_ptr<const Scene> PracticeDesk::show_scene(double wait_s) const {
+std::shared_ptr<const SceneView> PracticeDesk::show_scene(double wait_s) const {
   const auto& scene = state_->show_scene;
   if (!scene.valid() || scene.wait_for(std::chrono::duration<double>(wait_s)) != std::future_status::ready) return nullptr;
   return scene.get();
@@ -212,6 +200,8 @@ const Exercise& PracticeDesk::exercise() const {
   return at == all.end() ? all.front() : *at;
 }
 
+bool PracticeDesk::exercise_given() const { return !state_->options.exercise.empty(); }
+
 Standing PracticeDesk::standing(const std::string& id, const std::string& of_level) const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [&id](const Exercise& e) { return e.id == id; });
@@ -229,7 +219,8 @@ PracticeDesk::Advice PracticeDesk::next() const {
       const Standing s = standing(e.id, name);
       if (!s.unlocked || opens_next(s.newest_first)) continue;
       if (s.attempts == 0) return {e.id, name, w("Not tried yet.")};
-      if (s.passed_in_a_row == 0) return {e.id, name, w("Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})};
+      if (s.passed_in_a_row == 0)
+        return {e.id, name, w("Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})};
       return {e.id, name, w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)})};
     }
   }
@@ -303,6 +294,7 @@ bool PracticeDesk::end_attempt() {
   try {
     if (!runner->finished()) runner->abort();
     s.result = runner->result();
+    for (int i = 0; i < kStoring_ms && !runner->stored(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (!runner->stored()) {
       notice = s.words("The database is busy: the result is kept and will be stored as soon as it answers.");
       s.unstored.push_back(std::move(runner));
@@ -327,6 +319,20 @@ bool PracticeDesk::end_attempt() {
   s.unkept_numbers.insert(s.unkept_numbers.begin(), past_attempt(*s.result));
   s.unkept_numbers.front().summary.trainee = s.trainee;
   return true;
+}
+
+bool PracticeDesk::open_result(const std::string& uuid) {
+  State& s = *state_;
+  try {
+    AttemptResult found = AttemptStore(*s.database).load(uuid);
+    exercise_id = found.exercise_id;
+    level = found.level;
+    s.result = std::move(found);
+    return true;
+  } catch (const std::exception& error) {
+    notice = s.words("This attempt cannot be opened: {0}", {error.what()});
+    return false;
+  }
 }
 
 const std::optional<AttemptResult>& PracticeDesk::result() const { return state_->result; }

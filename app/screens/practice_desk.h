@@ -52,9 +52,8 @@ class PracticeDesk {
   Steering& steering();
   Sound& sound();
 
-  /// The scene behind the start page, loaded in the background from the beginning. @param wait_s how long to wait for it; null: not yet, or
-  /// the shipped organ is missing.
-  std::shared_ptr<const Scene> show_scene(double wait_s) const;
+  /// The scene behind the start page, made in the background from the beginning. @param wait_s how long to wait for it; null: not yet.
+  std::shared_ptr<const SceneView> show_scene(double wait_s) const;
 
   // who
   const std::string& trainee() const;    ///< "guest" without sign-in
@@ -66,6 +65,7 @@ class PracticeDesk {
   // what
   std::string exercise_id, level = "L1", organ = "phantom-liver";
   const Exercise& exercise() const;      ///< the chosen one
+  bool exercise_given() const;           ///< by the options: straight to its briefing
   Standing standing(const std::string& exercise_id, const std::string& level) const;
   /// What to do next, and why: exercise id, level, one sentence.
   struct Advice { std::string exercise_id, level, why; };
@@ -82,6 +82,8 @@ class PracticeDesk {
   /// Takes over the result of a finished or aborted attempt. @return false: it had none, notice() says why.
   bool end_attempt();
   const std::optional<AttemptResult>& result() const;
+  /// An attempt that the database keeps, as if it had just ended: to look at it again. @return whether it is there.
+  bool open_result(const std::string& uuid);
   /// Scene of the last attempt, for pictures of the debrief; null before the first.
   std::shared_ptr<const Scene> last_scene() const;
   std::filesystem::path recording() const;       ///< of result(), empty: none kept

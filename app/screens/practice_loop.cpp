@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/graphics/frame_target.h"
+#include "app/graphics/preset.h"
 #include "app/graphics/renderer.h"
 #include "app/screens/overlays.h"
 #include "app/screens/screen_table.h"
@@ -26,6 +27,9 @@ std::string file_stamp() {
   return text;
 }
 
+/// Before anything has been timed.
+Preset guessed_preset(const GraphicsContext& context) { return context.info().software ? Preset::kSoft : Preset::kFull; }
+
 }  // namespace
 
 std::filesystem::path pictures_folder() {
@@ -35,9 +39,10 @@ std::filesystem::path pictures_folder() {
 
 struct PracticeLoop::State {
   PracticeDesk& desk;
+  GraphicsContext& context;
+  bool to_window;
   FrameTarget target;
   UiLayer layer;
-  GraphicsContext& context;
   Renderer renderer;
   std::unique_ptr<Renderer> second_renderer;   // keeps its own organ on the GPU; while two runs are compared
   ScreenName name = ScreenName::kStart;
@@ -50,14 +55,23 @@ struct PracticeLoop::State {
   std::vector<DrawnText> texts;
   std::vector<std::string> scrolling;
 
-  State(PracticeDesk& given, GraphicsContext& graphics, bool to_window)
-      : desk(given), target(graphics, to_window), layer(graphics, given.scale()), context(graphics), renderer(graphics, given.assets().assets) {}
+  std::string preset = "auto";          // as the settings had it when it was last followed
+  long frames = 0;
+
+  State(PracticeDesk& given, GraphicsContext& drawing, bool window)
+      : desk(given),
+        context(drawing),
+        to_window(window),
+        target(drawing, window),
+        layer(drawing, given.scale()),
+        renderer(drawing, given.assets().assets, {.preset = guessed_preset(drawing)}) {}
 
   void show(ScreenName to);
   void open_menu(bool open);
   void choose(MenuChoice choice);
   bool command(const InputEvent& event);
   void dispatch(const std::vector<InputEvent>& events);
+  void follow_preset(int width, int height);
   void draw_stage(int width, int height);
   void draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events);
   void save_picture();
@@ -65,7 +79,8 @@ struct PracticeLoop::State {
 
 PracticeLoop::PracticeLoop(PracticeDesk& desk, GraphicsContext& context, bool to_window)
     : state_(std::make_unique<State>(desk, context, to_window)) {
-  state_->show(ScreenName::kStart);
+  const bool briefing = desk.exercise_given() && make_screen(ScreenName::kBriefing);
+  state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
 }
 
 PracticeLoop::~PracticeLoop() {
@@ -158,8 +173,22 @@ void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
   }
 }
 
+/// What the settings say. "auto" in a window: timed once, after the first frame stands; in memory: a guess, so that pictures do not depend
+/// on how busy the machine is.
+void PracticeLoop::State::follow_preset(int width, int height) {
+  const std::string& wanted = desk.settings().preset;
+  const bool timed_now = wanted == "auto" && to_window && (frames == 1 || (frames > 1 && preset != wanted));
+  if (preset == wanted && !timed_now) return;
+  RenderOptions options = renderer.options();
+  const std::optional<Preset> named = preset_named(wanted);
+  options.preset = named ? *named : timed_now ? measure_preset(context, desk.assets().assets, width, height) : guessed_preset(context);
+  preset = wanted;
+  renderer.set_options(options);
+}
+
 /// Both pictures first, then both into the frame: drawing a picture binds framebuffers of its own.
 void PracticeLoop::State::draw_stage(int width, int height) {
+  follow_preset(width, height);
   struct Placed {
     unsigned texture;
     PixelRect part;
@@ -175,7 +204,7 @@ void PracticeLoop::State::draw_stage(int width, int height) {
   };
   if (const auto stage = screen ? screen->stage(desk, width, height) : std::nullopt) draw(stage, renderer);
   if (const auto beside = screen ? screen->second_stage(desk, width, height) : std::nullopt) {
-    if (!second_renderer) second_renderer = std::make_unique<Renderer>(context, desk.assets().assets);
+    if (!second_renderer) second_renderer = std::make_unique<Renderer>(context, desk.assets().assets, renderer.options());
     draw(beside, *second_renderer);
   } else {
     second_renderer.reset();
@@ -219,6 +248,7 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
   if (width >= 64 && height >= 48) {
     s.draw_stage(width, height);
     s.draw_interface(width, height, dt_s, events);
+    ++s.frames;
     if (s.picture_wanted) s.save_picture();
   }
   return s.name != ScreenName::kQuit;
@@ -226,6 +256,7 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
 
 void PracticeLoop::go(ScreenName name) { state_->show(name); }
 ScreenName PracticeLoop::here() const { return state_->name; }
+const Screen* PracticeLoop::screen() const { return state_->screen.get(); }
 bool PracticeLoop::menu_open() const { return state_->menu; }
 bool PracticeLoop::fullscreen() const { return state_->fullscreen; }
 Image PracticeLoop::picture() const { return state_->target.read(); }

@@ -33,6 +33,7 @@ class PracticeLoop {
   /// To another screen, as from the next frame.
   void go(ScreenName name);
   ScreenName here() const;
+  const Screen* screen() const;                 ///< that is up; nullptr: none
   bool menu_open() const;
   bool fullscreen() const;                      ///< wanted
   /// The last frame. @throws EnvironmentError.

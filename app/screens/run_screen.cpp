@@ -18,6 +18,8 @@ namespace {
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+constexpr double kStoring_s = 0.5;   // that a database may take before the debrief is shown all the same
+
 /// Before anything has been seen of the run: the instrument as the jig holds it.
 RunMoment first_moment(const Scene& scene) {
   RunMoment moment;
@@ -42,6 +44,7 @@ struct RunScreen::State {
   bool bars = true, guides = true;
   Asked asked = Asked::kNothing;
   double dt_s = 0, event_s = 0;     // last frame's step; when the first event since the last intent was handed over
+  double over_s = 0;                // since the result is there
   Coach coach;
   RunSounds sounds;
   LatencyMeter latency;
@@ -74,6 +77,7 @@ void RunScreen::State::begin(PracticeDesk& desk) {
   bars = true;
   guides = scene.level.guides;
   asked = Asked::kNothing;
+  over_s = 0;
   latency.forget();
   sounds = RunSounds();
   const Standing standing = desk.standing(desk.exercise_id, desk.level);
@@ -118,7 +122,7 @@ void RunScreen::State::lay_out(const Hud& hud, PracticeDesk& desk, int width, in
   for (ForceBar& bar : shown.bars) {
     if (bars || bar.hidden) continue;
     bar.hidden = true;
-    bar.hidden_note = desk.words()("hidden ({0} shows it)", {key_name(desk.keys().key_of(Action::kForceBars))});
+    bar.hidden_note = desk.words()("hidden ({0} shows it)", {desk.words().name(key_name(desk.keys().key_of(Action::kForceBars)))});
   }
   picture = hud_scene_window(shown, width, height, desk.scale());
   layout = layout_hud(shown, width, height, desk.scale(), fonts);
@@ -169,7 +173,7 @@ std::optional<ScreenName> RunScreen::handle(const InputEvent& event, PracticeDes
   if (!desk.running() || !s.begun) return {};
   if (event.kind == InputEvent::Kind::kFocusLost) {
     desk.steering().handle(event);
-    s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
+    if (!s.overlay) s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
     return {};
   }
   if (s.overlay) return {};
@@ -205,7 +209,7 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   const Words& w = desk.words();
   const bool stands = desk.running()->paused();
   const auto key = [&](Action action) { return key_name(desk.keys().key_of(action)); };
-  const double width = std::min(ui.px(430), ui.width()), height = std::min(ui.px(310), ui.height());
+  const double width = std::min(ui.px(430), ui.width()), height = std::min(ui.px(250), ui.height());
   ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
   ui.title(stands ? w("Paused") : w("The exam goes on"));
   ui.text(stands ? w("Instrument and clock stand still. The pause is noted in the result.")
@@ -223,20 +227,30 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   return to;
 }
 
+/// Painted, not a panel: the pointer over it still steers.
 void RunScreen::State::coach_panel(Ui& ui, PracticeDesk& desk) const {
   if (!coach.speaks() || !steering) return;
-  const double width = std::min(ui.px(420), 0.5 * picture.width), height = ui.px(20) + 3.2 * ui.line_height() + ui.px(24);
-  ui.begin_panel("coach", {picture.x + ui.px(10), picture.y + ui.px(10), width, height}, 0.85);
-  for (const Coach::CoachMark& mark : coach.marks(desk.words(), desk.keys(), desk.steering().kind()))
-    ui.marked(mark.done ? Mark::kTick : Mark::kOpen, mark.text, mark.done ? Ink::kDim : Ink::kText);
-  ui.end_panel();
+  const auto marks = coach.marks(desk.words(), desk.keys(), desk.steering().kind());
+  const double line = 1.25 * ui.line_height(), pad = ui.px(12), side = 0.8 * ui.line_height();
+  double wide = 0;
+  for (const Coach::CoachMark& mark : marks) wide = std::max(wide, ui.text_width(mark.text));
+  const double width = std::min(wide + side + 3 * pad, picture.width - 2 * pad), room = width - side - 3 * pad;
+  const double x = picture.x + pad;
+  double y = picture.y + pad;
+  ui.paint_ground({x, y, width, line * static_cast<double>(marks.size()) + pad}, 0.85, ui.px(8));
+  y += 0.5 * pad + 0.5 * (line - ui.line_height());
+  for (const Coach::CoachMark& mark : marks) {
+    ui.paint_mark(mark.done ? Mark::kTick : Mark::kOpen, x + pad, y + 0.5 * (ui.line_height() - side), side);
+    ui.text_at(x + 2 * pad + side, y, mark.text, mark.done ? Ink::kDim : Ink::kText, room);
+    y += line;
+  }
 }
 
 /// In the black corner below the round field.
 void RunScreen::State::key_hints(Ui& ui, const PracticeDesk& desk) const {
   const Words& w = desk.words();
-  const std::string lines[] = {key_name(desk.keys().key_of(Action::kPause)) + "  " + w("Pause"),
-                               key_name(desk.keys().key_of(Action::kHelp)) + "  " + w("Help")};
+  const std::string lines[] = {w.name(key_name(desk.keys().key_of(Action::kPause))) + "  " + w("Pause"),
+                               w.name(key_name(desk.keys().key_of(Action::kHelp))) + "  " + w("Help")};
   const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
   double y = picture.y + picture.height - 2 * ui.line_height() - ui.px(6);
   for (const std::string& line : lines) {
@@ -249,7 +263,8 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeDesk& desk, double dt
   State& s = *state_;
   s.dt_s = dt_s;
   if (!desk.running()) return ScreenName::kBriefing;
-  if (desk.running()->finished()) return s.ended(desk);
+  if (desk.running()->finished()) s.over_s += dt_s;
+  if (desk.running()->stored() || s.over_s > kStoring_s) return s.ended(desk);
   if (!s.begun) return {};
   ui.keys_to_screen();
   s.coach.pass(dt_s);

@@ -1,5 +1,7 @@
 #include "app/screens/screen_table.h"
 
+#include "app/screens/debrief_screen.h"
+#include "app/screens/progress_screen.h"
 #include "app/screens/replay_screen.h"
 #include "app/screens/run_screen.h"
 #include "app/screens/settings_screen.h"
@@ -14,8 +16,8 @@ std::unique_ptr<Screen> make_screen(ScreenName name) {
     case ScreenName::kCurriculum: return nullptr;
     case ScreenName::kBriefing: return nullptr;
     case ScreenName::kRun: return std::make_unique<RunScreen>();
-    case ScreenName::kDebrief: return nullptr;
-    case ScreenName::kProgress: return nullptr;
+    case ScreenName::kDebrief: return std::make_unique<DebriefScreen>();
+    case ScreenName::kProgress: return std::make_unique<ProgressScreen>();
     case ScreenName::kReplay: return std::make_unique<ReplayScreen>();
     case ScreenName::kNotch: return nullptr;
     case ScreenName::kQuit: return nullptr;

@@ -15,8 +15,8 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// A list of names of which one is kept in the settings.
-bool name_choice(Ui& ui, const char* id, const std::string& text, const std::vector<std::string>& shown, const std::vector<std::string>& names,
-                 std::string& kept) {
+bool name_choice(Ui& ui, const char* id, const std::string& text, const std::vector<std::string>& shown,
+                 const std::vector<std::string>& names, std::string& kept) {
   int chosen = index_of(names, kept);
   if (!ui.choice(id, text, shown, chosen)) return false;
   kept = names[static_cast<std::size_t>(chosen)];
@@ -46,10 +46,10 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
     s.scale = std::stod(percent) / 100;
     changed = true;
   }
-  changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")}, {"auto", "potato", "soft", "full"},
-                         s.preset);
+  changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
+                         {"auto", "potato", "soft", "full"}, s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);
-  if (!desk.sound().refusal().empty()) ui.text(desk.sound().refusal(), Ink::kDim);
+  if (!desk.sound().refusal().empty()) ui.text(w.made(desk.sound().refusal()), Ink::kDim);
   if (changed) desk.settings_changed();
 }
 
@@ -72,7 +72,7 @@ void SettingsScreen::keys(Ui& ui, PracticeDesk& desk) {
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
   for (const ActionName& action : action_names()) {
     const bool waits = waiting_for_ == action.action;
-    const std::string right = waits ? w("press a key") : key_name(desk.keys().key_of(action.action));
+    const std::string right = waits ? w("press a key") : w.name(key_name(desk.keys().key_of(action.action)));
     if (ui.selectable(action.name, waits ? Mark::kPlay : Mark::kNone, w(action.words), waits, right)) {
       waiting_for_ = action.action;
       wrong_.clear();
@@ -108,16 +108,19 @@ std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeDesk& desk, doub
   const double margin = std::min(ui.px(24), 0.02 * ui.width()), gap = ui.px(12);
   const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin, foot = ui.px(74);
   const bool beside = wide >= ui.px(860);
-  const double left = beside ? 0.5 * (wide - gap) : wide, upper = beside ? high - foot : 0.5 * (high - foot);
+  const double left = beside ? 0.5 * (wide - gap) : wide, upper = high - foot;
   ui.begin_panel("settings", {margin, margin, left, upper});
   ui.title(w("Settings"));
   general(ui, desk);
   ui.gap(6);
   ui.heading(w("Hand"));
   hand(ui, desk);
-  ui.end_panel();
-  ui.begin_panel("settings.keys", {beside ? margin + left + gap : margin, beside ? margin : margin + upper, beside ? left : wide,
-                                   beside ? high - foot : high - foot - upper});
+  if (beside) {
+    ui.end_panel();
+    ui.begin_panel("settings.keys", {margin + left + gap, margin, left, upper});
+  } else {
+    ui.gap(6);
+  }
   keys(ui, desk);
   ui.end_panel();
   ui.begin_panel("settings.foot", {margin, margin + high - foot, wide, foot});

@@ -1,36 +1,35 @@
 #include "app/screens/show_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "app/attempt_scene.h"
-#include "app/run_moment.h"
-#include "haptics/kinematics/device_geometry.h"
+#include "app/graphics/show_scene.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kBreath_s = 4.5;      // 13 breaths a minute, under anaesthesia
-constexpr double kBreath_m = 0.004;    // of the lens against the organs, along the body
+constexpr double kSway_m = 0.004;      // of a hand that waits
+constexpr double kJaws_m = 0.002;
 
 double wave(double t_s, double period_s) { return std::sin(2 * std::numbers::pi * t_s / period_s); }
 
+Vec3 sway(double t_s, double phase_s) {
+  return kSway_m * Vec3(wave(t_s + phase_s, 11), wave(t_s + phase_s, 7.3), 0.6 * wave(t_s + phase_s, 9.1));
+}
+
 }  // namespace
 
-SceneView show_view(const Scene& scene, const std::shared_ptr<const TriangleSurface>& organ_T, double t_s) {
-  RunMoment moment;
-  moment.t_s = t_s;
-  StylusState& stylus = moment.record.stylus;
-  stylus.X_TI.R = scene.loop.map.instrument_pose(home_pose()).R;
-  stylus.X_TI.p = scene.board.centre_T + Vec3(0.016 * wave(t_s, 19), -0.006 + 0.010 * wave(t_s, 13), 0.026 + 0.006 * wave(t_s, 8));
-  stylus.jaw_opening_m = 0.004 + 0.003 * wave(t_s, 7);
-  moment.status.phase = Phase::kRun;
-  moment.status.target_index = -1;
-  SceneView view = attempt_scene(view_of(scene, moment), organ_T);
-  view.targets.clear();
-  const Vec3 breath(0, kBreath_m * wave(t_s, kBreath_s), 0.5 * kBreath_m * wave(t_s, kBreath_s));
-  view.camera.eye_T += breath;
-  view.camera.look_at_T += 0.7 * breath;
+SceneView show_view(const SceneView& still, double t_s) {
+  SceneView view = still;
+  view.breath_T = breath_at(t_s);
+  view.X_TI.p += sway(t_s, 0);
+  view.jaw_opening_m = std::max(0.0, view.jaw_opening_m + kJaws_m * wave(t_s, 5.3));
+  double phase_s = 3;
+  for (InstrumentView& other : view.more_instruments) {
+    other.X_TI.p += sway(t_s, phase_s);
+    phase_s += 2;
+  }
   view.hud = {};
   view.hud.elapsed_s = t_s;
   return view;

@@ -52,7 +52,8 @@ Standing standing_of(const Exercise& exercise, const std::string& level, const s
     out.best = std::max(out.best.value_or(*attempt.score), *attempt.score);
   }
   out.passed_in_a_row = passes_in_a_row(out.newest_first);
-  const auto at = std::find_if(exercise.levels.begin(), exercise.levels.end(), [&level](const ExerciseLevel& l) { return l.name == level; });
+  const auto at = std::find_if(exercise.levels.begin(), exercise.levels.end(),
+                               [&level](const ExerciseLevel& l) { return l.name == level; });
   if (at != exercise.levels.begin() && at != exercise.levels.end()) out.unlocked = opens_next(at_level(attempts, std::prev(at)->name));
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include "app/screens/practice_desk.h"
 #include "app/screens/show_scene.h"
+#include "app/screens/theme.h"
 #include "app/screens/ui.h"
 
 namespace trocar {
@@ -12,10 +13,18 @@ namespace {
 constexpr double kPanelWidth = 500, kMargin = 24;
 constexpr double kFirstWait_s = 1.0;   // for the scene: the first frame is lit if it can be
 
+/// Where the panel stands: left of the scene, or over it where there is no room for both.
+Area panel_area(double scale, double width, double height) {
+  const double unit = ui_unit(scale, width, height), margin = std::min(unit * kMargin, 0.02 * width);
+  const double wide = std::min(unit * kPanelWidth, width - 2 * margin);
+  const bool beside = width - margin - wide >= 0.4 * width;
+  return {margin, margin, beside ? wide : width - 2 * margin, height - 2 * margin};
+}
+
 /// px that are left to the scene beside the panel; 0: it lies behind it.
-double free_width(const Ui& ui, double panel_right) {
-  const double left = ui.width() - panel_right;
-  return left >= 0.4 * ui.width() ? left : 0;
+double free_width(const Area& panel, double width) {
+  const double left = width - panel.x - panel.width;
+  return left >= 0.4 * width ? left : 0;
 }
 
 /// What a guest is led to: the exercise that is felt, else the first.
@@ -26,22 +35,36 @@ void choose_first(PracticeDesk& desk) {
   desk.level = desk.exercise().levels.front().name;
 }
 
+/// What the expert plays: the touching exercise in the abdomen that ships.
+AttemptSetup show_attempt(const PracticeDesk& desk) {
+  const auto& all = desk.exercises();
+  const auto touch = std::find_if(all.begin(), all.end(), [](const Exercise& e) { return e.kind == ExerciseKind::kTouch; });
+  AttemptSetup setup;
+  setup.exercise = touch == all.end() ? all.front() : *touch;
+  setup.level = setup.exercise.levels.front().name;
+  setup.organ = "phantom-abdomen";
+  return setup;
+}
+
+std::string title_of(const PracticeDesk& desk, const std::string& id) {
+  for (const Exercise& exercise : desk.exercises())
+    if (exercise.id == id) return exercise.number + " " + desk.words()(exercise.title);
+  return id;
+}
+
 }  // namespace
 
 std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, int height) {
-  if (!scene_) {
-    scene_ = desk.show_scene(t_s_ == 0 ? kFirstWait_s : 0);
-    if (scene_) organ_T_ = std::make_shared<const TriangleSurface>(scene_->organ_T);
-    if (scene_) film_ = std::make_unique<FilmLoop>(scene_->setup, desk.assets());
-  }
+  if (!scene_) scene_ = desk.show_scene(t_s_ == 0 ? kFirstWait_s : 0);
   if (!scene_) return {};
+  if (!film_) film_ = std::make_unique<FilmLoop>(show_attempt(desk), desk.assets());
   Stage stage;
-  stage.view = film_->ready() ? film_->view() : show_view(*scene_, organ_T_, t_s_);
-  const double left = panel_right_ > 0 && width - panel_right_ >= 0.4 * width ? panel_right_ : 0;
-  stage.x = left;
-  stage.width = width - left;
+  stage.view = film_->ready() ? film_->view() : show_view(*scene_, t_s_);
+  const double beside = free_width(panel_area(desk.scale(), width, height), width);
+  stage.x = beside > 0 ? width - beside : 0;
+  stage.width = beside > 0 ? beside : width;
   stage.height = height;
-  stage.dim = left > 0 ? 0 : 0.45;
+  stage.dim = beside > 0 ? 0 : 0.45;
   return stage;
 }
 
@@ -69,7 +92,7 @@ std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeDesk& desk) 
   const PracticeDesk::Advice advice = desk.next();
   std::optional<ScreenName> to;
   ui.marked(Mark::kTick, w("Signed in as {0}", {desk.trainee()}));
-  if (ui.button("next", w("Next: {0} {1}", {advice.exercise_id, advice.level}), "Enter", true, kPanelWidth - 36)) {
+  if (ui.button("next", w("Next: {0}, {1}", {title_of(desk, advice.exercise_id), advice.level}), "Enter", true, kPanelWidth - 36)) {
     desk.exercise_id = advice.exercise_id;
     desk.level = advice.level;
     to = ScreenName::kBriefing;
@@ -109,40 +132,37 @@ std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeDesk& desk) {
   return to;
 }
 
-/// What is seen, and where it comes from; beside the device that is used.
+/// What is seen, and that it is nobody.
 void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
-  const Words& w = desk.words();
-  const double free = free_width(ui, panel_right_);
+  const Area panel = panel_area(desk.scale(), ui.width(), ui.height());
+  const double free = free_width(panel, ui.width());
   if (!scene_ || free <= 0) return;
-  const double room = free - ui.px(2 * kMargin), x = panel_right_ + ui.px(kMargin), high = ui.line_height();
-  const double y = ui.height() - 2 * high - ui.px(22), pad = ui.px(10);
-  const std::string seen = film_->ready() ? w("Replay of the expert: {0}", {scene_->organ.name}) : w("Still scene: {0}", {scene_->organ.name});
-  const double wide = std::min(room, std::max(ui.text_width(scene_->organ.credit), ui.text_width(seen)));
-  ui.paint_ground({x - pad, y - pad / 2, wide + 2 * pad, 2 * high + ui.px(4) + pad}, 0.85, ui.px(6));
-  ui.text_at(x, y, seen, Ink::kText, room);
-  ui.text_at(x, y + high + ui.px(4), scene_->organ.credit, Ink::kDim, room);
+  const Words& w = desk.words();
+  const bool film = film_ && film_->ready();
+  const std::string said = film ? w("Replay of the expert: {0}", {film_->scene().organ.name}) : w("Still scene, synthetic: no patient.");
+  const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), high = ui.line_height(), pad = ui.px(10);
+  const double y = ui.height() - high - ui.px(22);
+  ui.paint_ground({x - pad, y - pad / 2, std::min(room, ui.text_width(said)) + 2 * pad, high + pad}, 0.85, ui.px(6));
+  ui.text_at(x, y, said, Ink::kDim, room);
 }
 
 std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
   t_s_ += dt_s;
   if (film_) film_->advance(dt_s);
   const Words& w = desk.words();
-  const double margin = std::min(ui.px(kMargin), 0.02 * ui.width());
-  const Area area{margin, margin, std::min(ui.px(kPanelWidth), ui.width() - 2 * margin), ui.height() - 2 * margin};
-  panel_right_ = area.x + area.width;
   caption(ui, desk);
-  ui.begin_panel("start", area);
+  ui.begin_panel("start", panel_area(desk.scale(), ui.width(), ui.height()));
   ui.title("Trocar");
   ui.text(w("Practise laparoscopy and feel what you touch."), Ink::kDim);
   ui.gap(10);
   std::optional<ScreenName> to = desk.is_guest() ? guest_part(ui, desk) : trainee_part(ui, desk);
-  ui.to_bottom(246);
-  ui.heading(w("Teacher"));
-  ui.text(w("Results, trends and export: trocar cohort, trocar trainee show."), Ink::kDim);
-  ui.gap(10);
+  ui.to_bottom(236);
   if (const auto chosen = foot(ui, desk)) to = chosen;
   ui.gap(4);
   ui.marked(Mark::kInfo, w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."), Ink::kDim);
+  ui.gap(4);
+  ui.heading(w("Teacher"));
+  ui.text(w("Results, trends and export: trocar cohort, trocar trainee show."), Ink::kDim);
   ui.end_panel();
   return to;
 }

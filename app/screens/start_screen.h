@@ -1,4 +1,4 @@
-// T1: the first page. Try as a guest, sign in, language and size; behind it the abdomen that ships, where the expert plays.
+// T1: the first page. Try as a guest, sign in, language and size; behind it the show scene, then the expert at work.
 #pragma once
 
 #include <memory>
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "app/playback/film_loop.h"
-#include "app/scene.h"
 #include "app/screens/screen.h"
 #include "app/words/words.h"
 
@@ -23,10 +22,9 @@ class StartScreen final : public Screen {
   std::optional<ScreenName> foot(Ui& ui, PracticeDesk& desk);
   void caption(Ui& ui, const PracticeDesk& desk) const;
 
-  double t_s_ = 0, panel_right_ = 0;
-  std::shared_ptr<const Scene> scene_;
-  std::unique_ptr<FilmLoop> film_;   ///< over the still scene, as soon as there is one
-  std::shared_ptr<const TriangleSurface> organ_T_;
+  double t_s_ = 0;
+  std::shared_ptr<const SceneView> scene_;
+  std::unique_ptr<FilmLoop> film_;   ///< in place of the still scene, as soon as it can be seen
   std::vector<Language> languages_;
   std::string code_, wrong_;
 };

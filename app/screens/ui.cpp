@@ -75,8 +75,8 @@ void Ui::begin_panel(const char* id, const Area& area, double opacity) {
   ImGui::SetNextWindowPos(at(area.x, area.y));
   ImGui::SetNextWindowSize(at(std::max(8.0, area.width), std::max(8.0, area.height)));
   ImGui::SetNextWindowBgAlpha(static_cast<float>(opacity));
-  ImGui::Begin(id, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::Begin(id, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PushFont(font_of(UiFont::kBody));
 }
 
@@ -162,14 +162,17 @@ void Ui::text_at(double x, double y, const std::string& text, Ink ink, double ro
   if (panel_.empty()) {
     const std::string shown = room > 0 ? UiParts::fitted(text, room, font) : text;
     const ImFont* f = font_of(font);
-    ImGui::GetBackgroundDrawList()->AddText(f, f->FontSize, at(left, y), packed(ink_colour(ink)), shown.data(), shown.data() + shown.size());
+    ImGui::GetBackgroundDrawList()->AddText(f, f->FontSize, at(left, y), packed(ink_colour(ink)), shown.data(),
+                                             shown.data() + shown.size());
     drawn_.push_back({text, left, y, UiParts::width(shown, font), UiParts::height(font), room > 0 ? room : w, shown != text});
     return;
   }
   UiParts::draw(*this, left, y, text, ink, room > 0 ? room : w + 1, font);
 }
 
-double Ui::text_width(const std::string& text, bool heading) const { return UiParts::width(text, heading ? UiFont::kHeading : UiFont::kBody); }
+double Ui::text_width(const std::string& text, bool heading) const {
+  return UiParts::width(text, heading ? UiFont::kHeading : UiFont::kBody);
+}
 double Ui::line_height() const { return UiParts::height(); }
 
 void Ui::explain(const std::string& text) {
@@ -177,8 +180,8 @@ void Ui::explain(const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByPopup) && !focused) return;
   if (focused && !ImGui::IsItemHovered()) {
     const ImVec2 below = ImGui::GetItemRectMin();
-    const float wide = static_cast<float>(std::min(px(460), width_ - 16));
-    ImGui::SetNextWindowPos(ImVec2(std::min(below.x, static_cast<float>(width_) - wide), ImGui::GetItemRectMax().y + static_cast<float>(px(6))));
+    const double wide = std::min(px(460), width_ - 16);
+    ImGui::SetNextWindowPos(at(std::min<double>(below.x, width_ - wide), ImGui::GetItemRectMax().y + px(6)));
   }
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(static_cast<float>(px(440)));

@@ -71,9 +71,10 @@ class Ui {
   /// The pointer in the last drawing(): px of the window. `clicked` in this frame, `held` while dragged out of it too.
   struct Pointer { bool over = false, clicked = false, held = false; double x = 0, y = 0; };
   Pointer pointer() const;
-  /// Steps asked of the last drawing() while it has the focus: comma and full stop one, page keys ten. 0: none.
+  /// Steps asked of the last drawing() while it has the focus: left and right, comma and full stop one, page keys ten. 0: none.
   int key_steps() const;
-  /// A text at a place of its own, no wider than `room` (0: as wide as it is): in plots, on bars. @param anchor 0 from, 0.5 round, 1 up to x.
+  /// A text at a place of its own, no wider than `room` (0: as wide as it is): in plots, on bars.
+  /// @param anchor 0 from, 0.5 round, 1 up to x.
   void text_at(double x, double y, const std::string& text, Ink ink = Ink::kText, double room = 0, double anchor = 0, bool heading = false);
   double text_width(const std::string& text, bool heading = false) const;
   double line_height() const;

@@ -50,7 +50,9 @@ void UiParts::in_order(bool types) {
   g.NavDisableHighlight = false;
   g.NavDisableMouseHover = true;
   if (!ImGui::IsItemVisible()) ImGui::SetScrollHereY();
-  if (types) ImGui::ActivateItem(id);
+  if (!types) return;
+  g.NavNextActivateId = id;
+  g.NavNextActivateFlags = ImGuiActivateFlags_PreferInput;
 }
 
 bool UiParts::chosen_by_key(const std::string& key) {
@@ -68,15 +70,16 @@ bool UiParts::chosen_by_key(const std::string& key) {
   const auto typing = std::any_of(memory.items_before.begin(), memory.items_before.end(),
                                   [&g](const UiMemory::Item& item) { return item.types && item.id == g.ActiveId; });
   if (typing) return code == kKeyEnter || code == kKeyEscape || code >= kKeyF1;
+  if (g.IO.WantTextInput) return false;  // a slider's number is being typed
   return code != kKeyEnter || !memory.focus_shown;
 }
 
 bool Ui::button(const char* id, const std::string& text, const std::string& key, bool strong, double width_at_720) {
-  const std::string hint = key.empty() ? "" : "[" + key + "]";
+  const std::string hint = key.empty() ? "" : "[" + words_.name(key) + "]";
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
   const double gap = px(10), hint_width = hint.empty() ? 0 : UiParts::width(hint) + gap;
   const double wanted = width_at_720 > 0 ? px(width_at_720) : UiParts::width(text) + hint_width + 2 * pad.x;
-  const double wide = std::min(wanted, room()), high = UiParts::height() + 2 * pad.y * (strong ? 1.5 : 1.0);
+  const double wide = std::min(wanted, room()), high = UiParts::height() + 2 * pad.y * (strong && width_at_720 > 0 ? 1.5 : 1.0);
   if (strong) {
     ImGui::PushStyleColor(ImGuiCol_Button, vec(ground_colour(Ground::kStrong)));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, vec(ground_colour(Ground::kStrongHover)));

@@ -159,7 +159,12 @@ void UiLayer::State::feed_all(const std::vector<InputEvent>& events) {
   for (int key = 0; key < kKeys; ++key) io.KeysDown[key] = held[static_cast<std::size_t>(key)];
   for (int button = 0; button < 3; ++button) io.MouseDown[button] = buttons[static_cast<std::size_t>(button)];
   memory.pressed.clear();
+  std::array<bool, kKeys> keys_before = held;
+  std::array<bool, 3> buttons_before = buttons;
   for (const InputEvent& event : events) feed(event, io);
+  // What was down before and is let go is up at once.
+  for (std::size_t i = 0; i < keys_before.size(); ++i) io.KeysDown[i] = held[i] || (io.KeysDown[i] && !keys_before[i]);
+  for (std::size_t i = 0; i < buttons_before.size(); ++i) io.MouseDown[i] = buttons[i] || (io.MouseDown[i] && !buttons_before[i]);
   const auto is_down = [&](Key key) { return io.KeysDown[key]; };
   io.KeyShift = is_down(kKeyShift);
   io.KeyCtrl = is_down(kKeyControl);

@@ -90,7 +90,8 @@ void Ui::paint_line(double x0, double y0, double x1, double y1, Ink ink, double 
   const double length = std::hypot(x1 - x0, y1 - y0), dash = std::max(2.0, px(7));
   for (double d = 0; d < length; d += 2 * dash) {
     const double from = d / length, to = std::min(1.0, (d + dash) / length);
-    list().AddLine(at(x0 + from * (x1 - x0), y0 + from * (y1 - y0)), at(x0 + to * (x1 - x0), y0 + to * (y1 - y0)), shape(ink), f(px(thickness)));
+    list().AddLine(at(x0 + from * (x1 - x0), y0 + from * (y1 - y0)), at(x0 + to * (x1 - x0), y0 + to * (y1 - y0)), shape(ink),
+                   f(px(thickness)));
   }
 }
 

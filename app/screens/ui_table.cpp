@@ -64,7 +64,8 @@ int Ui::table(const char* id, const std::vector<std::string>& heads, const std::
     ImGui::PushID(static_cast<int>(r));
     const ImVec2 from = ImGui::GetCursorScreenPos();
     if (r % 2 == 0)
-      ImGui::GetWindowDrawList()->AddRectFilled(from, at(from.x + all, from.y + high), packed(ground_colour(Ground::kRow)), static_cast<float>(px(4)));
+      ImGui::GetWindowDrawList()->AddRectFilled(from, at(from.x + all, from.y + high), packed(ground_colour(Ground::kRow)),
+                                                static_cast<float>(px(4)));
     if (ImGui::Selectable("##row", false, ImGuiSelectableFlags_None, at(all, high))) chosen = static_cast<int>(r);
     UiParts::in_order();
     if (UiParts::chosen_by_key("")) chosen = static_cast<int>(r);
@@ -83,7 +84,8 @@ Area Ui::drawing(const char* id, double height_at_720) {
   ImGui::InvisibleButton(UiParts::hidden(id).c_str(), at(area.width, area.height));
   UiParts::in_order();
   if (GImGui->NavId == ImGui::GetItemID() && !GImGui->NavDisableHighlight)
-    ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), packed(okabe_ito::kYellow), 4, 0, static_cast<float>(px(2)));
+    ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), packed(okabe_ito::kYellow), 4, 0,
+                                        static_cast<float>(px(2)));
   return area;
 }
 
@@ -99,6 +101,9 @@ int Ui::key_steps() const {
   for (const std::int32_t key : ui_memory().pressed) {
     if (key == '.' || key == kKeyPageDown) steps += key == '.' ? 1 : 10;
     if (key == ',' || key == kKeyPageUp) steps -= key == ',' ? 1 : 10;
+    if (key != kKeyLeft && key != kKeyRight) continue;
+    steps += key == kKeyRight ? 1 : -1;
+    ImGui::NavMoveRequestCancel();   // the focus stays
   }
   return steps;
 }

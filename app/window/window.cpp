@@ -87,7 +87,8 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
   if (!state_->window) {
     const std::string reason = last_error();
     glfwTerminate();
-    refuse("the display gives no OpenGL 3.3 core through EGL: " + reason + "; install libegl-mesa0 libgl1-mesa-dri or the GPU vendor's driver");
+    refuse("the display gives no OpenGL 3.3 core through EGL: " + reason +
+           "; install libegl-mesa0 libgl1-mesa-dri or the GPU vendor's driver");
   }
   state_->events.listen(state_->window);
   glfwSetWindowSizeLimits(state_->window, 200, 100, GLFW_DONT_CARE, GLFW_DONT_CARE);
@@ -107,7 +108,8 @@ Window::~Window() {
 void Window::make_current() {
   if (glfwGetCurrentContext() == state_->window) return;
   glfwMakeContextCurrent(state_->window);
-  if (glfwGetCurrentContext() != state_->window) throw EnvironmentError("the window's OpenGL context cannot be made current on this thread: " + last_error());
+  if (glfwGetCurrentContext() != state_->window)
+    throw EnvironmentError("the window's OpenGL context cannot be made current on this thread: " + last_error());
 }
 
 const ContextInfo& Window::info() const { return state_->info; }

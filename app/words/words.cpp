@@ -96,6 +96,7 @@ bool plain_code(const std::string& language) {
 std::size_t own_text(const std::string& form) { return form.size() - 3 * places(form).size(); }
 
 constexpr int kDeepest = 3;       // sentences in sentences
+constexpr std::size_t kMostMissing = 1000;  // a sentence with a running number must not fill the memory
 constexpr std::size_t kSaysLittle = 6;
 
 /// "0.4", "3 / 12", "12.5 mm/s": a number with at most a unit.
@@ -144,12 +145,21 @@ Words::Words(const std::filesystem::path& folder, const std::string& language) :
   std::stable_sort(forms_.begin(), forms_.end(), [](const auto& a, const auto& b) { return own_text(a) > own_text(b); });
 }
 
+void Words::note_missing(std::string_view english) const {
+  if (missing_.size() < kMostMissing) missing_.emplace(english);
+}
+
 std::string Words::operator()(std::string_view english) const {
   if (language_ == "en") return std::string(english);
   const auto found = translations_.find(english);
   if (found != translations_.end()) return found->second;
-  missing_.emplace(english);
+  note_missing(english);
   return std::string(english);
+}
+
+std::string Words::name(std::string_view english) const {
+  const auto found = translations_.find(english);
+  return found != translations_.end() ? found->second : std::string(english);
 }
 
 std::string Words::operator()(std::string_view english, const std::vector<std::string>& values) const {
@@ -176,7 +186,7 @@ std::optional<std::string> Words::found(std::string_view english, int depth) con
 std::string Words::made(std::string_view english) const {
   if (language_ == "en" || english.empty()) return std::string(english);
   if (auto sentence = found(english, 0)) return *sentence;
-  missing_.emplace(english);
+  note_missing(english);
   return std::string(english);
 }
 

@@ -25,6 +25,8 @@ class Words {
   Words(const std::filesystem::path& folder, const std::string& language);
 
   std::string operator()(std::string_view english) const;
+  /// A name that may or may not have a translation (a key, an organ): as it is when it has none.
+  std::string name(std::string_view english) const;
   /// With {0}, {1}, ... replaced. A brace that names no value stays as it is.
   std::string operator()(std::string_view english, const std::vector<std::string>& values) const;
   /// A sentence that another part made with its values in it ("Reach 0.4 to 0.8 N and hold."): found by the key that it
@@ -35,12 +37,14 @@ class Words {
   std::string number(double value, int decimals) const;
 
   const std::string& language() const { return language_; }
+  const std::string& decimal_sign() const { return decimal_; }
   /// All keys with their translations.
   const std::map<std::string, std::string, std::less<>>& catalogue() const { return translations_; }
   /// Sentences asked for that the catalogue lacks.
   const std::set<std::string>& missing() const { return missing_; }
 
  private:
+  void note_missing(std::string_view english) const;
   std::optional<std::string> filled(std::string_view english, int depth) const;
   std::optional<std::string> found(std::string_view english, int depth) const;
 

@@ -7,6 +7,13 @@ out vec4 colour;
 uniform sampler3D u_noise;
 uniform sampler2DShadow u_shadow;
 
+#ifdef PRESET_POTATO
+void main() {
+  vec3 to_lamp = lamp.xyz - v_position;
+  float diffuse = max(dot(normalize(v_normal), normalize(to_lamp)), 0.0);
+  colour = vec4(lamp_power(to_lamp) * vec3(0.038, 0.110, 0.122) * v_open * (0.85 * diffuse * contact_shade(v_position) + 0.16), 1.0);
+}
+#else
 void main() {
   vec3 rest_mm = v_rest * 1000.0;
   vec4 broad = textureLod(u_noise, rest_mm * 0.012 + 0.2, 0.0);
@@ -23,3 +30,4 @@ void main() {
   float shade = lamp_shadow(u_shadow, v_position) * contact_shade(v_position);
   colour = vec4(lamp_power(to_lamp) * base * v_open * (diffuse * shade + 0.14), 1.0);
 }
+#endif

@@ -12,17 +12,17 @@ void main() {
   vec3 l = normalize(to_lamp);
   vec3 v = normalize(eye.xyz - v_position);
   vec3 h = normalize(l + v);
-  float power = lamp_power(to_lamp);
+  float power = min(lamp_power(to_lamp), 1.5);  // the processor holds bright metal near the lens down
   float n_l = max(dot(n, l), 0.0);
   float n_h = max(dot(n, h), 0.0);
   vec4 brush = texture(u_noise, v_part * vec3(900.0, 900.0, 60.0));
   vec3 r = reflect(-v, n);
   // What steel mirrors in there: lamp side pale, far side tissue red, below dark.
   float side = smoothstep(-0.5, 0.9, dot(r, -axis.xyz));
-  vec3 room = mix(vec3(0.085, 0.035, 0.028), vec3(0.34, 0.31, 0.30), side);
+  vec3 room = mix(vec3(0.060, 0.026, 0.020), vec3(0.205, 0.190, 0.185), side);
   float f = schlick(0.60, max(dot(v, h), 0.0));
-  vec3 steel = room * f * (0.75 + 0.4 * brush.w) + vec3(0.085, 0.087, 0.092) * n_l +
-               vec3(0.95, 0.97, 1.0) * (0.055 * ggx(n_h, 0.30) + 0.012 * ggx(n_h, 0.12)) * n_l;
+  vec3 steel = room * f * (0.75 + 0.4 * brush.w) + vec3(0.046, 0.047, 0.050) * n_l +
+               vec3(0.95, 0.97, 1.0) * (0.030 * ggx(n_h, 0.30) + 0.009 * ggx(n_h, 0.12)) * n_l;
   vec3 sheath = vec3(0.0105, 0.0105, 0.012) * (0.4 + n_l) + vec3(0.012) * ggx(n_h, 0.34) * n_l +
                 vec3(0.012, 0.007, 0.006) * side;
 #ifdef ROLL_STRIPE

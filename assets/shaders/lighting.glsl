@@ -28,24 +28,36 @@ float schlick(float f0, float v_h) {
 float lamp_power(vec3 to_lamp) {
   float d2_mm = dot(to_lamp, to_lamp) * 1e6;
   float c = max(dot(-normalize(to_lamp), axis.xyz), 0.0);
+  float c2 = c * c;
   // Beyond the working distance the camera's gain and light thrown back by the walls soften the fall.
-  float plain = lamp.w * c * c * c * c / (d2_mm + 60.0);
-  return plain < 1.0 ? pow(plain, 0.72) : pow(plain, 0.80);
+  float plain = lamp.w * c2 * c2 / (d2_mm + 60.0);
+  return plain < 1.0 ? pow(plain, 0.62) : pow(plain, 0.80);
 }
 
-// Share of the lamp's light that reaches a point, four taps; the floor is light scattered inside the tissue and thrown
-// back by the walls.
+// What the air adds and takes over a distance: the far wall is paler and flatter than the organ before the lens.
+vec3 hazed(vec3 light, vec3 at) {
+  float thick = 1.0 - exp(-1.4 * max(length(at - eye.xyz) - 0.06, 0.0));
+  return mix(light, vec3(0.070, 0.036, 0.029), thick);
+}
+
+#ifdef PRESET_POTATO
+float lamp_shadow(sampler2DShadow map, vec3 at) { return 1.0; }
+#else
+// Share of the lamp's light that reaches a point; the floor is light scattered inside the tissue and thrown back by the walls.
 float lamp_shadow(sampler2DShadow map, vec3 at) {
   vec4 s = lamp_projection * vec4(at, 1.0);
   vec3 uvz = s.xyz / s.w * 0.5 + 0.5;
   uvz.z -= 0.0012;
-  float sum = 0.0;
-  sum += texture(map, uvz + vec3(-0.0011, -0.0004, 0.0));
-  sum += texture(map, uvz + vec3(0.0004, -0.0011, 0.0));
-  sum += texture(map, uvz + vec3(0.0011, 0.0004, 0.0));
-  sum += texture(map, uvz + vec3(-0.0004, 0.0011, 0.0));
-  return 0.30 + 0.70 * 0.25 * sum;
+#ifdef PRESET_SOFT
+  float sum = 0.5 * (texture(map, uvz + vec3(-0.0010, -0.0004, 0.0)) + texture(map, uvz + vec3(0.0010, 0.0004, 0.0)));
+#else
+  float sum = texture(map, uvz + vec3(-0.0011, -0.0004, 0.0)) + texture(map, uvz + vec3(0.0004, -0.0011, 0.0));
+  sum += texture(map, uvz + vec3(0.0011, 0.0004, 0.0)) + texture(map, uvz + vec3(-0.0004, 0.0011, 0.0));
+  sum *= 0.25;
+#endif
+  return 0.30 + 0.70 * sum;
 }
+#endif
 
 // Darkening near the instrument: the nearer the shaft to a surface, the darker the surface under it.
 float contact_shade(vec3 at) {

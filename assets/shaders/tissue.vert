@@ -6,22 +6,19 @@ out vec3 v_position;
 out vec3 v_rest;
 out vec3 v_normal;
 out float v_open;
+uniform vec3 u_breath;  // how far breathing has moved this part
 invariant gl_Position;
 
 void main() {
   vec3 p = a_position;
-  vec3 n = a_normal;
 #ifdef DIMPLED
   vec3 from = p - dimple.xyz;
-  float spread2 = dimple_normal.w * dimple_normal.w;
-  float w = exp(-dot(from, from) / (2.0 * spread2));
-  // Normal of the dented surface: transpose of the inverse of I - depth * n_d * grad(w)^T.
-  n = normalize(n - dimple.w * w / spread2 * dot(n, dimple_normal.xyz) * from);
-  p -= dimple.w * w * dimple_normal.xyz;
+  p -= dimple.w * exp(-dot(from, from) / (2.0 * dimple_normal.w * dimple_normal.w)) * dimple_normal.xyz;
 #endif
+  p += u_breath;
   v_position = p;
   v_rest = a_position;
-  v_normal = n;
+  v_normal = a_normal;
   v_open = a_light.x;
   gl_Position = view_projection * vec4(p, 1.0);
 }

@@ -71,6 +71,7 @@ TEST(Proof, EveryRuleCanBreak) {
   spoiled([](Reach& r) { r.off_axis = 0.09; });
   spoiled([](Reach& r) { r.clearance_m = -1e-6; });
   spoiled([](Reach& r) { r.handle_to_port_m = 0.025; });
+  spoiled([](Reach& r) { r.shaft_gap_m = 0.001; });
   spoiled([](Reach& r) { r.torque_share = 1.01; });
   spoiled([](Reach& r) { r.held_s = 1; });
   std::sort(reasons.begin(), reasons.end());

@@ -49,5 +49,23 @@ TEST_F(SharedFolder, ALiverFromCtIsSoundAndSkillShowsOnIt) {
   expect_skill_to_show("liver.organ.toml");
 }
 
+/// Upright its lower pole's hump lies under the shaft: of 13 tasks an expert could do 3.
+TEST_F(SharedFolder, ASpleenFromCtHasRoomForTheWholeInstrument) {
+  const auto mask = shared_ / "data" / "ct_abdomen_totalseg" / "masks_v1" / "spleen.nii.gz";
+  json_of({"organ", "import", mask.string(), "--name", "spleen", "--triangles", "3000", "-o", "spleen", "--json"}, 0);
+  const Json proofs = json_of({"check", "E02", "--organ", "spleen.organ.toml", "--unseen", "0", "--json"}, 0);
+  ASSERT_EQ(proofs.size(), 4U);
+  for (const Json& proof : proofs) {
+    EXPECT_EQ(proof["sound"], true) << proof["why"];
+    EXPECT_GE(proof["worst"]["shaft_gap_m"].get<double>(), 0.0015) << proof["level"];
+  }
+  for (const char* level : {"L1", "L3"}) {
+    const Words words{"run", "E02", "--hand", "expert", "--level", level, "--organ", "spleen.organ.toml", "--db", ":memory:", "--json"};
+    const Json run = json_of(words, 0);
+    EXPECT_EQ(run["status"], "completed") << level;
+    EXPECT_EQ(run["passed"], true) << level << ": " << run["score"];
+  }
+}
+
 }  // namespace
 }  // namespace trocar::test

@@ -37,6 +37,7 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"organ import", {"--labels", "--label", "--triangles", "--unit", "-o", "--json"}},
       {"organ info", {"--json"}},
       {"organ render", {"-o", "--width", "--height"}},
+      {"picture", {"--out", "--scene", "--preset", "--width", "--height", "--seed", "--no-grain"}},
       {"organ phantom", {"--out", "--seed", "--json"}},
       {"trainee", {"add", "list", "show"}},
       {"trainee add", {"--db", "--json"}},

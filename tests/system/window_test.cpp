@@ -1,10 +1,7 @@
 // `trocar practice` as a person meets it: a real window on a display of its own, real keys; and what it does without a display.
 #include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <functional>
-#include <thread>
 
+#include "tests/support/x_display.h"
 #include "tests/system/system_fixture.h"
 
 namespace trocar::test {
@@ -12,63 +9,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool on_path(const std::string& program) { return fs::exists(fs::path("/usr/bin") / program); }
-
-/// Asks until it is so; gives up after a minute and a half, which is a failure of the caller's expectation.
-bool comes_true(const std::function<bool()>& so) {
-  for (int i = 0; i < 900; ++i) {
-    if (so()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  return false;
-}
+using testing_support::comes_true;
+using testing_support::XDisplay;
 
 class WindowOnADisplay : public SystemTest {
  protected:
   void SetUp() override {
-    for (const char* needed : {"Xvfb", "xdotool"})
-      if (!on_path(needed)) GTEST_SKIP() << "NO WINDOW IS TESTED HERE: " << needed << " is not installed";
-    const fs::path server = folder_ / "server";
-    fs::create_directories(server);
-    Launch launch{{"-displayfd", "1", "-screen", "0", "1280x720x24", "-nolisten", "tcp"}, server, {}};
-    launch.program = "/usr/bin/Xvfb";
-    server_ = std::make_unique<RunningProgram>(launch);
-    ASSERT_TRUE(comes_true([&] { return !display_number(server).empty(); })) << "Xvfb gave no display";
-    display_ = ":" + display_number(server);
+    if (!XDisplay::missing().empty()) GTEST_SKIP() << "NO WINDOW IS TESTED HERE: " << XDisplay::missing() << " is not installed";
+    display_ = std::make_unique<XDisplay>(folder_.path());
+    ASSERT_FALSE(display_->name().empty()) << "Xvfb gave no display";
   }
   void TearDown() override {
     if (program_ && program_->running()) program_->kill_at_once();
-    if (server_ && server_->running()) server_->kill_at_once();
-  }
-  static std::string display_number(const fs::path& server) {
-    for (const auto& entry : fs::directory_iterator(server / ".streams"))
-      if (entry.path().extension() == ".out") {
-        std::string text = file_bytes(entry.path());
-        if (!text.ends_with('\n')) return "";
-        text.pop_back();
-        return text;
-      }
-    return "";
   }
   Launch on_display(const std::vector<std::string>& arguments) const {
-    return {arguments, folder_.path(), {{"DISPLAY", display_}, {"WAYLAND_DISPLAY", ""}, {"XDG_DATA_HOME", (folder_ / "data").string()},
+    return {arguments, folder_.path(), {{"DISPLAY", display_->name()}, {"WAYLAND_DISPLAY", ""}, {"XDG_DATA_HOME", (folder_ / "data").string()},
             {"XDG_CONFIG_HOME", (folder_ / "config").string()}, {"XDG_CACHE_HOME", (folder_ / "cache").string()},
             {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}, {"LANG", "C"}}};
   }
-  Outcome xdotool(const std::vector<std::string>& arguments) const {
-    Launch launch = on_display(arguments);
-    launch.program = "/usr/bin/xdotool";
-    return run_program(launch);
-  }
   void open_window(const std::vector<std::string>& arguments) {
     program_ = std::make_unique<RunningProgram>(on_display(arguments));
-    ASSERT_TRUE(comes_true([&] {
-      return !program_->running() || xdotool({"search", "--onlyvisible", "--name", "^Trocar$"}).exit_code == 0;
-    }));
+    ASSERT_TRUE(comes_true([&] { return !program_->running() || !display_->window("Trocar").empty(); }));
     ASSERT_TRUE(program_->running()) << program_->wait().err;
-    std::string id = xdotool({"search", "--onlyvisible", "--name", "^Trocar$"}).out;
-    id = id.substr(0, id.find('\n'));
-    xdotool({"windowfocus", "--sync", id});  // there is no window manager to do it
+    display_->xdotool({"windowfocus", "--sync", display_->window("Trocar")});  // there is no window manager to do it
   }
   int pictures() const {
     const fs::path folder = folder_ / "pictures";
@@ -78,14 +41,14 @@ class WindowOnADisplay : public SystemTest {
   }
   /// Presses a key, and waits until a picture taken afterwards shows that frames have gone by.
   void key(const std::string& name) {
-    xdotool({"key", name});
+    display_->xdotool({"key", name});
     const int before = pictures();
-    xdotool({"key", "F12"});
+    display_->xdotool({"key", "F12"});
     ASSERT_TRUE(comes_true([&] { return pictures() > before || !program_->running(); })) << "after " << name;
   }
 
-  std::unique_ptr<RunningProgram> server_, program_;
-  std::string display_;
+  std::unique_ptr<XDisplay> display_;
+  std::unique_ptr<RunningProgram> program_;
 };
 
 TEST_F(WindowOnADisplay, OpensTakesRealKeysAndQuitsByItsMenu) {
@@ -96,7 +59,7 @@ TEST_F(WindowOnADisplay, OpensTakesRealKeysAndQuitsByItsMenu) {
   key("F1");
   key("Escape");
   for (int i = 0; i < 5; ++i) key("Tab");
-  xdotool({"key", "Return"});
+  display_->xdotool({"key", "Return"});
   ASSERT_TRUE(comes_true([&] { return !program_->running(); })) << "the menu's last item is Quit";
   const Outcome outcome = program_->wait();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -106,11 +69,10 @@ TEST_F(WindowOnADisplay, OpensTakesRealKeysAndQuitsByItsMenu) {
 TEST_F(WindowOnADisplay, PointerAndResizingDoNotBreakIt) {
   open_window({"practice", "--db", ":memory:", "--width", "640", "--height", "360"});
   if (HasFatalFailure()) return;
-  std::string id = xdotool({"search", "--onlyvisible", "--name", "^Trocar$"}).out;
-  id = id.substr(0, id.find('\n'));
+  const std::string id = display_->window("Trocar");
   for (const auto& [width, height] : {std::pair{"200", "100"}, std::pair{"1280", "720"}, std::pair{"400", "700"}}) {
-    xdotool({"windowsize", "--sync", id, width, height});
-    xdotool({"mousemove", "100", "60"});
+    display_->xdotool({"windowsize", "--sync", id, width, height});
+    display_->xdotool({"mousemove", "100", "60"});
     key("F1");
     EXPECT_TRUE(program_->running()) << width << " x " << height;
     key("F1");

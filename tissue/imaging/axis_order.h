@@ -44,4 +44,13 @@ std::vector<Value> reordered(const std::vector<Value>& stored, const std::array<
   return result;
 }
 
+/// A volume brought into RAS order in place, whatever its voxels hold.
+template <typename Value>
+void put_in_ras_order(std::array<int, 3>& size, Eigen::Affine3d& index_to_ras_mm, std::vector<Value>& voxels) {
+  const AxisOrder order = ras_order(index_to_ras_mm.linear());
+  voxels = reordered(voxels, size, order);
+  index_to_ras_mm = reordered_frame(index_to_ras_mm, size, order);
+  size = reordered_size(size, order);
+}
+
 }  // namespace trocar

@@ -32,4 +32,7 @@ struct ImageVolume {
 /// Permutes and flips the axes into RAS order; the world position of every voxel stays.
 ImageVolume in_ras_order(ImageVolume volume);
 
+/// Whether the values can only be Hounsfield units: some lie below -500, as air in CT does.
+bool certainly_hounsfield(const ImageVolume& image);
+
 }  // namespace trocar

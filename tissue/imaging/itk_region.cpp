@@ -1,13 +1,10 @@
 #include "tissue/imaging/itk_region.h"
 
-#include <itkBinaryFillholeImageFilter.h>
 #include <itkBinaryThresholdImageFilter.h>
-#include <itkConnectedComponentImageFilter.h>
 #include <itkConnectedThresholdImageFilter.h>
 #include <itkCurvatureFlowImageFilter.h>
 #include <itkImage.h>
 #include <itkMultiThreaderBase.h>
-#include <itkRelabelComponentImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
 #include <algorithm>
@@ -18,7 +15,6 @@ namespace {
 
 using Mask = itk::Image<std::uint8_t, 3>;
 using Values = itk::Image<float, 3>;
-using Numbers = itk::Image<std::uint32_t, 3>;
 
 /// An ITK image over our own memory; nothing is copied.
 template <typename Image>
@@ -107,31 +103,6 @@ void keep_connected(std::vector<std::uint8_t>& mask, const RegionShape& shape, c
   filter->SetSeed({{seed[0], seed[1], seed[2]}});
   filter->Update();
   copy_back(*filter->GetOutput(), mask);
-}
-
-std::vector<std::size_t> keep_largest(std::vector<std::uint8_t>& mask, const RegionShape& shape) {
-  const auto pieces = itk::ConnectedComponentImageFilter<Mask, Numbers>::New();
-  pieces->SetInput(over<Mask>(mask, shape));
-  pieces->SetFullyConnected(false);
-  const auto sorted = itk::RelabelComponentImageFilter<Numbers, Numbers>::New();
-  sorted->SetInput(pieces->GetOutput());
-  sorted->InPlaceOn();
-  sorted->Update();
-  const std::uint32_t* number = sorted->GetOutput()->GetBufferPointer();
-  for (std::size_t voxel = 0; voxel < mask.size(); ++voxel) mask[voxel] = number[voxel] == 1 ? 1 : 0;
-  const auto& sizes = sorted->GetSizeOfObjectsInPixels();
-  return {sizes.begin(), sizes.end()};
-}
-
-std::size_t fill_holes(std::vector<std::uint8_t>& mask, const RegionShape& shape) {
-  const auto before = std::count(mask.begin(), mask.end(), std::uint8_t{1});
-  const auto filter = itk::BinaryFillholeImageFilter<Mask>::New();
-  filter->SetInput(over<Mask>(mask, shape));
-  filter->SetForegroundValue(1);
-  filter->SetFullyConnected(false);
-  filter->Update();
-  copy_back(*filter->GetOutput(), mask);
-  return static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{1}) - before);
 }
 
 }  // namespace trocar

@@ -29,10 +29,5 @@ void erode(std::vector<std::uint8_t>& mask, const RegionShape& shape, double rad
 
 /// Keeps what hangs together with the voxel over faces. @param seed index of a voxel of the mask
 void keep_connected(std::vector<std::uint8_t>& mask, const RegionShape& shape, const std::array<int, 3>& seed);
-/// Keeps the largest piece. @returns sizes of all pieces, largest first
-std::vector<std::size_t> keep_largest(std::vector<std::uint8_t>& mask, const RegionShape& shape);
-
-/// Background that does not reach the block's border joins the mask. @returns voxels filled
-std::size_t fill_holes(std::vector<std::uint8_t>& mask, const RegionShape& shape);
 
 }  // namespace trocar

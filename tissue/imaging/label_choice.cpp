@@ -55,17 +55,40 @@ Segment named(const Segment& segment, const LabelTable* table) {
                    holds);
 }
 
+/// "2 tumour (layer 1)"
+std::string placed(const Segment& segment) {
+  return std::to_string(segment.number) + (segment.name.empty() ? "" : " " + segment.name) + " (layer " +
+         std::to_string(segment.layer) + ")";
+}
+
+/// How each of several candidates can be asked for: by its name where no other has it, else as LAYER:NUMBER.
+std::string asked_as(const Segment& segment, const std::vector<Segment>& all) {
+  const auto alike =
+      std::count_if(all.begin(), all.end(), [&](const Segment& one) { return one.name == segment.name; });
+  return segment.name.empty() || alike > 1 ? std::to_string(segment.layer) + ":" + std::to_string(segment.number)
+                                           : quoted(segment.name);
+}
+
 Segment only_one(const std::vector<Segment>& found, std::string_view wanted, const std::string& file) {
   if (found.size() == 1) return found.front();
-  std::string places;
-  for (const Segment& segment : found)
-    places +=
-        (places.empty() ? "" : ", ") + std::to_string(segment.number) + " in layer " + std::to_string(segment.layer);
-  throw InputError(file + ": " + quoted(wanted) + " is the name of several segments: " + places +
-                   "; give one of them by number, or rename one");
+  std::string places, choices;
+  for (const Segment& segment : found) {
+    places += (places.empty() ? "" : ", ") + placed(segment);
+    choices += (choices.empty() ? "" : " or ") + ("--label " + asked_as(segment, found));
+  }
+  throw InputError(file + ": " + quoted(wanted) + " means " + std::to_string(found.size()) +
+                   " segments, which overlap in layers: " + places + "; choose one with " + choices);
 }
 
 }  // namespace
+
+std::optional<std::pair<std::size_t, int>> layer_and_number(std::string_view wanted) {
+  const std::size_t colon = wanted.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto layer = whole(wanted.substr(0, colon)), number = whole(wanted.substr(colon + 1));
+  if (!layer || !number || *layer < 0) return std::nullopt;
+  return std::pair(static_cast<std::size_t>(*layer), *number);
+}
 
 std::vector<std::string> guess_label_table(const LabelMap& map) {
   std::vector<std::string> fitting;
@@ -84,6 +107,14 @@ Segment choose_segment(const LabelMap& map, std::string_view wanted, const Label
     if (map.segments.size() == 1) return named(map.segments.front(), table);
     throw InputError(file + ": holds " + std::to_string(map.segments.size()) + " segments: say which with --label; " +
                      listed_segments(map, table));
+  }
+  const bool is_name =
+      std::any_of(map.segments.begin(), map.segments.end(), [&](const Segment& one) { return one.name == wanted; });
+  if (const auto place = layer_and_number(wanted); place && !is_name) {
+    for (const Segment& segment : map.segments)
+      if (segment.layer == place->first && segment.number == place->second) return named(segment, table);
+    throw InputError(file + ": layer " + std::to_string(place->first) + " holds no label " +
+                     std::to_string(place->second) + "; there are " + listed_segments(map, table));
   }
   std::vector<Segment> found;
   const auto number = whole(wanted);

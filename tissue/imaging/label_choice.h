@@ -4,8 +4,10 @@
 // is refused, listing the tables that know it. Thread: any.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tissue/imaging/label_map.h"
@@ -17,7 +19,10 @@ namespace trocar {
 /// segment.
 std::vector<std::string> guess_label_table(const LabelMap& map);
 
-/// @param wanted number ("5"), name ("liver"); "" when the map has one segment only
+/// Layer and number of "1:5", which tells segments apart that overlap and have one number; nothing for any other text.
+std::optional<std::pair<std::size_t, int>> layer_and_number(std::string_view wanted);
+
+/// @param wanted number ("5"), name ("liver"), layer and number ("1:5"); "" when the map has one segment only
 /// @param table names of numbers that the file leaves unnamed; nullptr when nobody named one
 /// @returns the segment, its name filled from the table where the file gives none ("" when no table names it)
 /// @throws InputError naming `file`: no such number or name, a name in two segments, a name where nothing gives names

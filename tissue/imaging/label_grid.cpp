@@ -96,18 +96,18 @@ LabelVolume on_grid_of(const ImageVolume& image, const LabelVolume& labels, cons
                        const Progress& progress) {
   const VoxelGrid wanted = grid_of(image), given = grid_of(labels);
   if (same_grid(wanted, given)) return labels;
-  LabelVolume result = resampled_to(labels, wanted, progress);
+  const bool apart = gap_mm(wanted, given) > 0;
+  LabelVolume result = apart ? LabelVolume{} : resampled_to(labels, wanted, progress);
   const std::size_t before = labelled(labels), after = labelled(result);
-  if (after == 0) {
-    const double gap = box_gap_mm(labelled_box(labels), box_of(wanted));
-    throw InputError(name + ": the label map lies " + (gap > 0 ? plain(gap) + " mm outside" : "between the voxels of") +
-                     " the image: do the two belong together?");
-  }
+  const double gap = after > 0 ? 0 : box_gap_mm(labelled_box(labels), box_of(wanted));
+  if (gap > 0) throw InputError(name + ": the label map lies " + plain(gap) + " mm outside the image: not its labels");
   const double kept =
       static_cast<double>(after) * result.voxel_volume_ml() / (static_cast<double>(before) * labels.voxel_volume_ml());
   result.notes.push_back(
-      "the label map has a grid of its own; carried to the image's grid by the nearest voxel, which keeps " +
-      plain(std::round(1000 * kept) / 10) + " % of the labelled volume");
+      "the labels have another grid than the image; surfaces are made on the labels' own grid; carried to the image's "
+      "grid by the nearest "
+      "voxel, for pictures and image values, they keep " +
+      plain(std::round(1000 * kept) / 10) + " % of their volume");
   return result;
 }
 

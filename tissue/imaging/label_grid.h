@@ -32,7 +32,9 @@ LabelVolume resampled_to(const LabelVolume& volume, const VoxelGrid& grid, const
 /// axes.
 double gap_mm(const VoxelGrid& a, const VoxelGrid& b);
 
-/// The map on the image's grid: as it is when the grids agree, otherwise resampled, which a note on the result tells.
+/// The map on the image's grid, for image values under labels: as it is when the grids agree, otherwise resampled,
+/// which a note on the result tells with the share of the volume that is kept (small parts may fall between the image's
+/// voxels).
 /// @throws InputError "NAME: the label map lies ... mm outside the image" when no labelled voxel lies in the image
 LabelVolume on_grid_of(const ImageVolume& image, const LabelVolume& labels, const std::string& name,
                        const Progress& progress = {});

@@ -49,43 +49,71 @@ LabelMask copy_box(const LabelVolume& volume, int label, const Box& box, int mar
 }
 
 /// Face-connected parts of the voxels whose value is `value`: part number of each voxel (0: another value), sizes.
+/// Parts are numbered in the order of their first voxels.
 struct Parts {
   std::vector<std::int32_t> number;
   std::vector<std::size_t> voxels{0};  ///< index 0 unused
 };
 
-void flood(const LabelMask& mask, std::size_t seed, std::uint8_t value, Parts& parts) {
-  const auto part = static_cast<std::int32_t>(parts.voxels.size());
-  const std::size_t row = static_cast<std::size_t>(mask.size[0]);
-  const std::size_t slice = row * static_cast<std::size_t>(mask.size[1]);
-  std::vector<std::size_t> open{seed};
-  parts.number[seed] = part;
-  std::size_t count = 0;
-  const auto visit = [&](std::size_t voxel) {
-    if (mask.inside[voxel] != value || parts.number[voxel] != 0) return;
-    parts.number[voxel] = part;
-    open.push_back(voxel);
-  };
-  while (!open.empty()) {
-    const std::size_t voxel = open.back();
-    open.pop_back();
-    ++count;
-    const auto i = voxel % row, j = voxel % slice / row, k = voxel / slice;
-    if (i > 0) visit(voxel - 1);
-    if (i + 1 < row) visit(voxel + 1);
-    if (j > 0) visit(voxel - row);
-    if (j + 1 < static_cast<std::size_t>(mask.size[1])) visit(voxel + row);
-    if (k > 0) visit(voxel - slice);
-    if (k + 1 < static_cast<std::size_t>(mask.size[2])) visit(voxel + slice);
+/// Voxels of one row that follow each other, and the run they were joined to; the root of a set is its first run.
+struct Run {
+  std::size_t begin, end;
+  std::size_t parent;
+};
+
+std::size_t root_of(std::vector<Run>& runs, std::size_t run) {
+  while (runs[run].parent != run) run = runs[run].parent = runs[runs[run].parent].parent;
+  return run;
+}
+
+/// The runs of one value, row by row; `first[row]` is the row's first one, and one entry more at the end.
+std::vector<Run> runs_of(const LabelMask& mask, std::uint8_t value, std::vector<std::size_t>& first) {
+  const auto row = static_cast<std::size_t>(mask.size[0]);
+  std::vector<Run> runs;
+  for (std::size_t start = 0; start < mask.inside.size(); start += row) {
+    first.push_back(runs.size());
+    const auto begin = mask.inside.begin() + static_cast<std::ptrdiff_t>(start), end = begin + static_cast<std::ptrdiff_t>(row);
+    const auto offset = [&](auto voxel) { return start + static_cast<std::size_t>(voxel - begin); };
+    for (auto from = std::find(begin, end, value); from != end;) {
+      const auto to = std::find_if(from, end, [value](std::uint8_t other) { return other != value; });
+      runs.push_back({offset(from), offset(to), runs.size()});
+      from = std::find(to, end, value);
+    }
   }
-  parts.voxels.push_back(count);
+  first.push_back(runs.size());
+  return runs;
+}
+
+/// Joins the runs of two rows, `apart` voxels from each other, where they touch.
+void join_rows(std::vector<Run>& runs, std::array<std::size_t, 2> earlier, std::array<std::size_t, 2> later, std::size_t apart) {
+  auto [a, a_end] = earlier;
+  auto [b, b_end] = later;
+  while (a < a_end && b < b_end) {
+    if (runs[a].begin + apart < runs[b].end && runs[b].begin < runs[a].end + apart) {
+      const std::size_t x = root_of(runs, a), y = root_of(runs, b);
+      runs[std::max(x, y)].parent = std::min(x, y);
+    }
+    ++(runs[a].end + apart < runs[b].end ? a : b);
+  }
 }
 
 Parts connected_parts(const LabelMask& mask, std::uint8_t value) {
+  std::vector<std::size_t> first;
+  std::vector<Run> runs = runs_of(mask, value, first);
+  const auto row = static_cast<std::size_t>(mask.size[0]), rows = static_cast<std::size_t>(mask.size[1]);
+  for (std::size_t n = 0; n + 1 < first.size(); ++n) {
+    if (n % rows > 0) join_rows(runs, {first[n - 1], first[n]}, {first[n], first[n + 1]}, row);
+    if (n >= rows) join_rows(runs, {first[n - rows], first[n - rows + 1]}, {first[n], first[n + 1]}, row * rows);
+  }
   Parts parts;
   parts.number.assign(mask.inside.size(), 0);
-  for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel)
-    if (mask.inside[voxel] == value && parts.number[voxel] == 0) flood(mask, voxel, value, parts);
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    const std::size_t root = root_of(runs, n);
+    std::int32_t& number = parts.number[runs[root].begin];  // the root comes first
+    if (root == n) number = static_cast<std::int32_t>(parts.voxels.size()), parts.voxels.push_back(0);
+    parts.voxels[static_cast<std::size_t>(number)] += runs[n].end - runs[n].begin;
+    std::fill_n(parts.number.begin() + static_cast<std::ptrdiff_t>(runs[n].begin), runs[n].end - runs[n].begin, std::int32_t{number});
+  }
   return parts;
 }
 

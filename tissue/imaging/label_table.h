@@ -25,8 +25,6 @@ struct LabelTable {
   std::optional<std::string_view> name_of(int number) const;
 };
 
-inline constexpr std::string_view kDefaultLabelTable = "totalsegmentator-v1";
-
 /// @throws InputError listing the known tables
 const LabelTable& label_table(std::string_view name);
 std::vector<std::string> label_table_names();

@@ -18,13 +18,8 @@ std::map<int, std::size_t> LabelVolume::label_counts() const {
 }
 
 LabelVolume in_ras_order(LabelVolume volume) {
-  const AxisOrder order = ras_order(volume.index_to_ras_mm.linear());
-  LabelVolume result;
-  result.size = reordered_size(volume.size, order);
-  result.index_to_ras_mm = reordered_frame(volume.index_to_ras_mm, volume.size, order);
-  result.labels = reordered(volume.labels, volume.size, order);
-  result.notes = std::move(volume.notes);
-  return result;
+  put_in_ras_order(volume.size, volume.index_to_ras_mm, volume.labels);
+  return volume;
 }
 
 }  // namespace trocar

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,13 +32,5 @@ struct LabelVolume {
 
 /// Permutes and flips the axes into RAS order; the world position of every voxel stays.
 LabelVolume in_ras_order(LabelVolume volume);
-
-/// Reads a label map of one layer from any file that read_label_map (volume_reader.h) takes.
-/// @throws InputError as read_label_map does, and for several layers
-LabelVolume read_label_volume(const std::filesystem::path& path);
-
-/// "CT" when the volume holds air as Hounsfield units (its lowest value is below -500), otherwise "unknown".
-/// @throws InputError as read_image_volume, for the header and the data
-std::string guess_modality(const std::filesystem::path& volume);
 
 }  // namespace trocar

@@ -37,11 +37,26 @@ class FieldReader {
   bool swapped_;
 };
 
-void decode_1(const FieldReader& field, NiftiFields& fields) {
+template <typename Count, typename Real>
+void decode_extents(const FieldReader& field, std::size_t dim, std::size_t pixdim, NiftiFields& fields) {
   for (std::size_t n = 0; n < 8; ++n) {
-    fields.dim[n] = field.at<std::int16_t>(40 + 2 * n);
-    fields.pixdim[n] = field.at<float>(76 + 4 * n);
+    fields.dim[n] = field.at<Count>(dim + n * sizeof(Count));
+    fields.pixdim[n] = field.at<Real>(pixdim + n * sizeof(Real));
   }
+}
+
+/// Both transforms; in either format they stand one behind the other.
+template <typename Real>
+void decode_transforms(const FieldReader& field, std::size_t quatern, NiftiFields& fields) {
+  for (std::size_t n = 0; n < 3; ++n) {
+    fields.quatern[n] = field.at<Real>(quatern + n * sizeof(Real));
+    fields.qoffset[n] = field.at<Real>(quatern + (3 + n) * sizeof(Real));
+  }
+  field.srow<Real>(quatern + 6 * sizeof(Real), fields);
+}
+
+void decode_1(const FieldReader& field, NiftiFields& fields) {
+  decode_extents<std::int16_t, float>(field, 40, 76, fields);
   fields.intent = field.at<std::int16_t>(68);
   fields.datatype = field.at<std::int16_t>(70);
   fields.bitpix = field.at<std::int16_t>(72);
@@ -51,18 +66,11 @@ void decode_1(const FieldReader& field, NiftiFields& fields) {
   fields.units = field.at<std::uint8_t>(123);
   fields.qform = field.at<std::int16_t>(252);
   fields.sform = field.at<std::int16_t>(254);
-  for (std::size_t n = 0; n < 3; ++n) {
-    fields.quatern[n] = field.at<float>(256 + 4 * n);
-    fields.qoffset[n] = field.at<float>(268 + 4 * n);
-  }
-  field.srow<float>(280, fields);
+  decode_transforms<float>(field, 256, fields);
 }
 
 void decode_2(const FieldReader& field, NiftiFields& fields) {
-  for (std::size_t n = 0; n < 8; ++n) {
-    fields.dim[n] = field.at<std::int64_t>(16 + 8 * n);
-    fields.pixdim[n] = field.at<double>(104 + 8 * n);
-  }
+  decode_extents<std::int64_t, double>(field, 16, 104, fields);
   fields.datatype = field.at<std::int16_t>(12);
   fields.bitpix = field.at<std::int16_t>(14);
   fields.vox_offset = static_cast<double>(field.at<std::int64_t>(168));
@@ -70,11 +78,7 @@ void decode_2(const FieldReader& field, NiftiFields& fields) {
   fields.intercept = field.at<double>(184);
   fields.qform = field.at<std::int32_t>(344);
   fields.sform = field.at<std::int32_t>(348);
-  for (std::size_t n = 0; n < 3; ++n) {
-    fields.quatern[n] = field.at<double>(352 + 8 * n);
-    fields.qoffset[n] = field.at<double>(376 + 8 * n);
-  }
-  field.srow<double>(400, fields);
+  decode_transforms<double>(field, 352, fields);
   fields.units = field.at<std::int32_t>(500);
   fields.intent = field.at<std::int32_t>(504);
 }

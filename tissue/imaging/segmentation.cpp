@@ -7,6 +7,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/itk_region.h"
 #include "tissue/imaging/label_grid.h"
+#include "tissue/imaging/mask_pieces.h"
 #include "tissue/imaging/volume_frame.h"
 
 namespace trocar {
@@ -16,6 +17,8 @@ constexpr std::uint64_t kMostRegion = std::uint64_t{1} << 27;    // of masks and
 constexpr std::uint64_t kMostSmoothed = std::uint64_t{1} << 25;  // of values in three copies: 0.4 GiB
 constexpr double kBodyHu = -300;                                 // fat is above, lung and air below
 constexpr int kFlowSteps = 5;
+constexpr double kMostOfImage = 0.5;         // without a seed: more than this share is no organ
+constexpr std::int64_t kMostTunnels = 5000;  // an organ has a few, noise through a whole image hundreds of thousands
 
 /// A block of the image: indices low..high, both inside it.
 struct Region {
@@ -204,7 +207,7 @@ void choose_piece(Work& work) {
     keep_connected(work.mask, work.shape, {start[0], start[1], start[2]});
     work.notes.push_back("kept what hangs together with the seed");
   } else if (work.options.keep == Keep::kLargest) {
-    const std::vector<std::size_t> pieces = keep_largest(work.mask, work.shape);
+    const std::vector<std::size_t> pieces = keep_largest(work.mask, work.shape, work.progress);
     work.notes.push_back("kept the largest of " + std::to_string(pieces.size()) + " connected pieces" +
                          (pieces.size() > 1 ? "; the next one has " + std::to_string(pieces[1]) + " voxels" : ""));
   }
@@ -221,8 +224,39 @@ void close_mask(Work& work) {
   }
   if (!work.options.fill_holes) return;
   report(work.progress, "filling holes", -1);
-  const std::size_t filled = fill_holes(work.mask, work.shape);
+  const std::size_t filled = fill_holes(work.mask, work.shape, work.progress);
   if (filled > 0) work.notes.push_back("filled holes of " + std::to_string(filled) + " voxels in all");
+}
+
+std::string percent(std::size_t part, std::size_t all) {
+  return plain(std::round(1000.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1))) /
+               10) +
+         " %";
+}
+
+std::string window_words(const SegmentationOptions& options) {
+  return "--threshold " + plain(options.low) + " " + plain(options.high);
+}
+
+/// Without a seed, a window that most of the image lies in marks no organ: said before any further work is done on it.
+void refuse_most_of_image(const Work& work) {
+  const std::size_t inside = marked(work.mask);
+  if (work.options.seed_ras_mm ||
+      static_cast<double>(inside) <= kMostOfImage * static_cast<double>(work.image.values.size()))
+    return;
+  throw InputError(window_words(work.options) + ": " + percent(inside, work.image.values.size()) +
+                   " of the image's voxels hold such values: that is no organ; narrow the window, or give --seed-point "
+                   "in the organ and --reach");
+}
+
+/// Noise hangs together as a sponge, of which no surface can be made in sensible time.
+void refuse_sponge(const Work& work) {
+  report(work.progress, "counting tunnels", -1);
+  const std::int64_t tunnels = tunnels_of(work.mask, work.shape);
+  if (tunnels > kMostTunnels)
+    throw InputError(window_words(work.options) + ": the piece is a sponge with about " + std::to_string(tunnels) +
+                     " tunnels: the window lies in the noise; try --smooth, --opening 3, another window, or "
+                     "--seed-point with --reach");
 }
 
 struct Extent {
@@ -253,15 +287,8 @@ Extent write_labels(const Work& work, LabelVolume& result) {
   return extent;
 }
 
-std::string percent(std::size_t part, std::size_t all) {
-  return plain(std::round(1000.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1))) /
-               10) +
-         " %";
-}
-
 void tell_extent(const Work& work, const Extent& extent, std::vector<std::string>& notes) {
-  const float lowest = *std::min_element(work.image.values.begin(), work.image.values.end());
-  const bool hounsfield = work.image.modality == "CT" || lowest < -500;
+  const bool hounsfield = work.image.modality == "CT" || certainly_hounsfield(work.image);
   const double volume_ml =
       static_cast<double>(extent.inside) * std::abs(work.image.index_to_ras_mm.linear().determinant()) * 1e-3;
   notes.push_back(std::to_string(extent.inside) + " voxels, " + plain(volume_ml) + " mL, " +
@@ -292,9 +319,11 @@ LabelVolume segment(const ImageVolume& image, const SegmentationOptions& options
   threshold(work);
   if (options.seed_ras_mm) settle_seed(work);
   if (marked(work.mask) == 0) refuse_empty_window(image, options);
+  refuse_most_of_image(work);
   open_mask(work);
   choose_piece(work);
   close_mask(work);
+  refuse_sponge(work);
   LabelVolume result{.size = image.size, .labels = {}, .index_to_ras_mm = image.index_to_ras_mm, .notes = {}};
   result.labels.assign(image.values.size(), 0);
   tell_extent(work, write_labels(work, result), work.notes);

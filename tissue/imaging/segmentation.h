@@ -33,7 +33,7 @@ struct SegmentationOptions {
 /// Label 1 inside, on the image's grid. Its `notes` say what was done, the share of the image and of the body (voxels
 /// above -300 HU in CT), whether the piece touches the image's border, and warn of a leak.
 /// @throws InputError naming the option: window upside down or empty, seed outside the image or the window, nothing
-/// left after cleaning
+/// left after cleaning; without a seed more than half of the image in the window; a piece with more than 5000 tunnels
 LabelVolume segment(const ImageVolume& image, const SegmentationOptions& options, const Progress& progress = {});
 
 /// 2 |A and B| / (|A| + |B|) of the voxels with these labels; both on one grid.

@@ -261,13 +261,4 @@ LabelMap assemble_labels(const VolumeHeader& header, const Progress& progress) {
   return map;
 }
 
-double lowest_value(const VolumeHeader& header, const Progress& progress) {
-  double lowest = std::numeric_limits<double>::infinity();
-  stream_voxels(header.block, header.value_count(), progress, [&](std::span<const double> values) {
-    for (const double value : values)
-      if (std::isfinite(value)) lowest = std::min(lowest, value);
-  });
-  return lowest;
-}
-
 }  // namespace trocar

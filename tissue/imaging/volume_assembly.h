@@ -18,7 +18,4 @@ ImageVolume assemble_image(const VolumeHeader& header, const Progress& progress,
 /// One layer a component, as stored (sheared axes stay). @throws InputError for what is no label map
 LabelMap assemble_labels(const VolumeHeader& header, const Progress& progress);
 
-/// The lowest finite value; infinity when there is none. Holds no voxels.
-double lowest_value(const VolumeHeader& header, const Progress& progress);
-
 }  // namespace trocar

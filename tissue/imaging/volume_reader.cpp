@@ -131,19 +131,4 @@ LabelMap read_label_map(const fs::path& path, const Progress& progress, const Vo
   return map;
 }
 
-LabelVolume read_label_volume(const fs::path& path) {
-  LabelMap map = read_label_map(path);
-  if (map.layers.size() > 1)
-    throw InputError(path.string() + ": " + std::to_string(map.layers.size()) +
-                     " layers of segments that overlap; one is wanted");
-  return std::move(map.layers.front());
-}
-
-std::string guess_modality(const fs::path& volume) {
-  const VolumeHeader header = header_of(volume, {});
-  constexpr double kCertainlyHounsfield = -500;  // no MR magnitude image and no label map goes below 0
-  if (header.modality != "unknown" || header.components != 1) return header.modality;
-  return lowest_value(header, {}) < kCertainlyHounsfield ? "CT" : "unknown";
-}
-
 }  // namespace trocar

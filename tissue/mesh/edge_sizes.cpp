@@ -73,20 +73,28 @@ std::vector<double> curvatures(const TriangleSurface& surface, const Neighbours&
 
 /// No size exceeds a neighbour's by more than growth x distance: sweeps to and fro until nothing changes.
 void limit_growth(std::vector<double>& sizes, const TriangleSurface& surface, const Neighbours& neighbours, double growth) {
+  std::vector<std::uint8_t> stale(sizes.size(), 1);  // a neighbour was lowered since this one was looked at
   const auto lower = [&](std::size_t v) {
     bool changed = false;
     for (std::size_t n = neighbours.begin[v]; n < neighbours.begin[v + 1]; ++n) {
       const auto other = at(neighbours.vertex[n]);
+      if (sizes[v] <= sizes[other]) continue;
       const double most = sizes[other] + growth * (surface.vertices[v] - surface.vertices[other]).norm();
       if (sizes[v] > most * (1 + 1e-9)) sizes[v] = most, changed = true;
     }
+    for (std::size_t n = neighbours.begin[v]; changed && n < neighbours.begin[v + 1]; ++n) stale[at(neighbours.vertex[n])] = 1;
     return changed;
   };
   constexpr int kSweeps = 40;
   bool changed = true;
   for (int sweep = 0; changed && sweep < kSweeps; ++sweep) {
     changed = false;
-    for (std::size_t n = 0; n < sizes.size(); ++n) changed = lower(sweep % 2 == 0 ? n : sizes.size() - 1 - n) || changed;
+    for (std::size_t n = 0; n < sizes.size(); ++n) {
+      const std::size_t v = sweep % 2 == 0 ? n : sizes.size() - 1 - n;
+      if (stale[v] == 0) continue;
+      stale[v] = 0;
+      changed = lower(v) || changed;
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "haptics/input_error.h"
+#include "tissue/mesh/plain_surface.h"
 #include "tissue/mesh/rescue.h"
 
 namespace trocar {
@@ -73,18 +74,6 @@ double patch_area(const Mesh& mesh, const std::vector<Mesh::Face_index>& faces) 
   return doubled / 2;
 }
 
-TriangleSurface from_mesh(const Mesh& mesh) {
-  TriangleSurface surface;
-  for (const auto vertex : mesh.vertices()) surface.vertices.push_back(point_of(mesh, vertex));
-  for (const auto face : mesh.faces()) {
-    std::array<std::int32_t, 3> triangle{};
-    std::size_t n = 0;
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
-    surface.triangles.push_back(triangle);
-  }
-  return surface;
-}
-
 }  // namespace
 
 TriangleSurface holes_filled(const TriangleSurface& surface, double widest_m, std::vector<FilledHole>& holes, const std::string& file) {
@@ -105,7 +94,7 @@ TriangleSurface holes_filled(const TriangleSurface& surface, double widest_m, st
       if (!point_of(mesh, vertex).allFinite())
         throw InputError(file + ": the hole of " + std::to_string(holes[n].edges) + " edges cannot be filled smoothly: wrap the surface instead");
   }
-  return from_mesh(mesh);
+  return plain_surface(mesh);
 }
 
 }  // namespace trocar

@@ -46,8 +46,7 @@ class Marcher {
 
   TriangleSurface march() {
     for (int k = 0; k + 1 < field_.size[2]; ++k) {
-      for (int j = 0; j + 1 < field_.size[1]; ++j)
-        for (int i = 0; i + 1 < field_.size[0]; ++i) cube(i, j, k);
+      for (int j = 0; j + 1 < field_.size[1]; ++j) row(j, k);
       std::swap(edges_[0], edges_[1]);
       std::fill(edges_[1].begin(), edges_[1].end(), -1);
     }
@@ -55,15 +54,29 @@ class Marcher {
   }
 
  private:
-  void cube(int i, int j, int k) {
-    const std::size_t base = field_.offset(i, j, k);
+  /// Bits of the inside corners among those with this i: corners 0, 2, 4, 6 of a cube.
+  int column(std::size_t base) const {
     int inside = 0;
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      value_[corner] = field_.values[base + static_cast<std::size_t>(step_[corner])];
-      inside |= value_[corner] > level_ ? 1 << corner : 0;
+    for (std::size_t corner = 0; corner < 8; corner += 2)
+      inside |= field_.values[base + static_cast<std::size_t>(step_[corner])] > level_ ? 1 << corner : 0;
+    return inside;
+  }
+
+  void row(int j, int k) {
+    const std::size_t base = field_.offset(0, j, k);
+    int next = column(base);
+    for (int i = 0; i + 1 < field_.size[0]; ++i) {
+      const int here = next;
+      next = column(base + static_cast<std::size_t>(i) + 1);
+      const int inside = here | next << 1;
+      if (inside == 0 || inside == 255) continue;
+      place_ = {i, j, k};
+      cube(base + static_cast<std::size_t>(i), inside);
     }
-    if (inside == 0 || inside == 255) return;
-    place_ = {i, j, k};
+  }
+
+  void cube(std::size_t base, int inside) {
+    for (std::size_t corner = 0; corner < 8; ++corner) value_[corner] = field_.values[base + static_cast<std::size_t>(step_[corner])];
     for (const auto& corners : kTetrahedra) tetrahedron(corners, inside);
   }
 
@@ -145,13 +158,12 @@ double cube_share(const std::array<double, 8>& corners) {
 
 void check_border(const ScalarField& field, double level) {
   for (int k = 0; k < field.size[2]; ++k)
-    for (int j = 0; j < field.size[1]; ++j)
-      for (int i = 0; i < field.size[0]; ++i) {
-        const bool inner =
-            i > 0 && j > 0 && k > 0 && i + 1 < field.size[0] && j + 1 < field.size[1] && k + 1 < field.size[2];
-        if (!inner && field.values[field.offset(i, j, k)] > level)
+    for (int j = 0; j < field.size[1]; ++j) {
+      const bool inner = j > 0 && k > 0 && j + 1 < field.size[1] && k + 1 < field.size[2];
+      for (int i = 0; i < field.size[0]; i += inner && i == 0 ? std::max(1, field.size[0] - 1) : 1)
+        if (field.values[field.offset(i, j, k)] > level)
           throw std::invalid_argument("isosurface: the field is above the level on the border of its grid");
-      }
+    }
 }
 
 }  // namespace
@@ -165,13 +177,18 @@ double enclosed_volume_m3(const ScalarField& field, const Vec3& spacing_m, doubl
   const std::size_t row = static_cast<std::size_t>(field.size[0]), slice = row * static_cast<std::size_t>(field.size[1]);
   const std::array<std::size_t, 8> step{0, 1, row, row + 1, slice, slice + 1, slice + row, slice + row + 1};
   const auto limit = static_cast<float>(level);
+  const auto column = [&](const float* values) {
+    return (values[0] > limit ? 1 : 0) + (values[row] > limit ? 1 : 0) + (values[slice] > limit ? 1 : 0) +
+           (values[slice + row] > limit ? 1 : 0);
+  };
   double cubes = 0;
   for (int k = 0; k + 1 < field.size[2]; ++k)
     for (int j = 0; j + 1 < field.size[1]; ++j) {
       const float* values = field.values.data() + field.offset(0, j, k);
+      int next = column(values);
       for (int i = 0; i + 1 < field.size[0]; ++i, ++values) {
-        int inside = 0;
-        for (const std::size_t s : step) inside += values[s] > limit ? 1 : 0;
+        const int inside = next + column(values + 1);
+        next = inside - next;
         if (inside == 8) cubes += 1;
         if (inside == 0 || inside == 8) continue;
         std::array<double, 8> corners{};

@@ -18,10 +18,10 @@ constexpr double kLeastPieceVoxels = 8;       ///< smaller pieces of the surface
 constexpr double kLeastPieceShare = 0.002;    ///< ... and those with less of the volume
 
 /// Coarser along axes whose voxels are much smaller than the wanted edge, finer for thin organs.
-Sampling choose_sampling(const LabelMask& mask, const Vec3& spacing_m, int triangles) {
+Sampling choose_sampling(const LabelMask& mask, double sharp_area_m2, const Vec3& spacing_m, int triangles) {
   const double thin = static_cast<double>(count_thin_voxels(mask)) / static_cast<double>(std::max<std::size_t>(mask.kept_voxels, 1));
   if (thin > kThinShare && mask.inside.size() * 8 <= kMostFineSamples) return {2, 2, 2};
-  const double area_m2 = surface_area_m2(isosurface(sharp_field(mask), spacing_m, 0.5)) / 1.35;  // the stairs' share
+  const double area_m2 = sharp_area_m2 / 1.35;  // the stairs' share
   const double edge_m = std::sqrt(area_m2 / triangles / 0.433);
   Sampling sampling{1, 1, 1};
   for (std::size_t axis = 0; axis < 3 && thin < 0.02; ++axis)
@@ -108,7 +108,10 @@ LabelSurface label_surface(const LabelVolume& volume, int label, const LabelMask
   result.spacing_m = volume.index_to_ras_mm.linear().colwise().norm().transpose() * 1e-3;
   const double voxel_m3 = volume.voxel_volume_ml() * 1e-6;
   result.kept_m3 = static_cast<double>(mask.kept_voxels) * voxel_m3;
-  result.sampling = choose_sampling(mask, result.spacing_m, triangles);
+  const Eigen::Affine3d to_ras = box_to_ras_m(volume, mask);
+  result.sharp = isosurface(sharp_field(mask), Vec3::Ones(), 0.5);
+  map_vertices(result.sharp, to_ras);
+  result.sampling = choose_sampling(mask, surface_area_m2(result.sharp), result.spacing_m, triangles);
   const Vec3 sample_m = sample_spacing(result.spacing_m, result.sampling);
   report(progress, "smoothing", 0);
   const ScalarField field = smooth_field(mask, {}, result.sampling);
@@ -121,11 +124,8 @@ LabelSurface label_surface(const LabelVolume& volume, int label, const LabelMask
   if (result.dense.triangles.empty())
     throw InputError("label " + std::to_string(label) + " is too thin to give a surface");
   for (double& lost : result.fallen_off_m3) lost *= voxel_m3 / result.spacing_m.prod(), result.kept_m3 -= lost;
-  const Eigen::Affine3d to_ras = box_to_ras_m(volume, mask);
   result.centroid_m = to_ras * voxel_centroid(mask);
   map_vertices(result.dense, to_ras * samples_to_voxels(sample_m, result.sampling));
-  result.sharp = isosurface(sharp_field(mask), Vec3::Ones(), 0.5);
-  map_vertices(result.sharp, to_ras);
   result.caps = cap_planes(mask, to_ras);
   return result;
 }

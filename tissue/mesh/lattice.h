@@ -2,7 +2,8 @@
 //
 // tissue.md 6.3: cells of a given edge, the fill of each from 8 x 8 x 8 samples, a label by vote, dilated until every surface
 // vertex lies in a cell; a vertex follows the eight corners of its cell with trilinear weights. RAS axes, metres; cell (i, j, k)
-// spans origin + edge * [i, i+1] x [j, j+1] x [k, k+1]. Same input, same bytes. Thread: any, not the tick.
+// spans origin + edge * [i, i+1] x [j, j+1] x [k, k+1]. Cells of little fill are floored, not merged into neighbours: merging would
+// leave nodes without mass on which surface vertices hang (docs/organ_meshing.md). Same input, same bytes. Thread: any, not the tick.
 #pragma once
 
 #include <array>

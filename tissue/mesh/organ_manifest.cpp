@@ -13,8 +13,6 @@
 namespace trocar {
 namespace {
 
-bool plain_name(const std::string& file) { return !file.empty() && std::filesystem::path(file).filename() == file; }
-
 std::string distance_text(const SurfaceDistance& distance) {
   const auto mm = [](double metres) { return TomlWriter::decimal(metres * 1e3, 4); };
   return "{mean = " + mm(distance.mean_m) + ", rms = " + mm(distance.rms_m) + ", p99 = " + mm(distance.p99_m) + ", max = " + mm(distance.max_m) + "}";
@@ -138,7 +136,7 @@ std::optional<VolumeMeshFile> read_volume_mesh(TomlTable& root, std::string_view
   TomlTable table = root.table(key);
   VolumeMeshFile mesh;
   mesh.file = table.text("file");
-  if (!plain_name(mesh.file)) table.refuse("file", "file must be the name of a file beside the manifest");
+  if (!is_plain_name(mesh.file)) table.refuse("file", "file must be the name of a file beside the manifest");
   mesh.sha256 = table.text("sha256");
   mesh.nodes = table.count("nodes");
   mesh.cells = table.count("cells");
@@ -205,7 +203,8 @@ OrganManifest parse_manifest(const std::string& text, const std::string& file) {
   manifest.material = table.text("material");
   manifest.synthetic = table.boolean("synthetic");
   manifest.surface = table.text("surface");
-  if (!plain_name(manifest.surface)) table.refuse("surface", "surface must be the name of a file beside the manifest");
+  if (!is_plain_name(manifest.surface))
+    table.refuse("surface", "surface must be the name of a file beside the manifest");
   manifest.surface_sha256 = table.text("surface_sha256");
   manifest.licence = table.text("licence");
   manifest.credit = table.text("credit");
@@ -219,12 +218,28 @@ OrganManifest parse_manifest(const std::string& text, const std::string& file) {
   return manifest;
 }
 
+bool is_plain_name(const std::string& file) { return !file.empty() && std::filesystem::path(file).filename() == file; }
+
 std::string read_bytes(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!std::filesystem::is_regular_file(path) || !in) throw InputError(path.string() + ": no such file");
   std::string bytes{std::istreambuf_iterator<char>(in), {}};
   if (in.bad()) throw InputError(path.string() + ": read error");
   return bytes;
+}
+
+std::string read_unchanged(const std::filesystem::path& path, const std::string& sha256, const std::string& named_by) {
+  std::string bytes = read_bytes(path);
+  if (digest::of_bytes(bytes) != sha256)
+    throw InputError(path.string() + ": its sha256 is not the one in " + named_by + ": the file was changed");
+  return bytes;
+}
+
+std::vector<std::string> files_beside(const OrganManifest& manifest) {
+  std::vector<std::string> names{manifest.surface};
+  for (const auto& mesh : {manifest.lattice, manifest.tetrahedra})
+    if (mesh) names.push_back(mesh->file);
+  return names;
 }
 
 std::string enter_surface(const std::filesystem::path& stem, OrganManifest& manifest, const TriangleSurface& surface) {
@@ -236,10 +251,14 @@ std::string enter_surface(const std::filesystem::path& stem, OrganManifest& mani
 
 std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
                                   const TriangleSurface& surface, const std::vector<SideFile>& more) {
-  const std::string bytes = enter_surface(stem, manifest, surface);
+  return write_entered_organ(stem, manifest, enter_surface(stem, manifest, surface), more);
+}
+
+std::filesystem::path write_entered_organ(const std::filesystem::path& stem, const OrganManifest& manifest,
+                                          const std::string& surface_bytes, const std::vector<SideFile>& more) {
   std::filesystem::path path = stem.string() + std::string(kOrganSuffix);
   std::vector<std::unique_ptr<StagedFile>> staged;
-  staged.push_back(std::make_unique<StagedFile>(stem.string() + ".ply", bytes));
+  staged.push_back(std::make_unique<StagedFile>(stem.string() + ".ply", surface_bytes));
   for (const SideFile& file : more) staged.push_back(std::make_unique<StagedFile>(stem.parent_path() / file.name, file.bytes));
   staged.push_back(std::make_unique<StagedFile>(path, manifest_text(manifest)));
   for (const auto& file : staged) file->commit();

@@ -58,8 +58,17 @@ std::string manifest_text(const OrganManifest& manifest);
 /// @throws InputError with line and column
 OrganManifest parse_manifest(const std::string& text, const std::string& file);
 
+/// Whether it names a file in the same folder: no folders, not empty.
+bool is_plain_name(const std::string& file);
+
 /// Whole file as bytes. @throws InputError when it cannot be read
 std::string read_bytes(const std::filesystem::path& path);
+/// The same of a file whose hash is known. @param named_by file that holds the hash, for the message
+/// @throws InputError also when the hash is another
+std::string read_unchanged(const std::filesystem::path& path, const std::string& sha256, const std::string& named_by);
+
+/// Names of the surface, the lattice and the tetrahedra that a manifest speaks of.
+std::vector<std::string> files_beside(const OrganManifest& manifest);
 
 /// A further file: name without folder (it lies beside the organ) or absolute path, and bytes.
 struct SideFile {
@@ -75,5 +84,8 @@ std::string enter_surface(const std::filesystem::path& stem, OrganManifest& mani
 /// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
 std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
                                   const TriangleSurface& surface, const std::vector<SideFile>& more = {});
+/// The same after enter_surface. @param surface_bytes what it returned
+std::filesystem::path write_entered_organ(const std::filesystem::path& stem, const OrganManifest& manifest,
+                                          const std::string& surface_bytes, const std::vector<SideFile>& more = {});
 
 }  // namespace trocar

@@ -1,27 +1,24 @@
 #include "tissue/mesh/remesh.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+
+#include "tissue/mesh/nearest_surface.h"
 
 namespace trocar {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;  // nearest points need no exact predicates: twice as fast
+using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
-using Triangle = Kernel::Triangle_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Vertex = Mesh::Vertex_index;
 using Halfedge = Mesh::Halfedge_index;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 constexpr int kCollapsePasses = 12;
 constexpr double kSplitAbove = 4.0 / 3, kCollapseBelow = 4.0 / 5;
@@ -60,46 +57,41 @@ TriangleSurface from_cgal(Mesh& mesh) {
 /// The surface that is projected onto, with its sizes.
 class Source {
  public:
-  Source(const TriangleSurface& surface, const std::vector<double>& sizes) : surface_(surface), sizes_(sizes) {
-    triangles_.reserve(surface.triangles.size());
-    for (const auto& t : surface.triangles) triangles_.emplace_back(corner(t, 0), corner(t, 1), corner(t, 2));
-    tree_.insert(triangles_.cbegin(), triangles_.cend());
-    tree_.build();
-  }
+  Source(const TriangleSurface& surface, const std::vector<double>& sizes) : surface_(surface), sizes_(sizes), tree_(surface) {}
 
   struct Nearest {
     Vec3 place, normal;
     double size;
+    std::size_t triangle;
   };
 
-  Nearest nearest(const Vec3& p) const {
-    const auto [point, primitive] = tree_.closest_point_and_primitive(to_point(p));
-    const auto& t = surface_.triangles[static_cast<std::size_t>(primitive - triangles_.cbegin())];
-    const Vec3 a = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2), q = to_vec(point);
+  Nearest nearest(const Vec3& p, std::size_t guess) const {
+    const auto [q, normal, triangle] = tree_.nearest(p, guess);
+    const auto& t = surface_.triangles[triangle];
+    const Vec3 a = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
     const Vec3 shares((b - q).cross(c - q).norm(), (c - q).cross(a - q).norm(), (a - q).cross(b - q).norm());
     const double sum = std::max(shares.sum(), 1e-300);
     double size = 0;
     for (std::size_t n = 0; n < 3; ++n)
       size += shares[static_cast<Eigen::Index>(n)] / sum * sizes_[static_cast<std::size_t>(t[n])];
-    return {q, (b - a).cross(c - a), size};
+    return {q, normal, size, triangle};
   }
 
  private:
   Vec3 vertex(const std::array<std::int32_t, 3>& t, std::size_t n) const {
     return surface_.vertices[static_cast<std::size_t>(t[n])];
   }
-  Point corner(const std::array<std::int32_t, 3>& t, std::size_t n) const { return to_point(vertex(t, n)); }
 
   const TriangleSurface& surface_;
   const std::vector<double>& sizes_;
-  std::vector<Triangle> triangles_;
-  Tree tree_;
+  NearestSurface tree_;
 };
 
 class Remesher {
  public:
   Remesher(const TriangleSurface& surface, const std::vector<double>& sizes)
-      : source_(surface, sizes), mesh_(to_cgal(surface)), size_(mesh_.add_property_map<Vertex, double>("v:size", 0).first) {
+      : source_(surface, sizes), mesh_(to_cgal(surface)), size_(mesh_.add_property_map<Vertex, double>("v:size", 0).first),
+        stamped_(mesh_.add_property_map<Vertex, std::uint32_t>("v:stamped", 0).first) {
     for (const auto v : mesh_.vertices()) size_[v] = sizes[v.idx()];
   }
 
@@ -163,10 +155,20 @@ class Remesher {
     }
   }
 
+  /// The link condition of a closed surface: the two ends share the two vertices across the edge and no other.
+  /// (CGAL's does_satisfy_link_condition says the same in several times the time.)
+  bool keeps_manifold(Vertex a, Vertex b) {
+    ++stamp_;
+    for (const Vertex v : CGAL::vertices_around_target(a, mesh_)) stamped_[v] = stamp_;
+    int common = 0;
+    for (const Vertex v : CGAL::vertices_around_target(b, mesh_)) common += stamped_[v] == stamp_ ? 1 : 0;
+    return common == 2 && (mesh_.degree(a) > 3 || mesh_.degree(b) > 3);  // both 3: a tetrahedron
+  }
+
   bool collapse(Mesh::Edge_index edge) {
     const Halfedge h = mesh_.halfedge(edge);
     const Vertex a = mesh_.source(h), b = mesh_.target(h);
-    if (length(a, b) >= kCollapseBelow * wanted(a, b) || !CGAL::Euler::does_satisfy_link_condition(edge, mesh_)) return false;
+    if (length(a, b) >= kCollapseBelow * wanted(a, b) || !keeps_manifold(a, b)) return false;
     for (const Vec3& place : {Vec3((at(a) + at(b)) / 2), at(a), at(b)}) {
       if (!may_move(a, b, place) || !may_move(b, a, place)) continue;
       const double size = (size_[a] + size_[b]) / 2;
@@ -180,7 +182,8 @@ class Remesher {
   /// Whether `moved` may go to `place` (its edge to `gone` vanishes): no long edge, no triangle that turns over, no new spike.
   /// Thin triangles have normals that mean nothing, so the mean of the fan is what the new ones are compared with.
   bool may_move(Vertex moved, Vertex gone, const Vec3& place) const {
-    const Vec3 old = at(moved), mean = fan_normal(moved);
+    const Vec3 old = at(moved);
+    std::optional<Vec3> mean;  // rarely asked for
     for (const Halfedge h : CGAL::halfedges_around_target(moved, mesh_)) {
       const Vertex from = mesh_.source(h), next = mesh_.target(mesh_.next(h));
       if (from == gone || next == gone) continue;
@@ -188,7 +191,8 @@ class Remesher {
       if ((p - place).norm() > std::max(kSplitAbove * wanted(from, moved), (p - old).norm())) return false;
       const Vec3 before = (q - old).cross(p - old), after = (q - place).cross(p - place);
       const bool sliver = spike(old, p, q);
-      const Vec3& reference = sliver ? mean : before;
+      if (sliver && !mean) mean = fan_normal(moved);
+      const Vec3& reference = sliver ? *mean : before;
       if (reference.dot(after) < (sliver ? 0.2 : kLeastAgreement) * reference.norm() * after.norm()) return false;
       if (!sliver && spike(place, p, q)) return false;
     }
@@ -238,6 +242,7 @@ class Remesher {
   void relax() {
     std::vector<std::pair<Vertex, Vec3>> moves;
     moves.reserve(mesh_.number_of_vertices());
+    std::size_t last = 0;  // neighbours follow each other: the last answer is a good guess
     for (const Vertex v : mesh_.vertices()) {
       Vec3 normal = Vec3::Zero(), centre = Vec3::Zero();
       double weight = 0;
@@ -253,7 +258,8 @@ class Remesher {
       if (!(weight > 0)) continue;
       normal.normalize();
       const Vec3 step = centre / weight - here;
-      const auto found = source_.nearest(here + step - normal * normal.dot(step));
+      const auto found = source_.nearest(here + step - normal * normal.dot(step), last);
+      last = found.triangle;
       if (found.normal.dot(normal) > 0) moves.emplace_back(v, found.place), size_[v] = found.size;
     }
     for (const auto& [v, place] : moves)
@@ -275,6 +281,8 @@ class Remesher {
   Source source_;
   Mesh mesh_;
   Mesh::Property_map<Vertex, double> size_;
+  Mesh::Property_map<Vertex, std::uint32_t> stamped_;
+  std::uint32_t stamp_ = 0;
   double scale_ = 1;
 };
 

@@ -13,13 +13,13 @@
 #include "tissue/mesh/isosurface.h"
 #include "tissue/mesh/label_surface.h"
 #include "tissue/mesh/measured_facts.h"
+#include "tissue/mesh/scene_fields.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kSlopePerVoxel = 0.61;  ///< of the field across a flat face, for the default width
-constexpr double kContactWidth = 1.1;    ///< voxels: width of the Gaussian where organs come near each other
-constexpr double kThinShare = 0.25;
+constexpr SmoothingWidths kContactWidths{1.1, 0.6};  ///< of the broad fields that give the common outline near contacts
 constexpr std::size_t kLeastSamples = 8;
 constexpr std::size_t kMostFieldSamples = 120'000'000;
 constexpr int kReach = 2;                ///< voxels: organs no farther apart are meshed together
@@ -160,7 +160,9 @@ class GroupCompiler {
       f.field = smooth_field(m.mask, {});
       f.offset = 0.03F;
     }
-    blend_near_contacts(fields);
+    std::vector<ScalarField> broad;
+    for (const Member& m : members_) broad.push_back(smooth_field(m.mask, kContactWidths));
+    close_slits(fields, broad, size_);
     LabelComplex complex;
     constexpr int kRounds = 5;
     for (int round = 0; round < kRounds; ++round) {
@@ -176,47 +178,6 @@ class GroupCompiler {
       }
     }
     return complex;
-  }
-
-  /// Where two organs come near each other, labels flicker between touching and a voxel's gap: there the fields are taken from a
-  /// broader Gaussian, so that one contact comes out with one smooth rim instead of many islands.
-  void blend_near_contacts(std::vector<RegionField>& fields) const {
-    std::vector<ScalarField> broad;
-    for (const Member& m : members_) broad.push_back(smooth_field(m.mask, {kContactWidth, kContactWidth}));
-    std::vector<float> largest(grid_count(), 0), second(grid_count(), 0);
-    for (std::size_t n = 0; n < fields.size(); ++n)
-      for_samples(fields[n], [&](std::size_t own, std::size_t common) {
-        const float value = broad[n].values[own];
-        if (value > largest[common]) second[common] = std::exchange(largest[common], value);
-        else second[common] = std::max(second[common], value);
-      });
-    for (std::size_t n = 0; n < fields.size(); ++n) {
-      const double thin = static_cast<double>(count_thin_voxels(members_[n].mask));
-      if (thin > kThinShare * static_cast<double>(members_[n].mask.kept_voxels)) continue;  // it would melt away
-      for_samples(fields[n], [&](std::size_t own, std::size_t common) {
-        const float weight = std::clamp((second[common] - 0.02F) / 0.1F, 0.0F, 1.0F);
-        float& value = fields[n].field.values[own];
-        value += weight * (broad[n].values[own] - value);
-      });
-    }
-  }
-
-  std::size_t grid_count() const {
-    return static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) * static_cast<std::size_t>(size_[2]);
-  }
-
-  /// Calls visit(sample of the field, sample of the common grid) for the samples of a field that lie in the grid.
-  template <typename Visit>
-  void for_samples(const RegionField& f, Visit visit) const {
-    std::size_t own = 0;
-    for (int k = f.first[2]; k < f.first[2] + f.field.size[2]; ++k)
-      for (int j = f.first[1]; j < f.first[1] + f.field.size[1]; ++j)
-        for (int i = f.first[0]; i < f.first[0] + f.field.size[0]; ++i, ++own) {
-          if (i < 0 || j < 0 || k < 0 || i >= size_[0] || j >= size_[1] || k >= size_[2]) continue;
-          visit(own, static_cast<std::size_t>(i) +
-                         static_cast<std::size_t>(size_[0]) *
-                             (static_cast<std::size_t>(j) + static_cast<std::size_t>(size_[1]) * static_cast<std::size_t>(k)));
-        }
   }
 
   LabelComplex best_remeshing(const LabelComplex& dense, std::vector<std::string>& notes) {

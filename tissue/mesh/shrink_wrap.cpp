@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "haptics/input_error.h"
+#include "tissue/mesh/plain_surface.h"
 #include "tissue/mesh/rescue.h"
 
 namespace trocar {
@@ -63,18 +64,6 @@ SurfaceDistance distances(const TriangleSurface& from, const Tree& to) {
   return result;
 }
 
-TriangleSurface from_mesh(const Mesh& mesh) {
-  TriangleSurface surface;
-  for (const auto vertex : mesh.vertices()) surface.vertices.push_back(to_vec(mesh.point(vertex)));
-  for (const auto face : mesh.faces()) {
-    std::array<std::int32_t, 3> triangle{};
-    std::size_t n = 0;
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
-    surface.triangles.push_back(triangle);
-  }
-  return surface;
-}
-
 TriangleSurface wrap(const TriangleSurface& soup, double alpha_m, double offset_m) {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;
@@ -84,7 +73,7 @@ TriangleSurface wrap(const TriangleSurface& soup, double alpha_m, double offset_
   Mesh mesh;
   CGAL::alpha_wrap_3(points, faces, alpha_m, offset_m, mesh);
   mesh.collect_garbage();
-  return from_mesh(mesh);
+  return plain_surface(mesh);
 }
 
 /// Each vertex goes the same share of the way to the nearest point of the input, as far as nothing cuts itself.

@@ -1,20 +1,18 @@
 #include "tissue/mesh/surface_check.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+
+#include "tissue/mesh/nearest_surface.h"
 
 namespace trocar {
 namespace {
@@ -23,10 +21,6 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
-using Plain = CGAL::Simple_cartesian<double>;  // nearest points need no exact predicates: twice as fast
-using Triangle = Plain::Triangle_3;
-using Primitive = CGAL::AABB_triangle_primitive<Plain, std::vector<Triangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Plain, Primitive>>;
 
 std::vector<Point> points_of(const TriangleSurface& surface) {
   std::vector<Point> points;
@@ -60,14 +54,13 @@ constexpr std::size_t kDenseTriangles = 20000;  ///< from here on a triangle is 
 constexpr std::size_t kMostSamples = 60000;    ///< of a denser surface every second, third, ... triangle is sampled
 
 /// Centroid and, on coarse surfaces, edge midpoints of each triangle, sharing its area; nearest first.
-std::vector<Sample> sorted_samples(const TriangleSurface& from, const Tree& to) {
+std::vector<Sample> sorted_samples(const TriangleSurface& from, const NearestSurface& to) {
   std::vector<Sample> samples;
-  auto nearest =
-      to.any_reference_point_and_id();  // neighbouring samples follow each other: the last answer is a good guess
-  const auto measure = [&](const Vec3& q, double area) {
-    const Plain::Point_3 query(q.x(), q.y(), q.z());
-    nearest = to.closest_point_and_primitive(query, nearest);
-    samples.push_back({std::sqrt(CGAL::squared_distance(query, nearest.first)), area});
+  std::size_t last = 0;  // neighbouring samples follow each other: the last answer is a good guess
+  const auto measure = [&](const Vec3& place, double area) {
+    const NearestSurface::Hit hit = to.nearest(place, last);
+    last = hit.triangle;
+    samples.push_back({(place - hit.place).norm(), area});
   };
   const std::size_t stride = std::max<std::size_t>(1, (from.triangles.size() + kMostSamples - 1) / kMostSamples);
   for (std::size_t t = 0; t < from.triangles.size(); t += stride) {
@@ -130,15 +123,7 @@ std::size_t orient_outward(TriangleSurface& surface) {
 }
 
 SurfaceDistance distance_from_to(const TriangleSurface& from, const TriangleSurface& to) {
-  std::vector<Triangle> triangles;
-  triangles.reserve(to.triangles.size());
-  const auto corner = [&](std::int32_t index) {
-    const Vec3& p = to.vertices[static_cast<std::size_t>(index)];
-    return Plain::Point_3(p.x(), p.y(), p.z());
-  };
-  for (const auto& [a, b, c] : to.triangles) triangles.emplace_back(corner(a), corner(b), corner(c));
-  const Tree tree(triangles.cbegin(), triangles.cend());
-  const std::vector<Sample> samples = sorted_samples(from, tree);
+  const std::vector<Sample> samples = sorted_samples(from, NearestSurface(to));
   double area = 0;
   for (const Sample& sample : samples) area += sample.area_m2;
   SurfaceDistance result;

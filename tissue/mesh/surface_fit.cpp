@@ -1,20 +1,9 @@
 #include "tissue/mesh/surface_fit.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
+#include "tissue/mesh/nearest_surface.h"
 
 namespace trocar {
 namespace {
-
-using Kernel = CGAL::Simple_cartesian<double>;  // nearest points need no exact predicates: twice as fast
-using Point = Kernel::Point_3;
-using Triangle = Kernel::Triangle_3;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-Point to_point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 std::array<Vec3, 3> corners(const TriangleSurface& surface, std::size_t triangle) {
   std::array<Vec3, 3> p;
@@ -38,29 +27,20 @@ std::size_t sample_stride(const TriangleSurface& surface, const TriangleSurface&
 }
 
 void sweep(TriangleSurface& surface, const TriangleSurface& target, const std::vector<Vec3>& target_normals) {
-  std::vector<Triangle> triangles;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto p = corners(surface, t);
-    triangles.emplace_back(to_point(p[0]), to_point(p[1]), to_point(p[2]));
-  }
-  const Tree tree(triangles.cbegin(), triangles.cend());
+  const NearestSurface nearest(surface);
   std::vector<Vec3> moments(surface.vertices.size(), Vec3::Zero());
   std::vector<double> weights(surface.vertices.size(), 0.0);
-  auto nearest =
-      tree.any_reference_point_and_id();  // neighbouring samples follow each other: the last answer is a good guess
+  std::size_t last = 0;  // neighbouring samples follow each other: the last answer is a good guess
   const std::size_t stride = sample_stride(surface, target);
   for (std::size_t n = 0; n < target.vertices.size(); n += stride) {
     const Vec3& sample = target.vertices[n];
-    nearest = tree.closest_point_and_primitive(to_point(sample), nearest);
-    const auto& [point, primitive] = nearest;
-    const auto triangle = static_cast<std::size_t>(primitive - triangles.cbegin());
-    const Vec3 closest(point.x(), point.y(), point.z());
-    const auto p = corners(surface, triangle);
-    if ((p[1] - p[0]).cross(p[2] - p[0]).dot(target_normals[n]) <= 0) continue;  // the other side of something thin
-    const Vec3 shares = barycentric(p, closest);
+    const NearestSurface::Hit hit = nearest.nearest(sample, last);
+    last = hit.triangle;
+    if (hit.normal.dot(target_normals[n]) <= 0) continue;  // the other side of something thin
+    const Vec3 shares = barycentric(corners(surface, hit.triangle), hit.place);
     for (std::size_t m = 0; m < 3; ++m) {
-      const auto vertex = static_cast<std::size_t>(surface.triangles[triangle][m]);
-      moments[vertex] += shares[static_cast<Eigen::Index>(m)] * (sample - closest);
+      const auto vertex = static_cast<std::size_t>(surface.triangles[hit.triangle][m]);
+      moments[vertex] += shares[static_cast<Eigen::Index>(m)] * (sample - hit.place);
       weights[vertex] += shares[static_cast<Eigen::Index>(m)];
     }
   }

@@ -51,8 +51,6 @@ BuiltTetrahedra make_tetrahedra(const LabelVolume& volume, const std::vector<int
 
 /// Gmsh MSH 2.2, ASCII; physical and elementary tag are the label.
 std::string gmsh_text(const TetrahedraMesh& mesh);
-/// VTK legacy, ASCII unstructured grid, cell data "label".
-std::string vtk_text(const TetrahedraMesh& mesh);
 
 /// Smallest dihedral angle of a tetrahedron, degrees.
 double smallest_dihedral_deg(const TetrahedraMesh& mesh, std::size_t tetrahedron);

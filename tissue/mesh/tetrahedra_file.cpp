@@ -30,19 +30,4 @@ std::string gmsh_text(const TetrahedraMesh& mesh) {
   return out.str();
 }
 
-std::string vtk_text(const TetrahedraMesh& mesh) {
-  constexpr int kTetrahedron = 10;
-  auto out = plain_text();
-  out << "# vtk DataFile Version 3.0\ntetrahedra, RAS, metres\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << mesh.nodes.size()
-      << " double\n";
-  for (const Vec3& node : mesh.nodes) out << node.x() << ' ' << node.y() << ' ' << node.z() << '\n';
-  out << "CELLS " << mesh.tetrahedra.size() << ' ' << 5 * mesh.tetrahedra.size() << '\n';
-  for (const auto& t : mesh.tetrahedra) out << "4 " << t[0] << ' ' << t[1] << ' ' << t[2] << ' ' << t[3] << '\n';
-  out << "CELL_TYPES " << mesh.tetrahedra.size() << '\n';
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) out << kTetrahedron << '\n';
-  out << "CELL_DATA " << mesh.tetrahedra.size() << "\nSCALARS label int 1\nLOOKUP_TABLE default\n";
-  for (const auto label : mesh.labels) out << label << '\n';
-  return out.str();
-}
-
 }  // namespace trocar

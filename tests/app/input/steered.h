@@ -23,8 +23,16 @@ inline InputEvent key_event(std::int32_t key, bool down) {
   return event;
 }
 
+/// Looking at the origin.
+inline Camera camera_at(const Vec3& eye_T, const Vec3& up_T, double field_deg) {
+  Camera camera;
+  camera.eye_T = eye_T;
+  camera.up_T = up_T;
+  camera.diagonal_fov_deg = field_deg;
+  return camera;
+}
 /// Looking down onto the board from the person's side.
-inline Camera front_camera() { return {Vec3(0, -0.1, 0.1), Vec3::Zero(), Vec3::UnitZ(), 70}; }
+inline Camera front_camera() { return camera_at(Vec3(0, -0.1, 0.1), Vec3::UnitZ(), 70); }
 
 /// Of a wrist that follows far.
 inline SteeringReach wide_reach() { return {0.08, {}, 35 * std::numbers::pi / 180, 150 * std::numbers::pi / 180}; }

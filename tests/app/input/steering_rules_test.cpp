@@ -69,7 +69,8 @@ TEST(SteeringWrist, KeysTurnWhereTheySay) {
 TEST(SteeringWrist, AShaftUprightInThePictureLeansAway) {
   Steered s;
   const Axes axes = axes_of(s.camera);
-  s.steering.begin({Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axes.up).toRotationMatrix(), Vec3::Zero()}, 0.02, Vec3::Zero(), wide_reach());
+  const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axes.up).toRotationMatrix();
+  s.steering.begin({R, Vec3::Zero()}, 0.02, Vec3::Zero(), wide_reach());
   s.press('Z');
   s.run(0.3);
   EXPECT_GT(s.far().dot(axes.away), 0.1);

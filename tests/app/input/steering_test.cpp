@@ -10,8 +10,8 @@ namespace {
 
 const std::vector<Camera>& cameras() {
   static const std::vector<Camera> all{front_camera(),
-                                       {Vec3(0.12, 0.03, 0.06), Vec3::Zero(), Vec3(0.2, 0, 1), 60},
-                                       {Vec3(0.01, 0, 0.14), Vec3::Zero(), Vec3(0, 1, 0), 80}};
+                                       camera_at(Vec3(0.12, 0.03, 0.06), Vec3(0.2, 0, 1), 60),
+                                       camera_at(Vec3(0.01, 0, 0.14), Vec3(0, 1, 0), 80)};
   return all;
 }
 

@@ -31,7 +31,8 @@ Played play(const std::string& exercise, int board, const SteeringOptions& optio
 void tell(const Played& played) {
   std::printf("status %s  score %.1f  ends at %.1f s\n", status_name(played.grade.status), played.grade.score.value_or(-1),
               played.outcome.events.empty() ? 0 : played.outcome.events.back().t_s);
-  for (const Subscore& s : played.grade.subscores) std::printf("  %-16s %3.0f %%  raw %.3f %s\n", s.name.c_str(), 100 * s.value, s.raw.value_or(-1), s.unit.c_str());
+  for (const Subscore& s : played.grade.subscores)
+    std::printf("  %-16s %3.0f %%  raw %.3f %s\n", s.name.c_str(), 100 * s.value, s.raw.value_or(-1), s.unit.c_str());
   for (const std::string& cap : played.grade.caps) std::printf("  cap %s\n", cap.c_str());
 }
 

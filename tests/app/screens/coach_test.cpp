@@ -65,7 +65,7 @@ TEST(Coach, KeysDoAsWellAndTheRightButtonDoesNot) {
 TEST(Coach, ItsWordsFitTheInput) {
   Coach coach;
   coach.begin(true);
-  EXPECT_NE(coach.marks(Words(), KeyMap(), InputKind::kMouse)[1].text.find("Page up"), std::string::npos);
+  EXPECT_NE(coach.marks(Words(), KeyMap(), InputKind::kKeyboard)[1].text.find("Page up"), std::string::npos);
   EXPECT_NE(coach.marks(Words(), KeyMap(), InputKind::kPad)[0].text.find("stick"), std::string::npos);
   InputEvent pad = event(Kind::kPad);
   pad.axis[0] = 1;

@@ -201,7 +201,8 @@ TEST(PracticeDesk, TheShowSceneLoadsBehindTheDesk) {
   const auto desk = bench.desk();
   const auto scene = desk->show_scene(60);
   ASSERT_TRUE(scene);
-  EXPECT_FALSE(scene->organ_T.triangles.empty());
+  ASSERT_TRUE(scene->organ);
+  EXPECT_FALSE(scene->organ->triangles.empty());
   EXPECT_EQ(desk->show_scene(0), scene) << "loaded once";
 }
 

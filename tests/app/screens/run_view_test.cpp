@@ -127,7 +127,8 @@ Hud full_hud() {
   hud.trainee = "Trainee: T-1";
   hud.title = "E02 Surface touch · L1 · direct";
   hud.limit_s = 120;
-  hud.bars = {{.label = "Tip force", .value_n = 0.4, .peak_n = 0.9, .band_low_n = 0.4, .band_high_n = 0.8, .limit_n = 1.5, .full_scale_n = 2}};
+  hud.bars = {{.label = "Tip force", .value_n = 0.4, .peak_n = 0.9, .band_low_n = 0.4, .band_high_n = 0.8, .limit_n = 1.5,
+               .full_scale_n = 2}};
   hud.dial = PoseDial{};
   hud.steps = {{"Rest at the start", HudStep::State::kDone}, {"Touch and hold each disc", HudStep::State::kCurrent}};
   hud.rows = {{"Discs held", "2 / 12", ""}};

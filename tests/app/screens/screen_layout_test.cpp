@@ -33,7 +33,8 @@ class ScreenLayout : public testing_support::LoopBench, public ::testing::WithPa
   static bool may_be_short(const DrawnText& t) { return t.text.find("phantom") != std::string::npos; }
   /// Lesser side of the common rectangle, px.
   static double overlap(const DrawnText& a, const DrawnText& b) {
-    const double w = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x), h = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+    const double w = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+    const double h = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
     return w <= 0 || h <= 0 ? 0 : std::min(w, h);
   }
 };
@@ -63,8 +64,8 @@ TEST_P(ScreenLayout, NothingIsCutAndNothingCollides) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows, ScreenLayout,
-                         ::testing::Values(Case{1280, 720, 1}, Case{1280, 720, 1.5}, Case{1280, 720, 2}, Case{1920, 1080, 1}, Case{1920, 1080, 2},
-                                           Case{800, 600, 1}));
+                         ::testing::Values(Case{1280, 720, 1}, Case{1280, 720, 1.5}, Case{1280, 720, 2}, Case{1920, 1080, 1},
+                                           Case{1920, 1080, 2}, Case{800, 600, 1}));
 
 }  // namespace
 }  // namespace trocar

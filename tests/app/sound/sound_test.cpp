@@ -2,6 +2,7 @@
 #include "app/sound/sound.h"
 
 #include <cstdlib>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,16 @@ TEST(Sound, WithoutADeviceIsSilentAndSaysWhy) {
   use(sound);
   EXPECT_FALSE(sound.audible());
   EXPECT_NE(sound.refusal().find("no output device"), std::string::npos);
+}
+
+TEST(Sound, WithoutCardOrServerTheLibraryIsNotEvenAsked) {
+  if (std::filesystem::exists("/dev/snd")) GTEST_SKIP() << "this machine has a card";
+  for (const char* name : {"ALSOFT_DRIVERS", "PULSE_SERVER", "XDG_RUNTIME_DIR"}) unsetenv(name);
+  testing::internal::CaptureStderr();
+  Sound sound(true);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_FALSE(sound.audible());
+  EXPECT_NE(sound.refusal(), "");
 }
 
 TEST(Sound, PlaysOnADeviceAndCanBeMadeAgain) {

@@ -61,6 +61,8 @@ TEST_F(Catalogue, SentencesAndValues) {
   EXPECT_EQ(french("{1} after {0}", {"A", "B"}), "après A, B");
   EXPECT_EQ(french.number(-1.5, 1), "-1,5");
   EXPECT_EQ(french.number(3, 0), "3");
+  EXPECT_EQ(french.name("Start"), "Commencer");
+  EXPECT_EQ(french.name("F12"), "F12");
   EXPECT_TRUE(french.missing().empty());
 }
 
@@ -101,6 +103,13 @@ TEST_F(Catalogue, SentencesInSentences) {
   EXPECT_EQ(french.made("sum of the tip's way"), "sum of the tip's way");  // "{0} of {1}" is for numbers
   EXPECT_EQ(french.made("CC BY 4.0"), "CC BY 4.0");
   EXPECT_EQ(french.missing().size(), 2u);
+}
+
+TEST_F(Catalogue, TheListOfWhatIsMissingStaysShort) {
+  write("fr", kSmall);
+  const Words french(folder_, "fr");
+  for (int i = 0; i < 5000; ++i) french.made("no such sentence " + std::to_string(i));
+  EXPECT_EQ(french.missing().size(), 1000u);
 }
 
 TEST_F(Catalogue, PlacesOfASentence) {

@@ -65,7 +65,7 @@ TEST(DicomElements, DecimalsAreNumbersOrNothing) {
   };
   EXPECT_EQ(read("1.5"), (std::vector<double>{1.5}));
   EXPECT_EQ(read(" +1e-3 \\ -7\\0"), (std::vector<double>{0.001, -7, 0}));
-  for (const char* bad : {"", "abc", "1\\", "1,5", "0x10", "inf", "nan", "1e999", "1 2", "--1"})
+  for (const char* bad : {"", "abc", "1\\", "1,5", "0x10", "inf", "nan", "1e999", "1 2", "--1", "+-1", "-+1", "++1", "+"})
     EXPECT_FALSE(read(bad).has_value()) << bad;
 }
 

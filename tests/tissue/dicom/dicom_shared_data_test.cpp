@@ -9,6 +9,8 @@
 #include <iostream>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/support/label_files.h"
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/dicom/contour_fill.h"
 #include "tissue/imaging/dicom/dicom_pixels.h"
@@ -107,7 +109,7 @@ TEST_F(DicomSharedData, SegmentationLiesOnItsImages) {
 /// dicom2nifti's own expectation of this series.
 TEST_F(DicomSharedData, GenericMrEqualsItsNifti) {
   const ImageVolume image = read_dicom_series(data_ / "mr_generic");
-  const LabelVolume truth = read_label_volume(data_ / "mr_generic/001_ground_truth.nii.gz");
+  const LabelVolume truth = test::read_label_volume(data_ / "mr_generic/001_ground_truth.nii.gz");
   ASSERT_EQ(image.size, truth.size);
   EXPECT_LT((image.index_to_ras_mm.matrix() - truth.index_to_ras_mm.matrix()).norm(), 1e-3);
   std::size_t different = 0;
@@ -238,7 +240,7 @@ TEST_F(DicomSharedData, DicomdirsListTheirSeries) {
 TEST_F(DicomSharedData, StructureSetsHaveTheirPolygonsVolumes) {
   const fs::path file = data_ / "rtstruct_phantom/invalid_reference_rt.dcm";
   const LabelMap map = read_rtstruct(file);
-  const auto structures = read_structures(file, {});
+  const auto structures = read_structures(DicomStudy(file), {});
   ASSERT_EQ(structures.size(), map.segments.size());
   for (std::size_t n = 0; n < structures.size(); ++n) {
     double area = 0;

@@ -23,7 +23,7 @@ TEST(Tetrahedra, BallMeetsTheFigures) {
   const BuiltTetrahedra built = make_tetrahedra(volume, {1}, {.cell_m = 0.008});
   EXPECT_GT(built.facts.tetrahedra, 300U);
   EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.5);
-  EXPECT_GE(built.facts.min_dihedral_deg, 8);
+  EXPECT_GE(built.facts.min_dihedral_deg, 10);
   EXPECT_LT(built.facts.share_below_15, 0.05);
   EXPECT_LT(built.facts.surface_rms_voxel, 0.35);
   EXPECT_LT(built.facts.surface_max_voxel, 1);
@@ -61,10 +61,6 @@ TEST(Tetrahedra, FilesCountWhatTheyHold) {
   EXPECT_EQ(gmsh_text(mesh),
             "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 0.1 0 0\n3 0 0.1 0\n4 0 0 0.1\n$EndNodes\n"
             "$Elements\n1\n1 4 2 5 5 1 2 3 4\n$EndElements\n");
-  const std::string vtk = vtk_text(mesh);
-  EXPECT_EQ(vtk.rfind("# vtk DataFile Version 3.0\n", 0), 0U);
-  EXPECT_NE(vtk.find("CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"), std::string::npos);
-  EXPECT_NE(vtk.find("SCALARS label int 1\nLOOKUP_TABLE default\n5\n"), std::string::npos);
 }
 
 TEST(Tetrahedra, RefusesWhatCannotBe) {

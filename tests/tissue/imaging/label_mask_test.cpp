@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <random>
 
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
@@ -38,6 +40,52 @@ TEST(LabelMask, KeepsTheLargestPartAndCountsTheLost) {
   EXPECT_EQ(mask.border_voxels, 0U);
   EXPECT_EQ(std::accumulate(mask.inside.begin(), mask.inside.end(), 0), 64);
   EXPECT_EQ(mask.inside[mask.offset(1 - mask.first[0], 1 - mask.first[1], 1 - mask.first[2])], 1);
+}
+
+/// Sizes of the parts of one value over a fixed margin, by growing each from a voxel: largest first.
+std::vector<std::size_t> grown_parts(const LabelMask& grid, std::uint8_t value) {
+  std::vector<bool> seen(grid.inside.size(), false);
+  std::vector<std::size_t> sizes;
+  const std::ptrdiff_t row = grid.size[0], slice = row * grid.size[1];
+  for (std::size_t seed = 0; seed < seen.size(); ++seed) {
+    if (seen[seed] || grid.inside[seed] != value) continue;
+    std::vector<std::size_t> open{seed};
+    seen[seed] = true;
+    for (std::size_t n = 0; n < open.size(); ++n)
+      for (const std::ptrdiff_t step : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}, -row, row, -slice, slice}) {
+        const std::size_t next = open[n] + static_cast<std::size_t>(step);  // wraps into the empty margin at worst
+        if (next >= seen.size() || seen[next] || grid.inside[next] != value) continue;
+        seen[next] = true, open.push_back(next);
+      }
+    sizes.push_back(open.size());
+  }
+  std::sort(sizes.rbegin(), sizes.rend());
+  return sizes;
+}
+
+/// Noise at the density where parts of all sizes and forms occur.
+TEST(LabelMask, PartsAndCavitiesOfNoiseAreThoseThatGrowFromAVoxel) {
+  std::mt19937 engine(3);
+  for (const unsigned percent : {20U, 30U, 35U, 60U, 75U}) {
+    LabelVolume volume = empty_volume();
+    for (auto& label : volume.labels) label = engine() % 100 < percent ? 1 : 0;
+    fill(volume, {0, 0, 0}, {2, 2, 2}, 1);  // a part of 8 voxels at least; the box is the whole volume
+    fill(volume, {13, 11, 9}, {13, 11, 9}, 1);
+    LabelMask grid;
+    grid.size = {18, 16, 14};
+    grid.inside.assign(grid.offset(0, 0, 14), 0);
+    for (int k = 0; k < 10; ++k)
+      for (int j = 0; j < 12; ++j)
+        for (int i = 0; i < 14; ++i)
+          grid.inside[grid.offset(i + 2, j + 2, k + 2)] = static_cast<std::uint8_t>(volume.labels[volume.offset(i, j, k)]);
+    const LabelMask mask = cut_out_label(volume, 1, 2);
+    const auto parts = grown_parts(grid, 1);
+    ASSERT_EQ(mask.inside.size(), grid.inside.size());
+    EXPECT_EQ(mask.lost_parts, std::vector<std::size_t>(parts.begin() + 1, parts.end())) << percent << " %";
+    EXPECT_EQ(mask.kept_voxels, parts[0] + std::accumulate(mask.cavities.begin(), mask.cavities.end(), std::size_t{0}));
+    EXPECT_EQ(grown_parts(mask, 1), std::vector<std::size_t>{mask.kept_voxels});
+    EXPECT_EQ(grown_parts(mask, 0).size(), 1U) << "a cavity was left";
+  }
 }
 
 TEST(LabelMask, FillsCavitiesAndNamesTheirSizes) {

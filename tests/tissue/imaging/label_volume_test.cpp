@@ -6,6 +6,7 @@
 #include <random>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/nifti_fixture.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/label_table.h"
@@ -66,10 +67,10 @@ TEST(LabelVolume, EveryNumberTypeGivesTheSameLabels) {
   test::NiftiFixture file;
   file.at(1, 2, 3) = 5;
   file.at(0, 0, 0) = 120;
-  const LabelVolume wanted = read_label_volume(folder.write("u8.nii", file.bytes()));
+  const LabelVolume wanted = test::read_label_volume(folder.write("u8.nii", file.bytes()));
   const auto same = [&](std::int16_t code, std::int16_t bits, const auto& bytes_of) {
     file.type(code, bits);
-    const LabelVolume volume = read_label_volume(folder.write("typed.nii", bytes_of()));
+    const LabelVolume volume = test::read_label_volume(folder.write("typed.nii", bytes_of()));
     EXPECT_EQ(volume.labels, wanted.labels) << "datatype " << code;
   };
   same(4, 16, [&] { return file.bytes_as<std::int16_t>(); });
@@ -88,7 +89,7 @@ TEST(LabelVolume, RefusesWhatIsNoLabelMap) {
     file.type(16, 32);
     std::string bytes = file.bytes_as<float>();
     std::memcpy(bytes.data() + 352 + 4 * 17, &value, sizeof value);
-    return test::message_of<InputError>([&] { read_label_volume(folder.write("map.nii", bytes)); });
+    return test::message_of<InputError>([&] { test::read_label_volume(folder.write("map.nii", bytes)); });
   };
   EXPECT_CONTAINS(refused(0), "empty");
   EXPECT_CONTAINS(refused(1.5F), "voxel 17 holds 1.5");
@@ -104,25 +105,16 @@ TEST(LabelVolume, RoundsTheNoiseOfResampledMaps) {
   std::string bytes = file.bytes_as<float>();
   const float almost = 4.9999F;
   std::memcpy(bytes.data() + 352, &almost, sizeof almost);
-  EXPECT_EQ(read_label_volume(folder.write("map.nii", bytes)).label_counts(), (std::map<int, std::size_t>{{5, 1}}));
-}
-
-TEST(LabelVolume, GuessesCtFromHounsfieldAir) {
-  test::TemporaryFolder folder;
-  test::NiftiFixture file;
-  file.type(4, 16);
-  EXPECT_EQ(guess_modality(folder.write("mr.nii", file.bytes_as<std::int16_t>())), "unknown");
-  file.put(116, -1000.0F), file.put(112, 1.0F);  // slope 1, intercept -1000
-  EXPECT_EQ(guess_modality(folder.write("ct.nii", file.bytes_as<std::int16_t>())), "CT");
+  EXPECT_EQ(test::read_label_volume(folder.write("map.nii", bytes)).label_counts(), (std::map<int, std::size_t>{{5, 1}}));
 }
 
 TEST(LabelTable, OneNumberMeansDifferentOrgansInDifferentTables) {
   EXPECT_EQ(label_table("totalsegmentator-v1").name_of(7), "aorta");
   EXPECT_EQ(label_table("totalsegmentator-v2").name_of(7), "pancreas");
   EXPECT_EQ(label_table("totalsegmentator-mr").number_of("colon"), 15);
-  EXPECT_EQ(label_table(kDefaultLabelTable).number_of("liver"), 5);
-  EXPECT_FALSE(label_table(kDefaultLabelTable).number_of("tail").has_value());
-  EXPECT_FALSE(label_table(kDefaultLabelTable).name_of(999).has_value());
+  EXPECT_EQ(label_table("totalsegmentator-v1").number_of("liver"), 5);
+  EXPECT_FALSE(label_table("totalsegmentator-v1").number_of("tail").has_value());
+  EXPECT_FALSE(label_table("totalsegmentator-v1").name_of(999).has_value());
   EXPECT_CONTAINS(test::message_of<InputError>([] { label_table("mine"); }), "totalsegmentator-v2");
 }
 

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/nifti_fixture.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/gzip_stream.h"
@@ -22,7 +23,7 @@ std::string small_file() {
 /// True when the bytes were read, false when they were refused; anything else ends the test.
 bool accepted(const std::filesystem::path& path) {
   try {
-    const LabelVolume volume = read_label_volume(path);
+    const LabelVolume volume = test::read_label_volume(path);
     EXPECT_EQ(volume.labels.size(), volume.offset(0, 0, volume.size[2]));
     EXPECT_TRUE(volume.index_to_ras_mm.matrix().allFinite());
     return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/label_mask.h"
 #include "tissue/imaging/nifti_writer.h"
@@ -96,12 +97,12 @@ TEST(NiftiWriter, WhatIsWrittenIsReadBack) {
   const LabelVolume& labels = small.labels;
   const auto map = folder.write("labels.nii.gz", nifti_gz_bytes(labels.size, labels.index_to_ras_mm, labels.labels));
   const auto ct = folder.write("ct.nii.gz", nifti_gz_bytes(labels.size, labels.index_to_ras_mm, small.hounsfield));
-  const LabelVolume back = read_label_volume(map);
+  const LabelVolume back = test::read_label_volume(map);
   EXPECT_EQ(back.labels, labels.labels);
   EXPECT_EQ(back.size, labels.size);
   EXPECT_TRUE(back.index_to_ras_mm.isApprox(labels.index_to_ras_mm, 1e-6));
   EXPECT_TRUE(back.notes.empty());
-  EXPECT_EQ(guess_modality(ct), "CT");
+  EXPECT_TRUE(certainly_hounsfield(read_image_volume(ct)));
 }
 
 TEST(NiftiWriter, RefusesASizeThatDoesNotFit) {

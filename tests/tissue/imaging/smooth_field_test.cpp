@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <random>
 
 namespace trocar {
 namespace {
@@ -36,6 +37,50 @@ TEST(SmoothField, FallsThroughOneHalfAtAFlatFace) {
   const double outside = field.values[field.offset(kSmoothingMargin - 1, middle, middle)];
   EXPECT_NEAR(inside + outside, 1, 1e-5);  // the face lies half-way between the two samples
   EXPECT_GT(inside, 0.5);
+}
+
+/// The Gaussian of a block is the product of three sums of the kernel along the axes.
+TEST(SmoothField, IsTheProductOfItsAxes) {
+  const std::array<int, 3> extent{9, 12, 7};
+  constexpr double kSigma = 0.65;
+  constexpr int kReach = 3;  // ceil(3.5 sigma)
+  double sum = 0;
+  for (int n = -kReach; n <= kReach; ++n) sum += std::exp(-0.5 * n * n / (kSigma * kSigma));
+  const auto along = [&](std::size_t axis, int place) {
+    double inside = 0;
+    for (int n = -kReach; n <= kReach; ++n)
+      if (const int from = place + n - kSmoothingMargin; from >= 0 && from < extent[axis])
+        inside += std::exp(-0.5 * n * n / (kSigma * kSigma));
+    return inside / sum;
+  };
+  const ScalarField field = smooth_field(block(extent), {});
+  for (int k = 0; k < field.size[2]; ++k)
+    for (int j = 0; j < field.size[1]; ++j)
+      for (int i = 0; i < field.size[0]; ++i)
+        ASSERT_NEAR(field.values[field.offset(i, j, k)], along(0, i) * along(1, j) * along(2, k), 2e-6) << i << ' ' << j << ' ' << k;
+}
+
+/// Two steps along every axis from a voxel all of whose neighbours are inside, looked for voxel by voxel.
+TEST(SmoothField, ThinVoxelsAreThoseFarFromAnyCore) {
+  std::mt19937 engine(11);
+  LabelMask mask = block({14, 12, 10});
+  for (auto& voxel : mask.inside) voxel = voxel != 0 && engine() % 100 < 85 ? 1 : 0;
+  const auto inside = [&](int i, int j, int k) { return mask.inside[mask.offset(i, j, k)] != 0; };
+  const auto core = [&](int i, int j, int k) {
+    return inside(i, j, k) && inside(i - 1, j, k) && inside(i + 1, j, k) && inside(i, j - 1, k) && inside(i, j + 1, k) &&
+           inside(i, j, k - 1) && inside(i, j, k + 1);
+  };
+  const auto near_core = [&](int i, int j, int k) {
+    for (int n = 0; n < 125; ++n)
+      if (core(i + n % 5 - 2, j + n / 5 % 5 - 2, k + n / 25 - 2)) return true;
+    return false;
+  };
+  std::size_t thin = 0;
+  for (int k = kSmoothingMargin; k < kSmoothingMargin + 10; ++k)
+    for (int j = kSmoothingMargin; j < kSmoothingMargin + 12; ++j)
+      for (int i = kSmoothingMargin; i < kSmoothingMargin + 14; ++i) thin += inside(i, j, k) && !near_core(i, j, k) ? 1 : 0;
+  EXPECT_GT(thin, 0U);
+  EXPECT_EQ(count_thin_voxels(mask), thin);
 }
 
 TEST(SmoothField, VanishesAtTheBorderOfTheBox) {

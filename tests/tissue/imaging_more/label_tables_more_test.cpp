@@ -218,7 +218,7 @@ TEST(SegmentChoice, ATableNamesOnlyWhatTheFileLeavesUnnamed) {
 
 TEST(SegmentChoice, TheOnlySegmentNeedsNoNameAndSeveralAreListed) {
   const LabelMap one = map_of({{0, 5, ""}});
-  EXPECT_EQ(choose_segment(one, "", &label_table(kDefaultLabelTable), "m").name, "liver");
+  EXPECT_EQ(choose_segment(one, "", &label_table("totalsegmentator-v1"), "m").name, "liver");
   EXPECT_CONTAINS(test::message_of<InputError>([] {
                     choose_segment(map_of({{0, 1, "a"}, {0, 2, "b"}}), "", nullptr, "m.nii");
                   }),

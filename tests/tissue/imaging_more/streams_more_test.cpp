@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/byte_stream.h"
 #include "tissue/imaging/child_process.h"
@@ -181,7 +182,7 @@ TEST(NiftiWriterRoundTrip, LabelsKeepTheirNumbersUpToTheLast) {
   std::mt19937_64 engine(9);
   for (std::uint16_t& voxel : labels) voxel = static_cast<std::uint16_t>(engine() % 40 * 1600);
   labels[5] = 65535;
-  const LabelVolume back = read_label_volume(folder.write("l.nii.gz", nifti_gz_bytes({9, 8, 7}, frame, labels)));
+  const LabelVolume back = test::read_label_volume(folder.write("l.nii.gz", nifti_gz_bytes({9, 8, 7}, frame, labels)));
   EXPECT_EQ(back.labels, labels);
   EXPECT_NEAR(back.voxel_volume_ml(), 0.75 * 1.25 * 3e-3, 1e-9);
 }

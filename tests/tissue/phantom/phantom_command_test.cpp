@@ -6,6 +6,7 @@
 
 #include "app/commands/organ_phantom.h"
 #include "haptics/input_error.h"
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/label_volume.h"
 
@@ -34,12 +35,22 @@ TEST(PhantomCommand, DrawsAVariantOfAPatientWithItsDicomSeries) {
   EXPECT_CONTAINS(readme, "--variant low-insertion --patient 4 --voxel 4 --seed 1");
   EXPECT_CONTAINS(readme, "cystic_duct, ");
   EXPECT_CONTAINS(readme, "206 cystic_artery, ");
-  const LabelVolume labels = read_label_volume(folder / "ct/labels.nii.gz");
+  const LabelVolume labels = test::read_label_volume(folder / "ct/labels.nii.gz");
   EXPECT_GT(labels.label_counts().at(201), 10U);
   std::size_t slices = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "ct/dicom"))
     slices += entry.path().extension() == ".dcm" ? 1 : 0;
   EXPECT_EQ(slices, static_cast<std::size_t>(labels.size[2]));
+}
+
+TEST(PhantomCommand, ASeedMayChooseTheVariant) {
+  test::TemporaryFolder folder;
+  OrganPhantomOptions options;
+  options.out = folder / "ct", options.variant = "by-seed", options.seed = 8, options.voxel_mm = 6, options.json = true;
+  std::ostringstream out, err;
+  EXPECT_EQ(organ_phantom(options, out, err), 0);
+  EXPECT_EQ(nlohmann::json::parse(out.str())["variant"], "fat");  // the fourth of five
+  EXPECT_CONTAINS(file_bytes(folder / "ct/README.md"), "--variant fat --patient 0 --voxel 6 --seed 8");
 }
 
 TEST(PhantomCommand, RefusesBeforeItWritesAnything) {

@@ -146,6 +146,17 @@ TEST(Wrap, TheSameSurfaceGivesTheSameWrap) {
   EXPECT_EQ(first.triangles, second.triangles);
 }
 
+// CGAL asks nobody while it wraps: the wrap runs in a process of its own, and whoever waits for it may stop it.
+TEST(Wrap, ProgressMayStopItWhileItRuns) {
+  int asked = 0;
+  const Progress stop = [&](std::string_view stage, double) {
+    if (stage == "wrapping" && ++asked == 3) throw EnvironmentError("stopped");
+  };
+  ImportedSurface result;
+  EXPECT_THROW(close_surface(sphere(Vec3::Zero(), 0.05, 5), wrapping(1, 0.1), "", "a.stl", result, stop), EnvironmentError);
+  EXPECT_EQ(asked, 3);
+}
+
 TEST(Wrap, HolesAndFinsAreRescued) {
   TriangleSurface broken = open_ball(0.05, 0.0495);
   const auto& t = broken.triangles[40];

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/label_volume.h"
 #include "tissue/mesh/surface_import.h"
@@ -236,7 +237,7 @@ TEST_F(SharedSurfaces, SlicerGallbladdersCoincideAndLieOnTheirMask) {
   for (std::size_t v = 0; v < 602; ++v)  // six digits of text
     EXPECT_LT((lps.surface.vertices[v] - ras.surface.vertices[v]).norm(), 1e-6);
   EXPECT_NEAR(lps.surface.volume_m3() * 1e6, 34.48, 0.005);
-  const LabelVolume mask = read_label_volume(folder / "masks_v1" / "gallbladder.nii.gz");
+  const LabelVolume mask = test::read_label_volume(folder / "masks_v1" / "gallbladder.nii.gz");
   Vec3 sum = Vec3::Zero();
   std::size_t voxels = 0, n = 0;
   for (int k = 0; k < mask.size[2]; ++k)

@@ -1,5 +1,6 @@
 // The steps that ITK does, against the same steps done one voxel at a time.
 #include "tissue/imaging/itk_region.h"
+#include "tissue/imaging/mask_pieces.h"
 
 #include <gtest/gtest.h>
 

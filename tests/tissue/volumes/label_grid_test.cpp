@@ -73,7 +73,7 @@ TEST(LabelGrid, MapOfAnotherGridGoesThroughThePatient) {
   EXPECT_TRUE(same_grid(grid_of(coarse), grid_of(image)));
   EXPECT_NEAR(static_cast<double>(coarse.label_counts().at(1)) * 8, static_cast<double>(fine.label_counts().at(1)),
               300);
-  EXPECT_TRUE(test::has_note(coarse.notes, "grid of its own"));
+  EXPECT_TRUE(test::has_note(coarse.notes, "another grid than the image"));
   LabelVolume far = fine;
   far.index_to_ras_mm.translation().x() += 500;
   const std::string message = test::message_of<InputError>([&] { on_grid_of(image, far, "map.nii"); });

@@ -157,7 +157,8 @@ TEST(ChooseSegment, TheFilesOwnNamesComeFirst) {
   map.segments[0].name = "liver", map.segments[1].name = "liver";
   map.segments[1].layer = 1;
   EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "liver", nullptr, "m"); }),
-                  "several segments");
+                  "choose one with --label 0:1 or --label 1:2");
+  EXPECT_EQ(choose_segment(map, "1:2", nullptr, "m").number, 2);
   map.segments[1].name = "tumour";
   EXPECT_EQ(choose_segment(map, "liver", &label_table("totalsegmentator-v1"), "m").number, 1);
   EXPECT_TRUE(guess_label_table(map).size() == label_table_names().size());  // nothing is left to name

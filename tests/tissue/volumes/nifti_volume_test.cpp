@@ -1,4 +1,5 @@
 // NIfTI as images and label maps: version 2, pairs, every number type, odd values, sheared axes, big volumes.
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/nifti_fixture.h"
 #include "tests/tissue/volumes/volume_files.h"
 #include "tissue/imaging/gzip_stream.h"
@@ -79,14 +80,14 @@ TEST(NiftiPair, IsReadFromEitherName) {
   const NiftiFixture file = pair_header();
   const std::string header = file.header.substr(0, 348), voxels(file.voxels.begin(), file.voxels.end());
   folder.write("a.hdr", header), folder.write("a.img", voxels);
-  EXPECT_EQ(read_label_volume(folder / "a.hdr").label_counts().at(9), 1U);
-  EXPECT_EQ(read_label_volume(folder / "a.img").label_counts().at(9), 1U);
+  EXPECT_EQ(test::read_label_volume(folder / "a.hdr").label_counts().at(9), 1U);
+  EXPECT_EQ(test::read_label_volume(folder / "a.img").label_counts().at(9), 1U);
   folder.write("B.HDR", header), folder.write("B.IMG", voxels);
-  EXPECT_EQ(read_label_volume(folder / "B.IMG").label_counts().at(9), 1U);
+  EXPECT_EQ(test::read_label_volume(folder / "B.IMG").label_counts().at(9), 1U);
   folder.write("c.hdr.gz", gzip_compressed(header)), folder.write("c.img.gz", gzip_compressed(voxels));
-  EXPECT_EQ(read_label_volume(folder / "c.img.gz").label_counts().at(9), 1U);
+  EXPECT_EQ(test::read_label_volume(folder / "c.img.gz").label_counts().at(9), 1U);
   folder.write("d.hdr", header), folder.write("d.img.gz", gzip_compressed(voxels));
-  EXPECT_EQ(read_label_volume(folder / "d.hdr").label_counts().at(9), 1U);
+  EXPECT_EQ(test::read_label_volume(folder / "d.hdr").label_counts().at(9), 1U);
 }
 
 TEST(NiftiPair, HalvesAloneAndAnalyzeAreRefused) {

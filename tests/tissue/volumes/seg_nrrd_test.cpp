@@ -1,4 +1,5 @@
 // Segmentations as 3D Slicer saves them: names, layers, and the old form with one component a segment.
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/volumes/volume_files.h"
 #include "tissue/imaging/gzip_stream.h"
 #include "tissue/imaging/label_choice.h"
@@ -40,8 +41,11 @@ TEST(SegNrrd, OverlappingSegmentsLieInLayers) {
   EXPECT_EQ(map.segments[2].layer, 1U);
   EXPECT_EQ(choose_segment(map, "left lobe", nullptr, "a").layer, 1U);
   const std::string both = test::message_of<InputError>([&] { choose_segment(map, "1", nullptr, "a.seg.nrrd"); });
-  EXPECT_CONTAINS(both, "1 in layer 0, 1 in layer 1");
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { read_label_volume(path); }), "2 layers");
+  EXPECT_CONTAINS(both, "\"1\" means 2 segments, which overlap in layers: 1 liver (layer 0), 1 left lobe (layer 1)");
+  EXPECT_CONTAINS(both, "--label \"liver\" or --label \"left lobe\"");
+  EXPECT_EQ(choose_segment(map, "1:1", nullptr, "a").name, "left lobe");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "1:7", nullptr, "a"); }), "layer 1 holds no label 7");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { test::read_label_volume(path); }), "2 layers");
   EXPECT_CONTAINS(test::image_refusal(path), "a segmentation, not an image");
 }
 

@@ -1,6 +1,7 @@
 // One anatomy in many containers is one array in one place; and what the reader tells about a file beside its voxels.
 #include "tissue/imaging/volume_reader.h"
 
+#include "tests/tissue/support/label_files.h"
 #include "tests/tissue/support/nifti_fixture.h"
 #include "tests/tissue/volumes/volume_files.h"
 #include "tissue/imaging/gzip_stream.h"
@@ -77,15 +78,14 @@ TEST(Containers, LabelVolumeComesFromAnyOfThem) {
       "ObjectType = Image\nNDims = 3\nDimSize = 4 3 2\nElementSpacing = 2 3 4\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
       "Offset = 0 0 0\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
   const auto map = folder.write("map.mha", meta + test::packed<std::int16_t>(test::told_indices()));
-  EXPECT_EQ(read_label_volume(map).label_counts().size(), 23U);  // all but the background
+  EXPECT_EQ(test::read_label_volume(map).label_counts().size(), 23U);  // all but the background
   std::vector<double> hounsfield = test::told_indices();
   hounsfield[5] = -1000;
   const auto ct = folder.write("ct.mha", meta + test::packed<std::int16_t>(hounsfield));
-  EXPECT_EQ(guess_modality(ct), "CT");
-  EXPECT_EQ(guess_modality(map), "unknown");
-  EXPECT_EQ(
-      guess_modality(folder.write("mr.mha", "Modality = MET_MOD_MR\n" + meta + test::packed<std::int16_t>(hounsfield))),
-      "MR");
+  EXPECT_TRUE(certainly_hounsfield(read_image_volume(ct)));
+  EXPECT_FALSE(certainly_hounsfield(read_image_volume(map)));
+  const auto mr = folder.write("mr.mha", "Modality = MET_MOD_MR\n" + meta + test::packed<std::int16_t>(hounsfield));
+  EXPECT_EQ(read_image_volume(mr).modality, "MR");
   EXPECT_CONTAINS(test::map_refusal(ct), "voxel 5 holds -1000");
 }
 

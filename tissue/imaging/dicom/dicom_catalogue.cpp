@@ -154,13 +154,6 @@ std::vector<StackSlice> slices_of(const CataloguedSeries& series) {
   return slices;
 }
 
-std::vector<DicomSeries> list_dicom(const std::filesystem::path& input, const Progress& progress) {
-  const DicomInput files(input, progress);
-  std::vector<DicomSeries> list;
-  for (CataloguedSeries& series : catalogue(files, progress).series) list.push_back(std::move(series.facts));
-  return list;
-}
-
 std::string describe(const DicomSeries& series) {
   std::string text = std::to_string(series.number) + ": " + series.modality;
   char part[160];

@@ -78,7 +78,8 @@ std::optional<std::vector<double>> DicomItem::decimals(DicomTag tag) const {
   for (std::size_t from = 0; from <= all.size();) {
     const std::size_t to = std::min(all.find('\\', from), all.size());
     std::string one = trimmed(all.substr(from, to - from));
-    if (!one.empty() && one[0] == '+') one.erase(0, 1);
+    if (one.starts_with("+-")) return {};  // one sign only; from_chars knows no plus
+    if (one.starts_with('+')) one.erase(0, 1);
     double number = 0;
     const auto [end, error] = std::from_chars(one.data(), one.data() + one.size(), number);
     if (error != std::errc() || end != one.data() + one.size() || !std::isfinite(number)) return {};

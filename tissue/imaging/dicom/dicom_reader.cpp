@@ -7,6 +7,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_catalogue.h"
 #include "tissue/imaging/dicom/dicom_pixels.h"
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/slice_volume.h"
 
 namespace trocar {
@@ -117,8 +118,12 @@ std::size_t damaged_elsewhere(const DicomCatalogue& all) {
 }  // namespace
 
 ImageVolume read_dicom_series(const std::filesystem::path& input, std::optional<int> number, const Progress& progress) {
-  const DicomInput files(input, progress);
-  const DicomCatalogue all = catalogue(files, progress);
+  return read_dicom_series(DicomStudy(input, progress), number, progress);
+}
+
+ImageVolume read_dicom_series(const DicomStudy& study, std::optional<int> number, const Progress& progress) {
+  const DicomInput& files = study.files();
+  const DicomCatalogue& all = study.catalogue();
   const CataloguedSeries& series = choose(all, DicomKind::kImage, number, files.name(), "images");
   const std::vector<StackSlice> slices = slices_of(series);
   const SliceStack stack = stacked(slices, files.name());

@@ -19,6 +19,8 @@
 
 namespace trocar {
 
+class DicomStudy;  // dicom_study.h: looked at once, read from several times
+
 enum class DicomKind { kImage, kSegmentation, kStructureSet, kOther };
 
 struct DicomSeries {
@@ -47,5 +49,6 @@ std::string describe(const DicomSeries& series);
 /// is given
 ImageVolume read_dicom_series(const std::filesystem::path& input, std::optional<int> series = {},
                               const Progress& progress = {});
+ImageVolume read_dicom_series(const DicomStudy& study, std::optional<int> series = {}, const Progress& progress = {});
 
 }  // namespace trocar

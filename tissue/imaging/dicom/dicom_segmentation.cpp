@@ -6,6 +6,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dcmseg_frames.h"
 #include "tissue/imaging/dicom/dicom_catalogue.h"
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/dicom_tags.h"
 #include "tissue/imaging/dicom/even_planes.h"
 #include "tissue/imaging/dicom/segment_layers.h"
@@ -220,8 +221,12 @@ LabelMap assembled(const Header& header, const SegmentationFrames& frames, const
 
 LabelMap read_dicom_segmentation(const std::filesystem::path& input, const Progress& progress,
                                  std::optional<int> number) {
-  const DicomInput files(input, progress);
-  const DicomCatalogue all = catalogue(files, progress);
+  return read_dicom_segmentation(DicomStudy(input, progress), progress, number);
+}
+
+LabelMap read_dicom_segmentation(const DicomStudy& study, const Progress& progress, std::optional<int> number) {
+  const DicomInput& files = study.files();
+  const DicomCatalogue& all = study.catalogue();
   const CataloguedSeries& series = choose(all, DicomKind::kSegmentation, number, files.name(), "a segmentation");
   if (series.instances.size() != 1)
     throw InputError(files.name() + ": the series holds " + std::to_string(series.instances.size()) +

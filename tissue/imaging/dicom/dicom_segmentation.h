@@ -13,10 +13,14 @@
 
 namespace trocar {
 
+class DicomStudy;
+
 /// @param input a SEG file; or a folder, zip or DICOMDIR that holds one
 /// @param series number as list_dicom gives it, where the input holds several segmentations
 /// @throws InputError naming the file and what is wrong
 LabelMap read_dicom_segmentation(const std::filesystem::path& input, const Progress& progress = {},
+                                 std::optional<int> series = {});
+LabelMap read_dicom_segmentation(const DicomStudy& study, const Progress& progress = {},
                                  std::optional<int> series = {});
 
 }  // namespace trocar

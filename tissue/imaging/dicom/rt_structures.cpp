@@ -8,6 +8,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/contour_fill.h"
 #include "tissue/imaging/dicom/contour_grid.h"
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/segment_layers.h"
 
 namespace trocar {
@@ -131,9 +132,10 @@ LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& struct
   return map;
 }
 
-std::vector<Structure> structures_with_contours(const std::filesystem::path& path, const Progress& progress,
+std::vector<Structure> structures_with_contours(const DicomStudy& study, const Progress& progress,
                                                 std::optional<int> series) {
-  std::vector<Structure> structures = read_structures(path, progress, series);
+  const std::filesystem::path& path = study.path();
+  std::vector<Structure> structures = read_structures(study, progress, series);
   if (structures.size() > 65535) throw InputError(path.string() + ": holds more than 65535 structures");
   const bool any =
       std::any_of(structures.begin(), structures.end(), [](const Structure& one) { return !one.closed.empty(); });
@@ -145,16 +147,27 @@ std::vector<Structure> structures_with_contours(const std::filesystem::path& pat
 
 LabelMap read_rtstruct(const std::filesystem::path& path, const ImageVolume& grid, const Progress& progress,
                        std::optional<int> series) {
-  const std::vector<Structure> structures = structures_with_contours(path, progress, series);
-  LabelMap map = filled_on(image_contour_grid(grid, structures, path.string()), structures, path.string(), progress);
+  return read_rtstruct(DicomStudy(path, progress), grid, progress, series);
+}
+
+LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progress, std::optional<int> series) {
+  return read_rtstruct(DicomStudy(path, progress), progress, series);
+}
+
+LabelMap read_rtstruct(const DicomStudy& study, const ImageVolume& grid, const Progress& progress,
+                       std::optional<int> series) {
+  const std::vector<Structure> structures = structures_with_contours(study, progress, series);
+  const std::string file = study.path().string();
+  LabelMap map = filled_on(image_contour_grid(grid, structures, file), structures, file, progress);
   map.modality = grid.modality;
   return map;
 }
 
-LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progress, std::optional<int> series) {
-  const std::vector<Structure> structures = structures_with_contours(path, progress, series);
-  const ContourGrid grid = own_contour_grid(structures, path.string());
-  LabelMap map = filled_on(grid, structures, path.string(), progress);
+LabelMap read_rtstruct(const DicomStudy& study, const Progress& progress, std::optional<int> series) {
+  const std::vector<Structure> structures = structures_with_contours(study, progress, series);
+  const std::string file = study.path().string();
+  const ContourGrid grid = own_contour_grid(structures, file);
+  LabelMap map = filled_on(grid, structures, file, progress);
   char note[160];
   std::snprintf(note, sizeof note,
                 "The contours were filled on a grid of their own: %d x %d x %d voxels of %.3f x %.3f x %.3f mm.",

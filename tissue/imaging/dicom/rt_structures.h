@@ -14,6 +14,8 @@
 
 namespace trocar {
 
+class DicomStudy;
+
 /// Filled on the grid of the image that was drawn on. Contours must lie in slices of that grid, or evenly between them.
 /// @param input an RTSTRUCT file; or a folder, zip or DICOMDIR that holds one
 /// @param series number as list_dicom gives it, where the input holds several structure sets
@@ -25,5 +27,8 @@ LabelMap read_rtstruct(const std::filesystem::path& input, const ImageVolume& gr
 /// @throws InputError as above; also when the planes of the contours are not evenly spaced or not parallel
 LabelMap read_rtstruct(const std::filesystem::path& input, const Progress& progress = {},
                        std::optional<int> series = {});
+LabelMap read_rtstruct(const DicomStudy& study, const ImageVolume& grid, const Progress& progress = {},
+                       std::optional<int> series = {});
+LabelMap read_rtstruct(const DicomStudy& study, const Progress& progress = {}, std::optional<int> series = {});
 
 }  // namespace trocar

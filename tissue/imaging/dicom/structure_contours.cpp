@@ -12,6 +12,7 @@
 #include "tissue/imaging/child_process.h"
 #include "tissue/imaging/dicom/dcmtk_silence.h"
 #include "tissue/imaging/dicom/dicom_catalogue.h"
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/packed_bytes.h"
 
 namespace trocar {
@@ -120,11 +121,10 @@ const DicomInstance& structure_file(const CataloguedSeries& series, const std::s
 
 }  // namespace
 
-std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress,
-                                       std::optional<int> number) {
-  const DicomInput files(input, progress);
-  const DicomCatalogue all = catalogue(files, progress);
-  const CataloguedSeries& series = choose(all, DicomKind::kStructureSet, number, files.name(), "structures");
+std::vector<Structure> read_structures(const DicomStudy& study, const Progress& progress, std::optional<int> number) {
+  const DicomInput& files = study.files();
+  const CataloguedSeries& series =
+      choose(study.catalogue(), DicomKind::kStructureSet, number, files.name(), "structures");
   const std::filesystem::path path = structure_file(series, files.name()).path;
   const std::string file = series.instances.front().name;
   load_dcmtk_dictionary();

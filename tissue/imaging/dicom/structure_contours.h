@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/progress.h"
 
 namespace trocar {
@@ -23,9 +24,9 @@ struct Structure {
 };
 
 /// By number; structures without any contour are among them.
-/// @param input and series as read_rtstruct has them
+/// @param series as read_rtstruct has it
 /// @throws InputError naming the file
-std::vector<Structure> read_structures(const std::filesystem::path& input, const Progress& progress,
+std::vector<Structure> read_structures(const DicomStudy& study, const Progress& progress,
                                        std::optional<int> series = {});
 
 }  // namespace trocar

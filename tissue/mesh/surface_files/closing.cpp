@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <numeric>
 
 #include "haptics/input_error.h"
+#include "tissue/imaging/child_process.h"
 #include "tissue/mesh/rescue.h"
 #include "tissue/mesh/surface_check.h"
 #include "tissue/mesh/surface_files/organ_sizes.h"
@@ -27,6 +30,23 @@ std::string fixed(double value, int decimals) {
 }
 std::string mm(double metres) { return fixed(metres * 1e3, 2) + " mm"; }
 std::string ml(double cubic_metres) { return fixed(cubic_metres * 1e6, 3) + " mL"; }
+
+/// A list of plain values as it lies in memory, its length before it: for our own child process on this machine only.
+template <typename Value>
+std::string as_bytes(const std::vector<Value>& values) {
+  const std::uint64_t count = values.size();
+  std::string bytes(reinterpret_cast<const char*>(&count), sizeof count);
+  return bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(Value));
+}
+
+template <typename Value>
+void take_bytes(const std::string& bytes, std::size_t& from, std::vector<Value>& values) {
+  std::uint64_t count = 0;
+  std::memcpy(&count, bytes.data() + from, sizeof count);
+  values.resize(count);
+  std::memcpy(static_cast<void*>(values.data()), bytes.data() + from + sizeof count, count * sizeof(Value));
+  from += sizeof count + count * sizeof(Value);
+}
 
 void weld(ImportedSurface& result, const std::string& file) {
   WeldFacts facts;
@@ -53,9 +73,31 @@ void fill(const SurfaceImportOptions& options, const std::string& file, Imported
   if (holes.size() > kListed) result.repairs.push_back("filled " + std::to_string(holes.size() - kListed) + " smaller holes");
 }
 
-void wrap(const WrapSettings& settings, const std::string& file, ImportedSurface& result) {
+/// The wrap in a process of its own: CGAL cannot be asked to stop, a process can. Ctrl-C counts at once, and memory is
+/// bounded.
+TriangleSurface wrapped_apart(const TriangleSurface& soup, const WrapSettings& settings, const std::string& file,
+                              WrapFacts& facts, const Progress& progress) {
+  constexpr ChildLimits kLimits{std::uint64_t{4} << 30, 3600};
+  const auto waiting = [&](std::string_view, double share) { report(progress, "wrapping", share); };
+  const std::string bytes = in_child(file + ": wrapping", kLimits, waiting, [&] {
+    WrapFacts made;
+    const TriangleSurface wrapped =
+        shrink_wrapped(soup, settings.alpha_mm * 1e-3, settings.offset_mm * 1e-3, made, file);
+    return as_bytes(wrapped.vertices) + as_bytes(wrapped.triangles) + as_bytes(std::vector{made});
+  });
+  TriangleSurface surface;
+  std::size_t from = 0;
+  take_bytes(bytes, from, surface.vertices);
+  take_bytes(bytes, from, surface.triangles);
+  std::vector<WrapFacts> told;
+  take_bytes(bytes, from, told);
+  facts = told.at(0);
+  return surface;
+}
+
+void wrap(const WrapSettings& settings, const std::string& file, ImportedSurface& result, const Progress& progress) {
   WrapFacts facts;
-  result.surface = shrink_wrapped(result.surface, settings.alpha_mm * 1e-3, settings.offset_mm * 1e-3, facts, file);
+  result.surface = wrapped_apart(result.surface, settings, file, facts, progress);
   result.repairs.push_back("wrapped with alpha " + fixed(settings.alpha_mm, 2) + " mm, laid " + fixed(settings.offset_mm, 2) +
                            " mm outside (" + ml(facts.volume_outside_m3) + ") and pulled back by " +
                            fixed(100 * facts.pulled_back, 0) + " % of that (" + ml(facts.volume_m3) + ")");
@@ -82,7 +124,7 @@ void check_closed(const TriangleSurface& surface, const SurfaceImportOptions& op
 void rescue(const SurfaceImportOptions& options, const std::string& file, ImportedSurface& result, const Progress& progress) {
   if (options.wrap) {
     report(progress, "wrapping", -1);
-    return wrap(*options.wrap, file, result);
+    return wrap(*options.wrap, file, result, progress);
   }
   if (!options.fill_holes_mm) return;
   const SurfaceTopology facts = analyse_topology(result.surface);

@@ -1,0 +1,62 @@
+#include "app/commands/picture_command.h"
+
+#include <algorithm>
+#include <optional>
+#include <ostream>
+#include <string_view>
+
+#include "app/graphics/headless_context.h"
+#include "app/graphics/marks_montage.h"
+#include "app/graphics/preset.h"
+#include "app/graphics/renderer.h"
+#include "app/graphics/show_scene.h"
+#include "haptics/input_error.h"
+#include "tissue/mesh/staged_file.h"
+
+namespace trocar {
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+void check(const PictureOptions& options) {
+  const std::vector<std::string> scenes = picture_scenes();
+  if (std::find(scenes.begin(), scenes.end(), options.scene) == scenes.end())
+    throw InputError("picture: no scene is called '" + options.scene + "'; there are " + listed(scenes));
+  if (options.preset != "auto" && !preset_named(options.preset))
+    throw InputError("picture: no preset is called '" + options.preset + "'; there are potato, soft, full and auto");
+  const int least_w = options.scene == "marks" ? 640 : 320, least_h = options.scene == "marks" ? 360 : 240;
+  if (options.width < least_w || options.height < least_h || options.width > 7680 || options.height > 4320)
+    throw InputError("picture: the size must lie between " + std::to_string(least_w) + " x " + std::to_string(least_h) +
+                     " and 7680 x 4320 pixels, not " + std::to_string(options.width) + " x " + std::to_string(options.height));
+}
+
+}  // namespace
+
+std::vector<std::string> picture_scenes() {
+  std::vector<std::string> scenes = show_scene_names();
+  scenes.emplace_back("marks");
+  return scenes;
+}
+
+int picture_command(const PictureOptions& options, const std::filesystem::path& asset_root, std::ostream& out, std::ostream& err) {
+  check(options);
+  HeadlessContext context;
+  RenderOptions render;
+  render.grain = !options.no_grain;
+  render.preset = options.preset == "auto" ? measure_preset(context, asset_root, options.width, options.height) : *preset_named(options.preset);
+  err << "drawing " << options.scene << ", preset " << preset_name(render.preset) << ", with " << context.info().renderer << "\n";
+  Renderer renderer(context, asset_root, render);
+  const Image image = options.scene == "marks" ? marks_montage(renderer, options.width, options.height, options.seed)
+                                               : renderer.render(show_scene(options.scene, options.seed), options.width, options.height);
+  const std::vector<std::uint8_t> png = encode_png(image);
+  StagedFile file(options.output, std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
+  file.commit();
+  out << options.output.string() << "\n";
+  return 0;
+}
+
+}  // namespace trocar

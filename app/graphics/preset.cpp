@@ -1,0 +1,69 @@
+#include "app/graphics/preset.h"
+
+#include <array>
+#include <chrono>
+
+#include "app/graphics/renderer.h"
+#include "app/graphics/show_scene.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kWanted_s = 1.0 / 25;  // beside the 1 kHz loop and the screens
+constexpr int kFrames = 10;
+constexpr std::array<Preset, 3> kAll = {Preset::kPotato, Preset::kSoft, Preset::kFull};
+
+/// Mean time of a picture; stops early when `enough_s` have gone.
+double mean_frame_s(Renderer& renderer, SceneView view, int width, int height, double enough_s) {
+  using Clock = std::chrono::steady_clock;
+  renderer.draw_scope(view, width, height);  // compiles the shaders
+  renderer.finish();
+  const auto start = Clock::now();
+  for (int i = 1; i <= kFrames; ++i) {
+    view.X_TI.p.x() += 1e-4;
+    renderer.draw_scope(view, width, height);
+    renderer.finish();
+    const double gone_s = std::chrono::duration<double>(Clock::now() - start).count();
+    if (i == kFrames || gone_s > enough_s) return gone_s / i;
+  }
+  return 0;
+}
+
+}  // namespace
+
+const PresetTraits& traits_of(Preset preset) {
+  static const std::array<PresetTraits, 3> kTraits = {{{"PRESET_POTATO", 0.5, 0, false, 12000, 4000},
+                                                       {"PRESET_SOFT", 0.5, 512, true, 20000, 6000},
+                                                       {"PRESET_FULL", 1.0, 1024, true, 60000, 16000}}};
+  return kTraits[static_cast<std::size_t>(preset)];
+}
+
+std::string preset_name(Preset preset) {
+  static const std::array<std::string, 3> kNames = {"potato", "soft", "full"};
+  return kNames[static_cast<std::size_t>(preset)];
+}
+
+std::optional<Preset> preset_named(const std::string& name) {
+  for (const Preset preset : kAll)
+    if (preset_name(preset) == name) return preset;
+  return std::nullopt;
+}
+
+Preset choose_preset(Preset first, double wanted_s, const std::function<double(Preset)>& frame_s) {
+  for (auto i = static_cast<std::size_t>(first); i > 0; --i)
+    if (frame_s(kAll[i]) <= wanted_s) return kAll[i];
+  return Preset::kPotato;
+}
+
+Preset measure_preset(GraphicsContext& context, const std::filesystem::path& asset_root, int width, int height) {
+  Renderer renderer(context, asset_root);
+  const SceneView view = show_scene("abdomen");
+  return choose_preset(context.info().software ? Preset::kSoft : Preset::kFull, kWanted_s, [&](Preset preset) {
+    RenderOptions options;
+    options.preset = preset;
+    renderer.set_options(options);
+    return mean_frame_s(renderer, view, width, height, kFrames * kWanted_s);
+  });
+}
+
+}  // namespace trocar

@@ -1,0 +1,175 @@
+#include "app/screens/progress_page.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/screens/plot.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kTwoColumns = 900, kMargin = 20, kList = 400;   // px at 720 lines and scale 1
+
+Mark standing_mark(const ProgressEntry& entry) {
+  if (entry.open) return Mark::kTick;
+  return entry.curve.passed > 0 ? Mark::kHalf : Mark::kOpen;
+}
+
+std::string minutes(const Words& w, double seconds) {
+  return seconds < 60 ? w("{0} s", {w.number(seconds, 0)}) : w("{0} min", {w.number(seconds / 60, seconds < 600 ? 1 : 0)});
+}
+
+Axis attempts_axis(const Ui& ui, std::size_t count, double width_px) {
+  return count_axis(1, static_cast<int>(count), x_ticks_for(ui, width_px, ui.text_width("000")));
+}
+
+double score_of(const PastAttempt& attempt) { return attempt.summary.score.value_or(0); }
+
+/// Passed: full disc. Not yet: ring. Left before its end: triangle at the foot.
+void attempt_mark(Plot& plot, const PastAttempt& attempt, double n) {
+  if (!attempt.summary.score) return plot.mark(n, 0, PlotMark::kTriangle, Ink::kDim);
+  plot.mark(n, score_of(attempt), attempt.summary.passed ? PlotMark::kDisc : PlotMark::kRing, attempt.summary.passed ? Ink::kGood : Ink::kCaution);
+}
+
+}  // namespace
+
+std::string competence_words(const Words& w, const std::vector<CusumPoint>& points, const CusumRule& rule) {
+  const Competence c = competence_of(points);
+  const std::string value = w.number(c.value, 1);
+  if (c.shown && c.relapses == 0)
+    return w("Competence was shown after {0} attempts; relapse alarm at {1} of {2}.", {std::to_string(*c.first_shown), value, w.number(rule.relapse_at, 1)});
+  if (c.shown) return w("Competence was lost once and is shown again; relapse alarm at {0} of {1}.", {value, w.number(rule.relapse_at, 1)});
+  if (c.relapses > 0) return w("A relapse: competence is to be shown again, now {0} of {1}.", {value, w.number(rule.shown_at, 1)});
+  return w("Competence not shown yet: {0} of {1}. The shortest way is {2} passes in a row.",
+           {value, w.number(rule.shown_at, 1), std::to_string(shortest_run(rule))});
+}
+
+void ProgressPage::list(Ui& ui, const std::vector<ProgressEntry>& entries, const std::string& who) {
+  const Words& w = ui.words();
+  ui.title(w("My progress"));
+  double trained = 0;
+  int attempts = 0;
+  for (const ProgressEntry& entry : entries) {
+    trained += entry.curve.trained_s;
+    attempts += static_cast<int>(entry.curve.attempts.size());
+  }
+  ui.text(w("{0}: {1} attempts, {2} trained", {who, std::to_string(attempts), minutes(w, trained)}), Ink::kDim);
+  ui.gap(4);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const ProgressEntry& entry = entries[i];
+    const std::string id = "curve" + std::to_string(i);
+    const std::string right = entry.input + "  " + std::to_string(entry.curve.attempts.size());
+    if (!ui.selectable(id.c_str(), standing_mark(entry), entry.name, static_cast<int>(i) == chosen_, right)) continue;
+    chosen_ = static_cast<int>(i);
+    attempt_ = -1;
+  }
+}
+
+void ProgressPage::curve_plot(Ui& ui, const ProgressEntry& entry, double height_at_720) {
+  const Words& w = ui.words();
+  const auto& attempts = entry.curve.attempts;
+  const int count = static_cast<int>(attempts.size());
+  const Area area = ui.drawing("curve", height_at_720);
+  const Ui::Pointer pointer = ui.pointer();
+  if (const int steps = ui.key_steps(); steps != 0) attempt_ = std::clamp((attempt_ < 0 ? count - 1 : attempt_) + steps, 0, count - 1);
+  Plot plot(ui, area, {attempts_axis(ui, attempts.size(), area.width), nice_axis(0, 100, y_ticks_for(ui, area.height - 2.4 * ui.line_height())), "",
+                       w("Score by attempt; full disc: passed, ring: not yet, triangle: left"), true, true, 0});
+  plot.line(entry.pass_at, w("pass {0}", {w.number(entry.pass_at, 0)}), Ink::kText, false);
+  if (const auto& band = entry.curve.band) {
+    plot.band(band->low, band->high, "", Ink::kHeading);
+    plot.line(band->median, w("your median {0} and the middle half of your last {1}",
+                              {w.number(band->median, 1), std::to_string(std::min(kBandAttempts, entry.curve.graded))}), Ink::kHeading, true);
+  }
+  std::vector<Ui::Point> points;
+  for (int i = 0; i < count; ++i)
+    if (attempts[static_cast<std::size_t>(i)].summary.score) points.push_back({i + 1.0, score_of(attempts[static_cast<std::size_t>(i)])});
+  plot.curve(points, Ink::kDim);
+  for (int i = 0; i < count; ++i) attempt_mark(plot, attempts[static_cast<std::size_t>(i)], i + 1.0);
+  if (pointer.clicked) attempt_ = std::clamp(static_cast<int>(std::lround(plot.x_at(pointer.x))) - 1, 0, count - 1);
+  if (attempt_ >= 0) {
+    const PastAttempt& a = attempts[static_cast<std::size_t>(attempt_)];
+    const std::string score = a.summary.score ? w.number(score_of(a), 1) : w("no score");
+    plot.cursor(attempt_ + 1.0, w("attempt {0}: {1}, {2}", {std::to_string(attempt_ + 1), score, a.summary.started_utc.substr(0, 10)}));
+  }
+  plot.labels();
+}
+
+void ProgressPage::cusum_plot(Ui& ui, const ProgressEntry& entry, double height_at_720) const {
+  using Test = CusumPoint::Test;
+  const Words& w = ui.words();
+  const CusumRule rule;
+  const Area area = ui.drawing("cusum", height_at_720);
+  double high = rule.shown_at * 1.25;
+  for (const CusumPoint& point : entry.cusum) high = std::max(high, point.value * 1.05);
+  Plot plot(ui, area, {attempts_axis(ui, entry.cusum.size(), area.width), nice_axis(0, high, y_ticks_for(ui, area.height - 2.4 * ui.line_height())), "",
+                       w("CUSUM by attempt; disc: showing competence, diamond: keeping it"), true, true, 0});
+  const bool keeps = std::any_of(entry.cusum.begin(), entry.cusum.end(), [](const CusumPoint& p) { return p.test == Test::kKeeping; });
+  plot.line(rule.shown_at, w("shown at {0}", {w.number(rule.shown_at, 1)}), Ink::kGood, false);
+  if (keeps) plot.line(rule.relapse_at, w("relapse at {0}", {w.number(rule.relapse_at, 1)}), Ink::kAlarm, true);
+  std::vector<Ui::Point> run;
+  for (std::size_t i = 0; i < entry.cusum.size(); ++i) {
+    const CusumPoint& point = entry.cusum[i];
+    run.push_back({static_cast<double>(i) + 1, point.value});
+    if (!point.decided && i + 1 < entry.cusum.size()) continue;
+    plot.curve(run, point.test == Test::kLearning ? Ink::kGood : Ink::kCaution);
+    run.clear();
+  }
+  for (std::size_t i = 0; i < entry.cusum.size(); ++i) {
+    const CusumPoint& point = entry.cusum[i];
+    const bool learning = point.test == Test::kLearning;
+    plot.mark(static_cast<double>(i) + 1, point.value, learning ? PlotMark::kDisc : PlotMark::kDiamond, learning ? Ink::kGood : Ink::kCaution);
+  }
+  plot.labels();
+}
+
+void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
+  const Words& w = ui.words();
+  const LearningCurve& c = entry.curve;
+  ui.heading(w("{0}, by {1}", {entry.name, entry.input}));
+  std::string line = w("{0} attempts, {1} passed, {2} of 3 in a row on different boards; {3} trained.",
+                       {std::to_string(c.attempts.size()), std::to_string(c.passed), std::to_string(std::min(3, entry.in_a_row)), minutes(w, c.trained_s)});
+  if (c.best) line += " " + w("Best {0}, last {1}.", {w.number(*c.best, 1), w.number(*c.last, 1)});
+  ui.text(line);
+  if (entry.older_rubric) ui.marked(Mark::kInfo, w("Graded by an older version of the exercise: not comparable with today's."), Ink::kCaution);
+  const double room = ui.room_below() / ui.px(1) - 2.6 * ui.line_height() / ui.px(1) - 16;
+  curve_plot(ui, entry, std::max(190.0, 0.56 * room));
+  cusum_plot(ui, entry, std::max(150.0, 0.44 * room));
+  ui.text(competence_words(w, entry.cusum), Ink::kDim);
+}
+
+ProgressChoice ProgressPage::foot(Ui& ui, const std::vector<ProgressEntry>& entries) {
+  using Kind = ProgressChoice::Kind;
+  const Words& w = ui.words();
+  ProgressChoice out;
+  if (ui.button("back", w("Back"), "Enter", true)) out.kind = Kind::kBack;
+  if (entries.empty()) return out;
+  ui.same_line();
+  if (ui.button("csv", w("Export as CSV"), "X")) out.kind = Kind::kExport;
+  if (attempt_ < 0) return out;
+  ui.same_line();
+  if (ui.button("open", w("Open attempt {0}", {std::to_string(attempt_ + 1)}), "O"))
+    out = {Kind::kOpen, entries[static_cast<std::size_t>(chosen_)].curve.attempts[static_cast<std::size_t>(attempt_)].summary.uuid};
+  return out;
+}
+
+ProgressChoice ProgressPage::draw(Ui& ui, const std::vector<ProgressEntry>& entries, const std::string& who) {
+  const Words& w = ui.words();
+  const double margin = std::min(ui.px(kMargin), 0.02 * ui.width()), gap = ui.px(8), foot_high = ui.px(74);
+  const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin - foot_high - gap;
+  const bool two = wide >= ui.px(kTwoColumns);
+  chosen_ = std::clamp(chosen_, 0, std::max(0, static_cast<int>(entries.size()) - 1));
+  const double left = two ? ui.px(kList) : wide;
+  ui.begin_panel("progress.list", {margin, margin, left, high});
+  list(ui, entries, who);
+  if (entries.empty()) ui.text(w("No attempt yet. After the first one its score, your pass line and your own median stand here."));
+  if (two) ui.end_panel();
+  if (two && !entries.empty()) ui.begin_panel("progress.curve", {margin + left + gap, margin, wide - left - gap, high});
+  if (!entries.empty()) details(ui, entries[static_cast<std::size_t>(chosen_)]);
+  if (!two || !entries.empty()) ui.end_panel();
+  ui.begin_panel("progress.foot", {margin, margin + high + gap, wide, foot_high});
+  const ProgressChoice choice = foot(ui, entries);
+  ui.end_panel();
+  return choice;
+}
+
+}  // namespace trocar

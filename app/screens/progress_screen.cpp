@@ -1,0 +1,101 @@
+#include "app/screens/progress_screen.h"
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+
+#include "app/practice/metric_words.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+std::string stamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+  return text;
+}
+
+std::filesystem::path exports_folder(const PracticeDesk& desk) {
+  const std::filesystem::path database = desk.database();
+  return (database == ":memory:" ? default_database_path() : database).parent_path() / "exports";
+}
+
+std::vector<AttemptSummary> newest_first(const LearningCurve& curve) {
+  std::vector<AttemptSummary> out;
+  for (auto a = curve.attempts.rbegin(); a != curve.attempts.rend(); ++a) out.push_back(a->summary);
+  return out;
+}
+
+ProgressEntry entry_of(const PracticeDesk& desk, LearningCurve curve) {
+  const Words& w = desk.words();
+  ProgressEntry out;
+  const CurveKey key = curve.key;
+  const auto& all = desk.exercises();
+  const auto exercise = std::find_if(all.begin(), all.end(), [&](const Exercise& e) { return e.id == key.exercise_id; });
+  out.name = key.exercise_id + " " + key.level;
+  if (exercise != all.end()) {
+    out.name = w("{0} {1} {2}", {exercise->number, w.made(exercise->title), key.level});
+    const ExerciseLevel* level = level_named(*exercise, key.level);
+    out.pass_at = level ? level->rubric.pass_at : exercise->rubric.pass_at;
+    out.older_rubric = exercise->rubric.sha256 != key.rubric_sha256;
+  }
+  out.input = w.made(key.hand);
+  const std::vector<AttemptSummary> summaries = newest_first(curve);
+  out.in_a_row = passes_in_a_row(summaries);
+  out.open = opens_next(summaries);
+  out.cusum = cusum(curve.passes());
+  out.curve = std::move(curve);
+  return out;
+}
+
+}  // namespace
+
+std::vector<ProgressEntry> progress_of(const PracticeDesk& desk) {
+  std::vector<ProgressEntry> out;
+  for (LearningCurve& curve : learning_curves(desk.past())) out.push_back(entry_of(desk, std::move(curve)));
+  return out;
+}
+
+std::filesystem::path export_attempts(const PracticeDesk& desk) {
+  const std::filesystem::path folder = exports_folder(desk);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::string name = "trocar-" + desk.trainee() + "-" + stamp();
+  std::filesystem::path file = folder / (name + ".csv");
+  for (int n = 2; std::filesystem::exists(file); ++n) file = folder / (name + "-" + std::to_string(n) + ".csv");
+  std::ofstream out(file, std::ios::binary);
+  out << attempts_csv(desk.past());
+  out.close();
+  if (!out) throw EnvironmentError(file.string() + ": cannot be written; is there room, and may you write there?");
+  return file;
+}
+
+std::optional<ScreenName> ProgressScreen::frame(Ui& ui, PracticeDesk& desk, double /*dt_s*/) {
+  using Kind = ProgressChoice::Kind;
+  const Words& w = desk.words();
+  if (!entries_ || language_ != w.language() || trainee_ != desk.trainee()) {
+    entries_ = progress_of(desk);
+    language_ = w.language();
+    trainee_ = desk.trainee();
+  }
+  const ProgressChoice choice = page_.draw(ui, *entries_, desk.is_guest() ? w("Guest") : desk.trainee());
+  switch (choice.kind) {
+    case Kind::kNone: break;
+    case Kind::kBack: return desk.is_guest() ? ScreenName::kStart : ScreenName::kCurriculum;
+    case Kind::kOpen: return desk.open_result(choice.uuid) ? std::optional(ScreenName::kDebrief) : std::nullopt;
+    case Kind::kExport:
+      try {
+        desk.notice = w("Your attempts were written to {0}", {export_attempts(desk).string()});
+      } catch (const EnvironmentError& error) {
+        desk.notice = w("The export failed: {0}", {error.what()});
+      }
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace trocar

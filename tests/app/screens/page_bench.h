@@ -1,0 +1,82 @@
+// Pages in memory for tests, with results to show; a picture of each when TROCAR_PAGE_PICTURES names a folder.
+#pragma once
+
+#include <cstdlib>
+
+#include "app/graphics/image.h"
+#include "app/practice/advice.h"
+#include "app/screens/debrief_page.h"
+#include "tests/app/practice/attempt_samples.h"
+#include "tests/app/screens/ui_bench.h"
+
+namespace trocar::testing_support {
+
+class PageBench : public UiBench {
+ protected:
+  /// Lesser side of the common rectangle, px.
+  static double common(const DrawnText& a, const DrawnText& b) {
+    const double w = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x), h = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+    return w <= 0 || h <= 0 ? 0 : std::min(w, h);
+  }
+  void expect_clear(const std::string& where) const {
+    ASSERT_FALSE(texts_.empty()) << where;
+    for (const DrawnText& t : texts_) {
+      EXPECT_FALSE(t.shortened) << where << ": cut: " << t.text;
+      EXPECT_LE(t.width, t.room + 1) << where << ": wider than its room: " << t.text;
+      EXPECT_GE(t.x, -0.5) << where << ": " << t.text;
+      EXPECT_LE(t.x + std::min(t.width, t.room), width_ + 0.5) << where << ": out of the window: " << t.text;
+    }
+    for (std::size_t i = 0; i < texts_.size(); ++i)
+      for (std::size_t j = i + 1; j < texts_.size(); ++j)
+        EXPECT_LE(common(texts_[i], texts_[j]), 2.0) << where << ": '" << texts_[i].text << "' lies over '" << texts_[j].text << "'";
+  }
+  bool says(const std::string& part) const {
+    return std::any_of(texts_.begin(), texts_.end(), [&](const DrawnText& t) { return t.text.find(part) != std::string::npos; });
+  }
+  void picture(const std::string& name) const {
+    const char* folder = std::getenv("TROCAR_PAGE_PICTURES");
+    if (folder && *folder) write_png(std::filesystem::path(folder) / (name + ".png"), target_->read());
+  }
+
+  /// As the screen makes it.
+  DebriefContent content_of(const AttemptResult& result, const Exercise& exercise, const DebriefPast& past = {}) {
+    DebriefContent c;
+    c.heading = exercise.number + " " + exercise.title + ", " + result.level + ", board 4, by mouse";
+    c.facts = debrief_facts(words_, result, exercise, past);
+    c.advice = advice(words_, result, c.facts, exercise);
+    for (const DebriefRow& row : c.facts.rows) c.explained.push_back(explained(words_, row, result, exercise));
+    c.plots.lines = force_lines(exercise, result.level);
+    trace_ = force_trace(pressing_trace(), pressing_events());
+    c.plots.trace = &trace_;
+    c.plots.events = plot_events(words_, result.events, trace_);
+    c.can_watch = c.can_compare = true;
+    c.next_name = "E02 L2";
+    return c;
+  }
+  ForceTrace trace_;
+};
+
+/// A run of somebody who pressed too hard and too long, with a past to compare with.
+inline AttemptResult heavy_run(const Exercise& exercise) {
+  AttemptResult result = graded(exercise, "L1", {{"excess_events", 4}, {"in_band_share", 0.72}, {"time_s", 61.5}, {"path_ratio", 1.52}, {"wrong_places", 1}});
+  result.events = pressing_events();
+  put_caps(result, exercise);
+  return result;
+}
+
+inline AttemptResult good_run(const Exercise& exercise) {
+  AttemptResult result = graded(exercise, "L1", {{"in_band_share", 0.91}, {"time_s", 44.2}, {"path_ratio", 1.31}});
+  result.events = pressing_events();
+  return result;
+}
+
+inline DebriefPast some_past(const AttemptResult& result) {
+  DebriefPast past;
+  for (int n = 0; n < 6; ++n)
+    past.own.push_back(past_run(result, n, 60 + 4 * n, n > 3, {{"time_s", 70.0 - 3 * n}, {"in_band_share", 0.6 + 0.03 * n}, {"excess_events", 5.0 - n},
+                                                               {"path_ratio", 1.7 - 0.05 * n}, {"wrong_places", n % 3}}));
+  past.expert = {{"time_s", 37.1}, {"in_band_share", 0.97}, {"excess_events", 0}, {"path_ratio", 1.12}, {"wrong_places", 0}};
+  return past;
+}
+
+}  // namespace trocar::testing_support

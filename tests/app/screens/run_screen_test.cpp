@@ -1,0 +1,180 @@
+// The run screen as a person meets it: steering, pause, start again, the end. Frames are drawn in memory; the attempt runs live, so
+// tests wait for what must come and never for a time.
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "app/graphics/image.h"
+#include "app/screens/latency_bench.h"
+#include "tests/app/screens/loop_bench.h"
+#include "trainees/attempt_store.h"
+
+namespace trocar::testing_support {
+namespace {
+
+class RunScreenBench : public LoopBench {
+ protected:
+  void begin() {
+    ASSERT_EQ(desk_->begin_attempt(), "");
+    loop_->go(ScreenName::kRun);
+  }
+  /// Frames until it is so. @return whether it came.
+  bool until(const std::function<bool()>& what) {
+    for (int i = 0; i < 4000; ++i) {
+      if (what()) return true;
+      frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+  }
+  bool ready() {
+    return until([this] { return desk_->running() && desk_->running()->ready() && desk_->running()->newest().seen; });
+  }
+  void keep_picture(const std::string& name) {
+    if (const char* folder = std::getenv("TROCAR_PICTURES")) write_png(std::filesystem::path(folder) / (name + ".png"), loop_->picture());
+  }
+  /// Into the organ until it is felt: the ring stands off the tip.
+  void press_picture() {
+    DeskOptions touch = bench_.options();
+    touch.exercise = "surface-touch";
+    width_ = 640;
+    height_ = 360;
+    open(touch);
+    InputEvent wheel = pointer(InputEvent::Kind::kWheel, 300, 160);
+    wheel.wheel = 1;
+    begin();
+    ASSERT_TRUE(ready());
+    frame({pointer(InputEvent::Kind::kMouseMove, 400, 600)});
+    for (int i = 0; i < 25; ++i) frame({pointer(InputEvent::Kind::kMouseMove, 400, 600 - 16.0 * i)});
+    for (int i = 0; i < 30 && desk_->running()->newest().record.stylus.F_I_T.force.norm() < 0.4; ++i) {
+      frame({wheel});
+      for (int wait = 0; wait < 3; ++wait) frame();
+    }
+    keep_picture("run_press");
+  }
+  Vec3 tip() { return desk_->running()->newest().record.stylus.X_TI.p; }
+};
+
+TEST_F(RunScreenBench, TheMouseMovesTheInstrumentAndTheCoachTicksIt) {
+  begin();
+  ASSERT_TRUE(ready());
+  frame();
+  frame();
+  EXPECT_TRUE(sees("Mouse: move the tip"));
+  const Vec3 before = tip();
+  for (int i = 0; i < 40; ++i) frame({pointer(InputEvent::Kind::kMouseMove, 200 + 4.0 * i, 240 - 2.0 * i)});
+  EXPECT_TRUE(until([&] { return (tip() - before).norm() > 0.005; }));
+  InputEvent wheel = pointer(InputEvent::Kind::kWheel, 380, 160);
+  wheel.wheel = -2;
+  frame({wheel});
+  InputEvent press = pointer(InputEvent::Kind::kButtonDown, 380, 160), release = pointer(InputEvent::Kind::kButtonUp, 380, 160);
+  frame({press});
+  frame({release});
+  for (int i = 0; i < 60; ++i) frame();  // 3 s of the window's time
+  EXPECT_FALSE(sees("Mouse: move the tip")) << "all done: the coach falls silent";
+}
+
+TEST_F(RunScreenBench, PStandsStillAndGoesOn) {
+  begin();
+  ASSERT_TRUE(ready());
+  tap('P');
+  EXPECT_TRUE(desk_->running()->paused());
+  frame();
+  EXPECT_TRUE(sees("Paused"));
+  tap('P');
+  EXPECT_FALSE(desk_->running()->paused());
+  frame();
+  EXPECT_FALSE(sees("Paused"));
+}
+
+TEST_F(RunScreenBench, AWindowThatNobodyLooksAtPauses) {
+  begin();
+  ASSERT_TRUE(ready());
+  frame({key(0, InputEvent::Kind::kFocusLost)});
+  frame();
+  EXPECT_TRUE(desk_->running()->paused());
+  frame({key(0, InputEvent::Kind::kFocusLost)});
+  tap('P');
+  frame();
+  EXPECT_FALSE(desk_->running()->paused()) << "continuing holds";
+}
+
+TEST_F(RunScreenBench, RFromThePauseBeginsAnewAndTheOldOneIsKeptAsAborted) {
+  begin();
+  ASSERT_TRUE(ready());
+  tap('R');
+  EXPECT_TRUE(desk_->running()->paused()) << "not without asking";
+  tap('R');
+  ASSERT_NE(desk_->running(), nullptr);
+  ASSERT_TRUE(ready()) << "a fresh one runs";
+  EXPECT_FALSE(desk_->running()->paused());
+  Database database(bench_.options().database, OpenMode::kExisting);
+  const auto attempts = AttemptStore(database).list();
+  ASSERT_EQ(attempts.size(), 2u);
+  EXPECT_EQ(attempts[0].status, "running");
+  EXPECT_EQ(attempts[1].status, "aborted");
+}
+
+TEST_F(RunScreenBench, TheEndGivesItsResultToTheDesk) {
+  begin();
+  ASSERT_TRUE(ready());
+  desk_->running()->abort();
+  ASSERT_TRUE(until([this] { return desk_->running() == nullptr; }));
+  ASSERT_TRUE(desk_->result());
+  EXPECT_EQ(desk_->result()->grade.status, AttemptStatus::kAborted);
+}
+
+TEST_F(RunScreenBench, ALostContextOfAttemptsLeadsAway) {
+  loop_->go(ScreenName::kRun);
+  EXPECT_TRUE(frame()) << "no attempt runs: nothing to show, nothing breaks";
+}
+
+TEST_F(RunScreenBench, LatencyIsMeasuredOnTheWholePath) {
+  loop_.reset();
+  desk_.reset();
+  const PictureLatency l = measure_picture_latency(source_assets(), 3, 640, 360);
+  EXPECT_GT(l.frames, 2);
+  EXPECT_GT(l.events, 0);
+  EXPECT_LE(l.events, l.frames);
+  EXPECT_GE(l.median_s, l.frame_median_s * 0.5) << "no picture shows an event before it is drawn";
+  EXPECT_GE(l.longest_s, l.p95_s);
+  std::printf("%s: frame %.1f ms, event to picture %.1f ms median, %.1f ms 95 %%, bar %.1f ms\n", l.renderer.c_str(), 1e3 * l.frame_median_s,
+              1e3 * l.median_s, 1e3 * l.p95_s, 1e3 * l.bar_s());
+}
+
+/// Pictures for the eye: TROCAR_PICTURES=folder.
+TEST_F(RunScreenBench, PictureOfPressing) {
+  if (!std::getenv("TROCAR_PICTURES")) GTEST_SKIP() << "only for the eye";
+  press_picture();
+}
+
+TEST_F(RunScreenBench, PicturesOfIt) {
+  if (!std::getenv("TROCAR_PICTURES")) GTEST_SKIP() << "only for the eye";
+  width_ = 1280;
+  height_ = 720;
+  begin();
+  ASSERT_TRUE(ready());
+  for (int i = 0; i < 10; ++i) frame({pointer(InputEvent::Kind::kMouseMove, 600 + 3.0 * i, 400 - 18.0 * i)});
+  keep_picture("run_first");
+  InputEvent wheel = pointer(InputEvent::Kind::kWheel, 380, 160);
+  wheel.wheel = 3;
+  for (int i = 0; i < 8; ++i) frame({wheel});
+  keep_picture("run_deeper");
+  tap('P');
+  frame();
+  keep_picture("run_paused");
+  tap('P');
+  desk_->settings().left_handed = true;
+  for (int i = 0; i < 3; ++i) frame();
+  keep_picture("run_left");
+  desk_->settings().scale = 2;
+  for (int i = 0; i < 3; ++i) frame();
+  keep_picture("run_double");
+  desk_->settings().scale = 1;
+  for (int i = 0; i < 12; ++i) frame({pointer(InputEvent::Kind::kMouseMove, 600 + 60.0 * i, 100)});
+  for (int i = 0; i < 12; ++i) frame();
+  keep_picture("run_rim");
+}
+
+}  // namespace
+}  // namespace trocar::testing_support
