@@ -45,8 +45,9 @@ class TimeLine {
     ground();
     axes();
     for (std::size_t i = 0; i < own_.size(); ++i) {
-      const double x = inner_.x + static_cast<double>(i) + 0.5, low = y_of(own_[i].low), high = y_of(own_[i].high);
-      ui_.paint_line(x, std::max(low, high + 1), x, high, Ink::kAccent, 1);
+      const double x = inner_.x + static_cast<double>(i), low = y_of(own_[i].low), high = y_of(own_[i].high), zero = y_of(0);
+      if (zero > high) ui_.paint_box({x, high, 1, zero - high}, Ink::kHeading, 0.4);
+      if (zero > high) ui_.paint_box({x, high, 1, std::max(1.5, low - high)}, Ink::kHeading);
     }
     other_line();
     loop();
@@ -83,6 +84,7 @@ class TimeLine {
     }
     const double step_s = std::max(1.0, tick_step(clock_.to_s() - clock_.from_s(), inner_.width / ui_.px(90)));
     for (double s = std::ceil(clock_.from_s() / step_s) * step_s; s <= clock_.to_s(); s += step_s) {
+      s = std::abs(s) < 1e-9 ? 0 : s;   // no "-0 s"
       const double x = x_of(s);
       ui_.paint_line(x, inner_.y + inner_.height, x, inner_.y + inner_.height + ui_.px(4), Ink::kDim, 1);
       if (x + ui_.px(40) > inner_.x + inner_.width) continue;

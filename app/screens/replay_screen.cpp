@@ -25,23 +25,31 @@ std::optional<ForceBar> telling_bar(const Scene& scene, const RunMoment& moment)
 /// Puts buttons side by side, on as many lines as they need.
 class ButtonRow {
  public:
+  using Label = std::pair<std::string, std::string>;   // words, key
   explicit ButtonRow(Ui& ui) : ui_(ui), room_(ui.room()) {}
-  bool button(const char* id, const std::string& text, const std::string& key, bool strong = false) {
-    const double wide = width(ui_, text, key);
-    if (used_ > 0 && used_ + ui_.px(12) + wide <= room_) {
-      ui_.same_line();
-      used_ += ui_.px(12);
-    } else {
-      used_ = 0;
-    }
-    used_ += wide;
-    return ui_.button(id, text, key, strong);
+  bool button(const char* id, const Label& label, bool strong = false) {
+    const bool beside = fits(ui_, room_, used_, label);
+    if (beside && used_ > 0) ui_.same_line();
+    take(ui_, beside, used_, label);
+    return ui_.button(id, label.first, label.second, strong);
   }
-  static double width(const Ui& ui, const std::string& text, const std::string& key) {
-    return ui.text_width(text) + ui.text_width("[" + key + "]") + ui.px(44);
+  template <typename Labels>
+  static int lines(const Ui& ui, double room, const Labels& labels) {
+    double used = 0;
+    int count = 1;
+    for (const Label& label : labels) {
+      const bool beside = fits(ui, room, used, label);
+      count += beside ? 0 : 1;
+      take(ui, beside, used, label);
+    }
+    return count;
   }
 
  private:
+  static double width(const Ui& ui, const Label& l) { return ui.text_width(l.first) + ui.text_width("[" + l.second + "]") + ui.px(56); }
+  static bool fits(const Ui& ui, double room, double used, const Label& label) { return used <= 0 || used + width(ui, label) <= room; }
+  static void take(const Ui& ui, bool beside, double& used, const Label& label) { used = (beside ? used : 0) + width(ui, label); }
+
   Ui& ui_;
   double room_, used_ = 0;
 };
@@ -52,7 +60,7 @@ ScreenName way_back(const PracticeDesk& desk) {
   return older ? ScreenName::kProgress : desk.result() ? ScreenName::kDebrief : ScreenName::kStart;
 }
 
-std::string speed_words(const Words& w, double speed) { return w("{0} times", {w.number(speed, speed < 1 ? 2 : 0)}); }
+std::string speed_words(const Words& w, double speed) { return w("speed {0}", {w.number(speed, speed < 1 ? 2 : 0)}); }
 
 }  // namespace
 
@@ -157,7 +165,9 @@ void ReplayScreen::heading(Ui& ui) const {
   const std::string place = w("{0} s of {1} s", {w.number(clock_.now_s(), 2), w.number(clock_.to_s(), 1)});
   const std::string time = place + ", " + speed_words(w, clock_.speed());
   const double mark = ui.line_height();
-  ui.paint_mark(clock_.playing() ? Mark::kPlay : Mark::kHalf, area.x, area.y, mark);
+  if (clock_.playing()) ui.paint_mark(Mark::kPlay, area.x, area.y, mark);
+  for (const double x : {0.25, 0.6})
+    if (!clock_.playing()) ui.paint_box({area.x + x * mark, area.y + 0.15 * mark, 0.18 * mark, 0.7 * mark}, Ink::kText);
   const double first = std::min(ui.text_width(time), 0.5 * area.width);
   ui.text_at(area.x + mark + ui.px(8), area.y, time, Ink::kText, first);
   const double from = area.x + mark + ui.px(8) + first + ui.px(20);
@@ -215,22 +225,31 @@ void ReplayScreen::time_line(Ui& ui, double height_px) {
   replay_plot(ui, area, content, clock_);
 }
 
-std::optional<ScreenName> ReplayScreen::buttons(Ui& ui, const PracticeDesk& desk) {
-  const Words& w = ui.words();
-  ButtonRow row(ui);
-  if (row.button("play", clock_.playing() ? w("Pause") : w("Play"), "Space", true)) clock_.toggle_play();
-  if (row.button("slower", w("Slower"), "-")) clock_.change_speed(-1);
-  if (row.button("faster", w("Faster"), "=")) clock_.change_speed(1);
-  if (row.button("beside", beside_wanted_ ? w("Alone") : w("Beside the expert"), "S")) beside_wanted_ = !beside_wanted_;
+ReplayScreen::Labels ReplayScreen::labels(const Words& w) const {
   const std::string loop = clock_.loop_b_s() ? w("End the loop") : clock_.loop_a_s() ? w("Loop to here") : w("Loop from here");
-  if (row.button("loop", loop, "L")) clock_.next_loop_point();
-  return row.button("back", w("Back"), "Esc") ? std::optional(way_back(desk)) : std::nullopt;
+  return {{{clock_.playing() ? w("Pause") : w("Play"), "Space"},
+           {w("Slower"), "-"},
+           {w("Faster"), "="},
+           {beside_wanted_ ? w("Alone") : w("Beside the expert"), "S"},
+           {loop, "L"},
+           {w("Back"), "Esc"}}};
+}
+
+std::optional<ScreenName> ReplayScreen::buttons(Ui& ui, const PracticeDesk& desk) {
+  const Labels label = labels(ui.words());
+  ButtonRow row(ui);
+  if (row.button("play", label[0], true)) clock_.toggle_play();
+  if (row.button("slower", label[1])) clock_.change_speed(-1);
+  if (row.button("faster", label[2])) clock_.change_speed(1);
+  if (row.button("beside", label[3])) beside_wanted_ = !beside_wanted_;
+  if (row.button("loop", label[4])) clock_.next_loop_point();
+  return row.button("back", label[5]) ? std::optional(way_back(desk)) : std::nullopt;
 }
 
 std::optional<ScreenName> ReplayScreen::panel(Ui& ui, PracticeDesk& desk) {
-  const double line = ui.line_height(), button_rows = ui.width() < 1.05 * ui.px(1220) ? 2 : 1;
+  const double line = ui.line_height(), button_rows = ButtonRow::lines(ui, ui.width() - 2 * ui.px(kPanelPad), labels(ui.words()));
   const double others = 2 * line + ui.px(18) + button_rows * (line + ui.px(26)) + ui.px(3 * 8) + 2 * ui.px(kPanelPad);
-  const double plot = std::clamp(0.36 * ui.height() - others, ui.px(70), ui.px(170)) + line;
+  const double plot = std::clamp(0.40 * ui.height() - others, ui.px(60), ui.px(190)) + line;
   picture_height_ = std::floor(ui.height() - others - plot);
   ui.begin_panel("replay", {0, picture_height_, ui.width(), ui.height() - picture_height_});
   heading(ui);
