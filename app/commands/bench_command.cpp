@@ -181,11 +181,8 @@ nlohmann::ordered_json pictures_json(const std::vector<PictureCost>& costs) {
   return out;
 }
 
-}  // namespace
-
-int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err) {
-  const nlohmann::ordered_json compiler = compiler_figures(err);  // first: later stages hold more memory
-  const AssetRoots assets = find_assets();
+/// One attempt in lockstep, then each stage over its ticks.
+nlohmann::ordered_json loop_figures(const BenchOptions& options, const AssetRoots& assets, std::ostream& err) {
   RunOptions run;
   run.exercise = "surface-touch";
   run.hand = options.hand;
@@ -201,17 +198,37 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
 
   const Recording recording = parse_recording(memory.bytes(), "bench");
   nlohmann::ordered_json json;
+  json["organ"] = scene.organ.name;
   json["organ_triangles"] = scene.organ_T.triangles.size();
   json["ticks"] = outcome.device.ticks;
   json["wall_s_per_simulated_s"] = seconds / simulated;
   json["times_real_time"] = simulated / seconds;
   json["recording_bytes_per_60_s"] = static_cast<double>(memory.bytes().size()) * 60 / simulated;
-  for (StageTimes& timing : time_stages(scene, capture(scene, recording))) {
-    json["stages_us"][timing.stage] = percentiles(timing);
-  }
+  for (StageTimes& timing : time_stages(scene, capture(scene, recording))) json["stages_us"][timing.stage] = percentiles(timing);
   StageTimes fixed = fixed_work(10000);
   json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
+  return json;
+}
+
+void print_stages(const nlohmann::ordered_json& json, std::ostream& out) {
+  out << std::fixed << std::setprecision(2) << "organ " << json["organ"].get<std::string>() << ", " << json["organ_triangles"] << " triangles, "
+      << json["ticks"] << " ticks\n\n"
+      << "stage                         median      p99    p99.9  us CPU\n";
+  for (const auto& [stage, row] : json["stages_us"].items()) {
+    out << std::left << std::setw(26) << stage << std::right;
+    for (const char* key : {"median", "p99", "p99.9"}) out << std::setw(10) << row[key].get<double>();
+    out << '\n';
+  }
+  print_contact(json["contact_us"], out);
+}
+
+}  // namespace
+
+int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& err) {
+  const nlohmann::ordered_json compiler = compiler_figures(err);  // first: later stages hold more memory
+  const AssetRoots assets = find_assets();
+  nlohmann::ordered_json json = loop_figures(options, assets, err);
   json["input_to_picture"] = input_to_picture(assets, err);
   const std::vector<PictureCost> pictures = picture_costs(assets.assets, err);
   json["pictures"] = pictures_json(pictures);
@@ -220,22 +237,14 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
     out << json.dump(2) << '\n';
     return 0;
   }
-  out << std::fixed << std::setprecision(2) << "organ " << scene.organ.name << ", " << json["organ_triangles"]
-      << " triangles, " << outcome.device.ticks << " ticks\n\n"
-      << "stage                         median      p99    p99.9  us CPU\n";
-  for (const auto& [stage, row] : json["stages_us"].items()) {
-    out << std::left << std::setw(26) << stage << std::right;
-    for (const char* key : {"median", "p99", "p99.9"}) out << std::setw(10) << row[key].get<double>();
-    out << '\n';
-  }
-  print_contact(json["contact_us"], out);
+  print_stages(json, out);
   print_latency(json["input_to_picture"], out);
   print_pictures(pictures, out);
   print_compiler(compiler, out);
-  out << "\nwall seconds per simulated second  " << std::setprecision(4) << seconds / simulated << "  ("
-      << std::setprecision(1) << simulated / seconds << " x real time, plant and hand included)\n"
-      << "recording                          " << std::setprecision(3)
-      << static_cast<double>(memory.bytes().size()) / 1048576 * 60 / simulated << " MiB a minute\n";
+  out << "\nwall seconds per simulated second  " << std::setprecision(4) << json["wall_s_per_simulated_s"].get<double>() << "  ("
+      << std::setprecision(1) << json["times_real_time"].get<double>() << " x real time, plant and hand included)\n"
+      << "recording                          " << std::setprecision(3) << json["recording_bytes_per_60_s"].get<double>() / 1048576
+      << " MiB a minute\n";
   return 0;
 }
 

@@ -191,7 +191,8 @@ TEST(SegmentChoice, ANumberInSeveralLayersIsAskedBack) {
   const LabelMap map = map_of({{0, 1, "liver"}, {1, 1, "tumour"}});
   const std::string message = test::message_of<InputError>([&] { choose_segment(map, "1", nullptr, "seg.nrrd"); });
   EXPECT_CONTAINS(message, "seg.nrrd: \"1\"");
-  EXPECT_CONTAINS(message, "1 in layer 0, 1 in layer 1");
+  EXPECT_CONTAINS(message, "1 liver (layer 0), 1 tumour (layer 1)");
+  EXPECT_CONTAINS(message, "--label \"tumour\"");
   EXPECT_EQ(choose_segment(map, "tumour", nullptr, "seg.nrrd").layer, 1U);
 }
 
