@@ -26,7 +26,7 @@ std::uintmax_t room_needed(double longest_s, double rate_hz) {
 
 std::uintmax_t room_free(const fs::path& folder) {
   std::error_code error;
-  fs::path at = fs::absolute(folder, error);
+  fs::path at = fs::absolute(folder.empty() ? fs::path(".") : folder, error);
   while (!at.empty() && !fs::exists(at, error) && at != at.parent_path()) at = at.parent_path();
   const fs::space_info space = fs::space(at, error);
   return error ? std::numeric_limits<std::uintmax_t>::max() : space.available;

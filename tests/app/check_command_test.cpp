@@ -23,7 +23,7 @@ using test::message_of;
 using test::TemporaryFolder;
 using testing_support::small_exercise;
 
-constexpr const char* kFarPort = "mapping = \"fulcrum\"\nport_mm = [200, 150, 60]";
+constexpr const char* kFarPort = "mapping = \"fulcrum\"\nport_mm = [210, 158, 60]";
 
 struct Said {
   int code = 0;

@@ -163,7 +163,8 @@ TEST(OrganPackageRules, TwoFilesOfOneNameAndDifferentBytesAreRefused) {
 TEST(OrganPackageRules, TheLatticeGoesWithItsOrganAndIsMissedWhenGone) {
   test::TemporaryFolder folder;
   CompiledMember organ = member("liver");
-  organ.manifest.lattice = VolumeMeshFile{"liver.lattice", "12", 8, 1, 10, 0, 0};
+  const std::string sha256 = "57104c57fbe0d1c944620f06ca6f5f1e26fc87025ad368e9327743b8975e4d49";  // of "cells"
+  organ.manifest.lattice = VolumeMeshFile{"liver.lattice", sha256, 8, 1, 10, 0, 0};
   const std::string file = written(folder, organ, {{"liver.lattice", "cells"}}).string();
   EXPECT_CONTAINS(packed({file}, folder), "4 files");
   std::filesystem::remove(folder / "liver.lattice");
