@@ -37,5 +37,9 @@ TEST(DiskRoom, AFolderThatIsYetToBeMadeIsOnTheDiskOfItsParent) {
   EXPECT_NEAR(static_cast<double>(there), static_cast<double>(below), 1e9) << "the same disk, whatever others write meanwhile";
 }
 
+TEST(DiskRoom, AFileNamedWithoutAFolderLiesInTheCurrentOne) {
+  EXPECT_NEAR(static_cast<double>(room_free({})), static_cast<double>(room_free(std::filesystem::current_path())), 1e9);
+}
+
 }  // namespace
 }  // namespace trocar
