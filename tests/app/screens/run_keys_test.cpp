@@ -17,13 +17,13 @@ class RunKeys : public LoopBench {
     return count;
   }
   int all_pens() const { return desk_->exercise().layout.count; }
-  /// Of the column: px of the limit's mark.
+  /// px of the limits' marks in the column; warnings stand over the picture.
   int limit_px() {
     frame();
     const Image image = loop_->picture();
     int count = 0;
     for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x) {
+      for (int x = 3 * image.width / 4; x < image.width; ++x) {
         const std::uint8_t* p = image.pixel(x, y);
         count += p[0] == 225 && p[1] == 104 && p[2] == 20 ? 1 : 0;
       }
