@@ -69,6 +69,7 @@ void LessonPicture::State::take_up(PracticeDesk& desk) {
   rested_s = t_s = 0;
   scene = nullptr;
   film = nullptr;
+  if (!filming.valid()) filming_key.clear();   // a choice that comes back gets its film again
 }
 
 void LessonPicture::State::advance_scene(PracticeDesk& desk, double wait_s) {

@@ -4,12 +4,27 @@
 
 namespace trocar {
 
+namespace {
+
+/// Where a grip is far too much: the exercise's own limit, or where the lit block's foam is crushed.
+double grip_limit_n(const Scene& scene, const DirectorStatus& status) {
+  const Exercise& exercise = scene.setup.exercise;
+  if (exercise.kind != ExerciseKind::kGrasp) return exercise.grip.excess_n;
+  const auto lit = static_cast<std::size_t>(std::max(0, status.target_index));
+  if (scene.level.grasp.colour_cue && lit < scene.board.rigid.blocks.size()) return scene.board.rigid.blocks[lit].crush_above_n;
+  double limit_n = 0;
+  for (const FoamKind& kind : exercise.grasp.kinds) limit_n = std::max(limit_n, kind.crush_above_n);
+  return limit_n;
+}
+
+}  // namespace
+
 double force_tone(const Scene& scene, const RunMoment& moment) {
   const DirectorStatus& status = moment.status;
   if (status.phase != Phase::kRun || !status.force_shown || scene.level.force_display == "after") return 0;
   const bool grip = status.cue == Cue::kGrip || scene.setup.exercise.kind == ExerciseKind::kGrasp;
   const double force = grip ? moment.record.stylus.grip_force_n : moment.record.stylus.F_I_T.force.norm();
-  const double limit = grip ? scene.setup.exercise.grip.excess_n : scene.setup.exercise.hard_force_n;
+  const double limit = grip ? grip_limit_n(scene, status) : scene.setup.exercise.hard_force_n;
   const double high = status.demand.band.high_n;
   if (high <= 0 || limit <= high) return 0;
   return std::clamp((force - high) / (limit - high), 0.0, 1.0);

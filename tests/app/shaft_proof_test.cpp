@@ -67,12 +67,6 @@ TEST(ShaftProof, ABoardThatAsksTheTipAloneIsNotSound) {
   EXPECT_EQ(worst.shaft_gap_m, reach.shaft_gap_m);
 }
 
-TEST(ShaftProof, ATubIsRefusedNamingTheShaft) {
-  const std::string message = refusal(organ_of(in_ras(tub(0.110)), "tub"));
-  EXPECT_NE(message.find("shaft would press"), std::string::npos) << message;
-  EXPECT_THROW(prove_level(touch(), "L1", organ_of(in_ras(tub(0.110)), "tub"), 0), InputError);
-}
-
 TEST(ShaftProof, AKnownPlacementIsTakenAsItIs) {
   AttemptSetup setup;
   setup.exercise = touch();
