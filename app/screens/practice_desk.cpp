@@ -39,7 +39,7 @@ struct PracticeDesk::State {
   DeskOptions options;
   AssetRoots assets;
   std::vector<Exercise> exercises;
-  Settings settings;
+  Settings settings, followed;                 // as they are; as they were when they were last taken up
   Words words;
   KeyMap keys;
   std::unique_ptr<Steering> steering;
@@ -64,6 +64,7 @@ struct PracticeDesk::State {
 };
 
 void PracticeDesk::State::take_up(std::string& notice) {
+  followed = settings;
   const std::filesystem::path folder = assets.assets / "languages";
   std::string language = options.language.empty() ? settings.language : options.language;
   if (language.empty()) language = language_of_machine(folder);
@@ -157,11 +158,23 @@ std::filesystem::path PracticeDesk::database() const {
   return state_->database->in_memory() ? std::filesystem::path(":memory:") : state_->database->file();
 }
 
+void PracticeDesk::choose_language(const std::string& code) {
+  state_->options.language.clear();
+  state_->settings.language = code;
+  settings_changed();
+}
+
+void PracticeDesk::choose_scale(double scale) {
+  state_->options.scale.reset();
+  state_->settings.scale = std::clamp(scale, 1.0, 2.0);
+  settings_changed();
+}
+
 void PracticeDesk::settings_changed() {
   State& s = *state_;
-  // What was chosen here holds over what the command line said.
-  s.options.scale.reset();
-  s.options.language.clear();
+  // What was chosen here holds over what the command line said; what was not touched stays as it said.
+  if (s.settings.scale != s.followed.scale) s.options.scale.reset();
+  if (s.settings.language != s.followed.language) s.options.language.clear();
   s.take_up(notice);
   try {
     save_settings(s.settings_file_path(), s.settings);

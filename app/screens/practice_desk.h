@@ -48,6 +48,9 @@ class PracticeDesk {
   Settings& settings();
   /// Saves the settings and takes up what they say (language, keys, sound). A full disk is a notice, not an end.
   void settings_changed();
+  /// A person's choice: holds over what the command line said, even where the settings said the same before.
+  void choose_language(const std::string& code);
+  void choose_scale(double scale);
   const KeyMap& keys() const;
   Steering& steering();
   Sound& sound();

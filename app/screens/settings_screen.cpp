@@ -37,14 +37,12 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
   }
   std::string code = w.language();
   if (!shown.empty() && name_choice(ui, "language", w("Language"), shown, codes, code)) {
-    s.language = code;
-    changed = true;
+    desk.choose_language(code);
   }
   std::string percent = std::to_string(static_cast<int>(100 * desk.scale() + 0.5));
   const std::vector<std::string> percents{"100", "125", "150", "175", "200"};
   if (name_choice(ui, "scale", w("Size of text"), {"100 %", "125 %", "150 %", "175 %", "200 %"}, percents, percent)) {
-    s.scale = std::stod(percent) / 100;
-    changed = true;
+    desk.choose_scale(std::stod(percent) / 100);
   }
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
                          {"auto", "potato", "soft", "full"}, s.preset);

@@ -60,7 +60,7 @@ std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, i
 std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeDesk& desk) {
   const Words& w = desk.words();
   std::optional<ScreenName> to;
-  if (ui.button("try", w("Try now as a guest"), "Enter", true, kPanelWidth - 36)) {
+  if (ui.button("try", w("Try now as a guest"), code_.empty() ? "Enter" : "", true, kPanelWidth - 36)) {
     choose_first(desk);
     to = ScreenName::kBriefing;
   }
@@ -106,13 +106,9 @@ std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeDesk& desk) {
     names.push_back(language.name);
   }
   if (names.size() > 1 && ui.choice("language", w("Language"), names, chosen)) {
-    desk.settings().language = languages_[static_cast<std::size_t>(chosen)].code;
-    desk.settings_changed();
+    desk.choose_language(languages_[static_cast<std::size_t>(chosen)].code);
   }
-  const auto resize = [&](double by) {
-    desk.settings().scale = std::clamp(desk.scale() + by, 1.0, 2.0);
-    desk.settings_changed();
-  };
+  const auto resize = [&](double by) { desk.choose_scale(desk.scale() + by); };
   if (ui.button("smaller", w("Smaller"), "-")) resize(-0.25);
   ui.same_line();
   if (ui.button("larger", w("Larger"), "=")) resize(0.25);

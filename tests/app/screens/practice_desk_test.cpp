@@ -182,6 +182,20 @@ TEST(PracticeDesk, ScaleOfTheCommandLineHoldsThisTimeOnly) {
   EXPECT_EQ(desk->settings().scale, 1);
 }
 
+TEST(PracticeDesk, AChoiceOfSizeLeavesTheLanguageOfTheCommandLine) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.language = "fr";
+  options.scale = 1.25;
+  const auto desk = bench.desk(options);
+  desk->choose_scale(1);
+  EXPECT_EQ(desk->scale(), 1) << "though the settings said so before";
+  EXPECT_EQ(desk->words().language(), "fr");
+  desk->choose_language("en");
+  EXPECT_EQ(desk->words().language(), "en");
+  EXPECT_EQ(desk->settings().language, "en");
+}
+
 TEST(PracticeDesk, KeysThatContradictEachOtherAreANoticeNotAnEnd) {
   const DeskBench bench;
   std::ofstream(bench.options().settings) << "version = 1\n[keys]\nroll-left = \"Esc\"\n";
