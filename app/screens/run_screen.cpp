@@ -253,8 +253,11 @@ void RunScreen::State::key_hints(Ui& ui, const PracticeDesk& desk) const {
                                w.name(key_name(desk.keys().key_of(Action::kHelp))) + "  " + w("Help")};
   const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
   double y = picture.y + picture.height - 2 * ui.line_height() - ui.px(6);
+  double toast = picture.x + picture.width;  // its left edge: small windows have no corner beside it
+  for (const HudShape& shape : layout.shapes)
+    if (shape.kind == HudShape::Kind::kToast && shape.box.bottom() > y) toast = std::min(toast, shape.box.x);
   for (const std::string& line : lines) {
-    if (ui.text_width(line) < room) ui.text_at(picture.x + ui.px(10), y, line, Ink::kDim);
+    if (ui.text_width(line) < std::min(room, toast - picture.x - ui.px(16))) ui.text_at(picture.x + ui.px(10), y, line, Ink::kDim);
     y += ui.line_height();
   }
 }
