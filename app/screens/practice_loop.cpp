@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <optional>
 
 #include "app/graphics/frame_target.h"
 #include "app/graphics/preset.h"
 #include "app/graphics/renderer.h"
+#include "app/practice/file_stamp.h"
 #include "app/screens/device_panel.h"
 #include "app/screens/overlays.h"
 #include "app/screens/screen_table.h"
@@ -18,15 +18,6 @@
 
 namespace trocar {
 namespace {
-
-std::string file_stamp() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-  return text;
-}
 
 /// Before anything has been timed.
 Preset guessed_preset(const GraphicsContext& context) { return context.info().software ? Preset::kSoft : Preset::kFull; }

@@ -1,23 +1,14 @@
 #include "app/screens/progress_screen.h"
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 
+#include "app/practice/file_stamp.h"
 #include "app/practice/metric_words.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
 namespace {
-
-std::string stamp() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-  return text;
-}
 
 std::filesystem::path exports_folder(const PracticeDesk& desk) {
   const std::filesystem::path database = desk.database();
@@ -64,7 +55,7 @@ std::filesystem::path export_attempts(const PracticeDesk& desk) {
   const std::filesystem::path folder = exports_folder(desk);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  const std::string name = "trocar-" + desk.trainee() + "-" + stamp();
+  const std::string name = "trocar-" + desk.trainee() + "-" + file_stamp();
   std::filesystem::path file = folder / (name + ".csv");
   for (int n = 2; std::filesystem::exists(file); ++n) file = folder / (name + "-" + std::to_string(n) + ".csv");
   std::ofstream out(file, std::ios::binary);
