@@ -34,7 +34,7 @@ std::shared_ptr<PracticeCommandLine> add_practice_command(CLI::App& app, const s
   practice->add_option("--height", o.height, "Of the window, px")->capture_default_str()->check(CLI::Range(100, 16384));
   practice->add_flag("--fullscreen", o.fullscreen, "Fill the screen (F11 turns it on and off)");
   practice->add_option("--screens", o.screens, "No window: a PNG of every screen into this folder");
-  practice->add_flag("--timing", o.timing, "Say how soon the first frame stood, and how many there were");
+  practice->add_flag("--timing", o.timing, "Say how soon the first frame and the debrief stood, and how many frames there were");
   practice->callback([c = c.get(), scale, seed, choose] {
     if (scale->count() > 0) c->options.desk.scale = c->scale;
     if (seed->count() > 0) c->options.desk.seed = c->seed;

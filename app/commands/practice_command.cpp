@@ -1,10 +1,12 @@
 #include "app/commands/practice_command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <functional>
 #include <ostream>
 #include <thread>
+#include <utility>
 
 #include "app/graphics/headless_context.h"
 #include "app/interrupt.h"
@@ -104,6 +106,25 @@ int picture_screens(const PracticeOptions& given, std::ostream& out) {
   return 0;
 }
 
+/// How soon the debrief stands after an exercise's end, by the clock: the longest wait of all attempts.
+class DebriefWait {
+ public:
+  /// After each frame.
+  void look(const PracticeLoop& loop, PracticeDesk& desk) {
+    AttemptRunner* run = desk.running();
+    const bool over = run && loop.here() == ScreenName::kRun && run->newest().status.phase >= Phase::kDone;
+    if (over && !waiting_) since_ = Clock::now();
+    const bool waited = std::exchange(waiting_, over) && !over;
+    if (waited && loop.here() == ScreenName::kDebrief) longest_s_ = std::max(longest_s_, seconds_since(since_));
+  }
+  double longest_s() const { return longest_s_; }
+
+ private:
+  bool waiting_ = false;
+  Clock::time_point since_ = {};
+  double longest_s_ = 0;
+};
+
 /// Frames until the window is closed or a screen says quit. What a signal asks for is a quit too: an attempt ends as aborted.
 void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWatch& interrupt, Clock::time_point begin, std::ostream& err) {
   Window window({"Trocar", options.width, options.height, options.fullscreen, true});
@@ -112,6 +133,7 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
   Clock::time_point last = Clock::now();
   double first_s = 0, first_cpu_s = 0;
   long frames = 0;
+  DebriefWait debrief;
   while (going && !window.close_asked() && !interrupt.seen()) {
     const std::vector<InputEvent> events = window.poll();
     const double dt_s = seconds_since(last);
@@ -119,6 +141,7 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
     going = loop.frame(window.width(), window.height(), dt_s, events);
     if (window.width() == 0 || window.height() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     window.present();
+    debrief.look(loop, desk);
     if (++frames == 1) {
       first_s = seconds_since(begin);
       first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -129,6 +152,8 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
     err << "trocar: first frame after " << first_s << " s (" << first_cpu_s << " s of CPU), " << frames << " frames in "
         << seconds_since(begin) << " s on "
         << window.info().renderer << '\n';
+  if (options.timing && debrief.longest_s() > 0)
+    err << "trocar: debrief at most " << debrief.longest_s() << " s after the end of an exercise\n";
 }
 
 }  // namespace
