@@ -108,8 +108,8 @@ HudInk ink_of(const ForceBar& bar) {
 }  // namespace
 
 struct SideBySidePainter::Impl {
-  Impl(const Scene& left, const Scene& right, const AssetRoots& assets, int w, int h)
-      : renderer{Renderer(context, assets.assets), Renderer(context, assets.assets)},
+  Impl(const Scene& left, const Scene& right, const AssetRoots& assets, int w, int h, const RenderOptions& options)
+      : renderer{Renderer(context, assets.assets, options), Renderer(context, assets.assets, options)},
         organ_T{std::make_shared<TriangleSurface>(left.organ_T), std::make_shared<TriangleSurface>(right.organ_T)},
         width(w), height(h) {}
 
@@ -140,9 +140,12 @@ void SideBySidePainter::Impl::paint(Image& image, int index, const FilmSide& sid
   paint_hud(image, out.layout, fonts);
 }
 
-SideBySidePainter::SideBySidePainter(const Scene& left, const Scene& right, const AssetRoots& assets, int width, int height) {
+SideBySidePainter::SideBySidePainter(const Scene& left, const Scene& right, const AssetRoots& assets, int width, int height,
+                                     Preset preset) {
   if (width < kLeastWidth || height < kLeastHeight) throw std::invalid_argument("two runs side by side need a larger picture");
-  impl_ = std::make_unique<Impl>(left, right, assets, width, height);
+  RenderOptions options;
+  options.preset = preset;
+  impl_ = std::make_unique<Impl>(left, right, assets, width, height, options);
 }
 SideBySidePainter::~SideBySidePainter() = default;
 

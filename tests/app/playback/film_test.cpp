@@ -51,7 +51,7 @@ TEST_F(Films, BeginASecondBeforeRunAndEndWithIt) {
   FilmOptions fast = small(0.5);
   fast.speed = 2;
   EXPECT_EQ(make_film(run, find_assets(), fast, [](const Image&) {}), 1 + static_cast<int>(std::floor((1 + film_length(run)) * 0.25 + 1e-6)));
-  fast.progress = [](double share) { return share < 0.2; };
+  fast.progress = [](int done, int of) { return 5 * done < of; };
   EXPECT_LT(make_film(run, find_assets(), fast, [](const Image&) {}), made) << "ended by whoever watches";
 }
 
