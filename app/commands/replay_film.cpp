@@ -38,9 +38,6 @@ Beside find_beside(const RecordingOptions& options, const Subject& subject, cons
 
 }  // namespace
 
-namespace {
-
-/// Finest where a GPU draws. A software rasteriser takes the preset that is made for it, and says so: full takes about three times as long.
 Preset film_preset(const std::string& asked, std::ostream& err) {
   if (asked != "auto") return *preset_named(asked);
   const HeadlessContext context;
@@ -48,6 +45,8 @@ Preset film_preset(const std::string& asked, std::ostream& err) {
   err << "trocar: no GPU draws here: pictures of preset soft (--preset full is finer and takes about three times as long)\n";
   return Preset::kSoft;
 }
+
+namespace {
 
 /// What is shown while pictures are made. Ctrl-C takes a film away; numbered pictures stay, and that is said.
 class FilmProgress {
