@@ -13,9 +13,8 @@ std::string typed_path_fault(const std::string& path) {
   if (folder.empty()) return "";
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
-  if (status.type() == fs::file_type::not_found) return path + ": there is no folder " + folder.string() + "; make it first";
-  if (status.type() == fs::file_type::none || fs::is_directory(status)) return "";  // not allowed to look: writing will say why
-  return path + ": " + folder.string() + " is a file, not a folder";
+  // Anything else that is no folder to write into (a file, no right to look) is the machine's fault: writing will say why.
+  return status.type() == fs::file_type::not_found ? path + ": there is no folder " + folder.string() + "; make it first" : "";
 }
 
 }  // namespace trocar

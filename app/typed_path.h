@@ -8,7 +8,7 @@
 
 namespace trocar {
 
-/// What is wrong with a path to be written, a file or a folder: empty, or its parent is missing or no folder. Empty: nothing.
+/// What is wrong with a path to be written, a file or a folder: empty, or its folder is missing. Empty: nothing.
 std::string typed_path_fault(const std::string& path);
 
 }  // namespace trocar
