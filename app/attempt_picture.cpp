@@ -17,9 +17,19 @@ SceneView attempt_view(const SessionView& view, const std::shared_ptr<const Tria
   return out;
 }
 
+namespace {
+
+RenderOptions with(Preset preset) {
+  RenderOptions options;
+  options.preset = preset;
+  return options;
+}
+
+}  // namespace
+
 struct AttemptPainter::Impl {
-  Impl(const Scene& scene, const AssetRoots& assets, std::string trainee_in, int width_in, int height_in)
-      : renderer(context, assets.assets),
+  Impl(const Scene& scene, const AssetRoots& assets, std::string trainee_in, int width_in, int height_in, Preset preset)
+      : renderer(context, assets.assets, with(preset)),
         organ_T(std::make_shared<TriangleSurface>(scene.organ_T)),
         trainee(std::move(trainee_in)),
         width(width_in),
@@ -32,8 +42,8 @@ struct AttemptPainter::Impl {
   int width, height;
 };
 
-AttemptPainter::AttemptPainter(const Scene& scene, const AssetRoots& assets, std::string trainee, int width, int height)
-    : impl_(std::make_unique<Impl>(scene, assets, std::move(trainee), width, height)) {}
+AttemptPainter::AttemptPainter(const Scene& scene, const AssetRoots& assets, std::string trainee, int width, int height, Preset preset)
+    : impl_(std::make_unique<Impl>(scene, assets, std::move(trainee), width, height, preset)) {}
 AttemptPainter::~AttemptPainter() = default;
 
 Image AttemptPainter::paint(const SessionView& view) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/graphics/image.h"
+#include "app/graphics/preset.h"
 #include "app/graphics/scene_view.h"
 #include "app/session.h"
 
@@ -22,7 +23,8 @@ SceneView attempt_view(const SessionView& view, const std::shared_ptr<const Tria
 class AttemptPainter {
  public:
   /// @throws EnvironmentError without EGL, font or shaders.
-  AttemptPainter(const Scene& scene, const AssetRoots& assets, std::string trainee, int width = 1280, int height = 720);
+  AttemptPainter(const Scene& scene, const AssetRoots& assets, std::string trainee, int width = 1280, int height = 720,
+                 Preset preset = Preset::kFull);
   ~AttemptPainter();
 
   Image paint(const SessionView& view);

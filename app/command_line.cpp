@@ -29,12 +29,15 @@
 #include "app/command_line_organs.h"
 #include "app/command_line_practice.h"
 #include "app/scene.h"
+#include "app/typed_path.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
 namespace {
 
 const CLI::Validator kNamed([](std::string& file) { return file.empty() ? std::string("is empty: a file is asked for") : std::string(); }, "FILE");
+const CLI::Validator kPlaced([](std::string& path) { return typed_path_fault(path); }, "PATH");
+constexpr const char* kVersionLine = "trocar " TROCAR_VERSION;
 const CLI::Range kSeed(0.0, 9e18, "SEED");
 
 /// Options of every subcommand, and the one that was chosen.
@@ -91,11 +94,11 @@ void add_run(CommandLine& c) {
   run->add_option("--seed", c.run.seed, "Seed of everything random")->capture_default_str();
   run->add_option("--board", c.run.board, "Practice board 0-19, refused at level exam (default: an unseen one drawn by the seed)");
   run->add_option("--trainee", c.run.trainee, "Trainee code, created when new")->capture_default_str();
-  run->add_option("--db", c.run.database, "Database file, or :memory:");
+  run->add_option("--db", c.run.database, "Database file, or :memory:")->check(kPlaced);
   run->add_option("--organ", c.run.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
-  run->add_option("--record", c.run.record, "Recording file (default: beside the database)");
-  run->add_option("--frames", c.run.frames, "Folder for PNG frames");
-  run->add_option("--video", c.run.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kNamed);
+  run->add_option("--record", c.run.record, "Recording file (default: beside the database)")->check(kPlaced);
+  run->add_option("--frames", c.run.frames, "Folder for PNG frames")->check(kPlaced);
+  run->add_option("--video", c.run.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kPlaced);
   run->add_option("--fps", c.run.fps, "Frames per second of loop time (default: 10, of a film 25)")->check(CLI::Range(0.1, 50.0));
   run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")->capture_default_str()->check(CLI::IsMember({1000, 2000, 4000}));
   run->add_option("--contact", c.run.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
@@ -125,12 +128,14 @@ void add_recordings(CommandLine& c) {
   CLI::App* replay = c.add(c.app, "replay", "Run the loop again from a recording",
                            [&c] { return replay_command(c.recording, std::cout, std::cerr); });
   replay->add_flag("--verify", c.recording.verify, "Compare the state hash with the recorded one");
-  replay->add_option("--frames", c.recording.frames, "Folder for PNG frames");
-  replay->add_option("--video", c.recording.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kNamed);
+  replay->add_option("--frames", c.recording.frames, "Folder for PNG frames")->check(kPlaced);
+  replay->add_option("--video", c.recording.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kPlaced);
   replay->add_option("--fps", c.recording.fps, "Frames per second (default: 10, of a film 25)")->check(CLI::Range(0.1, 60.0));
   replay->add_option("--speed", c.recording.speed, "Of the film: 0.25 is slow motion, 4 four times as fast")->capture_default_str()->check(CLI::Range(0.05, 20.0));
-  replay->add_option("--width", c.recording.width, "Of the pictures, px")->capture_default_str()->check(CLI::Range(320, 7680));
-  replay->add_option("--height", c.recording.height, "Of the pictures, px")->capture_default_str()->check(CLI::Range(240, 4320));
+  replay->add_option("--width", c.recording.width, "Of the pictures, px: from 320, with --beside from 720")->capture_default_str()->check(CLI::Range(320, 7680));
+  replay->add_option("--height", c.recording.height, "Of the pictures, px: from 240, with --beside from 400")->capture_default_str()->check(CLI::Range(240, 4320));
+  replay->add_option("--preset", c.recording.preset, "Of a film's pictures: potato, soft, full, or auto: full, and soft where no GPU draws")->capture_default_str()
+      ->check(CLI::IsMember({"auto", "potato", "soft", "full"}));
   replay->add_option("--beside", c.recording.beside, "Second run in the same film: recording, attempt, or 'expert'")->check(kNamed);
   replay->add_option("--organ", c.recording.organ, "Where the recorded organ lies now");
   CLI::App* score = c.add(c.app, "score", "Grade again from the raw record",
@@ -147,8 +152,8 @@ void add_first_contact(CommandLine& c) {
   CLI::App* demo = c.add(c.app, "demo", "The whole chain once: picture, score, report",
                          [&c] { return demo_command(c.demo, std::cout, std::cerr); });
   demo->add_flag("--headless", c.headless, "Without a window, as it always is; trocar practice is the window");
-  demo->add_option("--out", c.demo.output, "Folder")->capture_default_str();
-  demo->add_option("--video", c.demo.video, "Film of it too: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kNamed);
+  demo->add_option("--out", c.demo.output, "Folder")->capture_default_str()->check(kPlaced);
+  demo->add_option("--video", c.demo.video, "Film of it too: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kPlaced);
   demo->add_option("--exercise", c.demo.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
   demo->add_option("--level", c.demo.level, "L1, L2, L3 or exam")->capture_default_str();
   demo->add_option("--organ", c.demo.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
@@ -161,13 +166,13 @@ void add_first_contact(CommandLine& c) {
   CLI::App* study = c.add(c.app, "study", "Do an experiment again: data, plots, summary",
                           [&c] { return study_command(c.study, std::cout, std::cerr); });
   study->add_option("name", c.study.name, "One of: " + studies)->required();
-  study->add_option("--out", c.study.out, "Folder")->required();
+  study->add_option("--out", c.study.out, "Folder")->required()->check(kPlaced);
   study->add_flag("--quick", c.study.quick, "Fewer trials of the same kind");
   study->add_option("--plant", c.study.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant")->check(kNamed);
   study->add_option("--seed", c.study.seed, "Of everything that is drawn")->capture_default_str()->check(kSeed);
   study->add_flag("--json", c.study.json, "Summary as JSON");
   c.add(c.app, "version", "Version of the program", [] {
-    std::cout << "trocar " TROCAR_VERSION "\n";
+    std::cout << kVersionLine << '\n';
     return 0;
   });
 }
@@ -177,7 +182,7 @@ void add_picture(CommandLine& c) {
   for (const std::string& name : picture_scenes()) scenes += (scenes.empty() ? "" : ", ") + name;
   CLI::App* picture = c.add(c.app, "picture", "A picture of the show scene, as this machine draws it",
                             [&c] { return picture_command(c.picture, find_assets().assets, std::cout, std::cerr); });
-  picture->add_option("--out", c.picture.output, "PNG file")->required()->check(kNamed);
+  picture->add_option("--out", c.picture.output, "PNG file")->required()->check(kPlaced);
   picture->add_option("--scene", c.picture.scene, "One of: " + scenes)->capture_default_str();
   picture->add_option("--preset", c.picture.preset, "potato, soft, full, or auto: chosen by timing")->capture_default_str();
   picture->add_option("--width", c.picture.width, "Pixels")->capture_default_str();
@@ -196,8 +201,8 @@ void add_catalogue(CommandLine& c) {
   check->add_option("exercise", c.check.subjects, "Exercise ids or files")->required();
   check->add_option("--organ", c.check.organ, "Organ to lay the boards on")->capture_default_str();
   check->add_option("--unseen", c.check.unseen, "Boards of graded runs to prove besides the practice boards 0 to 19")->capture_default_str()->check(CLI::Range(0, 1000));
-  check->add_option("--map", c.check.map, "SVG of the force that the device can give over the board");
-  check->add_option("--inversion", c.check.inversion, "Folder for two pictures of one hand motion, direct and through a port");
+  check->add_option("--map", c.check.map, "SVG of the force that the device can give over the board")->check(kPlaced);
+  check->add_option("--inversion", c.check.inversion, "Folder for two pictures of one hand motion, direct and through a port")->check(kPlaced);
   check->add_flag("--json", c.check.json, "As JSON");
 }
 
@@ -206,13 +211,13 @@ void add_device_bench(CommandLine& c, CLI::App& device) {
                        [&c] { return device_forward(c.forward, std::cout, std::cerr); });
   fk->add_option("--deg", c.forward.angle_deg, "th1,...,th6 in degrees")->delimiter(',');
   fk->add_option("--csv", c.forward.table_in, "Input table instead of --deg");
-  fk->add_option("--out", c.forward.table_out, "Output table");
+  fk->add_option("--out", c.forward.table_out, "Output table")->check(kPlaced);
   fk->add_flag("--json", c.forward.json, "As JSON");
   CLI::App* calibrate = c.add(device, "calibrate", "Gain and offset of the amplifiers, found on a bench rig",
                               [&c] { return device_calibrate(c.calibrate, std::cout, std::cerr); });
   calibrate->add_option("--seed", c.calibrate.seed, "Of the simulated device and the rig")->capture_default_str()->check(kSeed);
   calibrate->add_option("--gain", c.calibrate.gain, "Of the simulated amplifiers over nominal (the thesis': 5)")->capture_default_str();
-  calibrate->add_option("--out", c.calibrate.out, "Calibration as JSON");
+  calibrate->add_option("--out", c.calibrate.out, "Calibration as JSON")->check(kPlaced);
   calibrate->add_option("--check", c.calibrate.check, "A calibration file: how well does it render on this device?");
   calibrate->add_option("--plant", c.calibrate.plant, "Plant file of the device, instead of the seed's")->check(kNamed);
   calibrate->add_flag("--json", c.calibrate.json, "As JSON");
@@ -243,7 +248,7 @@ void add_device_plant(CommandLine& c, CLI::App& device) {
   plant->add_option("--seed", c.plant.seed, "The device that this seed draws (default: the nominal one)")->check(kSeed);
   plant->add_flag("--all", c.plant.all, "Draw also what seeds leave nominal");
   plant->add_option("--plant", c.plant.plant, "Plant file: check it and print it complete")->check(kNamed);
-  plant->add_option("--out", c.plant.out, "File instead of standard output");
+  plant->add_option("--out", c.plant.out, "File instead of standard output")->check(kPlaced);
 }
 
 void add_device(CommandLine& c) {
@@ -257,7 +262,7 @@ void add_device(CommandLine& c) {
                        [&c] { return device_ik(c.table_in, c.table_out, std::cerr); });
   for (CLI::App* command : {eval, ik}) {
     command->add_option("--csv", c.table_in, "Input table")->required();
-    command->add_option("--out", c.table_out, "Output table")->required();
+    command->add_option("--out", c.table_out, "Output table")->required()->check(kPlaced);
   }
   eval->add_option("--device", c.device_file, "Device file with identified weights (default: nominal)")->check(kNamed);
   CLI::App* identify = c.add(*device, "identify", "Weights, inertias and friction of a simulated device from its motion",
@@ -268,7 +273,7 @@ void add_device(CommandLine& c) {
   identify->add_option("--payload", c.identify.payload_kg, "Unknown mass on the stylus, kg")->capture_default_str()->check(CLI::Range(0.0, 0.05));
   identify->add_option("--plant", c.identify.plant, "Plant file of the device, instead of the seed's")->check(kNamed);
   identify->add_flag("--quick", c.identify.quick, "20 poses and one trajectory");
-  identify->add_option("--out", c.identify.out, "Device file (TOML) to write");
+  identify->add_option("--out", c.identify.out, "Device file (TOML) to write")->check(kPlaced);
   identify->add_flag("--json", c.identify.json, "As JSON");
 }
 
@@ -288,7 +293,7 @@ void add_trainees(CommandLine& c) {
   for (CLI::App* command : {add, show}) command->add_option("code", c.trainee.code, "Trainee code")->required();
   show->add_option("--limit", c.trainee.limit, "Newest attempts listed, 0: all")->capture_default_str();
   for (CLI::App* command : {add, list, show}) {
-    command->add_option("--db", c.trainee.database, "Database file");
+    command->add_option("--db", c.trainee.database, "Database file")->check(kPlaced);
     command->add_flag("--json", c.trainee.json, "As JSON");
   }
   CLI::App* cohort = c.add(c.app, "cohort", "Who tried what, how often, how well",
@@ -303,7 +308,7 @@ void add_db(CommandLine& c) {
   CLI::App* check = c.add(*db, "check", "File, schema, references, hash chain, audit trail, recordings", [&c] { return db_check(c.db, std::cout, std::cerr); });
   check->add_flag("--json", c.db.json, "As JSON");
   CLI::App* backup = c.add(*db, "backup", "Consistent copy", [&c] { return db_backup(c.db, std::cout, std::cerr); });
-  backup->add_option("-o,--out", c.db.output, "File (default: beside the database)");
+  backup->add_option("-o,--out", c.db.output, "File (default: beside the database)")->check(kPlaced);
   CLI::App* migrate = c.add(*db, "migrate", "Bring to this program's schema", [&c] { return db_migrate(c.db, std::cout, std::cerr); });
   CLI::App* anchor = c.add(*db, "anchor", "Begin a new anchor file where the old one was lost", [&c] { return db_anchor(c.db, std::cout, std::cerr); });
   CLI::App* rubric = c.add(*db, "rubric", "Print the exercise file that attempts were graded by", [&c] { return db_rubric(c.db, std::cout, std::cerr); });
@@ -344,18 +349,17 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
+  c.app.set_version_flag("--version", kVersionLine, "Version of the program");
   for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
     add(c);
   }
   try {
     c.app.parse(argc, argv);
     return printed(c.chosen());
-  } catch (const CLI::RequiredError& error) {
-    // CLI11 asks for a subcommand before it looks at the word that is none.
-    const auto unknown = c.app.remaining(true);
-    if (!unknown.empty()) std::cerr << "trocar: not understood: " << unknown.front() << '\n';
-    return c.app.exit(error) == 0 ? 0 : 2;
   } catch (const CLI::ParseError& error) {
+    // CLI11 asks for what is missing before it looks at the word that is none.
+    const bool help = error.get_exit_code() == 0;
+    if (const std::string said = help ? "" : misspelt(c.app, {argv + 1, argv + argc}); !said.empty()) std::cerr << "trocar: " << said << '\n';
     return c.app.exit(error) == 0 ? 0 : 2;
   } catch (const InputError& error) {
     return fail(error, 2);

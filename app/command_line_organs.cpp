@@ -11,6 +11,7 @@
 #include "app/commands/organ_render.h"
 #include "app/progress_display.h"
 #include "app/scene.h"
+#include "app/typed_path.h"
 #include "tissue/organ.h"
 
 namespace trocar {
@@ -37,6 +38,7 @@ struct OrganCommandLine {
 
 namespace {
 
+const CLI::Validator kPlaced([](std::string& path) { return typed_path_fault(path); }, "PATH");
 constexpr const char* kInputs =
     "Label map or image (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd), DICOM folder, zip, DICOMDIR or file, or surface (.stl .ply .obj .off .glb .gltf .fbx .vtk .vtp .vtu .msh)";
 
@@ -89,9 +91,9 @@ void add_surface_options(OrganCommandLine& c, CLI::App& import) {
 void add_import(OrganCommandLine& c, CLI::App& organ) {
   CLI::App* import = c.add(organ, "import", "An organ, or a scene of organs, from CT, MR, label maps or surfaces", [&c] { return run_import(c); });
   import->add_option("input", c.import.input, kInputs)->required();
-  import->add_option("-o,--output", c.import.output, "NAME of the organ files")->required();
+  import->add_option("-o,--output", c.import.output, "NAME of the organ files")->required()->check(kPlaced);
   import->add_option("--triangles", c.import.triangles, "Triangles aimed at, each organ")->capture_default_str();
-  import->add_option("--report", c.import.report, "Page with pictures and figures (HTML)");
+  import->add_option("--report", c.import.report, "Page with pictures and figures (HTML)")->check(kPlaced);
   import->add_option("--lattice", c.import.lattice_mm, "Also a lattice of cubes of this edge, mm")->check(CLI::Range(1.0, 100.0));
   import->add_option("--tetrahedra", c.import.tetrahedra_mm, "Also tetrahedra of this size, mm")->check(CLI::Range(1.0, 100.0));
   import->add_option("--name", c.import.name, "Name of the organ or the scene");
@@ -124,7 +126,7 @@ void add_others(OrganCommandLine& c, CLI::App& organ) {
     c.render.manifest = manifest();
     return organ_render(c.render, find_assets().assets, std::cout, std::cerr);
   });
-  render->add_option("-o,--output", c.render.output, "PNG file")->required();
+  render->add_option("-o,--output", c.render.output, "PNG file")->required()->check(kPlaced);
   render->add_option("--width", c.render.width, "px")->capture_default_str();
   render->add_option("--height", c.render.height, "px")->capture_default_str();
   for (CLI::App* command : {info, render})
@@ -134,7 +136,7 @@ void add_others(OrganCommandLine& c, CLI::App& organ) {
     return organ_package(c.package, std::cout, std::cerr);
   });
   package->add_option("organs", c.package.organs, "NAME.organ.toml, NAME.scene.toml or shipped organs")->required();
-  package->add_option("-o,--output", c.package.output, "FILE.zip")->required();
+  package->add_option("-o,--output", c.package.output, "FILE.zip")->required()->check(kPlaced);
 }
 
 void add_phantom(OrganCommandLine& c, CLI::App& organ) {
@@ -144,7 +146,7 @@ void add_phantom(OrganCommandLine& c, CLI::App& organ) {
                               c.phantom.progress = progress.function();
                               return organ_phantom(c.phantom, std::cout, std::cerr);
                             });
-  phantom->add_option("--out", c.phantom.out, "Folder")->required();
+  phantom->add_option("--out", c.phantom.out, "Folder")->required()->check(kPlaced);
   phantom->add_option("--seed", c.phantom.seed, "Seed of the noise, and of --variant by-seed")->capture_default_str()->check(CLI::Range(0.0, 9e18, "SEED"));
   phantom->add_option("--variant", c.phantom.variant, "normal, short-duct, low-insertion, fat or artery-anterior; by-seed: the one that --seed stands for")->capture_default_str();
   phantom->add_option("--patient", c.phantom.patient, "Natural variation; 0: the standard patient")->capture_default_str()->check(CLI::Range(0.0, 9e18, "PATIENT"));

@@ -5,8 +5,13 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands/practice_command.h"
+#include "app/typed_path.h"
 
 namespace trocar {
+
+namespace {
+const CLI::Validator kPlaced([](std::string& path) { return typed_path_fault(path); }, "PATH");
+}
 
 struct PracticeCommandLine {
   PracticeOptions options;
@@ -24,16 +29,16 @@ std::shared_ptr<PracticeCommandLine> add_practice_command(CLI::App& app, const s
   practice->add_option("--input", o.desk.input, "What steers: auto (the first that moves), mouse, keyboard, gamepad, spacemouse or device")
       ->capture_default_str()->check(CLI::IsMember({"auto", "mouse", "keyboard", "gamepad", "spacemouse", "device"}));
   practice->add_option("--organ", o.desk.organ, "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ")->capture_default_str();
-  practice->add_option("--db", o.desk.database, "Database file, or :memory:, which keeps nothing");
+  practice->add_option("--db", o.desk.database, "Database file, or :memory:, which keeps nothing")->check(kPlaced);
   CLI::Option* scale = practice->add_option("--scale", c->scale, "Size of text and buttons, this time (default: as in the settings)")->check(CLI::Range(1.0, 2.0));
   practice->add_option("--language", o.desk.language, "en, fr or de, this time (default: as in the settings, else of LANG)");
-  practice->add_option("--settings", o.desk.settings, "Settings file (default: trocar/settings.toml in $XDG_CONFIG_HOME)");
+  practice->add_option("--settings", o.desk.settings, "Settings file (default: trocar/settings.toml in $XDG_CONFIG_HOME)")->check(kPlaced);
   practice->add_option("--hand", o.desk.hand, "A scripted hand in place of a person: expert, novice, ... or SCRIPT.toml");
   CLI::Option* seed = practice->add_option("--seed", c->seed, "Every attempt draws its board from this (default: a fresh one each)");
   practice->add_option("--width", o.width, "Of the window, px")->capture_default_str()->check(CLI::Range(200, 16384));
   practice->add_option("--height", o.height, "Of the window, px")->capture_default_str()->check(CLI::Range(100, 16384));
   practice->add_flag("--fullscreen", o.fullscreen, "Fill the screen (F11 turns it on and off)");
-  practice->add_option("--screens", o.screens, "No window: a PNG of every screen into this folder");
+  practice->add_option("--screens", o.screens, "No window: a PNG of every screen into this folder")->check(kPlaced);
   practice->add_flag("--timing", o.timing, "Say how soon the first frame and the debrief stood, and how many frames there were");
   practice->callback([c = c.get(), scale, seed, choose] {
     if (scale->count() > 0) c->options.desk.scale = c->scale;

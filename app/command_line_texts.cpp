@@ -1,10 +1,13 @@
 #include "app/command_line_texts.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <sstream>
 
 #include "haptics/input_error.h"
+#include "scenarios/strict_toml.h"
 
 namespace trocar {
 namespace {
@@ -158,6 +161,39 @@ std::string fish_script(const CLI::App& app) {
 }
 
 }  // namespace
+
+namespace {
+
+std::string not_understood(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  return "not understood: " + word + (near.empty() ? "" : "; did you mean '" + near + "'?");
+}
+
+std::vector<std::string> split(const std::string& words) {
+  std::istringstream in(words);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+}  // namespace
+
+std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+    const std::string word = words[i].substr(0, words[i].find('='));
+    if (word.size() > 1 && word[0] == '-') {
+      const CLI::Option* option = command->get_option_no_throw(word);
+      if (!option) return not_understood(word, split(words_after(*command)));
+      if (option->get_items_expected_max() > 0 && word == words[i]) ++i;  // its value, whatever that looks like
+      continue;
+    }
+    const auto below = command->get_subcommands([](const CLI::App*) { return true; });
+    if (below.empty()) continue;
+    const auto found = std::find_if(below.begin(), below.end(), [&](const CLI::App* sub) { return sub->get_name() == words[i]; });
+    if (found == below.end()) return not_understood(words[i], split(words_after(*command)));
+    command = *found;
+  }
+  return "";
+}
 
 std::string manual_page(const CLI::App& app, const std::string& version) {
   std::ostringstream out;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -13,6 +14,10 @@ namespace trocar {
 
 /// trocar(1) in roff, man macros. @param version of the program.
 std::string manual_page(const CLI::App& app, const std::string& version);
+
+/// "not understood: --hnad; did you mean '--hand'?": the first word that is no command and no option where it stands. Empty: none.
+/// @param words the arguments, without the program's name.
+std::string misspelt(const CLI::App& app, const std::vector<std::string>& words);
 
 /// Completion for "bash", "zsh" or "fish". @throws InputError for another shell.
 std::string completion_script(const CLI::App& app, const std::string& shell);

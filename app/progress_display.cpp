@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ostream>
 
 namespace trocar {
@@ -19,8 +20,9 @@ ProgressDisplay::ProgressDisplay(std::ostream& err, bool terminal, std::chrono::
 
 ProgressDisplay::~ProgressDisplay() { clear(); }
 
-void ProgressDisplay::show(std::string_view stage, double share) {
+void ProgressDisplay::show(std::string_view stage, double share, std::string_view detail) {
   if (watch_.seen()) throw Interrupted();
+  detail_ = detail.empty() ? "" : ": " + std::string(detail);
   const bool fresh = stage != stage_;
   if (fresh) {
     stage_ = stage;
@@ -39,19 +41,19 @@ void ProgressDisplay::line(double share) {
   if (quarter <= quarter_ || now - last_ < moment_) return;
   last_ = now;
   if (quarter_ < 0)
-    err_ << stage_ << '\n';
+    err_ << stage_ << detail_ << '\n';
   else
-    err_ << stage_ << ": " << 25 * quarter << " %\n";
+    err_ << stage_ << ": " << 25 * quarter << " %" << (detail_.empty() ? "" : ",") << detail_.substr(detail_.empty() ? 0 : 1) << '\n';
   quarter_ = quarter;
   err_.flush();
 }
 
 void ProgressDisplay::draw(double share) {
-  std::string text = stage_;
+  std::string text = stage_ + detail_;
   if (share >= 0) {
     const int filled = static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * kBarWidth));
     text = "[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), ' ') +
-           "] " + stage_;
+           "] " + text;
   }
   const std::size_t wiped = std::max(drawn_, text.size());
   err_ << '\r' << text << std::string(wiped - text.size(), ' ') << std::flush;
@@ -65,6 +67,19 @@ void ProgressDisplay::clear() {
 
 Progress ProgressDisplay::function() {
   return [this](std::string_view stage, double share) { show(stage, share); };
+}
+
+std::string pace_words(int done, int of, double seconds) {
+  char text[96];
+  const double rate = seconds > 0 ? (done - 1) / seconds : 0;
+  if (done < 2 || !(rate > 0)) {
+    std::snprintf(text, sizeof text, "%d of %d", done, of);
+    return text;
+  }
+  const double left_s = std::ceil((of - done) / rate);
+  if (left_s < 120) std::snprintf(text, sizeof text, "%d of %d, %.3g a second, %.0f s left", done, of, rate, left_s);
+  else std::snprintf(text, sizeof text, "%d of %d, %.3g a second, %.0f min left", done, of, rate, std::ceil(left_s / 60));
+  return text;
 }
 
 bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }

@@ -32,7 +32,8 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   /// As tissue/progress.h has it. @throws Interrupted
-  void show(std::string_view stage, double share);
+  /// @param detail behind the stage, changing as it goes on ("12 of 900, ...").
+  void show(std::string_view stage, double share, std::string_view detail = {});
   /// Wipes the bar, for another message.
   void clear();
   Progress function();
@@ -44,12 +45,16 @@ class ProgressDisplay {
   std::ostream& err_;
   bool terminal_;
   InterruptWatch watch_;
-  std::string stage_;
+  std::string stage_, detail_;
   int quarter_ = -1;        ///< of the stage, printed last
   std::size_t drawn_ = 0;   ///< characters of the bar on the terminal
   std::chrono::milliseconds moment_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// How far, how fast and how long still, of things that take about the same time each: "120 of 900, 25 a second, 31 s left".
+/// @param seconds since the first of them was done, which takes longer than the others.
+std::string pace_words(int done, int of, double seconds);
 
 /// Whether standard error is a terminal.
 bool error_is_terminal();

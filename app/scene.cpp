@@ -26,6 +26,7 @@ const TriangleSurface& felt_surface(const Scene& scene) {
 namespace {
 
 constexpr int kFormat = 1;
+constexpr double kFarthest = 10;  // m of an image's origin from the theatre's
 constexpr const char* kUnreadable = ": the recording's setup cannot be read: ";
 
 nlohmann::json file_json(const DeviceFile& file) { return {{"text", file.text}, {"file", file.name}}; }
@@ -33,6 +34,34 @@ nlohmann::json file_json(const DeviceFile& file) { return {{"text", file.text}, 
 std::optional<DeviceFile> file_of(const nlohmann::json& setup, const char* key) {
   if (!setup.contains(key)) return std::nullopt;
   return DeviceFile{setup.at(key).at("text").get<std::string>(), setup.at(key).at("file").get<std::string>()};
+}
+
+/// Every digit is kept: what is laid from it lies as before, to the last bit.
+nlohmann::json placement_json(const OrganPlacement& placement) {
+  const Mat3& R = placement.X_TO.R;
+  nlohmann::json rows = nlohmann::json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({R(i, 0), R(i, 1), R(i, 2)});
+  const Vec3& p = placement.X_TO.p;
+  return {{"R", rows}, {"p_m", {p.x(), p.y(), p.z()}}, {"roll_rad", placement.roll_rad}, {"turn_rad", placement.turn_rad},
+          {"even_m2", placement.even_m2}, {"free_m2", placement.free_m2}};
+}
+
+/// @throws InputError: a pose that is none.
+OrganPlacement placement_of(const nlohmann::json& json, const std::string& name) {
+  OrganPlacement out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) out.X_TO.R(static_cast<int>(i), static_cast<int>(j)) = json.at("R").at(i).at(j).get<double>();
+    out.X_TO.p[static_cast<int>(i)] = json.at("p_m").at(i).get<double>();
+  }
+  const Mat3& R = out.X_TO.R;
+  const bool rotation = (R * R.transpose() - Mat3::Identity()).norm() < 1e-9 && R.determinant() > 0;
+  if (!rotation || !out.X_TO.p.allFinite() || out.X_TO.p.norm() > kFarthest)
+    throw InputError(name + kUnreadable + "the organ's place is no pose in the theatre");
+  out.roll_rad = json.at("roll_rad").get<double>();
+  out.turn_rad = json.at("turn_rad").get<double>();
+  out.even_m2 = json.at("even_m2").get<double>();
+  out.free_m2 = json.at("free_m2").get<double>();
+  return out;
 }
 
 const char* law_name(ContactLaw law) { return law == ContactLaw::kThesis ? "thesis" : "proxy"; }
@@ -182,6 +211,7 @@ std::string scene_json(const Scene& scene) {
       {"passivity_law", passivity_law_name(s.passivity_law)},
       {"clamp_stiffness", s.clamp_stiffness},
       {"force_scale", scene.loop.map.force_scale}};
+  if (needs_organ(s.exercise.kind)) json["placement"] = placement_json(scene.placement);
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
   if (s.device.identified) json["device"] = file_json(*s.device.identified);
   return json.dump();
@@ -213,6 +243,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     if (!law) throw InputError(name + kUnreadable + "passivity law '" + json.at("passivity_law").get<std::string>() + "'");
     s.passivity_law = *law;
     s.clamp_stiffness = json.value("clamp_stiffness", false);
+    if (json.contains("placement")) s.placement = placement_of(json.at("placement"), name);  // older recordings: looked for again
     s.device = {file_of(json, "calibration"), file_of(json, "device")};
     return out;
   } catch (const nlohmann::json::exception& error) {

@@ -1,7 +1,9 @@
 #include "scenarios/exercise_loader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
@@ -158,15 +160,33 @@ std::vector<Exercise> list_exercises(const std::filesystem::path& exercises_dir)
   return exercises;
 }
 
+namespace {
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+bool is_named(const Exercise& exercise, const std::string& word) {
+  const std::string asked = lower_case(word), number = lower_case(exercise.number);
+  if (asked == lower_case(exercise.id) || asked == number) return true;
+  const bool digits = !asked.empty() && asked.size() < 9 && std::all_of(asked.begin(), asked.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const std::size_t from = number.find_first_of("0123456789");
+  return digits && from != std::string::npos && std::atoi(asked.c_str()) == std::atoi(number.c_str() + from);
+}
+
 Exercise find_exercise(const std::string& id_or_path, const std::filesystem::path& exercises_dir) {
   if (id_or_path.ends_with(".toml")) return load_exercise(id_or_path);
-  std::vector<std::string> known;
+  std::vector<std::string> known, listed;
   for (Exercise& exercise : list_exercises(exercises_dir)) {
-    if (exercise.id == id_or_path || exercise.number == id_or_path) return std::move(exercise);
+    if (is_named(exercise, id_or_path)) return std::move(exercise);
     known.push_back(exercise.id);
+    listed.push_back(exercise.number + " " + exercise.id);
   }
-  const std::string near = nearest_word(id_or_path, known);
-  throw InputError("unknown exercise '" + id_or_path + "': known are " + joined(known) +
+  const std::string near = nearest_word(lower_case(id_or_path), known);
+  throw InputError("unknown exercise '" + id_or_path + "': known are " + joined(listed) + ", or a FILE.toml" +
                    (near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 

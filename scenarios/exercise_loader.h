@@ -21,7 +21,10 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
 /// cannot be read.
 std::vector<Exercise> list_exercises(const std::filesystem::path& exercises_dir);
 
-/// An exercise by its id, by its number, or a path to a .toml file. @throws InputError listing the known ids.
+/// Whether a person means it by this word: its id or its number ("E02", "2"), in whatever case.
+bool is_named(const Exercise& exercise, const std::string& word);
+
+/// An exercise by its id or number, as is_named() has it, or a path to a .toml file. @throws InputError listing the known ones.
 Exercise find_exercise(const std::string& id_or_path, const std::filesystem::path& exercises_dir);
 
 /// @throws InputError listing the known levels.

@@ -126,7 +126,7 @@ void explain(const std::string& name, const std::vector<Exercise>& exercises, st
   if (const MetricDefinition* metric = find_metric(name)) return explain_metric(*metric, exercises, out);
   std::vector<std::string> known;
   for (const Exercise& exercise : exercises) {
-    if (exercise.id == name || exercise.number == name) return explain_exercise(exercise, out);
+    if (is_named(exercise, name)) return explain_exercise(exercise, out);
     known.push_back(exercise.id);
     for (const SubscoreRule& rule : exercise.rubric.subscores)
       if (std::find(known.begin(), known.end(), rule.name) == known.end()) known.push_back(rule.name);

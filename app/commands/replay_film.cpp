@@ -1,8 +1,10 @@
 #include "app/commands/replay_film.h"
 
+#include <chrono>
 #include <optional>
 #include <ostream>
 
+#include "app/graphics/headless_context.h"
 #include "app/playback/expert_run.h"
 #include "app/playback/film.h"
 #include "app/playback/video_writer.h"
@@ -36,11 +38,47 @@ Beside find_beside(const RecordingOptions& options, const Subject& subject, cons
 
 }  // namespace
 
+Preset film_preset(const std::string& asked, std::ostream& err) {
+  if (asked != "auto") return *preset_named(asked);
+  const HeadlessContext context;
+  if (!context.info().software) return Preset::kFull;
+  err << "trocar: no GPU draws here: pictures of preset soft (--preset full is finer and takes about three times as long)\n";
+  return Preset::kSoft;
+}
+
+namespace {
+
+/// What is shown while pictures are made. Ctrl-C takes a film away; numbered pictures stay, and that is said.
+class FilmProgress {
+ public:
+  FilmProgress(ProgressDisplay& display, std::filesystem::path frames) : display_(display), frames_(std::move(frames)) {}
+  bool operator()(int made, int of) {
+    const auto now = std::chrono::steady_clock::now();
+    if (made == 1) first_ = now;
+    try {
+      display_.show("pictures", static_cast<double>(made) / of, pace_words(made, of, std::chrono::duration<double>(now - first_).count()));
+    } catch (const Interrupted&) {
+      if (frames_.empty()) throw;
+      throw EnvironmentError("interrupted; " + frames_.string() + " holds the first " + std::to_string(made) + " of " +
+                             std::to_string(of) + " pictures");
+    }
+    return true;
+  }
+
+ private:
+  ProgressDisplay& display_;
+  std::filesystem::path frames_;
+  std::chrono::steady_clock::time_point first_;
+};
+
+}  // namespace
+
 bool is_film(const RecordingOptions& options) {
   const bool film = !options.video.empty() || !options.beside.empty() || options.speed != 1;
   if (film && options.video.empty() && options.frames.empty())
     throw InputError("--beside and --speed are of a film: name it with --video FILE, or a folder for its pictures with --frames DIR");
   if (!options.video.empty() && !options.frames.empty()) throw InputError("--video and --frames: one of the two");
+  if (!options.beside.empty()) check_size_for_two(options.width, options.height);
   return film;
 }
 
@@ -58,7 +96,8 @@ SessionOutcome replay_as_film(const RecordingOptions& options, const Subject& su
   film.width = options.width;
   film.height = options.height;
   film.name = name_of(subject);
-  film.progress = shown("pictures");
+  film.preset = film_preset(options.preset, err);
+  film.progress = FilmProgress(display, options.frames);
   const RecordedRun run(subject.file, assets, options.organ, shown("replay"));
   std::optional<RecordedRun> beside;
   if (!options.beside.empty()) {

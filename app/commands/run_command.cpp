@@ -10,6 +10,7 @@
 #include "app/attempt_picture.h"
 #include "app/commands/attempt_json.h"
 #include "app/commands/open_database.h"
+#include "app/commands/replay_film.h"
 #include "app/device_files.h"
 #include "app/interrupt.h"
 #include "app/patch_fit.h"
@@ -209,7 +210,8 @@ void print_result(const AttemptResult& result, std::ostream& out) {
 AttemptResult run_with_pictures(const RunOptions& options, const Scene& scene, const AssetRoots& assets, std::ostream& err) {
   if (!options.video.empty() && !options.frames.empty()) throw InputError("--video and --frames: one of the two");
   if (options.video.empty() && options.frames.empty()) return run_attempt(options, scene, assets, err, {});
-  AttemptPainter painter(scene, assets, options.trainee);
+  const Preset preset = options.video.empty() ? Preset::kFull : film_preset("auto", err);
+  AttemptPainter painter(scene, assets, options.trainee, 1280, 720, preset);
   std::optional<VideoWriter> video;
   const double fps = options.fps.value_or(options.video.empty() ? 10 : 25);
   if (!options.video.empty()) video.emplace(options.video, 1280, 720, fps);

@@ -50,6 +50,7 @@ AttemptSetup expert_setup(const AttemptSetup& of) {
   setup.hand = "expert";
   setup.seed = of.seed;
   setup.board = of.board;
+  setup.placement = of.placement;
   return setup;
 }
 

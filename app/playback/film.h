@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/attempt_picture.h"
+#include "app/graphics/preset.h"
 #include "app/playback/recorded_run.h"
 
 namespace trocar {
@@ -17,13 +18,17 @@ struct FilmOptions {
   int width = 1280, height = 720; ///< px
   std::string name = {};          ///< of the run: trainee's code
   std::string name_beside = {};
-  std::function<bool(double)> progress = {};  ///< share 0..1; false: the film ends here
+  Preset preset = Preset::kFull;
+  std::function<bool(int, int)> progress = {};  ///< pictures made, and how many there will be; false: the film ends here
 };
 
 /// One run with its head-up display. @return pictures made.
 int make_film(const RecordedRun& run, const AssetRoots& assets, const FilmOptions& options, const PictureSink& sink);
 /// Two runs side by side. @throws InputError for a picture that is too small for two.
 int make_film(const RecordedRun& run, const RecordedRun& beside, const AssetRoots& assets, const FilmOptions& options, const PictureSink& sink);
+
+/// What that would refuse, before any work.
+void check_size_for_two(int width, int height);
 
 /// A moment of a run on the common clock. @param clock_s seconds since RUN began, may be negative.
 inline double loop_time(const RecordedRun& run, double clock_s) { return run.begin_s() + clock_s; }

@@ -15,7 +15,8 @@
 namespace trocar {
 namespace {
 
-constexpr int kBody = 18, kMostBars = 2;  // px at 720 lines; bars that have room
+constexpr int kBody = 18;               // px at 720 lines
+constexpr std::size_t kMostBars = 2;    // bars that have room
 
 std::string seconds_text(double value) {
   char text[32];
@@ -40,14 +41,15 @@ struct Half {
   double line() const { return 1.5 * body; }
 };
 
-Half half_of(int index, int width, int height) {
+/// @param bars that either side shows: an exercise without any leaves their room to the picture.
+Half half_of(int index, int width, int height, int bars) {
   Half h;
   h.body = std::max(13, static_cast<int>(std::lround(kBody * std::min(height / 720.0, width / 1280.0))));
   const int gap = std::max(2, h.body / 4);
   h.width = (width - gap) / 2;
   h.x = index * (width - h.width);
   h.top = static_cast<int>(std::ceil(1.9 * h.body));
-  h.picture_height = height - h.top - static_cast<int>(std::ceil(kMostBars * 2.4 * h.body + 2.6 * h.body));
+  h.picture_height = height - h.top - static_cast<int>(std::ceil(bars * 2.4 * h.body + (bars > 0 ? 2.6 : 2.2) * h.body));
   return h;
 }
 
@@ -108,12 +110,15 @@ HudInk ink_of(const ForceBar& bar) {
 }  // namespace
 
 struct SideBySidePainter::Impl {
-  Impl(const Scene& left, const Scene& right, const AssetRoots& assets, int w, int h)
-      : renderer{Renderer(context, assets.assets), Renderer(context, assets.assets)},
+  Impl(const Scene& left, const Scene& right, const AssetRoots& assets, int w, int h, const RenderOptions& options)
+      : renderer{Renderer(context, assets.assets, options), Renderer(context, assets.assets, options)},
         organ_T{std::make_shared<TriangleSurface>(left.organ_T), std::make_shared<TriangleSurface>(right.organ_T)},
         width(w), height(h) {}
 
-  void paint(Image& image, int index, const FilmSide& side, double seconds);
+  SceneView view_of_side(int index, const FilmSide& side) const {
+    return attempt_view(view_of(side.scene, side.moment), organ_T[index], side.name);
+  }
+  void paint(Image& image, int index, const FilmSide& side, SceneView view, int bars, double seconds);
 
   HeadlessContext context;
   Renderer renderer[2];          // each keeps its own organ on the GPU
@@ -122,9 +127,8 @@ struct SideBySidePainter::Impl {
   int width, height;
 };
 
-void SideBySidePainter::Impl::paint(Image& image, int index, const FilmSide& side, double seconds) {
-  const Half half = half_of(index, width, height);
-  SceneView view = attempt_view(view_of(side.scene, side.moment), organ_T[index], side.name);
+void SideBySidePainter::Impl::paint(Image& image, int index, const FilmSide& side, SceneView view, int bars, double seconds) {
+  const Half half = half_of(index, width, height, bars);
   Hud hud;
   std::swap(hud, view.hud);
   copy_into(image, renderer[index].render(view, half.width, half.picture_height), half.x, half.top);
@@ -140,17 +144,22 @@ void SideBySidePainter::Impl::paint(Image& image, int index, const FilmSide& sid
   paint_hud(image, out.layout, fonts);
 }
 
-SideBySidePainter::SideBySidePainter(const Scene& left, const Scene& right, const AssetRoots& assets, int width, int height) {
+SideBySidePainter::SideBySidePainter(const Scene& left, const Scene& right, const AssetRoots& assets, int width, int height,
+                                     Preset preset) {
   if (width < kLeastWidth || height < kLeastHeight) throw std::invalid_argument("two runs side by side need a larger picture");
-  impl_ = std::make_unique<Impl>(left, right, assets, width, height);
+  RenderOptions options;
+  options.preset = preset;
+  impl_ = std::make_unique<Impl>(left, right, assets, width, height, options);
 }
 SideBySidePainter::~SideBySidePainter() = default;
 
 Image SideBySidePainter::paint(const FilmSide& left, const FilmSide& right, double seconds) {
   Image image(impl_->width, impl_->height);
   for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint8_t>(12 + 2 * (i % 3));
-  impl_->paint(image, 0, left, seconds);
-  impl_->paint(image, 1, right, seconds);
+  SceneView views[2] = {impl_->view_of_side(0, left), impl_->view_of_side(1, right)};
+  const int bars = static_cast<int>(std::min(kMostBars, std::max(views[0].hud.bars.size(), views[1].hud.bars.size())));
+  impl_->paint(image, 0, left, std::move(views[0]), bars, seconds);
+  impl_->paint(image, 1, right, std::move(views[1]), bars, seconds);
   return image;
 }
 

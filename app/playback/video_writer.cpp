@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kMostWords = 600;  // of ffmpeg's last ones
 
 const std::map<std::string, std::vector<std::string>>& encoders() {
-  static const std::vector<std::string> h264{"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p"};
+  static const std::vector<std::string> h264{"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p"};
   static const std::vector<std::string> vp9{"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "good", "-cpu-used", "5",
                                             "-row-mt", "1", "-pix_fmt", "yuv420p"};
   static const auto with = [](std::vector<std::string> list, std::initializer_list<std::string> more) {

@@ -60,6 +60,7 @@ struct PracticeDesk::State {
   void take_up(std::string& notice);
   void open_database(std::string& notice);
   std::vector<AttemptSummary> attempts(const std::string& exercise) const;
+  std::shared_ptr<const Scene> built(AttemptSetup setup) const;
   std::int64_t seed() const;
 };
 
@@ -217,6 +218,18 @@ std::string PracticeDesk::sign_in(const std::string& code) {
 
 void PracticeDesk::sign_out() { state_->trainee = kGuest; }
 
+/// The scene of an attempt. Where the organ lies is the same for every board of a level, and the search for it takes seconds on a small
+/// organ: it is done once for attempts that follow each other on the same organ.
+std::shared_ptr<const Scene> PracticeDesk::State::built(AttemptSetup setup) const {
+  find_level(setup.exercise, setup.level);
+  Organ made = organ_of(setup, assets);
+  const Scene* last = last_scene.get();
+  if (last && needs_organ(setup.exercise.kind) && last->organ.sha256 == made.sha256 && last->setup.exercise.text == setup.exercise.text &&
+      last->setup.level == setup.level)
+    setup.placement = last->placement;
+  return std::make_shared<const Scene>(build_scene(setup, std::move(made), {"simulated", setup.rate_hz, 16}));
+}
+
 const Exercise& PracticeDesk::exercise() const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [this](const Exercise& e) { return e.id == exercise_id; });
@@ -289,7 +302,7 @@ std::string PracticeDesk::begin_attempt() {
   request.database = s.options.database;
   request.steered = !scripted;
   try {
-    s.runner = std::make_unique<AttemptRunner>(request, s.assets);
+    s.runner = std::make_unique<AttemptRunner>(request, s.assets, s.built(request.setup));
     s.last_scene = s.runner->shared_scene();
     return "";
   } catch (const InputError& error) {

@@ -41,6 +41,27 @@ TEST(ProgressDisplay, OnATerminalOneLineIsDrawnOverAndWiped) {
   EXPECT_EQ(text.back(), '\r');
 }
 
+TEST(ProgressDisplay, TheDetailStandsBehindItsStageAndIsNoStageOfItsOwn) {
+  std::ostringstream err;
+  {
+    ProgressDisplay display(err, false, std::chrono::milliseconds(0));
+    display.show("pictures", 0, "1 of 4");
+    for (int n = 1; n <= 4; ++n) display.show("pictures", n / 4.0, std::to_string(n) + " of 4");
+  }
+  EXPECT_EQ(err.str(), "pictures: 1 of 4\npictures: 25 %, 1 of 4\npictures: 50 %, 2 of 4\npictures: 75 %, 3 of 4\npictures: 100 %, 4 of 4\n");
+  std::ostringstream line;
+  ProgressDisplay display(line, true);
+  display.show("pictures", 0.5, "2 of 4");
+  EXPECT_EQ(line.str(), "\r[############            ] pictures: 2 of 4");
+}
+
+TEST(ProgressDisplay, ThePaceSaysHowFarHowFastAndHowLongStill) {
+  EXPECT_EQ(pace_words(1, 900, 0), "1 of 900") << "nothing is known yet";
+  EXPECT_EQ(pace_words(101, 901, 4), "101 of 901, 25 a second, 32 s left");
+  EXPECT_EQ(pace_words(11, 901, 4), "11 of 901, 2.5 a second, 6 min left");
+  EXPECT_EQ(pace_words(901, 901, 36), "901 of 901, 25 a second, 0 s left");
+}
+
 TEST(ProgressDisplay, AnInterruptBecomesAnExceptionAtTheNextStep) {
   std::ostringstream err;
   ProgressDisplay display(err, false);

@@ -158,6 +158,8 @@ TEST(ExerciseLoader, FindsByIdNumberAndPath) {
   EXPECT_EQ(find_exercise("surface-touch", kExercises).number, "E02");
   EXPECT_EQ(find_exercise("E02", kExercises).id, "surface-touch");
   EXPECT_EQ(find_exercise((kExercises / "surface-touch.toml").string(), "/nowhere").id, "surface-touch");
+  for (const char* word : {"e02", "2", "02", "Surface-Touch", "SURFACE-TOUCH"}) EXPECT_EQ(find_exercise(word, kExercises).number, "E02") << word;
+  for (const char* word : {"", "0", "22", "E", "E2x", "2.0", "-2", "99999999999"}) EXPECT_THROW(find_exercise(word, kExercises), InputError) << word;
   EXPECT_EQ(list_exercises(kExercises).front().id, "reach-and-orient");
 }
 
@@ -166,6 +168,7 @@ TEST(ExerciseLoader, ListsWhatItKnowsWhenAskedForSomethingElse) {
     find_exercise("surface-tuch", kExercises);
     FAIL();
   } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("known are E01 reach-and-orient, E02 surface-touch, E03"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("did you mean 'surface-touch'?"),
               std::string::npos)
         << error.what();

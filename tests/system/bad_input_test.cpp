@@ -38,7 +38,7 @@ TEST_F(BadInput, MissingFilesAreNamed) {
 TEST_F(BadInput, UnknownNamesComeWithTheKnownOnes) {
   const std::string exercise = exercise_of(3, 12), hand = dip();
   expect_refusal({"run", "juggling", "--hand", hand, "--db", ":memory:"}, 2,
-                 "unknown exercise 'juggling': known are reach-and-orient, surface-touch, limited-grasp");
+                 "unknown exercise 'juggling': known are E01 reach-and-orient, E02 surface-touch, E03 limited-grasp");
   expect_refusal({"run", exercise, "--hand", "octopus", "--db", ":memory:"}, 2,
                  "unknown hand 'octopus': known are clumsy, expert");
   expect_refusal(short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2,

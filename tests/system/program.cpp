@@ -84,6 +84,7 @@ bool RunningProgram::running() {
   return !ended_;
 }
 
+void RunningProgram::interrupt() { ::kill(pid_, SIGINT); }
 void RunningProgram::kill_at_once() { ::kill(pid_, SIGKILL); }
 
 Outcome RunningProgram::wait() {

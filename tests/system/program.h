@@ -32,6 +32,7 @@ class RunningProgram {
   RunningProgram& operator=(const RunningProgram&) = delete;
 
   bool running();
+  void interrupt();     ///< SIGINT: Ctrl-C
   void kill_at_once();  ///< SIGKILL: no destructor, no handler
   Outcome wait();
 

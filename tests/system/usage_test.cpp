@@ -17,7 +17,7 @@ const std::map<std::string, Words>& commands_and_flags() {
        {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed", "--width", "--height",
         "--fullscreen", "--screens", "--timing"}},
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
-      {"replay", {"--frames", "--fps", "--verify", "--organ", "--db", "--video", "--speed", "--width", "--height", "--beside"}},
+      {"replay", {"--frames", "--fps", "--verify", "--organ", "--db", "--video", "--speed", "--width", "--height", "--beside", "--preset"}},
       {"score", {"--rubric", "--db", "--json"}},
       {"demo", {"--headless", "--out", "--organ", "--exercise", "--level", "--video"}},
       {"bench", {"--organ", "--json"}},
@@ -85,6 +85,59 @@ TEST_F(Usage, VersionIsTheProjects) {
   const Outcome outcome = trocar({"version"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out, "trocar " TROCAR_VERSION "\n");
+  const Outcome flag = trocar({"--version"});
+  EXPECT_EQ(flag.exit_code, 0);
+  EXPECT_EQ(flag.out, outcome.out);
+}
+
+TEST_F(Usage, AMisspeltWordIsNamedWithTheOneThatWasMeant) {
+  expect_refusal({"replai", "x.trec"}, 2, "not understood: replai; did you mean 'replay'?");
+  expect_refusal({"organ", "rendr"}, 2, "not understood: rendr; did you mean 'render'?");
+  expect_refusal({"run", "surface-touch", "--hnad", "expert"}, 2, "not understood: --hnad; did you mean '--hand'?");
+  expect_refusal({"run", "surface-touch", "--hand=expert", "--sede=4"}, 2, "not understood: --sede; did you mean '--seed'?");
+  expect_refusal({"--vresion"}, 2, "not understood: --vresion; did you mean '--version'?");
+  const Outcome far = trocar({"xyzzy"});
+  EXPECT_NE(far.err.find("not understood: xyzzy\n"), std::string::npos) << far.err;
+  const Outcome missing = trocar({"run", "surface-touch"});
+  EXPECT_EQ(missing.err.find("not understood"), std::string::npos) << "everything that stands there is understood: " << missing.err;
+  const Outcome value = trocar({"device", "fk", "--deg", "-1,x", "--jsn"});
+  EXPECT_NE(value.err.find("not understood: --jsn"), std::string::npos) << "a value may begin with a dash: " << value.err;
+}
+
+TEST_F(Usage, ATypedPathNeedsItsFolder) {
+  const std::string said = "there is no folder typo; make it first";
+  for (const Words& words : {Words{"run", "surface-touch", "--hand", "idle", "--db", "typo/a.db"}, Words{"run", "E02", "--hand", "idle", "--record", "typo/a.trec"},
+                             Words{"run", "E02", "--hand", "idle", "--frames", "typo/f"}, Words{"demo", "--out", "typo/demo"},
+                             Words{"picture", "--out", "typo/a.png"}, Words{"practice", "--db", "typo/a.db"}, Words{"practice", "--screens", "typo/s"},
+                             Words{"replay", "a.trec", "--video", "typo/a.mp4"}, Words{"trainee", "add", "T-1", "--db", "typo/a.db"},
+                             Words{"organ", "phantom", "--out", "typo/p"}, Words{"study", "kinematics", "--out", "typo/k"},
+                             Words{"device", "plant", "--out", "typo/p.toml"}, Words{"db", "backup", "--out", "typo/b.db"}}) {
+    expect_refusal(words, 2, said);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "typo")) << words[0];
+  }
+  EXPECT_EQ(trocar({"trainee", "add", "T-1"}).exit_code, 0) << "the data folder is the program's own, and made";
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "data" / "trocar" / "trocar.db"));
+}
+
+TEST_F(Usage, AnExerciseIsNamedByIdNumberOrFile) {
+  for (const char* word : {"2", "e02", "Surface-Touch"}) {
+    const Outcome outcome = trocar({"exercises", "--explain", word});
+    EXPECT_EQ(outcome.exit_code, 0) << word;
+    EXPECT_EQ(outcome.out.find("E02  surface-touch"), 0u) << word;
+  }
+  for (const Words& words : {Words{"run", "9", "--hand", "idle", "--db", ":memory:"}, Words{"check", "9"}, Words{"practice", "9", "--db", ":memory:", "--screens", "s"},
+                             Words{"sweep", "9"}, Words{"demo", "--exercise", "9"}}) {
+    expect_refusal(words, 2, "unknown exercise '9': known are E01 reach-and-orient, E02 surface-touch, E03");
+  }
+}
+
+TEST_F(Usage, TwoRunsInOneFilmHaveOneLimit) {
+  const std::string help = trocar({"replay", "--help"}).out;
+  EXPECT_NE(help.find("with --beside from 720"), std::string::npos);
+  EXPECT_NE(help.find("with --beside from 400"), std::string::npos);
+  ASSERT_EQ(trocar(short_run({"--db", ":memory:", "--record", "a.trec"})).exit_code & ~1, 0);
+  expect_refusal({"replay", "a.trec", "--beside", "a.trec", "--frames", "f", "--width", "719", "--height", "400"}, 2, "at least 720 x 400 px, not 719 x 400");
+  expect_refusal({"replay", "a.trec", "--beside", "a.trec", "--frames", "f", "--width", "720", "--height", "399"}, 2, "at least 720 x 400");
 }
 
 TEST_F(Usage, NoSubcommandIsBadUsage) {

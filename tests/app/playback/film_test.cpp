@@ -7,6 +7,7 @@
 
 #include "app/playback/side_by_side.h"
 #include "haptics/input_error.h"
+#include "scenarios/exercise_loader.h"
 #include "tests/app/playback/playback_samples.h"
 #include "tests/support/headless_fixture.h"
 #include "tests/tissue/support/temporary_folder.h"
@@ -51,7 +52,7 @@ TEST_F(Films, BeginASecondBeforeRunAndEndWithIt) {
   FilmOptions fast = small(0.5);
   fast.speed = 2;
   EXPECT_EQ(make_film(run, find_assets(), fast, [](const Image&) {}), 1 + static_cast<int>(std::floor((1 + film_length(run)) * 0.25 + 1e-6)));
-  fast.progress = [](double share) { return share < 0.2; };
+  fast.progress = [](int done, int of) { return 5 * done < of; };
   EXPECT_LT(make_film(run, find_assets(), fast, [](const Image&) {}), made) << "ended by whoever watches";
 }
 
@@ -75,6 +76,18 @@ TEST_F(Films, TwoRunsStandSideBySideFromRunOn) {
   EXPECT_GT(difference / (200 * 340), 0.5) << "two different hands";
   options.width = 400;
   EXPECT_CONTAINS(test::message_of<InputError>([&] { make_film(novice, expert, find_assets(), options, [](const Image&) {}); }), "720 x 400");
+}
+
+TEST_F(Films, AnExerciseWithoutForceBarsLeavesTheirRoomToThePicture) {
+  AttemptSetup setup = short_setup();
+  setup.exercise = find_exercise("reach-and-orient", find_assets().exercises);
+  const Scene scene = build_scene(setup, find_assets(), {"simulated", 1000, 16});
+  SideBySidePainter painter(scene, scene, find_assets(), 720, 400, Preset::kPotato);
+  RunMoment moment;
+  moment.record.stylus.X_TI.p = scene.board.start_T;
+  const Image image = painter.paint({scene, moment, "T-1"}, {scene, moment, "expert"}, 1);
+  EXPECT_GT(mean(image, 120, 240, 310, 345), 20) << "the lowest quarter is no black band";
+  EXPECT_GT(mean(image, 480, 600, 310, 345), 20);
 }
 
 TEST_F(Films, ThePainterOfTwoSaysWhoHasEnded) {

@@ -147,6 +147,25 @@ TEST(PracticeDesk, AnAttemptThatIsLeftIsStoredAsAborted) {
   EXPECT_EQ(s.newest_first.front().status, "aborted");
 }
 
+TEST(PracticeDesk, AnOrganIsPlacedOnceForAttemptsThatFollowEachOther) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.exercise = "surface-touch";
+  const auto desk = bench.desk(options);
+  const auto attempt = [&] {
+    EXPECT_EQ(desk->begin_attempt(), "");
+    EXPECT_TRUE(desk->end_attempt()) << desk->notice;
+    return desk->last_scene();
+  };
+  const std::shared_ptr<const Scene> first = attempt(), second = attempt();
+  EXPECT_FALSE(first->setup.placement.has_value()) << "searched";
+  ASSERT_TRUE(second->setup.placement.has_value()) << "known";
+  EXPECT_EQ(second->placement.X_TO.p, first->placement.X_TO.p);
+  EXPECT_EQ(second->placement.X_TO.R, first->placement.X_TO.R);
+  desk->organ = "phantom-gallbladder";
+  EXPECT_FALSE(attempt()->setup.placement.has_value()) << "another organ is searched";
+}
+
 TEST(PracticeDesk, InMemoryTheSittingIsKeptInMind) {
   const DeskBench bench;
   DeskOptions options = bench.options();
