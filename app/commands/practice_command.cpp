@@ -3,6 +3,7 @@
 #include <chrono>
 #include <ctime>
 #include <functional>
+#include <memory>
 #include <ostream>
 #include <thread>
 
@@ -104,31 +105,42 @@ int picture_screens(const PracticeOptions& given, std::ostream& out) {
   return 0;
 }
 
+/// Another window of the same size in place of one whose context is lost.
+std::unique_ptr<Window> opened_anew(std::unique_ptr<Window> lost, PracticeLoop& loop) {
+  const WindowOptions same{"Trocar", lost->width(), lost->height(), loop.fullscreen(), true};
+  loop.lose_pictures();
+  lost.reset();
+  auto window = std::make_unique<Window>(same);
+  loop.take_up(*window);
+  return window;
+}
+
 /// Frames until the window is closed or a screen says quit. What a signal asks for is a quit too: an attempt ends as aborted.
 void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWatch& interrupt, Clock::time_point begin, std::ostream& err) {
-  Window window({"Trocar", options.width, options.height, options.fullscreen, true});
-  PracticeLoop loop(desk, window, true);
+  auto window = std::make_unique<Window>(WindowOptions{"Trocar", options.width, options.height, options.fullscreen, true});
+  PracticeLoop loop(desk, *window, true);
   bool fullscreen = options.fullscreen, going = true;
   Clock::time_point last = Clock::now();
   double first_s = 0, first_cpu_s = 0;
   long frames = 0;
-  while (going && !window.close_asked() && !interrupt.seen()) {
-    const std::vector<InputEvent> events = window.poll();
+  while (going && !window->close_asked() && !interrupt.seen()) {
+    const std::vector<InputEvent> events = window->poll();
     const double dt_s = seconds_since(last);
     last = Clock::now();
-    going = loop.frame(window.width(), window.height(), dt_s, events);
-    if (window.width() == 0 || window.height() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    window.present();
+    going = loop.frame(window->width(), window->height(), dt_s, events);
+    if (window->width() == 0 || window->height() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    window->present();
+    if (window->lost()) window = opened_anew(std::move(window), loop);
     if (++frames == 1) {
       first_s = seconds_since(begin);
       first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     }
-    if (loop.fullscreen() != fullscreen) window.set_fullscreen(fullscreen = loop.fullscreen());
+    if (loop.fullscreen() != fullscreen) window->set_fullscreen(fullscreen = loop.fullscreen());
   }
   if (options.timing)
     err << "trocar: first frame after " << first_s << " s (" << first_cpu_s << " s of CPU), " << frames << " frames in "
         << seconds_since(begin) << " s on "
-        << window.info().renderer << '\n';
+        << window->info().renderer << ", preset " << preset_name(loop.preset()) << '\n';
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ void BriefingScreen::stage_words(Ui& ui, PracticeDesk& desk) const {
   const Exercise& exercise = desk.exercise();
   const ExerciseLevel& level = find_level(exercise, desk.level);
   ui.text(lesson_tool(w, exercise, level));
-  ui.text(lesson_scope(w));
+  const auto key = [&](Action action) { return w.name(key_name(desk.keys().key_of(action))); };
+  ui.text(lesson_scope(w, desk.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
   if (needs_organ(exercise.kind)) ui.text(credit_.empty() ? w("On the organ {0}.", {desk.organ}) : credit_, Ink::kDim);
   else ui.text(w("On a training board; each attempt has another layout."), Ink::kDim);
   ui.text(lesson_display(w, level), Ink::kAccent);

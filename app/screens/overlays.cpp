@@ -67,21 +67,25 @@ MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs) {
   return choice;
 }
 
-bool help_overlay(Ui& ui, const PracticeDesk& desk, int& page) {
+bool help_overlay(Ui& ui, PracticeDesk& desk, HelpPage& page, SoundPage& sounds) {
   const Words& w = desk.words();
   const Area all = middle(ui, 900, 680);
   const double foot = ui.px(74);
   ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot}, 0.97);
   ui.in_front();
-  ui.title(page == 0 ? w("Keys") : w("What is measured"));
-  if (page == 0) key_tables(ui, desk);
-  else metric_table(ui, desk);
+  ui.title(page == HelpPage::kKeys ? w("Keys") : page == HelpPage::kMetrics ? w("What is measured") : w("Sounds"));
+  if (page == HelpPage::kKeys) key_tables(ui, desk);
+  else if (page == HelpPage::kMetrics) metric_table(ui, desk);
+  else sounds.frame(ui, desk);
   ui.end_panel();
   ui.begin_panel("help.foot", {all.x, all.y + all.height - foot, all.width, foot}, 0.97);
   ui.in_front();
   const bool close = ui.button("close", w("Close"), "Enter", true);
   ui.same_line();
-  if (ui.button("page", page == 0 ? w("What is measured") : w("Keys"), "F2")) page = 1 - page;
+  const bool keys = page == HelpPage::kKeys;
+  if (ui.button("page", keys ? w("What is measured") : w("Keys"), "F2")) page = keys ? HelpPage::kMetrics : HelpPage::kKeys;
+  ui.same_line();
+  if (ui.button("sounds", w("Sounds"), "F4")) page = HelpPage::kSounds;
   ui.end_panel();
   return close;
 }

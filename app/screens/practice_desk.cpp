@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <future>
+#include <numbers>
 #include <random>
 #include <thread>
 
@@ -150,6 +151,8 @@ const AssetRoots& PracticeDesk::assets() const { return state_->assets; }
 const std::vector<Exercise>& PracticeDesk::exercises() const { return state_->exercises; }
 const Words& PracticeDesk::words() const { return state_->words; }
 double PracticeDesk::scale() const { return std::clamp(state_->options.scale.value_or(state_->settings.scale), 1.0, 2.0); }
+const std::string& PracticeDesk::scope() const { return state_->options.scope.empty() ? state_->settings.scope : state_->options.scope; }
+double PracticeDesk::scope_tilt_rad() const { return std::stod(scope()) * std::numbers::pi / 180; }
 Settings& PracticeDesk::settings() { return state_->settings; }
 const KeyMap& PracticeDesk::keys() const { return state_->keys; }
 Steering& PracticeDesk::steering() { return *state_->steering; }
@@ -167,6 +170,12 @@ void PracticeDesk::choose_language(const std::string& code) {
 void PracticeDesk::choose_scale(double scale) {
   state_->options.scale.reset();
   state_->settings.scale = std::clamp(scale, 1.0, 2.0);
+  settings_changed();
+}
+
+void PracticeDesk::choose_scope(const std::string& degrees) {
+  state_->options.scope.clear();
+  state_->settings.scope = degrees;
   settings_changed();
 }
 

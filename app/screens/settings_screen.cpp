@@ -44,6 +44,9 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
   if (name_choice(ui, "scale", w("Size of text"), {"100 %", "125 %", "150 %", "175 %", "200 %"}, percents, percent)) {
     desk.choose_scale(std::stod(percent) / 100);
   }
+  std::string scope = desk.scope();
+  if (name_choice(ui, "scope", w("Scope"), {w("0 degrees"), w("30 degrees")}, {"0", "30"}, scope)) desk.choose_scope(scope);
+  ui.explain(w("The light post of a 30 degree scope turns where it looks; the camera head keeps the horizon."));
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
                          {"auto", "potato", "soft", "full"}, s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);

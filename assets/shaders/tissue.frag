@@ -17,11 +17,13 @@ layout(std140) uniform Marks {
 };
 #endif
 
-// Distance from the line where smooth noise passes its middle, in about millimetres times the frequency; .y: how clear it is.
+// Distance from the line where smooth noise passes its middle, in about millimetres times the frequency; .y: how clear it is. Only the
+// slope along the surface counts: where the noise changes into the depth alone, the line would spread to a patch.
 vec2 vein(vec3 at, float level) {
   vec4 q = textureLod(u_noise, at, level);
-  float slope = length(q.xyz * 2.0 - 1.0);
-  return vec2(abs(q.w - 0.5) / max(slope, 0.14), smoothstep(0.07, 0.18, slope));
+  vec3 g = q.xyz * 2.0 - 1.0, n = normalize(v_normal);
+  float slope = length(g - n * dot(g, n));
+  return vec2(abs(q.w - 0.5) / max(slope, 0.10), smoothstep(0.10, 0.26, slope));
 }
 
 // Vessels in two scales: trunks that thin out where a broad noise fades, and twigs near them. x: trunks, y: twigs.
