@@ -23,18 +23,18 @@ vec2 vein(vec3 at, float level) {
   vec4 q = textureLod(u_noise, at, level);
   vec3 g = q.xyz * 2.0 - 1.0, n = normalize(v_normal);
   float slope = length(g - n * dot(g, n));
-  return vec2(abs(q.w - 0.5) / max(slope, 0.10), smoothstep(0.10, 0.26, slope));
+  return vec2(abs(q.w - 0.5) / max(slope, 0.08), smoothstep(0.06, 0.16, slope));
 }
 
 // Vessels in two scales: trunks that thin out where a broad noise fades, and twigs near them. x: trunks, y: twigs.
 vec2 vessels(vec3 rest_mm, float f, vec4 bend, float where) {
   vec2 trunk = vein(rest_mm * f + 0.045 * bend.xyz, 2.0);
-  float width = 0.026 * smoothstep(0.34, 0.62, where);
+  float width = 0.029 * smoothstep(0.34, 0.62, where);
   float t = (1.0 - smoothstep(0.35 * width, width + 0.004, trunk.x)) * trunk.y * step(0.004, width);
 #if defined(PRESET_FULL)
   vec2 twig = vein(rest_mm * (2.9 * f) + 0.11 * bend.yzx + 0.37, 1.0);
   float near = 1.0 - smoothstep(0.10, 0.55, trunk.x);
-  float w2 = 0.032 * near * smoothstep(0.30, 0.55, where);
+  float w2 = 0.048 * near * smoothstep(0.30, 0.55, where);
   float u = (1.0 - smoothstep(0.2 * w2, w2 + 0.004, twig.x)) * twig.y * step(0.006, w2);
   return vec2(t, 0.75 * u);
 #else
