@@ -151,6 +151,12 @@ std::optional<ScreenName> DebriefScreen::follow(DebriefChoice choice, PracticeDe
   return ScreenName::kReplay;
 }
 
+void DebriefScreen::settle(PracticeDesk& desk, double wait_s) {
+  if (!desk.result()) return;
+  if (!result_ || result_->uuid != desk.result()->uuid) look_at(desk);
+  if (loading_.valid()) loading_.wait_for(std::chrono::duration<double>(wait_s));
+}
+
 std::optional<ScreenName> DebriefScreen::frame(Ui& ui, PracticeDesk& desk, double /*dt_s*/) {
   if (!desk.result()) return ScreenName::kStart;
   if (!result_ || result_->uuid != desk.result()->uuid) look_at(desk);

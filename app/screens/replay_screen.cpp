@@ -1,7 +1,9 @@
 #include "app/screens/replay_screen.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "app/attempt_hud.h"
 #include "app/attempt_scene.h"
@@ -110,6 +112,19 @@ void ReplayScreen::look_after(PracticeDesk& desk, double dt_s) {
   if (two() && beside_.run->stage() == RecordedRun::Stage::kReplaying)
     known_s = std::min(known_s, beside_.run->available_until() - beside_.run->begin_s());
   clock_.advance(dt_s, known_s);
+}
+
+void ReplayScreen::settle(PracticeDesk& desk, double wait_s) {
+  using Run = RecordedRun::Stage;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto working = [](const Side& side) {
+    return side.run && (side.run->stage() == Run::kLoading || side.run->stage() == Run::kReplaying);
+  };
+  do {
+    look_after(desk, 0);
+    if (!working(own_) && !working(beside_)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  } while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(wait_s));
 }
 
 Screen::Stage ReplayScreen::stage_of(const Side& side, double x, double width) const {

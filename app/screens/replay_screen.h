@@ -24,6 +24,7 @@ class ReplayScreen final : public Screen {
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
   std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
   std::optional<Stage> second_stage(PracticeDesk& desk, int width, int height) override;
+  void settle(PracticeDesk& desk, double wait_s) override;
   bool takes_escape() const override { return true; }
 
   const ReplayClock& clock() const { return clock_; }
