@@ -2,17 +2,14 @@
 
 #include <chrono>
 #include <ctime>
-#include <functional>
 #include <memory>
 #include <ostream>
 #include <thread>
 
-#include "app/graphics/headless_context.h"
+#include "app/commands/practice_pictures.h"
 #include "app/interrupt.h"
 #include "app/screens/practice_loop.h"
-#include "app/screens/screen_table.h"
 #include "app/window/window.h"
-#include "haptics/input_error.h"
 
 namespace trocar {
 namespace {
@@ -20,90 +17,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
-
-constexpr double kStill_s = 1.0 / 30;   // between frames of a picture
-constexpr double kMade_s = 30;          // for what a screen makes in the background
-constexpr int kSettleFrames = 3;        // a panel knows its content's height in the second frame
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw EnvironmentError(folder.string() + ": cannot be made: " + error.message());
-}
-
-InputEvent key_event(InputEvent::Kind kind, std::int32_t key) {
-  InputEvent event;
-  event.kind = kind;
-  event.key = key;
-  return event;
-}
-
-/// A picture of the screen that is up, after some still frames.
-void take(PracticeLoop& loop, const PracticeOptions& options, const std::string& name, std::ostream& out) {
-  loop.frame(options.width, options.height, kStill_s, {});
-  loop.settle(kMade_s);
-  for (int i = 0; i < kSettleFrames; ++i) loop.frame(options.width, options.height, kStill_s, {});
-  const std::filesystem::path file = options.screens / (name + ".png");
-  write_png(file, loop.picture());
-  out << file.string() << '\n';
-}
-
-/// Frames by the clock until `over` says so, or the time is up.
-void play(PracticeLoop& loop, const PracticeOptions& options, double most_s, const std::function<bool()>& over) {
-  const Clock::time_point begin = Clock::now();
-  Clock::time_point last = begin;
-  while (seconds_since(begin) < most_s && !over()) {
-    const double dt_s = seconds_since(last);
-    last = Clock::now();
-    loop.frame(options.width, options.height, dt_s, {});
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
-
-/// Those of an attempt, by a scripted hand, live: half way, and what follows its end.
-void picture_attempt(const PracticeOptions& options, PracticeDesk& desk, PracticeLoop& loop, std::ostream& out) {
-  constexpr double kHalfWay_s = 12, kLongest_s = 300;
-  if (!make_screen(ScreenName::kRun)) return;
-  const std::string hindered = desk.begin_attempt();
-  if (!hindered.empty()) throw EnvironmentError("no attempt for the pictures: " + hindered);
-  loop.go(ScreenName::kRun);
-  play(loop, options, kHalfWay_s, [&] { return loop.here() != ScreenName::kRun; });
-  take(loop, options, screen_name(ScreenName::kRun), out);
-  play(loop, options, kLongest_s, [&] { return loop.here() != ScreenName::kRun; });
-  for (const ScreenName name : {ScreenName::kDebrief, ScreenName::kProgress, ScreenName::kReplay}) {
-    if (!make_screen(name)) continue;
-    loop.go(name);
-    if (loop.here() == name) take(loop, options, screen_name(name), out);
-  }
-}
-
-/// Every screen as it is without an attempt, help and menu too; then those of an attempt.
-int picture_screens(const PracticeOptions& given, std::ostream& out) {
-  PracticeOptions options = given;
-  if (options.desk.hand.empty()) options.desk.hand = "expert";
-  PracticeDesk desk(options.desk, find_assets());
-  make_folder(options.screens);
-  desk.show_scene(30);
-  HeadlessContext context;
-  PracticeLoop loop(desk, context, false);
-  const std::vector<InputEvent> help{key_event(InputEvent::Kind::kKeyDown, kKeyF1), key_event(InputEvent::Kind::kKeyUp, kKeyF1)};
-  const std::vector<InputEvent> menu{key_event(InputEvent::Kind::kKeyDown, kKeyEscape), key_event(InputEvent::Kind::kKeyUp, kKeyEscape)};
-  for (const ScreenName name : {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kBriefing, ScreenName::kSettings,
-                                ScreenName::kNotch}) {
-    if (!make_screen(name)) continue;
-    loop.go(name);
-    if (loop.here() == name) take(loop, options, screen_name(name), out);
-  }
-  loop.go(ScreenName::kStart);
-  loop.frame(options.width, options.height, kStill_s, help);
-  take(loop, options, "help", out);
-  loop.frame(options.width, options.height, kStill_s, help);
-  loop.frame(options.width, options.height, kStill_s, menu);
-  take(loop, options, "menu", out);
-  loop.frame(options.width, options.height, kStill_s, menu);
-  picture_attempt(options, desk, loop, out);
-  return 0;
-}
 
 /// Another window of the same size in place of one whose context is lost.
 std::unique_ptr<Window> opened_anew(std::unique_ptr<Window> lost, PracticeLoop& loop) {

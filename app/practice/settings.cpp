@@ -54,11 +54,17 @@ Settings parse(const std::string& text, const std::string& file) {
   return settings;
 }
 
+/// Line of a message "FILE:LINE:COLUMN: what"; 0: it has none.
+int line_in(const std::string& message, const std::string& file) {
+  const bool placed = message.size() > file.size() && message.starts_with(file) && message[file.size()] == ':';
+  return placed ? std::atoi(message.c_str() + file.size() + 1) : 0;
+}
+
 /// Nothing that could not be read is overwritten: it is moved aside first.
 void keep_unread(const fs::path& file) {
   if (load_settings(file).note.empty()) return;
   std::error_code error;
-  fs::rename(file, file.string() + ".unread", error);
+  fs::rename(file, unread_settings(file), error);
   if (error) throw EnvironmentError(file.string() + ": cannot be read, nor moved aside: " + error.message());
 }
 
@@ -74,6 +80,8 @@ fs::path settings_file() {
   return {};
 }
 
+fs::path unread_settings(const fs::path& file) { return file.string() + ".unread"; }
+
 Settings load_settings(const fs::path& file) {
   std::error_code error;
   if (file.empty() || !fs::exists(file, error)) return {};
@@ -82,6 +90,7 @@ Settings load_settings(const fs::path& file) {
   } catch (const InputError& damaged) {
     Settings defaults;
     defaults.note = damaged.what();
+    defaults.note_line = line_in(defaults.note, file.string());
     return defaults;
   }
 }

@@ -1,4 +1,4 @@
-// What may lie over any screen: the menu (Esc), help (F1), and one notice at the lower edge.
+// What may lie over any screen: the menu (Esc), help (F1), and one notice at the upper edge.
 //
 // Overlays take keys and pointer while they are open. Thread: the window's.
 #pragma once
@@ -21,7 +21,10 @@ MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs);
 enum class HelpPage : std::uint8_t { kKeys, kMetrics, kSounds };
 bool help_overlay(Ui& ui, PracticeDesk& desk, HelpPage& page, SoundPage& sounds);
 
-/// A notice over the lower edge for some seconds; empties desk.notice. @param age_s how long this one has been seen, kept by the caller.
+/// In place of a page that has no room.
+void small_window(Ui& ui);
+
+/// A notice near the upper edge for some seconds; empties desk.notice. @param age_s how long this one has been seen, kept by the caller.
 void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std::string& shown);
 
 }  // namespace trocar

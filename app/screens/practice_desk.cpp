@@ -64,6 +64,15 @@ struct PracticeDesk::State {
   std::int64_t seed() const;
 };
 
+/// The parser's own words are English and for who writes programs: the line says enough.
+std::string unread_words(const Words& w, const Settings& settings, const std::filesystem::path& file) {
+  const std::string kept = unread_settings(file).filename().string();
+  if (settings.note_line > 0)
+    return w("{0}, line {1}, cannot be read: the usual settings hold. With your next change it is kept as {2}.",
+             {file.string(), std::to_string(settings.note_line), kept});
+  return w("{0} cannot be read: the usual settings hold. With your next change it is kept as {1}.", {file.string(), kept});
+}
+
 void PracticeDesk::State::take_up(std::string& notice) {
   followed = settings;
   const std::filesystem::path folder = assets.assets / "languages";
@@ -127,8 +136,8 @@ PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets)
   if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
   s.show_scene = std::async(std::launch::async, [] { return std::make_shared<const SceneView>(trocar::show_scene("abdomen")); }).share();
   s.settings = load_settings(s.settings_file_path());
-  notice = s.settings.note;
   s.take_up(notice);
+  if (!s.settings.note.empty()) notice = unread_words(s.words, s.settings, s.settings_file_path());
   s.open_database(notice);
   exercise_id = s.exercises.front().id;
   level = options.level;
@@ -252,7 +261,8 @@ PracticeDesk::Advice PracticeDesk::next() const {
       if (!s.unlocked || opens_next(s.newest_first)) continue;
       if (s.attempts == 0) return {e.id, name, w("Not tried yet.")};
       if (s.passed_in_a_row == 0)
-        return {e.id, name, w("Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})};
+        return {e.id, name, w(s.attempts == 1 ? "Tried once, the row of passes is still to come." : "Tried {0} times, the row of passes is still to come.",
+                              {std::to_string(s.attempts)})};
       return {e.id, name, w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)})};
     }
   }

@@ -11,6 +11,7 @@
 #include "app/screens/device_panel.h"
 #include "app/screens/overlays.h"
 #include "app/screens/screen_table.h"
+#include "app/screens/theme.h"
 #include "app/screens/ui_layer.h"
 #include "haptics/input_error.h"
 #include "trainees/database.h"
@@ -219,6 +220,7 @@ void PracticeLoop::State::draw_stage(int width, int height) {
     double dim;
   };
   std::vector<Placed> placed;
+  const bool room = !too_small(width, height);
   const auto draw = [&](const std::optional<Screen::Stage>& stage, Renderer& with) {
     PixelRect part{0, 0, width, height};
     if (stage->width > 0)
@@ -226,8 +228,8 @@ void PracticeLoop::State::draw_stage(int width, int height) {
     if (part.width < 64 || part.height < 48) return;
     placed.push_back({with.draw_scope(stage->view, part.width, part.height), part, std::max(stage->dim, menu || help ? 0.6 : 0.0)});
   };
-  if (const auto stage = screen ? screen->stage(desk, width, height) : std::nullopt) draw(stage, drawn->renderer);
-  if (const auto beside = screen ? screen->second_stage(desk, width, height) : std::nullopt) {
+  if (const auto stage = screen && room ? screen->stage(desk, width, height) : std::nullopt) draw(stage, drawn->renderer);
+  if (const auto beside = screen && room ? screen->second_stage(desk, width, height) : std::nullopt) {
     if (!drawn->second) drawn->second = std::make_unique<Renderer>(drawn->context, desk.assets().assets, drawn->renderer.options());
     draw(beside, *drawn->second);
   } else {
@@ -242,13 +244,14 @@ void PracticeLoop::State::draw_interface(int width, int height, double dt_s, con
   drawn->layer.begin(width, height, dt_s, events);
   Ui ui(desk.words(), desk.scale(), width, height);
   std::optional<ScreenName> to;
-  if (menu) choose(menu_overlay(ui, desk, desk.running() != nullptr));
+  if (too_small(width, height)) small_window(ui);
+  else if (menu) choose(menu_overlay(ui, desk, desk.running() != nullptr));
   else if (help && help_overlay(ui, desk, help_page, sounds)) { help = false; open_menu(false); }
   else if (!help && screen) to = screen->frame(ui, desk, dt_s);
   sounds.pass(desk.sound(), help && help_page == HelpPage::kSounds, dt_s);
-  if (AttemptRunner* run = desk.running(); run && !menu && !help)
+  if (AttemptRunner* run = desk.running(); run && !too_small(width, height) && !menu && !help && !(screen && screen->asks()))
     device.frame(ui, desk, run->newest().record, run->scene().loop, dt_s, device_panel_area(ui, desk.settings().left_handed));
-  notice_overlay(ui, desk, dt_s, notice_age_s, notice);
+  if (!too_small(width, height)) notice_overlay(ui, desk, dt_s, notice_age_s, notice);
   texts = ui.text_audit();
   scrolling = ui.scrolling();
   drawn->layer.end();

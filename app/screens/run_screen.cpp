@@ -66,6 +66,7 @@ struct RunScreen::State {
 RunScreen::RunScreen() : state_(std::make_unique<State>()) {}
 RunScreen::~RunScreen() = default;
 
+bool RunScreen::asks() const { return state_->overlay; }
 const LatencyMeter& RunScreen::latency() const { return state_->latency; }
 
 /// An attempt that has just begun.
@@ -213,11 +214,13 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   const Words& w = desk.words();
   const bool stands = desk.running()->paused();
   const auto key = [&](Action action) { return key_name(desk.keys().key_of(action)); };
-  const double width = std::min(ui.px(430), ui.width()), height = std::min(ui.px(250), ui.height());
+  const std::string said = stands ? w("Instrument and clock stand still. The pause is noted in the result.")
+                                  : w("An exam has no pause: the clock runs on.");
+  const double width = std::min(ui.px(430), ui.width());
+  const double height = std::min(ui.px(208) + ui.text_height(said, width - ui.px(36)), ui.height());
   ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
   ui.title(stands ? w("Paused") : w("The exam goes on"));
-  ui.text(stands ? w("Instrument and clock stand still. The pause is noted in the result.")
-                 : w("An exam has no pause: the clock runs on."), Ink::kDim);
+  ui.text(said, Ink::kDim);
   ui.gap();
   std::optional<ScreenName> to;
   if (ui.button("continue", w("Continue"), key(Action::kPause), true, 390)) pause(desk, false);
