@@ -75,6 +75,8 @@ class Photographer {
     take("help");
     press(kKeyF2);
     take("help-measures");
+    press(kKeyF4);
+    take("help-sounds");
     press(Action::kHelp);
     press(Action::kMenu);
     take("menu");
