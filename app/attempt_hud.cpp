@@ -157,7 +157,7 @@ PoseDial shown_dial(const SessionView& view, const Camera& camera) {
 }
 
 std::string credit(const Scene& scene) {
-  if (!needs_organ(scene.setup.exercise.kind)) return "Board exercise in a box trainer · no organ, no patient data";
+  if (!needs_organ(scene.setup.exercise.kind)) return "No organ, no patient data · board exercise in a box trainer";
   return "Organ: " + scene.organ.name + (scene.organ.synthetic ? " (synthetic)" : "") +
          (scene.organ.credit.empty() ? "" : " · " + scene.organ.credit);
 }

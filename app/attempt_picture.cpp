@@ -10,9 +10,10 @@
 
 namespace trocar {
 
-SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T,
-                       const std::string& trainee) {
+SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T, const std::string& trainee,
+                       const std::optional<Camera>& seen) {
   SceneView out = attempt_scene(view, organ_T);
+  if (seen) out.camera = *seen;
   out.hud = attempt_hud(view, out.camera, trainee);
   return out;
 }

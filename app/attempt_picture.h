@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/graphics/image.h"
@@ -15,9 +16,10 @@
 
 namespace trocar {
 
-/// What one picture of the running attempt shows. @param trainee code, shown in the top bar.
-SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T,
-                       const std::string& trainee);
+/// What one picture of the running attempt shows. @param trainee code, shown in the top bar. @param seen through which it is seen, when that
+/// is not the exercise's own camera: the display's directions follow it.
+SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T, const std::string& trainee,
+                       const std::optional<Camera>& seen = {});
 
 /// Renders an attempt as it runs: every 1/fps s of loop time into DIR/frame_00001.png, or single pictures on demand.
 class AttemptPainter {

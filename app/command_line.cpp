@@ -185,6 +185,8 @@ void add_picture(CommandLine& c) {
   picture->add_option("--out", c.picture.output, "PNG file")->required()->check(kPlaced);
   picture->add_option("--scene", c.picture.scene, "One of: " + scenes)->capture_default_str();
   picture->add_option("--preset", c.picture.preset, "potato, soft, full, or auto: chosen by timing")->capture_default_str();
+  picture->add_option("--scope", c.picture.scope, "Tip of the scope: 0 or 30 degrees")->capture_default_str();
+  picture->add_option("--post", c.picture.post_deg, "Degrees by which the light post is turned")->capture_default_str();
   picture->add_option("--width", c.picture.width, "Pixels")->capture_default_str();
   picture->add_option("--height", c.picture.height, "Pixels")->capture_default_str();
   picture->add_flag("--no-grain", c.picture.no_grain, "Without sensor grain: smaller files");

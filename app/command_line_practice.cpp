@@ -32,6 +32,8 @@ std::shared_ptr<PracticeCommandLine> add_practice_command(CLI::App& app, const s
   practice->add_option("--db", o.desk.database, "Database file, or :memory:, which keeps nothing")->check(kPlaced);
   CLI::Option* scale = practice->add_option("--scale", c->scale, "Size of text and buttons, this time (default: as in the settings)")->check(CLI::Range(1.0, 2.0));
   practice->add_option("--language", o.desk.language, "en, fr or de, this time (default: as in the settings, else of LANG)");
+  practice->add_option("--scope", o.desk.scope, "Tip of the scope, degrees, this time: 0 or 30, turned by its light post (default: as in the settings)")
+      ->check(CLI::IsMember({"0", "30"}));
   practice->add_option("--settings", o.desk.settings, "Settings file (default: trocar/settings.toml in $XDG_CONFIG_HOME)")->check(kPlaced);
   practice->add_option("--hand", o.desk.hand, "A scripted hand in place of a person: expert, novice, ... or SCRIPT.toml");
   CLI::Option* seed = practice->add_option("--seed", c->seed, "Every attempt draws its board from this (default: a fresh one each)");

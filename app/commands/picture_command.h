@@ -17,6 +17,8 @@ struct PictureOptions {
   std::string preset = "full";     ///< "potato", "soft", "full", or "auto": chosen by timing
   int width = 1280, height = 720;  ///< px, 320 x 240 to 7680 x 4320
   std::uint64_t seed = 1;          ///< of lumps and lobes
+  std::string scope = "0";         ///< tilt of the scope's tip, degrees: "0" or "30"
+  double post_deg = 0;             ///< the light post's turn: of the notch, and of where a tilted tip looks
   bool no_grain = false;           ///< without sensor grain: smaller files
 };
 

@@ -75,7 +75,7 @@ EGLContext create_core_context(EGLDisplay display, EGLConfig config) {
 HeadlessContext::HeadlessContext() {
   require_libraries();
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base"))
-    throw EnvironmentError(std::string("no picture: EGL is too old (EGL_EXT_platform_base missing)") + kPackages);
+    throw EnvironmentError(std::string("no picture: EGL has no driver, or is too old (EGL_EXT_platform_base missing)") + kPackages);
   const std::vector<Device> devices = list_devices();
   const auto try_devices = [&](bool software) {
     for (const Device& device : devices)

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "app/graphics/hud_column.h"
 
@@ -17,6 +19,44 @@ std::string clock_text(double seconds) {
   return text.data();
 }
 
+constexpr std::string_view kBetween = " · ";
+
+/// "a · b · c", then "a · b", then "a".
+std::vector<std::string> shorter(const std::string& text) {
+  std::vector<std::string> out{text};
+  for (std::size_t end = text.rfind(kBetween); end != std::string::npos && end > 0; end = text.rfind(kBetween, end - 1)) out.push_back(text.substr(0, end));
+  return out;
+}
+
+/// Without its last parts, as many of them as do not fit.
+std::string without_last(HudPen& pen, const std::string& text, int size, double room) {
+  for (const std::string& part : shorter(text))
+    if (pen.width(part, size, false) <= room) return part;
+  return text;
+}
+
+/// Number and level of "E02 Surface touch · L1 · direct".
+std::string number_and_level(const std::string& title) {
+  const std::size_t end = title.find(kBetween), word = title.find(' ');
+  if (end == std::string::npos || word >= end) return title;
+  const std::string level = title.substr(end + kBetween.size());
+  return title.substr(0, word) + std::string(kBetween) + level.substr(0, level.find(kBetween));
+}
+
+/// Who and what, as much of it as stands in `room` px uncut: the level is said always, the mapping and who it is give way first.
+std::pair<std::string, std::string> fitting_names(HudPen& pen, const Hud& hud, const HudFrame& frame, double room) {
+  const std::size_t colon = hud.trainee.find(": ");
+  const std::string code = colon == std::string::npos ? hud.trainee : hud.trainee.substr(colon + 2);
+  const std::vector<std::string> titles = shorter(hud.title);
+  const std::string level = titles.size() > 2 ? titles[titles.size() - 2] : hud.title;   // without the mapping
+  const std::pair<std::string, std::string> wishes[] = {{hud.trainee, hud.title}, {code, hud.title}, {code, level}, {"", level}};
+  for (const auto& [who, what] : wishes) {
+    const double air = who.empty() ? 0 : 1.6 * frame.px(14);
+    if (pen.width(who, frame.body, false) + air + pen.width(what, frame.px(20), true) <= room) return {who, what};
+  }
+  return {"", number_and_level(hud.title)};
+}
+
 void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const HudBox bar{0, 0, static_cast<double>(frame.width), frame.top};
   pen.shape(HudShape::Kind::kPanel, bar);
@@ -28,13 +68,10 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const bool late = hud.limit_s > 0 && hud.elapsed_s > 0.9 * hud.limit_s;
   right =
       pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true, late ? HudInk::kCaution : HudInk::kText);
-  const double room = right - 2 * margin;
-  const double title_wish = pen.width(hud.title, frame.px(20), true);
-  const double trainee_wish = pen.width(hud.trainee, body, false);
-  const double trainee_room = std::min(trainee_wish, std::max(0.3 * room, room - title_wish - 2 * margin));
-  const double used = pen.text(hud.trainee, margin, baseline, body, false, HudInk::kDim, trainee_room);
-  const double title_x = hud.trainee.empty() ? margin : used + 1.6 * margin;
-  pen.text(hud.title, title_x, baseline, frame.px(20), true, HudInk::kText, right - margin - title_x);
+  const auto [who, what] = fitting_names(pen, hud, frame, right - 2 * margin);
+  const double used = pen.text(who, margin, baseline, body, false, HudInk::kDim, right - margin);
+  const double title_x = who.empty() ? margin : used + 1.6 * margin;
+  pen.text(what, title_x, baseline, frame.px(20), true, HudInk::kText, right - margin - title_x);
 }
 
 /// At most two lines of message and two of hint, over the lower edge of the picture.
@@ -102,7 +139,7 @@ bool hud_is_empty(const Hud& hud) {
 }
 
 HudFrame::HudFrame(const Hud& hud, int w, int h, double text_scale) : width(w), height(h) {
-  scale = h / 720.0 * std::clamp(text_scale, 1.0, 2.0);
+  scale = std::min(h / 720.0, w / 1280.0) * std::clamp(text_scale, 1.0, 2.0);
   body = std::max(px(18), 18);
   empty = hud_is_empty(hud);
   bottom = hud.credit.empty() ? 0.0 : std::round(1.7 * body);
@@ -135,7 +172,7 @@ HudLayout layout_hud(const Hud& hud, int width, int height, double text_scale, F
   if (!hud.credit.empty()) {
     const double margin = frame.px(14), strip = frame.scene.width;
     pen.shape(HudShape::Kind::kPanel, {0, height - frame.bottom, strip, frame.bottom});
-    pen.text(hud.credit, margin, height - frame.bottom * 0.5 + 0.34 * frame.body, frame.body, false, HudInk::kDim,
+    pen.text(without_last(pen, hud.credit, frame.body, strip - 2 * margin), margin, height - frame.bottom * 0.5 + 0.34 * frame.body, frame.body, false, HudInk::kDim,
              strip - 2 * margin);
   }
   lay_notices(pen, hud, frame);

@@ -51,6 +51,7 @@ void InstrumentPainter::draw_shadows(Program& depth, const SceneView& view) {
 void InstrumentPainter::draw(const ProgramBinder& bind, const SceneView& view) {
   for (const InstrumentView& instrument : instruments_of(view)) {
     std::vector<std::string> defines;
+    if (!view.organ) defines.emplace_back("IN_BOX");
     if (instrument.roll_stripe) defines.emplace_back("ROLL_STRIPE");
     draw_parts(bind("instrument", "instrument", defines), instrument);
   }

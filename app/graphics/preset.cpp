@@ -55,15 +55,26 @@ Preset choose_preset(Preset first, double wanted_s, const std::function<double(P
   return Preset::kPotato;
 }
 
-Preset measure_preset(GraphicsContext& context, const std::filesystem::path& asset_root, int width, int height) {
-  Renderer renderer(context, asset_root);
-  const SceneView view = show_scene("abdomen");
-  return choose_preset(context.info().software ? Preset::kSoft : Preset::kFull, kWanted_s, [&](Preset preset) {
-    RenderOptions options;
+std::optional<Preset> PresetWatch::picture(double dt_s, Preset now) {
+  if (dt_s > kStandstill_s) return std::nullopt;
+  slow_ = dt_s > kTooSlow_s && now != Preset::kPotato ? slow_ + 1 : 0;
+  if (slow_ < kInARow) return std::nullopt;
+  slow_ = 0;
+  return kAll[static_cast<std::size_t>(now) - 1];
+}
+
+Preset measure_preset(Renderer& renderer, Preset first, const SceneView& view, int width, int height) {
+  return choose_preset(first, kWanted_s, [&](Preset preset) {
+    RenderOptions options = renderer.options();
     options.preset = preset;
     renderer.set_options(options);
     return mean_frame_s(renderer, view, width, height, kFrames * kWanted_s);
   });
+}
+
+Preset measure_preset(GraphicsContext& context, const std::filesystem::path& asset_root, int width, int height) {
+  Renderer renderer(context, asset_root);
+  return measure_preset(renderer, context.info().software ? Preset::kSoft : Preset::kFull, show_scene("abdomen"), width, height);
 }
 
 }  // namespace trocar

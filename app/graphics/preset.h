@@ -18,6 +18,9 @@
 
 namespace trocar {
 
+class Renderer;
+struct SceneView;
+
 enum class Preset : std::uint8_t { kPotato, kSoft, kFull };
 
 struct PresetTraits {
@@ -37,9 +40,24 @@ std::optional<Preset> preset_named(const std::string& name);
 /// @param frame_s seconds of one picture. @param wanted_s at most.
 Preset choose_preset(Preset first, double wanted_s, const std::function<double(Preset)>& frame_s);
 
-/// choose_preset() by drawing pictures of the show scene: ten each, fewer when a preset is clearly too slow. A software rasteriser is
-/// not tried at full, which would cost it a second. @param width,height px of the scope's picture.
+/// Whether a preset that was chosen by timing turns out too slow: some other program may have taken the cores meanwhile.
+class PresetWatch {
+ public:
+  static constexpr double kTooSlow_s = 0.1, kStandstill_s = 1.0;
+  static constexpr int kInARow = 20;
+  /// @param dt_s since the last picture; a standstill (a hidden window, a machine that slept) says nothing.
+  /// @return the next plainer preset after kInARow slow pictures in a row; empty: stay.
+  std::optional<Preset> picture(double dt_s, Preset now);
+
+ private:
+  int slow_ = 0;
+};
+
+/// choose_preset() by drawing pictures of a scene: ten each, fewer when a preset is clearly too slow. A software rasteriser is
+/// not tried at full, which would cost it a second. The renderer's preset is left as it was tried last. @param width,height px of the scope's picture.
 /// @throws EnvironmentError when a shader is missing or refused.
+Preset measure_preset(Renderer& renderer, Preset first, const SceneView& view, int width, int height);
+/// The same with a renderer and a scene of its own.
 Preset measure_preset(GraphicsContext& context, const std::filesystem::path& asset_root, int width, int height);
 
 }  // namespace trocar

@@ -44,13 +44,13 @@ double gallbladder(const Vec3& p, double seed) {
 }
 
 double common_duct(const Vec3& p, double seed) {
-  double d = taper(p, {-0.050, 0.034, 0.052}, 0.0042, {-0.042, 0.029, -0.018}, 0.0044);
+  double d = taper(p, {-0.052, 0.066, 0.052}, 0.0046, {-0.042, 0.029, -0.018}, 0.0044);
   d = smooth_min(d, taper(p, {-0.042, 0.029, -0.018}, 0.0046, {-0.036, 0.030, -0.060}, 0.0050), 0.004);
   return d + 0.0005 * noise(p, 120, seed);
 }
 
 double artery(const Vec3& p, double seed) {
-  const std::array<Vec3, 4> way = {Vec3(-0.075, 0.046, 0.002), Vec3(-0.046, 0.0395, -0.003), Vec3(-0.022, 0.026, -0.007), Vec3(-0.001, 0.013, -0.009)};
+  const std::array<Vec3, 4> way = {Vec3(-0.082, 0.060, 0.004), Vec3(-0.046, 0.0395, -0.003), Vec3(-0.022, 0.026, -0.007), Vec3(-0.001, 0.013, -0.009)};
   double d = 1;
   for (std::size_t i = 0; i + 1 < way.size(); ++i) d = smooth_min(d, taper(p, way[i], 0.0013, way[i + 1], 0.0010), 0.002);
   return d + 0.0003 * noise(p, 150, seed);
@@ -84,7 +84,7 @@ double fat(const Vec3& p, std::uint64_t seed) {
     }
   // It climbs round the ducts and hangs on the neck.
   d = smooth_min(d, taper(p, {-0.062, 0.036, -0.036}, 0.014, {-0.036, 0.034, -0.034}, 0.010), 0.006);
-  d = smooth_min(d, taper(p, {-0.052, 0.044, -0.030}, 0.008, {-0.055, 0.046, 0.020}, 0.005), 0.008);
+  d = smooth_min(d, taper(p, {-0.052, 0.044, -0.030}, 0.008, {-0.056, 0.060, 0.022}, 0.005), 0.008);
   d = smooth_min(d, taper(p, {-0.012, 0.034, -0.034}, 0.012, {-0.004, 0.030, -0.016}, 0.006), 0.008);
   const double s = static_cast<double>(seed);
   return d + 0.0024 * noise(p, 75, s) + 0.0011 * noise(p, 190, s);
@@ -97,10 +97,10 @@ std::vector<ShowOrgan> show_anatomy(std::uint64_t seed) {
   const auto box = [](const Vec3& low, const Vec3& high) { return Eigen::AlignedBox3d(low, high); };
   return {{"gallbladder", [s](const Vec3& p) { return gallbladder(p, s); }, box({-0.048, -0.012, -0.034}, {0.048, 0.036, 0.030}), 0.0012},
           {"liver", [s](const Vec3& p) { return liver(p, s); }, box({-0.225, -0.045, -0.010}, {0.185, 0.160, 0.180}), 0.0060},
-          {"bile duct", [s](const Vec3& p) { return common_duct(p, s); }, box({-0.060, 0.020, -0.068}, {-0.028, 0.044, 0.060}), 0.0012},
-          {"artery", [s](const Vec3& p) { return artery(p, s); }, box({-0.079, 0.008, -0.014}, {0.004, 0.052, 0.008}), 0.0007},
+          {"bile duct", [s](const Vec3& p) { return common_duct(p, s); }, box({-0.062, 0.020, -0.068}, {-0.028, 0.074, 0.060}), 0.0012},
+          {"artery", [s](const Vec3& p) { return artery(p, s); }, box({-0.086, 0.008, -0.014}, {0.004, 0.064, 0.008}), 0.0007},
           {"stomach", [s](const Vec3& p) { return stomach(p, s); }, box({-0.195, 0.030, -0.080}, {0.175, 0.145, 0.032}), 0.0050},
-          {"fat", [seed](const Vec3& p) { return fat(p, seed); }, box({-0.125, -0.060, -0.066}, {0.125, 0.070, 0.028}), 0.0030}};
+          {"fat", [seed](const Vec3& p) { return fat(p, seed); }, box({-0.125, -0.060, -0.066}, {0.125, 0.072, 0.031}), 0.0030}};
 }
 
 }  // namespace trocar

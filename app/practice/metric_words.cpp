@@ -54,6 +54,23 @@ std::string metric_text(const Words& words, const std::string& metric, const std
   return words.number(x, 2) + " " + unit;
 }
 
+std::string hand_words(const Words& words, const std::string& hand) {
+  if (hand == "mouse") return words("mouse");
+  if (hand == "keyboard") return words("keyboard");
+  if (hand == "gamepad") return words("gamepad");
+  if (hand == "spacemouse") return words("SpaceMouse");
+  if (hand == "device") return words("device");
+  if (hand == "expert") return words("expert");
+  if (hand == "intermediate") return words("intermediate");
+  if (hand == "novice") return words("novice");
+  if (hand == "clumsy") return words("clumsy");
+  if (hand == "learner") return words("learner");
+  if (hand == "idle") return words("idle");
+  if (hand == "speed-runner") return words("speed-runner");
+  if (hand == "heavy-handed") return words("heavy-handed");
+  return hand;
+}
+
 std::string subscore_words(const Words& words, const std::string& name) {
   std::string heading = name;  // the English one: the first letter of "économie" is no byte
   if (!heading.empty()) heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));

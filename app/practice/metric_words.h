@@ -20,6 +20,9 @@ std::string metric_text(const Words& words, const std::string& metric, const std
 /// Is the value counted in whole numbers?
 bool is_count(const std::string& metric, const std::string& unit);
 
+/// What moved the hand, as people say it: "mouse", "gamepad", "expert"; any other name as it is.
+std::string hand_words(const Words& words, const std::string& hand);
+
 /// The sub-score's name with a capital.
 std::string subscore_words(const Words& words, const std::string& name);
 

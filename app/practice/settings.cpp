@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int kVersion = 1;
 const std::vector<std::string> kPresets{"auto", "potato", "soft", "full"};
+const std::vector<std::string> kScopes{"0", "30"};
 const std::vector<std::string> kInputs{"auto", "mouse", "gamepad", "spacemouse", "device"};
 
 /// [keys] maps names freely; StrictTable asks for names that it knows.
@@ -44,6 +45,7 @@ Settings parse(const std::string& text, const std::string& file) {
   settings.like_a_fulcrum = table.flag_or("like_a_fulcrum", settings.like_a_fulcrum);
   settings.sensitivity = table.number_or("sensitivity", 0.25, 4, settings.sensitivity);
   settings.sound = table.flag_or("sound", settings.sound);
+  settings.scope = table.choice_or("scope", kScopes, settings.scope);
   settings.preset = table.choice_or("preset", kPresets, settings.preset);
   settings.input = table.choice_or("input", kInputs, settings.input);
   table.allow("keys");
@@ -52,11 +54,17 @@ Settings parse(const std::string& text, const std::string& file) {
   return settings;
 }
 
+/// Line of a message "FILE:LINE:COLUMN: what"; 0: it has none.
+int line_in(const std::string& message, const std::string& file) {
+  const bool placed = message.size() > file.size() && message.starts_with(file) && message[file.size()] == ':';
+  return placed ? std::atoi(message.c_str() + file.size() + 1) : 0;
+}
+
 /// Nothing that could not be read is overwritten: it is moved aside first.
 void keep_unread(const fs::path& file) {
   if (load_settings(file).note.empty()) return;
   std::error_code error;
-  fs::rename(file, file.string() + ".unread", error);
+  fs::rename(file, unread_settings(file), error);
   if (error) throw EnvironmentError(file.string() + ": cannot be read, nor moved aside: " + error.message());
 }
 
@@ -72,6 +80,8 @@ fs::path settings_file() {
   return {};
 }
 
+fs::path unread_settings(const fs::path& file) { return file.string() + ".unread"; }
+
 Settings load_settings(const fs::path& file) {
   std::error_code error;
   if (file.empty() || !fs::exists(file, error)) return {};
@@ -80,6 +90,7 @@ Settings load_settings(const fs::path& file) {
   } catch (const InputError& damaged) {
     Settings defaults;
     defaults.note = damaged.what();
+    defaults.note_line = line_in(defaults.note, file.string());
     return defaults;
   }
 }
@@ -92,8 +103,9 @@ void save_settings(const fs::path& file, const Settings& settings) {
   toml::table table{{"version", kVersion},
                           {"scale", settings.scale},       {"left_handed", settings.left_handed},
                           {"like_a_fulcrum", settings.like_a_fulcrum}, {"sensitivity", settings.sensitivity},
-                          {"sound", settings.sound},       {"preset", settings.preset},
-                          {"input", settings.input},       {"keys", keys}};
+                          {"sound", settings.sound},       {"scope", settings.scope},
+                          {"preset", settings.preset},     {"input", settings.input},
+                          {"keys", keys}};
   if (!settings.language.empty()) table.insert("language", settings.language);
   std::ostringstream text;
   text << "# What was chosen in the window of trocar; it writes this file anew.\n" << table << '\n';

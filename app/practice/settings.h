@@ -16,13 +16,17 @@ struct Settings {
   bool like_a_fulcrum = false;
   double sensitivity = 1;
   bool sound = true;
+  std::string scope = "0";           ///< tilt of the scope's tip, degrees: "0", "30"
   std::string preset = "auto";       ///< "auto", "potato", "soft", "full"
   std::string input = "auto";        ///< "auto", "mouse", "gamepad", "spacemouse", "device"
   std::map<std::string, std::string> keys = {};   ///< changes of KeyMap
-  std::string note = {};             ///< what went wrong while loading; not saved
+  std::string note = {};             ///< what went wrong while loading, for who mends the file; not saved
+  int note_line = 0;                 ///< of the file where it went wrong; 0: not known
 };
 
 std::filesystem::path settings_file();
+/// Where save_settings() puts a file that could not be read.
+std::filesystem::path unread_settings(const std::filesystem::path& file);
 Settings load_settings(const std::filesystem::path& file);
 /// Whole or not at all. @throws EnvironmentError.
 void save_settings(const std::filesystem::path& file, const Settings& settings);

@@ -96,8 +96,9 @@ void BriefingScreen::stage_words(Ui& ui, PracticeDesk& desk) const {
   const Exercise& exercise = desk.exercise();
   const ExerciseLevel& level = find_level(exercise, desk.level);
   ui.text(lesson_tool(w, exercise, level));
-  ui.text(lesson_scope(w));
-  if (needs_organ(exercise.kind)) ui.text(credit_.empty() ? w("On the organ {0}.", {desk.organ}) : credit_, Ink::kDim);
+  const auto key = [&](Action action) { return w.name(key_name(desk.keys().key_of(action))); };
+  ui.text(lesson_scope(w, desk.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
+  if (needs_organ(exercise.kind)) ui.text(credit_.empty() ? w("On the organ {0}.", {desk.organ}) : w.made(credit_), Ink::kDim);
   else ui.text(w("On a training board; each attempt has another layout."), Ink::kDim);
   ui.text(lesson_display(w, level), Ink::kAccent);
 }
@@ -178,7 +179,7 @@ std::string BriefingScreen::page(Ui& ui, PracticeDesk& desk) {
   const double foot = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * m - foot - gap;
   if (compact(ui)) column(ui, desk, {m, m, wide, high});
   else sheet(ui, desk, {m, m, wide, high});
-  ui.begin_panel("briefing.foot", {m, m + high + gap, wide, foot});
+  ui.begin_strip("briefing.foot", {m, m + high + gap, wide, foot});
   const std::string chosen = button_rows(ui, buttons);
   ui.end_panel();
   return chosen;
@@ -210,7 +211,7 @@ std::string BriefingScreen::explanation(Ui& ui, PracticeDesk& desk) {
   ui.gap();
   ui.text(lesson_rule(w, find_level(desk.exercise(), desk.level).rubric), Ink::kDim);
   ui.end_panel();
-  ui.begin_panel("measures.foot", {m, m + high + gap, wide, foot});
+  ui.begin_strip("measures.foot", {m, m + high + gap, wide, foot});
   const std::string button = button_rows(ui, buttons);
   ui.end_panel();
   return button;

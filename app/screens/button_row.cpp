@@ -5,10 +5,10 @@
 namespace trocar {
 namespace {
 
-constexpr double kGap = 10, kPadding = 12, kHeight = 34, kStrongHeight = 41, kRowGap = 7, kPanelSides = 36, kPanelEnds = 32;
+constexpr double kGap = 10, kPadding = 12, kPanelSides = 36;
 
 double wide(const Ui& ui, const RowButton& button) {
-  const double hint = button.key.empty() ? 0 : ui.text_width("[" + button.key + "]") + ui.px(10);
+  const double hint = button.key.empty() ? 0 : ui.text_width("[" + ui.words().name(button.key) + "]") + ui.px(10);
   return ui.text_width(button.text) + hint + ui.px(2 * kPadding) + 1;
 }
 
@@ -28,9 +28,7 @@ std::vector<bool> breaks(const Ui& ui, const std::vector<RowButton>& buttons, do
 
 double button_rows_height(const Ui& ui, const std::vector<RowButton>& buttons, double width) {
   const std::vector<bool> new_row = breaks(ui, buttons, width - ui.px(kPanelSides));
-  const bool strong = std::any_of(buttons.begin(), buttons.end(), [](const RowButton& b) { return b.strong; });
-  const auto rows = 1 + std::count(new_row.begin(), new_row.end(), true);
-  return ui.px(kPanelEnds + (strong ? kStrongHeight : kHeight) + static_cast<double>(rows - 1) * (kHeight + kRowGap)) + 2;
+  return ui.strip_height(1 + static_cast<int>(std::count(new_row.begin(), new_row.end(), true)));
 }
 
 std::string button_rows(Ui& ui, const std::vector<RowButton>& buttons) {

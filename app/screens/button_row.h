@@ -16,7 +16,7 @@ struct RowButton {
   bool strong = false;
 };
 
-/// px of a panel `width` px wide that holds them.
+/// px of a strip `width` px wide that holds them.
 double button_rows_height(const Ui& ui, const std::vector<RowButton>& buttons, double width);
 /// In the panel that is open. @return the one that was chosen, empty.
 std::string button_rows(Ui& ui, const std::vector<RowButton>& buttons);

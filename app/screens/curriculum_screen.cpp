@@ -11,7 +11,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kMargin = 16, kGap = 10, kTree = 410, kHead = 140, kPicture = 420, kMiddle = 312, kRow = 37, kHeading = 27;
+constexpr double kMargin = 16, kGap = 10, kTree = 410, kHead = 140, kPicture = 420, kMiddle = 312;
 
 /// Too little room beside the tree for a card in parts: large text, or a small window.
 bool compact(const Ui& ui) { return ui.width() < ui.px(1150) || ui.height() < ui.px(650); }
@@ -69,22 +69,16 @@ void CurriculumScreen::keys(const Ui& ui, PracticeDesk& desk) {
 void CurriculumScreen::tree(Ui& ui, PracticeDesk& desk, const Area& area) {
   const Words& w = desk.words();
   ui.begin_panel("course", area);
-  ui.title(w("Course"));
-  const auto height_of = [&](std::size_t i) {
-    return ui.px(i == 0 || rows_[i].exercise != rows_[i - 1].exercise ? kRow + kHeading : kRow);
-  };
-  const double room = ui.room_below();
-  double used = 0;
-  std::size_t first = chosen_ + 1;   // as many rows above the chosen one as fit with it, then below
-  while (first > 0 && used + height_of(first - 1) <= room) used += height_of(--first);
-  for (std::size_t i = first; i < rows_.size(); ++i) {
+  if (!compact(ui)) ui.title(w("Course"));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
-    if (i > chosen_ && (used += height_of(i)) > room) break;
     if (i == 0 || row.exercise != rows_[i - 1].exercise) ui.heading(row.exercise->number + " " + w(row.exercise->title));
     const std::string id = row.exercise->id + row.level, best = row.standing.best ? w.number(*row.standing.best, 0) : "";
     const std::string said = standing_words(w, *row.exercise, row.level, row.standing);
     if (ui.selectable(id.c_str(), standing_mark(row.standing), said, i == chosen_, best)) choose(desk, i);
+    if (i == chosen_ && revealed_ != chosen_) ui.reveal();
   }
+  revealed_ = chosen_;
   ui.end_panel();
 }
 
@@ -196,7 +190,7 @@ std::optional<ScreenName> CurriculumScreen::frame(Ui& ui, PracticeDesk& desk, do
   const double tree_wide = std::min(ui.px(kTree), 0.46 * wide);
   tree(ui, desk, {margin, margin, tree_wide, high});
   card(ui, desk, {margin + tree_wide + gap, margin, wide - tree_wide - gap, high});
-  ui.begin_panel("course.foot", {margin, margin + high + gap, wide, foot});
+  ui.begin_strip("course.foot", {margin, margin + high + gap, wide, foot});
   const std::string chosen = button_rows(ui, buttons);
   ui.end_panel();
   return act(chosen, desk);

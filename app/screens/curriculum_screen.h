@@ -50,6 +50,7 @@ class CurriculumScreen final : public Screen {
 
   std::vector<Row> rows_;
   std::size_t chosen_ = 0;
+  std::optional<std::size_t> revealed_;   // the chosen row that the list has been scrolled to
   PracticeDesk::Advice next_;
   std::optional<LastTried> last_;
   std::string wrong_;

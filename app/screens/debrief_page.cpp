@@ -5,10 +5,12 @@
 #include <functional>
 #include <numeric>
 
+#include "app/screens/button_row.h"
+
 namespace trocar {
 namespace {
 
-constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 128, kHeadLine = 25, kNarrowPlots = 300, kTableShare = 0.645;   // px at 720 lines and scale 1
+constexpr double kTwoColumns = 1000, kMargin = 20, kHead = 106, kNarrowPlots = 300, kTableShare = 0.645;   // px at 720 lines and scale 1
 
 Mark verdict_mark(Outcome outcome) {
   switch (outcome) {
@@ -95,9 +97,36 @@ std::vector<Column> fitting(const Ui& ui, std::vector<Column> all, double room) 
   return all;
 }
 
-/// px that a button takes.
-double button_width(const Ui& ui, const std::string& text, const std::string& key) {
-  return ui.text_width(text) + ui.text_width("[" + key + "]") + ui.px(46);
+/// What stands at the foot; the blue one first.
+std::vector<RowButton> foot_buttons(const Words& w, const DebriefContent& content, const std::optional<double>& cursor_s) {
+  const bool onward = content.facts.outcome == Outcome::kPass;
+  const std::string next = content.next_name.empty() ? w("Next") : w("Next: {0}", {content.next_name});
+  std::vector<RowButton> out;
+  if (onward) out.push_back({"next", next, "Enter", true});
+  out.push_back({"retry", w("Try again"), onward ? "R" : "Enter", !onward});
+  if (!onward) out.push_back({"next", next, "N"});
+  if (content.can_watch) {
+    const double from = content.plots.trace && cursor_s ? std::max(0.0, *cursor_s - content.plots.trace->begin_s - 3) : 0;
+    out.push_back({"watch", w("Watch from {0} s", {w.number(from, 0)}), "W"});
+  }
+  if (content.can_compare) out.push_back({"compare", w("Compare with expert"), "S"});
+  out.push_back({"progress", w("My progress"), "M"});
+  if (content.guest) out.push_back({"signin", w("Sign in"), "I"});
+  return out;
+}
+
+DebriefChoice meant(const std::string& id) {
+  if (id == "next") return DebriefChoice::kNext;
+  if (id == "retry") return DebriefChoice::kRetry;
+  if (id == "watch") return DebriefChoice::kWatch;
+  if (id == "compare") return DebriefChoice::kCompare;
+  if (id == "progress") return DebriefChoice::kProgress;
+  return id == "signin" ? DebriefChoice::kSignIn : DebriefChoice::kNone;
+}
+
+std::string foot_note(const Words& w, const DebriefContent& content) {
+  if (!content.compare_note.empty()) return content.compare_note;
+  return content.guest ? w("Sign in to keep your runs under your own code; this one is kept as a guest's.") : "";
 }
 
 }  // namespace
@@ -167,33 +196,22 @@ DebriefChoice DebriefPage::plots(Ui& ui, const DebriefContent& content, double h
 }
 
 DebriefChoice DebriefPage::foot(Ui& ui, const DebriefContent& content) {
-  const Words& w = ui.words();
-  DebriefChoice choice = DebriefChoice::kNone;
-  bool first = true;
-  const auto add = [&](const char* id, const std::string& text, const std::string& key, DebriefChoice means, bool strong = false) {
-    const std::string shown = strong ? "Enter" : key;
-    if (!first) {
-      ui.same_line();
-      if (ui.room() < button_width(ui, text, shown)) ui.gap(0);
-    }
-    first = false;
-    if (ui.button(id, text, shown, strong) || (strong && ui.pressed(key))) choice = means;
-  };
-  const bool onward = content.facts.outcome == Outcome::kPass;
-  const std::string next = content.next_name.empty() ? w("Next") : w("Next: {0}", {content.next_name});
-  if (onward) add("next", next, "N", DebriefChoice::kNext, true);
-  add("retry", w("Try again"), "R", DebriefChoice::kRetry, !onward);
-  if (!onward) add("next", next, "N", DebriefChoice::kNext);
-  if (content.can_watch) {
-    const double from = content.plots.trace && cursor_s_ ? std::max(0.0, *cursor_s_ - content.plots.trace->begin_s - 3) : 0;
-    add("watch", w("Watch from {0} s", {w.number(from, 0)}), "W", DebriefChoice::kWatch);
-  }
-  if (content.can_compare) add("compare", w("Compare with expert"), "S", DebriefChoice::kCompare);
-  add("progress", w("My progress"), "M", DebriefChoice::kProgress);
-  if (content.guest) add("signin", w("Sign in"), "I", DebriefChoice::kSignIn);
-  if (!content.compare_note.empty()) ui.text(content.compare_note, Ink::kDim);
-  else if (content.guest) ui.text(w("Sign in to keep your runs under your own code; this one is kept as a guest's."), Ink::kDim);
-  return choice;
+  const DebriefChoice choice = meant(button_rows(ui, foot_buttons(ui.words(), content, cursor_s_)));
+  const std::string note = foot_note(ui.words(), content);
+  if (!note.empty()) ui.text(note, Ink::kDim);
+  if (choice != DebriefChoice::kNone) return choice;
+  if (ui.pressed("N")) return DebriefChoice::kNext;   // also when Enter stands on the button
+  return ui.pressed("R") ? DebriefChoice::kRetry : DebriefChoice::kNone;
+}
+
+/// px that the foot needs; with the advice above its buttons where there are two columns.
+double DebriefPage::foot_height(const Ui& ui, const DebriefContent& content, double wide, bool advised) const {
+  const double room = wide - ui.px(36), line = ui.px(7);
+  const std::string note = foot_note(ui.words(), content);
+  double high = button_rows_height(ui, foot_buttons(ui.words(), content, cursor_s_), wide);
+  if (!note.empty()) high += ui.text_height(note, room) + line;
+  if (advised) high += ui.text_height(content.advice, room - ui.line_height() - ui.px(10)) + line;
+  return high;
 }
 
 DebriefChoice DebriefPage::draw(Ui& ui, const DebriefContent& content) {
@@ -201,10 +219,10 @@ DebriefChoice DebriefPage::draw(Ui& ui, const DebriefContent& content) {
   const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin;
   const bool two = wide >= ui.px(kTwoColumns);
   if (explained_ >= static_cast<int>(content.facts.rows.size())) explained_ = -1;
-  const double foot_high = ui.px(two ? 124 : 112);
-  const DebriefChoice chosen = two ? beside(ui, content, {margin, margin, wide, high - foot_high - gap})
-                                   : below(ui, content, {margin, margin, wide, high - foot_high - gap});
-  ui.begin_panel("debrief.foot", {margin, margin + high - foot_high, wide, foot_high});
+  const double foot_high = foot_height(ui, content, wide, two);
+  const Area page{margin, margin, wide, high - foot_high - gap};
+  const DebriefChoice chosen = two ? beside(ui, content, page) : below(ui, content, page);
+  ui.begin_strip("debrief.foot", {margin, margin + high - foot_high, wide, foot_high});
   if (two) ui.marked(Mark::kInfo, content.advice, Ink::kHeading);
   const DebriefChoice by_foot = foot(ui, content);
   ui.end_panel();
@@ -212,8 +230,7 @@ DebriefChoice DebriefPage::draw(Ui& ui, const DebriefContent& content) {
 }
 
 DebriefChoice DebriefPage::beside(Ui& ui, const DebriefContent& content, const Area& area) {
-  const double more_lines = std::floor(ui.text_width(content.facts.reason, true) / (area.width - ui.px(60)));
-  const double gap = ui.px(8), head = ui.px(kHead + kHeadLine * more_lines);
+  const double gap = ui.px(8), head = ui.px(kHead) + ui.text_height(content.facts.reason, area.width - ui.px(36), true);
   const double left = std::round(kTableShare * area.width), body = area.height - head - gap;
   ui.begin_panel("debrief.head", {area.x, area.y, area.width, head});
   verdict(ui, content);

@@ -38,6 +38,7 @@ class DebriefPage {
   void rows(Ui& ui, const DebriefContent& content);
   void explanation(Ui& ui, const DebriefContent& content);
   DebriefChoice plots(Ui& ui, const DebriefContent& content, double height_at_720);
+  double foot_height(const Ui& ui, const DebriefContent& content, double wide, bool advised) const;
   DebriefChoice foot(Ui& ui, const DebriefContent& content);
   DebriefChoice beside(Ui& ui, const DebriefContent& content, const Area& area);
   DebriefChoice below(Ui& ui, const DebriefContent& content, const Area& area);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/practice/advice.h"
+#include "app/practice/metric_words.h"
 #include "app/recorded_result.h"
 
 namespace trocar {
@@ -75,7 +76,7 @@ void DebriefScreen::say(PracticeDesk& desk) {
   for (const DebriefRow& row : content_.facts.rows) content_.explained.push_back(explained(w, row, *result_, exercise));
   const ExerciseLevel* level = level_named(exercise, result_->level);
   content_.heading = w("{0} {1}, {2}, board {3}, by {4}",
-                       {exercise.number, w.made(exercise.title), level ? level->name : result_->level, std::to_string(result_->board), w.made(result_->hand)});
+                       {exercise.number, w.made(exercise.title), level ? level->name : result_->level, std::to_string(result_->board), hand_words(w, result_->hand)});
   const PracticeDesk::Advice next = desk.next();
   content_.next_name = next.exercise_id == result_->exercise_id && next.level == result_->level ? "" : next.exercise_id + " " + next.level;
   for (const Exercise& e : desk.exercises())
@@ -149,6 +150,12 @@ std::optional<ScreenName> DebriefScreen::follow(DebriefChoice choice, PracticeDe
   desk.replay_beside = expert_;
   desk.replay_at_s.reset();
   return ScreenName::kReplay;
+}
+
+void DebriefScreen::settle(PracticeDesk& desk, double wait_s) {
+  if (!desk.result()) return;
+  if (!result_ || result_->uuid != desk.result()->uuid) look_at(desk);
+  if (loading_.valid()) loading_.wait_for(std::chrono::duration<double>(wait_s));
 }
 
 std::optional<ScreenName> DebriefScreen::frame(Ui& ui, PracticeDesk& desk, double /*dt_s*/) {

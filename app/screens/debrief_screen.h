@@ -15,6 +15,7 @@ namespace trocar {
 class DebriefScreen : public Screen {
  public:
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  void settle(PracticeDesk& desk, double wait_s) override;
 
  private:
   void look_at(PracticeDesk& desk);

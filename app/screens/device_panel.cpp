@@ -11,6 +11,7 @@
 namespace trocar {
 namespace {
 
+constexpr const char* kCopyKey = "F4";   // no action of the key map: it is spoken of here only
 constexpr double kWidth = 560, kMargin = 10, kFigure = 210;
 const Vec3 kMiddle_W(0, -0.02, -0.115);   // of what the arm takes up
 constexpr double kHalf_m = 0.165;
@@ -27,7 +28,7 @@ void columns(Ui& ui, const std::vector<std::string>& heads, const std::vector<do
   const Area area = ui.placed(step * static_cast<double>(rows.size() + (heads.empty() ? 0 : 1)) / ui.px(1));
   double y = area.y;
   const auto put = [&](const std::vector<std::string>& row, Ink ink) {
-    for (std::size_t i = 0; i < row.size(); ++i) ui.text_at(area.x + right(i), y, row[i], ink, shares[i] * wide, 1);
+    for (std::size_t i = 0; i < row.size(); ++i) ui.text_at(area.x + right(i), y, ui.words().made_number(row[i]), ink, shares[i] * wide, 1);
     y += step;
   };
   if (!heads.empty()) put(heads, Ink::kDim);
@@ -70,7 +71,9 @@ void DevicePanel::draw(Ui& ui, const PracticeDesk& desk) const {
   const Words& w = desk.words();
   const DeviceReading& r = reading_;
   const double all = ui.room();
-  columns(ui, {w("joint"), w("deg"), w("deg/s"), w("asked mN m"), w("given mN m")}, {0.1, 0.19, 0.21, 0.25, 0.25}, joint_rows(r), 0, all);
+  auto joints = joint_rows(r);
+  joints.back().front() = w("pinch");
+  columns(ui, {w("joint"), w("deg"), w("deg/s"), w("asked mN m"), w("given mN m")}, {0.14, 0.17, 0.18, 0.255, 0.255}, joints, 0, all);
   ui.line(w("pinch in mm, mm/s and N"), Ink::kDim);
   ui.heading(w("Stylus in the base (mm), platform"));
   auto both = stylus_matrix(r);
@@ -78,7 +81,10 @@ void DevicePanel::draw(Ui& ui, const PracticeDesk& desk) const {
   for (std::size_t i = 0; i < platform.size(); ++i) both[i].insert(both[i].end(), platform[i].begin(), platform[i].end());
   columns(ui, {}, {0.135, 0.135, 0.135, 0.16, 0.155, 0.14, 0.14}, both, 0, all);
   ui.heading(w("Force, N: x, y, z, size"));
-  columns(ui, {}, {0.2, 0.2, 0.2, 0.2, 0.2}, force_rows(r), 0, all);
+  auto forces = force_rows(r);
+  forces.front().front() = w("tip");
+  forces.back().front() = w("stylus");
+  columns(ui, {}, {0.2, 0.2, 0.2, 0.2, 0.2}, forces, 0, all);
   columns(ui, {}, {0.22, 0.16, 0.36, 0.2},
           {{w("det A"), fixed_number(r.det_a, 6, 3), w("K max, N/m"), whole(r.k_max_n_per_m)},
            {w("winding, C"), fixed_number(r.winding_c, 6, 1), w("contact, N/m"), whole(r.stiffness_n_per_m)},
@@ -99,11 +105,13 @@ void DevicePanel::frame(Ui& ui, PracticeDesk& desk, const TickRecord& record, co
     reading_ = device_reading(record, loop);
     age_s_ = 0;
   }
-  if (ui.pressed("F4")) copy(desk);
+  if (ui.pressed(kCopyKey)) copy(desk);
   ui.begin_panel("device", area);
   ui.in_front();
   ui.scroll_by_keys();
-  ui.line(desk.words()("Device, {0} s.  F3 closes, F4 copies", {desk.words().number(reading_.t_s, 1)}), Ink::kHeading);
+  const Words& w = desk.words();
+  const std::string closes = w.name(key_name(desk.keys().key_of(Action::kDevicePanel)));
+  ui.line(w("Device, {0} s.  {1} closes, {2} copies", {w.number(reading_.t_s, 1), closes, w.name(kCopyKey)}), Ink::kHeading);
   draw(ui, desk);
   ui.end_panel();
 }

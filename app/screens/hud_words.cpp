@@ -46,7 +46,7 @@ const std::vector<std::string>& hud_sentences() {
       words("Over the band: {0} N"), words("Under the band: {0} N"), words("Held near the port: draw back"),
       words("Clutch: the instrument stands still"), words("plant"), words("simulated"), words("loop"), words("passivity"),
       words("acting"), words("ok"), words("force scale"), words("motor heat"), words("depth in port"),
-      words("Board exercise in a box trainer · no organ, no patient data"), words("Organ: {0}"),
+      words("No organ, no patient data · board exercise in a box trainer"), words("Organ: {0}"),
       words("Organ: {0} (synthetic)"), words("Organ: {0} · {1}"), words("Organ: {0} (synthetic) · {1}"),
       // director
       words("Waiting for the device"), words("It starts when homing is complete."), words("Hold still in the start ball"),

@@ -161,6 +161,9 @@ std::string lesson_tool(const Words& w, const Exercise& exercise, const Exercise
   return w("{0}, one hand, no port: the tip moves with the hand.", {tool});
 }
 
-std::string lesson_scope(const Words& w) { return w("Scope 0 degrees, held by an assistant."); }
+std::string lesson_scope(const Words& w, const std::string& degrees, const std::string& post_left, const std::string& post_right) {
+  if (degrees == "0") return w("Scope 0 degrees, held by an assistant.");
+  return w("Scope 30 degrees, held by an assistant; {0} and {1} turn its light post.", {post_left, post_right});
+}
 
 }  // namespace trocar

@@ -44,7 +44,8 @@ std::string lesson_rule(const Words& words, const Rubric& rubric);
 /// The display mode and what it means.
 std::string lesson_display(const Words& words, const ExerciseLevel& level);
 std::string lesson_tool(const Words& words, const Exercise& exercise, const ExerciseLevel& level);
-std::string lesson_scope(const Words& words);
+/// @param degrees of its tip, "0" or "30". @param post_left,post_right names of the keys that turn its light post.
+std::string lesson_scope(const Words& words, const std::string& degrees, const std::string& post_left, const std::string& post_right);
 
 /// "E02 Surface touch - L1".
 std::string lesson_title(const Words& words, const Exercise& exercise, const std::string& level);

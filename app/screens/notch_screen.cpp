@@ -175,6 +175,11 @@ std::optional<ScreenName> NotchScreen::frame(Ui& ui, PracticeDesk& desk, double 
   else picture_ = {0, 0, ui.width(), ui.height()};
   std::string chosen;
   side_shown_ = !panel_.open || beside;
+  // Beside the panel, not behind it; a tall window has room below.
+  if (!stacked && side_shown_) {
+    const double used = left + 2 * m;
+    if (ui.width() - used >= 0.4 * ui.width()) picture_ = {used, 0, ui.width() - used, ui.height()};
+  }
   if (side_shown_) chosen = side(ui, desk, {m, m, stacked ? picture_right - m : left, top_high});
   if (run_) panel_.frame(ui, desk, run_->newest().record, run_->scene().loop, dt_s, panel);
   if (run_ && chosen == "soft") run_->set_stiffness(kThesisWall_n_per_m);

@@ -9,7 +9,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kNoticeSeconds = 6;
+constexpr double kNoticeSeconds = 6, kNoticeTop = 50, kNoticeSides = 36;   // below the clock of a run
 
 /// A panel in the middle, as large as asked or as there is room.
 Area middle(const Ui& ui, double width_at_720, double height_at_720) {
@@ -51,7 +51,7 @@ void metric_table(Ui& ui, const PracticeDesk& desk) {
 MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs) {
   const Words& w = desk.words();
   MenuChoice choice = MenuChoice::kNone;
-  ui.begin_panel("menu", middle(ui, 460, attempt_runs ? 400 : 350), 0.97);
+  ui.begin_panel("menu", middle(ui, 460, attempt_runs ? 308 : 269), 0.97);
   ui.in_front();
   ui.title(w("Menu"));
   const auto item = [&](const char* id, const std::string& text, MenuChoice what, bool strong = false) {
@@ -67,23 +67,33 @@ MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs) {
   return choice;
 }
 
-bool help_overlay(Ui& ui, const PracticeDesk& desk, int& page) {
+bool help_overlay(Ui& ui, PracticeDesk& desk, HelpPage& page, SoundPage& sounds) {
   const Words& w = desk.words();
   const Area all = middle(ui, 900, 680);
-  const double foot = ui.px(74);
-  ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot}, 0.97);
+  const double foot = ui.strip_height(1), gap = ui.px(8);
+  ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot - gap}, 0.97);
   ui.in_front();
-  ui.title(page == 0 ? w("Keys") : w("What is measured"));
-  if (page == 0) key_tables(ui, desk);
-  else metric_table(ui, desk);
+  ui.title(page == HelpPage::kKeys ? w("Keys") : page == HelpPage::kMetrics ? w("What is measured") : w("Sounds"));
+  if (page == HelpPage::kKeys) key_tables(ui, desk);
+  else if (page == HelpPage::kMetrics) metric_table(ui, desk);
+  else sounds.frame(ui, desk);
   ui.end_panel();
-  ui.begin_panel("help.foot", {all.x, all.y + all.height - foot, all.width, foot}, 0.97);
+  ui.begin_strip("help.foot", {all.x, all.y + all.height - foot, all.width, foot}, 0.97);
   ui.in_front();
   const bool close = ui.button("close", w("Close"), "Enter", true);
   ui.same_line();
-  if (ui.button("page", page == 0 ? w("What is measured") : w("Keys"), "F2")) page = 1 - page;
+  const bool keys = page == HelpPage::kKeys;
+  if (ui.button("page", keys ? w("What is measured") : w("Keys"), "F2")) page = keys ? HelpPage::kMetrics : HelpPage::kKeys;
+  ui.same_line();
+  if (ui.button("sounds", w("Sounds"), "F4")) page = HelpPage::kSounds;
   ui.end_panel();
   return close;
+}
+
+void small_window(Ui& ui) {
+  ui.begin_strip("small", {0, 0, ui.width(), ui.height()});
+  ui.text(ui.words()("Please make the window larger."));
+  ui.end_panel();
 }
 
 void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std::string& shown) {
@@ -94,10 +104,10 @@ void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std:
   if (shown.empty()) return;
   age_s += dt_s;
   if (age_s > kNoticeSeconds) return shown.clear();
-  const double wide = std::min(ui.px(720), ui.width() - ui.px(24)), inner = wide - ui.px(84);
-  const double lines = std::ceil(ui.text_width(shown) / std::max(1.0, inner) + 0.15);
-  const double high = std::min(ui.px(40) + lines * ui.line_height(), ui.height());
-  ui.begin_panel("notice", {(ui.width() - wide) / 2, ui.height() - high - ui.px(14), wide, high}, 0.97);
+  const double mark = ui.line_height() + ui.px(10), sides = ui.px(kNoticeSides), most = std::min(ui.px(720), ui.width() - ui.px(24));
+  const double wide = std::min(most, ui.text_width(shown) + mark + sides + 2);
+  const double high = ui.strip_height(1) - ui.px(14) + ui.text_height(shown, wide - mark - sides) - ui.line_height();
+  ui.begin_strip("notice", {(ui.width() - wide) / 2, ui.px(kNoticeTop), wide, std::min(high, ui.height())}, 0.97);
   ui.in_front();
   ui.marked(Mark::kInfo, shown);
   ui.end_panel();

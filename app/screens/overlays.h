@@ -1,4 +1,4 @@
-// What may lie over any screen: the menu (Esc), help (F1), and one notice at the lower edge.
+// What may lie over any screen: the menu (Esc), help (F1), and one notice at the upper edge.
 //
 // Overlays take keys and pointer while they are open. Thread: the window's.
 #pragma once
@@ -8,6 +8,7 @@
 
 #include "app/screens/practice_desk.h"
 #include "app/screens/screen.h"
+#include "app/screens/sound_page.h"
 #include "app/screens/ui.h"
 
 namespace trocar {
@@ -16,10 +17,14 @@ namespace trocar {
 enum class MenuChoice : std::uint8_t { kNone, kBack, kLeaveAttempt, kStart, kSettings, kFullscreen, kQuit };
 MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs);
 
-/// Keys as they are now, and what every metric means; `page` is kept by the caller: 0 keys, 1 metrics. @return true to close.
-bool help_overlay(Ui& ui, const PracticeDesk& desk, int& page);
+/// Keys as they are now, what every metric means, and every sound; page and sounds are kept by the caller. @return true to close.
+enum class HelpPage : std::uint8_t { kKeys, kMetrics, kSounds };
+bool help_overlay(Ui& ui, PracticeDesk& desk, HelpPage& page, SoundPage& sounds);
 
-/// A notice over the lower edge for some seconds; empties desk.notice. @param age_s how long this one has been seen, kept by the caller.
+/// In place of a page that has no room.
+void small_window(Ui& ui);
+
+/// A notice near the upper edge for some seconds; empties desk.notice. @param age_s how long this one has been seen, kept by the caller.
 void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std::string& shown);
 
 }  // namespace trocar

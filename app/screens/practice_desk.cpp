@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <future>
+#include <numbers>
 #include <random>
 #include <thread>
 
@@ -63,6 +64,15 @@ struct PracticeDesk::State {
   std::shared_ptr<const Scene> built(AttemptSetup setup) const;
   std::int64_t seed() const;
 };
+
+/// The parser's own words are English and for who writes programs: the line says enough.
+std::string unread_words(const Words& w, const Settings& settings, const std::filesystem::path& file) {
+  const std::string kept = unread_settings(file).filename().string();
+  if (settings.note_line > 0)
+    return w("{0}, line {1}, cannot be read: the usual settings hold. With your next change it is kept as {2}.",
+             {file.string(), std::to_string(settings.note_line), kept});
+  return w("{0} cannot be read: the usual settings hold. With your next change it is kept as {1}.", {file.string(), kept});
+}
 
 void PracticeDesk::State::take_up(std::string& notice) {
   followed = settings;
@@ -127,8 +137,8 @@ PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets)
   if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
   s.show_scene = std::async(std::launch::async, [] { return std::make_shared<const SceneView>(trocar::show_scene("abdomen")); }).share();
   s.settings = load_settings(s.settings_file_path());
-  notice = s.settings.note;
   s.take_up(notice);
+  if (!s.settings.note.empty()) notice = unread_words(s.words, s.settings, s.settings_file_path());
   s.open_database(notice);
   exercise_id = s.exercises.front().id;
   level = options.level;
@@ -151,6 +161,8 @@ const AssetRoots& PracticeDesk::assets() const { return state_->assets; }
 const std::vector<Exercise>& PracticeDesk::exercises() const { return state_->exercises; }
 const Words& PracticeDesk::words() const { return state_->words; }
 double PracticeDesk::scale() const { return std::clamp(state_->options.scale.value_or(state_->settings.scale), 1.0, 2.0); }
+const std::string& PracticeDesk::scope() const { return state_->options.scope.empty() ? state_->settings.scope : state_->options.scope; }
+double PracticeDesk::scope_tilt_rad() const { return std::stod(scope()) * std::numbers::pi / 180; }
 Settings& PracticeDesk::settings() { return state_->settings; }
 const KeyMap& PracticeDesk::keys() const { return state_->keys; }
 Steering& PracticeDesk::steering() { return *state_->steering; }
@@ -168,6 +180,12 @@ void PracticeDesk::choose_language(const std::string& code) {
 void PracticeDesk::choose_scale(double scale) {
   state_->options.scale.reset();
   state_->settings.scale = std::clamp(scale, 1.0, 2.0);
+  settings_changed();
+}
+
+void PracticeDesk::choose_scope(const std::string& degrees) {
+  state_->options.scope.clear();
+  state_->settings.scope = degrees;
   settings_changed();
 }
 
@@ -256,7 +274,8 @@ PracticeDesk::Advice PracticeDesk::next() const {
       if (!s.unlocked || opens_next(s.newest_first)) continue;
       if (s.attempts == 0) return {e.id, name, w("Not tried yet.")};
       if (s.passed_in_a_row == 0)
-        return {e.id, name, w("Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})};
+        return {e.id, name, w(s.attempts == 1 ? "Tried once, the row of passes is still to come." : "Tried {0} times, the row of passes is still to come.",
+                              {std::to_string(s.attempts)})};
       return {e.id, name, w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)})};
     }
   }

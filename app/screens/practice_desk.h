@@ -34,6 +34,7 @@ struct DeskOptions {
   std::optional<std::int64_t> seed = {}; ///< given: every attempt draws from it
   std::optional<double> scale = {};      ///< given: this time only, whatever the settings say
   std::string language = {};             ///< given: this time only
+  std::string scope = {};                ///< "0" or "30" degrees of the tip; given: this time only
 };
 
 class PracticeDesk {
@@ -51,6 +52,9 @@ class PracticeDesk {
   /// A person's choice: holds over what the command line said, even where the settings said the same before.
   void choose_language(const std::string& code);
   void choose_scale(double scale);
+  void choose_scope(const std::string& degrees);
+  const std::string& scope() const;      ///< tilt of the scope's tip, degrees: "0" or "30"
+  double scope_tilt_rad() const;
   const KeyMap& keys() const;
   Steering& steering();
   Sound& sound();

@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "app/graphics/frame_target.h"
-#include "app/graphics/preset.h"
 #include "app/graphics/renderer.h"
 #include "app/practice/file_stamp.h"
 #include "app/screens/device_panel.h"
 #include "app/screens/overlays.h"
 #include "app/screens/screen_table.h"
+#include "app/screens/theme.h"
 #include "app/screens/ui_layer.h"
 #include "haptics/input_error.h"
 #include "trainees/database.h"
@@ -20,7 +20,19 @@ namespace trocar {
 namespace {
 
 /// Before anything has been timed.
-Preset guessed_preset(const GraphicsContext& context) { return context.info().software ? Preset::kSoft : Preset::kFull; }
+Preset guessed_preset(bool software) { return software ? Preset::kSoft : Preset::kFull; }
+
+/// What lives on the GPU, and goes with its context.
+struct Drawn {
+  GraphicsContext& context;
+  FrameTarget target;
+  UiLayer layer;
+  Renderer renderer;
+  std::unique_ptr<Renderer> second = {};       // keeps its own organ on the GPU; while two runs are compared
+
+  Drawn(PracticeDesk& desk, GraphicsContext& given, bool to_window, Preset preset)
+      : context(given), target(context, to_window), layer(context, desk.scale()), renderer(context, desk.assets().assets, {.preset = preset}) {}
+};
 
 }  // namespace
 
@@ -31,33 +43,29 @@ std::filesystem::path pictures_folder() {
 
 struct PracticeLoop::State {
   PracticeDesk& desk;
-  GraphicsContext& context;
-  bool to_window;
-  FrameTarget target;
-  UiLayer layer;
-  Renderer renderer;
-  std::unique_ptr<Renderer> second_renderer;   // keeps its own organ on the GPU; while two runs are compared
+  bool to_window, software;
+  std::optional<Drawn> drawn;                  // empty: the context was lost
   ScreenName name = ScreenName::kStart;
   std::unique_ptr<Screen> screen;
   DevicePanel device;
   bool menu = false, help = false, fullscreen = false, picture_wanted = false;
   bool paused_by_menu = false;
-  int help_page = 0;
+  HelpPage help_page = HelpPage::kKeys;
+  SoundPage sounds;
   double notice_age_s = 0;
   std::string notice;
   std::vector<DrawnText> texts;
   std::vector<std::string> scrolling;
 
+  PresetWatch watch;
+  bool timed = false;
   std::string preset = "auto";          // as the settings had it when it was last followed
   long frames = 0;
 
-  State(PracticeDesk& given, GraphicsContext& drawing, bool window)
-      : desk(given),
-        context(drawing),
-        to_window(window),
-        target(drawing, window),
-        layer(drawing, given.scale()),
-        renderer(drawing, given.assets().assets, {.preset = guessed_preset(drawing)}) {}
+  State(PracticeDesk& given, GraphicsContext& context, bool window)
+      : desk(given), to_window(window), software(context.info().software) {
+    drawn.emplace(desk, context, to_window, guessed_preset(software));
+  }
 
   void show(ScreenName to);
   void open_menu(bool open);
@@ -65,6 +73,8 @@ struct PracticeLoop::State {
   bool command(const InputEvent& event);
   void dispatch(const std::vector<InputEvent>& events);
   void follow_preset(int width, int height);
+  void use_preset(Preset wanted);
+  void watch_preset(double dt_s);
   void draw_stage(int width, int height);
   void draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events);
   void save_picture();
@@ -142,7 +152,7 @@ bool PracticeLoop::State::command(const InputEvent& event) {
     device.open = !device.open;
   } else if (action == Action::kMenu && !menu && !help && screen && screen->takes_escape()) {
     return true;   // its button hears it
-  } else if (action == Action::kMenu && !layer.popup_open()) {
+  } else if (action == Action::kMenu && !drawn->layer.popup_open()) {
     const bool close_help = std::exchange(help, false);
     open_menu(!close_help && !menu);
   } else {
@@ -163,23 +173,42 @@ void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
     const bool key = event.kind == Kind::kKeyDown || event.kind == Kind::kText;
     const bool press = event.kind == Kind::kButtonDown || event.kind == Kind::kWheel;
     // What was let go is told to the screen always: nothing stays held because a panel lay under the pointer.
-    if ((key && layer.wants_keys()) || (press && layer.wants_pointer())) continue;
+    if ((key && drawn->layer.wants_keys()) || (press && drawn->layer.wants_pointer())) continue;
     if (const auto to = screen->handle(event, desk)) show(*to);
   }
 }
 
-/// What the settings say. "auto" in a window: timed once, after the first frame stands; in memory: a guess, so that pictures do not depend
-/// on how busy the machine is.
+/// What the settings say. "auto" in a window: timed once, after the first frame stands and as soon as the show scene is made; in memory:
+/// a guess, so that pictures do not depend on how busy the machine is.
 void PracticeLoop::State::follow_preset(int width, int height) {
   const std::string& wanted = desk.settings().preset;
-  const bool timed_now = wanted == "auto" && to_window && (frames == 1 || (frames > 1 && preset != wanted));
-  if (preset == wanted && !timed_now) return;
-  RenderOptions options = renderer.options();
-  const std::optional<Preset> named = preset_named(wanted);
-  options.preset = named ? *named : timed_now ? measure_preset(context, desk.assets().assets, width, height) : guessed_preset(context);
-  preset = wanted;
-  renderer.set_options(options);
-  if (second_renderer) second_renderer->set_options(options);
+  if (preset != wanted) {
+    preset = wanted;
+    timed = false;
+    watch = PresetWatch();
+    use_preset(preset_named(wanted).value_or(guessed_preset(software)));
+  }
+  if (wanted != "auto" || timed || !to_window || frames == 0) return;
+  const std::shared_ptr<const SceneView> scene = desk.show_scene(0);
+  if (!scene) return;
+  timed = true;
+  use_preset(measure_preset(drawn->renderer, guessed_preset(software), *scene, width, height));
+}
+
+void PracticeLoop::State::use_preset(Preset wanted) {
+  RenderOptions options = drawn->renderer.options();
+  options.preset = wanted;
+  drawn->renderer.set_options(options);
+  if (drawn->second) drawn->second->set_options(options);
+}
+
+/// A picture that was chosen by speed and has become too slow gives way to a plainer one, and says so; a chosen one stays.
+void PracticeLoop::State::watch_preset(double dt_s) {
+  if (!to_window || desk.settings().preset != "auto" || frames < 3) return;
+  const std::optional<Preset> plainer = watch.picture(dt_s, drawn->renderer.options().preset);
+  if (!plainer) return;
+  use_preset(*plainer);
+  desk.notice = desk.words()("The picture had become slow and is drawn more plainly now. The settings can change that.");
 }
 
 /// Both pictures first, then both into the frame: drawing a picture binds framebuffers of its own.
@@ -191,6 +220,7 @@ void PracticeLoop::State::draw_stage(int width, int height) {
     double dim;
   };
   std::vector<Placed> placed;
+  const bool room = !too_small(width, height);
   const auto draw = [&](const std::optional<Screen::Stage>& stage, Renderer& with) {
     PixelRect part{0, 0, width, height};
     if (stage->width > 0)
@@ -198,31 +228,33 @@ void PracticeLoop::State::draw_stage(int width, int height) {
     if (part.width < 64 || part.height < 48) return;
     placed.push_back({with.draw_scope(stage->view, part.width, part.height), part, std::max(stage->dim, menu || help ? 0.6 : 0.0)});
   };
-  if (const auto stage = screen ? screen->stage(desk, width, height) : std::nullopt) draw(stage, renderer);
-  if (const auto beside = screen ? screen->second_stage(desk, width, height) : std::nullopt) {
-    if (!second_renderer) second_renderer = std::make_unique<Renderer>(context, desk.assets().assets, renderer.options());
-    draw(beside, *second_renderer);
+  if (const auto stage = screen && room ? screen->stage(desk, width, height) : std::nullopt) draw(stage, drawn->renderer);
+  if (const auto beside = screen && room ? screen->second_stage(desk, width, height) : std::nullopt) {
+    if (!drawn->second) drawn->second = std::make_unique<Renderer>(drawn->context, desk.assets().assets, drawn->renderer.options());
+    draw(beside, *drawn->second);
   } else {
-    second_renderer.reset();
+    drawn->second.reset();
   }
-  target.begin(width, height);
-  for (const Placed& one : placed) target.place(one.texture, one.part, one.dim);
+  drawn->target.begin(width, height);
+  for (const Placed& one : placed) drawn->target.place(one.texture, one.part, one.dim);
 }
 
 void PracticeLoop::State::draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events) {
-  layer.set_scale(desk.scale());
-  layer.begin(width, height, dt_s, events);
+  drawn->layer.set_scale(desk.scale());
+  drawn->layer.begin(width, height, dt_s, events);
   Ui ui(desk.words(), desk.scale(), width, height);
   std::optional<ScreenName> to;
-  if (menu) choose(menu_overlay(ui, desk, desk.running() != nullptr));
-  else if (help && help_overlay(ui, desk, help_page)) { help = false; open_menu(false); }
+  if (too_small(width, height)) small_window(ui);
+  else if (menu) choose(menu_overlay(ui, desk, desk.running() != nullptr));
+  else if (help && help_overlay(ui, desk, help_page, sounds)) { help = false; open_menu(false); }
   else if (!help && screen) to = screen->frame(ui, desk, dt_s);
-  if (AttemptRunner* run = desk.running(); run && !menu && !help)
+  sounds.pass(desk.sound(), help && help_page == HelpPage::kSounds, dt_s);
+  if (AttemptRunner* run = desk.running(); run && !too_small(width, height) && !menu && !help && !(screen && screen->asks()))
     device.frame(ui, desk, run->newest().record, run->scene().loop, dt_s, device_panel_area(ui, desk.settings().left_handed));
-  notice_overlay(ui, desk, dt_s, notice_age_s, notice);
+  if (!too_small(width, height)) notice_overlay(ui, desk, dt_s, notice_age_s, notice);
   texts = ui.text_audit();
   scrolling = ui.scrolling();
-  layer.end();
+  drawn->layer.end();
   if (to) show(*to);
 }
 
@@ -233,7 +265,7 @@ void PracticeLoop::State::save_picture() {
     std::filesystem::create_directories(folder);
     std::filesystem::path file = folder / ("trocar-" + file_stamp() + ".png");
     for (int n = 2; std::filesystem::exists(file); ++n) file = folder / ("trocar-" + file_stamp() + "-" + std::to_string(n) + ".png");
-    write_png(file, target.read());
+    write_png(file, drawn->target.read());
     desk.notice = desk.words()("Picture saved: {0}", {file.string()});
   } catch (const std::exception& error) {
     desk.notice = desk.words()("No picture could be saved: {0}", {error.what()});
@@ -242,14 +274,34 @@ void PracticeLoop::State::save_picture() {
 
 bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<InputEvent>& events) {
   State& s = *state_;
+  if (!s.drawn) return true;
   s.dispatch(events);
   if (width >= 64 && height >= 48) {
+    s.watch_preset(dt_s);
     s.draw_stage(width, height);
     s.draw_interface(width, height, dt_s, events);
     ++s.frames;
     if (s.picture_wanted) s.save_picture();
   }
   return s.name != ScreenName::kQuit;
+}
+
+void PracticeLoop::lose_pictures() {
+  State& s = *state_;
+  InputEvent looks_away;
+  looks_away.kind = InputEvent::Kind::kFocusLost;  // an attempt stands still, nothing stays held
+  s.dispatch({looks_away});
+  if (s.desk.running()) s.desk.running()->pause(true);
+  s.drawn.reset();
+}
+
+void PracticeLoop::take_up(GraphicsContext& context) {
+  State& s = *state_;
+  s.software = context.info().software;
+  s.drawn.emplace(s.desk, context, s.to_window, preset_named(s.preset).value_or(guessed_preset(s.software)));
+  s.timed = false;
+  s.watch = PresetWatch();
+  s.desk.notice = s.desk.words()("The graphics driver was started anew; nothing of the attempt is lost.");
 }
 
 void PracticeLoop::settle(double wait_s) {
@@ -260,8 +312,9 @@ void PracticeLoop::go(ScreenName name) { state_->show(name); }
 ScreenName PracticeLoop::here() const { return state_->name; }
 const Screen* PracticeLoop::screen() const { return state_->screen.get(); }
 bool PracticeLoop::menu_open() const { return state_->menu; }
+Preset PracticeLoop::preset() const { return state_->drawn->renderer.options().preset; }
 bool PracticeLoop::fullscreen() const { return state_->fullscreen; }
-Image PracticeLoop::picture() const { return state_->target.read(); }
+Image PracticeLoop::picture() const { return state_->drawn->target.read(); }
 const std::vector<DrawnText>& PracticeLoop::texts() const { return state_->texts; }
 const std::vector<std::string>& PracticeLoop::scrolling() const { return state_->scrolling; }
 

@@ -13,6 +13,7 @@
 
 #include "app/graphics/graphics_context.h"
 #include "app/graphics/image.h"
+#include "app/graphics/preset.h"
 #include "app/input/input_event.h"
 #include "app/screens/practice_desk.h"
 #include "app/screens/screen.h"
@@ -30,6 +31,10 @@ class PracticeLoop {
 
   /// One frame. Smaller than 64 x 48 px: nothing is drawn. @return false when the program shall end.
   bool frame(int width, int height, double dt_s, const std::vector<InputEvent>& events);
+  /// The context is lost (a driver was reset): lets go of all that lived in it while it is still there; an attempt pauses. Until take_up()
+  /// frames draw nothing. The attempt itself and the screens know nothing of it.
+  void lose_pictures();
+  void take_up(GraphicsContext& context);
   /// Waits for what the screen that is up makes in the background; wait_s at most.
   void settle(double wait_s);
   /// To another screen, as from the next frame.
@@ -37,6 +42,7 @@ class PracticeLoop {
   ScreenName here() const;
   const Screen* screen() const;                 ///< that is up; nullptr: none
   bool menu_open() const;
+  Preset preset() const;                        ///< that the pictures are drawn with
   bool fullscreen() const;                      ///< wanted
   /// The last frame. @throws EnvironmentError.
   Image picture() const;

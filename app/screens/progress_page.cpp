@@ -53,7 +53,8 @@ void ProgressPage::list(Ui& ui, const std::vector<ProgressEntry>& entries, const
     trained += entry.curve.trained_s;
     attempts += static_cast<int>(entry.curve.attempts.size());
   }
-  ui.text(w("{0}: {1} attempts, {2} trained", {who, std::to_string(attempts), minutes(w, trained)}), Ink::kDim);
+  ui.text(w(w.one(attempts) ? "{0}: {1} attempt, {2} trained" : "{0}: {1} attempts, {2} trained", {who, std::to_string(attempts), minutes(w, trained)}),
+          Ink::kDim);
   ui.gap(4);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ProgressEntry& entry = entries[i];
@@ -125,7 +126,8 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
   const Words& w = ui.words();
   const LearningCurve& c = entry.curve;
   ui.heading(w("{0}, by {1}", {entry.name, entry.input}));
-  std::string line = w("{0} attempts, {1} passed, {2} of 3 in a row on different boards; {3} trained.",
+  std::string line = w(w.one(static_cast<int>(c.attempts.size())) ? "{0} attempt, {1} passed, {2} of 3 in a row on different boards; {3} trained."
+                                                                  : "{0} attempts, {1} passed, {2} of 3 in a row on different boards; {3} trained.",
                        {std::to_string(c.attempts.size()), std::to_string(c.passed), std::to_string(std::min(3, entry.in_a_row)), minutes(w, c.trained_s)});
   if (c.best) line += " " + w("Best {0}, last {1}.", {w.number(*c.best, 1), w.number(*c.last, 1)});
   if (const auto& band = c.band)
@@ -139,25 +141,26 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
   ui.text(competence_words(w, entry.cusum), Ink::kDim);
 }
 
-ProgressChoice ProgressPage::foot(Ui& ui, const std::vector<ProgressEntry>& entries) {
-  using Kind = ProgressChoice::Kind;
-  const Words& w = ui.words();
-  ProgressChoice out;
-  if (ui.button("back", w("Back"), "Enter", true)) out.kind = Kind::kBack;
-  if (entries.empty()) return out;
-  ui.same_line();
-  if (ui.button("csv", w("Export as CSV"), "X")) out.kind = Kind::kExport;
-  if (attempt_ < 0) return out;
-  ui.same_line();
-  if (ui.button("open", w("Open attempt {0}", {std::to_string(attempt_ + 1)}), "O"))
-    out = {Kind::kOpen, entries[static_cast<std::size_t>(chosen_)].curve.attempts[static_cast<std::size_t>(attempt_)].summary.uuid};
+std::vector<RowButton> ProgressPage::foot_buttons(const Words& w, const std::vector<ProgressEntry>& entries) const {
+  std::vector<RowButton> out{{"back", w("Back"), "Enter", true}};
+  if (!entries.empty()) out.push_back({"csv", w("Export as CSV"), "X"});
+  if (!entries.empty() && attempt_ >= 0) out.push_back({"open", w("Open attempt {0}", {std::to_string(attempt_ + 1)}), "O"});
   return out;
+}
+
+ProgressChoice ProgressPage::meant(const std::string& id, const std::vector<ProgressEntry>& entries) const {
+  using Kind = ProgressChoice::Kind;
+  if (id == "back") return {Kind::kBack, ""};
+  if (id == "csv") return {Kind::kExport, ""};
+  if (id != "open") return {};
+  return {Kind::kOpen, entries[static_cast<std::size_t>(chosen_)].curve.attempts[static_cast<std::size_t>(attempt_)].summary.uuid};
 }
 
 ProgressChoice ProgressPage::draw(Ui& ui, const std::vector<ProgressEntry>& entries, const std::string& who) {
   const Words& w = ui.words();
-  const double margin = std::min(ui.px(kMargin), 0.02 * ui.width()), gap = ui.px(8), foot_high = ui.px(74);
-  const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin - foot_high - gap;
+  const double margin = std::min(ui.px(kMargin), 0.02 * ui.width()), gap = ui.px(8), wide = ui.width() - 2 * margin;
+  const std::vector<RowButton> buttons = foot_buttons(w, entries);
+  const double foot_high = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * margin - foot_high - gap;
   const bool two = wide >= ui.px(kTwoColumns);
   chosen_ = std::clamp(chosen_, 0, std::max(0, static_cast<int>(entries.size()) - 1));
   const double left = two ? ui.px(kList) : wide;
@@ -168,8 +171,8 @@ ProgressChoice ProgressPage::draw(Ui& ui, const std::vector<ProgressEntry>& entr
   if (two && !entries.empty()) ui.begin_panel("progress.curve", {margin + left + gap, margin, wide - left - gap, high});
   if (!entries.empty()) details(ui, entries[static_cast<std::size_t>(chosen_)]);
   if (!two || !entries.empty()) ui.end_panel();
-  ui.begin_panel("progress.foot", {margin, margin + high + gap, wide, foot_high});
-  const ProgressChoice choice = foot(ui, entries);
+  ui.begin_strip("progress.foot", {margin, margin + high + gap, wide, foot_high});
+  const ProgressChoice choice = meant(button_rows(ui, buttons), entries);
   ui.end_panel();
   return choice;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/screens/button_row.h"
 #include "app/screens/ui.h"
 #include "trainees/progress/cusum.h"
 #include "trainees/progress/learning_curve.h"
@@ -41,7 +42,8 @@ class ProgressPage {
   void details(Ui& ui, const ProgressEntry& entry);
   void curve_plot(Ui& ui, const ProgressEntry& entry, double height_at_720);
   void cusum_plot(Ui& ui, const ProgressEntry& entry, double height_at_720) const;
-  ProgressChoice foot(Ui& ui, const std::vector<ProgressEntry>& entries);
+  std::vector<RowButton> foot_buttons(const Words& w, const std::vector<ProgressEntry>& entries) const;
+  ProgressChoice meant(const std::string& id, const std::vector<ProgressEntry>& entries) const;
 
   int chosen_ = 0, attempt_ = -1;
 };

@@ -34,7 +34,7 @@ ProgressEntry entry_of(const PracticeDesk& desk, LearningCurve curve) {
     out.pass_at = level ? level->rubric.pass_at : exercise->rubric.pass_at;
     out.older_rubric = exercise->rubric.sha256 != key.rubric_sha256;
   }
-  out.input = w.made(key.hand);
+  out.input = hand_words(w, key.hand);
   const std::vector<AttemptSummary> summaries = newest_first(curve);
   out.in_a_row = passes_in_a_row(summaries);
   out.open = opens_next(summaries);

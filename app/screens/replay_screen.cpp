@@ -1,7 +1,9 @@
 #include "app/screens/replay_screen.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "app/attempt_hud.h"
 #include "app/attempt_scene.h"
@@ -13,7 +15,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kLead_s = 1, kPanelPad = 18;
+constexpr double kLead_s = 1;
 
 /// What is said of the force: the bar that counts at this moment, if the exercise has any.
 std::optional<ForceBar> telling_bar(const Scene& scene, const RunMoment& moment) {
@@ -21,38 +23,6 @@ std::optional<ForceBar> telling_bar(const Scene& scene, const RunMoment& moment)
   if (bars.empty()) return std::nullopt;
   return moment.status.cue == Cue::kGrip ? bars.back() : bars.front();
 }
-
-/// Puts buttons side by side, on as many lines as they need.
-class ButtonRow {
- public:
-  using Label = std::pair<std::string, std::string>;   // words, key
-  explicit ButtonRow(Ui& ui) : ui_(ui), room_(ui.room()) {}
-  bool button(const char* id, const Label& label, bool strong = false) {
-    const bool beside = fits(ui_, room_, used_, label);
-    if (beside && used_ > 0) ui_.same_line();
-    take(ui_, beside, used_, label);
-    return ui_.button(id, label.first, label.second, strong);
-  }
-  template <typename Labels>
-  static int lines(const Ui& ui, double room, const Labels& labels) {
-    double used = 0;
-    int count = 1;
-    for (const Label& label : labels) {
-      const bool beside = fits(ui, room, used, label);
-      count += beside ? 0 : 1;
-      take(ui, beside, used, label);
-    }
-    return count;
-  }
-
- private:
-  static double width(const Ui& ui, const Label& l) { return ui.text_width(l.first) + ui.text_width("[" + l.second + "]") + ui.px(56); }
-  static bool fits(const Ui& ui, double room, double used, const Label& label) { return used <= 0 || used + width(ui, label) <= room; }
-  static void take(const Ui& ui, bool beside, double& used, const Label& label) { used = (beside ? used : 0) + width(ui, label); }
-
-  Ui& ui_;
-  double room_, used_ = 0;
-};
 
 /// To the attempt that was just made, or to where an older one was chosen.
 ScreenName way_back(const PracticeDesk& desk) {
@@ -76,7 +46,8 @@ void ReplayScreen::open(PracticeDesk& desk) {
   beside_file_ = desk.replay_beside;
   beside_wanted_ = !beside_file_.empty();
   if (file.empty()) {
-    nothing_ = w("There is no recording to show yet: it is made with every attempt.");
+    nothing_ = desk.result() && desk.database() == ":memory:" ? w("Nothing is kept in this session, so there is no recording of the attempt.")
+               : desk.result() ? w("This attempt has no recording.") : w("There is no recording to show yet: it is made with every attempt.");
     return;
   }
   own_.name = desk.replay_file.empty() ? w("You") : file.stem().string();
@@ -110,6 +81,19 @@ void ReplayScreen::look_after(PracticeDesk& desk, double dt_s) {
   if (two() && beside_.run->stage() == RecordedRun::Stage::kReplaying)
     known_s = std::min(known_s, beside_.run->available_until() - beside_.run->begin_s());
   clock_.advance(dt_s, known_s);
+}
+
+void ReplayScreen::settle(PracticeDesk& desk, double wait_s) {
+  using Run = RecordedRun::Stage;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto working = [](const Side& side) {
+    return side.run && (side.run->stage() == Run::kLoading || side.run->stage() == Run::kReplaying);
+  };
+  do {
+    look_after(desk, 0);
+    if (!working(own_) && !working(beside_)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  } while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(wait_s));
 }
 
 Screen::Stage ReplayScreen::stage_of(const Side& side, double x, double width) const {
@@ -225,37 +209,38 @@ void ReplayScreen::time_line(Ui& ui, double height_px) {
   replay_plot(ui, area, content, clock_);
 }
 
-ReplayScreen::Labels ReplayScreen::labels(const Words& w) const {
+std::vector<RowButton> ReplayScreen::buttons(const Words& w) const {
   const std::string loop = clock_.loop_b_s() ? w("End the loop") : clock_.loop_a_s() ? w("Loop to here") : w("Loop from here");
-  return {{{clock_.playing() ? w("Pause") : w("Play"), "Space"},
-           {w("Slower"), "-"},
-           {w("Faster"), "="},
-           {beside_wanted_ ? w("Alone") : w("Beside the expert"), "S"},
-           {loop, "L"},
-           {w("Back"), "Esc"}}};
+  return {{"play", clock_.playing() ? w("Pause") : w("Play"), "Space", true},
+          {"slower", w("Slower"), "-"},
+          {"faster", w("Faster"), "="},
+          {"beside", beside_wanted_ ? w("Alone") : w("Beside the expert"), "S"},
+          {"loop", loop, "L"},
+          {"back", w("Back"), "Esc"}};
 }
 
-std::optional<ScreenName> ReplayScreen::buttons(Ui& ui, const PracticeDesk& desk) {
-  const Labels label = labels(ui.words());
-  ButtonRow row(ui);
-  if (row.button("play", label[0], true)) clock_.toggle_play();
-  if (row.button("slower", label[1])) clock_.change_speed(-1);
-  if (row.button("faster", label[2])) clock_.change_speed(1);
-  if (row.button("beside", label[3])) beside_wanted_ = !beside_wanted_;
-  if (row.button("loop", label[4])) clock_.next_loop_point();
-  return row.button("back", label[5]) ? std::optional(way_back(desk)) : std::nullopt;
+std::optional<ScreenName> ReplayScreen::act(const std::string& chosen, const PracticeDesk& desk) {
+  if (chosen == "play") clock_.toggle_play();
+  if (chosen == "slower") clock_.change_speed(-1);
+  if (chosen == "faster") clock_.change_speed(1);
+  if (chosen == "beside") beside_wanted_ = !beside_wanted_;
+  if (chosen == "loop") clock_.next_loop_point();
+  return chosen == "back" ? std::optional(way_back(desk)) : std::nullopt;
 }
 
+/// The picture takes what is left. Large text: no force bars, the time line shows the same.
 std::optional<ScreenName> ReplayScreen::panel(Ui& ui, PracticeDesk& desk) {
-  const double line = ui.line_height(), button_rows = ButtonRow::lines(ui, ui.width() - 2 * ui.px(kPanelPad), labels(ui.words()));
-  const double others = 2 * line + ui.px(18) + button_rows * (line + ui.px(26)) + ui.px(3 * 8) + 2 * ui.px(kPanelPad);
-  const double plot = std::clamp(0.40 * ui.height() - others, ui.px(60), ui.px(190)) + line;
+  const std::vector<RowButton> row = buttons(ui.words());
+  const bool compact = ui.height() < ui.px(500);
+  const double line = ui.line_height(), bars = compact ? 0 : line + ui.px(18 + 7), rows = button_rows_height(ui, row, ui.width());
+  const double others = line + ui.px(7) + bars + ui.px(7) + rows;
+  const double plot = std::clamp(0.40 * ui.height() - others, ui.px(46), ui.px(190)) + line;
   picture_height_ = std::floor(ui.height() - others - plot);
-  ui.begin_panel("replay", {0, picture_height_, ui.width(), ui.height() - picture_height_});
+  ui.begin_strip("replay", {0, picture_height_, ui.width(), ui.height() - picture_height_});
   heading(ui);
-  forces(ui);
+  if (!compact) forces(ui);
   time_line(ui, plot);
-  const auto to = buttons(ui, desk);
+  const auto to = act(button_rows(ui, row), desk);
   ui.end_panel();
   return to;
 }

@@ -4,15 +4,14 @@
 // on the same board, made when first asked for). Thread: the window's; the runs have their own.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/playback/expert_run.h"
 #include "app/playback/recorded_run.h"
+#include "app/screens/button_row.h"
 #include "app/screens/replay_clock.h"
 #include "app/screens/replay_events.h"
 #include "app/screens/screen.h"
@@ -24,6 +23,7 @@ class ReplayScreen final : public Screen {
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
   std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
   std::optional<Stage> second_stage(PracticeDesk& desk, int width, int height) override;
+  void settle(PracticeDesk& desk, double wait_s) override;
   bool takes_escape() const override { return true; }
 
   const ReplayClock& clock() const { return clock_; }
@@ -48,9 +48,8 @@ class ReplayScreen final : public Screen {
   void forces(Ui& ui) const;
   void force_of(Ui& ui, const Side& side, const Area& area) const;
   void time_line(Ui& ui, double height_px);
-  using Labels = std::array<std::pair<std::string, std::string>, 6>;   // words and key of each button
-  Labels labels(const Words& w) const;
-  std::optional<ScreenName> buttons(Ui& ui, const PracticeDesk& desk);
+  std::vector<RowButton> buttons(const Words& w) const;
+  std::optional<ScreenName> act(const std::string& chosen, const PracticeDesk& desk);
   std::string state_words(const Words& w) const;
   bool two() const { return beside_wanted_ && beside_.shown(); }
 

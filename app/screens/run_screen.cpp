@@ -52,6 +52,7 @@ struct RunScreen::State {
   void begin(PracticeDesk& desk);
   void steer(PracticeDesk& desk);
   void command(Action action, PracticeDesk& desk);
+  Camera seen_by(PracticeDesk& desk) const;
   SceneView view(PracticeDesk& desk);
   void lay_out(const Hud& hud, PracticeDesk& desk, int width, int height);
   void pause(PracticeDesk& desk, bool paused);
@@ -65,6 +66,7 @@ struct RunScreen::State {
 RunScreen::RunScreen() : state_(std::make_unique<State>()) {}
 RunScreen::~RunScreen() = default;
 
+bool RunScreen::asks() const { return state_->overlay; }
 const LatencyMeter& RunScreen::latency() const { return state_->latency; }
 
 /// An attempt that has just begun.
@@ -85,6 +87,11 @@ void RunScreen::State::begin(PracticeDesk& desk) {
   begun = true;
 }
 
+/// Where the scope is now; until the person has taken hold, where the exercise has it.
+Camera RunScreen::State::seen_by(PracticeDesk& desk) const {
+  return moved_camera(camera, steering ? desk.steering().scope() : ScopeMove{}, desk.scope_tilt_rad());
+}
+
 /// Hands the newest intent to the attempt; from where the instrument is, once the device is ready.
 void RunScreen::State::steer(PracticeDesk& desk) {
   AttemptRunner& run = *desk.running();
@@ -98,8 +105,7 @@ void RunScreen::State::steer(PracticeDesk& desk) {
     hand.begin(from.X_TI, from.jaw_opening_m, scene.board.centre_T, steering_reach(scene.setup.exercise, scene.level));
     steering = true;
   }
-  const Camera seen = moved_camera(camera, hand.scope());
-  const std::uint64_t number = run.steer(hand.advance(dt_s, seen, picture.height));
+  const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(desk), picture.height));
   if (event_s > 0) latency.steered(number, event_s);
   event_s = 0;
 }
@@ -110,8 +116,7 @@ SceneView RunScreen::State::view(PracticeDesk& desk) {
   const RunMoment& moment = newest.seen ? newest : before;
   if (newest.seen) latency.drawn(newest.steered);
   sounds.hear(run.scene(), moment, desk.sound());
-  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T, desk.is_guest() ? "" : desk.trainee());
-  out.camera = moved_camera(camera, desk.steering().scope());
+  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T, desk.is_guest() ? "" : desk.trainee(), seen_by(desk));
   if (!guides) hide_guides(out);
   if (steering) add_ghost(out, run.target());
   return out;
@@ -209,11 +214,13 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   const Words& w = desk.words();
   const bool stands = desk.running()->paused();
   const auto key = [&](Action action) { return key_name(desk.keys().key_of(action)); };
-  const double width = std::min(ui.px(430), ui.width()), height = std::min(ui.px(250), ui.height());
+  const std::string said = stands ? w("Instrument and clock stand still. The pause is noted in the result.")
+                                  : w("An exam has no pause: the clock runs on.");
+  const double width = std::min(ui.px(430), ui.width());
+  const double height = std::min(ui.px(208) + ui.text_height(said, width - ui.px(36)), ui.height());
   ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
   ui.title(stands ? w("Paused") : w("The exam goes on"));
-  ui.text(stands ? w("Instrument and clock stand still. The pause is noted in the result.")
-                 : w("An exam has no pause: the clock runs on."), Ink::kDim);
+  ui.text(said, Ink::kDim);
   ui.gap();
   std::optional<ScreenName> to;
   if (ui.button("continue", w("Continue"), key(Action::kPause), true, 390)) pause(desk, false);
@@ -249,10 +256,11 @@ void RunScreen::State::coach_panel(Ui& ui, PracticeDesk& desk) const {
 /// In the black corner below the round field.
 void RunScreen::State::key_hints(Ui& ui, const PracticeDesk& desk) const {
   const Words& w = desk.words();
-  const std::string lines[] = {w.name(key_name(desk.keys().key_of(Action::kPause))) + "  " + w("Pause"),
-                               w.name(key_name(desk.keys().key_of(Action::kHelp))) + "  " + w("Help")};
+  const auto key = [&](Action action) { return w.name(key_name(desk.keys().key_of(action))); };
+  std::vector<std::string> lines{key(Action::kPause) + "  " + w("Pause"), key(Action::kHelp) + "  " + w("Help")};
+  if (desk.scope() != "0") lines.insert(lines.begin(), key(Action::kPostLeft) + " " + key(Action::kPostRight) + "  " + w("Light post"));
   const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
-  double y = picture.y + picture.height - 2 * ui.line_height() - ui.px(6);
+  double y = picture.y + picture.height - static_cast<double>(lines.size()) * ui.line_height() - ui.px(6);
   double toast = picture.x + picture.width;  // its left edge: small windows have no corner beside it
   for (const HudShape& shape : layout.shapes)
     if (shape.kind == HudShape::Kind::kToast && shape.box.bottom() > y) toast = std::min(toast, shape.box.x);
@@ -272,7 +280,7 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeDesk& desk, double dt
   ui.keys_to_screen();
   s.coach.pass(dt_s);
   draw_hud(s.layout);
-  if (s.rim) {
+  if (s.rim && s.steering) {
     const double radius = std::min(0.64 * s.picture.height, 0.49 * s.picture.width), size = ui.px(26);
     const double x = s.picture.x + 0.5 * s.picture.width, y = s.picture.y + 0.5 * s.picture.height;
     const double rise = std::abs(std::sin(*s.rim));

@@ -14,8 +14,11 @@ class RunSounds {
   static void hush(Sound& sound) { sound.hold_force(0); }
 
  private:
-  bool any_ = false, contact_ = false, fault_ = false, ended_ = false;
-  int done_ = 0, errors_ = 0;
+  /// A force passes the end of its band, the port holds the instrument back, or an object was not done in its time.
+  bool warns(const Scene& scene, const RunMoment& moment, double over);
+
+  bool any_ = false, contact_ = false, fault_ = false, ended_ = false, over_ = false, held_ = false;
+  int done_ = 0, errors_ = 0, timeouts_ = 0;
 };
 
 /// How far a force is over its band, 0 at its upper end, 1 at the hard limit and above; 0 where the level shows no force during the run.

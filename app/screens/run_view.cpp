@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/graphics/scope_pose.h"
+
 namespace trocar {
 namespace {
 
 constexpr double kPortBehind = 0.09;     // m from the lens back to where the scope passes the wall
+constexpr double kSteepest = 1.5;        // rad of the shaft up or down: beyond it "level" means nothing
 constexpr double kThreadFrom = 0.004;    // m
 constexpr double kRing = 0.009, kWire = 0.0007, kThread = 0.0005;
 
@@ -21,16 +24,16 @@ SceneObject ghost(SceneObject::Shape shape, const Vec3& size_m, const Pose& X_TO
 
 }  // namespace
 
-Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move) {
-  const Vec3 away = (camera.look_at_T - camera.eye_T).normalized();
-  const Vec3 right = away.cross(camera.up_T).normalized(), up = right.cross(away);
-  const Vec3 port = camera.eye_T - kPortBehind * away;
-  const Mat3 turn = (Eigen::AngleAxisd(-move.yaw_rad, up) * Eigen::AngleAxisd(move.pitch_rad, right)).toRotationMatrix();
-  Camera moved = camera;
-  const Vec3 turned = turn * away;
-  moved.eye_T = port + (kPortBehind + move.depth_m) * turned;
-  moved.look_at_T = moved.eye_T + (camera.look_at_T - camera.eye_T).norm() * turned;
-  return moved;
+Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad) {
+  const bool rests = move.post_rad == 0 && move.yaw_rad == 0 && move.pitch_rad == 0 && move.depth_m == 0;
+  if (rests && tilt_rad == 0) return camera;
+  ScopePose pose = scope_behind(camera, tilt_rad, kPortBehind);
+  pose.yaw_rad += move.yaw_rad;
+  pose.pitch_rad = std::clamp(pose.pitch_rad + move.pitch_rad, -kSteepest, kSteepest);
+  pose.depth_m += move.depth_m;
+  pose.post_rad = move.post_rad;
+  pose.head_rad -= move.post_rad;
+  return scope_camera(pose);
 }
 
 void add_ghost(SceneView& view, const HandIntent& target) {

@@ -13,8 +13,10 @@
 
 namespace trocar {
 
-/// The camera after the scope has been turned about its port and pushed in.
-Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move);
+/// The camera after the scope has been turned about its port, pushed in, and its light post turned. The camera head is held as it was: the
+/// post turns the notch and, with a tilted tip, the line of sight on a cone about the shaft; the level tick shows what becomes of the horizon.
+/// @param camera as the exercise frames its scene, which a scope at rest shows whatever its tip. @param tilt_rad of the tip: 0 or pi / 6.
+Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad = 0);
 
 /// Ring round the shaft's axis at the target, and a thread from it to the tip; nothing while they are within kGhostFrom.
 void add_ghost(SceneView& view, const HandIntent& target);

@@ -31,6 +31,8 @@ class Screen {
   virtual void settle(PracticeDesk& /*desk*/, double /*wait_s*/) {}
   /// Esc is this screen's own (it has a button for it), and does not open the menu.
   virtual bool takes_escape() const { return false; }
+  /// A dialog of its own stands over the picture: the device panel gives way.
+  virtual bool asks() const { return false; }
   /// Every event goes to handle() before anything else looks at it: while a key is being chosen.
   virtual bool takes_all() const { return false; }
   /// What the renderer shall draw behind or within this frame, and where (px of the window); nothing: a plain ground.

@@ -44,6 +44,9 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
   if (name_choice(ui, "scale", w("Size of text"), {"100 %", "125 %", "150 %", "175 %", "200 %"}, percents, percent)) {
     desk.choose_scale(std::stod(percent) / 100);
   }
+  std::string scope = desk.scope();
+  if (name_choice(ui, "scope", w("Scope"), {w("0 degrees"), w("30 degrees")}, {"0", "30"}, scope)) desk.choose_scope(scope);
+  ui.explain(w("The light post of a 30 degree scope turns where it looks; the camera head keeps the horizon."));
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
                          {"auto", "potato", "soft", "full"}, s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);
@@ -56,7 +59,7 @@ void SettingsScreen::hand(Ui& ui, PracticeDesk& desk) {
   Settings& s = desk.settings();
   bool changed = name_choice(ui, "input", w("Steered by"), {w("What moves first"), w("Mouse"), w("Gamepad"), w("SpaceMouse"), w("Device")},
                              {"auto", "mouse", "gamepad", "spacemouse", "device"}, s.input);
-  changed |= ui.slider("sensitivity", w("Sensitivity"), s.sensitivity, 0.25, 4, "%.2f");
+  changed |= ui.slider("sensitivity", w("Sensitivity"), s.sensitivity, 0.25, 4, 2);
   changed |= ui.toggle("left", w("Left-handed"), s.left_handed);
   ui.explain(w("Mirrors wrist and panels."));
   changed |= ui.toggle("fulcrum", w("Inverted, as through a port"), s.like_a_fulcrum);
@@ -104,9 +107,9 @@ std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeDesk& desk, doub
   if (waiting_for_) ui.keys_to_screen();
   std::optional<ScreenName> to;
   const double margin = std::min(ui.px(24), 0.02 * ui.width()), gap = ui.px(12);
-  const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin, foot = ui.px(74);
+  const double wide = ui.width() - 2 * margin, high = ui.height() - 2 * margin, foot = ui.strip_height(1);
   const bool beside = wide >= ui.px(860);
-  const double left = beside ? 0.5 * (wide - gap) : wide, upper = high - foot;
+  const double left = beside ? 0.5 * (wide - gap) : wide, upper = high - foot - gap;
   ui.begin_panel("settings", {margin, margin, left, upper});
   ui.title(w("Settings"));
   general(ui, desk);
@@ -121,7 +124,7 @@ std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeDesk& desk, doub
   }
   keys(ui, desk);
   ui.end_panel();
-  ui.begin_panel("settings.foot", {margin, margin + high - foot, wide, foot});
+  ui.begin_strip("settings.foot", {margin, margin + high - foot, wide, foot});
   if (ui.button("done", w("Done"), "Enter", true)) to = ScreenName::kStart;
   ui.end_panel();
   return to;

@@ -106,7 +106,11 @@ std::vector<ThemePair> theme_pairs() {
 
 double ui_unit(double scale, double width_px, double height_px) {
   const double fits = std::min(height_px / 720, width_px / 1280);
-  return std::round(std::clamp(std::clamp(fits, 0.6, 4.0) * std::clamp(scale, 1.0, 2.0), 0.6, 4.0) * 16) / 16;
+  return std::floor(std::clamp(fits * std::clamp(scale, 1.0, 2.0), kLeastUnit, 4.0) * 16 + 1e-6) / 16;
+}
+
+bool too_small(double width_px, double height_px) {
+  return width_px < kLeastWidth * kLeastUnit || height_px < kLeastHeight * kLeastUnit;
 }
 
 }  // namespace trocar

@@ -43,7 +43,11 @@ struct ThemePair {
 };
 std::vector<ThemePair> theme_pairs();
 
-/// px that one px at 720 lines and scale 1 becomes: in steps of 1/16, 0.6 to 4, so that fonts need not be built at every size of a window.
+/// px that one px at 720 lines and scale 1 becomes: in steps of 1/16, 0.625 to 4, so that fonts need not be built at every size of a window.
 double ui_unit(double scale, double width_px, double height_px);
+
+/// Pages need so much at the least, px at 720 lines: what 1280 x 720 leaves at 200 %. Smaller windows get one sentence.
+inline constexpr double kLeastUnit = 0.625, kLeastWidth = 640, kLeastHeight = 360;
+bool too_small(double width_px, double height_px);
 
 }  // namespace trocar

@@ -29,6 +29,8 @@ std::size_t character_end(const std::string& text, std::size_t from) {
   return end;
 }
 
+constexpr double kStripAir = 9;   // px at 720 lines above and below a strip's buttons
+
 }  // namespace
 
 double UiParts::width(const std::string& text, UiFont font) { return size_of(text, font).x; }
@@ -53,7 +55,7 @@ void UiParts::note(Ui& ui, const std::string& text, double x, double y, double w
   const double top = grounded ? 0 : window->ClipRect.Min.y, bottom = grounded ? ui.height() : window->ClipRect.Max.y;
   const double seen_top = std::max(y, top), seen_bottom = std::min(y + height, bottom);
   if (seen_bottom <= seen_top) return;
-  ui.drawn_.push_back({text, x, seen_top, width, seen_bottom - seen_top, room, shortened});
+  ui.drawn_.push_back({text, x, seen_top, width, seen_bottom - seen_top, room, shortened, ui.in_front_});
 }
 
 double UiParts::draw(Ui& ui, double x, double y, const std::string& text, Ink ink, double room, UiFont font) {
@@ -80,14 +82,35 @@ void Ui::begin_panel(const char* id, const Area& area, double opacity) {
   ImGui::PushFont(font_of(UiFont::kBody));
 }
 
-void Ui::in_front() { ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow()); }
+void Ui::begin_strip(const char* id, const Area& area, double opacity) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ImGui::GetStyle().WindowPadding.x, static_cast<float>(px(kStripAir))));
+  begin_panel(id, area, opacity);
+  ImGui::PopStyleVar();
+}
+
+double Ui::strip_height(int rows) const {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const double row = UiParts::height() + 2 * style.FramePadding.y;
+  return std::ceil(2 * px(kStripAir) + rows * row + (rows - 1) * style.ItemSpacing.y) + 1;
+}
+
+void Ui::in_front() {
+  ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+  in_front_ = true;
+}
+
+void Ui::reveal() {
+  const ImRect item = GImGui->LastItemData.Rect, seen = GImGui->CurrentWindow->InnerClipRect;
+  if (item.Min.y < seen.Min.y || item.Max.y > seen.Max.y) ImGui::SetScrollHereY();
+}
 
 void Ui::end_panel() {
-  if (ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y > ImGui::GetWindowHeight() + 1)
+  if (ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + GImGui->CurrentWindow->WindowPadding.y > ImGui::GetWindowHeight() + 1)
     scrolling_.push_back(panel_);
   ImGui::PopFont();
   ImGui::End();
   panel_.clear();
+  in_front_ = false;
 }
 
 double Ui::room() const { return std::max(1.0F, ImGui::GetContentRegionAvail().x); }
@@ -101,7 +124,7 @@ double Ui::used_height() const { return ImGui::GetCursorPosY(); }
 double Ui::room_below() const { return std::max(1.0F, ImGui::GetContentRegionAvail().y); }
 
 void Ui::to_bottom(double height_at_720) {
-  const double y = ImGui::GetWindowHeight() - ImGui::GetStyle().WindowPadding.y - px(height_at_720);
+  const double y = ImGui::GetWindowHeight() - GImGui->CurrentWindow->WindowPadding.y - px(height_at_720);
   if (y > ImGui::GetCursorPosY()) ImGui::SetCursorPosY(static_cast<float>(y));
 }
 
@@ -200,7 +223,7 @@ void Ui::text_at(double x, double y, const std::string& text, Ink ink, double ro
     const ImFont* f = font_of(font);
     ImGui::GetBackgroundDrawList()->AddText(f, f->FontSize, at(left, y), packed(ink_colour(ink)), shown.data(),
                                              shown.data() + shown.size());
-    drawn_.push_back({text, left, y, UiParts::width(shown, font), UiParts::height(font), room > 0 ? room : w, shown != text});
+    drawn_.push_back({text, left, y, UiParts::width(shown, font), UiParts::height(font), room > 0 ? room : w, shown != text, false});
     return;
   }
   UiParts::draw(*this, left, y, text, ink, room > 0 ? room : w + 1, font);
@@ -208,6 +231,9 @@ void Ui::text_at(double x, double y, const std::string& text, Ink ink, double ro
 
 double Ui::text_width(const std::string& text, bool heading) const {
   return UiParts::width(text, heading ? UiFont::kHeading : UiFont::kBody);
+}
+double Ui::text_height(const std::string& text, double room, bool heading) const {
+  return size_of(text, heading ? UiFont::kHeading : UiFont::kBody, static_cast<float>(std::max(1.0, room))).y;
 }
 double Ui::line_height() const { return UiParts::height(); }
 

@@ -23,6 +23,7 @@ struct DrawnText {
   double x = 0, y = 0, width = 0, height = 0;   ///< px needed
   double room = 0;                              ///< px that there were; narrower than width: clipped
   bool shortened = false;                       ///< ends with an ellipsis, the whole is shown on hover
+  bool in_front = false;                        ///< of a panel that lies over all others
 };
 
 struct Area {
@@ -43,7 +44,12 @@ class Ui {
   /// The open panel lies over all that others have drawn: menus, notices.
   void in_front();
   void end_panel();
+  /// A panel for buttons along an edge: less air above and below. @return px of one that holds `rows` of buttons.
+  void begin_strip(const char* id, const Area& area, double opacity = 0.92);
+  double strip_height(int rows) const;
   double room() const;                          ///< px to the panel's right edge
+  /// The last item is scrolled to where it is seen.
+  void reveal();
   /// Page keys move what does not fit into the open panel up and down, also while the keys are the screen's.
   void scroll_by_keys();
 
@@ -64,7 +70,7 @@ class Ui {
   bool button(const char* id, const std::string& text, const std::string& key = "", bool strong = false, double width_at_720 = 0);
   bool toggle(const char* id, const std::string& text, bool& value);
   bool choice(const char* id, const std::string& text, const std::vector<std::string>& options, int& chosen);
-  bool slider(const char* id, const std::string& text, double& value, double low, double high, const std::string& format);
+  bool slider(const char* id, const std::string& text, double& value, double low, double high, int decimals);
   bool field(const char* id, const std::string& text, std::string& value, bool secret = false);
   bool selectable(const char* id, Mark mark, const std::string& text, bool selected, const std::string& right = "");
   /// Table: `shares` of the width, 0..1. @return index of a clicked row, -1 none.
@@ -85,6 +91,7 @@ class Ui {
   /// @param anchor 0 from, 0.5 round, 1 up to x.
   void text_at(double x, double y, const std::string& text, Ink ink = Ink::kText, double room = 0, double anchor = 0, bool heading = false);
   double text_width(const std::string& text, bool heading = false) const;
+  double text_height(const std::string& text, double room, bool heading = false) const;   ///< px, wrapped
   double line_height() const;
   /// Shapes, px of the window; colours of the theme's shapes; within the panel that is open, or on the ground.
   void paint_box(const Area& area, Ink shape, double opacity = 1, double corner = 0);
@@ -120,6 +127,7 @@ class Ui {
   std::vector<DrawnText> drawn_;
   std::vector<std::string> scrolling_;
   std::string panel_;
+  bool in_front_ = false;
 };
 
 }  // namespace trocar

@@ -1,6 +1,6 @@
 // Pieces that a person chooses with: buttons, switches, lists, sliders, fields.
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -136,14 +136,16 @@ bool Ui::choice(const char* id, const std::string& text, const std::vector<std::
   return chosen != before;
 }
 
-bool Ui::slider(const char* id, const std::string& text, double& value, double low, double high, const std::string& format) {
+bool Ui::slider(const char* id, const std::string& text, double& value, double low, double high, int decimals) {
   const double there = labelled(*this, text);
   ImGui::SetNextItemWidth(static_cast<float>(there));
-  const bool changed = ImGui::SliderScalar(UiParts::hidden(id).c_str(), ImGuiDataType_Double, &value, &low, &high, format.c_str(),
+  const std::string before = words_.number(value, decimals);   // in place of a format: ImGui knows no decimal sign but the point
+  const bool changed = ImGui::SliderScalar(UiParts::hidden(id).c_str(), ImGuiDataType_Double, &value, &low, &high, before.c_str(),
                                            ImGuiSliderFlags_AlwaysClamp);
   UiParts::in_order();
-  char shown[64];
-  std::snprintf(shown, sizeof shown, format.c_str(), value);
+  const double step = std::pow(10.0, -decimals);
+  if (changed) value = std::clamp(std::round(value / step) * step, low, high);
+  const std::string shown = words_.number(value, decimals);
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   const double w = UiParts::width(shown);
   UiParts::note(*this, shown, (from.x + to.x - w) / 2, from.y + ImGui::GetStyle().FramePadding.y, w, UiParts::height(), there);

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <array>
 #include <cstdlib>
 #include <utility>
 
@@ -45,8 +46,11 @@ void start_library() {
 }
 
 GLFWwindow* open_window(const WindowOptions& options) {
-  for (const auto& [major, minor] : {std::pair{4, 1}, std::pair{3, 3}}) {
+  // A context that tells of a reset where the driver has one; without where it has none.
+  for (const auto& [major, minor, robustness] : {std::array{4, 1, GLFW_LOSE_CONTEXT_ON_RESET}, std::array{4, 1, GLFW_NO_ROBUSTNESS},
+                                                 std::array{3, 3, GLFW_LOSE_CONTEXT_ON_RESET}, std::array{3, 3, GLFW_NO_ROBUSTNESS}}) {
     glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, robustness);
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
@@ -69,10 +73,21 @@ std::string gl_text(unsigned name) {
   return text ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
+using ResetStatus = unsigned (*)();
+
+/// What tells of a lost context; nullptr: this one cannot be lost, or does not say so.
+ResetStatus reset_status(GLFWwindow* window) {
+  if (glfwGetWindowAttrib(window, GLFW_CONTEXT_ROBUSTNESS) != GLFW_LOSE_CONTEXT_ON_RESET) return nullptr;
+  const char* name = glfwExtensionSupported("GL_KHR_robustness") ? "glGetGraphicsResetStatus"
+                     : glfwExtensionSupported("GL_ARB_robustness") ? "glGetGraphicsResetStatusARB" : nullptr;
+  return name ? reinterpret_cast<ResetStatus>(glfwGetProcAddress(name)) : nullptr;
+}
+
 }  // namespace
 
 struct Window::State {
   GLFWwindow* window = nullptr;
+  ResetStatus reset_status = nullptr;
   ContextInfo info;
   WindowEvents events;
   Puck puck;
@@ -94,6 +109,7 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
   glfwSetWindowSizeLimits(state_->window, 200, 100, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(state_->window);
   glfwSwapInterval(1);
+  state_->reset_status = reset_status(state_->window);
   state_->info = {"window", gl_text(kGlRenderer), gl_text(kGlVersion), false};
   for (const char* software : {"llvmpipe", "softpipe", "swrast"})
     if (state_->info.renderer.find(software) != std::string::npos) state_->info.software = true;
@@ -135,6 +151,7 @@ int Window::height() const {
   return height;
 }
 
+bool Window::lost() const { return state_->reset_status != nullptr && state_->reset_status() != 0; }
 void Window::present() { glfwSwapBuffers(state_->window); }
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
 

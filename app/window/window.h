@@ -33,6 +33,8 @@ class Window final : public GraphicsContext {
   bool close_asked() const;
   int width() const;                  ///< px of the framebuffer
   int height() const;
+  /// The driver was reset and everything in the context is gone: make another window.
+  bool lost() const;
   void present();                     ///< swaps buffers, waits for the screen when it gives a beat
   void set_title(const std::string& title);
   void set_fullscreen(bool fullscreen);

@@ -34,6 +34,15 @@ std::string text_of(const std::string& file, const toml::node& node, const std::
   return *value;
 }
 
+std::set<int> counts_of(const std::string& file, const toml::node& node) {
+  std::set<int> out;
+  const toml::array* all = node.as_array();
+  for (std::size_t i = 0; all && i < all->size(); ++i)
+    if (const auto count = (*all)[i].value_exact<std::int64_t>(); count && *count >= 0 && *count < 1000) out.insert(static_cast<int>(*count));
+  if (!all || out.empty() || out.size() != all->size()) throw error_at(file, node, "'singular' must be a list of counts, such as [0, 1]");
+  return out;
+}
+
 /// One digit in braces at `at`, or none.
 std::optional<int> place_at(std::string_view text, std::size_t at) {
   if (at + 2 >= text.size() || text[at] != '{' || text[at + 2] != '}') return std::nullopt;
@@ -131,8 +140,10 @@ Words::Words(const std::filesystem::path& folder, const std::string& language) :
       text_of(file, node, key);
     } else if (key == "decimal") {
       decimal_ = text_of(file, node, key);
+    } else if (key == "singular") {
+      singular_ = counts_of(file, node);
     } else if (key != "words" || !node.is_table()) {
-      throw error_at(file, node, "'" + key + "' is not known; a catalogue has name, decimal and the table [words]");
+      throw error_at(file, node, "'" + key + "' is not known; a catalogue has name, decimal, singular and the table [words]");
     }
   }
   if (!root["words"].is_table()) throw InputError(file, 1, 1, "the table [words] is missing");
@@ -188,6 +199,10 @@ std::string Words::made(std::string_view english) const {
   if (auto sentence = found(english, 0)) return *sentence;
   note_missing(english);
   return std::string(english);
+}
+
+std::string Words::made_number(std::string_view english) const {
+  return numeric(english) ? with_decimals(std::string(english), decimal_) : std::string(english);
 }
 
 std::string Words::number(double value, int decimals) const {

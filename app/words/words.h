@@ -3,7 +3,7 @@
 // assets/languages/fr.toml and de.toml give for each English sentence its translation; English needs no file. A sentence
 // that has none comes back in English and is listed by missing(). Places for values are {0}, {1}, ...
 //
-// A catalogue: name = "Français", decimal = ",", and a table [words] of "English" = "translation". A translation has the
+// A catalogue: name = "Français", decimal = ",", singular = [0, 1] (counts that take the singular; [1] when left out), and a table [words] of "English" = "translation". A translation has the
 // places of its key, each once; what else stands in the file is refused. Plain value, any thread (missing() aside).
 #pragma once
 
@@ -33,6 +33,10 @@ class Words {
   /// fills ("Reach {0} and hold."), the one with most words first. Values are translated likewise ("{0} to {1} N"), and
   /// numbers take the decimal sign. A form that says little by itself is for numbers only.
   std::string made(std::string_view english) const;
+  /// Does this count take the singular? words(words.one(n) ? "{0} attempt" : "{0} attempts", {...}).
+  bool one(int count) const { return singular_.contains(count); }
+  /// A number that was written with a point, with the decimal sign of the language; what is none comes back.
+  std::string made_number(std::string_view english) const;
   /// A number with the decimal sign of the language: "0,48".
   std::string number(double value, int decimals) const;
 
@@ -49,6 +53,7 @@ class Words {
   std::optional<std::string> found(std::string_view english, int depth) const;
 
   std::string language_ = "en", decimal_ = ".";
+  std::set<int> singular_ = {1};
   std::vector<std::string> forms_;  ///< keys with places, most text first
   std::map<std::string, std::string, std::less<>> translations_;
   mutable std::set<std::string> missing_;

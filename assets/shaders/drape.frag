@@ -19,10 +19,10 @@ void main() {
   vec4 broad = textureLod(u_noise, rest_mm * 0.012 + 0.2, 0.0);
   vec4 fine = textureLod(u_noise, rest_mm * 0.13, 0.0);
   float footprint = length(fwidth(rest_mm.xy));
-  float fade = 1.0 - smoothstep(0.25, 0.9, footprint);
+  float fade = 1.0 - smoothstep(0.20, 0.60, footprint);
   vec2 thread = sin(rest_mm.xy * 4.2);
   vec3 base = mix(vec3(0.030, 0.092, 0.105), vec3(0.045, 0.128, 0.140), smoothstep(0.3, 0.7, broad.w));
-  base *= 0.90 + 0.20 * fine.w + 0.16 * fade * thread.x * thread.y;
+  base *= 0.90 + 0.20 * fine.w + 0.08 * fade * thread.x * thread.y;
   vec3 n = normalize(v_normal + 0.10 * (fine.xyz * 2.0 - 1.0) + 0.16 * (broad.xyz * 2.0 - 1.0));
   vec3 to_lamp = lamp.xyz - v_position;
   float n_l = dot(n, normalize(to_lamp));

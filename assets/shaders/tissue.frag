@@ -17,22 +17,24 @@ layout(std140) uniform Marks {
 };
 #endif
 
-// Distance from the line where smooth noise passes its middle, in about millimetres times the frequency; .y: how clear it is.
+// Distance from the line where smooth noise passes its middle, in about millimetres times the frequency; .y: how clear it is. Only the
+// slope along the surface counts: where the noise changes into the depth alone, the line would spread to a patch.
 vec2 vein(vec3 at, float level) {
   vec4 q = textureLod(u_noise, at, level);
-  float slope = length(q.xyz * 2.0 - 1.0);
-  return vec2(abs(q.w - 0.5) / max(slope, 0.14), smoothstep(0.07, 0.18, slope));
+  vec3 g = q.xyz * 2.0 - 1.0, n = normalize(v_normal);
+  float slope = length(g - n * dot(g, n));
+  return vec2(abs(q.w - 0.5) / max(slope, 0.08), smoothstep(0.06, 0.16, slope));
 }
 
 // Vessels in two scales: trunks that thin out where a broad noise fades, and twigs near them. x: trunks, y: twigs.
 vec2 vessels(vec3 rest_mm, float f, vec4 bend, float where) {
   vec2 trunk = vein(rest_mm * f + 0.045 * bend.xyz, 2.0);
-  float width = 0.026 * smoothstep(0.34, 0.62, where);
+  float width = 0.029 * smoothstep(0.34, 0.62, where);
   float t = (1.0 - smoothstep(0.35 * width, width + 0.004, trunk.x)) * trunk.y * step(0.004, width);
 #if defined(PRESET_FULL)
   vec2 twig = vein(rest_mm * (2.9 * f) + 0.11 * bend.yzx + 0.37, 1.0);
   float near = 1.0 - smoothstep(0.10, 0.55, trunk.x);
-  float w2 = 0.032 * near * smoothstep(0.30, 0.55, where);
+  float w2 = 0.048 * near * smoothstep(0.30, 0.55, where);
   float u = (1.0 - smoothstep(0.2 * w2, w2 + 0.004, twig.x)) * twig.y * step(0.006, w2);
   return vec2(t, 0.75 * u);
 #else

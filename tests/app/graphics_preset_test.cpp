@@ -39,6 +39,26 @@ TEST(ChoosePreset, NeverTriesRicherThanItMayAndStopsAtTheFirstThatFits) {
   EXPECT_EQ(tried, (std::vector<Preset>{Preset::kFull, Preset::kSoft}));  // the last one is not worth timing
 }
 
+TEST(PresetWatch, StepsDownAfterTwentySlowPicturesInARow) {
+  PresetWatch watch;
+  for (int i = 1; i < PresetWatch::kInARow; ++i) ASSERT_FALSE(watch.picture(0.15, Preset::kFull)) << i;
+  EXPECT_EQ(watch.picture(0.15, Preset::kFull), Preset::kSoft);
+  for (int i = 1; i < PresetWatch::kInARow; ++i) ASSERT_FALSE(watch.picture(0.15, Preset::kSoft)) << "it counts anew: " << i;
+  EXPECT_EQ(watch.picture(0.15, Preset::kSoft), Preset::kPotato);
+}
+
+TEST(PresetWatch, AQuickPictureInBetweenAndAStandstillKeepThePreset) {
+  PresetWatch watch;
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(watch.picture(i % 19 == 0 ? 0.05 : 0.15, Preset::kSoft)) << i;
+  PresetWatch slept;
+  for (int i = 0; i < 100; ++i) ASSERT_FALSE(slept.picture(3, Preset::kSoft)) << "a hidden window";
+}
+
+TEST(PresetWatch, BelowPotatoThereIsNothing) {
+  PresetWatch watch;
+  for (int i = 0; i < 100; ++i) ASSERT_FALSE(watch.picture(0.5, Preset::kPotato));
+}
+
 TEST(PresetNames, GoBothWays) {
   for (const Preset preset : {Preset::kPotato, Preset::kSoft, Preset::kFull}) EXPECT_EQ(preset_named(preset_name(preset)), preset);
   EXPECT_FALSE(preset_named("ultra"));

@@ -110,5 +110,30 @@ TEST(PictureCosts, WhereNothingCanBeDrawnItIsSaidAndNothingIsPrinted) {
   EXPECT_EQ(out.str(), "");
 }
 
+TEST_F(PictureCommand, TheLightPostOfAThirtyDegreeScopeTurnsTheView) {
+  options_.scene = "board";
+  options_.width = 320;
+  options_.height = 240;
+  const auto bytes = [this] {
+    run();
+    std::ifstream in(options_.output, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  const std::string straight = bytes();
+  options_.scope = "30";
+  options_.post_deg = 60;
+  EXPECT_NE(bytes(), straight);
+  options_.scope = "45";
+  EXPECT_THROW(run(), InputError);
+  options_.scope = "30";
+  options_.post_deg = 900;
+  EXPECT_THROW(run(), InputError);
+  options_.post_deg = 10;
+  options_.scene = "marks";
+  options_.width = 640;
+  options_.height = 360;
+  EXPECT_THROW(run(), InputError);
+}
+
 }  // namespace
 }  // namespace trocar

@@ -39,6 +39,7 @@ TEST_F(SettingsFile, WhatIsSavedIsReadAgain) {
   chosen.sensitivity = 0.75;
   chosen.sound = false;
   chosen.preset = "soft";
+  chosen.scope = "30";
   chosen.input = "gamepad";
   chosen.keys = {{"coagulate", "F"}, {"say \"no\"", "Page up"}};
   save_settings(file_, chosen);
@@ -49,6 +50,7 @@ TEST_F(SettingsFile, WhatIsSavedIsReadAgain) {
   EXPECT_TRUE(read.left_handed && read.like_a_fulcrum && !read.sound);
   EXPECT_EQ(read.sensitivity, 0.75);
   EXPECT_EQ(read.preset, "soft");
+  EXPECT_EQ(read.scope, "30");
   EXPECT_EQ(read.input, "gamepad");
   EXPECT_EQ(read.keys, chosen.keys);
 }
@@ -67,7 +69,7 @@ TEST_F(SettingsFile, ADamagedFileIsLeftAloneAndNamedWithItsPlace) {
   EXPECT_EQ(read.scale, 1);
   EXPECT_NE(read.note.find(file_.string() + ":2:"), std::string::npos) << read.note;
   EXPECT_EQ(bytes(file_), text);
-  for (const char* bad : {"scale = ", "presett = \"soft\"\n", "preset = \"best\"\n", "[keys]\npause = 3\n", "sound = 1\n"}) {
+  for (const char* bad : {"scale = ", "presett = \"soft\"\n", "preset = \"best\"\n", "[keys]\npause = 3\n", "sound = 1\n", "scope = \"45\"\n"}) {
     EXPECT_NE(load_settings(write(bad)).note, "") << bad;
   }
 }

@@ -1,5 +1,6 @@
 // The run screen as a person meets it: steering, pause, start again, the end. Frames are drawn in memory; the attempt runs live, so
 // tests wait for what must come and never for a time.
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -127,6 +128,54 @@ TEST_F(RunScreenBench, TheEndGivesItsResultToTheDesk) {
 TEST_F(RunScreenBench, ALostContextOfAttemptsLeadsAway) {
   loop_->go(ScreenName::kRun);
   EXPECT_TRUE(frame()) << "no attempt runs: nothing to show, nothing breaks";
+}
+
+TEST_F(RunScreenBench, TheLightPostTurnsAThirtyDegreeViewAndTheDialFollowsThePicture) {
+  DeskOptions thirty = bench_.options();
+  thirty.exercise = "reach-and-orient";
+  thirty.scope = "30";
+  open(thirty);
+  begin();
+  ASSERT_TRUE(ready());
+  const auto seen = [this] { return const_cast<Screen*>(loop_->screen())->stage(*desk_, width_, height_)->view; };
+  const Camera before = seen().camera;
+  EXPECT_TRUE(before.level_rad);
+  frame({key('D')});
+  for (int i = 0; i < 15; ++i) frame();
+  frame({key('D', InputEvent::Kind::kKeyUp)});
+  const SceneView turned = seen();
+  EXPECT_GT(turned.camera.notch_rad, 0.4);
+  EXPECT_GT((turned.camera.look_at_T - before.look_at_T).norm(), 0.01);
+  if (turned.hud.dial) {
+    const Vec3 offset = turned.hud.dial->offset_C;
+    EXPECT_NEAR(offset.norm(), turned.hud.dial->position_error_m, 1e-9);
+  }
+  tap('H');
+  for (int i = 0; i < 30; ++i) frame();
+  EXPECT_NEAR(seen().camera.notch_rad, 0, 1e-9) << "as at the start";
+  EXPECT_NEAR((seen().camera.look_at_T - before.look_at_T).norm(), 0, 1e-9);
+}
+
+TEST_F(RunScreenBench, ALostContextPausesTheAttemptAndANewOneShowsItAgain) {
+  begin();
+  ASSERT_TRUE(ready());
+  frame();
+  AttemptRunner* const attempt = desk_->running();
+  const Vec3 before = tip();
+  loop_->lose_pictures();
+  context_ = std::make_unique<HeadlessContext>();
+  EXPECT_TRUE(frame({key('Q')})) << "nothing to draw on, nothing breaks";
+  loop_->take_up(*context_);
+  frame();
+  frame();
+  EXPECT_EQ(desk_->running(), attempt) << "the same attempt";
+  EXPECT_TRUE(attempt->paused());
+  EXPECT_TRUE(sees("Paused"));
+  EXPECT_NEAR((tip() - before).norm(), 0, 0.002);
+  const Image image = loop_->picture();
+  EXPECT_GT(std::count_if(image.rgb.begin(), image.rgb.end(), [](std::uint8_t v) { return v > 60; }), image.width * image.height / 20);
+  tap('P');
+  EXPECT_FALSE(attempt->paused()) << "and on it goes";
 }
 
 TEST_F(RunScreenBench, LatencyIsMeasuredOnTheWholePath) {

@@ -5,12 +5,16 @@
 
 #include <vector>
 
+#include "app/screens/sound_page.h"
+#include "tests/app/screens/desk_bench.h"
+#include "tests/app/screens/ui_bench.h"
+
 namespace trocar {
 namespace {
 
 struct Heard {
   std::vector<Tone> tones;
-  double force = -1;
+  double force = -1, cautery = -1;
 };
 Heard heard;
 
@@ -21,7 +25,7 @@ Sound::Sound(bool /*wanted*/) {}
 Sound::~Sound() = default;
 void Sound::play(Tone tone) { heard.tones.push_back(tone); }
 void Sound::hold_force(double level) { heard.force = level; }
-void Sound::hold_cautery(double /*level*/) {}
+void Sound::hold_cautery(double level) { heard.cautery = level; }
 bool Sound::audible() const { return true; }
 const std::string& Sound::refusal() const {
   static const std::string none;
@@ -107,6 +111,48 @@ TEST_F(RunSoundsTest, EndAndTimeOutSoundAlikeAndAFaultIsNoEnd) {
   EXPECT_EQ(hear(), Tones{});
 }
 
+TEST_F(RunSoundsTest, AForceThatPassesItsBandWarnsOnceAndAgainOnlyAfterItWasBack) {
+  hear();
+  press(0.8);
+  EXPECT_EQ(hear(), Tones{}) << "at the end of the band all is well";
+  press(0.81);
+  EXPECT_EQ(hear(), Tones{Tone::kWarning});
+  for (const double n : {1.2, 0.79, 0.82, 0.75, 0.9}) {
+    press(n);
+    EXPECT_EQ(hear(), Tones{}) << n << " N: it plays about the band's end";
+  }
+  press(0.6);
+  EXPECT_EQ(hear(), Tones{});
+  press(0.81);
+  EXPECT_EQ(hear(), Tones{Tone::kWarning});
+}
+
+TEST_F(RunSoundsTest, NothingWarnsOfAForceThatTheLevelKeepsToItself) {
+  scene_.level.force_display = "after";
+  hear();
+  press(1.4);
+  EXPECT_EQ(hear(), Tones{});
+}
+
+TEST_F(RunSoundsTest, ThePortThatHoldsAndATimeThatRanOutWarnOnceEach) {
+  hear();
+  moment_.record.stylus.port_held = true;
+  EXPECT_EQ(hear(), Tones{Tone::kWarning});
+  EXPECT_EQ(hear(), Tones{});
+  moment_.record.stylus.port_held = false;
+  EXPECT_EQ(hear(), Tones{});
+  moment_.status.timeouts = 1;
+  EXPECT_EQ(hear(), Tones{Tone::kWarning});
+  EXPECT_EQ(hear(), Tones{});
+}
+
+TEST_F(RunSoundsTest, AnErrorInTheSameMomentTakesTheWarningsPlace) {
+  hear();
+  press(2);
+  moment_.status.excess_forces = 1;
+  EXPECT_EQ(hear(), Tones{Tone::kTooMuch}) << "one sound for one thing";
+}
+
 TEST_F(RunSoundsTest, HumRisesFromTheBandToTheLimit) {
   using Pair = std::pair<double, double>;
   for (const auto& [force, tone] : {Pair{0, 0}, Pair{0.8, 0}, Pair{1.15, 0.5}, Pair{1.5, 1}, Pair{9, 1}}) {
@@ -150,6 +196,58 @@ TEST_F(RunSoundsTest, WithoutABandOrWithALimitBelowItNothingHums) {
   EXPECT_EQ(force_tone(scene_, moment_), 0);
   moment_.status.demand.band = {1, 1.5};
   EXPECT_EQ(force_tone(scene_, moment_), 0) << "no division by the width of nothing";
+}
+
+/// The help's page of sounds, worked by keys.
+class SoundPageTest : public testing_support::UiBench {
+ protected:
+  void SetUp() override {
+    UiBench::SetUp();
+    heard = {};
+    desk_ = bench_.desk();
+  }
+  void page(const std::vector<InputEvent>& events = {}, bool up = true) {
+    frame([&](Ui& ui) {
+      ui.begin_panel("help", {0, 0, 1280, 720});
+      if (up) page_.frame(ui, *desk_);
+      ui.end_panel();
+      page_.pass(desk_->sound(), up, 0.1);
+    }, events);
+  }
+  void choose(int nth) {
+    page();
+    for (int i = 0; i < nth; ++i) page(testing_support::press(kKeyTab));
+    page(testing_support::press(kKeyEnter));
+    page();
+  }
+  testing_support::DeskBench bench_;
+  std::unique_ptr<PracticeDesk> desk_;
+  SoundPage page_;
+};
+
+TEST_F(SoundPageTest, EverySoundIsListedAndTheChosenOneIsHeard) {
+  choose(5);
+  EXPECT_EQ(heard.tones, Tones{Tone::kWarning});
+  for (const char* said : {"Short high note", "Low double buzz", "Two equal notes", "Hum that rises", "Buzz"}) EXPECT_TRUE(text(said)) << said;
+}
+
+TEST_F(SoundPageTest, AToneThatLastsComesToItsEnd) {
+  choose(9);
+  EXPECT_GT(heard.cautery, 0.5);
+  for (int i = 0; i < 20; ++i) page();
+  EXPECT_EQ(heard.cautery, 0);
+}
+
+TEST_F(SoundPageTest, LeavingThePageSilencesIt) {
+  choose(8);
+  EXPECT_GT(heard.force, 0.5);
+  page({}, false);
+  EXPECT_EQ(heard.force, 0);
+  heard.force = -1;
+  for (int i = 0; i < 20; ++i) page({}, false);
+  heard.force = -1;
+  page({}, false);
+  EXPECT_EQ(heard.force, -1) << "and leaves the run's own hum alone";
 }
 
 }  // namespace

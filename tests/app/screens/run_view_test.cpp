@@ -51,6 +51,51 @@ TEST(MovedCamera, TheScopeTurnsAboutItsPort) {
   EXPECT_NEAR((moved.eye_T - port).norm(), 0.09, 1e-12);
 }
 
+constexpr double kThirty = std::numbers::pi / 6;
+
+Vec3 sight(const Camera& of) { return (of.look_at_T - of.eye_T).normalized(); }
+
+TEST(MovedCamera, AThirtyDegreeScopeAtRestShowsTheSamePictureWithItsLevelTick) {
+  const Camera tilted = moved_camera(camera(), {}, kThirty);
+  EXPECT_NEAR((tilted.eye_T - camera().eye_T).norm(), 0, 1e-12);
+  EXPECT_NEAR((tilted.look_at_T - camera().look_at_T).norm(), 0, 1e-12);
+  EXPECT_NEAR(tilted.notch_rad, 0, 1e-12);
+  ASSERT_TRUE(tilted.level_rad);
+  EXPECT_NEAR(*tilted.level_rad, 0, 1e-12);
+  EXPECT_FALSE(moved_camera(camera(), {}).level_rad) << "a straight scope at rest needs none";
+}
+
+TEST(MovedCamera, TheLightPostTurnsTheNotchAndOfAStraightScopeNothingElse) {
+  Steering::ScopeMove post;
+  post.post_rad = 0.7;
+  const Camera turned = moved_camera(camera(), post);
+  EXPECT_NEAR(turned.notch_rad, 0.7, 1e-12);
+  EXPECT_NEAR((pixel(turned, {0.02, 0.01, 0}) - pixel(camera(), {0.02, 0.01, 0})).norm(), 0, 1e-6) << "the picture stays";
+}
+
+TEST(MovedCamera, TheLightPostTurnsAThirtyDegreeViewOnAConeAboutItsShaft) {
+  Steering::ScopeMove post;
+  post.post_rad = std::numbers::pi / 2;
+  const Camera rest = moved_camera(camera(), {}, kThirty), turned = moved_camera(camera(), post, kThirty);
+  EXPECT_NEAR((turned.eye_T - rest.eye_T).norm(), 0, 1e-12) << "the lens stays where it is";
+  // Two rays of a cone of 30 degrees a quarter turn apart: cos = cos^2(30).
+  EXPECT_NEAR(sight(rest).dot(sight(turned)), 0.75, 1e-12);
+  EXPECT_LT(sight(turned).x(), -0.4) << "the post to the right looks to the left of the shaft";
+  EXPECT_NEAR(turned.notch_rad, post.post_rad, 1e-12);
+  EXPECT_LT(std::abs(*turned.level_rad), 0.2) << "the camera head is held: the horizon hardly tips";
+  EXPECT_GT(std::abs(*turned.level_rad), 0.01) << "and the tick says by how much";
+  post.post_rad = std::numbers::pi;
+  EXPECT_NEAR(sight(rest).dot(sight(moved_camera(camera(), post, kThirty))), 0.5, 1e-12);
+}
+
+TEST(MovedCamera, NoPushOnAThirtyDegreeScopeTurnsItOverItsPort) {
+  Steering::ScopeMove steep;
+  steep.pitch_rad = -3;
+  const Camera down = moved_camera(camera(), steep, 0);
+  EXPECT_LT(sight(down).z(), -0.99);
+  EXPECT_TRUE(down.level_rad) << "up can still be told";
+}
+
 TEST(Ghost, ShowsWhatTheSpringIsDrawnOutAndNothingAtRest) {
   SceneView view;
   HandIntent target;

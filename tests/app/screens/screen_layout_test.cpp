@@ -59,6 +59,11 @@ TEST_P(ScreenLayout, NothingIsCutAndNothingCollides) {
     tap(key);
     frame();
     look_at(name);
+    if (key == kKeyF1) {
+      tap(kKeyF4);
+      frame();
+      look_at("help, sounds");
+    }
     tap(key);
   }
 }

@@ -93,7 +93,7 @@ TEST_F(UiItemsTest, AListWithoutAChoiceShowsNothing) {
 
 TEST_F(UiItemsTest, ASliderGoesWhereItIsClickedAndNoFurther) {
   double value = 1;
-  const Draw draw = panel([&](Ui& ui) { ui.slider("s", "Sensitivity", value, 0.25, 4, "%.2f"); });
+  const Draw draw = panel([&](Ui& ui) { ui.slider("s", "Sensitivity", value, 0.25, 4, 2); });
   frame(draw);
   ASSERT_TRUE(text("1.00"));
   const double y = text("1.00")->y + 5;
