@@ -24,7 +24,8 @@ constexpr std::string_view kBetween = " · ";
 /// "a · b · c", then "a · b", then "a".
 std::vector<std::string> shorter(const std::string& text) {
   std::vector<std::string> out{text};
-  for (std::size_t end = text.rfind(kBetween); end != std::string::npos && end > 0; end = text.rfind(kBetween, end - 1)) out.push_back(text.substr(0, end));
+  for (std::size_t end = text.rfind(kBetween); end != std::string::npos && end > 0; end = text.rfind(kBetween, end - 1))
+    out.push_back(text.substr(0, end));
   return out;
 }
 

@@ -43,9 +43,15 @@ double linear(std::uint8_t channel) {
 }
 
 Linear oklab(const Linear& rgb) {
-  Linear lms = applied({{{0.4122214708, 0.5363325363, 0.0514459929}, {0.2119034982, 0.6806995451, 0.1073969566}, {0.0883024619, 0.2817188376, 0.6299787005}}}, rgb);
+  constexpr Matrix kCones{{{0.4122214708, 0.5363325363, 0.0514459929},
+                          {0.2119034982, 0.6806995451, 0.1073969566},
+                          {0.0883024619, 0.2817188376, 0.6299787005}}};
+  constexpr Matrix kLab{{{0.2104542553, 0.7936177850, -0.0040720468},
+                          {1.9779984951, -2.4285922050, 0.4505937099},
+                          {0.0259040371, 0.7827717662, -0.8086757660}}};
+  Linear lms = applied(kCones, rgb);
   for (double& one : lms) one = std::cbrt(one);
-  return applied({{{0.2104542553, 0.7936177850, -0.0040720468}, {1.9779984951, -2.4285922050, 0.4505937099}, {0.0259040371, 0.7827717662, -0.8086757660}}}, lms);
+  return applied(kLab, lms);
 }
 
 Linear seen(const Vision& vision, const Rgb& c) {
@@ -70,7 +76,8 @@ void expect_apart(const std::vector<State>& states) {
   for (const Vision& vision : kVisions)
     for (std::size_t i = 0; i < states.size(); ++i)
       for (std::size_t j = i + 1; j < states.size(); ++j)
-        EXPECT_GE(distance(vision, states[i].colour, states[j].colour), kApart) << vision.name << ": " << states[i].name << " and " << states[j].name;
+        EXPECT_GE(distance(vision, states[i].colour, states[j].colour), kApart)
+            << vision.name << ": " << states[i].name << " and " << states[j].name;
 }
 
 TEST(ColourVision, ModelKeepsGreysAndConfusesWhatItMust) {
