@@ -10,8 +10,10 @@ namespace trocar {
 /// Measures of one frame, px.
 struct HudFrame {
   HudFrame(const Hud& hud, int w, int h, double text_scale);
-  /// Length given for 720 lines, at this height and text scale.
+  /// Length given for 720 lines, at this size of window and text.
   int px(double at_720) const;
+  int title_size() const;
+  int clock_size() const;
 
   int width, height, body = 18;  ///< body: size of ordinary text
   double scale = 1, top = 0, bottom = 0, column_width = 0;

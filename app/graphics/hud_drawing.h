@@ -14,8 +14,9 @@ namespace trocar {
 
 namespace hud_colour {
 inline constexpr Colour kSkyBlue{86, 180, 233}, kBluishGreen{0, 158, 115}, kOrange{230, 159, 0}, kVermillion{225, 104, 20}, kBlue{0, 114, 178};
+inline constexpr Colour kBelow{60, 140, 215};   // darker than sky blue, which tritanopes take for the green of the band
 inline constexpr Colour kWhite{240, 242, 245}, kGrey{178, 184, 192}, kDarkPanel{12, 14, 17}, kTrack{38, 43, 50}, kToast{10, 12, 15, 0.90};
-inline constexpr Colour kGood{40, 200, 150}, kAlarm{255, 132, 60}, kYellow{240, 200, 20}, kForbidden{120, 52, 10, 0.55};
+inline constexpr Colour kGood{40, 200, 150}, kCaution{240, 180, 41}, kAlarm{255, 130, 95}, kYellow{240, 200, 20}, kForbidden{120, 52, 10, 0.55};
 inline constexpr Colour faded(Colour colour, double alpha) { return {colour.r, colour.g, colour.b, alpha}; }
 
 inline constexpr Colour of(HudInk ink) {
@@ -24,7 +25,7 @@ inline constexpr Colour of(HudInk ink) {
     case HudInk::kDim: return kGrey;
     case HudInk::kHeading: return kSkyBlue;
     case HudInk::kGood: return kGood;
-    case HudInk::kCaution: return kOrange;
+    case HudInk::kCaution: return kCaution;
     case HudInk::kAlarm: return kAlarm;
   }
   return kWhite;
@@ -36,9 +37,9 @@ inline constexpr Colour of(HudBar::Level level) {
     case HudBar::Level::kOverLimit: return kVermillion;
     case HudBar::Level::kAbove: return kOrange;
     case HudBar::Level::kInBand: return kGood;
-    case HudBar::Level::kBelow: return kSkyBlue;
+    case HudBar::Level::kBelow: return kBelow;
   }
-  return kSkyBlue;
+  return kBelow;
 }
 }  // namespace hud_colour
 

@@ -24,7 +24,8 @@ constexpr std::string_view kBetween = " · ";
 /// "a · b · c", then "a · b", then "a".
 std::vector<std::string> shorter(const std::string& text) {
   std::vector<std::string> out{text};
-  for (std::size_t end = text.rfind(kBetween); end != std::string::npos && end > 0; end = text.rfind(kBetween, end - 1)) out.push_back(text.substr(0, end));
+  for (std::size_t end = text.rfind(kBetween); end != std::string::npos && end > 0; end = text.rfind(kBetween, end - 1))
+    out.push_back(text.substr(0, end));
   return out;
 }
 
@@ -52,7 +53,7 @@ std::pair<std::string, std::string> fitting_names(HudPen& pen, const Hud& hud, c
   const std::pair<std::string, std::string> wishes[] = {{hud.trainee, hud.title}, {code, hud.title}, {code, level}, {"", level}};
   for (const auto& [who, what] : wishes) {
     const double air = who.empty() ? 0 : 1.6 * frame.px(14);
-    if (pen.width(who, frame.body, false) + air + pen.width(what, frame.px(20), true) <= room) return {who, what};
+    if (pen.width(who, frame.body, false) + air + pen.width(what, frame.title_size(), true) <= room) return {who, what};
   }
   return {"", number_and_level(hud.title)};
 }
@@ -60,7 +61,7 @@ std::pair<std::string, std::string> fitting_names(HudPen& pen, const Hud& hud, c
 void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const HudBox bar{0, 0, static_cast<double>(frame.width), frame.top};
   pen.shape(HudShape::Kind::kPanel, bar);
-  const int big = frame.px(26), body = frame.body;
+  const int big = frame.clock_size(), body = frame.body;
   const double margin = frame.px(14), baseline = 0.5 * frame.top + 0.36 * big;
   double right = frame.width - margin;
   if (hud.limit_s > 0)
@@ -71,7 +72,7 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const auto [who, what] = fitting_names(pen, hud, frame, right - 2 * margin);
   const double used = pen.text(who, margin, baseline, body, false, HudInk::kDim, right - margin);
   const double title_x = who.empty() ? margin : used + 1.6 * margin;
-  pen.text(what, title_x, baseline, frame.px(20), true, HudInk::kText, right - margin - title_x);
+  pen.text(what, title_x, baseline, frame.title_size(), true, HudInk::kText, right - margin - title_x);
 }
 
 /// At most two lines of message and two of hint, over the lower edge of the picture.
@@ -150,6 +151,8 @@ HudFrame::HudFrame(const Hud& hud, int w, int h, double text_scale) : width(w), 
   scene = {0, static_cast<int>(top), w - static_cast<int>(column_width), h - static_cast<int>(top + bottom)};
 }
 
+int HudFrame::title_size() const { return static_cast<int>(std::lround(20.0 / 18 * body)); }
+int HudFrame::clock_size() const { return static_cast<int>(std::lround(26.0 / 18 * body)); }
 int HudFrame::px(double at_720) const { return static_cast<int>(std::lround(at_720 * scale)); }
 
 PixelRect hud_scene_window(const Hud& hud, int width, int height, double text_scale) {

@@ -187,7 +187,7 @@ std::optional<ScreenName> CurriculumScreen::frame(Ui& ui, PracticeDesk& desk, do
   buttons.push_back({"notch", w("Feel the notch"), "N"});
   buttons.push_back({"back", w("Start page"), "Esc"});
   const double foot = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * margin - foot - gap;
-  const double tree_wide = std::min(ui.px(kTree), 0.46 * wide);
+  const double tree_wide = std::min(ui.px(kTree), 0.5 * wide);
   tree(ui, desk, {margin, margin, tree_wide, high});
   card(ui, desk, {margin + tree_wide + gap, margin, wide - tree_wide - gap, high});
   ui.begin_strip("course.foot", {margin, margin + high + gap, wide, foot});

@@ -85,7 +85,7 @@ void DevicePanel::draw(Ui& ui, const PracticeDesk& desk) const {
   forces.front().front() = w("tip");
   forces.back().front() = w("stylus");
   columns(ui, {}, {0.2, 0.2, 0.2, 0.2, 0.2}, forces, 0, all);
-  columns(ui, {}, {0.22, 0.16, 0.36, 0.2},
+  columns(ui, {}, {0.26, 0.15, 0.35, 0.2},
           {{w("det A"), fixed_number(r.det_a, 6, 3), w("K max, N/m"), whole(r.k_max_n_per_m)},
            {w("winding, C"), fixed_number(r.winding_c, 6, 1), w("contact, N/m"), whole(r.stiffness_n_per_m)},
            {w("energy, mJ"), fixed_number(1e3 * r.energy_j, 7, 2), w("loop"), w(r.loop)},

@@ -274,8 +274,8 @@ PracticeDesk::Advice PracticeDesk::next() const {
       if (!s.unlocked || opens_next(s.newest_first)) continue;
       if (s.attempts == 0) return {e.id, name, w("Not tried yet.")};
       if (s.passed_in_a_row == 0)
-        return {e.id, name, w(s.attempts == 1 ? "Tried once, the row of passes is still to come." : "Tried {0} times, the row of passes is still to come.",
-                              {std::to_string(s.attempts)})};
+        return {e.id, name, w(s.attempts == 1 ? "Tried once, the row of passes is still to come."
+                                              : "Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})};
       return {e.id, name, w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)})};
     }
   }

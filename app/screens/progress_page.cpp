@@ -15,6 +15,9 @@ Mark standing_mark(const ProgressEntry& entry) {
   return entry.curve.passed > 0 ? Mark::kHalf : Mark::kOpen;
 }
 
+std::string curve_legend(const Words& w) { return w("Score by attempt; full disc: passed, ring: not yet, triangle: left"); }
+std::string cusum_legend(const Words& w) { return w("CUSUM by attempt; disc: showing competence, diamond: keeping it"); }
+
 std::string minutes(const Words& w, double seconds) {
   return seconds < 60 ? w("{0} s", {w.number(seconds, 0)}) : w("{0} min", {w.number(seconds / 60, seconds < 600 ? 1 : 0)});
 }
@@ -53,8 +56,8 @@ void ProgressPage::list(Ui& ui, const std::vector<ProgressEntry>& entries, const
     trained += entry.curve.trained_s;
     attempts += static_cast<int>(entry.curve.attempts.size());
   }
-  ui.text(w(w.one(attempts) ? "{0}: {1} attempt, {2} trained" : "{0}: {1} attempts, {2} trained", {who, std::to_string(attempts), minutes(w, trained)}),
-          Ink::kDim);
+  ui.text(w(w.one(attempts) ? "{0}: {1} attempt, {2} trained" : "{0}: {1} attempts, {2} trained",
+            {who, std::to_string(attempts), minutes(w, trained)}), Ink::kDim);
   ui.gap(4);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ProgressEntry& entry = entries[i];
@@ -70,11 +73,12 @@ void ProgressPage::curve_plot(Ui& ui, const ProgressEntry& entry, double height_
   const Words& w = ui.words();
   const auto& attempts = entry.curve.attempts;
   const int count = static_cast<int>(attempts.size());
+  ui.text(curve_legend(w), Ink::kDim);
   const Area area = ui.drawing("curve", height_at_720);
   const Ui::Pointer pointer = ui.pointer();
   if (const int steps = ui.key_steps(); steps != 0) attempt_ = std::clamp((attempt_ < 0 ? count - 1 : attempt_) + steps, 0, count - 1);
-  Plot plot(ui, area, {attempts_axis(ui, attempts.size(), area.width), nice_axis(0, 100, y_ticks_for(ui, area.height - 2.4 * ui.line_height())), "",
-                       w("Score by attempt; full disc: passed, ring: not yet, triangle: left"), true, true, 0});
+  Plot plot(ui, area, {attempts_axis(ui, attempts.size(), area.width), nice_axis(0, 100, y_ticks_for(ui, area.height - 1.6 * ui.line_height())), "",
+                       "", true, true, 0});
   plot.line(entry.pass_at, w("pass {0}", {w.number(entry.pass_at, 0)}), Ink::kText, false);
   if (const auto& band = entry.curve.band) {
     plot.band(band->low, band->high, "", Ink::kHeading);
@@ -98,11 +102,12 @@ void ProgressPage::cusum_plot(Ui& ui, const ProgressEntry& entry, double height_
   using Test = CusumPoint::Test;
   const Words& w = ui.words();
   const CusumRule rule;
+  ui.text(cusum_legend(w), Ink::kDim);
   const Area area = ui.drawing("cusum", height_at_720);
   double high = rule.shown_at * 1.25;
   for (const CusumPoint& point : entry.cusum) high = std::max(high, point.value * 1.05);
-  Plot plot(ui, area, {attempts_axis(ui, entry.cusum.size(), area.width), nice_axis(0, high, y_ticks_for(ui, area.height - 2.4 * ui.line_height())), "",
-                       w("CUSUM by attempt; disc: showing competence, diamond: keeping it"), true, true, 0});
+  Plot plot(ui, area, {attempts_axis(ui, entry.cusum.size(), area.width), nice_axis(0, high, y_ticks_for(ui, area.height - 1.6 * ui.line_height())), "",
+                       "", true, true, 0});
   const bool keeps = std::any_of(entry.cusum.begin(), entry.cusum.end(), [](const CusumPoint& p) { return p.test == Test::kKeeping; });
   plot.line(rule.shown_at, w("shown at {0}", {w.number(rule.shown_at, 1)}), Ink::kGood, false);
   if (keeps) plot.line(rule.relapse_at, w("relapse at {0}", {w.number(rule.relapse_at, 1)}), Ink::kAlarm, true);
@@ -126,19 +131,22 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
   const Words& w = ui.words();
   const LearningCurve& c = entry.curve;
   ui.heading(w("{0}, by {1}", {entry.name, entry.input}));
-  std::string line = w(w.one(static_cast<int>(c.attempts.size())) ? "{0} attempt, {1} passed, {2} of 3 in a row on different boards; {3} trained."
-                                                                  : "{0} attempts, {1} passed, {2} of 3 in a row on different boards; {3} trained.",
-                       {std::to_string(c.attempts.size()), std::to_string(c.passed), std::to_string(std::min(3, entry.in_a_row)), minutes(w, c.trained_s)});
+  const auto count = static_cast<int>(c.attempts.size());
+  std::string line = w(w.one(count) ? "{0} attempt, {1} passed, {2} of 3 in a row on different boards; {3} trained."
+                                    : "{0} attempts, {1} passed, {2} of 3 in a row on different boards; {3} trained.",
+                       {std::to_string(count), std::to_string(c.passed), std::to_string(std::min(3, entry.in_a_row)), minutes(w, c.trained_s)});
   if (c.best) line += " " + w("Best {0}, last {1}.", {w.number(*c.best, 1), w.number(*c.last, 1)});
   if (const auto& band = c.band)
     line += " " + w("Last {0}: median {1}, middle half {2} to {3}.", {std::to_string(std::min(kBandAttempts, c.graded)), w.number(band->median, 1),
                                                                   w.number(band->low, 1), w.number(band->high, 1)});
   ui.text(line);
   if (entry.older_rubric) ui.marked(Mark::kInfo, w("Graded by an older version of the exercise: not comparable with today's."), Ink::kCaution);
-  const double room = ui.room_below() / ui.px(1) - 2.2 * ui.line_height() / ui.px(1) - 16;
-  curve_plot(ui, entry, std::max(190.0, 0.56 * room));
-  cusum_plot(ui, entry, std::max(150.0, 0.44 * room));
-  ui.text(competence_words(w, entry.cusum), Ink::kDim);
+  const std::string said = competence_words(w, entry.cusum);
+  const double texts = ui.text_height(curve_legend(w), ui.room()) + ui.text_height(cusum_legend(w), ui.room()) + ui.text_height(said, ui.room());
+  const double room = (ui.room_below() - texts) / ui.px(1) - 4 * 7 - 2;
+  curve_plot(ui, entry, std::max(170.0, 0.56 * room));
+  cusum_plot(ui, entry, std::max(135.0, 0.44 * room));
+  ui.text(said, Ink::kDim);
 }
 
 std::vector<RowButton> ProgressPage::foot_buttons(const Words& w, const std::vector<ProgressEntry>& entries) const {

@@ -217,7 +217,7 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   const std::string said = stands ? w("Instrument and clock stand still. The pause is noted in the result.")
                                   : w("An exam has no pause: the clock runs on.");
   const double width = std::min(ui.px(430), ui.width());
-  const double height = std::min(ui.px(208) + ui.text_height(said, width - ui.px(36)), ui.height());
+  const double height = std::min(ui.px(216) + ui.text_height(said, width - ui.px(36)), ui.height());
   ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
   ui.title(stands ? w("Paused") : w("The exam goes on"));
   ui.text(said, Ink::kDim);

@@ -37,7 +37,7 @@ Rgb ink_colour(Ink ink) {
     case Ink::kHeading: return {146, 205, 243};
     case Ink::kGood: return {63, 205, 160};
     case Ink::kCaution: return {240, 180, 41};
-    case Ink::kAlarm: return {255, 145, 77};
+    case Ink::kAlarm: return {255, 130, 95};
     case Ink::kAccent: return {244, 233, 104};
   }
   return {241, 243, 245};

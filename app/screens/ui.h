@@ -44,7 +44,7 @@ class Ui {
   /// The open panel lies over all that others have drawn: menus, notices.
   void in_front();
   void end_panel();
-  /// A panel for buttons along an edge: less air above and below. @return px of one that holds `rows` of buttons.
+  /// A panel for buttons along an edge: less air above and below; strip_height() px hold `rows` of them.
   void begin_strip(const char* id, const Area& area, double opacity = 0.92);
   double strip_height(int rows) const;
   double room() const;                          ///< px to the panel's right edge

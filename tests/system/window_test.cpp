@@ -93,7 +93,9 @@ TEST_F(Practice, WritesPicturesOfItsScreensWithoutADisplay) {
   const Outcome outcome = run_program({{"practice", "--screens", "pages", "--db", ":memory:", "--width", "640", "--height", "360"}, folder_.path(),
                                        {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* page : {"start", "settings", "help", "menu"}) EXPECT_TRUE(fs::exists(folder_ / "pages" / (std::string(page) + ".png"))) << page;
+  for (const char* page : {"start", "curriculum", "briefing", "settings", "notch", "help", "help-measures", "menu", "run", "device", "pause", "debrief",
+                           "progress", "replay"})
+    EXPECT_TRUE(fs::exists(folder_ / "pages" / (std::string(page) + ".png"))) << page;
 }
 
 TEST_F(Practice, RefusesWhatIsNoneBeforeAWindowOpens) {

@@ -68,6 +68,7 @@ TEST_F(SettingsFile, ADamagedFileIsLeftAloneAndNamedWithItsPlace) {
   const Settings read = load_settings(write(text));
   EXPECT_EQ(read.scale, 1);
   EXPECT_NE(read.note.find(file_.string() + ":2:"), std::string::npos) << read.note;
+  EXPECT_EQ(read.note_line, 2);
   EXPECT_EQ(bytes(file_), text);
   for (const char* bad : {"scale = ", "presett = \"soft\"\n", "preset = \"best\"\n", "[keys]\npause = 3\n", "sound = 1\n", "scope = \"45\"\n"}) {
     EXPECT_NE(load_settings(write(bad)).note, "") << bad;
@@ -88,7 +89,7 @@ TEST_F(SettingsFile, SavingOverAnUnreadableOneKeepsItAside) {
   save_settings(file_, chosen);
   EXPECT_EQ(load_settings(file_).note, "");
   EXPECT_EQ(load_settings(file_).scale, 2);
-  EXPECT_EQ(bytes(file_.string() + ".unread"), damaged);
+  EXPECT_EQ(bytes(unread_settings(file_)), damaged);
 }
 
 TEST_F(SettingsFile, WhatCannotBeWrittenIsAnEnvironmentErrorAndLeavesTheOldFile) {

@@ -213,6 +213,7 @@ TEST_P(DebriefLanguages, NothingIsCutNothingCollidesNothingScrolls) {
   words_ = Words(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", GetParam());
   for (const double scale : {1.0, 1.5, 2.0}) {
     scale_ = scale;
+    height_ = scale > 1 ? 3000 : 720;   // so that nothing is below the edge, where it would not be looked at
     for (const auto run : {heavy_run, good_run}) {
       page_ = {};
       const DebriefContent content = touch(run);

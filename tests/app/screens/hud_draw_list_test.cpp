@@ -42,7 +42,7 @@ class HudDrawn : public testing_support::UiBench {
 
 TEST_F(HudDrawn, BarIsFilledAsFarAsItsValueInTheColourOfItsLevel) {
   using Level = HudBar::Level;
-  for (const auto& [level, colour] : {std::pair{Level::kBelow, okabe_ito::kSky}, std::pair{Level::kInBand, kGood},
+  for (const auto& [level, colour] : {std::pair{Level::kBelow, Rgb{60, 140, 215}}, std::pair{Level::kInBand, kGood},
                                       std::pair{Level::kAbove, okabe_ito::kOrange}, std::pair{Level::kOverLimit, kOverLimit}}) {
     HudLayout layout;
     layout.bars = {bar(0.5)};

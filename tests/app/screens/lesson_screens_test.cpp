@@ -4,6 +4,7 @@
 
 #include "app/screens/briefing_screen.h"
 #include "app/screens/curriculum_screen.h"
+#include "app/screens/screen_table.h"
 #include "app/screens/sparkline.h"
 #include "scenarios/exercise_loader.h"
 #include "tests/app/screens/layout_check.h"
@@ -288,9 +289,30 @@ TEST_F(LessonScreens, DevicePanelLiesOverARunAndGoesAgain) {
   frame();
   EXPECT_TRUE(sees_part("Device numbers written to"));
   EXPECT_TRUE(std::filesystem::exists(bench_.folder.path() / "device-1.csv"));
-  tap(kKeyF3);
+  EXPECT_TRUE(sees_part("F3 closes, F4 copies"));
+  tap('P');
+  frame();
+  EXPECT_TRUE(sees("Paused"));
+  EXPECT_FALSE(sees("q6")) << "the panel lies over the dialog";
+  EXPECT_TRUE(loop_->scrolling().empty()) << "the dialog has no room for its buttons";
+  tap('P');
+  desk_->settings().keys = {{"device-panel", "F6"}};
+  desk_->settings_changed();
+  frame();
+  EXPECT_TRUE(sees_part("F6 closes, F4 copies"));
+  tap(kKeyF6);
   frame();
   EXPECT_FALSE(sees("q6"));
+}
+
+TEST_F(LessonScreens, TinyWindowSaysOneThingWhateverRuns) {
+  window(200, 100, 2);
+  for (const ScreenName name : {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kSettings}) {
+    go(name);
+    ASSERT_EQ(loop_->texts().size(), 1U) << screen_name(name);
+    EXPECT_TRUE(sees("Please make the window larger."));
+    expect_laid_out(loop_->texts(), width_, height_, "tiny");
+  }
 }
 
 }  // namespace

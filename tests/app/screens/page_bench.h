@@ -7,29 +7,14 @@
 #include "app/practice/advice.h"
 #include "app/screens/debrief_page.h"
 #include "tests/app/practice/attempt_samples.h"
+#include "tests/app/screens/layout_check.h"
 #include "tests/app/screens/ui_bench.h"
 
 namespace trocar::testing_support {
 
 class PageBench : public UiBench {
  protected:
-  /// Lesser side of the common rectangle, px.
-  static double common(const DrawnText& a, const DrawnText& b) {
-    const double w = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x), h = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
-    return w <= 0 || h <= 0 ? 0 : std::min(w, h);
-  }
-  void expect_clear(const std::string& where) const {
-    ASSERT_FALSE(texts_.empty()) << where;
-    for (const DrawnText& t : texts_) {
-      EXPECT_FALSE(t.shortened) << where << ": cut: " << t.text;
-      EXPECT_LE(t.width, t.room + 1) << where << ": wider than its room: " << t.text;
-      EXPECT_GE(t.x, -0.5) << where << ": " << t.text;
-      EXPECT_LE(t.x + std::min(t.width, t.room), width_ + 0.5) << where << ": out of the window: " << t.text;
-    }
-    for (std::size_t i = 0; i < texts_.size(); ++i)
-      for (std::size_t j = i + 1; j < texts_.size(); ++j)
-        EXPECT_LE(common(texts_[i], texts_[j]), 2.0) << where << ": '" << texts_[i].text << "' lies over '" << texts_[j].text << "'";
-  }
+  void expect_clear(const std::string& where) const { expect_laid_out(texts_, width_, height_, where); }
   bool says(const std::string& part) const {
     return std::any_of(texts_.begin(), texts_.end(), [&](const DrawnText& t) { return t.text.find(part) != std::string::npos; });
   }

@@ -239,5 +239,18 @@ TEST(PracticeDesk, TheShowSceneLoadsBehindTheDesk) {
   EXPECT_EQ(desk->show_scene(0), scene) << "loaded once";
 }
 
+TEST(PracticeDeskNotice, UnreadableSettingsAreSaidInTheLanguageWithoutTheParsersWords) {
+  testing_support::DeskBench bench;
+  DeskOptions options = bench.options();
+  bench.folder.write("settings.toml", "version = 1\nscale = = 2\n");
+  options.language = "de";
+  const auto desk = bench.desk(options);
+  EXPECT_NE(desk->notice.find("Zeile 2"), std::string::npos) << desk->notice;
+  EXPECT_NE(desk->notice.find("settings.toml.unread"), std::string::npos) << desk->notice;
+  EXPECT_EQ(desk->notice.find("Error"), std::string::npos) << desk->notice;
+  desk->settings_changed();
+  EXPECT_TRUE(std::filesystem::exists(unread_settings(options.settings)));
+}
+
 }  // namespace
 }  // namespace trocar

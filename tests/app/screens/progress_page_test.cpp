@@ -31,11 +31,12 @@ class ProgressPageTest : public testing_support::PageBench {
     return out;
   }
   void show(const std::vector<InputEvent>& events = {}) {
-    frame([&](Ui& ui) { choice_ = page_.draw(ui, entries_, "T-1"); }, events);
+    frame([&](Ui& ui) { choice_ = page_.draw(ui, entries_, who_); }, events);
   }
   const Exercise touch_ = shipped_exercise("surface-touch");
   std::vector<ProgressEntry> entries_;
   ProgressPage page_;
+  std::string who_ = "T-1";
   ProgressChoice choice_;
 };
 
@@ -112,10 +113,12 @@ TEST_F(ProgressPageTest, NothingIsCutAndNothingCollidesAtAnyScale) {
 }
 
 TEST_F(ProgressPageTest, NothingIsCutInAnyLanguage) {
+  who_ = "Krankenschwester-Muster-2026-014";   // as long as a code may be
   for (const char* language : {"fr", "de"}) {
     words_ = Words(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", language);
-    for (const double scale : {1.0, 2.0}) {
+    for (const double scale : {1.0, 1.5, 2.0}) {
       scale_ = scale;
+      height_ = scale > 1 ? 3000 : 720;   // so that nothing is below the edge, where it would not be looked at
       entries_ = {entry("mouse", 40, 12), entry("device", 6, 3)};
       page_ = {};
       for (int i = 0; i < 3; ++i) show();

@@ -164,6 +164,13 @@ TEST_F(ReplayScreens, WithoutARecordingItSaysSo) {
   EXPECT_EQ(draw(press(kKeyEscape)), ScreenName::kStart);
 }
 
+TEST_F(ReplayScreens, SettledItIsReadyForAPicture) {
+  screen_->settle(*desk_, 60);
+  draw();
+  EXPECT_TRUE(says("Pause")) << "still being opened";
+  EXPECT_GT(clock().to_s(), 3);
+}
+
 TEST_F(ReplayScreens, WhatIsNoRecordingIsSaid) {
   desk_->replay_file = bench_.folder.write("text.trec", "nothing of the kind");
   EXPECT_TRUE(wait_until([&] { return says("text.trec"); }));

@@ -1,7 +1,6 @@
 // No text is cut, none lies over another, at every scale and window that people have. A screen that is new is in make_screen().
-#include <cmath>
-
 #include "app/screens/screen_table.h"
+#include "tests/app/screens/layout_check.h"
 #include "tests/app/screens/loop_bench.h"
 
 namespace trocar {
@@ -16,27 +15,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.width << "x" << c.hei
 
 class ScreenLayout : public testing_support::LoopBench, public ::testing::WithParamInterface<Case> {
  protected:
-  void look_at(const std::string& where) {
-    const auto& texts = loop_->texts();
-    ASSERT_FALSE(texts.empty()) << where;
-    for (const DrawnText& t : texts) {
-      EXPECT_FALSE(t.shortened && !may_be_short(t)) << where << ": cut: " << t.text;
-      EXPECT_LE(t.width, t.room + 1) << where << ": wider than its room: " << t.text;
-      EXPECT_GE(t.x, -0.5) << where << ": " << t.text;
-      EXPECT_LE(t.x + std::min(t.width, t.room), width_ + 0.5) << where << ": out of the window: " << t.text;
-    }
-    for (std::size_t i = 0; i < texts.size(); ++i)
-      for (std::size_t j = i + 1; j < texts.size(); ++j)
-        EXPECT_LE(overlap(texts[i], texts[j]), 2.0) << where << ": '" << texts[i].text << "' lies over '" << texts[j].text << "'";
-  }
-  /// Credits and paths are as long as they are; the whole is shown elsewhere.
-  static bool may_be_short(const DrawnText& t) { return t.text.find("phantom") != std::string::npos; }
-  /// Lesser side of the common rectangle, px.
-  static double overlap(const DrawnText& a, const DrawnText& b) {
-    const double w = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
-    const double h = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
-    return w <= 0 || h <= 0 ? 0 : std::min(w, h);
-  }
+  void look_at(const std::string& where) { testing_support::expect_laid_out(loop_->texts(), width_, height_, where); }
 };
 
 TEST_P(ScreenLayout, NothingIsCutAndNothingCollides) {

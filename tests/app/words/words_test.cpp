@@ -112,6 +112,26 @@ TEST_F(Catalogue, TheListOfWhatIsMissingStaysShort) {
   EXPECT_EQ(french.missing().size(), 1000u);
 }
 
+TEST_F(Catalogue, CountsTakeTheSingularOfTheLanguage) {
+  EXPECT_TRUE(Words().one(1));
+  EXPECT_FALSE(Words().one(0));
+  const Words french(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets/languages", "fr");
+  EXPECT_TRUE(french.one(0));
+  EXPECT_TRUE(french.one(1));
+  EXPECT_FALSE(french.one(2));
+  for (const char* wrong : {"singular = 1\n", "singular = []\n", "singular = [\"one\"]\n", "singular = [-1]\n"}) {
+    write("xx", std::string("name = \"X\"\n") + wrong + "[words]\n");
+    EXPECT_THROW(Words(folder_, "xx"), InputError) << wrong;
+  }
+}
+
+TEST_F(Catalogue, OnlyNumbersTakeTheDecimalSign) {
+  const Words german(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets/languages", "de");
+  EXPECT_EQ(german.made_number("+29.29"), "+29,29");
+  EXPECT_EQ(german.made_number("inf"), "inf");
+  EXPECT_EQ(german.made_number("q1"), "q1");
+}
+
 TEST_F(Catalogue, PlacesOfASentence) {
   EXPECT_EQ(places("{1} of {0} {1}"), (std::vector<int>{0, 1, 1}));
   EXPECT_TRUE(places("{} {a} { 0}").empty());
