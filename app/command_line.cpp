@@ -361,7 +361,8 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // CLI11 asks for what is missing before it looks at the word that is none.
     const bool help = error.get_exit_code() == 0;
-    if (const std::string said = help ? "" : misspelt(c.app, {argv + 1, argv + argc}); !said.empty()) std::cerr << "trocar: " << said << '\n';
+    const std::string said = help ? "" : misspelt(c.app, {argv + 1, argv + argc});
+    if (!said.empty()) std::cerr << "trocar: " << said << '\n';
     return c.app.exit(error) == 0 ? 0 : 2;
   } catch (const InputError& error) {
     return fail(error, 2);

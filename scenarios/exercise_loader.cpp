@@ -172,7 +172,7 @@ std::string lower_case(std::string text) {
 bool is_named(const Exercise& exercise, const std::string& word) {
   const std::string asked = lower_case(word), number = lower_case(exercise.number);
   if (asked == lower_case(exercise.id) || asked == number) return true;
-  const bool digits = !asked.empty() && asked.size() < 9 && std::all_of(asked.begin(), asked.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits = !asked.empty() && asked.size() < 9 && asked.find_first_not_of("0123456789") == std::string::npos;
   const std::size_t from = number.find_first_of("0123456789");
   return digits && from != std::string::npos && std::atoi(asked.c_str()) == std::atoi(number.c_str() + from);
 }

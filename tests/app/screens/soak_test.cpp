@@ -139,7 +139,8 @@ TEST_F(SoakBench, SOAK_CASE) {
       warm.threads = std::max(warm.threads, last.threads);
       warm.files = std::max(warm.files, last.files);
     }
-    std::cout << "attempt " << done + 1 << ": " << last.resident_mib << " MiB, held " << last.held_mib << " MiB, " << last.threads << " threads, " << last.files << " files" << std::endl;
+    std::cout << "attempt " << done + 1 << ": " << last.resident_mib << " MiB, held " << last.held_mib << " MiB, " << last.threads
+              << " threads, " << last.files << " files" << std::endl;
   }
   EXPECT_EQ(desk_->past().size(), static_cast<std::size_t>(done)) << "every attempt is kept";
   EXPECT_LT(last.held_mib - warm.held_mib, kMostHeld_mib);
