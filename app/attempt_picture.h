@@ -16,8 +16,8 @@
 
 namespace trocar {
 
-/// What one picture of the running attempt shows. @param trainee code, shown in the top bar. @param seen through which it is seen, when that
-/// is not the exercise's own camera: the display's directions follow it.
+/// What one picture of the running attempt shows. @param trainee code, shown in the top bar. @param seen through which it is seen, when
+/// that is not the exercise's own camera: the display's directions follow it.
 SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T, const std::string& trainee,
                        const std::optional<Camera>& seen = {});
 

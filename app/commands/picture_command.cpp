@@ -33,7 +33,8 @@ void check(const PictureOptions& options) {
     throw InputError("picture: no scene is called '" + options.scene + "'; there are " + listed(scenes));
   if (options.preset != "auto" && !preset_named(options.preset))
     throw InputError("picture: no preset is called '" + options.preset + "'; there are potato, soft, full and auto");
-  if (options.scope != "0" && options.scope != "30") throw InputError("picture: a scope has a tip of 0 or 30 degrees, not '" + options.scope + "'");
+  if (options.scope != "0" && options.scope != "30")
+    throw InputError("picture: a scope has a tip of 0 or 30 degrees, not '" + options.scope + "'");
   if (!(std::abs(options.post_deg) <= 360)) throw InputError("picture: the light post is turned by at most 360 degrees");
   if (options.scene == "marks" && (options.scope != "0" || options.post_deg != 0))
     throw InputError("picture: the twelve marks are pointed at through a straight scope; --scope and --post belong to the other scenes");

@@ -54,7 +54,8 @@ class PresetWatch {
 };
 
 /// choose_preset() by drawing pictures of a scene: ten each, fewer when a preset is clearly too slow. A software rasteriser is
-/// not tried at full, which would cost it a second. The renderer's preset is left as it was tried last. @param width,height px of the scope's picture.
+/// not tried at full, which would cost it a second. The renderer's preset is left as it was tried last.
+/// @param width,height px of the scope's picture.
 /// @throws EnvironmentError when a shader is missing or refused.
 Preset measure_preset(Renderer& renderer, Preset first, const SceneView& view, int width, int height);
 /// The same with a renderer and a scene of its own.

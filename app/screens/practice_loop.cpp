@@ -31,7 +31,8 @@ struct Drawn {
   std::unique_ptr<Renderer> second = {};       // keeps its own organ on the GPU; while two runs are compared
 
   Drawn(PracticeDesk& desk, GraphicsContext& given, bool to_window, Preset preset)
-      : context(given), target(context, to_window), layer(context, desk.scale()), renderer(context, desk.assets().assets, {.preset = preset}) {}
+      : context(given), target(context, to_window), layer(context, desk.scale()),
+        renderer(context, desk.assets().assets, {.preset = preset}) {}
 };
 
 }  // namespace

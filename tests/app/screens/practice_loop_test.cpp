@@ -146,7 +146,7 @@ TEST_F(PracticeLoopTest, AKeyIsChosenInTheSettings) {
   width_ = 1280;
   frame();
   frame();
-  tab(9);   // language, size, picture, sound, steered by, sensitivity, left-handed, inverted, then the first key: "Tip to the left"
+  tab(10);   // language, size, scope, picture, sound, steered by, sensitivity, left-handed, inverted, then the first key: "Tip to the left"
   tap(kKeyEnter);
   frame();
   ASSERT_TRUE(sees("press a key"));
