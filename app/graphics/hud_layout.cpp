@@ -139,8 +139,11 @@ bool hud_is_empty(const Hud& hud) {
          hud.device.empty() && !hud.dial;
 }
 
+/// px that the display needs beside a picture worth seeing, at 720 lines: what 1280 x 720 leaves at 200 %.
+constexpr double kColumnNeeds = 640;
+
 HudFrame::HudFrame(const Hud& hud, int w, int h, double text_scale) : width(w), height(h) {
-  scale = std::min(h / 720.0, w / 1280.0) * std::clamp(text_scale, 1.0, 2.0);
+  scale = std::min(h / 720.0 * std::clamp(text_scale, 1.0, 2.0), w / kColumnNeeds);
   body = std::max(px(18), 18);
   empty = hud_is_empty(hud);
   bottom = hud.credit.empty() ? 0.0 : std::round(1.7 * body);

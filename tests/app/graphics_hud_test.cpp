@@ -78,7 +78,7 @@ TEST_P(HudLayoutTest, NothingLeavesThePicture) {
 TEST_P(HudLayoutTest, TextIsNeverSmallerThanEighteenPixels) {
   ASSERT_FALSE(layout_.texts.empty());
   for (const HudText& text : layout_.texts)
-    EXPECT_GE(text.size, static_cast<int>(18 * scale_ * std::max(1.0, size_.second / 720.0)) - 1) << text.text;
+    EXPECT_GE(text.size, static_cast<int>(18 * std::min(scale_ * std::max(1.0, size_.second / 720.0), size_.first / 640.0)) - 1) << text.text;
 }
 
 TEST_P(HudLayoutTest, BarsAndSymbolsKeepClearOfTexts) {
