@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/executor/pause_switch.h"
+#include "app/moment_mark.h"
 #include "app/recorder/recording_reader.h"
 #include "app/recorder/recording_writer.h"
 #include "app/scene.h"
@@ -51,6 +52,7 @@ struct SessionHooks {
   bool observe_each_step = false;
   std::function<bool()> interrupted = {};         ///< asked now and then: true ends the attempt as aborted
   std::function<std::unique_ptr<Hand>()> hand = {};   ///< in place of the one that the setup names
+  const MarkCount* marks = nullptr;               ///< live: each step up is an event of the recording (moment_mark.h)
   const PauseSwitch* pause = nullptr;             ///< live: lets everything stand still, the simulated device too
 };
 

@@ -54,6 +54,8 @@ class AttemptRunner {
   /// An exam has no pause. @return whether it is as asked.
   bool pause(bool paused);
   bool paused() const;
+  /// The newest moment becomes an event of the recording, to find it again (app/moment_mark.h).
+  void mark();
   void abort();
   /// The result is there (stored or not).
   bool finished() const;

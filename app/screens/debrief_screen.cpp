@@ -143,6 +143,7 @@ std::optional<ScreenName> DebriefScreen::follow(DebriefChoice choice, PracticeDe
     case DebriefChoice::kCompare: expert_wanted_ = true; break;
     case DebriefChoice::kProgress: return ScreenName::kProgress;
     case DebriefChoice::kSignIn: return ScreenName::kStart;
+    case DebriefChoice::kBack: return ScreenName::kBack;
   }
   if (!expert_wanted_ || expert_.empty()) return std::nullopt;
   desk.replay_file = desk.recording();

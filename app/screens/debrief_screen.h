@@ -15,6 +15,7 @@ namespace trocar {
 class DebriefScreen : public Screen {
  public:
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  bool takes_escape() const override { return true; }
 
  private:
   void look_at(PracticeDesk& desk);

@@ -143,7 +143,7 @@ ProgressChoice ProgressPage::foot(Ui& ui, const std::vector<ProgressEntry>& entr
   using Kind = ProgressChoice::Kind;
   const Words& w = ui.words();
   ProgressChoice out;
-  if (ui.button("back", w("Back"), "Enter", true)) out.kind = Kind::kBack;
+  if (ui.button("back", w("Back"), "Esc", true)) out.kind = Kind::kBack;
   if (entries.empty()) return out;
   ui.same_line();
   if (ui.button("csv", w("Export as CSV"), "X")) out.kind = Kind::kExport;

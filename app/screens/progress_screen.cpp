@@ -76,7 +76,7 @@ std::optional<ScreenName> ProgressScreen::frame(Ui& ui, PracticeDesk& desk, doub
   const ProgressChoice choice = page_.draw(ui, *entries_, desk.is_guest() ? w("Guest") : desk.trainee());
   switch (choice.kind) {
     case Kind::kNone: break;
-    case Kind::kBack: return desk.is_guest() ? ScreenName::kStart : ScreenName::kCurriculum;
+    case Kind::kBack: return ScreenName::kBack;
     case Kind::kOpen: return desk.open_result(choice.uuid) ? std::optional(ScreenName::kDebrief) : std::nullopt;
     case Kind::kExport:
       try {

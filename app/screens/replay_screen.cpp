@@ -54,12 +54,6 @@ class ButtonRow {
   double room_, used_ = 0;
 };
 
-/// To the attempt that was just made, or to where an older one was chosen.
-ScreenName way_back(const PracticeDesk& desk) {
-  const bool older = !desk.replay_file.empty() && desk.replay_file != desk.recording();
-  return older ? ScreenName::kProgress : desk.result() ? ScreenName::kDebrief : ScreenName::kStart;
-}
-
 std::string speed_words(const Words& w, double speed) { return w("speed {0}", {w.number(speed, speed < 1 ? 2 : 0)}); }
 
 }  // namespace
@@ -235,7 +229,7 @@ ReplayScreen::Labels ReplayScreen::labels(const Words& w) const {
            {w("Back"), "Esc"}}};
 }
 
-std::optional<ScreenName> ReplayScreen::buttons(Ui& ui, const PracticeDesk& desk) {
+std::optional<ScreenName> ReplayScreen::buttons(Ui& ui) {
   const Labels label = labels(ui.words());
   ButtonRow row(ui);
   if (row.button("play", label[0], true)) clock_.toggle_play();
@@ -243,10 +237,10 @@ std::optional<ScreenName> ReplayScreen::buttons(Ui& ui, const PracticeDesk& desk
   if (row.button("faster", label[2])) clock_.change_speed(1);
   if (row.button("beside", label[3])) beside_wanted_ = !beside_wanted_;
   if (row.button("loop", label[4])) clock_.next_loop_point();
-  return row.button("back", label[5]) ? std::optional(way_back(desk)) : std::nullopt;
+  return row.button("back", label[5]) ? std::optional(ScreenName::kBack) : std::nullopt;
 }
 
-std::optional<ScreenName> ReplayScreen::panel(Ui& ui, PracticeDesk& desk) {
+std::optional<ScreenName> ReplayScreen::panel(Ui& ui) {
   const double line = ui.line_height(), button_rows = ButtonRow::lines(ui, ui.width() - 2 * ui.px(kPanelPad), labels(ui.words()));
   const double others = 2 * line + ui.px(18) + button_rows * (line + ui.px(26)) + ui.px(3 * 8) + 2 * ui.px(kPanelPad);
   const double plot = std::clamp(0.40 * ui.height() - others, ui.px(60), ui.px(190)) + line;
@@ -255,7 +249,7 @@ std::optional<ScreenName> ReplayScreen::panel(Ui& ui, PracticeDesk& desk) {
   heading(ui);
   forces(ui);
   time_line(ui, plot);
-  const auto to = buttons(ui, desk);
+  const auto to = buttons(ui);
   ui.end_panel();
   return to;
 }
@@ -265,7 +259,7 @@ std::optional<ScreenName> ReplayScreen::frame(Ui& ui, PracticeDesk& desk, double
   const Words& w = desk.words();
   if (own_.shown()) {
     keys(ui);
-    return panel(ui, desk);
+    return panel(ui);
   }
   picture_height_ = 0;
   const double wide = std::min(ui.px(560), 0.9 * ui.width());
@@ -274,9 +268,9 @@ std::optional<ScreenName> ReplayScreen::frame(Ui& ui, PracticeDesk& desk, double
   if (nothing_.empty()) ui.text(w("The recording is being opened..."));
   else ui.marked(Mark::kInfo, nothing_);
   ui.gap();
-  const bool back = ui.button("back", w("Back"), "Esc");
+  const bool back = ui.button("back", w("Back"), "Esc", true);
   ui.end_panel();
-  return back ? std::optional(way_back(desk)) : std::nullopt;
+  return back ? std::optional(ScreenName::kBack) : std::nullopt;
 }
 
 }  // namespace trocar
