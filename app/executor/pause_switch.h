@@ -35,9 +35,12 @@ class PauseSwitch {
   bool paused() const noexcept { return paused_.load(); }
   /// All pauses that have ended, together. A lane asks after paused() said no.
   std::int64_t stood_ns() const noexcept { return stood_ns_.load(); }
+  /// One that has not ended lasts until now.
   std::vector<Pause> pauses() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return pauses_;
+    std::vector<Pause> out = pauses_;
+    if (paused_.load()) out.back().end_ns = now_ns();
+    return out;
   }
 
  private:

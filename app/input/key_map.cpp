@@ -33,7 +33,7 @@ const std::map<Action, std::int32_t>& default_keys() {
       {Action::kPostLeft, 'A'},        {Action::kPostRight, 'D'},         {Action::kScope, kKeyAlt},      {Action::kLevel, 'H'},
       {Action::kPause, 'P'},           {Action::kRestart, 'R'},           {Action::kMark, 'M'},           {Action::kHelp, kKeyF1},
       {Action::kForceBars, kKeyF2},    {Action::kDevicePanel, kKeyF3},    {Action::kGuidance, kKeyF5},
-      {Action::kPicture, kKeyF12},     {Action::kMenu, kKeyEscape},       {Action::kWipeLens, 'L'}};
+      {Action::kPicture, kKeyF12},     {Action::kMenu, kKeyEscape}};
   return table;
 }
 

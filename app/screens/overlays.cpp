@@ -9,7 +9,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kNoticeSeconds = 6;
+constexpr double kNoticeSeconds = 6, kPerCharacter_s = 0.07;   // long ones take longer to read
+constexpr double kLongestStep_s = 0.1;                          // a frame that took long (the first) takes nothing off a notice
 
 /// A panel in the middle, as large as asked or as there is room.
 Area middle(const Ui& ui, double width_at_720, double height_at_720) {
@@ -92,8 +93,8 @@ void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std:
     age_s = 0;
   }
   if (shown.empty()) return;
-  age_s += dt_s;
-  if (age_s > kNoticeSeconds) return shown.clear();
+  age_s += std::min(dt_s, kLongestStep_s);
+  if (age_s > std::max(kNoticeSeconds, kPerCharacter_s * static_cast<double>(shown.size()))) return shown.clear();
   const double wide = std::min(ui.px(720), ui.width() - ui.px(24)), inner = wide - ui.px(84);
   const double lines = std::ceil(ui.text_width(shown) / std::max(1.0, inner) + 0.15);
   const double high = std::min(ui.px(40) + lines * ui.line_height(), ui.height());

@@ -133,6 +133,7 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
                                                                   w.number(band->low, 1), w.number(band->high, 1)});
   ui.text(line);
   if (entry.older_rubric) ui.marked(Mark::kInfo, w("Graded by an older version of the exercise: not comparable with today's."), Ink::kCaution);
+  if (!entry.note.empty()) ui.marked(Mark::kInfo, entry.note, Ink::kCaution);
   const double room = ui.room_below() / ui.px(1) - 2.2 * ui.line_height() / ui.px(1) - 16;
   curve_plot(ui, entry, std::max(190.0, 0.56 * room));
   cusum_plot(ui, entry, std::max(150.0, 0.44 * room));

@@ -113,7 +113,8 @@ SceneView RunScreen::State::view(PracticeDesk& desk) {
   const RunMoment& moment = newest.seen ? newest : before;
   if (newest.seen) latency.drawn(newest.steered);
   sounds.hear(run.scene(), moment, desk.sound());
-  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T, desk.is_guest() ? "" : desk.trainee());
+  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T,
+                               desk.is_demonstration() ? desk.who() : desk.is_guest() ? "" : desk.trainee());
   out.camera = moved_camera(camera, desk.steering().scope());
   if (!guides) hide_guides(out);
   if (steering) add_ghost(out, run.target());

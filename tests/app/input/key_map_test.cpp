@@ -29,7 +29,7 @@ TEST(KeyMap, EveryActionHasANameWordsAndAKeyOfItsOwn) {
     EXPECT_TRUE(taken.insert(keys.key_of(one.action)).second) << one.name;
     EXPECT_EQ(keys.action_of(keys.key_of(one.action)), one.action);
   }
-  EXPECT_EQ(action_names().size(), static_cast<std::size_t>(Action::kWipeLens) + 1);
+  EXPECT_EQ(action_names().size(), static_cast<std::size_t>(Action::kMenu) + 1);
   EXPECT_FALSE(keys.action_of(kKeyTab));  // one hand: nothing to change to
   EXPECT_FALSE(keys.action_of('1'));
 }
@@ -41,8 +41,8 @@ TEST(KeyMap, DefaultsAreThoseOfTheGuide) {
                                             {Action::kOpen, "X"},         {Action::kScope, "Alt"},  {Action::kPostLeft, "A"},
                                             {Action::kLevel, "H"},        {Action::kPause, "P"},    {Action::kRestart, "R"},
                                             {Action::kMark, "M"},         {Action::kHelp, "F1"},    {Action::kForceBars, "F2"},
-                                            {Action::kDevicePanel, "F3"}, {Action::kGuidance, "F5"}, {Action::kRecord, "F9"},
-                                            {Action::kPicture, "F12"},    {Action::kMenu, "Esc"},   {Action::kWipeLens, "L"}};
+                                            {Action::kDevicePanel, "F3"}, {Action::kGuidance, "F5"},
+                                            {Action::kPicture, "F12"},    {Action::kMenu, "Esc"}};
   for (const auto& [action, name] : guide) EXPECT_EQ(key_name(keys.key_of(action)), name);
   EXPECT_TRUE(keys.changes().empty());
 }

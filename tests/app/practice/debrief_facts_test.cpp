@@ -71,7 +71,7 @@ TEST_F(DebriefFactsTest, APassSaysTheScoreAndWhereMostWent) {
   const DebriefFacts f = facts(graded(touch_, "L1", {{"in_band_share", 0.8}}));
   EXPECT_EQ(f.outcome, Outcome::kPass);
   EXPECT_EQ(f.verdict, "PASS");
-  EXPECT_EQ(f.reason, "90.0 of 100 points, a pass needs 75. Most went on: Force in band.");
+  EXPECT_EQ(f.reason, "90.0 of 100 points, a pass needs 75. Most points were lost on: Force in band.");
   EXPECT_EQ(facts(graded(touch_, "L1")).reason, "100.0 of 100 points, a pass needs 75.");
 }
 
@@ -127,7 +127,7 @@ TEST_F(DebriefFactsTest, BelowThePassLineTheLargestLossIsTheReason) {
   const AttemptResult result = graded(touch_, "L1", {{"wrong_places", 6}, {"in_band_share", 0.7}});
   const DebriefFacts f = facts(result);
   EXPECT_EQ(f.outcome, Outcome::kNotYet);
-  EXPECT_EQ(f.reason, "65.0 of 100 points, a pass needs 75. Most went on: Place.");
+  EXPECT_EQ(f.reason, "65.0 of 100 points, a pass needs 75. Most points were lost on: Place.");
 }
 
 TEST_F(DebriefFactsTest, AMetricWithoutAValueEarnsNothingAndSaysSo) {
