@@ -203,6 +203,7 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   std::optional<MarkTask> marks;
   if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks));
   executor.add_lane("haptic", {&attempt.hand, &rig.haptic, &attempt.tap}, kHapticPriority);
+  if (hooks.board_answers) executor.await(hooks.board_answers);
   executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
   executor.add_lane("force-sensor", {&attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);

@@ -53,7 +53,8 @@ struct SessionHooks {
   std::function<bool()> interrupted = {};         ///< asked now and then: true ends the attempt as aborted
   std::function<std::unique_ptr<Hand>()> hand = {};   ///< in place of the one that the setup names
   const MarkCount* marks = nullptr;               ///< live: each step up is an event of the recording (moment_mark.h)
-  const PauseSwitch* pause = nullptr;             ///< live: lets everything stand still, the simulated device too
+  std::function<bool()> board_answers = {};       ///< live: while it says no, everything stands still; needs `pause`, and no exam
+  PauseSwitch* pause = nullptr;                   ///< live: lets everything stand still, the simulated device too
 };
 
 /// What one run of the loop leaves behind, before grading.

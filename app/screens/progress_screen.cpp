@@ -77,7 +77,7 @@ std::optional<ScreenName> ProgressScreen::frame(Ui& ui, PracticeDesk& desk, doub
     language_ = w.language();
     trainee_ = desk.trainee();
   }
-  const ProgressChoice choice = page_.draw(ui, *entries_, desk.who());
+  const ProgressChoice choice = page_.draw(ui, *entries_, desk.is_guest() ? desk.who() : desk.trainee());
   switch (choice.kind) {
     case Kind::kNone: break;
     case Kind::kBack: return ScreenName::kBack;

@@ -231,9 +231,11 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   const auto key = [&](Action action) { return key_name(desk.keys().key_of(action)); };
   const double width = std::min(ui.px(430), ui.width()), height = std::min(ui.px(250), ui.height());
   ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
-  ui.title(again ? w("Start again?") : stands ? w("Paused") : w("The exam goes on"));
+  const bool silent = !desk.running()->board_answers();
+  ui.title(silent ? w("The device does not answer") : again ? w("Start again?") : stands ? w("Paused") : w("The exam goes on"));
   const std::string still = stands ? w("Instrument and clock stand still. The pause is noted in the result.") : w("An exam has no pause: the clock runs on.");
-  ui.text(again ? w("This attempt then ends, and counts as not passed.") : still, Ink::kDim);
+  ui.text(silent  ? w("Instrument and clock stand still, nothing is lost. Plug it in again, then continue.")
+          : again ? w("This attempt then ends, and counts as not passed.") : still, Ink::kDim);
   ui.gap();
   const auto go_on = [&] {
     const bool chosen = ui.button("continue", w("Continue"), key(Action::kPause), !again, 390);
@@ -306,6 +308,7 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeDesk& desk, double dt
   if (desk.running()->finished()) s.over_s += dt_s;
   if (desk.running()->stored() || s.over_s > kStoring_s) return s.ended(desk);
   if (!s.begun) return {};
+  if (!s.overlay && !desk.running()->board_answers()) s.asked = State::Asked::kPause;
   if (!s.overlay) ui.keys_to_screen();
   s.coach.pass(dt_s);
   draw_hud(s.layout);
