@@ -191,7 +191,8 @@ DebriefChoice DebriefPage::foot(Ui& ui, const DebriefContent& content) {
   if (content.can_compare) add("compare", w("Compare with expert"), "S", DebriefChoice::kCompare);
   add("progress", w("My progress"), "M", DebriefChoice::kProgress);
   if (content.guest) add("signin", w("Sign in"), "I", DebriefChoice::kSignIn);
-  add("back", w("Back"), "Esc", DebriefChoice::kBack);
+  if (!content.guest) add("back", w("Back"), "Esc", DebriefChoice::kBack);
+  else if (ui.pressed("Esc")) choice = DebriefChoice::kBack;   // a guest's row is full
   if (!content.compare_note.empty()) ui.text(content.compare_note, Ink::kDim);
   else if (content.guest) ui.text(w("Sign in to keep your runs under your own code; this one is kept as a guest's."), Ink::kDim);
   return choice;

@@ -158,7 +158,7 @@ std::optional<ScreenName> DebriefScreen::frame(Ui& ui, PracticeDesk& desk, doubl
   if (language_ != desk.words().language()) say(desk);
   take_trace(desk);
   take_expert(desk);
-  content_.guest = desk.is_guest();
+  content_.guest = desk.is_guest() && !desk.is_demonstration();
   return follow(page_.draw(ui, content_), desk);
 }
 

@@ -68,6 +68,7 @@ struct RunScreen::State {
 RunScreen::RunScreen() : state_(std::make_unique<State>()) {}
 RunScreen::~RunScreen() = default;
 
+bool RunScreen::takes_escape() const { return state_->overlay; }
 const LatencyMeter& RunScreen::latency() const { return state_->latency; }
 
 /// An attempt that has just begun.

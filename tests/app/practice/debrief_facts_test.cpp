@@ -242,7 +242,7 @@ TEST(MetricText, ReadsInTheUnitsOfPeople) {
 TEST(DebriefPauses, AreSaidWithTimeCountAndLength) {
   const Exercise touch = shipped_exercise("surface-touch");
   AttemptResult result = graded(touch, "L1");
-  result.events = {{3.0, "START"}};
+  result.events = {event(3.0, "START")};
   const auto said = [&](const std::string& realtime) {
     result.device.realtime = realtime;
     const DebriefFacts f = debrief_facts(Words(), result, touch);

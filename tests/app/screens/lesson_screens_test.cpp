@@ -307,7 +307,9 @@ TEST_F(LessonScreens, CourseAndBriefingSayAtOnePlaceWhoIsHere) {
     return std::nullopt;
   };
   for (const std::string said : {"Guest", "Signed in as T-7"}) {
-    if (said != "Guest") ASSERT_EQ(desk_->sign_in("T-7"), "");
+    if (said != "Guest") {
+      ASSERT_EQ(desk_->sign_in("T-7"), "");
+    }
     go(ScreenName::kCurriculum);
     const auto course = place(said);
     go(ScreenName::kBriefing);
