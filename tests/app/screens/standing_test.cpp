@@ -80,6 +80,7 @@ TEST(StandingOf, WithoutAGradeThereIsNoScore) {
 TEST(NextStep, AllExercisesAtALevelComeBeforeTheNextLevelAndGuestsBeginWithTouch) {
   std::vector<Exercise> all(2);
   all[0].id = "reach";
+  all[0].kind = ExerciseKind::kReach;
   all[1].id = "touch";
   all[1].kind = ExerciseKind::kTouch;
   for (Exercise& e : all) {
