@@ -162,8 +162,7 @@ std::string lesson_display(const Words& w, const ExerciseLevel& level) {
 }
 
 std::string lesson_tool(const Words& w, const Exercise& exercise, const ExerciseLevel& level) {
-  const std::string tool = exercise.kind == ExerciseKind::kReach ? w("Probe, 5 mm")
-                           : exercise.kind == ExerciseKind::kTouch ? w("Grasper, 5 mm, its tip touches") : w("Grasper, 5 mm");
+  const std::string tool = exercise.kind == ExerciseKind::kReach ? w("Probe, 5 mm") : w("Grasper, 5 mm");
   if (level.mapping == Mapping::kFulcrum) return w("{0}, through a port: the tip moves against the hand.", {tool});
   return w("{0}, one hand, no port: the tip moves with the hand.", {tool});
 }
