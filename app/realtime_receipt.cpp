@@ -52,6 +52,16 @@ std::string force_sensor_json(const ForceSensorTask& sensor) {
       .dump();
 }
 
+std::vector<StoodStill> pauses_of(const std::string& realtime) {
+  std::vector<StoodStill> out;
+  const Json json = Json::parse(realtime, nullptr, false);
+  if (!json.is_object() || !json.contains("pauses") || !json["pauses"].is_array()) return out;
+  for (const Json& pause : json["pauses"])
+    if (pause.is_object() && pause.contains("at_s") && pause["at_s"].is_number() && pause.contains("seconds") && pause["seconds"].is_number())
+      out.push_back({pause["at_s"].get<double>(), pause["seconds"].get<double>()});
+  return out;
+}
+
 std::vector<std::string> realtime_notes(const ThreadedExecutor& executor, std::uint64_t lost) {
   std::vector<std::string> notes;
   for (const LaneReport* report : executor.reports()) {

@@ -21,6 +21,12 @@ std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost);
 /// {"rate_hz", "lag_s", "samples", "measured_rms_n", "residual_samples", "residual_rms_n", "residual_max_n"}.
 std::string force_sensor_json(const ForceSensorTask& sensor);
 
+/// Where the run stood still, as realtime_json() wrote it; none when it says nothing that can be read.
+struct StoodStill {
+  double at_s = 0, seconds = 0;   ///< loop time at which it began; how long it took
+};
+std::vector<StoodStill> pauses_of(const std::string& realtime);
+
 /// What the operating system refused and what went missing, a line each; empty when all was as asked.
 std::vector<std::string> realtime_notes(const ThreadedExecutor& executor, std::uint64_t lost);
 

@@ -22,4 +22,8 @@ Scene recorded_scene(const Recording& recording, const std::filesystem::path& fi
   return scene;
 }
 
+AttemptSetup recorded_setup(const std::filesystem::path& file) {
+  return parse_scene_json(read_recording(file, Reading::kTolerant).session, file.string()).setup;
+}
+
 }  // namespace trocar

@@ -16,4 +16,7 @@ namespace trocar {
 Scene recorded_scene(const Recording& recording, const std::filesystem::path& file, const AssetRoots& assets,
                      const std::string& organ = "");
 
+/// The setup alone, without loading any organ. @throws InputError: unreadable.
+AttemptSetup recorded_setup(const std::filesystem::path& file);
+
 }  // namespace trocar

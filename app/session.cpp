@@ -122,6 +122,30 @@ class ObserverTask final : public Task {
   std::uint32_t period_;
 };
 
+/// Writes down the moments that the trainee marks: in the tissue task's thread, whose ring of events it shares.
+class MarkTask final : public Task {
+ public:
+  MarkTask(Rig& rig, EventRing& events, const MarkCount& marks) : rig_(rig), events_(events), marks_(marks) {}
+  std::uint32_t period() const override { return rig_.tissue.period(); }
+  void run(std::uint64_t tick) override {
+    const StylusState& seen = rig_.state->newest(tick);
+    for (const std::uint32_t asked = marks_.load(); taken_ != asked; ++taken_) {
+      Event event;
+      event.type = kMomentMark;
+      const std::vector<Event>& told = rig_.director.events();
+      event.t_s = told.empty() ? seen.t_s : std::max(seen.t_s, told.back().t_s);   // events stand in their order
+      event.tip_T = seen.X_TI.p;
+      events_.push(event);
+    }
+  }
+
+ private:
+  Rig& rig_;
+  EventRing& events_;
+  const MarkCount& marks_;
+  std::uint32_t taken_ = 0;
+};
+
 /// A whole attempt on the simulated device: the rig, the world beside it and what keeps books.
 struct Attempt {
   Attempt(const Scene& scene, std::unique_ptr<Hand> person, RecordingWriter& writer, Timing timing)
@@ -176,7 +200,10 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   ThreadedExecutor executor(rate_hz, hooks.pause);
   std::vector<Task*> tissue{&rig.tissue};
   if (each_step) tissue.push_back(&observer);
+  std::optional<MarkTask> marks;
+  if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks));
   executor.add_lane("haptic", {&attempt.hand, &rig.haptic, &attempt.tap}, kHapticPriority);
+  if (hooks.board_answers) executor.await(hooks.board_answers);
   executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
   executor.add_lane("force-sensor", {&attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);

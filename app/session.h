@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/executor/pause_switch.h"
+#include "app/moment_mark.h"
 #include "app/recorder/recording_reader.h"
 #include "app/recorder/recording_writer.h"
 #include "app/scene.h"
@@ -51,7 +52,9 @@ struct SessionHooks {
   bool observe_each_step = false;
   std::function<bool()> interrupted = {};         ///< asked now and then: true ends the attempt as aborted
   std::function<std::unique_ptr<Hand>()> hand = {};   ///< in place of the one that the setup names
-  const PauseSwitch* pause = nullptr;             ///< live: lets everything stand still, the simulated device too
+  const MarkCount* marks = nullptr;               ///< live: each step up is an event of the recording (moment_mark.h)
+  std::function<bool()> board_answers = {};       ///< live: while it says no, everything stands still; needs `pause`, and no exam
+  PauseSwitch* pause = nullptr;                   ///< live: lets everything stand still, the simulated device too
 };
 
 /// What one run of the loop leaves behind, before grading.

@@ -37,12 +37,13 @@ struct ThreadedExecutor::Lane {
   std::int64_t period_ns = 0, offset_ns = 0;
   std::int64_t wished_ns = 0, last_ns = 0;  // next wake, and when the one before was
   std::int64_t stood_ns = 0;                // pauses that the wished times have been moved by
+  std::function<bool()> answers;            // of the board that its tasks read; empty: always there
   LaneReport report;
   std::thread thread;
   std::exception_ptr thrown;
 };
 
-ThreadedExecutor::ThreadedExecutor(double rate_hz, const PauseSwitch* pause) : rate_hz_(rate_hz), pause_(pause) {}
+ThreadedExecutor::ThreadedExecutor(double rate_hz, PauseSwitch* pause) : rate_hz_(rate_hz), pause_(pause) {}
 ThreadedExecutor::~ThreadedExecutor() { join(); }
 
 void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> tasks, int priority, double offset) {
@@ -54,6 +55,8 @@ void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> task
   lane->report.name = name;
   lanes_.push_back(std::move(lane));
 }
+
+void ThreadedExecutor::await(std::function<bool()> answers) { lanes_.back()->answers = std::move(answers); }
 
 void ThreadedExecutor::add_own_lane(const std::string& name, std::vector<Task*> tasks) {
   add_lane(name, std::move(tasks), 0);
@@ -113,8 +116,15 @@ void ThreadedExecutor::work(Lane& lane) noexcept {
 /// Waits out a pause. @return true when there was one since the lane last asked: its wished times now lie later.
 bool ThreadedExecutor::stood_still(Lane& lane, const std::function<bool()>& interrupted) {
   if (!pause_) return false;
+  const auto look = [&] {
+    if (!lane.answers) return;
+    const bool silent = !lane.answers();
+    if (silent != pause_->asked_by(PauseSwitch::Cause::kBoard)) pause_->set(silent, PauseSwitch::Cause::kBoard);
+  };
+  look();
   while (pause_->paused() && !stop_.load()) {
     sleep_until(now_ns(CLOCK_MONOTONIC) + kPauseLook);
+    look();
     if (interrupted && interrupted()) stop_.store(true);
   }
   const std::int64_t since = pause_->stood_ns() - lane.stood_ns;

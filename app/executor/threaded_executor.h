@@ -36,12 +36,14 @@ struct LaneReport {
 class ThreadedExecutor {
  public:
   /// @param pause outlives the executor; nullptr: it never stands still.
-  explicit ThreadedExecutor(double rate_hz, const PauseSwitch* pause = nullptr);
+  explicit ThreadedExecutor(double rate_hz, PauseSwitch* pause = nullptr);
   ~ThreadedExecutor();
 
   /// @param tasks run in this order, at the period of the first; they outlive the executor. @param priority of SCHED_FIFO, 0: none.
   /// @param offset of its wakes, in loop periods: a lane half a period after another sees what that one has just done, as in lockstep.
   void add_lane(const std::string& name, std::vector<Task*> tasks, int priority, double offset = 0);
+  /// The last lane added asks this before each wake: while it says no, all lanes stand still, as in a pause. It must not wait.
+  void await(std::function<bool()> answers);
   /// A lane in the thread that calls run().
   void add_own_lane(const std::string& name, std::vector<Task*> tasks);
 
@@ -67,7 +69,7 @@ class ThreadedExecutor {
   void join();
 
   double rate_hz_;
-  const PauseSwitch* pause_;
+  PauseSwitch* pause_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   Lane* own_ = nullptr;
   std::atomic<bool> stop_{false};

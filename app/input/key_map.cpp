@@ -32,7 +32,7 @@ const std::map<Action, std::int32_t>& default_keys() {
       {Action::kClose, 'S'},           {Action::kOpen, 'X'},              {Action::kLatch, kKeySpace},    {Action::kClutch, 'W'},
       {Action::kPostLeft, 'A'},        {Action::kPostRight, 'D'},         {Action::kScope, kKeyAlt},      {Action::kLevel, 'H'},
       {Action::kPause, 'P'},           {Action::kRestart, 'R'},           {Action::kMark, 'M'},           {Action::kHelp, kKeyF1},
-      {Action::kForceBars, kKeyF2},    {Action::kDevicePanel, kKeyF3},    {Action::kGuidance, kKeyF5},    {Action::kRecord, kKeyF9},
+      {Action::kForceBars, kKeyF2},    {Action::kDevicePanel, kKeyF3},    {Action::kGuidance, kKeyF5},
       {Action::kPicture, kKeyF12},     {Action::kMenu, kKeyEscape}};
   return table;
 }
@@ -91,7 +91,6 @@ const std::vector<ActionName>& action_names() {
       {Action::kForceBars, "force-bars", "Force bars", false},
       {Action::kDevicePanel, "device-panel", "Device panel", false},
       {Action::kGuidance, "guidance", "Guidance", false},
-      {Action::kRecord, "record", "Record a film", false},
       {Action::kPicture, "picture", "Save a picture", false},
       {Action::kMenu, "menu", "Menu", false}};
   return table;

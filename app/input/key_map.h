@@ -19,7 +19,7 @@ enum class Action : std::uint8_t {
   kLeft, kRight, kUp, kDown, kInsert, kWithdraw, kRollLeft, kRollRight, kPitchUp, kPitchDown, kYawLeft, kYawRight,
   kClose, kOpen, kLatch, kClutch, kPostLeft, kPostRight, kScope, kLevel,
   // commands, once
-  kPause, kRestart, kMark, kHelp, kForceBars, kDevicePanel, kGuidance, kRecord, kPicture, kMenu,
+  kPause, kRestart, kMark, kHelp, kForceBars, kDevicePanel, kGuidance, kPicture, kMenu,
 };
 
 /// Name in settings, English words on screens.

@@ -80,6 +80,8 @@ struct AttemptRunner::State {
   HandLink link;
   std::uint64_t intents = 0;    // window's
   PauseSwitch pause;
+  MarkCount marks{0};
+  std::atomic<bool> plugged{true};
   std::atomic<bool> abort{false}, give_up{false}, finished{false}, stored{false};
 
   AttemptResult result;         // before `finished` the attempt's thread's, then anybody's to read
@@ -108,6 +110,8 @@ void AttemptRunner::State::record_and_grade() {
   hooks.interrupted = [this] { return abort.load(); };
   if (steered) hooks.hand = [this] { return std::make_unique<PersonHand>(link); };
   hooks.pause = &pause;
+  hooks.marks = &marks;
+  if (scene->level.name != kExamLevel) hooks.board_answers = [this] { return plugged.load(std::memory_order_relaxed); };
   const auto [outcome, recording] = record_or_abort(store, id, *scene, assets, hooks);
   for (const std::string& line : outcome.notes) note(line);
   result = kept_result(start, id, outcome, recording);
@@ -190,6 +194,13 @@ bool AttemptRunner::pause(bool paused) {
 }
 
 bool AttemptRunner::paused() const { return state_->pause.paused(); }
+bool AttemptRunner::plug(bool in) {
+  if (!in && state_->scene->level.name == kExamLevel) return false;
+  state_->plugged.store(in);
+  return true;
+}
+bool AttemptRunner::board_answers() const { return !state_->pause.asked_by(PauseSwitch::Cause::kBoard); }
+void AttemptRunner::mark() { state_->marks.fetch_add(1); }
 void AttemptRunner::abort() { state_->abort.store(true); }
 bool AttemptRunner::finished() const { return state_->finished.load(); }
 bool AttemptRunner::stored() const { return state_->stored.load(); }

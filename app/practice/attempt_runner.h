@@ -4,7 +4,7 @@
 //   while (!run.finished()) { run.steer(intent); draw(run.newest()); }
 //   run.result();                                 // graded and stored, or throws what went wrong
 //
-// The 1 kHz loop never waits for a picture. Whatever its end, the attempt is kept as `trocar run` keeps it: recorded to disk ten times
+// The 1 kHz loop never waits for a picture. Whatever its end, the attempt is kept as `trocar run` keeps it: recorded to disk twice
 // a second, graded from the recording, stored; a database that is busy at the end is asked again until the runner goes.
 // Threads: all members from the window's thread; the attempt owns the others.
 #pragma once
@@ -54,6 +54,12 @@ class AttemptRunner {
   /// An exam has no pause. @return whether it is as asked.
   bool pause(bool paused);
   bool paused() const;
+  /// The newest moment becomes an event of the recording, to find it again (app/moment_mark.h).
+  void mark();
+  /// The cable of the simulated board: out, the board answers nothing and the attempt stands still as in a pause, with all it holds;
+  /// in, it goes on unless a person's pause holds it. @return whether it is as asked: an exam has no pause, there a silent board is a fault.
+  bool plug(bool in);
+  bool board_answers() const;
   void abort();
   /// The result is there (stored or not).
   bool finished() const;

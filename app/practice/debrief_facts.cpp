@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/moment_mark.h"
 #include "app/practice/debrief_reason.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/progress/learning_curve.h"
@@ -125,6 +126,7 @@ std::string event_words(const Words& words, const Event& event) {
   if (type == "REMOVED") return words("Placed block taken away");
   if (type == "PORT_HOLD") return words("Too close to the port");
   if (type == "DEADMAN_OPEN") return words("Deadman opened");
+  if (type == kMomentMark) return words("Marked by you");
   if (type == "DEVICE_FAULT") return words("Device stopped");
   if (type == "TIMEOUT") return words("Time over");
   return "";

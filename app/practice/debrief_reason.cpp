@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "app/device_words.h"
+#include "app/practice/cut_off.h"
+#include "app/realtime_receipt.h"
 
 namespace trocar {
 namespace {
@@ -48,18 +50,30 @@ std::string score_words(const Words& words, const DebriefFacts& facts) {
   const std::string score = words.number(*facts.score, 1), pass = words.number(facts.pass_at, 0);
   const DebriefRow* worst = largest_loss(facts.rows);
   if (!worst) return words("{0} of 100 points, a pass needs {1}.", {score, pass});
-  return words("{0} of 100 points, a pass needs {1}. Most went on: {2}.", {score, pass, worst->name});
+  return words("{0} of 100 points, a pass needs {1}. Most points were lost on: {2}.", {score, pass, worst->name});
 }
 
 std::string ungraded_words(const Words& words, const AttemptResult& result, Outcome outcome) {
   const double t = result.events.empty() ? 0 : clock_s(result, result.events.back().t_s);
   switch (outcome) {
     case Outcome::kStopped:
+      if (was_cut_off(result.integrity)) return words("The attempt was cut off with its program, so there is no score. It counts as not passed.");
       return t > 0 ? words("You left the attempt, so there is no score. It counts as not passed.")
                    : words("You left before the clock began, so there is no score. It counts as not passed.");
     case Outcome::kDeviceStopped: return words("The device stopped. That is not your doing: the attempt does not count.");
     default: return words("The attempt is void: its record cannot be graded, and it does not count.");
   }
+}
+
+/// That it stood still: no point is lost by it, but it belongs to the attempt.
+void add_pauses(const Words& words, const AttemptResult& result, std::vector<std::string>& out) {
+  const std::vector<StoodStill> pauses = pauses_of(result.device.realtime);
+  if (pauses.empty()) return;
+  double all_s = 0;
+  for (const StoodStill& pause : pauses) all_s += pause.seconds;
+  const std::string took = words.number(all_s, all_s < 10 ? 1 : 0), at = words.number(clock_s(result, pauses.front().at_s), 1);
+  out.push_back(pauses.size() == 1 ? words("Paused once, at {0} s, for {1} s.", {at, took})
+                                   : words("Paused {0} times, first at {1} s, {2} s in all.", {std::to_string(pauses.size()), at, took}));
 }
 
 }  // namespace
@@ -129,6 +143,7 @@ std::vector<std::string> further_words(const Words& words, const AttemptResult& 
     if (!fault.empty()) out.push_back(words.made(fault));
     else if (!result.integrity.empty()) out.push_back(words.made(result.integrity));
     else if (!result.grade.caps.empty()) out.push_back(words.made(result.grade.caps.front()));
+    add_pauses(words, result, out);
     return out;
   }
   const bool critical = facts.outcome != Outcome::kPass && first_critical(result) != nullptr;
@@ -139,6 +154,7 @@ std::vector<std::string> further_words(const Words& words, const AttemptResult& 
   if (result.device.force_not_rendered())
     out.push_back(words("The device could not give the force in {0} % of the contact time: this attempt does not count for a certificate.",
                         {words.number(100 * result.device.saturated_contact_share, 0)}));
+  add_pauses(words, result, out);
   return out;
 }
 

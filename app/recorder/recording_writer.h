@@ -1,6 +1,6 @@
-// Writes an attempt's recording: one chunk of ticks a second, events with them, an END chunk when it is closed.
+// Writes an attempt's recording: two chunks of ticks a second, events with them, an END chunk when it is closed.
 //
-// What has been flushed survives kill -9; at most one second is lost. A writer that is destroyed without close()
+// What has been flushed survives kill -9; what a chunk holds is lost at most: half a second, and what waits for the recorder task (0.1 s). A writer that is destroyed without close()
 // flushes what it holds and leaves a readable recording without END. Thread: recorder task (never the haptic task).
 #pragma once
 
@@ -36,6 +36,8 @@ RecordingEnd decode_end(std::string_view payload);
 
 class RecordingWriter {
  public:
+  static constexpr double kChunk_s = 0.5;   ///< kill -9 may cost a second; a machine that is busy needs the other half
+
   /// Records to a file. @param session opaque text for the header (recording_header.h).
   /// @throws EnvironmentError naming the file, InputError for a bad rate or text.
   RecordingWriter(const std::filesystem::path& file, std::string_view session, double rate_hz);
@@ -45,7 +47,7 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// Takes one row; writes a chunk when a second is full. @throws EnvironmentError as above (the readable part stays),
+  /// Takes one row; writes a chunk when half a second is full. @throws EnvironmentError as above (the readable part stays),
   /// std::invalid_argument when row.tick does not increase.
   void append(const RecordedTick& row);
   /// Takes what is new of the schedule; it goes to disk before the rows of the next chunk.
@@ -74,7 +76,7 @@ class RecordingWriter {
   std::vector<RecordedTick> rows_;
   std::vector<Event> events_;
   Schedule schedule_;
-  std::size_t rows_per_chunk_ = 1000;
+  std::size_t rows_per_chunk_ = 500;
   std::uint64_t tick_count_ = 0, event_count_ = 0, last_tick_ = 0;
   enum class State : std::uint8_t { kOpen, kClosed, kFailed } state_ = State::kOpen;
 };

@@ -24,6 +24,13 @@ std::string credit_of(const std::string& name, const AssetRoots& assets) {
   }
 }
 
+/// The level that opens the chosen one.
+std::string level_before(const PracticeDesk& desk) {
+  const std::vector<ExerciseLevel>& levels = desk.exercise().levels;
+  const auto at = std::find_if(levels.begin(), levels.end(), [&](const ExerciseLevel& one) { return one.name == desk.level; });
+  return at == levels.begin() || at == levels.end() ? desk.level : std::prev(at)->name;
+}
+
 Mark check_mark(DeviceCheck::State state) {
   switch (state) {
     case DeviceCheck::State::kPassed: return Mark::kTick;
@@ -72,6 +79,7 @@ void BriefingScreen::load(PracticeDesk& desk) {
   const std::string now = desk.exercise_id + "/" + desk.level + "/" + desk.words().language();
   if (now == shown_) return;
   shown_ = now;
+  locked_ = desk.locked();
   const Exercise& exercise = desk.exercise();
   const ExerciseLevel& level = find_level(exercise, desk.level);
   steps_ = lesson_steps(desk.words(), exercise, level);
@@ -136,8 +144,9 @@ std::optional<ScreenName> BriefingScreen::start(PracticeDesk& desk) {
 
 void BriefingScreen::head(Ui& ui, PracticeDesk& desk) const {
   const Words& w = desk.words();
-  ui.title(lesson_title(w, desk.exercise(), desk.level));
+  ui.title(lesson_title(w, desk.exercise(), desk.level), desk.who());
   ui.text(w(desk.exercise().goal));
+  if (!locked_.empty()) ui.marked(Mark::kLock, locked_, Ink::kCaution);
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
 }
 
@@ -155,7 +164,7 @@ void BriefingScreen::column(Ui& ui, PracticeDesk& desk, const Area& area) {
 }
 
 void BriefingScreen::sheet(Ui& ui, PracticeDesk& desk, const Area& area) {
-  const double gap = ui.px(kGap), head_high = ui.px(wrong_.empty() ? kHead : kHead + 26), left = 0.5 * (area.width - gap);
+  const double gap = ui.px(kGap), head_high = ui.px(kHead + (wrong_.empty() ? 0 : 26) + (locked_.empty() ? 0 : 26)), left = 0.5 * (area.width - gap);
   const double top = area.y + head_high + gap, below = area.y + area.height - top, stage_high = ui.px(kStage), limits_high = ui.px(kLimits);
   const double x = area.x + left + gap, half = 0.56 * (left - gap);
   const auto panel = [&](const char* id, const Area& place, const auto& inside) {
@@ -174,7 +183,9 @@ void BriefingScreen::sheet(Ui& ui, PracticeDesk& desk, const Area& area) {
 std::string BriefingScreen::page(Ui& ui, PracticeDesk& desk) {
   const Words& w = desk.words();
   const double m = ui.px(kMargin), gap = ui.px(kGap), wide = ui.width() - 2 * m;
-  const std::vector<RowButton> buttons{{"start", w("Start"), "Enter", true}, {"explain", w("Measures explained"), "M"},
+  const RowButton first = locked_.empty() ? RowButton{"start", w("Start"), "Enter", true}
+                                          : RowButton{"before", w("Go to {0}", {w(level_before(desk))}), "Enter", true};
+  const std::vector<RowButton> buttons{first, {"explain", w("Measures explained"), "M"},
                                        {"watch", w("Watch the expert"), "V"}, {"back", w("Course"), "Esc"}};
   const double foot = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * m - foot - gap;
   if (compact(ui)) column(ui, desk, {m, m, wide, high});
@@ -232,6 +243,7 @@ std::optional<ScreenName> BriefingScreen::frame(Ui& ui, PracticeDesk& desk, doub
     measure_ = std::min(measure_, measures_.size() - 1);
   }
   if (chosen == "start") return start(desk);
+  if (chosen == "before") desk.level = level_before(desk);
   if (chosen == "back") return ScreenName::kCurriculum;
   if (chosen == "watch") {
     desk.replay_file = desk.expert_recording();

@@ -52,6 +52,7 @@ class BriefingScreen final : public Screen {
   std::string credit_;
   bool explaining_ = false;
   std::size_t measure_ = 0;
+  std::string locked_;                     ///< why the level cannot be started; empty: it can
   std::string wrong_;
 };
 

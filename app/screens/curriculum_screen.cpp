@@ -84,7 +84,7 @@ void CurriculumScreen::tree(Ui& ui, PracticeDesk& desk, const Area& area) {
 
 void CurriculumScreen::head(Ui& ui, PracticeDesk& desk) const {
   const Words& w = desk.words();
-  ui.title(lesson_title(w, desk.exercise(), desk.level));
+  ui.title(lesson_title(w, desk.exercise(), desk.level), desk.who());
   ui.text(w(desk.exercise().goal));
   ui.text(lesson_skill(w, desk.exercise().kind), Ink::kDim);
 }

@@ -112,6 +112,7 @@ std::vector<RowButton> foot_buttons(const Words& w, const DebriefContent& conten
   if (content.can_compare) out.push_back({"compare", w("Compare with expert"), "S"});
   out.push_back({"progress", w("My progress"), "M"});
   if (content.guest) out.push_back({"signin", w("Sign in"), "I"});
+  else out.push_back({"back", w("Back"), "Esc"});
   return out;
 }
 
@@ -121,6 +122,7 @@ DebriefChoice meant(const std::string& id) {
   if (id == "watch") return DebriefChoice::kWatch;
   if (id == "compare") return DebriefChoice::kCompare;
   if (id == "progress") return DebriefChoice::kProgress;
+  if (id == "back") return DebriefChoice::kBack;
   return id == "signin" ? DebriefChoice::kSignIn : DebriefChoice::kNone;
 }
 
@@ -201,7 +203,8 @@ DebriefChoice DebriefPage::foot(Ui& ui, const DebriefContent& content) {
   if (!note.empty()) ui.text(note, Ink::kDim);
   if (choice != DebriefChoice::kNone) return choice;
   if (ui.pressed("N")) return DebriefChoice::kNext;   // also when Enter stands on the button
-  return ui.pressed("R") ? DebriefChoice::kRetry : DebriefChoice::kNone;
+  if (ui.pressed("R")) return DebriefChoice::kRetry;
+  return ui.pressed("Esc") ? DebriefChoice::kBack : DebriefChoice::kNone;   // a guest's row is full
 }
 
 /// px that the foot needs; with the advice above its buttons where there are two columns.

@@ -24,7 +24,7 @@ struct DebriefContent {
   std::string next_name = {};                             ///< of the next exercise
 };
 
-enum class DebriefChoice : std::uint8_t { kNone, kRetry, kNext, kWatch, kCompare, kProgress, kSignIn };
+enum class DebriefChoice : std::uint8_t { kNone, kRetry, kNext, kWatch, kCompare, kProgress, kSignIn, kBack };
 
 class DebriefPage {
  public:

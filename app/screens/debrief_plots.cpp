@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/moment_mark.h"
 #include "app/practice/debrief_facts.h"
 #include "app/screens/plot.h"
 
@@ -16,8 +17,9 @@ struct Shape {
   Ink ink;
 };
 
-Shape shape_of(Severity severity) {
-  switch (severity) {
+Shape shape_of(const PlotEvent& event) {
+  if (event.own) return {PlotMark::kRing, Ink::kText};
+  switch (event.severity) {
     case Severity::kCritical:
     case Severity::kMajor: return {PlotMark::kTriangle, Ink::kAlarm};
     case Severity::kMinor: return {PlotMark::kDiamond, Ink::kCaution};
@@ -101,7 +103,7 @@ int legend(Ui& ui, const DebriefPlots& plots, const Area& area, bool draw) {
       ++lines;
     }
     if (draw) {
-      paint_plot_mark(ui, shape_of(event.severity).mark, x + ui.px(5), y + line / 2, ui.px(5), shape_of(event.severity).ink);
+      paint_plot_mark(ui, shape_of(event).mark, x + ui.px(5), y + line / 2, ui.px(5), shape_of(event).ink);
       ui.text_at(x + mark, y, text, Ink::kDim, area.width - mark);
     }
     x += wide;
@@ -113,7 +115,7 @@ void draw_events(Ui& ui, const Plot& first, const DebriefPlots& plots, double y)
   for (const Severity severity : {Severity::kInfo, Severity::kMinor, Severity::kMajor, Severity::kCritical})
     for (const PlotEvent& event : plots.events)
       if (event.severity == severity)
-        paint_plot_mark(ui, shape_of(severity).mark, first.x_px(event.t_s - plots.trace->begin_s), y, ui.px(5), shape_of(severity).ink);
+        paint_plot_mark(ui, shape_of(event).mark, first.x_px(event.t_s - plots.trace->begin_s), y, ui.px(5), shape_of(event).ink);
 }
 
 /// "12.4 s  0.62 N  Too much force"
@@ -148,7 +150,7 @@ std::vector<PlotEvent> plot_events(const Words& words, const std::vector<Event>&
   std::vector<PlotEvent> out;
   for (const Event& event : events) {
     const std::string text = event_words(words, event);
-    if (!text.empty() && event.t_s >= trace.begin_s && event.t_s <= trace.end_s) out.push_back({event.t_s, event.severity, text});
+    if (!text.empty() && event.t_s >= trace.begin_s && event.t_s <= trace.end_s) out.push_back({event.t_s, event.severity, text, event.type == kMomentMark});
   }
   return out;
 }

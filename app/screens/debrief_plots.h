@@ -26,6 +26,7 @@ struct PlotEvent {
   double t_s = 0;                           ///< loop time
   Severity severity = Severity::kInfo;
   std::string text;
+  bool own = false;                         ///< the trainee marked it
 };
 /// Those within the trace that a trainee should see (event_words).
 std::vector<PlotEvent> plot_events(const Words& words, const std::vector<Event>& events, const ForceTrace& trace);

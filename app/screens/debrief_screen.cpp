@@ -144,6 +144,7 @@ std::optional<ScreenName> DebriefScreen::follow(DebriefChoice choice, PracticeDe
     case DebriefChoice::kCompare: expert_wanted_ = true; break;
     case DebriefChoice::kProgress: return ScreenName::kProgress;
     case DebriefChoice::kSignIn: return ScreenName::kStart;
+    case DebriefChoice::kBack: return ScreenName::kBack;
   }
   if (!expert_wanted_ || expert_.empty()) return std::nullopt;
   desk.replay_file = desk.recording();
@@ -164,7 +165,7 @@ std::optional<ScreenName> DebriefScreen::frame(Ui& ui, PracticeDesk& desk, doubl
   if (language_ != desk.words().language()) say(desk);
   take_trace(desk);
   take_expert(desk);
-  content_.guest = desk.is_guest();
+  content_.guest = desk.is_guest() && !desk.is_demonstration();
   return follow(page_.draw(ui, content_), desk);
 }
 

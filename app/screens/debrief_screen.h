@@ -16,6 +16,7 @@ class DebriefScreen : public Screen {
  public:
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
   void settle(PracticeDesk& desk, double wait_s) override;
+  bool takes_escape() const override { return true; }
 
  private:
   void look_at(PracticeDesk& desk);

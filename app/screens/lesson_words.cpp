@@ -56,7 +56,7 @@ std::vector<LessonStep> touch_steps(const Words& w, const Exercise& e, const Exe
           {StepIcon::kHold, w("Hold for {0} s without a break; the next disc lights.", {brief(w, e.hold_s)})},
           {StepIcon::kWithdraw, w("Draw back before you go on: no dragging over tissue.")},
           {StepIcon::kSqueeze,
-           w("Last, squeeze the block with {0} for {1} s.", {band(w, e.grip.low_n, e.grip.high_n), brief(w, e.grip.hold_s)})}};
+           w("Last, squeeze the block between the jaws with {0} for {1} s.", {band(w, e.grip.low_n, e.grip.high_n), brief(w, e.grip.hold_s)})}};
 }
 
 std::vector<LessonStep> grasp_steps(const Words& w, const Exercise& e, const ExerciseLevel& level) {
@@ -70,7 +70,13 @@ std::vector<LessonStep> grasp_steps(const Words& w, const Exercise& e, const Exe
 }
 
 void touch_limits(const Words& w, const Exercise& e, const ExerciseLevel& level, std::vector<LessonLimit>& out) {
-  for (const WantedForce& wanted : level.bands) out.push_back({w("Wanted force"), band(w, wanted.low_n, wanted.high_n)});
+  std::string wanted;
+  for (const WantedForce& one : level.bands) {
+    const std::string said = band(w, one.low_n, one.high_n);
+    wanted = wanted.empty() ? said : w("{0} or {1}", {wanted, said});
+  }
+  if (level.bands.size() == 1) out.push_back({w("Wanted force"), wanted});
+  else out.push_back({w("Wanted force, another for each disc; the bar says which"), wanted});
   out.push_back({w("Discs"), std::to_string(e.layout.count)});
   out.push_back({w("Wrong place"), w("touch begins over {0} outside the disc", {millimetres(w, e.layout.wrong_place_m)})});
 }
@@ -156,7 +162,7 @@ std::string lesson_display(const Words& w, const ExerciseLevel& level) {
 }
 
 std::string lesson_tool(const Words& w, const Exercise& exercise, const ExerciseLevel& level) {
-  const std::string tool = exercise.kind == ExerciseKind::kGrasp ? w("Grasper, 5 mm") : w("Probe, 5 mm");
+  const std::string tool = exercise.kind == ExerciseKind::kReach ? w("Probe, 5 mm") : w("Grasper, 5 mm");
   if (level.mapping == Mapping::kFulcrum) return w("{0}, through a port: the tip moves against the hand.", {tool});
   return w("{0}, one hand, no port: the tip moves with the hand.", {tool});
 }

@@ -9,7 +9,9 @@
 namespace trocar {
 namespace {
 
-constexpr double kNoticeSeconds = 6, kNoticeTop = 50, kNoticeSides = 36;   // below the clock of a run
+constexpr double kNoticeSeconds = 6, kPerCharacter_s = 0.07;   // long ones take longer to read
+constexpr double kLongestStep_s = 0.1;                          // a frame that took long (the first) takes nothing off a notice
+constexpr double kNoticeTop = 50, kNoticeSides = 36;            // below the clock of a run
 
 /// A panel in the middle, as large as asked or as there is room.
 Area middle(const Ui& ui, double width_at_720, double height_at_720) {
@@ -102,8 +104,8 @@ void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std:
     age_s = 0;
   }
   if (shown.empty()) return;
-  age_s += dt_s;
-  if (age_s > kNoticeSeconds) return shown.clear();
+  age_s += std::min(dt_s, kLongestStep_s);
+  if (age_s > std::max(kNoticeSeconds, kPerCharacter_s * static_cast<double>(shown.size()))) return shown.clear();
   const double mark = ui.line_height() + ui.px(10), sides = ui.px(kNoticeSides), most = std::min(ui.px(720), ui.width() - ui.px(24));
   const double wide = std::min(most, ui.text_width(shown) + mark + sides + 2);
   const double high = ui.strip_height(1) - ui.px(14) + ui.text_height(shown, wide - mark - sides) - ui.line_height();

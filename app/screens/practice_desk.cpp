@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <future>
 #include <numbers>
-#include <random>
 #include <thread>
 
 #include "app/graphics/show_scene.h"
-#include "app/playback/expert_run.h"
-#include "app/recorded_result.h"
+#include "app/recorded_scene.h"
+#include "app/screens/practice_desk_state.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"
@@ -19,51 +16,7 @@
 namespace trocar {
 namespace {
 
-constexpr const char* kGuest = "guest";
-constexpr int kBusy_ms = 2000;
 constexpr int kStoring_ms = 500;   // that a result may take to the database before the person is told
-
-/// Of LANG, when there is a catalogue for it.
-std::string language_of_machine(const std::filesystem::path& folder) {
-  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
-    const char* value = std::getenv(name);
-    if (value == nullptr || *value == '\0') continue;
-    const std::string code = std::string(value).substr(0, 2);
-    return std::filesystem::is_regular_file(folder / (code + ".toml")) ? code : "en";
-  }
-  return "en";
-}
-
-}  // namespace
-
-struct PracticeDesk::State {
-  DeskOptions options;
-  AssetRoots assets;
-  std::vector<Exercise> exercises;
-  Settings settings, followed;                 // as they are; as they were when they were last taken up
-  Words words;
-  KeyMap keys;
-  std::unique_ptr<Steering> steering;
-  std::unique_ptr<Sound> sound;
-  bool sound_wanted = true;
-  std::unique_ptr<Database> database;
-  std::string trainee = kGuest;
-  std::unique_ptr<AttemptRunner> runner;
-  std::vector<std::unique_ptr<AttemptRunner>> unstored;   // over, but the database has not taken them yet
-  std::optional<AttemptResult> result;
-  std::shared_ptr<const Scene> last_scene;
-  std::vector<AttemptSummary> unkept;          // of this sitting, newest first, when nothing is kept
-  std::vector<PastAttempt> unkept_numbers;     // the same with their metrics
-  ExpertRun expert;
-  std::shared_future<std::shared_ptr<const SceneView>> show_scene;
-
-  std::filesystem::path settings_file_path() const { return options.settings.empty() ? settings_file() : options.settings; }
-  void take_up(std::string& notice);
-  void open_database(std::string& notice);
-  std::vector<AttemptSummary> attempts(const std::string& exercise) const;
-  std::shared_ptr<const Scene> built(AttemptSetup setup) const;
-  std::int64_t seed() const;
-};
 
 /// The parser's own words are English and for who writes programs: the line says enough.
 std::string unread_words(const Words& w, const Settings& settings, const std::filesystem::path& file) {
@@ -74,65 +27,14 @@ std::string unread_words(const Words& w, const Settings& settings, const std::fi
   return w("{0} cannot be read: the usual settings hold. With your next change it is kept as {1}.", {file.string(), kept});
 }
 
-void PracticeDesk::State::take_up(std::string& notice) {
-  followed = settings;
-  const std::filesystem::path folder = assets.assets / "languages";
-  std::string language = options.language.empty() ? settings.language : options.language;
-  if (language.empty()) language = language_of_machine(folder);
-  try {
-    if (language != words.language()) words = language == "en" ? Words() : Words(folder, language);
-  } catch (const InputError& error) {
-    if (!options.language.empty()) throw;
-    words = Words();
-    notice = words("The language that was chosen cannot be used: {0}", {error.what()});
-  }
-  keys = KeyMap();
-  try {
-    keys.apply(settings.keys);
-  } catch (const InputError& error) {
-    keys = KeyMap();
-    notice = words("Your keys cannot be used, the usual ones hold: {0}", {error.what()});
-  }
-  const SteeringOptions steered{settings.left_handed, settings.like_a_fulcrum, settings.sensitivity};
-  if (steering) steering->retune(keys, steered);
-  else steering = std::make_unique<Steering>(keys, steered);
-  if (!sound || sound_wanted != settings.sound) sound = std::make_unique<Sound>(settings.sound);
-  sound_wanted = settings.sound;
-}
-
-void PracticeDesk::State::open_database(std::string& notice) {
-  const bool named = !options.database.empty();
-  try {
-    const std::filesystem::path file = named ? options.database : default_database_path();
-    database = std::make_unique<Database>(file, OpenMode::kCreate, kBusy_ms, regrade_file);
-    if (!database->recovered().empty())
-      notice = words("An attempt that was cut off has been closed; its recording is kept.");
-  } catch (const EnvironmentError& error) {
-    if (named) throw;
-    database = std::make_unique<Database>(":memory:");
-    options.database = ":memory:";
-    notice = words("Results cannot be kept: {0}", {error.what()});
-  }
-}
-
-std::vector<AttemptSummary> PracticeDesk::State::attempts(const std::string& exercise) const {
-  if (!database->in_memory()) return AttemptStore(*database).list({trainee, exercise});
-  std::vector<AttemptSummary> out;
-  std::copy_if(unkept.begin(), unkept.end(), std::back_inserter(out),
-               [&](const AttemptSummary& a) { return a.exercise_id == exercise && a.trainee == trainee; });
-  return out;
-}
-
-std::int64_t PracticeDesk::State::seed() const {
-  if (options.seed) return *options.seed;
-  std::random_device device;
-  return static_cast<std::int64_t>(device() & 0x7fffffffU);
-}
+}  // namespace
 
 PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.options = options;
   s.assets = assets;
+  if (s.scripted()) s.trainee = kDemonstration;
+  s.check_names();
   s.exercises = list_exercises(assets.exercises);
   if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
   s.show_scene = std::async(std::launch::async, [] { return std::make_shared<const SceneView>(trocar::show_scene("abdomen")); }).share();
@@ -219,13 +121,15 @@ AttemptSetup PracticeDesk::show_setup() const {
 }
 
 const std::string& PracticeDesk::trainee() const { return state_->trainee; }
-bool PracticeDesk::is_guest() const { return state_->trainee == kGuest; }
+bool PracticeDesk::is_guest() const { return state_->trainee == kGuest || state_->trainee == kDemonstration; }
 
 std::string PracticeDesk::sign_in(const std::string& code) {
   State& s = *state_;
   if (code.empty()) return s.words("Type your code first.");
+  if (code == kDemonstration || code == kGuest) return s.words("This code is kept for runs that are nobody's; take another.");
   try {
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
+    if (const std::string said = s.recovered_words(s.trainee); !said.empty()) notice = said;
     return "";
   } catch (const InputError&) {
     return s.words("A code is 1 to 32 letters, digits, dots or dashes, and begins with a letter or digit.");
@@ -234,18 +138,14 @@ std::string PracticeDesk::sign_in(const std::string& code) {
   }
 }
 
-void PracticeDesk::sign_out() { state_->trainee = kGuest; }
+void PracticeDesk::sign_out() { state_->trainee = state_->scripted() ? kDemonstration : kGuest; }
 
-/// The scene of an attempt. Where the organ lies is the same for every board of a level, and the search for it takes seconds on a small
-/// organ: it is done once for attempts that follow each other on the same organ.
-std::shared_ptr<const Scene> PracticeDesk::State::built(AttemptSetup setup) const {
-  find_level(setup.exercise, setup.level);
-  Organ made = organ_of(setup, assets);
-  const Scene* last = last_scene.get();
-  if (last && needs_organ(setup.exercise.kind) && last->organ.sha256 == made.sha256 && last->setup.exercise.text == setup.exercise.text &&
-      last->setup.level == setup.level)
-    setup.placement = last->placement;
-  return std::make_shared<const Scene>(build_scene(setup, std::move(made), {"simulated", setup.rate_hz, 16}));
+bool PracticeDesk::is_demonstration() const { return state_->scripted(); }
+
+std::string PracticeDesk::who() const {
+  const Words& w = state_->words;
+  if (state_->scripted()) return w("Demonstration");
+  return is_guest() ? w("Guest") : w("Signed in as {0}", {trainee()});
 }
 
 const Exercise& PracticeDesk::exercise() const {
@@ -264,23 +164,27 @@ Standing PracticeDesk::standing(const std::string& id, const std::string& of_lev
 
 PracticeDesk::Advice PracticeDesk::next() const {
   const Words& w = state_->words;
-  std::size_t most = 0;
-  for (const Exercise& e : state_->exercises) most = std::max(most, e.levels.size());
-  for (std::size_t i = 0; i < most; ++i) {
-    for (const Exercise& e : state_->exercises) {
-      if (i >= e.levels.size()) continue;
-      const std::string& name = e.levels[i].name;
-      const Standing s = standing(e.id, name);
-      if (!s.unlocked || opens_next(s.newest_first)) continue;
-      if (s.attempts == 0) return {e.id, name, w("Not tried yet.")};
-      if (s.passed_in_a_row == 0)
-        return {e.id, name, w(s.attempts == 1 ? "Tried once, the row of passes is still to come."
-                                              : "Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})};
-      return {e.id, name, w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)})};
-    }
+  const auto found = next_step(practice_order(state_->exercises, is_guest()),
+                               [this](const Exercise& e, const std::string& name) { return standing(e.id, name); });
+  if (!found) {
+    const Exercise& first = state_->exercises.front();
+    return {first.id, first.levels.back().name, w("Everything is passed: stay in practice.")};
   }
-  const Exercise& first = state_->exercises.front();
-  return {first.id, first.levels.back().name, w("Everything is passed: stay in practice.")};
+  const Standing& s = found->standing;
+  const std::string why = s.attempts == 0          ? w("Not tried yet.")
+                          : s.passed_in_a_row == 0 ? w("Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})
+                                                   : w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)});
+  return {found->exercise->id, found->level, why};
+}
+
+std::string PracticeDesk::locked() const {
+  const std::vector<ExerciseLevel>& levels = exercise().levels;
+  const auto at = std::find_if(levels.begin(), levels.end(), [this](const ExerciseLevel& one) { return one.name == level; });
+  if (state_->scripted() || at == levels.begin() || at == levels.end() || standing(exercise_id, level).unlocked) return "";
+  const Words& w = state_->words;
+  const std::string& before = std::prev(at)->name;
+  return w("{0} is locked: three passes in a row on three boards at {1} open it. So far: {2} of 3.",
+           {w(level), w(before), std::to_string(std::min(3, standing(exercise_id, before).passed_in_a_row))});
 }
 
 std::optional<std::string> PracticeDesk::teacher_note() const { return std::nullopt; }
@@ -290,12 +194,14 @@ std::vector<PastAttempt> PracticeDesk::past(const std::string& id) const {
   std::vector<PastAttempt> out;
   if (s.database->in_memory()) {
     std::copy_if(s.unkept_numbers.begin(), s.unkept_numbers.end(), std::back_inserter(out), [&](const PastAttempt& a) {
-      return a.summary.trainee == s.trainee && (id.empty() || a.summary.exercise_id == id);
+      return a.summary.trainee == s.trainee && s.counts(a.summary) && (id.empty() || a.summary.exercise_id == id);
     });
     return out;
   }
   try {
-    return past_attempts(*s.database, s.trainee, id);
+    out = past_attempts(*s.database, s.trainee, id);
+    std::erase_if(out, [&](const PastAttempt& a) { return !s.counts(a.summary); });
+    return out;
   } catch (const EnvironmentError&) {
     return {};
   }
@@ -304,9 +210,8 @@ std::vector<PastAttempt> PracticeDesk::past(const std::string& id) const {
 std::string PracticeDesk::begin_attempt() {
   State& s = *state_;
   if (s.runner) return s.words("An attempt is running.");
-  const bool scripted = !s.options.hand.empty();
-  if (!scripted && !standing(exercise_id, level).unlocked)
-    return s.words("{0} is locked: it opens after three passes in a row on three boards at the level before.", {level});
+  const bool scripted = s.scripted();
+  if (std::string why = locked(); !why.empty()) return why;
   AttemptRequest request;
   request.setup.exercise = exercise();
   request.setup.level = level;
@@ -317,7 +222,7 @@ std::string PracticeDesk::begin_attempt() {
   request.setup.board = drawn_board(request.setup.seed, level == kExamLevel);
   request.setup.realtime = true;
   request.setup.pace = kSimulatedLivePace;
-  request.trainee = s.trainee;
+  request.trainee = scripted ? kDemonstration : s.trainee;
   request.database = s.options.database;
   request.steered = !scripted;
   try {
@@ -362,17 +267,17 @@ bool PracticeDesk::end_attempt() {
   if (!s.database->in_memory()) return true;
   AttemptSummary summary;
   summary.uuid = s.result->uuid;
-  summary.trainee = s.trainee;
+  summary.trainee = s.result->trainee;
   summary.exercise_id = s.result->exercise_id;
   summary.level = s.result->level;
   summary.started_utc = s.result->started_utc;
   summary.board = s.result->board;
+  summary.hand = s.result->hand;
   summary.status = status_name(s.result->grade.status);
   summary.score = s.result->grade.score;
   summary.passed = s.result->grade.passed;
   s.unkept.insert(s.unkept.begin(), summary);
   s.unkept_numbers.insert(s.unkept_numbers.begin(), past_attempt(*s.result));
-  s.unkept_numbers.front().summary.trainee = s.trainee;
   return true;
 }
 
@@ -400,10 +305,21 @@ std::filesystem::path PracticeDesk::expert_recording() {
   setup.exercise = exercise();
   setup.level = level;
   setup.organ = organ;
-  setup.hand = "expert";
-  setup.seed = s.result ? s.result->seed : 1;
-  setup.board = s.result ? s.result->board : drawn_board(setup.seed, false);
-  return s.expert.ask(setup, s.assets);
+  setup.seed = s.options.seed.value_or(1);
+  setup.board = drawn_board(setup.seed, false);
+  const bool same = s.result && s.result->exercise_id == exercise_id && s.result->level == level;
+  try {
+    if (same && !s.result->recording_path.empty()) {  // the very attempt: its exercise, organ, board and way of holding
+      if (s.beside.first != s.result->uuid) s.beside = {s.result->uuid, recorded_setup(s.result->recording_path)};
+      setup = s.beside.second;
+    } else if (same && s.last_scene) {
+      setup = s.last_scene->setup;
+    }
+  } catch (const InputError&) {
+    setup.seed = s.result->seed;  // its recording cannot be read: the same board on what is chosen here
+    setup.board = s.result->board;
+  }
+  return s.expert.ask(expert_setup(setup), s.assets);
 }
 
 const std::string& PracticeDesk::expert_refusal() const { return state_->expert.refusal(); }

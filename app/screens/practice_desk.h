@@ -30,7 +30,7 @@ struct DeskOptions {
   std::string organ = "phantom-liver";
   std::string input = "auto";
   std::filesystem::path settings = {};   ///< empty: settings_file()
-  std::string hand = {};                 ///< scripted hand in place of a person ("expert"): films and tests
+  std::string hand = {};                 ///< scripted hand in place of a person ("expert"): a demonstration, kept under that name
   std::optional<std::int64_t> seed = {}; ///< given: every attempt draws from it
   std::optional<double> scale = {};      ///< given: this time only, whatever the settings say
   std::string language = {};             ///< given: this time only
@@ -67,6 +67,9 @@ class PracticeDesk {
   // who
   const std::string& trainee() const;    ///< "guest" without sign-in
   bool is_guest() const;
+  bool is_demonstration() const;         ///< a scripted hand does the attempts; then also a guest
+  /// Whoever is here in words, for the head of a page: "Signed in as T-7", "Guest", "Demonstration".
+  std::string who() const;
   /// @return what was wrong with the code, in the trainee's language; empty when signed in.
   std::string sign_in(const std::string& code);
   void sign_out();
@@ -83,6 +86,8 @@ class PracticeDesk {
   std::optional<std::string> teacher_note() const;
 
   // the attempt
+  /// Why the chosen level is locked, and what opens it; empty: it is open. A demonstration may show any.
+  std::string locked() const;
   /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when it runs.
   std::string begin_attempt();
   AttemptRunner* running();              ///< null: none

@@ -47,6 +47,7 @@ struct PracticeLoop::State {
   bool to_window, software;
   std::optional<Drawn> drawn;                  // empty: the context was lost
   ScreenName name = ScreenName::kStart;
+  std::vector<ScreenName> before;       // the way to this one, each once; without the run, which is over when it is left
   std::unique_ptr<Screen> screen;
   DevicePanel device;
   bool menu = false, help = false, fullscreen = false, picture_wanted = false;
@@ -69,6 +70,7 @@ struct PracticeLoop::State {
   }
 
   void show(ScreenName to);
+  void remember(ScreenName to);
   void open_menu(bool open);
   void choose(MenuChoice choice);
   bool command(const InputEvent& event);
@@ -91,10 +93,26 @@ PracticeLoop::~PracticeLoop() {
   if (state_->desk.running()) state_->desk.end_attempt();
 }
 
+/// The way back from `to`: a page that is gone to again is no step of it any more, the start page has none.
+void PracticeLoop::State::remember(ScreenName to) {
+  if (screen && name != to && name != ScreenName::kRun) {
+    std::erase(before, name);
+    before.push_back(name);
+  }
+  std::erase(before, to);
+  if (to == ScreenName::kStart) before.clear();
+}
+
 void PracticeLoop::State::show(ScreenName to) {
   if (to == ScreenName::kQuit) {
     name = to;
     return;
+  }
+  if (to == ScreenName::kBack) {
+    to = before.empty() ? ScreenName::kStart : before.back();
+    if (!before.empty()) before.pop_back();
+  } else {
+    remember(to);
   }
   std::unique_ptr<Screen> made = make_screen(to);
   if (!made) {

@@ -141,6 +141,7 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
                                                                   w.number(band->low, 1), w.number(band->high, 1)});
   ui.text(line);
   if (entry.older_rubric) ui.marked(Mark::kInfo, w("Graded by an older version of the exercise: not comparable with today's."), Ink::kCaution);
+  if (!entry.note.empty()) ui.marked(Mark::kInfo, entry.note, Ink::kCaution);
   const std::string said = competence_words(w, entry.cusum);
   const double texts = ui.text_height(curve_legend(w), ui.room()) + ui.text_height(cusum_legend(w), ui.room()) + ui.text_height(said, ui.room());
   const double room = (ui.room_below() - texts) / ui.px(1) - 4 * 7 - 2;
@@ -150,7 +151,7 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
 }
 
 std::vector<RowButton> ProgressPage::foot_buttons(const Words& w, const std::vector<ProgressEntry>& entries) const {
-  std::vector<RowButton> out{{"back", w("Back"), "Enter", true}};
+  std::vector<RowButton> out{{"back", w("Back"), "Esc", true}};
   if (!entries.empty()) out.push_back({"csv", w("Export as CSV"), "X"});
   if (!entries.empty() && attempt_ >= 0) out.push_back({"open", w("Open attempt {0}", {std::to_string(attempt_ + 1)}), "O"});
   return out;

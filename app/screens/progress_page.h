@@ -23,6 +23,7 @@ struct ProgressEntry {
   bool open = false;                  ///< three in a row were reached
   bool older_rubric = false;          ///< graded by another version of the exercise than the one of today
   std::vector<CusumPoint> cusum = {};
+  std::string note = {};              ///< what else is to be known: an attempt was cut off
 };
 
 struct ProgressChoice {

@@ -1,8 +1,10 @@
 #include "app/screens/progress_screen.h"
 
 #include <algorithm>
+#include <ctime>
 #include <fstream>
 
+#include "app/practice/cut_off.h"
 #include "app/practice/file_stamp.h"
 #include "app/practice/metric_words.h"
 #include "haptics/input_error.h"
@@ -39,6 +41,8 @@ ProgressEntry entry_of(const PracticeDesk& desk, LearningCurve curve) {
   out.in_a_row = passes_in_a_row(summaries);
   out.open = opens_next(summaries);
   out.cusum = cusum(curve.passes());
+  const auto cut = std::find_if(summaries.begin(), summaries.end(), [](const AttemptSummary& a) { return was_cut_off(a.integrity); });
+  if (cut != summaries.end()) out.note = cut_off_words(w, exercise == all.end() ? key.exercise_id : exercise->number, *cut, std::time(nullptr));
   out.curve = std::move(curve);
   return out;
 }
@@ -73,10 +77,10 @@ std::optional<ScreenName> ProgressScreen::frame(Ui& ui, PracticeDesk& desk, doub
     language_ = w.language();
     trainee_ = desk.trainee();
   }
-  const ProgressChoice choice = page_.draw(ui, *entries_, desk.is_guest() ? w("Guest") : desk.trainee());
+  const ProgressChoice choice = page_.draw(ui, *entries_, desk.is_guest() ? desk.who() : desk.trainee());
   switch (choice.kind) {
     case Kind::kNone: break;
-    case Kind::kBack: return desk.is_guest() ? ScreenName::kStart : ScreenName::kCurriculum;
+    case Kind::kBack: return ScreenName::kBack;
     case Kind::kOpen: return desk.open_result(choice.uuid) ? std::optional(ScreenName::kDebrief) : std::nullopt;
     case Kind::kExport:
       try {

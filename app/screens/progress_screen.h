@@ -12,6 +12,7 @@ namespace trocar {
 class ProgressScreen : public Screen {
  public:
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  bool takes_escape() const override { return true; }
 
  private:
   std::optional<std::vector<ProgressEntry>> entries_;

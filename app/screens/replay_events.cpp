@@ -1,5 +1,6 @@
 #include "app/screens/replay_events.h"
 
+#include "app/moment_mark.h"
 #include "app/practice/debrief_facts.h"
 
 namespace trocar {
@@ -7,13 +8,14 @@ std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double 
   std::vector<ReplayEvent> out;
   for (const Event& event : events) {
     const std::string said = event_words(words, event);
-    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said});
+    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said, event.type == kMomentMark});
   }
   return out;
 }
 
-void paint_event(Ui& ui, Severity severity, double x, double y, double r) {
-  switch (severity) {
+void paint_event(Ui& ui, const ReplayEvent& event, double x, double y, double r) {
+  if (event.own) return ui.paint_ring(x, y, r, Ink::kText);
+  switch (event.severity) {
     case Severity::kInfo: return ui.paint_disc(x, y, 0.8 * r, Ink::kGood);
     case Severity::kMinor:
     case Severity::kMajor:

@@ -14,12 +14,13 @@ struct ReplayEvent {
   double clock_s = 0;      ///< since RUN began
   Severity severity = Severity::kInfo;
   std::string words;
+  bool own = false;        ///< the trainee marked it
 };
 
 /// Those that a person saw happen; what only the grade reads is left out. @param begin_s loop time of RUN's beginning.
 std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Words& words);
 
-/// By shape and colour: a disc, a diamond, a warning triangle.
-void paint_event(Ui& ui, Severity severity, double x, double y, double radius);
+/// By shape and colour: a disc, a diamond, a warning triangle; a ring for one's own mark.
+void paint_event(Ui& ui, const ReplayEvent& event, double x, double y, double radius);
 
 }  // namespace trocar

@@ -53,7 +53,7 @@ class TimeLine {
     loop();
     for (const ReplayEvent& event : c_.events) {
       if (event.clock_s < clock_.from_s() || event.clock_s > clock_.to_s()) continue;
-      paint_event(ui_, event.severity, x_of(event.clock_s), inner_.y - ui_.px(9), ui_.px(6));
+      paint_event(ui_, event, x_of(event.clock_s), inner_.y - ui_.px(9), ui_.px(6));
     }
     not_known();
     const double x = x_of(clock_.now_s());

@@ -24,11 +24,6 @@ std::optional<ForceBar> telling_bar(const Scene& scene, const RunMoment& moment)
   return moment.status.cue == Cue::kGrip ? bars.back() : bars.front();
 }
 
-/// To the attempt that was just made, or to where an older one was chosen.
-ScreenName way_back(const PracticeDesk& desk) {
-  const bool older = !desk.replay_file.empty() && desk.replay_file != desk.recording();
-  return older ? ScreenName::kProgress : desk.result() ? ScreenName::kDebrief : ScreenName::kStart;
-}
 
 std::string speed_words(const Words& w, double speed) { return w("speed {0}", {w.number(speed, speed < 1 ? 2 : 0)}); }
 
@@ -219,17 +214,17 @@ std::vector<RowButton> ReplayScreen::buttons(const Words& w) const {
           {"back", w("Back"), "Esc"}};
 }
 
-std::optional<ScreenName> ReplayScreen::act(const std::string& chosen, const PracticeDesk& desk) {
+std::optional<ScreenName> ReplayScreen::act(const std::string& chosen) {
   if (chosen == "play") clock_.toggle_play();
   if (chosen == "slower") clock_.change_speed(-1);
   if (chosen == "faster") clock_.change_speed(1);
   if (chosen == "beside") beside_wanted_ = !beside_wanted_;
   if (chosen == "loop") clock_.next_loop_point();
-  return chosen == "back" ? std::optional(way_back(desk)) : std::nullopt;
+  return chosen == "back" ? std::optional(ScreenName::kBack) : std::nullopt;
 }
 
 /// The picture takes what is left. Large text: no force bars, the time line shows the same.
-std::optional<ScreenName> ReplayScreen::panel(Ui& ui, PracticeDesk& desk) {
+std::optional<ScreenName> ReplayScreen::panel(Ui& ui) {
   const std::vector<RowButton> row = buttons(ui.words());
   const bool compact = ui.height() < ui.px(500);
   const double line = ui.line_height(), bars = compact ? 0 : line + ui.px(18 + 7), rows = button_rows_height(ui, row, ui.width());
@@ -240,7 +235,7 @@ std::optional<ScreenName> ReplayScreen::panel(Ui& ui, PracticeDesk& desk) {
   heading(ui);
   if (!compact) forces(ui);
   time_line(ui, plot);
-  const auto to = act(button_rows(ui, row), desk);
+  const auto to = act(button_rows(ui, row));
   ui.end_panel();
   return to;
 }
@@ -250,7 +245,7 @@ std::optional<ScreenName> ReplayScreen::frame(Ui& ui, PracticeDesk& desk, double
   const Words& w = desk.words();
   if (own_.shown()) {
     keys(ui);
-    return panel(ui, desk);
+    return panel(ui);
   }
   picture_height_ = 0;
   const double wide = std::min(ui.px(560), 0.9 * ui.width());
@@ -259,9 +254,9 @@ std::optional<ScreenName> ReplayScreen::frame(Ui& ui, PracticeDesk& desk, double
   if (nothing_.empty()) ui.text(w("The recording is being opened..."));
   else ui.marked(Mark::kInfo, nothing_);
   ui.gap();
-  const bool back = ui.button("back", w("Back"), "Esc");
+  const bool back = ui.button("back", w("Back"), "Esc", true);
   ui.end_panel();
-  return back ? std::optional(way_back(desk)) : std::nullopt;
+  return back ? std::optional(ScreenName::kBack) : std::nullopt;
 }
 
 }  // namespace trocar

@@ -43,13 +43,13 @@ class ReplayScreen final : public Screen {
   void ask_beside(PracticeDesk& desk);
   Stage stage_of(const Side& side, double x, double width) const;
   void keys(Ui& ui);
-  std::optional<ScreenName> panel(Ui& ui, PracticeDesk& desk);
+  std::optional<ScreenName> panel(Ui& ui);
   void heading(Ui& ui) const;
   void forces(Ui& ui) const;
   void force_of(Ui& ui, const Side& side, const Area& area) const;
   void time_line(Ui& ui, double height_px);
   std::vector<RowButton> buttons(const Words& w) const;
-  std::optional<ScreenName> act(const std::string& chosen, const PracticeDesk& desk);
+  std::optional<ScreenName> act(const std::string& chosen);
   std::string state_words(const Words& w) const;
   bool two() const { return beside_wanted_ && beside_.shown(); }
 

@@ -31,10 +31,11 @@ RunMoment first_moment(const Scene& scene) {
 }  // namespace
 
 struct RunScreen::State {
-  enum class Asked : std::uint8_t { kNothing, kPause, kRestart };
+  enum class Asked : std::uint8_t { kNothing, kPause };
 
   FontSet fonts;
   bool begun = false, steering = false, was_paused = false, overlay = false;
+  bool again = false;               // the overlay asks whether to start again
   std::shared_ptr<const TriangleSurface> organ_T;
   RunMoment before;                 // shown while nothing has been seen
   Camera camera;
@@ -56,6 +57,8 @@ struct RunScreen::State {
   SceneView view(PracticeDesk& desk);
   void lay_out(const Hud& hud, PracticeDesk& desk, int width, int height);
   void pause(PracticeDesk& desk, bool paused);
+  void mark(PracticeDesk& desk) const;
+  void rim_arrow(double angle_rad, double size) const;
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeDesk& desk);
   std::optional<ScreenName> restart(PracticeDesk& desk);
   std::optional<ScreenName> ended(PracticeDesk& desk);
@@ -67,6 +70,7 @@ RunScreen::RunScreen() : state_(std::make_unique<State>()) {}
 RunScreen::~RunScreen() = default;
 
 bool RunScreen::asks() const { return state_->overlay; }
+bool RunScreen::takes_escape() const { return state_->overlay; }
 const LatencyMeter& RunScreen::latency() const { return state_->latency; }
 
 /// An attempt that has just begun.
@@ -75,7 +79,7 @@ void RunScreen::State::begin(PracticeDesk& desk) {
   organ_T = std::make_shared<const TriangleSurface>(scene.organ_T);
   before = first_moment(scene);
   camera = attempt_camera(scene);
-  steering = was_paused = overlay = false;
+  steering = was_paused = overlay = again = false;
   bars = true;
   guides = scene.level.guides;
   asked = Asked::kNothing;
@@ -116,7 +120,8 @@ SceneView RunScreen::State::view(PracticeDesk& desk) {
   const RunMoment& moment = newest.seen ? newest : before;
   if (newest.seen) latency.drawn(newest.steered);
   sounds.hear(run.scene(), moment, desk.sound());
-  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T, desk.is_guest() ? "" : desk.trainee(), seen_by(desk));
+  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T,
+                               desk.is_demonstration() ? desk.who() : desk.is_guest() ? "" : desk.trainee(), seen_by(desk));
   if (!guides) hide_guides(out);
   if (steering) add_ghost(out, run.target());
   return out;
@@ -157,13 +162,29 @@ std::optional<Screen::Stage> RunScreen::stage(PracticeDesk& desk, int width, int
 void RunScreen::State::pause(PracticeDesk& desk, bool paused) {
   if (!desk.running()->pause(paused)) desk.notice = desk.words()("An exam has no pause: the clock runs on.");
   overlay = paused;
+  again = paused && again;
   RunSounds::hush(desk.sound());
+}
+
+/// A moment to come back to: the debrief's plots and the replay show it.
+void RunScreen::State::mark(PracticeDesk& desk) const {
+  AttemptRunner& run = *desk.running();
+  if (run.newest().status.phase != Phase::kRun) {
+    desk.notice = desk.words()("Nothing is marked before the clock begins.");
+    return;
+  }
+  run.mark();
+  desk.notice = desk.words()("Moment marked, at {0} s.", {desk.words().number(run.newest().status.run_time_s, 1)});
 }
 
 void RunScreen::State::command(Action action, PracticeDesk& desk) {
   switch (action) {
     case Action::kPause: asked = Asked::kPause; break;
-    case Action::kRestart: asked = Asked::kRestart; break;
+    case Action::kRestart:
+      asked = Asked::kPause;
+      again = true;
+      break;
+    case Action::kMark: mark(desk); break;
     case Action::kForceBars: bars = !bars; break;
     case Action::kGuidance:
       if (desk.running()->scene().level.guides) guides = !guides;
@@ -214,18 +235,30 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   const Words& w = desk.words();
   const bool stands = desk.running()->paused();
   const auto key = [&](Action action) { return key_name(desk.keys().key_of(action)); };
-  const std::string said = stands ? w("Instrument and clock stand still. The pause is noted in the result.")
-                                  : w("An exam has no pause: the clock runs on.");
+  const bool silent = !desk.running()->board_answers();
+  const std::string said = silent   ? w("Instrument and clock stand still, nothing is lost. Plug it in again, then continue.")
+                           : again  ? w("This attempt then ends, and counts as not passed.")
+                           : stands ? w("Instrument and clock stand still. The pause is noted in the result.")
+                                    : w("An exam has no pause: the clock runs on.");
   const double width = std::min(ui.px(430), ui.width());
   const double height = std::min(ui.px(216) + ui.text_height(said, width - ui.px(36)), ui.height());
   ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
-  ui.title(stands ? w("Paused") : w("The exam goes on"));
+  ui.title(silent ? w("The device does not answer") : again ? w("Start again?") : stands ? w("Paused") : w("The exam goes on"));
   ui.text(said, Ink::kDim);
   ui.gap();
+  const auto go_on = [&] {
+    const bool chosen = ui.button("continue", w("Continue"), key(Action::kPause), !again, 390);
+    return chosen || ui.pressed("Esc");
+  };
+  const auto anew = [&] { return ui.button("restart", w("Start again with a fresh board"), key(Action::kRestart), again, 390); };
+  const bool first = again ? anew() : go_on(), second = again ? go_on() : anew();
+  const bool left = ui.button("leave", w("Leave this attempt"), "", false, 390);
   std::optional<ScreenName> to;
-  if (ui.button("continue", w("Continue"), key(Action::kPause), true, 390)) pause(desk, false);
-  if (ui.button("restart", w("Start again with a fresh board"), key(Action::kRestart), false, 390)) to = restart(desk);
-  else if (ui.button("leave", w("Leave this attempt"), "", false, 390)) {
+  if (again ? first : second) {
+    to = restart(desk);
+  } else if (again ? second : first) {
+    pause(desk, false);
+  } else if (left) {
     desk.end_attempt();
     begun = overlay = false;
     to = ScreenName::kBriefing;
@@ -270,6 +303,14 @@ void RunScreen::State::key_hints(Ui& ui, const PracticeDesk& desk) const {
   }
 }
 
+/// At the rim of the round field, and clear of the messages that lie over it.
+void RunScreen::State::rim_arrow(double angle_rad, double size) const {
+  std::vector<HudBox> messages;
+  for (const HudShape& shape : layout.shapes)
+    if (shape.kind == HudShape::Kind::kToast) messages.push_back(shape.box);
+  draw_rim_arrow(picture.x + 0.5 * picture.width, picture.y + 0.5 * picture.height, rim_reach(picture, angle_rad, size, messages), angle_rad, size);
+}
+
 std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
   State& s = *state_;
   s.dt_s = dt_s;
@@ -277,16 +318,11 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeDesk& desk, double dt
   if (desk.running()->finished()) s.over_s += dt_s;
   if (desk.running()->stored() || s.over_s > kStoring_s) return s.ended(desk);
   if (!s.begun) return {};
-  ui.keys_to_screen();
+  if (!s.overlay && !desk.running()->board_answers()) s.asked = State::Asked::kPause;
+  if (!s.overlay) ui.keys_to_screen();
   s.coach.pass(dt_s);
   draw_hud(s.layout);
-  if (s.rim && s.steering) {
-    const double radius = std::min(0.64 * s.picture.height, 0.49 * s.picture.width), size = ui.px(26);
-    const double x = s.picture.x + 0.5 * s.picture.width, y = s.picture.y + 0.5 * s.picture.height;
-    const double rise = std::abs(std::sin(*s.rim));
-    const double reach = std::min(radius, rise > 1e-3 ? (0.5 * s.picture.height - size) / rise : radius) - ui.px(4);
-    draw_rim_arrow(x, y, reach, *s.rim, size);
-  }
+  if (s.rim && s.steering) s.rim_arrow(*s.rim, ui.px(26));
   s.key_hints(ui, desk);
   if (s.overlay) return s.pause_panel(ui, desk);
   s.coach_panel(ui, desk);

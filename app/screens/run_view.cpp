@@ -12,6 +12,7 @@ constexpr double kPortBehind = 0.09;     // m from the lens back to where the sc
 constexpr double kSteepest = 1.5;        // rad of the shaft up or down: beyond it "level" means nothing
 constexpr double kThreadFrom = 0.004;    // m
 constexpr double kRing = 0.009, kWire = 0.0007, kThread = 0.0005;
+constexpr double kArrowEdge = 4;         // px: dark edge round it
 
 SceneObject ghost(SceneObject::Shape shape, const Vec3& size_m, const Pose& X_TO) {
   SceneObject object;
@@ -55,6 +56,21 @@ std::optional<double> rim_angle(const Camera& camera, const PixelRect& picture, 
   }
   const Vec3 way = tip_T - optics.eye();
   return std::atan2(way.dot(optics.up()), way.dot(optics.right()));
+}
+
+double rim_reach(const PixelRect& picture, double angle_rad, double size, const std::vector<HudBox>& clear_of) {
+  const double c = std::cos(angle_rad), s = -std::sin(angle_rad), half = 0.6 * size + kArrowEdge;   // y down
+  const double x = picture.x + 0.5 * picture.width, y = picture.y + 0.5 * picture.height;
+  const double radius = std::min(0.64 * picture.height, 0.49 * picture.width);
+  double reach = std::min(radius, std::abs(s) > 1e-3 ? (0.5 * picture.height - size) / std::abs(s) : radius) - kArrowEdge;
+  const auto covers = [&](const HudBox& box) {
+    const double middle = reach - 0.5 * size, along = 0.5 * size + kArrowEdge;   // of the rectangle that holds the arrow
+    const double wide = along * std::abs(c) + half * std::abs(s), high = along * std::abs(s) + half * std::abs(c);
+    const double mid_x = x + middle * c, mid_y = y + middle * s;
+    return mid_x + wide > box.x && mid_x - wide < box.right() && mid_y + high > box.y && mid_y - high < box.bottom();
+  };
+  while (reach > size && std::any_of(clear_of.begin(), clear_of.end(), covers)) reach -= 1;
+  return reach;
 }
 
 void hide_guides(SceneView& view) {

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "app/graphics/hud_layout.h"
 #include "app/graphics/scope_optics.h"
 #include "app/input/steering.h"
 #include "haptics/device/hand.h"
@@ -24,6 +25,10 @@ inline constexpr double kGhostFrom = 0.0012;   // m
 
 /// Where on the rim a tip that is out of the picture lies: angle from the right, up positive; empty while it is in view.
 std::optional<double> rim_angle(const Camera& camera, const PixelRect& picture, const Vec3& tip_T);
+
+/// px from the picture's middle to the point of an arrow that shows that way: at the rim of the round field, within the picture, and
+/// as far inwards as it takes to lie over none of the boxes. @param size of the arrow, px.
+double rim_reach(const PixelRect& picture, double angle_rad, double size, const std::vector<HudBox>& clear_of);
 
 /// Without guidance only the lit target is marked, and neither its plumb line nor the waiting ones.
 void hide_guides(SceneView& view);

@@ -17,7 +17,8 @@ class Ui;             // app/screens/ui.h
 class PracticeDesk;   // app/screens/practice_desk.h
 
 enum class ScreenName : std::uint8_t {
-  kStart, kCurriculum, kBriefing, kRun, kDebrief, kProgress, kReplay, kSettings, kNotch, kQuit
+  kStart, kCurriculum, kBriefing, kRun, kDebrief, kProgress, kReplay, kSettings, kNotch, kQuit,
+  kBack   ///< to where one came from
 };
 
 class Screen {

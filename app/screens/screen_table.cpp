@@ -23,7 +23,7 @@ std::unique_ptr<Screen> make_screen(ScreenName name) {
     case ScreenName::kProgress: return std::make_unique<ProgressScreen>();
     case ScreenName::kReplay: return std::make_unique<ReplayScreen>();
     case ScreenName::kNotch: return std::make_unique<NotchScreen>();
-    case ScreenName::kQuit: return nullptr;
+    case ScreenName::kQuit: case ScreenName::kBack: return nullptr;
   }
   return nullptr;
 }
@@ -40,6 +40,7 @@ const char* screen_name(ScreenName name) {
     case ScreenName::kReplay: return "replay";
     case ScreenName::kNotch: return "notch";
     case ScreenName::kQuit: return "quit";
+    case ScreenName::kBack: return "back";
   }
   return "quit";
 }

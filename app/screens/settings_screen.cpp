@@ -89,6 +89,7 @@ void SettingsScreen::keys(Ui& ui, PracticeDesk& desk) {
 std::optional<ScreenName> SettingsScreen::handle(const InputEvent& event, PracticeDesk& desk) {
   if (!waiting_for_ || event.kind != InputEvent::Kind::kKeyDown || event.repeat) return {};
   const Action action = *waiting_for_;
+  took_key_ = true;
   waiting_for_.reset();
   if (event.key == kKeyEscape) return {};
   try {
@@ -125,7 +126,8 @@ std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeDesk& desk, doub
   keys(ui, desk);
   ui.end_panel();
   ui.begin_strip("settings.foot", {margin, margin + high - foot, wide, foot});
-  if (ui.button("done", w("Done"), "Enter", true)) to = ScreenName::kStart;
+  if (ui.button("done", w("Done"), "Esc", true) && !took_key_) to = ScreenName::kBack;
+  took_key_ = false;
   ui.end_panel();
   return to;
 }

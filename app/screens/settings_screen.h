@@ -15,6 +15,7 @@ class SettingsScreen final : public Screen {
  public:
   std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
   std::optional<ScreenName> handle(const InputEvent& event, PracticeDesk& desk) override;
+  bool takes_escape() const override { return true; }
   bool takes_all() const override { return waiting_for_.has_value(); }
 
  private:
@@ -23,6 +24,7 @@ class SettingsScreen final : public Screen {
   void keys(Ui& ui, PracticeDesk& desk);
 
   std::optional<Action> waiting_for_;    ///< the next key is this action's
+  bool took_key_ = false;                ///< the key of this frame was chosen for an action: it means nothing else
   std::string wrong_;
   std::vector<Language> languages_;
 };

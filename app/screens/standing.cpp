@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "app/input/input_event.h"
+
 namespace trocar {
 namespace {
 
@@ -38,6 +40,33 @@ bool opens_next(const std::vector<AttemptSummary>& newest_first) {
     if (static_cast<int>(boards.size()) >= kPassesToUnlock) return true;
   }
   return false;
+}
+
+std::optional<NextStep> next_step(const std::vector<const Exercise*>& order,
+                                  const std::function<Standing(const Exercise&, const std::string&)>& standing) {
+  std::size_t most = 0;
+  for (const Exercise* e : order) most = std::max(most, e->levels.size());
+  for (std::size_t i = 0; i < most; ++i) {
+    for (const Exercise* e : order) {
+      if (i >= e->levels.size()) continue;
+      Standing s = standing(*e, e->levels[i].name);
+      if (s.unlocked && !opens_next(s.newest_first)) return NextStep{e, e->levels[i].name, std::move(s)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bool guest) {
+  std::vector<const Exercise*> order;
+  for (const Exercise& e : all) order.push_back(&e);
+  if (guest) std::stable_partition(order.begin(), order.end(), [](const Exercise* e) { return e->kind == ExerciseKind::kTouch; });
+  return order;
+}
+
+bool by_scripted_hand(const AttemptSummary& attempt) {
+  for (const InputKind kind : {InputKind::kMouse, InputKind::kKeyboard, InputKind::kPad, InputKind::kPuck, InputKind::kDevice})
+    if (attempt.hand == input_name(kind)) return false;
+  return !attempt.hand.empty();
 }
 
 Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts) {

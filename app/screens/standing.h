@@ -4,6 +4,8 @@
 // (aborted) counts as not passed; one that the device ended (fault, void) does not count. Pure. Thread: any.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,22 @@ struct Standing {
 int passes_in_a_row(const std::vector<AttemptSummary>& newest_first);
 /// Whether at any time there were three in a row on three boards.
 bool opens_next(const std::vector<AttemptSummary>& newest_first);
+
+/// What to practise next: the first exercise in the order given, all of them at a level before the next level, that is open and has not
+/// had its three passes. One rule for every page. @param standing of an exercise at a level. @return nothing when all is passed.
+struct NextStep {
+  const Exercise* exercise = nullptr;
+  std::string level = {};
+  Standing standing = {};
+};
+std::optional<NextStep> next_step(const std::vector<const Exercise*>& order,
+                                  const std::function<Standing(const Exercise&, const std::string&)>& standing);
+
+/// The catalogue's order; a guest begins with what is felt (touch).
+std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bool guest);
+
+/// A run by a scripted hand: shown as a demonstration, and nobody's pass.
+bool by_scripted_hand(const AttemptSummary& attempt);
 
 /// @param attempts of one trainee at one exercise, all levels, newest first.
 Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts);

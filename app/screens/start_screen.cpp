@@ -27,14 +27,6 @@ double free_width(const Area& panel, double width) {
   return left >= 0.4 * width ? left : 0;
 }
 
-/// What a guest is led to: the exercise that is felt, else the first.
-void choose_first(PracticeDesk& desk) {
-  const auto& all = desk.exercises();
-  const auto touch = std::find_if(all.begin(), all.end(), [](const Exercise& e) { return e.kind == ExerciseKind::kTouch; });
-  desk.exercise_id = touch == all.end() ? all.front().id : touch->id;
-  desk.level = desk.exercise().levels.front().name;
-}
-
 std::string title_of(const PracticeDesk& desk, const std::string& id) {
   for (const Exercise& exercise : desk.exercises())
     if (exercise.id == id) return exercise.number + " " + desk.words()(exercise.title);
@@ -60,15 +52,18 @@ std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, i
 std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeDesk& desk) {
   const Words& w = desk.words();
   std::optional<ScreenName> to;
-  if (ui.button("try", w("Try now as a guest"), code_.empty() ? "Enter" : "", true, kPanelWidth - 36)) {
-    choose_first(desk);
+  const bool coded = !code_.empty();   // what Enter means is blue
+  if (ui.button("try", w("Try now as a guest"), coded ? "" : "Enter", !coded, kPanelWidth - 36)) {
+    const PracticeDesk::Advice advice = desk.next();
+    desk.exercise_id = advice.exercise_id;
+    desk.level = advice.level;
     to = ScreenName::kBriefing;
   }
   ui.text(w("No account, mouse and keyboard are enough."), Ink::kDim);
   ui.gap(6);
   ui.heading(w("Sign in"));
   const bool entered = ui.field("code", w("Your code"), code_);
-  if (ui.button("signin", w("Sign in")) || entered) {
+  if (ui.button("signin", w("Sign in"), coded ? "Enter" : "", coded) || entered) {
     wrong_ = desk.sign_in(code_);
     if (wrong_.empty()) to = ScreenName::kCurriculum;
   }

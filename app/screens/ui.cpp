@@ -153,10 +153,15 @@ double UiParts::wrapped_at(Ui& ui, const Area& place, const std::string& text, I
   return a.height;
 }
 
-void Ui::title(const std::string& text) {
-  const double there = room();
+void Ui::title(const std::string& text, const std::string& right) {
+  const double there = room(), side = right.empty() ? 0 : UiParts::width(right) + 1;
+  const bool beside = UiParts::width(text, UiFont::kTitle) + px(16) + side <= there;
   const Area a = wrapped(text, Ink::kText, UiFont::kTitle, there);
   UiParts::note(*this, text, a.x, a.y, a.width, a.height, there);
+  if (right.empty()) return;
+  if (!beside) return line(right, Ink::kDim);
+  const double y = a.y + UiParts::height(UiFont::kTitle) - UiParts::height() - px(2);
+  UiParts::draw(*this, a.x + there - side, y, right, Ink::kDim, side);
 }
 
 void Ui::heading(const std::string& text) {

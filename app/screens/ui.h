@@ -53,7 +53,8 @@ class Ui {
   /// Page keys move what does not fit into the open panel up and down, also while the keys are the screen's.
   void scroll_by_keys();
 
-  void title(const std::string& text);
+  /// @param right stands at the panel's right edge, on the title's line where both fit, else below it: who is here.
+  void title(const std::string& text, const std::string& right = "");
   void heading(const std::string& text);
   void text(const std::string& text, Ink ink = Ink::kText);       ///< wraps
   void line(const std::string& text, Ink ink = Ink::kText);       ///< one line, shortened with an ellipsis when it must
@@ -66,7 +67,8 @@ class Ui {
   void text_in(const Area& area, const std::string& text, Ink ink = Ink::kText);
   void gap(double at_720 = 8);
   void same_line(double at_720 = 12);
-  /// @param key shown in brackets, "Enter"; pressing it counts as a click. @return true when chosen.
+  /// @param key shown in brackets, "Enter"; pressing it counts as a click. @param strong the one button that Enter means while nothing
+  /// has the focus and nobody types. @return true when chosen.
   bool button(const char* id, const std::string& text, const std::string& key = "", bool strong = false, double width_at_720 = 0);
   bool toggle(const char* id, const std::string& text, bool& value);
   bool choice(const char* id, const std::string& text, const std::vector<std::string>& options, int& chosen);

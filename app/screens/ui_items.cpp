@@ -61,7 +61,7 @@ bool UiParts::chosen_by_key(const std::string& key) {
     return std::find(memory.pressed.begin(), memory.pressed.end(), code) != memory.pressed.end();
   };
   const ImGuiContext& g = *GImGui;
-  if (g.OpenPopupStack.Size > 0) return false;
+  if (g.OpenPopupStack.Size > 0 || memory.list_was_open) return false;
   const bool ringed = memory.focus_shown && g.NavId == ImGui::GetItemID() && !g.NavDisableHighlight;
   if (ringed && down(kKeyEnter)) return true;
   if (key.empty()) return false;
@@ -88,7 +88,8 @@ bool Ui::button(const char* id, const std::string& text, const std::string& key,
   const bool clicked = ImGui::Button(UiParts::hidden(id).c_str(), at(wide, high));
   if (strong) ImGui::PopStyleColor(3);
   UiParts::in_order();
-  const bool by_key = UiParts::chosen_by_key(key);
+  const bool by_enter = strong && !ImGui::GetIO().WantTextInput && UiParts::chosen_by_key("Enter");
+  const bool by_key = UiParts::chosen_by_key(key) || by_enter;
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   const double y = (from.y + to.y - UiParts::height()) / 2, inner = wide - 2 * pad.x;
   const bool hint_fits = !hint.empty() && inner - hint_width >= UiParts::width(text);

@@ -200,6 +200,7 @@ void UiLayer::begin(int width, int height, double dt_s, const std::vector<InputE
   s.feed_all(events);
   s.memory.items_before.swap(s.memory.items);
   s.memory.items.clear();
+  s.memory.list_was_open = s.imgui->OpenPopupStack.Size > 0;
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   s.move_focus(events);

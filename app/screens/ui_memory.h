@@ -24,6 +24,7 @@ struct UiMemory {
   std::vector<Item> items = {}, items_before = {};
   unsigned focus_wanted = 0;                   ///< item that Tab goes to
   bool focus_shown = false;                    ///< an item of the last frame has the keyboard, and its ring is seen
+  bool list_was_open = false;                  ///< a list was down when the frame began: its keys are its own
   bool keys_to_screen = false;                 ///< asked in this frame for the next: arrows steer, they do not move the focus
   bool screen_has_keys = false;                ///< it was asked for in the last one
   double pointer_x = -1, pointer_y = -1;       ///< px

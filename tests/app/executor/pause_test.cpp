@@ -45,6 +45,23 @@ TEST(PauseSwitch, AddsUpWhatItStoodAndIgnoresRepetition) {
   EXPECT_GE(sum, 10'000'000);
 }
 
+TEST(PauseSwitch, StandsAsLongAsAnybodyAsksForIt) {
+  using Cause = PauseSwitch::Cause;
+  PauseSwitch pause;
+  pause.set(true, Cause::kBoard);
+  pause.set(true);
+  pause.set(false, Cause::kBoard);
+  EXPECT_TRUE(pause.paused()) << "the person has not gone on";
+  EXPECT_FALSE(pause.asked_by(Cause::kBoard));
+  EXPECT_TRUE(pause.asked_by(Cause::kPerson));
+  std::this_thread::sleep_for(milliseconds(5));
+  ASSERT_EQ(pause.pauses().size(), 1u);
+  EXPECT_GE(pause.pauses()[0].end_ns - pause.pauses()[0].begin_ns, 5'000'000) << "one that lasts counts until now";
+  pause.set(false);
+  EXPECT_FALSE(pause.paused());
+  EXPECT_EQ(pause.pauses().size(), 1u) << "one pause, whoever asked";
+}
+
 struct Runs {
   std::uint64_t fast = 0, slow = 0;
 };

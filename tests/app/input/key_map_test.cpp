@@ -41,7 +41,7 @@ TEST(KeyMap, DefaultsAreThoseOfTheGuide) {
                                             {Action::kOpen, "X"},         {Action::kScope, "Alt"},  {Action::kPostLeft, "A"},
                                             {Action::kLevel, "H"},        {Action::kPause, "P"},    {Action::kRestart, "R"},
                                             {Action::kMark, "M"},         {Action::kHelp, "F1"},    {Action::kForceBars, "F2"},
-                                            {Action::kDevicePanel, "F3"}, {Action::kGuidance, "F5"}, {Action::kRecord, "F9"},
+                                            {Action::kDevicePanel, "F3"}, {Action::kGuidance, "F5"},
                                             {Action::kPicture, "F12"},    {Action::kMenu, "Esc"}};
   for (const auto& [action, name] : guide) EXPECT_EQ(key_name(keys.key_of(action)), name);
   EXPECT_TRUE(keys.changes().empty());

@@ -1,4 +1,5 @@
 // Attempts in threads of their own. Nothing judges how punctual the machine is: only what must hold whatever it does.
+#include "app/moment_mark.h"
 #include "app/practice/attempt_runner.h"
 
 #include <gtest/gtest.h>
@@ -141,6 +142,26 @@ TEST(AttemptRunner, WithoutADatabaseNothingIsKeptButTheResultIsThere) {
   ASSERT_TRUE(wait_for([&] { return run.stored(); }));
   EXPECT_EQ(run.result().grade.status, AttemptStatus::kAborted);
   EXPECT_TRUE(run.result().recording_path.empty());
+}
+
+TEST(AttemptRunner, AMarkedMomentIsAnEventOfTheRecordingAndChangesNothingElse) {
+  const RunnerFolder folder;
+  AttemptRunner run(short_request(folder.database()), find_assets());
+  ASSERT_TRUE(wait_for([&] { return run.ready(); }));
+  const double before_s = run.newest().t_s;
+  run.mark();
+  run.mark();
+  ASSERT_TRUE(wait_for([&] { return run.newest().t_s > before_s + 0.3; }));
+  run.abort();
+  ASSERT_TRUE(wait_for([&] { return run.stored(); }));
+  const AttemptResult kept = stored_attempt(folder.database());
+  std::vector<double> marked;
+  for (const Event& event : kept.events)
+    if (event.type == kMomentMark) marked.push_back(event.t_s);
+  ASSERT_EQ(marked.size(), 2u);
+  EXPECT_NEAR(marked[0], before_s, 0.25);
+  EXPECT_EQ(without_marks(kept.events).size() + 2, kept.events.size());
+  EXPECT_TRUE(verified(kept.recording_path)) << "the loop knows nothing of it";
 }
 
 }  // namespace

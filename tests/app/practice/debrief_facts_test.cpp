@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "app/practice/cut_off.h"
 #include "app/practice/debrief_reason.h"
 #include "tests/app/practice/attempt_samples.h"
 
@@ -71,7 +72,7 @@ TEST_F(DebriefFactsTest, APassSaysTheScoreAndWhereMostWent) {
   const DebriefFacts f = facts(graded(touch_, "L1", {{"in_band_share", 0.8}}));
   EXPECT_EQ(f.outcome, Outcome::kPass);
   EXPECT_EQ(f.verdict, "PASS");
-  EXPECT_EQ(f.reason, "90.0 of 100 points, a pass needs 75. Most went on: Force in band.");
+  EXPECT_EQ(f.reason, "90.0 of 100 points, a pass needs 75. Most points were lost on: Force in band.");
   EXPECT_EQ(facts(graded(touch_, "L1")).reason, "100.0 of 100 points, a pass needs 75.");
 }
 
@@ -127,7 +128,7 @@ TEST_F(DebriefFactsTest, BelowThePassLineTheLargestLossIsTheReason) {
   const AttemptResult result = graded(touch_, "L1", {{"wrong_places", 6}, {"in_band_share", 0.7}});
   const DebriefFacts f = facts(result);
   EXPECT_EQ(f.outcome, Outcome::kNotYet);
-  EXPECT_EQ(f.reason, "65.0 of 100 points, a pass needs 75. Most went on: Place.");
+  EXPECT_EQ(f.reason, "65.0 of 100 points, a pass needs 75. Most points were lost on: Place.");
 }
 
 TEST_F(DebriefFactsTest, AMetricWithoutAValueEarnsNothingAndSaysSo) {
@@ -236,6 +237,40 @@ TEST(MetricText, ReadsInTheUnitsOfPeople) {
   EXPECT_EQ(text("speed_mean_mps", 0.0512, "m/s"), "51 mm/s");
   EXPECT_EQ(text("time_s", NAN, "s"), "n/a");
   EXPECT_EQ(metric_text(w, "time_s", {}, "s"), "n/a");
+}
+
+TEST(DebriefPauses, AreSaidWithTimeCountAndLength) {
+  const Exercise touch = shipped_exercise("surface-touch");
+  AttemptResult result = graded(touch, "L1");
+  result.events = {event(3.0, "START")};
+  const auto said = [&](const std::string& realtime) {
+    result.device.realtime = realtime;
+    const DebriefFacts f = debrief_facts(Words(), result, touch);
+    return f.more.empty() ? "" : f.more.back();
+  };
+  EXPECT_EQ(said(R"({"lanes":{}})"), "");
+  EXPECT_EQ(said(R"({"pauses":[{"at_s":15.5,"seconds":12.2}]})"), "Paused once, at 12.5 s, for 12 s.");
+  EXPECT_EQ(said(R"({"pauses":[{"at_s":1,"seconds":2},{"at_s":20,"seconds":3.5}]})"), "Paused 2 times, first at 0.0 s, 5.5 s in all.");
+  EXPECT_EQ(said("not json"), "");
+  EXPECT_EQ(said(R"({"pauses":[1,{"at_s":"x"}]})"), "");
+}
+
+TEST(DebriefCutOff, SaysThatTheProgramEndedNotThatThePersonLeft) {
+  const Exercise touch = shipped_exercise("surface-touch");
+  AttemptResult result;
+  result.level = "L1";
+  result.grade.status = AttemptStatus::kAborted;
+  result.integrity = "its program ended before the attempt did";
+  EXPECT_EQ(debrief_facts(Words(), result, touch).reason,
+            "The attempt was cut off with its program, so there is no score. It counts as not passed.");
+}
+
+TEST(CutOff, LocalTimeNamesTheDayOnlyWhenItIsAnotherOne) {
+  ::setenv("TZ", "UTC", 1);
+  ::tzset();
+  EXPECT_EQ(local_time("2026-11-22T14:32:05Z", 1795350000), "14:32");
+  EXPECT_EQ(local_time("2026-11-20T14:32:05.123Z", 1795350000), "2026-11-20 14:32");
+  EXPECT_EQ(local_time("?", 0), "?");
 }
 
 }  // namespace

@@ -147,7 +147,9 @@ TEST_F(DeskPagesTest, ProgressShowsOpensAndExports) {
   ProgressScreen fresh;
   layer_ = std::make_unique<UiLayer>(*context_, 1);   // nothing has the focus
   show(fresh);
-  EXPECT_EQ(show(fresh, press(kKeyEnter)), ScreenName::kCurriculum);
+  EXPECT_EQ(show(fresh, press(kKeyEnter)), ScreenName::kBack);
+  EXPECT_EQ(show(fresh, press(kKeyEscape)), ScreenName::kBack);
+  EXPECT_TRUE(fresh.takes_escape());
 }
 
 TEST_F(DeskPagesTest, AnUnknownAttemptIsANotice) {

@@ -112,9 +112,15 @@ TEST_F(LessonScreens, LockedLevelSaysWhatItNeedsAndIsRefusedInPlace) {
   EXPECT_TRUE(sees("L2: needs L1 3 x"));
   tap(kKeyEnter);
   ASSERT_EQ(loop_->here(), ScreenName::kBriefing);
+  frame();
+  EXPECT_TRUE(sees("L2 is locked: three passes in a row on three boards at L1 open it. So far: 0 of 3."));
+  EXPECT_FALSE(sees("Start")) << "nothing bright that does nothing";
   tap(kKeyEnter);
+  frame();
+  EXPECT_EQ(desk_->level, "L1") << "where it is opened";
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
-  EXPECT_TRUE(sees_part("is locked"));
+  EXPECT_TRUE(sees("Start"));
+  EXPECT_FALSE(sees_part("is locked"));
   EXPECT_EQ(desk_->running(), nullptr);
 }
 
@@ -312,6 +318,29 @@ TEST_F(LessonScreens, TinyWindowSaysOneThingWhateverRuns) {
     ASSERT_EQ(loop_->texts().size(), 1U) << screen_name(name);
     EXPECT_TRUE(sees("Please make the window larger."));
     expect_laid_out(loop_->texts(), width_, height_, "tiny");
+  }
+}
+
+TEST_F(LessonScreens, CourseAndBriefingSayAtOnePlaceWhoIsHere) {
+  window(1280, 720, 1);
+  const auto place = [this](const std::string& said) -> std::optional<DrawnText> {
+    for (const DrawnText& t : loop_->texts())
+      if (t.text == said) return t;
+    return std::nullopt;
+  };
+  for (const std::string said : {"Guest", "Signed in as T-7"}) {
+    if (said != "Guest") {
+      ASSERT_EQ(desk_->sign_in("T-7"), "");
+    }
+    go(ScreenName::kCurriculum);
+    const auto course = place(said);
+    go(ScreenName::kBriefing);
+    const auto briefing = place(said);
+    ASSERT_TRUE(course && briefing) << said;
+    EXPECT_NEAR(course->x + course->width, briefing->x + briefing->width, 1);
+    EXPECT_NEAR(course->y, briefing->y, 1);
+    EXPECT_GT(course->x, width_ / 2);
+    expect_laid_out(loop_->texts(), width_, height_, "briefing");
   }
 }
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <set>
 
@@ -58,6 +60,11 @@ TEST(LessonWords, NumbersAreThoseOfTheExercise) {
   const auto limits = lesson_limits(w, touch, find_level(touch, "L1"));
   EXPECT_EQ(limit(limits, "Time"), "2:00 min at most");
   EXPECT_EQ(limit(limits, "Wanted force"), "0.4 to 0.8 N");
+  const auto third = lesson_limits(w, touch, find_level(touch, "L3"));
+  EXPECT_EQ(std::count_if(third.begin(), third.end(), [](const LessonLimit& l) { return l.what.find("Wanted force") == 0; }), 1)
+      << "one row for all, that says whose they are";
+  EXPECT_NE(limit(third, "Wanted force, another for each disc; the bar says which").find(" or "), std::string::npos);
+  EXPECT_NE(lesson_tool(w, touch, find_level(touch, "L1")).find("Grasper"), std::string::npos) << "it squeezes a block at the end";
   EXPECT_EQ(limit(limits, "Too much force"), "above 1.5 N");
   EXPECT_EQ(limit(limits, "Critical force"), "above 4.7 N: no pass");
   EXPECT_EQ(limit(limits, "Discs"), "12");

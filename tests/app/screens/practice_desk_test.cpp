@@ -1,9 +1,14 @@
 #include "app/screens/practice_desk.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <fstream>
 #include <thread>
 
+#include "app/recorded_scene.h"
+#include "app/screens/progress_screen.h"
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "tests/app/screens/desk_bench.h"
@@ -14,11 +19,12 @@ namespace {
 using testing_support::DeskBench;
 
 /// Stores a graded attempt, as the runner does.
-void store(const std::filesystem::path& database, const Exercise& exercise, const std::string& level, int board, bool passed) {
+void store(const std::filesystem::path& database, const Exercise& exercise, const std::string& level, int board, bool passed,
+           const std::string& trainee = "T-1", const std::string& hand = "mouse") {
   Database db(database);
   AttemptStore attempts(db);
   AttemptStart start;
-  start.trainee = "T-1";
+  start.trainee = trainee;
   start.exercise_id = exercise.id;
   start.exercise_version = exercise.version;
   start.exercise_number = exercise.number;
@@ -26,7 +32,7 @@ void store(const std::filesystem::path& database, const Exercise& exercise, cons
   start.exercise_text = exercise.text;
   start.level = level;
   start.board = board;
-  start.hand = "mouse";
+  start.hand = hand;
   start.program = "test";
   start.recording = std::filesystem::path();
   const AttemptId id = attempts.begin_attempt(start);
@@ -86,6 +92,25 @@ TEST(PracticeDesk, WrongOptionsAreRefusedBeforeAWindowOpens) {
   options.trainee = "a b";
   EXPECT_THROW(bench.desk(options), InputError);
   options = bench.options();
+  options.organ = "nosuch";
+  try {
+    bench.desk(options);
+    FAIL() << "only the first attempt would find out";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("phantom-liver"), std::string::npos) << "what there is";
+  }
+  options = bench.options();
+  options.hand = "nosuch";
+  try {
+    bench.desk(options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("novice"), std::string::npos);
+  }
+  options.hand = "expert";
+  options.trainee = "T-9";
+  EXPECT_THROW(bench.desk(options), InputError) << "a demonstration is nobody's attempt";
+  options = bench.options();
   options.language = "xx";
   EXPECT_THROW(bench.desk(options), InputError);
 }
@@ -124,6 +149,9 @@ TEST(PracticeDesk, ALockedLevelIsRefusedInWords) {
   const auto desk = bench.desk();
   desk->level = "L2";
   EXPECT_NE(desk->begin_attempt().find("L2"), std::string::npos);
+  EXPECT_NE(desk->locked().find("L1"), std::string::npos) << "what opens it";
+  desk->level = "L1";
+  EXPECT_EQ(desk->locked(), "");
   EXPECT_FALSE(desk->running());
 }
 
@@ -250,6 +278,73 @@ TEST(PracticeDeskNotice, UnreadableSettingsAreSaidInTheLanguageWithoutTheParsers
   EXPECT_EQ(desk->notice.find("Error"), std::string::npos) << desk->notice;
   desk->settings_changed();
   EXPECT_TRUE(std::filesystem::exists(unread_settings(options.settings)));
+}
+
+TEST(PracticeDesk, WhatAScriptedHandDidIsNobodysPass) {
+  const DeskBench bench;
+  {
+    const auto desk = bench.desk();
+    const Exercise& first = desk->exercises().front();
+    for (const int board : {1001, 1002, 1003}) store(bench.options().database, first, "L1", board, true, "guest", "expert");
+    EXPECT_EQ(desk->standing(first.id, "L1").attempts, 0) << "an older database holds such runs as a guest's";
+    EXPECT_FALSE(desk->standing(first.id, "L2").unlocked);
+    EXPECT_TRUE(desk->past().empty());
+    EXPECT_NE(desk->sign_in("demonstration"), "") << "kept for them";
+  }
+  DeskOptions options = bench.options();
+  options.hand = "expert";
+  const auto desk = bench.desk(options);
+  EXPECT_EQ(desk->who(), "Demonstration");
+  ASSERT_EQ(desk->begin_attempt(), "");
+  ASSERT_TRUE(desk->end_attempt());
+  EXPECT_EQ(desk->result()->trainee, "demonstration");
+  EXPECT_EQ(desk->standing(desk->exercise_id, "L1").attempts, 1) << "shown to those who watch";
+  EXPECT_EQ(bench.desk()->standing(desk->exercise_id, "L1").attempts, 0);
+}
+
+TEST(PracticeDesk, AnAttemptThatWasCutOffIsNamedAtTheNextStart) {
+  const DeskBench bench;
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    Database db(bench.options().database);
+    AttemptStart start;
+    start.trainee = "T-5";
+    start.exercise_id = "surface-touch";
+    start.exercise_text = "text";
+    start.level = "L1";
+    start.hand = "mouse";
+    start.recording = std::filesystem::path();
+    AttemptStore(db).begin_attempt(start);
+    ::_exit(0);   // as kill -9 leaves it
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  const auto desk = bench.desk();
+  EXPECT_NE(desk->notice.find("The attempt of E02 (T-5) at "), std::string::npos) << desk->notice;
+  EXPECT_NE(desk->notice.find("was cut off"), std::string::npos);
+  desk->notice.clear();
+  ASSERT_EQ(desk->sign_in("T-5"), "");
+  EXPECT_NE(desk->notice.find("The attempt of E02 at "), std::string::npos) << "and to whoever it was";
+  ASSERT_EQ(progress_of(*desk).size(), 1u);
+  EXPECT_NE(progress_of(*desk).front().note.find("was cut off"), std::string::npos) << "it stays in the progress";
+  ASSERT_EQ(bench.desk()->notice, "") << "said once";
+}
+
+TEST(PracticeDesk, TheExpertDoesWhatTheAttemptDidNotWhatTheDeskWouldDoNow) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  desk->exercise_id = "surface-touch";
+  ASSERT_EQ(desk->begin_attempt(), "");
+  ASSERT_TRUE(desk->end_attempt());
+  desk->organ = "phantom-abdomen";   // chosen since
+  for (int i = 0; i < 3000 && desk->expert_recording().empty() && desk->expert_refusal().empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_FALSE(desk->expert_recording().empty()) << desk->expert_refusal();
+  const AttemptSetup own = recorded_setup(desk->recording()), beside = recorded_setup(desk->expert_recording());
+  EXPECT_EQ(beside.organ, own.organ);
+  EXPECT_EQ(beside.board, own.board);
+  EXPECT_EQ(beside.seed, own.seed);
+  EXPECT_EQ(beside.hand, "expert");
 }
 
 }  // namespace

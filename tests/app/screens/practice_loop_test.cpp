@@ -177,5 +177,85 @@ TEST(ScreenTable, EveryNameHasAName) {
   EXPECT_FALSE(make_screen(ScreenName::kQuit));
 }
 
+TEST_F(PracticeLoopTest, EnterOnTheBlueButtonOfTheMenuGoesBackWithoutTabbing) {
+  frame();
+  tap(kKeyEscape);
+  ASSERT_TRUE(loop_->menu_open());
+  tap(kKeyEnter);
+  EXPECT_FALSE(loop_->menu_open());
+  EXPECT_EQ(loop_->here(), ScreenName::kStart);
+}
+
+TEST_F(PracticeLoopTest, BackGoesThePathThatOneCame) {
+  const auto back_from = [this](ScreenName here) {
+    loop_->go(here);
+    frame();
+    frame();
+    tap(kKeyEscape);
+    EXPECT_FALSE(loop_->menu_open());
+    return loop_->here();
+  };
+  loop_->go(ScreenName::kCurriculum);
+  EXPECT_EQ(back_from(ScreenName::kProgress), ScreenName::kCurriculum);
+  loop_->go(ScreenName::kBriefing);
+  EXPECT_EQ(back_from(ScreenName::kProgress), ScreenName::kBriefing);
+  EXPECT_EQ(back_from(ScreenName::kReplay), ScreenName::kBriefing);
+  EXPECT_EQ(back_from(ScreenName::kSettings), ScreenName::kBriefing);
+  loop_->go(ScreenName::kProgress);
+  loop_->go(ScreenName::kReplay);
+  loop_->go(ScreenName::kProgress);
+  loop_->go(ScreenName::kBack);
+  EXPECT_EQ(loop_->here(), ScreenName::kReplay) << "each page once on the way";
+  loop_->go(ScreenName::kBack);
+  EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
+  loop_->go(ScreenName::kStart);
+  loop_->go(ScreenName::kBack);
+  EXPECT_EQ(loop_->here(), ScreenName::kStart) << "nothing lies before it";
+}
+
+TEST_F(PracticeLoopTest, ProgressGoesBackToTheDebriefItWasOpenedFrom) {
+  ASSERT_EQ(desk_->begin_attempt(), "");
+  desk_->end_attempt();
+  loop_->go(ScreenName::kRun);
+  loop_->go(ScreenName::kDebrief);
+  frame();
+  tap('M');
+  frame();
+  ASSERT_EQ(loop_->here(), ScreenName::kProgress);
+  tap(kKeyEscape);
+  EXPECT_EQ(loop_->here(), ScreenName::kDebrief);
+}
+
+TEST_F(PracticeLoopTest, AKeyThatIsChosenDoesNotLeaveTheSettings) {
+  loop_->go(ScreenName::kSettings);
+  height_ = 720;
+  width_ = 1280;
+  for (const std::int32_t chosen : {std::int32_t{kKeyEscape}, std::int32_t{kKeyEnter}}) {
+    frame();
+    frame();
+    tab(9);
+    tap(kKeyEnter);
+    frame();
+    ASSERT_TRUE(sees("press a key"));
+    frame(press(chosen));
+    frame();
+    EXPECT_EQ(loop_->here(), ScreenName::kSettings);
+    loop_->go(ScreenName::kStart);
+    frame();
+    loop_->go(ScreenName::kSettings);
+  }
+}
+
+TEST_F(PracticeLoopTest, AGuestIsLedWhereTheCourseLeads) {
+  const PracticeDesk::Advice next = desk_->next();
+  EXPECT_EQ(next.exercise_id, "surface-touch") << "guests begin with what is felt";
+  frame();
+  frame();
+  tap(kKeyEnter);
+  EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
+  EXPECT_EQ(desk_->exercise_id, next.exercise_id);
+  EXPECT_EQ(desk_->level, next.level);
+}
+
 }  // namespace
 }  // namespace trocar

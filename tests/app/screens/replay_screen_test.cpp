@@ -110,7 +110,7 @@ TEST_F(ReplayScreens, EveryKeyDoesWhatItSays) {
   EXPECT_TRUE(clock().loop_b_s());
   draw(press(kKeyEnd));
   EXPECT_EQ(clock().now_s(), clock().to_s());
-  EXPECT_EQ(draw(press(kKeyEscape)), ScreenName::kProgress) << "an older run was chosen there";
+  EXPECT_EQ(draw(press(kKeyEscape)), ScreenName::kBack);
 }
 
 TEST_F(ReplayScreens, ThePointerScrubsTheTimeLine) {
@@ -161,7 +161,7 @@ TEST_F(ReplayScreens, WithoutARecordingItSaysSo) {
   draw();
   EXPECT_TRUE(says("There is no recording"));
   EXPECT_FALSE(screen_->stage(*desk_, wide_, high_));
-  EXPECT_EQ(draw(press(kKeyEscape)), ScreenName::kStart);
+  EXPECT_EQ(draw(press(kKeyEscape)), ScreenName::kBack);
 }
 
 TEST_F(ReplayScreens, SettledItIsReadyForAPicture) {

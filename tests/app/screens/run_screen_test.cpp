@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app/graphics/image.h"
+#include "app/realtime_receipt.h"
 #include "app/screens/latency_bench.h"
 #include "tests/app/screens/loop_bench.h"
 #include "trainees/attempt_store.h"
@@ -100,12 +101,60 @@ TEST_F(RunScreenBench, AWindowThatNobodyLooksAtPauses) {
   EXPECT_FALSE(desk_->running()->paused()) << "continuing holds";
 }
 
-TEST_F(RunScreenBench, RFromThePauseBeginsAnewAndTheOldOneIsKeptAsAborted) {
+TEST_F(RunScreenBench, EnterAndEscGoOnFromThePauseWithoutTabbing) {
+  begin();
+  ASSERT_TRUE(ready());
+  for (const std::int32_t go_on : {std::int32_t{kKeyEnter}, std::int32_t{kKeyEscape}}) {
+    tap('P');
+    frame();
+    ASSERT_TRUE(sees("Paused"));
+    tap(go_on);
+    frame();
+    EXPECT_FALSE(desk_->running()->paused());
+    EXPECT_FALSE(loop_->menu_open());
+    EXPECT_FALSE(sees("Paused"));
+  }
+  tap('P');
+  frame();
+  tab(3);   // Continue, Start again, Leave
+  tap(kKeyEnter);
+  frame();
+  EXPECT_EQ(loop_->here(), ScreenName::kBriefing) << "all of the box by keys alone";
+  EXPECT_EQ(desk_->running(), nullptr);
+}
+
+TEST_F(RunScreenBench, RAsksAndEscTakesItBack) {
+  begin();
+  ASSERT_TRUE(ready());
+  AttemptRunner* first = desk_->running();
+  tap('R');
+  frame();
+  EXPECT_TRUE(sees("Start again?"));
+  EXPECT_FALSE(sees("Paused"));
+  tap(kKeyEscape);
+  frame();
+  EXPECT_EQ(desk_->running(), first);
+  EXPECT_FALSE(first->paused());
+  tap('P');
+  frame();
+  EXPECT_TRUE(sees("Paused")) << "the question is forgotten";
+}
+
+TEST_F(RunScreenBench, MMarksNothingBeforeTheClockBegins) {
+  begin();
+  ASSERT_TRUE(ready());
+  tap('M');
+  frame();
+  EXPECT_TRUE(sees("Nothing is marked before the clock begins."));
+}
+
+TEST_F(RunScreenBench, RThenEnterBeginsAnewAndTheOldOneIsKeptAsAborted) {
   begin();
   ASSERT_TRUE(ready());
   tap('R');
   EXPECT_TRUE(desk_->running()->paused()) << "not without asking";
-  tap('R');
+  frame();
+  tap(kKeyEnter);
   ASSERT_NE(desk_->running(), nullptr);
   ASSERT_TRUE(ready()) << "a fresh one runs";
   EXPECT_FALSE(desk_->running()->paused());
@@ -223,6 +272,46 @@ TEST_F(RunScreenBench, PicturesOfIt) {
   for (int i = 0; i < 12; ++i) frame({pointer(InputEvent::Kind::kMouseMove, 600 + 60.0 * i, 100)});
   for (int i = 0; i < 12; ++i) frame();
   keep_picture("run_rim");
+}
+
+TEST_F(RunScreenBench, ABoardThatStopsAnsweringPausesTheAttemptAndItGoesOnWhenItAnswersAgain) {
+  begin();
+  ASSERT_TRUE(ready());
+  AttemptRunner* run = desk_->running();
+  ASSERT_TRUE(run->plug(false));
+  ASSERT_TRUE(until([&] { return sees("The device does not answer"); }));
+  EXPECT_TRUE(run->paused());
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));   // a step that was under way ends
+  const double stands_at = run->newest().t_s;
+  const Vec3 held = tip();
+  tap('P');   // as long as it is out, going on does not help
+  for (int i = 0; i < 20; ++i) {
+    frame();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(run->newest().t_s, stands_at) << "the clock stands";
+  EXPECT_TRUE(sees("The device does not answer"));
+  run->plug(true);
+  ASSERT_TRUE(until([&] { return sees("Paused"); })) << "nothing moves before the person says so";
+  EXPECT_EQ(run->newest().t_s, stands_at);
+  tap('P');
+  ASSERT_TRUE(until([&] { return run->newest().t_s > stands_at + 0.3; }));
+  EXPECT_EQ(desk_->running(), run) << "the same attempt";
+  EXPECT_FALSE(run->finished());
+  EXPECT_LT((tip() - held).norm(), 0.01) << "state kept";
+  ASSERT_TRUE(desk_->end_attempt());
+  EXPECT_EQ(desk_->result()->grade.status, AttemptStatus::kAborted) << "no fault: " << desk_->result()->device.fault;
+  EXPECT_EQ(pauses_of(desk_->result()->device.realtime).size(), 1u) << "noted";
+}
+
+TEST_F(RunScreenBench, AnExamHasNoPauseForACableEither) {
+  DeskOptions exam = bench_.options();
+  exam.hand = "expert";
+  exam.level = "exam";
+  open(exam);
+  ASSERT_EQ(desk_->begin_attempt(), "");
+  EXPECT_FALSE(desk_->running()->plug(false));
+  EXPECT_TRUE(desk_->running()->board_answers());
 }
 
 }  // namespace

@@ -212,5 +212,18 @@ TEST(ColumnLeft, IsTheSameDisplayWithColumnAndPictureExchanged) {
   }
 }
 
+TEST(RimReach, TheArrowStaysClearOfTheMessageThatLiesInItsWay) {
+  const PixelRect picture{0, 50, 960, 670};
+  const double size = 26, down = -std::numbers::pi / 2;
+  const HudBox toast{230, 640, 500, 66};
+  const double free = rim_reach(picture, down, size, {});
+  EXPECT_GT(picture.y + picture.height / 2 + free, toast.y) << "else the test says nothing";
+  const double held = rim_reach(picture, down, size, {toast});
+  EXPECT_LE(picture.y + picture.height / 2 + held, toast.y);
+  EXPECT_GT(held, 0.6 * free) << "no further in than it must";
+  EXPECT_EQ(rim_reach(picture, -down, size, {toast}), rim_reach(picture, -down, size, {})) << "upwards nothing is in the way";
+  EXPECT_GE(rim_reach(picture, down, size, {{0, 0, 2000, 2000}}), 0) << "no way out: it is shown all the same";
+}
+
 }  // namespace
 }  // namespace trocar

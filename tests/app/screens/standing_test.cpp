@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace trocar {
 namespace {
 
@@ -73,6 +75,58 @@ TEST(StandingOf, WithoutAGradeThereIsNoScore) {
   const Standing s = standing_of(with_levels(), "L1", {attempt(1, false, "aborted")});
   EXPECT_FALSE(s.best || s.last);
   EXPECT_EQ(s.attempts, 1);
+}
+
+TEST(NextStep, AllExercisesAtALevelComeBeforeTheNextLevelAndGuestsBeginWithTouch) {
+  std::vector<Exercise> all(2);
+  all[0].id = "reach";
+  all[0].kind = ExerciseKind::kReach;
+  all[1].id = "touch";
+  all[1].kind = ExerciseKind::kTouch;
+  for (Exercise& e : all) {
+    e.levels.resize(2);
+    e.levels[0].name = "L1";
+    e.levels[1].name = "L2";
+  }
+  std::set<std::string> passed;
+  const auto standing = [&](const Exercise& e, const std::string& level) {
+    Standing s;
+    s.unlocked = level == "L1" || passed.count(e.id + "L1") > 0;
+    for (int board = 0; board < 3 && passed.count(e.id + level) > 0; ++board) {
+      AttemptSummary one;
+      one.level = level;
+      one.board = board;
+      one.status = "completed";
+      one.passed = true;
+      s.newest_first.push_back(one);
+    }
+    return s;
+  };
+  const auto next = [&](bool guest) {
+    const auto found = next_step(practice_order(all, guest), standing);
+    return found ? found->exercise->id + found->level : "all passed";
+  };
+  EXPECT_EQ(next(false), "reachL1");
+  EXPECT_EQ(next(true), "touchL1");
+  passed.insert("touchL1");
+  EXPECT_EQ(next(false), "reachL1");
+  EXPECT_EQ(next(true), "reachL1");
+  passed.insert("reachL1");
+  EXPECT_EQ(next(false), "reachL2");
+  passed.insert({"reachL2", "touchL2"});
+  EXPECT_EQ(next(false), "all passed");
+}
+
+TEST(ScriptedHands, AreTheOnesThatNoInputIs) {
+  AttemptSummary one;
+  for (const char* hand : {"mouse", "keyboard", "gamepad", "spacemouse", "device", ""}) {
+    one.hand = hand;
+    EXPECT_FALSE(by_scripted_hand(one)) << hand;
+  }
+  for (const char* hand : {"expert", "novice", "my/script.toml"}) {
+    one.hand = hand;
+    EXPECT_TRUE(by_scripted_hand(one)) << hand;
+  }
 }
 
 }  // namespace
