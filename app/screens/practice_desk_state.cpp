@@ -8,6 +8,7 @@
 #include "app/practice/cut_off.h"
 #include "app/recorded_result.h"
 #include "haptics/input_error.h"
+#include "scenarios/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
 #include "tissue/organ.h"
 
