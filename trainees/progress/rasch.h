@@ -1,0 +1,34 @@
+// Rasch model over passed and failed attempts: logit P(pass) = ability(trainee) - difficulty(item), item = exercise and level.
+//
+// Joint maximum likelihood with difficulties summing to 0, trainees and items with only passes or only failures set aside and named;
+// standard errors from the curvature. Shown only from ProgressRules::rasch_least_attempts on. Pure. Thread: any.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trocar {
+
+struct RaschAnswer {
+  std::string trainee, item;
+  bool passed = false;
+};
+
+struct RaschEstimate {
+  std::string name;
+  double logit = 0, standard_error = 0;
+  int n = 0;
+};
+
+struct RaschFit {
+  std::vector<RaschEstimate> trainees, items;     ///< by name
+  std::vector<std::string> set_aside;             ///< only passes or only failures, or not connected to the rest
+  int rounds = 0;
+  double largest_step = 0;                        ///< of the last round, logit
+};
+
+/// Empty when nothing is left to fit.
+std::optional<RaschFit> fit_rasch(const std::vector<RaschAnswer>& answers);
+
+}  // namespace trocar

@@ -1,0 +1,184 @@
+// Schema version 4: the instructor's desk. Accounts, notes, overrides, certificates, curricula, groups, erasure, synchronisation.
+//
+// What a person says of an attempt or a trainee is kept as attempts are: rows with a time-ordered UUID, never changed, each with its
+// digest in the audit trail (sealed_rows.h). An erasure is the one exception, and is itself such a row. docs/data_store.md.
+#include "trainees/migrations.h"
+
+namespace trocar {
+namespace {
+
+// These tables had no rows yet in any program before this one; "" stands for "before schema 4".
+constexpr const char kOpinions[] = R"sql(
+ALTER TABLE consent ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
+ALTER TABLE rating ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
+ALTER TABLE signature ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
+ALTER TABLE signature ADD COLUMN account_uuid TEXT NOT NULL DEFAULT '';
+ALTER TABLE benchmark ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
+ALTER TABLE benchmark ADD COLUMN rule TEXT NOT NULL DEFAULT '';
+ALTER TABLE benchmark ADD COLUMN author TEXT NOT NULL DEFAULT '';
+CREATE UNIQUE INDEX consent_uuid ON consent(uuid) WHERE uuid <> '';
+CREATE UNIQUE INDEX rating_uuid ON rating(uuid) WHERE uuid <> '';
+CREATE UNIQUE INDEX signature_uuid ON signature(uuid) WHERE uuid <> '';
+CREATE UNIQUE INDEX benchmark_uuid ON benchmark(uuid) WHERE uuid <> '';
+CREATE INDEX signature_by_attempt ON signature(attempt_id);
+CREATE INDEX rating_by_attempt ON rating(attempt_id);
+
+-- Of a trainee, or of one attempt. author: account's UUID, "" from the command line.
+CREATE TABLE note (
+  id         INTEGER PRIMARY KEY,
+  uuid       TEXT NOT NULL UNIQUE,
+  trainee_id INTEGER NOT NULL REFERENCES trainee(id),
+  attempt_id INTEGER REFERENCES attempt(id),
+  author     TEXT NOT NULL,
+  printed    TEXT NOT NULL,
+  text       TEXT NOT NULL CHECK (length(text) BETWEEN 1 AND 4000),
+  utc        TEXT NOT NULL
+) STRICT;
+CREATE INDEX note_by_trainee ON note(trainee_id, id);
+
+-- When the trainee met it. Not evidence, so not sealed.
+CREATE TABLE note_seen (
+  note_id INTEGER PRIMARY KEY REFERENCES note(id),
+  utc     TEXT NOT NULL
+) STRICT;
+
+-- A person's verdict beside the score, never in its place. The newest of an attempt holds.
+CREATE TABLE verdict_override (
+  id         INTEGER PRIMARY KEY,
+  uuid       TEXT NOT NULL UNIQUE,
+  attempt_id INTEGER NOT NULL REFERENCES attempt(id),
+  row_hash   TEXT NOT NULL,
+  author     TEXT NOT NULL,
+  printed    TEXT NOT NULL,
+  passed     INTEGER NOT NULL CHECK (passed IN (0, 1)),
+  reason     TEXT NOT NULL CHECK (length(trim(reason)) >= 10),
+  utc        TEXT NOT NULL
+) STRICT;
+CREATE INDEX override_by_attempt ON verdict_override(attempt_id);
+
+-- evidence: JSON, what the decision rested on (attempts, rule and its version, n).
+CREATE TABLE certificate (
+  id           INTEGER PRIMARY KEY,
+  uuid         TEXT NOT NULL UNIQUE,
+  trainee_id   INTEGER NOT NULL REFERENCES trainee(id),
+  exercise_id  TEXT NOT NULL REFERENCES exercise(id),
+  level        TEXT NOT NULL,
+  rule_version TEXT NOT NULL,
+  evidence     TEXT NOT NULL,
+  author       TEXT NOT NULL,
+  printed      TEXT NOT NULL,
+  utc          TEXT NOT NULL
+) STRICT;
+CREATE INDEX certificate_by_trainee ON certificate(trainee_id);
+
+CREATE TABLE revocation (
+  id             INTEGER PRIMARY KEY,
+  uuid           TEXT NOT NULL UNIQUE,
+  certificate_id INTEGER NOT NULL UNIQUE REFERENCES certificate(id),
+  author         TEXT NOT NULL,
+  printed        TEXT NOT NULL,
+  reason         TEXT NOT NULL CHECK (length(trim(reason)) >= 10),
+  utc            TEXT NOT NULL
+) STRICT;
+)sql";
+
+constexpr const char kRules[] = R"sql(
+-- Courses and progress rules as TOML text; the highest version of a name holds.
+CREATE TABLE curriculum (
+  id      INTEGER PRIMARY KEY,
+  uuid    TEXT NOT NULL UNIQUE,
+  name    TEXT NOT NULL,
+  version INTEGER NOT NULL CHECK (version >= 1),
+  sha256  TEXT NOT NULL CHECK (length(sha256) = 64),
+  toml    TEXT NOT NULL,
+  author  TEXT NOT NULL,
+  utc     TEXT NOT NULL,
+  UNIQUE (name, version, uuid)
+) STRICT;
+)sql";
+
+constexpr const char kPeople[] = R"sql(
+-- Who may sign in at the desk. password: the library's own text (algorithm, cost, salt, hash); '' cannot sign in.
+CREATE TABLE account (
+  id           INTEGER PRIMARY KEY,
+  uuid         TEXT NOT NULL UNIQUE,
+  login        TEXT NOT NULL UNIQUE COLLATE NOCASE,
+  name         TEXT NOT NULL,
+  role         TEXT NOT NULL CHECK (role IN ('trainee','instructor','administrator')),
+  trainee_id   INTEGER UNIQUE REFERENCES trainee(id),
+  password     TEXT NOT NULL DEFAULT '',
+  created_utc  TEXT NOT NULL,
+  disabled_utc TEXT,
+  CHECK ((role = 'trainee') = (trainee_id IS NOT NULL))
+) STRICT;
+
+CREATE TABLE membership (
+  trainee_id INTEGER NOT NULL REFERENCES trainee(id),
+  group_name TEXT NOT NULL CHECK (length(group_name) BETWEEN 1 AND 64),
+  PRIMARY KEY (trainee_id, group_name)
+) STRICT, WITHOUT ROWID;
+
+-- kind: 'identity' (name, e-mail, code, notes and sign-in go, training facts stay), 'training' (also events, metrics, recordings).
+CREATE TABLE erasure (
+  id         INTEGER PRIMARY KEY,
+  uuid       TEXT NOT NULL UNIQUE,
+  trainee_id INTEGER NOT NULL REFERENCES trainee(id),
+  kind       TEXT NOT NULL CHECK (kind IN ('identity','training')),
+  rule       TEXT NOT NULL,
+  author     TEXT NOT NULL,
+  utc        TEXT NOT NULL,
+  UNIQUE (trainee_id, kind)
+) STRICT;
+
+-- How far a central database has what stands here (position of the audit trail).
+CREATE TABLE sync_cursor (
+  remote   TEXT PRIMARY KEY,
+  position INTEGER NOT NULL CHECK (position >= 0),
+  utc      TEXT NOT NULL
+) STRICT;
+)sql";
+
+constexpr const char kIndices[] = R"sql(
+CREATE INDEX attempt_by_time ON attempt(started_utc);
+CREATE INDEX metric_by_name ON metric(name, score_id, value);
+)sql";
+
+std::string refused(const std::string& table, const std::string& verb, const std::string& unless) {
+  const std::string past = verb == "DELETE" ? "deleted" : "changed";
+  const std::string name = table + (verb == "DELETE" ? "_no_delete" : "_no_update");
+  return "DROP TRIGGER IF EXISTS " + name + ";\nCREATE TRIGGER " + name + " BEFORE " + verb + " ON " + table +
+         (unless.empty() ? "" : " WHEN NOT EXISTS (" + unless + ")") + " BEGIN SELECT RAISE(ABORT, '" + table + ": a row cannot be " + past +
+         "'); END;\n";
+}
+
+std::string never_replaced(const std::string& table) {
+  return "CREATE TRIGGER " + table + "_no_replace BEFORE INSERT ON " + table + " WHEN EXISTS (SELECT 1 FROM " + table +
+         " WHERE id = NEW.id OR uuid = NEW.uuid) BEGIN SELECT RAISE(ABORT, '" + table + ": the row exists already'); END;\n";
+}
+
+/// Rows go with their person, once the erasure stands.
+std::string triggers() {
+  std::string sql;
+  for (const char* table : {"verdict_override", "certificate", "revocation", "curriculum", "erasure"})
+    sql += refused(table, "UPDATE", "") + refused(table, "DELETE", "");
+  for (const char* table : {"note", "verdict_override", "certificate", "revocation", "curriculum", "erasure"}) sql += never_replaced(table);
+  const std::string erased = "SELECT 1 FROM erasure WHERE trainee_id = OLD.trainee_id";
+  sql += refused("note", "UPDATE", "") + refused("note", "DELETE", erased);
+  sql += refused("consent", "DELETE", erased);
+  const std::string facts = " AND e.kind = 'training'";
+  for (const char* table : {"event", "device_warning", "device_transition", "score"})
+    sql += refused(table, "DELETE", "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = OLD.attempt_id" + facts);
+  for (const char* table : {"metric", "subscore", "score_cap"})
+    sql += refused(table, "DELETE", "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id"
+                   " JOIN score s ON s.attempt_id = a.id WHERE s.id = OLD.score_id" + facts);
+  return sql;
+}
+
+}  // namespace
+
+const char* schema_v4() {
+  static const std::string kSql = std::string(kOpinions) + kRules + kPeople + kIndices + triggers();
+  return kSql.c_str();
+}
+
+}  // namespace trocar
