@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kExercises[] = {"reach-and-orient", "surface-touch", "limited-grasp"};
 constexpr const char* kLevels[] = {"L1", "L2", "L3"};
 constexpr const char* kEventTypes[] = {"TARGET_LIT", "TARGET_TOUCHED", "TARGET_HELD"};
-constexpr int kCommit = 500;
+constexpr int kCommit = 4000;
 constexpr std::int64_t kBegin = 1767225600;   // 2026-01-01
 
 std::string ruleset_text(const std::string& exercise) { return "id = \"" + exercise + "\"\n" + std::string(6000, '#') + "\n"; }
@@ -26,7 +26,7 @@ std::string ruleset_text(const std::string& exercise) { return "id = \"" + exerc
 class Filler {
  public:
   Filler(Database& database, const CohortPlan& plan) : connection_(database.connection()), plan_(plan), random_(plan.seed) {
-    for (int k = 0; k < plan.metrics - 4; ++k) names_.push_back("motion_metric_" + std::string(k < 10 ? "0" : "") + std::to_string(k));
+    for (int k = 0; k < plan.metrics - 4; ++k) names_.push_back("metric_no_" + std::string(k < 10 ? "0" : "") + std::to_string(k));
   }
 
   void fill(Database& database) {
@@ -115,7 +115,7 @@ class Filler {
 
   void add_events(AttemptResult& out, double left) {
     for (int k = 0; k < plan_.events; ++k)
-      out.events.push_back({1.0 + k * 1.7 + uniform(), kEventTypes[k % 3], Severity::kInfo, k / 3, uniform(), "s",
+      out.events.push_back({1.0 + k * 1.7 + uniform(), kEventTypes[k % 3], Severity::kInfo, k / 3, k % 3 == 0 ? 0 : uniform(), k % 3 == 0 ? "" : "s",
                             Vec3(0.1 * uniform(), 0.1 * uniform(), 0.1 * uniform())});
     while (uniform() < 0.5 * left) out.events.push_back({50, "EXCESS_FORCE", Severity::kMajor, 1, 3 + uniform(), "N", Vec3::Zero()});
     if (uniform() < 0.1 * left) out.events.push_back({55, "CRITICAL_FORCE", Severity::kCritical, 1, 5, "N", Vec3::Zero()});
@@ -130,8 +130,10 @@ class Filler {
                      {"force_max_n", 1.5 + 3 * left * uniform(), "N"},
                      {"excess_events", count(Severity::kMajor), "1"},
                      {"critical_events", count(Severity::kCritical), "1"}};
-    for (const std::string& name : names_)
-      grade.metrics.push_back({name, grade.metrics.size() % 4 == 0 ? std::nullopt : std::optional(uniform()), "m/s"});
+    for (std::size_t k = 0; k < names_.size(); ++k) {   // as in real ones some are undefined, some are counts
+      const double value = k % 4 == 1 ? std::floor(20 * uniform()) : uniform();
+      grade.metrics.push_back({names_[k], k % 8 == 0 ? std::nullopt : std::optional(value), k % 3 == 0 ? "m/s" : "1"});
+    }
     for (const char* name : {"force", "in band", "wrong places", "time", "economy"})
       grade.subscores.push_back({name, uniform(), 0.2, uniform(), "N", 0, 6, name[0] == 'f'});
     double score = std::clamp(95 - 45 * left + 6 * (uniform() - 0.5), 0.0, 100.0);
