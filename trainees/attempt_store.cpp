@@ -238,9 +238,10 @@ AttemptSummary AttemptStore::find(std::string_view name) const {
 }
 
 std::vector<AttemptSummary> AttemptStore::list(const AttemptFilter& filter) const {
-  sql::Statement rows(database_->connection(), std::string(kSummaryColumns) +
-                                                   " WHERE (?1 = '' OR t.code = ?1 COLLATE NOCASE) AND (?2 = '' OR exercise_id = ?2)"
-                                                   " ORDER BY a.id DESC LIMIT ?3");
+  // By the trainee's row, which has an index; a code has none in the view.
+  const std::string whose = filter.trainee.empty() ? "?1 = ''" : "a.trainee_id IN (SELECT id FROM known_trainee WHERE code = ?1 COLLATE NOCASE)";
+  sql::Statement rows(database_->connection(),
+                      std::string(kSummaryColumns) + " WHERE " + whose + " AND (?2 = '' OR exercise_id = ?2) ORDER BY a.id DESC LIMIT ?3");
   rows.bind(filter.trainee).bind(filter.exercise_id).bind(filter.limit > 0 ? filter.limit : -1);
   std::vector<AttemptSummary> attempts;
   while (rows.step()) attempts.push_back(summary_of(rows));

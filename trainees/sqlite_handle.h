@@ -55,6 +55,7 @@ class Statement {
   double real(int column) const;  ///< NULL reads as NaN
   std::optional<double> optional_real(int column) const;
   std::string text(int column) const;  ///< NULL reads as ""
+  std::string_view view(int column) const;  ///< the same, good until the next step
   /// The value with its type, for hashing: n; i<decimal>; r<16 hex digits of the bits>; t<length>:<bytes>.
   std::string canonical(int column) const;
 

@@ -34,35 +34,54 @@ class ByRow {
   std::vector<Value> values_;
 };
 
-struct FirstScore {
-  double value = kNone;
-  std::int64_t row = 0;
+/// What stands beside an attempt, in one place: the attempts of one curve lie far apart.
+struct Facts {
+  double score = kNone, peak = kNone;
+  std::int32_t critical = 0, over_force = 0, gates = 0;
   bool passed = false;
 };
 
-/// What stands beside the attempts.
-struct Columns {
-  ByRow<FirstScore> scores{FirstScore{}};
-  ByRow<double> peaks{kNone};              ///< by score
-  ByRow<int> gates{0};                     ///< by score
-  ByRow<int> critical{0}, over_force{0};
-};
-
-Columns read_columns(sqlite3* connection) {
-  Columns out;
+ByRow<Facts> read_facts(sqlite3* connection) {
+  ByRow<Facts> out{Facts{}};
+  ByRow<std::int64_t> attempt_of{0};       // by score
   sql::Statement scores(connection, "SELECT attempt_id, value, passed, id FROM score INDEXED BY score_first WHERE revision = 0");
-  while (scores.step()) out.scores.at(scores.integer(0)) = {scores.real(1), scores.integer(3), scores.integer(2) != 0};
+  while (scores.step()) {
+    Facts& facts = out.at(scores.integer(0));
+    facts.score = scores.real(1);
+    facts.passed = scores.integer(2) != 0;
+    attempt_of.at(scores.integer(3)) = scores.integer(0);
+  }
   sql::Statement peaks(connection, "SELECT score_id, value FROM metric INDEXED BY metric_peak_force WHERE name = 'force_max_n'");
-  while (peaks.step()) out.peaks.at(peaks.integer(0)) = peaks.real(1);
+  while (peaks.step()) out.at(attempt_of.get(peaks.integer(0))).peak = peaks.real(1);
   sql::Statement gates(connection, "SELECT score_id FROM score_cap INDEXED BY cap_of_safety WHERE substr(reason, 1, 8) = 'safety: '");
-  while (gates.step()) ++out.gates.at(gates.integer(0));
+  while (gates.step()) ++out.at(attempt_of.get(gates.integer(0))).gates;
   sql::Statement critical(connection, "SELECT attempt_id FROM event INDEXED BY event_critical WHERE severity = 'critical'");
-  while (critical.step()) ++out.critical.at(critical.integer(0));
+  while (critical.step()) ++out.at(critical.integer(0)).critical;
   sql::Statement over(connection, "SELECT attempt_id FROM event INDEXED BY event_over_force"
                                   " WHERE type IN ('EXCESS_FORCE', 'CRITICAL_FORCE', 'GRIP_EXCESS', 'CRUSH')");
-  while (over.step()) ++out.over_force.at(over.integer(0));
+  while (over.step()) ++out.at(over.integer(0)).over_force;
   return out;
 }
+
+/// Curves that anybody has tried: from one to the next along the index, without reading what lies between.
+std::vector<CurveKey> curves_of(sqlite3* connection, const CohortFilter& filter) {
+  std::vector<CurveKey> out;
+  sql::Statement next(connection, "SELECT exercise_id, level, hand, ruleset_sha256 FROM attempt INDEXED BY attempt_by_curve"
+                                  " WHERE (exercise_id, level, hand, ruleset_sha256) > (?, ?, ?, ?)"
+                                  " ORDER BY exercise_id, level, hand, ruleset_sha256 LIMIT 1");
+  CurveKey key;
+  while (next.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(key.rubric_sha256).step()) {
+    key = {next.text(0), next.text(1), next.text(2), next.text(3)};
+    next.run();
+    if ((filter.exercise.empty() || key.exercise_id == filter.exercise) && (filter.level.empty() || key.level == filter.level)) out.push_back(key);
+  }
+  return out;
+}
+
+constexpr const char* kCurveRows =
+    "SELECT id, trainee_id, status IN ('fault', 'void'), device_overruns > ?5 * device_ticks OR coalesce(saturated_contact_share, 0) > ?6,"
+    " started_utc FROM attempt INDEXED BY attempt_by_curve WHERE exercise_id = ?1 AND level = ?2 AND hand = ?3 AND ruleset_sha256 = ?4"
+    " AND status <> 'running' ORDER BY trainee_id, id";
 
 /// One trainee on one curve while it is read.
 struct Draft {
@@ -78,24 +97,19 @@ class CohortPass {
  public:
   CohortPass(Database& database, const ProgressRules& rules, const CohortFilter& filter, const std::string& now_utc)
       : connection_(database.connection()), rules_(rules), filter_(filter), now_utc_(now_utc), people_(desk::people(connection_)),
-        certificates_(desk::certificates_that_hold(connection_)), columns_(read_columns(connection_)),
+        certificates_(desk::certificates_that_hold(connection_)), facts_(read_facts(connection_)),
         newest_(connection_, "SELECT uuid, exercise_version, started_utc FROM attempt WHERE id = ?") {}
 
   std::vector<CohortLine> lines() {
-    sql::Statement rows(connection_, "SELECT id, trainee_id, status, started_utc, device_ticks, device_overruns, saturated_contact_share,"
-                                     " exercise_id, level, hand, ruleset_sha256 FROM attempt INDEXED BY attempt_by_curve"
-                                     " WHERE status <> 'running' AND (?1 = '' OR exercise_id = ?1) AND (?2 = '' OR level = ?2)"
-                                     " ORDER BY exercise_id, level, hand, ruleset_sha256, trainee_id, id");
-    rows.bind(filter_.exercise).bind(filter_.level);
-    CurveKey key;
-    while (rows.step()) {
-      const CurveKey here{rows.text(7), rows.text(8), rows.text(9), rows.text(10)};
-      if (here != key) finish_curve();
-      key = here;
-      if (curve_.empty() || curve_.back().trainee != rows.integer(1)) begin(rows.integer(1), key);
-      add(curve_.back(), rows);
+    for (const CurveKey& key : curves_of(connection_, filter_)) {
+      sql::Statement rows(connection_, kCurveRows);
+      rows.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(key.rubric_sha256).bind(rules_.late_share).bind(desk::kNotRendered);
+      while (rows.step()) {
+        if (curve_.empty() || curve_.back().trainee != rows.integer(1)) begin(rows.integer(1), key);
+        add(curve_.back(), rows);
+      }
+      finish_curve();
     }
-    finish_curve();
     std::stable_sort(out_.begin(), out_.end(), [](const CohortLine& a, const CohortLine& b) { return a.trainee < b.trainee; });
     return std::move(out_);
   }
@@ -112,21 +126,23 @@ class CohortPass {
     curve_.emplace_back();
     curve_.back().trainee = trainee;
     curve_.back().line.key = key;
+    if (const auto at = certificates_.find({trainee, key.exercise_id, key.level}); at != certificates_.end())
+      curve_.back().line.certified_utc = at->second;
   }
 
   void add(Draft& draft, const sql::Statement& row) const {
     const std::int64_t id = row.integer(0);
-    const FirstScore& score = columns_.scores.get(id);
+    const Facts& facts = facts_.get(id);
     CurveAttempt attempt;
-    attempt.started_s = seconds_of_utc(row.text(3)).value_or(0);
-    attempt.passed = score.passed;
-    attempt.critical_events = columns_.critical.get(id);
-    attempt.failed_gates = columns_.gates.get(score.row);
-    attempt.broken = desk::broken(row.text(2));
-    attempt.doubtful = desk::doubtful(row.real(4), row.real(5), row.real(6), rules_.late_share);
-    if (!attempt.broken && !std::isnan(score.value)) attempt.score = score.value;
+    if (!draft.line.certified_utc.empty()) attempt.started_s = seconds_of_utc(row.view(4)).value_or(0);   // for dates after it alone
+    attempt.passed = facts.passed;
+    attempt.critical_events = facts.critical;
+    attempt.failed_gates = facts.gates;
+    attempt.broken = row.integer(2) != 0;
+    attempt.doubtful = row.integer(3) != 0;
+    if (!attempt.broken && !std::isnan(facts.score)) attempt.score = facts.score;
     draft.last_row = id;
-    draft.line.over_force += columns_.over_force.get(id);
+    draft.line.over_force += facts.over_force;
     draft.attempts.push_back(attempt);
     if (attempt.broken) return;
     ++draft.line.tries;
@@ -137,8 +153,8 @@ class CohortPass {
     draft.scores.push_back(*attempt.score);
     draft.line.last = attempt.score;
     draft.line.best = std::max(draft.line.best.value_or(*attempt.score), *attempt.score);
-    if (const double peak = columns_.peaks.get(score.row); !std::isnan(peak)) {
-      draft.peak_sum += peak;
+    if (!std::isnan(facts.peak)) {
+      draft.peak_sum += facts.peak;
       ++draft.peaks;
     }
   }
@@ -172,8 +188,6 @@ class CohortPass {
     };
     line.newest_scores = newest(kSparkScores);
     if (draft.scores.size() >= 3) line.reliability = reliability(newest(rules_.reliability_window), between);
-    if (const auto at = certificates_.find({draft.trainee, line.key.exercise_id, line.key.level}); at != certificates_.end())
-      line.certified_utc = at->second;
     line.judgements = judge(draft.attempts, rules_, line.reliability, line.certified_utc, now_utc_);
     newest_.bind(draft.last_row).step();
     line.last_uuid = newest_.text(0);
@@ -188,7 +202,7 @@ class CohortPass {
   const std::string& now_utc_;
   std::map<std::int64_t, desk::Person> people_;
   std::map<desk::CertifiedSkill, std::string> certificates_;
-  Columns columns_;
+  ByRow<Facts> facts_;                     ///< by attempt; 0 takes those of scores again, which nobody asks for
   sql::Statement newest_;
   std::vector<Draft> curve_;
   std::vector<CohortLine> out_;
@@ -197,6 +211,8 @@ class CohortPass {
 }  // namespace
 
 std::vector<CohortLine> cohort_lines(Database& database, const ProgressRules& rules, const CohortFilter& filter, const std::string& now_utc) {
+  // The indices that are read here fit; SQLite's own 2 MB would read them from the file at every call.
+  sql::execute(database.connection(), "PRAGMA cache_size = -65536");
   return CohortPass(database, rules, filter, now_utc).lines();
 }
 

@@ -25,9 +25,7 @@ std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection
 }
 
 bool doubtful(double ticks, double overruns, double saturated_share, double late_share) {
-  DeviceReceipt device;
-  device.saturated_contact_share = saturated_share;
-  return overruns > late_share * ticks || device.force_not_rendered();
+  return overruns > late_share * ticks || saturated_share > kNotRendered;
 }
 
 bool broken(const std::string& status) {
@@ -36,7 +34,8 @@ bool broken(const std::string& status) {
 
 std::map<std::int64_t, std::vector<double>> cohort_scores(sqlite3* connection, const CurveKey& key) {
   std::map<std::int64_t, std::vector<double>> out;
-  sql::Statement rows(connection, "SELECT a.trainee_id, s.value FROM attempt a CROSS JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
+  sql::Statement rows(connection, "SELECT a.trainee_id, s.value FROM attempt a INDEXED BY attempt_by_curve"
+                                  " CROSS JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
                                   " WHERE a.exercise_id = ? AND a.level = ? AND a.hand = ? AND a.ruleset_sha256 = ?"
                                   " AND a.status IN ('completed', 'timeout') AND s.value IS NOT NULL ORDER BY a.trainee_id, a.id");
   rows.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(key.rubric_sha256);

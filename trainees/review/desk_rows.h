@@ -30,6 +30,8 @@ struct CertifiedSkill {
 /// Newest certificate of each that holds: its date.
 std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection);
 
+/// Share of the contact time without room in the device above which the force was not rendered.
+inline constexpr double kNotRendered = 0.05;
 /// Whether the device loop was late or could not give the force; shares as the database has them, NaN where it has none.
 bool doubtful(double ticks, double overruns, double saturated_share, double late_share);
 /// Void, or ended by the device.

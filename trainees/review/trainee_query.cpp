@@ -123,7 +123,8 @@ void add_ability(sqlite3* connection, const Trainee& trainee, const ProgressRule
   std::vector<RaschCell> cells;
   sql::Statement rows(connection,
                       "SELECT a.trainee_id, a.exercise_id || ' ' || a.level || ' ' || a.hand, count(*), sum(coalesce(s.passed, 0))"
-                      " FROM attempt a INDEXED BY attempt_by_curve LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
+                      " FROM attempt a INDEXED BY attempt_by_curve"
+                      " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
                       " WHERE a.status IN ('completed', 'timeout', 'aborted')"
                       " GROUP BY a.exercise_id, a.level, a.hand, a.ruleset_sha256, a.trainee_id");
   while (rows.step()) {
