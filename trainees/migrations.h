@@ -46,9 +46,10 @@ void copy_database(sqlite3* from, const std::filesystem::path& to);
 /// Where the schema of the database is not that of `migrations`: tables, indices, triggers, views; one line each.
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations);
 
-/// The schema's first version (schema_v1.cpp), and what leads to the second and the third.
+/// The schema's first version (schema_v1.cpp), and what leads to the later ones.
 extern const char* const kSchemaV1;
 const char* schema_v2();
 extern const char* const kSchemaV3;
+const char* schema_v4();
 
 }  // namespace trocar

@@ -45,12 +45,17 @@ class Statement {
   /// Runs to the end and makes the statement ready for new parameters.
   void run();
 
+  enum class Kind : std::uint8_t { kNull, kInteger, kReal, kText };
+
   int columns() const;
+  std::string name(int column) const;
+  Kind kind(int column) const;
   bool is_null(int column) const;
   std::int64_t integer(int column) const;
   double real(int column) const;  ///< NULL reads as NaN
   std::optional<double> optional_real(int column) const;
   std::string text(int column) const;  ///< NULL reads as ""
+  std::string_view view(int column) const;  ///< the same, good until the next step
   /// The value with its type, for hashing: n; i<decimal>; r<16 hex digits of the bits>; t<length>:<bytes>.
   std::string canonical(int column) const;
 

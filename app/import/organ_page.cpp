@@ -5,9 +5,9 @@
 #include <functional>
 
 #include "app/import/organ_pictures.h"
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 #include "app/report/report_style.h"
-#include "app/report/svg.h"
+#include "trainees/markup/svg.h"
 #include "tissue/library_versions.h"
 #include "tissue/mesh/mesh_quality.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/report/html.h"
-#include "app/report/plots.h"
-#include "app/report/svg.h"
+#include "trainees/markup/html.h"
+#include "trainees/markup/plots.h"
+#include "trainees/markup/svg.h"
 
 namespace trocar {
 namespace {

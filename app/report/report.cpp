@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 #include "app/report/report_style.h"
 #include "app/report/stiffness_plot.h"
 #include "app/report/verdict.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/report/board_plots.h"
-#include "app/report/plots.h"
+#include "trainees/markup/plots.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {

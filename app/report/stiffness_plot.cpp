@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/html.h"
-#include "app/report/svg.h"
+#include "trainees/markup/html.h"
+#include "trainees/markup/svg.h"
 
 namespace trocar {
 namespace {

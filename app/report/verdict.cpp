@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 
 namespace trocar {
 namespace {

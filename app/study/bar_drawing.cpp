@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 
 namespace trocar {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/report/html.h"
-#include "app/report/svg.h"
+#include "trainees/markup/html.h"
+#include "trainees/markup/svg.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/link_clearance.h"
 

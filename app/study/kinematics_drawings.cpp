@@ -1,7 +1,7 @@
 #include "app/study/kinematics_drawings.h"
 
-#include "app/report/html.h"
-#include "app/report/svg.h"
+#include "trainees/markup/html.h"
+#include "trainees/markup/svg.h"
 #include "app/study/device_drawing.h"
 #include "app/study/kinematics_study.h"
 #include "app/study/thesis_kinematics.h"

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 #include "haptics/input_error.h"
 
 namespace trocar {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <vector>
 
-#include "app/report/html.h"
-#include "app/report/svg.h"
+#include "trainees/markup/html.h"
+#include "trainees/markup/svg.h"
 #include "app/study/device_drawing.h"
 
 namespace trocar {

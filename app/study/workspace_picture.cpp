@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/report/svg.h"
+#include "trainees/markup/svg.h"
 #include "app/study/device_drawing.h"
 #include "app/study/workspace_maps.h"
 #include "haptics/kinematics/device_geometry.h"

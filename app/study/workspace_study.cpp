@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 #include "app/study/workspace_maps.h"
 #include "app/study/workspace_quality.h"
 #include "app/study/workspace_region.h"

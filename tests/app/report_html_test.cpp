@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 
 namespace trocar {
 namespace {

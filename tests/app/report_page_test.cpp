@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 #include "app/report/report.h"
 #include "haptics/input_error.h"
 #include "tests/support/sample_attempt.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/report/plots.h"
+#include "trainees/markup/plots.h"
 #include "tests/support/sample_attempt.h"
 
 namespace trocar {

@@ -33,7 +33,7 @@ const std::vector<Direction>& directions() {
       {"^scenarios/scoring/", "^(scenarios/scoring/|haptics/quantities\\.h$)", "scoring is pure"},
       {"^trainees/", "^(trainees|scenarios/scoring|haptics)/", "trainees know scoring and haptics only"},
       {"^app/(recorder|graphics|report|executor)/",
-       "^(app/(recorder|graphics|report|executor|scene\\.h)|haptics/|tissue/|scenarios/)",
+       "^(app/(recorder|graphics|report|executor|scene\\.h)|trainees/markup/|haptics/|tissue/|scenarios/)",
        "parts of the program do not know its commands or the store"},
       {"^(app|haptics|tissue|scenarios|trainees)/", "^(app|haptics|tissue|scenarios|trainees)/",
        "no source knows the tests"},
@@ -56,9 +56,12 @@ const std::vector<Territory>& territories() {
       {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/graphics/.*\\.cpp$",
        "graphics libraries stay in sources of app/graphics"},
       {"^CLI/", "^app/command_line(_[a-z]+)?\\.cpp$", "the command line is read in one place"},
-      {"^toml", "^(scenarios|tissue|app/(words|practice))/.*\\.cpp$", "TOML is read in sources of scenarios, tissue, words and settings"},
+      {"^toml", "^(scenarios|tissue|trainees/progress|app/(words|practice))/.*\\.cpp$", "TOML is read in sources of scenarios, tissue, progress rules, words and settings"},
       {"^imgui|^GLFW/", "^app/(screens|window)/.*\\.cpp$", "the window's libraries stay in sources of app/screens and app/window"},
       {"^AL/", "^app/sound/.*\\.cpp$", "OpenAL stays in sources of app/sound"},
+      {"^httplib|^sodium", "^trainees/.*\\.cpp$", "the web server and its cryptography stay in sources of trainees"},
+      {"^hpdf", "^trainees/review/.*\\.cpp$", "PDF is written in sources of trainees/review"},
+      {"^pqxx", "^trainees/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/sync"},
       {"^hidapi", "^app/input/.*\\.cpp$", "HID stays in sources of app/input"},
   };
   return table;

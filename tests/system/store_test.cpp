@@ -63,6 +63,19 @@ TEST_F(Store, TraineesAreMadeByTheirFirstAttemptAndListed) {
   expect_refusal({"score", "ffffffff", "--db", "t.db"}, 2, "ffffffff");
 }
 
+TEST_F(Store, CohortAndTraineeSayWhatTheRulesFind) {
+  EXPECT_EQ(trocar(short_run({"--db", "t.db", "--trainee", "T-1"})).exit_code, 1);
+  const Json rows = json_of({"cohort", "--db", "t.db", "--json"}, 0);
+  ASSERT_EQ(rows[0]["curves"].size(), 1u);
+  const Json judgement = rows[0]["curves"][0]["judgements"][0];
+  EXPECT_EQ(judgement["flag"], "learning");
+  EXPECT_EQ(judgement["rules"], "1");
+  EXPECT_EQ(judgement["n"], 1);
+  EXPECT_EQ(json_of({"trainee", "show", "T-1", "--db", "t.db", "--json"}, 0)["curves"][0], rows[0]["curves"][0]);
+  EXPECT_NE(trocar({"trainee", "show", "T-1", "--db", "t.db"}).out.find(judgement["evidence"].get<std::string>()), std::string::npos);
+  EXPECT_NE(trocar({"cohort", "--db", "t.db"}).out.find("flags"), std::string::npos);
+}
+
 TEST_F(Store, ABackupIsADatabaseOfItsOwn) {
   const Json run = json_of(short_run({"--db", "t.db", "--trainee", "T-1"}), 1);
   EXPECT_EQ(trocar({"db", "backup", "--db", "t.db", "--out", "b.db"}).exit_code, 0);

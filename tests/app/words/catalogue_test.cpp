@@ -8,7 +8,7 @@
 
 #include "app/graphics/scene_view.h"
 #include "app/input/key_map.h"
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 #include "app/words/words.h"
 #include "scenarios/exercise_loader.h"
 #include "scenarios/scoring/metrics.h"

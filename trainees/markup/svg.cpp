@@ -1,8 +1,8 @@
-#include "app/report/svg.h"
+#include "trainees/markup/svg.h"
 
 #include <cmath>
 
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 
 namespace trocar::svg {
 

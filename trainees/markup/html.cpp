@@ -1,4 +1,4 @@
-#include "app/report/html.h"
+#include "trainees/markup/html.h"
 
 #include <array>
 #include <cctype>

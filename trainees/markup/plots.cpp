@@ -1,11 +1,11 @@
-#include "app/report/plots.h"
+#include "trainees/markup/plots.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "app/report/html.h"
-#include "app/report/svg.h"
+#include "trainees/markup/html.h"
+#include "trainees/markup/svg.h"
 
 namespace trocar {
 namespace {

@@ -1,0 +1,72 @@
+// One page of the desk as a function: a request in, a response out. The server (desk_server.h) knows sockets, cookies and tokens; pages
+// know neither, so that every page is tested without a network.
+//
+// A route names its method, its path (parts in braces are arguments: "/trainee/{code}") and who may see it. What a trainee may see of
+// others is nothing: own_data routes are refused for a trainee whose code is not the one in the path.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/scoring/trace.h"
+#include "trainees/accounts.h"
+#include "trainees/database.h"
+
+namespace trocar::review {
+
+struct Request {
+  std::string path;
+  std::map<std::string, std::string> arguments = {};   ///< of the path, decoded
+  std::map<std::string, std::string> query = {};       ///< behind '?', decoded; the last of a name
+  std::map<std::string, std::string> form = {};        ///< posted; the token has been checked and taken out
+  std::optional<Account> account = {};                 ///< who is signed in; always there when the route asks for a role
+  std::string token = {};                              ///< goes into every form as <input type=hidden name=token>
+  std::string now_utc = {};
+};
+
+struct Response {
+  int status = 200;
+  std::string type = "text/html; charset=utf-8";
+  std::string body = {};
+  std::string location = {};                           ///< of a redirection (status 303)
+  std::string download = {};                           ///< file name: the browser saves it
+};
+
+/// What pages need of the rest of the program; each may be empty, and the page says so.
+struct DeskSources {
+  /// Samples of a recording. @throws InputError when it cannot be read.
+  std::function<Trace(const std::filesystem::path& recording)> trace = {};
+  /// Picture of the attempt at exercise time t as PNG, at most so wide. @throws EnvironmentError without graphics.
+  std::function<std::string(const std::string& attempt_uuid, double t_s, int width)> picture = {};
+  /// Words for a metric: what it measures and how (for the formula column); "" when unknown.
+  std::function<std::string(const std::string& metric)> metric_words = {};
+  /// What runs on this station now, as JSON; "" when nothing does.
+  std::function<std::string()> station = {};
+};
+
+struct Desk {
+  Database& database;
+  DeskSources sources = {};
+  bool demo = false;        ///< every page carries the demo ribbon
+};
+
+enum class Audience : std::uint8_t {
+  kEverybody,       ///< sign-in page, style sheet
+  kOwnData,         ///< trainee of argument {code} or of attempt {attempt}, instructors, administrators
+  kInstructors,     ///< and administrators
+  kAdministrators,
+};
+
+struct Route {
+  std::string method, path;
+  Audience audience = Audience::kInstructors;
+  std::function<Response(const Request&, Desk&)> answer;
+};
+
+/// All pages (routes.cpp gathers those of each page's source).
+std::vector<Route> desk_routes();
+
+}  // namespace trocar::review
