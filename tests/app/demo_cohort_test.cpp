@@ -7,7 +7,7 @@
 
 #include "app/demo_people.h"
 #include "haptics/input_error.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/tissue/support/temporary_folder.h"
 #include "trainees/attempt_store.h"
 #include "trainees/curricula.h"
 #include "trainees/opinions.h"
@@ -39,7 +39,7 @@ TEST(DemoCohort, IsEightPeopleAndAHundredAttempts) {
 }
 
 TEST(DemoCohort, IsMarkedChainedAndInOrderOfItsDates) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "demo.db";
   ASSERT_EQ(make_short(file), 8);
   Database database(file, OpenMode::kExisting);
@@ -58,7 +58,7 @@ TEST(DemoCohort, IsMarkedChainedAndInOrderOfItsDates) {
 }
 
 TEST(DemoCohort, ARealDatabaseIsNoneAndIsNeverRemoved) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "trocar.db";
   { Database database(file); EXPECT_FALSE(is_demo(database)); }
   EXPECT_THROW(remove_demo_cohort(file), InputError);
@@ -67,7 +67,7 @@ TEST(DemoCohort, ARealDatabaseIsNoneAndIsNeverRemoved) {
 }
 
 TEST(DemoCohort, StoppedOrRemovedItLeavesNothing) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   DemoCohortOptions options;
   options.database = folder.path() / "demo.db";
   options.jobs = 1;
