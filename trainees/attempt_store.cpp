@@ -183,7 +183,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   id.uuid = make_uuid();
   id.recording = start.recording.value_or(recording_beside(*database_, id.uuid));
   id.rubric_sha256 = digest::of_bytes(start.exercise_text);
-  id.started_utc = utc_now();
+  id.started_utc = start.started_utc.empty() ? utc_now() : start.started_utc;
   sql::Transaction transaction(connection);
   const std::int64_t trainee = TraineeStore(*database_).ensure_id(start.trainee);
   if (start.level == kExamLevel) refuse_second_exam(connection, start, trainee);

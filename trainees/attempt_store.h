@@ -38,6 +38,7 @@ struct AttemptStart {
   bool organ_synthetic = false;
   /// Where it is recorded. Not given: beside the database (none when in memory). Empty: not recorded.
   std::optional<std::filesystem::path> recording;
+  std::string started_utc = {};  ///< empty: now. Given only for invented attempts and those that another station made
 };
 
 struct AttemptId {
