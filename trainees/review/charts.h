@@ -11,7 +11,7 @@
 
 namespace trocar::review {
 
-/// Scores as a small line with the pass line dashed, 0..100 high.
+/// Scores as a small line with the pass line dashed, from 40 (or the lowest score) to 100.
 std::string spark_svg(const std::vector<double>& scores, double pass_at);
 
 inline constexpr std::size_t kPointsDrawn = 200;  ///< newest attempts that a curve draws

@@ -28,7 +28,7 @@ std::string polyline(const std::string& points, const std::string& style) {
 
 /// Frame of a chart over attempts: x by number, y by value.
 struct Axes {
-  double width = 720, height = 300, left = 44, right = 640, top = 14, bottom = 252;
+  double width = 720, height = 300, left = 44, right = 622, top = 14, bottom = 252;
   int first = 1, last = 1;
   double high = 100;
   double x(double number) const { return last == first ? 0.5 * (left + right) : left + (right - left) * (number - first) / (last - first); }
@@ -111,8 +111,10 @@ std::string own_points(const CurveView& curve, std::size_t begin, const Axes& ax
 }  // namespace
 
 std::string spark_svg(const std::vector<double>& scores, double pass_at) {
-  constexpr double kWide = 120, kHigh = 30;
-  const auto y = [&](double score) { return 2 + (kHigh - 4) * (1 - std::clamp(score, 0.0, 100.0) / 100); };
+  constexpr double kWide = 120, kHigh = 34;
+  // From 40, or from the lowest score where that is less, so that lines of different trainees mostly share a scale.
+  const double low = std::max(0.0, std::min(40.0, scores.empty() ? 40.0 : *std::min_element(scores.begin(), scores.end())));
+  const auto y = [&](double score) { return 3 + (kHigh - 6) * (1 - std::clamp((score - low) / (100 - low), 0.0, 1.0)); };
   const double step = scores.size() > 1 ? (kWide - 8) / static_cast<double>(scores.size() - 1) : 0;
   std::string points;
   for (std::size_t i = 0; i < scores.size(); ++i) points += px(3 + step * static_cast<double>(i)) + "," + px(y(scores[i])) + " ";
@@ -148,8 +150,9 @@ std::string curve_svg(const CurveView& curve) {
 
 std::string cusum_svg(const CurveView& curve) {
   Axes axes;
-  axes.height = 240;
-  axes.bottom = 192;
+  axes.width = 580;
+  axes.right = 500;
+  axes.height = 300;
   const std::size_t begin = curve.cusum.size() > kPointsDrawn ? curve.cusum.size() - kPointsDrawn : 0;
   axes.first = static_cast<int>(begin) + 1;
   axes.last = std::max(axes.first, static_cast<int>(curve.cusum.size()));
@@ -182,10 +185,10 @@ std::string weeks_svg(const std::vector<std::pair<std::string, double>>& minutes
   constexpr std::size_t kWeeks = 26;
   const std::size_t begin = minutes_by_week.size() > kWeeks ? minutes_by_week.size() - kWeeks : 0, count = minutes_by_week.size() - begin;
   Axes axes;
-  axes.width = 360;
+  axes.width = 540;
   axes.height = 200;
-  axes.right = 352;
-  axes.bottom = 160;
+  axes.right = 532;
+  axes.bottom = 168;
   axes.high = 10;
   for (std::size_t i = begin; i < minutes_by_week.size(); ++i) axes.high = std::max(axes.high, minutes_by_week[i].second);
   std::string out = open(axes.width, axes.height, "Minutes a week");

@@ -19,7 +19,7 @@ struct CardWords {
 constexpr std::array<CardWords, 4> kCards = {{{Flag::kUnsafe, "unsafe", "Unsafe", "Nobody"},
                                               {Flag::kRelapsed, "relapsed", "Relapsed", "Nobody"},
                                               {Flag::kStuck, "stuck", "Stuck", "Nobody"},
-                                              {Flag::kReady, "ready", "Ready for your decision", "Nobody yet"}}};
+                                              {Flag::kReady, "ready", "Ready", "Nobody yet"}}};
 
 bool holds(const CohortEntry& line, Flag flag) {
   return std::any_of(line.judgements.begin(), line.judgements.end(), [&](const Judgement& j) { return j.flag == flag; }) ||

@@ -39,7 +39,6 @@ std::string cohort_csv(const CohortView& view);
 std::string trainee_csv(const TraineeView& view);
 std::string attempt_csv(const AttemptView& view);
 
-const char* style_sheet();
 const char* desk_script();
 
 }  // namespace trocar::review

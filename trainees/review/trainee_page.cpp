@@ -100,7 +100,7 @@ std::string cusum_caption(const CurveView& curve) {
 }
 
 std::string attempts_table(const CurveView& curve) {
-  constexpr std::size_t kShown = 20;
+  constexpr std::size_t kShown = 12;
   std::string rows;
   for (std::size_t k = 0; k < curve.points.size() && k < kShown; ++k) {
     const std::size_t i = curve.points.size() - 1 - k;
@@ -184,9 +184,11 @@ std::string trainee_page(const TraineeView& view, Frame frame) {
     out +=
         section("curve", name,
                 judgements(curve) + facts(curve) + "<div class=\"two\"><div>" + figure(curve_svg(curve), curve_caption(curve)) +
-                    "</div><div>" + figure(cusum_svg(curve), escape_html(cusum_caption(curve))) + "</div></div>" + attempts_table(curve));
+                    "</div><div>" + figure(cusum_svg(curve), escape_html(cusum_caption(curve))) + "</div></div>");
   }
-  out += "<div class=\"two\"><div>" + notes_section(view.notes, "/trainee/" + url_part(view.code) + "/note", frame) + "</div><div>";
+  out += "<div class=\"two\"><div>" + notes_section(view.notes, "/trainee/" + url_part(view.code) + "/note", frame);
+  if (view.chosen < view.curves.size()) out += section("attempts", "Attempts", attempts_table(view.curves[view.chosen]));
+  out += "</div><div>";
   out += section("time", "Time trained",
                  view.minutes_by_week.empty() ? "<p>No time yet.</p>"
                                               : figure(weeks_svg(view.minutes_by_week), "Minutes a week on the exercises' clocks.")) +

@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "tests/trainees/review/page_samples.h"
+#include "trainees/review/style.h"
 
 namespace fs = std::filesystem;
 using namespace trocar::review;

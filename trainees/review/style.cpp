@@ -1,5 +1,5 @@
 // Style sheet of the desk. Text holds 4.5:1 on its ground, lines and shapes 3:1; hues of Okabe and Ito; state is always shape and word too.
-#include "trainees/review/pages.h"
+#include "trainees/review/style.h"
 
 namespace trocar::review {
 
@@ -92,7 +92,8 @@ td:last-child,th:last-child{padding-right:2px}
 tbody tr:hover{background:#f4f8fb}
 .cohort{min-width:1010px}
 .cohort td small{color:#37424c}
-.cohort tbody th{min-width:120px}
+.cohort tbody th{min-width:110px}
+.cohort td:last-child{min-width:230px}
 .bad{font-weight:700;color:#8a3900}
 .grave th,.grave td{font-weight:600;background:#fdf5ef}
 .long{min-width:200px;overflow-wrap:anywhere}
@@ -105,9 +106,10 @@ figcaption{font-size:.86rem;color:#4a555f;margin-top:4px}
 .plot svg{min-width:540px}
 svg{display:block;width:100%;height:auto;font-size:14px}
 svg text:not([fill]){fill:#27313b}
-.spark{width:120px;height:30px}
+.spark{width:120px;height:34px}
 .bar{width:72px;min-width:72px;height:12px;margin-top:6px}
-svg.shape{display:inline;width:.85em;height:.85em}
+svg.shape{display:inline;width:.85em;height:.85em;font-size:inherit}
+time{white-space:nowrap}
 svg.swatch{display:inline-block;width:22px;height:12px;margin-right:5px;vertical-align:-1px}
 .key{display:inline-block;margin-right:14px}
 .keys{font-size:.88rem;color:#37424c}
