@@ -25,13 +25,15 @@ struct Account {
 
 class AccountStore {
  public:
-  explicit AccountStore(Database& database) : connection_(database.connection()) {}
+  explicit AccountStore(Database& database) : database_(&database) {}
 
+  /// @param name as it is printed, 1 to 100 bytes without control characters.
   /// @param login 2 to 32 letters, digits, '.', '-' or '_'. @param trainee_code of a trainee's account; it must exist.
-  /// @param password at least 10 characters, or a PIN of 6 digits for trainees. @param author account's UUID, "" from the command line.
+  /// @param password 10 to 1024 characters, or a PIN of 6 digits for trainees. @param author account's UUID, "" from the command line.
   /// @throws InputError: taken, too short, no such trainee.
   Account add(const std::string& login, const std::string& name, Role role, const std::string& trainee_code, const std::string& password,
               const std::string& author);
+  /// @throws InputError: no such account, too short.
   void set_password(const std::string& login, const std::string& password, const std::string& author);
   void set_disabled(const std::string& login, bool disabled, const std::string& author);
 
@@ -42,7 +44,7 @@ class AccountStore {
   std::vector<Account> list() const;
 
  private:
-  sqlite3* connection_;
+  Database* database_;
 };
 
 }  // namespace trocar

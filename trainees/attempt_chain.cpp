@@ -67,6 +67,12 @@ std::string row_hash(sqlite3* connection, const Link& link) {
                           content_of(connection, link.attempt, link.version));
 }
 
+constexpr const char* kLinks =
+    "SELECT a.id, a.uuid, chain_position, prev_hash, row_hash, status, hash_version, EXISTS (SELECT 1 FROM erasure e"
+    " WHERE e.trainee_id = a.trainee_id AND e.kind = 'training') FROM attempt a WHERE status <> 'running'";
+
+Link link_of(const sql::Statement& row) { return {row.integer(0), row.integer(2), row.integer(6), row.text(3), row.text(5)}; }
+
 Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) {
   // The version that it began with: a program before this one may have begun it.
   sql::Statement begun(connection, "SELECT hash_version FROM attempt WHERE id = ?");
@@ -82,6 +88,29 @@ Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) 
   return link;
 }
 
+/// Rows that an erasure has taken away must not be there.
+void check_erased(sqlite3* connection, std::vector<std::string>& problems) {
+  sql::Statement rows(connection,
+                      "SELECT DISTINCT a.uuid FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE e.kind = 'training' AND"
+                      " (EXISTS (SELECT 1 FROM score WHERE attempt_id = a.id) OR EXISTS (SELECT 1 FROM event WHERE attempt_id = a.id))");
+  while (rows.step()) problems.push_back("attempt " + rows.text(0) + " has rows although its training data were erased");
+}
+
+void check_texts(sqlite3* connection, std::vector<std::string>& problems) {
+  sql::Statement versions(connection, "SELECT sha256, toml, exercise_id FROM ruleset ORDER BY sha256");
+  while (versions.step()) {
+    if (digest::of_bytes(versions.text(1)) != versions.text(0)) {
+      problems.push_back("exercise " + versions.text(2) + ", version " + versions.text(0).substr(0, 12) + ", was changed");
+    }
+  }
+  sql::Statement calibrations(connection, "SELECT sha256, toml, device FROM device_calibration ORDER BY id");
+  while (calibrations.step()) {
+    if (digest::of_bytes(calibrations.text(1)) != calibrations.text(0)) {
+      problems.push_back("calibration of " + calibrations.text(2) + ", " + calibrations.text(0).substr(0, 12) + ", was changed");
+    }
+  }
+}
+
 }  // namespace
 
 void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus status) {
@@ -95,11 +124,14 @@ void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus statu
   append_audit(connection, kActionFinished, uuid.text(0), hash);
 }
 
+bool attempt_holds(sqlite3* connection, std::int64_t attempt) {
+  sql::Statement row(connection, std::string(kLinks) + " AND a.id = ?");
+  return row.bind(attempt).step() && row_hash(connection, link_of(row)) == row.text(4);
+}
+
 std::vector<std::string> check_chain(sqlite3* connection) {
   std::vector<std::string> problems;
-  sql::Statement links(connection,
-                       "SELECT id, uuid, chain_position, prev_hash, row_hash, status, hash_version FROM attempt"
-                       " WHERE status <> 'running' ORDER BY chain_position");
+  sql::Statement links(connection, std::string(kLinks) + " ORDER BY chain_position");
   std::string previous;
   std::int64_t expected = 1;
   while (links.step()) {
@@ -111,20 +143,15 @@ std::vector<std::string> check_chain(sqlite3* connection) {
     } else if (links.text(3) != previous) {
       problems.push_back(name + " does not follow the attempt before it");
     }
-    const Link link{links.integer(0), position, links.integer(6), links.text(3), links.text(5)};
-    if (row_hash(connection, link) != links.text(4)) {
+    const bool erased = links.integer(7) != 0;
+    if (!erased && row_hash(connection, link_of(links)) != links.text(4)) {
       problems.push_back(name + " was changed after it was finished");
     }
     previous = links.text(4);
     expected = position + 1;
   }
-  sql::Statement versions(connection, "SELECT sha256, toml, exercise_id FROM ruleset ORDER BY sha256");
-  while (versions.step()) {
-    if (digest::of_bytes(versions.text(1)) != versions.text(0)) {
-      problems.push_back("exercise " + versions.text(2) + ", version " + versions.text(0).substr(0, 12) +
-                         ", was changed");
-    }
-  }
+  check_erased(connection, problems);
+  check_texts(connection, problems);
   return problems;
 }
 

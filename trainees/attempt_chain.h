@@ -5,7 +5,8 @@
 // row_hash_0 is empty. n counts finished attempts from 1. V is the attempt's hash_version: 1 for attempts that schema 1
 // stored (their hashes still hold), 2 with program, integrity, session and calibration, 3 with what the device warned of
 // and how its state changed. Later columns need a new version. The chain shows changes; a cut-off end shows in the audit
-// trail (audit.h); nothing stops who recomputes all.
+// trail (audit.h); nothing stops who recomputes all. Of a trainee whose training data were erased (erasure.h) the content is
+// gone and only the links are checked.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,9 @@ inline constexpr int kHashVersion = 3;
 /// Ends a running attempt whose rows are all written: sets its status and its place in the chain, which freezes it,
 /// and in the audit trail. Call inside a transaction.
 void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus status);
+
+/// Whether the finished attempt still has the content that its row_hash was made of.
+bool attempt_holds(sqlite3* connection, std::int64_t attempt);
 
 /// Problems found when the whole chain is computed again, one line each.
 std::vector<std::string> check_chain(sqlite3* connection);

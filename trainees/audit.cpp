@@ -7,8 +7,6 @@
 namespace trocar {
 namespace {
 
-constexpr const char* kActor = "trocar";
-
 std::string hash_of(const std::string& previous, std::int64_t position, const std::string& utc,
                     const std::string& actor, const std::string& action, const std::string& subject,
                     const std::string& detail) {
@@ -58,13 +56,13 @@ std::string field_at(sqlite3* connection, const char* query, std::int64_t positi
 
 }  // namespace
 
-void append_audit(sqlite3* connection, const std::string& action, const std::string& subject,
-                  const std::string& detail) {
+void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
+                  const std::string& actor) {
   const AuditHead head = audit_head(connection);
   const std::string utc = utc_now();
   sql::Statement insert(connection, "INSERT INTO audit VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(head.position + 1).bind(utc).bind(kActor).bind(action).bind(subject).bind(detail).bind(head.row_hash);
-  insert.bind(hash_of(head.row_hash, head.position + 1, utc, kActor, action, subject, detail)).run();
+  insert.bind(head.position + 1).bind(utc).bind(actor).bind(action).bind(subject).bind(detail).bind(head.row_hash);
+  insert.bind(hash_of(head.row_hash, head.position + 1, utc, actor, action, subject, detail)).run();
 }
 
 AuditHead audit_head(sqlite3* connection) {

@@ -24,9 +24,9 @@ struct AuditHead {
   std::string row_hash;
 };
 
-/// Adds an entry. Call inside a transaction.
-void append_audit(sqlite3* connection, const std::string& action, const std::string& subject,
-                  const std::string& detail);
+/// Adds an entry. Call inside a transaction. @param actor account's UUID of whoever did it, "trocar" for the program itself.
+void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
+                  const std::string& actor = "trocar");
 
 AuditHead audit_head(sqlite3* connection);
 

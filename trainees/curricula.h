@@ -17,7 +17,8 @@ struct Curriculum {
 };
 
 struct Benchmark {
-  std::string uuid, exercise_id, level, metric, source, rule, author, utc;   ///< source: who the n were; rule: how the numbers came from them
+  /// source: who the n were; rule: how the numbers came from them
+  std::string uuid, exercise_id, level, metric, source, rule, author, utc;
   double full_at = 0, zero_at = 0;
   int n = 0;
 };

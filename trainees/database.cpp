@@ -9,6 +9,7 @@
 #include "haptics/input_error.h"
 #include "trainees/anchor_file.h"
 #include "trainees/attempt_chain.h"
+#include "trainees/sealed_rows.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
@@ -135,6 +136,7 @@ std::vector<std::string> Database::check() const {
   add("schema: ", check_schema(connection_.get(), shipped_migrations()));
   add("hash chain: ", check_chain(connection_.get()));
   add("audit trail: ", check_audit(connection_.get()));
+  add("records: ", check_sealed_rows(connection_.get()));
   add("anchor: ", check_anchor(file_, connection_.get()));
   return problems;
 }

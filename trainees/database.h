@@ -51,7 +51,7 @@ class Database {
   /// Attempts found dead and ended when this object was made.
   const std::vector<RecoveredAttempt>& recovered() const { return recovered_; }
 
-  /// Problems of file, schema, references, hash chain, audit trail and anchor, one line each; empty when sound.
+  /// Problems of file, schema, references, hash chain, audit trail, what people wrote and anchor, one line each; empty when sound.
   std::vector<std::string> check() const;
   /// Head of the audit trail as "POSITION:HASH": noted elsewhere, it shows any later change of what is there now.
   std::string head() const;

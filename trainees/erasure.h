@@ -24,7 +24,8 @@ struct ErasureReport {
 };
 
 /// @param rule why: "request of the person", "retention 730 days". @throws InputError: no such trainee, an attempt of theirs runs.
-ErasureReport erase_trainee(Database& database, const std::string& trainee, ErasureKind kind, const std::string& rule, const Author& author);
+ErasureReport erase_trainee(Database& database, const std::string& trainee, ErasureKind kind, const std::string& rule,
+                            const Author& author);
 
 /// Codes whose newest attempt (or creation, without one) is older than so many days before `now_utc`.
 std::vector<std::string> older_than(Database& database, int days, const std::string& now_utc);

@@ -23,7 +23,7 @@ struct Note {
 };
 
 struct Rating {
-  std::string uuid, rater, scale, item, utc;
+  std::string uuid, account_uuid, rater, scale, item, utc;
   double value = 0;
 };
 
@@ -45,18 +45,21 @@ class OpinionStore {
  public:
   explicit OpinionStore(Database& database) : database_(&database) {}
 
-  /// @param attempt_uuid "" for a note on the trainee. @throws InputError: empty, longer than 4000 characters, no such trainee or attempt.
+  /// @param trainee code (here and below). @param attempt_uuid "" for a note on the trainee.
+  /// @throws InputError: empty, longer than 4000 characters, no such trainee, no such attempt of theirs.
   Note add_note(const std::string& trainee, const std::string& attempt_uuid, const std::string& text, const Author& author);
   /// Newest first.
   std::vector<Note> notes_of(const std::string& trainee) const;
   std::optional<Note> newest_unseen(const std::string& trainee) const;
+  /// The first time counts. @throws InputError: no such note.
   void mark_seen(const std::string& note_uuid);
 
   /// @throws InputError: attempt unknown or running, scale or item empty, value not finite.
   void add_rating(const std::string& attempt_uuid, const std::string& scale, const std::string& item, double value, const Author& author);
   std::vector<Rating> ratings_of(const std::string& attempt_uuid) const;
 
-  /// @param meaning review, approval, responsibility or authorship. @throws InputError: unknown meaning, attempt running, chain broken there.
+  /// @param note may be empty. @param meaning review, approval, responsibility or authorship.
+  /// @throws InputError: unknown meaning, attempt running or changed since it was finished.
   Signature sign(const std::string& attempt_uuid, const std::string& meaning, const std::string& note, const Author& author);
   std::vector<Signature> signatures_of(const std::string& attempt_uuid) const;
 
@@ -64,8 +67,11 @@ class OpinionStore {
   VerdictOverride override_verdict(const std::string& attempt_uuid, bool passed, const std::string& reason, const Author& author);
   std::vector<VerdictOverride> overrides_of(const std::string& attempt_uuid) const;   ///< newest first; the first holds
 
+  /// @param evidence JSON: what the decision rested on.
+  /// @throws InputError: no such trainee, exercise never tried in this database, level, rule or evidence empty.
   Certificate certify(const std::string& trainee, const std::string& exercise_id, const std::string& level, const std::string& rule_version,
                       const std::string& evidence, const Author& author);
+  /// @throws InputError: no such certificate, revoked already, a reason under 10 characters.
   void revoke(const std::string& certificate_uuid, const std::string& reason, const Author& author);
   std::vector<Certificate> certificates_of(const std::string& trainee) const;   ///< newest first; "" for everybody's
 

@@ -2,6 +2,8 @@
 //
 // What a person says of an attempt or a trainee is kept as attempts are: rows with a time-ordered UUID, never changed, each with its
 // digest in the audit trail (sealed_rows.h). An erasure is the one exception, and is itself such a row. docs/data_store.md.
+#include <string>
+
 #include "trainees/migrations.h"
 
 namespace trocar {
@@ -10,7 +12,9 @@ namespace {
 // These tables had no rows yet in any program before this one; "" stands for "before schema 4".
 constexpr const char kOpinions[] = R"sql(
 ALTER TABLE consent ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
+ALTER TABLE consent ADD COLUMN author TEXT NOT NULL DEFAULT '';
 ALTER TABLE rating ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
+ALTER TABLE rating ADD COLUMN account_uuid TEXT NOT NULL DEFAULT '';
 ALTER TABLE signature ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
 ALTER TABLE signature ADD COLUMN account_uuid TEXT NOT NULL DEFAULT '';
 ALTER TABLE benchmark ADD COLUMN uuid TEXT NOT NULL DEFAULT '';
@@ -23,7 +27,7 @@ CREATE UNIQUE INDEX benchmark_uuid ON benchmark(uuid) WHERE uuid <> '';
 CREATE INDEX signature_by_attempt ON signature(attempt_id);
 CREATE INDEX rating_by_attempt ON rating(attempt_id);
 
--- Of a trainee, or of one attempt. author: account's UUID, "" from the command line.
+-- Of a trainee, or of one attempt. author: account's UUID, '' from the command line. printed: the name as it stood.
 CREATE TABLE note (
   id         INTEGER PRIMARY KEY,
   uuid       TEXT NOT NULL UNIQUE,
@@ -56,7 +60,7 @@ CREATE TABLE verdict_override (
 ) STRICT;
 CREATE INDEX override_by_attempt ON verdict_override(attempt_id);
 
--- evidence: JSON, what the decision rested on (attempts, rule and its version, n).
+-- evidence: JSON, what the decision rested on (attempts, rule and its version, n). It holds unless revoked.
 CREATE TABLE certificate (
   id           INTEGER PRIMARY KEY,
   uuid         TEXT NOT NULL UNIQUE,
@@ -118,7 +122,7 @@ CREATE TABLE membership (
   PRIMARY KEY (trainee_id, group_name)
 ) STRICT, WITHOUT ROWID;
 
--- kind: 'identity' (name, e-mail, code, notes and sign-in go, training facts stay), 'training' (also events, metrics, recordings).
+-- kind: 'identity' (name, e-mail, code, notes, consents, sign-in go; training facts stay), 'training' (those too, but for bare attempts).
 CREATE TABLE erasure (
   id         INTEGER PRIMARY KEY,
   uuid       TEXT NOT NULL UNIQUE,
@@ -141,43 +145,69 @@ CREATE TABLE sync_cursor (
 constexpr const char kIndices[] = R"sql(
 CREATE INDEX attempt_by_time ON attempt(started_utc);
 CREATE INDEX metric_by_name ON metric(name, score_id, value);
+-- An attempt's entry is looked up for every attempt by db check.
+CREATE INDEX audit_by_subject ON audit(subject, action);
 )sql";
 
+constexpr const char kAccount[] = R"sql(
+CREATE TRIGGER account_keeps_identity BEFORE UPDATE OF id, uuid, login, role, trainee_id, created_utc ON account
+BEGIN SELECT RAISE(ABORT, 'account: whose it is cannot be changed'); END;
+)sql";
+
+/// @param unless SQL that finds a row where the verb is allowed; empty: never.
 std::string refused(const std::string& table, const std::string& verb, const std::string& unless) {
   const std::string past = verb == "DELETE" ? "deleted" : "changed";
   const std::string name = table + (verb == "DELETE" ? "_no_delete" : "_no_update");
   return "DROP TRIGGER IF EXISTS " + name + ";\nCREATE TRIGGER " + name + " BEFORE " + verb + " ON " + table +
-         (unless.empty() ? "" : " WHEN NOT EXISTS (" + unless + ")") + " BEGIN SELECT RAISE(ABORT, '" + table + ": a row cannot be " + past +
-         "'); END;\n";
+         (unless.empty() ? "" : " WHEN NOT EXISTS (" + unless + ")") + " BEGIN SELECT RAISE(ABORT, '" + table +
+         ": a row cannot be " + past + "'); END;\n";
 }
 
-std::string never_replaced(const std::string& table) {
-  return "CREATE TRIGGER " + table + "_no_replace BEFORE INSERT ON " + table + " WHEN EXISTS (SELECT 1 FROM " + table +
-         " WHERE id = NEW.id OR uuid = NEW.uuid) BEGIN SELECT RAISE(ABORT, '" + table + ": the row exists already'); END;\n";
+/// INSERT OR REPLACE would delete without asking a DELETE trigger. @param also SQL for what else is unique.
+std::string never_replaced(const std::string& table, const std::string& also = "") {
+  const std::string name = table + "_no_replace";
+  return "DROP TRIGGER IF EXISTS " + name + ";\nCREATE TRIGGER " + name + " BEFORE INSERT ON " + table +
+         " WHEN EXISTS (SELECT 1 FROM " + table + " WHERE id = NEW.id OR (uuid = NEW.uuid AND uuid <> '')" + also +
+         ") BEGIN SELECT RAISE(ABORT, '" + table + ": the row exists already'); END;\n";
 }
 
-/// Rows go with their person, once the erasure stands.
-std::string triggers() {
+std::string unchanging() {
   std::string sql;
-  for (const char* table : {"verdict_override", "certificate", "revocation", "curriculum", "erasure"})
-    sql += refused(table, "UPDATE", "") + refused(table, "DELETE", "");
-  for (const char* table : {"note", "verdict_override", "certificate", "revocation", "curriculum", "erasure"}) sql += never_replaced(table);
-  const std::string erased = "SELECT 1 FROM erasure WHERE trainee_id = OLD.trainee_id";
-  sql += refused("note", "UPDATE", "") + refused("note", "DELETE", erased);
-  sql += refused("consent", "DELETE", erased);
-  const std::string facts = " AND e.kind = 'training'";
-  for (const char* table : {"event", "device_warning", "device_transition", "score"})
-    sql += refused(table, "DELETE", "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = OLD.attempt_id" + facts);
-  for (const char* table : {"metric", "subscore", "score_cap"})
-    sql += refused(table, "DELETE", "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id"
-                   " JOIN score s ON s.attempt_id = a.id WHERE s.id = OLD.score_id" + facts);
-  return sql;
+  for (const char* table : {"note", "verdict_override", "certificate", "revocation", "curriculum", "erasure"}) {
+    sql += refused(table, "UPDATE", "");
+  }
+  for (const char* table : {"curriculum", "erasure"}) sql += refused(table, "DELETE", "");
+  for (const char* table : {"consent", "rating", "signature", "benchmark", "note", "verdict_override", "certificate"}) {
+    sql += never_replaced(table);
+  }
+  sql += never_replaced("revocation", " OR certificate_id = NEW.certificate_id");
+  sql += never_replaced("curriculum", " OR (name = NEW.name AND version = NEW.version AND uuid = NEW.uuid)");
+  sql += never_replaced("erasure", " OR (trainee_id = NEW.trainee_id AND kind = NEW.kind)");
+  return sql + never_replaced("account", " OR login = NEW.login OR (trainee_id = NEW.trainee_id)");
+}
+
+/// Rows go with their person, once the erasure stands: identity first, what was measured and judged only with 'training'.
+std::string erasable() {
+  const std::string of_person = "SELECT 1 FROM erasure WHERE trainee_id = OLD.trainee_id";
+  std::string sql;
+  for (const char* table : {"note", "consent", "account"}) sql += refused(table, "DELETE", of_person);
+  const std::string of_attempt = "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id";
+  sql += refused("signature", "DELETE", of_attempt + " WHERE a.id = OLD.attempt_id");  // their own signatures go with the identity
+  for (const char* table : {"event", "device_warning", "device_transition", "score", "rating", "verdict_override"}) {
+    sql += refused(table, "DELETE", of_attempt + " WHERE a.id = OLD.attempt_id AND e.kind = 'training'");
+  }
+  for (const char* table : {"metric", "subscore", "score_cap"}) {
+    sql += refused(table, "DELETE", of_attempt + " JOIN score s ON s.attempt_id = a.id WHERE s.id = OLD.score_id AND e.kind = 'training'");
+  }
+  sql += refused("certificate", "DELETE", of_person + " AND kind = 'training'");
+  return sql + refused("revocation", "DELETE", "SELECT 1 FROM erasure e JOIN certificate c ON c.trainee_id = e.trainee_id"
+                       " WHERE c.id = OLD.certificate_id AND e.kind = 'training'");
 }
 
 }  // namespace
 
 const char* schema_v4() {
-  static const std::string kSql = std::string(kOpinions) + kRules + kPeople + kIndices + triggers();
+  static const std::string kSql = std::string(kOpinions) + kRules + kPeople + kIndices + kAccount + unchanging() + erasable();
   return kSql.c_str();
 }
 

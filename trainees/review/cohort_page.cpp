@@ -189,9 +189,9 @@ std::string page_links(const CohortQuestion& asked, int pages) {
 std::vector<CohortEntry> selected_lines(const CohortView& view) {
   std::vector<CohortEntry> lines;
   const bool any =
-      view.asked.state.empty() || (flag_named(view.asked.state, Flag::kLearning) == Flag::kLearning && view.asked.state != "learning");
+      view.asked.state.empty() || (state_named(view.asked.state, Flag::kLearning) == Flag::kLearning && view.asked.state != "learning");
   for (const CohortEntry& line : view.lines)
-    if (any || holds(line, flag_named(view.asked.state, Flag::kLearning))) lines.push_back(line);
+    if (any || holds(line, state_named(view.asked.state, Flag::kLearning))) lines.push_back(line);
   std::sort(lines.begin(), lines.end(), [](const CohortEntry& a, const CohortEntry& b) {
     return std::tie(a.code, a.exercise_id, a.level, a.hand) < std::tie(b.code, b.exercise_id, b.level, b.hand);
   });

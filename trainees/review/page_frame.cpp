@@ -143,7 +143,7 @@ int gravity(Flag flag) {
   return static_cast<int>(kFlags.size());
 }
 
-Flag flag_named(const std::string& name, Flag otherwise) {
+Flag state_named(const std::string& name, Flag otherwise) {
   for (const FlagWords& f : kFlags)
     if (name == f.key) return f.flag;
   return otherwise;
