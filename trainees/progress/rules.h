@@ -31,7 +31,7 @@ struct ProgressRules {
   double rasch_largest_se = 0.5;        ///< logit; abilities with a larger one are not shown
 };
 
-/// What is not named keeps the values above; `version` must be named. @param name for messages. @throws InputError with line and column: unknown key, a value that means nothing.
+/// A curriculum's [[course]] is passed over. What is not named keeps the values above; `version` must be named. @param name for messages. @throws InputError with line and column: unknown key, a value that means nothing.
 ProgressRules read_progress_rules(const std::string& toml, const std::string& name);
 
 }  // namespace trocar

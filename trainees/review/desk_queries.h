@@ -17,7 +17,12 @@
 #include "trainees/progress/learning_curve.h"
 #include "trainees/progress/retention.h"
 
-namespace trocar::review {
+namespace trocar {
+
+/// Curriculum whose newest version holds the rules of progress.
+inline constexpr const char* kRulesName = "standard";
+/// Its rules; without one those that are shipped. @throws InputError when its text is none.
+ProgressRules rules_in_force(Database& database);
 
 /// Empty fields do not filter.
 struct CohortFilter {
@@ -29,7 +34,7 @@ inline constexpr int kSparkScores = 20;
 
 /// One trainee at one exercise, level, input and rubric.
 struct CohortLine {
-  std::string trainee;
+  std::string trainee, name = {};                ///< code; name "" when none is kept
   std::vector<std::string> groups = {};
   CurveKey key = {};
   std::string exercise_version = {};
@@ -71,12 +76,12 @@ struct WeekMinutes {
 };
 
 struct TraineePicture {
-  std::string code, created_utc;
+  std::string code, name = {}, created_utc = {};
   std::vector<std::string> groups = {};
   std::vector<CurvePicture> curves = {};         ///< newest first
   std::vector<Certificate> certificates = {};    ///< newest first, revoked ones too
   std::vector<Note> notes = {};                  ///< newest first
-  std::vector<WeekMinutes> weeks = {};           ///< oldest first; weeks without an attempt are missing
+  std::vector<WeekMinutes> weeks = {};           ///< oldest first; no week between is left out
   std::optional<double> ability_logit = {}, ability_se = {};   ///< Rasch; only when enough attempts exist and the SE is small
   int rasch_attempts = 0;                        ///< of the whole database, that it rests on
   std::string rule_version = {};
@@ -109,4 +114,4 @@ struct AttemptPicture {
 /// @param name as AttemptStore::find takes it. @throws InputError: unknown, several, still running.
 AttemptPicture attempt_picture_data(Database& database, const std::string& name);
 
-}  // namespace trocar::review
+}  // namespace trocar
