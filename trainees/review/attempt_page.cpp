@@ -57,12 +57,13 @@ std::string ratings(const AttemptView& view) {
   return section("ratings", "Ratings by people", table("Ratings", head_cells({"Scale", "Item", ">Value", "By", "When"}), rows));
 }
 
-std::string compare_section(const AttemptView& view) {
+std::string compare_section(const AttemptView& view, const Frame& frame) {
   std::string out;
   for (const Rival& rival : view.rivals)
     out += "<li><a href=\"/compare/" + url_part(view.result.uuid) + "/" + url_part(rival.uuid) + "\">" + escape_html(rival.words) +
            "</a> <small class=\"dim\">score " + score_text(rival.score) + "</small></li>";
   out = out.empty() ? "<p class=\"dim\">Nothing of the same exercise and level to compare with yet.</p>" : "<ul>" + out + "</ul>";
+  if (!frame.may_write) return section("compare", "Compare with", out);
   return section("compare", "Compare with",
                  out + "<form class=\"inline\" method=\"get\" action=\"/compare\"><input type=\"hidden\" name=\"attempt\" value=\"" +
                      escape_html(view.result.uuid) + "\"/>" +
@@ -101,7 +102,7 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
   const std::string note_action = "/attempt/" + url_part(view.result.uuid) + "/note";
   return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
                              subscore_table(view) + event_table(view) + "</div><div>" + sign_off_section(view, frame) +
-                             notes_section(view.notes, note_action, frame) + compare_section(view) + "</div></div>" + path_section(view) +
+                             notes_section(view.notes, note_action, frame) + compare_section(view, frame) + "</div></div>" + path_section(view) +
                              ratings(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) + "</div><div>" +
                              origin_facts(view) + "</div></div>");
 }

@@ -233,11 +233,12 @@ std::string cohort_page(const CohortView& view, Frame frame) {
            (view.attempts == 0 ? "No attempts yet. They appear here as soon as somebody has finished one."
                                : "Nobody matches. Choose less above.") +
            "</td></tr>";
-  out += section(
-      "trainees", "Trainees",
-      filters(view) +
-          table("Trainees, " + plural(count, "line", "lines") + ": one for each exercise, level and input", head(asked), rows, "cohort") +
-          page_links(asked, pages));
+  out += section("trainees", "Trainees",
+                 filters(view) +
+                     table("Trainees, " + plural(count, "line", "lines") +
+                               ": one for each exercise, level and input; peak force is the mean over graded attempts",
+                           head(asked), rows, "cohort") +
+                     page_links(asked, pages));
   return document(frame, out);
 }
 

@@ -85,11 +85,8 @@ std::string benchmark_form(const CurriculumView& view, const Frame& frame) {
   for (const std::string& hand : view.hands) who.emplace_back("hand:" + hand, "input " + hand);
   for (const GroupView& group : view.groups) who.emplace_back("group:" + group.name, "group " + group.name);
   for (const std::string& code : view.trainees) who.emplace_back("trainee:" + code, code);
-  const std::vector<Choice> rules = {{"mean-2sd", "mean - 2 SD"},
-                                     {"median", "median"},
-                                     {"lower-quartile", "lower quartile"},
-                                     {"upper-quartile", "upper quartile"},
-                                     {"fixed", "fixed number"}};
+  const std::vector<Choice> rules = {
+      {"mean-2sd", "mean - 2 SD"}, {"median", "median"}, {"best-quartile", "best quartile"}, {"fixed", "fixed number"}};
   return form_begin("/curriculum/benchmark#benchmarks", frame) + "<div class=\"fields\">" +
          select_field("b-exercise", "exercise", "Exercise", view.exercises, a.exercise_id) +
          select_field("b-level", "level", "Level", levels, a.level) +

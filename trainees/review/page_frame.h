@@ -52,6 +52,9 @@ std::string score_text(const std::optional<double>& score);
 std::string clock_text(double seconds);
 std::string plural(std::int64_t count, const std::string& one, const std::string& many);
 
+/// A certificate's evidence (JSON) as a sentence; text that is no JSON object stays as it is.
+std::string evidence_text(const std::string& json);
+
 /// A form that posts, with the token. @param action_html already escaped.
 std::string form_begin(const std::string& action_html, const Frame& frame);
 std::string text_field(const std::string& id, const std::string& name, const std::string& label, const std::string& value,

@@ -123,7 +123,7 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
     const bool held = c.revoked_utc.empty();
     out += "<article class=\"certificate\"><h3>" + shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
            (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " + escape_html(c.printed) + ", rules " +
-           escape_html(c.rule_version) + "</p><p><small>" + escape_html(c.evidence) + "</small></p>";
+           escape_html(c.rule_version) + "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
     if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason) + "</p>";
     if (held && frame.may_write)
       out += "<details><summary>Withdraw</summary>" + form_begin("/certificate/" + url_part(c.uuid) + "/revoke", frame) +
@@ -181,10 +181,9 @@ std::string trainee_page(const TraineeView& view, Frame frame) {
   if (view.chosen < view.curves.size()) {
     const CurveView& curve = view.curves[view.chosen];
     const std::string name = curve.title + " " + curve.key.level + (curve.key.hand.empty() ? "" : ", " + curve.key.hand);
-    out +=
-        section("curve", name,
-                judgements(curve) + facts(curve) + "<div class=\"two\"><div>" + figure(curve_svg(curve), curve_caption(curve)) +
-                    "</div><div>" + figure(cusum_svg(curve), escape_html(cusum_caption(curve))) + "</div></div>");
+    out += section("curve", name,
+                   judgements(curve) + facts(curve) + "<div class=\"two\"><div>" + figure(curve_svg(curve), curve_caption(curve)) +
+                       "</div><div>" + figure(cusum_svg(curve), escape_html(cusum_caption(curve))) + "</div></div>");
   }
   out += "<div class=\"two\"><div>" + notes_section(view.notes, "/trainee/" + url_part(view.code) + "/note", frame);
   if (view.chosen < view.curves.size()) out += section("attempts", "Attempts", attempts_table(view.curves[view.chosen]));

@@ -27,7 +27,7 @@ struct CohortEntry {
   std::optional<double> best = {}, last = {};
   std::vector<double> scores = {};  ///< newest few, oldest first
   double pass_at = 75;
-  std::optional<double> peak_force_n = {};  ///< highest of the newest graded attempts
+  std::optional<double> peak_force_n = {};  ///< mean of the peaks of the graded attempts
   int over_force = 0;                       ///< times over the hard limit, over all tries
   std::vector<Judgement> judgements = {};   ///< gravest first
   std::string last_utc = {};
