@@ -56,6 +56,12 @@ std::optional<bool> less_is_better(const AttemptResult& result, const std::strin
   return {};
 }
 
+std::string metric_title(const std::string& name) {
+  for (const char* unit : {"_n_s", "_n_per_s", "_m_per_s", "_mm", "_deg", "_hz", "_s", "_n", "_m", "_j"})
+    if (name.ends_with(unit)) return words_of(name.substr(0, name.size() - std::string(unit).size()));
+  return words_of(name);
+}
+
 std::string verdict_reason(const AttemptView& view) {
   const Grade& grade = view.result.grade;
   if (!graded(view.result)) return view.result.integrity.empty() ? "It carries no score." : view.result.integrity;
@@ -151,7 +157,7 @@ std::string metric_table(const AttemptView& view) {
   std::string rows;
   for (const Metric& metric : view.result.grade.metrics) {
     const auto words = view.metric_words.find(metric.name);
-    rows += "<tr><th scope=\"row\">" + escape_html(words_of(metric.name)) + "<br/><small class=\"mono dim\">" + escape_html(metric.name) +
+    rows += "<tr><th scope=\"row\">" + escape_html(metric_title(metric.name)) + "<br/><small class=\"mono dim\">" + escape_html(metric.name) +
             "</small></th>" + number_cell(quantity(metric.value, metric.unit)) + "<td class=\"long\">" +
             escape_html(words == view.metric_words.end() ? "" : words->second) + "</td></tr>";
   }

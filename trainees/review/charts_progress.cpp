@@ -18,8 +18,8 @@ using svg::rect;
 constexpr const char* kBlue = "#0072b2";
 constexpr const char* kPassLine = "stroke=\"#b04a00\" stroke-width=\"1.6\" stroke-dasharray=\"7 4\"";
 
-std::string open(double width, double height, const std::string& words) {
-  return "<svg viewBox=\"0 0 " + px(width) + " " + px(height) + "\" role=\"img\"" + attribute("aria-label", escape_html(words)) + ">";
+std::string open(double width, double height, const std::string& words, const char* kind = "chart") {
+  return std::string("<svg class=\"") + kind + "\" viewBox=\"0 0 " + px(width) + " " + px(height) + "\" role=\"img\"" + attribute("aria-label", escape_html(words)) + ">";
 }
 
 std::string polyline(const std::string& points, const std::string& style) {
@@ -191,7 +191,7 @@ std::string weeks_svg(const std::vector<std::pair<std::string, double>>& minutes
   axes.bottom = 168;
   axes.high = 10;
   for (std::size_t i = begin; i < minutes_by_week.size(); ++i) axes.high = std::max(axes.high, minutes_by_week[i].second);
-  std::string out = open(axes.width, axes.height, "Minutes a week");
+  std::string out = open(axes.width, axes.height, "Minutes a week", "weeks");
   const double step = svg::nice_step(axes.high, 4);
   for (double v = 0; v <= axes.high * 1.0001; v += step)
     out += line(axes.left, axes.y(v), axes.right, axes.y(v), "stroke=\"#d9dee4\"") +

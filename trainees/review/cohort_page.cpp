@@ -101,6 +101,7 @@ struct Column {
   bool number, falls_first;
 };
 constexpr std::array<Column, 11> kColumns = {{{"name", "Trainee", false, false},
+                                              {"state", "State", false, false},
                                               {"exercise", "Exercise", false, false},
                                               {"level", "Level", false, false},
                                               {"tries", "Tries", true, true},
@@ -109,8 +110,7 @@ constexpr std::array<Column, 11> kColumns = {{{"name", "Trainee", false, false},
                                               {"", "Trend and pass line", false, false},
                                               {"force", "Peak force, N", true, true},
                                               {"over", "Over force", true, true},
-                                              {"date", "Last seen", false, true},
-                                              {"state", "State", false, false}}};
+                                              {"date", "Last seen", false, true}}};
 
 std::string head(const CohortQuestion& asked) {
   std::string out;
@@ -133,13 +133,13 @@ std::string row(const CohortEntry& line) {
   for (std::size_t i = 1; i < line.judgements.size(); ++i) states += " " + badge(line.judgements[i].flag);
   const std::string why = line.judgements.empty() ? "" : line.judgements.front().evidence;
   return "<tr><th scope=\"row\">" + link_html(curve_href(line), shown_name(line)) +
-         (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") + "</th><td>" +
-         escape_html(line.exercise) + (line.hand.empty() ? "" : " <small class=\"dim\">" + escape_html(line.hand) + "</small>") + "</td>" +
-         cell(line.level) + number_cell(std::to_string(line.tries)) + number_cell(score_text(line.best)) +
-         number_cell(score_text(line.last)) + "<td>" + spark_svg(line.scores, line.pass_at) + "</td>" +
-         number_cell(line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93") + "<td class=\"n" +
-         (line.over_force > 0 ? " bad" : "") + "\">" + std::to_string(line.over_force) + "</td><td>" + day_html(line.last_utc) +
-         "</td><td>" + states + (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") + "</td></tr>";
+         (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") + "</th><td>" + states +
+         (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") + "</td><td>" + escape_html(line.exercise) +
+         (line.hand.empty() ? "" : " <small class=\"dim\">" + escape_html(line.hand) + "</small>") + "</td>" + cell(line.level) +
+         number_cell(std::to_string(line.tries)) + number_cell(score_text(line.best)) + number_cell(score_text(line.last)) + "<td>" +
+         spark_svg(line.scores, line.pass_at) + "</td>" + number_cell(line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93") +
+         "<td class=\"n" + (line.over_force > 0 ? " bad" : "") + "\">" + std::to_string(line.over_force) + "</td><td>" + day_html(line.last_utc) +
+         "</td></tr>";
 }
 
 /// Less than, by a column; what has no number stands last either way.

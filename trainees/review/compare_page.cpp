@@ -33,7 +33,7 @@ std::string row(const std::string& name, const std::string& unit, const std::opt
     verdict = judged(less, d);
   }
   const auto words = [&](const std::optional<double>& v) { return v ? quantity_text(v, unit) : std::string("\xE2\x80\x93"); };
-  return "<tr><th scope=\"row\">" + escape_html(words_of(name)) + "</th>" + number_cell(words(left)) + number_cell(words(right)) +
+  return "<tr><th scope=\"row\">" + escape_html(metric_title(name)) + "</th>" + number_cell(words(left)) + number_cell(words(right)) +
          number_cell(difference) + "<td>" + verdict + "</td></tr>";
 }
 

@@ -30,7 +30,7 @@ std::string versions(const CurriculumView& view) {
             link_html("/curriculum" + query_html({{"name", c.name}, {"version", std::to_string(c.version)}}) + "#editor",
                       c.name + " " + std::to_string(c.version)) +
             "</th><td>" + date_html(c.utc) + "</td>" + cell(c.author.empty() ? "command line" : c.author) + "<td class=\"mono\">" +
-            escape_html(c.sha256.substr(0, 16)) + "</td></tr>";
+            escape_html(c.sha256.substr(0, 8)) + "</td></tr>";
   if (rows.empty()) return section("versions", "Versions", "<p>None yet: the rules that came with the program hold.</p>");
   return section("versions", "Versions",
                  table("Every version that was saved, newest first; the newest of a name holds",

@@ -93,7 +93,7 @@ tbody tr:hover{background:#f4f8fb}
 .cohort{min-width:1010px}
 .cohort td small{color:#37424c}
 .cohort tbody th{min-width:110px}
-.cohort td:last-child{min-width:230px}
+.cohort tbody td:nth-child(2){min-width:230px}
 .bad{font-weight:700;color:#8a3900}
 .grave th,.grave td{font-weight:600;background:#fdf5ef}
 .long{min-width:200px;overflow-wrap:anywhere}
@@ -103,7 +103,8 @@ tbody tr:hover{background:#f4f8fb}
 figure{margin:0 0 8px;min-width:0}
 figcaption{font-size:.86rem;color:#4a555f;margin-top:4px}
 .plot{overflow-x:auto}
-.plot svg{min-width:540px}
+.plot svg{min-width:500px;max-width:980px}
+.plot svg.weeks{min-width:300px}
 svg{display:block;width:100%;height:auto;font-size:14px}
 svg text:not([fill]){fill:#27313b}
 .spark{width:120px;height:34px}
@@ -153,9 +154,10 @@ output{font-weight:600}
 .gridcell:hover{background:#eef5fa}
 .gridcell[aria-current]{border-color:#00568a;background:#eef5fa}
 .certificate{border-left:4px solid #009e73;padding:1px 0 1px 12px;margin:10px 0}
+.certificate.withdrawn{border-left-color:#8592a0;color:#37424c}
 .notice,.message{background:#e1f5ed;border:1px solid #009e73;border-radius:6px;padding:8px 12px}
 .error{background:#fdeade;border:1px solid #b04a00;border-radius:6px;padding:8px 12px;white-space:pre-wrap}
-.warning{background:#fdf2d8;border:1px solid #b98000;border-radius:6px;padding:8px 12px}
+.warning{margin:8px 0 14px;background:#fdf2d8;border:1px solid #b98000;border-radius:6px;padding:8px 12px}
 .warning p{margin:0}
 .side h2{display:flex;align-items:center;gap:4px}
 .live{font-size:1.15rem}

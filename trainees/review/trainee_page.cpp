@@ -121,7 +121,7 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
   int n = 0;
   for (const Certificate& c : view.certificates) {
     const bool held = c.revoked_utc.empty();
-    out += "<article class=\"certificate\"><h3>" + shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
+    out += std::string("<article class=\"certificate") + (held ? "" : " withdrawn") + "\"><h3>" + shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
            (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " + escape_html(c.printed) + ", rules " +
            escape_html(c.rule_version) + "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
     if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason) + "</p>";

@@ -23,7 +23,8 @@ bool posts(const CheckedPage& page, const std::string& end) {
 TEST(AttemptPage, IsSoundAndHasItsParts) {
   const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
   EXPECT_EQ(page.problems, std::vector<std::string>{});
-  for (const char* id : {"moment", "points", "events", "sign", "notes", "compare", "path", "metrics", "device", "origin"}) EXPECT_NE(page.by_id(id), nullptr) << id;
+  for (const char* id : {"moment", "points", "events", "sign", "notes", "compare", "path", "metrics", "device", "origin"})
+    EXPECT_NE(page.by_id(id), nullptr) << id;
   EXPECT_EQ(page.all("svg", "square").size(), 6U);  // three projections, three maps
 }
 
@@ -69,7 +70,8 @@ TEST(AttemptPage, PointsLostAreTheWeightedRest) {
   EXPECT_DOUBLE_EQ(points_lost({"a", 0.4, 0.35, {}, "", 1, 0, true}), 21);
   const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
   const std::string text = page.by_id("points")->text;
-  for (const char* part : {"In band safety gate0.58full at 1, none at 0.30.4035.0 %21.0", "Time36 sfull at 30 s, none at 90 s0.9040.0 %4.0", "safety: in_band below 0.5: at most 59"})
+  for (const char* part : {"In band safety gate0.58full at 1, none at 0.30.4035.0 %21.0", "Time36 sfull at 30 s, none at 90 s0.9040.0 %4.0",
+                           "safety: in_band below 0.5: at most 59"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
@@ -78,7 +80,9 @@ TEST(AttemptPage, ScrubsWithoutScript) {
   const std::string base = "/attempt/01890000-aaaa-7bbb-8ccc-000000000001";
   std::map<std::string, std::string> steps;
   for (const PageElement* link : page.all("a", "button")) steps[link->text] = link->of("href");
-  EXPECT_EQ(steps["\xE2\x88\x92" "5 s"], base + "?t=25.00#moment");
+  EXPECT_EQ(steps["\xE2\x88\x92"
+                  "5 s"],
+            base + "?t=25.00#moment");
   EXPECT_EQ(steps["+1 s"], base + "?t=31.00#moment");
   EXPECT_EQ(steps["event before"], base + "?t=27.00#moment");
   EXPECT_EQ(steps.count("next event"), 0U);  // the last one is here
@@ -170,7 +174,8 @@ TEST(AttemptPage, DeviceThatLackedRoomIsSaid) {
 TEST(AttemptPage, HostileTextsAndManyEvents) {
   AttemptView view = sample_attempt();
   AttemptResult& r = view.result;
-  r.uuid = r.exercise_id = r.level = r.trainee = r.hand = r.started_utc = r.organ_name = r.organ_credit = r.integrity = r.state_hash = kHostile;
+  r.uuid = r.exercise_id = r.level = r.trainee = r.hand = r.started_utc = r.organ_name = r.organ_credit = r.integrity = r.state_hash =
+      kHostile;
   r.grade.grade = kHostile;
   r.grade.caps = {kHostile};
   for (Metric& m : r.grade.metrics) m.name = m.unit = kHostile;
@@ -195,7 +200,8 @@ TEST(AttemptPage, HostileTextsAndManyEvents) {
 TEST(AttemptPage, NumbersThatAreNoneDoNoHarm) {
   AttemptView view = sample_attempt();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < view.trace->samples.size(); i += 7) view.trace->samples[i].force_T = view.trace->samples[i].tip_T = Vec3(nan, nan, nan);
+  for (std::size_t i = 0; i < view.trace->samples.size(); i += 7)
+    view.trace->samples[i].force_T = view.trace->samples[i].tip_T = Vec3(nan, nan, nan);
   view.result.events[0].t_s = nan;
   view.result.events[1].value = nan;
   view.result.grade.metrics[0].value = nan;
@@ -206,7 +212,8 @@ TEST(AttemptPage, NumbersThatAreNoneDoNoHarm) {
 
 TEST(AttemptCsv, ScoreMetricsPartsEvents) {
   const std::string csv = attempt_csv(sample_attempt());
-  EXPECT_TRUE(csv.starts_with("attempt,kind,name,value,unit,t_s,severity,weight,full_at,zero_at\r\n01890000-aaaa-7bbb-8ccc-000000000001,score,score,58,"));
+  EXPECT_TRUE(csv.starts_with(
+      "attempt,kind,name,value,unit,t_s,severity,weight,full_at,zero_at\r\n01890000-aaaa-7bbb-8ccc-000000000001,score,score,58,"));
   EXPECT_NE(csv.find(",metric,tremor,,mm,"), std::string::npos);  // undefined is empty, never 0
   EXPECT_NE(csv.find(",part,in_band,0.4,,,,0.35,1,0.3\r\n"), std::string::npos);
   EXPECT_NE(csv.find(",event,EXCESS_FORCE,5.2,N,30,major,,,\r\n"), std::string::npos);
@@ -218,8 +225,11 @@ TEST(ComparePage, BothTracesAndJudgedDifferences) {
   EXPECT_EQ(page.all("svg", "time").size(), 1U);
   EXPECT_EQ(page.all("svg", "square").size(), 4U);
   const std::string text = page.by_id("metrics")->text;
-  EXPECT_NE(text.find("Score5897.8\xE2\x88\x92" "39.8worse"), std::string::npos) << text;
-  EXPECT_NE(text.find("Force max n5.2 N0.8 N+4.4 N"), std::string::npos) << text;
+  EXPECT_NE(text.find("Score5897.8\xE2\x88\x92"
+                      "39.8worse"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("Force max5.2 N0.8 N+4.4 N"), std::string::npos) << text;
   EXPECT_NE(text.find("Tremor\xE2\x80\x93\xE2\x80\x93\xE2\x80\x93"), std::string::npos) << text;
 }
 

@@ -51,12 +51,13 @@ TEST(CohortPage, RowsHaveTheNumbersOfTheirLine) {
   const auto rows = page.all("tr");
   const auto row = std::find_if(rows.begin(), rows.end(), [](const PageElement* r) { return r->text.starts_with("dubois"); });
   ASSERT_NE(row, rows.end());
-  EXPECT_EQ((*row)->text, "duboisSurface touch mouseL2770.070.06.3917 Mar 2026unsafe3 of the last 5 attempts went past 4.7 N");
+  EXPECT_EQ((*row)->text, "duboisunsafe3 of the last 5 attempts went past 4.7 NSurface touch mouseL2770.070.06.3917 Mar 2026");
 }
 
 TEST(CohortPage, GravestFirstUnlessAskedOtherwise) {
   CohortView view = sample_cohort();
-  EXPECT_EQ(codes(selected_lines(view)), (std::vector<std::string>{"dubois", "gupta", "eriksen", "chen", "h\xC3\xB8yer", "brandt", "alvarez", "farouk"}));
+  EXPECT_EQ(codes(selected_lines(view)),
+            (std::vector<std::string>{"dubois", "gupta", "eriksen", "chen", "h\xC3\xB8yer", "brandt", "alvarez", "farouk"}));
   view.asked.sort = "-best";
   EXPECT_EQ(codes(selected_lines(view)).front(), "brandt");
   view.asked.sort = "best";

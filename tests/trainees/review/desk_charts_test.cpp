@@ -66,7 +66,8 @@ TEST(Histogram, NothingToCount) {
 
 TEST(Path, ColoursByForceClassAndMarksEndsAndMoment) {
   const std::string svg = path_svg(sample_trace(2.0), kFromAbove, {0.4, 0.8, 1.5}, 30);
-  for (const char* colour : {"#7a8794", "#009e73", "#e69f00", "#d55e00"}) EXPECT_GE(count(svg, std::string("stroke=\"") + colour), 1U) << colour;
+  for (const char* colour : {"#7a8794", "#009e73", "#e69f00", "#d55e00"})
+    EXPECT_GE(count(svg, std::string("stroke=\"") + colour), 1U) << colour;
   EXPECT_EQ(count(svg, "<title>start"), 1U);
   EXPECT_EQ(count(svg, "<title>end"), 1U);
   EXPECT_EQ(count(svg, "<title>tip at this moment"), 1U);
@@ -84,7 +85,7 @@ TEST(Path, ScaleBarIsInMillimetresAndNamesTheAxes) {
 TEST(SampleAt, TakesTheNearestRow) {
   Trace trace = trace_of({{1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
   for (TraceSample& sample : trace.samples) sample.t_s += 50;
-  EXPECT_DOUBLE_EQ(length_s(trace), 0.2);
+  EXPECT_NEAR(length_s(trace), 0.2, 1e-12);
   EXPECT_DOUBLE_EQ(sample_at(trace, 0.04)->tip_T.x(), 1);
   EXPECT_DOUBLE_EQ(sample_at(trace, 0.06)->tip_T.x(), 2);
   EXPECT_DOUBLE_EQ(sample_at(trace, 99)->tip_T.x(), 3);

@@ -58,10 +58,12 @@ TEST(StationPage, ShowsWhatRunsAndLooksAgain) {
   const CheckedPage page = check_page(station_page(sample_station(), sample_frame()));
   EXPECT_EQ(page.problems, std::vector<std::string>{});
   bool refreshes = false;
-  for (const PageElement* meta : page.all("meta")) refreshes = refreshes || (meta->of("http-equiv") == "refresh" && meta->of("content") == "2");
+  for (const PageElement* meta : page.all("meta"))
+    refreshes = refreshes || (meta->of("http-equiv") == "refresh" && meta->of("content") == "2");
   EXPECT_TRUE(refreshes);
   const std::string now = page.by_id("now")->text;
-  for (const char* part : {"dubois: Surface touch L2", "Clock1:05 of 2:00", "Done7 of 12", "Force now0.6 N", "Peak force1.3 N", "simulated, 1000 Hz, missed 0"})
+  for (const char* part : {"dubois: Surface touch L2", "Clock1:05 of 2:00", "Done7 of 12", "Force now0.6 N", "Peak force1.3 N",
+                           "simulated, 1000 Hz, missed 0"})
     EXPECT_NE(now.find(part), std::string::npos) << part << "\n" << now;
   EXPECT_LT(now.find("Excess force"), now.find("Target held"));  // newest first
 }
@@ -69,9 +71,11 @@ TEST(StationPage, ShowsWhatRunsAndLooksAgain) {
 TEST(StationPage, NothingRubbishAndHostile) {
   EXPECT_NE(station_page("", sample_frame()).find("Nothing runs"), std::string::npos);
   EXPECT_NE(station_page("{}", sample_frame()).find("Nothing runs"), std::string::npos);
-  for (const char* rubbish : {"{", "[]", "17", "null", "\"<script>\""}) EXPECT_NE(station_page(rubbish, sample_frame()).find("cannot be read"), std::string::npos) << rubbish;
-  for (const char* odd : {R"({"trainee":"<script>","title":["x"],"elapsed_s":"now","events":[1,{"type":5},null],"device":7,"force_n":-1,"limit_n":1e300})",
-                          R"({"events":{"a":1},"level":null,"status":"<b>","force_n":1e308,"peak_force_n":1e308})"})
+  for (const char* rubbish : {"{", "[]", "17", "null", "\"<script>\""})
+    EXPECT_NE(station_page(rubbish, sample_frame()).find("cannot be read"), std::string::npos) << rubbish;
+  for (const char* odd :
+       {R"({"trainee":"<script>","title":["x"],"elapsed_s":"now","events":[1,{"type":5},null],"device":7,"force_n":-1,"limit_n":1e300})",
+        R"({"events":{"a":1},"level":null,"status":"<b>","force_n":1e308,"peak_force_n":1e308})"})
     EXPECT_EQ(check_page(station_page(odd, sample_frame())).problems, std::vector<std::string>{}) << odd;
 }
 
@@ -111,7 +115,8 @@ TEST(Frame, WordsForDatesTimesNumbers) {
 
 TEST(Frame, EveryStateHasItsOwnShapeWordAndStyle) {
   std::vector<std::string> seen;
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity, Flag::kRetentionDue, Flag::kReady, Flag::kLearning}) {
+  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity, Flag::kRetentionDue, Flag::kReady,
+                          Flag::kLearning}) {
     const std::string html = badge(flag);
     EXPECT_EQ(std::find(seen.begin(), seen.end(), html), seen.end());
     seen.push_back(html);
@@ -162,13 +167,15 @@ TEST(Style, TextHoldsFourAndAHalfToOne) {
 TEST(Style, AsksNothingOfOthersAndHasPrintAndPhone) {
   const std::string css = style_sheet();
   for (const char* word : {"http:", "https:", "url(", "@import", "//"}) EXPECT_EQ(css.find(word), std::string::npos) << word;
-  for (const char* word : {"@media print", "max-width:560px", ":focus-visible", ".scroll{overflow-x:auto"}) EXPECT_NE(css.find(word), std::string::npos) << word;
+  for (const char* word : {"@media print", "max-width:560px", ":focus-visible", ".scroll{overflow-x:auto"})
+    EXPECT_NE(css.find(word), std::string::npos) << word;
 }
 
 TEST(Script, IsSmallAndAsksNothingOfOthers) {
   const std::string script = desk_script();
   EXPECT_LT(script.size(), 10000U);
-  for (const char* word : {"http", "eval", "innerHTML", "document.write", "import", "fetch"}) EXPECT_EQ(script.find(word), std::string::npos) << word;
+  for (const char* word : {"http", "eval", "innerHTML", "document.write", "import", "fetch"})
+    EXPECT_EQ(script.find(word), std::string::npos) << word;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 struct Reader {
   std::vector<PageElement> elements;
-  std::vector<std::size_t> open;             ///< positions in `elements`
+  std::vector<std::size_t> open;  ///< positions in `elements`
   std::vector<std::vector<std::size_t>> parents;
 
   static void begin(void* self, const char* name, const char** attributes) {
@@ -37,8 +37,8 @@ std::string parse(const std::string& html, Reader& reader) {
   XML_SetCharacterDataHandler(parser, Reader::text);
   std::string problem;
   if (XML_Parse(parser, html.data(), static_cast<int>(html.size()), 1) != XML_STATUS_OK)
-    problem = std::string(XML_ErrorString(XML_GetErrorCode(parser))) + " in line " + std::to_string(XML_GetCurrentLineNumber(parser)) + ", column " +
-              std::to_string(XML_GetCurrentColumnNumber(parser));
+    problem = std::string(XML_ErrorString(XML_GetErrorCode(parser))) + " in line " + std::to_string(XML_GetCurrentLineNumber(parser)) +
+              ", column " + std::to_string(XML_GetCurrentColumnNumber(parser));
   XML_ParserFree(parser);
   return problem;
 }
@@ -93,11 +93,14 @@ void check_tables_and_forms(const Reader& reader, const std::string& token, std:
     const PageElement& e = reader.elements[i];
     if (e.name != "table" && e.name != "form") continue;
     const auto in = inside(reader, i);
-    if (e.name == "table" && std::none_of(in.begin(), in.end(), [](const PageElement* p) { return p->name == "caption" && !p->text.empty(); }))
+    if (e.name == "table" &&
+        std::none_of(in.begin(), in.end(), [](const PageElement* p) { return p->name == "caption" && !p->text.empty(); }))
       problems.push_back("table without caption");
-    const bool has_token = std::any_of(in.begin(), in.end(), [&](const PageElement* p) { return p->of("name") == "token" && p->of("value") == token; });
+    const bool has_token =
+        std::any_of(in.begin(), in.end(), [&](const PageElement* p) { return p->of("name") == "token" && p->of("value") == token; });
     if (e.name == "form" && (e.of("method") == "post") != has_token) problems.push_back("token in form " + e.of("action"));
-    if (e.name == "form" && std::any_of(in.begin(), in.end(), [](const PageElement* p) { return p->name == "form"; })) problems.push_back("form in a form");
+    if (e.name == "form" && std::any_of(in.begin(), in.end(), [](const PageElement* p) { return p->name == "form"; }))
+      problems.push_back("form in a form");
   }
 }
 
@@ -111,7 +114,8 @@ std::string PageElement::of(const std::string& attribute) const {
 std::vector<const PageElement*> CheckedPage::all(const std::string& name, const std::string& class_part) const {
   std::vector<const PageElement*> out;
   for (const PageElement& e : elements)
-    if (e.name == name && (" " + e.of("class") + " ").find(class_part.empty() ? "" : " " + class_part + " ") != std::string::npos) out.push_back(&e);
+    if (e.name == name && (" " + e.of("class") + " ").find(class_part.empty() ? "" : " " + class_part + " ") != std::string::npos)
+      out.push_back(&e);
   return out;
 }
 
@@ -130,7 +134,7 @@ CheckedPage check_page(const std::string& html, const std::string& token) {
   check_labels(reader, page.problems);
   check_tables_and_forms(reader, token, page.problems);
   page.elements = std::move(reader.elements);
-  for (const char* once : {"main", "h1", "title", "footer"})
+  for (const char* once : {"main", "h1", "head", "footer"})
     if (page.all(once).size() != 1) page.problems.push_back(std::string(once) + " not once");
   if (page.by_id("main") == nullptr || page.all("a", "skip").size() != 1) page.problems.push_back("no way to skip to the content");
   return page;

@@ -43,19 +43,23 @@ CohortView sample_cohort() {
   view.trainees = 8;
   view.attempts = 101;
   view.rules_version = "1";
-  const auto add = [&](const std::string& code, const std::vector<double>& scores, double peak_n, int over, const std::vector<Judgement>& why) {
+  const auto add = [&](const std::string& code, const std::vector<double>& scores, double peak_n, int over,
+                       const std::vector<Judgement>& why) {
     view.lines.push_back(sample_line(code, scores, why));
     view.lines.back().peak_force_n = peak_n;
     view.lines.back().over_force = over;
   };
   add("alvarez", {45, 52, 60, 63, 70, 72, 83, 65}, 1.1, 2, {judged(Flag::kLearning, "")});
-  add("brandt", {60, 66, 78, 84, 88, 91, 95, 93, 92, 95, 94, 96, 91, 95, 93, 92}, 0.8, 0, {judged(Flag::kReady, "14 passes in a row, reliability 0.84", 16)});
+  add("brandt", {60, 66, 78, 84, 88, 91, 95, 93, 92, 95, 94, 96, 91, 95, 93, 92}, 0.8, 0,
+      {judged(Flag::kReady, "14 passes in a row, reliability 0.84", 16)});
   add("chen", {33, 45, 48, 44, 52, 59, 66, 70, 60, 63, 74, 64, 71, 70, 68, 72}, 1.5, 0,
       {judged(Flag::kStuck, "16 attempts without a pass", 16), judged(Flag::kPlateau, "+0.4 points over the newest 6", 6)});
   add("dubois", {50, 56, 49, 49, 59, 49, 70}, 6.3, 9, {judged(Flag::kUnsafe, "3 of the last 5 attempts went past 4.7 N")});
-  add("eriksen", {80, 85, 88, 86, 90, 82, 70, 66, 82}, 1.2, 1, {judged(Flag::kRelapsed, "failures rose after competence was shown on 2 Feb", 9)});
+  add("eriksen", {80, 85, 88, 86, 90, 82, 70, 66, 82}, 1.2, 1,
+      {judged(Flag::kRelapsed, "failures rose after competence was shown on 2 Feb", 9)});
   add("farouk", {71, 75, 80, 83}, 0.9, 0, {judged(Flag::kLearning, "")});
-  add("gupta", {60, 55, 49, 52, 49}, 5.5, 4, {judged(Flag::kUnsafe, "2 of the last 5 attempts went past 4.7 N"), judged(Flag::kStuck, "5 attempts without a pass")});
+  add("gupta", {60, 55, 49, 52, 49}, 5.5, 4,
+      {judged(Flag::kUnsafe, "2 of the last 5 attempts went past 4.7 N"), judged(Flag::kStuck, "5 attempts without a pass")});
   add("h\xC3\xB8yer", {77, 83, 81, 86, 90, 92}, 0.9, 0, {judged(Flag::kRetentionDue, "certificate of 1 Mar: attempt due 15 Mar", 1)});
   return view;
 }
@@ -87,7 +91,8 @@ TraineeView sample_trainee() {
   curve.cusum = cusum(passes);
   curve.judgements = {judged(Flag::kPlateau, "+1.2 points over the newest 6 attempts", 6)};
   curve.reliability = 0.62;
-  curve.benchmark = Benchmark{"b1", "surface-touch", "L2", "score", "input expert", "mean - 2 SD", "ines", "2026-02-01T08:00:00Z", 88.5, 0, 6};
+  curve.benchmark =
+      Benchmark{"b1", "surface-touch", "L2", "score", "input expert", "mean - 2 SD", "ines", "2026-02-01T08:00:00Z", 88.5, 0, 6};
   view.curves = {curve, curve, curve};
   view.curves[1].key = {"surface-touch", "L1", "mouse", std::string(64, 'b')};
   view.curves[1].judgements = {judged(Flag::kReady, "14 passes in a row", 16)};
@@ -96,11 +101,13 @@ TraineeView sample_trainee() {
   view.curves[2].benchmark.reset();
   view.curves[2].cohort.clear();
   view.minutes_by_week = {{"2026-02-23", 12}, {"2026-03-02", 34}, {"2026-03-09", 0}, {"2026-03-16", 21}};
-  view.notes = {{"n2", "bo", "uuid-9", "ines", "Dr Ines Okafor", "Good exposure.\nTraction too strong at 92 s; repeat L1 first.", "2026-03-19T16:00:00Z", ""},
+  view.notes = {{"n2", "bo", "uuid-9", "ines", "Dr Ines Okafor", "Good exposure.\nTraction too strong at 92 s; repeat L1 first.",
+                 "2026-03-19T16:00:00Z", ""},
                 {"n1", "bo", "", "ines", "Dr Ines Okafor", "Welcome.", "2026-03-10T16:00:00Z", "2026-03-11T08:00:00Z"}};
-  view.certificates = {{"c1", "bo", "surface-touch", "L1", "1", "14 passes in a row, n = 16", "ines", "Dr Ines Okafor", "2026-03-01T10:00:00Z", "", ""},
-                       {"c0", "bo", "limited-grasp", "L1", "1", "14 passes in a row, n = 15", "ines", "Dr Ines Okafor", "2026-02-01T10:00:00Z",
-                        "2026-02-03T10:00:00Z", "Device was out of calibration"}};
+  view.certificates = {
+      {"c1", "bo", "surface-touch", "L1", "1", "14 passes in a row, n = 16", "ines", "Dr Ines Okafor", "2026-03-01T10:00:00Z", "", ""},
+      {"c0", "bo", "limited-grasp", "L1", "1", "14 passes in a row, n = 15", "ines", "Dr Ines Okafor", "2026-02-01T10:00:00Z",
+       "2026-02-03T10:00:00Z", "Device was out of calibration"}};
   view.due = {{"Surface touch", "L1", "2026-03-15T10:00:00Z", "14 days after the certificate", true},
               {"Surface touch", "L1", "2026-08-31T10:00:00Z", "183 days after the certificate", false}};
   return view;
@@ -144,7 +151,9 @@ AttemptView sample_attempt(double score, double peak_n) {
   r.grade.score = score;
   r.grade.passed = score >= 75;
   r.grade.grade = r.grade.passed ? "pass" : "below pass";
-  r.grade.subscores = {{"in_band", 0.4, 0.35, 0.58, "share", 1, 0.3, true}, {"excess", 0.5, 0.25, 3.0, "count", 0, 6, true}, {"time", 0.9, 0.4, 36, "s", 30, 90, false}};
+  r.grade.subscores = {{"in_band", 0.4, 0.35, 0.58, "share", 1, 0.3, true},
+                       {"excess", 0.5, 0.25, 3.0, "count", 0, 6, true},
+                       {"time", 0.9, 0.4, 36, "s", 30, 90, false}};
   if (!r.grade.passed) r.grade.caps = {"safety: in_band below 0.5: at most 59"};
   r.grade.metrics = {{"time_s", 60, "s"}, {"force_max_n", peak_n, "N"}, {"path_m", 0.377, "m"}, {"tremor", std::nullopt, "mm"}};
   r.events = {{12.5, "TARGET_HELD", Severity::kInfo, 0, 1.1, "N", Vec3(0.01, 0, 0)},
@@ -191,7 +200,8 @@ CurriculumView sample_curriculum() {
   view.versions = {{"u2", "standard", std::string(64, 'e'), "version = \"2\"\n", "ines", "2026-03-02T10:00:00Z", 2},
                    {"u1", "standard", std::string(64, 'f'), "version = \"1\"\n", "", "2026-02-02T10:00:00Z", 1}};
   view.text = "version = \"3\"\npasses_to_unlock = 4\n\n[cusum]\nadequate = 0.10\ninadequate = 0.25\n";
-  view.preview = {{"brandt", "Surface touch", "L2", "14 passes in a row", true, true}, {"farouk", "Surface touch", "L2", "3 of 4 passes in a row", true, false}};
+  view.preview = {{"brandt", "Surface touch", "L2", "14 passes in a row", true, true},
+                  {"farouk", "Surface touch", "L2", "3 of 4 passes in a row", true, false}};
   view.benchmarks = {{"b1", "surface-touch", "L2", "score", "input expert", "mean - 2 SD", "ines", "2026-02-01T08:00:00Z", 88.5, 0, 6}};
   BenchmarkProposal proposal;
   proposal.asked = {"surface-touch", "L2", "score", "hand:expert", "mean-2sd", "", ""};

@@ -16,7 +16,8 @@ std::size_t count(const std::string& text, const std::string& part) {
 TEST(TraineePage, IsSoundAndHasItsParts) {
   const CheckedPage page = check_page(trainee_page(sample_trainee(), sample_frame()));
   EXPECT_EQ(page.problems, std::vector<std::string>{});
-  for (const char* id : {"exercises", "curve", "notes", "attempts", "time", "due", "certificates"}) EXPECT_NE(page.by_id(id), nullptr) << id;
+  for (const char* id : {"exercises", "curve", "notes", "attempts", "time", "due", "certificates"})
+    EXPECT_NE(page.by_id(id), nullptr) << id;
   EXPECT_EQ(page.by_id("curve-h")->text, "Surface touch L2, mouse");
 }
 
@@ -118,8 +119,8 @@ TEST(TraineePage, EmptyAndHostile) {
 TEST(Curve, PointsAreLinksAndTellPassedFromNot) {
   const std::string svg = curve_svg(sample_trainee().curves[0]);
   EXPECT_EQ(count(svg, "<a href=\"/attempt/uuid-"), 16U);
-  EXPECT_EQ(count(svg, "fill=\"#fff\""), 11U);          // hollow: 15 graded, 4 of them passed
-  EXPECT_EQ(count(svg, "stroke=\"#5b6570\""), 1U);       // the aborted one
+  EXPECT_EQ(count(svg, "fill=\"#fff\""), 11U);      // hollow: 15 graded, 4 of them passed
+  EXPECT_EQ(count(svg, "stroke=\"#5b6570\""), 1U);  // the aborted one
   EXPECT_NE(svg.find("attempt 16, 2026-03-25: 81.0, passed"), std::string::npos);
   // 75 of 100 between 252 (0) and 14 (100).
   EXPECT_NE(svg.find("y1=\"73.5\""), std::string::npos);
@@ -162,8 +163,9 @@ TEST(TraineeCsv, OneLineAnAttempt) {
   TraineeView view = sample_trainee();
   view.curves.resize(1);
   view.curves[0].points.resize(1);
-  EXPECT_EQ(trainee_csv(view), "trainee,exercise,level,input,rules_sha256,number,attempt,started_utc,status,score,passed\r\nbo,surface-touch,L2,mouse," + std::string(64, 'a') +
-                                   ",1,uuid-1,2026-03-10T09:00:00Z,completed,33,0\r\n");
+  EXPECT_EQ(trainee_csv(view),
+            "trainee,exercise,level,input,rules_sha256,number,attempt,started_utc,status,score,passed\r\nbo,surface-touch,L2,mouse," +
+                std::string(64, 'a') + ",1,uuid-1,2026-03-10T09:00:00Z,completed,33,0\r\n");
 }
 
 }  // namespace
