@@ -101,10 +101,10 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
   frame.title = view.exercise + " " + view.result.level + ", " + view.result.trainee;
   const std::string note_action = "/attempt/" + url_part(view.result.uuid) + "/note";
   return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
-                             subscore_table(view) + event_table(view) + compare_section(view, frame) + "</div><div>" + sign_off_section(view, frame) +
-                             notes_section(view.notes, note_action, frame) + "</div></div>" + path_section(view) +
-                             ratings(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) + "</div><div>" +
-                             origin_facts(view) + "</div></div>");
+                             subscore_table(view) + event_table(view) + compare_section(view, frame) + "</div><div>" +
+                             sign_off_section(view, frame) + notes_section(view.notes, note_action, frame) + "</div></div>" +
+                             path_section(view) + ratings(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
+                             "</div><div>" + origin_facts(view) + "</div></div>");
 }
 
 }  // namespace trocar::review

@@ -137,8 +137,9 @@ std::string row(const CohortEntry& line) {
          (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") + "</td><td>" + escape_html(line.exercise) +
          (line.hand.empty() ? "" : " <small class=\"dim\">" + escape_html(line.hand) + "</small>") + "</td>" + cell(line.level) +
          number_cell(std::to_string(line.tries)) + number_cell(score_text(line.best)) + number_cell(score_text(line.last)) + "<td>" +
-         spark_svg(line.scores, line.pass_at) + "</td>" + number_cell(line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93") +
-         "<td class=\"n" + (line.over_force > 0 ? " bad" : "") + "\">" + std::to_string(line.over_force) + "</td><td>" + day_html(line.last_utc) +
+         spark_svg(line.scores, line.pass_at) + "</td>" +
+         number_cell(line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93") + "<td class=\"n" +
+         (line.over_force > 0 ? " bad" : "") + "\">" + std::to_string(line.over_force) + "</td><td>" + day_html(line.last_utc) +
          "</td></tr>";
 }
 

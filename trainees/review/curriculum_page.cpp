@@ -5,11 +5,13 @@ namespace trocar::review {
 namespace {
 
 std::string preview_table(const std::vector<PassPreview>& preview, const std::string& caption) {
+  constexpr int kShown = 200;  // those that change come first
   std::string rows;
-  int now = 0, then = 0;
+  int now = 0, then = 0, shown = 0;
   for (const PassPreview& p : preview) {
     now += p.passes_now ? 1 : 0;
     then += p.would_pass ? 1 : 0;
+    if (++shown > kShown) continue;
     const bool differs = p.passes_now != p.would_pass;
     rows += std::string("<tr") + (differs ? " class=\"grave\"" : "") + "><th scope=\"row\">" +
             link_html("/trainee/" + url_part(p.trainee), p.trainee) + "</th>" + cell(p.exercise + " " + p.level) + "<td>" +
@@ -20,7 +22,8 @@ std::string preview_table(const std::vector<PassPreview>& preview, const std::st
   if (rows.empty()) return "<p>Nobody has graded attempts to try this on.</p>";
   return "<p><strong>" + std::to_string(then) + "</strong> of " + std::to_string(preview.size()) + " would pass today; " +
          std::to_string(now) + " pass as it stands. Nothing is saved yet.</p>" +
-         table(caption, head_cells({"Trainee", "Exercise", "Passes now", "Would pass", "Why"}), rows);
+         table(shown > kShown ? caption + ", first " + std::to_string(kShown) + " of " + std::to_string(shown) : caption,
+               head_cells({"Trainee", "Exercise", "Passes now", "Would pass", "Why"}), rows);
 }
 
 std::string versions(const CurriculumView& view) {

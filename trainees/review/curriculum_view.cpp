@@ -80,6 +80,13 @@ bool passes(const CohortLine& line) {
          std::any_of(line.judgements.begin(), line.judgements.end(), [](const Judgement& j) { return j.flag == Flag::kReady; });
 }
 
+void changes_first(std::vector<PassPreview>& out) {
+  std::stable_sort(out.begin(), out.end(), [](const PassPreview& a, const PassPreview& b) {
+    const auto rank = [](const PassPreview& p) { return p.passes_now != p.would_pass ? 0 : p.would_pass ? 1 : 2; };
+    return rank(a) < rank(b);
+  });
+}
+
 }  // namespace
 
 std::vector<PassPreview> preview_rules(Desk& desk, const ProgressRules& rules, const std::string& now_utc) {
@@ -87,14 +94,13 @@ std::vector<PassPreview> preview_rules(Desk& desk, const ProgressRules& rules, c
                                 then = cohort_lines(desk.database, rules, {}, now_utc);
   std::map<std::pair<std::string, CurveKey>, bool> before;
   for (const CohortLine& line : now) before[{line.trainee, line.key}] = passes(line);
+  const std::vector<Choice> exercises = exercise_choices(desk.database);
+  std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
   std::vector<PassPreview> out;
   for (const CohortLine& line : then)
-    out.push_back({line.trainee, exercise_title(desk.database, line.key.exercise_id), line.key.level,
+    out.push_back({line.trainee, titles[line.key.exercise_id], line.key.level,
                    line.judgements.empty() ? "" : line.judgements.front().evidence, before[{line.trainee, line.key}], passes(line)});
-  std::stable_sort(out.begin(), out.end(), [](const PassPreview& a, const PassPreview& b) {
-    const auto rank = [](const PassPreview& p) { return p.passes_now != p.would_pass ? 0 : p.would_pass ? 1 : 2; };
-    return rank(a) < rank(b);
-  });
+  changes_first(out);
   return out;
 }
 
@@ -118,6 +124,7 @@ BenchmarkProposal propose(Desk& desk, const BenchmarkQuestion& question, const s
     out.preview.push_back({person.who, exercise_title(desk.database, question.exercise_id), question.level,
                            "mean " + number_text(person.value), old != held.end() && reaches(person.value, old->full_at),
                            reaches(person.value, *out.value)});
+  changes_first(out.preview);
   return out;
 }
 
