@@ -136,7 +136,7 @@ std::string path_section(const AttemptView& view) {
   if (!view.trace || view.trace->samples.empty()) return "";
   std::string out = "<div class=\"squares\">";
   for (const Projection& projection : {kFromAbove, kFromFront, kFromSide})
-    out += "<figure>" + path_svg(*view.trace, projection, view.limits, view.t_s) + "<figcaption>Path " + projection.words +
+    out += "<figure>" + path_svg(*view.trace, projection, view.limits, view.t_s) + "<figcaption>Path " + axes_words(projection) +
            "</figcaption></figure>";
   out += "<figure>" + heat_svg(*view.trace, kFromAbove, false) + "<figcaption>Where the tip was, from above</figcaption></figure><figure>" +
          heat_svg(*view.trace, kFromAbove, true) + "<figcaption>Where it touched, from above</figcaption></figure><figure>" +

@@ -52,6 +52,8 @@ struct Projection {
 };
 inline constexpr Projection kFromAbove{0, 1, "from above"}, kFromFront{0, 2, "from the front"}, kFromSide{1, 2, "from the side"};
 
+/// "from above (x right, y up)".
+std::string axes_words(const Projection& projection);
 /// Tip path coloured by force class; the place at the cursor marked.
 std::string path_svg(const Trace& trace, const Projection& projection, const ForceLimits& limits, double cursor_s);
 

@@ -18,8 +18,9 @@ using svg::rect;
 constexpr const char* kBlue = "#0072b2";
 constexpr const char* kPassLine = "stroke=\"#b04a00\" stroke-width=\"1.6\" stroke-dasharray=\"7 4\"";
 
-std::string open(double width, double height, const std::string& words, const char* kind = "chart") {
-  return std::string("<svg class=\"") + kind + "\" viewBox=\"0 0 " + px(width) + " " + px(height) + "\" role=\"img\"" + attribute("aria-label", escape_html(words)) + ">";
+std::string open(double width, double height, const std::string& words, const char* kind = "chart", const char* role = "img") {
+  return std::string("<svg class=\"") + kind + "\" viewBox=\"0 0 " + px(width) + " " + px(height) + "\" role=\"" + role + "\"" +
+         attribute("aria-label", escape_html(words)) + ">";
 }
 
 std::string polyline(const std::string& points, const std::string& style) {
@@ -136,7 +137,8 @@ std::string curve_svg(const CurveView& curve) {
   axes.first = static_cast<int>(begin) + 1;
   axes.last = std::max(axes.first, static_cast<int>(curve.points.size()));
   RightLabels words;
-  std::string out = open(axes.width, axes.height, "Score by attempt") + axes.grid(20, "attempt") + cohort_area(curve, axes);
+  std::string out =
+      open(axes.width, axes.height, "Score by attempt", "chart", "group") + axes.grid(20, "attempt") + cohort_area(curve, axes);
   out += line(axes.left, axes.y(curve.pass_at), axes.right, axes.y(curve.pass_at), kPassLine);
   words.add(axes.y(curve.pass_at) + 5, "pass " + number_text(curve.pass_at), "#9c4100");
   if (curve.benchmark) {

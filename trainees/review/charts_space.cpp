@@ -52,13 +52,10 @@ std::string open(const std::string& words) {
          attribute("aria-label", escape_html(words)) + ">" + rect(0.5, 0.5, kSide - 1, kSide - 1, "fill=\"#fff\" stroke=\"#c9ced4\"");
 }
 
-std::string scale_bar(const Square& square, const Projection& view) {
-  constexpr std::array<char, 3> kAxis = {'x', 'y', 'z'};
-  const double length = svg::nice_step(square.extent, 4), y = kSide + 14;
-  const std::string axes =
-      std::string(1, kAxis.at(static_cast<std::size_t>(view.right))) + " right, " + kAxis.at(static_cast<std::size_t>(view.up)) + " up";
-  return line(kMargin, y, kMargin + length * square.scale, y, "stroke=\"#000\" stroke-width=\"2.4\"") +
-         label(kMargin + length * square.scale + 6, y + 5, number_text(length * 1000) + " mm") + label(kSide - 4, y + 5, axes, "end");
+std::string scale_bar(const Square& square) {
+  const double length = svg::nice_step(square.extent, 4), y = kSide + 15;
+  return line(kMargin, y, kMargin + length * square.scale, y, "stroke=\"#000\" stroke-width=\"3\"") +
+         label(kMargin + length * square.scale + 8, y + 7, number_text(length * 1000) + " mm");
 }
 
 /// Runs of one force class as one polyline; points closer than a pixel are dropped.
@@ -107,13 +104,18 @@ std::string marks(const Trace& trace, const Projection& view, const Square& squa
 
 }  // namespace
 
+std::string axes_words(const Projection& projection) {
+  constexpr std::array<char, 3> kAxis = {'x', 'y', 'z'};
+  return std::string(projection.words) + " (" + kAxis.at(static_cast<std::size_t>(projection.right)) + " right, " +
+         kAxis.at(static_cast<std::size_t>(projection.up)) + " up)";
+}
+
 std::string path_svg(const Trace& trace, const Projection& projection, const ForceLimits& limits, double cursor_s) {
   std::string out = open(std::string("Tip path ") + projection.words);
   const Eigen::AlignedBox2d box = box_of(trace, projection);
   if (box.isEmpty()) return out + label(0.5 * kSide, 0.5 * kSide, "no samples", "middle") + "</svg>";
   const Square square = square_of(box);
-  return out + runs(trace, projection, square, limits) + marks(trace, projection, square, cursor_s) + scale_bar(square, projection) +
-         "</svg>";
+  return out + runs(trace, projection, square, limits) + marks(trace, projection, square, cursor_s) + scale_bar(square) + "</svg>";
 }
 
 Histogram2 tip_histogram(const Trace& trace, const Projection& projection, bool contacts_only, int cells) {
@@ -157,7 +159,7 @@ std::string heat_svg(const Trace& trace, const Projection& projection, bool cont
                     std::string("shape-rendering=\"crispEdges\" fill=\"") + kHeat.at(static_cast<std::size_t>(shade(tick(begin)))) + "\"");
       begin = column;
     }
-  return out + scale_bar(square, projection) + "</svg>";
+  return out + scale_bar(square) + "</svg>";
 }
 
 }  // namespace trocar::review

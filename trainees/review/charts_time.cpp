@@ -69,7 +69,7 @@ class Drawing {
 
   std::string draw() const {
     std::string out = "<svg class=\"time\" viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) +
-                      "\" role=\"img\" aria-label=\"Force against time\"" + attribute("data-left", px(kLeft)) +
+                      "\" role=\"group\" aria-label=\"Force against time\"" + attribute("data-left", px(kLeft)) +
                       attribute("data-right", px(kRight)) + attribute("data-end", fixed_text(t_end_, 3)) + ">";
     out +=
         "<defs><pattern id=\"hatch\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"

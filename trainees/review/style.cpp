@@ -49,7 +49,7 @@ small{font-size:.86rem}
 .state ul{list-style:none;margin:8px 0 0;padding:0}
 .state li{margin:0 0 7px;line-height:1.3;overflow-wrap:anywhere}
 .state li a{font-weight:700}
-.state small{color:#2b343c}
+.state small{color:#2b343c;text-wrap:pretty}
 .state.unsafe{border-top-color:#d55e00}.state.unsafe .count,.state.unsafe h2{color:#973f00}
 .state.relapsed{border-top-color:#cc79a7}.state.relapsed .count,.state.relapsed h2{color:#862d5e}
 .state.stuck{border-top-color:#e69f00}.state.stuck .count,.state.stuck h2{color:#7a5200}
@@ -107,6 +107,7 @@ figcaption{font-size:.86rem;color:#4a555f;margin-top:4px}
 .plot svg.weeks{min-width:300px}
 svg{display:block;width:100%;height:auto;font-size:14px}
 svg text:not([fill]){fill:#27313b}
+.square{font-size:20px}
 .spark{width:120px;height:34px}
 .bar{width:72px;min-width:72px;height:12px;margin-top:6px}
 svg.shape{display:inline;width:.85em;height:.85em;font-size:inherit}

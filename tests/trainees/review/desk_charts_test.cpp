@@ -78,7 +78,7 @@ TEST(Path, ColoursByForceClassAndMarksEndsAndMoment) {
 TEST(Path, ScaleBarIsInMillimetresAndNamesTheAxes) {
   const std::string svg = path_svg(sample_trace(), kFromSide, {}, -1);  // 40 mm of y, 60 mm of z: 60 mm over 276 px
   EXPECT_NE(svg.find(">20 mm<"), std::string::npos) << svg;
-  EXPECT_NE(svg.find("y right, z up"), std::string::npos);
+  EXPECT_EQ(axes_words(kFromSide), "from the side (y right, z up)");
   EXPECT_NE(svg.find("x2=\"114.0\""), std::string::npos);  // 22 + 20 / 60 * 276
 }
 
