@@ -71,7 +71,6 @@ Answer DeskGate::sign_in(Visit& visit) {
 }
 
 Answer DeskGate::try_sign_in(Visit& visit, const std::string& login, const std::string& next) {
-  constexpr std::size_t kLongestPassword = 1000;
   const std::string& password = visit.request.form["password"], who = printable(login) + " from " + visit.arrival.address;
   const Counted counted(verifying_);
   if (counted.before() >= kVerifyingAtOnce) {
@@ -86,7 +85,7 @@ Answer DeskGate::try_sign_in(Visit& visit, const std::string& login, const std::
     return late;
   }
   const AccountStore accounts(visit.desk.database);
-  const auto account = password.size() > kLongestPassword ? std::nullopt : accounts.verify(login, password);
+  const auto account = accounts.verify(login, password);
   const std::string stamp = account ? sign_in_stamp(visit.desk.database, account->uuid) : "";
   if (stamp.empty()) {
     say("sign-in refused: " + who);

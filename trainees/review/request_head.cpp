@@ -39,6 +39,7 @@ std::optional<Refusal> read_request_line(std::string_view line, const RequestLim
   const std::size_t first = line.find(' '), last = line.rfind(' ');
   if (first == std::string_view::npos || first == last) return Refusal{400, "The request line cannot be read."};
   const std::string_view method = line.substr(0, first), target = line.substr(first + 1, last - first - 1), version = line.substr(last + 1);
+  if (!version.starts_with("HTTP/")) return Refusal{400, "The request line cannot be read."};
   if (version != "HTTP/1.1" && version != "HTTP/1.0") return Refusal{505, "Only HTTP/1.1 is spoken here."};
   if (!token(method) || method.size() > 16) return Refusal{400, "The method cannot be read."};
   if (target.empty() || target[0] != '/' || !visible_text(target)) return Refusal{400, "The address cannot be read."};

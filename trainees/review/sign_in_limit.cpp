@@ -33,7 +33,11 @@ void SignInLimit::make_room(DeskTime now) {
   if (wrong_.size() < kMostKnown) return;
   std::erase_if(wrong_, [&](const auto& entry) { return entry.second.empty() || now - entry.second.back() > kWindow; });
   if (wrong_.size() < kMostKnown) return;
-  wrong_.erase(std::min_element(wrong_.begin(), wrong_.end(), [](const auto& a, const auto& b) { return a.second.back() < b.second.back(); }));
+  std::vector<DeskTime> newest;  // the older half goes, so that this is done seldom
+  for (const auto& entry : wrong_) newest.push_back(entry.second.back());
+  const auto middle = newest.begin() + static_cast<std::ptrdiff_t>(newest.size() / 2);
+  std::nth_element(newest.begin(), middle, newest.end());
+  std::erase_if(wrong_, [&](const auto& entry) { return entry.second.back() <= *middle; });
 }
 
 int SignInLimit::begin(const std::string& login, const std::string& address, DeskTime now) {

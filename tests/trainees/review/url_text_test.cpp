@@ -72,7 +72,7 @@ TEST(UrlText, LeadsNowhereElse) {
 
 TEST(UrlText, NamesDownloads) {
   EXPECT_EQ(download_name("cohort-2026.csv"), "cohort-2026.csv");
-  EXPECT_EQ(download_name("../../etc/passwd"), "___.._etc_passwd");
+  EXPECT_EQ(download_name("../../etc/passwd"), "_._.._etc_passwd");
   EXPECT_EQ(download_name("a\"; x=\"b\r\nc"), "a___x__b__c");
   EXPECT_EQ(download_name(""), "download");
   EXPECT_EQ(download_name(std::string(300, 'a')).size(), 100U);
