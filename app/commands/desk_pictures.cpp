@@ -34,7 +34,8 @@ struct Wanted {
 }  // namespace
 
 struct DeskPictures::State {
-  State(AssetRoots roots, std::function<Database()> opener) : assets(std::move(roots)), open(std::move(opener)), thread([this] { work(); }) {}
+  State(AssetRoots roots, std::function<Database()> opener)
+      : assets(std::move(roots)), open(std::move(opener)), thread([this] { work(); }) {}
 
   void work();
   std::string painted(const Wanted& wanted);
@@ -98,7 +99,8 @@ void DeskPictures::State::wait_until(double t_s) const {
     if (replaying && run->has_pictures() && run->available_until() >= loop_time(*run, t_s)) return;
     if (Clock::now() > until) {
       const int done = replaying ? static_cast<int>(std::max(0.0, run->available_until() - run->begin_s())) : 0;
-      throw EnvironmentError("the attempt is being replayed (" + std::to_string(done) + " s of it are there): ask for the picture again in a moment");
+      throw EnvironmentError("the attempt is being replayed (" + std::to_string(done) +
+                             " s of it are there): ask for the picture again in a moment");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -130,7 +132,8 @@ std::optional<std::string> DeskPictures::State::kept(const Wanted& wanted) {
   return pictures.front().second;
 }
 
-DeskPictures::DeskPictures(AssetRoots assets, std::function<Database()> open) : state_(std::make_unique<State>(std::move(assets), std::move(open))) {}
+DeskPictures::DeskPictures(AssetRoots assets, std::function<Database()> open)
+    : state_(std::make_unique<State>(std::move(assets), std::move(open))) {}
 
 DeskPictures::~DeskPictures() {
   {

@@ -32,7 +32,8 @@ class Unseen {
 
 std::string line_of(std::istream& in, const std::string& login) {
   std::string line;
-  if (!std::getline(in, line)) throw InputError("account " + login + ": no password came in; type it, or give it as first line of the input");
+  if (!std::getline(in, line))
+    throw InputError("account " + login + ": no password came in; type it, or give it as first line of the input");
   if (!line.empty() && line.back() == '\r') line.pop_back();
   return line;
 }

@@ -132,15 +132,20 @@ int review_account_list(const ReviewAccountOptions& options, std::ostream& out, 
   if (options.json) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const Account& account : accounts) {
-      json.push_back({{"login", account.login}, {"name", account.name}, {"role", role_name(account.role)}, {"trainee", account.trainee_code},
-                      {"created_utc", account.created_utc}, {"disabled_utc", account.disabled_utc}});
+      json.push_back({{"login", account.login},
+                      {"name", account.name},
+                      {"role", role_name(account.role)},
+                      {"trainee", account.trainee_code},
+                      {"created_utc", account.created_utc},
+                      {"disabled_utc", account.disabled_utc}});
     }
     out << json.dump(2) << '\n';
     return 0;
   }
   TextTable table({{"login"}, {"name"}, {"role"}, {"trainee"}, {"made (UTC)"}, {"disabled (UTC)"}});
   for (const Account& account : accounts) {
-    table.add({account.login, account.name, role_name(account.role), account.trainee_code, cell_time(account.created_utc), cell_time(account.disabled_utc)});
+    table.add({account.login, account.name, role_name(account.role), account.trainee_code, cell_time(account.created_utc),
+               cell_time(account.disabled_utc)});
   }
   table.print(out);
   return 0;

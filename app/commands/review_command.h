@@ -9,21 +9,21 @@
 namespace trocar {
 
 struct ReviewServeOptions {
-  std::filesystem::path database;          ///< empty: the default path
+  std::filesystem::path database = {};     ///< empty: the default path
   int port = 8642;                         ///< 0: any that is free
   bool lan = false;                        ///< the network, not this machine alone
-  std::filesystem::path certificate, key;  ///< both or none
-  std::vector<std::string> names;          ///< more names that it goes by
+  std::filesystem::path certificate = {}, key = {};  ///< both or none
+  std::vector<std::string> names = {};     ///< more names that it goes by
 };
 
 /// Serves the desk until Ctrl-C or SIGTERM. Its address is the result. @return exit code 0
 int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostream& err);
 
 struct ReviewAccountOptions {
-  std::filesystem::path database;
-  std::string login, name;                 ///< name: as printed, empty: the login
+  std::filesystem::path database = {};
+  std::string login = {}, name = {};       ///< name: as printed, empty: the login
   std::string role = "trainee";
-  std::string trainee;                     ///< code, of a trainee's account; empty: the login
+  std::string trainee = {};                ///< code, of a trainee's account; empty: the login
   bool json = false;                       ///< of list
 };
 

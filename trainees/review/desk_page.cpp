@@ -6,9 +6,13 @@ namespace trocar::review {
 namespace {
 
 std::string document(const std::string& title, const std::string& body) {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-         "<title>" + escape_html(title) + " - Trocar</title><link rel=\"stylesheet\" href=\"/style.css\"></head>\n"
-         "<body class=\"plain\"><main>\n" + body + "</main></body></html>\n";
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
+         "initial-scale=1\">"
+         "<title>" +
+         escape_html(title) +
+         " - Trocar</title><link rel=\"stylesheet\" href=\"/style.css\"></head>\n"
+         "<body class=\"plain\"><main>\n" +
+         body + "</main></body></html>\n";
 }
 
 std::string usual_words(int status) {
@@ -22,7 +26,8 @@ std::string usual_words(int status) {
     case 413: return "What was sent is too large: at most 1 MB is taken.";
     case 421: return "This desk does not go by that name. Use the address that it printed when it was started.";
     case 429: return "Too many tries. Wait, then try again.";
-    case 500: return "Something went wrong in the program. Nothing was stored by this request. What happened stands where the desk was started.";
+    case 500:
+      return "Something went wrong in the program; what, stands on the terminal of the desk. Look whether what you did is there.";
     case 503: return "The desk is busy. Try again in a moment.";
     default: return "The request cannot be answered.";
   }
@@ -55,8 +60,9 @@ Response error_page(int status, const std::string& why) {
   Response out;
   out.status = status;
   const std::string title = status_title(status);
-  out.body = document(title, "<h1>" + escape_html(title) + "</h1>\n<p class=\"message\">" + escape_html(why.empty() ? usual_words(status) : why) +
-                                 "</p>\n<p><a href=\"/\">To the first page</a> <span class=\"quiet\">(" + std::to_string(status) + ")</span></p>\n");
+  out.body = document(
+      title, "<h1>" + escape_html(title) + "</h1>\n<p class=\"message\">" + escape_html(why.empty() ? usual_words(status) : why) +
+                 "</p>\n<p><a href=\"/\">To the first page</a> <span class=\"quiet\">(" + std::to_string(status) + ")</span></p>\n");
   return out;
 }
 
@@ -69,9 +75,12 @@ Response sign_in_page(const SignInForm& form) {
   std::string body = "<h1>Trocar: sign in</h1>\n";
   if (!form.message.empty()) body += "<p class=\"message\" role=\"alert\">" + escape_html(form.message) + "</p>\n";
   body += "<form method=\"post\" action=\"/sign-in\">\n" + hidden("token", form.token) + hidden("next", form.next) +
-          "<p><label>Login<br><input name=\"login\" maxlength=\"32\" autocomplete=\"username\" autocapitalize=\"none\" required autofocus value=\"" +
-          escape_html(form.login) + "\"></label></p>\n"
-          "<p><label>Password or PIN<br><input name=\"password\" type=\"password\" maxlength=\"200\" autocomplete=\"current-password\" required></label></p>\n"
+          "<p><label>Login<br><input name=\"login\" maxlength=\"32\" autocomplete=\"username\" autocapitalize=\"none\" required autofocus "
+          "value=\"" +
+          escape_html(form.login) +
+          "\"></label></p>\n"
+          "<p><label>Password or PIN<br><input name=\"password\" type=\"password\" maxlength=\"1024\" autocomplete=\"current-password\" "
+          "required></label></p>\n"
           "<p><button type=\"submit\">Sign in</button></p>\n</form>\n"
           "<p class=\"quiet\">No account, or the password is lost? An administrator makes a new one.</p>\n";
   out.body = document("Sign in", body);

@@ -49,7 +49,8 @@ class Counted {
 
 Answer DeskGate::ask_to_sign_in(Visit& visit, int status, const std::string& message, const std::string& login, const std::string& next) {
   if (visit.number.empty()) set_cookie(visit, DeskSessions::fresh_number());
-  SignInForm form{.status = status, .message = message, .login = login, .next = local_path(next) ? next : "", .token = sessions_.token(visit.number)};
+  SignInForm form{
+      .status = status, .message = message, .login = login, .next = local_path(next) ? next : "", .token = sessions_.token(visit.number)};
   if (form.message.empty() && !somebody_can_sign_in(visit.desk.database))
     form.message = "Nobody has an account yet, and this desk is open without one only to the person who started it, on that machine. "
                    "An account is made there by: trocar review account add LOGIN --role administrator";

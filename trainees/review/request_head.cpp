@@ -60,7 +60,8 @@ std::optional<Refusal> read_header(std::string_view line, RequestHead& head) {
   if (!header_text(value)) return Refusal{400, "A header has control characters."};
   const auto [at, fresh] = head.headers.try_emplace(name, value);
   if (fresh) return {};
-  constexpr std::array<std::string_view, 6> kOnce{"host", "content-length", "content-type", "transfer-encoding", "origin", "sec-fetch-site"};
+  constexpr std::array<std::string_view, 6> kOnce{"host",   "content-length", "content-type", "transfer-encoding",
+                                                  "origin", "sec-fetch-site"};
   if (std::find(kOnce.begin(), kOnce.end(), name) != kOnce.end()) return Refusal{400, "A header stands twice."};
   at->second += (name == "cookie" ? "; " : ", ") + std::string(value);
   return {};

@@ -12,7 +12,8 @@ namespace {
 
 class DeskGateTest : public DeskTest {
  protected:
-  int status(const std::string& method, const std::string& target, const Visitor& visitor = {}, const std::vector<std::string>& headers = {}) {
+  int status(const std::string& method, const std::string& target, const Visitor& visitor = {},
+             const std::vector<std::string>& headers = {}) {
     return ask(method, target, visitor, "", headers).response.status;
   }
 };
@@ -22,7 +23,8 @@ TEST_F(DeskGateTest, GoesByItsNamesOnly) {
   for (const char* host : {"127.0.0.1:8642", "localhost:8642", "LOCALHOST:8642", "desk.clinic.example:8642"}) {
     EXPECT_EQ(status("GET", "/everybody", {}, {std::string("Host: ") + host}), 200) << host;
   }
-  for (const char* host : {"evil.example:8642", "127.0.0.1", "127.0.0.1:80", "127.0.0.1:8642:8642", "10.0.0.5:8642", "127.0.0.1.evil.example:8642", ":8642", "localhost"}) {
+  for (const char* host : {"evil.example:8642", "127.0.0.1", "127.0.0.1:80", "127.0.0.1:8642:8642", "10.0.0.5:8642",
+                           "127.0.0.1.evil.example:8642", ":8642", "localhost"}) {
     EXPECT_EQ(status("GET", "/everybody", {}, {std::string("Host: ") + host}), 421) << host;
   }
   local_address_ = "10.0.0.5";
@@ -33,7 +35,8 @@ TEST_F(DeskGateTest, GoesByItsNamesOnly) {
 TEST_F(DeskGateTest, KnowsItsMethods) {
   make_gate();
   EXPECT_EQ(status("HEAD", "/everybody"), 200);
-  for (const char* method : {"PUT", "DELETE", "OPTIONS", "TRACE", "PATCH", "CONNECT", "get"}) EXPECT_EQ(status(method, "/everybody"), 405) << method;
+  for (const char* method : {"PUT", "DELETE", "OPTIONS", "TRACE", "PATCH", "CONNECT", "get"})
+    EXPECT_EQ(status(method, "/everybody"), 405) << method;
   const Answer wrong = ask("POST", "/leads/T-anna");
   EXPECT_EQ(wrong.response.status, 405);
   EXPECT_EQ(header_of(*gate_, wrong, "Allow"), "GET");
@@ -41,8 +44,9 @@ TEST_F(DeskGateTest, KnowsItsMethods) {
 
 TEST_F(DeskGateTest, HasNoPageOutsideTheList) {
   make_gate();
-  for (const char* path : {"/nothing", "/../etc/passwd", "/everybody/../admin", "/%2e%2e/%2e%2e/etc/passwd", "/..%2fetc%2fpasswd", "/everybody%00", "/everybody/",
-                           "/EVERYBODY", "//everybody", "/.git/config", "/own/T-anna/../T-otto", "/own/T-anna%2f..%2fT-otto", "/own/%2e%2e"}) {
+  for (const char* path :
+       {"/nothing", "/../etc/passwd", "/everybody/../admin", "/%2e%2e/%2e%2e/etc/passwd", "/..%2fetc%2fpasswd", "/everybody%00",
+        "/everybody/", "/EVERYBODY", "//everybody", "/.git/config", "/own/T-anna/../T-otto", "/own/T-anna%2f..%2fT-otto", "/own/%2e%2e"}) {
     EXPECT_EQ(status("GET", path), 404) << path;
   }
 }
@@ -54,12 +58,16 @@ TEST_F(DeskGateTest, TakesFormsOfItsOwnPagesOnly) {
   EXPECT_EQ(status("POST", "/admin", adam), 200);
   EXPECT_EQ(status("POST", "/admin", adam, {"Origin: null"}), 200) << "what browsers say where no referrer is allowed";
   EXPECT_EQ(status("POST", "/admin", adam, {"Origin: http://127.0.0.1:8642", "Sec-Fetch-Site: same-origin"}), 200);
-  for (const char* header : {"Origin: http://evil.example", "Origin: https://127.0.0.1:8642", "Origin: http://127.0.0.1:8643", "Sec-Fetch-Site: cross-site",
-                             "Sec-Fetch-Site: same-site"}) {
+  for (const char* header : {"Origin: http://evil.example", "Origin: https://127.0.0.1:8642", "Origin: http://127.0.0.1:8643",
+                             "Sec-Fetch-Site: cross-site", "Sec-Fetch-Site: same-site"}) {
     EXPECT_EQ(status("POST", "/admin", adam, {header}), 403) << header;
   }
-  const auto head = parse_head("POST /admin HTTP/1.1\r\nHost: 127.0.0.1:8642\r\nContent-Length: 2\r\nContent-Type: text/plain\r\nCookie: " + adam.cookie + "\r\n\r\n");
-  EXPECT_EQ(gate_->answer({.head = std::get<RequestHead>(head), .body = "{}", .address = "x", .local_address = "127.0.0.1"}, desk_).response.status, 415);
+  const auto head =
+      parse_head("POST /admin HTTP/1.1\r\nHost: 127.0.0.1:8642\r\nContent-Length: 2\r\nContent-Type: text/plain\r\nCookie: " + adam.cookie +
+                 "\r\n\r\n");
+  EXPECT_EQ(gate_->answer({.head = std::get<RequestHead>(head), .body = "{}", .address = "x", .local_address = "127.0.0.1"}, desk_)
+                .response.status,
+            415);
   EXPECT_EQ(ask("POST", "/admin", adam, "a=%zz").response.status, 400);
 }
 
@@ -98,7 +106,9 @@ TEST_F(DeskGateTest, FailuresTellTraineesNothing) {
   add_accounts();
   make_gate();
   const Visitor anna = signed_in("anna"), ines = signed_in("ines");
-  const auto body = [&](const std::string& kind, const Visitor& visitor) { return ask("GET", "/fails/" + kind + "/T-anna", visitor).response; };
+  const auto body = [&](const std::string& kind, const Visitor& visitor) {
+    return ask("GET", "/fails/" + kind + "/T-anna", visitor).response;
+  };
   EXPECT_EQ(body("input", ines).status, 400);
   EXPECT_NE(body("input", ines).body.find("T-otto is &lt;b&gt;unknown&lt;/b&gt;"), std::string::npos);
   EXPECT_EQ(body("input", anna).body.find("T-otto"), std::string::npos);

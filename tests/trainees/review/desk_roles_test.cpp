@@ -27,7 +27,9 @@ std::string filled(const std::string& pattern, const std::string& code, const st
   return out;
 }
 
-bool of_a_trainee(const Route& route) { return route.path.find("{code}") != std::string::npos || route.path.find("{attempt}") != std::string::npos; }
+bool of_a_trainee(const Route& route) {
+  return route.path.find("{code}") != std::string::npos || route.path.find("{attempt}") != std::string::npos;
+}
 
 /// What the route must say to that visitor: 401, 403, or 0 for anything but these.
 int refusal_for(const Route& route, const std::string& login, bool own) {
@@ -95,7 +97,8 @@ TEST_P(DeskRoles, EveryAnswerHasTheSecurityHeaders) {
     for (const auto& [login, visitor] : visitors_) {
       const Answer answer = ask(route.method, filled(route.path, "T-otto", ottos_), visitor);
       EXPECT_EQ(header_of(*gate_, answer, "Content-Security-Policy"),
-                "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; form-action 'self'; frame-ancestors 'none'; base-uri 'none'");
+                "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; form-action 'self'; frame-ancestors "
+                "'none'; base-uri 'none'");
       EXPECT_EQ(header_of(*gate_, answer, "X-Content-Type-Options"), "nosniff");
       EXPECT_EQ(header_of(*gate_, answer, "Referrer-Policy"), "no-referrer");
       EXPECT_EQ(header_of(*gate_, answer, "Cache-Control"), "no-store");
@@ -108,10 +111,20 @@ TEST_P(DeskRoles, EveryAnswerHasTheSecurityHeaders) {
 
 /// Metacharacters of SQL and HTML in every argument, query and form field that a page may have.
 TEST_P(DeskRoles, NoTextIsTakenForSqlOrHtml) {
-  const std::vector<std::string> evil{"'; DROP TABLE attempt; --", "\" OR \"\"=\"", "1 OR 1=1", "%' OR code LIKE '%", "a' UNION SELECT password FROM account --",
-                                      "<script>alert(1)</script>", "\"><svg onload=alert(1)>", "${7*7}", "{{7*7}}", "\xE2\x80\xAE", std::string(900, 'A')};
-  const std::vector<std::string> names{"group", "exercise", "level", "state", "sort", "order", "page", "limit", "with", "from", "to", "text", "note", "reason", "name",
-                                       "login", "code", "attempt", "toml", "meaning", "passed", "metric", "rule", "kind", "next", "t", "width", "format"};
+  const std::vector<std::string> evil{"'; DROP TABLE attempt; --",
+                                      "\" OR \"\"=\"",
+                                      "1 OR 1=1",
+                                      "%' OR code LIKE '%",
+                                      "a' UNION SELECT password FROM account --",
+                                      "<script>alert(1)</script>",
+                                      "\"><svg onload=alert(1)>",
+                                      "${7*7}",
+                                      "{{7*7}}",
+                                      "\xE2\x80\xAE",
+                                      std::string(900, 'A')};
+  const std::vector<std::string> names{"group",  "exercise", "level", "state",  "sort", "order", "page",  "limit",   "with", "from",
+                                       "to",     "text",     "note",  "reason", "name", "login", "code",  "attempt", "toml", "meaning",
+                                       "passed", "metric",   "rule",  "kind",   "next", "t",     "width", "format"};
   for (const Route& route : routes()) {
     if (route.path.starts_with("/fails/")) continue;  // on purpose
     for (const std::string& text : evil) {
@@ -120,8 +133,9 @@ TEST_P(DeskRoles, NoTextIsTakenForSqlOrHtml) {
       const bool posts = route.method == "POST";
       const std::string part = text.size() < 100 && text.find('/') == std::string::npos ? percent_encoded(text) : "x";
       for (const std::string& target : {filled(route.path, "T-anna", annas_), filled(route.path, part, part)}) {
-        const Answer answer = ask(route.method, posts ? target : target + "?" + (fields.size() < 6000 ? fields : "text=" + percent_encoded(text)),
-                                  visitors_["adam"], posts ? fields : "");
+        const Answer answer =
+            ask(route.method, posts ? target : target + "?" + (fields.size() < 6000 ? fields : "text=" + percent_encoded(text)),
+                visitors_["adam"], posts ? fields : "");
         EXPECT_LT(answer.response.status, 500) << route.method << " " << target;
         EXPECT_EQ(answer.response.body.find("<script>alert"), std::string::npos) << route.path;
         EXPECT_EQ(answer.response.body.find("<svg onload"), std::string::npos) << route.path;

@@ -23,15 +23,19 @@ Response plain(const Request& request, Desk&) {
 
 std::vector<Route> sample_routes() {
   std::vector<Route> out;
-  const std::vector<std::pair<Audience, std::string>> kinds{{Audience::kEverybody, "/everybody"}, {Audience::kOwnData, "/own"},
-                                                            {Audience::kOwnData, "/own/{code}"}, {Audience::kOwnData, "/own/attempt/{attempt}"},
+  const std::vector<std::pair<Audience, std::string>> kinds{{Audience::kEverybody, "/everybody"},
+                                                            {Audience::kOwnData, "/own"},
+                                                            {Audience::kOwnData, "/own/{code}"},
+                                                            {Audience::kOwnData, "/own/attempt/{attempt}"},
                                                             {Audience::kOwnData, "/own/{code}/attempt/{attempt}"},
-                                                            {Audience::kInstructors, "/staff/{code}"}, {Audience::kAdministrators, "/admin"}};
+                                                            {Audience::kInstructors, "/staff/{code}"},
+                                                            {Audience::kAdministrators, "/admin"}};
   for (const auto& [audience, path] : kinds) {
     for (const char* method : {"GET", "POST"}) out.push_back({.method = method, .path = path, .audience = audience, .answer = plain});
   }
   const auto failing = [&](const std::string& path, const std::function<Response()>& fails) {
-    out.push_back({.method = "GET", .path = path, .audience = Audience::kOwnData, .answer = [fails](const Request&, Desk&) { return fails(); }});
+    out.push_back(
+        {.method = "GET", .path = path, .audience = Audience::kOwnData, .answer = [fails](const Request&, Desk&) { return fails(); }});
   };
   failing("/fails/input/{code}", []() -> Response { throw InputError("T-otto is <b>unknown</b>"); });
   failing("/fails/machine/{code}", []() -> Response { throw EnvironmentError("/home/x/trocar.db: disk full"); });
@@ -97,7 +101,8 @@ Visitor DeskTest::stranger() {
 }
 
 Answer DeskTest::try_sign_in(const std::string& login, const std::string& password, const Visitor& visitor, const std::string& next) {
-  return ask("POST", "/sign-in", visitor, "login=" + percent_encoded(login) + "&password=" + percent_encoded(password) + "&next=" + percent_encoded(next));
+  return ask("POST", "/sign-in", visitor,
+             "login=" + percent_encoded(login) + "&password=" + percent_encoded(password) + "&next=" + percent_encoded(next));
 }
 
 Visitor DeskTest::signed_in(const std::string& login, const std::string& password) {
@@ -124,7 +129,7 @@ std::string header_of(const DeskGate& gate, const Answer& answer, const std::str
   return "";
 }
 
-std::string raw_answer(int port, const std::string& bytes, int patience_ms) {
+std::string raw_answer(int port, const std::string& bytes, int patience_ms, bool ends) {
   const int client = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in server{};
   server.sin_family = AF_INET;
@@ -137,6 +142,7 @@ std::string raw_answer(int port, const std::string& bytes, int patience_ms) {
       if (count <= 0) break;
       sent += static_cast<std::size_t>(count);
     }
+    if (ends) ::shutdown(client, SHUT_WR);
     pollfd watched{client, POLLIN, 0};
     char piece[16384];
     while (::poll(&watched, 1, patience_ms) > 0) {
@@ -155,12 +161,14 @@ int status_of(const std::string& raw) {
 }
 
 std::string raw_get(int port, const std::string& target, const std::string& cookie, const std::string& method) {
-  return method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n" + (cookie.empty() ? "" : "Cookie: " + cookie + "\r\n") + "\r\n";
+  return method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n" +
+         (cookie.empty() ? "" : "Cookie: " + cookie + "\r\n") + "\r\n";
 }
 
 std::string raw_post(int port, const std::string& target, const std::string& cookie, const std::string& body) {
-  return "POST " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\nContent-Type: application/x-www-form-urlencoded\r\nContent-Length: " +
-         std::to_string(body.size()) + "\r\n" + (cookie.empty() ? "" : "Cookie: " + cookie + "\r\n") + "\r\n" + body;
+  return "POST " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+         "\r\nContent-Type: application/x-www-form-urlencoded\r\nContent-Length: " + std::to_string(body.size()) + "\r\n" +
+         (cookie.empty() ? "" : "Cookie: " + cookie + "\r\n") + "\r\n" + body;
 }
 
 }  // namespace trocar::review

@@ -15,7 +15,8 @@ inline constexpr int kDeskPort = 8642;
 inline constexpr const char* kSecretNote = "zebra-7431 lets go too early";   ///< of trainee T-otto, known to nobody else
 inline constexpr const char* kPassword = "correct horse battery";
 
-/// Pages of every audience and method, with a code, with an attempt, with neither, and ones that fail. They echo nothing but the account's login.
+/// Pages of every audience and method, with a code, with an attempt, with neither, and ones that fail. They echo nothing but the account's
+/// login.
 std::vector<Route> sample_routes();
 
 /// Who looks: "" nobody, else a login.
@@ -58,7 +59,8 @@ std::string field_of(const std::string& page, const std::string& name);
 std::string header_of(const DeskGate& gate, const Answer& answer, const std::string& name);
 
 /// Sends bytes to the loopback port and returns all that comes back until the other side ends, or `patience_ms` is over.
-std::string raw_answer(int port, const std::string& bytes, int patience_ms = 10000);
+/// @param ends says that nothing more comes, so that nobody waits for the rest of half a request.
+std::string raw_answer(int port, const std::string& bytes, int patience_ms = 10000, bool ends = false);
 int status_of(const std::string& raw);
 /// "GET /x HTTP/1.1" with host and end, for raw_answer.
 std::string raw_get(int port, const std::string& target, const std::string& cookie = "", const std::string& method = "GET");

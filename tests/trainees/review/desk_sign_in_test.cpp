@@ -41,7 +41,8 @@ TEST_F(DeskSignIn, WrongOnesAreTurnedAwayAlike) {
   add_accounts();
   make_gate();
   std::string first;
-  for (const auto& [login, password] : std::vector<std::pair<std::string, std::string>>{{"ines", "wrong"}, {"nobody", kPassword}, {"ines", ""}, {"' OR 1=1 --", "x"}}) {
+  for (const auto& [login, password] :
+       std::vector<std::pair<std::string, std::string>>{{"ines", "wrong"}, {"nobody", kPassword}, {"ines", ""}, {"' OR 1=1 --", "x"}}) {
     const Answer answer = try_sign_in(login, password, stranger());
     EXPECT_EQ(answer.response.status, 401) << login;
     EXPECT_NE(answer.response.body.find("Login or password is wrong."), std::string::npos);

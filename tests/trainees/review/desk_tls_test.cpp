@@ -93,7 +93,9 @@ TEST_F(DeskTls, RefusesOldProtocols) {
 }
 
 TEST_F(DeskTls, SaysWhatIsWrongWithItsFiles) {
-  const auto message = [](const fs::path& certificate, const fs::path& key) { return message_of<InputError>([&] { TlsIdentity(certificate, key); }); };
+  const auto message = [](const fs::path& certificate, const fs::path& key) {
+    return message_of<InputError>([&] { TlsIdentity(certificate, key); });
+  };
   EXPECT_EQ(message(certificate_, key_), "");
   EXPECT_EQ(TlsIdentity(certificate_, key_).names(), (std::vector<std::string>{"localhost", "desk.clinic.example"}));
   EXPECT_NE(message(folder_ / "none.pem", key_).find("none.pem: cannot be read"), std::string::npos);

@@ -24,9 +24,12 @@ void LiveDesk::serve(DeskServerOptions given) {
 }
 
 Visitor LiveDesk::signed_in_there(const std::string& login) {
-  const auto cookie_in = [](const std::string& raw) { return raw_header(raw, "Set-Cookie").substr(0, raw_header(raw, "Set-Cookie").find(';')); };
+  const auto cookie_in = [](const std::string& raw) {
+    return raw_header(raw, "Set-Cookie").substr(0, raw_header(raw, "Set-Cookie").find(';'));
+  };
   const std::string page = raw_answer(port(), raw_get(port(), "/sign-in"));
-  const std::string form = "login=" + login + "&password=" + percent_encoded(kPassword) + "&token=" + percent_encoded(field_of(page, "token"));
+  const std::string form =
+      "login=" + login + "&password=" + percent_encoded(kPassword) + "&token=" + percent_encoded(field_of(page, "token"));
   const std::string cookie = cookie_in(raw_answer(port(), raw_post(port(), "/sign-in", cookie_in(page), form)));
   return {cookie, field_of(raw_answer(port(), raw_get(port(), "/sign-in", cookie)), "token")};
 }
@@ -50,7 +53,9 @@ SlowVisitor::SlowVisitor(int port, const char* from) : socket_(::socket(AF_INET,
 
 SlowVisitor::~SlowVisitor() { ::close(socket_); }
 
-bool SlowVisitor::send(const std::string& bytes) { return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size()); }
+bool SlowVisitor::send(const std::string& bytes) {
+  return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+}
 
 std::string SlowVisitor::rest() {
   std::string out;

@@ -14,7 +14,9 @@ class LiveDesk : public DeskTest {
   /// Starts one; it stops with the test.
   void serve(DeskServerOptions given);
   int port() const { return server_->port(); }
-  int get(const std::string& target, const std::string& cookie = "") { return status_of(raw_answer(port(), raw_get(port(), target, cookie))); }
+  int get(const std::string& target, const std::string& cookie = "") {
+    return status_of(raw_answer(port(), raw_get(port(), target, cookie)));
+  }
   /// Cookie and token of a login, through the network.
   Visitor signed_in_there(const std::string& login);
 
