@@ -16,7 +16,7 @@ namespace trocar {
 class DeskPictures {
  public:
   static constexpr std::size_t kKept = 64;
-  static constexpr int kWidest = 1920, kNarrowest = 160;
+  static constexpr int kWidest = 1920, kNarrowest = 480;
   /// @param open a database to look attempts up in; called by the thread of the graphics.
   DeskPictures(AssetRoots assets, std::function<Database()> open);
   ~DeskPictures();

@@ -66,21 +66,21 @@ class DeskPicturesTest : public testing::Test {
 
 TEST_F(DeskPicturesTest, ShowTheReplay) {
   DeskPictures pictures(find_assets(), [this] { return Database(file_); });
-  const std::string begin = patiently(pictures, uuid_, 0, 320), later = patiently(pictures, uuid_, 3, 320);
+  const std::string begin = patiently(pictures, uuid_, 0, 480), later = patiently(pictures, uuid_, 3, 480);
   EXPECT_TRUE(begin.starts_with("\x89PNG"));
-  EXPECT_EQ(width_of(begin), 320);
+  EXPECT_EQ(width_of(begin), 480);
   EXPECT_NE(begin, later) << "time goes on";
-  EXPECT_EQ(patiently(pictures, uuid_, 3, 320), later);
-  EXPECT_EQ(patiently(pictures, uuid_, -5, 320), begin) << "before the beginning is the beginning";
-  EXPECT_EQ(patiently(pictures, uuid_, std::numeric_limits<double>::quiet_NaN(), 320), begin);
-  EXPECT_EQ(patiently(pictures, uuid_, 1e300, 320), patiently(pictures, uuid_, 80000, 320)) << "behind the end is the end";
+  EXPECT_EQ(patiently(pictures, uuid_, 3, 480), later);
+  EXPECT_EQ(patiently(pictures, uuid_, -5, 480), begin) << "before the beginning is the beginning";
+  EXPECT_EQ(patiently(pictures, uuid_, std::numeric_limits<double>::quiet_NaN(), 480), begin);
+  EXPECT_EQ(patiently(pictures, uuid_, 1e300, 480), patiently(pictures, uuid_, 80000, 480)) << "behind the end is the end";
   EXPECT_EQ(width_of(patiently(pictures, uuid_, 1, 1000000)), DeskPictures::kWidest);
   EXPECT_EQ(width_of(patiently(pictures, uuid_, 1, -3)), DeskPictures::kNarrowest);
-  EXPECT_NE(message_of<InputError>([&] { patiently(pictures, bare_, 0, 320); }).find("was not recorded"), std::string::npos);
-  EXPECT_NE(message_of<InputError>([&] { patiently(pictures, "latest", 0, 320); }).find("there is none"), std::string::npos)
+  EXPECT_NE(message_of<InputError>([&] { patiently(pictures, bare_, 0, 480); }).find("was not recorded"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { patiently(pictures, "latest", 0, 480); }).find("there is none"), std::string::npos)
       << "whole UUIDs only";
-  EXPECT_NE(message_of<InputError>([&] { patiently(pictures, "0000-none", 0, 320); }), "");
-  EXPECT_EQ(patiently(pictures, uuid_, 3, 320), later) << "what failed leaves the others";
+  EXPECT_NE(message_of<InputError>([&] { patiently(pictures, "0000-none", 0, 480); }), "");
+  EXPECT_EQ(patiently(pictures, uuid_, 3, 480), later) << "what failed leaves the others";
 }
 
 }  // namespace
