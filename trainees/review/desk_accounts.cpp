@@ -6,7 +6,8 @@
 namespace trocar::review {
 
 bool somebody_can_sign_in(const Database& database) {
-  return sql::query_integer(database.connection(), "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '' AND disabled_utc IS NULL)") != 0;
+  return sql::query_integer(database.connection(), "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '' AND disabled_utc IS NULL)") !=
+         0;
 }
 
 std::string sign_in_stamp(const Database& database, const std::string& account_uuid) {
@@ -29,10 +30,11 @@ bool may_see_attempt(const Account& account, const Database& database, const std
 }
 
 bool names_another(const Database& database, const std::string& text, const std::string& code) {
-  sql::Statement row(database.connection(),
-                     "SELECT 1 FROM known_trainee k WHERE k.code <> ?2 COLLATE NOCASE AND (k.code = ?1 COLLATE NOCASE OR k.uuid = ?1 COLLATE NOCASE"
-                     " OR k.id IN (SELECT trainee_id FROM attempt WHERE uuid = lower(?1))"
-                     " OR k.id IN (SELECT trainee_id FROM account WHERE uuid = lower(?1)))");
+  sql::Statement row(
+      database.connection(),
+      "SELECT 1 FROM known_trainee k WHERE k.code <> ?2 COLLATE NOCASE AND (k.code = ?1 COLLATE NOCASE OR k.uuid = ?1 COLLATE NOCASE"
+      " OR k.id IN (SELECT trainee_id FROM attempt WHERE uuid = lower(?1))"
+      " OR k.id IN (SELECT trainee_id FROM account WHERE uuid = lower(?1)))");
   row.bind(text).bind(code);
   return row.step();
 }

@@ -139,7 +139,8 @@ Answer DeskGate::page(Visit& visit) {
   try {
     Answer out{.response = visit.found.route->answer(visit.request, visit.desk)};
     const int status = out.response.status;
-    if (status < 200 || status > 599 || !header_value(out.response.type)) throw std::logic_error("answer with status or type that cannot be sent");
+    if (status < 200 || status > 599 || !header_value(out.response.type))
+      throw std::logic_error("answer with status or type that cannot be sent");
     return out;
   } catch (const InputError& error) {
     return refused(400, staff ? error.what() : "");
@@ -222,7 +223,8 @@ std::vector<std::pair<std::string, std::string>> DeskGate::headers(const Answer&
       {"Cache-Control", "no-store"}};
   const Response& response = answer.response;
   if (!response.location.empty()) out.emplace_back("Location", redirection_to(response.location));
-  if (!response.download.empty()) out.emplace_back("Content-Disposition", "attachment; filename=\"" + download_name(response.download) + "\"");
+  if (!response.download.empty())
+    out.emplace_back("Content-Disposition", "attachment; filename=\"" + download_name(response.download) + "\"");
   if (!answer.cookie.empty()) out.emplace_back("Set-Cookie", answer.cookie);
   if (!answer.allow.empty()) out.emplace_back("Allow", answer.allow);
   if (answer.retry_after_s > 0) out.emplace_back("Retry-After", std::to_string(answer.retry_after_s));

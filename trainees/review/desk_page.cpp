@@ -17,30 +17,19 @@ std::string document(const std::string& title, const std::string& body) {
 
 std::string usual_words(int status) {
   switch (status) {
-    case 400:
-      return "The request cannot be read. Go back and open the page again.";
-    case 401:
-      return "Sign in to see this page.";
-    case 403:
-      return "Your account may not see or do this.";
-    case 404:
-      return "There is no such page. It may have been moved, or the address was mistyped.";
-    case 405:
-      return "This page cannot be used in that way.";
-    case 408:
-      return "The request took too long to arrive. Try again.";
-    case 413:
-      return "What was sent is too large: at most 1 MB is taken.";
-    case 421:
-      return "This desk does not go by that name. Use the address that it printed when it was started.";
-    case 429:
-      return "Too many tries. Wait, then try again.";
+    case 400: return "The request cannot be read. Go back and open the page again.";
+    case 401: return "Sign in to see this page.";
+    case 403: return "Your account may not see or do this.";
+    case 404: return "There is no such page. It may have been moved, or the address was mistyped.";
+    case 405: return "This page cannot be used in that way.";
+    case 408: return "The request took too long to arrive. Try again.";
+    case 413: return "What was sent is too large: at most 1 MB is taken.";
+    case 421: return "This desk does not go by that name. Use the address that it printed when it was started.";
+    case 429: return "Too many tries. Wait, then try again.";
     case 500:
-      return "Something went wrong in the program. Nothing was stored by this request. What happened stands where the desk was started.";
-    case 503:
-      return "The desk is busy. Try again in a moment.";
-    default:
-      return "The request cannot be answered.";
+      return "Something went wrong in the program; what, stands on the terminal of the desk. Look whether what you did is there.";
+    case 503: return "The desk is busy. Try again in a moment.";
+    default: return "The request cannot be answered.";
   }
 }
 
@@ -48,38 +37,22 @@ std::string usual_words(int status) {
 
 std::string status_title(int status) {
   switch (status) {
-    case 400:
-      return "Not understood";
-    case 401:
-      return "Sign in";
-    case 403:
-      return "Not allowed";
-    case 404:
-      return "Not found";
-    case 405:
-      return "Not possible here";
-    case 408:
-      return "Too slow";
-    case 411:
-      return "Length missing";
-    case 413:
-      return "Too large";
-    case 414:
-      return "Address too long";
-    case 415:
-      return "Not readable here";
-    case 421:
-      return "Wrong name";
-    case 429:
-      return "Too many tries";
-    case 431:
-      return "Head too large";
-    case 503:
-      return "Busy";
-    case 505:
-      return "Other protocol";
-    default:
-      return "Something went wrong";
+    case 400: return "Not understood";
+    case 401: return "Sign in";
+    case 403: return "Not allowed";
+    case 404: return "Not found";
+    case 405: return "Not possible here";
+    case 408: return "Too slow";
+    case 411: return "Length missing";
+    case 413: return "Too large";
+    case 414: return "Address too long";
+    case 415: return "Not readable here";
+    case 421: return "Wrong name";
+    case 429: return "Too many tries";
+    case 431: return "Head too large";
+    case 503: return "Busy";
+    case 505: return "Other protocol";
+    default: return "Something went wrong";
   }
 }
 
@@ -106,7 +79,7 @@ Response sign_in_page(const SignInForm& form) {
           "value=\"" +
           escape_html(form.login) +
           "\"></label></p>\n"
-          "<p><label>Password or PIN<br><input name=\"password\" type=\"password\" maxlength=\"200\" autocomplete=\"current-password\" "
+          "<p><label>Password or PIN<br><input name=\"password\" type=\"password\" maxlength=\"1024\" autocomplete=\"current-password\" "
           "required></label></p>\n"
           "<p><button type=\"submit\">Sign in</button></p>\n</form>\n"
           "<p class=\"quiet\">No account, or the password is lost? An administrator makes a new one.</p>\n";

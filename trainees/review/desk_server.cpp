@@ -88,7 +88,8 @@ struct DeskServer::Impl : httplib::Server {
 };
 
 DeskServer::Impl::Impl(DeskServerOptions given) : options(std::move(given)) {
-  if (options.certificate.empty() != options.key.empty()) throw InputError("a certificate needs its key, and a key its certificate: give both");
+  if (options.certificate.empty() != options.key.empty())
+    throw InputError("a certificate needs its key, and a key its certificate: give both");
   if (!options.certificate.empty()) tls = std::make_unique<TlsIdentity>(options.certificate, options.key);
   workers = std::make_unique<PageWorkers>(options.page_threads, options.open, options.sources, options.demo);
   if (options.lan) {
@@ -130,7 +131,8 @@ void DeskServer::Impl::bind() {
   const std::string where = options.lan ? "0.0.0.0" : "127.0.0.1";
   bound_port = options.port == 0 ? bind_to_any_port(where) : bind_to_port(where, options.port) ? options.port : -1;
   if (bound_port <= 0)
-    throw EnvironmentError("port " + std::to_string(options.port) + " of " + where + " is taken by another program, or not allowed to this user: "
+    throw EnvironmentError("port " + std::to_string(options.port) + " of " + where +
+                           " is taken by another program, or not allowed to this user: "
                            "end that program, or choose another port with --port (0: any that is free)");
   ::listen(svr_sock_, kBacklog);
   new_task_queue = [] { return new httplib::ThreadPool(kConnections); };

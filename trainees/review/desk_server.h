@@ -3,8 +3,8 @@
 //   DeskServer desk(options);      // databases opened, port bound: everything that can fail has failed here
 //   desk.start();  ...  desk.stop();
 //
-// A request is read whole, within limits of size and time, before anything else knows of it (connection.h, request_head.h); the gate decides
-// (desk_gate.h); a page is made by one of a few threads that have databases (page_workers.h). No file is ever served from the disk.
+// A request is read whole, within limits of size and time, before anything else knows of it (connection.h, request_head.h); the gate
+// decides (desk_gate.h); a page is made by one of a few threads that have databases (page_workers.h). No file is ever served from the disk.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 // Who is signed in: 256-bit random numbers in cookies, of which only a keyed hash is kept, in memory alone.
 //
 // A session ends by sign-out, after so long without a request, at the latest after so long, and when its account's sign-in changes (stamp).
-// Everybody, signed in or not, has a number in a cookie; the token that forms carry is a keyed hash of it, so that none need be kept and that
-// of another visitor never fits. The keys live as long as the program. Thread: any.
+// Everybody, signed in or not, has a number in a cookie; the token that forms carry is a keyed hash of it, so that none need be kept and
+// that of another visitor never fits. The keys live as long as the program. Thread: any.
 #pragma once
 
 #include <array>

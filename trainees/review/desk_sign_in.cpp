@@ -49,7 +49,8 @@ class Counted {
 
 Answer DeskGate::ask_to_sign_in(Visit& visit, int status, const std::string& message, const std::string& login, const std::string& next) {
   if (visit.number.empty()) set_cookie(visit, DeskSessions::fresh_number());
-  SignInForm form{.status = status, .message = message, .login = login, .next = local_path(next) ? next : "", .token = sessions_.token(visit.number)};
+  SignInForm form{
+      .status = status, .message = message, .login = login, .next = local_path(next) ? next : "", .token = sessions_.token(visit.number)};
   if (form.message.empty() && !somebody_can_sign_in(visit.desk.database))
     form.message = "Nobody has an account yet, and this desk is open without one only to the person who started it, on that machine. "
                    "An account is made there by: trocar review account add LOGIN --role administrator";
@@ -71,7 +72,6 @@ Answer DeskGate::sign_in(Visit& visit) {
 }
 
 Answer DeskGate::try_sign_in(Visit& visit, const std::string& login, const std::string& next) {
-  constexpr std::size_t kLongestPassword = 1000;
   const std::string& password = visit.request.form["password"], who = printable(login) + " from " + visit.arrival.address;
   const Counted counted(verifying_);
   if (counted.before() >= kVerifyingAtOnce) {
@@ -86,7 +86,7 @@ Answer DeskGate::try_sign_in(Visit& visit, const std::string& login, const std::
     return late;
   }
   const AccountStore accounts(visit.desk.database);
-  const auto account = password.size() > kLongestPassword ? std::nullopt : accounts.verify(login, password);
+  const auto account = accounts.verify(login, password);
   const std::string stamp = account ? sign_in_stamp(visit.desk.database, account->uuid) : "";
   if (stamp.empty()) {
     say("sign-in refused: " + who);

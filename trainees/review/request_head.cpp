@@ -39,6 +39,7 @@ std::optional<Refusal> read_request_line(std::string_view line, const RequestLim
   const std::size_t first = line.find(' '), last = line.rfind(' ');
   if (first == std::string_view::npos || first == last) return Refusal{400, "The request line cannot be read."};
   const std::string_view method = line.substr(0, first), target = line.substr(first + 1, last - first - 1), version = line.substr(last + 1);
+  if (!version.starts_with("HTTP/")) return Refusal{400, "The request line cannot be read."};
   if (version != "HTTP/1.1" && version != "HTTP/1.0") return Refusal{505, "Only HTTP/1.1 is spoken here."};
   if (!token(method) || method.size() > 16) return Refusal{400, "The method cannot be read."};
   if (target.empty() || target[0] != '/' || !visible_text(target)) return Refusal{400, "The address cannot be read."};
@@ -59,7 +60,8 @@ std::optional<Refusal> read_header(std::string_view line, RequestHead& head) {
   if (!header_text(value)) return Refusal{400, "A header has control characters."};
   const auto [at, fresh] = head.headers.try_emplace(name, value);
   if (fresh) return {};
-  constexpr std::array<std::string_view, 6> kOnce{"host", "content-length", "content-type", "transfer-encoding", "origin", "sec-fetch-site"};
+  constexpr std::array<std::string_view, 6> kOnce{"host",   "content-length", "content-type", "transfer-encoding",
+                                                  "origin", "sec-fetch-site"};
   if (std::find(kOnce.begin(), kOnce.end(), name) != kOnce.end()) return Refusal{400, "A header stands twice."};
   at->second += (name == "cookie" ? "; " : ", ") + std::string(value);
   return {};

@@ -1,7 +1,7 @@
 // The head of an HTTP request (RFC 9112), read strictly: what servers may disagree about is refused instead of guessed.
 //
-// CR LF only, no folded lines, no header twice that matters, Content-Length in digits, no Transfer-Encoding, no Content-Encoding, targets in
-// visible ASCII that begin with '/'. Pure. Thread: any.
+// CR LF only, no folded lines, no header twice that matters, Content-Length in digits, no Transfer-Encoding, no Content-Encoding, targets
+// in visible ASCII that begin with '/'. Pure. Thread: any.
 #pragma once
 
 #include <cstddef>

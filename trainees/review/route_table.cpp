@@ -53,7 +53,8 @@ std::vector<RouteTable::Part> RouteTable::parts_of(const std::string& pattern) {
       out.push_back({text, "", ""});
       continue;
     }
-    if (open == std::string::npos || close == std::string::npos || close < open + 2) throw std::logic_error("route " + pattern + ": braces");
+    if (open == std::string::npos || close == std::string::npos || close < open + 2)
+      throw std::logic_error("route " + pattern + ": braces");
     const Part part{text.substr(0, open), text.substr(open + 1, close - open - 1), text.substr(close + 1)};
     if (part.after.find_first_of("{}") != std::string::npos) throw std::logic_error("route " + pattern + ": one argument between slashes");
     out.push_back(part);
@@ -61,7 +62,8 @@ std::vector<RouteTable::Part> RouteTable::parts_of(const std::string& pattern) {
   return out;
 }
 
-bool RouteTable::fits(const std::vector<Part>& pattern, const std::vector<std::string>& path, std::map<std::string, std::string>& arguments) {
+bool RouteTable::fits(const std::vector<Part>& pattern, const std::vector<std::string>& path,
+                      std::map<std::string, std::string>& arguments) {
   if (pattern.size() != path.size()) return false;
   arguments.clear();
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -71,7 +73,8 @@ bool RouteTable::fits(const std::vector<Part>& pattern, const std::vector<std::s
       if (text != part.before) return false;
       continue;
     }
-    if (text.size() <= part.before.size() + part.after.size() || !text.starts_with(part.before) || !text.ends_with(part.after)) return false;
+    if (text.size() <= part.before.size() + part.after.size() || !text.starts_with(part.before) || !text.ends_with(part.after))
+      return false;
     arguments[part.argument] = text.substr(part.before.size(), text.size() - part.before.size() - part.after.size());
   }
   return true;

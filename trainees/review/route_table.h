@@ -1,7 +1,7 @@
 // Which route answers a method and a path.
 //
-// A pattern is split at '/'; each part is a word, an argument "{code}" or both ("{code}.csv"). Parts of the path are decoded one by one, once:
-// an escaped slash never makes a new part, and an argument never holds a slash or a backslash, nor is it "." or "..". Words win over
+// A pattern is split at '/'; each part is a word, an argument "{code}" or both ("{code}.csv"). Parts of the path are decoded one by one,
+// once: an escaped slash never makes a new part, and an argument never holds a slash or a backslash, nor is it "." or "..". Words win over
 // arguments, from the left. Thread: any may read.
 #pragma once
 

@@ -57,8 +57,8 @@ class OneAnswer : public httplib::Server {
 
 }  // namespace
 
-bool send_answer(Connection& connection, const Response& response, const std::vector<std::pair<std::string, std::string>>& headers, bool head_only,
-                 Deadline until) {
+bool send_answer(Connection& connection, const Response& response, const std::vector<std::pair<std::string, std::string>>& headers,
+                 bool head_only, Deadline until) {
   AnswerStream stream(connection, until, head_only);
   return OneAnswer(response, headers).send(stream);
 }

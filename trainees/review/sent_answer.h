@@ -10,8 +10,9 @@
 
 namespace trocar::review {
 
-/// @param headers beside type, length and "Connection: close". @param head_only of a HEAD request: without the body. @returns all was taken.
-bool send_answer(Connection& connection, const Response& response, const std::vector<std::pair<std::string, std::string>>& headers, bool head_only,
-                 Deadline until);
+/// @param headers beside type, length and "Connection: close". @param head_only of a HEAD request: without the body. @returns all was
+/// taken.
+bool send_answer(Connection& connection, const Response& response, const std::vector<std::pair<std::string, std::string>>& headers,
+                 bool head_only, Deadline until);
 
 }  // namespace trocar::review

@@ -17,31 +17,34 @@ std::string address_key(const std::string& address) { return "address " + addres
 
 }  // namespace
 
-int SignInLimit::wait(const std::string& key, DeskTime now) {
+int SignInLimit::wait(const std::string& key, std::chrono::seconds memory, DeskTime now) {
   const auto at = wrong_.find(key);
   if (at == wrong_.end()) return 0;
-  std::erase_if(at->second, [&](DeskTime t) { return now - t > kWindow; });
+  std::erase_if(at->second, [&](DeskTime t) { return now - t > memory; });
   const int count = static_cast<int>(at->second.size());
   if (count < kFree) return 0;
   constexpr int kMostDoublings = 5;
-  const auto pause = std::min<std::chrono::seconds>(kFirstWait * (1 << std::min(count - kFree, kMostDoublings)), kWindow);
+  const auto pause = std::min<std::chrono::seconds>(kFirstWait * (1 << std::min(count - kFree, kMostDoublings)), kLongestWait);
   const auto left = std::chrono::ceil<std::chrono::seconds>(at->second.back() + pause - now);
   return static_cast<int>(std::max<std::chrono::seconds::rep>(left.count(), 0));
 }
 
-void SignInLimit::make_room(DeskTime now) {
+void SignInLimit::make_room() {
   if (wrong_.size() < kMostKnown) return;
-  std::erase_if(wrong_, [&](const auto& entry) { return entry.second.empty() || now - entry.second.back() > kWindow; });
-  if (wrong_.size() < kMostKnown) return;
-  wrong_.erase(std::min_element(wrong_.begin(), wrong_.end(), [](const auto& a, const auto& b) { return a.second.back() < b.second.back(); }));
+  std::erase_if(wrong_, [](const auto& entry) { return entry.second.empty(); });
+  std::vector<DeskTime> newest;  // the older half goes, so that this is done seldom
+  for (const auto& entry : wrong_) newest.push_back(entry.second.back());
+  const auto middle = newest.begin() + static_cast<std::ptrdiff_t>(newest.size() / 2);
+  std::nth_element(newest.begin(), middle, newest.end());
+  std::erase_if(wrong_, [&](const auto& entry) { return entry.second.back() <= *middle; });
 }
 
 int SignInLimit::begin(const std::string& login, const std::string& address, DeskTime now) {
   const std::scoped_lock lock(mutex_);
-  const int seconds = std::max(wait(login_key(login), now), wait(address_key(address), now));
+  const int seconds = std::max(wait(login_key(login), kOfLogin, now), wait(address_key(address), kOfAddress, now));
   if (seconds > 0) return seconds;
   for (const std::string& key : {login_key(login), address_key(address)}) {
-    make_room(now);
+    make_room();
     wrong_[key].push_back(now);
   }
   return 0;

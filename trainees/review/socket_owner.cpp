@@ -26,7 +26,8 @@ std::optional<unsigned> socket_owner(std::istream& table, const SocketEnd& local
     std::string number, from, to, state, queues, timer, retransmissions;
     unsigned user = 0;
     if (!(row >> number >> from >> to) || from != here || to != there) continue;
-    if (row >> state >> queues >> timer >> retransmissions >> user && state == "01") return user;  // 01: established
+    // 01: established. A socket that has been closed is shown as root's.
+    if (row >> state >> queues >> timer >> retransmissions >> user && state == "01") return user;
   }
   return {};
 }
