@@ -28,6 +28,7 @@
 #include "app/commands/trainee_command.h"
 #include "app/command_line_organs.h"
 #include "app/command_line_practice.h"
+#include "app/command_line_review.h"
 #include "app/scene.h"
 #include "app/typed_path.h"
 #include "haptics/input_error.h"
@@ -63,6 +64,7 @@ struct CommandLine {
   PlantOptionsGiven plant;
   std::shared_ptr<OrganCommandLine> organs;
   std::shared_ptr<PracticeCommandLine> practice;
+  std::shared_ptr<ReviewCommandLine> review;
   TraineeOptions trainee;
   CohortOptions cohort;
   DbOptions db;
@@ -283,6 +285,10 @@ void add_organ(CommandLine& c) {
   c.organs = add_organ_commands(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
 
+void add_review(CommandLine& c) {
+  c.review = add_review_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
+}
+
 void add_practice(CommandLine& c) {
   c.practice = add_practice_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
@@ -352,7 +358,7 @@ int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
   c.app.set_version_flag("--version", kVersionLine, "Version of the program");
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_review, add_db, add_machine}) {
     add(c);
   }
   try {
