@@ -130,6 +130,7 @@ std::string PracticeDesk::sign_in(const std::string& code) {
   try {
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
     if (const std::string said = s.recovered_words(s.trainee); !said.empty()) notice = said;
+    s.look_for_note();
     return "";
   } catch (const InputError&) {
     return s.words("A code is 1 to 32 letters, digits, dots or dashes, and begins with a letter or digit.");
@@ -138,7 +139,10 @@ std::string PracticeDesk::sign_in(const std::string& code) {
   }
 }
 
-void PracticeDesk::sign_out() { state_->trainee = state_->scripted() ? kDemonstration : kGuest; }
+void PracticeDesk::sign_out() {
+  state_->trainee = state_->scripted() ? kDemonstration : kGuest;
+  state_->note.reset();
+}
 
 bool PracticeDesk::is_demonstration() const { return state_->scripted(); }
 
@@ -187,7 +191,10 @@ std::string PracticeDesk::locked() const {
            {w(level), w(before), std::to_string(std::min(3, standing(exercise_id, before).passed_in_a_row))});
 }
 
-std::optional<std::string> PracticeDesk::teacher_note() const { return std::nullopt; }
+std::optional<std::string> PracticeDesk::teacher_note() const {
+  const std::optional<Note>& note = state_->note;
+  return note ? std::optional(note->printed.empty() ? note->text : note->text + " (" + note->printed + ")") : std::nullopt;
+}
 
 std::vector<PastAttempt> PracticeDesk::past(const std::string& id) const {
   const State& s = *state_;
@@ -228,6 +235,7 @@ std::string PracticeDesk::begin_attempt() {
   try {
     s.runner = std::make_unique<AttemptRunner>(request, s.assets, s.built(request.setup));
     s.last_scene = s.runner->shared_scene();
+    s.note_was_met();
     return "";
   } catch (const InputError& error) {
     return error.what();

@@ -109,6 +109,26 @@ std::shared_ptr<const Scene> PracticeDesk::State::built(AttemptSetup setup) cons
   return std::make_shared<const Scene>(build_scene(setup, std::move(made), {"simulated", setup.rate_hz, 16}));
 }
 
+/// At sign-in. A database that does not answer has none to show now.
+void PracticeDesk::State::look_for_note() {
+  note.reset();
+  if (database->in_memory()) return;
+  try {
+    note = OpinionStore(*database).newest_unseen(trainee);
+  } catch (const EnvironmentError&) {
+  }
+}
+
+/// It stood on the course's page, and the next attempt has begun. What cannot be written now is shown once more.
+void PracticeDesk::State::note_was_met() {
+  if (!note) return;
+  try {
+    OpinionStore(*database).mark_seen(note->uuid);
+  } catch (const EnvironmentError&) {
+  }
+  note.reset();
+}
+
 std::int64_t PracticeDesk::State::seed() const {
   if (options.seed) return *options.seed;
   std::random_device device;

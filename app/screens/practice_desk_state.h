@@ -8,6 +8,7 @@
 
 #include "app/playback/expert_run.h"
 #include "app/screens/practice_desk.h"
+#include "trainees/opinions.h"
 
 namespace trocar {
 
@@ -26,6 +27,7 @@ struct PracticeDesk::State {
   bool sound_wanted = true;
   std::unique_ptr<Database> database;
   std::string trainee = kGuest;
+  std::optional<Note> note;                    // of a teacher, that the trainee has not met yet
   std::unique_ptr<AttemptRunner> runner;
   std::vector<std::unique_ptr<AttemptRunner>> unstored;   // over, but the database has not taken them yet
   std::optional<AttemptResult> result;
@@ -46,6 +48,8 @@ struct PracticeDesk::State {
   void take_up(std::string& notice);
   void open_database(std::string& notice);
   std::vector<AttemptSummary> attempts(const std::string& exercise) const;
+  void look_for_note();
+  void note_was_met();
   std::shared_ptr<const Scene> built(AttemptSetup setup) const;
   std::int64_t seed() const;
 };

@@ -141,7 +141,7 @@ std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double 
   ui.marked(Mark::kInfo, w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."), Ink::kDim);
   ui.gap(4);
   ui.heading(w("Teacher"));
-  ui.text(w("Results, trends and export: trocar cohort, trocar trainee show."), Ink::kDim);
+  ui.text(w("Results, notes, sign-off and export: trocar review serve."), Ink::kDim);
   ui.end_panel();
   return to;
 }
