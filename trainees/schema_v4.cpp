@@ -144,7 +144,6 @@ CREATE TABLE sync_cursor (
 
 constexpr const char kIndices[] = R"sql(
 CREATE INDEX attempt_by_time ON attempt(started_utc);
-CREATE INDEX metric_by_name ON metric(name, score_id, value);
 -- An attempt's entry is looked up for every attempt by db check.
 CREATE INDEX audit_by_subject ON audit(subject, action);
 )sql";
