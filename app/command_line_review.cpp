@@ -11,6 +11,7 @@ namespace trocar {
 struct ReviewCommandLine {
   ReviewServeOptions serve;
   ReviewAccountOptions account;
+  ReviewDemoOptions demo;
 };
 
 namespace {
@@ -50,6 +51,14 @@ void add_accounts(CLI::App& review, ReviewAccountOptions& o, const Choose& choos
   list->add_flag("--json", o.json, "As JSON");
 }
 
+void add_demo(CLI::App& review, ReviewDemoOptions& o, const Choose& choose) {
+  CLI::App* demo = review.add_subcommand("demo", "A database of eight invented trainees with a hundred attempts, to look at the desk with");
+  demo->add_option("--db", o.database, "The demo's own file (default: demo.db beside the usual database)");
+  demo->add_option("--jobs", o.jobs, "Attempts at a time, 0: one a core")->capture_default_str()->check(CLI::Range(0, 256));
+  demo->add_flag("--remove", o.remove, "Remove it, with its recordings");
+  demo->callback([&o, choose] { choose([&o] { return review_demo(o, std::cout, std::cerr); }); });
+}
+
 }  // namespace
 
 std::shared_ptr<ReviewCommandLine> add_review_command(CLI::App& app, const Choose& choose) {
@@ -58,6 +67,7 @@ std::shared_ptr<ReviewCommandLine> add_review_command(CLI::App& app, const Choos
   review->require_subcommand(1);
   add_serve(*review, c->serve, choose);
   add_accounts(*review, c->account, choose);
+  add_demo(*review, c->demo, choose);
   return c;
 }
 

@@ -36,6 +36,8 @@ struct AttemptStart {
   std::string program;  ///< its version
   std::string organ_name, organ_source, organ_sha256, organ_credit;
   bool organ_synthetic = false;
+  std::string calibration = {}, calibration_device = {};   ///< text of the calibration file and what it was made on; "" nominal
+  std::string session = {}, station = {};                  ///< UUID of a sign-in at a station and that one's name; "" none
   /// Where it is recorded. Not given: beside the database (none when in memory). Empty: not recorded.
   std::optional<std::filesystem::path> recording;
   std::string started_utc = {};  ///< empty: now. Given only for invented attempts and those that another station made

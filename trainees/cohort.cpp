@@ -14,8 +14,9 @@ WITH finished AS (
 )
 SELECT t.code, f.exercise_id, f.level, count(*), sum(is_graded), sum(passed),
        max(CASE WHEN is_graded THEN score END),
-       (SELECT score FROM finished l WHERE l.trainee_id = f.trainee_id AND l.exercise_id = f.exercise_id
-          AND l.level = f.level AND l.ruleset_sha256 = f.ruleset_sha256 AND l.is_graded ORDER BY l.id DESC LIMIT 1),
+       (SELECT n.value FROM attempt l LEFT JOIN score n ON n.attempt_id = l.id AND n.revision = 0
+          WHERE l.trainee_id = f.trainee_id AND l.exercise_id = f.exercise_id AND l.level = f.level
+          AND l.ruleset_sha256 = f.ruleset_sha256 AND l.status IN ('completed', 'timeout') ORDER BY l.id DESC LIMIT 1),
        avg(CASE WHEN is_graded THEN peak.value END), avg(CASE WHEN is_graded THEN time.value END), max(f.started_utc),
        f.exercise_version, f.ruleset_sha256
 FROM finished f

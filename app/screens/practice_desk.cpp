@@ -11,6 +11,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"
+#include "trainees/attempt_identity.h"
 #include "trainees/trainee_store.h"
 
 namespace trocar {
@@ -131,6 +132,7 @@ std::string PracticeDesk::sign_in(const std::string& code) {
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
     if (const std::string said = s.recovered_words(s.trainee); !said.empty()) notice = said;
     s.look_for_note();
+    s.session = make_uuid();
     return "";
   } catch (const InputError&) {
     return s.words("A code is 1 to 32 letters, digits, dots or dashes, and begins with a letter or digit.");
@@ -142,6 +144,7 @@ std::string PracticeDesk::sign_in(const std::string& code) {
 void PracticeDesk::sign_out() {
   state_->trainee = state_->scripted() ? kDemonstration : kGuest;
   state_->note.reset();
+  state_->session = make_uuid();
 }
 
 bool PracticeDesk::is_demonstration() const { return state_->scripted(); }
@@ -230,6 +233,7 @@ std::string PracticeDesk::begin_attempt() {
   request.setup.realtime = true;
   request.setup.pace = kSimulatedLivePace;
   request.trainee = scripted ? kDemonstration : s.trainee;
+  request.session = s.session;
   request.database = s.options.database;
   request.steered = !scripted;
   try {

@@ -8,6 +8,7 @@
 
 #include "app/playback/expert_run.h"
 #include "app/screens/practice_desk.h"
+#include "trainees/attempt_identity.h"
 #include "trainees/opinions.h"
 
 namespace trocar {
@@ -26,7 +27,7 @@ struct PracticeDesk::State {
   std::unique_ptr<Sound> sound;
   bool sound_wanted = true;
   std::unique_ptr<Database> database;
-  std::string trainee = kGuest;
+  std::string trainee = kGuest, session = make_uuid();   // session: of a sign-in
   std::optional<Note> note;                    // of a teacher, that the trainee has not met yet
   std::unique_ptr<AttemptRunner> runner;
   std::vector<std::unique_ptr<AttemptRunner>> unstored;   // over, but the database has not taken them yet

@@ -15,7 +15,7 @@ const std::map<std::string, Words>& commands_and_flags() {
         "--rate", "--contact", "--passivity", "--clamp", "--calibration", "--device", "--inject", "--json"}},
       {"practice",
        {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed", "--width", "--height",
-        "--fullscreen", "--screens", "--timing"}},
+        "--fullscreen", "--screens", "--timing", "--scope"}},
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
       {"replay", {"--frames", "--fps", "--verify", "--organ", "--db", "--video", "--speed", "--width", "--height", "--beside", "--preset"}},
       {"score", {"--rubric", "--db", "--json"}},
@@ -39,25 +39,37 @@ const std::map<std::string, Words>& commands_and_flags() {
       {"organ render", {"-o", "--width", "--height"}},
       {"picture", {"--out", "--scene", "--preset", "--width", "--height", "--seed", "--no-grain"}},
       {"organ phantom", {"--out", "--seed", "--json"}},
-      {"trainee", {"add", "list", "show"}},
+      {"doctor", {"--db", "--json"}},
+      {"completion", {"shell"}},
+      {"manual", {}}};
+  return table;
+}
+
+/// Those about people and what is kept of them.
+const std::map<std::string, Words>& commands_about_people() {
+  static const std::map<std::string, Words> table{
+      {"trainee", {"add", "list", "show", "note", "export", "consent", "erase"}},
+      {"trainee note", {"--db", "--attempt", "--author"}},
+      {"trainee export", {"--db", "-o"}},
+      {"trainee consent", {"--db", "--purpose", "--text", "--withdrawn", "--author"}},
+      {"trainee erase", {"--db", "--training", "--reason", "--author", "--yes"}},
       {"trainee add", {"--db", "--json"}},
       {"trainee list", {"--db", "--json"}},
       {"trainee show", {"--db", "--limit", "--json"}},
       {"cohort", {"--db", "--trainee", "--json"}},
-      {"review", {"serve", "account"}},
+      {"review", {"serve", "account", "demo"}},
       {"review serve", {"--port", "--lan", "--cert", "--key", "--name", "--db"}},
+      {"review demo", {"--db", "--jobs", "--remove"}},
       {"review account", {"add", "password", "disable", "enable", "list"}},
       {"review account add", {"--name", "--role", "--trainee", "--db"}},
       {"review account list", {"--json", "--db"}},
-      {"db", {"check", "backup", "migrate", "anchor", "rubric"}},
+      {"db", {"check", "backup", "migrate", "anchor", "rubric", "retention"}},
+      {"db retention", {"--db", "--days", "--erase", "--training"}},
       {"db check", {"--db", "--json"}},
       {"db backup", {"--db", "--out"}},
       {"db migrate", {"--db"}},
       {"db anchor", {"--db"}},
-      {"db rubric", {"--db"}},
-      {"doctor", {"--db", "--json"}},
-      {"completion", {"shell"}},
-      {"manual", {}}};
+      {"db rubric", {"--db"}}};
   return table;
 }
 
@@ -67,7 +79,9 @@ Words split(const std::string& text) {
 }
 
 TEST_F(Usage, HelpOfEverySubcommandNamesItsFlags) {
-  for (const auto& [command, flags] : commands_and_flags()) {
+  std::map<std::string, Words> all = commands_and_flags();
+  all.insert(commands_about_people().begin(), commands_about_people().end());
+  for (const auto& [command, flags] : all) {
     Words words = split(command);
     words.push_back("--help");
     const Outcome outcome = trocar(words);
@@ -81,7 +95,9 @@ TEST_F(Usage, HelpOfEverySubcommandNamesItsFlags) {
 TEST_F(Usage, HelpOfTheProgramNamesEveryCommandOfTheTable) {
   const Outcome outcome = trocar({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const auto& [command, flags] : commands_and_flags()) {
+  std::map<std::string, Words> all = commands_and_flags();
+  all.insert(commands_about_people().begin(), commands_about_people().end());
+  for (const auto& [command, flags] : all) {
     EXPECT_NE(outcome.out.find("  " + split(command)[0]), std::string::npos) << command;
   }
 }
@@ -153,7 +169,9 @@ TEST_F(Usage, NoSubcommandIsBadUsage) {
 TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
   expect_refusal({"fly"}, 2, "fly");
   expect_refusal({"organ", "fly"}, 2, "fly");
-  for (const auto& [command, flags] : commands_and_flags()) {
+  std::map<std::string, Words> all = commands_and_flags();
+  all.insert(commands_about_people().begin(), commands_about_people().end());
+  for (const auto& [command, flags] : all) {
     Words words = split(command);
     words.push_back("--frobnicate");
     const Outcome outcome = trocar(words);

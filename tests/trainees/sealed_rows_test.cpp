@@ -109,7 +109,8 @@ TEST_F(SealedRows, ARowWithoutIdentifierIsFound) {
 TEST_F(SealedRows, AReorderedChainIsFound) {
   expect_found("UPDATE attempt SET chain_position = NULL, row_hash = row_hash || 'x' WHERE id = 1;"
                "UPDATE attempt SET chain_position = 1 WHERE id = 2;"
-               "UPDATE attempt SET chain_position = 2, row_hash = substr(row_hash, 1, 64) WHERE id = 1", "does not follow the attempt before it");
+               "UPDATE attempt SET chain_position = 2, row_hash = substr(row_hash, 1, 64) WHERE id = 1",
+               "does not follow the attempt before it");
   EXPECT_NE(problems_of(Database(file_)).find("hash chain: attempt " + attempts_[1] + " was changed"), std::string::npos)
       << "the position is hashed, too";
 }

@@ -46,7 +46,8 @@ struct DerivedBenchmark {
 std::optional<DerivedBenchmark> derive_benchmark(BenchmarkRule rule, const std::vector<PersonValue>& persons, bool less_is_better,
                                                  double sds, const std::string& who, const std::string& utc);
 
-/// Empty with fewer than three in a group, when the competent are not the better ones, or when the densities do not cross between the means.
+/// Empty with fewer than three in a group, when the competent are not the better ones, or when
+/// the densities do not cross between the means.
 std::optional<DerivedBenchmark> contrast_groups(const std::vector<PersonValue>& competent, const std::vector<PersonValue>& others,
                                                 bool less_is_better, const std::string& who, const std::string& utc);
 

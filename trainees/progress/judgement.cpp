@@ -137,7 +137,8 @@ Found ready(const std::vector<CusumPoint>& points, const ProgressRules& rules, s
 std::string learning_text(const Attempts& tried, const std::vector<CusumPoint>& points, const ProgressRules& rules) {
   const auto passes = std::count_if(tried.begin(), tried.end(), [](const CurveAttempt& a) { return a.passed; });
   const Competence competence = competence_of(points);
-  const std::string of = competence.shown ? "; competence shown" : "; evidence " + fixed(competence.value, 1) + " of " + fixed(rules.cusum.shown_at, 1);
+  const std::string of = competence.shown ? "; competence shown"
+                                          : "; evidence " + fixed(competence.value, 1) + " of " + fixed(rules.cusum.shown_at, 1);
   return number(static_cast<int>(passes)) + " of " + counted(static_cast<int>(tried.size()), "attempt", "attempts") + " passed" + of;
 }
 
@@ -214,8 +215,10 @@ std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<Safet
     attempts.push_back(attempt);
   }
   for (const auto& [uuid, record] : records)
-    if (record->broken) attempts.push_back({started(record->started_utc), {}, false, record->critical_events, record->failed_gates, true, false});
-  std::stable_sort(attempts.begin(), attempts.end(), [](const CurveAttempt& a, const CurveAttempt& b) { return a.started_s < b.started_s; });
+    if (record->broken)
+      attempts.push_back({started(record->started_utc), {}, false, record->critical_events, record->failed_gates, true, false});
+  std::stable_sort(attempts.begin(), attempts.end(),
+                   [](const CurveAttempt& a, const CurveAttempt& b) { return a.started_s < b.started_s; });
   return judge(attempts, rules, reliable, certified_utc, now_utc);
 }
 

@@ -1,4 +1,5 @@
-// What a teacher must know of a trainee at an exercise and level in 30 seconds: stuck, unsafe, relapsed, ready, due; each with its evidence.
+// What a teacher must know of a trainee at an exercise and level in 30 seconds: stuck, unsafe, relapsed, ready, due; each with
+// its evidence.
 //
 // A judgement is a rule over the attempts and says which numbers it rests on. It certifies nobody: a person signs. Pure. Thread: any.
 #pragma once

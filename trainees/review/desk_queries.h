@@ -1,7 +1,7 @@
 // What the pages of the desk ask of the database: the cohort in a line each, one trainee's picture, one attempt's.
 //
-// Everything is derived from the attempts as they stand; nothing is stored. Curves are never mixed over input or rubric (CurveKey). With 10^5
-// attempts of 500 trainees the cohort takes under 150 ms of CPU, an attempt under 100 ms (tests/bench/desk_bench.cpp). Thread: the Database's.
+// Everything is derived from the attempts as they stand; nothing is stored. Curves are never mixed over input or rubric (CurveKey). With
+// 10^5 attempts of 500 trainees the cohort takes under 150 ms of CPU, an attempt under 100 ms (tests/bench/desk_bench.cpp). Thread: the Database's.
 #pragma once
 
 #include <map>
