@@ -11,7 +11,7 @@ Frame sample_frame() {
   frame.who = "Dr Ines Okafor";
   frame.token = "token-4711";
   frame.now_utc = "2026-03-20T10:00:00Z";
-  frame.pdf = true;
+  frame.pdf = false;  // pages offer a PDF where the desk has one
   return frame;
 }
 
