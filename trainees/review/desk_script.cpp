@@ -3,8 +3,8 @@
 
 namespace trocar::review {
 
-const char* desk_script() {
-  return R"js('use strict';
+namespace {
+constexpr char kScript[] = R"js('use strict';
 (function () {
   var form = document.getElementById('scrub');
   var slider = document.getElementById('t');
@@ -78,6 +78,8 @@ const char* desk_script() {
   });
 })();
 )js";
-}
+}  // namespace
+
+const char* desk_script() { return kScript; }
 
 }  // namespace trocar::review
