@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/commands/desk_facts.h"
 #include "app/commands/desk_pictures.h"
 #include "app/commands/open_database.h"
 #include "app/commands/password_prompt.h"
@@ -59,6 +60,15 @@ void tell(const review::DeskServer& desk, const ReviewServeOptions& options, std
   }
 }
 
+/// The editor begins empty without them.
+std::string shipped_rules() {
+  try {
+    return shipped_progress_rules(find_assets().assets);
+  } catch (const EnvironmentError&) {
+    return "";
+  }
+}
+
 Role required_role(const std::string& name) {
   if (const auto role = role_named(name)) return *role;
   throw InputError("--role " + name + ": trainee, instructor and administrator are known");
@@ -75,6 +85,8 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.open = opener(file);
   served.sources.trace = trace_of;
   served.sources.metric_words = words_of_metric;
+  served.sources.level_facts = desk_level_facts;
+  served.sources.shipped_rules = shipped_rules();
   if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
   served.routes = review::desk_routes();
   served.port = options.port;

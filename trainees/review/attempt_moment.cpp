@@ -73,8 +73,8 @@ std::string scrub(const AttemptView& view) {
 std::string picture(const AttemptView& view) {
   if (!view.picture) return "<p class=\"empty\">No picture: this desk runs without graphics.</p>";
   const std::string base = "/attempt/" + url_part(view.result.uuid) + "/picture.png?t=";
-  return "<img id=\"picture\" class=\"scope\" width=\"640\" height=\"480\" data-base=\"" + base + "\" src=\"" + base +
-         fixed_text(view.t_s, 2) + "\" alt=\"View of the scope at " + fixed_text(view.t_s, 1) + " s\"/>";
+  return "<img id=\"picture\" class=\"scope\" width=\"800\" height=\"450\" data-base=\"" + base + "\" src=\"" + base +
+         fixed_text(view.t_s, 2) + "\" alt=\"View of the scope at " + fixed_text(view.t_s, 1) + " s\"/><p class=\"dim\"><small>The first picture of an attempt takes some seconds.</small></p>";
 }
 
 std::string force_key(const ForceLimits& limits) {

@@ -14,7 +14,7 @@ std::string verdict_reason(const AttemptView& view);
 /// 100 w (1 - s).
 double points_lost(const Subscore& part);
 /// Whether a smaller value of that metric is the better one by the attempt's rubric; empty when the rubric does not use it.
-std::optional<bool> less_is_better(const AttemptResult& result, const std::string& metric);
+std::optional<bool> less_is_better(const AttemptView& view, const std::string& metric);
 /// "force_max_n" as "Force max": the unit stands beside the value.
 std::string metric_title(const std::string& name);
 /// Moment of the largest force, s after the beginning; 0 without a trace.

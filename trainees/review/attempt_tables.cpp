@@ -50,10 +50,9 @@ const Subscore* largest_loss(const Grade& grade) {
 
 double points_lost(const Subscore& part) { return 100 * part.weight * (1 - part.value); }
 
-std::optional<bool> less_is_better(const AttemptResult& result, const std::string& metric) {
-  for (const Subscore& part : result.grade.subscores)
-    if (part.name == metric) return part.full_at < part.zero_at;
-  return {};
+std::optional<bool> less_is_better(const AttemptView& view, const std::string& metric) {
+  const auto it = view.less_is_better.find(metric);
+  return it == view.less_is_better.end() ? std::nullopt : std::optional<bool>(it->second);
 }
 
 std::string metric_title(const std::string& name) {

@@ -41,7 +41,7 @@ std::string metrics(const CompareView& view) {
   std::string rows = row("score", "", view.left.result.grade.score, view.right.result.grade.score, false);
   for (const Metric& metric : view.left.result.grade.metrics)
     rows += row(metric.name, metric.unit, metric_of(view.left, metric.name), metric_of(view.right, metric.name),
-                less_is_better(view.left.result, metric.name));
+                less_is_better(view.left, metric.name));
   for (const Metric& metric : view.right.result.grade.metrics) {
     const auto& known = view.left.result.grade.metrics;
     if (std::none_of(known.begin(), known.end(), [&](const Metric& m) { return m.name == metric.name; }))

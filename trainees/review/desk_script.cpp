@@ -3,8 +3,8 @@
 
 namespace trocar::review {
 
-const char* desk_script() {
-  return R"js('use strict';
+namespace {
+constexpr char kScript[] = R"js('use strict';
 (function () {
   var form = document.getElementById('scrub');
   var slider = document.getElementById('t');
@@ -27,10 +27,18 @@ const char* desk_script() {
     picture.src = picture.getAttribute('data-base') + t.toFixed(2);
     picture.alt = 'View of the scope at ' + t.toFixed(1) + ' s';
   }
-  function loaded() { loading = false; load(); }
+  // The first picture of an attempt takes some seconds: the run is replayed before. Asked again until it is there.
+  var tries = 0;
+  function loaded() { loading = false; tries = 0; load(); }
+  function failed() {
+    loading = false;
+    if (wanted === null && tries < 40) { tries += 1; setTimeout(function () { if (wanted === null) wanted = parseFloat(slider.value); load(); }, 1500); }
+    else load();
+  }
   if (picture) {
     picture.addEventListener('load', loaded);
-    picture.addEventListener('error', loaded);
+    picture.addEventListener('error', failed);
+    if (picture.complete && picture.naturalWidth === 0) failed();
   }
   function show(t) {
     t = Math.min(Math.max(t, 0), end);
@@ -70,6 +78,8 @@ const char* desk_script() {
   });
 })();
 )js";
-}
+}  // namespace
+
+const char* desk_script() { return kScript; }
 
 }  // namespace trocar::review

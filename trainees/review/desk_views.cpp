@@ -266,6 +266,7 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   const LevelFacts facts = LevelReader(desk).of(view.result.rubric_sha256, view.result.level);
   view.pass_at = facts.pass_at;
   view.limits = facts.limits;
+  view.less_is_better = facts.less_is_better;
   add_trace(view, desk);
   view.picture = static_cast<bool>(desk.sources.picture) && view.trace.has_value();
   view.t_s = moment_of(view, argument(request.query, "t"));

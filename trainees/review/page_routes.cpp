@@ -44,7 +44,7 @@ Response picture(const Request& request, Desk& desk) {
   try {
     out.body = desk.sources.picture(AttemptStore(desk.database).find(argument(request.arguments, "attempt")).uuid, t, kPictureWidth);
   } catch (const EnvironmentError& error) {
-    throw InputError(std::string("no picture: ") + error.what());
+    return refused(request, desk, 503, "No picture yet", error.what());
   }
   return out;
 }

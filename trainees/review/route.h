@@ -40,6 +40,7 @@ struct Response {
 struct LevelFacts {
   ForceLimits limits = {};
   double pass_at = 75;
+  std::map<std::string, bool> less_is_better = {};   ///< of the metrics that the rubric judges
 };
 
 /// What pages need of the rest of the program; each may be empty, and the page says so.

@@ -3,8 +3,8 @@
 
 namespace trocar::review {
 
-const char* style_sheet() {
-  return R"css(:root{color-scheme:light}
+namespace {
+constexpr char kStyle[] = R"css(:root{color-scheme:light}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
 body{margin:0;background:#f2f4f6;color:#14191f;font:16px/1.45 "DejaVu Sans","Segoe UI",Roboto,Arial,sans-serif;font-variant-numeric:tabular-nums}
@@ -170,6 +170,8 @@ footer{max-width:1400px;margin:0 auto;padding:0 18px 20px;color:#4a555f;font-siz
 @page{size:A4;margin:10mm}
 @media print{body{background:#fff;font-size:10px}.top nav,.who,.skip,form,details,.steps,.scrub,.pages,.files,.more{display:none!important}.top{background:#fff;color:#000;padding:0}main{max-width:none;padding:0}.card,.state,.verdict{break-inside:avoid-page;border-color:#888;margin-bottom:8px;padding:6px 8px}.scroll,.plot{overflow:visible}.plot svg,.cohort{min-width:0}tr,figure{break-inside:avoid}a{color:inherit;text-decoration:none}.two{grid-template-columns:minmax(0,1.25fr) minmax(0,1fr)}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
-}
+}  // namespace
+
+const char* style_sheet() { return kStyle; }
 
 }  // namespace trocar::review

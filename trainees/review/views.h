@@ -106,6 +106,7 @@ struct AttemptView {
   std::int64_t chain_position = 0;
   double pass_at = 75;
   ForceLimits limits = {};
+  std::map<std::string, bool> less_is_better = {};   ///< of the metrics that the rubric judges
   std::optional<Trace> trace = {};
   std::string no_trace = {};  ///< why there is none
   bool picture = false;       ///< the program can make one

@@ -234,10 +234,14 @@ TEST(ComparePage, BothTracesAndJudgedDifferences) {
 }
 
 TEST(ComparePage, JudgesByTheRubricsDirection) {
-  const AttemptResult result = sample_attempt().result;
-  EXPECT_EQ(less_is_better(result, "time"), std::optional<bool>(true));
-  EXPECT_EQ(less_is_better(result, "in_band"), std::optional<bool>(false));
-  EXPECT_EQ(less_is_better(result, "tremor"), std::nullopt);
+  CompareView view = sample_compare();
+  view.left.less_is_better = {{"force_max_n", true}, {"path_m", true}};
+  const CheckedPage page = check_page(compare_page(view, sample_frame()));
+  const std::string text = page.by_id("metrics")->text;
+  EXPECT_NE(text.find("Force max5.2 N0.8 N+4.4 Nworse"), std::string::npos) << text;
+  EXPECT_NE(text.find("Path377 mm377 mm0 mmTremor"), std::string::npos) << text;  // no difference, no judgement
+  view.left.less_is_better["force_max_n"] = false;
+  EXPECT_NE(check_page(compare_page(view, sample_frame())).by_id("metrics")->text.find("+4.4 Nbetter"), std::string::npos);
 }
 
 TEST(ComparePage, WarnsOfWhatDoesNotCompare) {

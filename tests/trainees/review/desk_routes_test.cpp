@@ -103,8 +103,8 @@ TEST_F(DeskRoutes, PicturesCarryAttemptTimeAndWidth) {
   EXPECT_EQ(answer.type, "image/png");
   EXPECT_EQ(answer.body, attempt_ + " 3.250000 800");
   for (const char* t : {"", "x", "-1", "inf"}) EXPECT_EQ(ask("GET", "/attempt/" + attempt_ + "/picture.png", {{"t", t}}).status, 404) << t;
-  desk_.sources.picture = [](const std::string&, double, int) -> std::string { throw EnvironmentError("no EGL"); };
-  EXPECT_EQ(ask("GET", "/attempt/" + attempt_ + "/picture.png", {{"t", "1"}}).status, 404);
+  desk_.sources.picture = [](const std::string&, double, int) -> std::string { throw EnvironmentError("replayed to 40 %"); };
+  EXPECT_EQ(ask("GET", "/attempt/" + attempt_ + "/picture.png", {{"t", "1"}}).status, 503);
   desk_.sources.picture = {};
   EXPECT_EQ(page("/attempt/" + attempt_).all("img").size(), 0U);
 }

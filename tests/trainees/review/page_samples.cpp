@@ -11,7 +11,7 @@ Frame sample_frame() {
   frame.who = "Dr Ines Okafor";
   frame.token = "token-4711";
   frame.now_utc = "2026-03-20T10:00:00Z";
-  frame.pdf = true;
+  frame.pdf = false;  // pages offer a PDF where the desk has one
   return frame;
 }
 
@@ -129,6 +129,19 @@ Trace sample_trace(double peak_n) {
   return trace;
 }
 
+namespace {
+DeviceReceipt sample_receipt() {
+  DeviceReceipt device;
+  device.backend = "simulated";
+  device.rate_hz = 1000;
+  device.ticks = 60000;
+  device.overruns = 2;
+  device.kappa = 0.5;
+  device.warnings = {{"sensor stale", 0.25, 12}};
+  return device;
+}
+}  // namespace
+
 AttemptView sample_attempt(double score, double peak_n) {
   AttemptView view;
   AttemptResult& r = view.result;
@@ -159,12 +172,7 @@ AttemptView sample_attempt(double score, double peak_n) {
   r.events = {{12.5, "TARGET_HELD", Severity::kInfo, 0, 1.1, "N", Vec3(0.01, 0, 0)},
               {27.0, "OUT_OF_VIEW", Severity::kMinor, -1, 0, "", Vec3::Zero()},
               {30.0, "EXCESS_FORCE", Severity::kMajor, 2, peak_n, "N", Vec3(0, 0.02, 0)}};
-  r.device.backend = "simulated";
-  r.device.rate_hz = 1000;
-  r.device.ticks = 60000;
-  r.device.overruns = 2;
-  r.device.kappa = 0.5;
-  r.device.warnings = {{"sensor stale", 0.25, 12}};
+  r.device = sample_receipt();
   view.exercise = "Surface touch";
   view.program = "trocar 0.7";
   view.row_hash = std::string(64, 'd');
