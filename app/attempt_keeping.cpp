@@ -1,5 +1,7 @@
 #include "app/attempt_keeping.h"
 
+#include <unistd.h>
+
 #include "app/recorded_result.h"
 #include "app/recorder/safety_file.h"
 #include "haptics/digest/digest.h"
@@ -16,9 +18,15 @@ std::string keep_stop(const AttemptId& id, const SessionOutcome& outcome) {
   return file.string();
 }
 
+/// The machine's name in its network.
+std::string station_name() {
+  char name[256] = "";
+  return gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
 }  // namespace
 
-AttemptStart attempt_start(const Scene& scene, const std::string& trainee) {
+AttemptStart attempt_start(const Scene& scene, const std::string& trainee, const std::string& session) {
   AttemptStart start;
   start.trainee = trainee;
   start.exercise_id = scene.setup.exercise.id;
@@ -36,6 +44,12 @@ AttemptStart attempt_start(const Scene& scene, const std::string& trainee) {
   start.organ_sha256 = scene.organ.sha256;
   start.organ_credit = scene.organ.credit;
   start.organ_synthetic = scene.organ.synthetic;
+  if (scene.setup.device.calibration) {
+    start.calibration = scene.setup.device.calibration->text;
+    start.calibration_device = "simulated";
+  }
+  start.session = session;
+  start.station = session.empty() ? "" : station_name();
   return start;
 }
 

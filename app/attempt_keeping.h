@@ -12,8 +12,8 @@
 
 namespace trocar {
 
-/// What is known before the loop starts. @param trainee code.
-AttemptStart attempt_start(const Scene& scene, const std::string& trainee);
+/// What is known before the loop starts. @param trainee code. @param session UUID of a sign-in at this station, "" none.
+AttemptStart attempt_start(const Scene& scene, const std::string& trainee, const std::string& session = "");
 
 /// Records the attempt; when the machine fails it (a full disk), it is ended as aborted with the reason.
 std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const AttemptId& id, const Scene& scene,

@@ -8,8 +8,6 @@
 #include "app/commands/bench_command.h"
 #include "app/commands/catalogue_command.h"
 #include "app/commands/check_command.h"
-#include "app/commands/cohort_command.h"
-#include "app/commands/db_command.h"
 #include "app/commands/demo_command.h"
 #include "app/command_line_texts.h"
 #include "app/commands/device_calibrate.h"
@@ -25,10 +23,10 @@
 #include "app/commands/run_command.h"
 #include "app/commands/study_command.h"
 #include "app/commands/sweep_command.h"
-#include "app/commands/trainee_command.h"
 #include "app/command_line_organs.h"
 #include "app/command_line_practice.h"
 #include "app/command_line_review.h"
+#include "app/command_line_trainees.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
 
@@ -62,9 +60,7 @@ struct CommandLine {
   std::shared_ptr<OrganCommandLine> organs;
   std::shared_ptr<PracticeCommandLine> practice;
   std::shared_ptr<ReviewCommandLine> review;
-  TraineeOptions trainee;
-  CohortOptions cohort;
-  DbOptions db;
+  std::shared_ptr<TraineeCommandLine> trainees;
   DoctorOptions doctor;
   PictureOptions picture;
   std::string shell;
@@ -287,34 +283,7 @@ void add_practice(CommandLine& c) {
 }
 
 void add_trainees(CommandLine& c) {
-  CLI::App* trainee = c.group("trainee", "Trainees of a database");
-  CLI::App* add = c.add(*trainee, "add", "Add a trainee", [&c] { return trainee_add(c.trainee, std::cout, std::cerr); });
-  CLI::App* list = c.add(*trainee, "list", "All trainees", [&c] { return trainee_list(c.trainee, std::cout, std::cerr); });
-  CLI::App* show = c.add(*trainee, "show", "One trainee's attempts", [&c] { return trainee_show(c.trainee, std::cout, std::cerr); });
-  for (CLI::App* command : {add, show}) command->add_option("code", c.trainee.code, "Trainee code")->required();
-  show->add_option("--limit", c.trainee.limit, "Newest attempts listed, 0: all")->capture_default_str();
-  for (CLI::App* command : {add, list, show}) {
-    command->add_option("--db", c.trainee.database, "Database file");
-    command->add_flag("--json", c.trainee.json, "As JSON");
-  }
-  CLI::App* cohort = c.add(c.app, "cohort", "Who tried what, how often, how well",
-                           [&c] { return cohort_command(c.cohort, std::cout, std::cerr); });
-  cohort->add_option("--db", c.cohort.database, "Database file");
-  cohort->add_option("--trainee", c.cohort.trainee, "One trainee only");
-  cohort->add_flag("--json", c.cohort.json, "As JSON");
-}
-
-void add_db(CommandLine& c) {
-  CLI::App* db = c.group("db", "The database itself");
-  CLI::App* check = c.add(*db, "check", "File, schema, references, hash chain, audit trail, recordings", [&c] { return db_check(c.db, std::cout, std::cerr); });
-  check->add_flag("--json", c.db.json, "As JSON");
-  CLI::App* backup = c.add(*db, "backup", "Consistent copy", [&c] { return db_backup(c.db, std::cout, std::cerr); });
-  backup->add_option("-o,--out", c.db.output, "File (default: beside the database)");
-  CLI::App* migrate = c.add(*db, "migrate", "Bring to this program's schema", [&c] { return db_migrate(c.db, std::cout, std::cerr); });
-  CLI::App* anchor = c.add(*db, "anchor", "Begin a new anchor file where the old one was lost", [&c] { return db_anchor(c.db, std::cout, std::cerr); });
-  CLI::App* rubric = c.add(*db, "rubric", "Print the exercise file that attempts were graded by", [&c] { return db_rubric(c.db, std::cout, std::cerr); });
-  rubric->add_option("sha256", c.db.rubric, "At least 4 digits of its sha256")->required();
-  for (CLI::App* command : {check, backup, migrate, anchor, rubric}) command->add_option("--db", c.db.database, "Database file");
+  c.trainees = add_trainee_commands(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
 
 void add_machine(CommandLine& c) {
@@ -350,7 +319,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_review, add_db, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_review, add_machine}) {
     add(c);
   }
   try {

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kTorn = '~';  // ends a line that a crash or a full disk cut off
+
 struct AnchorLine {
   AuditHead head;
   std::string utc;
@@ -42,10 +44,13 @@ fs::path anchor_path(const fs::path& database) { return database.string() + ".an
 
 void append_anchor(const fs::path& database, const AuditHead& head) {
   if (database.empty()) return;
-  const std::string line = std::to_string(head.position) + " " + head.row_hash + " " + utc_now() + "\n";
-  // One write to a file opened for appending: lines of two programs do not mix.
-  const int file = ::open(anchor_path(database).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  std::string line = std::to_string(head.position) + " " + head.row_hash + " " + utc_now() + "\n";
+  const int file = ::open(anchor_path(database).c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (file < 0) return;
+  char last = '\n';
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  if (size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n') line = kTorn + ("\n" + line);
+  // One write to a file opened for appending: lines of two programs do not mix.
   [[maybe_unused]] const ssize_t written = ::write(file, line.data(), line.size());
   ::close(file);
 }
@@ -66,6 +71,7 @@ std::vector<std::string> check_anchor(const fs::path& database, sqlite3* connect
   std::vector<std::string> problems;
   std::int64_t first = 0;
   for (std::string text; std::getline(in, text) && !in.eof();) {  // a last line without its end was cut off by a crash
+    if (text.ends_with(kTorn)) continue;
     const auto line = parse_line(text);
     if (!line) {
       problems.push_back(name + ": a line is not readable: " + text);

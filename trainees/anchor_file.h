@@ -1,7 +1,8 @@
 // The anchor file: heads of the audit trail, kept outside the database so that a cut-off end shows. Internal to
 // trainees/.
 //
-// trocar.db.anchor beside trocar.db, a line "POSITION ROW_HASH UTC" after every change, appended and never rewritten.
+// trocar.db.anchor beside trocar.db, a line "POSITION ROW_HASH UTC" after every change, appended and never rewritten. A line
+// that a crash cut off is ended with "~" by the next and does not count.
 // It may lag (a crash between commit and line), never lead, unless entries were removed or an older copy of the
 // database was put back. Whoever may write the folder can forge both: it shows accidents and casual hands, and a head
 // that was noted elsewhere shows the rest.

@@ -117,6 +117,8 @@ void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult
   insert_device_rows(connection, attempt, result.device);
   insert_grade(connection, insert_score(connection, attempt, result.grade), result.grade);
   update_attempt(connection, attempt, result, recording);
+  sql::Statement session(connection, "UPDATE session SET ended_utc = ? WHERE id = (SELECT session_id FROM attempt WHERE id = ?)");
+  session.bind(utc_now()).bind(attempt).run();  // so far: each attempt of it moves its end
   seal_attempt(connection, attempt, result.grade.status);
 }
 

@@ -80,6 +80,30 @@ std::vector<std::string> stray_recordings(const Database& database) {
   return strays;
 }
 
+/// The session's row, made by its first attempt. @throws InputError: another trainee's.
+std::optional<std::int64_t> session_row(sqlite3* connection, const AttemptStart& start, std::int64_t trainee, const std::string& utc) {
+  if (start.session.empty()) return std::nullopt;
+  sql::Statement insert(connection, "INSERT INTO session (uuid, trainee_id, station, started_utc) SELECT ?1, ?2, ?3, ?4"
+                                    " WHERE NOT EXISTS (SELECT 1 FROM session WHERE uuid = ?1)");
+  insert.bind(start.session).bind(trainee).bind(start.station).bind(utc).run();
+  sql::Statement row(connection, "SELECT id, trainee_id FROM session WHERE uuid = ?");
+  row.bind(start.session).step();
+  if (row.integer(1) != trainee) throw InputError("session " + start.session + ": is another trainee's");
+  return row.integer(0);
+}
+
+/// The calibration's row; the same bytes are kept once.
+std::optional<std::int64_t> calibration_row(sqlite3* connection, const AttemptStart& start, const std::string& utc) {
+  if (start.calibration.empty()) return std::nullopt;
+  const std::string sha256 = digest::of_bytes(start.calibration);
+  sql::Statement insert(connection, "INSERT INTO device_calibration (device, sha256, toml, utc) SELECT ?1, ?2, ?3, ?4"
+                                    " WHERE NOT EXISTS (SELECT 1 FROM device_calibration WHERE sha256 = ?2)");
+  insert.bind(start.calibration_device).bind(sha256).bind(start.calibration).bind(utc).run();
+  sql::Statement row(connection, "SELECT id FROM device_calibration WHERE sha256 = ?");
+  row.bind(sha256).step();
+  return row.integer(0);
+}
+
 void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t trainee,
                     const std::string& stored_recording, const AttemptId& id) {
   sql::Statement exercise(connection, "INSERT INTO exercise VALUES (?, ?, ?)"
@@ -90,17 +114,21 @@ void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t
                                      " WHERE NOT EXISTS (SELECT 1 FROM ruleset WHERE sha256 = ?1)");
   ruleset.bind(id.rubric_sha256).bind(start.exercise_id).bind(start.exercise_version).bind(start.exercise_text).run();
   const ProcessIdentity owner = this_process();
+  const auto session = session_row(connection, start, trainee, id.started_utc);
+  const auto calibration = calibration_row(connection, start, id.started_utc);
   sql::Statement insert(
       connection,
       "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed,"
       " board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc,"
-      " owner_pid, owner_boot, owner_start, recording_path, program, hash_version, status)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
+      " owner_pid, owner_boot, owner_start, recording_path, program, hash_version, session_id, calibration_id, status)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
   insert.bind(id.uuid).bind(trainee).bind(start.exercise_id).bind(start.exercise_version).bind(id.rubric_sha256);
   insert.bind(start.level).bind(start.seed).bind(start.board).bind(start.hand).bind(start.organ_name);
   insert.bind(start.organ_source).bind(start.organ_sha256).bind(start.organ_synthetic).bind(start.organ_credit);
   insert.bind(id.started_utc).bind(owner.pid).bind(owner.boot).bind(owner.start).bind(stored_recording);
-  insert.bind(start.program).bind(kHashVersion).run();
+  insert.bind(start.program).bind(kHashVersion);
+  for (const std::optional<std::int64_t>& row : {session, calibration}) row ? insert.bind(*row) : insert.bind_null();
+  insert.run();
 }
 
 constexpr const char* kResultColumns =
@@ -265,13 +293,17 @@ std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const 
 std::vector<std::string> AttemptStore::check_recordings() const {
   std::vector<std::string> problems;
   sql::Statement rows(database_->connection(),
-                      "SELECT uuid, recording_path, recording_sha256 FROM attempt"
-                      " WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
+                      "SELECT uuid, recording_path, recording_sha256, EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id"
+                      " AND e.kind = 'training') FROM attempt a WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
   while (rows.step()) {
     const fs::path file = located_recording(database_->file(), rows.text(1));
     const std::string name = "recording " + file.string() + " of attempt " + rows.text(0);
     std::error_code error;
-    if (file.empty() || !fs::is_regular_file(file, error)) {
+    const bool there = !file.empty() && fs::is_regular_file(file, error);
+    if (rows.integer(3) != 0) {
+      if (!there) continue;
+      problems.push_back(name + " is still there although its training data were erased (erasing again removes it)");
+    } else if (!there) {
       problems.push_back(name + " is missing");
     } else if (digest::of_readable_file(file) != rows.text(2)) {
       problems.push_back(name + " was changed or cannot be read");

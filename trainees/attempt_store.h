@@ -36,6 +36,8 @@ struct AttemptStart {
   std::string program;  ///< its version
   std::string organ_name, organ_source, organ_sha256, organ_credit;
   bool organ_synthetic = false;
+  std::string calibration = {}, calibration_device = {};   ///< text of the calibration file and what it was made on; "" nominal
+  std::string session = {}, station = {};                  ///< UUID of a sign-in at a station and that one's name; "" none
   /// Where it is recorded. Not given: beside the database (none when in memory). Empty: not recorded.
   std::optional<std::filesystem::path> recording;
 };
@@ -97,7 +99,7 @@ class AttemptStore {
   std::string exercise_text(const std::string& rubric_sha256) const;
 
   /// Recordings that finished attempts name but that are missing or changed, and recordings in the database's folder
-  /// that no attempt names (an attempt was removed), one line each.
+  /// that no attempt names (an attempt was removed) or that an erasure left, one line each.
   std::vector<std::string> check_recordings() const;
 
  private:

@@ -52,7 +52,7 @@ struct AttemptRunner::State {
         scene(std::move(scene_in)),
         database(checked_database(request, *scene, assets)),
         store(database),
-        start(attempt_start(*scene, request.trainee)),
+        start(attempt_start(*scene, request.trainee, request.session)),
         id(store.begin_attempt(start)) {
     for (const RecoveredAttempt& attempt : database.recovered())
       note("attempt " + attempt.uuid + " of " + attempt.trainee + " was cut off and is now kept as " + status_name(attempt.status));

@@ -26,6 +26,7 @@ namespace trocar {
 struct AttemptRequest {
   AttemptSetup setup = {};                    ///< realtime; `hand` is the input's name ("mouse") or a scripted one
   std::string trainee = "guest";
+  std::string session = {};                   ///< UUID of their sign-in here
   std::filesystem::path database = {};        ///< as RunOptions::database
   bool steered = true;                        ///< a person's intents move the hand; false: the script that setup names
 };

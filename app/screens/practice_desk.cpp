@@ -13,6 +13,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "scenarios/exercise_loader.h"
+#include "trainees/attempt_identity.h"
 #include "trainees/trainee_store.h"
 
 namespace trocar {
@@ -46,7 +47,7 @@ struct PracticeDesk::State {
   std::unique_ptr<Sound> sound;
   bool sound_wanted = true;
   std::unique_ptr<Database> database;
-  std::string trainee = kGuest;
+  std::string trainee = kGuest, session = make_uuid();  // of a sign-in
   std::unique_ptr<AttemptRunner> runner;
   std::vector<std::unique_ptr<AttemptRunner>> unstored;   // over, but the database has not taken them yet
   std::optional<AttemptResult> result;
@@ -207,6 +208,7 @@ std::string PracticeDesk::sign_in(const std::string& code) {
   if (code.empty()) return s.words("Type your code first.");
   try {
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
+    s.session = make_uuid();
     return "";
   } catch (const InputError&) {
     return s.words("A code is 1 to 32 letters, digits, dots or dashes, and begins with a letter or digit.");
@@ -215,7 +217,10 @@ std::string PracticeDesk::sign_in(const std::string& code) {
   }
 }
 
-void PracticeDesk::sign_out() { state_->trainee = kGuest; }
+void PracticeDesk::sign_out() {
+  state_->trainee = kGuest;
+  state_->session = make_uuid();
+}
 
 const Exercise& PracticeDesk::exercise() const {
   const auto& all = state_->exercises;
@@ -286,6 +291,7 @@ std::string PracticeDesk::begin_attempt() {
   request.setup.realtime = true;
   request.setup.pace = kSimulatedLivePace;
   request.trainee = s.trainee;
+  request.session = s.session;
   request.database = s.options.database;
   request.steered = !scripted;
   try {

@@ -14,5 +14,5 @@ endif()
 find_package(SQLite3 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 trocar_test(test_store_commands
-  SOURCES recording_store_commands_test.cpp ${PROJECT_SOURCE_DIR}/tests/trainees/store_samples.cpp
+  SOURCES recording_store_commands_test.cpp trainee_rights_test.cpp ${PROJECT_SOURCE_DIR}/tests/trainees/store_samples.cpp
   LINK trocar_commands nlohmann_json::nlohmann_json SQLite::SQLite3)

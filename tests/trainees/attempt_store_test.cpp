@@ -289,5 +289,43 @@ TEST_F(AttemptFile, AMissingOrChangedRecordingIsReported) {
   EXPECT_NE(problems[1].find("was changed"), std::string::npos);
 }
 
+TEST(AttemptSessions, AttemptsOfOneSignInShareARowAndItsEndMoves) {
+  Database database(":memory:");
+  AttemptStart start = sample_start("T-1");
+  start.session = "0192-session";
+  start.station = "lab-3";
+  start.calibration = "{\"gain\": [1]}";
+  start.calibration_device = "simulated";
+  store_attempt(database, start, sample_result());
+  const std::string ended = sql::query_text(database.connection(), "SELECT ended_utc FROM session");
+  EXPECT_NE(ended, "");
+  store_attempt(database, start, sample_result());
+  store_attempt(database, sample_start("T-1"), sample_result());
+  sqlite3* connection = database.connection();
+  EXPECT_EQ(sql::query_integer(connection, "SELECT count(*) FROM session"), 1);
+  EXPECT_EQ(sql::query_text(connection, "SELECT station FROM session"), "lab-3");
+  EXPECT_GE(sql::query_text(connection, "SELECT ended_utc FROM session"), ended);
+  EXPECT_EQ(sql::query_integer(connection, "SELECT count(*) FROM device_calibration"), 1) << "the same bytes once";
+  EXPECT_EQ(sql::query_integer(connection, "SELECT count(*) FROM attempt WHERE session_id = 1 AND calibration_id = 1"), 2);
+  EXPECT_EQ(sql::query_integer(connection, "SELECT count(*) FROM attempt WHERE session_id IS NULL AND calibration_id IS NULL"), 1);
+  EXPECT_EQ(problems_of(database), "");
+  AttemptStart stranger = sample_start("T-2");
+  stranger.session = "0192-session";
+  EXPECT_THROW(AttemptStore(database).begin_attempt(stranger), InputError);
+}
+
+TEST(AttemptSessions, AnAttemptMovedToAnotherSessionOrCalibrationIsFound) {
+  Database database(":memory:");
+  AttemptStart start = sample_start("T-1");
+  start.session = "0192-session";
+  start.calibration = "a";
+  store_attempt(database, start, sample_result());
+  sql::execute(database.connection(), "UPDATE session SET uuid = 'other'");
+  EXPECT_NE(problems_of(database).find("was changed after it was finished"), std::string::npos);
+  sql::execute(database.connection(), "UPDATE session SET uuid = '0192-session'; DROP TRIGGER device_calibration_no_update;"
+                                      "UPDATE device_calibration SET toml = 'b'");
+  EXPECT_NE(problems_of(database).find("calibration of , ca978112ca1b, was changed"), std::string::npos) << problems_of(database);
+}
+
 }  // namespace
 }  // namespace trocar

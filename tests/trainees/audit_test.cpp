@@ -120,7 +120,13 @@ TEST_F(Audit, AnAnchorThatLagsOrWasCutOffByACrashIsNone) {
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   std::ofstream(anchor_path(file_)) << text.substr(0, text.size() - 20);
   EXPECT_EQ(problems(), "");
-  std::ofstream(anchor_path(file_), std::ios::app) << "\nnonsense\n";
+  {
+    Database database(file_);
+    store_attempt(database, sample_start(), sample_result());
+  }
+  EXPECT_EQ(problems(), "") << "the next line is one of its own";
+  EXPECT_NE(read_anchor(file_).find("~\n5 "), std::string::npos) << read_anchor(file_);
+  std::ofstream(anchor_path(file_), std::ios::app) << "nonsense\n";
   EXPECT_NE(problems().find("a line is not readable"), std::string::npos);
 }
 

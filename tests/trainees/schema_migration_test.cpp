@@ -5,10 +5,9 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <thread>
 
+#include "tests/trainees/old_stores.h"
 #include "tests/trainees/store_samples.h"
 #include "trainees/anchor_file.h"
 #include "trainees/audit.h"
@@ -23,17 +22,7 @@ namespace fs = std::filesystem;
 
 class SchemaMigration : public TemporaryFolder {
  protected:
-  SchemaMigration() : file_(folder_ / "old.db") {
-    // Triggers come last: they would refuse the finished attempts of the sample.
-    const std::string schema = kSchemaV1;
-    const std::size_t triggers = schema.find("CREATE TRIGGER");
-    std::ifstream in(TROCAR_SOURCE_DIR "/tests/trainees/schema_v1_sample.sql");
-    const std::string sample((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    EXPECT_EQ(run_outside(file_, "BEGIN;" + schema.substr(0, triggers) + sample + schema.substr(triggers) +
-                                     "PRAGMA user_version = 1; PRAGMA application_id = " +
-                                     std::to_string(kApplicationId) + "; COMMIT; PRAGMA journal_mode = WAL"),
-              "");
-  }
+  SchemaMigration() : file_(folder_ / "old.db") { make_schema1(file_); }
   std::int64_t asked(const char* sql) const {
     sqlite3* raw = nullptr;
     sqlite3_open(file_.c_str(), &raw);
