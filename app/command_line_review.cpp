@@ -25,7 +25,8 @@ void add_serve(CLI::App& review, ReviewServeOptions& o, const Choose& choose) {
   serve->add_option("--cert", o.certificate, "Certificate (PEM): with --key the pages go through TLS");
   serve->add_option("--key", o.key, "Private key of the certificate (PEM)");
   serve->add_option("--name", o.names, "A name that the machine goes by in the network, besides its own; repeatable");
-  serve->add_option("--db", o.database, "Database file");
+  CLI::Option* db = serve->add_option("--db", o.database, "Database file");
+  serve->add_flag("--demo", o.demo, "An invented cohort in a file of its own, made the first time (minutes)")->excludes(db);
   serve->callback([&o, choose] { choose([&o] { return review_serve(o, std::cout, std::cerr); }); });
 }
 

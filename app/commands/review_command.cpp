@@ -13,12 +13,15 @@
 #include "app/commands/open_database.h"
 #include "app/commands/password_prompt.h"
 #include "app/commands/text_table.h"
+#include "app/demo_cohort.h"
 #include "app/interrupt.h"
+#include "app/progress_display.h"
 #include "app/recorded_result.h"
 #include "app/recorder/recording_reader.h"
 #include "haptics/input_error.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/accounts.h"
+#include "trainees/attempt_store.h"
 #include "trainees/review/desk_server.h"
 
 namespace trocar {
@@ -74,11 +77,45 @@ Role required_role(const std::string& name) {
   throw InputError("--role " + name + ": trainee, instructor and administrator are known");
 }
 
+/// @throws Interrupted
+void make_demo(const std::filesystem::path& file, int jobs, std::ostream& err) {
+  ProgressDisplay progress(err, error_is_terminal());
+  err << "Eight invented trainees make their attempts on the simulated plant, each on the clock of its own simulation.\n";
+  DemoCohortOptions made;
+  made.database = file;
+  made.jobs = jobs;
+  made.going = [&](int done, int all) {
+    progress.show("attempts", static_cast<double>(done) / all);
+    return true;
+  };
+  make_demo_cohort(made, find_assets());
+}
+
+/// The database that is served; the demo's is made when it is not there yet.
+std::filesystem::path served_database(const ReviewServeOptions& options, std::ostream& err) {
+  if (options.demo) {
+    const std::filesystem::path demo = demo_database_beside("");
+    if (!std::filesystem::exists(demo)) make_demo(demo, 0, err);
+    return open_database(demo, OpenMode::kExisting, err).file();
+  }
+  Database database = open_database(options.database, OpenMode::kCreate, err);
+  if (!AttemptStore(database).latest()) err << "No attempt is kept yet: with --demo the desk shows an invented cohort.\n";
+  return database.file();
+}
+
 }  // namespace
+
+int review_demo(const ReviewDemoOptions& options, std::ostream& out, std::ostream& err) {
+  const std::filesystem::path file = options.database.empty() ? demo_database_beside("") : options.database;
+  if (options.remove) remove_demo_cohort(file);
+  else make_demo(file, options.jobs, err);
+  out << file.string() << '\n';
+  return 0;
+}
 
 int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostream& err) {
   InterruptWatch interrupt;  // before any thread
-  const std::filesystem::path file = open_database(options.database, OpenMode::kCreate, err).file();
+  const std::filesystem::path file = served_database(options, err);
   std::mutex said;
   const auto pictures = pictures_of(file, err);
   review::DeskServerOptions served;
@@ -89,6 +126,10 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.sources.shipped_rules = shipped_rules();
   if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
   served.routes = review::desk_routes();
+  {
+    Database opened = served.open();
+    served.demo = is_demo(opened);
+  }
   served.port = options.port;
   served.lan = options.lan;
   served.certificate = options.certificate;

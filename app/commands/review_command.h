@@ -1,4 +1,4 @@
-// `trocar review serve` and `trocar review account add|list|password|disable|enable`. InputError and EnvironmentError leave as they are.
+// `trocar review serve`, `trocar review demo` and `trocar review account add|list|password|disable|enable`. InputError and EnvironmentError leave as they are.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,20 @@ struct ReviewServeOptions {
   bool lan = false;                        ///< the network, not this machine alone
   std::filesystem::path certificate = {}, key = {};  ///< both or none
   std::vector<std::string> names = {};     ///< more names that it goes by
+  bool demo = false;                       ///< the invented cohort, made when it is not there yet
 };
 
 /// Serves the desk until Ctrl-C or SIGTERM. Its address is the result. @return exit code 0
 int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostream& err);
+
+struct ReviewDemoOptions {
+  std::filesystem::path database = {};     ///< the demo's own; empty: beside the default one
+  int jobs = 0;                            ///< attempts at a time, 0: one a core
+  bool remove = false;
+};
+
+/// Makes the invented cohort, or removes it. Its file is the result. @return exit code 0
+int review_demo(const ReviewDemoOptions& options, std::ostream& out, std::ostream& err);
 
 struct ReviewAccountOptions {
   std::filesystem::path database = {};

@@ -8,7 +8,7 @@ namespace {
 
 using Usage = SystemTest;
 
-const std::map<std::string, Words>& commands_and_flags() {
+const std::map<std::string, Words>& other_commands_and_flags() {
   static const std::map<std::string, Words> table{
       {"run",
        {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--video", "--fps",
@@ -58,7 +58,7 @@ const std::map<std::string, Words>& commands_about_people() {
       {"trainee show", {"--db", "--limit", "--json"}},
       {"cohort", {"--db", "--trainee", "--json"}},
       {"review", {"serve", "account", "demo"}},
-      {"review serve", {"--port", "--lan", "--cert", "--key", "--name", "--db"}},
+      {"review serve", {"--port", "--lan", "--cert", "--key", "--name", "--db", "--demo"}},
       {"review demo", {"--db", "--jobs", "--remove"}},
       {"review account", {"add", "password", "disable", "enable", "list"}},
       {"review account add", {"--name", "--role", "--trainee", "--db"}},
@@ -73,15 +73,19 @@ const std::map<std::string, Words>& commands_about_people() {
   return table;
 }
 
+std::map<std::string, Words> commands_and_flags() {
+  std::map<std::string, Words> all = commands_about_people();
+  all.insert(other_commands_and_flags().begin(), other_commands_and_flags().end());
+  return all;
+}
+
 Words split(const std::string& text) {
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
 }
 
 TEST_F(Usage, HelpOfEverySubcommandNamesItsFlags) {
-  std::map<std::string, Words> all = commands_and_flags();
-  all.insert(commands_about_people().begin(), commands_about_people().end());
-  for (const auto& [command, flags] : all) {
+  for (const auto& [command, flags] : commands_and_flags()) {
     Words words = split(command);
     words.push_back("--help");
     const Outcome outcome = trocar(words);
@@ -95,9 +99,7 @@ TEST_F(Usage, HelpOfEverySubcommandNamesItsFlags) {
 TEST_F(Usage, HelpOfTheProgramNamesEveryCommandOfTheTable) {
   const Outcome outcome = trocar({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  std::map<std::string, Words> all = commands_and_flags();
-  all.insert(commands_about_people().begin(), commands_about_people().end());
-  for (const auto& [command, flags] : all) {
+  for (const auto& [command, flags] : commands_and_flags()) {
     EXPECT_NE(outcome.out.find("  " + split(command)[0]), std::string::npos) << command;
   }
 }
@@ -169,9 +171,7 @@ TEST_F(Usage, NoSubcommandIsBadUsage) {
 TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
   expect_refusal({"fly"}, 2, "fly");
   expect_refusal({"organ", "fly"}, 2, "fly");
-  std::map<std::string, Words> all = commands_and_flags();
-  all.insert(commands_about_people().begin(), commands_about_people().end());
-  for (const auto& [command, flags] : all) {
+  for (const auto& [command, flags] : commands_and_flags()) {
     Words words = split(command);
     words.push_back("--frobnicate");
     const Outcome outcome = trocar(words);

@@ -61,7 +61,7 @@ Response error_page(int status, const std::string& why) {
   out.status = status;
   const std::string title = status_title(status);
   out.body = document(
-      title, "<h1>" + escape_html(title) + "</h1>\n<p class=\"message\">" + escape_html(why.empty() ? usual_words(status) : why) +
+      title, "<h1>" + escape_html(title) + "</h1>\n<p class=\"error\">" + escape_html(why.empty() ? usual_words(status) : why) +
                  "</p>\n<p><a href=\"/\">To the first page</a> <span class=\"quiet\">(" + std::to_string(status) + ")</span></p>\n");
   return out;
 }
@@ -73,7 +73,7 @@ Response sign_in_page(const SignInForm& form) {
     return std::string("<input type=\"hidden\" name=\"") + name + "\" value=\"" + escape_html(value) + "\">\n";
   };
   std::string body = "<h1>Trocar: sign in</h1>\n";
-  if (!form.message.empty()) body += "<p class=\"message\" role=\"alert\">" + escape_html(form.message) + "</p>\n";
+  if (!form.message.empty()) body += "<p class=\"error\" role=\"alert\">" + escape_html(form.message) + "</p>\n";
   body += "<form method=\"post\" action=\"/sign-in\">\n" + hidden("token", form.token) + hidden("next", form.next) +
           "<p><label>Login<br><input name=\"login\" maxlength=\"32\" autocomplete=\"username\" autocapitalize=\"none\" required autofocus "
           "value=\"" +

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <limits>
 
@@ -52,6 +53,27 @@ TEST_F(AttemptKeeping, AStartSaysWhatTheSceneIsMadeOf) {
   EXPECT_FALSE(start.recording) << "beside the database";
   const AttemptId id = store_.begin_attempt(start);
   EXPECT_EQ(id.rubric_sha256, digest::of_bytes(scene_.setup.exercise.text));
+}
+
+TEST_F(AttemptKeeping, AStartSaysWhichSignInAndWhichCalibration) {
+  EXPECT_EQ(start().session, "");
+  EXPECT_EQ(start().station, "") << "without a sign-in no station";
+  EXPECT_EQ(start().calibration, "") << "nominal";
+  scene_.setup.device.calibration = DeviceFile{"{\"gains\": []}", "/home/somebody/cal.json"};
+  const AttemptStart signed_in = attempt_start(scene_, "T-9", "0192-session");
+  EXPECT_EQ(signed_in.session, "0192-session");
+  char name[256] = "";
+  ASSERT_EQ(gethostname(name, sizeof name - 1), 0);
+  EXPECT_EQ(signed_in.station, name);
+  EXPECT_EQ(signed_in.calibration, "{\"gains\": []}");
+  EXPECT_EQ(signed_in.calibration_device.find("somebody"), std::string::npos) << "no path of a person's";
+  for (int i = 0; i < 2; ++i) store_.begin_attempt(signed_in);
+  sqlite3_stmt* rows = nullptr;
+  ASSERT_EQ(sqlite3_prepare_v2(database_.connection(), "SELECT count(*), max(station) FROM session", -1, &rows, nullptr), SQLITE_OK);
+  ASSERT_EQ(sqlite3_step(rows), SQLITE_ROW);
+  EXPECT_EQ(sqlite3_column_int(rows, 0), 1);
+  EXPECT_STREQ(reinterpret_cast<const char*>(sqlite3_column_text(rows, 1)), name);
+  sqlite3_finalize(rows);
 }
 
 TEST_F(AttemptKeeping, WhatIsKeptIsTheStartsAndTheRecordingsAndReadsBackAsIt) {
