@@ -25,6 +25,7 @@
 #include "app/commands/sweep_command.h"
 #include "app/command_line_organs.h"
 #include "app/command_line_practice.h"
+#include "app/command_line_review.h"
 #include "app/command_line_trainees.h"
 #include "app/scene.h"
 #include "haptics/input_error.h"
@@ -58,6 +59,7 @@ struct CommandLine {
   PlantOptionsGiven plant;
   std::shared_ptr<OrganCommandLine> organs;
   std::shared_ptr<PracticeCommandLine> practice;
+  std::shared_ptr<ReviewCommandLine> review;
   std::shared_ptr<TraineeCommandLine> trainees;
   DoctorOptions doctor;
   PictureOptions picture;
@@ -272,6 +274,10 @@ void add_organ(CommandLine& c) {
   c.organs = add_organ_commands(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
 
+void add_review(CommandLine& c) {
+  c.review = add_review_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
+}
+
 void add_practice(CommandLine& c) {
   c.practice = add_practice_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
@@ -313,7 +319,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_review, add_machine}) {
     add(c);
   }
   try {

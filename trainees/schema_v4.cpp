@@ -146,6 +146,14 @@ constexpr const char kIndices[] = R"sql(
 CREATE INDEX attempt_by_time ON attempt(started_utc);
 -- An attempt's entry is looked up for every attempt by db check.
 CREATE INDEX audit_by_subject ON audit(subject, action);
+-- For the desk's cohort: it reads these alone, never the wide tables. An index over all metrics would be as large as they are.
+CREATE INDEX attempt_by_curve ON attempt(exercise_id, level, hand, ruleset_sha256, trainee_id, id, status, started_utc, device_ticks,
+  device_overruns, saturated_contact_share);
+CREATE INDEX score_first ON score(attempt_id, value, passed, id) WHERE revision = 0;
+CREATE INDEX metric_peak_force ON metric(score_id, value) WHERE name = 'force_max_n';
+CREATE INDEX event_critical ON event(attempt_id) WHERE severity = 'critical';
+CREATE INDEX event_over_force ON event(attempt_id) WHERE type IN ('EXCESS_FORCE', 'CRITICAL_FORCE', 'GRIP_EXCESS', 'CRUSH');
+CREATE INDEX cap_of_safety ON score_cap(score_id) WHERE substr(reason, 1, 8) = 'safety: ';
 )sql";
 
 constexpr const char kAccount[] = R"sql(

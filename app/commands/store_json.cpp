@@ -48,6 +48,21 @@ Json json_of(const CohortRow& row) {
           {"last_utc", row.last_utc}};
 }
 
+Json json_of(const CohortLine& line) {
+  Json judgements = Json::array();
+  for (const Judgement& j : line.judgements)
+    judgements.push_back({{"flag", flag_name(j.flag)}, {"evidence", j.evidence}, {"n", j.n}, {"rules", j.rule_version}});
+  return {{"exercise", line.key.exercise_id},
+          {"level", line.key.level},
+          {"hand", line.key.hand},
+          {"rubric_sha256", line.key.rubric_sha256},
+          {"attempts", line.tries},
+          {"passes", line.passes},
+          {"reliability", number(line.reliability)},
+          {"certified_utc", line.certified_utc.empty() ? Json(nullptr) : Json(line.certified_utc)},
+          {"judgements", judgements}};
+}
+
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 template <class Rows>
@@ -59,15 +74,31 @@ Json array_of(const Rows& rows) {
 
 }  // namespace
 
+bool of_row(const CohortLine& line, const CohortRow& row) {
+  return line.trainee == row.trainee && line.key.exercise_id == row.exercise_id && line.key.level == row.level &&
+         line.key.rubric_sha256 == row.rubric_sha256;
+}
+
 std::string trainees_json(const std::vector<Trainee>& trainees) { return text_of(array_of(trainees)); }
 
-std::string trainee_json(const Trainee& trainee, const std::vector<AttemptSummary>& attempts) {
+std::string trainee_json(const Trainee& trainee, const std::vector<AttemptSummary>& attempts, const std::vector<CohortLine>& lines) {
   Json json = json_of(trainee);
+  json["curves"] = array_of(lines);
   json["history"] = array_of(attempts);
   return text_of(json);
 }
 
-std::string cohort_json(const std::vector<CohortRow>& rows) { return text_of(array_of(rows)); }
+std::string cohort_json(const std::vector<CohortRow>& rows, const std::vector<CohortLine>& lines) {
+  Json list = Json::array();
+  for (const CohortRow& row : rows) {
+    Json json = json_of(row);
+    json["curves"] = Json::array();
+    for (const CohortLine& line : lines)
+      if (of_row(line, row)) json["curves"].push_back(json_of(line));
+    list.push_back(json);
+  }
+  return text_of(list);
+}
 
 std::string problems_json(const Database& database, const std::vector<std::string>& problems) {
   return text_of({{"database", database.file().string()},

@@ -6,6 +6,7 @@
 #include "app/commands/store_json.h"
 #include "app/commands/text_table.h"
 #include "haptics/input_error.h"
+#include "trainees/attempt_identity.h"
 
 namespace trocar {
 namespace {
@@ -33,6 +34,15 @@ void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& o
   table.print(out);
 }
 
+/// What the rules say of each curve, with what they rest on.
+void print_judgements(const std::vector<CohortLine>& lines, std::ostream& out) {
+  TextTable table({{"exercise"}, {"level"}, {"hand"}, {"flag"}, {"evidence"}, {"rules"}});
+  for (const CohortLine& line : lines)
+    for (const Judgement& j : line.judgements)
+      table.add({line.key.exercise_id, line.key.level, line.key.hand, flag_name(j.flag), j.evidence, j.rule_version});
+  table.print(out);
+}
+
 }  // namespace
 
 int trainee_add(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
@@ -41,7 +51,7 @@ int trainee_add(const TraineeOptions& options, std::ostream& out, std::ostream& 
   if (const auto known = store.find(options.code)) err << "trainee " << known->code << " exists already\n";
   const Trainee trainee = store.ensure_trainee(options.code);
   if (options.json) {
-    out << trainee_json(trainee, {});
+    out << trainee_json(trainee, {}, {});
   } else {
     out << trainee.code << "  " << trainee.uuid << '\n';
   }
@@ -70,12 +80,16 @@ int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream&
   const auto trainee = TraineeStore(database).find(options.code);
   if (!trainee) throw InputError(database.file().string() + ": no trainee \"" + options.code + "\"");
   const auto attempts = AttemptStore(database).list({trainee->code, "", options.limit});
+  CohortFilter filter;
+  filter.trainee = trainee->code;
+  const auto lines = cohort_lines(database, rules_in_force(database), filter, utc_now());
   if (options.json) {
-    out << trainee_json(*trainee, attempts);
+    out << trainee_json(*trainee, attempts, lines);
     return 0;
   }
   out << trainee->code << "  " << trainee->uuid << "  since " << cell_time(trainee->created_utc) << " UTC\n"
       << trainee->attempts << " attempts, " << trainee->passes << " passed\n";
+  if (!lines.empty()) print_judgements(lines, out << '\n');
   if (!attempts.empty()) print_attempts(attempts, out << '\n');
   return 0;
 }

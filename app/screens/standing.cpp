@@ -1,15 +1,9 @@
 #include "app/screens/standing.h"
 
 #include <algorithm>
-#include <set>
 
 namespace trocar {
 namespace {
-
-bool counts(const AttemptSummary& attempt) {
-  return attempt.status != "running" && attempt.status != status_name(AttemptStatus::kFault) &&
-         attempt.status != status_name(AttemptStatus::kVoid);
-}
 
 std::vector<AttemptSummary> at_level(const std::vector<AttemptSummary>& attempts, const std::string& level) {
   std::vector<AttemptSummary> out;
@@ -18,27 +12,6 @@ std::vector<AttemptSummary> at_level(const std::vector<AttemptSummary>& attempts
 }
 
 }  // namespace
-
-int passes_in_a_row(const std::vector<AttemptSummary>& newest_first) {
-  std::set<int> boards;
-  for (const AttemptSummary& attempt : newest_first) {
-    if (!counts(attempt)) continue;
-    if (!attempt.passed) break;
-    boards.insert(attempt.board);
-  }
-  return static_cast<int>(boards.size());
-}
-
-bool opens_next(const std::vector<AttemptSummary>& newest_first) {
-  std::set<int> boards;
-  for (const AttemptSummary& attempt : newest_first) {
-    if (!counts(attempt)) continue;
-    if (attempt.passed) boards.insert(attempt.board);
-    else boards.clear();
-    if (static_cast<int>(boards.size()) >= kPassesToUnlock) return true;
-  }
-  return false;
-}
 
 Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts) {
   Standing out;

@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "scenarios/exercise.h"
-#include "trainees/attempt_store.h"
+#include "trainees/progress/unlock.h"
 
 namespace trocar {
-
-inline constexpr int kPassesToUnlock = 3;
 
 /// One exercise of the catalogue at one level, as the trainee stands to it.
 struct Standing {
@@ -22,11 +20,6 @@ struct Standing {
   bool unlocked = true;                  ///< levels open one after the other: three passes in a row
   std::vector<AttemptSummary> newest_first = {};
 };
-
-/// Different boards among the newest attempts that are all passed. @param newest_first of one level.
-int passes_in_a_row(const std::vector<AttemptSummary>& newest_first);
-/// Whether at any time there were three in a row on three boards.
-bool opens_next(const std::vector<AttemptSummary>& newest_first);
 
 /// @param attempts of one trainee at one exercise, all levels, newest first.
 Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts);

@@ -59,7 +59,7 @@ RunningProgram::RunningProgram(const Launch& launch) {
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, launch.input.c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_addchdir_np(&actions, launch.folder.c_str());
@@ -85,6 +85,10 @@ bool RunningProgram::running() {
 }
 
 void RunningProgram::kill_at_once() { ::kill(pid_, SIGKILL); }
+
+void RunningProgram::ask_to_end() { ::kill(pid_, SIGTERM); }
+
+std::string RunningProgram::out_so_far() const { return contents(out_); }
 
 Outcome RunningProgram::wait() {
   if (!ended_) waitpid(pid_, &status_, 0);

@@ -21,6 +21,7 @@ struct Launch {
   std::filesystem::path folder;                    ///< the child's working folder
   std::map<std::string, std::string> environment;  ///< set on top of the test's own; "" removes
   std::filesystem::path program = TROCAR_PROGRAM;
+  std::filesystem::path input = "/dev/null";       ///< standard input
 };
 
 /// A started program. Its streams go to files in `launch.folder`'s hidden ".streams", so that no pipe can fill up.
@@ -33,6 +34,8 @@ class RunningProgram {
 
   bool running();
   void kill_at_once();  ///< SIGKILL: no destructor, no handler
+  void ask_to_end();    ///< SIGTERM
+  std::string out_so_far() const;
   Outcome wait();
 
  private:

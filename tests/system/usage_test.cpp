@@ -60,6 +60,9 @@ const std::map<std::string, Words>& other_commands_and_flags() {
       {"organ render", {"-o", "--width", "--height"}},
       {"picture", {"--out", "--scene", "--preset", "--width", "--height", "--seed", "--no-grain"}},
       {"organ phantom", {"--out", "--seed", "--json"}},
+      {"review serve", {"--port", "--lan", "--cert", "--key", "--name", "--db"}},
+      {"review account add", {"--name", "--role", "--trainee", "--db"}},
+      {"review account", {"add", "password", "disable", "enable", "list"}},
       {"doctor", {"--db", "--json"}},
       {"completion", {"shell"}},
       {"manual", {}}};

@@ -24,6 +24,7 @@ enum class Flag : std::uint8_t {
   kLearning,       ///< none of these
 };
 const char* flag_name(Flag flag);          ///< "unsafe", "relapsed", ...
+std::optional<Flag> flag_named(const std::string& name);
 
 struct Judgement {
   Flag flag = Flag::kLearning;
@@ -32,10 +33,22 @@ struct Judgement {
   std::string rule_version;
 };
 
-/// What the attempts of one curve are known to have besides their numbers.
+/// What the attempts of one curve are known to have besides their numbers. Those that the device ended are in no curve, yet here.
 struct SafetyRecord {
   std::string uuid;
   int critical_events = 0, failed_gates = 0;
+  bool broken = false;                     ///< void, or ended by the device
+  bool doubtful = false;                   ///< late device loop, or force that was not rendered
+  std::string started_utc = {};            ///< of broken ones, for their place
+};
+
+/// One attempt as the rules see it.
+struct CurveAttempt {
+  std::int64_t started_s = 0;              ///< since 1970
+  std::optional<double> score = {};        ///< empty when not graded
+  bool passed = false;
+  int critical_events = 0, failed_gates = 0;
+  bool broken = false, doubtful = false;   ///< as above; a broken one counts for integrity alone
 };
 
 /// Reliability of the mean of the newest scores: 1 - (variance of the mean) / (variance between trainees); see docs/progress_rules.md.
@@ -46,5 +59,9 @@ std::optional<double> reliability(const std::vector<double>& scores, double betw
 /// @param certified_utc of a certificate that holds, "" without.
 std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<SafetyRecord>& safety, const ProgressRules& rules,
                              std::optional<double> reliability, const std::string& certified_utc, const std::string& now_utc);
+
+/// The same over attempts oldest first.
+std::vector<Judgement> judge(const std::vector<CurveAttempt>& attempts, const ProgressRules& rules, std::optional<double> reliability,
+                             const std::string& certified_utc, const std::string& now_utc);
 
 }  // namespace trocar

@@ -14,6 +14,7 @@
 #include "scenarios/scoring/trace.h"
 #include "trainees/accounts.h"
 #include "trainees/database.h"
+#include "trainees/markup/plots.h"
 
 namespace trocar::review {
 
@@ -35,6 +36,12 @@ struct Response {
   std::string download = {};                           ///< file name: the browser saves it
 };
 
+/// Of an exercise at a level, as its file says.
+struct LevelFacts {
+  ForceLimits limits = {};
+  double pass_at = 75;
+};
+
 /// What pages need of the rest of the program; each may be empty, and the page says so.
 struct DeskSources {
   /// Samples of a recording. @throws InputError when it cannot be read.
@@ -43,6 +50,9 @@ struct DeskSources {
   std::function<std::string(const std::string& attempt_uuid, double t_s, int width)> picture = {};
   /// Words for a metric: what it measures and how (for the formula column); "" when unknown.
   std::function<std::string(const std::string& metric)> metric_words = {};
+  /// What an exercise's file says of a level. @throws InputError: a text or level that cannot be read.
+  std::function<LevelFacts(const std::string& exercise_text, const std::string& level)> level_facts = {};
+  std::string shipped_rules = {};   ///< text of the progress rules that came with the program, where the editor begins
   /// What runs on this station now, as JSON; "" when nothing does.
   std::function<std::string()> station = {};
 };

@@ -1,0 +1,289 @@
+// Every route with a real database behind it, without a network: what is shown, what is stored, what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "haptics/input_error.h"
+#include "tests/trainees/cohort_samples.h"
+#include "tests/trainees/review/page_checker.h"
+#include "tests/trainees/review/page_samples.h"
+#include "tests/trainees/store_samples.h"
+#include "trainees/curricula.h"
+#include "trainees/opinions.h"
+#include "trainees/review/desk_queries.h"
+#include "trainees/review/route_table.h"
+
+namespace trocar::review {
+namespace {
+
+constexpr const char* kRules = "version = \"7\"\n";
+
+class DeskRoutes : public testing::Test {
+ protected:
+  DeskRoutes() : database_(":memory:"), desk_{database_, {}, false}, table_(desk_routes()) {
+    test::fill_cohort(database_, {});
+    desk_.sources.trace = [](const std::filesystem::path&) { return sample_trace(); };
+    desk_.sources.picture = [](const std::string& uuid, double t_s, int width) {
+      return uuid + " " + std::to_string(t_s) + " " + std::to_string(width);
+    };
+    desk_.sources.metric_words = [](const std::string& metric) { return "words of " + metric; };
+    desk_.sources.level_facts = [](const std::string&, const std::string&) { return LevelFacts{{0.4, 0.8, 1.5}, 70}; };
+    desk_.sources.shipped_rules = kRules;
+    attempt_ = AttemptStore(database_).latest()->uuid;
+    trainee_ = AttemptStore(database_).latest()->trainee;
+    staff_ = Account{"a-1", "ines", "Dr Ines Okafor", Role::kInstructor};
+  }
+
+  Response ask(const std::string& method, const std::string& path, std::map<std::string, std::string> values = {}) {
+    const RouteTable::Found found = table_.find(method, path);
+    if (found.route == nullptr) return Response{.status = 405};
+    Request request;
+    request.path = path;
+    request.arguments = found.arguments;
+    (method == "GET" ? request.query : request.form) = std::move(values);
+    request.account = staff_;
+    request.token = "token-4711";
+    request.now_utc = "2026-06-01T10:00:00Z";
+    return found.route->answer(request, desk_);
+  }
+
+  CheckedPage page(const std::string& path, std::map<std::string, std::string> values = {}) {
+    const Response answer = ask("GET", path, std::move(values));
+    EXPECT_EQ(answer.status, 200) << path << "\n" << answer.body.substr(0, 2000);
+    return check_page(answer.body);
+  }
+
+  Database database_;
+  Desk desk_;
+  RouteTable table_;
+  Account staff_;
+  std::string attempt_, trainee_;
+};
+
+TEST_F(DeskRoutes, EveryPageIsSound) {
+  for (const std::string& path : {std::string("/"), "/trainee/" + trainee_, "/attempt/" + attempt_, "/compare/" + attempt_ + "/" + attempt_,
+                                  std::string("/curriculum"), std::string("/station")})
+    EXPECT_EQ(page(path).problems, std::vector<std::string>{}) << path;
+}
+
+TEST_F(DeskRoutes, EmptyDatabase) {
+  Database empty(":memory:");
+  Desk desk{empty};
+  for (const char* path : {"/", "/curriculum", "/station", "/cohort.csv"}) {
+    Request request;
+    request.path = path;
+    request.account = staff_;
+    request.token = "token-4711";
+    const Response answer = table_.find("GET", path).route->answer(request, desk);
+    EXPECT_EQ(answer.status, 200) << path;
+    if (answer.download.empty()) {
+      EXPECT_EQ(check_page(answer.body).problems, std::vector<std::string>{}) << path;
+    }
+  }
+}
+
+TEST_F(DeskRoutes, CohortShowsEverybodyAndFilters) {
+  const CheckedPage all = page("/");
+  EXPECT_NE(all.all("div", "title")[0]->text.find("8 trainees, 100 attempts"), std::string::npos) << all.all("div", "title")[0]->text;
+  const std::string group = CurriculumStore(database_).groups().front();
+  const std::size_t members = CurriculumStore(database_).members(group).size();
+  EXPECT_NE(page("/", {{"group", group}}).all("div", "title")[0]->text.find(std::to_string(members) + " trainees"), std::string::npos);
+  EXPECT_NE(page("/", {{"group", "' OR 1=1 --"}}).by_id("trainees")->text.find("Nobody matches"), std::string::npos);
+}
+
+TEST_F(DeskRoutes, AttemptLooksAtTheAskedMoment) {
+  EXPECT_EQ(page("/attempt/" + attempt_, {{"t", "12.5"}}).by_id("t")->of("value"), "12.5");
+  EXPECT_EQ(page("/attempt/" + attempt_, {{"t", "1e99"}}).by_id("t")->of("value"), "60.0");
+  EXPECT_EQ(page("/attempt/" + attempt_, {{"t", "-4"}}).by_id("t")->of("value"), "0.0");
+  EXPECT_EQ(page("/attempt/" + attempt_, {{"t", "nan"}}).problems, std::vector<std::string>{});
+}
+
+TEST_F(DeskRoutes, PicturesCarryAttemptTimeAndWidth) {
+  const Response answer = ask("GET", "/attempt/" + attempt_ + "/picture.png", {{"t", "3.25"}});
+  EXPECT_EQ(answer.type, "image/png");
+  EXPECT_EQ(answer.body, attempt_ + " 3.250000 800");
+  for (const char* t : {"", "x", "-1", "inf"}) EXPECT_EQ(ask("GET", "/attempt/" + attempt_ + "/picture.png", {{"t", t}}).status, 404) << t;
+  desk_.sources.picture = [](const std::string&, double, int) -> std::string { throw EnvironmentError("no EGL"); };
+  EXPECT_EQ(ask("GET", "/attempt/" + attempt_ + "/picture.png", {{"t", "1"}}).status, 404);
+  desk_.sources.picture = {};
+  EXPECT_EQ(page("/attempt/" + attempt_).all("img").size(), 0U);
+}
+
+TEST_F(DeskRoutes, AnUnreadableRecordingLeavesThePageStanding) {
+  desk_.sources.trace = [](const std::filesystem::path&) -> Trace { throw InputError("a.trec: cut"); };
+  const CheckedPage answer = page("/attempt/" + attempt_);
+  EXPECT_EQ(answer.problems, std::vector<std::string>{});
+  EXPECT_NE(answer.by_id("metrics")->text.find("words of "), std::string::npos);
+}
+
+TEST_F(DeskRoutes, WhatIsNotThereIsSaid) {
+  for (const char* path : {"/trainee/nobody", "/attempt/ffffffff-0000", "/compare/ffffffff/eeeeeeee"}) {
+    const Response answer = ask("GET", path);
+    EXPECT_EQ(answer.status, 404) << path;
+    EXPECT_EQ(check_page(answer.body).problems, std::vector<std::string>{}) << path;
+  }
+  EXPECT_EQ(ask("GET", "/compare", {{"attempt", attempt_}, {"other", "'; DROP TABLE attempt"}}).status, 404);
+  EXPECT_EQ(ask("GET", "/compare", {{"attempt", attempt_.substr(0, 36)}, {"other", attempt_}}).location,
+            "/compare/" + attempt_ + "/" + attempt_);
+}
+
+TEST_F(DeskRoutes, FilesAreDownloads) {
+  const Response cohort = ask("GET", "/cohort.csv"), attempts = ask("GET", "/trainee/" + trainee_ + "/attempts.csv"),
+                 attempt = ask("GET", "/attempt/" + attempt_ + "/attempt.csv");
+  EXPECT_EQ(cohort.download, "cohort.csv");
+  EXPECT_EQ(attempts.download, "attempts-" + trainee_ + ".csv");
+  for (const Response& file : {cohort, attempts, attempt}) EXPECT_EQ(file.type, "text/csv; charset=utf-8");
+  EXPECT_EQ(std::count(attempts.body.begin(), attempts.body.end(), '\n') - 1,
+            static_cast<std::ptrdiff_t>(AttemptStore(database_).list(AttemptFilter{trainee_, "", 0}).size()));
+}
+
+TEST_F(DeskRoutes, NotesSignaturesOverridesAreStoredWithTheirAuthor) {
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/note", {{"text", "Too strong <b>"}}).location, "/attempt/" + attempt_ + "#notes");
+  EXPECT_EQ(ask("POST", "/trainee/" + trainee_ + "/note", {{"text", "Well done"}}).status, 303);
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/sign", {{"meaning", "approval"}, {"note", "seen"}}).status, 303);
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/override", {{"passed", "yes"}, {"reason", "The stand slipped twice"}}).status, 303);
+  const OpinionStore opinions(database_);
+  ASSERT_EQ(opinions.notes_of(trainee_).size(), 2U);
+  EXPECT_EQ(opinions.notes_of(trainee_)[0].printed, "Dr Ines Okafor");
+  ASSERT_EQ(opinions.signatures_of(attempt_).size(), 1U);
+  EXPECT_EQ(opinions.signatures_of(attempt_)[0].meaning, "approval");
+  EXPECT_TRUE(opinions.overrides_of(attempt_)[0].passed);
+  const CheckedPage answer = page("/attempt/" + attempt_);
+  EXPECT_NE(answer.by_id("notes")->text.find("Too strong <b>"), std::string::npos);
+  EXPECT_NE(answer.all("section", "verdict")[0]->text.find("Passed by decision of Dr Ines Okafor"), std::string::npos);
+}
+
+TEST_F(DeskRoutes, BadOpinionsAreRefusedAndNothingIsStored) {
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/note", {{"text", ""}}).status, 400);
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/sign", {{"meaning", "admiration"}}).status, 400);
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/override", {{"passed", "yes"}, {"reason", "short"}}).status, 400);
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/override", {{"reason", "long enough a reason"}}).status, 400);
+  EXPECT_EQ(ask("POST", "/certificate/none/revoke", {{"reason", "long enough a reason"}}).status, 400);
+  EXPECT_TRUE(OpinionStore(database_).notes_of(trainee_).empty());
+  EXPECT_TRUE(OpinionStore(database_).overrides_of(attempt_).empty());
+}
+
+TEST_F(DeskRoutes, NobodyIsCertifiedWithoutEvidence) {
+  ASSERT_EQ(page("/attempt/" + attempt_).by_id("sign")->text.find("Certify"), std::string::npos);
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/certify").status, 400);
+  EXPECT_TRUE(OpinionStore(database_).certificates_of("").empty());
+}
+
+/// Attempts of one trainee, one a board, without anything critical.
+AttemptId practise(Database& database, const std::string& trainee, int attempts, double score) {
+  AttemptId last;
+  for (int i = 0; i < attempts; ++i) {
+    AttemptStart start = sample_start(trainee);
+    start.board = i;
+    AttemptResult result = sample_result(score + i % 3);
+    result.grade.caps.clear();
+    result.events.pop_back();
+    for (Subscore& part : result.grade.subscores) part.value = 0.01 * score;
+    last = store_attempt(database, start, result);
+  }
+  return last;
+}
+
+TEST_F(DeskRoutes, EvidenceMakesACertificateOnce) {
+  Database database(":memory:");
+  practise(database, "novice-1", 5, 60);
+  practise(database, "novice-2", 5, 52);
+  const AttemptId last = practise(database, "steady", 30, 90);
+  Desk desk{database};
+  Request request;
+  request.account = staff_;
+  request.token = "token-4711";
+  request.now_utc = "2026-06-01T10:00:00Z";
+  request.arguments = {{"attempt", last.uuid}, {"code", "steady"}};
+  const std::string page = table_.find("GET", "/attempt/x").route->answer(request, desk).body;
+  ASSERT_NE(page.find("/certify\""), std::string::npos);
+  EXPECT_EQ(check_page(page).problems, std::vector<std::string>{});
+  EXPECT_EQ(table_.find("POST", "/attempt/x/certify").route->answer(request, desk).location, "/trainee/steady#certificates");
+  const auto held = OpinionStore(database).certificates_of("steady");
+  ASSERT_EQ(held.size(), 1U);
+  EXPECT_EQ(held[0].printed, "Dr Ines Okafor");
+  EXPECT_NE(held[0].evidence.find(last.uuid), std::string::npos);
+  EXPECT_EQ(table_.find("POST", "/attempt/x/certify").route->answer(request, desk).status, 400);  // one is held already
+  request.form = {{"reason", "The device was out of calibration"}};
+  request.arguments["certificate"] = held[0].uuid;
+  EXPECT_EQ(table_.find("POST", "/certificate/x/revoke").route->answer(request, desk).location, "/trainee/steady#certificates");
+  EXPECT_NE(table_.find("GET", "/trainee/x").route->answer(request, desk).body.find("(withdrawn)"), std::string::npos);
+}
+
+TEST_F(DeskRoutes, ATraineeComparesOwnAttemptsOnly) {
+  std::string other;
+  for (const AttemptSummary& attempt : AttemptStore(database_).list())
+    if (attempt.trainee != trainee_) other = attempt.uuid;
+  staff_ = Account{"a-2", "tr", "Trainee", Role::kTrainee, trainee_};
+  EXPECT_EQ(ask("GET", "/compare/" + attempt_ + "/" + other).status, 403);
+  EXPECT_EQ(ask("GET", "/compare/" + attempt_ + "/" + attempt_).status, 200);
+  const CheckedPage own = page("/attempt/" + attempt_);
+  EXPECT_EQ(own.by_id("note-text"), nullptr);
+  EXPECT_EQ(own.by_id("sign-meaning"), nullptr);
+}
+
+TEST_F(DeskRoutes, RulesArePreviewedSavedAndRefusedWithTheirPlace) {
+  EXPECT_NE(page("/curriculum").by_id("cur-toml")->text.find(kRules), std::string::npos);
+  const Response preview = ask("POST", "/curriculum", {{"do", "preview"}, {"name", kRulesName}, {"toml", kRules}});
+  EXPECT_EQ(preview.status, 200);
+  EXPECT_NE(preview.body.find("would pass today"), std::string::npos);
+  EXPECT_FALSE(CurriculumStore(database_).newest(kRulesName));
+  EXPECT_EQ(ask("POST", "/curriculum", {{"do", "save"}, {"name", kRulesName}, {"toml", kRules}}).status, 303);
+  EXPECT_EQ(CurriculumStore(database_).newest(kRulesName)->version, 1);
+  const Response bad = ask("POST", "/curriculum", {{"do", "save"}, {"name", kRulesName}, {"toml", "version = \"8\"\nnonsense = 1\n"}});
+  EXPECT_EQ(bad.status, 400);
+  EXPECT_NE(bad.body.find("standard:2:"), std::string::npos);
+  EXPECT_NE(bad.body.find("nonsense = 1"), std::string::npos);  // the text is not lost
+  EXPECT_EQ(CurriculumStore(database_).newest(kRulesName)->version, 1);
+}
+
+TEST_F(DeskRoutes, BenchmarksComeFromPeopleAndSayHowMany) {
+  const AttemptSummary newest = *AttemptStore(database_).latest();
+  std::map<std::string, std::string> form = {{"do", "preview"},       {"exercise", newest.exercise_id},
+                                             {"level", newest.level}, {"metric", "score"},
+                                             {"rule", "fixed"},       {"fixed", "81.5"}};
+  const Response preview = ask("POST", "/curriculum/benchmark", form);
+  EXPECT_EQ(preview.status, 200);
+  EXPECT_NE(preview.body.find("<strong>Score 81.5</strong>"), std::string::npos);
+  EXPECT_TRUE(CurriculumStore(database_).benchmarks().empty());
+  form["do"] = "save";
+  EXPECT_EQ(ask("POST", "/curriculum/benchmark", form).status, 303);
+  ASSERT_EQ(CurriculumStore(database_).benchmarks().size(), 1U);
+  EXPECT_DOUBLE_EQ(CurriculumStore(database_).benchmarks()[0].full_at, 81.5);
+  form["rule"] = "mean-2sd";
+  form["who"] = "trainee:" + newest.trainee;
+  const Response one = ask("POST", "/curriculum/benchmark", form);
+  EXPECT_EQ(one.status, 400);
+  EXPECT_NE(one.body.find("At least three people"), std::string::npos);
+  form["rule"] = "fixed";
+  form["fixed"] = "8x";
+  EXPECT_EQ(ask("POST", "/curriculum/benchmark", form).status, 400);
+  form["fixed"] = "3";
+  form["metric"] = "time_s";
+  EXPECT_NE(ask("POST", "/curriculum/benchmark", form).body.find("which way is better"), std::string::npos);
+}
+
+TEST_F(DeskRoutes, GroupsAreJoinedAndLeft) {
+  EXPECT_EQ(ask("POST", "/curriculum/group", {{"do", "join"}, {"trainee", trainee_}, {"group", "evening"}}).status, 303);
+  EXPECT_EQ(CurriculumStore(database_).members("evening"), std::vector<std::string>{trainee_});
+  EXPECT_NE(page("/curriculum").by_id("groups")->text.find("evening 1 trainee"), std::string::npos);
+  EXPECT_EQ(ask("POST", "/curriculum/group", {{"do", "leave"}, {"trainee", trainee_}, {"group", "evening"}}).status, 303);
+  EXPECT_TRUE(CurriculumStore(database_).members("evening").empty());
+  EXPECT_EQ(ask("POST", "/curriculum/group", {{"do", "dance"}, {"trainee", trainee_}, {"group", "evening"}}).status, 400);
+  EXPECT_EQ(ask("POST", "/curriculum/group", {{"do", "join"}, {"trainee", "nobody"}, {"group", "evening"}}).status, 400);
+}
+
+TEST_F(DeskRoutes, WhoMaySeeWhat) {
+  for (const Route& route : desk_routes()) {
+    const bool open = route.path == "/style.css" || route.path == "/desk.js";
+    const bool own =
+        route.method == "GET" && (route.path.find("{code}") != std::string::npos || route.path.find("{attempt}") != std::string::npos);
+    EXPECT_EQ(route.audience, open  ? Audience::kEverybody
+                              : own ? Audience::kOwnData
+                                    : Audience::kInstructors)
+        << route.method << " " << route.path;
+  }
+}
+
+}  // namespace
+}  // namespace trocar::review

@@ -1,0 +1,38 @@
+// Writes every page with its sample data into a folder, to be looked at in a browser: render_pages FOLDER.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <regex>
+
+#include "tests/trainees/review/page_samples.h"
+#include "trainees/review/style.h"
+
+namespace fs = std::filesystem;
+using namespace trocar::review;
+
+int main(int count, char** words) {
+  if (count != 2) {
+    std::cerr << "render_pages FOLDER\n";
+    return 2;
+  }
+  const fs::path folder = words[1];
+  fs::create_directories(folder);
+  const auto write = [&](const std::string& name, std::string text) {
+    // From a file, the style sheet and script lie beside the page.
+    text = std::regex_replace(text, std::regex("\"/(style\\.css|desk\\.js)\""), "\"$1\"");
+    text = std::regex_replace(text, std::regex("\"/attempt/[^\"]*picture\\.png\\?t=[0-9.]*\""), "\"picture.png\"");
+    std::ofstream(folder / name, std::ios::binary) << text;
+  };
+  Frame frame = sample_frame();
+  write("style.css", style_sheet());
+  write("desk.js", desk_script());
+  write("cohort.html", cohort_page(sample_cohort(), frame));
+  write("trainee.html", trainee_page(sample_trainee(), frame));
+  write("attempt.html", attempt_page(sample_attempt(), frame));
+  write("compare.html", compare_page(sample_compare(), frame));
+  write("curriculum.html", curriculum_page(sample_curriculum(), frame));
+  frame.demo = true;
+  write("station.html", station_page(sample_station(), frame));
+  write("cohort_empty.html", cohort_page({}, frame));
+  return 0;
+}

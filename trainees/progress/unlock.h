@@ -1,0 +1,19 @@
+// What opens the next level: so many passes in a row, on as many boards; once open it stays so.
+//
+// An attempt that was left (aborted) counts as not passed; one that the device ended (fault, void) does not count. Pure. Thread: any.
+#pragma once
+
+#include <vector>
+
+#include "trainees/attempt_store.h"
+
+namespace trocar {
+
+inline constexpr int kPassesToUnlock = 3;
+
+/// Different boards among the newest attempts that are all passed. @param newest_first of one level.
+int passes_in_a_row(const std::vector<AttemptSummary>& newest_first);
+/// Whether at any time there were so many in a row on as many boards.
+bool opens_next(const std::vector<AttemptSummary>& newest_first, int passes = kPassesToUnlock);
+
+}  // namespace trocar

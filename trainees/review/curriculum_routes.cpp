@@ -1,0 +1,87 @@
+#include "haptics/input_error.h"
+#include "trainees/review/desk_views.h"
+#include "trainees/review/page_routes.h"
+#include "trainees/review/pages.h"
+
+namespace trocar::review {
+namespace {
+
+Response page(const CurriculumView& view, const Request& request, Desk& desk, int status = 200) {
+  Response out;
+  out.status = status;
+  out.body = curriculum_page(view, frame_of(request, desk));
+  return out;
+}
+
+Response show(const Request& request, Desk& desk) { return page(curriculum_view(desk, request), request, desk); }
+
+/// Previews or saves; a text that cannot be read comes back with what is wrong and where.
+Response rules(const Request& request, Desk& desk) {
+  CurriculumView view = curriculum_view(desk, request);
+  view.name = argument(request.form, "name");
+  view.text = argument(request.form, "toml");
+  try {
+    const ProgressRules read = read_progress_rules(view.text, view.name);
+    if (argument(request.form, "do") == "save") {
+      CurriculumStore(desk.database).add(view.name, view.text, author_of(request));
+      return see("/curriculum?name=" + url_part(view.name) + "#editor");
+    }
+    view.preview = preview_rules(desk, read, request.now_utc);
+  } catch (const InputError& error) {
+    view.problem = error.what();
+    return page(view, request, desk, 400);
+  }
+  return page(view, request, desk);
+}
+
+Response benchmark(const Request& request, Desk& desk) {
+  const auto& form = request.form;
+  const BenchmarkQuestion question = {argument(form, "exercise"), argument(form, "level"), argument(form, "metric"), argument(form, "who"),
+                                      argument(form, "rule"),     argument(form, "fixed"), argument(form, "zero_at")};
+  const BenchmarkProposal proposal = propose(desk, question, request.now_utc);
+  if (argument(form, "do") == "save" && proposal.value) {
+    Benchmark numbers;
+    numbers.exercise_id = question.exercise_id;
+    numbers.level = question.level;
+    numbers.metric = question.metric;
+    numbers.source = proposal.source;
+    numbers.rule = question.rule == "mean-2sd" ? "mean - 2 SD" : question.rule == "best-quartile" ? "best quartile" : question.rule;
+    numbers.full_at = *proposal.value;
+    numbers.zero_at = std::strtod(question.zero_at.c_str(), nullptr);
+    numbers.n = proposal.n;
+    CurriculumStore(desk.database).add_benchmark(numbers, author_of(request));
+    return see("/curriculum#benchmarks");
+  }
+  CurriculumView view = curriculum_view(desk, request);
+  view.proposal = proposal;
+  return page(view, request, desk, proposal.problem.empty() ? 200 : 400);
+}
+
+Response group(const Request& request, Desk& desk) {
+  CurriculumStore store(desk.database);
+  const std::string trainee = argument(request.form, "trainee"), name = argument(request.form, "group"),
+                    what = argument(request.form, "do");
+  if (what == "join")
+    store.join(trainee, name, author_of(request));
+  else if (what == "leave")
+    store.leave(trainee, name, author_of(request));
+  else
+    throw InputError("do: join or leave");
+  return see("/curriculum#groups");
+}
+
+using Action = Response (*)(const Request&, Desk&);
+
+Route route(const std::string& method, const std::string& path, Action action) {
+  return {method, path, Audience::kInstructors,
+          [action](const Request& request, Desk& desk) { return answered(request, desk, 400, [&] { return action(request, desk); }); }};
+}
+
+}  // namespace
+
+std::vector<Route> curriculum_routes() {
+  return {route("GET", "/curriculum", show), route("POST", "/curriculum", rules), route("POST", "/curriculum/benchmark", benchmark),
+          route("POST", "/curriculum/group", group)};
+}
+
+}  // namespace trocar::review

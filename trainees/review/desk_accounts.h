@@ -1,0 +1,29 @@
+// What the server asks the database before a page is called, and pages may ask of what a query names: may anybody sign in,
+// does a sign-in still hold, whose is what. Thread: that of the Database.
+#pragma once
+
+#include <string>
+
+#include "trainees/accounts.h"
+#include "trainees/database.h"
+
+namespace trocar::review {
+
+/// There is an account with a password that is not disabled.
+bool somebody_can_sign_in(const Database& database);
+
+/// Changes when the account's password, role, trainee or state does; "" when it may not sign in, or is gone.
+std::string sign_in_stamp(const Database& database, const std::string& account_uuid);
+
+/// Staff sees everybody, a trainee only the own code (as the account has it).
+bool may_see_trainee(const Account& account, const std::string& code);
+/// By the attempt's whole UUID, not a part of it. An attempt that is not there is nobody's: staff may ask for it, trainees may not.
+bool may_see_attempt(const Account& account, const Database& database, const std::string& attempt_uuid);
+
+/// `text` is the code of a trainee other than `code`, or the UUID of another trainee, of their account or of an attempt of theirs.
+bool names_another(const Database& database, const std::string& text, const std::string& code);
+
+/// The station's own instructor, who need not sign in at 127.0.0.1 while nobody has an account.
+Account local_instructor();
+
+}  // namespace trocar::review

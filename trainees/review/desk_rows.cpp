@@ -1,0 +1,47 @@
+#include "trainees/review/desk_rows.h"
+
+#include "scenarios/scoring/attempt_result.h"
+#include "trainees/sqlite_handle.h"
+
+namespace trocar::desk {
+
+std::map<std::int64_t, Person> people(sqlite3* connection) {
+  std::map<std::int64_t, Person> out;
+  sql::Statement rows(connection, "SELECT t.id, t.code, coalesce(p.name, ''), t.created_utc FROM known_trainee t"
+                                  " LEFT JOIN person p ON p.trainee_id = t.id ORDER BY t.id");
+  while (rows.step()) out[rows.integer(0)] = {rows.integer(0), rows.text(1), rows.text(2), rows.text(3)};
+  sql::Statement groups(connection, "SELECT trainee_id, group_name FROM membership ORDER BY trainee_id, group_name");
+  while (groups.step()) out[groups.integer(0)].groups.push_back(groups.text(1));
+  return out;
+}
+
+std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection) {
+  std::map<CertifiedSkill, std::string> out;
+  sql::Statement rows(connection, "SELECT trainee_id, exercise_id, level, max(utc) FROM certificate c"
+                                  " WHERE NOT EXISTS (SELECT 1 FROM revocation r WHERE r.certificate_id = c.id)"
+                                  " GROUP BY trainee_id, exercise_id, level");
+  while (rows.step()) out[{rows.integer(0), rows.text(1), rows.text(2)}] = rows.text(3);
+  return out;
+}
+
+bool doubtful(double ticks, double overruns, double saturated_share, double late_share) {
+  DeviceReceipt device;
+  device.saturated_contact_share = saturated_share;
+  return overruns > late_share * ticks || device.force_not_rendered();
+}
+
+bool broken(const std::string& status) {
+  return status == status_name(AttemptStatus::kFault) || status == status_name(AttemptStatus::kVoid);
+}
+
+std::map<std::int64_t, std::vector<double>> cohort_scores(sqlite3* connection, const CurveKey& key) {
+  std::map<std::int64_t, std::vector<double>> out;
+  sql::Statement rows(connection, "SELECT a.trainee_id, s.value FROM attempt a CROSS JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
+                                  " WHERE a.exercise_id = ? AND a.level = ? AND a.hand = ? AND a.ruleset_sha256 = ?"
+                                  " AND a.status IN ('completed', 'timeout') AND s.value IS NOT NULL ORDER BY a.trainee_id, a.id");
+  rows.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(key.rubric_sha256);
+  while (rows.step()) out[rows.integer(0)].push_back(rows.real(1));
+  return out;
+}
+
+}  // namespace trocar::desk

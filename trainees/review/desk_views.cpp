@@ -1,0 +1,302 @@
+#include "trainees/review/desk_views.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "haptics/input_error.h"
+#include "trainees/attempt_store.h"
+#include "trainees/review/charts.h"
+#include "trainees/review/desk_queries.h"
+#include "trainees/sqlite_handle.h"
+
+namespace trocar::review {
+namespace {
+
+std::string facts_key(const std::string& rubric, const std::string& level) { return rubric + "/" + level; }
+
+/// Limits and pass mark by rubric and level, each read once for a page.
+class LevelReader {
+ public:
+  explicit LevelReader(Desk& desk) : desk_(&desk) {}
+  LevelFacts of(const std::string& rubric, const std::string& level) {
+    const auto [it, added] = known_.try_emplace(facts_key(rubric, level));
+    if (added && desk_->sources.level_facts) {
+      try {
+        it->second = desk_->sources.level_facts(AttemptStore(desk_->database).exercise_text(rubric), level);
+      } catch (const InputError&) {
+        it->second = {};  // an exercise of another version of the program: drawn without its limits
+      }
+    }
+    return it->second;
+  }
+
+ private:
+  Desk* desk_;
+  std::map<std::string, LevelFacts> known_;
+};
+
+int whole_number(const std::string& text, int otherwise) {
+  char* end = nullptr;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  return end == text.c_str() || *end != '\0' || value < 1 || value > 1000000 ? otherwise : static_cast<int>(value);
+}
+
+CurveView curve_view(const CurvePicture& picture, const std::map<std::string, std::string>& titles, LevelReader& levels,
+                     const ProgressRules& rules) {
+  CurveView out;
+  const LearningCurve& curve = picture.curve;
+  out.key = curve.key;
+  const auto title = titles.find(curve.key.exercise_id);
+  out.title = title == titles.end() || title->second.empty() ? curve.key.exercise_id : title->second;
+  for (const PastAttempt& attempt : curve.attempts) {
+    const AttemptSummary& s = attempt.summary;
+    out.points.push_back({s.uuid, s.started_utc, s.status, s.score, s.passed});
+  }
+  out.pass_at = levels.of(curve.key.rubric_sha256, curve.key.level).pass_at;
+  out.best = curve.best;
+  out.last = curve.last;
+  out.graded = curve.graded;
+  out.passed = curve.passed;
+  out.in_a_row = curve.in_a_row;
+  out.trained_s = curve.trained_s;
+  for (const Benchmark& benchmark : picture.benchmarks)
+    if (!out.benchmark && benchmark.metric == "score") out.benchmark = benchmark;
+  for (const CohortPoint& point : picture.cohort) out.cohort.push_back({point.attempt, point.people, point.scores});
+  out.cusum = picture.cusum;
+  out.rule = rules.cusum;
+  out.judgements = picture.judgements;
+  out.reliability = picture.reliability;
+  return out;
+}
+
+std::string days_words(int days) { return std::to_string(days) + " days after the certificate"; }
+
+void add_due(TraineeView& view, const CurvePicture& picture, const std::string& title) {
+  for (const RetentionDate& date : picture.retention) {
+    const bool open = date.state == RetentionDate::State::kDue || date.state == RetentionDate::State::kMissed;
+    view.due.push_back(
+        {title, picture.curve.key.level, date.due_utc, days_words(date.days) + ": " + retention_state_name(date.state), open});
+  }
+}
+
+std::size_t chosen_curve(const std::vector<CurveView>& curves, const Request& request) {
+  const std::string exercise = argument(request.query, "exercise"), level = argument(request.query, "level"),
+                    hand = argument(request.query, "hand"), rubric = argument(request.query, "rubric");
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const CurveKey& key = curves[i].key;
+    if ((exercise.empty() || key.exercise_id == exercise) && (level.empty() || key.level == level) && (hand.empty() || key.hand == hand) &&
+        (rubric.empty() || key.rubric_sha256.starts_with(rubric)))
+      return i;
+  }
+  return 0;
+}
+
+/// Chain position of an attempt, 0 when it has none.
+std::int64_t chain_position(Database& database, const std::string& uuid) {
+  sql::Statement query(database.connection(), "SELECT coalesce(chain_position, 0) FROM attempt WHERE uuid = ?1");
+  query.bind(uuid);
+  return query.step() ? query.integer(0) : 0;
+}
+
+void add_trace(AttemptView& view, Desk& desk) {
+  if (view.result.recording_path.empty()) {
+    view.no_trace = "This attempt was not recorded.";
+  } else if (!desk.sources.trace) {
+    view.no_trace = "This desk cannot read recordings.";
+  } else {
+    try {
+      view.trace = desk.sources.trace(view.result.recording_path);
+    } catch (const std::exception& error) {
+      view.no_trace = std::string("The recording cannot be read: ") + error.what();
+    }
+  }
+}
+
+/// Own earlier attempts; an expert's for staff only: a trainee sees nobody else's.
+void add_rivals(AttemptView& view, const AttemptPicture& picture, bool staff) {
+  const PastAttempt* best = nullptr;
+  for (const PastAttempt& attempt : picture.earlier)
+    if (attempt.summary.score && (best == nullptr || *attempt.summary.score > *best->summary.score)) best = &attempt;
+  if (best != nullptr) view.rivals.push_back({"own best before", best->summary.uuid, best->summary.score});
+  if (!picture.earlier.empty())
+    view.rivals.push_back({"own attempt before", picture.earlier.front().summary.uuid, picture.earlier.front().summary.score});
+  if (staff && !picture.experts.empty()) {
+    const AttemptSummary& expert = picture.experts.front();
+    if (expert.uuid != picture.result.uuid)
+      view.rivals.push_back(
+          {expert.board == picture.result.board ? "expert, same board" : "expert, another board", expert.uuid, expert.score});
+  }
+}
+
+/// The judgement "ready" of the attempt's curve, for the certificate.
+void add_readiness(AttemptView& view, Desk& desk, const ProgressRules& rules, const std::string& now_utc) {
+  CohortFilter filter;
+  filter.exercise = view.result.exercise_id;
+  filter.level = view.result.level;
+  filter.trainee = view.result.trainee;
+  for (const CohortLine& line : cohort_lines(desk.database, rules, filter, now_utc)) {
+    if (line.key.hand != view.result.hand || line.key.rubric_sha256 != view.result.rubric_sha256 || !line.certified_utc.empty()) continue;
+    for (const Judgement& judgement : line.judgements)
+      if (judgement.flag == Flag::kReady) view.ready = judgement;
+  }
+}
+
+double moment_of(const AttemptView& view, const std::string& text) {
+  double worst = -1;
+  for (const Event& event : view.result.events)
+    if (event.severity >= Severity::kMajor && worst < 0) worst = event.t_s - view.begin_s();
+  char* end = nullptr;
+  const double asked = std::strtod(text.c_str(), &end);
+  const double t = end != text.c_str() && std::isfinite(asked) ? asked : std::max(0.0, worst);
+  return std::clamp(t, 0.0, view.trace ? length_s(*view.trace) : 0.0);
+}
+
+std::string short_words(const AttemptView& view) { return view.result.trainee + ", " + view.result.started_utc.substr(0, 10); }
+
+}  // namespace
+
+std::string argument(const std::map<std::string, std::string>& values, const std::string& name, const std::string& otherwise) {
+  const auto it = values.find(name);
+  return it == values.end() ? otherwise : it->second;
+}
+
+bool is_staff(const Request& request) { return request.account && request.account->role != Role::kTrainee; }
+
+Frame frame_of(const Request& request, const Desk& desk) {
+  Frame frame;
+  if (request.account) frame.who = request.account->name.empty() ? request.account->login : request.account->name;
+  if (request.account && request.account->role == Role::kTrainee) frame.own_code = request.account->trainee_code;
+  frame.token = request.token;
+  frame.now_utc = request.now_utc;
+  frame.demo = desk.demo;
+  frame.may_write = is_staff(request);
+  return frame;
+}
+
+Author author_of(const Request& request) {
+  if (!request.account) return {};
+  return {request.account->uuid, request.account->name.empty() ? request.account->login : request.account->name};
+}
+
+std::vector<Choice> exercise_choices(Database& database) {
+  sql::Statement query(database.connection(), "SELECT id, title FROM exercise ORDER BY number, id");
+  std::vector<Choice> out;
+  while (query.step()) out.emplace_back(query.text(0), query.text(1).empty() ? query.text(0) : query.text(1));
+  return out;
+}
+
+std::string exercise_title(Database& database, const std::string& id) {
+  sql::Statement query(database.connection(), "SELECT title FROM exercise WHERE id = ?1");
+  query.bind(id);
+  return query.step() && !query.text(0).empty() ? query.text(0) : id;
+}
+
+std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column) {
+  sql::Statement query(database.connection(),
+                       column == "hand" ? "SELECT DISTINCT hand FROM attempt ORDER BY 1" : "SELECT DISTINCT level FROM attempt ORDER BY 1");
+  std::vector<std::string> out;
+  while (query.step()) out.push_back(query.text(0));
+  return out;
+}
+
+CohortView cohort_view(Desk& desk, const Request& request) {
+  CohortView view;
+  view.asked = {argument(request.query, "group"), argument(request.query, "exercise"), argument(request.query, "level"),
+                argument(request.query, "state"), argument(request.query, "sort"),     whole_number(argument(request.query, "page"), 1)};
+  const ProgressRules rules = rules_in_force(desk.database);
+  view.rules_version = rules.version;
+  view.groups = CurriculumStore(desk.database).groups();
+  view.exercises = exercise_choices(desk.database);
+  view.levels = distinct_attempt_values(desk.database, "level");
+  view.attempts =
+      static_cast<int>(sql::query_integer(desk.database.connection(), "SELECT count(*) FROM attempt WHERE status <> 'running'"));
+  const std::map<std::string, std::string> titles(view.exercises.begin(), view.exercises.end());
+  CohortFilter filter;
+  filter.group = view.asked.group;
+  filter.exercise = view.asked.exercise_id;
+  filter.level = view.asked.level;
+  LevelReader levels(desk);
+  std::string before;
+  for (CohortLine& line : cohort_lines(desk.database, rules, filter, request.now_utc)) {
+    if (line.trainee != before) ++view.trainees;
+    before = line.trainee;
+    const auto title = titles.find(line.key.exercise_id);
+    view.lines.push_back({line.trainee, line.name, line.key.exercise_id, title == titles.end() ? line.key.exercise_id : title->second,
+                          line.key.level, line.key.hand, line.tries, line.best, line.last, std::move(line.newest_scores),
+                          levels.of(line.key.rubric_sha256, line.key.level).pass_at, line.mean_peak_n, line.over_force,
+                          std::move(line.judgements), line.last_utc});
+  }
+  return view;
+}
+
+TraineeView trainee_view(Desk& desk, const Request& request) {
+  const ProgressRules rules = rules_in_force(desk.database);
+  TraineePicture picture = trainee_picture(desk.database, argument(request.arguments, "code"), rules, request.now_utc);
+  TraineeView view;
+  view.code = picture.code;
+  view.name = picture.name;
+  view.groups = picture.groups;
+  const std::vector<Choice> exercises = exercise_choices(desk.database);
+  const std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
+  LevelReader levels(desk);
+  for (const CurvePicture& curve : picture.curves) {
+    view.curves.push_back(curve_view(curve, titles, levels, rules));
+    add_due(view, curve, view.curves.back().title);
+  }
+  std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
+  view.chosen = chosen_curve(view.curves, request);
+  for (const WeekMinutes& week : picture.weeks) view.minutes_by_week.emplace_back(week.monday, week.minutes);
+  view.notes = std::move(picture.notes);
+  view.certificates = std::move(picture.certificates);
+  view.rules_version = rules.version;
+  return view;
+}
+
+AttemptView attempt_view(Desk& desk, const Request& request, const std::string& uuid) {
+  const AttemptPicture picture = attempt_picture_data(desk.database, uuid);
+  AttemptView view;
+  view.result = picture.result;
+  view.exercise = exercise_title(desk.database, view.result.exercise_id);
+  view.program = picture.program;
+  view.finished_utc = picture.finished_utc;
+  view.row_hash = picture.row_hash;
+  view.chain_position = chain_position(desk.database, view.result.uuid);
+  const LevelFacts facts = LevelReader(desk).of(view.result.rubric_sha256, view.result.level);
+  view.pass_at = facts.pass_at;
+  view.limits = facts.limits;
+  add_trace(view, desk);
+  view.picture = static_cast<bool>(desk.sources.picture) && view.trace.has_value();
+  view.t_s = moment_of(view, argument(request.query, "t"));
+  if (desk.sources.metric_words)
+    for (const Metric& metric : view.result.grade.metrics) view.metric_words[metric.name] = desk.sources.metric_words(metric.name);
+  const OpinionStore opinions(desk.database);
+  view.signatures = opinions.signatures_of(view.result.uuid);
+  view.overrides = opinions.overrides_of(view.result.uuid);
+  view.ratings = opinions.ratings_of(view.result.uuid);
+  for (Note& note : opinions.notes_of(view.result.trainee))
+    if (note.attempt_uuid == view.result.uuid) view.notes.push_back(std::move(note));
+  add_rivals(view, picture, is_staff(request));
+  const ProgressRules rules = rules_in_force(desk.database);
+  view.rules_version = rules.version;
+  if (is_staff(request)) add_readiness(view, desk, rules, request.now_utc);
+  return view;
+}
+
+CompareView compare_view(Desk& desk, const Request& request) {
+  CompareView view;
+  view.left = attempt_view(desk, request, argument(request.arguments, "attempt"));
+  view.right = attempt_view(desk, request, argument(request.arguments, "other"));
+  view.exercise = view.left.exercise + " " + view.left.result.level;
+  view.left_words = short_words(view.left);
+  view.right_words = short_words(view.right);
+  if (view.right.result.hand == "expert") view.right_words = "expert, " + view.right.result.started_utc.substr(0, 10);
+  if (view.left_words == view.right_words) {
+    view.left_words = "first, " + view.left_words;
+    view.right_words = "second, " + view.right_words;
+  }
+  return view;
+}
+
+}  // namespace trocar::review

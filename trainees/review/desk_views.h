@@ -1,0 +1,38 @@
+// From the database and a request to what a page shows. Thread: that of the Database.
+#pragma once
+
+#include <string>
+
+#include "trainees/progress/rules.h"
+#include "trainees/review/page_frame.h"
+#include "trainees/review/route.h"
+#include "trainees/review/views.h"
+
+namespace trocar::review {
+
+/// Name, own code, token, demo of the one who asks.
+Frame frame_of(const Request& request, const Desk& desk);
+/// Who writes, as opinions are stored.
+Author author_of(const Request& request);
+bool is_staff(const Request& request);
+std::string argument(const std::map<std::string, std::string>& values, const std::string& name, const std::string& otherwise = "");
+
+CohortView cohort_view(Desk& desk, const Request& request);
+/// @throws InputError: no such trainee.
+TraineeView trainee_view(Desk& desk, const Request& request);
+/// @throws InputError: no such attempt, or still running.
+AttemptView attempt_view(Desk& desk, const Request& request, const std::string& uuid);
+CompareView compare_view(Desk& desk, const Request& request);
+CurriculumView curriculum_view(Desk& desk, const Request& request);
+
+/// Who would pass today with these rules: competence shown and open to certify.
+std::vector<PassPreview> preview_rules(Desk& desk, const ProgressRules& rules, const std::string& now_utc);
+/// The number that the question asks for, from graded attempts, one value a person; who would reach it.
+BenchmarkProposal propose(Desk& desk, const BenchmarkQuestion& question, const std::string& now_utc);
+
+/// id and title of every exercise that was tried.
+std::vector<Choice> exercise_choices(Database& database);
+std::string exercise_title(Database& database, const std::string& id);
+std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column);  ///< level or hand
+
+}  // namespace trocar::review

@@ -1,0 +1,44 @@
+// The pages of the desk as functions from plain values to HTML, and the files that go with them.
+//
+// Every page is complete without script, well-formed as XML, asks nothing of other servers, and passes every text from outside through
+// escape_html. Style and script are files of their own, so that the content security policy needs no exceptions. Thread: any.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trainees/review/page_frame.h"
+#include "trainees/review/views.h"
+
+namespace trocar::review {
+
+std::string cohort_page(const CohortView& view, Frame frame);
+std::string trainee_page(const TraineeView& view, Frame frame);
+std::string attempt_page(const AttemptView& view, Frame frame);
+std::string compare_page(const CompareView& view, Frame frame);
+std::string curriculum_page(const CurriculumView& view, Frame frame);
+/// @param json what DeskSources::station says: an object with any of trainee, exercise, level, hand, status, elapsed_s, limit_s, force_n,
+/// peak_force_n, limit_n, done, count, events ([{"t_s","type","severity"}]), device ({"backend","rate_hz","overruns"}); "" when nothing
+/// runs.
+std::string station_page(const std::string& json, Frame frame);
+/// A short page of one sentence: not found, refused, bad input. @param words not escaped yet.
+std::string message_page(const std::string& title, const std::string& words, Frame frame);
+
+/// Part of the attempt page: what a person adds (sign-off, override, certificate, note). Not for trainees.
+std::string sign_off_section(const AttemptView& view, const Frame& frame);
+std::string notes_section(const std::vector<Note>& notes, const std::string& action, const Frame& frame);
+
+/// Lines with the asked state, in the asked order; equal ones by code, exercise and level.
+std::vector<CohortEntry> selected_lines(const CohortView& view);
+/// Trainees in that state, each once with its gravest line's evidence. Order of the codes.
+std::vector<const CohortEntry*> trainees_in_state(const CohortView& view, Flag flag);
+inline constexpr int kLinesOnPage = 100;
+
+/// RFC 4180, CRLF, header line, numbers to the bit. Texts that a spreadsheet would take for a formula get a leading apostrophe.
+std::string cohort_csv(const CohortView& view);
+std::string trainee_csv(const TraineeView& view);
+std::string attempt_csv(const AttemptView& view);
+
+const char* desk_script();
+
+}  // namespace trocar::review
