@@ -1,6 +1,6 @@
 // kill -9 at random moments of short attempts, of one and of two at once: the database opens, every attempt is complete
-// or aborted, every recording reads to its last whole chunk. KILL_MOMENTS says how many a round (of five attempts four moments), KILL_ROUNDS
-// how many rounds: 20 attempts in ./check, 1000 under the label long. The store's own moments: tests/trainees/store_kill_test.cpp.
+// or aborted, every recording reads to its last whole chunk. KILL_MOMENTS says how many a round (four moments are five attempts),
+// KILL_ROUNDS how many rounds: 20 attempts in ./check, 1000 under the label long. The store itself: tests/trainees/store_kill_test.cpp.
 #include <chrono>
 #include <random>
 #include <thread>
