@@ -19,6 +19,7 @@
 #include "app/commands/device_selftest.h"
 #include "app/commands/device_plant.h"
 #include "app/commands/doctor_command.h"
+#include "app/commands/export_command.h"
 #include "app/commands/identify_command.h"
 #include "app/commands/picture_command.h"
 #include "app/commands/recording_command.h"
@@ -26,6 +27,7 @@
 #include "app/commands/study_command.h"
 #include "app/commands/sweep_command.h"
 #include "app/commands/trainee_command.h"
+#include "app/command_line_export.h"
 #include "app/command_line_organs.h"
 #include "app/command_line_practice.h"
 #include "app/scene.h"
@@ -45,6 +47,7 @@ struct CommandLine {
   RunOptions run;
   SweepOptions sweep;
   RecordingOptions recording;
+  std::string jigsaws_side;
   DemoOptions demo;
   bool headless = false;
   BenchOptions bench;
@@ -60,6 +63,7 @@ struct CommandLine {
   PlantOptionsGiven plant;
   std::shared_ptr<OrganCommandLine> organs;
   std::shared_ptr<PracticeCommandLine> practice;
+  std::shared_ptr<ExportCommandLine> exports;
   TraineeOptions trainee;
   CohortOptions cohort;
   DbOptions db;
@@ -133,9 +137,13 @@ void add_recordings(CommandLine& c) {
   replay->add_option("--height", c.recording.height, "Of the pictures, px")->capture_default_str()->check(CLI::Range(240, 4320));
   replay->add_option("--beside", c.recording.beside, "Second run in the same film: recording, attempt, or 'expert'")->check(kNamed);
   replay->add_option("--organ", c.recording.organ, "Where the recorded organ lies now");
-  CLI::App* score = c.add(c.app, "score", "Grade again from the raw record",
-                          [&c] { return score_command(c.recording, std::cout, std::cerr); });
-  score->add_option("--rubric", c.recording.rubric, "Exercise file whose rubric to use instead");
+  CLI::App* score = c.add(c.app, "score", "Grade again from the raw record", [&c] {
+    if (!c.jigsaws_side.empty()) return kinematics_command({c.recording.subject, c.jigsaws_side, c.recording.json}, std::cout);
+    return score_command(c.recording, std::cout, std::cerr);
+  });
+  CLI::Option* rubric = score->add_option("--rubric", c.recording.rubric, "Exercise file whose rubric to use instead");
+  score->add_option("--jigsaws", c.jigsaws_side, "Not a recording but kinematics of 76 columns: motion metrics of the right or left tool")
+      ->check(CLI::IsMember({"right", "left"}))->excludes(rubric);
   score->add_flag("--json", c.recording.json, "Result as JSON on stdout");
   for (CLI::App* command : {replay, score}) {
     command->add_option("recording", c.recording.subject, "Recording file or attempt (UUID part, 'latest')")->required();
@@ -280,6 +288,10 @@ void add_practice(CommandLine& c) {
   c.practice = add_practice_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
 
+void add_export(CommandLine& c) {
+  c.exports = add_export_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
+}
+
 void add_trainees(CommandLine& c) {
   CLI::App* trainee = c.group("trainee", "Trainees of a database");
   CLI::App* add = c.add(*trainee, "add", "Add a trainee", [&c] { return trainee_add(c.trainee, std::cout, std::cerr); });
@@ -344,7 +356,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_export, add_db, add_machine}) {
     add(c);
   }
   try {
