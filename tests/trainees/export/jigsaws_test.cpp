@@ -1,4 +1,5 @@
 // The layout of JIGSAWS: columns against analytic movements, the way there and back, metrics before and after.
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -187,6 +188,34 @@ TEST(Jigsaws, ReadsEitherSide) {
       std::string::npos);
   EXPECT_NE(message_of<InputError>([&] { parse_jigsaws(line_at(0) + line_at(1), "x.txt", JigsawsSide::kLeft); }).find("slave left"),
       std::string::npos);
+}
+
+TEST(Jigsaws, TakesTabsAndCommasToo) {
+  std::string text = line_at(0.5) + line_at(0.6);
+  const Trace spaces = parse_jigsaws(text, "x.txt", JigsawsSide::kRight);
+  for (const char separator : {'\t', ','}) {
+    std::string other = text;
+    std::replace(other.begin(), other.end(), ' ', separator);
+    const Trace trace = parse_jigsaws(other, "x.txt", JigsawsSide::kRight);
+    ASSERT_EQ(trace.samples.size(), 2u);
+    EXPECT_EQ(trace.samples[1].tip_T, spaces.samples[1].tip_T);
+  }
+}
+
+TEST(Jigsaws, BeginsWhereTheTraceBegins) {
+  Trace trace = sample_motion(1000, 2);
+  for (TraceSample& s : trace.samples) s.t_s += 17.25;
+  EXPECT_EQ(rows_of(jigsaws_text(trace)).size(), 61u);
+  const Trace back = parse_jigsaws(jigsaws_text(trace), "x.txt", JigsawsSide::kRight);
+  EXPECT_EQ(back.samples.front().t_s, 0);
+  EXPECT_LT((back.samples.front().tip_T - trace.samples.front().tip_T).norm(), 1e-12);
+}
+
+TEST(Jigsaws, AFewSamplesAreMeasuredAsTheyAre) {
+  const Trace two = parse_jigsaws(line_at(0) + line_at(0.03), "x.txt", JigsawsSide::kRight);
+  EXPECT_NEAR(value_of(kinematic_metrics(two), "path_m"), 0.03, 0.01) << "the filter has little to go on";
+  const Trace five = parse_jigsaws(line_at(0) + line_at(1) + line_at(2) + line_at(3) + line_at(4), "x.txt", JigsawsSide::kRight);
+  EXPECT_NEAR(value_of(kinematic_metrics(five), "path_m"), 4, 0.3) << "a straight way stays straight";
 }
 
 TEST(Jigsaws, RefusesWhatIsNotTheLayout) {
