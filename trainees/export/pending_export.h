@@ -3,6 +3,7 @@
 // Until commit() it is called ".NAME.part-PID" in the same folder; without commit() it is removed. Thread: one.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
