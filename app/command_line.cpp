@@ -17,12 +17,14 @@
 #include "app/commands/device_selftest.h"
 #include "app/commands/device_plant.h"
 #include "app/commands/doctor_command.h"
+#include "app/commands/export_command.h"
 #include "app/commands/identify_command.h"
 #include "app/commands/picture_command.h"
 #include "app/commands/recording_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/study_command.h"
 #include "app/commands/sweep_command.h"
+#include "app/command_line_export.h"
 #include "app/command_line_organs.h"
 #include "app/command_line_practice.h"
 #include "app/command_line_review.h"
@@ -47,6 +49,7 @@ struct CommandLine {
   RunOptions run;
   SweepOptions sweep;
   RecordingOptions recording;
+  std::string jigsaws_side;
   DemoOptions demo;
   bool headless = false;
   BenchOptions bench;
@@ -64,6 +67,7 @@ struct CommandLine {
   std::shared_ptr<PracticeCommandLine> practice;
   std::shared_ptr<ReviewCommandLine> review;
   std::shared_ptr<TraineeCommandLine> trainees;
+  std::shared_ptr<ExportCommandLine> exports;
   DoctorOptions doctor;
   PictureOptions picture;
   std::string shell;
@@ -136,9 +140,13 @@ void add_recordings(CommandLine& c) {
       ->check(CLI::IsMember({"auto", "potato", "soft", "full"}));
   replay->add_option("--beside", c.recording.beside, "Second run in the same film: recording, attempt, or 'expert'")->check(kNamed);
   replay->add_option("--organ", c.recording.organ, "Where the recorded organ lies now");
-  CLI::App* score = c.add(c.app, "score", "Grade again from the raw record",
-                          [&c] { return score_command(c.recording, std::cout, std::cerr); });
-  score->add_option("--rubric", c.recording.rubric, "Exercise file whose rubric to use instead");
+  CLI::App* score = c.add(c.app, "score", "Grade again from the raw record", [&c] {
+    if (!c.jigsaws_side.empty()) return kinematics_command({c.recording.subject, c.jigsaws_side, c.recording.json}, std::cout);
+    return score_command(c.recording, std::cout, std::cerr);
+  });
+  CLI::Option* rubric = score->add_option("--rubric", c.recording.rubric, "Exercise file whose rubric to use instead");
+  score->add_option("--jigsaws", c.jigsaws_side, "Not a recording but kinematics of 76 columns: motion metrics of the right or left tool")
+      ->check(CLI::IsMember({"right", "left"}))->excludes(rubric);
   score->add_flag("--json", c.recording.json, "Result as JSON on stdout");
   for (CLI::App* command : {replay, score}) {
     command->add_option("recording", c.recording.subject, "Recording file or attempt (UUID part, 'latest')")->required();
@@ -289,6 +297,10 @@ void add_practice(CommandLine& c) {
   c.practice = add_practice_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
 
+void add_export(CommandLine& c) {
+  c.exports = add_export_command(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
+}
+
 void add_trainees(CommandLine& c) {
   c.trainees = add_trainee_commands(c.app, [&c](std::function<int()> action) { c.chosen = std::move(action); });
 }
@@ -327,7 +339,7 @@ int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
   c.app.set_version_flag("--version", kVersionLine, "Version of the program");
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_review, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_review, add_export, add_machine}) {
     add(c);
   }
   try {

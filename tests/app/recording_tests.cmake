@@ -16,3 +16,7 @@ find_package(nlohmann_json REQUIRED)
 trocar_test(test_store_commands
   SOURCES recording_store_commands_test.cpp trainee_rights_test.cpp ${PROJECT_SOURCE_DIR}/tests/trainees/store_samples.cpp
   LINK trocar_commands nlohmann_json::nlohmann_json SQLite::SQLite3)
+trocar_test(test_export_command
+  SOURCES export_command_test.cpp recording_samples.cpp ${PROJECT_SOURCE_DIR}/tests/trainees/export/export_samples.cpp
+          ${PROJECT_SOURCE_DIR}/tests/trainees/store_samples.cpp
+  LINK trocar_commands trocar_digest nlohmann_json::nlohmann_json SQLite::SQLite3)

@@ -1,0 +1,93 @@
+#include "trainees/export/pending_export.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "haptics/input_error.h"
+
+namespace trocar {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "folder/" is the folder.
+fs::path without_slash(fs::path path) {
+  while (!path.has_filename() && path.has_relative_path()) path = path.parent_path();
+  return path;
+}
+
+[[noreturn]] void cannot(const fs::path& path, const std::string& doing, int error) {
+  throw EnvironmentError(path.string() + ": cannot " + doing + ": " + std::strerror(error));
+}
+
+[[noreturn]] void already_there(const fs::path& out) {
+  throw InputError(out.string() + ": exists already and is not overwritten; choose another name or move it away");
+}
+
+void check_place(const fs::path& typed, const fs::path& out) {
+  if (out.empty() || !out.has_filename() || out.filename() == "." || out.filename() == "..") {
+    throw InputError("\"" + typed.string() + "\": is no name of a file or folder to be written");
+  }
+  std::error_code error;
+  const fs::path folder = out.parent_path();
+  if (!folder.empty() && fs::status(folder, error).type() == fs::file_type::not_found) {
+    throw InputError(typed.string() + ": there is no folder " + folder.string() + "; make it first");
+  }
+  if (fs::symlink_status(out, error).type() != fs::file_type::not_found && !error) already_there(out);
+}
+
+}  // namespace
+
+PendingExport::PendingExport(const fs::path& out, Shape shape) : out_(without_slash(out)), shape_(shape) {
+  check_place(out, out_);
+  pending_ = out_.parent_path() / ("." + out_.filename().string() + ".part-" + std::to_string(getpid()));
+  std::error_code error;
+  if (shape_ == Shape::kFolder && !fs::create_directory(pending_, error)) cannot(out_, "make the folder", error ? error.value() : EEXIST);
+}
+
+PendingExport::~PendingExport() {
+  if (committed_) return;
+  stream_.close();
+  std::error_code ignored;
+  fs::remove_all(pending_, ignored);
+}
+
+std::ostream& PendingExport::file(const std::string& name) {
+  end_file();
+  current_ = shape_ == Shape::kFolder ? pending_ / name : pending_;
+  std::error_code error;
+  if (shape_ == Shape::kFolder) fs::create_directories(current_.parent_path(), error);
+  errno = 0;
+  stream_.open(current_, std::ios::binary | std::ios::trunc);
+  if (!stream_) cannot(out_, "write " + (name.empty() ? std::string("it") : name), errno);
+  return stream_;
+}
+
+void PendingExport::end_file() {
+  if (!stream_.is_open()) return;
+  errno = 0;
+  stream_.close();
+  if (stream_.fail()) cannot(out_, "write it", errno ? errno : EIO);
+  stream_.clear();
+}
+
+void PendingExport::commit() {
+  end_file();
+  // Where a file system does not know RENAME_NOREPLACE the name is looked at once more instead.
+  int result = renameat2(AT_FDCWD, pending_.c_str(), AT_FDCWD, out_.c_str(), RENAME_NOREPLACE);
+  if (result != 0 && errno == EINVAL) {
+    check_place(out_, out_);
+    result = std::rename(pending_.c_str(), out_.c_str());
+  }
+  if (result != 0 && errno == EEXIST) already_there(out_);
+  if (result != 0) cannot(out_, "move it to its place", errno);
+  committed_ = true;
+}
+
+}  // namespace trocar
