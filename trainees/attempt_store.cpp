@@ -265,13 +265,17 @@ std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const 
 std::vector<std::string> AttemptStore::check_recordings() const {
   std::vector<std::string> problems;
   sql::Statement rows(database_->connection(),
-                      "SELECT uuid, recording_path, recording_sha256 FROM attempt"
-                      " WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
+                      "SELECT uuid, recording_path, recording_sha256, EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id"
+                      " AND e.kind = 'training') FROM attempt a WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
   while (rows.step()) {
     const fs::path file = located_recording(database_->file(), rows.text(1));
     const std::string name = "recording " + file.string() + " of attempt " + rows.text(0);
     std::error_code error;
-    if (file.empty() || !fs::is_regular_file(file, error)) {
+    const bool there = !file.empty() && fs::is_regular_file(file, error);
+    if (rows.integer(3) != 0) {
+      if (!there) continue;
+      problems.push_back(name + " is still there although its training data were erased (erasing again removes it)");
+    } else if (!there) {
       problems.push_back(name + " is missing");
     } else if (digest::of_readable_file(file) != rows.text(2)) {
       problems.push_back(name + " was changed or cannot be read");

@@ -97,7 +97,7 @@ class AttemptStore {
   std::string exercise_text(const std::string& rubric_sha256) const;
 
   /// Recordings that finished attempts name but that are missing or changed, and recordings in the database's folder
-  /// that no attempt names (an attempt was removed), one line each.
+  /// that no attempt names (an attempt was removed) or that an erasure left, one line each.
   std::vector<std::string> check_recordings() const;
 
  private:

@@ -54,7 +54,8 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, con
   if (!in_memory()) enter_wal(busy_timeout_ms);
   // The log is copied back every 4000 pages (16 MB), not every 1000: a commit that has to do it waits for the disk.
   sql::execute(connection_.get(),
-               "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 4000");
+               "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 4000;"
+               "PRAGMA secure_delete = ON");  // what an erasure takes away is overwritten
   anchor_beginning();
   recovered_ = recover_dead_attempts(connection_.get(), file_, regrade);
   if (!recovered_.empty()) append_anchor(file_, audit_head(connection_.get()));

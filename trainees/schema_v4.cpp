@@ -199,8 +199,9 @@ std::string erasable() {
   std::string sql;
   for (const char* table : {"note", "consent", "account"}) sql += refused(table, "DELETE", of_person);
   const std::string of_attempt = "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id";
-  sql += refused("signature", "DELETE", of_attempt + " WHERE a.id = OLD.attempt_id");  // their own signatures go with the identity
-  for (const char* table : {"event", "device_warning", "device_transition", "score", "rating", "verdict_override"}) {
+  // What they signed and rated themselves goes with the identity.
+  for (const char* table : {"signature", "rating"}) sql += refused(table, "DELETE", of_attempt + " WHERE a.id = OLD.attempt_id");
+  for (const char* table : {"event", "device_warning", "device_transition", "score", "verdict_override"}) {
     sql += refused(table, "DELETE", of_attempt + " WHERE a.id = OLD.attempt_id AND e.kind = 'training'");
   }
   for (const char* table : {"metric", "subscore", "score_cap"}) {

@@ -45,7 +45,11 @@ class Statement {
   /// Runs to the end and makes the statement ready for new parameters.
   void run();
 
+  enum class Kind : std::uint8_t { kNull, kInteger, kReal, kText };
+
   int columns() const;
+  std::string name(int column) const;
+  Kind kind(int column) const;
   bool is_null(int column) const;
   std::int64_t integer(int column) const;
   double real(int column) const;  ///< NULL reads as NaN

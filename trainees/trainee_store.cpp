@@ -28,6 +28,11 @@ void check_code(const std::string& code) {
                      "\": give 1 to 32 letters, digits, '.', '-' or '_', beginning with a "
                      "letter or digit");
   }
+  std::string lower = code;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  if (lower.starts_with("erased-")) {
+    throw InputError("trainee code \"" + code + "\": \"erased-...\" stands for somebody whose identity was erased");
+  }
 }
 
 Trainee trainee_of(const sql::Statement& row) {

@@ -23,7 +23,8 @@ class TraineeStore {
   explicit TraineeStore(Database& database) : connection_(database.connection()) {}
 
   /// The trainee of that code, created when new. Codes differ by more than case.
-  /// @throws InputError: a code is 1 to 32 letters, digits, '.', '-' or '_', beginning with a letter or digit.
+  /// @throws InputError: a code is 1 to 32 letters, digits, '.', '-' or '_', beginning with a letter or digit, and
+  /// not with "erased-".
   Trainee ensure_trainee(const std::string& code);
   /// The same, but only the row's number, and inside the caller's transaction.
   std::int64_t ensure_id(const std::string& code);

@@ -3,6 +3,8 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include "trainees/sqlite_handle.h"
+
 namespace trocar {
 
 namespace fs = std::filesystem;
@@ -78,6 +80,27 @@ std::string run_outside(const fs::path& database, const std::string& sql) {
   sqlite3_free(message);
   sqlite3_close(connection);
   return error;
+}
+
+std::string run_without_triggers(const fs::path& database, const std::string& sql) {
+  sqlite3* connection = nullptr;
+  sqlite3_open(database.c_str(), &connection);
+  std::string drop, restore;
+  {
+    sql::Statement triggers(connection, "SELECT name, sql FROM sqlite_schema WHERE type = 'trigger' ORDER BY rowid");
+    while (triggers.step()) {
+      drop += "DROP TRIGGER " + triggers.text(0) + ";";
+      restore += triggers.text(1) + ";";
+    }
+  }
+  sqlite3_close(connection);
+  return run_outside(database, "BEGIN;" + drop + sql + ";" + restore + "COMMIT");
+}
+
+std::string problems_of(const Database& database) {
+  std::string all;
+  for (const std::string& problem : database.check()) all += problem + "\n";
+  return all;
 }
 
 }  // namespace trocar

@@ -30,6 +30,12 @@ AttemptId store_attempt(Database& database, const AttemptStart& start, const Att
 /// Runs SQL on the database file from outside, as another program would. @returns the error, empty when none.
 std::string run_outside(const std::filesystem::path& database, const std::string& sql);
 
+/// The same with every trigger out of the way and put back as it was: what somebody does who knows the schema.
+std::string run_without_triggers(const std::filesystem::path& database, const std::string& sql);
+
+/// Everything that check() says, a line each.
+std::string problems_of(const Database& database);
+
 /// Message of the error of that type which the action throws; empty when it throws none.
 template <class Error>
 std::string message_of(const std::function<void()>& action) {
