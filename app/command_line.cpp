@@ -25,6 +25,7 @@
 #include "app/commands/run_command.h"
 #include "app/commands/study_command.h"
 #include "app/commands/sweep_command.h"
+#include "app/commands/sync_command.h"
 #include "app/commands/trainee_command.h"
 #include "app/command_line_organs.h"
 #include "app/command_line_practice.h"
@@ -63,6 +64,7 @@ struct CommandLine {
   TraineeOptions trainee;
   CohortOptions cohort;
   DbOptions db;
+  SyncOptions sync;
   DoctorOptions doctor;
   PictureOptions picture;
   std::string shell;
@@ -311,6 +313,21 @@ void add_db(CommandLine& c) {
   for (CLI::App* command : {check, backup, migrate, anchor, rubric}) command->add_option("--db", c.db.database, "Database file");
 }
 
+void add_sync(CommandLine& c) {
+  CLI::App* sync = c.add(c.app, "sync", "This station's record to a central PostgreSQL database, or all stations' into a file for a desk",
+                         [&c] { return sync_command(c.sync, std::cout, std::cerr); });
+  CLI::Option* to = sync->add_option("--to", c.sync.to, "postgresql://USER@HOST/DATABASE: push what is finished, fetch curricula, benchmarks, erasures");
+  CLI::Option* from = sync->add_option("--from", c.sync.from, "postgresql://USER@HOST/DATABASE: fetch what all stations pushed into --db FILE");
+  to->excludes(from);
+  sync->add_option("--password-file", c.sync.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
+  sync->add_option("--station", c.sync.station, "Name of this station (default: the host's)")->needs(to);
+  sync->add_flag("--new-station", c.sync.new_station, "Go on under a new UUID: an older copy was put back, or the database was copied")->needs(to);
+  sync->add_flag("--with-identity", c.sync.with_identity, "Also codes, names and e-mail addresses")->needs(to);
+  sync->add_flag("--apply-erasures", c.sync.apply_erasures, "Erase here too whom another station erased")->needs(to);
+  sync->add_option("--db", c.sync.database, "Database file");
+  sync->add_flag("--json", c.sync.json, "As JSON");
+}
+
 void add_machine(CommandLine& c) {
   CLI::App* doctor = c.add(c.app, "doctor", "What this machine offers, and what is missing",
                            [&c] { return doctor_command(c.doctor, std::cout, std::cerr); });
@@ -344,7 +361,7 @@ int fail(const std::exception& error, int code) {
 int run_command_line(int argc, char** argv) {
   CommandLine c;
   c.app.require_subcommand(1);
-  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_db, add_machine}) {
+  for (auto* add : {add_practice, add_run, add_sweep, add_recordings, add_first_contact, add_picture, add_catalogue, add_device, add_organ, add_trainees, add_db, add_sync, add_machine}) {
     add(c);
   }
   try {
