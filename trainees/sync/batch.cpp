@@ -33,8 +33,21 @@ class BatchReader {
     const std::string table = action.substr(0, blank), verb = blank == std::string::npos ? "" : action.substr(blank + 1);
     const auto& names = sealed_tables();
     if (std::find(names.begin(), names.end(), table) == names.end()) return;  // accounts, groups, the file itself
-    if (verb == "added") add_sealed(table, subject, detail);
-    if (verb == "erased") batch_->erased.push_back({table, subject, detail});
+    if (verb == "added" && !tells_who(table, subject)) add_sealed(table, subject, detail);
+  }
+
+  void add_identities() {
+    sql::Statement people(connection_, "SELECT t.uuid FROM person p JOIN trainee t ON t.id = p.trainee_id ORDER BY t.uuid");
+    while (people.step()) {
+      add(carried_bases()[2], people.text(0));
+      add(carried_person(), people.text(0));
+    }
+    sql::Statement rows(connection_, "SELECT action, subject, detail FROM audit WHERE action IN ('consent added', 'signature added',"
+                                     " 'rating added') ORDER BY position");
+    while (rows.step()) {
+      const std::string table = rows.text(0).substr(0, rows.text(0).find(' '));
+      if (tells_who(table, rows.text(1))) add_sealed(table, rows.text(1), rows.text(2));
+    }
   }
 
   void add_older_attempts() {
@@ -45,6 +58,14 @@ class BatchReader {
   }
 
  private:
+  bool tells_who(const std::string& table, const std::string& uuid) const {
+    if (table == "consent") return true;
+    if (table != "signature" && table != "rating") return false;
+    sql::Statement own(connection_, "SELECT 1 FROM " + table + " r JOIN account c ON c.uuid = r.account_uuid WHERE r.uuid = ?"
+                                    " AND c.trainee_id IS NOT NULL");
+    return own.bind(uuid).step();
+  }
+
   void add(const CarriedTable& table, const std::string& key) {
     if (key.empty() || !seen_.insert(table.name + " " + key).second) return;
     for (Values& row : local_rows(connection_, table, key)) batch_->rows[table.name].push_back(std::move(row));
@@ -125,6 +146,13 @@ Batch read_batch(sqlite3* connection, std::int64_t from, int most) {
     batch.audit.push_back(std::move(values));
     reader.add_entry(entries.text(3), entries.text(4), entries.text(5));
   }
+  return batch;
+}
+
+Batch read_identities(sqlite3* connection) {
+  const Reading reading(connection);
+  Batch batch;
+  BatchReader(connection, batch).add_identities();
   return batch;
 }
 

@@ -21,6 +21,7 @@ constexpr const char* kIndices[] = {
     "CREATE INDEX attempt_by_trainee ON attempt (trainee_uuid)",
     "CREATE INDEX attempt_by_station ON attempt (station, chain_position)",
     "CREATE INDEX erasure_by_trainee ON erasure (trainee_uuid)",
+    "CREATE INDEX audit_erased ON audit (action, subject) WHERE action LIKE '% erased'",
 };
 
 }  // namespace
@@ -43,6 +44,11 @@ const std::vector<std::string>& central_erasing() {
     std::vector<std::string> statements;
     for (const char* table : {"person", "note", "consent"}) {
       statements.push_back(std::string("DELETE FROM ") + table + " WHERE trainee_uuid IN (SELECT trainee_uuid FROM erasure)");
+    }
+    // What people signed and rated under their own names: only their station knows which those are, its trail names them.
+    for (const std::string table : {"signature", "rating"}) {
+      statements.push_back("DELETE FROM " + table + " r USING audit u, erasure e WHERE u.action LIKE '% erased' AND u.action = '" + table +
+                           " erased' AND u.subject = r.uuid AND e.uuid = u.detail");
     }
     for (const CarriedTable& table : carried_of_attempt()) statements.push_back("DELETE FROM " + table.name + of_attempt);
     for (const char* table : {"rating", "signature", "verdict_override"}) statements.push_back(std::string("DELETE FROM ") + table + of_attempt);

@@ -37,13 +37,7 @@ class Push {
     send_attempts(batch);
     for (const CarriedTable& table : carried_sealed()) note_conflicts(table, insert(table, rows_of(batch, table.name)));
     send_audit(batch);
-    for (const ErasedRow& row : batch.erased) {
-      link_->run("DELETE FROM \"" + row.table + "\" WHERE uuid = $1 AND EXISTS (SELECT 1 FROM erasure WHERE uuid = $2)",
-                 {row.uuid, row.erasure});
-    }
-    if (!link_->run("SELECT 1 FROM erasure LIMIT 1").empty()) {
-      for (const std::string& statement : central_erasing()) link_->run(statement);
-    }
+    keep_erased();
     link_->run("UPDATE station SET last_position = greatest(last_position, $2::bigint), last_seen = clock_timestamp() WHERE uuid = $1",
                {station_.uuid, std::to_string(batch.to)});
     link_->commit();
@@ -51,23 +45,18 @@ class Push {
   }
 
   /// A person is not sealed: what was pushed last stands. Nobody comes back once erased.
-  void send_people(sqlite3* connection) {
-    std::vector<Values> people, trainees;
-    sql::Statement rows(connection, "SELECT t.uuid, p.code, p.name, p.email, t.created_utc FROM person p JOIN trainee t ON t.id ="
-                                    " p.trainee_id ORDER BY t.uuid");
-    while (rows.step()) {
-      trainees.push_back({rows.text(0), rows.text(4)});
-      people.push_back({rows.text(0), rows.text(1), rows.text(2), rows.text(3)});
-    }
+  void send_identities(const Batch& batch) {
     link_->begin();
-    insert(carried_bases()[2], trainees);
+    insert(carried_bases()[2], rows_of(batch, carried_bases()[2].name));
+    for (const CarriedTable& table : carried_sealed()) note_conflicts(table, insert(table, rows_of(batch, table.name)));
     const auto changed = link_->run("INSERT INTO person (trainee_uuid, code, name, email, station) SELECT r.*, $2 FROM"
                                     " json_to_recordset($1::json) AS r(trainee_uuid text, code text, name text, email text) WHERE NOT EXISTS"
                                     " (SELECT 1 FROM erasure e WHERE e.trainee_uuid = r.trainee_uuid) ON CONFLICT (trainee_uuid) DO UPDATE"
                                     " SET code = excluded.code, name = excluded.name, email = excluded.email WHERE (person.code, person.name,"
                                     " person.email) <> (excluded.code, excluded.name, excluded.email) RETURNING 1",
-                                    {json_rows(carried_person(), people), station_.uuid});
+                                    {json_rows(carried_person(), rows_of(batch, carried_person().name)), station_.uuid});
     if (!changed.empty()) counted_["person"] += static_cast<int>(changed.size());
+    keep_erased();
     link_->commit();
     take_count();
   }
@@ -83,6 +72,12 @@ class Push {
   }
 
  private:
+  /// What came just now of people who were erased goes again.
+  void keep_erased() {
+    if (link_->run("SELECT 1 FROM erasure LIMIT 1").empty()) return;
+    for (const std::string& statement : central_erasing()) link_->run(statement);
+  }
+
   /// What was counted counts once it is committed.
   void take_count() {
     for (const auto& [table, count] : counted_) report_->added[table] += count;
@@ -187,7 +182,11 @@ PushReport push_to_central(Database& database, const PushOptions& options) {
     set_cursor(database, link.uuid(), report.to);
     if (options.after_batch) options.after_batch(report.to, audit_head(database.connection()).position);
   }
-  if (options.with_identity) push.send_people(database.connection());
+  if (options.with_identity) {
+    const Batch identities = read_identities(database.connection());
+    report.problems.insert(report.problems.end(), identities.problems.begin(), identities.problems.end());
+    push.send_identities(identities);
+  }
   push.tell_conflicts();
   return report;
 }

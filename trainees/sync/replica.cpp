@@ -4,6 +4,7 @@
 #include "haptics/input_error.h"
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_chain.h"
+#include "trainees/sealed_rows.h"
 #include "trainees/sync/fetch.h"
 #include "trainees/sync/synchronise.h"
 
@@ -61,6 +62,24 @@ class Replica {
       keep_person(here.integer(0), free_code(row[1].value_or("unnamed-" + tail), here.integer(0), tail), *row[2], *row[3]);
     }
     transaction.commit();
+  }
+
+  /// What erased people had signed and rated under their own names: the trails of the stations name it.
+  void drop_own_words() {
+    AnchoredTransaction transaction(*database_);
+    bool dropped = false;
+    for (const Values& row : link_->run("SELECT action, subject FROM audit WHERE action LIKE '% erased' AND action IN ('signature erased',"
+                                        " 'rating erased') ORDER BY subject")) {
+      const std::string table = row[0]->substr(0, row[0]->find(' '));
+      sql::Statement here(connection_, "SELECT e.uuid FROM " + table + " r JOIN attempt a ON a.id = r.attempt_id JOIN erasure e ON"
+                                       " e.trainee_id = a.trainee_id WHERE r.uuid = ?");
+      if (!here.bind(*row[1]).step()) continue;
+      note_erased_row(connection_, table, *row[1], here.text(0), "");
+      here.run();
+      sql::Statement(connection_, "DELETE FROM " + table + " WHERE uuid = ?").bind(*row[1]).run();
+      dropped = true;
+    }
+    if (dropped) transaction.commit();
   }
 
   void take_attempts() {
@@ -165,6 +184,7 @@ PullReport replicate_central(Database& database, const CentralAddress& central) 
   replica.take_stations();
   replica.take_bases();
   take_erasures(link, database, true, report);  // before what they are about
+  replica.drop_own_words();
   replica.take_people();
   replica.take_attempts();
   for (const CarriedTable& table : carried_sealed()) {

@@ -1,5 +1,6 @@
 // Stations fetch: rules that others made, erasures that others did, and the whole record for a desk.
 #include "tests/trainees/sync/stations.h"
+#include "trainees/accounts.h"
 #include "trainees/consents.h"
 #include "trainees/curricula.h"
 #include "trainees/erasure.h"
@@ -100,6 +101,27 @@ TEST_F(Erased, IdentityLeavesTheCentreWithThePush) {
   EXPECT_EQ(one("SELECT count(*) FROM person"), "1");
   EXPECT_EQ(one("SELECT count(*) FROM note"), "1");
   EXPECT_EQ(one("SELECT count(*) FROM metric"), "9");
+}
+
+TEST_F(Erased, WhatTheySignedThemselvesGoesEverywhere) {
+  Database first = station("first");
+  const Account own = AccountStore(first).add("gone", "Anna Gone", Role::kTrainee, "T-gone", "123456", "");
+  const std::string attempt = AttemptStore(first).list({"T-gone", ""}).front().uuid;
+  const std::string signature = OpinionStore(first).sign(attempt, "authorship", "", {own.uuid, own.name}).uuid;
+  PushOptions named{central_};
+  named.with_identity = true;
+  push_to_central(first, named);
+  Database desk = station("desk");
+  replicate_central(desk, central_);
+  const std::int64_t signatures = count(desk, "signature");
+  EXPECT_EQ(count(desk, "signature WHERE signer = 'Anna Gone'"), 1);
+  erase(ErasureKind::kIdentity);
+  EXPECT_EQ(one("SELECT count(*) FROM signature WHERE uuid = '" + signature + "'"), "0");
+  push(desk, "desk");  // it still has it, and cannot bring it back
+  EXPECT_EQ(one("SELECT count(*) FROM signature WHERE uuid = '" + signature + "'"), "0");
+  replicate_central(desk, central_);
+  EXPECT_EQ(count(desk, "signature"), signatures - 1);
+  EXPECT_EQ(desk.check(), Lines{});
 }
 
 TEST_F(Erased, TrainingLeavesBareAttempts) {

@@ -5,7 +5,9 @@
 #include <thread>
 
 #include "tests/trainees/sync/stations.h"
+#include "trainees/accounts.h"
 #include "trainees/audit.h"
+#include "trainees/consents.h"
 #include "trainees/curricula.h"
 #include "trainees/sqlite_handle.h"
 
@@ -68,11 +70,17 @@ TEST_F(Stations, NobodyIsNamedUnlessAsked) {
   Database database = station("a");
   practise(database, "T-Zimtstern", 2);
   sql::execute(database.connection(), "UPDATE person SET name = 'Anna Zimtstern', email = 'anna@zimtstern'");
+  ConsentStore(database).record("T-Zimtstern", "research", true, "I, Anna Zimtstern, agree.", kTeacher);
+  const Account own = AccountStore(database).add("zimtstern", "Anna Zimtstern", Role::kTrainee, "T-Zimtstern", "123456", "");
+  const std::string attempt = AttemptStore(database).list().front().uuid;
+  OpinionStore(database).sign(attempt, "authorship", "", {own.uuid, own.name});
+  OpinionStore(database).add_rating(attempt, "self", "overall", 3, {own.uuid, own.name});
   push(database);
+  EXPECT_EQ(one("SELECT count(*) FROM signature"), "1");  // the teacher's
   EXPECT_FALSE(holds(everything(), "imtstern"));
   PushOptions named{central_};
   named.with_identity = true;
-  EXPECT_EQ(push_to_central(database, named).added, (Counts{{"person", 1}}));
+  EXPECT_EQ(push_to_central(database, named).added, (Counts{{"person", 1}, {"consent", 1}, {"signature", 1}, {"rating", 1}}));
   EXPECT_EQ(one("SELECT code, name, email FROM person"), "T-Zimtstern|Anna Zimtstern|anna@zimtstern");
   EXPECT_TRUE(push_to_central(database, named).added.empty());
   sql::execute(database.connection(), "UPDATE person SET name = 'Anna Stern'");
@@ -135,6 +143,25 @@ TEST_F(Stations, ADroppedConnectionIsTakenUpWhereItBroke) {
   const PushReport rest = push_to_central(database, options);
   EXPECT_EQ(rest.from, 8);
   EXPECT_EQ(rest.to, audit_head(database.connection()).position);
+  PushOptions undisturbed{another_central()};
+  push_to_central(database, undisturbed);
+  EXPECT_EQ(everything(), everything(undisturbed.central));
+}
+
+TEST_F(Stations, ABatchThatIsCutInTheMiddleLeavesNothingBehind) {
+  Database database = station("a");
+  push(database);
+  const auto before = everything();
+  practise(database, "T-a", 4);
+  ask("CREATE FUNCTION cut() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM pg_terminate_backend(pg_backend_pid()); RETURN NEW; END $$;"
+      " CREATE TRIGGER cut BEFORE INSERT ON note FOR EACH ROW EXECUTE FUNCTION cut()");
+  EXPECT_NE(message_of<EnvironmentError>([&] { push(database); }), "");
+  EXPECT_EQ(everything(), before);
+  ask("DROP TRIGGER cut ON note");
+  const std::int64_t known = std::stoll(one("SELECT last_position FROM station"));
+  const PushReport rest = push(database);
+  EXPECT_EQ(rest.from, known);
+  EXPECT_EQ(rest.added.at("attempt"), 4);
   PushOptions undisturbed{another_central()};
   push_to_central(database, undisturbed);
   EXPECT_EQ(everything(), everything(undisturbed.central));
