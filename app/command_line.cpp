@@ -316,12 +316,15 @@ void add_db(CommandLine& c) {
 void add_sync(CommandLine& c) {
   CLI::App* sync = c.add(c.app, "sync", "This station's record to a central PostgreSQL database, or all stations' into a file for a desk",
                          [&c] { return sync_command(c.sync, std::cout, std::cerr); });
-  CLI::Option* to = sync->add_option("--to", c.sync.to, "postgresql://USER@HOST/DATABASE: push what is finished, fetch curricula, benchmarks, erasures");
-  CLI::Option* from = sync->add_option("--from", c.sync.from, "postgresql://USER@HOST/DATABASE: fetch what all stations pushed into --db FILE");
+  CLI::Option* to = sync->add_option("--to", c.sync.to,
+                                     "postgresql://USER@HOST/DATABASE: push what is finished, fetch curricula, benchmarks, erasures");
+  CLI::Option* from =
+      sync->add_option("--from", c.sync.from, "postgresql://USER@HOST/DATABASE: fetch what all stations pushed into --db FILE");
   to->excludes(from);
   sync->add_option("--password-file", c.sync.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
   sync->add_option("--station", c.sync.station, "Name of this station (default: the host's)")->needs(to);
-  sync->add_flag("--new-station", c.sync.new_station, "Go on under a new UUID: an older copy was put back, or the database was copied")->needs(to);
+  sync->add_flag("--new-station", c.sync.new_station, "Go on under a new UUID: an older copy was put back, or the database was copied")
+      ->needs(to);
   sync->add_flag("--with-identity", c.sync.with_identity, "Also codes, names and e-mail addresses")->needs(to);
   sync->add_flag("--apply-erasures", c.sync.apply_erasures, "Erase here too whom another station erased")->needs(to);
   sync->add_option("--db", c.sync.database, "Database file");

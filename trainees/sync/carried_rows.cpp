@@ -127,14 +127,14 @@ const CarriedTable& carried_person() {
 }
 
 const CarriedTable& carried_attempt() {
-  static const CarriedTable kTable =
-      table("attempt",
-            "uuid @trainee @session @calibration exercise_id exercise_version ruleset_sha256 level seed# board# hand organ_name organ_source"
-            " organ_sha256 organ_synthetic# organ_credit program started_utc owner_pid# owner_boot owner_start# status integrity"
-            " finished_utc recording_path recording_sha256 state_hash device_backend device_rate_hz~ device_ticks# device_overruns#"
-            " saturated_contact_share~ passivity_active_share~ min_energy_j~ kappa~ device_fault device_realtime hash_version#"
-            " chain_position# prev_hash row_hash",
-            1, "row_hash");
+  static const CarriedTable kTable = table(
+      "attempt",
+      "uuid @trainee @session @calibration exercise_id exercise_version ruleset_sha256 level seed# board# hand organ_name organ_source"
+      " organ_sha256 organ_synthetic# organ_credit program started_utc owner_pid# owner_boot owner_start# status integrity"
+      " finished_utc recording_path recording_sha256 state_hash device_backend device_rate_hz~ device_ticks# device_overruns#"
+      " saturated_contact_share~ passivity_active_share~ min_energy_j~ kappa~ device_fault device_realtime hash_version#"
+      " chain_position# prev_hash row_hash",
+      1, "row_hash");
   return kTable;
 }
 
@@ -223,7 +223,8 @@ std::vector<std::string> insert_central(CentralLink& link, const CarriedTable& t
 std::vector<Values> central_rows(CentralLink& link, const CarriedTable& table, const std::vector<std::string>& keys) {
   if (keys.empty()) return {};
   return link.run("SELECT " + listed(table, as_text) + " FROM " + quoted(table.name) + " c WHERE c." +
-                      quoted(table.columns.front().central) + " IN (SELECT json_array_elements_text($1::json)) ORDER BY " + keys_of(table, "c."),
+                      quoted(table.columns.front().central) + " IN (SELECT json_array_elements_text($1::json)) ORDER BY " +
+                      keys_of(table, "c."),
                   {json_list(keys)});
 }
 

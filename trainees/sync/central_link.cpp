@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* kLock = "SELECT pg_advisory_xact_lock(1414677330)";  // "TRCR"
 // Doubles come back as they went; "exists already" is no news.
-constexpr const char* kSettings = "SET LOCAL extra_float_digits = 3; SET LOCAL client_min_messages = warning; SET LOCAL search_path TO trocar; ";
+constexpr const char* kSettings =
+    "SET LOCAL extra_float_digits = 3; SET LOCAL client_min_messages = warning; SET LOCAL search_path TO trocar; ";
 
 /// libpq's own words end in line ends.
 std::string one_line(std::string text) {

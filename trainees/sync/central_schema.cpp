@@ -51,7 +51,8 @@ const std::vector<std::string>& central_erasing() {
                            " erased' AND u.subject = r.uuid AND e.uuid = u.detail");
     }
     for (const CarriedTable& table : carried_of_attempt()) statements.push_back("DELETE FROM " + table.name + of_attempt);
-    for (const char* table : {"rating", "signature", "verdict_override"}) statements.push_back(std::string("DELETE FROM ") + table + of_attempt);
+    for (const char* table : {"rating", "signature", "verdict_override"})
+      statements.push_back(std::string("DELETE FROM ") + table + of_attempt);
     const std::string trained = " WHERE trainee_uuid IN (SELECT trainee_uuid FROM erasure WHERE kind = 'training')";
     statements.push_back("DELETE FROM revocation WHERE certificate_uuid IN (SELECT uuid FROM certificate" + trained + ")");
     statements.push_back("DELETE FROM certificate" + trained);

@@ -49,12 +49,13 @@ class Push {
     link_->begin();
     insert(carried_bases()[2], rows_of(batch, carried_bases()[2].name));
     for (const CarriedTable& table : carried_sealed()) note_conflicts(table, insert(table, rows_of(batch, table.name)));
-    const auto changed = link_->run("INSERT INTO person (trainee_uuid, code, name, email, station) SELECT r.*, $2 FROM"
-                                    " json_to_recordset($1::json) AS r(trainee_uuid text, code text, name text, email text) WHERE NOT EXISTS"
-                                    " (SELECT 1 FROM erasure e WHERE e.trainee_uuid = r.trainee_uuid) ON CONFLICT (trainee_uuid) DO UPDATE"
-                                    " SET code = excluded.code, name = excluded.name, email = excluded.email WHERE (person.code, person.name,"
-                                    " person.email) <> (excluded.code, excluded.name, excluded.email) RETURNING 1",
-                                    {json_rows(carried_person(), rows_of(batch, carried_person().name)), station_.uuid});
+    const auto changed = link_->run(
+        "INSERT INTO person (trainee_uuid, code, name, email, station) SELECT r.*, $2 FROM"
+        " json_to_recordset($1::json) AS r(trainee_uuid text, code text, name text, email text) WHERE NOT EXISTS"
+        " (SELECT 1 FROM erasure e WHERE e.trainee_uuid = r.trainee_uuid) ON CONFLICT (trainee_uuid) DO UPDATE"
+        " SET code = excluded.code, name = excluded.name, email = excluded.email WHERE (person.code, person.name,"
+        " person.email) <> (excluded.code, excluded.name, excluded.email) RETURNING 1",
+        {json_rows(carried_person(), rows_of(batch, carried_person().name)), station_.uuid});
     if (!changed.empty()) counted_["person"] += static_cast<int>(changed.size());
     keep_erased();
     link_->commit();
@@ -86,8 +87,9 @@ class Push {
 
   void require_same_trail(sqlite3* connection, std::int64_t position, const std::string& hash) const {
     if (audit_hash(connection, position) == hash) return;
-    throw InputError("the audit trail of station " + station_.name + " (" + station_.uuid + ") is not the one that was pushed, at position " +
-                     std::to_string(position) + ": an older copy of the database was put back, or two machines use copies of one. Nothing"
+    throw InputError("the audit trail of station " + station_.name + " (" + station_.uuid +
+                     ") is not the one that was pushed, at position " + std::to_string(position) +
+                     ": an older copy of the database was put back, or two machines use copies of one. Nothing"
                      " was pushed; --new-station goes on under a new UUID");
   }
 
@@ -129,9 +131,10 @@ class Push {
     const auto added = insert_central(*link_, carried_audit(), batch.audit, station_.uuid);
     if (added.size() == batch.audit.size()) return;
     // Those that were there must be these: another program may push the same file at this moment, but no other file as this station.
-    for (const Values& row : link_->run("SELECT position::text, row_hash FROM audit a WHERE station = $1 AND position BETWEEN $2::bigint AND"
-                                        " $3::bigint ORDER BY a.position",
-                                        {station_.uuid, *batch.audit.front()[0], *batch.audit.back()[0]})) {
+    for (const Values& row :
+         link_->run("SELECT position::text, row_hash FROM audit a WHERE station = $1 AND position BETWEEN $2::bigint AND"
+                    " $3::bigint ORDER BY a.position",
+                    {station_.uuid, *batch.audit.front()[0], *batch.audit.back()[0]})) {
       const auto same = std::find_if(batch.audit.begin(), batch.audit.end(), [&](const Values& ours) { return ours[0] == row[0]; });
       if (same != batch.audit.end() && (*same)[7] != row[1]) note_conflict("audit entry", *row[0], *(*same)[7], *row[1]);
     }

@@ -25,8 +25,10 @@ class Replica {
       : link_(&link), database_(&database), connection_(database.connection()), report_(&report) {}
 
   void require_own_place() const {
-    if (sql::query_integer(connection_, "SELECT EXISTS (SELECT 1 FROM attempt WHERE id NOT IN (SELECT attempt_id FROM replica))") == 0) return;
-    throw InputError(database_->file().string() + ": holds attempts of its own; what all stations have goes to a file of its own (--db FILE)");
+    if (sql::query_integer(connection_, "SELECT EXISTS (SELECT 1 FROM attempt WHERE id NOT IN (SELECT attempt_id FROM replica))") == 0)
+      return;
+    throw InputError(database_->file().string() +
+                     ": holds attempts of its own; what all stations have goes to a file of its own (--db FILE)");
   }
 
   void take_stations() {
@@ -52,8 +54,9 @@ class Replica {
   /// Codes and names where they were pushed; a code that says nothing for others, unless they were erased.
   void take_people() {
     AnchoredTransaction transaction(*database_);
-    for (const Values& row : link_->run("SELECT t.uuid, p.code, coalesce(p.name, ''), coalesce(p.email, '') FROM trainee t LEFT JOIN person p"
-                                        " ON p.trainee_uuid = t.uuid ORDER BY t.uuid")) {
+    for (const Values& row :
+         link_->run("SELECT t.uuid, p.code, coalesce(p.name, ''), coalesce(p.email, '') FROM trainee t LEFT JOIN person p"
+                    " ON p.trainee_uuid = t.uuid ORDER BY t.uuid")) {
       const std::string uuid = *row[0], tail = uuid.substr(uuid.size() - 8);
       sql::Statement here(connection_, "SELECT t.id, EXISTS (SELECT 1 FROM erasure WHERE trainee_id = t.id), p.trainee_id IS NOT NULL"
                                        " FROM trainee t LEFT JOIN person p ON p.trainee_id = t.id WHERE t.uuid = ?");
@@ -105,8 +108,9 @@ class Replica {
   }
 
   void keep_person(std::int64_t trainee, const std::string& code, const std::string& name, const std::string& email) {
-    sql::Statement keep(connection_, "INSERT INTO person VALUES (?1, ?2, ?3, ?4) ON CONFLICT (trainee_id) DO UPDATE SET code = ?2, name = ?3,"
-                                     " email = ?4");
+    sql::Statement keep(connection_,
+                        "INSERT INTO person VALUES (?1, ?2, ?3, ?4) ON CONFLICT (trainee_id) DO UPDATE SET code = ?2, name = ?3,"
+                        " email = ?4");
     keep.bind(trainee).bind(code).bind(name).bind(email).run();
   }
 
@@ -149,7 +153,11 @@ class Replica {
       for (const Values& part : parts[i][one.uuid]) insert_local(connection_, carried_of_attempt()[i], part);
     }
     sql::Statement place(connection_, "INSERT INTO replica VALUES (?, ?, ?, ?)");
-    place.bind(id).bind(one.station).bind(static_cast<std::int64_t>(std::stoll(row[sealed].value_or("0")))).bind(row[sealed + 1].value_or("")).run();
+    place.bind(id)
+        .bind(one.station)
+        .bind(static_cast<std::int64_t>(std::stoll(row[sealed].value_or("0"))))
+        .bind(row[sealed + 1].value_or(""))
+        .run();
     sql::Statement freeze(connection_, "UPDATE attempt SET status = ?, row_hash = ? WHERE id = ?");
     freeze.bind(row.at(status).value_or("")).bind(row.back().value_or("")).bind(id).run();
     if (!erased(id) && !attempt_holds(connection_, id)) throw InputError("its content is not that of its hash; left out");
@@ -163,7 +171,8 @@ class Replica {
   }
 
   bool erased(std::int64_t id) const {
-    sql::Statement row(connection_, "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = ? AND e.kind = 'training'");
+    sql::Statement row(connection_,
+                       "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = ? AND e.kind = 'training'");
     return row.bind(id).step();
   }
 

@@ -78,7 +78,8 @@ TEST(CarriedRows, TakeEveryColumnOfTheTablesHere) {
   all.push_back(sync::carried_person());
   for (const sync::CarriedTable& table : all) {
     std::vector<std::string> here, carried;
-    sql::Statement columns(database.connection(), "SELECT name, type FROM pragma_table_info(?) WHERE name <> 'id' OR type = 'TEXT' ORDER BY 1");
+    sql::Statement columns(database.connection(),
+                           "SELECT name, type FROM pragma_table_info(?) WHERE name <> 'id' OR type = 'TEXT' ORDER BY 1");
     columns.bind(table.name);
     while (columns.step()) here.push_back(columns.text(0));
     for (const sync::Column& column : table.columns) carried.push_back(column.local);

@@ -128,8 +128,8 @@ TEST_F(Erased, TrainingLeavesBareAttempts) {
   erase(ErasureKind::kTraining);
   EXPECT_EQ(left("attempt"), "2");
   EXPECT_EQ(left("certificate"), "0");
-  for (const char* table : {"event", "device_warning", "device_transition", "score", "metric", "subscore", "score_cap", "rating", "signature",
-                            "verdict_override"}) {
+  for (const char* table : {"event", "device_warning", "device_transition", "score", "metric", "subscore", "score_cap", "rating",
+                            "signature", "verdict_override"}) {
     EXPECT_EQ(one(std::string("SELECT count(*) FROM ") + table + " x JOIN attempt a ON a.uuid = x.attempt_uuid JOIN erasure e"
                   " ON e.trainee_uuid = a.trainee_uuid"), "0") << table;
   }
@@ -248,8 +248,9 @@ TEST_F(Desk, TakesWhatComesLaterAndSeesWhatIsChangedInIt) {
   EXPECT_EQ(replicate_central(desk, central_).added.at("attempt"), 2);
   ASSERT_EQ(desk.check(), Lines{});
   const std::string uuid = AttemptStore(desk).find("latest").uuid;
-  ASSERT_EQ(run_outside(folder_ / "desk.db", "CREATE TABLE t AS SELECT sql FROM sqlite_master WHERE name = 'event_no_update';"
-                                             "DROP TRIGGER event_no_update; UPDATE event SET value = 0 WHERE attempt_id = 11; DROP TABLE t"),
+  ASSERT_EQ(run_outside(folder_ / "desk.db",
+                        "CREATE TABLE t AS SELECT sql FROM sqlite_master WHERE name = 'event_no_update';"
+                        "DROP TRIGGER event_no_update; UPDATE event SET value = 0 WHERE attempt_id = 11; DROP TABLE t"),
             "");
   bool told = false;
   for (const std::string& problem : desk.check()) told |= problem == "hash chain: attempt " + uuid + " of another station was changed";

@@ -60,7 +60,8 @@ PostgresServer::PostgresServer() : programs_(newest_programs()) {
     reason_ = "initdb failed: " + (folder_ / "commands.log").string();
   }
   if (reason_.empty() && !as_server("pg_ctl -D " + data + " -l " + at + "/server.log -w -t 60 -o \"-k " + at +
-                                    " -c listen_addresses='' -c fsync=off -c synchronous_commit=off -c full_page_writes=off -c autovacuum=off -c shared_buffers=16MB -c max_connections=20\" start")) {
+                                    " -c listen_addresses='' -c fsync=off -c synchronous_commit=off -c full_page_writes=off -c "
+                                    "autovacuum=off -c shared_buffers=16MB -c max_connections=20\" start")) {
     reason_ = "the server did not start: " + (folder_ / "server.log").string();
   }
 }

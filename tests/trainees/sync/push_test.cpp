@@ -153,7 +153,8 @@ TEST_F(Stations, ABatchThatIsCutInTheMiddleLeavesNothingBehind) {
   push(database);
   const auto before = everything();
   practise(database, "T-a", 4);
-  ask("CREATE FUNCTION cut() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM pg_terminate_backend(pg_backend_pid()); RETURN NEW; END $$;"
+  ask("CREATE FUNCTION cut() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM pg_terminate_backend(pg_backend_pid()); RETURN NEW; "
+      "END $$;"
       " CREATE TRIGGER cut BEFORE INSERT ON note FOR EACH ROW EXECUTE FUNCTION cut()");
   EXPECT_NE(message_of<EnvironmentError>([&] { push(database); }), "");
   EXPECT_EQ(everything(), before);
