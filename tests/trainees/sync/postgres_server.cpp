@@ -77,16 +77,30 @@ CentralAddress PostgresServer::address_of(const std::string& name) const {
   return {"postgresql:///" + name + "?host=" + folder_.string() + "&user=trocar", password_file_};
 }
 
+std::string PostgresServer::connection_to(const std::string& name) const {
+  return "host=" + folder_.string() + " user=trocar dbname=" + name + " password='a pass%word\\'&?'";
+}
+
+std::string PostgresServer::connection_to(const CentralAddress& address) const {
+  const std::size_t start = std::string("postgresql:///").size();
+  return connection_to(address.url.substr(start, address.url.find('?') - start));
+}
+
 CentralAddress PostgresServer::make_database(const std::string& name) {
-  pqxx::connection connection("host=" + folder_.string() + " user=trocar dbname=postgres password='a pass%word\\'&?'");
+  pqxx::connection connection(connection_to("postgres"));
   pqxx::nontransaction(connection).exec("CREATE DATABASE " + name);
   return address_of(name);
 }
 
+void PostgresServer::while_locked(const CentralAddress& address, const std::function<void()>& meanwhile) const {
+  pqxx::connection connection(connection_to(address));
+  pqxx::work transaction(connection);
+  transaction.exec("SELECT pg_advisory_xact_lock(1414677330)");
+  meanwhile();
+}
+
 std::vector<std::string> PostgresServer::ask(const CentralAddress& address, const std::string& sql) const {
-  const std::size_t start = std::string("postgresql:///").size();
-  const std::string name = address.url.substr(start, address.url.find('?') - start);
-  pqxx::connection connection("host=" + folder_.string() + " user=trocar dbname=" + name + " password='a pass%word\\'&?'");
+  pqxx::connection connection(connection_to(address));
   pqxx::nontransaction transaction(connection);
   transaction.exec("SET search_path TO trocar");
   std::vector<std::string> lines;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,15 @@ class PostgresServer {
   CentralAddress make_database(const std::string& name);
   /// Rows of a query as "a|b|c" lines, asked by a connection of its own.
   std::vector<std::string> ask(const CentralAddress& address, const std::string& sql) const;
+  /// Keeps every writer of that centre waiting while `meanwhile` runs.
+  void while_locked(const CentralAddress& address, const std::function<void()>& meanwhile) const;
   const std::filesystem::path& password_file() const { return password_file_; }
 
  private:
   PostgresServer();
   bool as_server(const std::string& command) const;
+  std::string connection_to(const std::string& name) const;
+  std::string connection_to(const CentralAddress& address) const;
   CentralAddress address_of(const std::string& name) const;
 
   std::filesystem::path folder_, programs_, password_file_;

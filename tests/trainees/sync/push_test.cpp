@@ -215,6 +215,28 @@ TEST_F(Stations, TwoPushingAtOnceTakeTurns) {
   EXPECT_EQ(one("SELECT count(*) FROM conflict"), "0");
 }
 
+TEST_F(Stations, PracticeGoesOnWhileAPushWaitsForTheNetwork) {
+  Database database = station("a");
+  practise(database, "T-a", 1);
+  push(database);
+  practise(database, "T-a", 1);
+  std::atomic<bool> pushed = false;
+  std::thread waiting;
+  server_.while_locked(central_, [&] {
+    waiting = std::thread([&] {
+      Database same = station("a");
+      push(same);
+      pushed = true;
+    });
+    while (one("SELECT count(*) FROM pg_locks WHERE locktype = 'advisory' AND NOT granted") == "0") std::this_thread::yield();
+    Database impatient(folder_ / "a.db", OpenMode::kExisting, 0);  // waits for nobody
+    store_attempt(impatient, sample_start("T-a"), sample_result());
+    EXPECT_FALSE(pushed);
+  });
+  waiting.join();
+  EXPECT_EQ(one("SELECT count(*) FROM attempt"), "3");
+}
+
 TEST_F(Stations, ClocksOrderNothing) {
   Database database = station("a");
   AttemptStore store(database);
