@@ -6,6 +6,7 @@
 
 #include "app/commands/cohort_command.h"
 #include "app/commands/db_command.h"
+#include "app/commands/sync_command.h"
 #include "app/commands/trainee_command.h"
 #include "app/commands/trainee_rights.h"
 #include "app/typed_path.h"
@@ -17,6 +18,7 @@ struct TraineeCommandLine {
   TraineeRightsOptions rights;
   CohortOptions cohort;
   DbOptions db;
+  SyncOptions sync;
   std::function<void(std::function<int()>)> choose;
 
   template <class Options>
@@ -96,6 +98,24 @@ void add_db(Line& c, CLI::App& app) {
   retention->add_option("--db", c.rights.database, "Database file");
 }
 
+void add_sync(Line& c, CLI::App& app) {
+  CLI::App* sync = c.add(app, "sync", sync_command, c.sync,
+                         "This station's record to a central PostgreSQL database, or all stations' into a file for a desk");
+  CLI::Option* to = sync->add_option("--to", c.sync.to,
+                                     "postgresql://USER@HOST/DATABASE: push what is finished, fetch curricula, benchmarks, erasures");
+  CLI::Option* from =
+      sync->add_option("--from", c.sync.from, "postgresql://USER@HOST/DATABASE: fetch what all stations pushed into --db FILE");
+  to->excludes(from);
+  sync->add_option("--password-file", c.sync.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
+  sync->add_option("--station", c.sync.station, "Name of this station (default: the host's)")->needs(to);
+  sync->add_flag("--new-station", c.sync.new_station, "Go on under a new UUID: an older copy was put back, or the database was copied")
+      ->needs(to);
+  sync->add_flag("--with-identity", c.sync.with_identity, "Also codes, names and e-mail addresses")->needs(to);
+  sync->add_flag("--apply-erasures", c.sync.apply_erasures, "Erase here too whom another station erased")->needs(to);
+  sync->add_option("--db", c.sync.database, "Database file");
+  sync->add_flag("--json", c.sync.json, "As JSON");
+}
+
 }  // namespace
 
 std::shared_ptr<TraineeCommandLine> add_trainee_commands(CLI::App& app, const std::function<void(std::function<int()>)>& choose) {
@@ -105,6 +125,7 @@ std::shared_ptr<TraineeCommandLine> add_trainee_commands(CLI::App& app, const st
   add_looking(*c, app, *trainee);
   add_rights(*c, *trainee);
   add_db(*c, app);
+  add_sync(*c, app);
   return c;
 }
 

@@ -68,8 +68,11 @@ std::string row_hash(sqlite3* connection, const Link& link) {
 }
 
 constexpr const char* kLinks =
-    "SELECT a.id, a.uuid, chain_position, prev_hash, row_hash, status, hash_version, EXISTS (SELECT 1 FROM erasure e"
-    " WHERE e.trainee_id = a.trainee_id AND e.kind = 'training') FROM attempt a WHERE status <> 'running'";
+    "SELECT a.id, a.uuid, coalesce(r.chain_position, a.chain_position), coalesce(r.prev_hash, a.prev_hash), row_hash, status, hash_version,"
+    " EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id AND e.kind = 'training')"
+    " FROM attempt a LEFT JOIN replica r ON r.attempt_id = a.id WHERE status <> 'running'";
+constexpr const char* kOwn = " AND r.attempt_id IS NULL";
+constexpr const char* kOfOthers = " AND r.attempt_id IS NOT NULL";
 
 Link link_of(const sql::Statement& row) { return {row.integer(0), row.integer(2), row.integer(6), row.text(3), row.text(5)}; }
 
@@ -94,6 +97,22 @@ void check_erased(sqlite3* connection, std::vector<std::string>& problems) {
                       "SELECT DISTINCT a.uuid FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE e.kind = 'training' AND"
                       " (EXISTS (SELECT 1 FROM score WHERE attempt_id = a.id) OR EXISTS (SELECT 1 FROM event WHERE attempt_id = a.id))");
   while (rows.step()) problems.push_back("attempt " + rows.text(0) + " has rows although its training data were erased");
+}
+
+/// Attempts of other stations: content, and that what each followed is here too. The chains of several stations lie side by side.
+void check_replicas(sqlite3* connection, std::vector<std::string>& problems) {
+  sql::Statement links(connection, std::string(kLinks) + kOfOthers + " ORDER BY a.id");
+  while (links.step()) {
+    const std::string name = "attempt " + links.text(1);
+    const Link link = link_of(links);
+    sql::Statement before(connection, "SELECT 1 FROM attempt a LEFT JOIN replica r ON r.attempt_id = a.id WHERE a.row_hash = ?"
+                                      " AND coalesce(r.chain_position, a.chain_position) = ?");
+    if (link.position > 1 && !before.bind(link.previous).bind(link.position - 1).step()) {
+      problems.push_back(name + " of another station follows one that is not here");
+    }
+    const bool erased = links.integer(7) != 0;
+    if (!erased && row_hash(connection, link) != links.text(4)) problems.push_back(name + " of another station was changed");
+  }
 }
 
 void check_texts(sqlite3* connection, std::vector<std::string>& problems) {
@@ -131,7 +150,7 @@ bool attempt_holds(sqlite3* connection, std::int64_t attempt) {
 
 std::vector<std::string> check_chain(sqlite3* connection) {
   std::vector<std::string> problems;
-  sql::Statement links(connection, std::string(kLinks) + " ORDER BY chain_position");
+  sql::Statement links(connection, std::string(kLinks) + kOwn + " ORDER BY a.chain_position");
   std::string previous;
   std::int64_t expected = 1;
   while (links.step()) {
@@ -150,6 +169,7 @@ std::vector<std::string> check_chain(sqlite3* connection) {
     previous = links.text(4);
     expected = position + 1;
   }
+  check_replicas(connection, problems);
   check_erased(connection, problems);
   check_texts(connection, problems);
   return problems;

@@ -6,7 +6,8 @@
 // stored (their hashes still hold), 2 with program, integrity, session and calibration, 3 with what the device warned of
 // and how its state changed. Later columns need a new version. The chain shows changes; a cut-off end shows in the audit
 // trail (audit.h); nothing stops who recomputes all. Of a trainee whose training data were erased (erasure.h) the content is
-// gone and only the links are checked.
+// gone and only the links are checked. Attempts that were fetched from other stations (table replica) keep the place in the chain of
+// the station that made them: each is computed again, and what it followed must be here; the chain of this database leaves them out.
 #pragma once
 
 #include <cstdint>

@@ -295,7 +295,8 @@ std::vector<std::string> AttemptStore::check_recordings() const {
   std::vector<std::string> problems;
   sql::Statement rows(database_->connection(),
                       "SELECT uuid, recording_path, recording_sha256, EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id"
-                      " AND e.kind = 'training') FROM attempt a WHERE status <> 'running' AND recording_sha256 <> '' ORDER BY id");
+                      " AND e.kind = 'training') FROM attempt a WHERE status <> 'running' AND recording_sha256 <> ''"
+                      " AND id NOT IN (SELECT attempt_id FROM replica) ORDER BY id");  // other stations keep their recordings
   while (rows.step()) {
     const fs::path file = located_recording(database_->file(), rows.text(1));
     const std::string name = "recording " + file.string() + " of attempt " + rows.text(0);

@@ -36,16 +36,16 @@ void check_links(sqlite3* connection, std::vector<std::string>& problems) {
 
 void check_attempts(sqlite3* connection, std::vector<std::string>& problems) {
   sql::Statement gone(connection,
-                      "SELECT subject, utc FROM audit u WHERE action = ? AND NOT EXISTS"
+                      "SELECT subject, utc FROM audit u WHERE action IN (?, ?) AND NOT EXISTS"
                       " (SELECT 1 FROM attempt a WHERE a.uuid = u.subject AND a.row_hash = u.detail)");
-  gone.bind(kActionFinished);
+  gone.bind(kActionFinished).bind(kActionReplicated);
   while (gone.step()) {
     problems.push_back("attempt " + gone.text(0) + ", finished " + gone.text(1) + ", is missing or was changed");
   }
   sql::Statement unknown(connection,
                          "SELECT uuid FROM attempt a WHERE status <> 'running' AND hash_version >= 2 AND NOT EXISTS"
-                         " (SELECT 1 FROM audit u WHERE u.action = ? AND u.subject = a.uuid)");
-  unknown.bind(kActionFinished);
+                         " (SELECT 1 FROM audit u WHERE u.action IN (?, ?) AND u.subject = a.uuid)");
+  unknown.bind(kActionFinished).bind(kActionReplicated);
   while (unknown.step()) problems.push_back("attempt " + unknown.text(0) + " has no entry");
 }
 

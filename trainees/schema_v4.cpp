@@ -140,6 +140,22 @@ CREATE TABLE sync_cursor (
   position INTEGER NOT NULL CHECK (position >= 0),
   utc      TEXT NOT NULL
 ) STRICT;
+
+-- This database under its own name (own = 1), and those whose attempts were fetched from a central database.
+CREATE TABLE station (
+  uuid TEXT PRIMARY KEY,
+  name TEXT NOT NULL,
+  own  INTEGER NOT NULL CHECK (own IN (0, 1))
+) STRICT;
+CREATE UNIQUE INDEX station_own ON station(own) WHERE own = 1;
+
+-- Attempts of other stations: their place is in the chain of the station that made them, not in this database's.
+CREATE TABLE replica (
+  attempt_id     INTEGER PRIMARY KEY REFERENCES attempt(id),
+  station        TEXT NOT NULL REFERENCES station(uuid),
+  chain_position INTEGER NOT NULL,
+  prev_hash      TEXT NOT NULL
+) STRICT;
 )sql";
 
 constexpr const char kIndices[] = R"sql(
@@ -184,7 +200,8 @@ std::string unchanging() {
   for (const char* table : {"note", "verdict_override", "certificate", "revocation", "curriculum", "erasure"}) {
     sql += refused(table, "UPDATE", "");
   }
-  for (const char* table : {"curriculum", "erasure"}) sql += refused(table, "DELETE", "");
+  for (const char* table : {"curriculum", "erasure", "replica"}) sql += refused(table, "DELETE", "");
+  sql += refused("replica", "UPDATE", "");
   for (const char* table : {"consent", "rating", "signature", "benchmark", "note", "verdict_override", "certificate"}) {
     sql += never_replaced(table);
   }

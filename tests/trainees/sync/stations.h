@@ -1,0 +1,34 @@
+// Stations with something to push, and what a central database holds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/trainees/store_samples.h"
+#include "tests/trainees/sync/postgres_server.h"
+#include "trainees/opinions.h"
+
+namespace trocar::test {
+
+inline const Author kTeacher{"0192-teacher", "Ida Adler"};
+
+class Stations : public TemporaryFolder {
+ protected:
+  void SetUp() override;
+
+  Database station(const std::string& name) { return Database(folder_ / (name + ".db")); }
+  /// Attempts of "CODE", notes, signatures, an override, a certificate.
+  void practise(Database& database, const std::string& code, int attempts);
+  PushReport push(Database& database, const std::string& name = "");
+  std::vector<std::string> ask(const std::string& sql) const { return server_.ask(central_, sql); }
+  std::string one(const std::string& sql) const;
+  CentralAddress another_central();
+  /// Every row of every table of the centre but for times of arrival, in order.
+  std::vector<std::string> everything(const CentralAddress& central) const;
+  std::vector<std::string> everything() const { return everything(central_); }
+
+  PostgresServer& server_ = PostgresServer::instance();
+  CentralAddress central_;
+};
+
+}  // namespace trocar::test
