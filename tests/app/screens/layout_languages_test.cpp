@@ -6,6 +6,7 @@
 #include "app/screens/device_panel.h"
 #include "app/screens/hud_words.h"
 #include "app/screens/overlays.h"
+#include "app/screens/sound_page.h"
 #include "app/screens/screen_table.h"
 #include "app/screens/theme.h"
 #include "tests/app/screens/desk_bench.h"
@@ -98,12 +99,11 @@ TEST_P(LanguageLayout, PagesAreClear) {
 }
 
 TEST_P(LanguageLayout, WhatLiesOverPagesIsClear) {
-  int help_page = 0;
-  draw([&](Ui& ui) { help_overlay(ui, *desk_, help_page); });
-  look_at("help");
-  help_page = 1;
-  draw([&](Ui& ui) { help_overlay(ui, *desk_, help_page); });
-  look_at("help on measures");
+  SoundPage sounds;
+  for (HelpPage help : {HelpPage::kKeys, HelpPage::kMetrics, HelpPage::kSounds}) {
+    draw([&](Ui& ui) { help_overlay(ui, *desk_, help, sounds); });
+    look_at("help");
+  }
   for (const bool runs : {false, true}) {
     draw([&](Ui& ui) { menu_overlay(ui, *desk_, runs); });
     look_at("menu");
