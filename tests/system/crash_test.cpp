@@ -26,7 +26,7 @@ class Crash : public SystemTest {
     return recording;
   }
 
-  static constexpr std::uintmax_t kEnough = 12000;  // bytes: the header and some seconds of ticks
+  static constexpr std::uintmax_t kEnough = 24000;  // bytes: the header and some seconds of ticks
 };
 
 TEST_F(Crash, TheAttemptIsAbortedWhenTheDatabaseIsNextOpened) {

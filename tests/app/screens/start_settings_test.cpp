@@ -132,7 +132,7 @@ TEST_F(PageTest, ANoticeStaysForAWhileAndGoes) {
   frame();
   EXPECT_TRUE(sees("The disk is nearly full."));
   EXPECT_TRUE(desk_->notice.empty()) << "taken over";
-  for (int i = 0; i < 4; ++i) loop_->frame(640, 360, 2, {});
+  for (int i = 0; i < 62; ++i) loop_->frame(640, 360, 0.1, {});
   EXPECT_FALSE(sees("The disk is nearly full."));
 }
 
