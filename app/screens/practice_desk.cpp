@@ -179,7 +179,8 @@ PracticeDesk::Advice PracticeDesk::next() const {
   }
   const Standing& s = found->standing;
   const std::string why = s.attempts == 0          ? w("Not tried yet.")
-                          : s.passed_in_a_row == 0 ? w("Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})
+                          : s.passed_in_a_row == 0 ? w(s.attempts == 1 ? "Tried once, the row of passes is still to come."
+                                                                      : "Tried {0} times, the row of passes is still to come.", {std::to_string(s.attempts)})
                                                    : w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)});
   return {found->exercise->id, found->level, why};
 }

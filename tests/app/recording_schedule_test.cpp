@@ -72,8 +72,8 @@ TEST(Schedule, WhatGoesBackInTimeIsRefused) {
 
 TEST(Schedule, TravelsWithTheRowsThatNeedIt) {
   MemorySink memory;
-  RecordingWriter writer(memory, "", 10);  // a chunk every 10 rows
-  for (std::uint64_t tick = 1; tick <= 25; ++tick) {
+  RecordingWriter writer(memory, "", 10);  // a chunk every 5 rows
+  for (std::uint64_t tick = 1; tick <= 23; ++tick) {
     if (tick % 5 == 1) writer.append_step(tick);
     if (tick % 5 == 3) writer.append_patch({tick, tick / 5 + 1});
     writer.append(row(tick));

@@ -59,7 +59,7 @@ TEST_F(AttemptRecovery, AKilledAttemptIsAbortedAndItsRecordingReadable) {
   EXPECT_EQ(result.recording_path, database.recovered()[0].recording.string());
   EXPECT_EQ(result.recording_sha256, digest::of_file(result.recording_path));
   const Recording recording = read_recording(result.recording_path);
-  EXPECT_EQ(recording.ticks.size(), 2000u);
+  EXPECT_EQ(recording.ticks.size(), 2500u);
   EXPECT_FALSE(recording.torn.empty());
   EXPECT_TRUE(database.check().empty());
   EXPECT_TRUE(AttemptStore(database).check_recordings().empty());
