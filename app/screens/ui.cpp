@@ -159,7 +159,7 @@ void Ui::title(const std::string& text, const std::string& right) {
   const Area a = wrapped(text, Ink::kText, UiFont::kTitle, there);
   UiParts::note(*this, text, a.x, a.y, a.width, a.height, there);
   if (right.empty()) return;
-  if (!beside) return line(right, Ink::kDim);
+  if (!beside) return this->text(right, Ink::kDim);
   const double y = a.y + UiParts::height(UiFont::kTitle) - UiParts::height() - px(2);
   UiParts::draw(*this, a.x + there - side, y, right, Ink::kDim, side);
 }

@@ -233,7 +233,7 @@ TEST_F(PracticeLoopTest, AKeyThatIsChosenDoesNotLeaveTheSettings) {
   for (const std::int32_t chosen : {std::int32_t{kKeyEscape}, std::int32_t{kKeyEnter}}) {
     frame();
     frame();
-    tab(9);
+    tab(10);
     tap(kKeyEnter);
     frame();
     ASSERT_TRUE(sees("press a key"));
