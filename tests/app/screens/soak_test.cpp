@@ -65,7 +65,6 @@ class SoakBench : public LoopBench {
     DeskOptions options = bench_.options();
     options.exercise = bench_.folder.write("short.toml", text).string();
     options.hand = "expert";
-    options.trainee = "T-1";
     open(options);
   }
 
