@@ -57,8 +57,8 @@ class SoakBench : public LoopBench {
   void SetUp() override {
     LoopBench::SetUp();
     if (IsSkipped()) return;
-    width_ = 320;
-    height_ = 240;
+    width_ = 480;   // a smaller window has no pages
+    height_ = 270;
     std::string text = find_exercise("surface-touch", source_assets().exercises).text;
     text.replace(text.find("count = 12"), 10, "count = 2");
     text.replace(text.find("time_limit_s = 120"), 18, "time_limit_s = " SOAK_LIMIT_S);
