@@ -1,5 +1,7 @@
 #include "app/commands/practice_command.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -19,6 +21,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+/// Each attempt starts threads; with heaps of their own for all of them the process grew by 28 MiB in 39 attempts, with two it stays.
+constexpr int kHeaps = 2;
 
 /// Another window of the same size in place of one whose context is lost.
 std::unique_ptr<Window> opened_anew(std::unique_ptr<Window> lost, PracticeLoop& loop) {
@@ -84,6 +89,7 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
 }  // namespace
 
 int practice_command(const PracticeOptions& options, std::ostream& out, std::ostream& err) {
+  ::mallopt(M_ARENA_MAX, kHeaps);
   const Clock::time_point begin = Clock::now();
   if (!options.screens.empty()) return picture_screens(options, out);
   InterruptWatch interrupt;  // before the desk starts a thread: it must inherit what is blocked

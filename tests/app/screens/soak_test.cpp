@@ -55,6 +55,7 @@ Footprint footprint() {
 class SoakBench : public LoopBench {
  protected:
   void SetUp() override {
+    ::mallopt(M_ARENA_MAX, 2);   // as the program does
     LoopBench::SetUp();
     if (IsSkipped()) return;
     width_ = 480;   // a smaller window has no pages
