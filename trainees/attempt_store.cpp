@@ -26,28 +26,6 @@ constexpr const char* kSummaryColumns =
     " integrity FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
     " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0";
 
-AttemptSummary summary_of(const sql::Statement& row) {
-  AttemptSummary summary;
-  summary.row = row.integer(0);
-  summary.uuid = row.text(1);
-  summary.trainee = row.text(2);
-  summary.exercise_id = row.text(3);
-  summary.level = row.text(4);
-  summary.hand = row.text(5);
-  summary.started_utc = row.text(6);
-  summary.seed = row.integer(7);
-  summary.board = static_cast<int>(row.integer(8));
-  summary.status = row.text(9);
-  summary.score = row.optional_real(10);
-  summary.passed = row.integer(11) != 0;
-  summary.grade = row.text(12);
-  summary.organ_synthetic = row.integer(13) != 0;
-  summary.exercise_version = row.text(14);
-  summary.rubric_sha256 = row.text(15);
-  summary.integrity = row.text(16);
-  return summary;
-}
-
 AttemptStatus status_of(const std::string& name) {
   for (const AttemptStatus status : {AttemptStatus::kCompleted, AttemptStatus::kTimeout, AttemptStatus::kAborted,
                                      AttemptStatus::kFault, AttemptStatus::kVoid}) {

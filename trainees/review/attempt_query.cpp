@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
+#include "trainees/attempt_rows.h"
 #include "trainees/review/desk_queries.h"
 #include "trainees/sqlite_handle.h"
 
@@ -18,28 +19,6 @@ constexpr const char* kGraded =
     " JOIN known_trainee t ON t.id = a.trainee_id JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
     " WHERE a.exercise_id = ?1 AND a.level = ?2 AND a.hand = ?3 AND a.ruleset_sha256 = ?4 AND s.value IS NOT NULL"
     " AND a.status IN ('completed', 'timeout') AND a.id <> ?5";
-
-AttemptSummary summary_of(const sql::Statement& row) {
-  AttemptSummary s;
-  s.row = row.integer(0);
-  s.uuid = row.text(1);
-  s.trainee = row.text(2);
-  s.exercise_id = row.text(3);
-  s.level = row.text(4);
-  s.hand = row.text(5);
-  s.started_utc = row.text(6);
-  s.seed = row.integer(7);
-  s.board = static_cast<int>(row.integer(8));
-  s.status = row.text(9);
-  s.score = row.optional_real(10);
-  s.passed = row.integer(11) != 0;
-  s.grade = row.text(12);
-  s.organ_synthetic = row.integer(13) != 0;
-  s.exercise_version = row.text(14);
-  s.rubric_sha256 = row.text(15);
-  s.integrity = row.text(16);
-  return s;
-}
 
 std::vector<AttemptSummary> read_graded(sqlite3* connection, const std::string& more, const AttemptSummary& of, const std::string& hand) {
   sql::Statement rows(connection, kGraded + more);
