@@ -1,5 +1,6 @@
 #include "trainees/opinions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "haptics/input_error.h"
@@ -7,6 +8,7 @@
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/printed_text.h"
+#include "trainees/rating_scales.h"
 #include "trainees/sealed_rows.h"
 
 namespace trocar {
@@ -41,6 +43,25 @@ std::int64_t attempt_of(sqlite3* connection, std::int64_t trainee, const std::st
   sql::Statement row(connection, "SELECT id FROM attempt WHERE uuid = ? AND trainee_id = ?");
   if (!row.bind(uuid).bind(trainee).step()) throw InputError("attempt " + uuid + ": is none of this trainee's");
   return row.integer(0);
+}
+
+/// Inside a transaction. @param rating its uuid is made here.
+void insert_rating(sqlite3* connection, const std::string& attempt_uuid, const Rating& rating) {
+  const std::string uuid = make_uuid();
+  sql::Statement insert(connection, "INSERT INTO rating (uuid, attempt_id, account_uuid, rater, scale, item, value, utc)"
+                                    " VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(uuid).bind(finished_attempt(connection, attempt_uuid).id).bind(rating.account_uuid).bind(rating.rater);
+  insert.bind(rating.scale).bind(rating.item).bind(rating.value).bind(rating.utc).run();
+  seal_row(connection, "rating", uuid, rating.account_uuid);
+}
+
+void check_rating(const RatingScale& scale, const std::string& item, double value) {
+  const std::string what = "rating " + scale.name + ", " + item;
+  const bool known = std::any_of(scale.items.begin(), scale.items.end(), [&](const RatingItem& i) { return i.name == item; });
+  if (!known) throw InputError(what + ": the scale has no such item");
+  if (!(value >= scale.least && value <= scale.most) || value != std::floor(value)) {
+    throw InputError(what + ": a whole number from " + std::to_string(scale.least) + " to " + std::to_string(scale.most) + " is needed");
+  }
 }
 
 constexpr const char* kNotes =
@@ -114,14 +135,25 @@ void OpinionStore::add_rating(const std::string& attempt_uuid, const std::string
   check_printed("item", item);
   check_printed("author", author.printed);
   if (!std::isfinite(value)) throw InputError("rating " + scale + ", " + item + ": is not a number");
-  sqlite3* connection = database_->connection();
-  const std::string uuid = make_uuid();
   AnchoredTransaction transaction(*database_);
-  sql::Statement insert(connection, "INSERT INTO rating (uuid, attempt_id, account_uuid, rater, scale, item, value, utc)"
-                                    " VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(uuid).bind(finished_attempt(connection, attempt_uuid).id).bind(author.account_uuid).bind(author.printed);
-  insert.bind(scale).bind(item).bind(value).bind(utc_now()).run();
-  seal_row(connection, "rating", uuid, author.account_uuid);
+  insert_rating(database_->connection(), attempt_uuid, {"", author.account_uuid, author.printed, scale, item, utc_now(), value});
+  transaction.commit();
+}
+
+void OpinionStore::rate(const std::string& attempt_uuid, const std::string& scale_name, const std::map<std::string, double>& values,
+                        const Author& author) {
+  const RatingScale& scale = rating_scale(scale_name);
+  check_printed("author", author.printed);
+  if (values.empty()) throw InputError("rating " + scale.name + ": no item was rated");
+  for (const auto& [item, value] : values) check_rating(scale, item, value);
+  const std::string now = utc_now();
+  AnchoredTransaction transaction(*database_);
+  for (const RatingItem& item : scale.items) {
+    const auto value = values.find(item.name);
+    if (value == values.end()) continue;
+    insert_rating(database_->connection(), attempt_uuid,
+                  {"", author.account_uuid, author.printed, scale.name, item.name, now, value->second});
+  }
   transaction.commit();
 }
 

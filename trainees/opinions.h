@@ -4,6 +4,7 @@
 // replaces it. Thread: that of the Database.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,7 +57,10 @@ class OpinionStore {
 
   /// @throws InputError: attempt unknown or running, scale or item empty, value not finite.
   void add_rating(const std::string& attempt_uuid, const std::string& scale, const std::string& item, double value, const Author& author);
-  std::vector<Rating> ratings_of(const std::string& attempt_uuid) const;
+  /// All values or none. @param values by item of the scale, whole numbers within it.
+  /// @throws InputError: as above; unknown scale or item, no value, one outside the scale.
+  void rate(const std::string& attempt_uuid, const std::string& scale, const std::map<std::string, double>& values, const Author& author);
+  std::vector<Rating> ratings_of(const std::string& attempt_uuid) const;   ///< oldest first
 
   /// @param note may be empty. @param meaning review, approval, responsibility or authorship.
   /// @throws InputError: unknown meaning, attempt running or changed since it was finished.

@@ -105,6 +105,19 @@ ExportTable notes() {
           "FROM note x JOIN trainee t ON t.id = x.trainee_id JOIN attempt a ON a.id = x.attempt_id WHERE a.id = ? ORDER BY x.uuid"};
 }
 
+ExportTable ratings() {
+  return {"ratings",
+          {{"attempt_uuid", "a.uuid"},
+           {"rating_uuid", "x.uuid"},
+           {"rater_account_uuid", "x.account_uuid"},
+           {"rater", "x.rater"},
+           {"scale", "x.scale"},
+           {"item", "x.item"},
+           {"value", "x.value", Kind::kReal},
+           {"utc", "x.utc"}},
+          "FROM rating x JOIN attempt a ON a.id = x.attempt_id WHERE a.id = ? ORDER BY x.uuid"};
+}
+
 ExportTable signatures() {
   return {"signatures",
           {{"attempt_uuid", "a.uuid"},
@@ -141,7 +154,7 @@ const ExportTable& attempts_table() {
 }
 
 const std::vector<ExportTable>& attempt_parts() {
-  static const std::vector<ExportTable> parts{metrics(), subscores(), caps(), events(), notes(), signatures(), overrides()};
+  static const std::vector<ExportTable> parts{metrics(), subscores(), caps(), events(), notes(), ratings(), signatures(), overrides()};
   return parts;
 }
 

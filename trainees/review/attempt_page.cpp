@@ -48,15 +48,6 @@ std::string certificate_form(const AttemptView& view, const Frame& frame) {
          "</button></p></form>";
 }
 
-std::string ratings(const AttemptView& view) {
-  if (view.ratings.empty()) return "";
-  std::string rows;
-  for (const Rating& r : view.ratings)
-    rows += "<tr><th scope=\"row\">" + escape_html(r.scale) + "</th>" + cell(r.item) + number_cell(number_text(r.value)) + cell(r.rater) +
-            "<td>" + date_html(r.utc) + "</td></tr>";
-  return section("ratings", "Ratings by people", table("Ratings", head_cells({"Scale", "Item", ">Value", "By", "When"}), rows));
-}
-
 std::string compare_section(const AttemptView& view, const Frame& frame) {
   std::string out;
   for (const Rival& rival : view.rivals)
@@ -103,7 +94,7 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
   return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
                              subscore_table(view) + event_table(view) + compare_section(view, frame) + "</div><div>" +
                              sign_off_section(view, frame) + notes_section(view.notes, note_action, frame) + "</div></div>" +
-                             path_section(view) + ratings(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
+                             rating_section(view, frame) + path_section(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
                              "</div><div>" + origin_facts(view) + "</div></div>");
 }
 

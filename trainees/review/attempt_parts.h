@@ -1,4 +1,4 @@
-// Parts of the pages about one attempt: verdict, moment, tables. Shared by the attempt's page and the comparison. Thread: any.
+// Parts of the pages about one attempt: verdict, moment, tables, ratings. Shared by the attempt's page and the comparison. Thread: any.
 #pragma once
 
 #include <string>
@@ -27,6 +27,8 @@ std::string event_table(const AttemptView& view);
 std::string subscore_table(const AttemptView& view);
 std::string metric_table(const AttemptView& view);
 std::string device_facts(const AttemptView& view);
+/// What people say of the replay on a scale (rating_scales.h), and for who may write the form for it. "" where there is neither.
+std::string rating_section(const AttemptView& view, const Frame& frame);
 std::string origin_facts(const AttemptView& view);
 
 }  // namespace trocar::review

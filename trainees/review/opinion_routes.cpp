@@ -2,6 +2,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/attempt_store.h"
+#include "trainees/rating_scales.h"
 #include "trainees/review/desk_views.h"
 #include "trainees/review/page_routes.h"
 #include "trainees/review/pages.h"
@@ -36,6 +37,21 @@ Response override_verdict(const Request& request, Desk& desk) {
   if (passed != "yes" && passed != "no") throw InputError("passed: say yes or no");
   OpinionStore(desk.database).override_verdict(uuid, passed == "yes", argument(request.form, "reason"), author_of(request));
   return see("/attempt/" + url_part(uuid) + "#sign");
+}
+
+/// An item left at "not rated" sends an empty value.
+Response rate(const Request& request, Desk& desk) {
+  const std::string uuid = attempt_of(request, desk);
+  const RatingScale& scale = rating_scale(argument(request.form, "scale"));
+  std::map<std::string, double> values;
+  for (const RatingItem& item : scale.items) {
+    const std::string text = argument(request.form, item.name);
+    if (text.empty()) continue;
+    if (text.size() != 1 || text[0] < '0' || text[0] > '9') throw InputError("rating " + scale.name + ", " + item.name + ": choose a value");
+    values[item.name] = text[0] - '0';
+  }
+  OpinionStore(desk.database).rate(uuid, scale.name, values, author_of(request));
+  return see("/attempt/" + url_part(uuid) + "#ratings");
 }
 
 /// The evidence is looked at again: what the form was made from may be hours old.
@@ -74,6 +90,7 @@ Route post(const std::string& path, Action action) {
 std::vector<Route> opinion_routes() {
   return {post("/trainee/{code}/note", note_on_trainee), post("/attempt/{attempt}/note", note_on_attempt),
           post("/attempt/{attempt}/sign", sign),         post("/attempt/{attempt}/override", override_verdict),
+          post("/attempt/{attempt}/rate", rate),
           post("/attempt/{attempt}/certify", certify),   post("/certificate/{certificate}/revoke", revoke)};
 }
 

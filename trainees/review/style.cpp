@@ -147,6 +147,11 @@ output{font-weight:600}
 .notes li{border-left:4px solid #56b4e9;padding:1px 0 1px 12px;margin:10px 0}
 .notes .said{white-space:pre-line;margin:0}
 .notes .dim{margin:2px 0;font-size:.86rem}
+.rate{border:0;border-top:1px solid #e3e7eb;padding:6px 0;margin:0;min-width:0}
+.rate legend{font-weight:600;padding:0}
+.rate label{display:inline-flex;align-items:center;gap:4px;min-height:34px;margin:0 14px 0 0;color:inherit}
+.rate input{min-height:0}
+.rate p{margin:0}
 .members{display:flex;flex-wrap:wrap;gap:6px 18px}
 .members li{display:flex;gap:8px;align-items:center}
 .members form{margin:0}

@@ -22,7 +22,7 @@ using test::read_csv;
 
 const Author kTeacher{"", "Dr =Teach, \"MD\""};
 const std::vector<std::string> kFiles{"attempts.csv", "caps.csv",  "events.csv",     "metrics.csv",
-                                      "notes.csv",    "overrides.csv", "signatures.csv", "subscores.csv"};
+                                      "notes.csv",    "overrides.csv", "ratings.csv", "signatures.csv", "subscores.csv"};
 
 class TableExport : public TemporaryFolder {
  protected:
