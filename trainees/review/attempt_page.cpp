@@ -85,7 +85,7 @@ std::string sign_off_section(const AttemptView& view, const Frame& frame) {
   }
   if (!frame.may_write) return section("sign", "Sign-off", out);
   return section("sign", "Sign-off",
-                 out + sign_form(view, frame) + override_form(view, frame) + "<h3>Certificate</h3>" + certificate_form(view, frame));
+                 sign_checklist(view) + out + sign_form(view, frame) + override_form(view, frame) + "<h3>Certificate</h3>" + certificate_form(view, frame));
 }
 
 std::string attempt_page(const AttemptView& view, Frame frame) {

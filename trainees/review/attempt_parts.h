@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "trainees/review/page_frame.h"
 #include "trainees/review/views.h"
@@ -29,6 +30,15 @@ std::string metric_table(const AttemptView& view);
 std::string device_facts(const AttemptView& view);
 /// What people say of the replay on a scale (rating_scales.h), and for who may write the form for it. "" where there is neither.
 std::string rating_section(const AttemptView& view, const Frame& frame);
+
+/// What a signer should have seen, read from the attempt: finished, critical events, safety gates, device, record; in that order.
+struct SignCheck {
+  bool fine = false;
+  std::string words = {};
+};
+std::vector<SignCheck> sign_checks(const AttemptView& view);
+std::string sign_checklist(const AttemptView& view);
+
 std::string origin_facts(const AttemptView& view);
 
 }  // namespace trocar::review

@@ -281,6 +281,7 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   add_rivals(view, picture, is_staff(request));
   const ProgressRules rules = rules_in_force(desk.database);
   view.rules_version = rules.version;
+  view.late_share = rules.late_share;
   if (is_staff(request)) add_readiness(view, desk, rules, request.now_utc);
   return view;
 }

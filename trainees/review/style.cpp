@@ -142,8 +142,9 @@ output{font-weight:600}
 .facts dd{margin:0;font-weight:600;overflow-wrap:anywhere}
 .facts dd.mono{font-weight:400}
 .facts.wide{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,210px),1fr))}
-.judgements,.notes,.members{list-style:none;padding:0;margin:6px 0}
+.judgements,.notes,.members,.checks{list-style:none;padding:0;margin:6px 0}
 .judgements li{margin:0 0 5px}
+.checks li{margin:0 0 3px}
 .notes li{border-left:4px solid #56b4e9;padding:1px 0 1px 12px;margin:10px 0}
 .notes .said{white-space:pre-line;margin:0}
 .notes .dim{margin:2px 0;font-size:.86rem}

@@ -119,6 +119,7 @@ struct AttemptView {
   std::vector<Rival> rivals = {};
   std::optional<Judgement> ready = {};  ///< evidence for a certificate
   std::string rules_version = {};
+  double late_share = 0.01;  ///< of ticks missed, above which the rules call an attempt late
   double begin_s() const { return trace && !trace->samples.empty() ? trace->samples.front().t_s : 0; }
 };
 
