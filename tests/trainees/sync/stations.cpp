@@ -48,7 +48,7 @@ std::vector<std::string> Stations::everything(const CentralAddress& central) con
   for (const std::string& table : server_.ask(central, "SELECT table_name FROM information_schema.tables WHERE table_schema = 'trocar'"
                                                        " AND table_name <> 'central' ORDER BY 1")) {
     union_of += (union_of.empty() ? "" : " UNION ALL ") + std::string("SELECT '") + table +
-                " ' || (to_jsonb(t) - 'received' - 'first_seen' - 'last_seen')::text AS line FROM \"" + table + "\" t";
+                " ' || (to_jsonb(t) - 'received' - 'first_seen' - 'last_seen' - 'seq')::text AS line FROM \"" + table + "\" t";
   }
   return server_.ask(central, union_of + " ORDER BY line");
 }
