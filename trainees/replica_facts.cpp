@@ -11,19 +11,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSubject = "replica";
 
-bool marked(sqlite3* connection) {
-  sql::Statement entry(connection, "SELECT 1 FROM audit WHERE subject = ? AND action = ?");
-  return entry.bind(kSubject).bind(kActionReplica).step();
-}
-
 }  // namespace
 
+std::string replica_of(sqlite3* connection) {
+  sql::Statement entry(connection, "SELECT detail FROM audit WHERE subject = ? AND action = ?");
+  return entry.bind(kSubject).bind(kActionReplica).step() ? entry.text(0) : "";
+}
+
 bool is_replica(sqlite3* connection) {
-  return marked(connection) || sql::query_integer(connection, "SELECT EXISTS (SELECT 1 FROM replica)") != 0;
+  return !replica_of(connection).empty() || sql::query_integer(connection, "SELECT EXISTS (SELECT 1 FROM replica)") != 0;
 }
 
 void mark_replica(sqlite3* connection, const std::string& central_uuid) {
-  if (!marked(connection)) append_audit(connection, kActionReplica, kSubject, central_uuid);
+  if (replica_of(connection).empty()) append_audit(connection, kActionReplica, kSubject, central_uuid);
 }
 
 void require_no_replica(sqlite3* connection) {

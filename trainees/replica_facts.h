@@ -22,6 +22,9 @@ bool is_replica(sqlite3* connection);
 /// Call inside a transaction. Nothing when it is marked already.
 void mark_replica(sqlite3* connection, const std::string& central_uuid);
 
+/// UUID of the central database that it is a copy of; "" when it is none, or was made before copies said so.
+std::string replica_of(sqlite3* connection);
+
 /// @throws InputError: attempts are recorded at stations, not into a copy.
 void require_no_replica(sqlite3* connection);
 

@@ -28,6 +28,10 @@ class Replica {
       : link_(&link), database_(&database), connection_(database.connection()), since_(since), report_(&report) {}
 
   void require_own_place() const {
+    const std::string of = replica_of(connection_);
+    if (!of.empty() && of != link_->uuid()) {
+      throw InputError(database_->file().string() + ": is a copy of another central database; give this one a file of its own (--db FILE)");
+    }
     if (sql::query_integer(connection_, "SELECT EXISTS (SELECT 1 FROM attempt WHERE id NOT IN (SELECT attempt_id FROM replica))") == 0)
       return;
     throw InputError(database_->file().string() +
