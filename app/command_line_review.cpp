@@ -26,7 +26,13 @@ void add_serve(CLI::App& review, ReviewServeOptions& o, const Choose& choose) {
   serve->add_option("--key", o.key, "Private key of the certificate (PEM)");
   serve->add_option("--name", o.names, "A name that the machine goes by in the network, besides its own; repeatable");
   CLI::Option* db = serve->add_option("--db", o.database, "Database file");
-  serve->add_flag("--demo", o.demo, "An invented cohort in a file of its own, made the first time (minutes)")->excludes(db);
+  CLI::Option* demo = serve->add_flag("--demo", o.demo, "An invented cohort in a file of its own, made the first time (minutes)");
+  demo->excludes(db);
+  CLI::Option* from = serve->add_option("--from", o.from, "postgresql://USER@HOST/DATABASE: the record of all stations, kept fresh in a copy"
+                                                          " (--db FILE, else in the cache)");
+  from->excludes(demo);
+  serve->add_option("--password-file", o.password_file, "First line: the password of that database (else PGPASSWORD, ~/.pgpass)")->needs(from);
+  serve->add_flag("--recordings", o.recordings, "Fetch the recordings that stations pushed, too")->needs(from);
   serve->callback([&o, choose] { choose([&o] { return review_serve(o, std::cout, std::cerr); }); });
 }
 

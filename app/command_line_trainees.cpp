@@ -19,6 +19,7 @@ struct TraineeCommandLine {
   CohortOptions cohort;
   DbOptions db;
   SyncOptions sync;
+  SyncLinkOptions link;
   std::function<void(std::function<int()>)> choose;
 
   template <class Options>
@@ -98,6 +99,18 @@ void add_db(Line& c, CLI::App& app) {
   retention->add_option("--db", c.rights.database, "Database file");
 }
 
+void add_links(Line& c, CLI::App& sync) {
+  CLI::App* link = c.add(sync, "link", sync_link, c.link, "Two trainees are one person, who practises at two stations");
+  CLI::App* unlink = c.add(sync, "unlink", sync_unlink, c.link, "Two who were linked are two people after all");
+  for (CLI::App* command : {link, unlink}) {
+    command->add_option("one", c.link.one, "CODE@STATION, or the trainee's UUID")->required();
+    command->add_option("other", c.link.other, "Likewise")->required();
+    command->add_option("--at", c.link.at, "postgresql://USER@HOST/DATABASE")->required();
+    command->add_option("--password-file", c.link.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
+    command->add_option("--author", c.link.author, "Who says so (default: $USER)");
+  }
+}
+
 void add_sync(Line& c, CLI::App& app) {
   CLI::App* sync = c.add(app, "sync", sync_command, c.sync,
                          "This station's record to a central PostgreSQL database, or all stations' into a file for a desk");
@@ -114,6 +127,11 @@ void add_sync(Line& c, CLI::App& app) {
   sync->add_flag("--apply-erasures", c.sync.apply_erasures, "Erase here too whom another station erased")->needs(to);
   sync->add_option("--db", c.sync.database, "Database file");
   sync->add_flag("--json", c.sync.json, "As JSON");
+  sync->add_flag("--recordings", c.sync.recordings, "Also the recordings of attempts; motion tells who moved");
+  add_links(c, *sync);
+  sync->callback([&c, sync] {
+    if (sync->get_subcommands().empty()) c.choose([&c] { return sync_command(c.sync, std::cout, std::cerr); });
+  });
 }
 
 }  // namespace

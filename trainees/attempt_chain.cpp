@@ -2,14 +2,15 @@
 
 #include "haptics/digest/digest.h"
 #include "trainees/audit.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
 namespace {
 
 // What version 1 covers, under the names of today's schema.
-constexpr const char* kAttempt =
-    "SELECT a.uuid, t.uuid, a.exercise_id, exercise_version, a.ruleset_sha256, level, seed, board, hand, organ_name,"
+const std::string kAttempt =
+    "SELECT a.uuid, " + origin_sql("a.uuid", "t.uuid") + ", a.exercise_id, exercise_version, a.ruleset_sha256, level, seed, board, hand, organ_name,"
     " organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, owner_pid, owner_boot, owner_start,"
     " finished_utc, s.value, coalesce(s.passed, 0), coalesce(s.grade, 'not graded'), recording_path, recording_sha256,"
     " state_hash, device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share,"
@@ -48,7 +49,7 @@ void add_rows(sqlite3* connection, const std::string& query, std::int64_t attemp
 
 std::string content_of(sqlite3* connection, std::int64_t attempt, std::int64_t version) {
   std::string content;
-  add_rows(connection, std::string(kAttempt) + (version >= 2 ? kAttemptSince2 : "") + kOfAttempt, attempt, content);
+  add_rows(connection, kAttempt + (version >= 2 ? kAttemptSince2 : "") + kOfAttempt, attempt, content);
   for (const char* query : kRows) add_rows(connection, query, attempt, content);
   if (version < 3) return content;
   for (const char* query : kRowsSince3) add_rows(connection, query, attempt, content);

@@ -10,6 +10,7 @@
 #include "trainees/attempt_identity.h"
 #include "trainees/attempt_rows.h"
 #include "trainees/process_identity.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/trainee_store.h"
 
@@ -155,7 +156,7 @@ AttemptResult result_of(const sql::Statement& row, const fs::path& database) {
   result.organ_credit = row.text(25);
   result.rubric_sha256 = row.text(26);
   result.recording_sha256 = row.text(27);
-  result.recording_path = located_recording(database, row.text(28)).string();
+  result.recording_path = recording_here(database, row.text(28), result.uuid).string();
   result.state_hash = row.text(29);
   result.started_utc = row.text(30);
   result.integrity = row.text(31);
@@ -191,6 +192,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   id.rubric_sha256 = digest::of_bytes(start.exercise_text);
   id.started_utc = start.started_utc.empty() ? utc_now() : start.started_utc;
   sql::Transaction transaction(connection);
+  require_no_replica(connection);
   const std::int64_t trainee = TraineeStore(*database_).ensure_id(start.trainee);
   if (start.level == kExamLevel) refuse_second_exam(connection, start, trainee);
   insert_attempt(connection, start, trainee, stored_recording_path(database_->file(), id.recording), id);

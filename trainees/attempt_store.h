@@ -76,7 +76,7 @@ class AttemptStore {
  public:
   explicit AttemptStore(Database& database) : database_(&database) {}
 
-  /// @throws InputError for a bad trainee code or a second sitting of an exam, EnvironmentError when the database cannot take it.
+  /// @throws InputError for a bad trainee code, a second sitting of an exam or a database that is a copy for a desk, EnvironmentError when the database cannot take it.
   AttemptId begin_attempt(const AttemptStart& start);
 
   /// Writes the result. What the attempt began with (trainee, exercise, organ, seed) is not taken from `result`; its

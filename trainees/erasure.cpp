@@ -7,6 +7,7 @@
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/printed_text.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sealed_rows.h"
 
 namespace trocar {
@@ -91,7 +92,7 @@ std::vector<KeptRecording> recordings_of(const Database& database, const Erased&
   sql::Statement rows(database.connection(), "SELECT uuid, recording_sha256, recording_path FROM attempt WHERE trainee_id = ?"
                                              " AND recording_path <> '' ORDER BY id");
   rows.bind(erased.id);
-  while (rows.step()) recordings.push_back({rows.text(0), rows.text(1), located_recording(database.file(), rows.text(2))});
+  while (rows.step()) recordings.push_back({rows.text(0), rows.text(1), recording_here(database.file(), rows.text(2), rows.text(0))});
   return recordings;
 }
 

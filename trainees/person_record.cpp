@@ -4,6 +4,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/erasure.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
@@ -106,7 +107,7 @@ Json attempts_of(const Database& database, std::int64_t trainee) {
   for (Json& attempt : attempts) {
     const std::int64_t id = attempt["id"];
     attempt.erase("id");
-    const auto file = located_recording(database.file(), attempt["recording_path"].get<std::string>());
+    const auto file = recording_here(database.file(), attempt["recording_path"].get<std::string>(), attempt["uuid"].get<std::string>());
     std::error_code none;
     attempt["recording"] = {{"file", file.string()}, {"present", std::filesystem::is_regular_file(file, none)}};
     attempt["scores"] = scores_of(database.connection(), id);

@@ -5,6 +5,7 @@
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/audit.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
@@ -18,17 +19,19 @@ struct SealedTable {
 
 /// Other rows stand by their UUID, so that digests hold in every database that a row is carried to.
 const std::vector<SealedTable>& tables() {
+  static const std::string whose = origin_sql("r.uuid", "t.uuid");
   static const std::string of_trainee = " r JOIN trainee t ON t.id = r.trainee_id";
   static const std::string of_attempt = " r JOIN attempt a ON a.id = r.attempt_id";
   static const std::vector<SealedTable> kTables{
       {"curriculum", "r.name, r.version, r.sha256, r.toml, r.author, r.utc", "curriculum r"},
       {"benchmark", "r.exercise_id, r.level, r.metric, r.full_at, r.zero_at, r.n, r.source, r.rule, r.author, r.utc", "benchmark r"},
-      {"consent", "t.uuid, r.purpose, r.given, r.text, r.author, r.utc", "consent" + of_trainee},
-      {"note", "t.uuid, (SELECT uuid FROM attempt WHERE id = r.attempt_id), r.author, r.printed, r.text, r.utc", "note" + of_trainee},
+      {"consent", whose + ", r.purpose, r.given, r.text, r.author, r.utc", "consent" + of_trainee},
+      {"note", whose + ", (SELECT uuid FROM attempt WHERE id = r.attempt_id), r.author, r.printed, r.text, r.utc", "note" + of_trainee},
       {"rating", "a.uuid, r.account_uuid, r.rater, r.scale, r.item, r.value, r.utc", "rating" + of_attempt},
       {"signature", "a.uuid, r.row_hash, r.account_uuid, r.signer, r.meaning, r.note, r.utc", "signature" + of_attempt},
       {"verdict_override", "a.uuid, r.row_hash, r.author, r.printed, r.passed, r.reason, r.utc", "verdict_override" + of_attempt},
-      {"certificate", "t.uuid, r.exercise_id, r.level, r.rule_version, r.evidence, r.author, r.printed, r.utc", "certificate" + of_trainee},
+      {"certificate", whose + ", r.exercise_id, r.level, r.rule_version, r.evidence, r.author, r.printed, r.utc",
+       "certificate" + of_trainee},
       {"revocation", "c.uuid, r.author, r.printed, r.reason, r.utc", "revocation r JOIN certificate c ON c.id = r.certificate_id"},
       {"erasure", "t.uuid, r.kind, r.rule, r.author, r.utc", "erasure" + of_trainee},
       {kAccountTable, "r.login, r.name, r.role, (SELECT uuid FROM trainee WHERE id = r.trainee_id), r.password, r.created_utc,"

@@ -1,5 +1,8 @@
 #include "app/commands/review_command.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <mutex>
 #include <ostream>
@@ -23,6 +26,7 @@
 #include "trainees/accounts.h"
 #include "trainees/attempt_store.h"
 #include "trainees/review/desk_server.h"
+#include "trainees/sync/replica_keeper.h"
 
 namespace trocar {
 namespace {
@@ -91,8 +95,53 @@ void make_demo(const std::filesystem::path& file, int jobs, std::ostream& err) {
   make_demo_cohort(made, find_assets());
 }
 
+/// The copy of a central record that the desk serves, for its owner alone: everybody's results are in it.
+std::filesystem::path copy_of_centre(const ReviewServeOptions& options, std::ostream& err) {
+  umask(077);
+  const std::filesystem::path file = options.database.empty() ? default_replica_path({options.from}) : options.database;
+  Database database = open_database(file, OpenMode::kCreate, err);
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(database.file().parent_path(), none)) {
+    if (!entry.path().filename().string().starts_with(database.file().filename().string())) continue;
+    std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write, none);
+  }
+  return database.file();
+}
+
+std::string host_name() {
+  char name[256] = "";
+  return gethostname(name, sizeof name - 1) == 0 ? name : "here";
+}
+
+std::unique_ptr<ReplicaKeeper> keeper_of(const ReviewServeOptions& options, const std::filesystem::path& file,
+                                         const std::function<void(const std::string&)>& log, std::ostream& err) {
+  if (options.from.empty()) return nullptr;
+  KeeperOptions kept;
+  kept.central = {options.from, options.password_file};
+  kept.open = opener(file);
+  kept.station_name = ("desk " + host_name()).substr(0, 64);
+  kept.recordings = options.recordings;
+  kept.log = log;
+  ProgressDisplay progress(err, error_is_terminal());
+  auto filling = std::make_shared<bool>(true);
+  kept.going = [&progress, filling](std::size_t done, std::size_t all) {
+    if (*filling) progress.show("attempts", static_cast<double>(done) / static_cast<double>(all));
+  };
+  auto keeper = std::make_unique<ReplicaKeeper>(std::move(kept));
+  *filling = false;
+  err << "The record of " << central_name({options.from}) << " is kept in " << file.string()
+      << ".\nAccounts of this desk: trocar review account add LOGIN --role instructor --db " << file.string() << '\n';
+  return keeper;
+}
+
+review::CentralStanding standing_of(const ReplicaKeeper& keeper, const std::string& host) {
+  const KeeperStanding now = keeper.standing();
+  return {host, now.as_of_utc, now.lost_since_utc, now.why, now.waiting};
+}
+
 /// The database that is served; the demo's is made when it is not there yet.
 std::filesystem::path served_database(const ReviewServeOptions& options, std::ostream& err) {
+  if (!options.from.empty()) return copy_of_centre(options, err);
   if (options.demo) {
     const std::filesystem::path demo = demo_database_beside("");
     if (!std::filesystem::exists(demo)) make_demo(demo, 0, err);
@@ -117,6 +166,11 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   InterruptWatch interrupt;  // before any thread
   const std::filesystem::path file = served_database(options, err);
   std::mutex said;
+  const auto log = [&](const std::string& line) {
+    const std::scoped_lock lock(said);
+    err << line << std::endl;
+  };
+  const auto keeper = keeper_of(options, file, log, err);
   const auto pictures = pictures_of(file, err);
   review::DeskServerOptions served;
   served.open = opener(file);
@@ -125,6 +179,7 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.sources.level_facts = desk_level_facts;
   served.sources.shipped_rules = shipped_rules();
   if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
+  if (keeper) served.sources.central = [&, host = central_name({options.from})] { return standing_of(*keeper, host); };
   served.routes = review::desk_routes();
   {
     Database opened = served.open();
@@ -135,12 +190,10 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.certificate = options.certificate;
   served.key = options.key;
   served.names = options.names;
-  served.log = [&](const std::string& line) {
-    const std::scoped_lock lock(said);
-    err << line << std::endl;
-  };
+  served.log = log;
   review::DeskServer desk(std::move(served));
   desk.start();
+  if (keeper) keeper->start();
   tell(desk, options, out, err);
   while (!interrupt.seen()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   desk.stop();

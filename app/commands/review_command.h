@@ -14,6 +14,9 @@ struct ReviewServeOptions {
   bool lan = false;                        ///< the network, not this machine alone
   std::filesystem::path certificate = {}, key = {};  ///< both or none
   std::vector<std::string> names = {};     ///< more names that it goes by
+  std::string from = {};                   ///< address of a central database: its record instead of this station's
+  std::filesystem::path password_file = {};
+  bool recordings = false;                 ///< fetches recordings too, with `from`
   bool demo = false;                       ///< the invented cohort, made when it is not there yet
 };
 

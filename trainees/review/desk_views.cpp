@@ -7,6 +7,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/attempt_store.h"
+#include "trainees/replica_facts.h"
 #include "trainees/review/charts.h"
 #include "trainees/review/desk_queries.h"
 #include "trainees/sqlite_handle.h"
@@ -101,8 +102,12 @@ std::int64_t chain_position(Database& database, const std::string& uuid) {
 }
 
 void add_trace(AttemptView& view, Desk& desk) {
+  const std::string station = station_of_attempt(desk.database, view.result.uuid);
+  std::error_code none;
   if (view.result.recording_path.empty()) {
     view.no_trace = "This attempt was not recorded.";
+  } else if (!station.empty() && !std::filesystem::exists(view.result.recording_path, none)) {
+    view.no_trace = "The recording is at station " + station + ": without it there are no traces and no pictures here.";
   } else if (!desk.sources.trace) {
     view.no_trace = "This desk cannot read recordings.";
   } else {
@@ -172,6 +177,7 @@ Frame frame_of(const Request& request, const Desk& desk) {
   frame.now_utc = request.now_utc;
   frame.demo = desk.demo;
   frame.may_write = is_staff(request);
+  if (desk.sources.central) frame.central = desk.sources.central();
   return frame;
 }
 

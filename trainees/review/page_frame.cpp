@@ -74,6 +74,35 @@ std::string label_for(const std::string& id, const std::string& words) {
 
 }  // namespace
 
+namespace {
+/// "13:05:09", with the day before it when that is not today's.
+std::string clock_html(const std::string& utc, const std::string& now_utc) {
+  const std::string clock = utc.size() >= 19 ? utc.substr(11, 8) : utc;
+  const std::string day = utc.substr(0, 10) == now_utc.substr(0, 10) ? "" : day_of(utc) + ", ";
+  return "<time datetime=\"" + escape_html(utc) + "\">" + escape_html(day + clock) + "</time> UTC";
+}
+
+/// What a reader must know before relying on the page.
+std::string central_banner(const CentralStanding& central, const std::string& now_utc) {
+  if (central.host.empty() || (central.lost_since_utc.empty() && central.waiting == 0)) return "";
+  std::string out = "<p class=\"central\" role=\"status\">";
+  if (!central.lost_since_utc.empty()) {
+    out += "<strong>The centre " + escape_html(central.host) + " cannot be reached</strong> since " +
+           clock_html(central.lost_since_utc, now_utc) + ". What you see is as of " + clock_html(central.as_of_utc, now_utc) + ".";
+  }
+  if (central.waiting > 0) {
+    out += (central.lost_since_utc.empty() ? "" : " ") + plural(central.waiting, "thing", "things") + " written at this desk " +
+           (central.waiting == 1 ? "is" : "are") + " kept here and not at the centre yet.";
+  }
+  return out + "</p>";
+}
+
+std::string central_footer(const CentralStanding& central, const std::string& now_utc) {
+  if (central.host.empty()) return "";
+  return " Central record as of " + clock_html(central.as_of_utc, now_utc) + " from " + escape_html(central.host) + ".";
+}
+}  // namespace
+
 std::string document(const Frame& frame, const std::string& main_html) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
@@ -83,11 +112,12 @@ std::string document(const Frame& frame, const std::string& main_html) {
          " - Trocar desk</title><link rel=\"stylesheet\" href=\"/style.css\"/>"
          "<script src=\"/desk.js\" defer=\"defer\"></script></head><body>"
          "<a class=\"skip\" href=\"#main\">Skip to the content</a>";
-  out += sprite() + top(frame) + "<main id=\"main\">";
+  out += sprite() + top(frame) + "<main id=\"main\">" + central_banner(frame.central, frame.now_utc);
   if (!frame.notice.empty()) out += "<p class=\"notice\" role=\"status\">" + escape_html(frame.notice) + "</p>";
   out +=
       main_html + "</main><footer><p>Trocar is a training aid, not a medical device. A score judges a run at a simulator; a person signs.";
   if (!frame.now_utc.empty()) out += " Page made " + date_html(frame.now_utc) + " UTC.";
+  out += central_footer(frame.central, frame.now_utc);
   return out + "</p></footer></body></html>\n";
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trainees/progress/judgement.h"
+#include "trainees/review/central_standing.h"
 
 namespace trocar::review {
 
@@ -25,6 +26,7 @@ struct Frame {
   bool pdf = false;         ///< PDF of this page can be had
   int refresh_s = 0;        ///< page asks for itself again
   std::string notice = {};  ///< what has just been done
+  CentralStanding central = {};   ///< of a desk that serves a central record
 };
 
 /// Whole document. @param main_html what stands between header and footer.

@@ -15,6 +15,7 @@
 #include "trainees/accounts.h"
 #include "trainees/database.h"
 #include "trainees/markup/plots.h"
+#include "trainees/review/central_standing.h"
 
 namespace trocar::review {
 
@@ -54,6 +55,8 @@ struct DeskSources {
   /// What an exercise's file says of a level. @throws InputError: a text or level that cannot be read.
   std::function<LevelFacts(const std::string& exercise_text, const std::string& level)> level_facts = {};
   std::string shipped_rules = {};   ///< text of the progress rules that came with the program, where the editor begins
+  /// How the desk stands with the centre whose record it serves. Called by several threads at once.
+  std::function<CentralStanding()> central = {};
   /// What runs on this station now, as JSON; "" when nothing does.
   std::function<std::string()> station = {};
 };

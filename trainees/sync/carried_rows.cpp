@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "haptics/input_error.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar::sync {
@@ -30,8 +31,14 @@ Column reference(const std::string& to) {
   return {to + "_uuid", local, of("uuid", to.c_str(), "id = r." + local), of("id", to.c_str(), "uuid = ?")};
 }
 
+/// Whose a row was when it was written: one that was moved to a linked trainee goes as it was.
+Column origin() {
+  return {"trainee_uuid", "trainee_id", origin_sql("r.uuid", of("uuid", "trainee", "id = r.trainee_id")), of("id", "trainee", "uuid = ?")};
+}
+
 /// name: text, name#: integer, name~: real, @table: a reference.
 Column column_of(std::string word) {
+  if (word == "@origin") return origin();
   if (word.front() == '@') return reference(word.substr(1));
   Kind kind = Kind::kText;
   if (word.back() == '#') kind = Kind::kInteger;
@@ -129,7 +136,7 @@ const CarriedTable& carried_person() {
 const CarriedTable& carried_attempt() {
   static const CarriedTable kTable = table(
       "attempt",
-      "uuid @trainee @session @calibration exercise_id exercise_version ruleset_sha256 level seed# board# hand organ_name organ_source"
+      "uuid @origin @session @calibration exercise_id exercise_version ruleset_sha256 level seed# board# hand organ_name organ_source"
       " organ_sha256 organ_synthetic# organ_credit program started_utc owner_pid# owner_boot owner_start# status integrity"
       " finished_utc recording_path recording_sha256 state_hash device_backend device_rate_hz~ device_ticks# device_overruns#"
       " saturated_contact_share~ passivity_active_share~ min_energy_j~ kappa~ device_fault device_realtime hash_version#"
@@ -155,12 +162,12 @@ const std::vector<CarriedTable>& carried_sealed() {
   static const std::vector<CarriedTable> kTables{
       sealed("curriculum", "uuid name version# sha256 toml author utc"),
       sealed("benchmark", "uuid exercise_id level metric full_at~ zero_at~ n# source rule author utc"),
-      sealed("consent", "uuid @trainee purpose given# text author utc"),
-      sealed("note", "uuid @trainee @attempt author printed text utc"),
+      sealed("consent", "uuid @origin purpose given# text author utc"),
+      sealed("note", "uuid @origin @attempt author printed text utc"),
       sealed("rating", "uuid @attempt account_uuid rater scale item value~ utc"),
       sealed("signature", "uuid @attempt row_hash account_uuid signer meaning note utc"),
       sealed("verdict_override", "uuid @attempt row_hash author printed passed# reason utc"),
-      sealed("certificate", "uuid @trainee exercise_id level rule_version evidence author printed utc"),
+      sealed("certificate", "uuid @origin exercise_id level rule_version evidence author printed utc"),
       sealed("revocation", "uuid @certificate author printed reason utc"),
       sealed("erasure", "uuid @trainee kind rule author utc"),
   };

@@ -138,6 +138,10 @@ void CentralLink::commit() {
   });
 }
 
+void CentralLink::touch() { run("UPDATE central SET revision = (SELECT last_value FROM arrival)"); }
+
+std::int64_t CentralLink::revision() { return std::stoll(run("SELECT revision::text FROM central").front().front().value_or("0")); }
+
 std::vector<Values> CentralLink::run(const std::string& sql, const std::vector<std::string>& parameters) {
   return told("a statement failed", [&] {
     const pqxx::result result =
@@ -156,16 +160,20 @@ std::vector<Values> CentralLink::run(const std::string& sql, const std::vector<s
 
 void CentralLink::make_schema() {
   begin();
-  if (!run("SELECT to_regclass('trocar.central')").front().front()) {
-    for (const std::string& statement : central_schema()) run(statement);
-    run("INSERT INTO central VALUES ($1, $2::integer)", {make_uuid(), std::to_string(kCentralVersion)});
+  int version = 0;
+  if (run("SELECT to_regclass('trocar.central')").front().front()) {
+    const Values about = run("SELECT uuid, version::text FROM central").front();
+    uuid_ = *about[0];
+    version = std::stoi(*about[1]);
+  } else {
+    uuid_ = make_uuid();
   }
-  const Values about = run("SELECT uuid, version::text FROM central").front();
-  uuid_ = *about[0];
-  if (std::stoi(*about[1]) > kCentralVersion) {
-    throw EnvironmentError("central database: was made by a newer trocar (schema " + *about[1] + ", this program knows up to " +
-                           std::to_string(kCentralVersion) + "); it was left as it is");
+  if (version > kCentralVersion) {
+    throw EnvironmentError("central database: was made by a newer trocar (schema " + std::to_string(version) +
+                           ", this program knows up to " + std::to_string(kCentralVersion) + "); it was left as it is");
   }
+  for (const std::string& statement : central_statements(version)) run(statement);
+  if (version == 0) run("INSERT INTO central (uuid, version, revision) VALUES ($1, $2::integer, 0)", {uuid_, std::to_string(kCentralVersion)});
   commit();
 }
 

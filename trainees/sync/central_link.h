@@ -4,6 +4,7 @@
 // at once cannot lock each other out, and an erasure cannot slip past a row that is just coming in. Thread: one.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,10 @@ class CentralLink {
   /// Sees one state from beginning to end and holds up nobody.
   void begin_reading();
   void commit();
+  /// Inside a writing transaction: what it brought is news for those who fetch.
+  void touch();
+  /// Inside a transaction: highest number of arrival of what it sees.
+  std::int64_t revision();
   /// Inside a transaction. Parameters are $1, $2, ...
   std::vector<Values> run(const std::string& sql, const std::vector<std::string>& parameters = {});
 

@@ -1,4 +1,7 @@
 // Schema of the central PostgreSQL database, all of it in its schema "trocar". Internal to trainees/sync. docs/many_stations.md.
+//
+// Version 2: every row has a number of arrival (column seq); whoever writes holds the lock until the end, so that numbers become visible
+// in their order, and central.revision is the highest of what has been committed. Who fetches asks for what came after.
 #pragma once
 
 #include <string>
@@ -6,12 +9,13 @@
 
 namespace trocar::sync {
 
-inline constexpr int kCentralVersion = 1;
+inline constexpr int kCentralVersion = 2;
 
-/// Statements that make it, in order, in one transaction.
-std::vector<std::string> central_schema();
+/// Statements that lead from that version to the newest, in order, in one transaction. 0: nothing is there yet.
+std::vector<std::string> central_statements(int from);
 
-/// Takes away what an erasure that stands at the centre says, whichever station it came from; in order.
+/// Takes away what an erasure that stands at the centre says, whichever station it came from, of everybody who is linked to that person; in
+/// order.
 const std::vector<std::string>& central_erasing();
 
 }  // namespace trocar::sync

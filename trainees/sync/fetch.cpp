@@ -1,7 +1,6 @@
 #include "trainees/sync/fetch.h"
 
 #include <algorithm>
-#include <set>
 
 #include "haptics/input_error.h"
 #include "trainees/anchored_transaction.h"
@@ -24,19 +23,43 @@ void know_exercise(sqlite3* connection, const CarriedTable& table, const Values&
   }
 }
 
-std::string author_of(const CarriedTable& table, const Values& row) {
+std::optional<std::string> value_at(const CarriedTable& table, const Values& row, const std::string& column) {
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (table.columns[i].central == "author" || table.columns[i].central == "account_uuid") return row[i].value_or("");
+    if (table.columns[i].central == column) return row[i];
   }
-  return "";
+  return std::nullopt;
 }
 
-void insert_sealed(sqlite3* connection, const CarriedTable& table, const Values& row) {
+bool is_here(sqlite3* connection, const char* table, const std::string& uuid) {
+  sql::Statement row(connection, std::string("SELECT 1 FROM ") + table + " WHERE uuid = ?");
+  return row.bind(uuid).step();
+}
+
+/// Whether the row has a place here.
+bool has_place(sqlite3* connection, const CarriedTable& table, const Values& row, const Links& links) {
+  if (const auto attempt = value_at(table, row, "attempt_uuid"); attempt && !is_here(connection, "attempt", *attempt)) return false;
+  if (const auto trainee = value_at(table, row, "trainee_uuid");
+      trainee && !is_here(connection, "trainee", links.home(connection, *trainee))) {
+    return false;
+  }
+  const auto certificate = value_at(table, row, "certificate_uuid");
+  if (!certificate) return true;
+  sql::Statement revoked(connection, "SELECT EXISTS (SELECT 1 FROM revocation WHERE certificate_id = c.id) FROM certificate c WHERE uuid = ?");
+  return revoked.bind(*certificate).step() && revoked.integer(0) == 0;
+}
+
+void insert_sealed(sqlite3* connection, const CarriedTable& table, const Values& row, const Links& links) {
   const std::string uuid = row.front().value_or("");
+  Values placed = row;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (table.columns[i].central != "trainee_uuid") continue;
+    placed[i] = links.home(connection, row[i].value_or(""));
+    if (placed[i] != row[i]) note_origin(connection, uuid, row[i].value_or(""));
+  }
   know_exercise(connection, table, row);
-  insert_local(connection, table, row);
+  insert_local(connection, table, placed);
   if (digest_of_row(connection, table.name, uuid) != row.back()) throw InputError("its content is not that of its hash; left out");
-  seal_row(connection, table.name, uuid, author_of(table, row));
+  seal_row(connection, table.name, uuid, kFromCentre);
 }
 
 struct KnownPerson {
@@ -53,21 +76,24 @@ std::optional<KnownPerson> person_here(sqlite3* connection, const std::string& t
 
 }  // namespace
 
-std::vector<std::string> missing_here(CentralLink& link, sqlite3* connection, const CarriedTable& table) {
+std::vector<std::string> missing_here(CentralLink& link, sqlite3* connection, const CarriedTable& table, const Wanted& wanted) {
   const Column& key = table.columns.front();
-  std::set<std::string> here;
-  sql::Statement rows(connection, "SELECT " + quoted(key.local) + " FROM " + table.name);
-  while (rows.step()) here.insert(rows.text(0));
+  std::vector<std::string> parameters{std::to_string(wanted.since)};
+  parameters.insert(parameters.end(), wanted.parameters.begin(), wanted.parameters.end());
+  const std::string where = wanted.condition.empty() ? "" : " AND (" + wanted.condition + ")";
   std::vector<std::string> missing;
-  for (const Values& row : link.run("SELECT " + quoted(key.central) + " FROM " + quoted(table.name) + " ORDER BY 1")) {
-    if (!here.contains(row.front().value_or(""))) missing.push_back(row.front().value_or(""));
+  sql::Statement here(connection, "SELECT 1 FROM " + table.name + " WHERE " + quoted(key.local) + " = ?");
+  for (const Values& row : link.run("SELECT " + quoted(key.central) + " FROM " + quoted(table.name) + " c WHERE c.seq > $1::bigint" +
+                                        where + " ORDER BY 1", parameters)) {
+    if (!here.bind(row.front().value_or("")).step()) missing.push_back(row.front().value_or(""));
+    here.run();
   }
   return missing;
 }
 
-void fetch_missing(CentralLink& link, sqlite3* connection, const CarriedTable& table,
+void fetch_missing(CentralLink& link, sqlite3* connection, const CarriedTable& table, const Wanted& wanted,
                    const std::function<void(const std::vector<Values>& rows)>& take) {
-  const std::vector<std::string> keys = missing_here(link, connection, table);
+  const std::vector<std::string> keys = missing_here(link, connection, table, wanted);
   for (std::size_t from = 0; from < keys.size(); from += kAtOnce) {
     const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(from);
     take(central_rows(link, table, {begin, begin + static_cast<std::ptrdiff_t>(std::min(kAtOnce, keys.size() - from))}));
@@ -87,14 +113,17 @@ bool take_one(sqlite3* connection, const std::string& name, std::vector<std::str
   }
 }
 
-void take_sealed(CentralLink& link, Database& database, const CarriedTable& table, PullReport& report) {
+void take_sealed(CentralLink& link, Database& database, const CarriedTable& table, const Wanted& wanted, const Links& links,
+                 PullReport& report) {
   sqlite3* connection = database.connection();
-  fetch_missing(link, connection, table, [&](const std::vector<Values>& rows) {
+  fetch_missing(link, connection, table, wanted, [&](const std::vector<Values>& rows) {
     AnchoredTransaction transaction(database);
     int taken = 0;
     for (const Values& row : rows) {
-      taken += take_one(connection, table.name + " " + row.front().value_or(""), report.problems,
-                        [&] { insert_sealed(connection, table, row); });
+      const std::string uuid = row.front().value_or("");
+      // Somebody else's write may have been first: between the question and here.
+      if (is_here(connection, table.name.c_str(), uuid) || !has_place(connection, table, row, links)) continue;
+      taken += take_one(connection, table.name + " " + uuid, report.problems, [&] { insert_sealed(connection, table, row, links); });
     }
     if (taken == 0) return;
     transaction.commit();
@@ -104,7 +133,7 @@ void take_sealed(CentralLink& link, Database& database, const CarriedTable& tabl
 
 void take_erasures(CentralLink& link, Database& database, bool apply, PullReport& report) {
   // 'training' comes after 'identity': it takes what that leaves.
-  for (const Values& row : link.run("SELECT trainee_uuid, kind, rule, author, utc FROM erasure ORDER BY kind, uuid")) {
+  for (const Values& row : link.run("SELECT trainee_uuid, kind, rule, author, utc FROM erased_trainee ORDER BY kind, utc, trainee_uuid")) {
     const std::string trainee = row[0].value_or(""), kind = row[1].value_or("");
     const auto person = person_here(database.connection(), trainee, kind);
     if (!person || person->done) continue;

@@ -4,8 +4,10 @@
 #include "haptics/input_error.h"
 #include "trainees/audit.h"
 #include "trainees/sqlite_handle.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sync/batch.h"
 #include "trainees/sync/central_schema.h"
+#include "trainees/sync/exchange.h"
 #include "trainees/sync/station.h"
 #include "trainees/sync/synchronise.h"
 
@@ -38,6 +40,7 @@ class Push {
     for (const CarriedTable& table : carried_sealed()) note_conflicts(table, insert(table, rows_of(batch, table.name)));
     send_audit(batch);
     keep_erased();
+    if (!counted_.empty() || tells(batch)) link_->touch();
     link_->run("UPDATE station SET last_position = greatest(last_position, $2::bigint), last_seen = clock_timestamp() WHERE uuid = $1",
                {station_.uuid, std::to_string(batch.to)});
     link_->commit();
@@ -52,12 +55,24 @@ class Push {
     const auto changed = link_->run(
         "INSERT INTO person (trainee_uuid, code, name, email, station) SELECT r.*, $2 FROM"
         " json_to_recordset($1::json) AS r(trainee_uuid text, code text, name text, email text) WHERE NOT EXISTS"
-        " (SELECT 1 FROM erasure e WHERE e.trainee_uuid = r.trainee_uuid) ON CONFLICT (trainee_uuid) DO UPDATE"
-        " SET code = excluded.code, name = excluded.name, email = excluded.email WHERE (person.code, person.name,"
+        " (SELECT 1 FROM erased_trainee e WHERE e.trainee_uuid = r.trainee_uuid) ON CONFLICT (trainee_uuid) DO UPDATE"
+        " SET code = excluded.code, name = excluded.name, email = excluded.email, seq = nextval('arrival') WHERE (person.code, person.name,"
         " person.email) <> (excluded.code, excluded.name, excluded.email) RETURNING 1",
         {json_rows(carried_person(), rows_of(batch, carried_person().name)), station_.uuid});
     if (!changed.empty()) counted_["person"] += static_cast<int>(changed.size());
     keep_erased();
+    if (!counted_.empty()) link_->touch();
+    link_->commit();
+    take_count();
+  }
+
+  /// When a note was met first, at whichever station, stands.
+  void send_seen(const std::vector<Values>& rows) {
+    static const CarriedTable kSeen{"note_seen", {{"note_uuid", "note_uuid"}, {"utc", "utc"}}, 1, ""};
+    link_->begin();
+    insert(kSeen, rows);
+    keep_erased();
+    if (!counted_.empty()) link_->touch();
     link_->commit();
     take_count();
   }
@@ -77,6 +92,14 @@ class Push {
   void keep_erased() {
     if (link_->run("SELECT 1 FROM erasure LIMIT 1").empty()) return;
     for (const std::string& statement : central_erasing()) link_->run(statement);
+  }
+
+  /// Entries that are news by themselves: others fetch groups and what erased people had signed by them.
+  static bool tells(const Batch& batch) {
+    return std::any_of(batch.audit.begin(), batch.audit.end(), [](const Values& entry) {
+      const std::string action = entry[3].value_or("");
+      return action == "group joined" || action == "group left" || action.ends_with(" erased");
+    });
   }
 
   /// What was counted counts once it is committed.
@@ -168,30 +191,74 @@ class Push {
 
 }  // namespace
 
-PushReport push_to_central(Database& database, const PushOptions& options) {
-  CentralLink link(options.central);
+namespace sync {
+namespace {
+
+/// Changes when a note was met that had not been.
+std::int64_t seen_mark(sqlite3* connection) {
+  return sql::query_integer(connection, "SELECT count(*) + 1000003 * coalesce(sum(note_id), 0) FROM note_seen");
+}
+
+std::vector<Values> seen_notes(sqlite3* connection) {
+  std::vector<Values> rows;
+  sql::Statement notes(connection, "SELECT n.uuid, s.utc FROM note_seen s JOIN note n ON n.id = s.note_id ORDER BY n.uuid");
+  while (notes.step()) rows.push_back({notes.text(0), notes.text(1)});
+  return rows;
+}
+
+void send_batches(Push& push, Database& database, const std::string& central, const PushOptions& options, PushReport& report) {
+  for (;;) {
+    const Batch batch = read_batch(database.connection(), report.to, options.batch);
+    report.problems.insert(report.problems.end(), batch.problems.begin(), batch.problems.end());
+    if (batch.to == report.to) return;
+    push.send(batch);
+    report.to = batch.to;
+    set_cursor(database, central, report.to);
+    if (options.after_batch) options.after_batch(report.to, audit_head(database.connection()).position);
+  }
+}
+
+}  // namespace
+
+PushReport push_over(CentralLink& link, Database& database, const PushOptions& options) {
+  if (options.with_identity && is_replica(database.connection())) {
+    throw InputError("this database is a copy for a desk: it knows people by what their stations pushed; identities go from there");
+  }
   const Station station = own_station(database, options.station_name, options.new_station);
   PushReport report{station.uuid, station.name};
   Push push(link, station, report);
   const std::int64_t there = push.announce(database.connection());
-  // The smaller of the two: either side may have been put back to an older state.
-  report.from = report.to = std::min(options.new_station ? 0 : cursor_of(database, link.uuid()), there);
-  for (;;) {
-    const Batch batch = read_batch(database.connection(), report.to, options.batch);
-    report.problems.insert(report.problems.end(), batch.problems.begin(), batch.problems.end());
-    if (batch.to == report.to) break;
-    push.send(batch);
-    report.to = batch.to;
-    set_cursor(database, link.uuid(), report.to);
-    if (options.after_batch) options.after_batch(report.to, audit_head(database.connection()).position);
+  const std::int64_t known = options.new_station ? 0 : cursor_of(database, link.uuid());
+  if (there < known) {
+    report.told.push_back("the central database knows this station up to entry " + std::to_string(there) + " of " + std::to_string(known) +
+                          " that it had: it was put back to an older state. What is missing of this station is pushed again");
+  }
+  report.from = report.to = std::min(known, there);  // either side may have been put back
+  send_batches(push, database, link.uuid(), options, report);
+  const std::string seen = "seen at " + link.uuid();
+  const std::int64_t mark = seen_mark(database.connection());
+  if (mark != 0 && (mark != cursor_of(database, seen) || there < known)) {
+    push.send_seen(seen_notes(database.connection()));
+    set_cursor(database, seen, mark);
   }
   if (options.with_identity) {
     const Batch identities = read_identities(database.connection());
     report.problems.insert(report.problems.end(), identities.problems.begin(), identities.problems.end());
     push.send_identities(identities);
   }
+  if (options.recordings) {
+    const int pushed = push_recordings(link, database, station.uuid, report.problems);
+    if (pushed > 0) report.added["recording"] += pushed;
+  }
   push.tell_conflicts();
   return report;
+}
+
+}  // namespace sync
+
+PushReport push_to_central(Database& database, const PushOptions& options) {
+  CentralLink link(options.central);
+  return push_over(link, database, options);
 }
 
 }  // namespace trocar

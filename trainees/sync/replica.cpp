@@ -5,7 +5,10 @@
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/sealed_rows.h"
+#include "trainees/replica_facts.h"
+#include "trainees/sync/exchange.h"
 #include "trainees/sync/fetch.h"
+#include "trainees/sync/station.h"
 #include "trainees/sync/synchronise.h"
 
 namespace trocar {
@@ -21,10 +24,14 @@ struct AttemptThere {
 
 class Replica {
  public:
-  Replica(CentralLink& link, Database& database, PullReport& report)
-      : link_(&link), database_(&database), connection_(database.connection()), report_(&report) {}
+  Replica(CentralLink& link, Database& database, std::int64_t since, PullReport& report)
+      : link_(&link), database_(&database), connection_(database.connection()), since_(since), report_(&report) {}
 
   void require_own_place() const {
+    const std::string of = replica_of(connection_);
+    if (!of.empty() && of != link_->uuid()) {
+      throw InputError(database_->file().string() + ": is a copy of another central database; give this one a file of its own (--db FILE)");
+    }
     if (sql::query_integer(connection_, "SELECT EXISTS (SELECT 1 FROM attempt WHERE id NOT IN (SELECT attempt_id FROM replica))") == 0)
       return;
     throw InputError(database_->file().string() +
@@ -33,6 +40,7 @@ class Replica {
 
   void take_stations() {
     AnchoredTransaction transaction(*database_);
+    mark_replica(connection_, link_->uuid());
     for (const Values& row : link_->run("SELECT uuid, name FROM station ORDER BY uuid")) {
       sql::Statement insert(connection_, "INSERT INTO station VALUES (?1, ?2, 0) ON CONFLICT (uuid) DO UPDATE SET name = ?2 WHERE own = 0");
       insert.bind(*row[0]).bind(*row[1]).run();
@@ -42,7 +50,7 @@ class Replica {
 
   void take_bases() {
     for (const CarriedTable& table : carried_bases()) {
-      fetch_missing(*link_, connection_, table, [&](const std::vector<Values>& rows) {
+      fetch_missing(*link_, connection_, table, {since_}, [&](const std::vector<Values>& rows) {
         AnchoredTransaction transaction(*database_);
         for (const Values& row : rows) insert_local(connection_, table, row);
         transaction.commit();
@@ -56,7 +64,8 @@ class Replica {
     AnchoredTransaction transaction(*database_);
     for (const Values& row :
          link_->run("SELECT t.uuid, p.code, coalesce(p.name, ''), coalesce(p.email, '') FROM trainee t LEFT JOIN person p"
-                    " ON p.trainee_uuid = t.uuid ORDER BY t.uuid")) {
+                    " ON p.trainee_uuid = t.uuid WHERE greatest(t.seq, p.seq) > $1::bigint ORDER BY t.uuid",
+                    {std::to_string(since_)})) {
       const std::string uuid = *row[0], tail = uuid.substr(uuid.size() - 8);
       sql::Statement here(connection_, "SELECT t.id, EXISTS (SELECT 1 FROM erasure WHERE trainee_id = t.id), p.trainee_id IS NOT NULL"
                                        " FROM trainee t LEFT JOIN person p ON p.trainee_id = t.id WHERE t.uuid = ?");
@@ -85,16 +94,18 @@ class Replica {
     if (dropped) transaction.commit();
   }
 
-  void take_attempts() {
+  void take_attempts(const std::function<void(std::size_t, std::size_t)>& going) {
     std::map<std::string, bool> missing;
-    for (const std::string& uuid : missing_here(*link_, connection_, carried_attempt())) missing[uuid] = true;
+    for (const std::string& uuid : missing_here(*link_, connection_, carried_attempt(), {since_})) missing[uuid] = true;
     std::vector<AttemptThere> wanted;
-    for (const Values& row : link_->run("SELECT uuid, station FROM attempt ORDER BY station, chain_position, uuid")) {
+    for (const Values& row : link_->run("SELECT uuid, station FROM attempt a WHERE a.seq > $1::bigint ORDER BY station, chain_position, uuid",
+                                        {std::to_string(since_)})) {
       if (missing.contains(*row[0])) wanted.push_back({*row[0], *row[1]});
     }
     for (std::size_t from = 0; from < wanted.size(); from += kAttemptsAtOnce) {
       const auto begin = wanted.begin() + static_cast<std::ptrdiff_t>(from);
       take_some({begin, begin + static_cast<std::ptrdiff_t>(std::min(kAttemptsAtOnce, wanted.size() - from))});
+      if (going) going(std::min(from + kAttemptsAtOnce, wanted.size()), wanted.size());
     }
   }
 
@@ -179,28 +190,55 @@ class Replica {
   CentralLink* link_;
   Database* database_;
   sqlite3* connection_;
+  std::int64_t since_;
   PullReport* report_;
 };
 
 }  // namespace
 
-PullReport replicate_central(Database& database, const CentralAddress& central) {
-  CentralLink link(central);
+namespace sync {
+
+std::string arrivals_of(const std::string& central_uuid) { return "arrivals of " + central_uuid; }
+
+PullReport replicate_over(CentralLink& link, Database& database, const ReplicaOptions& options, bool whole) {
   PullReport report;
-  Replica replica(link, database, report);
-  replica.require_own_place();
   link.begin_reading();
+  const std::int64_t known = cursor_of(database, arrivals_of(link.uuid())), there = link.revision();
+  if (there < known) {
+    report.told.push_back("the central database is older than what this copy had of it (arrival " + std::to_string(there) + " of " +
+                          std::to_string(known) + "): it was put back to an older state. Stations push again what is missing");
+  }
+  const std::int64_t since = whole || known == 0 || there < known ? -1 : known;
+  Replica replica(link, database, since, report);
+  replica.require_own_place();
   replica.take_stations();
   replica.take_bases();
   take_erasures(link, database, true, report);  // before what they are about
   replica.drop_own_words();
   replica.take_people();
-  replica.take_attempts();
+  replica.take_attempts(options.going);
+  const Links links(link);
   for (const CarriedTable& table : carried_sealed()) {
-    if (table.name != "erasure") take_sealed(link, database, table, report);
+    if (table.name != "erasure") take_sealed(link, database, table, {since}, links, report);
   }
+  settle_links(database, links);
+  take_memberships(link, database, links, report);
+  take_seen(link, database, since, report);
+  drop_erased_recordings(database);
   link.commit();
+  if (options.recordings) {
+    const int fetched = fetch_recordings(link, database, report.problems);
+    if (fetched > 0) report.added["recording"] += fetched;
+  }
+  set_cursor(database, arrivals_of(link.uuid()), there);
   return report;
+}
+
+}  // namespace sync
+
+PullReport replicate_central(Database& database, const ReplicaOptions& options) {
+  CentralLink link(options.central);
+  return replicate_over(link, database, options, true);
 }
 
 }  // namespace trocar

@@ -27,6 +27,7 @@ struct PushOptions {
   std::string station_name = {};     ///< empty: as it was, at first the host's name
   bool new_station = false;          ///< go on under a new UUID: after an older copy was put back, or on a copied database
   bool with_identity = false;        ///< also codes, names and e-mail addresses
+  bool recordings = false;           ///< also the recordings of attempts
   int batch = 200;                   ///< entries of the trail in a transaction
   std::function<void(std::int64_t position, std::int64_t head)> after_batch = {};
 };
@@ -36,10 +37,11 @@ struct PushReport {
   std::int64_t from = 0, to = 0;     ///< positions of the audit trail
   std::map<std::string, int> added = {};   ///< rows that were not there yet, by table
   std::vector<std::string> conflicts = {}; ///< all that stand at the centre for this station, from earlier pushes too
-  std::vector<std::string> problems = {};  ///< rows that do not hold here and were not pushed
+  std::vector<std::string> problems = {};  ///< rows and recordings that do not hold here and were not pushed
+  std::vector<std::string> told = {};      ///< that the centre was put back to an older state
 };
 
-/// @throws InputError: bad address, rows that the centre refuses. EnvironmentError: not reached, not let in, connection lost (what was
+/// @throws InputError: bad address, rows that the centre refuses, identities from a copy for a desk. EnvironmentError: not reached, not let in, connection lost (what was
 /// committed stays), a newer central schema.
 PushReport push_to_central(Database& database, const PushOptions& options);
 
@@ -47,13 +49,33 @@ struct PullReport {
   std::map<std::string, int> added = {};     ///< rows by table
   std::vector<std::string> erasures = {};    ///< of people known here, not applied: one line each
   int erased = 0;                            ///< people erased here by this call
-  std::vector<std::string> problems = {};    ///< rows whose content is not that of their hash: left out
+  std::vector<std::string> problems = {};    ///< rows and recordings whose content is not that of their hash: left out
+  std::vector<std::string> told = {};        ///< that the centre was put back to an older state
 };
 
-/// Curricula, benchmarks and erasures of all stations. @param apply_erasures else they are only told.
+/// Curricula and benchmarks of all stations; notes, ratings, signatures, overrides, certificates, consents and groups of the people known
+/// here, whoever wrote them; erasures. @param apply_erasures else they are only told.
 PullReport pull_from_central(Database& database, const CentralAddress& central, bool apply_erasures);
 
-/// Everything of all stations into `database`, for a desk of its own. Erasures are always applied. Each row's hash is computed again.
-PullReport replicate_central(Database& database, const CentralAddress& central);
+struct ReplicaOptions {
+  CentralAddress central;
+  bool recordings = false;           ///< also those that stations pushed
+  std::function<void(std::size_t attempts, std::size_t of)> going = {};
+};
+
+/// Everything of all stations into `database`, for a desk of its own. Erasures are always applied. Each row's hash is computed again. From
+/// then on the file takes no attempts (replica_facts.h).
+PullReport replicate_central(Database& database, const ReplicaOptions& options);
+inline PullReport replicate_central(Database& database, const CentralAddress& central) { return replicate_central(database, ReplicaOptions{central}); }
+
+struct LinkedPeople {
+  std::string one, other;            ///< UUIDs of trainees
+};
+
+/// Says at the centre that two trainees are one person, or no longer are. Stations and copies follow at their next sync.
+/// @param one "CODE@STATION", by name or UUID of the station, or a trainee's UUID. @param author who says so, kept with it.
+/// @throws InputError: nobody of that name, several, erased, said already.
+LinkedPeople link_people(const CentralAddress& central, const std::string& one, const std::string& other, bool linked,
+                         const std::string& author);
 
 }  // namespace trocar

@@ -92,6 +92,13 @@ CentralAddress PostgresServer::make_database(const std::string& name) {
   return address_of(name);
 }
 
+CentralAddress PostgresServer::copy_database(const CentralAddress& of, const std::string& name) {
+  const std::size_t start = std::string("postgresql:///").size();
+  pqxx::connection connection(connection_to("postgres"));
+  pqxx::nontransaction(connection).exec("CREATE DATABASE " + name + " TEMPLATE " + of.url.substr(start, of.url.find('?') - start));
+  return address_of(name);
+}
+
 void PostgresServer::while_locked(const CentralAddress& address, const std::function<void()>& meanwhile) const {
   pqxx::connection connection(connection_to(address));
   pqxx::work transaction(connection);

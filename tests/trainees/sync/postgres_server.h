@@ -21,6 +21,9 @@ class PostgresServer {
   const std::string& reason() const { return reason_; }
   /// An empty database of that name.
   CentralAddress make_database(const std::string& name);
+  /// A database that is what the other is now: a backup, to be put back later. Nobody may be connected to the other.
+  CentralAddress copy_database(const CentralAddress& of, const std::string& name);
+  const std::filesystem::path& folder() const { return folder_; }
   /// Rows of a query as "a|b|c" lines, asked by a connection of its own.
   std::vector<std::string> ask(const CentralAddress& address, const std::string& sql) const;
   /// Keeps every writer of that centre waiting while `meanwhile` runs.

@@ -1,5 +1,7 @@
 #include "tests/trainees/sync/stations.h"
 
+#include "trainees/sqlite_handle.h"
+
 namespace trocar::test {
 namespace {
 
@@ -16,6 +18,27 @@ void Stations::SetUp() {
 }
 
 CentralAddress Stations::another_central() { return server_.make_database(next_name()); }
+
+CentralAddress Stations::backup_of_central() { return server_.copy_database(central_, next_name()); }
+
+PushReport Stations::push_named(Database& database, const std::string& name) {
+  PushOptions options{central_};
+  options.station_name = name;
+  options.with_identity = true;
+  return push_to_central(database, options);
+}
+
+Database Stations::desk(const std::string& name) {
+  Database database = station(name);
+  EXPECT_EQ(replicate_central(database, central_).problems, std::vector<std::string>{});
+  EXPECT_EQ(problems_of(database), "");
+  return database;
+}
+
+std::string Stations::trainee_uuid(Database& database, const std::string& code) const {
+  sql::Statement row(database.connection(), "SELECT uuid FROM known_trainee WHERE code = ?");
+  return row.bind(code).step() ? row.text(0) : "";
+}
 
 void Stations::practise(Database& database, const std::string& code, int attempts) {
   OpinionStore opinions(database);
@@ -48,7 +71,7 @@ std::vector<std::string> Stations::everything(const CentralAddress& central) con
   for (const std::string& table : server_.ask(central, "SELECT table_name FROM information_schema.tables WHERE table_schema = 'trocar'"
                                                        " AND table_name <> 'central' ORDER BY 1")) {
     union_of += (union_of.empty() ? "" : " UNION ALL ") + std::string("SELECT '") + table +
-                " ' || (to_jsonb(t) - 'received' - 'first_seen' - 'last_seen')::text AS line FROM \"" + table + "\" t";
+                " ' || (to_jsonb(t) - 'received' - 'first_seen' - 'last_seen' - 'seq')::text AS line FROM \"" + table + "\" t";
   }
   return server_.ask(central, union_of + " ORDER BY line");
 }

@@ -23,6 +23,12 @@ class Stations : public TemporaryFolder {
   std::vector<std::string> ask(const std::string& sql) const { return server_.ask(central_, sql); }
   std::string one(const std::string& sql) const;
   CentralAddress another_central();
+  CentralAddress backup_of_central();
+  /// Pushes with codes and names.
+  PushReport push_named(Database& database, const std::string& name);
+  /// A copy for a desk under that name, as the centre is now; checked.
+  Database desk(const std::string& name = "desk");
+  std::string trainee_uuid(Database& database, const std::string& code) const;
   /// Every row of every table of the centre but for times of arrival, in order.
   std::vector<std::string> everything(const CentralAddress& central) const;
   std::vector<std::string> everything() const { return everything(central_); }
