@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/commands/report_command.h"
 #include "app/commands/review_command.h"
 
 namespace trocar {
@@ -12,6 +13,7 @@ struct ReviewCommandLine {
   ReviewServeOptions serve;
   ReviewAccountOptions account;
   ReviewDemoOptions demo;
+  ReviewReportOptions report;
 };
 
 namespace {
@@ -66,6 +68,20 @@ void add_demo(CLI::App& review, ReviewDemoOptions& o, const Choose& choose) {
   demo->callback([&o, choose] { choose([&o] { return review_demo(o, std::cout, std::cerr); }); });
 }
 
+void add_report(CLI::App& review, ReviewReportOptions& o, const Choose& choose) {
+  CLI::App* report = review.add_subcommand("report", "A report as PDF or HTML: of a trainee, a cohort, an attempt, or a certificate");
+  report->add_option("--trainee", o.trainee, "Code of the trainee");
+  report->add_flag("--cohort", o.cohort, "Everybody, or a group");
+  report->add_option("--group", o.group, "With --cohort: one group only");
+  report->add_option("--attempt", o.attempt, "Number of the attempt, or its beginning");
+  report->add_option("--certificate", o.certificate, "Number of the certificate");
+  report->add_option("-o,--out", o.out, "File to be made, NAME.pdf or NAME.html; for its owner alone to read")->required();
+  report->add_flag("--notes", o.notes, "With the instructors' notes");
+  report->add_flag("--force", o.force, "A file of that name gives way");
+  report->add_option("--db", o.database, "Database file");
+  report->callback([&o, choose] { choose([&o] { return review_report(o, std::cout, std::cerr); }); });
+}
+
 }  // namespace
 
 std::shared_ptr<ReviewCommandLine> add_review_command(CLI::App& app, const Choose& choose) {
@@ -75,6 +91,7 @@ std::shared_ptr<ReviewCommandLine> add_review_command(CLI::App& app, const Choos
   add_serve(*review, c->serve, choose);
   add_accounts(*review, c->account, choose);
   add_demo(*review, c->demo, choose);
+  add_report(*review, c->report, choose);
   return c;
 }
 

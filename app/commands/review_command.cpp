@@ -12,17 +12,14 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/desk_facts.h"
-#include "app/commands/desk_pictures.h"
+#include "app/commands/desk_sources.h"
 #include "app/commands/open_database.h"
 #include "app/commands/password_prompt.h"
 #include "app/commands/text_table.h"
 #include "app/demo_cohort.h"
 #include "app/interrupt.h"
 #include "app/progress_display.h"
-#include "app/recorded_result.h"
-#include "app/recorder/recording_reader.h"
 #include "haptics/input_error.h"
-#include "scenarios/scoring/metrics.h"
 #include "trainees/accounts.h"
 #include "trainees/attempt_store.h"
 #include "trainees/review/desk_server.h"
@@ -30,32 +27,6 @@
 
 namespace trocar {
 namespace {
-
-Trace trace_of(const std::filesystem::path& file) {
-  const Recording recording = read_recording(file, Reading::kTolerant);
-  return rebuild_trace(recording.ticks, recording.rate_hz);
-}
-
-std::string words_of_metric(const std::string& metric) {
-  const MetricDefinition* known = find_metric(metric);
-  return known ? std::string(known->meaning) : "";
-}
-
-/// Page threads open what has been opened, migrated and repaired before: quietly.
-std::function<Database()> opener(const std::filesystem::path& file) {
-  constexpr int kBusy_ms = 5000;
-  return [file] { return Database(file, OpenMode::kExisting, kBusy_ms, regrade_file); };
-}
-
-/// None without the assets that pictures are made of: the desk is open all the same.
-std::unique_ptr<DeskPictures> pictures_of(const std::filesystem::path& file, std::ostream& err) {
-  try {
-    return std::make_unique<DeskPictures>(find_assets(), opener(file));
-  } catch (const EnvironmentError& error) {
-    err << "no pictures of attempts: " << error.what() << '\n';
-    return nullptr;
-  }
-}
 
 void tell(const review::DeskServer& desk, const ReviewServeOptions& options, std::ostream& out, std::ostream& err) {
   for (const std::string& address : desk.addresses()) out << address << '\n';
@@ -118,7 +89,7 @@ std::unique_ptr<ReplicaKeeper> keeper_of(const ReviewServeOptions& options, cons
   if (options.from.empty()) return nullptr;
   KeeperOptions kept;
   kept.central = {options.from, options.password_file};
-  kept.open = opener(file);
+  kept.open = desk_opener(file);
   kept.station_name = ("desk " + host_name()).substr(0, 64);
   kept.recordings = options.recordings;
   kept.log = log;
@@ -171,12 +142,10 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
     err << line << std::endl;
   };
   const auto keeper = keeper_of(options, file, log, err);
-  const auto pictures = pictures_of(file, err);
+  const auto pictures = desk_pictures(file, err);
   review::DeskServerOptions served;
-  served.open = opener(file);
-  served.sources.trace = trace_of;
-  served.sources.metric_words = words_of_metric;
-  served.sources.level_facts = desk_level_facts;
+  served.open = desk_opener(file);
+  served.sources = desk_sources();
   served.sources.shipped_rules = shipped_rules();
   if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
   if (keeper) served.sources.central = [&, host = central_name({options.from})] { return standing_of(*keeper, host); };

@@ -60,7 +60,7 @@ const std::vector<Territory>& territories() {
       {"^imgui|^GLFW/", "^app/(screens|window)/.*\\.cpp$", "the window's libraries stay in sources of app/screens and app/window"},
       {"^AL/", "^app/sound/.*\\.cpp$", "OpenAL stays in sources of app/sound"},
       {"^httplib|^sodium", "^trainees/.*\\.cpp$", "the web server and its cryptography stay in sources of trainees"},
-      {"^hpdf", "^trainees/review/.*\\.cpp$", "PDF is written in sources of trainees/review"},
+      {"^hpdf", "^trainees/printed/.*\\.cpp$", "PDF is written in sources of trainees/printed"},
       {"^pqxx", "^trainees/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/sync"},
       {"^hidapi", "^app/input/.*\\.cpp$", "HID stays in sources of app/input"},
   };

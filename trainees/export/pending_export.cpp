@@ -1,6 +1,7 @@
 #include "trainees/export/pending_export.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,7 +31,7 @@ fs::path without_slash(fs::path path) {
   throw InputError(out.string() + ": exists already and is not overwritten; choose another name or move it away");
 }
 
-void check_place(const fs::path& typed, const fs::path& out) {
+void check_place(const fs::path& typed, const fs::path& out, bool replaces) {
   if (out.empty() || !out.has_filename() || out.filename() == "." || out.filename() == "..") {
     throw InputError("\"" + typed.string() + "\": is no name of a file or folder to be written");
   }
@@ -39,13 +40,17 @@ void check_place(const fs::path& typed, const fs::path& out) {
   if (!folder.empty() && fs::status(folder, error).type() == fs::file_type::not_found) {
     throw InputError(typed.string() + ": there is no folder " + folder.string() + "; make it first");
   }
-  if (fs::symlink_status(out, error).type() != fs::file_type::not_found && !error) already_there(out);
+  const fs::file_type there = fs::symlink_status(out, error).type();
+  if (there == fs::file_type::not_found || error || (replaces && there == fs::file_type::regular)) return;
+  if (replaces) throw InputError(out.string() + ": is no file, and is not replaced");
+  already_there(out);
 }
 
 }  // namespace
 
-PendingExport::PendingExport(const fs::path& out, Shape shape) : out_(without_slash(out)), shape_(shape) {
-  check_place(out, out_);
+PendingExport::PendingExport(const fs::path& out, Shape shape, Existing existing)
+    : out_(without_slash(out)), shape_(shape), existing_(shape == Shape::kFile ? existing : Existing::kKept) {
+  check_place(out, out_, existing_ == Existing::kReplaced);
   pending_ = out_.parent_path() / ("." + out_.filename().string() + ".part-" + std::to_string(getpid()));
   std::error_code error;
   if (shape_ == Shape::kFolder && !fs::create_directory(pending_, error)) cannot(out_, "make the folder", error ? error.value() : EEXIST);
@@ -63,6 +68,8 @@ std::ostream& PendingExport::file(const std::string& name) {
   current_ = shape_ == Shape::kFolder ? pending_ / name : pending_;
   std::error_code error;
   if (shape_ == Shape::kFolder) fs::create_directories(current_.parent_path(), error);
+  // Made for the owner alone before a byte is in it.
+  if (const int made = ::open(current_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR); made >= 0) ::close(made);
   errno = 0;
   stream_.open(current_, std::ios::binary | std::ios::trunc);
   if (!stream_) cannot(out_, "write " + (name.empty() ? std::string("it") : name), errno);
@@ -79,10 +86,15 @@ void PendingExport::end_file() {
 
 void PendingExport::commit() {
   end_file();
+  if (existing_ == Existing::kReplaced) {
+    if (std::rename(pending_.c_str(), out_.c_str()) != 0) cannot(out_, "move it to its place", errno);
+    committed_ = true;
+    return;
+  }
   // Where a file system does not know RENAME_NOREPLACE the name is looked at once more instead.
   int result = renameat2(AT_FDCWD, pending_.c_str(), AT_FDCWD, out_.c_str(), RENAME_NOREPLACE);
   if (result != 0 && errno == EINVAL) {
-    check_place(out_, out_);
+    check_place(out_, out_, false);
     result = std::rename(pending_.c_str(), out_.c_str());
   }
   if (result != 0 && errno == EEXIST) already_there(out_);

@@ -1,4 +1,5 @@
-// A file or folder that is written beside its place and moved there whole: all or nothing, and nothing is ever overwritten.
+// A file or folder that is written beside its place and moved there whole: all or nothing, and nothing is overwritten unasked.
+// Its files are the owner's alone: they are about people.
 //
 // Until commit() it is called ".NAME.part-PID" in the same folder; without commit() it is removed. Thread: one.
 #pragma once
@@ -15,8 +16,11 @@ class PendingExport {
  public:
   enum class Shape : std::uint8_t { kFile, kFolder };
 
+  enum class Existing : std::uint8_t { kKept, kReplaced };
+
+  /// @param existing kReplaced: a file of that name gives way (a folder never does).
   /// @throws InputError: no name, exists already, its folder is missing. EnvironmentError: cannot be written there.
-  PendingExport(const std::filesystem::path& out, Shape shape);
+  PendingExport(const std::filesystem::path& out, Shape shape, Existing existing = Existing::kKept);
   ~PendingExport();
   PendingExport(const PendingExport&) = delete;
   PendingExport& operator=(const PendingExport&) = delete;
@@ -32,6 +36,7 @@ class PendingExport {
 
   std::filesystem::path out_, pending_, current_;
   Shape shape_;
+  Existing existing_;
   std::ofstream stream_;
   bool committed_ = false;
 };

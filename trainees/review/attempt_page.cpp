@@ -69,7 +69,7 @@ std::string title(const AttemptView& view, const Frame& frame) {
                        query_html({{"exercise", view.result.exercise_id}, {"level", view.result.level}, {"hand", view.result.hand}}),
                    code) +
          ", " + date_html(view.result.started_utc) + ", " + escape_html(view.result.hand) + "</p><p class=\"files\">" +
-         link_html(path + "/attempt.csv", "CSV") + (frame.pdf ? " " + link_html(path + "/report.pdf", "PDF") : "") + "</p></div>";
+         link_html(path + "/attempt.csv", "CSV") + (frame.pdf ? " " + link_html("/report/attempt/" + url_part(view.result.uuid) + ".pdf", "PDF") : "") + "</p></div>";
 }
 
 }  // namespace

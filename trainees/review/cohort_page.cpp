@@ -223,7 +223,7 @@ std::string cohort_page(const CohortView& view, Frame frame) {
                     plural(view.attempts, "attempt", "attempts") + ", rules " +
                     escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) + "</p><p class=\"files\">" +
                     link_html("/cohort.csv" + with(asked, "", ""), "CSV") +
-                    (frame.pdf ? " " + link_html("/cohort.pdf" + with(asked, "", ""), "PDF") : "") + "</p></div><div class=\"states\">";
+                    (frame.pdf ? " " + link_html("/report/cohort.pdf" + with(asked, "", ""), "PDF") : "") + "</p></div><div class=\"states\">";
   for (const CardWords& words : kCards) out += card(view, words);
   out += "</div>";
   std::string rows;

@@ -29,11 +29,19 @@ bool may_see_attempt(const Account& account, const Database& database, const std
   return row.step() && may_see_trainee(account, row.text(0));
 }
 
+bool may_see_certificate(const Account& account, const Database& database, const std::string& certificate_uuid) {
+  if (account.role != Role::kTrainee) return true;
+  sql::Statement row(database.connection(), "SELECT p.code FROM certificate c JOIN person p ON p.trainee_id = c.trainee_id WHERE c.uuid = ?");
+  row.bind(certificate_uuid);
+  return row.step() && may_see_trainee(account, row.text(0));
+}
+
 bool names_another(const Database& database, const std::string& text, const std::string& code) {
   sql::Statement row(
       database.connection(),
       "SELECT 1 FROM known_trainee k WHERE k.code <> ?2 COLLATE NOCASE AND (k.code = ?1 COLLATE NOCASE OR k.uuid = ?1 COLLATE NOCASE"
       " OR k.id IN (SELECT trainee_id FROM attempt WHERE uuid = lower(?1))"
+      " OR k.id IN (SELECT trainee_id FROM certificate WHERE uuid = lower(?1))"
       " OR k.id IN (SELECT trainee_id FROM account WHERE uuid = lower(?1)))");
   row.bind(text).bind(code);
   return row.step();

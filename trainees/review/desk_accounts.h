@@ -20,7 +20,10 @@ bool may_see_trainee(const Account& account, const std::string& code);
 /// By the attempt's whole UUID, not a part of it. An attempt that is not there is nobody's: staff may ask for it, trainees may not.
 bool may_see_attempt(const Account& account, const Database& database, const std::string& attempt_uuid);
 
-/// `text` is the code of a trainee other than `code`, or the UUID of another trainee, of their account or of an attempt of theirs.
+/// By its whole number; as above.
+bool may_see_certificate(const Account& account, const Database& database, const std::string& certificate_uuid);
+
+/// `text` is the code of a trainee other than `code`, or the UUID of another trainee, of their account, of an attempt or a certificate of theirs.
 bool names_another(const Database& database, const std::string& text, const std::string& code);
 
 /// The station's own instructor, who need not sign in at 127.0.0.1 while nobody has an account.

@@ -120,10 +120,13 @@ std::optional<Answer> DeskGate::refuse_foreign(Visit& visit) const {
   const Request& request = visit.request;
   if (!request.account || request.account->role != Role::kTrainee || visit.found.route->audience == Audience::kEverybody) return {};
   const Account& account = *request.account;
-  const auto code = request.arguments.find("code"), attempt = request.arguments.find("attempt");
-  const bool none = code == request.arguments.end() && attempt == request.arguments.end();
-  if (none || (code != request.arguments.end() && !may_see_trainee(account, code->second)) ||
-      (attempt != request.arguments.end() && !may_see_attempt(account, visit.desk.database, attempt->second)))
+  const auto end = request.arguments.end();
+  const auto code = request.arguments.find("code"), attempt = request.arguments.find("attempt"),
+             certificate = request.arguments.find("certificate");
+  const bool none = code == end && attempt == end && certificate == end;
+  if (none || (code != end && !may_see_trainee(account, code->second)) ||
+      (attempt != end && !may_see_attempt(account, visit.desk.database, attempt->second)) ||
+      (certificate != end && !may_see_certificate(account, visit.desk.database, certificate->second)))
     return refused(403, "You see your own attempts only.");
   for (const auto* fields : {&request.query, &request.form, &request.arguments}) {
     for (const auto& [name, value] : *fields) {

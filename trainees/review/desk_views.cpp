@@ -145,6 +145,7 @@ void add_readiness(AttemptView& view, Desk& desk, const ProgressRules& rules, co
     if (line.key.hand != view.result.hand || line.key.rubric_sha256 != view.result.rubric_sha256 || !line.certified_utc.empty()) continue;
     for (const Judgement& judgement : line.judgements)
       if (judgement.flag == Flag::kReady) view.ready = judgement;
+    view.ready_reliability = line.reliability;
   }
 }
 
@@ -177,6 +178,7 @@ Frame frame_of(const Request& request, const Desk& desk) {
   frame.now_utc = request.now_utc;
   frame.demo = desk.demo;
   frame.may_write = is_staff(request);
+  frame.pdf = true;
   if (desk.sources.central) frame.central = desk.sources.central();
   return frame;
 }
@@ -232,7 +234,8 @@ CohortView cohort_view(Desk& desk, const Request& request) {
     view.lines.push_back({line.trainee, line.name, line.key.exercise_id, title == titles.end() ? line.key.exercise_id : title->second,
                           line.key.level, line.key.hand, line.tries, line.best, line.last, std::move(line.newest_scores),
                           levels.of(line.key.rubric_sha256, line.key.level).pass_at, line.mean_peak_n, line.over_force,
-                          std::move(line.judgements), line.last_utc});
+                          std::move(line.judgements), line.last_utc, line.graded, line.passes, line.reliability,
+                          line.key.rubric_sha256});
   }
   return view;
 }
@@ -257,6 +260,7 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   view.notes = std::move(picture.notes);
   view.certificates = std::move(picture.certificates);
   view.rules_version = rules.version;
+  view.created_utc = picture.created_utc;
   return view;
 }
 

@@ -63,6 +63,7 @@ Response certify(const Request& request, Desk& desk) {
                              {"words", view.ready->evidence},
                              {"n", view.ready->n},
                              {"rules", view.ready->rule_version}};
+  if (view.ready_reliability) evidence["reliability"] = *view.ready_reliability;
   OpinionStore(desk.database)
       .certify(view.result.trainee, view.result.exercise_id, view.result.level, view.ready->rule_version, evidence.dump(),
                author_of(request));

@@ -179,8 +179,16 @@ Flag state_named(const std::string& name, Flag otherwise) {
   return otherwise;
 }
 
+namespace {
+const FlagWords& words_for(Flag flag) {
+  return kFlags.at(static_cast<std::size_t>(std::min(gravity(flag), static_cast<int>(kFlags.size()) - 1)));
+}
+}  // namespace
+
+std::string flag_words(Flag flag) { return words_for(flag).words; }
+
 std::string badge(Flag flag) {
-  const FlagWords& f = kFlags.at(static_cast<std::size_t>(std::min(gravity(flag), static_cast<int>(kFlags.size()) - 1)));
+  const FlagWords& f = words_for(flag);
   return std::string("<span class=\"badge ") + f.key + "\">" + shape(f.key) + f.words + "</span>";
 }
 

@@ -40,6 +40,7 @@ std::string link_html(const std::string& href_html, const std::string& words);
 
 /// State as colour, shape and word.
 std::string badge(Flag flag);
+std::string flag_words(Flag flag);           ///< "check record": as the badge says it
 std::string shape(const std::string& name);  ///< a small drawn shape: a flag's name, or pass, fail, void
 Flag state_named(const std::string& name, Flag otherwise);
 /// Gravest first: unsafe, relapsed, stuck, integrity, plateau, retention due, ready, learning.

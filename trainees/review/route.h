@@ -69,7 +69,7 @@ struct Desk {
 
 enum class Audience : std::uint8_t {
   kEverybody,       ///< sign-in page, style sheet
-  kOwnData,         ///< trainee of argument {code} or of attempt {attempt}, instructors, administrators
+  kOwnData,         ///< trainee of argument {code}, of attempt {attempt} or of {certificate}, instructors, administrators
   kInstructors,     ///< and administrators
   kAdministrators,
 };

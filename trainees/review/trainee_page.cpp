@@ -124,6 +124,7 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
     out += std::string("<article class=\"certificate") + (held ? "" : " withdrawn") + "\"><h3>" + shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
            (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " + escape_html(c.printed) + ", rules " +
            escape_html(c.rule_version) + "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
+    if (frame.pdf) out += "<p class=\"files\">" + link_html("/report/certificate/" + url_part(c.uuid) + ".pdf", "Certificate as PDF") + "</p>";
     if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason) + "</p>";
     if (held && frame.may_write)
       out += "<details><summary>Withdraw</summary>" + form_begin("/certificate/" + url_part(c.uuid) + "/revoke", frame) +
@@ -152,7 +153,7 @@ std::string title(const TraineeView& view, const Frame& frame) {
   return "<div class=\"title\"><h1>" + escape_html(view.name.empty() ? view.code : view.name) + "</h1><p class=\"dim\">" +
          (view.name.empty() ? "" : escape_html(view.code) + ", ") + (groups.empty() ? "in no group" : "group " + groups) + ", rules " +
          escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) + "</p><p class=\"files\">" +
-         link_html(path + "/attempts.csv", "CSV") + (frame.pdf ? " " + link_html(path + "/report.pdf", "PDF") : "") + "</p></div>";
+         link_html(path + "/attempts.csv", "CSV") + (frame.pdf ? " " + link_html("/report/trainee/" + url_part(view.code) + ".pdf", "PDF") : "") + "</p></div>";
 }
 
 }  // namespace

@@ -31,6 +31,9 @@ struct CohortEntry {
   int over_force = 0;                       ///< times over the hard limit, over all tries
   std::vector<Judgement> judgements = {};   ///< gravest first
   std::string last_utc = {};
+  int graded = 0, passes = 0;
+  std::optional<double> reliability = {};
+  std::string rubric_sha256 = {};
   Flag state() const { return judgements.empty() ? Flag::kLearning : judgements.front().flag; }
 };
 
@@ -92,6 +95,7 @@ struct TraineeView {
   std::vector<Certificate> certificates = {};
   std::vector<DueDate> due = {};
   std::string rules_version = {};
+  std::string created_utc = {};
 };
 
 /// Another attempt that this one may be laid over.
@@ -118,6 +122,7 @@ struct AttemptView {
   std::vector<Note> notes = {};
   std::vector<Rival> rivals = {};
   std::optional<Judgement> ready = {};  ///< evidence for a certificate
+  std::optional<double> ready_reliability = {};
   std::string rules_version = {};
   double late_share = 0.01;  ///< of ticks missed, above which the rules call an attempt late
   double begin_s() const { return trace && !trace->samples.empty() ? trace->samples.front().t_s : 0; }

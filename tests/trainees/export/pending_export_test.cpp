@@ -75,6 +75,41 @@ TEST_F(PendingExportTest, NothingIsOverwritten) {
   EXPECT_EQ(names_in(folder_).size(), 3u);
 }
 
+TEST_F(PendingExportTest, WhatIsWrittenIsItsOwnersAlone) {
+  const mode_t before = umask(0);  // a user who lets everybody read
+  PendingExport file(folder_ / "file", Shape::kFile);
+  file.file() << "x";
+  file.commit();
+  PendingExport tables(folder_ / "tables", Shape::kFolder);
+  tables.file("a.csv") << "x";
+  tables.commit();
+  umask(before);
+  for (const char* name : {"file", "tables/a.csv"}) {
+    struct stat info{};
+    ASSERT_EQ(stat((folder_ / name).c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777U, 0600U) << name;
+  }
+}
+
+TEST_F(PendingExportTest, AFileGivesWayWhenToldAndOnlyWhenTheNewOneIsWhole) {
+  const auto replaced = [&](const char* name, Shape shape = Shape::kFile) { return PendingExport(folder_ / name, shape, PendingExport::Existing::kReplaced); };
+  std::ofstream(folder_ / "file") << "old";
+  {
+    PendingExport given_up(folder_ / "file", Shape::kFile, PendingExport::Existing::kReplaced);
+    given_up.file() << "half";
+  }
+  EXPECT_EQ(bytes_of_file(folder_ / "file"), "old");
+  PendingExport pending(folder_ / "file", Shape::kFile, PendingExport::Existing::kReplaced);
+  pending.file() << "new";
+  pending.commit();
+  EXPECT_EQ(bytes_of_file(folder_ / "file"), "new");
+  fs::create_directory(folder_ / "folder");
+  fs::create_symlink("file", folder_ / "link");
+  EXPECT_THROW(replaced("folder"), InputError);
+  EXPECT_THROW(replaced("link"), InputError);
+  EXPECT_THROW(replaced("folder", Shape::kFolder), InputError) << "a folder never gives way";
+}
+
 TEST_F(PendingExportTest, NorWhatCameMeanwhile) {
   PendingExport pending(folder_ / "out", Shape::kFile);
   pending.file() << "ours";
