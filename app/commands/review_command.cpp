@@ -123,6 +123,7 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.sources.trace = trace_of;
   served.sources.metric_words = words_of_metric;
   served.sources.level_facts = desk_level_facts;
+  for (const MetricDefinition& metric : metric_catalogue()) served.sources.metrics.emplace_back(metric.name);
   served.sources.shipped_rules = shipped_rules();
   if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
   served.routes = review::desk_routes();
