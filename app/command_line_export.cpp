@@ -22,6 +22,7 @@ std::shared_ptr<ExportCommandLine> add_export_command(CLI::App& app, const std::
   command->add_option("--trainee", o.filter.trainee, "One trainee only");
   command->add_option("--group", o.filter.group, "One group only");
   command->add_option("--exercise", o.filter.exercise, "One exercise only, by its id");
+  command->add_option("--attempt", o.filter.attempt, "One attempt only: its number, a part of its UUID, or 'latest'");
   command->add_option("--home-page", o.home_page, "xapi: URL of who runs the simulator, of which the trainees' UUIDs are accounts");
   command->add_option("--cmi5", o.cmi5, "xapi: JSON with the data of a cmi5 launch, which the newest attempt answers");
   command->add_option("--db", o.database, "Database file");

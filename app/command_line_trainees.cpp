@@ -70,7 +70,7 @@ void add_rights(Line& c, CLI::App& trainee) {
     command->add_option("--db", c.rights.database, "Database file");
   }
   note->add_option("text", c.rights.text, "What it says, up to 4000 characters")->required();
-  note->add_option("--attempt", c.rights.attempt, "Of one attempt: 'latest' of the trainee, or a part of its UUID");
+  note->add_option("--attempt", c.rights.attempt, "Of one attempt: 'latest' of the trainee, its number, or a part of its UUID");
   all->add_option("-o,--out", c.rights.output, "File (default: standard output)")->check(kPlaced);
   CLI::Option* purpose = consent->add_option("--purpose", c.rights.purpose, "What for: research, ...");
   consent->add_option("--text", c.rights.text, "The words that were agreed to or withdrawn")->needs(purpose);

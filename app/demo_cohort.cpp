@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <exception>
@@ -19,6 +20,7 @@
 #include "scenarios/hands/make_hand.h"
 #include "trainees/anchor_file.h"
 #include "trainees/curricula.h"
+#include "trainees/progress/calendar.h"
 
 namespace trocar {
 namespace {
@@ -141,6 +143,13 @@ bool perform_all(std::vector<Planned>& planned, const DemoCohortOptions& options
   return !stopped;
 }
 
+/// By the same invented clock as the beginning: as long afterwards as the loop ran.
+std::string ended(const std::string& started_utc, const DeviceReceipt& device) {
+  const double ran_s = device.rate_hz > 0 ? static_cast<double>(device.ticks) / device.rate_hz : 0;
+  const auto started = std::chrono::system_clock::from_time_t(static_cast<std::time_t>(seconds_of_utc(started_utc).value_or(0)));
+  return utc_of(started + std::chrono::seconds(static_cast<std::int64_t>(std::ceil(ran_s))));
+}
+
 /// In order of their dates, as they would have come.
 void store_all(std::vector<Planned>& planned, Database& database) {
   std::stable_sort(planned.begin(), planned.end(), [](const Planned& a, const Planned& b) { return a.started_utc < b.started_utc; });
@@ -149,7 +158,8 @@ void store_all(std::vector<Planned>& planned, Database& database) {
     const AttemptId id = store.begin_attempt(one.start);
     fs::create_directories(id.recording.parent_path());
     fs::rename(one.recording, id.recording);
-    store.finish_attempt(id, kept_result(one.start, id, one.outcome, *one.record));
+    const AttemptResult result = kept_result(one.start, id, one.outcome, *one.record);
+    store.finish_attempt(id, result, ended(id.started_utc, result.device));
     one.record.reset();
   }
 }

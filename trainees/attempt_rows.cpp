@@ -4,6 +4,7 @@
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/sqlite_handle.h"
+#include "trainees/verdicts.h"
 
 namespace trocar {
 namespace {
@@ -68,7 +69,8 @@ void insert_device_rows(sqlite3* connection, std::int64_t attempt, const DeviceR
   }
 }
 
-void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording) {
+void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording,
+                    const std::string& ended_utc) {
   sql::Statement update(
       connection,
       "UPDATE attempt SET finished_utc = ?, integrity = ?, recording_path = ?,"
@@ -76,7 +78,7 @@ void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& 
       " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
       " kappa = ?, device_fault = ?, device_realtime = ? WHERE id = ?");
   const DeviceReceipt& device = result.device;
-  update.bind(utc_now()).bind(result.integrity);
+  update.bind(ended_utc).bind(result.integrity);
   update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
   update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
   update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
@@ -111,14 +113,15 @@ void read_device_rows(sqlite3* connection, std::int64_t attempt, DeviceReceipt& 
 
 }  // namespace
 
-void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result,
-                  const std::string& recording) {
+void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result, const std::string& recording,
+                  const std::string& ended_utc) {
+  const std::string utc = ended_utc.empty() ? utc_now() : ended_utc;
   insert_events(connection, attempt, result.events);
   insert_device_rows(connection, attempt, result.device);
   insert_grade(connection, insert_score(connection, attempt, result.grade), result.grade);
-  update_attempt(connection, attempt, result, recording);
+  update_attempt(connection, attempt, result, recording, utc);
   sql::Statement session(connection, "UPDATE session SET ended_utc = ? WHERE id = (SELECT session_id FROM attempt WHERE id = ?)");
-  session.bind(utc_now()).bind(attempt).run();  // so far: each attempt of it moves its end
+  session.bind(utc).bind(attempt).run();  // so far: each attempt of it moves its end
   seal_attempt(connection, attempt, result.grade.status);
 }
 
@@ -143,6 +146,13 @@ void read_attempt_rows(sqlite3* connection, std::int64_t attempt, AttemptResult&
   while (caps.step()) result.grade.caps.push_back(caps.text(0));
 }
 
+std::string summary_query(const std::string& code, const std::string& joins) {
+  return "SELECT a.id, a.uuid, " + code + ", a.exercise_id, a.level, a.hand, a.started_utc, a.seed, a.board, a.status, s.value, " +
+         sql::kPassed + ", coalesce(s.grade, 'not graded'), a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity,"
+         " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, '') FROM attempt a" + joins +
+         " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
+}
+
 AttemptSummary summary_of(const sql::Statement& row) {
   AttemptSummary summary;
   summary.row = row.integer(0);
@@ -162,6 +172,9 @@ AttemptSummary summary_of(const sql::Statement& row) {
   summary.exercise_version = row.text(14);
   summary.rubric_sha256 = row.text(15);
   summary.integrity = row.text(16);
+  summary.passed_by_score = row.integer(17) != 0;
+  summary.decided_by = row.text(18);
+  summary.decided_utc = row.text(19);
   return summary;
 }
 

@@ -11,11 +11,14 @@
 namespace trocar {
 
 /// Writes `result` and ends the attempt with its status. Call inside a transaction while the attempt is running.
-/// @param recording as stored_recording_path() names it.
-void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result, const std::string& recording);
+/// @param recording as stored_recording_path() names it. @param ended_utc when it ended, empty: now.
+void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result, const std::string& recording,
+                  const std::string& ended_utc = "");
 
-/// A row whose columns are: id, uuid, code, exercise, level, hand, started, seed, board, status, score, passed, grade, synthetic, version,
-/// ruleset, integrity.
+/// SELECT and FROM of what summary_of() reads: `attempt a`, its first `score s` (perhaps none), the newest decision `o`.
+/// @param code what stands for the trainee's code. @param joins behind `attempt a`, such as the table of the code.
+std::string summary_query(const std::string& code, const std::string& joins);
+/// A row of that query.
 AttemptSummary summary_of(const sql::Statement& row);
 
 /// Fills events and the lists of result.grade.

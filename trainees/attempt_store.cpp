@@ -19,13 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShortestName = 4;
+constexpr std::size_t kShortestName = 4, kWholeUuid = 36;
 
-constexpr const char* kSummaryColumns =
-    "SELECT a.id, a.uuid, t.code, exercise_id, level, hand, started_utc, seed, board, status, s.value,"
-    " coalesce(s.passed, 0), coalesce(s.grade, 'not graded'), organ_synthetic, exercise_version, a.ruleset_sha256,"
-    " integrity FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
-    " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0";
+std::string summaries() { return summary_query("t.code", " JOIN known_trainee t ON t.id = a.trainee_id"); }
 
 AttemptStatus status_of(const std::string& name) {
   for (const AttemptStatus status : {AttemptStatus::kCompleted, AttemptStatus::kTimeout, AttemptStatus::kAborted,
@@ -163,11 +159,21 @@ AttemptResult result_of(const sql::Statement& row, const fs::path& database) {
   return result;
 }
 
+/// The number that a name is; empty for what is none. UUIDs of our time begin with 0, numbers do not.
+std::optional<std::int64_t> attempt_number(std::string_view name) {
+  constexpr std::size_t kLongest = 15;
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (name.empty() || name.size() > kLongest || name.front() == '0' || !std::all_of(name.begin(), name.end(), digit)) return std::nullopt;
+  std::int64_t number = 0;
+  for (const char c : name) number = 10 * number + (c - '0');
+  return number;
+}
+
 void check_name(std::string_view name) {
   const auto allowed = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || c == '-'; };
   if (name.size() < kShortestName || !std::all_of(name.begin(), name.end(), allowed)) {
     throw InputError("\"" + std::string(name) + "\": give at least " + std::to_string(kShortestName) +
-                     " characters of an identifier (for an attempt also of its end, or \"latest\")");
+                     " characters of an identifier (for an attempt also of its end, its number, or \"latest\")");
   }
 }
 
@@ -203,8 +209,11 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   return id;
 }
 
-void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& result) {
+void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& result, const std::string& finished_utc) {
   sqlite3* connection = database_->connection();
+  if (!finished_utc.empty() && finished_utc < id.started_utc) {
+    throw InputError("attempt " + id.uuid + ": cannot end at " + finished_utc + ", before it began at " + id.started_utc);
+  }
   if (!result.rubric_sha256.empty() && result.rubric_sha256 != id.rubric_sha256) {
     throw std::invalid_argument("the result was graded by another rubric than the attempt began with");
   }
@@ -217,7 +226,7 @@ void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& resu
       throw InputError("attempt " + id.uuid + ": is already " + status.text(0) + " and cannot be finished again");
     }
   }
-  write_result(connection, id.row, result, stored_recording_path(database_->file(), recording));
+  write_result(connection, id.row, result, stored_recording_path(database_->file(), recording), finished_utc);
   transaction.commit();
   append_anchor(database_->file(), audit_head(connection));
 }
@@ -236,10 +245,22 @@ AttemptSummary AttemptStore::find(std::string_view name) const {
     if (const auto newest = latest()) return *newest;
     throw InputError("there is no attempt yet");
   }
+  const auto number = attempt_number(name);
+  if (number) {
+    sql::Statement row(database_->connection(), summaries() + " WHERE a.id = ?");
+    if (row.bind(*number).step()) return summary_of(row);
+    if (name.size() < kShortestName) throw InputError("attempt " + std::string(name) + ": no attempt of this database has that number");
+  }
   check_name(name);
-  sql::Statement rows(database_->connection(),
-                      std::string(kSummaryColumns) + " WHERE a.uuid LIKE ?1 || '%' OR a.uuid LIKE '%' || ?1 LIMIT 2");
-  if (!rows.bind(name).step()) throw InputError("attempt " + std::string(name) + ": not in this database");
+  if (name.size() == kWholeUuid) {   // the usual way, by the index
+    sql::Statement row(database_->connection(), summaries() + " WHERE a.uuid = ?");
+    if (row.bind(name).step()) return summary_of(row);
+  }
+  sql::Statement rows(database_->connection(), summaries() + " WHERE a.uuid LIKE ?1 || '%' OR a.uuid LIKE '%' || ?1 LIMIT 2");
+  if (!rows.bind(name).step()) {
+    throw InputError("attempt " + std::string(name) + ": not in this database" +
+                     (number ? ", neither as a number nor in an identifier" : ""));
+  }
   const AttemptSummary found = summary_of(rows);
   if (rows.step()) throw InputError("attempt " + std::string(name) + ": several begin or end so; give more of it");
   return found;
@@ -249,7 +270,7 @@ std::vector<AttemptSummary> AttemptStore::list(const AttemptFilter& filter) cons
   // By the trainee's row, which has an index; a code has none in the view.
   const std::string whose = filter.trainee.empty() ? "?1 = ''" : "a.trainee_id IN (SELECT id FROM known_trainee WHERE code = ?1 COLLATE NOCASE)";
   sql::Statement rows(database_->connection(),
-                      std::string(kSummaryColumns) + " WHERE " + whose + " AND (?2 = '' OR exercise_id = ?2) ORDER BY a.id DESC LIMIT ?3");
+                      summaries() + " WHERE " + whose + " AND (?2 = '' OR exercise_id = ?2) ORDER BY a.id DESC LIMIT ?3");
   rows.bind(filter.trainee).bind(filter.exercise_id).bind(filter.limit > 0 ? filter.limit : -1);
   std::vector<AttemptSummary> attempts;
   while (rows.step()) attempts.push_back(summary_of(rows));

@@ -53,17 +53,19 @@ struct AttemptId {
 
 /// One line of a list.
 struct AttemptSummary {
-  std::int64_t row = 0;
+  std::int64_t row = 0;   ///< its number in this database; at another station the same attempt has another
   std::string uuid, trainee, exercise_id, level, hand, started_utc;
   std::int64_t seed = 0;
   int board = 0;
   std::string status;  ///< status_name(), or "running"
   std::optional<double> score;
-  bool passed = false;
+  bool passed = false;   ///< what counts: the newest decision of a person, else the score's verdict (verdicts.h)
   std::string grade;
   bool organ_synthetic = false;
   std::string exercise_version, rubric_sha256;
   std::string integrity;  ///< why it was aborted or void
+  bool passed_by_score = false;                        ///< what the score says, whatever was decided
+  std::string decided_by = {}, decided_utc = {};       ///< of the newest decision, "" without one
 };
 
 /// Empty fields do not filter.
@@ -81,15 +83,17 @@ class AttemptStore {
 
   /// Writes the result. What the attempt began with (trainee, exercise, organ, seed) is not taken from `result`; its
   /// recording_path replaces the one at the beginning when given.
-  /// @throws InputError when the attempt is not running (finished before, or aborted by recovery).
-  void finish_attempt(const AttemptId& id, const AttemptResult& result);
+  /// @param finished_utc empty: now. Given only for invented attempts, whose clock is another.
+  /// @throws InputError when the attempt is not running (finished before, or aborted by recovery), or would end before it began.
+  void finish_attempt(const AttemptId& id, const AttemptResult& result, const std::string& finished_utc = "");
 
   /// The stored result. What has no column comes back empty: safety_log_path, and of the device force_sensor, stiffness, reason and
   /// where the fault was; the recording's receipt keeps those of the device. @throws InputError: unknown, or still running.
   AttemptResult load(std::int64_t row) const;
   AttemptResult load(std::string_view name) const { return load(find(name).row); }
 
-  /// Attempt by "latest", or by a beginning or an end of its UUID of at least 4 characters.
+  /// Attempt by "latest", by its number in this database (AttemptSummary::row, digits that do not begin with 0), or by a beginning or an
+  /// end of its UUID of at least 4 characters. A number that is taken is that attempt's, even where it ends another's UUID.
   /// @throws InputError when none or several match.
   AttemptSummary find(std::string_view name) const;
   /// Newest first.

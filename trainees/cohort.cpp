@@ -1,16 +1,16 @@
 #include "trainees/cohort.h"
 
 #include "trainees/sqlite_handle.h"
+#include "trainees/verdicts.h"
 
 namespace trocar {
 namespace {
 
-constexpr const char* kQuery = R"sql(
+constexpr const char* kFinished = R"sql(
 WITH finished AS (
   SELECT a.id, a.trainee_id, a.exercise_id, a.exercise_version, a.ruleset_sha256, a.level, a.started_utc,
-         s.id AS score_id, s.value AS score, coalesce(s.passed, 0) AS passed,
-         a.status IN ('completed', 'timeout') AS is_graded
-  FROM attempt a LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.status <> 'running'
+         s.id AS score_id, s.value AS score, a.status IN ('completed', 'timeout')  AS is_graded, )sql";
+constexpr const char* kRows = R"sql( WHERE a.status <> 'running'
 )
 SELECT t.code, f.exercise_id, f.level, count(*), sum(is_graded), sum(passed),
        max(CASE WHEN is_graded THEN score END),
@@ -31,7 +31,8 @@ ORDER BY t.code, f.exercise_id, f.level, min(f.id)
 }  // namespace
 
 std::vector<CohortRow> cohort(Database& database, const std::string& trainee) {
-  sql::Statement rows(database.connection(), kQuery);
+  sql::Statement rows(database.connection(), std::string(kFinished) + sql::kPassed + " AS passed FROM attempt a"
+                                             " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision + kRows);
   rows.bind(kPeakForceMetric).bind(kTimeMetric).bind(trainee);
   std::vector<CohortRow> result;
   while (rows.step()) {

@@ -7,6 +7,7 @@
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/printed_text.h"
+#include "trainees/progress/benchmarks.h"
 #include "trainees/sealed_rows.h"
 
 namespace trocar {
@@ -24,6 +25,9 @@ Benchmark benchmark_of(const sql::Statement& row) {
   return {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5),
           row.text(6), row.text(7), row.real(8), row.real(9), static_cast<int>(row.integer(10))};
 }
+
+/// These tables have one column for who wrote: without an account the printed name stands in it.
+std::string signed_by(const Author& author) { return author.account_uuid.empty() ? author.printed : author.account_uuid; }
 
 struct TraineeRow {
   std::int64_t id = 0;
@@ -57,7 +61,7 @@ Curriculum CurriculumStore::add(const std::string& name, const std::string& toml
   AnchoredTransaction transaction(*database_);
   const std::optional<Curriculum> last = newest(name);
   if (last && last->toml == toml) return *last;
-  const Curriculum next{make_uuid(), name, digest::of_bytes(toml), toml, author.account_uuid, utc_now(), last ? last->version + 1 : 1};
+  const Curriculum next{make_uuid(), name, digest::of_bytes(toml), toml, signed_by(author), utc_now(), last ? last->version + 1 : 1};
   sql::Statement insert(connection, "INSERT INTO curriculum (uuid, name, version, sha256, toml, author, utc) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.bind(next.uuid).bind(name).bind(next.version).bind(next.sha256).bind(toml).bind(next.author).bind(next.utc).run();
   seal_row(connection, "curriculum", next.uuid, author.account_uuid);
@@ -88,11 +92,15 @@ Benchmark CurriculumStore::add_benchmark(const Benchmark& numbers, const Author&
   if (!std::isfinite(numbers.full_at) || !std::isfinite(numbers.zero_at) || numbers.full_at == numbers.zero_at) {
     throw InputError("benchmark of " + numbers.metric + ": full marks and none need two different numbers");
   }
+  for (const double value : {numbers.full_at, numbers.zero_at})
+    if (numbers.metric == "score" && !lawful(lawful_range("score"), value)) {
+      throw InputError("benchmark of score: " + std::to_string(value) + " is none; scores go " + range_words(lawful_range("score")));
+    }
   if (numbers.n < 0) throw InputError("benchmark of " + numbers.metric + ": n is the number of people, 0 or more");
   sqlite3* connection = database_->connection();
   Benchmark added = numbers;
   added.uuid = make_uuid();
-  added.author = author.account_uuid;
+  added.author = signed_by(author);
   added.utc = utc_now();
   AnchoredTransaction transaction(*database_);
   sql::Statement exercise(connection, "INSERT INTO exercise SELECT ?1, '', '' WHERE NOT EXISTS (SELECT 1 FROM exercise WHERE id = ?1)");

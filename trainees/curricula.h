@@ -12,12 +12,13 @@
 namespace trocar {
 
 struct Curriculum {
-  std::string uuid, name, sha256, toml, author, utc;
+  std::string uuid, name, sha256, toml, author, utc;   ///< author: account's UUID, or the printed name of who has none
   int version = 0;
 };
 
 struct Benchmark {
   /// source: who the n were; rule: how the numbers came from them
+  /// author: account's UUID, or the printed name of who has none
   std::string uuid, exercise_id, level, metric, source, rule, author, utc;
   double full_at = 0, zero_at = 0;
   int n = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "haptics/input_error.h"
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_chain.h"
@@ -10,6 +12,7 @@
 #include "trainees/printed_text.h"
 #include "trainees/rating_scales.h"
 #include "trainees/sealed_rows.h"
+#include "trainees/verdicts.h"
 
 namespace trocar {
 namespace {
@@ -19,6 +22,7 @@ constexpr std::size_t kLongestEvidence = 200000;
 struct FinishedAttempt {
   std::int64_t id = 0;
   std::string row_hash;
+  bool ended_by_device = false;
 };
 
 /// @throws InputError: unknown, running, erased.
@@ -29,7 +33,7 @@ FinishedAttempt finished_attempt(sqlite3* connection, const std::string& uuid) {
   if (!row.bind(uuid).step()) throw InputError("attempt " + uuid + ": not in this database");
   if (row.text(2) == "running") throw InputError("attempt " + uuid + ": is still running");
   if (row.integer(3) != 0) throw InputError("attempt " + uuid + ": its training data were erased");
-  return {row.integer(0), row.text(1)};
+  return {row.integer(0), row.text(1), row.text(2) == "fault" || row.text(2) == "void"};
 }
 
 /// Somebody who has not been erased.
@@ -62,6 +66,21 @@ void check_rating(const RatingScale& scale, const std::string& item, double valu
   if (!(value >= scale.least && value <= scale.most) || value != std::floor(value)) {
     throw InputError(what + ": a whole number from " + std::to_string(scale.least) + " to " + std::to_string(scale.most) + " is needed");
   }
+}
+
+/// A certificate cites an attempt that counts as passed, whatever was decided in between.
+void check_cited(sqlite3* connection, std::int64_t trainee, const std::string& evidence) {
+  const nlohmann::json json = nlohmann::json::parse(evidence, nullptr, false);
+  if (!json.is_object() || !json.contains("attempt") || !json["attempt"].is_string()) return;
+  const std::string uuid = json["attempt"].get<std::string>();
+  sql::Statement row(connection, std::string("SELECT a.trainee_id, ") + sql::kPassed +
+                                     ", coalesce(o.printed, ''), coalesce(o.utc, '') FROM attempt a"
+                                     " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" +
+                                     sql::kDecision + " WHERE a.uuid = ?");
+  if (!row.bind(uuid).step() || row.integer(0) != trainee) throw InputError("certificate: attempt " + uuid + " is none of this trainee's");
+  if (row.integer(1) != 0) return;
+  const std::string by = row.text(2).empty() ? "" : " by decision of " + row.text(2) + " on " + row.text(3).substr(0, 10);
+  throw InputError("certificate: attempt " + uuid + " is not passed" + by + ", so it is no evidence; cite one that is");
 }
 
 constexpr const char* kNotes =
@@ -209,6 +228,10 @@ VerdictOverride OpinionStore::override_verdict(const std::string& attempt_uuid, 
   const VerdictOverride verdict{make_uuid(), author.account_uuid, author.printed, reason, utc_now(), passed};
   AnchoredTransaction transaction(*database_);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);
+  if (attempt.ended_by_device) {
+    throw InputError("attempt " + attempt_uuid +
+                     ": was ended by the device or is void; it counts for nothing, so there is nothing to decide");
+  }
   sql::Statement insert(connection, "INSERT INTO verdict_override (uuid, attempt_id, row_hash, author, printed, passed, reason, utc)"
                                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(verdict.uuid).bind(attempt.id).bind(attempt.row_hash).bind(verdict.author).bind(verdict.printed).bind(passed);
@@ -242,6 +265,7 @@ Certificate OpinionStore::certify(const std::string& trainee, const std::string&
     sql::Statement known(connection, "SELECT 1 FROM exercise WHERE id = ?");
     if (!known.bind(exercise_id).step()) throw InputError("exercise " + exercise_id + ": nobody has tried it in this database");
   }
+  check_cited(connection, id, evidence);
   sql::Statement insert(connection, "INSERT INTO certificate (uuid, trainee_id, exercise_id, level, rule_version, evidence, author,"
                                     " printed, utc) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(certificate.uuid).bind(id).bind(exercise_id).bind(level).bind(rule_version).bind(evidence);

@@ -67,12 +67,14 @@ class OpinionStore {
   Signature sign(const std::string& attempt_uuid, const std::string& meaning, const std::string& note, const Author& author);
   std::vector<Signature> signatures_of(const std::string& attempt_uuid) const;
 
-  /// @throws InputError: a reason under 10 characters, attempt unknown or running.
+  /// The newest holds wherever passes count (verdicts.h). @throws InputError: a reason under 10 characters, attempt
+  /// unknown or running, ended by the device (it counts for nothing).
   VerdictOverride override_verdict(const std::string& attempt_uuid, bool passed, const std::string& reason, const Author& author);
   std::vector<VerdictOverride> overrides_of(const std::string& attempt_uuid) const;   ///< newest first; the first holds
 
-  /// @param evidence JSON: what the decision rested on.
-  /// @throws InputError: no such trainee, exercise never tried in this database, level, rule or evidence empty.
+  /// @param evidence JSON: what the decision rested on; "attempt" is the one that it cites.
+  /// @throws InputError: no such trainee, exercise never tried in this database, level, rule or evidence empty; the
+  /// cited attempt is not here, another trainee's, or not passed as it counts.
   Certificate certify(const std::string& trainee, const std::string& exercise_id, const std::string& level, const std::string& rule_version,
                       const std::string& evidence, const Author& author);
   /// @throws InputError: no such certificate, revoked already, a reason under 10 characters.

@@ -5,17 +5,19 @@
 #include "haptics/input_error.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/sqlite_handle.h"
+#include "trainees/verdicts.h"
 
 namespace trocar {
 namespace {
 
 constexpr std::size_t kMaxCode = 32;
 
-constexpr const char* kSelect =
-    "SELECT t.id, t.uuid, t.code, t.created_utc, count(a.id), coalesce(sum(s.passed), 0),"
-    " coalesce(max(a.started_utc), '') FROM known_trainee t"
-    " LEFT JOIN attempt a ON a.trainee_id = t.id AND a.status <> 'running'"
-    " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0";
+std::string trainees_query() {
+  return std::string("SELECT t.id, t.uuid, t.code, t.created_utc, count(a.id), coalesce(sum(") + sql::kPassed +
+         "), 0), coalesce(max(a.started_utc), '') FROM known_trainee t"
+         " LEFT JOIN attempt a ON a.trainee_id = t.id AND a.status <> 'running'"
+         " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
+}
 
 void check_code(const std::string& code) {
   const auto letter_or_digit = [](char c) {
@@ -71,14 +73,14 @@ std::int64_t TraineeStore::ensure_id(const std::string& code) {
 }
 
 std::optional<Trainee> TraineeStore::find(const std::string& code) const {
-  sql::Statement row(connection_, std::string(kSelect) + " WHERE t.code = ? COLLATE NOCASE GROUP BY t.id");
+  sql::Statement row(connection_, trainees_query() + " WHERE t.code = ? COLLATE NOCASE GROUP BY t.id");
   if (!row.bind(code).step()) return std::nullopt;
   return trainee_of(row);
 }
 
 std::vector<Trainee> TraineeStore::list() const {
   std::vector<Trainee> trainees;
-  sql::Statement rows(connection_, std::string(kSelect) + " GROUP BY t.id ORDER BY t.code");
+  sql::Statement rows(connection_, trainees_query() + " GROUP BY t.id ORDER BY t.code");
   while (rows.step()) trainees.push_back(trainee_of(rows));
   return trainees;
 }

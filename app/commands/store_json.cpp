@@ -15,7 +15,9 @@ Json json_of(const Trainee& trainee) {
 }
 
 Json json_of(const AttemptSummary& attempt) {
-  return {{"uuid", attempt.uuid},
+  const bool decided = !attempt.decided_by.empty();
+  return {{"number", attempt.row},
+          {"uuid", attempt.uuid},
           {"started_utc", attempt.started_utc},
           {"exercise", attempt.exercise_id},
           {"exercise_version", attempt.exercise_version},
@@ -27,6 +29,9 @@ Json json_of(const AttemptSummary& attempt) {
           {"status", attempt.status},
           {"score", number(attempt.score)},
           {"passed", attempt.passed},
+          {"passed_by_score", attempt.passed_by_score},
+          {"decided_by", decided ? Json(attempt.decided_by) : Json(nullptr)},
+          {"decided_utc", decided ? Json(attempt.decided_utc) : Json(nullptr)},
           {"grade", attempt.grade},
           {"integrity", attempt.integrity.empty() ? Json(nullptr) : Json(attempt.integrity)},
           {"organ_synthetic", attempt.organ_synthetic}};
@@ -51,7 +56,8 @@ Json json_of(const CohortRow& row) {
 Json json_of(const CohortLine& line) {
   Json judgements = Json::array();
   for (const Judgement& j : line.judgements)
-    judgements.push_back({{"flag", flag_name(j.flag)}, {"evidence", j.evidence}, {"n", j.n}, {"rules", j.rule_version}});
+    judgements.push_back({{"flag", flag_name(j.flag)}, {"evidence", j.evidence}, {"n", j.n}, {"decided", j.decided},
+                          {"reliability", number(j.reliability)}, {"rules", j.rule_version}});
   return {{"exercise", line.key.exercise_id},
           {"level", line.key.level},
           {"hand", line.key.hand},

@@ -13,8 +13,14 @@ namespace {
 
 using Align = TextTable::Align;
 
+/// "yes" or "no" as it counts; with who decided it where somebody did.
+std::string verdict_cell(const AttemptSummary& attempt) {
+  return std::string(attempt.passed ? "yes" : "no") + (attempt.decided_by.empty() ? "" : ", by " + attempt.decided_by);
+}
+
 void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& out) {
-  TextTable table({{"started (UTC)"},
+  TextTable table({{"no.", Align::kRight},
+                   {"started (UTC)"},
                    {"exercise"},
                    {"rubric"},
                    {"level"},
@@ -23,12 +29,13 @@ void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& o
                    {"status"},
                    {"score", Align::kRight},
                    {"grade"},
+                   {"passed"},
                    {"organ"},
                    {"attempt"}});
   for (const AttemptSummary& attempt : attempts) {
-    table.add({cell_time(attempt.started_utc), attempt.exercise_id,
+    table.add({std::to_string(attempt.row), cell_time(attempt.started_utc), attempt.exercise_id,
                cell_rubric(attempt.exercise_version, attempt.rubric_sha256), attempt.level, std::to_string(attempt.board),
-               attempt.hand, attempt.status, cell(attempt.score, 1), attempt.grade,
+               attempt.hand, attempt.status, cell(attempt.score, 1), attempt.grade, verdict_cell(attempt),
                attempt.organ_synthetic ? "synthetic" : "", attempt.uuid});
   }
   table.print(out);
@@ -36,10 +43,12 @@ void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& o
 
 /// What the rules say of each curve, with what they rest on.
 void print_judgements(const std::vector<CohortLine>& lines, std::ostream& out) {
-  TextTable table({{"exercise"}, {"level"}, {"hand"}, {"flag"}, {"evidence"}, {"rules"}});
+  TextTable table({{"exercise"}, {"level"}, {"hand"}, {"flag"}, {"evidence"}, {"n", Align::kRight}, {"decided", Align::kRight},
+                   {"reliability", Align::kRight}, {"rules"}});
   for (const CohortLine& line : lines)
     for (const Judgement& j : line.judgements)
-      table.add({line.key.exercise_id, line.key.level, line.key.hand, flag_name(j.flag), j.evidence, j.rule_version});
+      table.add({line.key.exercise_id, line.key.level, line.key.hand, flag_name(j.flag), j.evidence, std::to_string(j.n),
+                 std::to_string(j.decided), cell(j.reliability, 2), j.rule_version});
   table.print(out);
 }
 

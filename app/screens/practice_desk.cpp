@@ -13,6 +13,7 @@
 #include "scenarios/exercise_loader.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/trainee_store.h"
+#include "trainees/verdicts.h"
 
 namespace trocar {
 namespace {
@@ -301,6 +302,10 @@ bool PracticeDesk::open_result(const std::string& uuid) {
     exercise_id = found.exercise_id;
     level = found.level;
     s.result = std::move(found);
+    if (const auto decision = verdict_of(*s.database, *s.result).decision)
+      notice = s.words(decision->passed ? "{0} decided on {1} that this attempt is passed: {2}"
+                                        : "{0} decided on {1} that this attempt is not passed: {2}",
+                       {decision->printed, decision->utc.substr(0, 10), decision->reason});
     return true;
   } catch (const std::exception& error) {
     notice = s.words("This attempt cannot be opened: {0}", {error.what()});

@@ -15,7 +15,9 @@ Mark standing_mark(const ProgressEntry& entry) {
   return entry.curve.passed > 0 ? Mark::kHalf : Mark::kOpen;
 }
 
-std::string curve_legend(const Words& w) { return w("Score by attempt; full disc: passed, ring: not yet, triangle: left"); }
+std::string curve_legend(const Words& w) {
+  return w("Score by attempt; full disc: passed, ring: not yet, triangle: left, diamond: decided by a person");
+}
 std::string cusum_legend(const Words& w) { return w("CUSUM by attempt; disc: showing competence, diamond: keeping it"); }
 
 std::string minutes(const Words& w, double seconds) {
@@ -28,10 +30,13 @@ Axis attempts_axis(const Ui& ui, std::size_t count, double width_px) {
 
 double score_of(const PastAttempt& attempt) { return attempt.summary.score.value_or(0); }
 
-/// Passed: full disc. Not yet: ring. Left before its end: triangle at the foot.
+/// Passed: full disc. Not yet: ring. Left before its end: triangle at the foot. A person's decision: diamond, in the
+/// colour of what was decided.
 void attempt_mark(Plot& plot, const PastAttempt& attempt, double n) {
+  const Ink verdict = attempt.summary.passed ? Ink::kGood : Ink::kCaution;
+  if (!attempt.summary.decided_by.empty()) return plot.mark(n, score_of(attempt), PlotMark::kDiamond, verdict);
   if (!attempt.summary.score) return plot.mark(n, 0, PlotMark::kTriangle, Ink::kDim);
-  plot.mark(n, score_of(attempt), attempt.summary.passed ? PlotMark::kDisc : PlotMark::kRing, attempt.summary.passed ? Ink::kGood : Ink::kCaution);
+  plot.mark(n, score_of(attempt), attempt.summary.passed ? PlotMark::kDisc : PlotMark::kRing, verdict);
 }
 
 }  // namespace
@@ -93,7 +98,10 @@ void ProgressPage::curve_plot(Ui& ui, const ProgressEntry& entry, double height_
   if (attempt_ >= 0) {
     const PastAttempt& a = attempts[static_cast<std::size_t>(attempt_)];
     const std::string score = a.summary.score ? w.number(score_of(a), 1) : w("no score");
-    plot.cursor(attempt_ + 1.0, w("attempt {0}: {1}, {2}", {std::to_string(attempt_ + 1), score, a.summary.started_utc.substr(0, 10)}));
+    std::string said = w("attempt {0}: {1}, {2}", {std::to_string(attempt_ + 1), score, a.summary.started_utc.substr(0, 10)});
+    if (!a.summary.decided_by.empty())
+      said += " " + w(a.summary.passed ? "(passed: {0} decided)" : "(not passed: {0} decided)", {a.summary.decided_by});
+    plot.cursor(attempt_ + 1.0, said);
   }
   plot.labels();
 }

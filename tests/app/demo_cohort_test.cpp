@@ -11,6 +11,8 @@
 #include "trainees/attempt_store.h"
 #include "trainees/curricula.h"
 #include "trainees/opinions.h"
+#include "trainees/progress/calendar.h"
+#include "trainees/review/desk_queries.h"
 
 namespace trocar {
 namespace {
@@ -52,6 +54,12 @@ TEST(DemoCohort, IsMarkedChainedAndInOrderOfItsDates) {
     EXPECT_EQ(attempt.hand, "invented");
     EXPECT_EQ(attempt.status, "completed") << attempt.trainee;
     later = attempt.started_utc;
+    const AttemptPicture picture = attempt_picture_data(database, attempt.uuid);
+    const std::int64_t began = *seconds_of_utc(attempt.started_utc), ended = *seconds_of_utc(picture.finished_utc);
+    const double ran_s = static_cast<double>(picture.result.device.ticks) / picture.result.device.rate_hz;
+    EXPECT_NEAR(static_cast<double>(ended - began), ran_s, 1.0) << "one invented clock has both";
+    const TraineePicture trainee = trainee_picture(database, attempt.trainee, {}, "2030-01-01T00:00:00Z");
+    EXPECT_EQ(trainee.weeks.back().monday, monday_of(ended)) << "the week that it ended in";
   }
   EXPECT_EQ(CurriculumStore(database).members("Demo spring").size(), 4u);
   ASSERT_EQ(OpinionStore(database).notes_of("demo-chen").size(), 1u);

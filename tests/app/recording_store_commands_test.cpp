@@ -12,6 +12,7 @@
 #include "app/commands/trainee_command.h"
 #include "haptics/digest/digest.h"
 #include "tests/trainees/store_samples.h"
+#include "trainees/opinions.h"
 #include "trainees/trainee_store.h"
 
 namespace trocar {
@@ -74,6 +75,36 @@ TEST_F(StoreCommands, TraineeShowListsAttemptsNewestFirst) {
   EXPECT_EQ(json["history"][0]["status"], "aborted");
   EXPECT_TRUE(json["history"][0]["score"].is_null());
   EXPECT_THROW(trainee_show({file_, "T-none"}, out_, err_), InputError);
+}
+
+TEST_F(StoreCommands, ADecisionCountsInEveryListAndIsNamedBesideTheScoresOwnVerdict) {
+  fill();
+  {
+    Database database(file_);
+    const AttemptSummary failed = AttemptStore(database).find("2");
+    OpinionStore(database).override_verdict(failed.uuid, true, "The stand slipped twice", {"", "Dr B"});
+  }
+  EXPECT_EQ(trainee_show({file_, "T-one"}, out_, err_), 0);
+  EXPECT_NE(out_.str().find("2 attempts, 2 passed"), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("yes, by Dr B"), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("reliability"), std::string::npos) << out_.str();
+  out_.str("");
+  EXPECT_EQ(trainee_show({file_, "T-one", 0, true}, out_, err_), 0);
+  const Json json = Json::parse(out_.str());
+  EXPECT_EQ(json["passes"], 2);
+  const Json& newest = json["history"][0];
+  EXPECT_EQ(newest["number"], 2);
+  EXPECT_EQ(newest["passed"], true);
+  EXPECT_EQ(newest["passed_by_score"], false);
+  EXPECT_EQ(newest["decided_by"], "Dr B");
+  EXPECT_EQ(newest["score"], 60);
+  EXPECT_TRUE(json["history"][1]["decided_by"].is_null());
+  EXPECT_EQ(json["curves"][0]["passes"], 2);
+  EXPECT_EQ(json["curves"][0]["judgements"][0]["decided"], 1);
+  EXPECT_TRUE(json["curves"][0]["judgements"][0]["reliability"].is_null());
+  out_.str("");
+  EXPECT_EQ(cohort_command({file_, "T-one", true}, out_, err_), 0);
+  EXPECT_EQ(Json::parse(out_.str())[0]["passes"], 2);
 }
 
 TEST_F(StoreCommands, CohortShowsBestLastAndMeans) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
+#include "trainees/attempt_store.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
@@ -21,11 +22,12 @@ ExportChoice choose_attempts(Database& database, const ExportFilter& filter) {
   check_known(connection, "SELECT 1 FROM known_trainee WHERE code = ? COLLATE NOCASE", "trainee", filter.trainee);
   check_known(connection, "SELECT 1 FROM membership WHERE group_name = ? LIMIT 1", "group", filter.group);
   check_known(connection, "SELECT 1 FROM exercise WHERE id = ?", "exercise", filter.exercise);
+  const std::int64_t only = filter.attempt.empty() ? 0 : AttemptStore(database).find(filter.attempt).row;
   sql::Statement rows(connection, "SELECT a.id, a.trainee_id FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
                                   " WHERE a.status <> 'running' AND (?1 = '' OR t.code = ?1 COLLATE NOCASE) AND (?2 = '' OR EXISTS"
                                   " (SELECT 1 FROM membership m WHERE m.trainee_id = a.trainee_id AND m.group_name = ?2))"
-                                  " AND (?3 = '' OR a.exercise_id = ?3) ORDER BY a.id");
-  rows.bind(filter.trainee).bind(filter.group).bind(filter.exercise);
+                                  " AND (?3 = '' OR a.exercise_id = ?3) AND (?4 = 0 OR a.id = ?4) ORDER BY a.id");
+  rows.bind(filter.trainee).bind(filter.group).bind(filter.exercise).bind(only);
   ExportChoice choice;
   choice.filter = filter;
   while (rows.step()) {

@@ -13,6 +13,7 @@ namespace trocar {
 struct ExportFilter {
   std::string trainee = {};    ///< code
   std::string group = {}, exercise = {};
+  std::string attempt = {};    ///< one alone, as AttemptStore::find takes it
 };
 
 struct ExportChoice {
@@ -21,7 +22,7 @@ struct ExportChoice {
   std::vector<std::int64_t> trainees = {};   ///< rows of whose they are
 };
 
-/// @throws InputError: no such trainee, group or exercise; no finished attempt fits.
+/// @throws InputError: no such trainee, group, exercise or attempt; no finished attempt fits.
 ExportChoice choose_attempts(Database& database, const ExportFilter& filter);
 
 /// All reads while it lives see one state of the database.

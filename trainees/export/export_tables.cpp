@@ -1,5 +1,7 @@
 #include "trainees/export/export_tables.h"
 
+#include "trainees/verdicts.h"
+
 namespace trocar {
 namespace {
 
@@ -32,7 +34,10 @@ std::vector<ExportColumn> attempt_columns() {
           {"status", "a.status"},
           {"integrity", "a.integrity"},
           {"score_of_100", "s.value", Kind::kReal},
-          {"passed", "s.passed", Kind::kTruth},
+          {"passed", sql::kPassed, Kind::kTruth},
+          {"passed_by_score", "s.passed", Kind::kTruth},
+          {"decided_by", "o.printed"},
+          {"decided_utc", "o.utc"},
           {"grade", "s.grade"},
           {"recording", "a.recording_path"},
           {"recording_sha256", "a.recording_sha256"},
@@ -147,9 +152,11 @@ ExportTable overrides() {
 }  // namespace
 
 const ExportTable& attempts_table() {
-  static const ExportTable table{"attempts", attempt_columns(),
-                                 "FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
-                                 " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?"};
+  static const std::string rows = std::string(
+                                      "FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
+                                      " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0") +
+                                  sql::kDecision + " WHERE a.id = ?";
+  static const ExportTable table{"attempts", attempt_columns(), rows};
   return table;
 }
 

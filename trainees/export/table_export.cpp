@@ -76,11 +76,14 @@ Json json_rows(const ExportTable& table, sql::Statement& rows, std::int64_t of, 
 
 bool is_notes(const ExportTable& table) { return std::string(table.name) == "notes"; }
 
+/// To attempts of which notes on a trainee are not.
+bool narrowed(const ExportChoice& choice) { return !choice.filter.exercise.empty() || !choice.filter.attempt.empty(); }
+
 std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json trainee_notes(sqlite3* connection, const ExportChoice& choice) {
   Json notes = Json::array();
-  if (!choice.filter.exercise.empty()) return notes;
+  if (narrowed(choice)) return notes;
   for (const ExportTable& table : attempt_parts()) {
     if (!is_notes(table)) continue;
     sql::Statement rows(connection, select(table, notes_of_trainee()));
@@ -99,7 +102,7 @@ void write_csv_files(Database& database, const ExportChoice& choice, PendingExpo
     write_csv_header(table, out);
     sql::Statement rows(database.connection(), select(table, table.rows_of_attempt));
     for (const std::int64_t attempt : choice.attempts) write_csv_rows(table, rows, attempt, out);
-    if (!is_notes(table) || !choice.filter.exercise.empty()) return;
+    if (!is_notes(table) || narrowed(choice)) return;
     sql::Statement of_trainee(database.connection(), select(table, notes_of_trainee()));
     for (const std::int64_t trainee : choice.trainees) write_csv_rows(table, of_trainee, trainee, out);
   };
@@ -114,7 +117,8 @@ void write_json(Database& database, const ExportChoice& choice, std::ostream& ou
     parts.push_back(std::make_unique<sql::Statement>(connection, select(table, table.rows_of_attempt)));
   }
   sql::Statement attempts(connection, select(attempts_table(), attempts_table().rows_of_attempt));
-  const Json filter = {{"trainee", choice.filter.trainee}, {"group", choice.filter.group}, {"exercise", choice.filter.exercise}};
+  const Json filter = {{"trainee", choice.filter.trainee}, {"group", choice.filter.group}, {"exercise", choice.filter.exercise},
+                       {"attempt", choice.filter.attempt}};
   out << "{\"schema\":\"trocar-export\",\"schema_version\":" << kExportSchema << ",\"filter\":" << dumped(filter) << ",\"attempts\":[";
   const char* before = "\n";
   for (const std::int64_t row : choice.attempts) {

@@ -9,7 +9,7 @@
 namespace trocar {
 
 /// Of the JSON document and the columns of the CSV files: counts up when a field changes its meaning or goes.
-inline constexpr int kExportSchema = 1;
+inline constexpr int kExportSchema = 2;
 
 /// attempts.csv, metrics.csv, subscores.csv, caps.csv, events.csv, notes.csv, signatures.csv, overrides.csv.
 void write_csv_files(Database& database, const ExportChoice& choice, PendingExport& folder);

@@ -34,6 +34,14 @@ std::string segment(const std::string& text) {
 std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 bool graded(const AttemptResult& result) { return result.grade.score && std::isfinite(*result.grade.score); }
+Verdict verdict(const XapiAttempt& attempt) {
+  return verdict_of(attempt.result.grade.status, attempt.result.grade.passed, attempt.decision);
+}
+/// Whether it has a verdict at all: a score, or a decision that counts.
+bool judged(const XapiAttempt& attempt) {
+  const AttemptStatus status = attempt.result.grade.status;
+  return graded(attempt.result) || (attempt.decision && status != AttemptStatus::kFault && status != AttemptStatus::kVoid);
+}
 bool done(const AttemptResult& result) { return result.grade.status == AttemptStatus::kCompleted; }
 
 Json account(const std::string& home_page, const std::string& name) {
@@ -119,6 +127,12 @@ Json result_extensions(const XapiAttempt& attempt) {
   add_text("ruleset-sha256", r.rubric_sha256);
   add_text("trace-sha256", r.recording_sha256);
   add_text("row-hash", attempt.row_hash);
+  if (attempt.decision) {
+    Json decision = {{"id", attempt.decision->uuid}, {"success", attempt.decision->passed}, {"success-by-score", r.grade.passed},
+                     {"timestamp", attempt.decision->utc}};
+    if (!attempt.decision->author.empty()) decision["authority"] = attempt.decision->author;
+    add("decision", std::move(decision));
+  }
   add("seed", r.seed);
   add("board", r.board);
   add_text("level", r.level);
@@ -155,7 +169,8 @@ Json cmi5_statement(const XapiAttempt& attempt, const Cmi5Launch& launch, const 
   result["duration"] = duration(attempt.result);
   Json target = activity(launch.activity_id);
   target["definition"] = definition(attempt);
-  Json out = {{"id", named_uuid(attempt.result.uuid, launch.session_id + " " + name)},
+  Json out = {{"id", named_uuid(attempt.result.uuid, launch.session_id + " " + name +
+                                                         (attempt.decision ? " " + attempt.decision->uuid : ""))},
               {"actor", account(launch.home_page, launch.account)},
               {"verb", verb(name)},
               {"object", target},
@@ -178,14 +193,15 @@ std::string xapi_duration(double seconds) {
 
 std::string xapi_statement(const XapiAttempt& attempt, const XapiSetting& setting) {
   const AttemptResult& r = attempt.result;
-  const std::string name = graded(r) ? (r.grade.passed ? "passed" : "failed") : done(r) ? "completed" : "attempted";
+  const std::string name = judged(attempt) ? (verdict(attempt).passed ? "passed" : "failed") : done(r) ? "completed" : "attempted";
+  const std::string decided = attempt.decision ? " " + attempt.decision->uuid : "";
   Json result = Json::object();
   if (graded(r)) result["score"] = score(r);
-  if (graded(r)) result["success"] = r.grade.passed;
+  if (judged(attempt)) result["success"] = verdict(attempt).passed;
   result["completion"] = done(r);
   result["duration"] = duration(r);
   result["extensions"] = result_extensions(attempt);
-  return dumped({{"id", named_uuid(r.uuid, iri(xapi::kVerbs, name))},
+  return dumped({{"id", named_uuid(r.uuid, iri(xapi::kVerbs, name) + decided)},
                  {"actor", account(setting.home_page, attempt.trainee_uuid)},
                  {"verb", verb(name)},
                  {"object", object(attempt)},
@@ -198,12 +214,11 @@ std::vector<std::string> cmi5_statements(const XapiAttempt& attempt, const Cmi5L
   const AttemptResult& r = attempt.result;
   std::vector<std::string> out;
   if (done(r)) out.push_back(dumped(cmi5_statement(attempt, launch, "completed", {{"completion", true}})));
-  if (!graded(r)) return out;
-  const double scaled = *r.grade.score / 100;
-  const bool reached = launch.mastery_score ? scaled >= *launch.mastery_score : r.grade.passed;
-  const bool passed = reached && r.grade.caps.empty();
+  if (!judged(attempt)) return out;
+  const bool reached = graded(r) && (launch.mastery_score ? *r.grade.score / 100 >= *launch.mastery_score : r.grade.passed);
+  const bool passed = attempt.decision ? verdict(attempt).passed : reached && r.grade.caps.empty();
   Json result = {{"success", passed}};
-  if (passed == reached) result["score"] = score(r);
+  if (graded(r) && passed == reached) result["score"] = score(r);
   Json statement = cmi5_statement(attempt, launch, passed ? "passed" : "failed", std::move(result));
   if (launch.mastery_score) statement["context"]["extensions"][iri(kCmi5, "extensions/masteryscore")] = *launch.mastery_score;
   out.push_back(dumped(statement));

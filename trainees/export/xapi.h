@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenarios/scoring/attempt_result.h"
+#include "trainees/verdicts.h"
 
 namespace trocar {
 
@@ -22,6 +23,7 @@ struct XapiAttempt {
   std::string session_uuid = {};        ///< "" without one
   std::string instructor_uuid = {};     ///< account of the newest signature, "" without one
   std::optional<double> pass_at = {};   ///< 0..100, of the ruleset; empty when that cannot be read any more
+  std::optional<VerdictOverride> decision = {};   ///< the newest of a person; it holds instead of the score's verdict
 };
 
 struct XapiSetting {
@@ -37,13 +39,14 @@ struct Cmi5Launch {
   std::optional<double> mastery_score = {};          ///< 0..1; it holds instead of the ruleset's pass mark
 };
 
-/// One statement: passed, failed; completed without a verdict; attempted when no score was given (aborted, fault, void).
+/// One statement: passed, failed (by decision where there is one, which an extension names); completed without a verdict; attempted when no
+/// score was given (aborted, fault, void). A later decision makes another statement, with an identifier of its own.
 /// @return JSON in one line. @throws InputError: a UUID or a time that is none.
 std::string xapi_statement(const XapiAttempt& attempt, const XapiSetting& setting = {});
 
 /// The statements that cmi5 defines for a session with this attempt: "completed" when all of it was done, then "passed" or "failed" when it
-/// was graded. Passed is what reaches the mastery score. A score that reaches it in spite of a cap does not pass: the statement is
-/// "failed", without the score. Satisfied, and whether moveOn is met, is the system's to say.
+/// was graded. Passed is what reaches the mastery score, or what a person decided. Where the score says otherwise
+/// (a cap, a decision) it is left out of the statement. Satisfied, and whether moveOn is met, is the system's to say.
 std::vector<std::string> cmi5_statements(const XapiAttempt& attempt, const Cmi5Launch& launch);
 
 /// What breaks the standard in one statement, "PROPERTY: what" each; empty when it is sound.

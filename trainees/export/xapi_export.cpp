@@ -56,6 +56,7 @@ XapiAttempt read_xapi_attempt(Database& database, std::int64_t row, const PassMa
   attempt.program = more.text(4);
   attempt.session_uuid = more.text(5);
   attempt.instructor_uuid = more.text(7);
+  attempt.decision = verdict_of(database, attempt.result).decision;
   if (pass_mark) attempt.pass_at = pass_mark(more.text(6), attempt.result.level);
   return attempt;
 }

@@ -113,6 +113,35 @@ std::optional<DerivedBenchmark> contrast_groups(const std::vector<PersonValue>& 
   return out;
 }
 
+LawfulRange lawful_range(const std::string& metric) {
+  if (metric == "score") return {0, 100, true};
+  if (metric == "sparc" || metric == "ldlj") return {0, 0, false};
+  if (metric == "angle_error_deg") return {0, 180, true};
+  if (metric.ends_with("_share") || metric == "economy") return {0, 1, true};
+  return {0, std::nullopt, true};
+}
+
+std::string range_words(const LawfulRange& range) {
+  if (range.has_low && range.high) return "from " + text_of(range.low) + " to " + text_of(*range.high);
+  return range.has_low ? text_of(range.low) + " or more" : text_of(range.high.value_or(0)) + " or less";
+}
+
+bool lawful(const LawfulRange& range, double value) {
+  return std::isfinite(value) && (!range.has_low || value >= range.low) && (!range.high || value <= *range.high);
+}
+
+std::optional<double> reliability_of_means(const std::vector<std::vector<double>>& values_of) {
+  constexpr int kAll = 1000000;
+  const auto between = between_variance(values_of, kAll);
+  if (!between) return std::nullopt;
+  std::vector<double> means;
+  for (const auto& values : values_of)
+    if (values.size() >= kLeastPersons) means.push_back(spread_of(values)->mean);
+  const auto observed = spread_of(means);
+  if (!observed || !(observed->sd > 0)) return std::nullopt;
+  return *between / (observed->sd * observed->sd);
+}
+
 std::vector<std::string> who_would_pass(double limit, bool less_is_better, const std::vector<PersonValue>& persons) {
   std::vector<std::string> out;
   for (const PersonValue& person : persons)

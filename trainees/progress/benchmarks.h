@@ -54,6 +54,22 @@ std::optional<DerivedBenchmark> contrast_groups(const std::vector<PersonValue>& 
 /// Where two normal densities are equal between their means. Empty when nowhere there.
 std::optional<double> density_crossing(double mean_a, double sd_a, double mean_b, double sd_b);
 
+/// Values that a limit on a metric may have: a score 0 to 100, a share 0 to 1, an angle to 180 degrees, smoothness not above 0, the rest
+/// (forces, times, paths, counts) not below 0.
+struct LawfulRange {
+  double low = 0;
+  std::optional<double> high = {};
+  bool has_low = true;
+};
+LawfulRange lawful_range(const std::string& metric);
+/// "from 0 to 100", "0 or more", "0 or less".
+std::string range_words(const LawfulRange& range);
+bool lawful(const LawfulRange& range, double value);
+
+/// How far the persons' means can be trusted: share of the variance between them that is not chance within. Empty with fewer than three
+/// persons who have three values. @param values_of each person.
+std::optional<double> reliability_of_means(const std::vector<std::vector<double>>& values_of);
+
 /// Those whose value reaches the limit, in the order given.
 std::vector<std::string> who_would_pass(double limit, bool less_is_better, const std::vector<PersonValue>& persons);
 

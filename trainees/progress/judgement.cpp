@@ -134,6 +134,12 @@ Found ready(const std::vector<CusumPoint>& points, const ProgressRules& rules, s
                    static_cast<int>(points.size()), rules.version};
 }
 
+/// By decision among the newest n.
+int decided_of(const Attempts& attempts, int n) {
+  const auto newest = attempts.end() - std::min<std::ptrdiff_t>(n, static_cast<std::ptrdiff_t>(attempts.size()));
+  return static_cast<int>(std::count_if(newest, attempts.end(), [](const CurveAttempt& a) { return a.decided; }));
+}
+
 std::string learning_text(const Attempts& tried, const std::vector<CusumPoint>& points, const ProgressRules& rules) {
   const auto passes = std::count_if(tried.begin(), tried.end(), [](const CurveAttempt& a) { return a.passed; });
   const Competence competence = competence_of(points);
@@ -195,6 +201,10 @@ std::vector<Judgement> judge(const Attempts& attempts, const ProgressRules& rule
   add(retention_due(tried, rules, certified_utc, now_utc));
   add(ready(points, rules, reliable, !harmful && !unsound, certified_utc));
   if (out.empty()) out.push_back({Flag::kLearning, learning_text(tried, points, rules), static_cast<int>(tried.size()), rules.version});
+  for (Judgement& judgement : out) {
+    judgement.reliability = reliable;
+    judgement.decided = decided_of(judgement.flag == Flag::kIntegrity ? attempts : tried, judgement.n);
+  }
   return out;
 }
 
@@ -205,7 +215,8 @@ std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<Safet
   const auto started = [](const std::string& utc) { return seconds_of_utc(utc).value_or(0); };
   Attempts attempts;
   for (const PastAttempt& past : curve.attempts) {
-    CurveAttempt attempt{started(past.summary.started_utc), past.summary.score, past.summary.passed, 0, 0, false, false};
+    CurveAttempt attempt{started(past.summary.started_utc), past.summary.score, past.summary.passed, 0, 0, false, false,
+                         !past.summary.decided_by.empty()};
     if (const auto at = records.find(past.summary.uuid); at != records.end()) {
       attempt.critical_events = at->second->critical_events;
       attempt.failed_gates = at->second->failed_gates;
@@ -216,7 +227,7 @@ std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<Safet
   }
   for (const auto& [uuid, record] : records)
     if (record->broken)
-      attempts.push_back({started(record->started_utc), {}, false, record->critical_events, record->failed_gates, true, false});
+      attempts.push_back({started(record->started_utc), {}, false, record->critical_events, record->failed_gates, true, false, false});
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const CurveAttempt& a, const CurveAttempt& b) { return a.started_s < b.started_s; });
   return judge(attempts, rules, reliable, certified_utc, now_utc);

@@ -32,6 +32,8 @@ struct Judgement {
   std::string evidence;                    ///< one sentence in English with the numbers: "2 of the last 5 attempts went past 4.7 N"
   int n = 0;                               ///< attempts that it rests on
   std::string rule_version;
+  std::optional<double> reliability = {};  ///< of the mean of the newest scores; empty where it cannot be told
+  int decided = 0;                         ///< of the n, by a person's decision and not by the score
 };
 
 /// What the attempts of one curve are known to have besides their numbers. Those that the device ended are in no curve, yet here.
@@ -47,9 +49,10 @@ struct SafetyRecord {
 struct CurveAttempt {
   std::int64_t started_s = 0;              ///< since 1970
   std::optional<double> score = {};        ///< empty when not graded
-  bool passed = false;
+  bool passed = false;                     ///< as it counts (trainees/verdicts.h)
   int critical_events = 0, failed_gates = 0;
   bool broken = false, doubtful = false;   ///< as above; a broken one counts for integrity alone
+  bool decided = false;                    ///< passed or not by a person's decision
 };
 
 /// Reliability of the mean of the newest scores: 1 - (variance of the mean) / (variance between trainees); see docs/progress_rules.md.

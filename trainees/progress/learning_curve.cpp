@@ -52,6 +52,11 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+/// A name that a spreadsheet would compute gets an apostrophe before it.
+std::string defused(const std::string& text) {
+  return !text.empty() && std::string("=+-@\t\r").find(text[0]) != std::string::npos ? "'" + text : text;
+}
+
 std::string exact(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -112,14 +117,16 @@ std::string attempts_csv(const std::vector<PastAttempt>& attempts) {
   std::set<std::string> names;
   for (const PastAttempt& attempt : attempts)
     for (const auto& [name, value] : attempt.metrics) names.insert(name);
-  std::string out = "started_utc,attempt,trainee,exercise,version,level,board,seed,input,status,score,passed,grade,reason,rubric_sha256";
+  std::string out = "started_utc,attempt,trainee,exercise,version,level,board,seed,input,status,score,passed,passed_by_score,decided_by,"
+                    "decided_utc,grade,reason,rubric_sha256";
   for (const std::string& name : names) out += "," + name;
   out += "\r\n";
   for (const PastAttempt& attempt : attempts) {
     const AttemptSummary& s = attempt.summary;
     for (const std::string& cell :
          {s.started_utc, s.uuid, s.trainee, s.exercise_id, s.exercise_version, s.level, std::to_string(s.board), std::to_string(s.seed), s.hand,
-          s.status, s.score ? exact(*s.score) : "", std::string(s.passed ? "1" : "0"), s.grade, s.integrity})
+          s.status, s.score ? exact(*s.score) : "", std::string(s.passed ? "1" : "0"),
+          std::string(s.passed_by_score ? "1" : "0"), defused(s.decided_by), s.decided_utc, s.grade, s.integrity})
       out += quoted(cell) + ",";
     out += s.rubric_sha256;
     for (const std::string& name : names) {

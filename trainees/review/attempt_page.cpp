@@ -32,18 +32,48 @@ std::string override_form(const AttemptView& view, const Frame& frame) {
   return "<details><summary>Decide otherwise than the score</summary>" +
          form_begin("/attempt/" + url_part(view.result.uuid) + "/override", frame) +
          select_field("override-passed", "passed", "Your decision", {{"no", "not passed"}, {"yes", "passed"}},
-                      view.result.grade.passed ? "no" : "yes") +
+                      view.verdict().passed ? "no" : "yes") +
          area_field("override-reason", "reason", "Reason, at least 10 characters", "", 2,
                     "minlength=\"10\" maxlength=\"2000\" required=\"required\"") +
-         "<p><button class=\"danger\">Record the decision</button></p><p class=\"dim\">It stands beside the score and never replaces "
-         "it.</p></form></details>";
+         "<p><button class=\"danger\">Record the decision</button></p><p class=\"dim\">The score stays as it is; the newest "
+         "decision is what counts, for unlocking, progress and certificates too.</p></form></details>";
+}
+
+bool holds(const CitedCertificate& one, const AttemptView& view) {
+  return one.certificate.revoked_utc.empty() && one.certificate.exercise_id == view.result.exercise_id &&
+         one.certificate.level == view.result.level;
+}
+
+/// Each certificate of this exercise and level, or that cites this attempt, with its date and who gave it.
+std::string certificate_list(const AttemptView& view) {
+  std::string out;
+  for (const CitedCertificate& one : view.certificates) {
+    const Certificate& c = one.certificate;
+    const bool held = c.revoked_utc.empty();
+    out += "<li>" + shape(held ? "pass" : "fail") + "Certificate for " + escape_html(c.exercise_id) + " " +
+           escape_html(c.level) + ", " + day_html(c.utc) + ", " + escape_html(c.printed) + ", rules " +
+           escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
+           (held ? "" : ". Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason)) + " " +
+           link_html("/trainee/" + url_part(view.result.trainee) + "#certificates", "evidence");
+    if (held && one.cites && !view.verdict().passed)
+      out += "<p class=\"warning\">" + shape("integrity") +
+             "This attempt is not passed any more: the certificate rests on it. Look, and withdraw it if it must not "
+             "stand.</p>";
+    out += "</li>";
+  }
+  return out.empty() ? "" : "<ul>" + out + "</ul>";
 }
 
 std::string certificate_form(const AttemptView& view, const Frame& frame) {
-  if (!view.ready) return "<p class=\"dim\">No certificate yet: competence at this exercise and level has not been shown.</p>";
-  return "<p>" + badge(Flag::kReady) + " " + escape_html(view.ready->evidence) +
-         " <small class=\"dim\">n = " + std::to_string(view.ready->n) + ", rules " + escape_html(view.ready->rule_version) +
-         "</small></p>" + form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) + "<p><button>Certify " +
+  const std::string given = certificate_list(view);
+  for (const CitedCertificate& one : view.certificates)
+    if (holds(one, view)) return given;
+  if (!view.ready) return given + "<p class=\"dim\">No certificate holds: competence at this exercise and level has not been shown.</p>";
+  const std::string why = given + "<p>" + badge(Flag::kReady) + " " + escape_html(view.ready->evidence) + " " +
+                          basis_html(*view.ready) + "</p>";
+  if (!view.verdict().passed)
+    return why + "<p class=\"dim\">This attempt is not passed, so no certificate can cite it. Open one that is.</p>";
+  return why + form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) + "<p><button>Certify " +
          escape_html(view.result.trainee) + " for " + escape_html(view.exercise) + " " + escape_html(view.result.level) +
          "</button></p></form>";
 }
@@ -58,18 +88,23 @@ std::string compare_section(const AttemptView& view, const Frame& frame) {
   return section("compare", "Compare with",
                  out + "<form class=\"inline\" method=\"get\" action=\"/compare\"><input type=\"hidden\" name=\"attempt\" value=\"" +
                      escape_html(view.result.uuid) + "\"/>" +
-                     text_field("other", "other", "Another attempt, by its number", "", "required=\"required\" minlength=\"4\"") +
+                     text_field("other", "other", "Another attempt, by its number or identifier", "", "required=\"required\"") +
                      "<p><button>Compare</button></p></form>");
 }
 
 std::string title(const AttemptView& view, const Frame& frame) {
   const std::string path = "/attempt/" + url_part(view.result.uuid), code = view.result.trainee;
-  return "<div class=\"title\"><h1>" + escape_html(view.exercise) + " " + escape_html(view.result.level) + "</h1><p class=\"dim\">" +
-         link_html("/trainee/" + url_part(code) +
-                       query_html({{"exercise", view.result.exercise_id}, {"level", view.result.level}, {"hand", view.result.hand}}),
-                   code) +
-         ", " + date_html(view.result.started_utc) + ", " + escape_html(view.result.hand) + "</p><p class=\"files\">" +
-         link_html(path + "/attempt.csv", "CSV") + (frame.pdf ? " " + link_html("/report/attempt/" + url_part(view.result.uuid) + ".pdf", "PDF") : "") + "</p></div>";
+  return "<div class=\"title\"><h1>" + escape_html(view.exercise) + " " + escape_html(view.result.level) +
+         "</h1><p class=\"dim\">" +
+         link_html(
+             "/trainee/" + url_part(code) +
+                 query_html(
+                     {{"exercise", view.result.exercise_id}, {"level", view.result.level}, {"hand", view.result.hand}}),
+             code) +
+         (view.number > 0 ? ", attempt no. " + std::to_string(view.number) : std::string()) + ", " +
+         date_html(view.result.started_utc) + ", " + escape_html(view.result.hand) + "</p><p class=\"files\">" +
+         link_html(path + "/attempt.csv", "CSV") + (frame.pdf ? " " + link_html("/report/attempt/" + url_part(view.result.uuid) + ".pdf", "PDF") : "") +
+         "</p></div>";
 }
 
 }  // namespace
@@ -83,7 +118,7 @@ std::string sign_off_section(const AttemptView& view, const Frame& frame) {
              escape_html(o.reason) + "</li>";
     out += "</ul>";
   }
-  if (!frame.may_write) return section("sign", "Sign-off", out);
+  if (!frame.may_write) return section("sign", "Sign-off", out + certificate_list(view));
   return section("sign", "Sign-off",
                  sign_checklist(view) + out + sign_form(view, frame) + override_form(view, frame) + "<h3>Certificate</h3>" + certificate_form(view, frame));
 }

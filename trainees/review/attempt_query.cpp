@@ -14,14 +14,11 @@ using Values = std::map<std::string, std::vector<double>>;
 constexpr const char* kExpertHand = "expert";
 
 constexpr const char* kGraded =
-    "SELECT a.id, a.uuid, t.code, a.exercise_id, a.level, a.hand, a.started_utc, a.seed, a.board, a.status, s.value, s.passed, s.grade,"
-    " a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity FROM attempt a"
-    " JOIN known_trainee t ON t.id = a.trainee_id JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
     " WHERE a.exercise_id = ?1 AND a.level = ?2 AND a.hand = ?3 AND a.ruleset_sha256 = ?4 AND s.value IS NOT NULL"
     " AND a.status IN ('completed', 'timeout') AND a.id <> ?5";
 
 std::vector<AttemptSummary> read_graded(sqlite3* connection, const std::string& more, const AttemptSummary& of, const std::string& hand) {
-  sql::Statement rows(connection, kGraded + more);
+  sql::Statement rows(connection, summary_query("t.code", " JOIN known_trainee t ON t.id = a.trainee_id") + kGraded + more);
   rows.bind(of.exercise_id).bind(of.level).bind(hand).bind(of.rubric_sha256).bind(of.row);
   std::vector<AttemptSummary> out;
   while (rows.step()) out.push_back(summary_of(rows));
@@ -37,9 +34,7 @@ std::vector<PastAttempt> earlier_than(sqlite3* connection, const AttemptSummary&
   sql::Statement metrics(connection, "SELECT m.name, m.value FROM score s JOIN metric m ON m.score_id = s.id"
                                      " WHERE s.attempt_id = ? AND s.revision = 0 AND m.value IS NOT NULL");
   std::vector<PastAttempt> out;
-  sql::Statement summary(connection, "SELECT a.id, a.uuid, '', a.exercise_id, a.level, a.hand, a.started_utc, a.seed, a.board, a.status, s.value,"
-                                     " s.passed, s.grade, a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity"
-                                     " FROM attempt a JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?");
+  sql::Statement summary(connection, summary_query("''", "") + " WHERE a.id = ?");
   while (own.step()) {
     if (summary.bind(own.integer(0)).step()) {
       out.push_back({summary_of(summary), {}});

@@ -85,15 +85,23 @@ std::string verdict_reason(const AttemptView& view) {
 std::string verdict_band(const AttemptView& view) {
   const Grade& grade = view.result.grade;
   const bool has = graded(view.result);
-  const std::string kind = !has ? "none" : grade.passed ? "pass" : "notyet";
+  const Verdict verdict = view.verdict();
+  const bool judged = has || verdict.decision;
+  const char* const words[] = {"Not graded", "Not yet", "Pass"};
+  const int at = !judged ? 0 : verdict.passed ? 2 : 1;
+  const std::string kind = at == 0 ? "none" : at == 2 ? "pass" : "notyet";
   std::string out = "<section class=\"verdict " + kind + "\" aria-label=\"Verdict\"><p class=\"word\">" +
-                    shape(!has           ? "void"
-                          : grade.passed ? "pass"
-                                         : "fail") +
-                    (!has           ? "Not graded"
-                     : grade.passed ? "Pass"
-                                    : "Not yet") +
-                    "</p><p class=\"reason\">" + escape_html(verdict_reason(view)) + "</p>";
+                    shape(at == 0   ? "void"
+                          : at == 2 ? "pass"
+                                    : "fail") +
+                    words[at] + (verdict.decision ? " <small>by decision</small>" : "") + "</p><p class=\"reason\">" +
+                    (verdict.decision ? "The score says: " +
+                                            std::string(!has               ? "nothing"
+                                                        : verdict.by_score ? "pass"
+                                                                           : "not yet") +
+                                            ". "
+                                      : "") +
+                    escape_html(verdict_reason(view)) + "</p>";
   out += "<p class=\"score\">" + score_text(grade.score) +
          (has ? "<small> of 100</small><br/><small>" + escape_html(grade.grade) + "</small>"
               : "<br/><small>" + std::string(status_name(grade.status)) + "</small>") +
@@ -188,10 +196,12 @@ std::string device_facts(const AttemptView& view) {
 
 std::string origin_facts(const AttemptView& view) {
   const AttemptResult& r = view.result;
-  std::string out = "<dl class=\"facts wide\">" + fact("Exercise", r.exercise_id + " " + r.exercise_version + ", level " + r.level) +
-                    fact("Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)) + fact("Input", r.hand) +
-                    fact("Program", view.program) + fact("Organ", r.organ_name + (r.organ_synthetic ? ", synthetic" : "")) +
-                    fact("Organ's origin", r.organ_credit);
+  std::string out =
+      "<dl class=\"facts wide\">" + fact("Number here", view.number > 0 ? std::to_string(view.number) : "") +
+      fact("Exercise", r.exercise_id + " " + r.exercise_version + ", level " + r.level) +
+      fact("Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)) + fact("Input", r.hand) +
+      fact("Program", view.program) + fact("Organ", r.organ_name + (r.organ_synthetic ? ", synthetic" : "")) +
+      fact("Organ's origin", r.organ_credit);
   out += fact("Attempt", r.uuid, true) + fact("Rules (sha256)", r.rubric_sha256, true) +
          fact("Recording (sha256)", r.recording_sha256, true) + fact("State hash", r.state_hash, true) +
          fact("Place in the chain", view.chain_position > 0 ? std::to_string(view.chain_position) : "") +

@@ -15,7 +15,8 @@ namespace trocar::review {
 std::string spark_svg(const std::vector<double>& scores, double pass_at);
 
 inline constexpr std::size_t kPointsDrawn = 200;  ///< newest attempts that a curve draws
-/// Score by attempt: own points (filled: passed, hollow: not, cross: without a score), cohort quartiles shaded, pass mark, benchmark.
+/// Score by attempt: own points (filled: passed, hollow: not, cross: without a score; a diamond round what a person
+/// decided), cohort quartiles shaded, pass mark, benchmark.
 std::string curve_svg(const CurveView& curve);
 /// Both sequential tests by attempt with their limits.
 std::string cusum_svg(const CurveView& curve);

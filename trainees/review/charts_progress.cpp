@@ -83,6 +83,14 @@ std::string cohort_area(const CurveView& curve, const Axes& axes) {
          polyline(middle, "stroke=\"#2d7fab\" stroke-width=\"1.2\" stroke-dasharray=\"2 3\"");
 }
 
+/// A diamond round the point: orange where it passed, grey where not.
+std::string decided_mark(const CurvePoint& point, double x, double y) {
+  constexpr double kReach = 9;
+  return "<path class=\"decided\" d=\"M" + px(x) + " " + px(y - kReach) + "L" + px(x + kReach) + " " + px(y) + "L" +
+         px(x) + " " + px(y + kReach) + "L" + px(x - kReach) + " " + px(y) +
+         "Z\" fill=\"none\" stroke-width=\"2\" stroke=\"" + (point.passed ? "#b04a00" : "#1d2630") + "\"/>";
+}
+
 std::string own_point(const CurvePoint& point, double x, double y, int number) {
   const std::string at = attribute("cx", px(x)) + attribute("cy", px(y));
   std::string mark;
@@ -91,9 +99,13 @@ std::string own_point(const CurvePoint& point, double x, double y, int number) {
            px(x + 4) + " " + px(y - 4) + "\" stroke=\"#5b6570\" stroke-width=\"2.4\"/>";
   else
     mark = "<circle r=\"4.6\" stroke-width=\"2\"" + at + " stroke=\"" + kBlue + "\" fill=\"" + (point.passed ? kBlue : "#fff") + "\"/>";
+  if (!point.decided_by.empty()) mark += decided_mark(point, x, y);
+  const std::string by = point.decided_by.empty() ? "" : " by decision of " + point.decided_by;
   const std::string words =
       "attempt " + std::to_string(number) + ", " + point.utc.substr(0, 10) + ": " +
-      (point.score ? score_text(point.score) + (point.passed ? ", passed" : ", not passed") : point.status + ", no score");
+      (point.score ? score_text(point.score) + (point.passed ? ", passed" : ", not passed") + by
+                   : point.status + ", no score" + (by.empty() ? "" : point.passed ? ", passed" + by : ", not passed" + by)) +
+      (point.number > 0 ? ", no. " + std::to_string(point.number) : "");
   return "<a href=\"/attempt/" + url_part(point.uuid) + "\"><title>" + escape_html(words) + "</title>" + mark + "</a>";
 }
 

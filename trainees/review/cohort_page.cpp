@@ -61,7 +61,8 @@ std::string card(const CohortView& view, const CardWords& words) {
     const Judgement* why = judgement_of(*who[i], words.flag);
     out += "<li>" + link_html(curve_href(*who[i]), shown_name(*who[i])) + " <span class=\"dim\">" + escape_html(who[i]->exercise) + " " +
            escape_html(who[i]->level) + "</span>" +
-           (why == nullptr || why->evidence.empty() ? "" : "<br/><small>" + escape_html(why->evidence) + "</small>") + "</li>";
+           (why == nullptr || why->evidence.empty() ? "" : "<br/><small>" + escape_html(why->evidence) + "</small>") +
+           (why == nullptr ? "" : "<br/>" + basis_html(*why)) + "</li>";
   }
   out += "</ul>";
   const std::string all = with(view.asked, "state", words.key);
@@ -134,7 +135,8 @@ std::string row(const CohortEntry& line) {
   const std::string why = line.judgements.empty() ? "" : line.judgements.front().evidence;
   return "<tr><th scope=\"row\">" + link_html(curve_href(line), shown_name(line)) +
          (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") + "</th><td>" + states +
-         (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") + "</td><td>" + escape_html(line.exercise) +
+         (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") +
+         (line.judgements.empty() ? "" : "<br/>" + basis_html(line.judgements.front())) + "</td><td>" + escape_html(line.exercise) +
          (line.hand.empty() ? "" : " <small class=\"dim\">" + escape_html(line.hand) + "</small>") + "</td>" + cell(line.level) +
          number_cell(std::to_string(line.tries)) + number_cell(score_text(line.best)) + number_cell(score_text(line.last)) + "<td>" +
          spark_svg(line.scores, line.pass_at) + "</td>" +

@@ -8,6 +8,7 @@
 #include "trainees/review/desk_queries.h"
 #include "trainees/review/desk_rows.h"
 #include "trainees/sqlite_handle.h"
+#include "trainees/verdicts.h"
 
 namespace trocar {
 namespace {
@@ -38,10 +39,12 @@ class ByRow {
 struct Facts {
   double score = kNone, peak = kNone;
   std::int32_t critical = 0, over_force = 0, gates = 0;
-  bool passed = false;
+  bool passed = false;                       ///< by the score
+  bool decided = false, decided_passed = false;
 };
 
-ByRow<Facts> read_facts(sqlite3* connection) {
+ByRow<Facts> read_facts(const Database& database) {
+  sqlite3* connection = database.connection();
   ByRow<Facts> out{Facts{}};
   ByRow<std::int64_t> attempt_of{0};       // by score
   sql::Statement scores(connection, "SELECT attempt_id, value, passed, id FROM score INDEXED BY score_first WHERE revision = 0");
@@ -50,6 +53,10 @@ ByRow<Facts> read_facts(sqlite3* connection) {
     facts.score = scores.real(1);
     facts.passed = scores.integer(2) != 0;
     attempt_of.at(scores.integer(3)) = scores.integer(0);
+  }
+  for (const auto& [attempt, passed] : newest_decisions(database)) {
+    out.at(attempt).decided = true;
+    out.at(attempt).decided_passed = passed;
   }
   sql::Statement peaks(connection, "SELECT score_id, value FROM metric INDEXED BY metric_peak_force WHERE name = 'force_max_n'");
   while (peaks.step()) out.at(attempt_of.get(peaks.integer(0))).peak = peaks.real(1);
@@ -97,7 +104,7 @@ class CohortPass {
  public:
   CohortPass(Database& database, const ProgressRules& rules, const CohortFilter& filter, const std::string& now_utc)
       : connection_(database.connection()), rules_(rules), filter_(filter), now_utc_(now_utc), people_(desk::people(connection_)),
-        certificates_(desk::certificates_that_hold(connection_)), facts_(read_facts(connection_)),
+        certificates_(desk::certificates_that_hold(connection_)), facts_(read_facts(database)),
         newest_(connection_, "SELECT uuid, exercise_version, started_utc FROM attempt WHERE id = ?") {}
 
   std::vector<CohortLine> lines() {
@@ -135,10 +142,11 @@ class CohortPass {
     const Facts& facts = facts_.get(id);
     CurveAttempt attempt;
     if (!draft.line.certified_utc.empty()) attempt.started_s = seconds_of_utc(row.view(4)).value_or(0);   // for dates after it alone
-    attempt.passed = facts.passed;
     attempt.critical_events = facts.critical;
     attempt.failed_gates = facts.gates;
     attempt.broken = row.integer(2) != 0;
+    attempt.passed = judged_passed(attempt.broken, facts.passed, facts.decided ? std::optional(facts.decided_passed) : std::nullopt);
+    attempt.decided = facts.decided;
     attempt.doubtful = row.integer(3) != 0;
     if (!attempt.broken && !std::isnan(facts.score)) attempt.score = facts.score;
     draft.last_row = id;

@@ -57,8 +57,11 @@ std::string head_of(const AttemptView& view, const std::string& words, bool firs
       std::string("<svg class=\"swatch\" viewBox=\"0 0 22 12\" aria-hidden=\"true\"><path d=\"M1 6H21\" stroke-width=\"3\" stroke=\"") +
       (first ? kLeftColour : kRightColour) + "\"" + (first ? "" : std::string(" stroke-dasharray=\"") + kRightDash + "\"") + "/></svg>";
   const Grade& grade = view.result.grade;
+  const Verdict judged = view.verdict();
   const std::string verdict =
-      !grade.score ? shape("void") + "not graded" : shape(grade.passed ? "pass" : "fail") + (grade.passed ? "pass" : "not yet");
+      !grade.score && !judged.decision ? shape("void") + "not graded"
+                                       : shape(judged.passed ? "pass" : "fail") + (judged.passed ? "pass" : "not yet") +
+                                             (judged.decision ? " by decision of " + escape_html(judged.decision->printed) : "");
   return "<section class=\"card side\" aria-label=\"" + escape_html(words) + "\"><h2>" + swatch + "<a href=\"/attempt/" +
          url_part(view.result.uuid) + "\">" + escape_html(words) + "</a></h2><p><strong>" + score_text(grade.score) + "</strong> " +
          verdict + ", " + escape_html(view.result.trainee) + ", " + date_html(view.result.started_utc) + "</p><p>" +

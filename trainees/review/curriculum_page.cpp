@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "trainees/markup/html.h"
 #include "trainees/review/pages.h"
 
@@ -8,36 +10,58 @@ std::string preview_table(const std::vector<PassPreview>& preview, const std::st
   constexpr int kShown = 200;  // those that change come first
   std::string rows;
   int now = 0, then = 0, shown = 0;
+  bool none_holds = true;
   for (const PassPreview& p : preview) {
-    now += p.passes_now ? 1 : 0;
+    now += p.passes_now.value_or(false) ? 1 : 0;
+    none_holds = none_holds && !p.passes_now;
     then += p.would_pass ? 1 : 0;
     if (++shown > kShown) continue;
-    const bool differs = p.passes_now != p.would_pass;
+    const bool differs = p.passes_now && *p.passes_now != p.would_pass;
     rows += std::string("<tr") + (differs ? " class=\"grave\"" : "") + "><th scope=\"row\">" +
-            link_html("/trainee/" + url_part(p.trainee), p.trainee) + "</th>" + cell(p.exercise + " " + p.level) + "<td>" +
-            shape(p.passes_now ? "pass" : "fail") + (p.passes_now ? "yes" : "no") + "</td><td>" + shape(p.would_pass ? "pass" : "fail") +
-            (p.would_pass ? "yes" : "no") + (differs ? " <span class=\"tag\">changes</span>" : "") + "</td><td class=\"long\">" +
-            escape_html(p.why) + "</td></tr>";
+            link_html("/trainee/" + url_part(p.trainee), p.trainee) + "</th>" + cell(p.exercise + " " + p.level) +
+            "<td>" +
+            (p.passes_now ? shape(*p.passes_now ? "pass" : "fail") + (*p.passes_now ? "yes" : "no")
+                          : std::string("none is set")) +
+            "</td><td>" + shape(p.would_pass ? "pass" : "fail") + (p.would_pass ? "yes" : "no") +
+            (differs ? " <span class=\"tag\">changes</span>" : "") + "</td><td class=\"long\">" + escape_html(p.why) +
+            "</td></tr>";
   }
   if (rows.empty()) return "<p>Nobody has graded attempts to try this on.</p>";
   return "<p><strong>" + std::to_string(then) + "</strong> of " + std::to_string(preview.size()) + " would pass today; " +
-         std::to_string(now) + " pass as it stands. Nothing is saved yet.</p>" +
+         (none_holds ? std::string("none is set now, so nobody is measured by one") : std::to_string(now) + " pass as it stands") +
+         ". Nothing is saved yet.</p>" +
          table(shown > kShown ? caption + ", first " + std::to_string(kShown) + " of " + std::to_string(shown) : caption,
                head_cells({"Trainee", "Exercise", "Passes now", "Would pass", "Why"}), rows);
+}
+
+std::string own_version(const CurriculumView& view, const Curriculum& curriculum) {
+  const auto at = view.own_version.find(curriculum.uuid);
+  return at == view.own_version.end() ? "" : at->second;
+}
+
+/// An account by its name; who has none by what was printed.
+std::string author_name(const CurriculumView& view, const std::string& author) {
+  const auto at = view.authors.find(author);
+  return at != view.authors.end() && !at->second.empty() ? at->second
+         : author.empty()                                ? "not recorded"
+                                                         : author;
 }
 
 std::string versions(const CurriculumView& view) {
   std::string rows;
   for (const Curriculum& c : view.versions)
-    rows += "<tr><th scope=\"row\">" +
-            link_html("/curriculum" + query_html({{"name", c.name}, {"version", std::to_string(c.version)}}) + "#editor",
-                      c.name + " " + std::to_string(c.version)) +
-            "</th><td>" + date_html(c.utc) + "</td>" + cell(c.author.empty() ? "command line" : c.author) + "<td class=\"mono\">" +
-            escape_html(c.sha256.substr(0, 8)) + "</td></tr>";
+    rows +=
+        "<tr><th scope=\"row\">" +
+        link_html("/curriculum" + query_html({{"name", c.name}, {"version", std::to_string(c.version)}}) + "#editor",
+                  c.name + (own_version(view, c).empty() ? "" : ", version " + own_version(view, c))) +
+        "</th>" + number_cell(std::to_string(c.version)) + "<td>" + date_html(c.utc) + "</td>" +
+        cell(author_name(view, c.author)) + "<td class=\"mono\">" + escape_html(c.sha256.substr(0, 8)) + "</td></tr>";
   if (rows.empty()) return section("versions", "Versions", "<p>None yet: the rules that came with the program hold.</p>");
   return section("versions", "Versions",
-                 table("Every version that was saved, newest first; the newest of a name holds",
-                       head_cells({"Version", "Saved", "By", "sha256"}), rows));
+                 table("Every text that was saved, newest first; the newest of a name holds. The version is the one "
+                       "that the text gives itself and that "
+                       "decisions name; \"saved as no.\" counts the texts of a name in this database",
+                       head_cells({"Rules", ">Saved as no.", "Saved", "By", "sha256"}), rows));
 }
 
 std::string editor(const CurriculumView& view, const Frame& frame) {
@@ -64,7 +88,13 @@ std::string proposal(const BenchmarkProposal& p, const Frame& frame) {
                     escape_html(p.source) + ", n = " + std::to_string(p.n);
   if (p.mean && p.deviation) out += ", mean " + number_text(*p.mean) + ", SD " + number_text(*p.deviation);
   out += ".</p>";
-  if (p.n < 5) out += "<p class=\"warning\">" + shape("integrity") + "Fewer than 5: the number would move much with the next one.</p>";
+  out += p.set_by_person ? "<p class=\"dim\">Set by a person, n = 0: it rests on no attempts. Rules " +
+                               escape_html(p.rules_version) + ".</p>"
+                         : "<p class=\"dim\">Reliability of their means " + reliability_text(p.reliability) +
+                               ", rules " + escape_html(p.rules_version) + ".</p>";
+  if (p.n < 5 && !p.set_by_person)
+    out += "<p class=\"warning\">" + shape("integrity") +
+           "Fewer than 5: the number would move much with the next one.</p>";
   out += preview_table(p.preview, "Who would reach this benchmark");
   if (!frame.may_write) return out;
   out += form_begin("/curriculum/benchmark", frame) + "<input type=\"hidden\" name=\"do\" value=\"save\"/>";
@@ -105,12 +135,31 @@ std::string benchmarks(const CurriculumView& view, const Frame& frame) {
   for (const Benchmark& b : view.benchmarks)
     rows += "<tr><th scope=\"row\">" + escape_html(b.exercise_id) + " " + escape_html(b.level) + "</th>" + cell(words_of(b.metric)) +
             number_cell(number_text(b.full_at)) + number_cell(number_text(b.zero_at)) + number_cell(std::to_string(b.n)) + cell(b.rule) +
-            cell(b.source) + "<td>" + day_html(b.utc) + "</td></tr>";
-  const std::string listed = rows.empty()
-                                 ? "<p>None yet.</p>"
-                                 : table("Benchmarks, newest first; the newest of exercise, level and metric holds",
-                                         head_cells({"Exercise", "Metric", ">Full at", ">None at", ">n", "Rule", "Who", "Date"}), rows);
+            cell(b.source) + cell(author_name(view, b.author)) + "<td>" + day_html(b.utc) + "</td></tr>";
+  const std::string listed =
+      rows.empty()
+          ? "<p>None yet.</p>"
+          : table("Benchmarks, newest first; the newest of exercise, level and metric holds",
+                  head_cells({"Exercise", "Metric", ">Full at", ">None at", ">n", "Rule", "Who", "Saved by", "Date"}),
+                  rows);
   return section("benchmarks", "Benchmarks", listed + benchmark_form(view, frame) + (view.proposal ? proposal(*view.proposal, frame) : ""));
+}
+
+std::string difficulties(const CurriculumView& view) {
+  const DifficultyView& d = view.difficulties;
+  if (!d.missing.empty())
+    return section("difficulties", "Difficulty of the exercises",
+                   "<p class=\"dim\">" + escape_html(d.missing) + "</p>");
+  std::string rows;
+  for (const DifficultyLine& line : d.lines)
+    rows += "<tr><th scope=\"row\">" + escape_html(line.exercise) + " " + escape_html(line.level) + "</th>" +
+            cell(line.hand) + number_cell(fixed_text(line.logit, 2)) + number_cell(fixed_text(line.standard_error, 2)) +
+            number_cell(std::to_string(line.n)) + "</tr>";
+  if (rows.empty()) return "";
+  return section("difficulties", "Difficulty of the exercises",
+                 table("Rasch difficulties, easiest first, from " + std::to_string(d.attempts) + " attempts, rules " + d.rules_version +
+                           ": an ability of that many logit passes every second time",
+                       head_cells({"Exercise", "Input", ">Logit", ">Standard error", ">n"}), rows));
 }
 
 std::string groups(const CurriculumView& view, const Frame& frame) {
@@ -151,7 +200,7 @@ std::string curriculum_page(const CurriculumView& view, Frame frame) {
                   "<div class=\"title\"><h1>Curriculum</h1><p class=\"dim\">Rules and benchmarks are versions: added, never "
                   "changed.</p></div><div class=\"two\"><div>" +
                       editor(view, frame) + "</div><div>" + versions(view) + groups(view, frame) + "</div></div>" +
-                      benchmarks(view, frame));
+                      benchmarks(view, frame) + difficulties(view));
 }
 
 std::string message_page(const std::string& title, const std::string& words, Frame frame) {

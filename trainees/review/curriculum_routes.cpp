@@ -23,6 +23,7 @@ Response rules(const Request& request, Desk& desk) {
   try {
     const ProgressRules read = read_progress_rules(view.text, view.name);
     if (argument(request.form, "do") == "save") {
+      refuse_taken_version(desk, view.text, read);
       CurriculumStore(desk.database).add(view.name, view.text, author_of(request));
       return see("/curriculum?name=" + url_part(view.name) + "#editor");
     }
@@ -44,8 +45,15 @@ Response benchmark(const Request& request, Desk& desk) {
     numbers.exercise_id = question.exercise_id;
     numbers.level = question.level;
     numbers.metric = question.metric;
-    numbers.source = proposal.source;
-    numbers.rule = question.rule == "mean-2sd" ? "mean - 2 SD" : question.rule == "best-quartile" ? "best quartile" : question.rule;
+    numbers.source = proposal.source +
+                     (proposal.set_by_person
+                          ? " (rules "
+                          : " (reliability of their means " + reliability_text(proposal.reliability) + ", rules ") +
+                     proposal.rules_version + ")";
+    numbers.rule = question.rule == "mean-2sd"        ? "mean - 2 SD"
+                   : question.rule == "best-quartile" ? "best quartile"
+                   : question.rule == "fixed"         ? "fixed number"
+                                                      : question.rule;
     numbers.full_at = *proposal.value;
     numbers.zero_at = std::strtod(question.zero_at.c_str(), nullptr);
     numbers.n = proposal.n;
@@ -74,7 +82,9 @@ using Action = Response (*)(const Request&, Desk&);
 
 Route route(const std::string& method, const std::string& path, Action action) {
   return {method, path, Audience::kInstructors,
-          [action](const Request& request, Desk& desk) { return answered(request, desk, 400, [&] { return action(request, desk); }); }};
+          [action, status = method == "GET" ? 404 : 400](const Request& request, Desk& desk) {
+            return answered(request, desk, status, [&] { return action(request, desk); });
+          }};
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <cstdlib>
 
 #include "haptics/input_error.h"
+#include "trainees/accounts.h"
+#include "trainees/attempt_store.h"
 #include "trainees/markup/html.h"
 #include "trainees/progress/benchmarks.h"
 #include "trainees/review/desk_queries.h"
@@ -13,19 +15,30 @@
 namespace trocar::review {
 namespace {
 
-/// One value a person: the mean of the graded attempts. @param who "", "hand:X", "group:X" or "trainee:X".
-std::vector<PersonValue> person_values(Database& database, const BenchmarkQuestion& q, const std::string& who) {
+/// Values of the graded attempts, by person. @param who "", "hand:X", "group:X" or "trainee:X".
+std::map<std::string, std::vector<double>> values_by_person(Database& database, const BenchmarkQuestion& q, const std::string& who) {
   const auto part = [&](const std::string& kind) { return who.starts_with(kind) ? who.substr(kind.size()) : std::string(); };
   sql::Statement query(database.connection(), R"sql(
-SELECT t.code, avg(CASE WHEN ?3 = 'score' THEN s.value ELSE m.value END) AS mean
+SELECT t.code, CASE WHEN ?3 = 'score' THEN s.value ELSE m.value END AS value
 FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id JOIN score s ON s.attempt_id = a.id AND s.revision = 0
 LEFT JOIN metric m ON m.score_id = s.id AND m.name = ?3
 WHERE a.exercise_id = ?1 AND a.level = ?2 AND a.status IN ('completed', 'timeout') AND (?4 = '' OR a.hand = ?4)
   AND (?5 = '' OR EXISTS (SELECT 1 FROM membership g WHERE g.trainee_id = a.trainee_id AND g.group_name = ?5)) AND (?6 = '' OR t.code = ?6 COLLATE NOCASE)
-GROUP BY t.id HAVING mean IS NOT NULL ORDER BY t.code)sql");
+  AND (CASE WHEN ?3 = 'score' THEN s.value ELSE m.value END) IS NOT NULL ORDER BY t.code, a.id)sql");
   query.bind(q.exercise_id).bind(q.level).bind(q.metric).bind(part("hand:")).bind(part("group:")).bind(part("trainee:"));
+  std::map<std::string, std::vector<double>> out;
+  while (query.step()) out[query.text(0)].push_back(query.real(1));
+  return out;
+}
+
+/// One value a person: the mean.
+std::vector<PersonValue> person_values(const std::map<std::string, std::vector<double>>& values_of) {
   std::vector<PersonValue> out;
-  while (query.step()) out.push_back({query.text(0), query.real(1)});
+  for (const auto& [who, values] : values_of) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    out.push_back({who, sum / static_cast<double>(values.size())});
+  }
   return out;
 }
 
@@ -52,6 +65,7 @@ void compute(BenchmarkProposal& out, const std::vector<PersonValue>& persons, bo
   if (out.asked.rule == "fixed") {
     out.value = number_of(out.asked.fixed);
     out.source = "a person's decision";
+    out.set_by_person = true;
     out.n = 0;
     if (!out.value) out.problem = "The fixed number is missing or cannot be read.";
     return;
@@ -71,8 +85,62 @@ void compute(BenchmarkProposal& out, const std::vector<PersonValue>& persons, bo
   out.source = derived->who;
 }
 
+/// Names that a benchmark of the exercise may be of, without the score.
+std::vector<std::string> known_metrics(Desk& desk, const std::string& exercise_id) {
+  if (!desk.sources.metrics.empty()) return desk.sources.metrics;
+  const AttemptStore store(desk.database);
+  const auto newest = store.list({"", exercise_id, 1});
+  std::vector<std::string> out;
+  if (newest.empty() || newest.front().status == "running") return out;
+  for (const Metric& metric : store.load(newest.front().row).grade.metrics) out.push_back(metric.name);
+  return out;
+}
+
+/// What makes a question senseless before anything is computed; "" for nothing.
+std::string question_problem(Desk& desk, const BenchmarkQuestion& q) {
+  if (q.metric != "score") {
+    const std::vector<std::string> known = known_metrics(desk, q.exercise_id);
+    if (std::find(known.begin(), known.end(), q.metric) == known.end()) {
+      std::string list = "score";
+      for (const std::string& name : known) list += ", " + name;
+      return "There is no metric \"" + q.metric + "\". Known are: " + list + ".";
+    }
+  }
+  const LawfulRange range = lawful_range(q.metric);
+  for (const std::string* text : {&q.fixed, &q.zero_at}) {
+    const std::optional<double> value = number_of(*text);
+    const bool asked = text == &q.fixed ? q.rule == "fixed" : q.metric != "score";
+    if (asked && value && !lawful(range, *value))
+      return "The number " + number_text(*value) + " is none that \"" + q.metric + "\" can have: " + range_words(range) + ".";
+  }
+  return "";
+}
+
+std::optional<double> reliability_of(const std::map<std::string, std::vector<double>>& values_of) {
+  std::vector<std::vector<double>> all;
+  for (const auto& [who, values] : values_of) all.push_back(values);
+  return reliability_of_means(all);
+}
+
 void add_groups(CurriculumView& view, const CurriculumStore& store) {
   for (const std::string& group : store.groups()) view.groups.push_back({group, store.members(group)});
+}
+
+DifficultyView difficulties(Database& database, const ProgressRules& rules, const std::vector<Choice>& exercises) {
+  const RaschPicture rasch = rasch_picture(database, rules);
+  DifficultyView out;
+  out.attempts = rasch.attempts;
+  out.missing = rasch.missing;
+  out.rules_version = rules.version;
+  std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
+  for (const RaschItem& item : rasch.items) {
+    const std::string& title = titles[item.exercise_id];
+    out.lines.push_back({title.empty() ? item.exercise_id : title, item.level, item.hand, item.estimate.logit,
+                         item.estimate.standard_error, item.estimate.n});
+  }
+  if (out.missing.empty() && out.lines.empty())
+    out.missing = "No difficulty is known well enough yet: standard errors are above what the rules allow.";
+  return out;
 }
 
 bool passes(const CohortLine& line) {
@@ -107,8 +175,11 @@ std::vector<PassPreview> preview_rules(Desk& desk, const ProgressRules& rules, c
 BenchmarkProposal propose(Desk& desk, const BenchmarkQuestion& question, const std::string& now_utc) {
   BenchmarkProposal out;
   out.asked = question;
-  const std::vector<PersonValue> chosen = person_values(desk.database, question, question.who),
-                                 all = person_values(desk.database, question, "");
+  out.rules_version = rules_in_force(desk.database).version;
+  out.problem = question_problem(desk, question);
+  if (!out.problem.empty()) return out;
+  const auto values_of = values_by_person(desk.database, question, question.who);
+  const std::vector<PersonValue> chosen = person_values(values_of), all = person_values(values_by_person(desk.database, question, ""));
   const std::optional<double> zero = number_of(question.zero_at);
   if (question.metric != "score" && !zero) {
     out.problem = "A metric needs the value at which no marks are left: it says which way is better.";
@@ -117,15 +188,45 @@ BenchmarkProposal propose(Desk& desk, const BenchmarkQuestion& question, const s
   const bool less = question.metric != "score" && zero && *zero > (chosen.empty() ? mean_of(all) : mean_of(chosen));
   compute(out, chosen, less, now_utc);
   if (!out.value) return out;
+  const LawfulRange range = lawful_range(question.metric);
+  if (!lawful(range, *out.value)) {
+    out.problem = "The number " + number_text(*out.value) + " is none that \"" + question.metric +
+                  "\" can have: " + range_words(range) + ".";
+    out.value.reset();
+    return out;
+  }
+  if (!out.set_by_person) out.reliability = reliability_of(values_of);
   const auto held = CurriculumStore(desk.database).benchmarks(question.exercise_id, question.level);
   const auto old = std::find_if(held.begin(), held.end(), [&](const Benchmark& b) { return b.metric == question.metric; });
   const auto reaches = [less](double value, double limit) { return less ? value <= limit : value >= limit; };
   for (const PersonValue& person : all)
     out.preview.push_back({person.who, exercise_title(desk.database, question.exercise_id), question.level,
-                           "mean " + number_text(person.value), old != held.end() && reaches(person.value, old->full_at),
+                           "mean " + number_text(person.value),
+                           old == held.end() ? std::nullopt : std::optional(reaches(person.value, old->full_at)),
                            reaches(person.value, *out.value)});
   changes_first(out.preview);
   return out;
+}
+
+std::string own_version_of(const Curriculum& curriculum) {
+  try {
+    return read_progress_rules(curriculum.toml, curriculum.name).version;
+  } catch (const InputError&) {
+    return "";   // no rules of progress: another kind of text
+  }
+}
+
+void refuse_taken_version(Desk& desk, const std::string& text, const ProgressRules& rules) {
+  const auto taken = [&](const std::string& by) {
+    throw InputError("version \"" + rules.version + "\" is that of another text, " + by +
+                     "; every decision names its version, so give this text one of its own");
+  };
+  for (const Curriculum& kept : CurriculumStore(desk.database).list())
+    if (kept.toml != text && own_version_of(kept) == rules.version)
+      taken("\"" + kept.name + "\", saved on " + kept.utc.substr(0, 10) + " as no. " + std::to_string(kept.version));
+  const std::string& shipped = desk.sources.shipped_rules;
+  if (!shipped.empty() && shipped != text && read_progress_rules(shipped, "shipped rules").version == rules.version)
+    taken("the one that came with the program");
 }
 
 CurriculumView curriculum_view(Desk& desk, const Request& request) {
@@ -135,14 +236,26 @@ CurriculumView curriculum_view(Desk& desk, const Request& request) {
   view.name = argument(request.query, "name", kRulesName);
   const std::string version = argument(request.query, "version");
   view.text = desk.sources.shipped_rules;
-  for (auto it = view.versions.rbegin(); it != view.versions.rend(); ++it)
-    if (it->name == view.name && (version.empty() || std::to_string(it->version) == version)) view.text = it->toml;
+  bool found = version.empty() && view.name == kRulesName;
+  for (auto it = view.versions.rbegin(); it != view.versions.rend(); ++it) {
+    view.own_version[it->uuid] = own_version_of(*it);
+    if (it->name != view.name || (!version.empty() && std::to_string(it->version) != version)) continue;
+    view.text = it->toml;
+    found = true;
+  }
+  if (!found)
+    throw InputError("no rules of the name \"" + view.name + "\"" +
+                     (version.empty() ? "" : " were saved as no. " + version) + " are kept here");
+  const ProgressRules rules = rules_in_force(desk.database);
+  view.rules_version = rules.version;
+  for (const Account& account : AccountStore(desk.database).list()) view.authors[account.uuid] = account.name;
   view.benchmarks = store.benchmarks();
   add_groups(view, store);
   for (const Trainee& trainee : TraineeStore(desk.database).list()) view.trainees.push_back(trainee.code);
   view.levels = distinct_attempt_values(desk.database, "level");
   view.hands = distinct_attempt_values(desk.database, "hand");
   view.exercises = exercise_choices(desk.database);
+  view.difficulties = difficulties(desk.database, rules, view.exercises);
   return view;
 }
 

@@ -1,6 +1,8 @@
 #include "trainees/review/desk_accounts.h"
 
 #include "haptics/digest/digest.h"
+#include "haptics/input_error.h"
+#include "trainees/attempt_store.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar::review {
@@ -22,11 +24,13 @@ bool may_see_trainee(const Account& account, const std::string& code) {
   return account.role != Role::kTrainee || (!account.trainee_code.empty() && account.trainee_code == code);
 }
 
-bool may_see_attempt(const Account& account, const Database& database, const std::string& attempt_uuid) {
+bool may_see_attempt(const Account& account, Database& database, const std::string& attempt) {
   if (account.role != Role::kTrainee) return true;
-  sql::Statement row(database.connection(), "SELECT p.code FROM attempt a JOIN person p ON p.trainee_id = a.trainee_id WHERE a.uuid = ?");
-  row.bind(attempt_uuid);
-  return row.step() && may_see_trainee(account, row.text(0));
+  try {
+    return may_see_trainee(account, AttemptStore(database).find(attempt).trainee);
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 bool may_see_certificate(const Account& account, const Database& database, const std::string& certificate_uuid) {

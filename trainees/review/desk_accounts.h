@@ -17,8 +17,9 @@ std::string sign_in_stamp(const Database& database, const std::string& account_u
 
 /// Staff sees everybody, a trainee only the own code (as the account has it).
 bool may_see_trainee(const Account& account, const std::string& code);
-/// By the attempt's whole UUID, not a part of it. An attempt that is not there is nobody's: staff may ask for it, trainees may not.
-bool may_see_attempt(const Account& account, const Database& database, const std::string& attempt_uuid);
+/// By the name that pages take: number, UUID or a part of it. One that is not there, or that fits several, is nobody's:
+/// staff may ask for it, trainees may not.
+bool may_see_attempt(const Account& account, Database& database, const std::string& attempt);
 
 /// By its whole number; as above.
 bool may_see_certificate(const Account& account, const Database& database, const std::string& certificate_uuid);

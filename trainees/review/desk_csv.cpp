@@ -41,24 +41,31 @@ std::string flags(const std::vector<Judgement>& judgements) {
 
 std::string cohort_csv(const CohortView& view) {
   std::string out = row({"trainee", "name", "exercise", "level", "input", "tries", "best", "last", "pass_at", "peak_force_n", "over_force",
-                         "last_utc", "states", "evidence", "rules"});
+                         "last_utc", "states", "evidence", "n", "decided", "reliability", "rules"});
   for (const CohortEntry& l : selected_lines(view))
-    out += row({field(l.code), field(l.name), field(l.exercise_id), field(l.level), field(l.hand), std::to_string(l.tries), number(l.best),
-                number(l.last), number(l.pass_at), number(l.peak_force_n), std::to_string(l.over_force), field(l.last_utc),
-                field(flags(l.judgements)), field(l.judgements.empty() ? "" : l.judgements.front().evidence), field(view.rules_version)});
+    out += row({field(l.code), field(l.name), field(l.exercise_id), field(l.level), field(l.hand),
+                std::to_string(l.tries), number(l.best), number(l.last), number(l.pass_at), number(l.peak_force_n),
+                std::to_string(l.over_force), field(l.last_utc), field(flags(l.judgements)),
+                field(l.judgements.empty() ? "" : l.judgements.front().evidence),
+                std::to_string(l.judgements.empty() ? l.tries : l.judgements.front().n),
+                std::to_string(l.judgements.empty() ? 0 : l.judgements.front().decided),
+                number(l.judgements.empty() ? std::nullopt : l.judgements.front().reliability),
+                field(view.rules_version)});
   return out;
 }
 
 std::string trainee_csv(const TraineeView& view) {
   std::string out =
-      row({"trainee", "exercise", "level", "input", "rules_sha256", "number", "attempt", "started_utc", "status", "score", "passed"});
+      row({"trainee", "exercise", "level", "input", "rules_sha256", "try", "number", "attempt", "started_utc", "status", "score", "passed",
+           "passed_by_score", "decided_by"});
+  const auto line = [&](const CurveKey& key, const std::string& at, const CurvePoint& p) {
+    return row({field(view.code), field(key.exercise_id), field(key.level), field(key.hand), field(key.rubric_sha256),
+                at, std::to_string(p.number), field(p.uuid), field(p.utc), field(p.status), number(p.score),
+                p.passed ? "1" : "0", p.passed_by_score ? "1" : "0", field(p.decided_by)});
+  };
   for (const CurveView& curve : view.curves)
-    for (std::size_t i = 0; i < curve.points.size(); ++i) {
-      const CurvePoint& p = curve.points[i];
-      out += row({field(view.code), field(curve.key.exercise_id), field(curve.key.level), field(curve.key.hand),
-                  field(curve.key.rubric_sha256), std::to_string(i + 1), field(p.uuid), field(p.utc), field(p.status), number(p.score),
-                  p.passed ? "1" : "0"});
-    }
+    for (std::size_t i = 0; i < curve.points.size(); ++i) out += line(curve.key, std::to_string(i + 1), curve.points[i]);
+  for (const EndedAttempt& ended : view.ended_by_device) out += line(ended.key, "", ended.point);  // they count as no try
   return out;
 }
 
@@ -66,6 +73,11 @@ std::string attempt_csv(const AttemptView& view) {
   const AttemptResult& r = view.result;
   std::string out = row({"attempt", "kind", "name", "value", "unit", "t_s", "severity", "weight", "full_at", "zero_at"});
   out += row({field(r.uuid), "score", "score", number(r.grade.score), "", "", "", "", "", ""});
+  const Verdict verdict = view.verdict();
+  out += row({field(r.uuid), "verdict", "passed", verdict.passed ? "1" : "0", "", "", "", "", "", ""});
+  out += row({field(r.uuid), "verdict", "passed_by_score", verdict.by_score ? "1" : "0", "", "", "", "", "", ""});
+  for (const VerdictOverride& o : view.overrides)
+    out += row({field(r.uuid), "decision", field(o.printed), o.passed ? "1" : "0", "", "", "", "", "", ""});
   for (const Metric& m : r.grade.metrics)
     out += row({field(r.uuid), "metric", field(m.name), number(m.value), field(m.unit), "", "", "", "", ""});
   for (const Subscore& s : r.grade.subscores)

@@ -15,6 +15,7 @@
 #include "trainees/progress/cusum.h"
 #include "trainees/progress/judgement.h"
 #include "trainees/progress/learning_curve.h"
+#include "trainees/progress/rasch.h"
 #include "trainees/progress/retention.h"
 
 namespace trocar {
@@ -82,13 +83,31 @@ struct TraineePicture {
   std::vector<Certificate> certificates = {};    ///< newest first, revoked ones too
   std::vector<Note> notes = {};                  ///< newest first
   std::vector<WeekMinutes> weeks = {};           ///< oldest first; no week between is left out
+  std::vector<PastAttempt> ended_by_device = {}; ///< in no curve, oldest first
   std::optional<double> ability_logit = {}, ability_se = {};   ///< Rasch; only when enough attempts exist and the SE is small
+  int ability_n = 0;                             ///< own attempts that it rests on
   int rasch_attempts = 0;                        ///< of the whole database, that it rests on
+  std::string ability_missing = {};              ///< one sentence, where there is no ability
   std::string rule_version = {};
 };
 
 /// @throws InputError: no such trainee.
 TraineePicture trainee_picture(Database& database, const std::string& code, const ProgressRules& rules, const std::string& now_utc);
+
+/// An item of the Rasch model.
+struct RaschItem {
+  std::string exercise_id, level, hand;
+  RaschEstimate estimate = {};
+};
+struct RaschPicture {
+  int attempts = 0;
+  std::vector<RaschItem> items = {};             ///< easiest first; only with a standard error that the rules allow
+  std::map<std::string, RaschEstimate> abilities = {};   ///< by the trainee's row as text
+  std::vector<std::string> set_aside = {};
+  std::string missing = {};                      ///< one sentence, where nothing can be estimated
+};
+/// Over all attempts of the database, as they count; nothing before the rules' number of attempts.
+RaschPicture rasch_picture(Database& database, const ProgressRules& rules);
 
 inline constexpr int kEarlierAttempts = 50, kExpertAttempts = 10;
 

@@ -44,6 +44,10 @@ int whole_number(const std::string& text, int otherwise) {
   return end == text.c_str() || *end != '\0' || value < 1 || value > 1000000 ? otherwise : static_cast<int>(value);
 }
 
+CurvePoint point_of(const AttemptSummary& s) {
+  return {s.uuid, s.started_utc, s.status, s.score, s.passed, s.row, s.decided_by, s.passed_by_score};
+}
+
 CurveView curve_view(const CurvePicture& picture, const std::map<std::string, std::string>& titles, LevelReader& levels,
                      const ProgressRules& rules) {
   CurveView out;
@@ -53,7 +57,7 @@ CurveView curve_view(const CurvePicture& picture, const std::map<std::string, st
   out.title = title == titles.end() || title->second.empty() ? curve.key.exercise_id : title->second;
   for (const PastAttempt& attempt : curve.attempts) {
     const AttemptSummary& s = attempt.summary;
-    out.points.push_back({s.uuid, s.started_utc, s.status, s.score, s.passed});
+    out.points.push_back(point_of(s));
   }
   out.pass_at = levels.of(curve.key.rubric_sha256, curve.key.level).pass_at;
   out.best = curve.best;
@@ -82,6 +86,7 @@ void add_due(TraineeView& view, const CurvePicture& picture, const std::string& 
   }
 }
 
+/// The first that the query fits. What is not there is said: a page about something else would mislead.
 std::size_t chosen_curve(const std::vector<CurveView>& curves, const Request& request) {
   const std::string exercise = argument(request.query, "exercise"), level = argument(request.query, "level"),
                     hand = argument(request.query, "hand"), rubric = argument(request.query, "rubric");
@@ -91,6 +96,9 @@ std::size_t chosen_curve(const std::vector<CurveView>& curves, const Request& re
         (rubric.empty() || key.rubric_sha256.starts_with(rubric)))
       return i;
   }
+  std::string asked;
+  for (const std::string& part : {exercise, level, hand, rubric}) asked += part.empty() ? "" : (asked.empty() ? "" : ", ") + part;
+  if (!asked.empty()) throw InputError(argument(request.arguments, "code") + " has no attempts that count of " + asked);
   return 0;
 }
 
@@ -145,7 +153,6 @@ void add_readiness(AttemptView& view, Desk& desk, const ProgressRules& rules, co
     if (line.key.hand != view.result.hand || line.key.rubric_sha256 != view.result.rubric_sha256 || !line.certified_utc.empty()) continue;
     for (const Judgement& judgement : line.judgements)
       if (judgement.flag == Flag::kReady) view.ready = judgement;
-    view.ready_reliability = line.reliability;
   }
 }
 
@@ -256,6 +263,12 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   }
   std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
   view.chosen = chosen_curve(view.curves, request);
+  view.page = whole_number(argument(request.query, "page"), 1);
+  for (const PastAttempt& attempt : picture.ended_by_device) {
+    const AttemptSummary& s = attempt.summary;
+    view.ended_by_device.push_back({{s.exercise_id, s.level, s.hand, s.rubric_sha256}, point_of(s)});
+  }
+  view.ability = {picture.ability_logit, picture.ability_se, picture.ability_n, picture.ability_missing};
   for (const WeekMinutes& week : picture.weeks) view.minutes_by_week.emplace_back(week.monday, week.minutes);
   view.notes = std::move(picture.notes);
   view.certificates = std::move(picture.certificates);
@@ -268,6 +281,7 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   const AttemptPicture picture = attempt_picture_data(desk.database, uuid);
   AttemptView view;
   view.result = picture.result;
+  view.number = picture.summary.row;
   view.exercise = exercise_title(desk.database, view.result.exercise_id);
   view.program = picture.program;
   view.finished_utc = picture.finished_utc;
@@ -288,6 +302,8 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   view.ratings = opinions.ratings_of(view.result.uuid);
   for (Note& note : opinions.notes_of(view.result.trainee))
     if (note.attempt_uuid == view.result.uuid) view.notes.push_back(std::move(note));
+  add_certificates(view, desk.database);
+  view.curve_decisions = decisions_of_curve(desk.database, view.result);
   add_rivals(view, picture, is_staff(request));
   const ProgressRules rules = rules_in_force(desk.database);
   view.rules_version = rules.version;

@@ -18,15 +18,23 @@ bool is_staff(const Request& request);
 std::string argument(const std::map<std::string, std::string>& values, const std::string& name, const std::string& otherwise = "");
 
 CohortView cohort_view(Desk& desk, const Request& request);
-/// @throws InputError: no such trainee.
+/// @throws InputError: no such trainee; the query names an exercise, level, input or rubric of which there is no curve.
 TraineeView trainee_view(Desk& desk, const Request& request);
 /// @throws InputError: no such attempt, or still running.
 AttemptView attempt_view(Desk& desk, const Request& request, const std::string& uuid);
 CompareView compare_view(Desk& desk, const Request& request);
+/// Those of the attempt's exercise and level, and those that cite it.
+void add_certificates(AttemptView& view, Database& database);
+std::vector<CurveDecision> decisions_of_curve(Database& database, const AttemptResult& attempt);
+/// JSON. @param view with `ready`.
+std::string certificate_evidence(const AttemptView& view);
+/// @throws InputError: the query names a version of rules that is not kept.
 CurriculumView curriculum_view(Desk& desk, const Request& request);
 
 /// Who would pass today with these rules: competence shown and open to certify.
 std::vector<PassPreview> preview_rules(Desk& desk, const ProgressRules& rules, const std::string& now_utc);
+/// @throws InputError: the version that the text gives itself was used for another text, here or by the program.
+void refuse_taken_version(Desk& desk, const std::string& text, const ProgressRules& rules);
 /// The number that the question asks for, from graded attempts, one value a person; who would reach it.
 BenchmarkProposal propose(Desk& desk, const BenchmarkQuestion& question, const std::string& now_utc);
 

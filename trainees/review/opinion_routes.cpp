@@ -1,5 +1,3 @@
-#include <nlohmann/json.hpp>
-
 #include "haptics/input_error.h"
 #include "trainees/attempt_store.h"
 #include "trainees/rating_scales.h"
@@ -58,14 +56,8 @@ Response rate(const Request& request, Desk& desk) {
 Response certify(const Request& request, Desk& desk) {
   const AttemptView view = attempt_view(desk, request, attempt_of(request, desk));
   if (!view.ready) throw InputError("no certificate: competence at this exercise and level has not been shown, or one is held already");
-  nlohmann::json evidence = {{"attempt", view.result.uuid},
-                             {"row_hash", view.row_hash},
-                             {"words", view.ready->evidence},
-                             {"n", view.ready->n},
-                             {"rules", view.ready->rule_version}};
-  if (view.ready_reliability) evidence["reliability"] = *view.ready_reliability;
   OpinionStore(desk.database)
-      .certify(view.result.trainee, view.result.exercise_id, view.result.level, view.ready->rule_version, evidence.dump(),
+      .certify(view.result.trainee, view.result.exercise_id, view.result.level, view.ready->rule_version, certificate_evidence(view),
                author_of(request));
   return see("/trainee/" + url_part(view.result.trainee) + "#certificates");
 }

@@ -217,6 +217,17 @@ std::string plural(std::int64_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+std::string reliability_text(const std::optional<double>& reliability) {
+  return reliability ? fixed_text(*reliability, 2) : "not known yet";
+}
+
+std::string basis_text(const Judgement& judgement) {
+  return "n = " + std::to_string(judgement.n) + (judgement.decided > 0 ? ", " + std::to_string(judgement.decided) + " by decision" : "") +
+         ", reliability " + reliability_text(judgement.reliability) + ", rules " + judgement.rule_version;
+}
+
+std::string basis_html(const Judgement& judgement) { return "<small class=\"dim\">" + escape_html(basis_text(judgement)) + "</small>"; }
+
 std::string form_begin(const std::string& action_html, const Frame& frame) {
   return "<form method=\"post\" action=\"" + action_html + "\"><input type=\"hidden\" name=\"token\" value=\"" + escape_html(frame.token) +
          "\"/>";

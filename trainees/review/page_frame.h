@@ -55,6 +55,12 @@ std::string score_text(const std::optional<double>& score);
 std::string clock_text(double seconds);
 std::string plural(std::int64_t count, const std::string& one, const std::string& many);
 
+/// What a decision rests on: "n = 16, 2 by decision, reliability 0.84, rules 1".
+std::string basis_text(const Judgement& judgement);
+std::string basis_html(const Judgement& judgement);   ///< small and dim
+/// "0.84", or "not known yet".
+std::string reliability_text(const std::optional<double>& reliability);
+
 /// A certificate's evidence (JSON) as a sentence; text that is no JSON object stays as it is.
 std::string evidence_text(const std::string& json);
 

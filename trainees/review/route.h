@@ -54,6 +54,7 @@ struct DeskSources {
   std::function<std::string(const std::string& metric)> metric_words = {};
   /// What an exercise's file says of a level. @throws InputError: a text or level that cannot be read.
   std::function<LevelFacts(const std::string& exercise_text, const std::string& level)> level_facts = {};
+  std::vector<std::string> metrics = {};   ///< names that benchmarks may be of; empty: those that the exercise's attempts have
   std::string shipped_rules = {};   ///< text of the progress rules that came with the program, where the editor begins
   /// How the desk stands with the centre whose record it serves. Called by several threads at once.
   std::function<CentralStanding()> central = {};

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
 #include "trainees/markup/html.h"
@@ -52,13 +53,17 @@ std::string judgements(const CurveView& curve) {
   if (curve.judgements.empty()) return "<p>" + badge(Flag::kLearning) + " No judgement yet.</p>";
   std::string out = "<ul class=\"judgements\">";
   for (const Judgement& j : curve.judgements)
-    out += "<li>" + badge(j.flag) + " " + escape_html(j.evidence) + " <small class=\"dim\">n = " + std::to_string(j.n) + ", rules " +
-           escape_html(j.rule_version) + "</small></li>";
+    out += "<li>" + badge(j.flag) + " " + escape_html(j.evidence) + " " + basis_html(j) + "</li>";
   return out + "</ul>";
 }
 
+std::int64_t decided_points(const CurveView& curve) {
+  return std::count_if(curve.points.begin(), curve.points.end(), [](const CurvePoint& p) { return !p.decided_by.empty(); });
+}
+
 std::string curve_caption(const CurveView& curve) {
-  std::string out = "Filled: passed; hollow: not passed; cross: no score. A point opens its attempt. ";
+  std::string out = "Filled: passed; hollow: not passed; cross: no score";
+  out += decided_points(curve) > 0 ? "; in a diamond: decided by a person. A point opens its attempt. " : ". A point opens its attempt. ";
   if (curve.points.size() > kPointsDrawn)
     out += "Newest " + std::to_string(kPointsDrawn) + " of " + std::to_string(curve.points.size()) + " attempts. ";
   if (!curve.cohort.empty()) {
@@ -83,11 +88,15 @@ std::string facts(const CurveView& curve) {
     return "<div><dt>" + escape_html(name) + "</dt><dd>" + escape_html(value) + "</dd></div>";
   };
   const Competence competence = competence_of(curve.cusum);
-  std::string out = "<dl class=\"facts\">" + fact("Tries", std::to_string(curve.points.size())) +
-                    fact("Passed", std::to_string(curve.passed)) + fact("In a row", std::to_string(curve.in_a_row)) +
-                    fact("Best", score_text(curve.best)) + fact("Last", score_text(curve.last)) +
-                    fact("Trained", fixed_text(curve.trained_s / 60, 0) + " min");
-  out += fact("Reliability", curve.reliability ? fixed_text(*curve.reliability, 2) : "not known yet");
+  std::string out =
+      "<dl class=\"facts\">" + fact("Tries", std::to_string(curve.points.size())) +
+      fact("Passed",
+           std::to_string(curve.passed) + (decided_points(curve) > 0
+                                               ? " (" + std::to_string(decided_points(curve)) + " decided by a person)"
+                                               : "")) +
+      fact("In a row", std::to_string(curve.in_a_row)) + fact("Best", score_text(curve.best)) +
+      fact("Last", score_text(curve.last)) + fact("Trained", fixed_text(curve.trained_s / 60, 0) + " min");
+  out += fact("Reliability", reliability_text(curve.reliability));
   out += fact("Competence", competence.shown ? "shown" : competence.first_shown ? "lost again" : "not shown yet");
   return out + "</dl>";
 }
@@ -99,20 +108,86 @@ std::string cusum_caption(const CurveView& curve) {
          " inadequate. At the least " + std::to_string(shortest_run(curve.rule)) + " passes in a row.";
 }
 
-std::string attempts_table(const CurveView& curve) {
-  constexpr std::size_t kShown = 12;
+/// A line of the list: an attempt of the curve with its place there, or one that the device ended.
+struct ListedAttempt {
+  const CurvePoint* point = nullptr;
+  int place = 0;   ///< 0: in no curve
+};
+
+/// Newest first.
+std::vector<ListedAttempt> listed(const TraineeView& view) {
+  const CurveView& curve = view.curves[view.chosen];
+  std::vector<ListedAttempt> out;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) out.push_back({&curve.points[i], static_cast<int>(i) + 1});
+  for (const EndedAttempt& ended : view.ended_by_device)
+    if (ended.key == curve.key) out.push_back({&ended.point, 0});
+  std::reverse(out.begin(), out.end());
+  std::stable_sort(out.begin(), out.end(), [](const ListedAttempt& a, const ListedAttempt& b) { return a.point->utc > b.point->utc; });
+  return out;
+}
+
+std::string result_cell(const ListedAttempt& one) {
+  const CurvePoint& p = *one.point;
+  if (one.place == 0) return shape("void") + "ended by the device, counts for nothing";
+  const std::string verdict = shape(p.passed ? "pass" : "fail") + (p.passed ? "passed" : "not passed");
+  if (!p.decided_by.empty()) return verdict + " by decision of " + escape_html(p.decided_by);
+  return p.score ? verdict : shape("void") + "no score";
+}
+
+std::string attempts_pages(const CurveView& curve, int page, int pages) {
+  if (pages <= 1) return "";
+  std::string out = "<nav class=\"pages\" aria-label=\"Parts of the list\">";
+  for (int n = 1; n <= pages; ++n) {
+    if (n != 1 && n != pages && std::abs(n - page) > 2) {
+      if (std::abs(n - page) == 3) out += "<span>\xE2\x80\xA6</span>";
+      continue;
+    }
+    out += n == page ? "<strong aria-current=\"page\">" + std::to_string(n) + "</strong>"
+                     : link_html(query_html({{"exercise", curve.key.exercise_id},
+                                             {"level", curve.key.level},
+                                             {"hand", curve.key.hand},
+                                             {"rubric", curve.key.rubric_sha256.substr(0, 12)},
+                                             {"page", std::to_string(n)}}) + "#attempts",
+                                 std::to_string(n));
+  }
+  return out + "</nav>";
+}
+
+std::string attempts_table(const TraineeView& view) {
+  constexpr int kShown = 12;
+  const std::vector<ListedAttempt> all = listed(view);
+  const int count = static_cast<int>(all.size()), pages = std::max(1, (count + kShown - 1) / kShown),
+            page = std::clamp(view.page, 1, pages);
   std::string rows;
-  for (std::size_t k = 0; k < curve.points.size() && k < kShown; ++k) {
-    const std::size_t i = curve.points.size() - 1 - k;
-    const CurvePoint& p = curve.points[i];
-    rows += "<tr><th scope=\"row\"><a href=\"/attempt/" + url_part(p.uuid) + "\">Attempt " + std::to_string(i + 1) + "</a></th><td>" +
-            date_html(p.utc) + "</td>" + cell(words_of(p.status)) + number_cell(score_text(p.score)) + "<td>" +
-            (p.score ? shape(p.passed ? "pass" : "fail") + (p.passed ? "passed" : "not passed") : shape("void") + "no score") +
+  for (int k = (page - 1) * kShown; k < count && k < page * kShown; ++k) {
+    const ListedAttempt& one = all[static_cast<std::size_t>(k)];
+    const CurvePoint& p = *one.point;
+    const std::string number = p.number > 0 ? std::to_string(p.number) : "";
+    rows += "<tr><th scope=\"row\"><a href=\"/attempt/" + url_part(p.uuid) + "\">" +
+            (number.empty() ? "Attempt" : "No. " + number) + "</a></th>" +
+            number_cell(one.place > 0 ? std::to_string(one.place) : "\xE2\x80\x93") + "<td>" + date_html(p.utc) +
+            "</td>" + cell(words_of(p.status)) + number_cell(score_text(p.score)) + "<td>" + result_cell(one) +
             "</td></tr>";
   }
   if (rows.empty()) return "";
-  return table(curve.points.size() > kShown ? "Newest " + std::to_string(kShown) + " attempts" : "Attempts, newest first",
-               head_cells({"Attempt", "When", "Ended", ">Score", "Result"}), rows);
+  const std::string caption = pages == 1 ? "Attempts, newest first"
+                                         : "Attempts " + std::to_string((page - 1) * kShown + 1) + " to " +
+                                               std::to_string(std::min(count, page * kShown)) + " of " +
+                                               std::to_string(count) + ", newest first";
+  return table(caption, head_cells({"Attempt", ">Try", "When", "Ended", ">Score", "Result"}), rows) +
+         attempts_pages(view.curves[view.chosen], page, pages);
+}
+
+/// Over all exercises, so that trainees who met different ones can be compared.
+std::string ability(const TraineeView& view) {
+  const AbilityView& a = view.ability;
+  if (!a.logit || !a.standard_error)
+    return "<p class=\"dim\">No ability yet. " + escape_html(a.missing.empty() ? "It has not been computed." : a.missing) + "</p>";
+  return "<p><strong>" + fixed_text(*a.logit, 2) + "</strong> logit, standard error " +
+         fixed_text(*a.standard_error, 2) + ", n = " + std::to_string(a.n) + ", rules " +
+         escape_html(view.rules_version) +
+         "</p><p class=\"dim\">Rasch: an exercise of that difficulty is passed every second time, one that is 1 logit "
+         "easier in 73 of 100 attempts.</p>";
 }
 
 std::string certificates(const TraineeView& view, const Frame& frame) {
@@ -187,9 +262,10 @@ std::string trainee_page(const TraineeView& view, Frame frame) {
                        "</div><div>" + figure(cusum_svg(curve), escape_html(cusum_caption(curve))) + "</div></div>");
   }
   out += "<div class=\"two\"><div>" + notes_section(view.notes, "/trainee/" + url_part(view.code) + "/note", frame);
-  if (view.chosen < view.curves.size()) out += section("attempts", "Attempts", attempts_table(view.curves[view.chosen]));
+  if (view.chosen < view.curves.size()) out += section("attempts", "Attempts", attempts_table(view));
   out += "</div><div>";
-  out += section("time", "Time trained",
+  out += section("ability", "Ability", ability(view)) +
+         section("time", "Time trained",
                  view.minutes_by_week.empty() ? "<p>No time yet.</p>"
                                               : figure(weeks_svg(view.minutes_by_week), "Minutes a week on the exercises' clocks.")) +
          section("due", "Due", due_dates(view)) + section("certificates", "Certificates", certificates(view, frame)) + "</div></div>";

@@ -1,11 +1,12 @@
 // One trainee: curves with the cohort beside them, and what was decided and said.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 
 #include "haptics/input_error.h"
 #include "trainees/cohort.h"
 #include "trainees/progress/calendar.h"
-#include "trainees/progress/rasch.h"
 #include "trainees/review/desk_queries.h"
 #include "trainees/review/desk_rows.h"
 #include "trainees/sqlite_handle.h"
@@ -62,6 +63,12 @@ std::vector<WeekMinutes> weeks_of(const std::vector<PastAttempt>& attempts) {
   return out;
 }
 
+std::string two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
 std::vector<double> newest_scores(const std::vector<double>& scores, int window) {
   return {scores.end() - std::min<std::ptrdiff_t>(window, static_cast<std::ptrdiff_t>(scores.size())), scores.end()};
 }
@@ -73,6 +80,7 @@ std::vector<CurveAttempt> as_facts(const LearningCurve& curve) {
     attempt.started_s = seconds_of_utc(past.summary.started_utc).value_or(0);
     attempt.score = past.summary.score;
     attempt.passed = past.summary.passed;
+    attempt.decided = !past.summary.decided_by.empty();
     out.push_back(attempt);
   }
   return out;
@@ -118,27 +126,37 @@ class TraineeQuery {
   std::map<desk::CertifiedSkill, std::string> certificates_;
 };
 
-/// Abilities over the whole database; an item is exercise, level and input.
-void add_ability(sqlite3* connection, const Trainee& trainee, const ProgressRules& rules, TraineePicture& picture) {
-  std::vector<RaschCell> cells;
-  sql::Statement rows(connection,
-                      "SELECT a.trainee_id, a.exercise_id || ' ' || a.level || ' ' || a.hand, count(*), sum(coalesce(s.passed, 0))"
-                      " FROM attempt a INDEXED BY attempt_by_curve"
-                      " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
-                      " WHERE a.status IN ('completed', 'timeout', 'aborted')"
-                      " GROUP BY a.exercise_id, a.level, a.hand, a.ruleset_sha256, a.trainee_id");
-  while (rows.step()) {
-    cells.push_back({rows.text(0), rows.text(1), static_cast<int>(rows.integer(2)), static_cast<int>(rows.integer(3))});
-    picture.rasch_attempts += cells.back().tries;
+void add_ability(Database& database, const Trainee& trainee, const ProgressRules& rules, TraineePicture& picture) {
+  const RaschPicture rasch = rasch_picture(database, rules);
+  picture.rasch_attempts = rasch.attempts;
+  picture.ability_missing = rasch.missing;
+  if (!rasch.missing.empty()) return;
+  const auto found = rasch.abilities.find(std::to_string(trainee.id));
+  if (found == rasch.abilities.end()) {
+    picture.ability_missing =
+        trainee.attempts == 0
+            ? "No attempt yet."
+            : "There are only passes or only failures so far, or no exercise shared with others: no ability "
+              "can be told.";
+    return;
   }
-  if (picture.rasch_attempts < rules.rasch_least_attempts) return;
-  const auto fit = fit_rasch(cells);
-  if (!fit) return;
-  for (const RaschEstimate& estimate : fit->trainees) {
-    if (estimate.name != std::to_string(trainee.id) || estimate.standard_error >= rules.rasch_largest_se) continue;
-    picture.ability_logit = estimate.logit;
-    picture.ability_se = estimate.standard_error;
+  const RaschEstimate& own = found->second;
+  picture.ability_n = own.n;
+  if (own.standard_error < rules.rasch_largest_se) {
+    picture.ability_logit = own.logit;
+    picture.ability_se = own.standard_error;
+  } else {
+    picture.ability_missing = "Its standard error after " + std::to_string(own.n) + (own.n == 1 ? " attempt" : " attempts") + " is " +
+                              two_digits(own.standard_error) + " logit; it is shown below " + two_digits(rules.rasch_largest_se) + ".";
   }
+}
+
+/// Finished, and in no curve. Oldest first.
+std::vector<PastAttempt> ended_by_device(const std::vector<PastAttempt>& newest_first) {
+  std::vector<PastAttempt> out;
+  std::copy_if(newest_first.rbegin(), newest_first.rend(), std::back_inserter(out),
+               [](const PastAttempt& attempt) { return desk::broken(attempt.summary.status); });
+  return out;
 }
 
 }  // namespace
@@ -166,7 +184,8 @@ TraineePicture trainee_picture(Database& database, const std::string& code, cons
   const OpinionStore opinions(database);
   out.certificates = opinions.certificates_of(trainee->code);
   out.notes = opinions.notes_of(trainee->code);
-  add_ability(database.connection(), *trainee, rules, out);
+  out.ended_by_device = ended_by_device(attempts);
+  add_ability(database, *trainee, rules, out);
   return out;
 }
 

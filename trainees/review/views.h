@@ -14,6 +14,7 @@
 #include "trainees/markup/plots.h"
 #include "trainees/opinions.h"
 #include "trainees/progress/judgement.h"
+#include "trainees/verdicts.h"
 
 namespace trocar::review {
 
@@ -55,7 +56,10 @@ struct CohortView {
 struct CurvePoint {
   std::string uuid = {}, utc = {}, status = {};
   std::optional<double> score = {};
-  bool passed = false;
+  bool passed = false;           ///< as it counts
+  std::int64_t number = 0;       ///< of the attempt in this database
+  std::string decided_by = {};   ///< "" where the score decides
+  bool passed_by_score = false;
 };
 
 /// Quartiles of the cohort at the n-th attempt of each.
@@ -80,6 +84,29 @@ struct CurveView {
   std::optional<double> reliability = {};
 };
 
+/// An attempt that the device ended: in no curve, yet in lists and files.
+struct EndedAttempt {
+  CurveKey key = {};
+  CurvePoint point = {};
+};
+
+/// Rasch: where a trainee or an exercise stands, or the sentence that says what is missing.
+struct AbilityView {
+  std::optional<double> logit = {}, standard_error = {};
+  int n = 0;               ///< own attempts that it rests on
+  std::string missing = {};
+};
+struct DifficultyLine {
+  std::string exercise = {}, level = {}, hand = {};
+  double logit = 0, standard_error = 0;
+  int n = 0;
+};
+struct DifficultyView {
+  std::vector<DifficultyLine> lines = {};   ///< easiest first
+  int attempts = 0;
+  std::string missing = {}, rules_version = {};
+};
+
 struct DueDate {
   std::string exercise = {}, level = {}, utc = {}, why = {};
   bool over = false;
@@ -90,6 +117,9 @@ struct TraineeView {
   std::vector<std::string> groups = {};
   std::vector<CurveView> curves = {};
   std::size_t chosen = 0;                                            ///< curve that is drawn
+  std::vector<EndedAttempt> ended_by_device = {};                    ///< oldest first
+  int page = 1;                                                      ///< of the list of attempts
+  AbilityView ability = {};
   std::vector<std::pair<std::string, double>> minutes_by_week = {};  ///< Monday's date, minutes; oldest first, no week left out
   std::vector<Note> notes = {};                                      ///< newest first
   std::vector<Certificate> certificates = {};
@@ -104,8 +134,21 @@ struct Rival {
   std::optional<double> score = {};
 };
 
+/// The newest decision on an attempt of a curve.
+struct CurveDecision {
+  std::string attempt_uuid = {};
+  VerdictOverride decision = {};
+};
+
+/// A certificate that an attempt's page shows.
+struct CitedCertificate {
+  Certificate certificate = {};
+  bool cites = false;   ///< this very attempt is its evidence
+};
+
 struct AttemptView {
   AttemptResult result = {};
+  std::int64_t number = 0;    ///< in this database
   std::string exercise = {}, program = {}, finished_utc = {}, row_hash = {};
   std::int64_t chain_position = 0;
   double pass_at = 75;
@@ -122,9 +165,13 @@ struct AttemptView {
   std::vector<Note> notes = {};
   std::vector<Rival> rivals = {};
   std::optional<Judgement> ready = {};  ///< evidence for a certificate
-  std::optional<double> ready_reliability = {};
+  std::vector<CitedCertificate> certificates = {};   ///< of this exercise and level, or that cite this attempt; newest first
+  std::vector<CurveDecision> curve_decisions = {};     ///< of this trainee's attempts on the same curve, oldest attempt first
   std::string rules_version = {};
   double late_share = 0.01;  ///< of ticks missed, above which the rules call an attempt late
+  Verdict verdict() const {
+    return verdict_of(result.grade.status, result.grade.passed, overrides.empty() ? std::nullopt : std::optional(overrides.front()));
+  }
   double begin_s() const { return trace && !trace->samples.empty() ? trace->samples.front().t_s : 0; }
 };
 
@@ -137,7 +184,8 @@ struct CompareView {
 /// Who would pass with the rules or numbers as they stand in the editor.
 struct PassPreview {
   std::string trainee = {}, exercise = {}, level = {}, why = {};
-  bool passes_now = false, would_pass = false;
+  std::optional<bool> passes_now = false;   ///< nothing: there is nothing now to pass
+  bool would_pass = false;
 };
 
 struct BenchmarkQuestion {
@@ -150,6 +198,9 @@ struct BenchmarkProposal {
   std::string source = {};   ///< who the n were
   std::optional<double> value = {}, mean = {}, deviation = {};
   int n = 0;
+  bool set_by_person = false;                 ///< a fixed number: n is 0, and that is no small sample
+  std::optional<double> reliability = {};     ///< of the persons' means
+  std::string rules_version = {};
   std::vector<PassPreview> preview = {};
 };
 
@@ -160,6 +211,10 @@ struct GroupView {
 
 struct CurriculumView {
   std::vector<Curriculum> versions = {};  ///< newest first
+  std::map<std::string, std::string> own_version = {};   ///< that the text of a version gives itself, by its UUID
+  std::map<std::string, std::string> authors = {};       ///< names by account
+  DifficultyView difficulties = {};
+  std::string rules_version = {};                        ///< in force
   std::string name = "standard", text = {}, problem = {}, saved = {};
   std::optional<std::vector<PassPreview>> preview = {};
   std::vector<Benchmark> benchmarks = {};

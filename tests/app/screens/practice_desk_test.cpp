@@ -12,6 +12,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/board_numbers.h"
 #include "tests/app/screens/desk_bench.h"
+#include "trainees/opinions.h"
 
 namespace trocar {
 namespace {
@@ -142,6 +143,31 @@ TEST(PracticeDesk, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) {
   EXPECT_TRUE(desk->standing(first.id, "L2").unlocked);
   EXPECT_EQ(desk->next().exercise_id, desk->exercises()[1].id) << "all exercises at a level before the next level";
   EXPECT_EQ(desk->next().level, "L1");
+}
+
+TEST(PracticeDesk, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsOpened) {
+  const DeskBench bench;
+  const auto desk = bench.desk();
+  ASSERT_EQ(desk->sign_in("T-1"), "");
+  const Exercise& first = desk->exercises().front();
+  for (const int board : {1001, 1002, 1003}) store(bench.options().database, first, "L1", board, board != 1002);
+  EXPECT_FALSE(desk->standing(first.id, "L2").unlocked);
+  EXPECT_EQ(desk->standing(first.id, "L1").passed, 2);
+  const std::string uuid = desk->past(first.id)[1].summary.uuid;
+  {
+    Database db(bench.options().database);
+    OpinionStore(db).override_verdict(uuid, true, "The stand slipped twice", {"", "Dr B"});
+  }
+  EXPECT_TRUE(desk->standing(first.id, "L2").unlocked);
+  EXPECT_EQ(desk->standing(first.id, "L1").passed, 3);
+  EXPECT_TRUE(desk->past(first.id)[1].summary.passed);
+  desk->notice.clear();
+  ASSERT_TRUE(desk->open_result(uuid));
+  EXPECT_EQ(desk->notice.find("Dr B decided on 20"), 0u) << desk->notice;
+  EXPECT_NE(desk->notice.find("that this attempt is passed: The stand slipped twice"), std::string::npos) << desk->notice;
+  desk->notice.clear();
+  ASSERT_TRUE(desk->open_result(desk->past(first.id)[0].summary.uuid));
+  EXPECT_EQ(desk->notice, "");
 }
 
 TEST(PracticeDesk, ALockedLevelIsRefusedInWords) {

@@ -51,6 +51,25 @@ TEST_F(ProgressPageTest, ShowsCurvePassLineBandAndCusum) {
   expect_clear("progress");
 }
 
+TEST_F(ProgressPageTest, ADecisionHasItsOwnMarkInTheLegendAndIsNamed) {
+  entries_ = {entry("mouse", 12, 5)};
+  PastAttempt& decided = entries_[0].curve.attempts[10];
+  decided.summary.passed = false;
+  decided.summary.passed_by_score = true;
+  decided.summary.decided_by = "Dr Ines Okafor";
+  show();
+  EXPECT_TRUE(says("diamond: decided by a person"));
+  for (int i = 0; i < 10 && page_.chosen_attempt() < 0; ++i) {
+    show(press(kKeyTab));
+    show(press(kKeyLeft));
+  }
+  ASSERT_EQ(page_.chosen_attempt(), 10);
+  show();
+  picture("progress-decided");
+  EXPECT_TRUE(says("(not passed: Dr Ines Okafor decided)"));
+  expect_clear("progress, decided");
+}
+
 TEST_F(ProgressPageTest, InputsAreCurvesOfTheirOwn) {
   entries_ = {entry("mouse", 12, 5), entry("device", 6, 3)};
   show();

@@ -145,6 +145,31 @@ TEST_F(TableExport, TextOfPeopleIsDefused) {
   EXPECT_EQ(cell_of(notes, "", "text"), "On the whole: good") << "a note on the trainee has no attempt";
 }
 
+TEST_F(TableExport, ADecisionCountsAndTheScoresOwnVerdictStandsBesideIt) {
+  const CsvTable before = table(csv(), "attempts");
+  EXPECT_EQ(cell_of(before, first_.uuid, "decided_by"), "");
+  OpinionStore(database_).override_verdict(first_.uuid, false, "The assistant did half of it", {"", "Dr Late"});
+  const CsvTable attempts = table(csv(), "attempts");
+  EXPECT_EQ(cell_of(attempts, first_.uuid, "passed"), "0");
+  EXPECT_EQ(cell_of(attempts, first_.uuid, "passed_by_score"), "1");
+  EXPECT_EQ(cell_of(attempts, first_.uuid, "decided_by"), "Dr Late");
+  EXPECT_EQ(cell_of(attempts, first_.uuid, "score_of_100"), "81.25");
+  const json one = document({})["attempts"][0];
+  EXPECT_EQ(one["passed"], false);
+  EXPECT_EQ(one["passed_by_score"], true);
+  EXPECT_EQ(one["decided_utc"].get<std::string>().size(), 24u);
+}
+
+TEST_F(TableExport, OneAttemptAloneByNumberOrIdentifier) {
+  for (const std::string& name : {std::to_string(second_.row), second_.uuid, second_.uuid.substr(20)}) {
+    const json all = document({"", "", "", name});
+    ASSERT_EQ(all["attempts"].size(), 1u) << name;
+    EXPECT_EQ(all["attempts"][0]["attempt_uuid"], second_.uuid);
+    EXPECT_TRUE(all["notes"].empty()) << "notes on a trainee are of no attempt";
+  }
+  EXPECT_THROW(document({"", "", "", "77"}), InputError);
+}
+
 TEST_F(TableExport, FiltersByTraineeGroupAndExercise) {
   const auto attempts_of = [&](const ExportFilter& filter) {
     std::vector<std::string> uuids;

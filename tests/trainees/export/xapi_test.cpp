@@ -224,6 +224,59 @@ TEST(Cmi5, TheLaunchsMasteryScoreHolds) {
   EXPECT_TRUE(verdict(40, 0.5, true)["result"].contains("score"));
 }
 
+const VerdictOverride kFailed{"01890a5d-0000-7000-8000-0000000000aa", "01890a5d-0000-7000-8000-0000000000bb", "Dr Anna Secret",
+                              "The assistant did half of it", "2026-03-02T10:00:00.000Z", false};
+
+TEST(XapiStatement, ADecisionIsTheSuccessAndIsNamed) {
+  const json before = statement_of(sample_xapi());
+  XapiAttempt attempt = sample_xapi();
+  attempt.decision = kFailed;
+  const json s = statement_of(attempt);
+  EXPECT_EQ(verb_of(s), "failed");
+  EXPECT_EQ(s["result"]["success"], false);
+  EXPECT_EQ(s["result"]["score"]["raw"], 81.25) << "the score never changes";
+  EXPECT_EQ(extension(s, "decision"), (json{{"id", kFailed.uuid},
+                                            {"success", false},
+                                            {"success-by-score", true},
+                                            {"timestamp", kFailed.utc},
+                                            {"authority", kFailed.author}}));
+  EXPECT_EQ(s.dump().find("Secret"), std::string::npos) << "no printed name leaves";
+  EXPECT_TRUE(extension(before, "decision").is_null());
+  attempt.decision->passed = true;
+  const json confirmed = statement_of(attempt);
+  EXPECT_EQ(verb_of(confirmed), "passed");
+  EXPECT_NE(confirmed["id"], before["id"]) << "another content must not bear the identifier of the first";
+  EXPECT_EQ(confirmed["id"], statement_of(attempt)["id"]);
+}
+
+TEST(XapiStatement, WhatWasLeftHasSuccessByDecisionOnly) {
+  XapiAttempt attempt = sample_xapi();
+  attempt.result.grade.score.reset();
+  attempt.result.grade.passed = false;
+  attempt.result.grade.status = AttemptStatus::kAborted;
+  EXPECT_FALSE(statement_of(attempt)["result"].contains("success"));
+  attempt.decision = kFailed;
+  attempt.decision->passed = true;
+  EXPECT_EQ(verb_of(statement_of(attempt)), "passed");
+  attempt.result.grade.status = AttemptStatus::kVoid;
+  EXPECT_EQ(verb_of(statement_of(attempt)), "attempted") << "what the device ended counts for nothing";
+}
+
+TEST(Cmi5, ADecisionHoldsAndAScoreThatContradictsItIsLeftOut) {
+  XapiAttempt attempt = sample_xapi();
+  attempt.decision = kFailed;
+  const json failed = sound(cmi5_statements(attempt, sample_launch(0.8)).back());
+  EXPECT_EQ(verb_of(failed), "failed");
+  EXPECT_FALSE(failed["result"].contains("score"));
+  attempt = sample_xapi(60);
+  attempt.decision = kFailed;
+  EXPECT_TRUE(sound(cmi5_statements(attempt, sample_launch(0.8)).back())["result"].contains("score")) << "both say failed";
+  attempt.decision->passed = true;
+  const json passed = sound(cmi5_statements(attempt, sample_launch(0.8)).back());
+  EXPECT_EQ(verb_of(passed), "passed");
+  EXPECT_FALSE(passed["result"].contains("score"));
+}
+
 TEST(Cmi5, SaysNothingOfWhatCarriesNoScore) {
   XapiAttempt attempt = sample_xapi();
   attempt.result.grade.score.reset();

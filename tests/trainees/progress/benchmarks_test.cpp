@@ -119,5 +119,31 @@ TEST(Benchmarks, RulesHaveNames) {
   EXPECT_STREQ(benchmark_rule_name(BenchmarkRule::kMeanLessSds), "mean - SD");
 }
 
+TEST(LawfulRange, EveryKindOfMetricHasItsOwn) {
+  struct Row { const char *metric, *words; std::vector<double> good, bad; };
+  for (const Row& row : {Row{"score", "from 0 to 100", {0, 75, 100}, {-0.1, 100.1, NAN, INFINITY}},
+                         {"idle_share", "from 0 to 1", {0, 1}, {-0.01, 1.01}},
+                         {"economy", "from 0 to 1", {0.5}, {1.2}},
+                         {"force_max_n", "0 or more", {0, 4000}, {-1, INFINITY}},
+                         {"angle_error_deg", "from 0 to 180", {180}, {181, -1}},
+                         {"sparc", "0 or less", {-2.5, 0}, {0.1}}}) {
+    const LawfulRange range = lawful_range(row.metric);
+    EXPECT_EQ(range_words(range), row.words) << row.metric;
+    for (const double value : row.good) EXPECT_TRUE(lawful(range, value)) << row.metric << " " << value;
+    for (const double value : row.bad) EXPECT_FALSE(lawful(range, value)) << row.metric << " " << value;
+  }
+}
+
+TEST(ReliabilityOfMeans, IsWhatChanceWithinLeavesOfTheSpreadBetween) {
+  // Means 10, 20, 30: variance 100. Within: 9, 10, 11 (variance 1) each, of the mean 1/3: (100 - 1/3) / 100.
+  const std::vector<std::vector<double>> clear{{9, 10, 11}, {19, 20, 21}, {29, 30, 31}};
+  ASSERT_TRUE(reliability_of_means(clear));
+  EXPECT_NEAR(*reliability_of_means(clear), 1 - 1.0 / 300, 1e-12);
+  EXPECT_EQ(*reliability_of_means({{0, 50, 100}, {1, 51, 101}, {2, 52, 102}}), 0) << "chance alone explains it";
+  EXPECT_FALSE(reliability_of_means({{9, 10, 11}, {19, 20, 21}}));
+  EXPECT_FALSE(reliability_of_means({{9, 10, 11}, {19, 20, 21}, {30}}));
+  EXPECT_FALSE(reliability_of_means({{5, 5, 5}, {5, 5, 5}, {5, 5, 5}})) << "nothing to tell apart";
+}
+
 }  // namespace
 }  // namespace trocar

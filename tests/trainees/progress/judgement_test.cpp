@@ -177,5 +177,23 @@ TEST(Flags, HaveNamesThatReadBack) {
   EXPECT_FALSE(flag_named("perfect"));
 }
 
+TEST(Judgements, SayReliabilityAndHowManyWereDecided) {
+  std::vector<CurveAttempt> all = attempts("f" + kShown);
+  all[0].decided = all[5].decided = true;
+  const std::vector<Judgement> found = judge(all, {}, 0.84, "", kNow);
+  ASSERT_EQ(flags(found).find("ready"), 0u) << flags(found);
+  EXPECT_EQ(found[0].reliability, 0.84);
+  EXPECT_EQ(found[0].decided, 2);
+  ProgressRules no_plateau;
+  no_plateau.plateau_window = 1000;
+  const std::vector<Judgement> stuck = judge(attempts("Pffffff"), no_plateau, {}, "", kNow);
+  ASSERT_EQ(flags(stuck), "stuck");
+  EXPECT_FALSE(stuck[0].reliability);
+  EXPECT_EQ(stuck[0].decided, 0);
+  all = attempts("Pffffff");
+  all[0].decided = true;
+  EXPECT_EQ(judge(all, no_plateau, {}, "", kNow)[0].decided, 0) << "the first is none of the six that it rests on";
+}
+
 }  // namespace
 }  // namespace trocar

@@ -137,7 +137,9 @@ TEST(AttemptPage, CertificateOnlyWithItsEvidence) {
   view.ready = judged(Flag::kReady, "14 passes in a row, reliability 0.84", 16);
   page = check_page(attempt_page(view, sample_frame()));
   EXPECT_TRUE(posts(page, "/certify"));
-  EXPECT_NE(page.by_id("sign")->text.find("14 passes in a row, reliability 0.84 n = 16, rules 1"), std::string::npos);
+  EXPECT_NE(
+      page.by_id("sign")->text.find("14 passes in a row, reliability 0.84 n = 16, reliability not known yet, rules 1"),
+      std::string::npos);
 }
 
 TEST(AttemptPage, ASignatureOfOtherBytesShows) {

@@ -51,7 +51,9 @@ TEST(CohortPage, RowsHaveTheNumbersOfTheirLine) {
   const auto rows = page.all("tr");
   const auto row = std::find_if(rows.begin(), rows.end(), [](const PageElement* r) { return r->text.starts_with("dubois"); });
   ASSERT_NE(row, rows.end());
-  EXPECT_EQ((*row)->text, "duboisunsafe3 of the last 5 attempts went past 4.7 NSurface touch mouseL2770.070.06.3917 Mar 2026");
+  EXPECT_EQ((*row)->text,
+            "duboisunsafe3 of the last 5 attempts went past 4.7 Nn = 5, reliability not known yet, rules 1Surface "
+            "touch mouseL2770.070.06.3917 Mar 2026");
 }
 
 TEST(CohortPage, GravestFirstUnlessAskedOtherwise) {
@@ -186,9 +188,11 @@ TEST(CohortCsv, OneLineEachInTheOrderShown) {
   view.lines = {sample_line("bo", {50, 0.1 + 0.2}, {judged(Flag::kStuck, "5 tries, \"none\" passed")}), sample_line("=cmd|x", {}, {})};
   const std::string csv = cohort_csv(view);
   EXPECT_EQ(csv,
-            "trainee,name,exercise,level,input,tries,best,last,pass_at,peak_force_n,over_force,last_utc,states,evidence,rules\r\n"
-            "bo,,surface-touch,L2,mouse,2,50,0.30000000000000004,75,,0,2026-03-12T09:30:00Z,stuck,\"5 tries, \"\"none\"\" passed\",1\r\n"
-            "'=cmd|x,,surface-touch,L2,mouse,0,,,75,,0,2026-03-10T09:30:00Z,,,1\r\n");
+            "trainee,name,exercise,level,input,tries,best,last,pass_at,peak_force_n,over_force,last_utc,states,"
+            "evidence,n,decided,reliability,rules\r\n"
+            "bo,,surface-touch,L2,mouse,2,50,0.30000000000000004,75,,0,2026-03-12T09:30:00Z,stuck,\"5 tries, "
+            "\"\"none\"\" passed\",5,0,,1\r\n"
+            "'=cmd|x,,surface-touch,L2,mouse,0,,,75,,0,2026-03-10T09:30:00Z,,,0,0,,1\r\n");
 }
 
 TEST(Spark, PassLineAndPointsShareTheScale) {

@@ -68,6 +68,20 @@ TEST_P(DeskRoles, OwnDataIsOpenToItsTrainee) { expect_refusals(true); }
 
 TEST_P(DeskRoles, ForeignDataIsClosedToTrainees) { expect_refusals(false); }
 
+TEST_P(DeskRoles, NumbersAndPartsOfIdentifiersOpenNoMoreThanTheWholeOnes) {
+  const AttemptStore store(database_);
+  const std::string own = GetParam() ? "/attempt/" : "/own/attempt/";
+  for (const AttemptSummary& attempt : store.list()) {
+    for (const std::string& name : {std::to_string(attempt.row), attempt.uuid, attempt.uuid.substr(20)}) {
+      const int status = ask("GET", own + name, visitors_["anna"]).response.status;
+      EXPECT_EQ(status, attempt.trainee == "T-anna" ? 200 : 403) << name << " of " << attempt.trainee;
+      EXPECT_EQ(ask("GET", own + name, visitors_["ines"]).response.status, 200);
+    }
+  }
+  for (const char* name : {"4711", "99", "zzzz", "ffffffff"})
+    EXPECT_EQ(ask("GET", own + name, visitors_["anna"]).response.status, 403) << name;
+}
+
 TEST_P(DeskRoles, NothingPostedWithoutTheRightToken) {
   const Visitor foreign = signed_in("ines");
   for (const Route& route : routes()) {

@@ -45,7 +45,8 @@ TEST(TraineePage, CaptionSaysWhereTheBenchmarkComesFrom) {
 
 TEST(TraineePage, JudgementsCarryEvidenceCountAndRule) {
   const CheckedPage page = check_page(trainee_page(sample_trainee(), sample_frame()));
-  EXPECT_EQ(page.all("ul", "judgements")[0]->text, "plateau +1.2 points over the newest 6 attempts n = 6, rules 1");
+  EXPECT_EQ(page.all("ul", "judgements")[0]->text,
+            "plateau +1.2 points over the newest 6 attempts n = 6, reliability not known yet, rules 1");
 }
 
 TEST(TraineePage, NotesThreadWithForm) {
@@ -164,8 +165,9 @@ TEST(TraineeCsv, OneLineAnAttempt) {
   view.curves.resize(1);
   view.curves[0].points.resize(1);
   EXPECT_EQ(trainee_csv(view),
-            "trainee,exercise,level,input,rules_sha256,number,attempt,started_utc,status,score,passed\r\nbo,surface-touch,L2,mouse," +
-                std::string(64, 'a') + ",1,uuid-1,2026-03-10T09:00:00Z,completed,33,0\r\n");
+            "trainee,exercise,level,input,rules_sha256,try,number,attempt,started_utc,status,score,passed,passed_by_score,decided_by\r\n"
+            "bo,surface-touch,L2,mouse," +
+                std::string(64, 'a') + ",1,0,uuid-1,2026-03-10T09:00:00Z,completed,33,0,0,\r\n");
 }
 
 }  // namespace

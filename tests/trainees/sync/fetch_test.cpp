@@ -212,14 +212,19 @@ TEST_F(Desk, HasEverythingAndItsHashesHold) {
   EXPECT_EQ(desk.check(), Lines{});
   EXPECT_EQ(AttemptStore(desk).check_recordings(), Lines{});
   Database north = station("north");
+  int decided = 0;
   for (const AttemptSummary& here : AttemptStore(north).list()) {
     const AttemptStore store(desk);
     const AttemptSummary there = store.find(here.uuid);
     EXPECT_EQ(there.score, here.score);
+    EXPECT_EQ(there.passed, here.passed) << "decisions travel";
+    EXPECT_EQ(there.decided_by, here.decided_by);
+    decided += there.decided_by.empty() || there.passed == there.passed_by_score ? 0 : 1;
     EXPECT_EQ(store.load(there.row).grade.metrics.size(), AttemptStore(north).load(here.row).grade.metrics.size());
     EXPECT_EQ(store.load(there.row).events.at(0).t_s, AttemptStore(north).load(here.row).events.at(0).t_s);
     EXPECT_EQ(OpinionStore(desk).signatures_of(here.uuid).size(), OpinionStore(north).signatures_of(here.uuid).size());
   }
+  EXPECT_EQ(decided, 1) << "one of north's is passed by decision alone";
   EXPECT_TRUE(replicate_central(desk, central_).added.empty());
   EXPECT_EQ(count(desk, "station"), 3);
 }
