@@ -26,11 +26,12 @@ p{margin:.3em 0}
 .facts div{break-inside:avoid}
 dd{margin:0;font-weight:700}
 .mono,.mono dd{font:.78rem/1.4 "DejaVu Sans Mono",Consolas,monospace;font-weight:400}
-table{table-layout:fixed;border-collapse:collapse;width:100%;margin:.5em 0 1em;font-size:.86rem}
+table{border-collapse:collapse;width:100%;margin:.5em 0 1em;font-size:.86rem}
 caption{text-align:left;padding-bottom:4px}
 th{text-align:left;vertical-align:bottom;border-bottom:1.5px solid #14191f;padding:3px 8px 3px 0}
-td{vertical-align:top;white-space:pre-line;border-bottom:1px solid #d9dee4;padding:4px 8px 4px 0}
-.n{text-align:right}
+td{vertical-align:top;white-space:pre-line;overflow-wrap:anywhere;border-bottom:1px solid #d9dee4;padding:4px 8px 4px 0}
+.n{text-align:right;white-space:nowrap;overflow-wrap:normal}
+th.n{white-space:normal}
 thead{display:table-header-group}
 tr,figure,.verdict,.sheet{break-inside:avoid}
 h2,h3{break-after:avoid}

@@ -6,6 +6,7 @@ namespace trocar::printed {
 namespace {
 
 constexpr double kBody = 9.4, kSmall = 7.8, kLabel = 7.2, kGap = 14;
+constexpr double kKeptWhole = 200;   // facts up to this height are not parted
 
 double figure_width(const Figures& figures, const Figure& figure) {
   return (PageFlow::kContent - kGap * static_cast<double>(figures.all.size() - 1)) * figure.share;
@@ -38,10 +39,17 @@ double fact_row_height(PageFlow& flow, const Facts& facts, std::size_t from) {
   return highest + PageFlow::leading(kLabel) + 5;
 }
 
-double verdict_reason_width() { return PageFlow::kContent - 240; }
+/// Word, reason and number stand side by side.
+constexpr double kVerdictWord = 140, kVerdictNumber = 136, kVerdictReason = PageFlow::kContent - kVerdictWord - kVerdictNumber;
+
+double facts_height(PageFlow& flow, const Facts& facts) {
+  double out = 3;
+  for (std::size_t from = 0; from < facts.pairs.size(); from += static_cast<std::size_t>(facts.columns)) out += fact_row_height(flow, facts, from);
+  return out;
+}
 
 double verdict_height(PageFlow& flow, const Verdict& verdict) {
-  return std::max(46.0, 22 + flow.height_of_words(verdict.reason, Face::kPlain, kBody, verdict_reason_width()));
+  return std::max(46.0, 22 + flow.height_of_words(verdict.reason, Face::kPlain, kBody, kVerdictReason));
 }
 
 }  // namespace
@@ -104,6 +112,7 @@ void put(PageFlow& flow, const Paragraph& paragraph) {
 }
 
 void put(PageFlow& flow, const Facts& facts) {
+  if (const double height = facts_height(flow, facts); height <= kKeptWhole) flow.need(height);
   flow.down(3);
   const double slot = PageFlow::kContent / facts.columns;
   const auto [face, size] = size_of(facts);
@@ -154,14 +163,16 @@ void put(PageFlow& flow, const Verdict& verdict) {
   pages.fill(left, flow.y(), PageFlow::kContent, height, kPale);
   pages.fill(left, flow.y(), 5, height, colour_of(verdict.tone));
   const double middle = flow.y() + 0.5 * height;
-  pages.text(left + 16, middle + 6, shortened(printable(verdict.word), 130, pages.measure(Face::kBold, 17)), Face::kBold, 17,
+  pages.text(left + 16, middle + 6, shortened(printable(verdict.word), kVerdictWord - 26, pages.measure(Face::kBold, 17)), Face::kBold, 17,
              colour_of(verdict.tone));
-  const auto lines = wrapped(printable(verdict.reason), verdict_reason_width(), pages.measure(Face::kPlain, kBody));
+  const auto lines = wrapped(printable(verdict.reason), kVerdictReason, pages.measure(Face::kPlain, kBody));
   double base = middle - 0.5 * PageFlow::leading(kBody) * static_cast<double>(lines.size()) - 0.3 * kBody;
-  for (const std::string& line : lines) pages.text(left + 150, base += PageFlow::leading(kBody), line, Face::kPlain, kBody, kInk);
-  pages.text_right(PageFlow::kRight - 12, middle + (verdict.under_number.empty() ? 6 : 1), printable(verdict.number), Face::kBold, 17,
+  for (const std::string& line : lines) pages.text(left + kVerdictWord, base += PageFlow::leading(kBody), line, Face::kPlain, kBody, kInk);
+  pages.text_right(PageFlow::kRight - 8, middle + (verdict.under_number.empty() ? 6 : 1), printable(verdict.number), Face::kBold, 17,
                    kInk);
-  pages.text_right(PageFlow::kRight - 12, middle + 13, printable(verdict.under_number), Face::kPlain, kSmall, kDim);
+  const double room = kVerdictNumber - 20;
+  pages.text_right(PageFlow::kRight - 8, middle + 13, shortened(printable(verdict.under_number), room, pages.measure(Face::kPlain, kSmall)),
+                   Face::kPlain, kSmall, kDim);
   flow.down(height + 8);
 }
 
@@ -170,7 +181,7 @@ double least_height(PageFlow& flow, const Block& block) {
   if (const auto* picture = std::get_if<Picture>(&block))
     return flow.pages().height_of_picture(picture->png, PageFlow::kContent * picture->share) + 20;
   if (const auto* verdict = std::get_if<Verdict>(&block)) return verdict_height(flow, *verdict);
-  if (const auto* facts = std::get_if<Facts>(&block)) return facts->pairs.empty() ? 0 : fact_row_height(flow, *facts, 0);
+  if (const auto* facts = std::get_if<Facts>(&block)) return std::min(facts_height(flow, *facts), kKeptWhole);
   if (std::holds_alternative<Table>(block)) return 78;
   return 2 * PageFlow::leading(kBody);
 }

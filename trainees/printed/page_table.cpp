@@ -8,7 +8,7 @@
 namespace trocar::printed {
 namespace {
 
-constexpr double kSize = 8.0, kMonoSize = 6.8, kHeadSize = 7.2, kPad = 5, kRowPad = 4.4, kDrawnHeight = 21;
+constexpr double kSize = 8.0, kMonoSize = 6.8, kHeadSize = 7.2, kPad = 5, kRowPad = 4.4, kDrawnHeight = 21, kUsualWord = 58;
 constexpr int kMostLines = 8;
 
 Face face_of(const Column& column) { return column.mono ? Face::kMono : Face::kPlain; }
@@ -17,9 +17,7 @@ double size_of(const Column& column) { return column.mono ? kMonoSize : kSize; }
 class TableOnPages {
  public:
   TableOnPages(PageFlow& flow, const Table& table) : flow_(flow), table_(table) {
-    double all = 0;
-    for (const Column& column : table.columns) all += column.share;
-    for (const Column& column : table.columns) widths_.push_back(PageFlow::kContent * column.share / std::max(all, 1e-9));
+    set_widths();
   }
 
   void draw() {
@@ -38,6 +36,53 @@ class TableOnPages {
   }
 
  private:
+  /// Room for the longest word of the head and of the cells, but for hashes and words that are longer than usual.
+  double least_width(std::size_t column) const {
+    const PdfPages& pages = flow_.pages();
+    const auto longest = [&](std::string words, Face face, double size) {
+      words = printable(words);
+      std::replace(words.begin(), words.end(), ' ', '\n');
+      double out = 0;
+      for (const std::string& word : wrapped(words, PageFlow::kContent, pages.measure(face, size)))
+        out = std::max(out, pages.width_of(word, face, size));
+      return out;
+    };
+    double out = longest(table_.columns[column].title, Face::kBold, kHeadSize);
+    const Column& about = table_.columns[column];
+    for (const auto& row : table_.rows) {
+      if (about.mono || column >= row.size()) continue;
+      const double wide = longest(row[column].words, face_of(about), size_of(about));
+      out = std::max(out, about.number ? wide : std::min(wide, kUsualWord));
+    }
+    return std::min(out + kPad + 0.5, 2 * PageFlow::kContent / static_cast<double>(table_.columns.size()));
+  }
+
+  /// By the shares, yet none narrower than its least, where all of these have room.
+  void set_widths() {
+    const std::size_t count = table_.columns.size();
+    std::vector<double> least(count, 0);
+    double shares = 0, left = PageFlow::kContent, narrowest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      least[i] = least_width(i);
+      narrowest += least[i];
+      shares += table_.columns[i].share;
+    }
+    if (narrowest > 0.8 * PageFlow::kContent) std::fill(least.begin(), least.end(), 0.0);
+    widths_.assign(count, 0);
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (widths_[i] > 0 || left * table_.columns[i].share / shares >= least[i]) continue;
+        widths_[i] = least[i];
+        left -= least[i];
+        shares -= table_.columns[i].share;
+        again = true;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      if (widths_[i] <= 0) widths_[i] = left * table_.columns[i].share / shares;
+  }
+
   double inner(std::size_t column) const { return widths_[column] - kPad; }
 
   void head(bool again) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "haptics/input_error.h"
+#include "trainees/printed/png_check.h"
 
 namespace trocar::printed {
 namespace {
@@ -67,7 +68,7 @@ struct PdfPages::State {
 
   HPDF_Image image(const std::string& png) {
     const auto [it, added] = pictures.try_emplace(png, nullptr);
-    if (added && png.starts_with("\x89PNG"))
+    if (added && whole_png(png))
       it->second = HPDF_LoadPngImageFromMem(document, reinterpret_cast<const HPDF_BYTE*>(png.data()), static_cast<HPDF_UINT>(png.size()));
     if (it->second == nullptr) HPDF_ResetError(document);  // a broken picture is none
     return it->second;

@@ -1,6 +1,7 @@
 // A report as one HTML file: style and charts inside it, no script, nothing fetched; it prints as it stands.
 #include "trainees/markup/html.h"
 #include "trainees/printed/html_file.h"
+#include "trainees/printed/png_check.h"
 #include "trainees/printed/report.h"
 #include "trainees/printed/svg_shapes.h"
 
@@ -68,7 +69,7 @@ std::string html(const Figures& figures) {
 }
 
 std::string html(const Picture& picture) {
-  if (!picture.png.starts_with("\x89PNG")) return "";
+  if (!whole_png(picture.png)) return "";
   const auto* bytes = reinterpret_cast<const unsigned char*>(picture.png.data());
   return "<figure style=\"width:" + percent(picture.share) + "\"><img alt=\"\" src=\"data:image/png;base64," +
          base64({bytes, picture.png.size()}) + "\"/><figcaption>" + escape_html(picture.caption) + "</figcaption></figure>";

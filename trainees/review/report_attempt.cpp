@@ -74,12 +74,12 @@ void add_traces(std::vector<Block>& out, const AttemptView& view) {
   out.emplace_back(printed::Figures{{{time_plot_svg(plot),
                                       "Force in virtual newtons over time in seconds; marks under it are the events: circle harmless, "
                                       "square minor, triangle major or critical (with a line through the plot).",
-                                      1}}});
+                                      0.8}}});
   std::vector<Figure> squares;
   for (const Projection& projection : {kFromAbove, kFromFront, kFromSide})
     squares.push_back({path_svg(*view.trace, projection, view.limits, -1), std::string("Tip path ") + axes_words(projection), 1.0 / 3});
-  squares.back().caption += ". Ring: start; dot: end. Grey to red and thin to thick: force under, in and above the band, over the limit.";
   out.emplace_back(printed::Figures{std::move(squares)});
+  out.emplace_back(Paragraph{"Ring: start; dot: end. Grey to red and thin to thick: force under, in and above the band, over the limit.", Tone::kQuiet});
 }
 
 Table event_rows(const AttemptView& view) {
@@ -101,11 +101,19 @@ Table metric_rows(const AttemptView& view) {
   Table table{
       "Every number that was computed, and how", {{"Metric", 3}, {"Value", 1.6, true}, {"What it is", 6}}, {}, "None were computed."};
   for (const Metric& metric : view.result.grade.metrics) {
+    if (!metric.value) continue;
     const auto words = view.metric_words.find(metric.name);
-    table.rows.push_back(
-        {metric_title(metric.name), quantity(metric.value, metric.unit), words == view.metric_words.end() ? "" : words->second});
+    table.rows.push_back({metric_title(metric.name), quantity(metric.value, metric.unit), words == view.metric_words.end() ? "" : words->second});
   }
   return table;
+}
+
+/// Names of those that mean nothing here: what this exercise does not ask for.
+std::string undefined_metrics(const AttemptView& view) {
+  std::string out;
+  for (const Metric& metric : view.result.grade.metrics)
+    if (!metric.value) out += (out.empty() ? "Undefined in this attempt: " : ", ") + metric_title(metric.name);
+  return out.empty() ? out : out + ".";
 }
 
 void add_device(std::vector<Block>& out, const AttemptView& view) {
@@ -208,6 +216,7 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
   if (setting.notes) note_blocks(out.blocks, view.notes);
   out.blocks.emplace_back(Heading{"Metrics", 1});
   out.blocks.emplace_back(metric_rows(view));
+  if (const std::string none = undefined_metrics(view); !none.empty()) out.blocks.emplace_back(Paragraph{none, Tone::kQuiet});
   add_device(out.blocks, view);
   add_origin(out.blocks, view);
   append(out.blocks, report_terms(TermsOf::kAttempt, setting.rules));

@@ -101,7 +101,7 @@ Table trainee_table(const std::vector<CohortEntry>& lines) {
        {"Trend", 1.55},
        {"Peak, N", 0.8, true},
        {"Over", 0.7, true},
-       {"Relia- bility", 0.9, true},
+       {"Reliability", 0.9, true},
        {"Last seen", 1.25}},
       {},
       "Nobody has an attempt here yet."};
@@ -197,6 +197,21 @@ Table exclusion_table(const CohortReportView& view) {
   return table;
 }
 
+/// Of those who have a line.
+Table certificate_table(const CohortReportView& view, const std::vector<CohortEntry>& lines) {
+  Table table{"", {{"Trainee", 2}, {"For", 2.6}, {"Given", 1.3}, {"By", 2}, {"Rules", 0.8}, {"State", 3.4}}, {}, "None was given."};
+  for (const Certificate& c : view.certificates) {
+    const auto line = std::find_if(lines.begin(), lines.end(), [&](const CohortEntry& l) {
+      return l.code == c.trainee && l.exercise_id == c.exercise_id && l.level == c.level;
+    });
+    if (line == lines.end()) continue;
+    table.rows.push_back({shown_name(*line), line->exercise + " " + c.level, printed::day_text(c.utc), c.printed, c.rule_version,
+                          c.revoked_utc.empty() ? Cell("holds", Tone::kGood)
+                                                : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad)});
+  }
+  return table;
+}
+
 }  // namespace
 
 printed::Report cohort_report(const CohortReportView& view, const ReportSetting& setting) {
@@ -207,9 +222,11 @@ printed::Report cohort_report(const CohortReportView& view, const ReportSetting&
   out.subtitle = plural(view.cohort.trainees, "trainee", "trainees") + " with attempts, rules version " + view.cohort.rules_version;
   out.who = view.cohort.asked.group.empty() ? "all groups" : "group " + view.cohort.asked.group;
   for (const CohortEntry& line : view.cohort.lines) out.newest_utc = std::max(out.newest_utc, line.last_utc);
+  for (const Certificate& c : view.certificates) out.newest_utc = std::max({out.newest_utc, c.utc, c.revoked_utc});
   out.mark = mark_of(setting);
   out.blocks = {overview(view, lines), Heading{"Who needs attention, who is ready", 1}, states(view), Heading{"Trainees", 1},
-                trainee_table(lines)};
+                trainee_table(lines),
+                Heading{"Certificates", 1}, certificate_table(view, lines)};
   add_spread(out.blocks, view, skills_of(lines));
   out.blocks.emplace_back(Heading{"Benchmarks", 1});
   out.blocks.emplace_back(benchmark_table(view));

@@ -132,6 +132,7 @@ CohortReportView cohort_report_view(Desk& desk, const std::map<std::string, std:
     if (!known) out.benchmarks.push_back(std::move(b));
   }
   out.exclusions = exclusions_of(desk.database, only.group);
+  out.certificates = OpinionStore(desk.database).certificates_of("");
   return out;
 }
 

@@ -35,6 +35,7 @@ struct CohortReportView {
   CohortView cohort = {};
   std::vector<Benchmark> benchmarks = {};     ///< newest of each exercise, level and metric
   std::vector<Exclusion> exclusions = {};
+  std::vector<Certificate> certificates = {};  ///< everybody's, withdrawn ones too
 };
 printed::Report cohort_report(const CohortReportView& view, const ReportSetting& setting);
 

@@ -44,6 +44,9 @@ class PdfFile {
   std::filesystem::path path_;
 };
 
+/// The slanted words across a page, letter by letter: they are meant to lie under the others.
+bool stamped(const WordBox& box) { return box.y1 - box.y0 > 40; }
+
 }  // namespace
 
 std::string squeezed(const std::string& text) { return std::regex_replace(text, std::regex("\\s+"), " "); }
@@ -85,7 +88,7 @@ std::vector<std::string> collisions(const std::string& bytes) {
       // A box is as high as the font's tallest letter: the letters themselves fill the middle.
       const double wide = std::min(a.x1, b.x1) - std::max(a.x0, b.x0), high = std::min(a.y1, b.y1) - std::max(a.y0, b.y0);
       const double least = std::min(a.y1 - a.y0, b.y1 - b.y0);
-      if (wide > 0.8 && high > 0.34 * least && a.words != "DEMO" && b.words != "DEMO" && a.words != "WITHDRAWN" && b.words != "WITHDRAWN")
+      if (wide > 0.8 && high > 0.34 * least && !stamped(a) && !stamped(b))
         out.push_back("page " + std::to_string(a.page + 1) + ": " + a.words + " / " + b.words);
     }
   return out;
@@ -94,7 +97,7 @@ std::vector<std::string> collisions(const std::string& bytes) {
 std::vector<std::string> outside(const std::string& bytes, double margin) {
   std::vector<std::string> out;
   for (const WordBox& w : word_boxes(bytes))
-    if ((w.x0 < margin || w.x1 > 595.3 - margin || w.y0 < margin || w.y1 > 841.9 - margin) && w.words != "DEMO" && w.words != "WITHDRAWN")
+    if (!stamped(w) && (w.x0 < margin || w.x1 > 595.3 - margin || w.y0 < margin || w.y1 > 841.9 - margin))
       out.push_back("page " + std::to_string(w.page + 1) + ": " + w.words);
   return out;
 }

@@ -117,7 +117,7 @@ TEST(ReportPdf, NothingCollidesOrLeavesThePaperWhateverIsWritten) {
 }
 
 TEST(ReportPdf, AHeadingStaysWithWhatItHeads) {
-  for (int rows = 30; rows < 60; ++rows) {
+  for (int rows = 40; rows < 54; ++rows) {
     Report report = plain();
     report.blocks = {long_table(rows), Heading{"HEADED", 1}, long_table(3, "beneath")};
     for (const std::string& page : read_pdf(pdf_of(report)).pages)

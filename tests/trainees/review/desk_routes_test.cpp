@@ -278,7 +278,8 @@ TEST_F(DeskRoutes, WhoMaySeeWhat) {
   for (const Route& route : desk_routes()) {
     const bool open = route.path == "/style.css" || route.path == "/desk.js";
     const bool own =
-        route.method == "GET" && (route.path.find("{code}") != std::string::npos || route.path.find("{attempt}") != std::string::npos);
+        route.method == "GET" && (route.path.find("{code}") != std::string::npos || route.path.find("{attempt}") != std::string::npos ||
+                                  route.path.find("{certificate}") != std::string::npos);
     EXPECT_EQ(route.audience, open  ? Audience::kEverybody
                               : own ? Audience::kOwnData
                                     : Audience::kInstructors)
