@@ -20,25 +20,26 @@ Frame frame_with(const CentralStanding& central) {
 }
 
 TEST(CentralStanding, IsAtTheFootOfThePage) {
-  const std::string page = document(frame_with({"central.example/trocar", "2026-11-22T13:05:09.123Z"}), "<p>x</p>");
-  EXPECT_TRUE(holds(page, "Central record as of <time datetime=\"2026-11-22T13:05:09.123Z\">13:05:09</time> UTC from central.example/trocar."));
+  const std::string page = document(frame_with({"central.example/trocar", "2026-11-22T13:05:09.123Z"}), "<h1>x</h1>");
+  EXPECT_TRUE(holds(page, "Central record as of <time datetime=\"2026-11-22T13:05:09.123Z\">13:05:09</time> UTC"
+                          " from central.example/trocar."));
   EXPECT_FALSE(holds(page, "cannot be reached"));
   EXPECT_FALSE(holds(page, "class=\"central\""));
   EXPECT_EQ(check_page(page).problems, std::vector<std::string>{});
 }
 
 TEST(CentralStanding, IsNotOnThePagesOfAStationsOwnDesk) {
-  EXPECT_FALSE(holds(document(frame_with({}), "<p>x</p>"), "Central record"));
+  EXPECT_FALSE(holds(document(frame_with({}), "<h1>x</h1>"), "Central record"));
 }
 
 TEST(CentralStanding, ALostCentreIsToldBeforeAnythingElse) {
   CentralStanding lost{"central.example/trocar", "2026-11-21T23:59:58.000Z", "2026-11-22T00:00:03.000Z", "no route", 2};
-  const std::string page = document(frame_with(lost), "<p>x</p>");
+  const std::string page = document(frame_with(lost), "<h1>x</h1>");
   EXPECT_TRUE(holds(page, "<strong>The centre central.example/trocar cannot be reached</strong> since"));
   EXPECT_TRUE(holds(page, ">00:00:03</time> UTC.")) << "today: the clock alone";
   EXPECT_TRUE(holds(page, ">21 Nov 2026, 23:59:58</time> UTC.")) << "another day: with it";
   EXPECT_TRUE(holds(page, "2 things written at this desk are kept here and not at the centre yet."));
-  EXPECT_LT(page.find("cannot be reached"), page.find("<p>x</p>"));
+  EXPECT_LT(page.find("cannot be reached"), page.find("<h1>x</h1>"));
   EXPECT_EQ(check_page(page).problems, std::vector<std::string>{});
   lost.waiting = 1;
   EXPECT_TRUE(holds(document(frame_with(lost), ""), "1 thing written at this desk is kept here and not at the centre yet."));
@@ -51,7 +52,8 @@ TEST(CentralStanding, WhatWaitsIsToldAlsoWhileTheCentreIsThere) {
 }
 
 TEST(CentralStanding, AHostIsTextAndNothingElse) {
-  const std::string page = document(frame_with({"<script>x</script>", "2026-11-22T13:05:09.123Z", "2026-11-22T13:05:09.123Z", "<b>", 0}), "");
+  const std::string utc = "2026-11-22T13:05:09.123Z";
+  const std::string page = document(frame_with({"<script>x</script>", utc, utc, "<b>", 0}), "");
   EXPECT_FALSE(holds(page, "<script>x"));
 }
 
