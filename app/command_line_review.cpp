@@ -30,10 +30,12 @@ void add_serve(CLI::App& review, ReviewServeOptions& o, const Choose& choose) {
   CLI::Option* db = serve->add_option("--db", o.database, "Database file");
   CLI::Option* demo = serve->add_flag("--demo", o.demo, "An invented cohort in a file of its own, made the first time (minutes)");
   demo->excludes(db);
-  CLI::Option* from = serve->add_option("--from", o.from, "postgresql://USER@HOST/DATABASE: the record of all stations, kept fresh in a copy"
-                                                          " (--db FILE, else in the cache)");
+  CLI::Option* from = serve->add_option("--from", o.from, "postgresql://USER@HOST/DATABASE: the record of all stations, kept fresh in a"
+                                                          " copy (--db FILE, else in the cache)");
   from->excludes(demo);
-  serve->add_option("--password-file", o.password_file, "First line: the password of that database (else PGPASSWORD, ~/.pgpass)")->needs(from);
+  CLI::Option* password = serve->add_option("--password-file", o.password_file,
+                                            "First line: the password of that database (else PGPASSWORD, ~/.pgpass)");
+  password->needs(from);
   serve->add_flag("--recordings", o.recordings, "Fetch the recordings that stations pushed, too")->needs(from);
   serve->callback([&o, choose] { choose([&o] { return review_serve(o, std::cout, std::cerr); }); });
 }

@@ -28,9 +28,11 @@ void mark_replica(sqlite3* connection, const std::string& central_uuid) {
 
 void require_no_replica(sqlite3* connection) {
   if (!is_replica(connection)) return;
-  throw InputError("this database is a copy of the record of many stations, for a desk: attempts are not recorded into it."
-                   " Give the station's own with --db FILE, or leave --db out");
+  throw InputError("this database is a copy of the record of many stations, for a desk: attempts are not recorded into it,"
+                   " nor trainees added. Give the station's own with --db FILE, or leave --db out");
 }
+
+void require_no_replica(const Database& database) { require_no_replica(database.connection()); }
 
 std::string origin_sql(const std::string& row, const std::string& trainee) {
   return "coalesce((SELECT detail FROM audit WHERE subject = " + row + " AND action = '" + kActionLinked +

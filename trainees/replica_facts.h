@@ -25,10 +25,12 @@ void mark_replica(sqlite3* connection, const std::string& central_uuid);
 /// UUID of the central database that it is a copy of; "" when it is none, or was made before copies said so.
 std::string replica_of(sqlite3* connection);
 
-/// @throws InputError: attempts are recorded at stations, not into a copy.
+/// @throws InputError: attempts are recorded and trainees added at stations, not in a copy.
 void require_no_replica(sqlite3* connection);
+void require_no_replica(const Database& database);
 
-/// SQL for the UUID of the trainee a row was written of. @param row SQL for the row's UUID. @param trainee for that of the one it stands under.
+/// SQL for the UUID of the trainee a row was written of. @param row SQL for the row's UUID. @param trainee for that of the
+/// one it stands under.
 std::string origin_sql(const std::string& row, const std::string& trainee);
 
 /// Name of the station that made the attempt; "" when this database did.

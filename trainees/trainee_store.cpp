@@ -4,6 +4,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/attempt_identity.h"
+#include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/verdicts.h"
 
@@ -62,6 +63,7 @@ std::int64_t TraineeStore::ensure_id(const std::string& code) {
   check_code(code);
   sql::Statement known(connection_, "SELECT trainee_id FROM person WHERE code = ?");
   if (known.bind(code).step()) return known.integer(0);
+  require_no_replica(connection_);
   const std::string uuid = make_uuid();
   sql::Statement trainee(connection_, "INSERT INTO trainee (uuid, created_utc) VALUES (?, ?)");
   trainee.bind(uuid).bind(utc_now()).run();

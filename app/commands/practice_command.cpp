@@ -14,6 +14,7 @@
 #include "app/interrupt.h"
 #include "app/screens/practice_loop.h"
 #include "app/window/window.h"
+#include "trainees/replica_facts.h"
 
 namespace trocar {
 namespace {
@@ -94,6 +95,8 @@ int practice_command(const PracticeOptions& options, std::ostream& out, std::ost
   if (!options.screens.empty()) return picture_screens(options, out);
   InterruptWatch interrupt;  // before the desk starts a thread: it must inherit what is blocked
   PracticeDesk desk(options.desk, find_assets());
+  // Told now, not after the first exercise.
+  if (desk.database() != ":memory:") require_no_replica(Database(desk.database(), OpenMode::kExisting));
   run_window(options, desk, interrupt, begin, err);
   return 0;
 }

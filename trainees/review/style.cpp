@@ -24,7 +24,7 @@ a:hover{text-decoration-thickness:2px}
 .who{margin:0 0 0 auto;display:flex;gap:10px;align-items:center}
 .who button{background:#33475a;color:#fff;border-color:#6d8296}
 .ribbon{margin:0;padding:6px 18px;background:#5d2a4c;color:#fff}
-.central{background:#fff3d6;border:1px solid #b07c00;border-left-width:6px;border-radius:6px;padding:8px 12px;color:#1d2630}
+.central{margin:12px 0;background:#fff3d6;border:1px solid #b07c00;border-left-width:6px;border-radius:6px;padding:8px 12px;color:#1d2630}
 h1{font-size:1.5rem;margin:0;overflow-wrap:anywhere}
 h2{font-size:1.08rem;margin:0 0 8px}
 h3{font-size:1rem;margin:14px 0 4px}

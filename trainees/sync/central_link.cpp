@@ -173,7 +173,9 @@ void CentralLink::make_schema() {
                            ", this program knows up to " + std::to_string(kCentralVersion) + "); it was left as it is");
   }
   for (const std::string& statement : central_statements(version)) run(statement);
-  if (version == 0) run("INSERT INTO central (uuid, version, revision) VALUES ($1, $2::integer, 0)", {uuid_, std::to_string(kCentralVersion)});
+  if (version == 0) {
+    run("INSERT INTO central (uuid, version, revision) VALUES ($1, $2::integer, 0)", {uuid_, std::to_string(kCentralVersion)});
+  }
   commit();
 }
 

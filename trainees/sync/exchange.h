@@ -1,4 +1,5 @@
-// Pushing and fetching over a connection that is there already: what a desk that is kept fresh does over and over. Internal to trainees/sync.
+// Pushing and fetching over a connection that is there already: what a desk that is kept fresh does over and over.
+// Internal to trainees/sync.
 #pragma once
 
 #include "trainees/sync/central_link.h"

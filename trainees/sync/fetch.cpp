@@ -44,7 +44,8 @@ bool has_place(sqlite3* connection, const CarriedTable& table, const Values& row
   }
   const auto certificate = value_at(table, row, "certificate_uuid");
   if (!certificate) return true;
-  sql::Statement revoked(connection, "SELECT EXISTS (SELECT 1 FROM revocation WHERE certificate_id = c.id) FROM certificate c WHERE uuid = ?");
+  sql::Statement revoked(connection, "SELECT EXISTS (SELECT 1 FROM revocation WHERE certificate_id = c.id) FROM certificate c"
+                                     " WHERE uuid = ?");
   return revoked.bind(*certificate).step() && revoked.integer(0) == 0;
 }
 

@@ -1,8 +1,8 @@
 // People who are known under several trainees, because somebody linked them at the centre. Internal to trainees/sync.
 //
 // Nothing is renamed there: the centre keeps who is the same as whom, and every database puts rows that came from it under one of them, its
-// "home": the lowest UUID among those that have a name here, else among those that are known here. What was linked can be parted again: each
-// moved row keeps, in the audit trail, the trainee it was written of (replica_facts.h). A station's own attempts are never moved.
+// "home": the lowest UUID among those that have a name here, else among those that are known here. What was linked can be parted again:
+// each moved row keeps, in the audit trail, the trainee it was written of (replica_facts.h). A station's own attempts are never moved.
 #pragma once
 
 #include <map>

@@ -27,9 +27,13 @@ Wanted wanted_of(const CarriedTable& table, const KnownHere& known) {
   const std::string listed = "(SELECT json_array_elements_text($2::json))", more = "(SELECT json_array_elements_text($3::json))";
   const std::string attempts = "(SELECT uuid FROM attempt WHERE trainee_uuid IN " + listed + ")";
   if (table.name == "curriculum" || table.name == "benchmark") return {};
-  if (table.name == "note")
-    return {-1, "c.attempt_uuid IN " + attempts + " OR (c.attempt_uuid IS NULL AND c.trainee_uuid IN " + more + ")", {known.own, known.all}};
-  if (table.name == "revocation") return {-1, "c.certificate_uuid IN (SELECT uuid FROM certificate WHERE trainee_uuid IN " + listed + ")", {known.all}};
+  if (table.name == "note") {
+    const std::string on_nothing = "(c.attempt_uuid IS NULL AND c.trainee_uuid IN " + more + ")";
+    return {-1, "c.attempt_uuid IN " + attempts + " OR " + on_nothing, {known.own, known.all}};
+  }
+  if (table.name == "revocation") {
+    return {-1, "c.certificate_uuid IN (SELECT uuid FROM certificate WHERE trainee_uuid IN " + listed + ")", {known.all}};
+  }
   if (table.name == "consent" || table.name == "certificate") return {-1, "c.trainee_uuid IN " + listed, {known.all}};
   return {-1, "c.attempt_uuid IN " + attempts, {known.own}};
 }

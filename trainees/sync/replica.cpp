@@ -98,8 +98,8 @@ class Replica {
     std::map<std::string, bool> missing;
     for (const std::string& uuid : missing_here(*link_, connection_, carried_attempt(), {since_})) missing[uuid] = true;
     std::vector<AttemptThere> wanted;
-    for (const Values& row : link_->run("SELECT uuid, station FROM attempt a WHERE a.seq > $1::bigint ORDER BY station, chain_position, uuid",
-                                        {std::to_string(since_)})) {
+    for (const Values& row : link_->run("SELECT uuid, station FROM attempt a WHERE a.seq > $1::bigint"
+                                        " ORDER BY station, chain_position, uuid", {std::to_string(since_)})) {
       if (missing.contains(*row[0])) wanted.push_back({*row[0], *row[1]});
     }
     for (std::size_t from = 0; from < wanted.size(); from += kAttemptsAtOnce) {

@@ -27,7 +27,8 @@ constexpr std::chrono::seconds kNotedEvery{60};   ///< the time of the last look
 /// Written here by people and not there yet; what came from the centre goes back too, but is not waited for.
 int waiting_here(const Database& database, const std::string& central) {
   sql::Statement row(database.connection(), "SELECT count(*) FROM audit WHERE position > ? AND actor <> ? AND"
-                                            " (action LIKE '% added' OR action IN ('group joined', 'group left')) AND action <> 'account added'");
+                                            " (action LIKE '% added' OR action IN ('group joined', 'group left'))"
+                                            " AND action <> 'account added'");
   row.bind(cursor_of(database, central)).bind(kFromCentre);
   return row.step() ? static_cast<int>(row.integer(0)) : 0;
 }

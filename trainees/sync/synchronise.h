@@ -41,8 +41,8 @@ struct PushReport {
   std::vector<std::string> told = {};      ///< that the centre was put back to an older state
 };
 
-/// @throws InputError: bad address, rows that the centre refuses, identities from a copy for a desk. EnvironmentError: not reached, not let in, connection lost (what was
-/// committed stays), a newer central schema.
+/// @throws InputError: bad address, rows that the centre refuses, identities from a copy for a desk. EnvironmentError: not
+/// reached, not let in, connection lost (what was committed stays), a newer central schema.
 PushReport push_to_central(Database& database, const PushOptions& options);
 
 struct PullReport {
@@ -66,7 +66,9 @@ struct ReplicaOptions {
 /// Everything of all stations into `database`, for a desk of its own. Erasures are always applied. Each row's hash is computed again. From
 /// then on the file takes no attempts (replica_facts.h).
 PullReport replicate_central(Database& database, const ReplicaOptions& options);
-inline PullReport replicate_central(Database& database, const CentralAddress& central) { return replicate_central(database, ReplicaOptions{central}); }
+inline PullReport replicate_central(Database& database, const CentralAddress& central) {
+  return replicate_central(database, ReplicaOptions{central});
+}
 
 struct LinkedPeople {
   std::string one, other;            ///< UUIDs of trainees

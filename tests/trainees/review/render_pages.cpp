@@ -31,6 +31,16 @@ int main(int count, char** words) {
   write("attempt.html", attempt_page(sample_attempt(), frame));
   write("compare.html", compare_page(sample_compare(), frame));
   write("curriculum.html", curriculum_page(sample_curriculum(), frame));
+  frame.central = {"central.example/trocar", frame.now_utc};
+  AttemptView elsewhere = sample_attempt();
+  elsewhere.trace.reset();
+  elsewhere.picture = false;
+  elsewhere.no_trace = "The recording is at station north: without it there are no traces and no pictures here.";
+  write("attempt_elsewhere.html", attempt_page(elsewhere, frame));
+  frame.central.lost_since_utc = frame.now_utc;
+  frame.central.waiting = 2;
+  write("cohort_lost.html", cohort_page(sample_cohort(), frame));
+  frame.central = {};
   frame.demo = true;
   write("station.html", station_page(sample_station(), frame));
   write("cohort_empty.html", cohort_page({}, frame));

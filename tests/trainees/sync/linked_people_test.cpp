@@ -93,19 +93,22 @@ TEST_F(Linked, AreTwoAgainWhenItIsTakenBack) {
 TEST_F(Linked, AreWrittenDownWithWhoSaidSo) {
   link();
   part();
-  EXPECT_EQ(ask("SELECT one, linked, author FROM person_link ORDER BY person_link.seq"), (Lines{annas_ + "|t|Ida Adler", annas_ + "|f|Ida Adler"}));
+  EXPECT_EQ(ask("SELECT one, linked, author FROM person_link ORDER BY person_link.seq"),
+            (Lines{annas_ + "|t|Ida Adler", annas_ + "|f|Ida Adler"}));
   Database copy = station("desk");
   link();
   refresh(copy);
-  EXPECT_EQ(sql::query_integer(copy.connection(), "SELECT count(*) FROM audit WHERE action = 'linked'"), 6) << "3 attempts, note, consent, certificate";
+  EXPECT_EQ(sql::query_integer(copy.connection(), "SELECT count(*) FROM audit WHERE action = 'linked'"), 6)
+      << "3 attempts, note, consent, certificate";
 }
 
 TEST_F(Linked, AMovedRowThatIsChangedIsFound) {
   Database copy = station("desk");
   link();
   refresh(copy);
-  ASSERT_EQ(run_without_triggers(folder_ / "desk.db", "UPDATE metric SET value = 1 WHERE score_id = (SELECT s.id FROM score s JOIN attempt a ON"
-                                                      " a.id = s.attempt_id JOIN audit u ON u.subject = a.uuid AND u.action = 'linked' LIMIT 1)"), "");
+  ASSERT_EQ(run_without_triggers(folder_ / "desk.db",
+                                 "UPDATE metric SET value = 1 WHERE score_id = (SELECT s.id FROM score s JOIN attempt a ON"
+                                 " a.id = s.attempt_id JOIN audit u ON u.subject = a.uuid AND u.action = 'linked' LIMIT 1)"), "");
   EXPECT_NE(problems_of(copy).find("of another station was changed"), std::string::npos) << problems_of(copy);
 }
 

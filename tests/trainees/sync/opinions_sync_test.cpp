@@ -6,6 +6,7 @@
 #include "trainees/erasure.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/sync/links.h"
+#include "trainees/trainee_store.h"
 
 namespace trocar {
 namespace {
@@ -72,7 +73,8 @@ TEST_F(Opinions, DecisionsOfTheDeskStandAtTheStation) {
   said.add_rating(attempt, "GOALS", "depth perception", 4, kTeacher);
   said.override_verdict(attempt, true, "The camera was knocked over.", kTeacher);
   const Certificate certificate = said.certify("T-north", "surface-touch", "L1", "1", "{}", kTeacher);
-  EXPECT_EQ(travel(copy, north).added, (std::map<std::string, int>{{"signature", 1}, {"rating", 1}, {"verdict_override", 1}, {"certificate", 1}}));
+  EXPECT_EQ(travel(copy, north).added,
+            (std::map<std::string, int>{{"signature", 1}, {"rating", 1}, {"verdict_override", 1}, {"certificate", 1}}));
   EXPECT_TRUE(OpinionStore(north).overrides_of(attempt).at(0).passed);
   EXPECT_EQ(OpinionStore(north).certificates_of("T-north").at(0).uuid, certificate.uuid);
   said.revoke(certificate.uuid, "The wrong trainee was at the table.", kTeacher);
@@ -190,6 +192,7 @@ TEST_F(Opinions, ACopyTakesNoAttemptsAndSaysWhy) {
   const std::string refused = message_of<InputError>([&] { AttemptStore(copy).begin_attempt(sample_start("T-north")); });
   EXPECT_NE(refused.find("is a copy of the record of many stations"), std::string::npos) << refused;
   EXPECT_NE(refused.find("--db FILE"), std::string::npos) << refused;
+  EXPECT_NE(message_of<InputError>([&] { TraineeStore(copy).ensure_trainee("T-new"); }).find("nor trainees added"), std::string::npos);
   EXPECT_EQ(AttemptStore(copy).list().size(), 4u);
   Database empty = station("empty");  // of a centre that nobody has pushed to yet
   replicate_central(empty, another_central());
