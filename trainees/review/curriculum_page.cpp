@@ -60,8 +60,8 @@ std::string versions(const CurriculumView& view) {
   return section("versions", "Versions",
                  table("Every text that was saved, newest first; the newest of a name holds. The version is the one "
                        "that the text gives itself and that "
-                       "decisions name; \"saved as no.\" counts the texts of a name in this database",
-                       head_cells({"Rules", ">Saved as no.", "Saved", "By", "sha256"}), rows));
+                       "decisions name; No. counts the texts of a name in this database",
+                       head_cells({"Rules", ">No.", "Saved", "By", "sha256"}), rows));
 }
 
 std::string editor(const CurriculumView& view, const Frame& frame) {

@@ -25,11 +25,15 @@ bool may_see_trainee(const Account& account, const std::string& code) {
 }
 
 bool may_see_attempt(const Account& account, Database& database, const std::string& attempt) {
-  if (account.role != Role::kTrainee) return true;
+  return account.role != Role::kTrainee || own_attempt(account, database, attempt);
+}
+
+std::optional<std::string> own_attempt(const Account& account, Database& database, const std::string& attempt) {
   try {
-    return may_see_trainee(account, AttemptStore(database).find(attempt).trainee);
+    const AttemptSummary found = AttemptStore(database).find(attempt);
+    return may_see_trainee(account, found.trainee) ? std::optional(found.uuid) : std::nullopt;
   } catch (const InputError&) {
-    return false;
+    return std::nullopt;
   }
 }
 

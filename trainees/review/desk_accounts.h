@@ -2,6 +2,7 @@
 // does a sign-in still hold, whose is what. Thread: that of the Database.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "trainees/accounts.h"
@@ -20,6 +21,8 @@ bool may_see_trainee(const Account& account, const std::string& code);
 /// By the name that pages take: number, UUID or a part of it. One that is not there, or that fits several, is nobody's:
 /// staff may ask for it, trainees may not.
 bool may_see_attempt(const Account& account, Database& database, const std::string& attempt);
+/// The UUID of a trainee's own attempt of that name; empty for anybody else's, and for one that is not there.
+std::optional<std::string> own_attempt(const Account& account, Database& database, const std::string& attempt);
 
 /// By its whole number; as above.
 bool may_see_certificate(const Account& account, const Database& database, const std::string& certificate_uuid);

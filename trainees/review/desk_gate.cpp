@@ -117,7 +117,7 @@ std::optional<Answer> DeskGate::refuse_posted(Visit& visit) const {
 }
 
 std::optional<Answer> DeskGate::refuse_foreign(Visit& visit) const {
-  const Request& request = visit.request;
+  Request& request = visit.request;
   if (!request.account || request.account->role != Role::kTrainee || visit.found.route->audience == Audience::kEverybody) return {};
   const Account& account = *request.account;
   const auto end = request.arguments.end();
@@ -125,9 +125,13 @@ std::optional<Answer> DeskGate::refuse_foreign(Visit& visit) const {
              certificate = request.arguments.find("certificate");
   const bool none = code == end && attempt == end && certificate == end;
   if (none || (code != end && !may_see_trainee(account, code->second)) ||
-      (attempt != end && !may_see_attempt(account, visit.desk.database, attempt->second)) ||
       (certificate != end && !may_see_certificate(account, visit.desk.database, certificate->second)))
     return refused(403, "You see your own attempts only.");
+  if (attempt != end) {
+    const auto own = own_attempt(account, visit.desk.database, attempt->second);
+    if (!own) return refused(403, "You see your own attempts only.");
+    attempt->second = *own;  // whatever comes in between, the page takes the one that was looked at
+  }
   for (const auto* fields : {&request.query, &request.form, &request.arguments}) {
     for (const auto& [name, value] : *fields) {
       if (names_another(visit.desk.database, value, account.trainee_code)) return refused(403, "You see your own attempts only.");

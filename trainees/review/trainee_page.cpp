@@ -90,10 +90,8 @@ std::string facts(const CurveView& curve) {
   const Competence competence = competence_of(curve.cusum);
   std::string out =
       "<dl class=\"facts\">" + fact("Tries", std::to_string(curve.points.size())) +
-      fact("Passed",
-           std::to_string(curve.passed) + (decided_points(curve) > 0
-                                               ? " (" + std::to_string(decided_points(curve)) + " decided by a person)"
-                                               : "")) +
+      fact("Passed", std::to_string(curve.passed)) +
+      (decided_points(curve) > 0 ? fact("Decided by a person", std::to_string(decided_points(curve))) : "") +
       fact("In a row", std::to_string(curve.in_a_row)) + fact("Best", score_text(curve.best)) +
       fact("Last", score_text(curve.last)) + fact("Trained", fixed_text(curve.trained_s / 60, 0) + " min");
   out += fact("Reliability", reliability_text(curve.reliability));

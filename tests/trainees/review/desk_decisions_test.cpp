@@ -84,7 +84,7 @@ TEST_F(DeskDecisions, ADecisionIsSeenOnEveryPageAndFile) {
   EXPECT_NE(verdict.find("The score says: not yet."), std::string::npos) << verdict;
   EXPECT_NE(verdict.find("56.0 of 100"), std::string::npos) << verdict;
   const std::string curve = text("/trainee/new", "curve"), attempts = text("/trainee/new", "attempts");
-  EXPECT_NE(curve.find("Passed1 (1 decided by a person)"), std::string::npos) << curve;
+  EXPECT_NE(curve.find("Passed1Decided by a person1"), std::string::npos) << curve;
   EXPECT_NE(curve.find("in a diamond: decided by a person"), std::string::npos) << curve;
   EXPECT_NE(attempts.find("passed by decision of Dr Ines Okafor"), std::string::npos) << attempts;
   EXPECT_NE(ask("GET", "/trainee/new").body.find("class=\"decided\""), std::string::npos);
@@ -245,7 +245,7 @@ TEST_F(DeskDecisions, OneVersionOfRulesIsOneText) {
   EXPECT_EQ(save("trial", "version = \"2026-1\"\n").status, 303) << "the same text may bear another name";
   const std::string versions = text("/curriculum", "versions");
   EXPECT_NE(versions.find("standard, version 2026-22"), std::string::npos) << versions << " version 2026-2, saved as no. 2";
-  EXPECT_NE(versions.find("saved as no."), std::string::npos);
+  EXPECT_NE(versions.find("No. counts the texts"), std::string::npos);
 }
 
 TEST_F(DeskDecisions, AttemptsAreFoundByTheNumberThatIsShown) {

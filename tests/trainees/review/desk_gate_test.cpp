@@ -93,8 +93,10 @@ TEST_F(DeskGateTest, TraineesNameNobodyElse) {
   EXPECT_EQ(status("GET", "/own/t-anna", anna), 403);
   EXPECT_EQ(status("GET", own + "/attempt/" + ottos_, anna), 403);
   EXPECT_EQ(status("GET", "/own/T-otto/attempt/" + annas_, anna), 403);
-  EXPECT_EQ(status("GET", "/own/attempt/latest", anna), 403);
-  EXPECT_EQ(status("GET", "/own/attempt/" + annas_.substr(0, 13), anna), 403) << "a part of a UUID may be another's";
+  EXPECT_EQ(status("GET", "/own/attempt/latest", anna), 403) << "otto's";
+  EXPECT_EQ(status("GET", "/own/attempt/" + annas_.substr(20), anna), 200) << "found by a part, and her own";
+  EXPECT_EQ(status("GET", "/own/attempt/" + ottos_.substr(20), anna), 403);
+  EXPECT_EQ(status("GET", "/own/attempt/" + annas_.substr(0, 4), anna), 403) << "fits several";
   EXPECT_EQ(status("GET", "/own", anna), 403) << "a page of nobody's in particular is the staff's";
   const std::string otto = AccountStore(database_).find("otto")->uuid;
   EXPECT_EQ(ask("POST", own, anna, "account=" + otto).response.status, 403);
@@ -140,6 +142,8 @@ TEST_F(DeskGateTest, KnowsWhoseIsWhat) {
   EXPECT_EQ(sign_in_stamp(database_, anna.uuid), stamp);
   EXPECT_EQ(sign_in_stamp(database_, "unknown"), "");
   EXPECT_TRUE(may_see_attempt(anna, database_, annas_));
+  EXPECT_EQ(own_attempt(anna, database_, "1"), annas_) << "the page is given the whole name";
+  EXPECT_EQ(own_attempt(anna, database_, "2"), std::nullopt);
   EXPECT_FALSE(may_see_attempt(anna, database_, ottos_));
   EXPECT_FALSE(may_see_attempt(anna, database_, ""));
   EXPECT_FALSE(names_another(database_, "T-anna", "T-anna"));
