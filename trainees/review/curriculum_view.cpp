@@ -17,9 +17,8 @@ namespace {
 std::vector<PersonValue> person_values(Database& database, const BenchmarkQuestion& q, const std::string& who) {
   const auto part = [&](const std::string& kind) { return who.starts_with(kind) ? who.substr(kind.size()) : std::string(); };
   sql::Statement query(database.connection(), R"sql(
-SELECT t.code, avg(CASE WHEN ?3 = 'score' THEN s.value ELSE m.value END) AS mean
+SELECT t.code, avg(CASE WHEN ?3 = 'score' THEN s.value ELSE (SELECT value FROM metric WHERE score_id = s.id AND name = ?3) END) AS mean
 FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id JOIN score s ON s.attempt_id = a.id AND s.revision = 0
-LEFT JOIN metric m ON m.score_id = s.id AND m.name = ?3
 WHERE a.exercise_id = ?1 AND a.level = ?2 AND a.status IN ('completed', 'timeout') AND (?4 = '' OR a.hand = ?4)
   AND (?5 = '' OR EXISTS (SELECT 1 FROM membership g WHERE g.trainee_id = a.trainee_id AND g.group_name = ?5)) AND (?6 = '' OR t.code = ?6 COLLATE NOCASE)
 GROUP BY t.id HAVING mean IS NOT NULL ORDER BY t.code)sql");

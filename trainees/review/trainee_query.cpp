@@ -126,7 +126,7 @@ void add_ability(sqlite3* connection, const Trainee& trainee, const ProgressRule
                       " FROM attempt a INDEXED BY attempt_by_curve"
                       " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
                       " WHERE a.status IN ('completed', 'timeout', 'aborted')"
-                      " GROUP BY a.exercise_id, a.level, a.hand, a.ruleset_sha256, a.trainee_id");
+                      " GROUP BY a.exercise_id, a.level, a.hand, substr(a.ruleset_sha256, 1, 16), a.trainee_id");
   while (rows.step()) {
     cells.push_back({rows.text(0), rows.text(1), static_cast<int>(rows.integer(2)), static_cast<int>(rows.integer(3))});
     picture.rasch_attempts += cells.back().tries;
