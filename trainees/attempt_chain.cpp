@@ -1,5 +1,7 @@
 #include "trainees/attempt_chain.h"
 
+#include <unordered_set>
+
 #include "haptics/digest/digest.h"
 #include "trainees/audit.h"
 #include "trainees/replica_facts.h"
@@ -23,25 +25,27 @@ constexpr const char* kOfAttempt =
     " WHERE a.id = ?";
 
 constexpr const char* kRows[] = {
-    "SELECT position, t_s, type, severity, object, value, unit, tip_x_m, tip_y_m, tip_z_m FROM event"
-    " WHERE attempt_id = ? ORDER BY position",
-    "SELECT position, name, m.value, unit FROM metric m JOIN score s ON s.id = m.score_id"
-    " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
-    "SELECT position, name, m.value, weight, raw, unit, full_at, zero_at, gate FROM subscore m"
-    " JOIN score s ON s.id = m.score_id WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
+    "SELECT r.id & 1048575, t_s, type, severity, object, value, unit, tip_x_m, tip_y_m, tip_z_m FROM event_row r"
+    " CROSS JOIN event_kind k ON k.id = r.kind_id WHERE r.id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575 ORDER BY r.id",
+    "SELECT position, name, r.value, unit FROM score s CROSS JOIN metric_row r ON r.id BETWEEN s.id << 10 AND s.id << 10 | 1023"
+    " CROSS JOIN metric_kind k ON k.id = r.id & 1023 WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
+    "SELECT r.id & 1023, name, r.value, weight, raw, unit, full_at, zero_at, gate FROM score s"
+    " CROSS JOIN subscore_row r ON r.id BETWEEN s.id << 10 AND s.id << 10 | 1023 CROSS JOIN subscore_kind k ON k.id = r.kind_id"
+    " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY r.id",
     "SELECT position, reason FROM score_cap m JOIN score s ON s.id = m.score_id"
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
 };
 constexpr const char* kRowsSince3[] = {
     "SELECT position, name, first_s, ticks FROM device_warning WHERE attempt_id = ? ORDER BY position",
-    "SELECT position, t_s, from_state, to_state FROM device_transition WHERE attempt_id = ? ORDER BY position",
+    "SELECT r.id & 1048575, t_s, from_state, to_state FROM device_transition_row r CROSS JOIN device_change c ON c.id = r.change_id"
+    " WHERE r.id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575 ORDER BY r.id",
 };
 
 void add_rows(sqlite3* connection, const std::string& query, std::int64_t attempt, std::string& content) {
   sql::Statement rows(connection, query);
   rows.bind(attempt);
   while (rows.step()) {
-    for (int column = 0; column < rows.columns(); ++column) content += rows.canonical(column);
+    for (int column = 0, columns = rows.columns(); column < columns; ++column) rows.append_canonical(column, content);
     content += '\n';
   }
   content += "--\n";
@@ -49,6 +53,7 @@ void add_rows(sqlite3* connection, const std::string& query, std::int64_t attemp
 
 std::string content_of(sqlite3* connection, std::int64_t attempt, std::int64_t version) {
   std::string content;
+  content.reserve(16384);
   add_rows(connection, kAttempt + (version >= 2 ? kAttemptSince2 : "") + kOfAttempt, attempt, content);
   for (const char* query : kRows) add_rows(connection, query, attempt, content);
   if (version < 3) return content;
@@ -102,13 +107,16 @@ void check_erased(sqlite3* connection, std::vector<std::string>& problems) {
 
 /// Attempts of other stations: content, and that what each followed is here too. The chains of several stations lie side by side.
 void check_replicas(sqlite3* connection, std::vector<std::string>& problems) {
+  std::unordered_set<std::string> there;
+  if (sql::query_integer(connection, "SELECT EXISTS (SELECT 1 FROM replica)") == 0) return;
+  sql::Statement known(connection, "SELECT coalesce(r.chain_position, a.chain_position), a.row_hash FROM attempt a"
+                                   " LEFT JOIN replica r ON r.attempt_id = a.id WHERE a.row_hash IS NOT NULL");
+  while (known.step()) there.insert(known.text(0) + " " + known.text(1));
   sql::Statement links(connection, std::string(kLinks) + kOfOthers + " ORDER BY a.id");
   while (links.step()) {
     const std::string name = "attempt " + links.text(1);
     const Link link = link_of(links);
-    sql::Statement before(connection, "SELECT 1 FROM attempt a LEFT JOIN replica r ON r.attempt_id = a.id WHERE a.row_hash = ?"
-                                      " AND coalesce(r.chain_position, a.chain_position) = ?");
-    if (link.position > 1 && !before.bind(link.previous).bind(link.position - 1).step()) {
+    if (link.position > 1 && !there.contains(std::to_string(link.position - 1) + " " + link.previous)) {
       problems.push_back(name + " of another station follows one that is not here");
     }
     const bool erased = links.integer(7) != 0;

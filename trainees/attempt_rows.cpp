@@ -3,6 +3,7 @@
 #include "haptics/input_error.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
+#include "trainees/row_kinds.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/verdicts.h"
 
@@ -19,37 +20,49 @@ Severity severity_of(const std::string& name) {
   throw InputError("database: unknown severity \"" + name + "\"");
 }
 
-void insert_events(sqlite3* connection, std::int64_t attempt, const std::vector<Event>& events) {
-  sql::Statement insert(connection, "INSERT INTO event VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  std::int64_t position = 0;
-  for (const Event& event : events) {
-    insert.bind(attempt).bind(position++).bind(event.t_s).bind(event.type).bind(severity_name(event.severity));
-    insert.bind(event.object).bind(event.value).bind(event.unit);
-    insert.bind(event.tip_T.x()).bind(event.tip_T.y()).bind(event.tip_T.z()).run();
+/// Many rows in a statement, then those that are left one by one: a statement's beginning and end cost more than a row.
+/// @param row "(?, ?)". @param bind binds the parameters of a row, given with its position.
+template <class Row, class Bind>
+void insert_rows(sqlite3* connection, const std::string& table, const std::string& row, const std::vector<Row>& rows, const Bind& bind) {
+  std::size_t position = 0;
+  for (const std::size_t at_once : {std::size_t{20}, std::size_t{1}}) {
+    std::string sql = "INSERT INTO " + table + " VALUES " + row;
+    for (std::size_t k = 1; k < at_once; ++k) sql += ", " + row;
+    while (rows.size() - position >= at_once) {
+      sql::Statement insert(connection, sql);
+      for (std::size_t k = 0; k < at_once; ++k, ++position) bind(insert, rows[position], static_cast<std::int64_t>(position));
+      insert.run();
+    }
   }
+}
+
+void insert_events(sqlite3* connection, std::int64_t attempt, const std::vector<Event>& events) {
+  EventKinds kinds(connection);
+  const auto bind = [&](sql::Statement& insert, const Event& event, std::int64_t position) {
+    insert.bind(attempt).bind(position).bind(event.t_s).bind(kinds.number(event.type, severity_name(event.severity), event.unit));
+    insert.bind(event.object).bind(event.value).bind(event.tip_T.x()).bind(event.tip_T.y()).bind(event.tip_T.z());
+  };
+  insert_rows(connection, "event_row", "(? << 20 | ?, ?, ?, ?, ?, ?, ?, ?)", events, bind);
 }
 
 std::int64_t insert_score(sqlite3* connection, std::int64_t attempt, const Grade& grade) {
   sql::Statement score(connection,
                        "INSERT INTO score (attempt_id, revision, ruleset_sha256, value, passed, grade)"
-                       " SELECT id, 0, ruleset_sha256, ?, ?, ? FROM attempt WHERE id = ? RETURNING id");
-  score.bind(grade.score).bind(grade.passed).bind(grade.grade).bind(attempt).step();
-  const std::int64_t id = score.integer(0);
-  score.run();
-  return id;
+                       " SELECT id, 0, ruleset_sha256, ?, ?, ? FROM attempt WHERE id = ?");
+  score.bind(grade.score).bind(grade.passed).bind(grade.grade).bind(attempt).run();
+  return sql::newest_row(connection);
 }
 
 void insert_grade(sqlite3* connection, std::int64_t score, const Grade& grade) {
-  sql::Statement metric(connection, "INSERT INTO metric VALUES (?, ?, ?, ?, ?)");
+  MetricKinds kinds(connection);
+  insert_rows(connection, "metric_row", "(? << 10 | ?, ?, ?)", grade.metrics, [&](sql::Statement& insert, const Metric& row, std::int64_t position) {
+    insert.bind(score).bind(kinds.number(row.name, row.unit)).bind(position).bind(row.value);
+  });
+  sql::Statement subscore(connection, "INSERT INTO subscore_row VALUES (?1 << 10 | ?2, ?3, ?4, ?5)");
   std::int64_t position = 0;
-  for (const Metric& row : grade.metrics) {
-    metric.bind(score).bind(position++).bind(row.name).bind(row.value).bind(row.unit).run();
-  }
-  sql::Statement subscore(connection, "INSERT INTO subscore VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  position = 0;
   for (const Subscore& row : grade.subscores) {
-    subscore.bind(score).bind(position++).bind(row.name).bind(row.value).bind(row.weight).bind(row.raw);
-    subscore.bind(row.unit).bind(row.full_at).bind(row.zero_at).bind(row.gate).run();
+    if (position > 1023) throw InputError("an attempt has at most 1024 sub-scores");
+    subscore.bind(score).bind(position++).bind(subscore_kind(connection, row)).bind(row.value).bind(row.raw).run();
   }
   sql::Statement cap(connection, "INSERT INTO score_cap VALUES (?, ?, ?)");
   position = 0;
@@ -62,10 +75,10 @@ void insert_device_rows(sqlite3* connection, std::int64_t attempt, const DeviceR
   for (const DeviceWarning& row : device.warnings) {
     warning.bind(attempt).bind(position++).bind(row.name).bind(row.first_s).bind(row.ticks).run();
   }
-  sql::Statement transition(connection, "INSERT INTO device_transition VALUES (?, ?, ?, ?, ?)");
+  sql::Statement transition(connection, "INSERT INTO device_transition_row VALUES (?1 << 20 | ?2, ?3, ?4)");
   position = 0;
   for (const DeviceTransition& row : device.transitions) {
-    transition.bind(attempt).bind(position++).bind(row.t_s).bind(row.from).bind(row.to).run();
+    transition.bind(attempt).bind(position++).bind(row.t_s).bind(device_change(connection, row.from, row.to)).run();
   }
 }
 
@@ -88,8 +101,8 @@ void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& 
 std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {
   std::vector<Event> events;
   sql::Statement rows(connection,
-                      "SELECT t_s, type, severity, object, value, unit, tip_x_m, tip_y_m, tip_z_m FROM event"
-                      " WHERE attempt_id = ? ORDER BY position");
+                      "SELECT t_s, type, severity, object, value, unit, tip_x_m, tip_y_m, tip_z_m FROM event_row r"
+                      " CROSS JOIN event_kind k ON k.id = r.kind_id WHERE r.id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575 ORDER BY r.id");
   rows.bind(attempt);
   while (rows.step()) {
     events.push_back({rows.real(0), rows.text(1), severity_of(rows.text(2)), static_cast<std::int32_t>(rows.integer(3)),
@@ -128,7 +141,9 @@ void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult
 void read_attempt_rows(sqlite3* connection, std::int64_t attempt, AttemptResult& result) {
   result.events = read_events(connection, attempt);
   read_device_rows(connection, attempt, result.device);
-  sql::Statement metrics(connection, std::string("SELECT name, value, unit FROM metric") + kOfScore);
+  sql::Statement metrics(connection, "SELECT name, r.value, unit FROM score s CROSS JOIN metric_row r ON r.id BETWEEN s.id << 10"
+                                     " AND s.id << 10 | 1023 CROSS JOIN metric_kind k ON k.id = r.id & 1023"
+                                     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position");
   metrics.bind(attempt);
   while (metrics.step()) {
     result.grade.metrics.push_back({metrics.text(0), metrics.optional_real(1), metrics.text(2)});

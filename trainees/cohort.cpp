@@ -17,12 +17,11 @@ SELECT t.code, f.exercise_id, f.level, count(*), sum(is_graded), sum(passed),
        (SELECT n.value FROM attempt l LEFT JOIN score n ON n.attempt_id = l.id AND n.revision = 0
           WHERE l.trainee_id = f.trainee_id AND l.exercise_id = f.exercise_id AND l.level = f.level
           AND l.ruleset_sha256 = f.ruleset_sha256 AND l.status IN ('completed', 'timeout') ORDER BY l.id DESC LIMIT 1),
-       avg(CASE WHEN is_graded THEN peak.value END), avg(CASE WHEN is_graded THEN time.value END), max(f.started_utc),
+       avg(CASE WHEN is_graded THEN (SELECT value FROM metric WHERE score_id = f.score_id AND name = ?1) END),
+       avg(CASE WHEN is_graded THEN (SELECT value FROM metric WHERE score_id = f.score_id AND name = ?2) END), max(f.started_utc),
        f.exercise_version, f.ruleset_sha256
 FROM finished f
 JOIN known_trainee t ON t.id = f.trainee_id
-LEFT JOIN metric peak ON peak.score_id = f.score_id AND peak.name = ?1
-LEFT JOIN metric time ON time.score_id = f.score_id AND time.name = ?2
 WHERE ?3 = '' OR t.code = ?3 COLLATE NOCASE
 GROUP BY t.id, f.exercise_id, f.level, f.ruleset_sha256
 ORDER BY t.code, f.exercise_id, f.level, min(f.id)

@@ -11,6 +11,7 @@
 #include "trainees/attempt_chain.h"
 #include "trainees/sealed_rows.h"
 #include "trainees/sqlite_handle.h"
+#include "trainees/statement_cache.h"
 
 namespace trocar {
 namespace {
@@ -22,6 +23,25 @@ void make_folder(const fs::path& file) {
   fs::create_directories(file.parent_path(), error);
   if (error) throw EnvironmentError(file.string() + ": its folder cannot be created: " + error.message());
 }
+
+/// Gives back the room that a migration freed. Where that is not possible now (another program reads, no room for the copy), it stays in
+/// the file and later attempts use it.
+bool compacted(sqlite3* connection) { return sqlite3_exec(connection, "VACUUM", nullptr, nullptr, nullptr) == SQLITE_OK; }
+
+// Rows that say by their number alone whose they are (schema_v5.cpp).
+constexpr const char* kStrays = R"sql(
+SELECT 'event_row', min(id), 'attempt or event_kind' FROM event_row r WHERE NOT EXISTS (SELECT 1 FROM attempt WHERE id = r.id >> 20)
+  OR NOT EXISTS (SELECT 1 FROM event_kind WHERE id = r.kind_id) GROUP BY id >> 20
+UNION ALL SELECT 'device_transition_row', min(id), 'attempt or device_change' FROM device_transition_row r
+  WHERE NOT EXISTS (SELECT 1 FROM attempt WHERE id = r.id >> 20) OR NOT EXISTS (SELECT 1 FROM device_change WHERE id = r.change_id)
+  GROUP BY id >> 20
+UNION ALL SELECT 'metric_row', min(id), 'score or metric_kind' FROM metric_row r
+  WHERE NOT EXISTS (SELECT 1 FROM score WHERE id = r.id >> 10) OR NOT EXISTS (SELECT 1 FROM metric_kind WHERE id = r.id & 1023)
+  GROUP BY id >> 10
+UNION ALL SELECT 'subscore_row', min(id), 'score or subscore_kind' FROM subscore_row r
+  WHERE NOT EXISTS (SELECT 1 FROM score WHERE id = r.id >> 10) OR NOT EXISTS (SELECT 1 FROM subscore_kind WHERE id = r.kind_id)
+  GROUP BY id >> 10
+)sql";
 
 }  // namespace
 
@@ -43,7 +63,7 @@ std::optional<int> schema_of_file(const fs::path& file) {
   return static_cast<int>(sql::query_integer(raw, "PRAGMA user_version"));
 }
 
-void Database::Close::operator()(sqlite3* connection) const { sqlite3_close_v2(connection); }
+void Database::Close::operator()(sqlite3* connection) const { sql::close_connection(connection); }
 
 Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, const Regrade& regrade) {
   if (file != ":memory:") file_ = fs::absolute(file).lexically_normal();
@@ -51,11 +71,13 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, con
   sqlite3_busy_timeout(connection_.get(), busy_timeout_ms);
   if (schema_version() == 1) require_no_running_attempt(connection_.get());
   migration_ = migrate(connection_.get(), file_, shipped_migrations());
+  if (!migration_.backup.empty()) migration_.compacted = compacted(connection_.get());
   if (!in_memory()) enter_wal(busy_timeout_ms);
   // The log is copied back every 4000 pages (16 MB), not every 1000: a commit that has to do it waits for the disk.
   sql::execute(connection_.get(),
                "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 4000;"
                "PRAGMA secure_delete = ON");  // what an erasure takes away is overwritten
+  sql::keep_statements(connection_.get());
   anchor_beginning();
   recovered_ = recover_dead_attempts(connection_.get(), file_, regrade);
   if (!recovered_.empty()) append_anchor(file_, audit_head(connection_.get()));
@@ -126,11 +148,13 @@ std::vector<std::string> Database::check() const {
   while (integrity.step()) {
     if (integrity.text(0) != "ok") problems.push_back("integrity: " + integrity.text(0));
   }
+  const auto add_reference = [&](const std::string& table, const std::string& row, const std::string& to) {
+    problems.push_back("reference: row " + row + " of " + table + " points to nothing in " + to);
+  };
   sql::Statement references(connection_.get(), "PRAGMA foreign_key_check");
-  while (references.step()) {
-    problems.push_back("reference: row " + references.text(1) + " of " + references.text(0) + " points to nothing in " +
-                       references.text(2));
-  }
+  while (references.step()) add_reference(references.text(0), references.text(1), references.text(2));
+  sql::Statement strays(connection_.get(), kStrays);
+  while (strays.step()) add_reference(strays.text(0), strays.text(1), strays.text(2));
   const auto add = [&](const char* what, const std::vector<std::string>& found) {
     for (const std::string& problem : found) problems.push_back(what + problem);
   };

@@ -107,7 +107,8 @@ std::map<std::string, std::string> schema_of(sqlite3* connection) {
 }  // namespace
 
 std::span<const Migration> shipped_migrations() {
-  static const Migration kMigrations[] = {{1, kSchemaV1}, {2, schema_v2()}, {3, kSchemaV3}, {4, schema_v4(), note_migration}};
+  static const Migration kMigrations[] = {{1, kSchemaV1}, {2, schema_v2()}, {3, kSchemaV3}, {4, schema_v4()},
+                                          {5, schema_v5(), note_migration}};
   return kMigrations;
 }
 

@@ -28,6 +28,7 @@ std::span<const Migration> shipped_migrations();
 struct MigrationReport {
   int from = 0, to = 0;          ///< equal when nothing was to do; from is 0 for a new database
   std::filesystem::path backup;  ///< copy made before migrating; empty for a new database or when nothing was done
+  bool compacted = false;        ///< the file was made as small as its content
 };
 
 /// @throws InputError: another application's database. EnvironmentError: a schema newer than `migrations` know.
@@ -51,5 +52,6 @@ extern const char* const kSchemaV1;
 const char* schema_v2();
 extern const char* const kSchemaV3;
 const char* schema_v4();
+const char* schema_v5();
 
 }  // namespace trocar

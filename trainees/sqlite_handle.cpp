@@ -4,10 +4,10 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "haptics/input_error.h"
+#include "trainees/statement_cache.h"
 
 namespace trocar::sql {
 namespace {
@@ -46,10 +46,17 @@ void execute(sqlite3* connection, const char* sql) {
 }
 
 Statement::Statement(sqlite3* connection, std::string_view sql) : connection_(connection) {
-  check(sqlite3_prepare_v2(connection, sql.data(), static_cast<int>(sql.size()), &statement_, nullptr));
+  if (StatementCache::keeps(sql)) cache_ = statements_of(connection);
+  if (cache_) statement_ = cache_->take(sql);
+  if (statement_ != nullptr) return;
+  const unsigned flags = cache_ ? SQLITE_PREPARE_PERSISTENT : 0;
+  check(sqlite3_prepare_v3(connection, sql.data(), static_cast<int>(sql.size()), flags, &statement_, nullptr));
 }
 
-Statement::~Statement() { sqlite3_finalize(statement_); }
+Statement::~Statement() {
+  if (cache_ && statement_ != nullptr) cache_->give_back(statement_);
+  else sqlite3_finalize(statement_);
+}
 
 void Statement::check(int code) {
   if (code != SQLITE_OK) raise(connection_, code, "cannot run a statement");
@@ -126,22 +133,33 @@ std::string_view Statement::view(int column) const {
 }
 
 std::string Statement::canonical(int column) const {
+  std::string out;
+  append_canonical(column, out);
+  return out;
+}
+
+void Statement::append_canonical(int column, std::string& to) const {
+  constexpr char kDigits[] = "0123456789abcdef";
   switch (sqlite3_column_type(statement_, column)) {
     case SQLITE_NULL:
-      return "n;";
+      to += 'n';
+      break;
     case SQLITE_INTEGER:
-      return "i" + std::to_string(integer(column)) + ";";
+      (to += 'i') += std::to_string(integer(column));
+      break;
     case SQLITE_FLOAT: {
-      char hex[20];
-      std::snprintf(hex, sizeof hex, "r%016llx;",
-                    static_cast<unsigned long long>(std::bit_cast<std::uint64_t>(real(column))));
-      return hex;
+      const auto bits = std::bit_cast<std::uint64_t>(sqlite3_column_double(statement_, column));
+      to += 'r';
+      for (int shift = 60; shift >= 0; shift -= 4) to += kDigits[bits >> shift & 15];
+      break;
     }
     default: {
-      const std::string value = text(column);
-      return "t" + std::to_string(value.size()) + ":" + value + ";";
+      const std::string_view value = view(column);
+      ((to += 't') += std::to_string(value.size())) += ':';
+      to += value;
     }
   }
+  to += ';';
 }
 
 std::int64_t query_integer(sqlite3* connection, std::string_view sql) {
@@ -154,14 +172,17 @@ std::string query_text(sqlite3* connection, std::string_view sql) {
   return statement.step() ? statement.text(0) : "";
 }
 
-Transaction::Transaction(sqlite3* connection) : connection_(connection) { execute(connection, "BEGIN IMMEDIATE"); }
+std::int64_t newest_row(sqlite3* connection) { return sqlite3_last_insert_rowid(connection); }
+std::int64_t changes_of(sqlite3* connection) { return sqlite3_total_changes64(connection); }
+
+Transaction::Transaction(sqlite3* connection) : connection_(connection) { Statement(connection, "BEGIN IMMEDIATE").run(); }
 
 Transaction::~Transaction() {
   if (open_) sqlite3_exec(connection_, "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
 void Transaction::commit() {
-  execute(connection_, "COMMIT");
+  Statement(connection_, "COMMIT").run();
   open_ = false;
 }
 

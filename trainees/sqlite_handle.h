@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ namespace trocar::sql {
 /// Runs statements that return nothing of interest.
 void execute(sqlite3* connection, const char* sql);
 
+class StatementCache;
+
+/// Prepared, or taken from the connection's kept ones (statement_cache.h); reset and given back at the end of its scope.
 class Statement {
  public:
   Statement(sqlite3* connection, std::string_view sql);
@@ -58,11 +62,13 @@ class Statement {
   std::string_view view(int column) const;  ///< the same, good until the next step
   /// The value with its type, for hashing: n; i<decimal>; r<16 hex digits of the bits>; t<length>:<bytes>.
   std::string canonical(int column) const;
+  void append_canonical(int column, std::string& to) const;
 
  private:
   void check(int code);
 
   sqlite3* connection_;
+  std::shared_ptr<StatementCache> cache_;
   sqlite3_stmt* statement_ = nullptr;
   int next_parameter_ = 1;
 };
@@ -70,6 +76,10 @@ class Statement {
 /// The single integer that a query gives.
 std::int64_t query_integer(sqlite3* connection, std::string_view sql);
 std::string query_text(sqlite3* connection, std::string_view sql);
+/// Number of the row that this connection inserted last. RETURNING tells it too, by way of a table of its own.
+std::int64_t newest_row(sqlite3* connection);
+/// Rows that this connection has changed since it was opened.
+std::int64_t changes_of(sqlite3* connection);
 
 /// BEGIN IMMEDIATE; rolled back unless committed.
 class Transaction {

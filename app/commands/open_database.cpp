@@ -14,6 +14,7 @@ Database open_database(const std::filesystem::path& file, OpenMode mode, std::os
   if (!migration.backup.empty()) {
     err << database.file().string() << ": migrated from schema " << migration.from << " to " << migration.to
         << "; the old database is kept as " << migration.backup.string() << '\n';
+    if (!migration.compacted) err << database.file().string() << ": its file keeps its size for now; new attempts use the room in it\n";
   }
   for (const RecoveredAttempt& attempt : database.recovered()) {
     if (attempt.status != AttemptStatus::kAborted) {

@@ -15,9 +15,9 @@ class AttemptChain : public TemporaryFolder {
   /// What check() says after the change, with the triggers out of the way.
   std::string after(const std::string& sql) {
     const char* triggers[] = {"attempt_no_update",          "attempt_no_delete",  "attempt_keeps_identity",
-                              "metric_no_update",           "event_no_delete",    "subscore_no_update",
-                              "ruleset_no_update", "event_no_update",    "score_cap_no_update",
-                              "metric_no_delete",           "subscore_no_delete", "score_cap_no_delete",
+                              "metric_row_no_update",       "event_row_no_delete", "subscore_row_no_update",
+                              "ruleset_no_update", "event_row_no_update",    "score_cap_no_update",
+                              "metric_row_no_delete",       "subscore_row_no_delete", "score_cap_no_delete",
                               "score_no_update",            "score_no_delete"};
     for (const char* trigger : triggers) {
       EXPECT_EQ(run_outside(file_, std::string("DROP TRIGGER ") + trigger), "");
@@ -28,8 +28,8 @@ class AttemptChain : public TemporaryFolder {
     return problems;
   }
   static constexpr const char* kRemoveSecond =
-      "DELETE FROM event WHERE attempt_id = 2; DELETE FROM metric WHERE score_id = 2;"
-      "DELETE FROM subscore WHERE score_id = 2; DELETE FROM score_cap WHERE score_id = 2;"
+      "DELETE FROM event_row WHERE id >> 20 = 2; DELETE FROM metric_row WHERE id >> 10 = 2;"
+      "DELETE FROM subscore_row WHERE id >> 10 = 2; DELETE FROM score_cap WHERE score_id = 2;"
       "DELETE FROM score WHERE id = 2; DELETE FROM attempt WHERE id = 2";
   std::filesystem::path file_;
 };
@@ -46,15 +46,15 @@ TEST_F(AttemptChain, ShowsAChangedStatus) {
 }
 
 TEST_F(AttemptChain, ShowsAChangeInTheLastDigitOfAMetric) {
-  EXPECT_NE(after("UPDATE metric SET value = value + 1e-15 WHERE score_id = 1 AND name = 'force_max_n'"), "");
+  EXPECT_NE(after("UPDATE metric_row SET value = value + 1e-15 WHERE id = 1 << 10 | 1"), "");
 }
 
 TEST_F(AttemptChain, ShowsARemovedEvent) {
-  EXPECT_NE(after("DELETE FROM event WHERE attempt_id = 3 AND position = 1").find("was changed"), std::string::npos);
+  EXPECT_NE(after("DELETE FROM event_row WHERE id = 3 << 20 | 1").find("was changed"), std::string::npos);
 }
 
 TEST_F(AttemptChain, ShowsAChangedSubscoreAndCap) {
-  EXPECT_NE(after("UPDATE subscore SET weight = 1 WHERE score_id = 1 AND position = 0;"
+  EXPECT_NE(after("UPDATE subscore_row SET raw = 1 WHERE id = 1 << 10;"
                   "UPDATE score_cap SET reason = '' WHERE score_id = 2"),
             "");
 }

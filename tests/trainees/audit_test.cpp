@@ -30,8 +30,8 @@ class Audit : public TemporaryFolder {
   /// The newest attempt and its rows taken out, the triggers put back as they were.
   void remove_newest(bool with_audit) const {
     std::string sql, restore;
-    for (const char* table : {"event", "metric", "subscore", "score_cap", "score", "device_warning",
-                              "device_transition", "attempt", "audit"}) {
+    for (const char* table : {"event_row", "metric_row", "subscore_row", "score_cap", "score", "device_warning",
+                              "device_transition_row", "attempt", "audit"}) {
       const std::string name = std::string(table) + "_no_delete";
       sqlite3* raw = nullptr;
       sqlite3_open(file_.c_str(), &raw);
@@ -39,9 +39,9 @@ class Audit : public TemporaryFolder {
       sqlite3_close(raw);
       sql += "DROP TRIGGER " + name + ";";
     }
-    sql += "DELETE FROM event WHERE attempt_id = 3; DELETE FROM metric WHERE score_id = 3; DELETE FROM subscore"
-           " WHERE score_id = 3; DELETE FROM score_cap WHERE score_id = 3; DELETE FROM score WHERE id = 3;"
-           "DELETE FROM device_warning WHERE attempt_id = 3; DELETE FROM device_transition WHERE attempt_id = 3;"
+    sql += "DELETE FROM event_row WHERE id >> 20 = 3; DELETE FROM metric_row WHERE id >> 10 = 3; DELETE FROM subscore_row"
+           " WHERE id >> 10 = 3; DELETE FROM score_cap WHERE score_id = 3; DELETE FROM score WHERE id = 3;"
+           "DELETE FROM device_warning WHERE attempt_id = 3; DELETE FROM device_transition_row WHERE id >> 20 = 3;"
            "DELETE FROM attempt WHERE id = 3; UPDATE sqlite_sequence SET seq = 2 WHERE name = 'attempt';";
     if (with_audit) sql += "DELETE FROM audit WHERE position = 4;";
     outside(sql + restore);

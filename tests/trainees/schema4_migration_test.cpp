@@ -1,4 +1,4 @@
-// From schema 3 to 4: every attempt and its hash stay, the new tables are there and guarded, an older program leaves the file alone.
+// From schema 3 on: every attempt and its hash stay, the new tables are there and guarded, an older program leaves the file alone.
 #include <sqlite3.h>
 
 #include <fstream>
@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 class FromSchema3 : public TemporaryFolder {
  protected:
-  FromSchema3() : file_(folder_ / "old.db") { make_schema3(file_, 7); }
+  FromSchema3() : file_(folder_ / "old.db") { make_old_store(file_, 3, 7); }
   fs::path file_;
 };
 
 TEST_F(FromSchema3, EveryAttemptStaysAndTheCutOffOnesAreMarked) {
   Database database(file_);
   EXPECT_EQ(database.migration().from, 3);
-  EXPECT_EQ(database.migration().to, 4);
+  EXPECT_EQ(database.migration().to, 5);
   EXPECT_EQ(database.recovered().size(), 2u) << "the third and the sixth";
   EXPECT_EQ(problems_of(database), "");
   const auto attempts = AttemptStore(database).list();
@@ -53,7 +53,7 @@ TEST_F(FromSchema3, AProgramOfSchema3LeavesTheNewOneAlone) {
   const Migration steps[] = {{1, kSchemaV1}, {2, schema_v2()}, {3, kSchemaV3}};
   const std::string message = message_of<EnvironmentError>([&] { migrate(raw, file_, steps); });
   sqlite3_close(raw);
-  EXPECT_NE(message.find("newer trocar (schema 4, this program knows up to 3); it was left as it is"), std::string::npos) << message;
+  EXPECT_NE(message.find("newer trocar (schema 5, this program knows up to 3); it was left as it is"), std::string::npos) << message;
   std::ifstream after_in(file_, std::ios::binary);
   EXPECT_EQ(std::string((std::istreambuf_iterator<char>(after_in)), {}), before);
 }
@@ -85,7 +85,7 @@ TEST_F(FromSchema3, FromSchema1ItIsOneStepForTheUser) {
   make_schema1(folder_ / "first.db");
   Database database(folder_ / "first.db");
   EXPECT_EQ(database.migration().from, 1);
-  EXPECT_EQ(database.migration().to, 4);
+  EXPECT_EQ(database.migration().to, 5);
   EXPECT_EQ(problems_of(database), "");
   EXPECT_EQ(TraineeStore(database).list().size(), 2u);
 }

@@ -36,7 +36,7 @@ class SchemaMigration : public TemporaryFolder {
 TEST_F(SchemaMigration, KeepsEveryAttemptAndItsHash) {
   Database database(file_);
   EXPECT_EQ(database.migration().from, 1);
-  EXPECT_EQ(database.migration().to, 4);
+  EXPECT_EQ(database.migration().to, 5);
   for (const std::string& problem : database.check()) ADD_FAILURE() << problem;
   AttemptStore store(database);
   const auto attempts = store.list();
@@ -99,7 +99,7 @@ class FromSchema2 : public SchemaMigration {
 TEST_F(FromSchema2, TwoSittingsOfOneBoardStayAndAThirdIsRefused) {
   Database database(file_);
   EXPECT_EQ(database.migration().from, 2);
-  EXPECT_EQ(database.migration().to, 4);
+  EXPECT_EQ(database.migration().to, 5);
   EXPECT_EQ(database.recovered().size(), 3u) << "begun by the program before, ended by this one";
   for (const std::string& problem : database.check()) ADD_FAILURE() << problem;
   AttemptStore store(database);
@@ -196,7 +196,7 @@ TEST_F(SchemaMigration, WithoutRoomForTheBackupNothingIsMigrated) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
   EXPECT_EQ(asked("PRAGMA user_version"), 1);
   EXPECT_FALSE(fs::exists(file_.string() + ".schema1.backup")) << "no half backup";
-  EXPECT_EQ(Database(file_).migration().to, 4);
+  EXPECT_EQ(Database(file_).migration().to, 5);
 }
 
 }  // namespace

@@ -121,9 +121,9 @@ TEST_F(StoreKill, NothingThatWasCommittedIsLostAndWhatWasInterruptedIsMarked) {
 }
 
 TEST_F(StoreKill, AMigrationIsDoneOrHasNotBegun) {
-  make_schema3(folder_ / "old.db", 60);
+  make_old_store(folder_ / "old.db", 4, 60);
   const auto fresh = [&](const fs::path& file) {
-    for (const char* more : {"", "-wal", "-shm", ".anchor", ".schema3.backup", ".schema3-2.backup"}) fs::remove(file.string() + more);
+    for (const char* more : {"", "-wal", "-shm", ".anchor", ".schema4.backup", ".schema4-2.backup"}) fs::remove(file.string() + more);
     for (const char* more : {"", ".anchor"}) fs::copy_file((folder_ / "old.db").string() + more, file.string() + more);
   };
   const fs::path file = folder_ / "t.db";
@@ -148,10 +148,10 @@ TEST_F(StoreKill, AMigrationIsDoneOrHasNotBegun) {
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const int version = schema_of_file(file).value_or(0);
-    EXPECT_TRUE(version == 3 || version == 4) << version;
-    version == 3 ? ++before : ++after;
+    EXPECT_TRUE(version == 4 || version == 5) << version;
+    version == 4 ? ++before : ++after;
     Database database(file);
-    EXPECT_EQ(database.schema_version(), 4);
+    EXPECT_EQ(database.schema_version(), 5);
     EXPECT_EQ(AttemptStore(database).list().size(), 60u);
     EXPECT_EQ(problems_of(database), "") << "kill " << round;
   }

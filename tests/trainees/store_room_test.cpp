@@ -129,7 +129,7 @@ TEST_F(StoreRoom, ADamagedPageIsFoundAndSaidWhereItIsRead) {
 }
 
 TEST_F(StoreRoom, AMigrationWithoutRoomLeavesTheOldDatabase) {
-  make_schema3(folder_ / "old.db", 30);
+  make_old_store(folder_ / "old.db", 4, 30);
   const auto size = fs::file_size(folder_ / "old.db");
   for (const double share : {0.2, 1.01}) {  // no room for the backup; none for the log of the migration
     const pid_t child = fork();

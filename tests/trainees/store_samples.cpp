@@ -82,7 +82,7 @@ std::string run_outside(const fs::path& database, const std::string& sql) {
   return error;
 }
 
-std::string run_without_triggers(const fs::path& database, const std::string& sql) {
+std::string run_without_triggers(const fs::path& database, const std::string& sql, const std::string& before) {
   sqlite3* connection = nullptr;
   sqlite3_open(database.c_str(), &connection);
   std::string drop, restore;
@@ -94,7 +94,7 @@ std::string run_without_triggers(const fs::path& database, const std::string& sq
     }
   }
   sqlite3_close(connection);
-  return run_outside(database, "BEGIN;" + drop + sql + ";" + restore + "COMMIT");
+  return run_outside(database, before + "BEGIN;" + drop + sql + ";" + restore + "COMMIT");
 }
 
 std::string problems_of(const Database& database) {

@@ -31,7 +31,8 @@ AttemptId store_attempt(Database& database, const AttemptStart& start, const Att
 std::string run_outside(const std::filesystem::path& database, const std::string& sql);
 
 /// The same with every trigger out of the way and put back as it was: what somebody does who knows the schema.
-std::string run_without_triggers(const std::filesystem::path& database, const std::string& sql);
+/// @param before what cannot run inside a transaction.
+std::string run_without_triggers(const std::filesystem::path& database, const std::string& sql, const std::string& before = "");
 
 /// Everything that check() says, a line each.
 std::string problems_of(const Database& database);

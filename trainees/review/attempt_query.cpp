@@ -4,6 +4,7 @@
 #include "haptics/input_error.h"
 #include "trainees/attempt_rows.h"
 #include "trainees/review/desk_queries.h"
+#include "trainees/review/desk_rows.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
@@ -51,8 +52,8 @@ std::vector<PastAttempt> earlier_than(sqlite3* connection, const AttemptSummary&
 /// The newest graded attempt of each trainee on the curve: everybody counts once.
 std::vector<std::int64_t> one_of_each(sqlite3* connection, const AttemptSummary& of) {
   sql::Statement rows(connection, "SELECT max(id) FROM attempt INDEXED BY attempt_by_curve WHERE exercise_id = ? AND level = ? AND hand = ?"
-                                  " AND ruleset_sha256 = ? AND status IN ('completed', 'timeout') GROUP BY trainee_id");
-  rows.bind(of.exercise_id).bind(of.level).bind(of.hand).bind(of.rubric_sha256);
+                                  " AND substr(ruleset_sha256, 1, 16) = ? AND status IN ('completed', 'timeout') GROUP BY trainee_id");
+  rows.bind(of.exercise_id).bind(of.level).bind(of.hand).bind(desk::rubric_start(of.rubric_sha256));
   std::vector<std::int64_t> out;
   while (rows.step()) out.push_back(rows.integer(0));
   return out;

@@ -19,12 +19,11 @@ namespace {
 std::map<std::string, std::vector<double>> values_by_person(Database& database, const BenchmarkQuestion& q, const std::string& who) {
   const auto part = [&](const std::string& kind) { return who.starts_with(kind) ? who.substr(kind.size()) : std::string(); };
   sql::Statement query(database.connection(), R"sql(
-SELECT t.code, CASE WHEN ?3 = 'score' THEN s.value ELSE m.value END AS value
+SELECT t.code, CASE WHEN ?3 = 'score' THEN s.value ELSE (SELECT value FROM metric WHERE score_id = s.id AND name = ?3) END AS value
 FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id JOIN score s ON s.attempt_id = a.id AND s.revision = 0
-LEFT JOIN metric m ON m.score_id = s.id AND m.name = ?3
 WHERE a.exercise_id = ?1 AND a.level = ?2 AND a.status IN ('completed', 'timeout') AND (?4 = '' OR a.hand = ?4)
   AND (?5 = '' OR EXISTS (SELECT 1 FROM membership g WHERE g.trainee_id = a.trainee_id AND g.group_name = ?5)) AND (?6 = '' OR t.code = ?6 COLLATE NOCASE)
-  AND (CASE WHEN ?3 = 'score' THEN s.value ELSE m.value END) IS NOT NULL ORDER BY t.code, a.id)sql");
+  AND value IS NOT NULL ORDER BY t.code, a.id)sql");
   query.bind(q.exercise_id).bind(q.level).bind(q.metric).bind(part("hand:")).bind(part("group:")).bind(part("trainee:"));
   std::map<std::string, std::vector<double>> out;
   while (query.step()) out[query.text(0)].push_back(query.real(1));

@@ -235,6 +235,11 @@ std::vector<std::pair<std::string, std::string>> DeskGate::headers(const Answer&
   if (!answer.cookie.empty()) out.emplace_back("Set-Cookie", answer.cookie);
   if (!answer.allow.empty()) out.emplace_back("Allow", answer.allow);
   if (answer.retry_after_s > 0) out.emplace_back("Retry-After", std::to_string(answer.retry_after_s));
+  if (answer.made_in_ms > 0) {
+    char text[40];
+    std::snprintf(text, sizeof text, "page;dur=%.1f", answer.made_in_ms);
+    out.emplace_back("Server-Timing", text);
+  }
   return out;
 }
 

@@ -43,6 +43,7 @@ struct Answer {
   std::string cookie = {};                 ///< "Set-Cookie"
   std::string allow = {};                  ///< of 405
   int retry_after_s = 0;                   ///< of 429 and 503
+  double made_in_ms = 0;                   ///< told as "Server-Timing"; 0: not measured
 };
 
 class DeskGate {

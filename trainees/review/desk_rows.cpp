@@ -32,13 +32,15 @@ bool broken(const std::string& status) {
   return status == status_name(AttemptStatus::kFault) || status == status_name(AttemptStatus::kVoid);
 }
 
+std::string rubric_start(const std::string& sha256) { return sha256.substr(0, 16); }
+
 std::map<std::int64_t, std::vector<double>> cohort_scores(sqlite3* connection, const CurveKey& key) {
   std::map<std::int64_t, std::vector<double>> out;
   sql::Statement rows(connection, "SELECT a.trainee_id, s.value FROM attempt a INDEXED BY attempt_by_curve"
                                   " CROSS JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
-                                  " WHERE a.exercise_id = ? AND a.level = ? AND a.hand = ? AND a.ruleset_sha256 = ?"
+                                  " WHERE a.exercise_id = ? AND a.level = ? AND a.hand = ? AND substr(a.ruleset_sha256, 1, 16) = ?"
                                   " AND a.status IN ('completed', 'timeout') AND s.value IS NOT NULL ORDER BY a.trainee_id, a.id");
-  rows.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(key.rubric_sha256);
+  rows.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(rubric_start(key.rubric_sha256));
   while (rows.step()) out[rows.integer(0)].push_back(rows.real(1));
   return out;
 }

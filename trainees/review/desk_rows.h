@@ -37,6 +37,9 @@ bool doubtful(double ticks, double overruns, double saturated_share, double late
 /// Void, or ended by the device.
 bool broken(const std::string& status);
 
+/// What attempt_by_curve has of a rubric. As in its SQL: substr(ruleset_sha256, 1, 16).
+std::string rubric_start(const std::string& sha256);
+
 /// Scores of one curve over all trainees, each trainee's oldest first.
 std::map<std::int64_t, std::vector<double>> cohort_scores(sqlite3* connection, const CurveKey& key);
 

@@ -168,7 +168,13 @@ Answer DeskServer::Impl::answer_to(Connection& connection, bool& head_only) {
   head_only = request.head.method == "HEAD";
   const Arrival arrival{.head = std::move(request.head), .body = std::move(request.body), .address = connection.remote_address(),
                         .local_address = connection.local_address(), .same_user = [&] { return connection.same_user(); }};
-  if (auto answer = workers->run([&](Desk& desk) { return gate->answer(arrival, desk); })) return std::move(*answer);
+  const auto make = [&](Desk& desk) {
+    const auto begin = std::chrono::steady_clock::now();
+    Answer made = gate->answer(arrival, desk);
+    made.made_in_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return made;
+  };
+  if (auto answer = workers->run(make)) return std::move(*answer);
   return {.response = error_page(503), .retry_after_s = 2};
 }
 

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "haptics/input_error.h"
 #include "trainees/attempt_store.h"
 #include "trainees/replica_facts.h"
 #include "trainees/review/charts.h"
+#include "trainees/review/desk_memory.h"
 #include "trainees/review/desk_queries.h"
 #include "trainees/sqlite_handle.h"
 
@@ -143,13 +145,19 @@ void add_rivals(AttemptView& view, const AttemptPicture& picture, bool staff) {
   }
 }
 
+/// The cohort's lines, out of the desk's memory where it has one.
+std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const CohortFilter& filter, const std::string& now_utc) {
+  if (!desk.memory) return cohort_lines(desk.database, rules, filter, now_utc);
+  return filtered(desk.memory->lines(desk.database, now_utc), filter);
+}
+
 /// The judgement "ready" of the attempt's curve, for the certificate.
 void add_readiness(AttemptView& view, Desk& desk, const ProgressRules& rules, const std::string& now_utc) {
   CohortFilter filter;
   filter.exercise = view.result.exercise_id;
   filter.level = view.result.level;
   filter.trainee = view.result.trainee;
-  for (const CohortLine& line : cohort_lines(desk.database, rules, filter, now_utc)) {
+  for (const CohortLine& line : lines_of(desk, rules, filter, now_utc)) {
     if (line.key.hand != view.result.hand || line.key.rubric_sha256 != view.result.rubric_sha256 || !line.certified_utc.empty()) continue;
     for (const Judgement& judgement : line.judgements)
       if (judgement.flag == Flag::kReady) view.ready = judgement;
@@ -209,11 +217,17 @@ std::string exercise_title(Database& database, const std::string& id) {
 }
 
 std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column) {
-  sql::Statement query(database.connection(),
-                       column == "hand" ? "SELECT DISTINCT hand FROM attempt ORDER BY 1" : "SELECT DISTINCT level FROM attempt ORDER BY 1");
-  std::vector<std::string> out;
-  while (query.step()) out.push_back(query.text(0));
-  return out;
+  // From one combination to the next along the index: there are few, and many attempts of each.
+  sql::Statement next(database.connection(), "SELECT exercise_id, level, hand FROM attempt INDEXED BY attempt_by_curve"
+                                             " WHERE (exercise_id, level, hand) > (?, ?, ?) ORDER BY exercise_id, level, hand LIMIT 1");
+  std::set<std::string> values;
+  std::array<std::string, 3> at;
+  while (next.bind(at[0]).bind(at[1]).bind(at[2]).step()) {
+    at = {next.text(0), next.text(1), next.text(2)};
+    values.insert(column == "hand" ? at[2] : at[1]);
+    next.run();
+  }
+  return {values.begin(), values.end()};
 }
 
 CohortView cohort_view(Desk& desk, const Request& request) {
@@ -225,8 +239,8 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   view.groups = CurriculumStore(desk.database).groups();
   view.exercises = exercise_choices(desk.database);
   view.levels = distinct_attempt_values(desk.database, "level");
-  view.attempts =
-      static_cast<int>(sql::query_integer(desk.database.connection(), "SELECT count(*) FROM attempt WHERE status <> 'running'"));
+  view.attempts = static_cast<int>(sql::query_integer(
+      desk.database.connection(), "SELECT (SELECT count(*) FROM attempt) - (SELECT count(*) FROM attempt WHERE status = 'running')"));
   const std::map<std::string, std::string> titles(view.exercises.begin(), view.exercises.end());
   CohortFilter filter;
   filter.group = view.asked.group;
@@ -234,7 +248,7 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   filter.level = view.asked.level;
   LevelReader levels(desk);
   std::string before;
-  for (CohortLine& line : cohort_lines(desk.database, rules, filter, request.now_utc)) {
+  for (CohortLine& line : lines_of(desk, rules, filter, request.now_utc)) {
     if (line.trainee != before) ++view.trainees;
     before = line.trainee;
     const auto title = titles.find(line.key.exercise_id);

@@ -1,5 +1,7 @@
 #include "trainees/review/page_workers.h"
 
+#include "trainees/review/desk_memory.h"
+
 namespace trocar::review {
 
 PageWorkers::PageWorkers(int count, const std::function<Database()>& open, const DeskSources& sources, bool demo) {
@@ -42,7 +44,7 @@ void PageWorkers::work(const std::function<Database()>& open, const DeskSources&
     ready.set_exception(std::current_exception());
     return;
   }
-  Desk desk{*database, sources, demo};
+  Desk desk{*database, sources, demo, std::make_shared<DeskMemory>()};
   ready.set_value();
   while (true) {
     std::unique_lock lock(mutex_);

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,10 +63,13 @@ struct DeskSources {
   std::function<std::string()> station = {};
 };
 
+class DeskMemory;
+
 struct Desk {
   Database& database;
   DeskSources sources = {};
   bool demo = false;        ///< every page carries the demo ribbon
+  std::shared_ptr<DeskMemory> memory = {};   ///< of this database alone; without one every page asks anew
 };
 
 enum class Audience : std::uint8_t {

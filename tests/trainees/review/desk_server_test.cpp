@@ -30,6 +30,17 @@ TEST_F(DeskServerTest, AnswersAndCloses) {
   EXPECT_EQ(raw_header(raw, "Server"), "");
 }
 
+TEST_F(DeskServerTest, TellsHowLongThePageTook) {
+  serve(options());
+  for (const char* path : {"/everybody", "/nothing-here"}) {
+    const std::string timing = raw_header(raw_answer(port(), raw_get(port(), path)), "Server-Timing");
+    ASSERT_TRUE(timing.starts_with("page;dur=")) << timing;
+    std::size_t read = 0;
+    EXPECT_GE(std::stod(timing.substr(9), &read), 0);
+    EXPECT_EQ(read, timing.size() - 9) << "a number, in ms: " << timing;
+  }
+}
+
 TEST_F(DeskServerTest, AnswersHeadWithoutBody) {
   serve(options());
   const std::string raw = raw_answer(port(), raw_get(port(), "/everybody", "", "HEAD"));

@@ -254,8 +254,8 @@ TEST_F(Desk, TakesWhatComesLaterAndSeesWhatIsChangedInIt) {
   ASSERT_EQ(desk.check(), Lines{});
   const std::string uuid = AttemptStore(desk).find("latest").uuid;
   ASSERT_EQ(run_outside(folder_ / "desk.db",
-                        "CREATE TABLE t AS SELECT sql FROM sqlite_master WHERE name = 'event_no_update';"
-                        "DROP TRIGGER event_no_update; UPDATE event SET value = 0 WHERE attempt_id = 11; DROP TABLE t"),
+                        "CREATE TABLE t AS SELECT sql FROM sqlite_master WHERE name = 'event_row_no_update';"
+                        "DROP TRIGGER event_row_no_update; UPDATE event_row SET value = 0 WHERE id >> 20 = 11; DROP TABLE t"),
             "");
   bool told = false;
   for (const std::string& problem : desk.check()) told |= problem == "hash chain: attempt " + uuid + " of another station was changed";

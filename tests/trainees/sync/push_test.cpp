@@ -326,7 +326,7 @@ TEST_F(Stations, WhatWasChangedHereIsNotPushed) {
   Database database = station("a");
   practise(database, "T-a", 2);
   const std::string uuid = AttemptStore(database).list().back().uuid;
-  EXPECT_EQ(run_outside(folder_ / "a.db", "DROP TRIGGER metric_no_update; UPDATE metric SET value = 1 WHERE score_id = 1;"
+  EXPECT_EQ(run_outside(folder_ / "a.db", "DROP TRIGGER metric_row_no_update; UPDATE metric_row SET value = 1 WHERE id >> 10 = 1;"
                                           "DROP TRIGGER note_no_update; UPDATE note SET text = 'Splendid.'"), "");
   const PushReport report = push(database);
   ASSERT_EQ(report.problems.size(), 2u);
