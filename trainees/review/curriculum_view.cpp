@@ -139,7 +139,8 @@ CurriculumView curriculum_view(Desk& desk, const Request& request) {
     if (it->name == view.name && (version.empty() || std::to_string(it->version) == version)) view.text = it->toml;
   view.benchmarks = store.benchmarks();
   add_groups(view, store);
-  for (const Trainee& trainee : TraineeStore(desk.database).list()) view.trainees.push_back(trainee.code);
+  for (const Trainee& trainee : TraineeStore(desk.database).list())
+    if (!trainee.code.starts_with("erased-")) view.trainees.push_back(trainee.code);
   view.levels = distinct_attempt_values(desk.database, "level");
   view.hands = distinct_attempt_values(desk.database, "hand");
   view.exercises = exercise_choices(desk.database);

@@ -126,6 +126,7 @@ void add_ability(sqlite3* connection, const Trainee& trainee, const ProgressRule
                       " FROM attempt a INDEXED BY attempt_by_curve"
                       " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
                       " WHERE a.status IN ('completed', 'timeout', 'aborted')"
+                      " AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training')"
                       " GROUP BY a.exercise_id, a.level, a.hand, a.ruleset_sha256, a.trainee_id");
   while (rows.step()) {
     cells.push_back({rows.text(0), rows.text(1), static_cast<int>(rows.integer(2)), static_cast<int>(rows.integer(3))});
@@ -151,7 +152,7 @@ ProgressRules rules_in_force(Database& database) {
 
 TraineePicture trainee_picture(Database& database, const std::string& code, const ProgressRules& rules, const std::string& now_utc) {
   const auto trainee = TraineeStore(database).find(code);
-  if (!trainee) throw InputError(database.file().string() + ": no trainee \"" + code + "\"");
+  if (!trainee) throw InputError("no trainee \"" + code + "\" in this database");
   TraineePicture out;
   out.code = trainee->code;
   out.created_utc = trainee->created_utc;
@@ -159,14 +160,15 @@ TraineePicture trainee_picture(Database& database, const std::string& code, cons
   const desk::Person person = desk::people(database.connection())[trainee->id];
   out.name = person.name;
   out.groups = person.groups;
-  const auto attempts = past_attempts(database, trainee->code);
+  out.training_erased = desk::training_erased(database.connection()).contains(trainee->id);
+  const auto attempts = out.training_erased ? std::vector<PastAttempt>{} : past_attempts(database, trainee->code);
   TraineeQuery query(database, *trainee, rules, now_utc);
   for (LearningCurve& curve : learning_curves(attempts)) out.curves.push_back(query.picture_of(std::move(curve)));
   out.weeks = weeks_of(attempts);
   const OpinionStore opinions(database);
   out.certificates = opinions.certificates_of(trainee->code);
   out.notes = opinions.notes_of(trainee->code);
-  add_ability(database.connection(), *trainee, rules, out);
+  if (!out.training_erased) add_ability(database.connection(), *trainee, rules, out);
   return out;
 }
 
