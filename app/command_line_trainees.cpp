@@ -47,9 +47,12 @@ void add_looking(Line& c, CLI::App& app, CLI::App& trainee) {
   CLI::App* add = c.add(trainee, "add", trainee_add, c.trainee, "Add a trainee");
   CLI::App* list = c.add(trainee, "list", trainee_list, c.trainee, "All trainees");
   CLI::App* show = c.add(trainee, "show", trainee_show, c.trainee, "One trainee's attempts");
-  for (CLI::App* command : {add, show}) command->add_option("code", c.trainee.code, "Trainee code")->required();
+  CLI::App* edit = c.add(trainee, "edit", trainee_edit, c.trainee, "Name and e-mail address, which an erasure takes along");
+  edit->add_option("--name", c.trainee.name, "Name; '' takes it away");
+  edit->add_option("--email", c.trainee.email, "E-mail address; '' takes it away");
+  for (CLI::App* command : {add, show, edit}) command->add_option("code", c.trainee.code, "Trainee code")->required();
   show->add_option("--limit", c.trainee.limit, "Newest attempts listed, 0: all")->capture_default_str();
-  for (CLI::App* command : {add, list, show}) {
+  for (CLI::App* command : {add, list, show, edit}) {
     command->add_option("--db", c.trainee.database, "Database file")->check(kPlaced);
     command->add_flag("--json", c.trainee.json, "As JSON");
   }
@@ -66,7 +69,7 @@ void add_rights(Line& c, CLI::App& trainee) {
                             "What a trainee consented to; with a purpose: consent given or withdrawn");
   CLI::App* erase = c.add(trainee, "erase", trainee_erase, c.rights, "Erase who a trainee is; attempts stay without a name");
   for (CLI::App* command : {note, all, consent, erase}) {
-    command->add_option("code", c.rights.code, "Trainee code")->required();
+    command->add_option("code", c.rights.code, "Trainee code, or what an erasure printed: erased-... or the UUID")->required();
     command->add_option("--db", c.rights.database, "Database file");
   }
   note->add_option("text", c.rights.text, "What it says, up to 4000 characters")->required();
@@ -94,8 +97,10 @@ void add_db(Line& c, CLI::App& app) {
   for (CLI::App* command : {check, backup, migrate, anchor, rubric}) command->add_option("--db", c.db.database, "Database file");
   CLI::App* retention = c.add(*db, "retention", db_retention, c.rights, "Trainees who have not been here for long");
   retention->add_option("--days", c.rights.days, "Since their newest attempt")->required()->check(CLI::Range(1, 36500));
-  CLI::Option* erase = retention->add_flag("--erase", c.rights.erase, "Erase who they are; it cannot be undone");
+  CLI::Option* erase = retention->add_flag("--erase", c.rights.erase, "Who they are, listed; erased with --yes");
   retention->add_flag("--training", c.rights.training, "Every number and recording of theirs, too")->needs(erase);
+  retention->add_option("--author", c.rights.author, "Who says so (default: $USER)")->needs(erase);
+  retention->add_flag("--yes", c.rights.yes, "Erase them; it cannot be undone")->needs(erase);
   retention->add_option("--db", c.rights.database, "Database file");
 }
 

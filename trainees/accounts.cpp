@@ -66,6 +66,22 @@ Account required(const std::optional<Account>& account, const std::string& login
   return *account;
 }
 
+void note_coming(Database& database, const char* action, const std::string& account, const std::string& actor) {
+  AnchoredTransaction transaction(database);
+  append_audit(database.connection(), action, account, "", actor.empty() ? "trocar" : actor);
+  transaction.commit();
+}
+
+/// Somebody must remain who can manage the desk: without any enabled account it would be open to whoever sits at the machine.
+void require_another(sqlite3* connection, const Account& account) {
+  if (account.role == Role::kTrainee) return;
+  sql::Statement others(connection, "SELECT 1 FROM account WHERE uuid <> ?1 AND disabled_utc IS NULL AND password <> ''"
+                                    " AND (role = 'administrator' OR (role = 'instructor' AND ?2 = 'instructor'))");
+  if (others.bind(account.uuid).bind(role_name(account.role)).step()) return;
+  throw InputError("account \"" + account.login + "\": is the last " + role_name(account.role) +
+                   " who can sign in; make or enable another one first, nothing was changed");
+}
+
 /// Row of the trainee whose account it is to be. Call inside the transaction.
 std::int64_t trainee_without_account(sqlite3* connection, const std::string& code) {
   sql::Statement row(connection, "SELECT p.trainee_id, a.login FROM person p LEFT JOIN account a ON a.trainee_id = p.trainee_id"
@@ -131,6 +147,7 @@ void AccountStore::set_disabled(const std::string& login, bool disabled, const s
   AnchoredTransaction transaction(*database_);
   const Account account = required(find(login), login);
   if (disabled != account.disabled_utc.empty()) return;  // it is so already
+  if (disabled) require_another(database_->connection(), account);
   sql::Statement update(database_->connection(), "UPDATE account SET disabled_utc = ? WHERE uuid = ?");
   if (disabled) update.bind(utc_now());
   else update.bind_null();
@@ -138,6 +155,10 @@ void AccountStore::set_disabled(const std::string& login, bool disabled, const s
   seal_account(database_->connection(), disabled ? "account disabled" : "account enabled", account.uuid, author);
   transaction.commit();
 }
+
+void AccountStore::signed_in(const std::string& account) { note_coming(*database_, "signed in", account, account); }
+void AccountStore::signed_out(const std::string& account) { note_coming(*database_, "signed out", account, account); }
+void AccountStore::held_back(const std::string& account) { note_coming(*database_, "sign-in held back", account, ""); }
 
 std::optional<Account> AccountStore::verify(const std::string& login, const std::string& password) const {
   start_library();

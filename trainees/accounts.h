@@ -35,7 +35,15 @@ class AccountStore {
               const std::string& author);
   /// @throws InputError: no such account, too short.
   void set_password(const std::string& login, const std::string& password, const std::string& author);
+  /// An administrator is disabled only while another one can sign in, an instructor only while another instructor or administrator can.
+  /// @throws InputError: no such account, the last of these.
   void set_disabled(const std::string& login, bool disabled, const std::string& author);
+
+  /// In the audit trail: who came and went by account alone, no address; of wrong tries only that they were held back from then on.
+  /// @param account UUID, of held_back "" for an account that does not exist.
+  void signed_in(const std::string& account);
+  void signed_out(const std::string& account);
+  void held_back(const std::string& account);
 
   /// The account when the password is right and it may sign in. Takes as long for a login that does not exist.
   std::optional<Account> verify(const std::string& login, const std::string& password) const;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "trainees/attempt_identity.h"
+#include "trainees/files/owner_file.h"
 
 namespace trocar {
 namespace {
@@ -61,7 +62,7 @@ std::string read_anchor(const fs::path& database) {
 }
 
 void write_anchor(const fs::path& database, const std::string& text) {
-  if (!text.empty()) std::ofstream(anchor_path(database), std::ios::binary) << text;
+  if (!text.empty()) open_owner_file(anchor_path(database)) << text;
 }
 
 std::vector<std::string> check_anchor(const fs::path& database, sqlite3* connection) {

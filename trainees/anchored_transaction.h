@@ -1,4 +1,4 @@
-// A transaction that ends with entries of the audit trail: once it stands, the trail's new head is anchored (anchor_file.h).
+// A transaction that may leave entries in the audit trail: once it stands, the trail's new head is anchored (anchor_file.h).
 // Internal to trainees/.
 #pragma once
 
@@ -10,17 +10,20 @@ namespace trocar {
 
 class AnchoredTransaction {
  public:
-  explicit AnchoredTransaction(Database& database) : database_(&database), transaction_(database.connection()) {}
+  explicit AnchoredTransaction(Database& database)
+      : database_(&database), transaction_(database.connection()), before_(audit_head(database.connection()).position) {}
 
   /// Rolled back unless this is called.
   void commit() {
     transaction_.commit();
-    append_anchor(database_->file(), audit_head(database_->connection()));
+    const AuditHead head = audit_head(database_->connection());
+    if (head.position != before_) append_anchor(database_->file(), head);
   }
 
  private:
   Database* database_;
   sql::Transaction transaction_;
+  std::int64_t before_;
 };
 
 }  // namespace trocar

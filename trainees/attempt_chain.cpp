@@ -101,7 +101,9 @@ Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) 
 void check_erased(sqlite3* connection, std::vector<std::string>& problems) {
   sql::Statement rows(connection,
                       "SELECT DISTINCT a.uuid FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE e.kind = 'training' AND"
-                      " (EXISTS (SELECT 1 FROM score WHERE attempt_id = a.id) OR EXISTS (SELECT 1 FROM event WHERE attempt_id = a.id))");
+                      " (EXISTS (SELECT 1 FROM score WHERE attempt_id = a.id) OR EXISTS (SELECT 1 FROM event WHERE attempt_id = a.id)"
+                      " OR EXISTS (SELECT 1 FROM device_warning WHERE attempt_id = a.id)"
+                      " OR EXISTS (SELECT 1 FROM device_transition WHERE attempt_id = a.id))");
   while (rows.step()) problems.push_back("attempt " + rows.text(0) + " has rows although its training data were erased");
 }
 

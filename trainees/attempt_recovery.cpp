@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFolderEnding = ".recordings";
+
 struct RunningAttempt {
   std::int64_t id;
   std::string uuid, trainee, stored_recording;
@@ -102,9 +104,25 @@ std::string stored_recording_path(const fs::path& database, const fs::path& reco
   return relative.empty() || *relative.begin() == ".." ? absolute.string() : relative.string();
 }
 
-fs::path located_recording(const fs::path& database, const std::string& stored) {
-  if (stored.empty() || fs::path(stored).is_absolute()) return stored;
-  return database.parent_path() / stored;
+std::vector<fs::path> recording_places(const fs::path& database, const std::string& stored) {
+  if (stored.empty()) return {};
+  const fs::path name = stored;
+  if (database.empty()) return {name};
+  const fs::path kept = name.is_absolute() ? name : database.parent_path() / name, own = recordings_folder(database) / name.filename();
+  if (kept == own) return {kept};
+  // The usual place moves with the database's name; one that somebody chose is looked at first.
+  const bool usual = !name.is_absolute() && name.parent_path().extension() == kFolderEnding;
+  return usual ? std::vector<fs::path>{own, kept} : std::vector<fs::path>{kept, own};
 }
+
+fs::path located_recording(const fs::path& database, const std::string& stored) {
+  const std::vector<fs::path> places = recording_places(database, stored);
+  std::error_code error;
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place, error)) return place;
+  return places.empty() ? fs::path() : fs::path(stored).is_absolute() ? fs::path(stored) : database.parent_path() / stored;
+}
+
+fs::path recordings_folder(const fs::path& database) { return database.parent_path() / (database.stem().string() + kFolderEnding); }
 
 }  // namespace trocar

@@ -38,7 +38,11 @@ void require_no_running_attempt(sqlite3* connection);
 /// How a recording is named in the database: relative to the database's folder when it lies inside, so that both can
 /// move together; absolute otherwise.
 std::string stored_recording_path(const std::filesystem::path& database, const std::filesystem::path& recording);
-/// The inverse.
+/// NAME.recordings beside NAME.db.
+std::filesystem::path recordings_folder(const std::filesystem::path& database);
+/// Where a recording may be, likeliest first: under the database's present name, for it may be a copy, and where it was kept.
+std::vector<std::filesystem::path> recording_places(const std::filesystem::path& database, const std::string& stored);
+/// The first of them that is there, else where it was kept.
 std::filesystem::path located_recording(const std::filesystem::path& database, const std::string& stored);
 
 }  // namespace trocar

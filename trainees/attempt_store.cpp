@@ -5,10 +5,11 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
-#include "trainees/anchor_file.h"
+#include "trainees/anchored_transaction.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/attempt_rows.h"
+#include "trainees/kept_rows.h"
 #include "trainees/process_identity.h"
 #include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
@@ -34,7 +35,7 @@ AttemptStatus status_of(const std::string& name) {
 /// trocar.db -> trocar.recordings/UUID.trec
 fs::path recording_beside(const Database& database, const std::string& uuid) {
   if (database.in_memory()) return {};
-  return database.file().parent_path() / (database.file().stem().string() + ".recordings") / (uuid + ".trec");
+  return recordings_folder(database.file()) / (uuid + ".trec");
 }
 
 /// An attempt is stored before its recording is made, so one without the other was removed.
@@ -53,6 +54,12 @@ std::vector<std::string> stray_recordings(const Database& database) {
   }
   std::sort(strays.begin(), strays.end());
   return strays;
+}
+
+std::string looked_at(const std::vector<fs::path>& places) {
+  std::string all;
+  for (const fs::path& place : places) all += (all.empty() ? "" : ", ") + place.string();
+  return places.size() < 2 ? "" : " (looked for: " + all + ")";
 }
 
 /// The session's row, made by its first attempt. @throws InputError: another trainee's.
@@ -83,8 +90,10 @@ void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t
                     const std::string& stored_recording, const AttemptId& id) {
   sql::Statement exercise(connection, "INSERT INTO exercise VALUES (?, ?, ?)"
                                       " ON CONFLICT (id) DO UPDATE SET number = excluded.number, title = excluded.title"
-                                      " WHERE number = ''");
-  exercise.bind(start.exercise_id).bind(start.exercise_number).bind(start.exercise_title).run();
+                                      " WHERE number = '' AND (excluded.number, excluded.title) <> (number, title) RETURNING 1");
+  const bool told = exercise.bind(start.exercise_id).bind(start.exercise_number).bind(start.exercise_title).step();
+  exercise.run();
+  told ? keep_exercise(connection, start.exercise_id) : keep_exercise_once(connection, start.exercise_id);
   sql::Statement ruleset(connection, "INSERT INTO ruleset SELECT ?1, ?2, ?3, ?4"
                                      " WHERE NOT EXISTS (SELECT 1 FROM ruleset WHERE sha256 = ?1)");
   ruleset.bind(id.rubric_sha256).bind(start.exercise_id).bind(start.exercise_version).bind(start.exercise_text).run();
@@ -197,7 +206,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   id.recording = start.recording.value_or(recording_beside(*database_, id.uuid));
   id.rubric_sha256 = digest::of_bytes(start.exercise_text);
   id.started_utc = start.started_utc.empty() ? utc_now() : start.started_utc;
-  sql::Transaction transaction(connection);
+  AnchoredTransaction transaction(*database_);
   require_no_replica(connection);
   const std::int64_t trainee = TraineeStore(*database_).ensure_id(start.trainee);
   if (start.level == kExamLevel) refuse_second_exam(connection, start, trainee);
@@ -218,7 +227,7 @@ void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& resu
     throw std::invalid_argument("the result was graded by another rubric than the attempt began with");
   }
   const fs::path recording = result.recording_path.empty() ? id.recording : fs::path(result.recording_path);
-  sql::Transaction transaction(connection);
+  AnchoredTransaction transaction(*database_);
   {
     sql::Statement status(connection, "SELECT status FROM attempt WHERE id = ? AND uuid = ?");
     if (!status.bind(id.row).bind(id.uuid).step()) throw InputError("attempt " + id.uuid + ": not in this database");
@@ -228,7 +237,6 @@ void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& resu
   }
   write_result(connection, id.row, result, stored_recording_path(database_->file(), recording), finished_utc);
   transaction.commit();
-  append_anchor(database_->file(), audit_head(connection));
 }
 
 AttemptResult AttemptStore::load(std::int64_t row) const {
@@ -307,7 +315,7 @@ std::vector<std::string> AttemptStore::check_recordings() const {
       if (!there) continue;
       problems.push_back(name + " is still there although its training data were erased (erasing again removes it)");
     } else if (!there) {
-      problems.push_back(name + " is missing");
+      problems.push_back(name + " is missing" + looked_at(recording_places(database_->file(), rows.text(1))));
     } else if (digest::of_readable_file(file) != rows.text(2)) {
       problems.push_back(name + " was changed or cannot be read");
     }

@@ -11,6 +11,7 @@ WITH finished AS (
   SELECT a.id, a.trainee_id, a.exercise_id, a.exercise_version, a.ruleset_sha256, a.level, a.started_utc,
          s.id AS score_id, s.value AS score, a.status IN ('completed', 'timeout')  AS is_graded, )sql";
 constexpr const char* kRows = R"sql( WHERE a.status <> 'running'
+     AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training')
 )
 SELECT t.code, f.exercise_id, f.level, count(*), sum(is_graded), sum(passed),
        max(CASE WHEN is_graded THEN score END),
@@ -52,6 +53,10 @@ std::vector<CohortRow> cohort(Database& database, const std::string& trainee) {
     result.push_back(row);
   }
   return result;
+}
+
+int people_erased(Database& database) {
+  return static_cast<int>(sql::query_integer(database.connection(), "SELECT count(*) FROM erasure WHERE kind = 'training'"));
 }
 
 }  // namespace trocar

@@ -27,7 +27,10 @@ struct CohortRow {
   std::string exercise_version, rubric_sha256;           ///< what it was graded by
 };
 
-/// Rows by trainee code, exercise, level and first use of a rubric. @param trainee only this code; empty: all.
+/// How many people's training data were erased: cohorts and exports leave them out.
+int people_erased(Database& database);
+
+/// Rows by trainee code, exercise, level and first use of a rubric, without those whose training data were erased. @param trainee only this code; empty: all.
 std::vector<CohortRow> cohort(Database& database, const std::string& trainee = "");
 
 }  // namespace trocar

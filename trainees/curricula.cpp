@@ -6,6 +6,7 @@
 #include "haptics/input_error.h"
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_identity.h"
+#include "trainees/kept_rows.h"
 #include "trainees/printed_text.h"
 #include "trainees/progress/benchmarks.h"
 #include "trainees/sealed_rows.h"
@@ -105,6 +106,7 @@ Benchmark CurriculumStore::add_benchmark(const Benchmark& numbers, const Author&
   AnchoredTransaction transaction(*database_);
   sql::Statement exercise(connection, "INSERT INTO exercise SELECT ?1, '', '' WHERE NOT EXISTS (SELECT 1 FROM exercise WHERE id = ?1)");
   exercise.bind(added.exercise_id).run();
+  keep_exercise_once(connection, added.exercise_id);
   sql::Statement insert(connection, "INSERT INTO benchmark (uuid, exercise_id, level, metric, full_at, zero_at, n, source, rule, author,"
                                     " utc) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(added.uuid).bind(added.exercise_id).bind(added.level).bind(added.metric).bind(added.full_at).bind(added.zero_at);

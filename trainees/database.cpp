@@ -2,13 +2,20 @@
 
 #include <sqlite3.h>
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string_view>
 #include <thread>
 
 #include "haptics/input_error.h"
 #include "trainees/anchor_file.h"
 #include "trainees/attempt_chain.h"
+#include "trainees/files/owner_file.h"
+#include "trainees/kept_rows.h"
 #include "trainees/sealed_rows.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/statement_cache.h"
@@ -19,9 +26,27 @@ namespace {
 namespace fs = std::filesystem;
 
 void make_folder(const fs::path& file) {
+  if (!make_owner_folders(file.parent_path())) throw EnvironmentError(file.string() + ": its folder cannot be created: " + std::strerror(errno));
+}
+
+/// A file that is something else is not touched. SQLite itself takes one of a few bytes for an empty database and writes over it.
+void require_no_other_content(const fs::path& file) {
+  constexpr std::string_view kBeginning("SQLite format 3", 16);  // with its zero
+  std::array<char, kBeginning.size()> bytes{};
   std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error) throw EnvironmentError(file.string() + ": its folder cannot be created: " + error.message());
+  if (!fs::is_regular_file(file, error)) return;
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), bytes.size());
+  if (in.gcount() == 0 || std::string_view(bytes.data(), static_cast<std::size_t>(in.gcount())) == kBeginning) return;
+  throw InputError(file.string() + ": is not a database");
+}
+
+/// What is only to be read or added to must be one already: nothing else is made into one.
+void require_content(const fs::path& file) {
+  if (!fs::exists(file)) throw EnvironmentError(file.string() + ": there is no database yet; the first attempt or trainee makes it");
+  std::error_code error;
+  if (fs::is_regular_file(file, error) && fs::file_size(file, error) == 0 && !error)
+    throw InputError(file.string() + ": is empty, no database; it was left as it is");
 }
 
 /// Gives back the room that a migration freed. Where that is not possible now (another program reads, no room for the copy), it stays in
@@ -69,6 +94,10 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, con
   if (file != ":memory:") file_ = fs::absolute(file).lexically_normal();
   open(mode, busy_timeout_ms);
   sqlite3_busy_timeout(connection_.get(), busy_timeout_ms);
+  if (mode == OpenMode::kExisting && !in_memory() && schema_version() == 0) {
+    require_ours(connection_.get(), file_, shipped_migrations());
+    throw InputError(file_.string() + ": holds no tables, no database of trocar; it was left as it is");
+  }
   if (schema_version() == 1) require_no_running_attempt(connection_.get());
   migration_ = migrate(connection_.get(), file_, shipped_migrations());
   if (!migration_.backup.empty()) migration_.compacted = compacted(connection_.get());
@@ -87,9 +116,8 @@ Database::~Database() = default;
 Database::Database(Database&&) noexcept = default;
 
 void Database::open(OpenMode mode, int busy_timeout_ms) {
-  if (!in_memory() && mode == OpenMode::kExisting && !fs::exists(file_)) {
-    throw EnvironmentError(file_.string() + ": there is no database yet; the first attempt or trainee makes it");
-  }
+  if (!in_memory() && mode == OpenMode::kExisting) require_content(file_);
+  if (!in_memory()) require_no_other_content(file_);
   if (!in_memory() && mode == OpenMode::kCreate) make_folder(file_);
   sqlite3* raw = nullptr;
   const std::string name = in_memory() ? ":memory:" : file_.string();
@@ -162,9 +190,12 @@ std::vector<std::string> Database::check() const {
   add("hash chain: ", check_chain(connection_.get()));
   add("audit trail: ", check_audit(connection_.get()));
   add("records: ", check_sealed_rows(connection_.get()));
+  add("records: ", check_kept_rows(connection_.get()));
   add("anchor: ", check_anchor(file_, connection_.get()));
   return problems;
 }
+
+std::vector<std::string> Database::not_covered() const { return trocar::not_covered(connection_.get()); }
 
 void Database::backup(const fs::path& to) const {
   make_folder(fs::absolute(to));

@@ -28,7 +28,7 @@ std::optional<int> schema_of_file(const std::filesystem::path& file);
 
 enum class OpenMode : std::uint8_t {
   kCreate,    ///< made when missing
-  kExisting,  ///< a missing file is an EnvironmentError
+  kExisting,  ///< a missing file is an EnvironmentError, an empty one an InputError
 };
 
 class Database {
@@ -53,6 +53,8 @@ class Database {
 
   /// Problems of file, schema, references, hash chain, audit trail, what people wrote and anchor, one line each; empty when sound.
   std::vector<std::string> check() const;
+  /// What check() can tell nothing of, because an older program wrote it without an entry; one line a table, empty in databases made since.
+  std::vector<std::string> not_covered() const;
   /// Head of the audit trail as "POSITION:HASH": noted elsewhere, it shows any later change of what is there now.
   std::string head() const;
   /// Begins a new anchor file where the old one was lost, and says so in the audit trail.

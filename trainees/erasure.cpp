@@ -6,6 +6,7 @@
 #include "haptics/input_error.h"
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_identity.h"
+#include "trainees/kept_rows.h"
 #include "trainees/printed_text.h"
 #include "trainees/replica_facts.h"
 #include "trainees/sealed_rows.h"
@@ -25,10 +26,14 @@ struct KeptRecording {
   fs::path file;
 };
 
+// ?1: the trainee.
+const std::string kOnAttempts = "attempt_id IN (SELECT id FROM attempt WHERE trainee_id = ?1)";
+const std::string kOwnWords = "account_uuid IN (SELECT uuid FROM account WHERE trainee_id = ?1) AND " + kOnAttempts;
+
 const char* kind_name(ErasureKind kind) { return kind == ErasureKind::kIdentity ? "identity" : "training"; }
 
 Erased trainee_to_erase(sqlite3* connection, const std::string& code) {
-  sql::Statement row(connection, "SELECT id, uuid FROM known_trainee WHERE code = ? COLLATE NOCASE");
+  sql::Statement row(connection, "SELECT id, uuid FROM known_trainee WHERE code = ?1 COLLATE NOCASE OR uuid = lower(?1)");
   if (!row.bind(code).step()) throw InputError("trainee \"" + code + "\": there is none");
   const Erased erased{row.integer(0), row.text(1), ""};
   if (row.step()) throw InputError("trainee \"" + code + "\": stands for several");
@@ -83,25 +88,23 @@ void remove_numbered(sqlite3* connection, const Erased& erased) {
 
 /// @returns how many notes went.
 int erase_identity(sqlite3* connection, const Erased& erased, const Author& author) {
-  const std::string own = "account_uuid IN (SELECT uuid FROM account WHERE trainee_id = ?1) AND"
-                          " attempt_id IN (SELECT id FROM attempt WHERE trainee_id = ?1)";
-  for (const char* table : {"signature", "rating"}) erase_rows(connection, erased, table, own, author);
+  for (const char* table : {"signature", "rating"}) erase_rows(connection, erased, table, kOwnWords, author);
   remove_rows(connection, erased, "note_seen", "note_id IN (SELECT id FROM note WHERE trainee_id = ?1)");
   const int notes = erase_rows(connection, erased, "note", "trainee_id = ?1", author);
   for (const char* table : {"consent", "account"}) erase_rows(connection, erased, table, "trainee_id = ?1", author);
   for (const char* table : {"membership", "person"}) remove_rows(connection, erased, table, "trainee_id = ?1");
+  forget_person(connection, erased.uuid);
   return notes;
 }
 
 void erase_training(sqlite3* connection, const Erased& erased, const Author& author) {
-  const std::string of_attempt = "attempt_id IN (SELECT id FROM attempt WHERE trainee_id = ?1)";
   const std::string of_score = "score_id IN (SELECT s.id FROM score s JOIN attempt a ON a.id = s.attempt_id WHERE a.trainee_id = ?1)";
-  for (const char* table : {"rating", "signature", "verdict_override"}) erase_rows(connection, erased, table, of_attempt, author);
+  for (const char* table : {"rating", "signature", "verdict_override"}) erase_rows(connection, erased, table, kOnAttempts, author);
   erase_rows(connection, erased, "revocation", "certificate_id IN (SELECT id FROM certificate WHERE trainee_id = ?1)", author);
   erase_rows(connection, erased, "certificate", "trainee_id = ?1", author);
   remove_rows(connection, erased, "score_cap", of_score);
   remove_numbered(connection, erased);
-  for (const char* table : {"score", "device_warning"}) remove_rows(connection, erased, table, of_attempt);
+  for (const char* table : {"score", "device_warning"}) remove_rows(connection, erased, table, kOnAttempts);
 }
 
 std::vector<KeptRecording> recordings_of(const Database& database, const Erased& erased) {
@@ -150,7 +153,38 @@ void empty_log(const Database& database, ErasureReport& report) {
                         "-wal: another program reads the database; the log keeps erased pages until all have ended");
 }
 
+int count_of(sqlite3* connection, std::int64_t trainee, const std::string& what) {
+  sql::Statement row(connection, "SELECT count(*) FROM " + what);
+  return row.bind(trainee).step() ? static_cast<int>(row.integer(0)) : 0;
+}
+
 }  // namespace
+
+ErasurePreview preview_erasure(Database& database, const std::string& trainee, ErasureKind kind) {
+  sqlite3* connection = database.connection();
+  const Erased erased = trainee_to_erase(connection, trainee);
+  const auto count = [&](const std::string& what) { return count_of(connection, erased.id, what); };
+  const bool training = kind == ErasureKind::kTraining;
+  ErasurePreview preview;
+  sql::Statement who(connection, "SELECT t.code, coalesce(max(a.started_utc), t.created_utc) FROM known_trainee t LEFT JOIN attempt a"
+                                 " ON a.trainee_id = t.id WHERE t.id = ?");
+  who.bind(erased.id).step();
+  preview.code = who.text(0);
+  preview.trainee_uuid = erased.uuid;
+  preview.last_utc = who.text(1);
+  preview.attempts = count("attempt WHERE trainee_id = ?1");
+  preview.notes = count("note WHERE trainee_id = ?1");
+  preview.consents = count("consent WHERE trainee_id = ?1");
+  preview.groups = count("membership WHERE trainee_id = ?1");
+  preview.accounts = count("account WHERE trainee_id = ?1");
+  for (const char* table : {"signature", "rating"}) preview.opinions += count(table + (" WHERE " + (training ? kOnAttempts : kOwnWords)));
+  if (!training) return preview;
+  preview.opinions += count("verdict_override WHERE " + kOnAttempts);
+  preview.certificates = count("certificate WHERE trainee_id = ?1");
+  std::error_code error;
+  for (const KeptRecording& recording : recordings_of(database, erased)) preview.recordings += fs::is_regular_file(recording.file, error);
+  return preview;
+}
 
 ErasureReport erase_trainee(Database& database, const std::string& trainee, ErasureKind kind, const std::string& rule,
                             const Author& author) {

@@ -26,8 +26,19 @@ struct ErasureReport {
   std::vector<std::string> left = {};                   ///< what could not be removed, and why
 };
 
+/// What an erasure would take, counted; nothing is changed.
+struct ErasurePreview {
+  std::string code, trainee_uuid, last_utc;     ///< last_utc: start of the newest attempt, else when the trainee was added
+  int attempts = 0;                             ///< emptied with kTraining, else kept without a name
+  int notes = 0, consents = 0, groups = 0, accounts = 0;
+  int opinions = 0;                             ///< signatures, ratings, overrides: own ones, with kTraining all on the attempts
+  int certificates = 0, recordings = 0;         ///< with kTraining; files that are there
+};
+/// @throws InputError as erase_trainee().
+ErasurePreview preview_erasure(Database& database, const std::string& trainee, ErasureKind kind);
+
 /// An erasure that was interrupted after it was recorded is completed by the same call; kTraining may follow kIdentity.
-/// @param trainee code, or "erased-..." of somebody whose identity has gone.
+/// @param trainee code, or "erased-..." or the UUID of somebody whose identity has gone.
 /// @param rule why: "request of the person", "retention 730 days".
 /// @throws InputError: no such trainee, an attempt of theirs runs. EnvironmentError: the database cannot take it; nothing is erased then.
 ErasureReport erase_trainee(Database& database, const std::string& trainee, ErasureKind kind, const std::string& rule,

@@ -2,12 +2,16 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <system_error>
 
 #include "haptics/input_error.h"
 #include "trainees/audit.h"
+#include "trainees/files/owner_file.h"
+#include "trainees/kept_rows.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar {
@@ -88,7 +92,7 @@ void verify_copy(sqlite3* original, const fs::path& copy) {
 /// The way ends with an entry of the trail: what was there before, and the head of its chain.
 void note_migration(sqlite3* connection, int from) {
   const std::string to = std::to_string(shipped_migrations().back().version);
-  if (from == 0) return append_audit(connection, kActionMade, "schema " + to, "");
+  if (from == 0) return append_audit(connection, kActionMade, "schema " + to, kEveryRowKept);
   const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
   const std::string head = sql::query_text(
       connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
@@ -159,8 +163,9 @@ void copy_database(sqlite3* from, const fs::path& to) {
   part += ".part";
   std::error_code ignored;
   fs::remove(part, ignored);
+  if (!make_owner_file(part)) throw EnvironmentError(to.string() + ": the backup cannot be written: " + std::strerror(errno));
   sqlite3* raw = nullptr;
-  int code = sqlite3_open_v2(part.c_str(), &raw, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  int code = sqlite3_open_v2(part.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr);
   Connection target(raw);
   if (code == SQLITE_OK) {
     sqlite3_backup* backup = sqlite3_backup_init(target.get(), "main", from, "main");

@@ -40,7 +40,7 @@ void require_ours(sqlite3* connection, const std::filesystem::path& file, std::s
 /// backup cannot be written or is not whole. The database is untouched then.
 MigrationReport migrate(sqlite3* connection, const std::filesystem::path& file, std::span<const Migration> migrations);
 
-/// Copies the whole database, consistent even while others write. @throws InputError when `to` exists already,
+/// Copies the whole database, consistent even while others write, for its owner's eyes only. @throws InputError when `to` exists already,
 /// EnvironmentError when it cannot be written.
 void copy_database(sqlite3* from, const std::filesystem::path& to);
 

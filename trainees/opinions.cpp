@@ -9,6 +9,7 @@
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
+#include "trainees/kept_rows.h"
 #include "trainees/printed_text.h"
 #include "trainees/rating_scales.h"
 #include "trainees/sealed_rows.h"
@@ -97,6 +98,23 @@ constexpr const char* kCertificates =
     " coalesce(r.reason, '') FROM certificate c JOIN known_trainee t ON t.id = c.trainee_id"
     " LEFT JOIN revocation r ON r.certificate_id = c.id WHERE (?1 = '' OR t.code = ?1 COLLATE NOCASE) ORDER BY c.uuid DESC";
 
+/// A form that was sent twice, or from two tabs: inside the transaction, so that only one of them can be first.
+void refuse_second(sqlite3* connection, std::int64_t attempt, const std::string& meaning, const Author& author) {
+  sql::Statement row(connection, "SELECT signer, utc FROM signature WHERE attempt_id = ?1 AND meaning = ?2 AND account_uuid = ?3"
+                                 " AND (?3 <> '' OR signer = ?4)");
+  if (!row.bind(attempt).bind(meaning).bind(author.account_uuid).bind(author.printed).step()) return;
+  throw InputError("already signed: " + row.text(0) + " gave \"" + meaning + "\" on " + row.text(1) + "; nothing was written");
+}
+
+/// Likewise of two desks at once. One that was revoked does not count.
+void refuse_second_certificate(sqlite3* connection, std::int64_t trainee, const Certificate& wanted) {
+  sql::Statement row(connection, "SELECT printed, utc FROM certificate c WHERE trainee_id = ? AND exercise_id = ? AND level = ?"
+                                 " AND NOT EXISTS (SELECT 1 FROM revocation r WHERE r.certificate_id = c.id)");
+  if (!row.bind(trainee).bind(wanted.exercise_id).bind(wanted.level).step()) return;
+  throw InputError("trainee \"" + wanted.trainee + "\": holds a certificate for " + wanted.exercise_id + " at level " + wanted.level +
+                   " already, by " + row.text(0) + " on " + row.text(1) + "; nothing was written");
+}
+
 Certificate certificate_of(const sql::Statement& row) {
   return {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5),
           row.text(6), row.text(7), row.text(8), row.text(9), row.text(10)};
@@ -138,13 +156,17 @@ std::optional<Note> OpinionStore::newest_unseen(const std::string& trainee) cons
 }
 
 void OpinionStore::mark_seen(const std::string& note_uuid) {
-  sql::Transaction transaction(database_->connection());
+  sqlite3* connection = database_->connection();
+  AnchoredTransaction transaction(*database_);
   {
-    sql::Statement known(database_->connection(), "SELECT 1 FROM note WHERE uuid = ?");
+    sql::Statement known(connection, "SELECT 1 FROM note WHERE uuid = ?");
     if (!known.bind(note_uuid).step()) throw InputError("note " + note_uuid + ": not in this database");
   }
-  sql::Statement insert(database_->connection(), "INSERT OR IGNORE INTO note_seen SELECT id, ? FROM note WHERE uuid = ?");
-  insert.bind(utc_now()).bind(note_uuid).run();
+  const std::string utc = utc_now();
+  sql::Statement insert(connection, "INSERT OR IGNORE INTO note_seen SELECT id, ? FROM note WHERE uuid = ? RETURNING 1");
+  if (!insert.bind(utc).bind(note_uuid).step()) return;  // met before
+  insert.run();
+  keep_note_seen(connection, note_uuid, utc);
   transaction.commit();
 }
 
@@ -199,6 +221,7 @@ Signature OpinionStore::sign(const std::string& attempt_uuid, const std::string&
   if (!attempt_holds(connection, attempt.id)) {
     throw InputError("attempt " + attempt_uuid + ": was changed after it was finished and cannot be signed; see trocar db check");
   }
+  refuse_second(connection, attempt.id, meaning, author);
   const Signature signature{make_uuid(), attempt.row_hash, author.account_uuid, author.printed, meaning, note, utc_now()};
   sql::Statement insert(connection, "INSERT INTO signature (uuid, attempt_id, row_hash, account_uuid, signer, meaning, note, utc)"
                                     " VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
@@ -265,6 +288,7 @@ Certificate OpinionStore::certify(const std::string& trainee, const std::string&
     sql::Statement known(connection, "SELECT 1 FROM exercise WHERE id = ?");
     if (!known.bind(exercise_id).step()) throw InputError("exercise " + exercise_id + ": nobody has tried it in this database");
   }
+  refuse_second_certificate(connection, id, certificate);
   check_cited(connection, id, evidence);
   sql::Statement insert(connection, "INSERT INTO certificate (uuid, trainee_id, exercise_id, level, rule_version, evidence, author,"
                                     " printed, utc) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");

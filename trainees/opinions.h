@@ -63,7 +63,8 @@ class OpinionStore {
   std::vector<Rating> ratings_of(const std::string& attempt_uuid) const;   ///< oldest first
 
   /// @param note may be empty. @param meaning review, approval, responsibility or authorship.
-  /// @throws InputError: unknown meaning, attempt running or changed since it was finished.
+  /// One of a meaning is enough: by account, from the command line by name.
+  /// @throws InputError: unknown meaning, attempt running or changed since it was finished, already signed by this person with this meaning.
   Signature sign(const std::string& attempt_uuid, const std::string& meaning, const std::string& note, const Author& author);
   std::vector<Signature> signatures_of(const std::string& attempt_uuid) const;
 
@@ -74,7 +75,7 @@ class OpinionStore {
 
   /// @param evidence JSON: what the decision rested on; "attempt" is the one that it cites.
   /// @throws InputError: no such trainee, exercise never tried in this database, level, rule or evidence empty; the
-  /// cited attempt is not here, another trainee's, or not passed as it counts.
+  /// cited attempt is not here, another trainee's, or not passed as it counts; a certificate is held already.
   Certificate certify(const std::string& trainee, const std::string& exercise_id, const std::string& level, const std::string& rule_version,
                       const std::string& evidence, const Author& author);
   /// @throws InputError: no such certificate, revoked already, a reason under 10 characters.

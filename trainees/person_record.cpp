@@ -120,7 +120,8 @@ Json attempts_of(const Database& database, std::int64_t trainee) {
 
 std::string everything_about(Database& database, const std::string& trainee) {
   sqlite3* connection = database.connection();
-  sql::Statement who(connection, "SELECT id, uuid, code, created_utc FROM known_trainee WHERE code = ? COLLATE NOCASE");
+  sql::Statement who(connection, "SELECT id, uuid, code, created_utc FROM known_trainee WHERE code = ?1 COLLATE NOCASE"
+                                 " OR uuid = lower(?1)");
   if (!who.bind(trainee).step()) throw InputError("trainee \"" + trainee + "\": there is none");
   const std::int64_t id = who.integer(0);
   Json all{{"format", "trocar-person-1"}, {"trainee", who.text(1)}, {"code", who.text(2)}, {"created_utc", who.text(3)}};

@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
+#include "trainees/anchored_transaction.h"
 #include "trainees/attempt_identity.h"
+#include "trainees/kept_rows.h"
+#include "trainees/printed_text.h"
 #include "trainees/replica_facts.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/verdicts.h"
@@ -11,11 +14,12 @@
 namespace trocar {
 namespace {
 
-constexpr std::size_t kMaxCode = 32;
+constexpr std::size_t kMaxCode = 32, kLongestAddress = 254;
 
 std::string trainees_query() {
   return std::string("SELECT t.id, t.uuid, t.code, t.created_utc, count(a.id), coalesce(sum(") + sql::kPassed +
-         "), 0), coalesce(max(a.started_utc), '') FROM known_trainee t"
+         "), 0), coalesce(max(a.started_utc), ''), coalesce(p.name, ''), coalesce(p.email, '') FROM known_trainee t"
+         " LEFT JOIN person p ON p.trainee_id = t.id"
          " LEFT JOIN attempt a ON a.trainee_id = t.id AND a.status <> 'running'"
          " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
 }
@@ -38,6 +42,16 @@ void check_code(const std::string& code) {
   }
 }
 
+/// Enough to catch a name in the wrong place; whether an address is anybody's only a letter to it can tell.
+void check_address(const std::string& email) {
+  check_printed("e-mail address", email, kLongestAddress);
+  const std::size_t at = email.find('@');
+  if (at != std::string::npos && at > 0 && at + 1 < email.size() && email.find_first_of(" @", at + 1) == std::string::npos &&
+      email.find(' ') == std::string::npos)
+    return;
+  throw InputError("e-mail address \"" + email + "\": is none, such as name@example.org");
+}
+
 Trainee trainee_of(const sql::Statement& row) {
   Trainee trainee;
   trainee.id = row.integer(0);
@@ -47,13 +61,15 @@ Trainee trainee_of(const sql::Statement& row) {
   trainee.attempts = static_cast<int>(row.integer(4));
   trainee.passes = static_cast<int>(row.integer(5));
   trainee.last_utc = row.text(6);
+  trainee.name = row.text(7);
+  trainee.email = row.text(8);
   return trainee;
 }
 
 }  // namespace
 
 Trainee TraineeStore::ensure_trainee(const std::string& code) {
-  sql::Transaction transaction(connection_);
+  AnchoredTransaction transaction(*database_);
   ensure_id(code);
   transaction.commit();
   return find(code).value();
@@ -69,15 +85,35 @@ std::int64_t TraineeStore::ensure_id(const std::string& code) {
   trainee.bind(uuid).bind(utc_now()).run();
   sql::Statement person(connection_, "INSERT INTO person (trainee_id, code) SELECT id, ? FROM trainee WHERE uuid = ?");
   person.bind(code).bind(uuid).run();
+  keep_trainee(connection_, uuid);
   sql::Statement added(connection_, "SELECT trainee_id FROM person WHERE code = ?");
   added.bind(code).step();
   return added.integer(0);
 }
 
-std::optional<Trainee> TraineeStore::find(const std::string& code) const {
-  sql::Statement row(connection_, trainees_query() + " WHERE t.code = ? COLLATE NOCASE GROUP BY t.id");
-  if (!row.bind(code).step()) return std::nullopt;
+std::optional<Trainee> TraineeStore::find(const std::string& name) const {
+  sql::Statement row(connection_, trainees_query() + " WHERE t.code = ?1 COLLATE NOCASE OR t.uuid = lower(?1) GROUP BY t.id");
+  if (!row.bind(name).step()) return std::nullopt;
   return trainee_of(row);
+}
+
+Trainee TraineeStore::edit(const std::string& code, const std::optional<std::string>& name, const std::optional<std::string>& email,
+                           const std::string& author) {
+  if (!name && !email) throw InputError("trainee \"" + code + "\": say what is to change, the name or the e-mail address");
+  if (name && !name->empty()) check_printed("name", *name);
+  if (email && !email->empty()) check_address(*email);
+  AnchoredTransaction transaction(*database_);
+  const auto known = find(code);
+  if (!known) throw InputError("trainee \"" + code + "\": there is none");
+  if (!person_holds(connection_, known->uuid)) throw InputError("trainee \"" + code + "\": was changed by another way; see trocar db check");
+  sql::Statement change(connection_, "UPDATE person SET name = ?1, email = ?2 WHERE trainee_id = ?3 RETURNING 1");
+  if (!change.bind(name.value_or(known->name)).bind(email.value_or(known->email)).bind(known->id).step())
+    throw InputError("trainee \"" + known->code + "\": the identity was erased");
+  change.run();
+  if (name.value_or(known->name) == known->name && email.value_or(known->email) == known->email) return *known;  // as it was
+  keep_person(connection_, known->uuid, author);
+  transaction.commit();
+  return find(known->uuid).value();
 }
 
 std::vector<Trainee> TraineeStore::list() const {

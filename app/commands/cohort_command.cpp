@@ -57,6 +57,7 @@ int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream
                cell(row.mean_time_s, 1), cell_time(row.last_utc), cell_flags(row, lines)});
   }
   table.print(out);
+  if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";
   return 0;
 }
 

@@ -1,6 +1,5 @@
 #include "app/commands/demo_command.h"
 
-#include <fstream>
 #include <optional>
 #include <ostream>
 
@@ -12,6 +11,7 @@
 #include "app/report/report.h"
 #include "haptics/input_error.h"
 #include "tissue/tissue_frame.h"
+#include "trainees/files/owner_file.h"
 
 namespace trocar {
 namespace {
@@ -53,7 +53,7 @@ class Photographer {
 };
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
+  std::ofstream out = open_owner_file(file);
   out << text;
   out.flush();
   if (!out) throw EnvironmentError(file.string() + ": cannot be written");

@@ -14,6 +14,7 @@
 #include "scenarios/exercise_loader.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/attempt_store.h"
+#include "trainees/cohort.h"
 #include "trainees/export/jigsaws.h"
 #include "trainees/export/table_export.h"
 #include "trainees/export/xapi_export.h"
@@ -126,6 +127,7 @@ int export_command(const ExportOptions& options, std::ostream& out, std::ostream
   if (options.format == "xapi") write_statements(options, database, choice, pending.file());
   if (options.format == "jigsaws") attempts = static_cast<std::size_t>(write_jigsaws(database, choice, pending, err));
   pending.commit();
+  if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";
   out << attempts << (attempts == 1 ? " attempt in " : " attempts in ") << options.out.string() << '\n';
   return 0;
 }

@@ -10,8 +10,8 @@ using Json = nlohmann::ordered_json;
 Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json json_of(const Trainee& trainee) {
-  return {{"code", trainee.code},         {"uuid", trainee.uuid},     {"created_utc", trainee.created_utc},
-          {"attempts", trainee.attempts}, {"passes", trainee.passes}, {"last_utc", trainee.last_utc}};
+  return {{"code", trainee.code}, {"uuid", trainee.uuid}, {"created_utc", trainee.created_utc}, {"attempts", trainee.attempts},
+          {"passes", trainee.passes}, {"last_utc", trainee.last_utc}};
 }
 
 Json json_of(const AttemptSummary& attempt) {
@@ -89,6 +89,8 @@ std::string trainees_json(const std::vector<Trainee>& trainees) { return text_of
 
 std::string trainee_json(const Trainee& trainee, const std::vector<AttemptSummary>& attempts, const std::vector<CohortLine>& lines) {
   Json json = json_of(trainee);
+  json["name"] = trainee.name;
+  json["email"] = trainee.email;
   json["curves"] = array_of(lines);
   json["history"] = array_of(attempts);
   return text_of(json);
@@ -111,7 +113,8 @@ std::string problems_json(const Database& database, const std::vector<std::strin
                   {"schema", database.schema_version()},
                   {"head", database.head()},
                   {"sound", problems.empty()},
-                  {"problems", problems}});
+                  {"problems", problems},
+                  {"not_covered", database.not_covered()}});
 }
 
 }  // namespace trocar

@@ -41,6 +41,13 @@ void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& o
   table.print(out);
 }
 
+void print_person(const Trainee& trainee, std::ostream& out) {
+  out << trainee.code << "  " << trainee.uuid << '\n';
+  if (!trainee.name.empty() || !trainee.email.empty()) {
+    out << trainee.name << (trainee.name.empty() || trainee.email.empty() ? "" : ", ") << trainee.email << '\n';
+  }
+}
+
 /// What the rules say of each curve, with what they rest on.
 void print_judgements(const std::vector<CohortLine>& lines, std::ostream& out) {
   TextTable table({{"exercise"}, {"level"}, {"hand"}, {"flag"}, {"evidence"}, {"n", Align::kRight}, {"decided", Align::kRight},
@@ -64,6 +71,14 @@ int trainee_add(const TraineeOptions& options, std::ostream& out, std::ostream& 
   } else {
     out << trainee.code << "  " << trainee.uuid << '\n';
   }
+  return 0;
+}
+
+int trainee_edit(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const Trainee trainee = TraineeStore(database).edit(options.code, options.name, options.email, "");
+  if (options.json) out << trainee_json(trainee, {}, {});
+  else print_person(trainee, out);
   return 0;
 }
 
@@ -96,7 +111,8 @@ int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream&
     out << trainee_json(*trainee, attempts, lines);
     return 0;
   }
-  out << trainee->code << "  " << trainee->uuid << "  since " << cell_time(trainee->created_utc) << " UTC\n"
+  print_person(*trainee, out);
+  out << "since " << cell_time(trainee->created_utc) << " UTC\n"
       << trainee->attempts << " attempts, " << trainee->passes << " passed\n";
   if (!lines.empty()) print_judgements(lines, out << '\n');
   if (!attempts.empty()) print_attempts(attempts, out << '\n');

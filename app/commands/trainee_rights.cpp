@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <ostream>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "trainees/attempt_store.h"
 #include "trainees/consents.h"
 #include "trainees/erasure.h"
+#include "trainees/files/owner_file.h"
 #include "trainees/opinions.h"
 #include "trainees/trainee_store.h"
 
@@ -38,16 +38,53 @@ Trainee required(Database& database, const std::string& code) {
 
 std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
+ErasureKind kind_of(const TraineeRightsOptions& options) { return options.training ? ErasureKind::kTraining : ErasureKind::kIdentity; }
+
+/// "2 notes, 1 consent" of what there is.
+std::string listed(const std::vector<std::pair<int, std::string>>& parts) {
+  std::string all;
+  for (const auto& [count, what] : parts)
+    if (count > 0) all += (all.empty() ? "" : ", ") + counted(static_cast<std::size_t>(count), what);
+  return all.empty() ? "nothing more" : all;
+}
+
+std::string with_it(const ErasurePreview& p) {
+  return listed({{p.notes, "note"}, {p.consents, "consent"}, {p.groups, "group"}, {p.accounts, "account"}, {p.opinions, "opinion"},
+                 {p.certificates, "certificate"}, {p.recordings, "recording"}});
+}
+
+void print_previews(const std::vector<ErasurePreview>& previews, bool training, std::ostream& out) {
+  TextTable table({{"trainee"}, {"last (UTC)"}, {"attempts", TextTable::Align::kRight}, {"they"}, {"goes with name and code"}});
+  for (const ErasurePreview& p : previews)
+    table.add({p.code, cell_time(p.last_utc), std::to_string(p.attempts), training ? "are emptied" : "stay", with_it(p)});
+  table.print(out);
+}
+
 int erase_one(Database& database, const std::string& code, const TraineeRightsOptions& options, const std::string& rule,
               std::ostream& out, std::ostream& err) {
-  const auto kind = options.training ? ErasureKind::kTraining : ErasureKind::kIdentity;
-  const ErasureReport report = erase_trainee(database, code, kind, rule, author_of(options));
+  const ErasureReport report = erase_trainee(database, code, kind_of(options), rule, author_of(options));
   const auto notes = static_cast<std::size_t>(report.notes), attempts = static_cast<std::size_t>(report.attempts);
   out << code << ": identity erased, " << counted(notes, "note") << " with it; " << counted(attempts, "attempt")
       << (options.training ? " emptied, " + counted(report.recordings.size(), "file") + " of recordings removed" : " kept without a name")
-      << " (" << report.trainee_uuid << ")\n";
+      << " (" << report.trainee_uuid << ", from now on erased-" << report.trainee_uuid.substr(28) << ")\n";
   for (const std::string& left : report.left) err << left << '\n';
   return report.left.empty() ? 0 : kSomethingLeft;
+}
+
+/// One who cannot be erased now keeps nobody else.
+int erase_all(Database& database, const std::vector<std::string>& codes, const TraineeRightsOptions& options, std::ostream& out,
+              std::ostream& err) {
+  const std::string rule = "retention " + std::to_string(options.days) + " days";
+  int code = 0;
+  for (const std::string& trainee : codes) {
+    try {
+      code = std::max(code, erase_one(database, trainee, options, rule, out, err));
+    } catch (const InputError& error) {
+      err << error.what() << '\n';
+      code = kSomethingLeft;
+    }
+  }
+  return code;
 }
 
 }  // namespace
@@ -56,6 +93,7 @@ int trainee_erase(const TraineeRightsOptions& options, std::ostream& out, std::o
   Database database = open_database(options.database, OpenMode::kExisting, err);
   const Trainee trainee = required(database, options.code);
   if (!options.yes) {
+    print_previews({preview_erasure(database, trainee.code, kind_of(options))}, options.training, out);
     throw InputError("trainee " + trainee.code + " (" + counted(static_cast<std::size_t>(trainee.attempts), "attempt") + "): " +
                      (options.training ? "name, code, notes, consents, sign-in, every number and every recording"
                                        : "name, code, notes, consents and sign-in") +
@@ -72,9 +110,7 @@ int trainee_export(const TraineeRightsOptions& options, std::ostream& out, std::
     return 0;
   }
   if (fs::exists(options.output)) throw InputError(options.output.string() + ": exists already; an export never overwrites");
-  std::ofstream file(options.output, std::ios::binary);
-  std::error_code ignored;
-  fs::permissions(options.output, fs::perms::owner_read | fs::perms::owner_write, ignored);
+  std::ofstream file = open_owner_file(options.output);
   if (!(file << all) || !file.flush()) throw EnvironmentError(options.output.string() + ": cannot be written");
   out << options.output.string() << '\n';
   return 0;
@@ -113,11 +149,12 @@ int trainee_consent(const TraineeRightsOptions& options, std::ostream& out, std:
 int db_retention(const TraineeRightsOptions& options, std::ostream& out, std::ostream& err) {
   Database database = open_database(options.database, OpenMode::kExisting, err);
   const std::vector<std::string> codes = older_than(database, options.days, utc_now());
-  int code = 0;
-  if (options.erase) {
-    const std::string rule = "retention " + std::to_string(options.days) + " days";
-    for (const std::string& trainee : codes) code = std::max(code, erase_one(database, trainee, options, rule, out, err));
-    return code;
+  if (options.erase && !codes.empty()) {
+    if (options.yes) return erase_all(database, codes, options, out, err);
+    std::vector<ErasurePreview> previews;
+    for (const std::string& trainee : codes) previews.push_back(preview_erasure(database, trainee, kind_of(options)));
+    print_previews(previews, options.training, out);
+    throw InputError("nobody was erased: " + counted(codes.size(), "trainee") + " would be, which cannot be undone; say --yes");
   }
   TextTable table({{"trainee"}, {"attempts", TextTable::Align::kRight}, {"last (UTC)"}, {"since (UTC)"}});
   for (const std::string& trainee : codes) {

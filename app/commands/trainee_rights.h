@@ -12,7 +12,7 @@ struct TraineeRightsOptions {
   std::filesystem::path database;  ///< empty: the default path
   std::string code;
   bool training = false;           ///< of erase and retention: the training data, too
-  bool yes = false;                ///< of erase: without it only told what would go (InputError)
+  bool yes = false;                ///< of erase and retention: without it only told what would go (InputError)
   std::string reason = "request of the person";
   std::filesystem::path output;    ///< of export; empty: standard output
   std::string text, attempt;       ///< of note; attempt: "latest" or a part of its UUID, empty: of the trainee
@@ -31,7 +31,8 @@ int trainee_export(const TraineeRightsOptions& options, std::ostream& out, std::
 int trainee_note(const TraineeRightsOptions& options, std::ostream& out, std::ostream& err);
 /// @return exit code 0; what holds of every purpose is the result.
 int trainee_consent(const TraineeRightsOptions& options, std::ostream& out, std::ostream& err);
-/// Trainees whose newest attempt is older than so many days; with `erase` they are erased. @return exit code 0; 3 as erase.
+/// Trainees whose newest attempt is older than so many days; with `erase` what would go of each, with `yes` too it goes.
+/// @return exit code 0; 3 as erase. @throws InputError: somebody would be erased and `yes` is missing.
 int db_retention(const TraineeRightsOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace trocar

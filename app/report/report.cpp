@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <numbers>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "app/report/stiffness_plot.h"
 #include "app/report/verdict.h"
 #include "haptics/input_error.h"
+#include "trainees/files/owner_file.h"
 
 namespace trocar {
 namespace {
@@ -243,7 +243,7 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
 void write_report(const std::filesystem::path& path_html, const AttemptResult& result, const Trace& trace,
                   const ReportContext& context) {
   const std::string page = report_page(result, trace, context);
-  std::ofstream file(path_html, std::ios::binary);
+  std::ofstream file = open_owner_file(path_html);
   if (!file) throw EnvironmentError("cannot write report " + path_html.string() + ": " + std::strerror(errno));
   file << page;
   file.close();

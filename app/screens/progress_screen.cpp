@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <ctime>
-#include <fstream>
 
 #include "app/practice/cut_off.h"
 #include "app/practice/file_stamp.h"
 #include "app/practice/metric_words.h"
 #include "haptics/input_error.h"
+#include "trainees/files/owner_file.h"
 
 namespace trocar {
 namespace {
@@ -57,12 +57,11 @@ std::vector<ProgressEntry> progress_of(const PracticeDesk& desk) {
 
 std::filesystem::path export_attempts(const PracticeDesk& desk) {
   const std::filesystem::path folder = exports_folder(desk);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  make_owner_folders(folder);
   const std::string name = "trocar-" + desk.trainee() + "-" + file_stamp();
   std::filesystem::path file = folder / (name + ".csv");
   for (int n = 2; std::filesystem::exists(file); ++n) file = folder / (name + "-" + std::to_string(n) + ".csv");
-  std::ofstream out(file, std::ios::binary);
+  std::ofstream out = open_owner_file(file);
   out << attempts_csv(desk.past());
   out.close();
   if (!out) throw EnvironmentError(file.string() + ": cannot be written; is there room, and may you write there?");

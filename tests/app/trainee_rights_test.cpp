@@ -1,11 +1,14 @@
 // The commands by which a person's rights are kept: note, consent, export, erasure, retention.
 #include "app/commands/trainee_rights.h"
 
+#include <sys/stat.h>
+
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/commands/trainee_command.h"
 #include "tests/trainees/store_samples.h"
 #include "trainees/opinions.h"
 #include "trainees/trainee_store.h"
@@ -108,6 +111,7 @@ TEST_F(TraineeRights, ErasingAsksForYesAndSaysWhatWent) {
   const std::string refused = message_of<InputError>([&] { trainee_erase(options(), out_, err_); });
   EXPECT_NE(refused.find("T-one (1 attempt)"), std::string::npos) << refused;
   EXPECT_NE(refused.find("say --yes"), std::string::npos);
+  EXPECT_NE(said().find("stay"), std::string::npos) << "what would go, and that attempts stay";
   EXPECT_TRUE(TraineeStore(*std::make_unique<Database>(file_)).find("T-one"));
   TraineeRightsOptions erase = options("t-ONE");
   erase.yes = true;
@@ -149,11 +153,100 @@ TEST_F(TraineeRights, RetentionListsAndThenErases) {
   EXPECT_NE(listed.find("T-one           1  2020-01-01"), std::string::npos) << listed;
   EXPECT_EQ(listed.find("T-two"), std::string::npos);
   retention.erase = true;
+  const std::string asked = message_of<InputError>([&] { db_retention(retention, out_, err_); });
+  EXPECT_NE(asked.find("nobody was erased: 1 trainee would be"), std::string::npos) << asked;
+  EXPECT_NE(asked.find("say --yes"), std::string::npos);
+  const std::string preview = said();
+  EXPECT_NE(preview.find("T-one"), std::string::npos) << preview;
+  EXPECT_NE(preview.find("stay"), std::string::npos) << preview;
+  EXPECT_EQ(preview.find("T-two"), std::string::npos) << preview;
+  EXPECT_TRUE(TraineeStore(*std::make_unique<Database>(file_)).find("T-one"));
+  retention.yes = true;
+  retention.author = "Ida Adler";
   EXPECT_EQ(db_retention(retention, out_, err_), 0);
   EXPECT_EQ(said().find("T-one: identity erased"), 0u);
+  EXPECT_EQ(db_retention(retention, out_, err_), 0) << "nobody is left to ask about";
   Database database(file_);
   EXPECT_TRUE(TraineeStore(database).find("T-two"));
   EXPECT_FALSE(TraineeStore(database).find("T-one"));
+}
+
+TEST_F(TraineeRights, RetentionGoesOnPastOneWhoCannotBeErasedNow) {
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE trainee SET created_utc = '2020-01-01T00:00:00.000Z';"
+                                        "UPDATE attempt SET started_utc = '2020-01-01T00:00:00.000Z';"
+                                        "CREATE TRIGGER stop BEFORE DELETE ON person WHEN OLD.code = 'T-one' BEGIN SELECT RAISE(ABORT, 'not now'); END"), "");
+  TraineeRightsOptions retention = options("");
+  retention.days = 365;
+  retention.erase = retention.yes = true;
+  EXPECT_EQ(db_retention(retention, out_, err_), 3);
+  EXPECT_NE(err_.str().find("not now"), std::string::npos);
+  Database database(file_);
+  EXPECT_TRUE(TraineeStore(database).find("T-one"));
+  EXPECT_FALSE(TraineeStore(database).find("T-two"));
+}
+
+TEST_F(TraineeRights, APreviewCountsWhatGoes) {
+  TraineeRightsOptions note = options();
+  note.text = "Keep the left hand still.";
+  note.author = "Ida Adler";
+  trainee_note(note, out_, err_);
+  said();
+  TraineeRightsOptions erase = options();
+  erase.training = true;
+  EXPECT_THROW(trainee_erase(erase, out_, err_), InputError);
+  const std::string preview = said();
+  EXPECT_NE(preview.find("are emptied"), std::string::npos) << preview;
+  EXPECT_NE(preview.find("1 note"), std::string::npos) << preview;
+}
+
+TEST_F(TraineeRights, ASecondErasureFollowsByWhatTheFirstOnePrinted) {
+  TraineeRightsOptions erase = options();
+  erase.yes = true;
+  EXPECT_EQ(trainee_erase(erase, out_, err_), 0);
+  const std::string printed = said();
+  const std::size_t at = printed.find('(') + 1;
+  const std::string uuid = printed.substr(at, 36), code = printed.substr(printed.find("erased-"), 15);
+  EXPECT_EQ(code, "erased-" + uuid.substr(28));
+  for (const std::string& who : {uuid, code}) {
+    erase.code = who;
+    erase.training = true;
+    EXPECT_EQ(trainee_erase(erase, out_, err_), 0) << who;
+    EXPECT_NE(said().find("1 attempt emptied"), std::string::npos) << who;
+  }
+  EXPECT_EQ(problems_of(Database(file_)), "");
+}
+
+TEST_F(TraineeRights, ANameIsKeptShownExportedAndGoesWithTheIdentity) {
+  TraineeOptions edit{file_, "T-one"};
+  edit.name = "Anna Zimtstern";
+  edit.email = "anna@example.org";
+  EXPECT_EQ(trainee_edit(edit, out_, err_), 0);
+  EXPECT_NE(said().find("Anna Zimtstern, anna@example.org\n"), std::string::npos);
+  TraineeOptions show{file_, "T-one"};
+  EXPECT_EQ(trainee_show(show, out_, err_), 0);
+  EXPECT_NE(said().find("Anna Zimtstern, anna@example.org\n"), std::string::npos);
+  show.json = true;
+  EXPECT_EQ(trainee_show(show, out_, err_), 0);
+  EXPECT_EQ(Json::parse(said())["email"], "anna@example.org");
+  EXPECT_EQ(trainee_export(options(), out_, err_), 0);
+  EXPECT_EQ(Json::parse(said())["person"]["name"], "Anna Zimtstern");
+  TraineeRightsOptions erase = options();
+  erase.yes = true;
+  EXPECT_EQ(trainee_erase(erase, out_, err_), 0);
+  std::ifstream in(file_, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_EQ(bytes.find("Zimtstern"), std::string::npos);
+}
+
+TEST_F(TraineeRights, AnExportIsNarrowWhateverTheUmask) {
+  for (const mode_t mask : {mode_t{0}, mode_t{0777}}) {
+    TraineeRightsOptions all = options();
+    all.output = folder_ / ("umask" + std::to_string(mask));
+    const mode_t before = umask(mask);
+    EXPECT_EQ(trainee_export(all, out_, err_), 0);
+    umask(before);
+    EXPECT_EQ(fs::status(all.output).permissions() & fs::perms(0777), fs::perms(0600)) << mask;
+  }
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ const std::vector<Direction>& directions() {
       {"^scenarios/scoring/", "^(scenarios/scoring/|haptics/quantities\\.h$)", "scoring is pure"},
       {"^trainees/", "^(trainees|scenarios/scoring|haptics)/", "trainees know scoring and haptics only"},
       {"^app/(recorder|graphics|report|executor)/",
-       "^(app/(recorder|graphics|report|executor|scene\\.h)|trainees/markup/|haptics/|tissue/|scenarios/)",
+       "^(app/(recorder|graphics|report|executor|scene\\.h)|trainees/(files|markup)/|haptics/|tissue/|scenarios/)",
        "parts of the program do not know its commands or the store"},
       {"^(app|haptics|tissue|scenarios|trainees)/", "^(app|haptics|tissue|scenarios|trainees)/",
        "no source knows the tests"},

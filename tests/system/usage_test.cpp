@@ -49,7 +49,8 @@ const std::map<std::string, Words>& other_commands_and_flags() {
 /// Those about people and what is kept of them.
 const std::map<std::string, Words>& commands_about_people() {
   static const std::map<std::string, Words> table{
-      {"trainee", {"add", "list", "show", "note", "export", "consent", "erase"}},
+      {"trainee", {"add", "list", "show", "edit", "note", "export", "consent", "erase"}},
+      {"trainee edit", {"--db", "--name", "--email", "--json"}},
       {"trainee note", {"--db", "--attempt", "--author"}},
       {"trainee export", {"--db", "-o"}},
       {"trainee consent", {"--db", "--purpose", "--text", "--withdrawn", "--author"}},
@@ -69,7 +70,7 @@ const std::map<std::string, Words>& commands_about_people() {
       {"sync link", {"--at", "--password-file", "--author"}},
       {"sync unlink", {"--at", "--password-file", "--author"}},
       {"db", {"check", "backup", "migrate", "anchor", "rubric", "retention"}},
-      {"db retention", {"--db", "--days", "--erase", "--training"}},
+      {"db retention", {"--db", "--days", "--erase", "--training", "--author", "--yes"}},
       {"db check", {"--db", "--json"}},
       {"db backup", {"--db", "--out"}},
       {"db migrate", {"--db"}},

@@ -88,6 +88,7 @@ TEST_F(Accounts, ALoginIsTakenWhateverItsCase) {
 
 TEST_F(Accounts, ADisabledAccountCannotSignInUntilItIsEnabled) {
   instructor();
+  store_.add("second", "Second", Role::kInstructor, "", kPassword, "");
   store_.set_disabled("i.adler", true, "");
   EXPECT_FALSE(store_.verify("i.adler", kPassword));
   EXPECT_NE(store_.find("i.adler")->disabled_utc, "");
@@ -136,6 +137,41 @@ TEST_F(Accounts, TheTableRefusesToMakeSomebodyElseOfAnAccount) {
     EXPECT_THROW(sql::execute(database_.connection(), change), InputError) << change;
   }
   EXPECT_TRUE(store_.verify("i.adler", kPassword));
+}
+
+TEST_F(Accounts, SomebodyWhoCanManageTheDeskRemains) {
+  const auto refusal_of = [&](const std::string& login) { return message_of<InputError>([&] { store_.set_disabled(login, true, ""); }); };
+  const auto add = [&](const char* login, Role role) { store_.add(login, login, role, "", kPassword, ""); };
+  add("ines", Role::kInstructor);
+  EXPECT_NE(refusal_of("ines").find("is the last instructor who can sign in"), std::string::npos);
+  add("adam", Role::kAdministrator);
+  EXPECT_NE(refusal_of("adam").find("is the last administrator who can sign in"), std::string::npos) << "an instructor is none";
+  EXPECT_EQ(refusal_of("ines"), "") << "an administrator remains";
+  add("eva", Role::kAdministrator);
+  EXPECT_EQ(refusal_of("adam"), "");
+  EXPECT_NE(refusal_of("eva").find("nothing was changed"), std::string::npos);
+  EXPECT_TRUE(store_.verify("eva", kPassword));
+  EXPECT_EQ(refusal_of("adam"), "") << "who is disabled already stays so";
+  TraineeStore(database_).ensure_trainee("T-1");
+  store_.add("anna", "Anna", Role::kTrainee, "T-1", "123456", "");
+  EXPECT_EQ(refusal_of("anna"), "");
+  EXPECT_TRUE(database_.check().empty());
+}
+
+TEST_F(Accounts, ComingAndGoingIsOnRecordByAccountAlone) {
+  const Account account = instructor();
+  store_.signed_in(account.uuid);
+  store_.signed_out(account.uuid);
+  store_.held_back(account.uuid);
+  store_.held_back("");
+  sql::Statement rows(database_.connection(), "SELECT action, subject, actor, detail FROM audit WHERE action LIKE 'sign%' ORDER BY position");
+  const std::vector<std::vector<std::string>> wanted{{"signed in", account.uuid, account.uuid, ""}, {"signed out", account.uuid, account.uuid, ""},
+                                                     {"sign-in held back", account.uuid, "trocar", ""}, {"sign-in held back", "", "trocar", ""}};
+  for (const auto& entry : wanted) {
+    ASSERT_TRUE(rows.step());
+    for (int column = 0; column < 4; ++column) EXPECT_EQ(rows.text(column), entry[static_cast<std::size_t>(column)]);
+  }
+  EXPECT_TRUE(database_.check().empty()) << "they say nothing of the account's row";
 }
 
 TEST(Roles, HaveNamesThatReadBack) {

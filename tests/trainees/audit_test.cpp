@@ -43,7 +43,7 @@ class Audit : public TemporaryFolder {
            " WHERE id >> 10 = 3; DELETE FROM score_cap WHERE score_id = 3; DELETE FROM score WHERE id = 3;"
            "DELETE FROM device_warning WHERE attempt_id = 3; DELETE FROM device_transition_row WHERE id >> 20 = 3;"
            "DELETE FROM attempt WHERE id = 3; UPDATE sqlite_sequence SET seq = 2 WHERE name = 'attempt';";
-    if (with_audit) sql += "DELETE FROM audit WHERE position = 4;";
+    if (with_audit) sql += "DELETE FROM audit WHERE position = 7;";
     outside(sql + restore);
   }
   static std::string trigger_text(sqlite3* raw, const std::string& name) {
@@ -61,7 +61,7 @@ class Audit : public TemporaryFolder {
 TEST_F(Audit, ADatabaseThatWasOnlyUsedIsSound) {
   EXPECT_EQ(problems(), "");
   std::ifstream in(anchor_path(file_));
-  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(in), {}, '\n'), 4) << "made, and three attempts";
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(in), {}, '\n'), 5) << "made, trainee and exercise, and three attempts";
 }
 
 TEST_F(Audit, ADeletedNewestAttemptIsNoticed) {
@@ -74,7 +74,7 @@ TEST_F(Audit, ADeletedNewestAttemptIsNoticed) {
 TEST_F(Audit, ADeletedNewestAttemptWithItsEntryIsNoticedByTheAnchor) {
   remove_newest(true);
   EXPECT_EQ(problems().find("audit trail"), std::string::npos) << problems();
-  EXPECT_NE(problems().find("anchor: the newest entries are missing: entry 4"), std::string::npos) << problems();
+  EXPECT_NE(problems().find("anchor: the newest entries are missing: entry 7"), std::string::npos) << problems();
 }
 
 TEST_F(Audit, AnOlderCopyPutBackIsNoticed) {
@@ -86,7 +86,7 @@ TEST_F(Audit, AnOlderCopyPutBackIsNoticed) {
   }
   for (const char* log : {"-wal", "-shm"}) fs::remove(file_.string() + log);
   fs::copy_file(folder_ / "copy.db", file_, fs::copy_options::overwrite_existing);
-  EXPECT_NE(problems().find("entry 5"), std::string::npos) << problems();
+  EXPECT_NE(problems().find("entry 8"), std::string::npos) << problems();
 }
 
 TEST_F(Audit, AnotherAttemptInThePlaceOfTheNewestIsNoticed) {
@@ -95,7 +95,7 @@ TEST_F(Audit, AnotherAttemptInThePlaceOfTheNewestIsNoticed) {
     Database database(file_);
     store_attempt(database, sample_start(), sample_result(99));
   }
-  EXPECT_NE(problems().find("entry 4 of "), std::string::npos) << problems();
+  EXPECT_NE(problems().find("entry 7 of "), std::string::npos) << problems();
   EXPECT_NE(problems().find("is not the one that was anchored"), std::string::npos) << problems();
 }
 
@@ -106,7 +106,7 @@ TEST_F(Audit, AMissingAnchorIsAProblemUntilItIsRenewedOnRecord) {
     Database database(file_);
     store_attempt(database, sample_start(), sample_result());
   }
-  EXPECT_NE(problems().find("begins with entry 5: it is younger than the database"), std::string::npos) << problems();
+  EXPECT_NE(problems().find("begins with entry 8: it is younger than the database"), std::string::npos) << problems();
   { Database(file_).renew_anchor(); }
   EXPECT_EQ(problems(), "");
   sqlite3* raw = nullptr;
@@ -125,16 +125,16 @@ TEST_F(Audit, AnAnchorThatLagsOrWasCutOffByACrashIsNone) {
     store_attempt(database, sample_start(), sample_result());
   }
   EXPECT_EQ(problems(), "") << "the next line is one of its own";
-  EXPECT_NE(read_anchor(file_).find("~\n5 "), std::string::npos) << read_anchor(file_);
+  EXPECT_NE(read_anchor(file_).find("~\n8 "), std::string::npos) << read_anchor(file_);
   std::ofstream(anchor_path(file_), std::ios::app) << "nonsense\n";
   EXPECT_NE(problems().find("a line is not readable"), std::string::npos);
 }
 
 TEST_F(Audit, AChangedOrMissingEntryIsNoticed) {
-  outside("DROP TRIGGER audit_no_update; UPDATE audit SET detail = 'x' WHERE position = 2");
-  EXPECT_NE(problems().find("audit trail: entry 2 (attempt finished) was changed"), std::string::npos) << problems();
-  outside("DROP TRIGGER audit_no_delete; DELETE FROM audit WHERE position = 2");
-  EXPECT_NE(problems().find("before entry 3 (attempt finished): entries are missing"), std::string::npos);
+  outside("DROP TRIGGER audit_no_update; UPDATE audit SET detail = 'x' WHERE position = 5");
+  EXPECT_NE(problems().find("audit trail: entry 5 (attempt finished) was changed"), std::string::npos) << problems();
+  outside("DROP TRIGGER audit_no_delete; DELETE FROM audit WHERE position = 5");
+  EXPECT_NE(problems().find("before entry 6 (attempt finished): entries are missing"), std::string::npos);
   EXPECT_NE(problems().find("has no entry"), std::string::npos);
 }
 

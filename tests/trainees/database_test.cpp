@@ -2,12 +2,14 @@
 #include "trainees/database.h"
 
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 
 #include "tests/trainees/store_samples.h"
 #include "trainees/trainee_store.h"
@@ -41,6 +43,65 @@ TEST_F(DatabaseFile, MissingIsAnEnvironmentErrorWhereItMustExist) {
   const auto open = [&] { Database database(folder_ / "none.db", OpenMode::kExisting); };
   EXPECT_NE(message_of<EnvironmentError>(open).find("none.db: there is no database yet"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "none.db"));
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The message where it is to be read, and the file as it was, with nothing beside it.
+std::string refused_unread(const fs::path& file, OpenMode mode) {
+  const std::string before = bytes_of(file), message = message_of<InputError>([&] { Database(file, mode, 50); });
+  EXPECT_TRUE(bytes_of(file) == before) << file;
+  for (const char* beside : {"-wal", "-shm", "-journal", ".anchor"}) EXPECT_FALSE(fs::exists(file.string() + beside)) << beside;
+  return message;
+}
+
+TEST_F(DatabaseFile, AnEmptyFileIsNotMadeIntoOneByReading) {
+  std::ofstream(folder_ / "empty.db").flush();
+  EXPECT_NE(refused_unread(folder_ / "empty.db", OpenMode::kExisting).find("empty.db: is empty, no database"), std::string::npos);
+  { Database database(folder_ / "empty.db", OpenMode::kCreate); }
+  EXPECT_TRUE(Database(folder_ / "empty.db", OpenMode::kExisting).check().empty()) << "what makes databases may use it";
+}
+
+TEST_F(DatabaseFile, ADatabaseWithoutTablesIsNotMadeIntoOneByReading) {
+  ASSERT_EQ(run_outside(folder_ / "bare.db", "CREATE TABLE t (x); DROP TABLE t"), "");
+  EXPECT_NE(refused_unread(folder_ / "bare.db", OpenMode::kExisting).find("bare.db: holds no tables"), std::string::npos);
+}
+
+TEST_F(DatabaseFile, WhatIsNoDatabaseIsLeftAsItIs) {
+  for (const std::string& content : {std::string("x"), std::string("not a database\n"), std::string(100, '\0'), std::string(5000, 'z')}) {
+    std::ofstream(folder_ / "text.db") << content;
+    for (const OpenMode mode : {OpenMode::kExisting, OpenMode::kCreate}) {
+      EXPECT_NE(refused_unread(folder_ / "text.db", mode).find("text.db: is not a database"), std::string::npos) << content.size();
+    }
+  }
+}
+
+int rights_of(const fs::path& path) { return static_cast<int>(fs::status(path).permissions() & fs::perms(0777)); }
+
+TEST_F(DatabaseFile, BackupsAndNewFoldersAreForTheirOwnerAloneWhateverTheUmask) {
+  for (const mode_t mask : {mode_t{0}, mode_t{022}, mode_t{0777}}) {
+    const fs::path place = folder_ / ("umask" + std::to_string(mask));
+    const mode_t before = umask(0);
+    fs::create_directories(place);
+    umask(mask);
+    {
+      Database(place / "deep" / "t.db").backup(place / "copies" / "of" / "t.backup");
+    }
+    umask(before);
+    for (const char* folder : {"deep", "copies", "copies/of"}) EXPECT_EQ(rights_of(place / folder), 0700) << folder << " under " << mask;
+    for (const char* file : {"copies/of/t.backup", "copies/of/t.backup.anchor"}) EXPECT_EQ(rights_of(place / file), 0600) << file;
+  }
+}
+
+TEST_F(DatabaseFile, ABackupOfWhatAllMayReadIsNarrower) {
+  Database database(folder_ / "t.db");
+  fs::permissions(folder_ / "t.db", fs::perms(0666));
+  database.backup(folder_ / "t.backup");
+  EXPECT_EQ(rights_of(folder_ / "t.backup"), 0600);
+  EXPECT_EQ(rights_of(folder_), 0755) << "a folder that was there stays as it was";
 }
 
 TEST_F(DatabaseFile, AFolderThatCannotBeMadeOrOpenedIsAnEnvironmentError) {

@@ -28,7 +28,7 @@ class Erasure : public TemporaryFolder {
   Erasure() : file_(folder_ / "t.db"), database_(file_), opinions_(database_) {
     for (int i = 0; i < 3; ++i) attempts_.push_back(recorded(kCode));
     other_ = recorded("T-other");
-    sql::execute(database_.connection(), "UPDATE person SET name = 'Zimtstern, Anna', email = 'a@zimtstern' WHERE trainee_id = 1");
+    TraineeStore(database_).edit(kCode, "Zimtstern, Anna", "a@zimtstern", "");
     opinions_.add_note(kCode, attempts_[0], std::string("Zimtstern: keep the left hand still."), kAuthor);
     opinions_.mark_seen(opinions_.newest_unseen(kCode)->uuid);
     opinions_.add_note("T-other", other_, "Good.", kAuthor);
@@ -136,6 +136,51 @@ TEST_F(Erasure, OfTheTrainingDataMayFollowThatOfTheIdentity) {
   EXPECT_EQ(second.recordings.size(), 6u);
   EXPECT_EQ(count("erasure"), 2);
   EXPECT_EQ(problems(), "");
+}
+
+TEST_F(Erasure, FollowsByTheIdentifierThatTheFirstOnePrinted) {
+  const ErasureReport first = erase(ErasureKind::kIdentity);
+  EXPECT_EQ(TraineeStore(database_).find(first.trainee_uuid)->code, "erased-" + first.trainee_uuid.substr(28));
+  EXPECT_EQ(Json::parse(everything_about(database_, first.trainee_uuid))["trainee"], first.trainee_uuid);
+  const ErasureReport second = erase(ErasureKind::kTraining, first.trainee_uuid);
+  EXPECT_EQ(second.trainee_uuid, first.trainee_uuid);
+  EXPECT_EQ(second.recordings.size(), 6u);
+  EXPECT_EQ(problems(), "");
+}
+
+TEST_F(Erasure, IsToldBeforehandAndNothingIsDone) {
+  const std::string before = sql::query_text(database_.connection(), "SELECT max(position) FROM audit");
+  const ErasurePreview identity = preview_erasure(database_, "t-zimtstern", ErasureKind::kIdentity);
+  EXPECT_EQ(identity.code, kCode);
+  EXPECT_EQ(identity.attempts, 3);
+  EXPECT_EQ(identity.notes, 1);
+  EXPECT_EQ(identity.consents, 1);
+  EXPECT_EQ(identity.groups, 1);
+  EXPECT_EQ(identity.accounts, 1);
+  EXPECT_EQ(identity.opinions, 2) << "the own signature and rating";
+  EXPECT_EQ(identity.certificates + identity.recordings, 0);
+  const ErasurePreview training = preview_erasure(database_, kCode, ErasureKind::kTraining);
+  EXPECT_EQ(training.opinions, 5);
+  EXPECT_EQ(training.certificates, 1);
+  EXPECT_EQ(training.recordings, 3);
+  EXPECT_EQ(sql::query_text(database_.connection(), "SELECT max(position) FROM audit"), before);
+  EXPECT_EQ(count("person"), 2);
+  EXPECT_TRUE(fs::exists(recording(attempts_[0])));
+  EXPECT_THROW(preview_erasure(database_, "T-9", ErasureKind::kIdentity), InputError);
+}
+
+TEST_F(Erasure, LeavesNobodyBehindInCohortsAndExports) {
+  EXPECT_EQ(cohort(database_).size(), 2u);
+  erase(ErasureKind::kTraining);
+  ASSERT_EQ(cohort(database_).size(), 1u);
+  EXPECT_EQ(cohort(database_)[0].trainee, "T-other");
+  EXPECT_EQ(people_erased(database_), 1);
+}
+
+TEST_F(Erasure, ABareAttemptIsNotFilledAgain) {
+  erase(ErasureKind::kTraining);
+  ASSERT_EQ(run_without_triggers(file_, "INSERT INTO device_warning VALUES (1, 0, 'heat', 1, 1)"), "");
+  EXPECT_NE(problems().find("has rows although its training data were erased"), std::string::npos) << problems();
 }
 
 TEST_F(Erasure, IsCompletedByTheSameCallAfterAnInterruption) {

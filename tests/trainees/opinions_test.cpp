@@ -1,7 +1,10 @@
 // Notes, ratings, signatures, overrides, certificates: what can be said of whom, in which order it is read, and that it stays as it was.
 #include "trainees/opinions.h"
 
+#include <atomic>
+#include <barrier>
 #include <cmath>
+#include <thread>
 
 #include "tests/trainees/store_samples.h"
 #include "trainees/sqlite_handle.h"
@@ -9,6 +12,8 @@
 
 namespace trocar {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kReason = "The camera was knocked at 12 s";
 
@@ -155,6 +160,77 @@ TEST_F(Opinions, TheTablesRefuseChangeDeletionAndReplacement) {
   outside("CREATE TEMP TABLE other AS SELECT * FROM note; UPDATE other SET id = 99, text = 'another'");
   EXPECT_THROW(outside("INSERT OR REPLACE INTO note SELECT * FROM other"), InputError) << "the identifier is taken, whatever the number";
   EXPECT_TRUE(database_.check().empty());
+}
+
+TEST_F(Opinions, OnePersonSignsAnAttemptOnceWithAMeaning) {
+  store_.sign(attempt_, "review", "Seen.", author_);
+  const auto entries = [&] { return sql::query_integer(database_.connection(), "SELECT count(*) FROM audit"); };
+  const auto before = entries();
+  refuses([&] { store_.sign(attempt_, "review", "", author_); }, "already signed: Ida Adler gave \"review\" on ");
+  refuses([&] { store_.sign(attempt_, "review", "", {author_.account_uuid, "Under another name"}); }, "already signed");
+  EXPECT_EQ(store_.signatures_of(attempt_).size(), 1u);
+  EXPECT_EQ(entries(), before) << "nothing was written";
+  store_.sign(attempt_, "approval", "", author_);
+  store_.sign(attempt_, "review", "", {"0193-account", "Ida Adler"});  // of the same name, another person
+  store_.sign(attempt_, "review", "", {"", "Otto"});                   // at the command line names tell
+  store_.sign(attempt_, "review", "", {"", "Emil"});
+  refuses([&] { store_.sign(attempt_, "review", "", {"", "Otto"}); }, "already signed");
+  EXPECT_EQ(store_.signatures_of(attempt_).size(), 5u);
+}
+
+TEST_F(Opinions, ACertificateIsHeldOnceUntilItIsRevoked) {
+  const auto certify = [&](const std::string& level) { return store_.certify("T-1", "surface-touch", level, "1", "{}", author_).uuid; };
+  const std::string first = certify("L1");
+  refuses([&] { certify("L1"); }, "holds a certificate for surface-touch at level L1 already, by Ida Adler on ");
+  certify("L2");
+  EXPECT_EQ(store_.certificates_of("T-1").size(), 2u);
+  store_.revoke(first, kReason, author_);
+  certify("L1");
+  refuses([&] { certify("L1"); }, "already");
+  EXPECT_EQ(store_.certificates_of("T-1").size(), 3u);
+  EXPECT_TRUE(database_.check().empty());
+}
+
+using TwoDesks = TemporaryFolder;
+
+/// Both look, both find nothing, both write: only inside the writing transaction one of them is second.
+TEST_F(TwoDesks, GiveOneCertificateAndOneSignatureBetweenThem) {
+  const fs::path file = folder_ / "t.db";
+  std::string attempt;
+  {
+    Database database(file);
+    attempt = store_attempt(database, sample_start("T-1"), sample_result()).uuid;
+  }
+  constexpr int kRounds = 20;
+  std::atomic<int> certified{0}, signed_ones{0}, refused{0};
+  std::barrier together(2);
+  const auto desk = [&](const std::string& name) {
+    Database database(file, OpenMode::kExisting, 20000);
+    OpinionStore store(database);
+    const auto once = [&](std::atomic<int>& done, const std::function<void()>& action) {
+      together.arrive_and_wait();
+      try {
+        action();
+        ++done;
+      } catch (const InputError&) {
+        ++refused;
+      }
+    };
+    for (int i = 0; i < kRounds; ++i) {
+      const std::string level = "L" + std::to_string(i);
+      once(certified, [&] { store.certify("T-1", "surface-touch", level, "1", "{}", {"", name}); });
+      once(signed_ones, [&] { store.sign(attempt, "review", "", {"account-" + std::to_string(i), "Ida"}); });
+    }
+  };
+  std::thread other(desk, "two");
+  desk("one");
+  other.join();
+  EXPECT_EQ(certified, kRounds);
+  EXPECT_EQ(signed_ones, kRounds);
+  EXPECT_EQ(refused, 2 * kRounds);
+  Database database(file);
+  EXPECT_EQ(OpinionStore(database).certificates_of("T-1").size(), static_cast<std::size_t>(kRounds));
+  EXPECT_EQ(problems_of(database), "");
 }
 
 }  // namespace

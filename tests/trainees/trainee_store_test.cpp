@@ -1,6 +1,7 @@
 #include "trainees/trainee_store.h"
 
 #include "tests/trainees/store_samples.h"
+#include "trainees/sqlite_handle.h"
 
 namespace trocar {
 namespace {
@@ -49,6 +50,46 @@ TEST(TraineeStore, CountsFinishedAttemptsAndPasses) {
   EXPECT_NE(trainees[0].last_utc, "");
   EXPECT_EQ(trainees[1].attempts, 0);
   EXPECT_EQ(trainees[1].last_utc, "");
+}
+
+TEST(TraineeStore, KeepsANameAndAnAddressThatCanBeTakenAway) {
+  Database database(":memory:");
+  TraineeStore store(database);
+  const std::string uuid = store.ensure_trainee("T-1").uuid;
+  const auto entries = [&] { return sql::query_integer(database.connection(), "SELECT count(*) FROM audit WHERE action = 'person changed'"); };
+  EXPECT_EQ(store.edit("t-1", "Anna Zimtstern", std::nullopt, "").name, "Anna Zimtstern");
+  EXPECT_EQ(store.edit("T-1", std::nullopt, "anna@example.org", "0192-account").email, "anna@example.org");
+  EXPECT_EQ(store.find("T-1")->name, "Anna Zimtstern") << "what is not given stays";
+  EXPECT_EQ(entries(), 2);
+  store.edit("T-1", "Anna Zimtstern", std::nullopt, "");
+  EXPECT_EQ(entries(), 2) << "nothing changed, so nothing to record";
+  EXPECT_EQ(sql::query_text(database.connection(), "SELECT actor FROM audit ORDER BY position DESC LIMIT 1"), "0192-account");
+  EXPECT_EQ(sql::query_text(database.connection(), "SELECT subject FROM audit ORDER BY position DESC LIMIT 1"), uuid) << "it names nobody";
+  EXPECT_EQ(store.edit("T-1", "", "", "").email, "");
+  EXPECT_TRUE(database.check().empty());
+}
+
+TEST(TraineeStore, RefusesWhatIsNoNameOrAddress) {
+  Database database(":memory:");
+  TraineeStore store(database);
+  store.ensure_trainee("T-1");
+  for (const std::string email : {"anna", "@example.org", "anna@", "an na@example.org", "a@b@c", "a@b c", "a@b\n"}) {
+    EXPECT_NE(message_of<InputError>([&] { store.edit("T-1", std::nullopt, email, ""); }).find("e-mail address"), std::string::npos) << email;
+  }
+  for (const std::string name : {" ", "a\nb", "\xFF"}) EXPECT_THROW(store.edit("T-1", name, std::nullopt, ""), InputError) << name;
+  EXPECT_THROW(store.edit("T-1", std::string(101, 'x'), std::nullopt, ""), InputError);
+  EXPECT_THROW(store.edit("T-1", std::nullopt, std::string(255, 'x') + "@y", ""), InputError);
+  EXPECT_NE(message_of<InputError>([&] { store.edit("T-1", std::nullopt, std::nullopt, ""); }).find("what is to change"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { store.edit("T-9", "Anna", std::nullopt, ""); }).find("there is none"), std::string::npos);
+  EXPECT_EQ(store.find("T-1")->name, "");
+}
+
+TEST(TraineeStore, FindsByTheWholeIdentifierToo) {
+  Database database(":memory:");
+  TraineeStore store(database);
+  const std::string uuid = store.ensure_trainee("T-1").uuid;
+  EXPECT_EQ(store.find(uuid)->code, "T-1");
+  EXPECT_FALSE(store.find(uuid.substr(0, 35))) << "no part of it";
 }
 
 }  // namespace

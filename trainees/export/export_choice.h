@@ -22,6 +22,7 @@ struct ExportChoice {
   std::vector<std::int64_t> trainees = {};   ///< rows of whose they are
 };
 
+/// Without attempts whose training data were erased: what is left of them would read as failed.
 /// @throws InputError: no such trainee, group, exercise or attempt; no finished attempt fits.
 ExportChoice choose_attempts(Database& database, const ExportFilter& filter);
 

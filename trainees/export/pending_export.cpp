@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "haptics/input_error.h"
+#include "trainees/files/owner_file.h"
 
 namespace trocar {
 
@@ -52,8 +53,9 @@ PendingExport::PendingExport(const fs::path& out, Shape shape, Existing existing
     : out_(without_slash(out)), shape_(shape), existing_(shape == Shape::kFile ? existing : Existing::kKept) {
   check_place(out, out_, existing_ == Existing::kReplaced);
   pending_ = out_.parent_path() / ("." + out_.filename().string() + ".part-" + std::to_string(getpid()));
-  std::error_code error;
-  if (shape_ == Shape::kFolder && !fs::create_directory(pending_, error)) cannot(out_, "make the folder", error ? error.value() : EEXIST);
+  if (shape_ != Shape::kFolder) return;
+  if (std::error_code error; fs::exists(pending_, error)) cannot(out_, "make the folder", EEXIST);
+  if (!make_owner_folders(pending_)) cannot(out_, "make the folder", errno);
 }
 
 PendingExport::~PendingExport() {
@@ -66,12 +68,9 @@ PendingExport::~PendingExport() {
 std::ostream& PendingExport::file(const std::string& name) {
   end_file();
   current_ = shape_ == Shape::kFolder ? pending_ / name : pending_;
-  std::error_code error;
-  if (shape_ == Shape::kFolder) fs::create_directories(current_.parent_path(), error);
-  // Made for the owner alone before a byte is in it.
-  if (const int made = ::open(current_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR); made >= 0) ::close(made);
+  if (shape_ == Shape::kFolder) make_owner_folders(current_.parent_path());
   errno = 0;
-  stream_.open(current_, std::ios::binary | std::ios::trunc);
+  stream_ = open_owner_file(current_);
   if (!stream_) cannot(out_, "write " + (name.empty() ? std::string("it") : name), errno);
   return stream_;
 }

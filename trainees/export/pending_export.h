@@ -1,7 +1,7 @@
 // A file or folder that is written beside its place and moved there whole: all or nothing, and nothing is overwritten unasked.
 // Its files are the owner's alone: they are about people.
 //
-// Until commit() it is called ".NAME.part-PID" in the same folder; without commit() it is removed. Thread: one.
+// It is for its owner's eyes only. Until commit() it is called ".NAME.part-PID" in the same folder; without commit() it is removed. Thread: one.
 #pragma once
 
 #include <cstdint>

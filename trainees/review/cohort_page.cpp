@@ -222,7 +222,8 @@ std::string cohort_page(const CohortView& view, Frame frame) {
   asked.page = std::clamp(asked.page, 1, pages);
   std::string out = "<div class=\"title\"><h1>" + escape_html(asked.group.empty() ? "Cohort" : "Cohort " + asked.group) +
                     "</h1><p class=\"dim\">" + plural(view.trainees, "trainee", "trainees") + ", " +
-                    plural(view.attempts, "attempt", "attempts") + ", rules " +
+                    plural(view.attempts, "attempt", "attempts") +
+                    (view.erased == 0 ? "" : ", " + std::to_string(view.erased) + " erased and left out") + ", rules " +
                     escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) + "</p><p class=\"files\">" +
                     link_html("/cohort.csv" + with(asked, "", ""), "CSV") +
                     (frame.pdf ? " " + link_html("/report/cohort.pdf" + with(asked, "", ""), "PDF") : "") + "</p></div><div class=\"states\">";

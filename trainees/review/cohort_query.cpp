@@ -119,7 +119,7 @@ class CohortPass {
  public:
   CohortPass(Database& database, const ProgressRules& rules, const CohortFilter& filter, const std::string& now_utc)
       : connection_(database.connection()), rules_(rules), filter_(filter), now_utc_(now_utc), people_(desk::people(connection_)),
-        certificates_(desk::certificates_that_hold(connection_)), facts_(read_facts(database)),
+        certificates_(desk::certificates_that_hold(connection_)), erased_(desk::training_erased(connection_)), facts_(read_facts(database)),
         newest_(connection_, "SELECT uuid, exercise_version, started_utc FROM attempt WHERE id = ?") {}
 
   std::vector<CohortLine> lines() {
@@ -127,6 +127,7 @@ class CohortPass {
       sql::Statement rows(connection_, kCurveRows);
       rows.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(desk::rubric_start(key.rubric_sha256)).bind(rules_.late_share).bind(desk::kNotRendered);
       while (rows.step()) {
+        if (erased_.contains(rows.integer(1))) continue;
         if (curve_.empty() || curve_.back().trainee != rows.integer(1)) begin(rows.integer(1), key);
         add(curve_.back(), rows);
       }
@@ -225,6 +226,7 @@ class CohortPass {
   const std::string& now_utc_;
   std::map<std::int64_t, desk::Person> people_;
   std::map<desk::CertifiedSkill, std::string> certificates_;
+  std::set<std::int64_t> erased_;
   ByRow<Facts> facts_;                     ///< by attempt; 0 takes those of scores again, which nobody asks for
   sql::Statement newest_;
   std::vector<Draft> curve_;

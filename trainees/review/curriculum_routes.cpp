@@ -2,6 +2,7 @@
 #include "trainees/review/desk_views.h"
 #include "trainees/review/page_routes.h"
 #include "trainees/review/pages.h"
+#include "trainees/review/told_text.h"
 
 namespace trocar::review {
 namespace {
@@ -29,7 +30,7 @@ Response rules(const Request& request, Desk& desk) {
     }
     view.preview = preview_rules(desk, read, request.now_utc);
   } catch (const InputError& error) {
-    view.problem = error.what();
+    view.problem = told_without_folders(error.what(), desk.database.file());
     return page(view, request, desk, 400);
   }
   return page(view, request, desk);

@@ -250,7 +250,8 @@ CurriculumView curriculum_view(Desk& desk, const Request& request) {
   for (const Account& account : AccountStore(desk.database).list()) view.authors[account.uuid] = account.name;
   view.benchmarks = store.benchmarks();
   add_groups(view, store);
-  for (const Trainee& trainee : TraineeStore(desk.database).list()) view.trainees.push_back(trainee.code);
+  for (const Trainee& trainee : TraineeStore(desk.database).list())
+    if (!trainee.code.starts_with("erased-")) view.trainees.push_back(trainee.code);
   view.levels = distinct_attempt_values(desk.database, "level");
   view.hands = distinct_attempt_values(desk.database, "hand");
   view.exercises = exercise_choices(desk.database);

@@ -8,6 +8,7 @@
 #include "trainees/review/desk_accounts.h"
 #include "trainees/review/desk_page.h"
 #include "trainees/review/desk_visit.h"
+#include "trainees/review/told_text.h"
 #include "trainees/review/url_text.h"
 
 namespace trocar::review {
@@ -150,10 +151,10 @@ Answer DeskGate::page(Visit& visit) {
       throw std::logic_error("answer with status or type that cannot be sent");
     return out;
   } catch (const InputError& error) {
-    return refused(400, staff ? error.what() : "");
+    return refused(400, staff ? told_without_folders(error.what(), visit.desk.database.file()) : "");
   } catch (const EnvironmentError& error) {
     say(what + ": " + error.what());
-    Answer out = refused(503, staff ? error.what() : "");
+    Answer out = refused(503, staff ? told_without_folders(error.what(), visit.desk.database.file()) : "");
     out.retry_after_s = 5;
     return out;
   } catch (const std::exception& error) {

@@ -52,7 +52,7 @@ struct CohortLine {
   std::vector<Judgement> judgements = {};        ///< gravest first, at least one
 };
 
-/// By trainee, exercise, level, input. @param now_utc for what is due.
+/// By trainee, exercise, level, input, without whose training data were erased. @param now_utc for what is due.
 std::vector<CohortLine> cohort_lines(Database& database, const ProgressRules& rules, const CohortFilter& filter, const std::string& now_utc);
 
 /// Lines by their gravest flag, gravest first; otherwise in their order.
@@ -78,6 +78,7 @@ struct WeekMinutes {
 
 struct TraineePicture {
   std::string code, name = {}, created_utc = {};
+  bool training_erased = false;                  ///< then there are no curves and no weeks
   std::vector<std::string> groups = {};
   std::vector<CurvePicture> curves = {};         ///< newest first
   std::vector<Certificate> certificates = {};    ///< newest first, revoked ones too

@@ -24,6 +24,18 @@ std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection
   return out;
 }
 
+std::set<std::int64_t> training_erased(sqlite3* connection) {
+  std::set<std::int64_t> out;
+  sql::Statement rows(connection, "SELECT trainee_id FROM erasure WHERE kind = 'training'");
+  while (rows.step()) out.insert(rows.integer(0));
+  return out;
+}
+
+bool of_erased(sqlite3* connection, const std::string& attempt_uuid) {
+  sql::Statement row(connection, "SELECT 1 FROM attempt a JOIN erasure e ON e.trainee_id = a.trainee_id WHERE a.uuid = ? AND e.kind = 'training'");
+  return row.bind(attempt_uuid).step();
+}
+
 bool doubtful(double ticks, double overruns, double saturated_share, double late_share) {
   return overruns > late_share * ticks || saturated_share > kNotRendered;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,11 @@ struct CertifiedSkill {
 };
 /// Newest certificate of each that holds: its date.
 std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection);
+
+/// Whose training data were erased: of them nothing is judged, drawn or counted.
+std::set<std::int64_t> training_erased(sqlite3* connection);
+/// The attempt is one of theirs.
+bool of_erased(sqlite3* connection, const std::string& attempt_uuid);
 
 /// Share of the contact time without room in the device above which the force was not rendered.
 inline constexpr double kNotRendered = 0.05;

@@ -85,14 +85,19 @@ Answer DeskGate::try_sign_in(Visit& visit, const std::string& login, const std::
     late.retry_after_s = seconds;
     return late;
   }
-  const AccountStore accounts(visit.desk.database);
+  AccountStore accounts(visit.desk.database);
   const auto account = accounts.verify(login, password);
   const std::string stamp = account ? sign_in_stamp(visit.desk.database, account->uuid) : "";
   if (stamp.empty()) {
     say("sign-in refused: " + who);
+    if (limit_.tell_held_back(login, visit.arrival.address, visit.now)) {
+      const auto known = accounts.find(login);
+      accounts.held_back(known ? known->uuid : "");
+    }
     return ask_to_sign_in(visit, 401, "Login or password is wrong.", login, next);
   }
   limit_.was_right(login, visit.arrival.address);
+  accounts.signed_in(account->uuid);  // what cannot be recorded does not happen
   sessions_.end(visit.number);
   set_cookie(visit, sessions_.begin({account->uuid, stamp}, visit.now));
   say("signed in: " + who);
@@ -106,8 +111,10 @@ Answer DeskGate::sign_out(Visit& visit) {
     return out;
   }
   if (const auto refusal = refuse_posted(visit)) return *refusal;
+  const auto session = sessions_.find(visit.number, visit.now);
   sessions_.end(visit.number);
   set_cookie(visit, "");
+  if (session && !session->account.empty()) AccountStore(visit.desk.database).signed_out(session->account);
   return redirection("/sign-in");
 }
 

@@ -12,6 +12,8 @@
 #include "trainees/review/charts.h"
 #include "trainees/review/desk_memory.h"
 #include "trainees/review/desk_queries.h"
+#include "trainees/review/desk_rows.h"
+#include "trainees/review/told_text.h"
 #include "trainees/sqlite_handle.h"
 
 namespace trocar::review {
@@ -124,7 +126,10 @@ void add_trace(AttemptView& view, Desk& desk) {
     try {
       view.trace = desk.sources.trace(view.result.recording_path);
     } catch (const std::exception& error) {
-      view.no_trace = std::string("The recording cannot be read: ") + error.what();
+      const bool there = std::filesystem::is_regular_file(view.result.recording_path, none);
+      view.no_trace = desk::of_erased(desk.database.connection(), view.result.uuid) ? "The recording was erased with the training data."
+                      : there ? "The recording cannot be read: " + told_without_folders(error.what(), desk.database.file())
+                              : "The recording is not in its place any more.";
     }
   }
 }
@@ -240,7 +245,10 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   view.exercises = exercise_choices(desk.database);
   view.levels = distinct_attempt_values(desk.database, "level");
   view.attempts = static_cast<int>(sql::query_integer(
-      desk.database.connection(), "SELECT (SELECT count(*) FROM attempt) - (SELECT count(*) FROM attempt WHERE status = 'running')"));
+      desk.database.connection(),
+      "SELECT (SELECT count(*) FROM attempt) - (SELECT count(*) FROM attempt WHERE status = 'running' OR trainee_id IN"
+      " (SELECT trainee_id FROM erasure WHERE kind = 'training'))"));
+  view.erased = static_cast<int>(desk::training_erased(desk.database.connection()).size());
   const std::map<std::string, std::string> titles(view.exercises.begin(), view.exercises.end());
   CohortFilter filter;
   filter.group = view.asked.group;
@@ -284,6 +292,7 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   }
   view.ability = {picture.ability_logit, picture.ability_se, picture.ability_n, picture.ability_missing};
   for (const WeekMinutes& week : picture.weeks) view.minutes_by_week.emplace_back(week.monday, week.minutes);
+  view.erased = picture.training_erased;
   view.notes = std::move(picture.notes);
   view.certificates = std::move(picture.certificates);
   view.rules_version = rules.version;

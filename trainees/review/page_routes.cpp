@@ -7,6 +7,7 @@
 #include "trainees/attempt_store.h"
 #include "trainees/review/desk_views.h"
 #include "trainees/review/pages.h"
+#include "trainees/review/told_text.h"
 
 namespace trocar::review {
 namespace {
@@ -28,7 +29,7 @@ Response file(std::string body, const std::string& name) {
 }
 
 Response refused(const Request& request, Desk& desk, int status, const std::string& title, const std::string& words) {
-  Response out = html(message_page(title, words, frame_of(request, desk)));
+  Response out = html(message_page(title, told_without_folders(words, desk.database.file()), frame_of(request, desk)));
   out.status = status;
   return out;
 }

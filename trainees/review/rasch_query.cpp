@@ -15,7 +15,8 @@ std::string name_of(const Item& item) { return std::get<0>(item) + '\n' + std::g
 constexpr const char* kCells =
     "SELECT a.trainee_id, a.exercise_id, a.level, a.hand, count(*), sum(coalesce(s.passed, 0)) FROM attempt a INDEXED BY attempt_by_curve"
     " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
-    " WHERE a.status IN ('completed', 'timeout', 'aborted') GROUP BY a.exercise_id, a.level, a.hand,"
+    " WHERE a.status IN ('completed', 'timeout', 'aborted') AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training')"
+    " GROUP BY a.exercise_id, a.level, a.hand,"
     " substr(a.ruleset_sha256, 1, 16), a.trainee_id";
 
 /// Few attempts have a decision, so what they change is added afterwards: 10^5 attempts are not each asked for theirs.

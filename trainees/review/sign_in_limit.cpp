@@ -50,6 +50,18 @@ int SignInLimit::begin(const std::string& login, const std::string& address, Des
   return 0;
 }
 
+bool SignInLimit::tell_held_back(const std::string& login, const std::string& address, DeskTime now) {
+  const std::scoped_lock lock(mutex_);
+  const auto full = [&](const std::string& key) {
+    const auto at = wrong_.find(key);
+    return at != wrong_.end() && at->second.size() == static_cast<std::size_t>(kFree);
+  };
+  std::erase_if(told_, [&](DeskTime t) { return now - t > std::chrono::hours(1); });
+  if (told_.size() >= kMostTold || (!full(login_key(login)) && !full(address_key(address)))) return false;
+  told_.push_back(now);
+  return true;
+}
+
 void SignInLimit::was_right(const std::string& login, const std::string& address) {
   const std::scoped_lock lock(mutex_);
   wrong_.erase(login_key(login));

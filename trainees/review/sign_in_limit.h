@@ -20,10 +20,13 @@ class SignInLimit {
  public:
   static constexpr int kFree = 5;
   static constexpr std::chrono::seconds kOfLogin{86400}, kOfAddress{900}, kFirstWait{30}, kLongestWait{900};
-  static constexpr std::size_t kMostKnown = 20000;
+  static constexpr std::size_t kMostKnown = 20000, kMostTold = 60;
 
   /// Seconds to wait before a try is taken, 0: it is taken, and counts as wrong. A try that is not taken counts nothing.
   int begin(const std::string& login, const std::string& address, DeskTime now);
+  /// The try that began was wrong, and from now on the login or the address has to wait: told once, and no more than kMostTold times
+  /// an hour, for the audit trail keeps it for ever.
+  bool tell_held_back(const std::string& login, const std::string& address, DeskTime now);
   /// The try that began was right: it does not count, and the login's wrong ones before it are forgotten.
   void was_right(const std::string& login, const std::string& address);
 
@@ -34,6 +37,7 @@ class SignInLimit {
 
   std::mutex mutex_;
   std::map<std::string, Tries> wrong_;
+  Tries told_;
 };
 
 }  // namespace trocar::review

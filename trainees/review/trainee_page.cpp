@@ -217,6 +217,8 @@ std::string due_dates(const TraineeView& view) {
   return rows.empty() ? "<p>Nothing is due.</p>" : table("Attempts for keeping", head_cells({"Exercise", "Level", "Due", "Why"}), rows);
 }
 
+constexpr const char* kErased = "<p>The training data were erased: nothing is judged, and nothing counts in the cohort.</p>";
+
 std::string title(const TraineeView& view, const Frame& frame) {
   const std::string path = "/trainee/" + url_part(view.code);
   std::string groups;
@@ -251,7 +253,7 @@ std::string notes_section(const std::vector<Note>& notes, const std::string& act
 
 std::string trainee_page(const TraineeView& view, Frame frame) {
   frame.title = view.name.empty() ? view.code : view.name;
-  std::string out = title(view, frame) + section("exercises", "Exercises", grid(view));
+  std::string out = title(view, frame) + section("exercises", "Exercises", view.erased ? kErased : grid(view));
   if (view.chosen < view.curves.size()) {
     const CurveView& curve = view.curves[view.chosen];
     const std::string name = curve.title + " " + curve.key.level + (curve.key.hand.empty() ? "" : ", " + curve.key.hand);

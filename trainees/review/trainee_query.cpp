@@ -169,7 +169,7 @@ ProgressRules rules_in_force(Database& database) {
 
 TraineePicture trainee_picture(Database& database, const std::string& code, const ProgressRules& rules, const std::string& now_utc) {
   const auto trainee = TraineeStore(database).find(code);
-  if (!trainee) throw InputError(database.file().string() + ": no trainee \"" + code + "\"");
+  if (!trainee) throw InputError("no trainee \"" + code + "\" in this database");
   TraineePicture out;
   out.code = trainee->code;
   out.created_utc = trainee->created_utc;
@@ -177,7 +177,8 @@ TraineePicture trainee_picture(Database& database, const std::string& code, cons
   const desk::Person person = desk::people(database.connection())[trainee->id];
   out.name = person.name;
   out.groups = person.groups;
-  const auto attempts = past_attempts(database, trainee->code);
+  out.training_erased = desk::training_erased(database.connection()).contains(trainee->id);
+  const auto attempts = out.training_erased ? std::vector<PastAttempt>{} : past_attempts(database, trainee->code);
   TraineeQuery query(database, *trainee, rules, now_utc);
   for (LearningCurve& curve : learning_curves(attempts)) out.curves.push_back(query.picture_of(std::move(curve)));
   out.weeks = weeks_of(attempts);
@@ -185,7 +186,7 @@ TraineePicture trainee_picture(Database& database, const std::string& code, cons
   out.certificates = opinions.certificates_of(trainee->code);
   out.notes = opinions.notes_of(trainee->code);
   out.ended_by_device = ended_by_device(attempts);
-  add_ability(database, *trainee, rules, out);
+  if (!out.training_erased) add_ability(database, *trainee, rules, out);
   return out;
 }
 

@@ -50,6 +50,7 @@ struct CohortView {
   std::vector<Choice> exercises = {};
   std::vector<CohortEntry> lines = {};  ///< of group, exercise and level; state and order are the page's work
   int trainees = 0, attempts = 0;
+  int erased = 0;                       ///< people whose training data were erased: in no line and no count
   std::string rules_version = {};
 };
 
@@ -124,6 +125,7 @@ struct TraineeView {
   std::vector<Note> notes = {};                                      ///< newest first
   std::vector<Certificate> certificates = {};
   std::vector<DueDate> due = {};
+  bool erased = false;                                               ///< the training data: nothing is judged
   std::string rules_version = {};
   std::string created_utc = {};
 };

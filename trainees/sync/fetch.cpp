@@ -5,6 +5,7 @@
 #include "haptics/input_error.h"
 #include "trainees/anchored_transaction.h"
 #include "trainees/erasure.h"
+#include "trainees/kept_rows.h"
 #include "trainees/sealed_rows.h"
 
 namespace trocar::sync {
@@ -20,6 +21,7 @@ void know_exercise(sqlite3* connection, const CarriedTable& table, const Values&
     if (table.columns[i].central != "exercise_id") continue;
     sql::Statement exercise(connection, "INSERT INTO exercise SELECT ?1, '', '' WHERE NOT EXISTS (SELECT 1 FROM exercise WHERE id = ?1)");
     exercise.bind(row[i].value_or("")).run();
+    keep_exercise_once(connection, row[i].value_or(""));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "haptics/input_error.h"
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_chain.h"
+#include "trainees/kept_rows.h"
 #include "trainees/sealed_rows.h"
 #include "trainees/replica_facts.h"
 #include "trainees/sync/exchange.h"
@@ -52,7 +53,11 @@ class Replica {
     for (const CarriedTable& table : carried_bases()) {
       fetch_missing(*link_, connection_, table, {since_}, [&](const std::vector<Values>& rows) {
         AnchoredTransaction transaction(*database_);
-        for (const Values& row : rows) insert_local(connection_, table, row);
+        for (const Values& row : rows) {
+          insert_local(connection_, table, row);
+          if (table.name == "trainee") keep_trainee(connection_, row.front().value_or(""));
+          if (table.name == "exercise") keep_exercise(connection_, row.front().value_or(""));
+        }
         transaction.commit();
         report_->added[table.name] += static_cast<int>(rows.size());
       });
@@ -71,7 +76,7 @@ class Replica {
                                        " FROM trainee t LEFT JOIN person p ON p.trainee_id = t.id WHERE t.uuid = ?");
       if (!here.bind(uuid).step() || here.integer(1) != 0) continue;
       if (!row[1] && here.integer(2) != 0) continue;
-      keep_person(here.integer(0), free_code(row[1].value_or("unnamed-" + tail), here.integer(0), tail), *row[2], *row[3]);
+      take_person(uuid, here.integer(0), free_code(row[1].value_or("unnamed-" + tail), here.integer(0), tail), *row[2], *row[3]);
     }
     transaction.commit();
   }
@@ -118,11 +123,13 @@ class Replica {
     return taken.bind(code).bind(trainee).step() ? code.substr(0, 23) + "-" + tail : code;
   }
 
-  void keep_person(std::int64_t trainee, const std::string& code, const std::string& name, const std::string& email) {
+  void take_person(const std::string& uuid, std::int64_t trainee, const std::string& code, const std::string& name, const std::string& email) {
     sql::Statement keep(connection_,
                         "INSERT INTO person VALUES (?1, ?2, ?3, ?4) ON CONFLICT (trainee_id) DO UPDATE SET code = ?2, name = ?3,"
-                        " email = ?4");
-    keep.bind(trainee).bind(code).bind(name).bind(email).run();
+                        " email = ?4 WHERE (code, name, email) <> (?2, ?3, ?4) RETURNING 1");
+    if (!keep.bind(trainee).bind(code).bind(name).bind(email).step()) return;  // as it was
+    keep.run();
+    keep_person(connection_, uuid);
   }
 
   Rows by_attempt(const CarriedTable& table, const std::vector<std::string>& keys) const {

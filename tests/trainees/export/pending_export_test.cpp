@@ -55,6 +55,26 @@ TEST_F(PendingExportTest, AFolderStandsOnlyWhenCommitted) {
   EXPECT_EQ(names_in(folder_), std::vector<std::string>{"tables"});
 }
 
+TEST_F(PendingExportTest, IsForItsOwnerAloneWhateverTheUmask) {
+  const auto rights = [](const fs::path& path) { return static_cast<int>(fs::status(path).permissions() & fs::perms(0777)); };
+  for (const mode_t mask : {mode_t{0}, mode_t{022}, mode_t{0777}}) {
+    const fs::path file = folder_ / ("all" + std::to_string(mask)), out = folder_ / ("tables" + std::to_string(mask));
+    const mode_t before = umask(mask);
+    {
+      PendingExport one(file, Shape::kFile);
+      one.file() << "x";
+      one.commit();
+      PendingExport many(out, Shape::kFolder);
+      many.file("deep/er/b.csv") << "b";
+      many.commit();
+    }
+    umask(before);
+    EXPECT_EQ(rights(file), 0600) << mask;
+    EXPECT_EQ(rights(out / "deep/er/b.csv"), 0600) << mask;
+    for (const char* folder : {"", "deep", "deep/er"}) EXPECT_EQ(rights(out / folder), 0700) << folder << mask;
+  }
+}
+
 TEST_F(PendingExportTest, ATrailingSlashIsTheFolder) {
   PendingExport pending(folder_ / "tables/", Shape::kFolder);
   pending.file("a.csv") << "a";

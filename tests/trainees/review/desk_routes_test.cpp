@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "haptics/input_error.h"
 #include "tests/trainees/cohort_samples.h"
@@ -9,9 +10,11 @@
 #include "tests/trainees/review/page_samples.h"
 #include "tests/trainees/store_samples.h"
 #include "trainees/curricula.h"
+#include "trainees/erasure.h"
 #include "trainees/opinions.h"
 #include "trainees/review/desk_queries.h"
 #include "trainees/review/route_table.h"
+#include "trainees/trainee_store.h"
 
 namespace trocar::review {
 namespace {
@@ -285,6 +288,103 @@ TEST_F(DeskRoutes, WhoMaySeeWhat) {
                                     : Audience::kInstructors)
         << route.method << " " << route.path;
   }
+}
+
+TEST_F(DeskRoutes, WhoseTrainingDataWereErasedIsInNoLineAndNoCount) {
+  const auto lines = [&] { return cohort_lines(database_, rules_in_force(database_), {}, "2026-06-01T10:00:00Z"); };
+  const auto of_them = [&](const std::string& who) {
+    const auto all = lines();
+    return std::count_if(all.begin(), all.end(), [&](const CohortLine& line) { return line.trainee == who; });
+  };
+  ASSERT_GT(of_them(trainee_), 0);
+  const std::string count = "8 trainees, 100 attempts";
+  EXPECT_NE(ask("GET", "/").body.find(count), std::string::npos);
+  const auto theirs = AttemptStore(database_).list({trainee_, "", 0}).size();
+  const std::string uuid = erase_trainee(database_, trainee_, ErasureKind::kTraining, "request of the person", {"", "Ida"}).trainee_uuid;
+  const std::string who = "erased-" + uuid.substr(28);
+  EXPECT_EQ(of_them(who), 0);
+  const std::string cohort = ask("GET", "/").body;
+  EXPECT_NE(cohort.find("7 trainees, " + std::to_string(100 - theirs) + " attempts, 1 erased and left out"), std::string::npos);
+  EXPECT_EQ(cohort.find(who), std::string::npos);
+  EXPECT_EQ(ask("GET", "/cohort.csv").body.find(who), std::string::npos);
+  EXPECT_EQ(ask("GET", "/curriculum").body.find(who), std::string::npos) << "nobody puts them into a group";
+  const TraineePicture picture = trainee_picture(database_, who, rules_in_force(database_), "2026-06-01T10:00:00Z");
+  EXPECT_TRUE(picture.training_erased);
+  EXPECT_TRUE(picture.curves.empty() && picture.weeks.empty());
+  const CheckedPage page_of_them = page("/trainee/" + who);
+  EXPECT_EQ(page_of_them.problems, std::vector<std::string>{});
+  const std::string body = ask("GET", "/trainee/" + who).body;
+  EXPECT_NE(body.find("The training data were erased"), std::string::npos);
+}
+
+TEST_F(DeskRoutes, WhoseIdentityWasErasedIsJudgedOnUnderACodeThatTellsNobody) {
+  const auto before = cohort_lines(database_, rules_in_force(database_), {}, "2026-06-01T10:00:00Z").size();
+  erase_trainee(database_, trainee_, ErasureKind::kIdentity, "request of the person", {"", "Ida"});
+  EXPECT_EQ(cohort_lines(database_, rules_in_force(database_), {}, "2026-06-01T10:00:00Z").size(), before);
+  EXPECT_EQ(ask("GET", "/").body.find("left out"), std::string::npos);
+}
+
+TEST_F(DeskRoutes, AbilitiesOfOthersDoNotFollowFromWhatWasErased) {
+  const auto tries = [&] {
+    for (const Trainee& one : TraineeStore(database_).list())
+      if (one.code != trainee_ && !one.code.starts_with("erased-"))
+        return trainee_picture(database_, one.code, rules_in_force(database_), "2026-06-01T10:00:00Z").rasch_attempts;
+    return 0;
+  };
+  const int before = tries();
+  int theirs = 0;  // what the device ended says nothing of anybody's ability
+  for (const AttemptSummary& one : AttemptStore(database_).list({trainee_, "", 0})) theirs += one.status != "fault" && one.status != "void";
+  erase_trainee(database_, trainee_, ErasureKind::kTraining, "request of the person", {"", "Ida"});
+  EXPECT_EQ(tries(), before - theirs);
+}
+
+class DeskFolders : public TemporaryFolder {};
+
+/// On the command line a message may say where a file lies; a browser is somewhere else.
+TEST_F(DeskFolders, NoPageTellsWhereTheRecordLies) {
+  Database database(folder_ / "my record" / "t.db");
+  AttemptStore store(database);
+  const AttemptId id = store.begin_attempt(sample_start("T-1"));
+  std::filesystem::create_directories(id.recording.parent_path());
+  std::ofstream(id.recording) << "motion";
+  AttemptResult result = sample_result();
+  result.recording_sha256 = std::string(64, 'b');
+  store.finish_attempt(id, result);
+  Desk desk{database, {}, false};
+  desk.sources.trace = [](const std::filesystem::path& file) -> Trace { throw InputError(file.string() + ": is damaged"); };
+  desk.sources.picture = [&](const std::string&, double, int) -> std::string { throw EnvironmentError(folder_.string() + "/x: no room"); };
+  const RouteTable table(desk_routes());
+  const auto body = [&](const std::string& path, std::map<std::string, std::string> query = {}) {
+    const RouteTable::Found found = table.find("GET", path);
+    Request request;
+    request.path = path;
+    request.arguments = found.arguments;
+    request.query = std::move(query);
+    request.account = Account{"a-1", "ines", "Ines", Role::kInstructor};
+    request.now_utc = "2026-06-01T10:00:00Z";
+    return found.route->answer(request, desk).body;
+  };
+  const auto clean = [&](const std::string& page, const std::string& says) {
+    EXPECT_EQ(page.find(folder_.string()), std::string::npos) << page;
+    EXPECT_EQ(page.find("my record"), std::string::npos) << page;
+    EXPECT_NE(page.find(says), std::string::npos) << says << " is not in\n" << page;
+  };
+  clean(body("/attempt/" + id.uuid), "The recording cannot be read: ");
+  clean(body("/attempt/" + id.uuid + "/picture.png", {{"t", "1"}}), "x: no room");
+  clean(body("/trainee/T-9"), "no trainee");
+  std::filesystem::remove(id.recording);
+  clean(body("/attempt/" + id.uuid), "The recording is not in its place any more.");
+  erase_trainee(database, "T-1", ErasureKind::kTraining, "request of the person", {"", "Ida"});
+  clean(body("/attempt/" + id.uuid), "The recording was erased with the training data.");
+}
+
+TEST_F(DeskRoutes, AFormThatIsSentTwiceSignsOnce) {
+  const std::map<std::string, std::string> form{{"meaning", "review"}, {"note", ""}};
+  EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/sign", form).status, 303);
+  const Response second = ask("POST", "/attempt/" + attempt_ + "/sign", form);
+  EXPECT_EQ(second.status, 400);
+  EXPECT_NE(second.body.find("already signed"), std::string::npos);
+  EXPECT_EQ(OpinionStore(database_).signatures_of(attempt_).size(), 1u);
 }
 
 }  // namespace

@@ -125,5 +125,35 @@ TEST(SignInLimit, KeepsItsSizeAndItsHeldBack) {
   EXPECT_GT(limit.begin("anna", "10.0.0.1", kBegin), 0) << "a flood of old tries does not free it";
 }
 
+TEST(HeldBack, IsToldWhenTheWaitBeginsAndNotAgain) {
+  SignInLimit limit;
+  DeskTime now{std::chrono::hours(1000)};
+  for (int i = 1; i <= 5; ++i) {
+    ASSERT_EQ(limit.begin("ines", "10.0.0.7", now), 0);
+    EXPECT_EQ(limit.tell_held_back("ines", "10.0.0.7", now), i == 5) << i;
+  }
+  EXPECT_GT(limit.begin("ines", "10.0.0.7", now), 0);
+  now += std::chrono::seconds(31);
+  ASSERT_EQ(limit.begin("ines", "10.0.0.8", now), 0) << "the sixth, after the wait";
+  EXPECT_FALSE(limit.tell_held_back("ines", "10.0.0.8", now));
+}
+
+TEST(HeldBack, TenThousandAddressesDoNotFloodTheTrail) {
+  SignInLimit limit;
+  DeskTime now{std::chrono::hours(1000)};
+  int told = 0;
+  for (int address = 0; address < 10000; ++address) {
+    for (int i = 0; i < 5; ++i) {
+      const std::string login = std::to_string(address * 5 + i), from = "10." + std::to_string(address);
+      ASSERT_EQ(limit.begin(login, from, now), 0);
+      told += limit.tell_held_back(login, from, now);
+    }
+  }
+  EXPECT_EQ(told, 60);
+  now += std::chrono::hours(2);
+  for (int i = 0; i < 5; ++i) limit.begin("otto", "10.1.1.1", now);
+  EXPECT_TRUE(limit.tell_held_back("otto", "10.1.1.1", now)) << "the next hour";
+}
+
 }  // namespace
 }  // namespace trocar::review

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/trainees/review/desk_samples.h"
+#include "trainees/sqlite_handle.h"
 
 namespace trocar::review {
 namespace {
@@ -107,6 +108,7 @@ TEST_F(DeskSignIn, ChangesOfTheAccountEndItsSessions) {
   make_gate();
   const Visitor ines = signed_in("ines"), adam = signed_in("adam");
   AccountStore accounts(database_);
+  accounts.add("eva", "Eva", Role::kAdministrator, "", kPassword, "");  // the last one cannot be disabled
   accounts.set_password("ines", "another long password", "");
   EXPECT_EQ(staff_page(ines), 401);
   accounts.set_disabled("adam", true, "");
@@ -155,6 +157,54 @@ TEST_F(DeskSignIn, LogsWhoWithoutWhat) {
   EXPECT_EQ(log_[0], "sign-in refused: ines from 10.0.0.7");
   EXPECT_EQ(log_[1], "sign-in refused: evil?signed?in:?adam from 10.0.0.7");
   EXPECT_EQ(log_[2], "signed in: adam from 10.0.0.7");
+}
+
+/// Entries about coming and going, "action login" each.
+std::vector<std::string> comings(Database& database) {
+  std::vector<std::string> out;
+  sql::Statement rows(database.connection(), "SELECT u.action || ' ' || coalesce(a.login, 'nobody') || ' by ' || coalesce(b.login, u.actor) || u.detail"
+                                             " FROM audit u LEFT JOIN account a ON a.uuid = u.subject LEFT JOIN account b ON b.uuid = u.actor"
+                                             " WHERE u.action LIKE 'sign%' AND u.action NOT LIKE 'signature%' ORDER BY u.position");
+  while (rows.step()) out.push_back(rows.text(0));
+  return out;
+}
+
+TEST_F(DeskSignIn, ComingAndGoingIsOnRecord) {
+  add_accounts();
+  make_gate();
+  const Visitor ines = signed_in("ines");
+  signed_in("anna");
+  EXPECT_EQ(ask("POST", "/sign-out", ines, "token=" + ines.token).response.status, 303);
+  EXPECT_EQ(ask("POST", "/sign-out", ines, "token=" + ines.token).response.status, 303) << "out already";
+  EXPECT_EQ(comings(database_), (std::vector<std::string>{"signed in ines by ines", "signed in anna by anna", "signed out ines by ines"}));
+  EXPECT_EQ(problems_of(database_), "");
+}
+
+TEST_F(DeskSignIn, ManyWrongTriesLeaveOneEntry) {
+  add_accounts();
+  make_gate();
+  for (int i = 0; i < 4; ++i) try_sign_in("ines", "wrong", stranger());
+  EXPECT_TRUE(comings(database_).empty()) << "somebody who mistypes";
+  for (int i = 0; i < 500; ++i) try_sign_in("ines", "wrong", stranger());
+  EXPECT_EQ(comings(database_), std::vector<std::string>{"sign-in held back ines by trocar"});
+  now_ += std::chrono::hours(2);
+  address_ = "10.0.0.9";
+  for (int i = 0; i < 8; ++i) try_sign_in("nobody-" + std::to_string(i), "wrong", stranger());
+  EXPECT_EQ(comings(database_).size(), 2u);
+  EXPECT_EQ(comings(database_).back(), "sign-in held back nobody by trocar") << "a login that does not exist is not written down";
+  EXPECT_EQ(problems_of(database_), "");
+}
+
+TEST_F(DeskSignIn, WhatCannotBeRecordedDoesNotHappen) {
+  add_accounts();
+  make_gate();
+  const Visitor visitor = stranger();
+  sql::execute(database_.connection(), "PRAGMA query_only = ON");
+  const Answer answer = try_sign_in("ines", kPassword, visitor);
+  EXPECT_EQ(answer.response.status, 503);
+  EXPECT_EQ(staff_page({cookie_of(answer), ""}), 401);
+  sql::execute(database_.connection(), "PRAGMA query_only = OFF");
+  EXPECT_EQ(try_sign_in("ines", kPassword, visitor).response.status, 303);
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// Files and folders that hold somebody's data: for the eyes of their owner alone (0600, 0700), whatever the umask, as far as the file system
+// knows rights. What is there already is narrowed, never widened. Thread: any.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+namespace trocar {
+
+/// A fresh or emptied file, open for writing; the stream tells whether it could be opened, errno why not.
+std::ofstream open_owner_file(const std::filesystem::path& file);
+
+/// A file that must not be there yet. @returns false when it is, or cannot be made; errno says why.
+bool make_owner_file(const std::filesystem::path& file);
+
+/// Folders that are missing on the way, each for its owner alone; those that exist stay as they are. @returns false: errno says why not.
+bool make_owner_folders(const std::filesystem::path& folder);
+
+}  // namespace trocar
