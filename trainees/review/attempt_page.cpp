@@ -21,31 +21,43 @@ std::string sign_form(const AttemptView& view, const Frame& frame) {
                                         {"responsibility", "Responsibility: I answer for it"},
                                         {"authorship", "Authorship: I supervised it"}};
   return form_begin("/attempt/" + url_part(view.result.uuid) + "/sign", frame) +
-         select_field("sign-meaning", "meaning", "Meaning", meanings, "review") +
-         text_field("sign-note", "note", "Note to the signature (may be empty)", "", "maxlength=\"1000\"") + "<p><button>Sign" +
-         (frame.who.empty() ? "" : " as " + escape_html(frame.who)) +
-         "</button></p><p class=\"dim\">Your name, the time and the meaning are bound to the bytes of this attempt (row hash " +
+         select_field("sign-meaning", "meaning", "Meaning", meanings, kept(frame, "sign", "meaning", "review")) +
+         text_field("sign-note", "note", "Note to the signature (may be empty)", kept(frame, "sign", "note"),
+                    "maxlength=\"1000\"" + refused_field(frame, "sign")) +
+         why_refused(frame, "sign") + "<p><button>Sign" + (frame.who.empty() ? "" : " as " + escape_html(frame.who)) +
+         "</button></p><p class=\"dim\">Your name, the time and the meaning are bound to the bytes of this attempt "
+         "(row hash " +
          escape_html(view.row_hash.substr(0, 16)) + "). It cannot be taken back.</p></form>";
 }
 
 std::string override_form(const AttemptView& view, const Frame& frame) {
-  return "<details><summary>Decide otherwise than the score</summary>" +
+  return std::string("<details") + (frame.refused.form == "override" ? " open=\"open\"" : "") +
+         "><summary>Decide otherwise than the score</summary>" +
          form_begin("/attempt/" + url_part(view.result.uuid) + "/override", frame) +
          select_field("override-passed", "passed", "Your decision", {{"no", "not passed"}, {"yes", "passed"}},
-                      view.result.grade.passed ? "no" : "yes") +
-         area_field("override-reason", "reason", "Reason, at least 10 characters", "", 2,
-                    "minlength=\"10\" maxlength=\"2000\" required=\"required\"") +
-         "<p><button class=\"danger\">Record the decision</button></p><p class=\"dim\">It stands beside the score and never replaces "
+                      kept(frame, "override", "passed", view.result.grade.passed ? "no" : "yes")) +
+         area_field("override-reason", "reason", "Reason, at least 10 characters", kept(frame, "override", "reason"), 2,
+                    "minlength=\"10\" maxlength=\"2000\" required=\"required\"" + refused_field(frame, "override")) +
+         why_refused(frame, "override") +
+         "<p><button class=\"danger\">Record the decision</button></p><p class=\"dim\">It stands beside the score and "
+         "never replaces "
          "it.</p></form></details>";
 }
 
 std::string certificate_form(const AttemptView& view, const Frame& frame) {
-  if (!view.ready) return "<p class=\"dim\">No certificate yet: competence at this exercise and level has not been shown.</p>";
-  return "<p>" + badge(Flag::kReady) + " " + escape_html(view.ready->evidence) +
-         " <small class=\"dim\">n = " + std::to_string(view.ready->n) + ", rules " + escape_html(view.ready->rule_version) +
-         "</small></p>" + form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) + "<p><button>Certify " +
-         escape_html(view.result.trainee) + " for " + escape_html(view.exercise) + " " + escape_html(view.result.level) +
-         "</button></p></form>";
+  if (!view.ready) {
+    std::string missing;
+    for (const std::string& condition : view.missing) missing += "<li>" + escape_html(sentence(condition)) + "</li>";
+    return why_refused(frame, "certify") + "<p>A certificate cannot be given now" +
+           (missing.empty() ? ": competence at this exercise and level has not been shown.</p>"
+                            : ":</p><ul>" + missing + "</ul>");
+  }
+  return why_refused(frame, "certify") + "<p>" + badge(Flag::kReady) + " " + escape_html(view.ready->evidence) +
+         " <small class=\"dim\">n = " + std::to_string(view.ready->n) + ", rules " +
+         escape_html(view.ready->rule_version) + "</small></p>" +
+         form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) + "<p><button>Certify " +
+         escape_html(view.result.trainee) + " for " + escape_html(view.exercise) + " " +
+         escape_html(view.result.level) + "</button></p></form>";
 }
 
 std::string ratings(const AttemptView& view) {
@@ -64,11 +76,14 @@ std::string compare_section(const AttemptView& view, const Frame& frame) {
            "</a> <small class=\"dim\">score " + score_text(rival.score) + "</small></li>";
   out = out.empty() ? "<p class=\"dim\">Nothing of the same exercise and level to compare with yet.</p>" : "<ul>" + out + "</ul>";
   if (!frame.may_write) return section("compare", "Compare with", out);
-  return section("compare", "Compare with",
-                 out + "<form class=\"inline\" method=\"get\" action=\"/compare\"><input type=\"hidden\" name=\"attempt\" value=\"" +
-                     escape_html(view.result.uuid) + "\"/>" +
-                     text_field("other", "other", "Another attempt, by its number", "", "required=\"required\" minlength=\"4\"") +
-                     "<p><button>Compare</button></p></form>");
+  return section(
+      "compare", "Compare with",
+      out +
+          "<form class=\"inline\" method=\"get\" action=\"/compare\"><input type=\"hidden\" name=\"attempt\" value=\"" +
+          escape_html(view.result.uuid) + "\"/>" +
+          text_field("other", "other", "Another attempt, by its number", kept(frame, "compare", "other"),
+                     "required=\"required\" minlength=\"4\"" + refused_field(frame, "compare")) +
+          why_refused(frame, "compare") + "<p><button>Compare</button></p></form>");
 }
 
 std::string title(const AttemptView& view, const Frame& frame) {

@@ -56,6 +56,9 @@ struct DeskSources {
   std::string shipped_rules = {};   ///< text of the progress rules that came with the program, where the editor begins
   /// What runs on this station now, as JSON; "" when nothing does.
   std::function<std::string()> station = {};
+  /// Removes the invented cohort that is served, files and all, and lets the desk end. @throws InputError: it holds no such cohort.
+  std::function<void()> remove_demo = {};
+  std::string program = {};         ///< its version
 };
 
 struct Desk {

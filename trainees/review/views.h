@@ -118,6 +118,7 @@ struct AttemptView {
   std::vector<Note> notes = {};
   std::vector<Rival> rivals = {};
   std::optional<Judgement> ready = {};  ///< evidence for a certificate
+  std::vector<std::string> missing = {};  ///< conditions of a certificate that do not hold, a sentence each
   std::string rules_version = {};
   double begin_s() const { return trace && !trace->samples.empty() ? trace->samples.front().t_s : 0; }
 };
