@@ -9,6 +9,13 @@
 #include "trainees/sealed_rows.h"
 
 namespace trocar {
+namespace {
+
+bool known_trainee(sqlite3* connection, const std::string& code) {
+  return sql::Statement(connection, "SELECT 1 FROM person WHERE code = ?").bind(code).step();
+}
+
+}  // namespace
 
 Consent ConsentStore::record(const std::string& trainee, const std::string& purpose, bool given, const std::string& text,
                              const Author& author) {
@@ -17,6 +24,8 @@ Consent ConsentStore::record(const std::string& trainee, const std::string& purp
   sqlite3* connection = database_->connection();
   const Consent consent{make_uuid(), purpose, text, author.account_uuid, utc_now(), given};
   AnchoredTransaction transaction(*database_);
+  if (!given && known_trainee(connection, trainee) && !holds(trainee, purpose))
+    throw InputError("consent of " + trainee + " to \"" + purpose + "\": none is given, so none can be withdrawn");
   {
     sql::Statement insert(connection, "INSERT INTO consent (uuid, trainee_id, purpose, given, text, author, utc)"
                                       " SELECT ?, trainee_id, ?, ?, ?, ?, ? FROM person WHERE code = ? RETURNING 1");

@@ -21,7 +21,7 @@ class ConsentStore {
   explicit ConsentStore(Database& database) : database_(&database) {}
 
   /// @param purpose "research", 1 to 64 characters. @param text what was agreed to or withdrawn, in its words.
-  /// @throws InputError: no such trainee, purpose or text empty.
+  /// @throws InputError: no such trainee, purpose or text empty, a withdrawal of what does not hold.
   Consent record(const std::string& trainee, const std::string& purpose, bool given, const std::string& text, const Author& author);
   std::vector<Consent> of(const std::string& trainee) const;   ///< newest first
   bool holds(const std::string& trainee, const std::string& purpose) const;

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <ostream>
@@ -46,6 +47,9 @@ std::string shipped_rules() {
     return "";
   }
 }
+
+constexpr std::chrono::milliseconds kTurn{100};
+constexpr int kLast_turns = 30;
 
 Role required_role(const std::string& name) {
   if (const auto role = role_named(name)) return *role;
@@ -147,6 +151,12 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.open = desk_opener(file);
   served.sources = desk_sources();
   served.sources.shipped_rules = shipped_rules();
+  served.sources.program = TROCAR_VERSION;
+  std::atomic<bool> gone{false};
+  served.sources.remove_demo = [&] {
+    remove_demo_cohort(file);
+    gone = true;
+  };
   if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
   if (keeper) served.sources.central = [&, host = central_name({options.from})] { return standing_of(*keeper, host); };
   served.routes = review::desk_routes();
@@ -164,9 +174,10 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   desk.start();
   if (keeper) keeper->start();
   tell(desk, options, out, err);
-  while (!interrupt.seen()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  // The page that says that the demo is gone still fetches its style.
+  for (int left = kLast_turns; left > 0 && !interrupt.seen(); left -= gone ? 1 : 0) std::this_thread::sleep_for(kTurn);
   desk.stop();
-  err << "The desk is closed.\n";
+  err << (gone ? "The demo is removed and the desk is closed.\n" : "The desk is closed.\n");
   return 0;
 }
 

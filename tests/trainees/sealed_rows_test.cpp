@@ -183,6 +183,17 @@ TEST_F(SealedRows, ConsentsAreGivenAndWithdrawnAndTheNewestHolds) {
   EXPECT_FALSE(consents.holds("T-1", "research"));
   ASSERT_EQ(consents.of("T-1").size(), 2u);
   EXPECT_EQ(consents.of("T-1")[0].text, "I withdraw.");
+  EXPECT_NE(message_of<InputError>([&] {
+              consents.record("T-1", "film", false, "I withdraw.", kAuthor);
+            }).find("none is given"),
+            std::string::npos)
+      << "what was never given cannot be withdrawn";
+  EXPECT_THROW(consents.record("T-1", "research", false, "Again.", kAuthor), InputError)
+      << "nor what was withdrawn before";
+  EXPECT_EQ(consents.of("T-1").size(), 2u);
+  EXPECT_NE(
+      message_of<InputError>([&] { consents.record("T-9", "research", false, "x", kAuthor); }).find("there is none"),
+      std::string::npos);
   EXPECT_THROW(consents.record("T-9", "research", true, "x", kAuthor), InputError);
   EXPECT_THROW(consents.record("T-1", "", true, "x", kAuthor), InputError);
   EXPECT_THROW(consents.record("T-1", "research", true, "", kAuthor), InputError);

@@ -21,20 +21,24 @@ std::string sign_form(const AttemptView& view, const Frame& frame) {
                                         {"responsibility", "Responsibility: I answer for it"},
                                         {"authorship", "Authorship: I supervised it"}};
   return form_begin("/attempt/" + url_part(view.result.uuid) + "/sign", frame) +
-         select_field("sign-meaning", "meaning", "Meaning", meanings, "review") +
-         text_field("sign-note", "note", "Note to the signature (may be empty)", "", "maxlength=\"1000\"") + "<p><button>Sign" +
-         (frame.who.empty() ? "" : " as " + escape_html(frame.who)) +
-         "</button></p><p class=\"dim\">Your name, the time and the meaning are bound to the bytes of this attempt (row hash " +
+         select_field("sign-meaning", "meaning", "Meaning", meanings, kept(frame, "sign", "meaning", "review")) +
+         text_field("sign-note", "note", "Note to the signature (may be empty)", kept(frame, "sign", "note"),
+                    "maxlength=\"1000\"" + refused_field(frame, "sign")) +
+         why_refused(frame, "sign") + "<p><button>Sign" + (frame.who.empty() ? "" : " as " + escape_html(frame.who)) +
+         "</button></p><p class=\"dim\">Your name, the time and the meaning are bound to the bytes of this attempt "
+         "(row hash " +
          escape_html(view.row_hash.substr(0, 16)) + "). It cannot be taken back.</p></form>";
 }
 
 std::string override_form(const AttemptView& view, const Frame& frame) {
-  return "<details><summary>Decide otherwise than the score</summary>" +
+  return std::string("<details") + (frame.refused.form == "override" ? " open=\"open\"" : "") +
+         "><summary>Decide otherwise than the score</summary>" +
          form_begin("/attempt/" + url_part(view.result.uuid) + "/override", frame) +
          select_field("override-passed", "passed", "Your decision", {{"no", "not passed"}, {"yes", "passed"}},
-                      view.verdict().passed ? "no" : "yes") +
-         area_field("override-reason", "reason", "Reason, at least 10 characters", "", 2,
-                    "minlength=\"10\" maxlength=\"2000\" required=\"required\"") +
+                      kept(frame, "override", "passed", view.verdict().passed ? "no" : "yes")) +
+         area_field("override-reason", "reason", "Reason, at least 10 characters", kept(frame, "override", "reason"), 2,
+                    "minlength=\"10\" maxlength=\"2000\" required=\"required\"" + refused_field(frame, "override")) +
+         why_refused(frame, "override") +
          "<p><button class=\"danger\">Record the decision</button></p><p class=\"dim\">The score stays as it is; the newest "
          "decision is what counts, for unlocking, progress and certificates too.</p></form></details>";
 }
@@ -67,9 +71,14 @@ std::string certificate_list(const AttemptView& view) {
 std::string certificate_form(const AttemptView& view, const Frame& frame) {
   const std::string given = certificate_list(view);
   for (const CitedCertificate& one : view.certificates)
-    if (holds(one, view)) return given;
-  if (!view.ready) return given + "<p class=\"dim\">No certificate holds: competence at this exercise and level has not been shown.</p>";
-  const std::string why = given + "<p>" + badge(Flag::kReady) + " " + escape_html(view.ready->evidence) + " " +
+    if (holds(one, view)) return given + why_refused(frame, "certify");
+  if (!view.ready) {
+    std::string missing;
+    for (const std::string& condition : view.missing) missing += "<li>" + escape_html(sentence(condition)) + "</li>";
+    return given + why_refused(frame, "certify") + "<p>A certificate cannot be given now" +
+           (missing.empty() ? ": competence at this exercise and level has not been shown.</p>" : ":</p><ul>" + missing + "</ul>");
+  }
+  const std::string why = given + why_refused(frame, "certify") + "<p>" + badge(Flag::kReady) + " " + escape_html(view.ready->evidence) + " " +
                           basis_html(*view.ready) + "</p>";
   if (!view.verdict().passed)
     return why + "<p class=\"dim\">This attempt is not passed, so no certificate can cite it. Open one that is.</p>";
@@ -85,11 +94,14 @@ std::string compare_section(const AttemptView& view, const Frame& frame) {
            "</a> <small class=\"dim\">score " + score_text(rival.score) + "</small></li>";
   out = out.empty() ? "<p class=\"dim\">Nothing of the same exercise and level to compare with yet.</p>" : "<ul>" + out + "</ul>";
   if (!frame.may_write) return section("compare", "Compare with", out);
-  return section("compare", "Compare with",
-                 out + "<form class=\"inline\" method=\"get\" action=\"/compare\"><input type=\"hidden\" name=\"attempt\" value=\"" +
-                     escape_html(view.result.uuid) + "\"/>" +
-                     text_field("other", "other", "Another attempt, by its number or identifier", "", "required=\"required\"") +
-                     "<p><button>Compare</button></p></form>");
+  return section(
+      "compare", "Compare with",
+      out +
+          "<form class=\"inline\" method=\"get\" action=\"/compare\"><input type=\"hidden\" name=\"attempt\" value=\"" +
+          escape_html(view.result.uuid) + "\"/>" +
+          text_field("other", "other", "Another attempt, by its number or identifier", kept(frame, "compare", "other"),
+                     "required=\"required\"" + refused_field(frame, "compare")) +
+          why_refused(frame, "compare") + "<p><button>Compare</button></p></form>");
 }
 
 std::string title(const AttemptView& view, const Frame& frame) {

@@ -187,6 +187,19 @@ std::string page_links(const CohortQuestion& asked, int pages) {
   return out + "</nav>";
 }
 
+/// What to do at a desk that has nothing to show yet.
+std::string beginning(const Frame& frame) {
+  std::string out =
+      "<p>Nobody has finished an attempt yet. Attempts made on this station with <code>trocar practice</code> appear "
+      "here by "
+      "themselves.</p><p>To look round first: end this desk with Ctrl-C and start <code>trocar review serve "
+      "--demo</code>. It shows "
+      "eight invented trainees with a hundred attempts, in a database of their own, and a button takes them away "
+      "again.</p>";
+  if (frame.administrator) out += "<p>" + link_html("/accounts", "Make accounts") + " when others are to sign in.</p>";
+  return section("beginning", "A desk that is still empty", out);
+}
+
 }  // namespace
 
 std::vector<CohortEntry> selected_lines(const CohortView& view) {
@@ -229,14 +242,13 @@ std::string cohort_page(const CohortView& view, Frame frame) {
                     (frame.pdf ? " " + link_html("/report/cohort.pdf" + with(asked, "", ""), "PDF") : "") + "</p></div><div class=\"states\">";
   for (const CardWords& words : kCards) out += card(view, words);
   out += "</div>";
+  if (view.attempts == 0) out += beginning(frame);
   std::string rows;
   for (int i = (asked.page - 1) * kLinesOnPage; i < count && i < asked.page * kLinesOnPage; ++i)
     rows += row(lines[static_cast<std::size_t>(i)]);
   if (rows.empty())
     rows = std::string("<tr><td colspan=\"11\">") +
-           (view.attempts == 0 ? "No attempts yet. They appear here as soon as somebody has finished one."
-                               : "Nobody matches. Choose less above.") +
-           "</td></tr>";
+           (view.attempts == 0 ? "No attempts yet." : "Nobody matches. Choose less above.") + "</td></tr>";
   out += section("trainees", "Trainees",
                  filters(view) +
                      table("Trainees, " + plural(count, "line", "lines") +

@@ -73,7 +73,8 @@ std::string editor(const CurriculumView& view, const Frame& frame) {
     out += form_begin("/curriculum#editor", frame) + text_field("cur-name", "name", "Name", view.name, size) +
            area_field("cur-toml", "toml", "Rules as TOML", view.text, 24,
                       "class=\"code\" spellcheck=\"false\" maxlength=\"100000\" required=\"required\"") +
-           "<p><button name=\"do\" value=\"preview\">Who would pass today</button> <button name=\"do\" value=\"save\">Save as a new "
+           "<p class=\"buttons\"><button name=\"do\" value=\"preview\">Who would pass today</button> <button "
+           "name=\"do\" value=\"save\">Save as a new "
            "version</button></p></form>";
   else
     out += "<pre class=\"code\">" + escape_html(view.text) + "</pre>";
@@ -187,9 +188,10 @@ std::string groups(const CurriculumView& view, const Frame& frame) {
   return section("groups", "Groups",
                  out + form_begin("/curriculum/group", frame) +
                      "<input type=\"hidden\" name=\"do\" value=\"join\"/><div class=\"fields\">" +
-                     select_field("g-trainee", "trainee", "Trainee", codes, "") +
-                     text_field("g-group", "group", "joins the group", "", "maxlength=\"64\" required=\"required\"") +
-                     "</div><p><button>Add</button></p></form>");
+                     select_field("g-trainee", "trainee", "Trainee", codes, kept(frame, "group", "trainee")) +
+                     text_field("g-group", "group", "joins the group", kept(frame, "group", "group"),
+                                "maxlength=\"64\" required=\"required\"" + refused_field(frame, "group")) +
+                     "</div>" + why_refused(frame, "group") + "<p><button>Add</button></p></form>");
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ Response benchmark(const Request& request, Desk& desk) {
   const auto& form = request.form;
   const BenchmarkQuestion question = {argument(form, "exercise"), argument(form, "level"), argument(form, "metric"), argument(form, "who"),
                                       argument(form, "rule"),     argument(form, "fixed"), argument(form, "zero_at")};
-  const BenchmarkProposal proposal = propose(desk, question, request.now_utc);
+  BenchmarkProposal proposal = propose(desk, question, request.now_utc);
   if (argument(form, "do") == "save" && proposal.value) {
     Benchmark numbers;
     numbers.exercise_id = question.exercise_id;
@@ -58,8 +58,12 @@ Response benchmark(const Request& request, Desk& desk) {
     numbers.full_at = *proposal.value;
     numbers.zero_at = std::strtod(question.zero_at.c_str(), nullptr);
     numbers.n = proposal.n;
-    CurriculumStore(desk.database).add_benchmark(numbers, author_of(request));
-    return see("/curriculum#benchmarks");
+    try {
+      CurriculumStore(desk.database).add_benchmark(numbers, author_of(request));
+      return see("/curriculum#benchmarks");
+    } catch (const InputError& error) {
+      proposal.problem = sentence(error.what());
+    }
   }
   CurriculumView view = curriculum_view(desk, request);
   view.proposal = proposal;
@@ -70,12 +74,18 @@ Response group(const Request& request, Desk& desk) {
   CurriculumStore store(desk.database);
   const std::string trainee = argument(request.form, "trainee"), name = argument(request.form, "group"),
                     what = argument(request.form, "do");
-  if (what == "join")
-    store.join(trainee, name, author_of(request));
-  else if (what == "leave")
-    store.leave(trainee, name, author_of(request));
-  else
-    throw InputError("do: join or leave");
+  try {
+    if (what == "join")
+      store.join(trainee, name, author_of(request));
+    else if (what == "leave")
+      store.leave(trainee, name, author_of(request));
+    else
+      throw InputError("group: join or leave");
+  } catch (const InputError& error) {
+    Frame frame = frame_of(request, desk);
+    frame.refused = {"group", error.what(), request.form};
+    return {.status = 400, .body = curriculum_page(curriculum_view(desk, request), frame)};
+  }
   return see("/curriculum#groups");
 }
 
@@ -88,11 +98,20 @@ Route route(const std::string& method, const std::string& path, Action action) {
           }};
 }
 
+/// A form's address asked for as a page.
+Route form_page(const std::string& path) {
+  return {"GET", path, Audience::kInstructors, [](const Request&, Desk&) { return see("/curriculum"); }};
+}
+
 }  // namespace
 
 std::vector<Route> curriculum_routes() {
-  return {route("GET", "/curriculum", show), route("POST", "/curriculum", rules), route("POST", "/curriculum/benchmark", benchmark),
-          route("POST", "/curriculum/group", group)};
+  return {route("GET", "/curriculum", show),
+          route("POST", "/curriculum", rules),
+          route("POST", "/curriculum/benchmark", benchmark),
+          route("POST", "/curriculum/group", group),
+          form_page("/curriculum/benchmark"),
+          form_page("/curriculum/group")};
 }
 
 }  // namespace trocar::review

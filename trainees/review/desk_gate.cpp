@@ -8,6 +8,7 @@
 #include "trainees/review/desk_accounts.h"
 #include "trainees/review/desk_page.h"
 #include "trainees/review/desk_visit.h"
+#include "trainees/review/page_frame.h"
 #include "trainees/review/told_text.h"
 #include "trainees/review/url_text.h"
 
@@ -37,6 +38,12 @@ std::string cookie_value(const std::string& cookies, const std::string& name) {
 }
 
 Answer refused(int status, const std::string& why = "") { return {.response = error_page(status, why)}; }
+
+/// Where a trainee who opens the desk belongs; nothing for everybody else.
+std::optional<std::string> own_page(const std::optional<Account>& account) {
+  if (!account || account->role != Role::kTrainee || account->trainee_code.empty()) return {};
+  return "/trainee/" + percent_encoded(account->trainee_code);
+}
 
 bool header_value(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c < 0x7f; });
@@ -113,7 +120,11 @@ std::optional<Answer> DeskGate::refuse_posted(Visit& visit) const {
   const std::string token = visit.request.form["token"];
   visit.request.form.erase("token");
   if (visit.number.empty() || !sessions_.token_fits(visit.number, token))
-    return refused(403, "This form is too old, or not from this desk. Nothing was changed. Open the page again and repeat what you did.");
+    return Answer{.response = error_page(
+                      403,
+                      "This form is too old, or not from this desk. Nothing was changed. Open the page again and "
+                      "repeat what you did.",
+                      prose_of(visit.request.form))};
   return {};
 }
 
@@ -151,10 +162,10 @@ Answer DeskGate::page(Visit& visit) {
       throw std::logic_error("answer with status or type that cannot be sent");
     return out;
   } catch (const InputError& error) {
-    return refused(400, staff ? told_without_folders(error.what(), visit.desk.database.file()) : "");
+    return refused(400, staff ? sentence(told_without_folders(error.what(), visit.desk.database.file())) : "");
   } catch (const EnvironmentError& error) {
     say(what + ": " + error.what());
-    Answer out = refused(503, staff ? told_without_folders(error.what(), visit.desk.database.file()) : "");
+    Answer out = refused(503, staff ? sentence(told_without_folders(error.what(), visit.desk.database.file())) : "");
     out.retry_after_s = 5;
     return out;
   } catch (const std::exception& error) {
@@ -185,6 +196,8 @@ Answer DeskGate::answered(Visit& visit) {
   request.arguments = visit.found.arguments;
   request.now_utc = utc_now();
   if (visit.found.route->audience != Audience::kEverybody) open_session(visit);
+  if (const auto own = own_page(request.account); own && !visit.posts() && head.path == "/")
+    return {.response = {.status = 303, .location = *own}};
   if (const auto refusal = refuse_audience(visit)) {
     if (refusal->response.status != 401) return *refusal;
     const std::string next = visit.posts() ? "" : head.path + (head.query.empty() ? "" : "?" + head.query);

@@ -6,13 +6,19 @@ namespace trocar::review {
 namespace {
 
 std::string document(const std::string& title, const std::string& body) {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+         "content=\"width=device-width, "
          "initial-scale=1\">"
          "<title>" +
          escape_html(title) +
-         " - Trocar</title><link rel=\"stylesheet\" href=\"/style.css\"></head>\n"
+         " - Trocar</title><link rel=\"icon\" href=\"/icon.svg\"><link rel=\"stylesheet\" href=\"/style.css\"></head>\n"
          "<body class=\"plain\"><main>\n" +
          body + "</main></body></html>\n";
+}
+
+std::string given_back(const std::string& written) {
+  if (written.empty()) return "";
+  return "<p>What you had written, to copy:</p>\n<pre class=\"written\">" + escape_html(written) + "</pre>\n";
 }
 
 std::string usual_words(int status) {
@@ -56,13 +62,23 @@ std::string status_title(int status) {
   }
 }
 
-Response error_page(int status, const std::string& why) {
+std::string prose_of(const std::map<std::string, std::string>& form) {
+  std::string out;
+  for (const char* field : {"text", "note", "reason", "toml"}) {
+    const auto it = form.find(field);
+    if (it != form.end() && !it->second.empty()) out += (out.empty() ? "" : "\n\n") + it->second;
+  }
+  return out;
+}
+
+Response error_page(int status, const std::string& why, const std::string& written) {
   Response out;
   out.status = status;
   const std::string title = status_title(status);
-  out.body = document(
-      title, "<h1>" + escape_html(title) + "</h1>\n<p class=\"error\">" + escape_html(why.empty() ? usual_words(status) : why) +
-                 "</p>\n<p><a href=\"/\">To the first page</a> <span class=\"quiet\">(" + std::to_string(status) + ")</span></p>\n");
+  out.body = document(title, "<h1>" + escape_html(title) + "</h1>\n<p class=\"error\">" +
+                                 escape_html(why.empty() ? usual_words(status) : why) + "</p>\n" + given_back(written) +
+                                 "<p><a href=\"/\">To the first page</a> <span class=\"quiet\">(" +
+                                 std::to_string(status) + ")</span></p>\n");
   return out;
 }
 
@@ -74,12 +90,15 @@ Response sign_in_page(const SignInForm& form) {
   };
   std::string body = "<h1>Trocar: sign in</h1>\n";
   if (!form.message.empty()) body += "<p class=\"error\" role=\"alert\">" + escape_html(form.message) + "</p>\n";
-  body += "<form method=\"post\" action=\"/sign-in\">\n" + hidden("token", form.token) + hidden("next", form.next) +
-          "<p><label>Login<br><input name=\"login\" maxlength=\"32\" autocomplete=\"username\" autocapitalize=\"none\" required autofocus "
+  body += given_back(form.written) + "<form method=\"post\" action=\"/sign-in\">\n" + hidden("token", form.token) +
+          hidden("next", form.next) +
+          "<p><label>Login<br><input name=\"login\" maxlength=\"32\" autocomplete=\"username\" autocapitalize=\"none\" "
+          "required autofocus "
           "value=\"" +
           escape_html(form.login) +
           "\"></label></p>\n"
-          "<p><label>Password or PIN<br><input name=\"password\" type=\"password\" maxlength=\"1024\" autocomplete=\"current-password\" "
+          "<p><label>Password or PIN<br><input name=\"password\" type=\"password\" maxlength=\"1024\" "
+          "autocomplete=\"current-password\" "
           "required></label></p>\n"
           "<p><button type=\"submit\">Sign in</button></p>\n</form>\n"
           "<p class=\"quiet\">No account, or the password is lost? An administrator makes a new one.</p>\n";

@@ -57,7 +57,7 @@ constexpr char kScript[] = R"js('use strict';
     });
     return found ? best : here;
   }
-  function keep() { history.replaceState(null, '', '?t=' + parseFloat(slider.value).toFixed(2)); }
+  function keep() { history.replaceState(null, '', form.getAttribute('action').split('#')[0] + '?t=' + parseFloat(slider.value).toFixed(2)); }
   slider.addEventListener('input', function () { show(parseFloat(slider.value)); });
   slider.addEventListener('change', keep);
   document.addEventListener('click', function (event) {

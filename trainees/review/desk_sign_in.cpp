@@ -51,6 +51,10 @@ Answer DeskGate::ask_to_sign_in(Visit& visit, int status, const std::string& mes
   if (visit.number.empty()) set_cookie(visit, DeskSessions::fresh_number());
   SignInForm form{
       .status = status, .message = message, .login = login, .next = local_path(next) ? next : "", .token = sessions_.token(visit.number)};
+  if (visit.posts() && visit.arrival.head.path != "/sign-in") {
+    form.message = "Your sign-in has ended. Nothing was changed.";
+    if (const auto sent = form_fields(visit.arrival.body)) form.written = prose_of(*sent);
+  }
   if (form.message.empty() && !somebody_can_sign_in(visit.desk.database))
     form.message = "Nobody has an account yet, and this desk is open without one only to the person who started it, on that machine. "
                    "An account is made there by: trocar review account add LOGIN --role administrator";

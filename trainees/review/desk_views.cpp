@@ -8,6 +8,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/attempt_store.h"
+#include "trainees/markup/html.h"
 #include "trainees/replica_facts.h"
 #include "trainees/review/charts.h"
 #include "trainees/review/desk_memory.h"
@@ -128,7 +129,7 @@ void add_trace(AttemptView& view, Desk& desk) {
     } catch (const std::exception& error) {
       const bool there = std::filesystem::is_regular_file(view.result.recording_path, none);
       view.no_trace = desk::of_erased(desk.database.connection(), view.result.uuid) ? "The recording was erased with the training data."
-                      : there ? "The recording cannot be read: " + told_without_folders(error.what(), desk.database.file())
+                      : there ? sentence("The recording cannot be read: " + told_without_folders(error.what(), desk.database.file()))
                               : "The recording is not in its place any more.";
     }
   }
@@ -156,16 +157,33 @@ std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const C
   return filtered(desk.memory->lines(desk.database, now_utc), filter);
 }
 
-/// The judgement "ready" of the attempt's curve, for the certificate.
+/// Which conditions of a certificate a curve that is not ready does not meet.
+std::vector<std::string> missing_on(const CohortLine& line, const ProgressRules& rules) {
+  std::vector<std::string> out;
+  if (!line.certified_utc.empty()) out.push_back("One is held already, of " + line.certified_utc.substr(0, 10) + ".");
+  for (const Judgement& judgement : line.judgements)
+    if (judgement.flag != Flag::kReady && judgement.flag != Flag::kRetentionDue)
+      out.push_back((judgement.flag == Flag::kLearning ? "Competence has not been shown: "
+                                                       : std::string(flag_name(judgement.flag)) + ": ") +
+                    judgement.evidence + ".");
+  if (line.reliability.value_or(1) < rules.least_reliability)
+    out.push_back("The scores are not reliable enough: " + fixed_text(*line.reliability, 2) + ", wanted are " +
+                  fixed_text(rules.least_reliability, 2) + ".");
+  return out;
+}
+
+/// The judgement "ready" of the attempt's curve, for the certificate; else why there is none.
 void add_readiness(AttemptView& view, Desk& desk, const ProgressRules& rules, const std::string& now_utc) {
   CohortFilter filter;
   filter.exercise = view.result.exercise_id;
   filter.level = view.result.level;
   filter.trainee = view.result.trainee;
+  view.missing = {"This attempt stands on no learning curve: the device ended it, or it was void."};
   for (const CohortLine& line : lines_of(desk, rules, filter, now_utc)) {
-    if (line.key.hand != view.result.hand || line.key.rubric_sha256 != view.result.rubric_sha256 || !line.certified_utc.empty()) continue;
+    if (line.key.hand != view.result.hand || line.key.rubric_sha256 != view.result.rubric_sha256) continue;
     for (const Judgement& judgement : line.judgements)
-      if (judgement.flag == Flag::kReady) view.ready = judgement;
+      if (judgement.flag == Flag::kReady && line.certified_utc.empty()) view.ready = judgement;
+    view.missing = view.ready ? std::vector<std::string>{} : missing_on(line, rules);
   }
 }
 
@@ -200,6 +218,9 @@ Frame frame_of(const Request& request, const Desk& desk) {
   frame.may_write = is_staff(request);
   frame.pdf = true;
   if (desk.sources.central) frame.central = desk.sources.central();
+  frame.signed_in = request.account && !request.account->uuid.empty();
+  frame.administrator = request.account && request.account->role == Role::kAdministrator;
+  frame.demo_goes = frame.administrator && desk.demo && desk.sources.remove_demo;
   return frame;
 }
 

@@ -1,11 +1,13 @@
 #include "trainees/review/page_frame.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 
 #include "trainees/markup/html.h"
 #include "trainees/markup/svg.h"
+#include "trainees/review/told_text.h"
 
 namespace trocar::review {
 namespace {
@@ -41,19 +43,31 @@ std::string nav(const Frame& frame) {
     out += link_html("/trainee/" + url_part(frame.own_code), "My page");
   else
     out += link_html("/", "Cohort") + link_html("/curriculum", "Curriculum") + link_html("/station", "Station");
+  if (frame.administrator) out += link_html("/accounts", "Accounts") + link_html("/record", "Record");
   return out + "</nav>";
 }
 
 std::string top(const Frame& frame) {
-  std::string out = "<header class=\"top\"><span class=\"brand\">Trocar desk</span>" + nav(frame);
-  if (!frame.who.empty())
+  std::string out = "<header class=\"top\"><span class=\"brand\">Trocar desk</span>" + (frame.ended ? "" : nav(frame));
+  if (!frame.who.empty() && frame.signed_in)
     out += "<form class=\"who\" method=\"post\" action=\"/sign-out\"><input type=\"hidden\" name=\"token\" value=\"" +
            escape_html(frame.token) + "\"/><span>" + escape_html(frame.who) + "</span><button>Sign out</button></form>";
+  else if (!frame.who.empty())
+    out += "<p class=\"who\">" + escape_html(frame.who) + "</p>";
   out += "</header>";
-  if (frame.demo)
-    out +=
-        "<p class=\"ribbon\" role=\"note\"><strong>Demo.</strong> These trainees and attempts are invented. Nothing here is a record.</p>";
-  return out;
+  if (!frame.demo) return out;
+  out +=
+      "<div class=\"ribbon\" role=\"note\"><p><strong>Demo.</strong> These trainees and attempts are invented. Nothing "
+      "here is a record.</p>";
+  if (frame.demo_goes) out += "<a class=\"button\" href=\"/demo/remove\">Remove the demo</a>";
+  return out + "</div>";
+}
+
+/// What only paper shows: whose page it is and when it was made.
+std::string paper_line(const Frame& frame) {
+  return "<p class=\"paper\">Trocar desk: " + escape_html(frame.title) +
+         (frame.now_utc.empty() ? "" : ". Printed from the page of " + date_html(frame.now_utc) + " UTC") +
+         (frame.who.empty() ? "" : ", " + escape_html(frame.who)) + "</p>";
 }
 
 constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
@@ -109,16 +123,40 @@ std::string document(const Frame& frame, const std::string& main_html) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>";
   if (frame.refresh_s > 0) out += "<meta http-equiv=\"refresh\" content=\"" + std::to_string(frame.refresh_s) + "\"/>";
   out += "<title>" + escape_html(frame.title) +
-         " - Trocar desk</title><link rel=\"stylesheet\" href=\"/style.css\"/>"
+         " - Trocar desk</title><link rel=\"icon\" href=\"/icon.svg\"/><link rel=\"stylesheet\" href=\"/style.css\"/>"
          "<script src=\"/desk.js\" defer=\"defer\"></script></head><body>"
          "<a class=\"skip\" href=\"#main\">Skip to the content</a>";
-  out += sprite() + top(frame) + "<main id=\"main\">" + central_banner(frame.central, frame.now_utc);
+  out += sprite() + top(frame) + paper_line(frame) + "<main id=\"main\">" + central_banner(frame.central, frame.now_utc);
   if (!frame.notice.empty()) out += "<p class=\"notice\" role=\"status\">" + escape_html(frame.notice) + "</p>";
   out +=
       main_html + "</main><footer><p>Trocar is a training aid, not a medical device. A score judges a run at a simulator; a person signs.";
   if (!frame.now_utc.empty()) out += " Page made " + date_html(frame.now_utc) + " UTC.";
   out += central_footer(frame.central, frame.now_utc);
   return out + "</p></footer></body></html>\n";
+}
+
+std::string kept(const Frame& frame, const std::string& form, const std::string& field, const std::string& otherwise) {
+  if (frame.refused.form != form) return otherwise;
+  const auto it = frame.refused.values.find(field);
+  return it == frame.refused.values.end() ? otherwise : it->second;
+}
+
+std::string why_refused(const Frame& frame, const std::string& form) {
+  if (frame.refused.form != form) return "";
+  return "<p class=\"error\" role=\"alert\" id=\"why-" + escape_html(form) + "\">" + shape("fail") + "Not done. " +
+         escape_html(sentence(frame.refused.why)) + "</p>";
+}
+
+std::string refused_field(const Frame& frame, const std::string& form) {
+  if (frame.refused.form != form) return "";
+  return " aria-invalid=\"true\" autofocus=\"autofocus\" aria-describedby=\"why-" + escape_html(form) + "\"";
+}
+
+std::string sentence(const std::string& message) {
+  std::string out = told_without_folders(message);
+  if (!out.empty() && out[0] >= 'a' && out[0] <= 'z') out[0] = static_cast<char>(out[0] - 32);
+  if (!out.empty() && std::string(".!?").find(out.back()) == std::string::npos) out += '.';
+  return out;
 }
 
 std::string url_part(const std::string& text) {

@@ -14,20 +14,41 @@
 
 namespace trocar::review {
 
+/// A form that was refused: its page comes back with what stood in it, and why beside the field.
+struct RefusedForm {
+  std::string form = {};  ///< "" when none was
+  std::string why = {};
+  std::map<std::string, std::string> values = {};
+};
+
 /// Around every page.
 struct Frame {
   std::string title = {};
-  std::string who = {};       ///< name of who is signed in; "" at a desk without sign-in
+  std::string who = {};       ///< name of who looks; "" on pages before signing in
+  bool signed_in = true;      ///< by an account, so that signing out means something
   std::string own_code = {};  ///< of a trainee: sees own pages only
   std::string token = {};     ///< goes into every form
   std::string now_utc = {};
   bool demo = false;
   bool may_write = true;    ///< instructors and administrators
+  bool administrator = false;
+  bool demo_goes = false;   ///< the demo cohort can be removed from here
+  bool ended = false;       ///< the desk closes: there is nowhere to go from this page
   bool pdf = false;         ///< PDF of this page can be had
   int refresh_s = 0;        ///< page asks for itself again
   std::string notice = {};  ///< what has just been done
   CentralStanding central = {};   ///< of a desk that serves a central record
+  RefusedForm refused = {};
 };
+
+/// What stood in that field of that form when it was refused, else `otherwise`.
+std::string kept(const Frame& frame, const std::string& form, const std::string& field, const std::string& otherwise = "");
+/// Why that form was refused, for the place below its field; "" when it was not.
+std::string why_refused(const Frame& frame, const std::string& form);
+/// Attributes that tie the field to that reason; "" when it was not refused.
+std::string refused_field(const Frame& frame, const std::string& form);
+/// A message of the program as a sentence: first letter large, a stop at its end, folders of the machine left out.
+std::string sentence(const std::string& message);
 
 /// Whole document. @param main_html what stands between header and footer.
 std::string document(const Frame& frame, const std::string& main_html);

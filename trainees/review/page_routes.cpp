@@ -45,7 +45,7 @@ Response picture(const Request& request, Desk& desk) {
   try {
     out.body = desk.sources.picture(AttemptStore(desk.database).find(argument(request.arguments, "attempt")).uuid, t, kPictureWidth);
   } catch (const EnvironmentError& error) {
-    return refused(request, desk, 503, "No picture yet", error.what());
+    return refused(request, desk, 503, "No picture yet", sentence(error.what()));
   }
   return out;
 }
@@ -61,8 +61,14 @@ Response compare(const Request& request, Desk& desk) {
 
 Response compare_by_name(const Request& request, Desk& desk) {
   const AttemptStore store(desk.database);
-  return see("/compare/" + url_part(store.find(argument(request.query, "attempt")).uuid) + "/" +
-             url_part(store.find(argument(request.query, "other")).uuid));
+  const std::string first = store.find(argument(request.query, "attempt")).uuid;
+  try {
+    return see("/compare/" + url_part(first) + "/" + url_part(store.find(argument(request.query, "other")).uuid));
+  } catch (const InputError& error) {
+    Frame frame = frame_of(request, desk);
+    frame.refused = {"compare", error.what(), request.query};
+    return {.status = 404, .body = attempt_page(attempt_view(desk, request, first), frame)};
+  }
 }
 
 using Page = Response (*)(const Request&, Desk&);
@@ -85,7 +91,7 @@ Response answered(const Request& request, Desk& desk, int status, const std::fun
   try {
     return action();
   } catch (const InputError& error) {
-    return refused(request, desk, status, status == 404 ? "Not found" : "Not done", error.what());
+    return refused(request, desk, status, status == 404 ? "Not found" : "Not done", sentence(error.what()));
   }
 }
 

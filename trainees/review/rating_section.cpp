@@ -53,8 +53,8 @@ std::string other_ratings(const AttemptView& view) {
   return rows.empty() ? "" : table("Other scales", head_cells({"Scale", "Item", ">Value", "By", "When"}), rows);
 }
 
-std::string item_field(const RatingItem& item, const RatingScale& scale) {
-  const std::string name = escape_html(item.name);
+std::string item_field(const RatingItem& item, const RatingScale& scale, const Frame& frame) {
+  const std::string name = escape_html(item.name), given = kept(frame, "rate", item.name);
   const auto choice = [&](const std::string& value, const std::string& words, bool chosen) {
     return "<label><input type=\"radio\" name=\"" + name + "\" value=\"" + value + "\"" + (chosen ? " checked=\"checked\"" : "") + "/>" +
            words + "</label>";
@@ -62,19 +62,19 @@ std::string item_field(const RatingItem& item, const RatingScale& scale) {
   std::string out = "<fieldset class=\"rate\"><legend>" + escape_html(words_of(item.name)) + "</legend><p class=\"dim\"><small>";
   for (std::size_t i = 0; i < item.anchors.size(); ++i)
     out += (i == 0 ? "" : " ") + std::to_string(1 + 2 * i) + ": " + escape_html(item.anchors[i]) + ".";
-  out += "</small></p><p>" + choice("", "not rated", true);
-  for (int value = scale.least; value <= scale.most; ++value) out += choice(std::to_string(value), std::to_string(value), false);
+  out += "</small></p><p>" + choice("", "not rated", given.empty());
+  for (int value = scale.least; value <= scale.most; ++value) out += choice(std::to_string(value), std::to_string(value), given == std::to_string(value));
   return out + "</p></fieldset>";
 }
 
 std::string rating_form(const AttemptView& view, const RatingScale& scale, const Frame& frame) {
-  std::string out = "<details><summary>Rate this attempt on " + escape_html(scale.name) + "</summary>" +
+  std::string out = std::string("<details") + (frame.refused.form == "rate" ? " open=\"open\"" : "") + "><summary>Rate this attempt on " + escape_html(scale.name) + "</summary>" +
                     form_begin("/attempt/" + url_part(view.result.uuid) + "/rate", frame) +
                     "<p class=\"dim\">From the replay above. Leave at \"not rated\" what cannot be seen, such as two hands where one "
                     "instrument was used. The program fills in nothing.</p><input type=\"hidden\" name=\"scale\" value=\"" +
                     escape_html(scale.name) + "\"/>";
-  for (const RatingItem& item : scale.items) out += item_field(item, scale);
-  return out + "<p><button>Record the rating</button></p></form></details>";
+  for (const RatingItem& item : scale.items) out += item_field(item, scale, frame);
+  return out + why_refused(frame, "rate") + "<p><button>Record the rating</button></p></form></details>";
 }
 
 }  // namespace

@@ -61,6 +61,9 @@ struct DeskSources {
   std::function<CentralStanding()> central = {};
   /// What runs on this station now, as JSON; "" when nothing does.
   std::function<std::string()> station = {};
+  /// Removes the invented cohort that is served, files and all, and lets the desk end. @throws InputError: it holds no such cohort.
+  std::function<void()> remove_demo = {};
+  std::string program = {};         ///< its version
 };
 
 class DeskMemory;

@@ -23,7 +23,12 @@ a:hover{text-decoration-thickness:2px}
 .top a{color:#d4e9f8}
 .who{margin:0 0 0 auto;display:flex;gap:10px;align-items:center}
 .who button{background:#33475a;color:#fff;border-color:#6d8296}
-.ribbon{margin:0;padding:6px 18px;background:#5d2a4c;color:#fff}
+.ribbon{display:flex;flex-wrap:wrap;gap:4px 18px;align-items:center;justify-content:space-between;padding:6px 18px;background:#5d2a4c;color:#fff}
+.ribbon p{margin:0}
+.ribbon .button{background:#fff;color:#5d2a4c;border-color:#fff;padding:1px 10px;min-height:0}
+.ribbon .button:hover{background:#f3e6ef}
+.ribbon :focus-visible{outline-color:#ffd28a}
+.paper{display:none}
 .central{margin:12px 0;background:#fff3d6;border:1px solid #b07c00;border-left-width:6px;border-radius:6px;padding:8px 12px;color:#1d2630}
 h1{font-size:1.5rem;margin:0;overflow-wrap:anywhere}
 h2{font-size:1.08rem;margin:0 0 8px}
@@ -100,6 +105,14 @@ tbody tr:hover{background:#f4f8fb}
 .long{min-width:200px;overflow-wrap:anywhere}
 .metrics .long{min-width:280px;max-width:80ch}
 .mono{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:.82rem;overflow-wrap:anywhere}
+.parts{display:flex;flex-wrap:wrap;gap:6px 18px;margin:0 0 12px}
+.parts a[aria-current]{font-weight:700;color:#14191f;text-decoration:none;border-bottom:3px solid #00568a}
+.written{max-height:18em;overflow:auto;white-space:pre-wrap;overflow-wrap:anywhere;background:#f4f6f8;border:1px solid #d5dbe1;border-radius:6px;padding:8px 12px;font:inherit}
+code{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:.88em;background:#eef1f4;padding:1px 4px;border-radius:3px;overflow-wrap:anywhere}
+[aria-invalid]{border-color:#b04a00;border-width:2px}
+.buttons{display:flex;flex-wrap:wrap;gap:8px}
+td form{margin:0 0 4px}
+td details{margin:0}
 .pages{display:flex;flex-wrap:wrap;gap:12px;margin-top:10px}
 figure{margin:0 0 8px;min-width:0}
 figcaption{font-size:.86rem;color:#4a555f;margin-top:4px}
@@ -173,9 +186,13 @@ output{font-weight:600}
 footer{max-width:1400px;margin:0 auto;padding:0 18px 20px;color:#4a555f;font-size:.86rem}
 @media (max-width:1180px){.squares{grid-template-columns:repeat(3,minmax(0,1fr))}}
 @media (max-width:900px){.two,.two.even,.two.moment{grid-template-columns:minmax(0,1fr)}.states,.squares.four{grid-template-columns:repeat(2,minmax(0,1fr))}}
-@media (max-width:560px){main{padding:10px 8px 24px}.card{padding:10px}.states{gap:8px}.states{grid-template-columns:minmax(0,1fr)}.squares,.squares.four{grid-template-columns:repeat(2,minmax(0,1fr))}.verdict{grid-template-columns:minmax(0,1fr) auto;padding:8px 12px}.verdict .reason{grid-column:1/-1;grid-row:2}.who{margin-left:0}.files{margin-left:0!important}.files a{margin:0 12px 0 0}.filters .field{flex:1 1 44%}.filters select{width:100%}}
-@page{size:A4;margin:10mm}
-@media print{body{background:#fff;font-size:10px}.top nav,.who,.skip,form,details,.steps,.scrub,.pages,.files,.more{display:none!important}.top{background:#fff;color:#000;padding:0}main{max-width:none;padding:0}.card,.state,.verdict{break-inside:avoid-page;border-color:#888;margin-bottom:8px;padding:6px 8px}.scroll,.plot{overflow:visible}.plot svg,.cohort{min-width:0}tr,figure{break-inside:avoid}a{color:inherit;text-decoration:none}.two{grid-template-columns:minmax(0,1.25fr) minmax(0,1fr)}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
+@media (max-width:560px){main{padding:10px 8px 24px}.card{padding:10px}.states{gap:8px}.states{grid-template-columns:minmax(0,1fr)}.squares,.squares.four{grid-template-columns:repeat(2,minmax(0,1fr))}.verdict{grid-template-columns:minmax(0,1fr) auto;padding:8px 12px}.verdict .reason{grid-column:1/-1;grid-row:2}.top{padding:8px 10px}.ribbon{padding:6px 10px}.files{margin-left:0!important}.files a{margin:0 12px 0 0}.filters .field,.fields .field{flex:1 1 44%}.filters select,.fields select,.fields input,.inline .field,.inline input{width:100%}
+.scroll table{font-size:.92rem}.scroll caption{max-width:calc(100vw - 38px)}th,td{padding:5px 8px 5px 0}thead th{white-space:normal}.long,.metrics .long{min-width:170px}.metrics tbody th{overflow-wrap:anywhere;min-width:110px}td time{white-space:normal;display:inline-block;min-width:88px}.top nav{order:2;flex-basis:100%;gap:4px 11px;font-size:.94rem}.who{order:1}
+.cohort,.cohort caption,.cohort thead,.cohort tbody{display:block;min-width:0;width:100%}.cohort thead tr{display:flex;flex-wrap:wrap;gap:0 12px;border-bottom:2px solid #b9c2cb}.cohort thead tr::before{content:"Sort by";color:#4a555f;padding:5px 0}.cohort thead th{border:0}.cohort thead th:nth-child(8){display:none}
+.cohort tbody tr{display:grid;grid-template-columns:repeat(3,minmax(0,1fr));gap:2px 8px;padding:8px 0;border-bottom:1px solid #c4ccd4}.cohort tbody th,.cohort tbody td{border:0;padding:0;text-align:left;min-width:0}.cohort tbody th,.cohort tbody td:nth-child(2),.cohort tbody td[colspan]{grid-column:1/-1}.cohort tbody td:nth-child(3){grid-column:1/3}.cohort tbody td:nth-child(8){grid-column:1/3}.cohort tbody td:nth-child(11){grid-column:2/4}.cohort td time{min-width:0}
+.cohort td:nth-child(n+5)::before{color:#4a555f;font-size:.86rem;font-weight:400}.cohort td:nth-child(5)::before{content:"tries "}.cohort td:nth-child(6)::before{content:"best "}.cohort td:nth-child(7)::before{content:"last "}.cohort td:nth-child(9)::before{content:"force, N "}.cohort td:nth-child(10)::before{content:"over "}}
+@page{size:A4;margin:12mm}
+@media print{html{font-size:11px}body{background:#fff;font-size:11px}.top,.ribbon a,.skip,nav,form,button,.button,summary,details:not([open]),.steps,.scrub,.files,.more{display:none!important}.paper{display:block;margin:0 0 6px;padding:0 0 3px;border-bottom:1px solid #888;font-size:10px;color:#333}.ribbon{background:#fff;color:#000;border:1px solid #000;padding:2px 6px;margin:0 0 6px}main,footer{max-width:none;padding:0}.card,.state,.verdict{break-inside:auto;border-color:#888;margin-bottom:8px;padding:6px 8px}.state,.verdict,.certificate,.notes li,.facts{break-inside:avoid}.scroll,.plot{overflow:visible}.plot svg,.plot svg.weeks,.cohort,.metrics .long,.long,.grid td,.cohort tbody td:nth-child(2),.cohort tbody th{min-width:0}tr,figure,img,svg{break-inside:avoid}h2,h3,caption{break-after:avoid}thead{display:table-header-group}thead th,td.n,th.n{white-space:normal}th,td{padding:2px 5px 2px 0}td.n{white-space:nowrap}.spark{width:80px;height:24px}a{color:inherit;text-decoration:none}.two{grid-template-columns:minmax(0,1fr)}.two.even,#curve .two{grid-template-columns:minmax(0,1fr) minmax(0,1fr)}.two.moment{grid-template-columns:minmax(0,1fr) minmax(0,1.3fr)}#compare,.two.moment p.dim{display:none!important}.states,.squares.four{grid-template-columns:repeat(4,minmax(0,1fr));gap:6px}.squares{grid-template-columns:repeat(3,minmax(0,1fr))}.state .count{font-size:1.6rem}.scope{max-height:70mm;width:auto;max-width:100%}footer{border-top:1px solid #888;padding-top:3px;margin-top:8px}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 }  // namespace
 

@@ -37,8 +37,9 @@ std::string grid(const TraineeView& view) {
       for (const CurveView* curve : curves) {
         if (curve->key.level != level) continue;
         const bool here = view.chosen < view.curves.size() && curve == &view.curves[view.chosen];
-        body += "<a class=\"gridcell\" href=\"" + curve_query(*curve) + "#curve\"" + (here ? " aria-current=\"true\"" : "") + ">" +
-                badge(state_of(*curve)) + " <strong>" + score_text(curve->best) + "</strong> <small>" +
+        body += "<a class=\"gridcell\" href=\"/trainee/" + url_part(view.code) + curve_query(*curve) + "#curve\"" +
+                (here ? " aria-current=\"true\"" : "") + ">" + badge(state_of(*curve)) + " <strong>" +
+                score_text(curve->best) + "</strong> <small>" +
                 plural(static_cast<std::int64_t>(curve->points.size()), "try", "tries") + "</small></a>";
       }
       body += "</td>";
@@ -200,9 +201,12 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
     if (frame.pdf) out += "<p class=\"files\">" + link_html("/report/certificate/" + url_part(c.uuid) + ".pdf", "Certificate as PDF") + "</p>";
     if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason) + "</p>";
     if (held && frame.may_write)
-      out += "<details><summary>Withdraw</summary>" + form_begin("/certificate/" + url_part(c.uuid) + "/revoke", frame) +
-             text_field("revoke-" + std::to_string(++n), "reason", "Reason, at least 10 characters", "",
-                        "minlength=\"10\" required=\"required\"") +
+      out += std::string("<details") + (frame.refused.form == "revoke-" + c.uuid ? " open=\"open\"" : "") +
+             "><summary>Withdraw</summary>" + form_begin("/certificate/" + url_part(c.uuid) + "/revoke", frame) +
+             text_field("revoke-" + std::to_string(++n), "reason", "Reason, at least 10 characters",
+                        kept(frame, "revoke-" + c.uuid, "reason"),
+                        "minlength=\"10\" required=\"required\"" + refused_field(frame, "revoke-" + c.uuid)) +
+             why_refused(frame, "revoke-" + c.uuid) +
              "<p><button class=\"danger\">Withdraw certificate</button></p></form></details>";
     out += "</article>";
   }
@@ -237,9 +241,10 @@ std::string notes_section(const std::vector<Note>& notes, const std::string& act
   std::string out;
   if (frame.may_write)
     out += form_begin(action, frame) +
-           area_field("note-text", "text", "Note; the trainee meets the newest one first next time", "", 3,
-                      "maxlength=\"4000\" required=\"required\"") +
-           "<p><button>Save note</button></p></form>";
+           area_field("note-text", "text", "Note; the trainee meets the newest one first next time",
+                      kept(frame, "note", "text"), 3,
+                      "maxlength=\"4000\" required=\"required\"" + refused_field(frame, "note")) +
+           why_refused(frame, "note") + "<p><button>Save note</button></p></form>";
   if (notes.empty()) return section("notes", "Notes", out + "<p class=\"dim\">No notes yet.</p>");
   out += "<ol class=\"notes\">";
   for (const Note& note : notes) {

@@ -169,7 +169,7 @@ ProgressRules rules_in_force(Database& database) {
 
 TraineePicture trainee_picture(Database& database, const std::string& code, const ProgressRules& rules, const std::string& now_utc) {
   const auto trainee = TraineeStore(database).find(code);
-  if (!trainee) throw InputError("no trainee \"" + code + "\" in this database");
+  if (!trainee) throw InputError("there is no trainee \"" + code + "\" in this record");
   TraineePicture out;
   out.code = trainee->code;
   out.created_utc = trainee->created_utc;

@@ -169,6 +169,7 @@ struct AttemptView {
   std::optional<Judgement> ready = {};  ///< evidence for a certificate
   std::vector<CitedCertificate> certificates = {};   ///< of this exercise and level, or that cite this attempt; newest first
   std::vector<CurveDecision> curve_decisions = {};     ///< of this trainee's attempts on the same curve, oldest attempt first
+  std::vector<std::string> missing = {};  ///< conditions of a certificate that do not hold, a sentence each
   std::string rules_version = {};
   double late_share = 0.01;  ///< of ticks missed, above which the rules call an attempt late
   Verdict verdict() const {

@@ -177,9 +177,9 @@ TEST(CohortPage, ATraineeInSeveralLinesIsCountedOnce) {
 
 TEST(CohortPage, RibbonOnlyInTheDemo) {
   Frame frame = sample_frame();
-  EXPECT_EQ(check_page(cohort_page(sample_cohort(), frame)).all("p", "ribbon").size(), 0U);
+  EXPECT_EQ(check_page(cohort_page(sample_cohort(), frame)).all("div", "ribbon").size(), 0U);
   frame.demo = true;
-  EXPECT_EQ(check_page(cohort_page(sample_cohort(), frame)).all("p", "ribbon").size(), 1U);
+  EXPECT_EQ(check_page(cohort_page(sample_cohort(), frame)).all("div", "ribbon").size(), 1U);
 }
 
 TEST(CohortCsv, OneLineEachInTheOrderShown) {

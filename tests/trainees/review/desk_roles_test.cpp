@@ -31,13 +31,14 @@ bool of_a_trainee(const Route& route) {
   return route.path.find("{code}") != std::string::npos || route.path.find("{attempt}") != std::string::npos;
 }
 
-/// What the route must say to that visitor: 401, 403, or 0 for anything but these.
+/// What the route must say to that visitor: 401, 403, 303 at the door, or 0 for anything but a refusal.
 int refusal_for(const Route& route, const std::string& login, bool own) {
   if (route.audience == Audience::kEverybody) return 0;
   if (login.empty()) return 401;
   if (login == "adam") return 0;
   if (route.audience == Audience::kAdministrators) return 403;
   if (login == "ines") return 0;
+  if (route.path == "/" && route.method == "GET") return 303;   // to the own page
   return route.audience == Audience::kOwnData && of_a_trainee(route) && own ? 0 : 403;
 }
 

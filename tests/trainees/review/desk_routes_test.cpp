@@ -64,15 +64,19 @@ class DeskRoutes : public testing::Test {
 };
 
 TEST_F(DeskRoutes, EveryPageIsSound) {
-  for (const std::string& path : {std::string("/"), "/trainee/" + trainee_, "/attempt/" + attempt_, "/compare/" + attempt_ + "/" + attempt_,
-                                  std::string("/curriculum"), std::string("/station")})
+  staff_.role = Role::kAdministrator;
+  for (const std::string& path :
+       {std::string("/accounts"), std::string("/record"), std::string("/audit"), std::string("/retention"),
+        std::string("/"), "/trainee/" + trainee_, "/attempt/" + attempt_, "/compare/" + attempt_ + "/" + attempt_,
+        std::string("/curriculum"), std::string("/station")})
     EXPECT_EQ(page(path).problems, std::vector<std::string>{}) << path;
 }
 
 TEST_F(DeskRoutes, EmptyDatabase) {
   Database empty(":memory:");
   Desk desk{empty};
-  for (const char* path : {"/", "/curriculum", "/station", "/cohort.csv"}) {
+  for (const char* path :
+       {"/", "/curriculum", "/station", "/cohort.csv", "/accounts", "/record", "/audit", "/retention"}) {
     Request request;
     request.path = path;
     request.account = staff_;
@@ -278,14 +282,18 @@ TEST_F(DeskRoutes, GroupsAreJoinedAndLeft) {
 }
 
 TEST_F(DeskRoutes, WhoMaySeeWhat) {
+  const std::vector<std::string> record = {"/accounts", "/record", "/audit", "/retention", "/demo"};
   for (const Route& route : desk_routes()) {
-    const bool open = route.path == "/style.css" || route.path == "/desk.js";
+    const bool open = route.path == "/style.css" || route.path == "/desk.js" || route.path == "/icon.svg";
     const bool own =
         route.method == "GET" && (route.path.find("{code}") != std::string::npos || route.path.find("{attempt}") != std::string::npos ||
                                   route.path.find("{certificate}") != std::string::npos);
-    EXPECT_EQ(route.audience, open  ? Audience::kEverybody
-                              : own ? Audience::kOwnData
-                                    : Audience::kInstructors)
+    const bool of_record = std::any_of(record.begin(), record.end(),
+                                       [&](const std::string& part) { return route.path.starts_with(part); });
+    EXPECT_EQ(route.audience, open        ? Audience::kEverybody
+                              : own       ? Audience::kOwnData
+                              : of_record ? Audience::kAdministrators
+                                          : Audience::kInstructors)
         << route.method << " " << route.path;
   }
 }

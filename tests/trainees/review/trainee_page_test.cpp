@@ -27,7 +27,7 @@ TEST(TraineePage, GridHasExercisesByLevelsWithShapeAndScore) {
   ASSERT_EQ(cells.size(), 3U);
   EXPECT_EQ(cells[0]->text, "plateau 81.0 16 tries");  // limited grasp stands first, in order of the titles
   EXPECT_EQ(cells[1]->text, "ready 81.0 16 tries");
-  EXPECT_EQ(cells[1]->of("href"), "?exercise=surface-touch&level=L1&hand=mouse&rubric=bbbbbbbbbbbb#curve");
+  EXPECT_EQ(cells[1]->of("href"), "/trainee/bo?exercise=surface-touch&level=L1&hand=mouse&rubric=bbbbbbbbbbbb#curve");
   EXPECT_EQ(cells[2]->of("aria-current"), "true");
 }
 
