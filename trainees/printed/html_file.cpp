@@ -9,7 +9,7 @@ namespace {
 constexpr const char* kStyle = R"css(
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
-body{margin:0 auto;padding:24px 28px 40px;max-width:900px;background:#fff;color:#14191f;
+body{margin:0 auto;padding:24px 28px 40px;max-width:1040px;background:#fff;color:#14191f;
   font:15px/1.45 "DejaVu Sans","Segoe UI",Roboto,Arial,sans-serif;
   font-variant-numeric:tabular-nums;overflow-wrap:break-word}
 h1{font-size:1.9rem;line-height:1.2;margin:.1em 0 .1em}

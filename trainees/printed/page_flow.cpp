@@ -6,7 +6,6 @@ namespace trocar::printed {
 namespace {
 
 constexpr double kBody = 9.4, kSmall = 7.8, kLabel = 7.2, kGap = 14;
-constexpr double kKeptWhole = 200;   // facts up to this height are not parted
 
 double figure_width(const Figures& figures, const Figure& figure) {
   return (PageFlow::kContent - kGap * static_cast<double>(figures.all.size() - 1)) * figure.share;
@@ -44,7 +43,8 @@ constexpr double kVerdictWord = 140, kVerdictNumber = 136, kVerdictReason = Page
 
 double facts_height(PageFlow& flow, const Facts& facts) {
   double out = 3;
-  for (std::size_t from = 0; from < facts.pairs.size(); from += static_cast<std::size_t>(facts.columns)) out += fact_row_height(flow, facts, from);
+  for (std::size_t from = 0; from < facts.pairs.size(); from += static_cast<std::size_t>(facts.columns))
+    out += fact_row_height(flow, facts, from);
   return out;
 }
 
@@ -112,7 +112,7 @@ void put(PageFlow& flow, const Paragraph& paragraph) {
 }
 
 void put(PageFlow& flow, const Facts& facts) {
-  if (const double height = facts_height(flow, facts); height <= kKeptWhole) flow.need(height);
+  if (const double height = facts_height(flow, facts); height <= PageFlow::kKeptWhole) flow.need(height);
   flow.down(3);
   const double slot = PageFlow::kContent / facts.columns;
   const auto [face, size] = size_of(facts);
@@ -168,8 +168,7 @@ void put(PageFlow& flow, const Verdict& verdict) {
   const auto lines = wrapped(printable(verdict.reason), kVerdictReason, pages.measure(Face::kPlain, kBody));
   double base = middle - 0.5 * PageFlow::leading(kBody) * static_cast<double>(lines.size()) - 0.3 * kBody;
   for (const std::string& line : lines) pages.text(left + kVerdictWord, base += PageFlow::leading(kBody), line, Face::kPlain, kBody, kInk);
-  pages.text_right(PageFlow::kRight - 8, middle + (verdict.under_number.empty() ? 6 : 1), printable(verdict.number), Face::kBold, 17,
-                   kInk);
+  pages.text_right(PageFlow::kRight - 8, middle + (verdict.under_number.empty() ? 6 : 1), printable(verdict.number), Face::kBold, 17, kInk);
   const double room = kVerdictNumber - 20;
   pages.text_right(PageFlow::kRight - 8, middle + 13, shortened(printable(verdict.under_number), room, pages.measure(Face::kPlain, kSmall)),
                    Face::kPlain, kSmall, kDim);
@@ -181,8 +180,8 @@ double least_height(PageFlow& flow, const Block& block) {
   if (const auto* picture = std::get_if<Picture>(&block))
     return flow.pages().height_of_picture(picture->png, PageFlow::kContent * picture->share) + 20;
   if (const auto* verdict = std::get_if<Verdict>(&block)) return verdict_height(flow, *verdict);
-  if (const auto* facts = std::get_if<Facts>(&block)) return std::min(facts_height(flow, *facts), kKeptWhole);
-  if (std::holds_alternative<Table>(block)) return 78;
+  if (const auto* facts = std::get_if<Facts>(&block)) return std::min(facts_height(flow, *facts), PageFlow::kKeptWhole);
+  if (const auto* table = std::get_if<Table>(&block)) return least_height(flow, *table);
   return 2 * PageFlow::leading(kBody);
 }
 

@@ -12,6 +12,8 @@ class PageFlow {
  public:
   static constexpr double kLeft = 46, kRight = PdfPages::kWidth - 46, kTop = 66, kBottom = 782, kContent = kRight - kLeft;
 
+  static constexpr double kKeptWhole = 200;   ///< blocks up to this height are not parted
+
   explicit PageFlow(PdfPages& pages) : pages_(&pages) { next_page(); }
   PdfPages& pages() { return *pages_; }
   double y() const { return y_; }
@@ -41,6 +43,7 @@ void put(PageFlow& flow, const Picture& picture);
 void put(PageFlow& flow, const Verdict& verdict);
 /// Of a block, or of its beginning where it may go on over the page.
 double least_height(PageFlow& flow, const Block& block);
+double least_height(PageFlow& flow, const Table& table);
 
 const Colour& colour_of(Tone tone);
 

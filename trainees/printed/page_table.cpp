@@ -8,7 +8,7 @@
 namespace trocar::printed {
 namespace {
 
-constexpr double kSize = 8.0, kMonoSize = 6.8, kHeadSize = 7.2, kPad = 5, kRowPad = 4.4, kDrawnHeight = 21, kUsualWord = 58;
+constexpr double kSize = 8.0, kMonoSize = 6.8, kHeadSize = 7.2, kPad = 5, kRowPad = 4.4, kDrawnHeight = 21, kUsualWord = 50;
 constexpr int kMostLines = 8;
 
 Face face_of(const Column& column) { return column.mono ? Face::kMono : Face::kPlain; }
@@ -16,11 +16,20 @@ double size_of(const Column& column) { return column.mono ? kMonoSize : kSize; }
 
 class TableOnPages {
  public:
-  TableOnPages(PageFlow& flow, const Table& table) : flow_(flow), table_(table) {
-    set_widths();
+  TableOnPages(PageFlow& flow, const Table& table) : flow_(flow), table_(table) { set_widths(); }
+
+  /// Of all of it. @param most after which it is not looked at further.
+  double height(double most) const {
+    double out = 40;
+    for (const auto& row : table_.rows) {
+      out += height_of(row, lines_of(row));
+      if (out > most) break;
+    }
+    return out;
   }
 
   void draw() {
+    if (const double whole = height(PageFlow::kKeptWhole); whole <= PageFlow::kKeptWhole) flow_.need(whole);
     head(false);
     for (const auto& row : table_.rows) {
       const std::vector<std::vector<std::string>> lines = lines_of(row);
@@ -67,7 +76,7 @@ class TableOnPages {
       narrowest += least[i];
       shares += table_.columns[i].share;
     }
-    if (narrowest > 0.8 * PageFlow::kContent) std::fill(least.begin(), least.end(), 0.0);
+    if (narrowest > 0.97 * PageFlow::kContent) std::fill(least.begin(), least.end(), 0.0);
     widths_.assign(count, 0);
     for (bool again = true; again;) {
       again = false;
@@ -148,5 +157,11 @@ class TableOnPages {
 }  // namespace
 
 void put(PageFlow& flow, const Table& table) { TableOnPages(flow, table).draw(); }
+
+double least_height(PageFlow& flow, const Table& table) {
+  constexpr double kHeadAndARow = 78;
+  const double whole = TableOnPages(flow, table).height(PageFlow::kKeptWhole);
+  return whole <= PageFlow::kKeptWhole ? whole : kHeadAndARow;
+}
 
 }  // namespace trocar::printed

@@ -79,7 +79,8 @@ void add_traces(std::vector<Block>& out, const AttemptView& view) {
   for (const Projection& projection : {kFromAbove, kFromFront, kFromSide})
     squares.push_back({path_svg(*view.trace, projection, view.limits, -1), std::string("Tip path ") + axes_words(projection), 1.0 / 3});
   out.emplace_back(printed::Figures{std::move(squares)});
-  out.emplace_back(Paragraph{"Ring: start; dot: end. Grey to red and thin to thick: force under, in and above the band, over the limit.", Tone::kQuiet});
+  out.emplace_back(
+      Paragraph{"Ring: start; dot: end. Grey to red and thin to thick: force under, in and above the band, over the limit.", Tone::kQuiet});
 }
 
 Table event_rows(const AttemptView& view) {
@@ -103,7 +104,8 @@ Table metric_rows(const AttemptView& view) {
   for (const Metric& metric : view.result.grade.metrics) {
     if (!metric.value) continue;
     const auto words = view.metric_words.find(metric.name);
-    table.rows.push_back({metric_title(metric.name), quantity(metric.value, metric.unit), words == view.metric_words.end() ? "" : words->second});
+    table.rows.push_back(
+        {metric_title(metric.name), quantity(metric.value, metric.unit), words == view.metric_words.end() ? "" : words->second});
   }
   return table;
 }

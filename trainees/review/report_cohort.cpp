@@ -94,12 +94,11 @@ Table trainee_table(const std::vector<CohortEntry>& lines) {
       {{"Trainee", 2.1},
        {"Exercise", 2},
        {"State and evidence", 4},
-       {"Tries", 0.75, true},
-       {"Passed", 0.95, true},
+       {"Passed, tries", 1, true},
        {"Best", 0.75, true},
        {"Last", 0.75, true},
        {"Trend", 1.55},
-       {"Peak, N", 0.8, true},
+       {"Peak N", 0.7, true},
        {"Over", 0.7, true},
        {"Reliability", 0.9, true},
        {"Last seen", 1.25}},
@@ -111,7 +110,7 @@ Table trainee_table(const std::vector<CohortEntry>& lines) {
     for (std::size_t i = 1; i < line.judgements.size(); ++i) state += ", " + flag_words(line.judgements[i].flag);
     if (j != nullptr && !j->evidence.empty()) state += "\n" + j->evidence + " (n = " + std::to_string(j->n) + ")";
     table.rows.push_back({shown_name(line) + (line.name.empty() ? "" : "\n" + line.code), curve_words(line.exercise, line.level, line.hand),
-                          Cell(state, tone_of(line.state())), std::to_string(line.tries), std::to_string(line.passes),
+                          Cell(state, tone_of(line.state())), std::to_string(line.passes) + " / " + std::to_string(line.tries),
                           score_text(line.best), score_text(line.last), Cell::drawn(spark_svg(line.scores, line.pass_at)),
                           line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93",
                           Cell(std::to_string(line.over_force), line.over_force > 0 ? Tone::kBad : Tone::kPlain),
@@ -206,8 +205,9 @@ Table certificate_table(const CohortReportView& view, const std::vector<CohortEn
     });
     if (line == lines.end()) continue;
     table.rows.push_back({shown_name(*line), line->exercise + " " + c.level, printed::day_text(c.utc), c.printed, c.rule_version,
-                          c.revoked_utc.empty() ? Cell("holds", Tone::kGood)
-                                                : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad)});
+                          c.revoked_utc.empty()
+                              ? Cell("holds", Tone::kGood)
+                              : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad)});
   }
   return table;
 }
@@ -224,9 +224,13 @@ printed::Report cohort_report(const CohortReportView& view, const ReportSetting&
   for (const CohortEntry& line : view.cohort.lines) out.newest_utc = std::max(out.newest_utc, line.last_utc);
   for (const Certificate& c : view.certificates) out.newest_utc = std::max({out.newest_utc, c.utc, c.revoked_utc});
   out.mark = mark_of(setting);
-  out.blocks = {overview(view, lines), Heading{"Who needs attention, who is ready", 1}, states(view), Heading{"Trainees", 1},
+  out.blocks = {overview(view, lines),
+                Heading{"Who needs attention, who is ready", 1},
+                states(view),
+                Heading{"Trainees", 1},
                 trainee_table(lines),
-                Heading{"Certificates", 1}, certificate_table(view, lines)};
+                Heading{"Certificates", 1},
+                certificate_table(view, lines)};
   add_spread(out.blocks, view, skills_of(lines));
   out.blocks.emplace_back(Heading{"Benchmarks", 1});
   out.blocks.emplace_back(benchmark_table(view));

@@ -73,7 +73,7 @@ std::vector<Block> report_terms(TermsOf report, const ProgressRules& rules) {
   } else {
     terms.push_back({"Time trained", "On the exercises' clocks; preparation and pauses do not count."});
   }
-  std::vector<Block> out = {printed::Heading{"Terms: how each number is made", 1, true},
+  std::vector<Block> out = {printed::Heading{"Terms: how each number is made", 1},
                             printed::Paragraph{"Rules of progress, version " + rules.version + ". Dates and times are UTC."}};
   printed::Table table{"", {{"Term", 1}, {"What it is", 5}}, {}};
   for (const Term& term : terms) table.rows.push_back({term.first, term.second});

@@ -41,7 +41,13 @@ TEST_F(PageFlowTest, ACellThatIsFarTooLongEndsWithAnEllipsisAndTheRowFitsAPage) 
 }
 
 TEST_F(PageFlowTest, FactsStandSideBySideAndLongOnesWrap) {
-  put(flow_, Facts{{{"One", "first"}, {"Two", "second"}, {"Three", "19 Sep 2026 to 20 Nov 2026 and a good deal longer"}, {"Four", "fourth"}, {"Five", "fifth"}}, 4, false});
+  put(flow_, Facts{{{"One", "first"},
+                    {"Two", "second"},
+                    {"Three", "19 Sep 2026 to 20 Nov 2026 and a good deal longer"},
+                    {"Four", "fourth"},
+                    {"Five", "fifth"}},
+                   4,
+                   false});
   const auto words = word_boxes(pages_.bytes());
   EXPECT_NEAR(box_of(words, "first").y0, box_of(words, "fourth").y0, 0.5);
   EXPECT_NEAR(box_of(words, "Four").x0 - box_of(words, "One").x0, 0.75 * PageFlow::kContent, 1);
@@ -50,7 +56,8 @@ TEST_F(PageFlowTest, FactsStandSideBySideAndLongOnesWrap) {
 
 TEST_F(PageFlowTest, AFigureThatDoesNotFitGoesToTheNextPageWhole) {
   flow_.down(500);
-  put(flow_, Figures{{{"<svg viewBox=\"0 0 100 60\"><text x=\"5\" y=\"5\">top</text><text x=\"5\" y=\"59\">bottom</text></svg>", "caption", 1}}});
+  put(flow_,
+      Figures{{{"<svg viewBox=\"0 0 100 60\"><text x=\"5\" y=\"5\">top</text><text x=\"5\" y=\"59\">bottom</text></svg>", "caption", 1}}});
   const auto words = word_boxes(pages_.bytes());
   EXPECT_EQ(box_of(words, "top").page, 1);
   EXPECT_EQ(box_of(words, "bottom").page, 1);

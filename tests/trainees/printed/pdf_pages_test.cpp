@@ -13,11 +13,10 @@ namespace {
 
 /// 2 x 1 pixels, RGB: red and blue.
 const std::string kPng = [] {
-  const unsigned char bytes[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
-                                 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x7b, 0x40, 0xe8, 0xdd, 0x00,
-                                 0x00, 0x00, 0x0d, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0xf8, 0xcf, 0x00, 0x04, 0xff, 0x01, 0x07,
-                                 0x00, 0x01, 0xff, 0xe2, 0x23, 0x9e, 0x59, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42,
-                                 0x60, 0x82};
+  const unsigned char bytes[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
+                                 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x7b, 0x40, 0xe8, 0xdd, 0x00, 0x00, 0x00,
+                                 0x0d, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0xf8, 0xcf, 0x00, 0x04, 0xff, 0x01, 0x07, 0x00, 0x01, 0xff,
+                                 0xe2, 0x23, 0x9e, 0x59, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
   return std::string(reinterpret_cast<const char*>(bytes), sizeof bytes);
 }();
 
@@ -97,8 +96,9 @@ TEST(PngCheck, OneWrongByteAnywhereIsFound) {
 TEST(PdfPages, AChartIsScaledToItsWidthWithWordsThatCanBeRead) {
   PdfPages pages("t", "");
   pages.add();
-  const std::string svg = "<svg viewBox=\"0 0 1000 500\"><text x=\"500\" y=\"250\" text-anchor=\"middle\">centre</text>"
-                          "<text x=\"900\" y=\"400\" text-anchor=\"end\" font-weight=\"bold\">ends</text></svg>";
+  const std::string svg =
+      "<svg viewBox=\"0 0 1000 500\"><text x=\"500\" y=\"250\" text-anchor=\"middle\">centre</text>"
+      "<text x=\"900\" y=\"400\" text-anchor=\"end\" font-weight=\"bold\">ends</text></svg>";
   EXPECT_NEAR(pages.chart(svg, 100, 100, 200), 100, 1e-6);
   const std::string bytes = pages.bytes();
   const WordBox centre = box_of(bytes, "centre"), ends = box_of(bytes, "ends");
@@ -143,9 +143,11 @@ TEST(PdfPages, PropertiesAreReadable) {
 TEST(PdfPages, NumbersThatAreNoneDrawNothingWild) {
   PdfPages pages("t", "");
   pages.add();
-  pages.chart("<svg viewBox=\"0 0 10 10\"><circle cx=\"nan\" cy=\"inf\" r=\"1\" fill=\"#000\"/><polyline points=\"\" fill=\"none\" stroke=\"#000\"/>"
-              "<polyline points=\"1,1\" fill=\"none\" stroke=\"#000\"/><line x1=\"1\" y1=\"1\" x2=\"nan\" y2=\"2\" stroke=\"#000\"/></svg>",
-              50, 50, 100);
+  pages.chart(
+      "<svg viewBox=\"0 0 10 10\"><circle cx=\"nan\" cy=\"inf\" r=\"1\" fill=\"#000\"/><polyline points=\"\" fill=\"none\" "
+      "stroke=\"#000\"/>"
+      "<polyline points=\"1,1\" fill=\"none\" stroke=\"#000\"/><line x1=\"1\" y1=\"1\" x2=\"nan\" y2=\"2\" stroke=\"#000\"/></svg>",
+      50, 50, 100);
   EXPECT_EQ(read_pdf(pages.bytes()).pages.size(), 1U);
 }
 

@@ -62,7 +62,8 @@ TEST(ScoreBands, DotsStandAtTheirScores) {
 TEST(ScoreBands, QuartilesFromThreePeopleOn) {
   const auto bands = [](const std::vector<double>& scores) {
     const printed::Drawing drawing = printed::read_svg(score_bands_svg({{"t", scores, 75, {}}}));
-    return std::count_if(drawing.shapes.begin(), drawing.shapes.end(), [](const printed::Shape& s) { return s.fill && s.fill_opacity == 0.35; });
+    return std::count_if(drawing.shapes.begin(), drawing.shapes.end(),
+                         [](const printed::Shape& s) { return s.fill && s.fill_opacity == 0.35; });
   };
   EXPECT_EQ(bands({50, 60}), 0) << "it would show single people";
   EXPECT_EQ(bands({50, 60, 70}), 1);
@@ -83,7 +84,8 @@ TEST(ScoreBands, LongTitlesAreCutBetweenCharactersAndEscaped) {
   std::string umlauts;
   for (int i = 0; i < 40; ++i) umlauts += "\xC3\xBC";
   std::string said;
-  for (const printed::Shape& shape : printed::read_svg(score_bands_svg({{umlauts, {50}, 75, 88}, {"<b> & \"c\"", {50}, 75, {}}})).shapes) said += shape.words + "|";
+  for (const printed::Shape& shape : printed::read_svg(score_bands_svg({{umlauts, {50}, 75, 88}, {"<b> & \"c\"", {50}, 75, {}}})).shapes)
+    said += shape.words + "|";
   EXPECT_NE(said.find("\xC3\xBC\xE2\x80\xA6|"), std::string::npos) << said;
   EXPECT_NE(said.find("<b> & \"c\"|"), std::string::npos);
 }
@@ -109,8 +111,8 @@ TEST(Terms, CarryTheNumbersOfTheRulesInForce) {
   rules.least_reliability = 0.66;
   rules.retention_days = {21, 99};
   const std::string words = words_of_terms(TermsOf::kTrainee, rules);
-  for (const char* part : {"version 9", "0.08 adequate", "0.31 inadequate", "shown at 3.25", "reaches 1.75", "11 attempts without a pass", "At least 4 of the newest",
-                           "asks for 0.66", "21 and 99 days"})
+  for (const char* part : {"version 9", "0.08 adequate", "0.31 inadequate", "shown at 3.25", "reaches 1.75", "11 attempts without a pass",
+                           "At least 4 of the newest", "asks for 0.66", "21 and 99 days"})
     EXPECT_NE(words.find(part), std::string::npos) << part << " in\n" << words;
   EXPECT_NE(words.find("at the least " + std::to_string(shortest_run(rules.cusum)) + " passes in a row"), std::string::npos);
 }
