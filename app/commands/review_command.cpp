@@ -88,6 +88,7 @@ std::string host_name() {
   return gethostname(name, sizeof name - 1) == 0 ? name : "here";
 }
 
+/// @throws Interrupted
 std::unique_ptr<ReplicaKeeper> keeper_of(const ReviewServeOptions& options, const std::filesystem::path& file,
                                          const std::function<void(const std::string&)>& log, std::ostream& err) {
   if (options.from.empty()) return nullptr;
@@ -98,12 +99,17 @@ std::unique_ptr<ReplicaKeeper> keeper_of(const ReviewServeOptions& options, cons
   kept.recordings = options.recordings;
   kept.log = log;
   ProgressDisplay progress(err, error_is_terminal());
-  auto filling = std::make_shared<bool>(true);
-  kept.going = [&progress, filling](std::size_t done, std::size_t all) {
-    if (*filling) progress.show("attempts", static_cast<double>(done) / static_cast<double>(all));
+  enum class Stage : char { kFilling, kInterrupted, kServing };
+  auto stage = std::make_shared<Stage>(Stage::kFilling);
+  kept.going = [&progress, stage](std::size_t done, std::size_t all) {
+    if (*stage == Stage::kServing) return;
+    *stage = Stage::kInterrupted;  // unless it comes back
+    progress.show("attempts", static_cast<double>(done) / static_cast<double>(all));
+    *stage = Stage::kFilling;
   };
   auto keeper = std::make_unique<ReplicaKeeper>(std::move(kept));
-  *filling = false;
+  if (*stage == Stage::kInterrupted) throw Interrupted();  // a copy that had been filled would have been served as it was
+  *stage = Stage::kServing;
   err << "The record of " << central_name({options.from}) << " is kept in " << file.string()
       << ".\nAccounts of this desk: trocar review account add LOGIN --role instructor --db " << file.string() << '\n';
   return keeper;
