@@ -98,7 +98,7 @@ td:last-child,th:last-child{padding-right:2px}
 tbody tr:hover{background:#f4f8fb}
 .cohort{min-width:1010px}
 .cohort td small{color:#37424c}
-.cohort tbody th{min-width:110px}
+.cohort tbody th{min-width:124px}
 .cohort tbody td:nth-child(2){min-width:230px}
 .bad{font-weight:700;color:#8a3900}
 .grave th,.grave td{font-weight:600;background:#fdf5ef}

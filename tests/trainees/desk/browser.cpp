@@ -145,10 +145,11 @@ struct Browser::Driver {
   }
 };
 
-Browser::Browser(const BrowserLook& look, const fs::path& folder) : downloads_(folder / "saved") {
+Browser::Browser(const BrowserLook& look, const fs::path& folder) : home_(folder / "browser"), downloads_(folder / "saved") {
   fs::create_directories(downloads_);
-  driver_ = std::make_unique<Driver>(folder);
-  const Json made = ask("POST", "/session", capabilities(look, folder, downloads_));
+  fs::create_directories(home_);
+  driver_ = std::make_unique<Driver>(home_);
+  const Json made = ask("POST", "/session", capabilities(look, home_, downloads_));
   session_ = made.at("sessionId").get<std::string>();
 }
 
@@ -157,6 +158,13 @@ Browser::~Browser() {
     if (!session_.empty()) session("DELETE", "");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "browser: %s\n", error.what());
+  }
+  driver_.reset();
+  // Its processes end a moment later and write until then.
+  std::error_code error;
+  for (int left = 100; left > 0 && fs::exists(home_, error); --left) {
+    fs::remove_all(home_, error);
+    if (error) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }
 

@@ -81,7 +81,7 @@ class Browser {
   struct Driver;
   std::unique_ptr<Driver> driver_;
   std::string session_;
-  std::filesystem::path downloads_;
+  std::filesystem::path home_, downloads_;
   std::vector<std::string> asked_;
 };
 
