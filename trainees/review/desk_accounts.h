@@ -18,8 +18,8 @@ std::string sign_in_stamp(const Database& database, const std::string& account_u
 
 /// Staff sees everybody, a trainee only the own code (as the account has it).
 bool may_see_trainee(const Account& account, const std::string& code);
-/// The UUID of the attempt of that name (number, UUID or a part of it), where it is this trainee's own. Empty for anybody else's, for one that
-/// is not there, and for a name that fits several.
+/// The UUID of the attempt of that name (number, UUID or a part of it), where it is this trainee's own. Empty for anybody else's,
+/// for one that is not there, and for a name that fits several.
 std::optional<std::string> own_attempt(const Account& account, Database& database, const std::string& attempt);
 
 /// `text` is the code of a trainee other than `code`, or the UUID of another trainee, of their account or of an attempt of theirs.
