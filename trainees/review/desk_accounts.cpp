@@ -24,10 +24,6 @@ bool may_see_trainee(const Account& account, const std::string& code) {
   return account.role != Role::kTrainee || (!account.trainee_code.empty() && account.trainee_code == code);
 }
 
-bool may_see_attempt(const Account& account, Database& database, const std::string& attempt) {
-  return account.role != Role::kTrainee || own_attempt(account, database, attempt);
-}
-
 std::optional<std::string> own_attempt(const Account& account, Database& database, const std::string& attempt) {
   try {
     const AttemptSummary found = AttemptStore(database).find(attempt);

@@ -18,10 +18,8 @@ std::string sign_in_stamp(const Database& database, const std::string& account_u
 
 /// Staff sees everybody, a trainee only the own code (as the account has it).
 bool may_see_trainee(const Account& account, const std::string& code);
-/// By the name that pages take: number, UUID or a part of it. One that is not there, or that fits several, is nobody's:
-/// staff may ask for it, trainees may not.
-bool may_see_attempt(const Account& account, Database& database, const std::string& attempt);
-/// The UUID of a trainee's own attempt of that name; empty for anybody else's, and for one that is not there.
+/// The UUID of the attempt of that name (number, UUID or a part of it), where it is this trainee's own. Empty for anybody else's,
+/// for one that is not there, and for a name that fits several.
 std::optional<std::string> own_attempt(const Account& account, Database& database, const std::string& attempt);
 
 /// By its whole number; as above.

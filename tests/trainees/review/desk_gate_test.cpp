@@ -141,11 +141,11 @@ TEST_F(DeskGateTest, KnowsWhoseIsWhat) {
   EXPECT_EQ(stamp.size(), 64U);
   EXPECT_EQ(sign_in_stamp(database_, anna.uuid), stamp);
   EXPECT_EQ(sign_in_stamp(database_, "unknown"), "");
-  EXPECT_TRUE(may_see_attempt(anna, database_, annas_));
+  EXPECT_EQ(own_attempt(anna, database_, annas_), annas_);
   EXPECT_EQ(own_attempt(anna, database_, "1"), annas_) << "the page is given the whole name";
   EXPECT_EQ(own_attempt(anna, database_, "2"), std::nullopt);
-  EXPECT_FALSE(may_see_attempt(anna, database_, ottos_));
-  EXPECT_FALSE(may_see_attempt(anna, database_, ""));
+  EXPECT_FALSE(own_attempt(anna, database_, ottos_));
+  EXPECT_FALSE(own_attempt(anna, database_, ""));
   EXPECT_FALSE(names_another(database_, "T-anna", "T-anna"));
   EXPECT_TRUE(names_another(database_, "T-otto", "T-anna"));
   EXPECT_FALSE(names_another(database_, "T-nobody", "T-anna"));
