@@ -84,9 +84,11 @@ void check_table(sqlite3* connection, const KeptTable& table, bool complete, std
     const std::string kept = newest_digest(connection, table, key);
     // An older trainee may have an older person; whoever was added with an entry has one for both.
     const bool excused = !complete && !(person && has_entry(connection, key, "trainee added"));
+    const bool other = !kept.empty() && kept != digest_of(connection, table.name, table.row, key);
     if (person && erased(connection, key)) problems.push_back(named(table, key) + " stands here although it was erased");
-    else if (kept.empty() && !excused) problems.push_back(named(table, key) + " has no entry in the audit trail: it came in by another way");
-    else if (!kept.empty() && kept != digest_of(connection, table.name, table.row, key)) problems.push_back(named(table, key) + " was changed by another way");
+    else if (kept.empty() && !excused)
+      problems.push_back(named(table, key) + " has no entry in the audit trail: it came in by another way");
+    else if (other) problems.push_back(named(table, key) + " was changed by another way");
   }
   sql::Statement entries(connection, std::string("SELECT DISTINCT subject FROM audit WHERE action IN (") + table.actions + ") ORDER BY 1");
   while (entries.step()) {

@@ -8,6 +8,8 @@
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
 #include "trainees/attempt_rows.h"
+#include "trainees/audit.h"
+#include "trainees/kept_rows.h"
 #include "trainees/progress/calendar.h"
 #include "trainees/sqlite_handle.h"
 #include "trainees/trainee_store.h"
@@ -49,6 +51,7 @@ class Filler {
       const std::string text = ruleset_text(exercise);
       shas_.push_back(digest::of_bytes(text));
       sql::Statement(connection_, "INSERT INTO exercise VALUES (?, '', '')").bind(exercise).run();
+      keep_exercise(connection_, exercise);
       sql::Statement(connection_, "INSERT INTO ruleset VALUES (?, ?, '1.0', ?)").bind(shas_.back()).bind(exercise).bind(text).run();
     }
   }
@@ -58,8 +61,12 @@ class Filler {
     ids_.push_back(TraineeStore(database).ensure_id("P" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits));
     talent_.push_back(0.3 + 1.4 * uniform());
     tries_.emplace_back(static_cast<std::size_t>(plan_.curves_each), 0);
-    sql::Statement member(connection_, "INSERT INTO membership VALUES (?, ?)");
-    member.bind(ids_.back()).bind(t % 2 == 0 ? "2026 A" : "2026 B").run();
+    const std::string group = t % 2 == 0 ? "2026 A" : "2026 B";
+    sql::Statement member(connection_, "INSERT INTO membership VALUES (?, ?) RETURNING (SELECT uuid FROM trainee WHERE id = trainee_id)");
+    member.bind(ids_.back()).bind(group).step();
+    const std::string uuid = member.text(0);
+    member.run();
+    append_audit(connection_, "group joined", uuid, group);
   }
 
   /// Trainees take turns, so that the rows of one lie far apart as they do in life.

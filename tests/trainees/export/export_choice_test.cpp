@@ -3,6 +3,7 @@
 
 #include "tests/trainees/export/export_samples.h"
 #include "trainees/curricula.h"
+#include "trainees/erasure.h"
 #include "trainees/export/table_export.h"
 #include "trainees/export/xapi_export.h"
 #include "trainees/sqlite_handle.h"
@@ -78,6 +79,16 @@ TEST_F(ExportChoices, FieldsNarrowTogetherAndKeepTheOrder) {
   const ExportChoice choice = choose_attempts(database, {"", "morning", ""});
   EXPECT_EQ(choice.trainees.size(), 2u) << "each once";
   EXPECT_EQ(choice.filter.group, "morning");
+}
+
+TEST_F(ExportChoices, WhoseTrainingDataWereErasedIsLeftOut) {
+  Database database(":memory:");
+  store_attempt(database, sample_start("Miller"), sample_result());
+  const AttemptId other = store_attempt(database, sample_start("T-2"), sample_result());
+  const std::string uuid = erase_trainee(database, "Miller", ErasureKind::kTraining, "request of the person", {"", "desk"}).trainee_uuid;
+  EXPECT_EQ(choose_attempts(database, {}).attempts, std::vector<std::int64_t>{other.row}) << "what is left would read as failed";
+  EXPECT_NE(message_of<InputError>([&] { choose_attempts(database, {"erased-" + uuid.substr(28), "", ""}); }).find("nothing to export"),
+            std::string::npos);
 }
 
 }  // namespace
