@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShortestName = 4;
+constexpr std::size_t kShortestName = 4, kWholeName = 36;
 
 constexpr const char* kSummaryColumns =
     "SELECT a.id, a.uuid, t.code, exercise_id, level, hand, started_utc, seed, board, status, s.value,"
@@ -235,8 +235,9 @@ AttemptSummary AttemptStore::find(std::string_view name) const {
     throw InputError("there is no attempt yet");
   }
   check_name(name);
-  sql::Statement rows(database_->connection(),
-                      std::string(kSummaryColumns) + " WHERE a.uuid LIKE ?1 || '%' OR a.uuid LIKE '%' || ?1 LIMIT 2");
+  // A whole identifier is in an index; for a part every one is read.
+  const char* where = name.size() == kWholeName ? " WHERE a.uuid = ?1" : " WHERE a.uuid LIKE ?1 || '%' OR a.uuid LIKE '%' || ?1 LIMIT 2";
+  sql::Statement rows(database_->connection(), std::string(kSummaryColumns) + where);
   if (!rows.bind(name).step()) throw InputError("attempt " + std::string(name) + ": not in this database");
   const AttemptSummary found = summary_of(rows);
   if (rows.step()) throw InputError("attempt " + std::string(name) + ": several begin or end so; give more of it");
