@@ -102,9 +102,9 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, con
   migration_ = migrate(connection_.get(), file_, shipped_migrations());
   if (!migration_.backup.empty()) migration_.compacted = compacted(connection_.get());
   if (!in_memory()) enter_wal(busy_timeout_ms);
-  // The log is copied back every 4000 pages (16 MB), not every 1000: a commit that has to do it waits for the disk.
+  // The log is copied back every 8000 pages (32 MB), not every 1000: a commit that has to do it waits for the disk.
   sql::execute(connection_.get(),
-               "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 4000;"
+               "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 8000;"
                "PRAGMA secure_delete = ON");  // what an erasure takes away is overwritten
   sql::keep_statements(connection_.get());
   anchor_beginning();

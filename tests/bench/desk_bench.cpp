@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "tests/trainees/cohort_samples.h"
+#include "trainees/review/desk_memory.h"
 #include "trainees/review/desk_queries.h"
 #include "trainees/review/route.h"
 #include "trainees/sqlite_handle.h"
@@ -100,13 +101,14 @@ Trace minute(const std::filesystem::path&) {
 std::size_t page(benchmark::State& state, const std::string& route, const review::Request& request, bool changed) {
   static const std::vector<review::Route> routes = review::desk_routes();
   const auto at = std::find_if(routes.begin(), routes.end(), [&](const review::Route& r) { return r.path == route && r.method == "GET"; });
-  review::Desk desk{full_database(), {.trace = minute}, false};
+  review::Desk desk{full_database(), {.trace = minute}, false, std::make_shared<review::DeskMemory>()};
   Database writer(g_file);
   std::size_t bytes = 0;
   for (auto step : state) {
     if (changed) {
       state.PauseTiming();
-      sql::execute(writer.connection(), "UPDATE trainee SET created_utc = created_utc WHERE id = 1");
+      sql::execute(writer.connection(), "INSERT INTO sync_cursor VALUES ('bench', 0, '')"
+                                        " ON CONFLICT (remote) DO UPDATE SET position = position + 1");
       state.ResumeTiming();
     }
     const review::Response answer = at->answer(request, desk);

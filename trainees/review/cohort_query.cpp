@@ -81,14 +81,10 @@ ByRow<Facts> read_facts(const Database& database) {
 /// Curves that anybody has tried: from one to the next along the index, without reading what lies between.
 std::vector<CurveKey> curves_of(sqlite3* connection, const CohortFilter& filter) {
   std::vector<CurveKey> out;
-  sql::Statement next(connection, "SELECT exercise_id, level, hand FROM attempt INDEXED BY attempt_by_curve"
-                                  " WHERE (exercise_id, level, hand) > (?, ?, ?) ORDER BY exercise_id, level, hand LIMIT 1");
   sql::Statement rubric(connection, "SELECT ruleset_sha256 FROM attempt INDEXED BY attempt_by_curve WHERE exercise_id = ? AND level = ? AND hand = ?"
                                     " AND substr(ruleset_sha256, 1, 16) > ? ORDER BY substr(ruleset_sha256, 1, 16) LIMIT 1");
-  CurveKey key;
-  while (next.bind(key.exercise_id).bind(key.level).bind(key.hand).step()) {
-    key = {next.text(0), next.text(1), next.text(2), ""};
-    next.run();
+  for (const auto& [exercise, level, hand] : desk::combinations(connection)) {
+    CurveKey key{exercise, level, hand, ""};
     if ((!filter.exercise.empty() && key.exercise_id != filter.exercise) || (!filter.level.empty() && key.level != filter.level)) continue;
     while (rubric.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(desk::rubric_start(key.rubric_sha256)).step()) {
       key.rubric_sha256 = rubric.text(0);

@@ -4,6 +4,36 @@
 #include "trainees/sqlite_handle.h"
 
 namespace trocar::desk {
+namespace {
+
+/// Different values of the index's next column, from one to the next. (A comparison of several columns at once would read all between.)
+std::vector<std::string> steps(sqlite3* connection, const std::string& column, const std::string& fixed, const std::vector<std::string>& at) {
+  const std::string all = "SELECT min(" + column + ") FROM attempt INDEXED BY attempt_by_curve WHERE " + fixed;
+  std::vector<std::string> out;
+  sql::Statement first(connection, all), next(connection, all + " AND " + column + " > ?");
+  for (const std::string& value : at) first.bind(value);
+  for (sql::Statement* found = &first; found->step() && !found->is_null(0); found = &next) {
+    out.push_back(found->text(0));
+    if (found == &next) next.run();
+    for (const std::string& value : at) next.bind(value);
+    next.bind(out.back());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Combination> combinations(sqlite3* connection) {
+  std::vector<Combination> out;
+  sql::Statement exercises(connection, "SELECT id FROM exercise ORDER BY id");
+  while (exercises.step()) {
+    const std::string exercise = exercises.text(0);
+    for (const std::string& level : steps(connection, "level", "exercise_id = ?", {exercise}))
+      for (const std::string& hand : steps(connection, "hand", "exercise_id = ? AND level = ?", {exercise, level}))
+        out.push_back({exercise, level, hand});
+  }
+  return out;
+}
 
 std::map<std::int64_t, Person> people(sqlite3* connection) {
   std::map<std::int64_t, Person> out;

@@ -43,6 +43,12 @@ bool doubtful(double ticks, double overruns, double saturated_share, double late
 /// Void, or ended by the device.
 bool broken(const std::string& status);
 
+/// Exercise, level and input of all attempts, each combination once, in order. Of 10^5 attempts it reads some fifty.
+struct Combination {
+  std::string exercise_id, level, hand;
+};
+std::vector<Combination> combinations(sqlite3* connection);
+
 /// What attempt_by_curve has of a rubric. As in its SQL: substr(ruleset_sha256, 1, 16).
 std::string rubric_start(const std::string& sha256);
 

@@ -243,16 +243,8 @@ std::string exercise_title(Database& database, const std::string& id) {
 }
 
 std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column) {
-  // From one combination to the next along the index: there are few, and many attempts of each.
-  sql::Statement next(database.connection(), "SELECT exercise_id, level, hand FROM attempt INDEXED BY attempt_by_curve"
-                                             " WHERE (exercise_id, level, hand) > (?, ?, ?) ORDER BY exercise_id, level, hand LIMIT 1");
   std::set<std::string> values;
-  std::array<std::string, 3> at;
-  while (next.bind(at[0]).bind(at[1]).bind(at[2]).step()) {
-    at = {next.text(0), next.text(1), next.text(2)};
-    values.insert(column == "hand" ? at[2] : at[1]);
-    next.run();
-  }
+  for (const desk::Combination& one : desk::combinations(database.connection())) values.insert(column == "hand" ? one.hand : one.level);
   return {values.begin(), values.end()};
 }
 
