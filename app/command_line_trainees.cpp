@@ -120,7 +120,8 @@ void add_sync(Line& c, CLI::App& app) {
   CLI::App* sync = c.add(app, "sync", sync_command, c.sync,
                          "This station's record to a central PostgreSQL database, or all stations' into a file for a desk");
   CLI::Option* to = sync->add_option("--to", c.sync.to,
-                                     "postgresql://USER@HOST/DATABASE: push what is finished, fetch curricula, benchmarks, erasures");
+                                     "postgresql://USER@HOST/DATABASE: push what is finished, fetch rules, and what was said of"
+                                     " the people here");
   CLI::Option* from =
       sync->add_option("--from", c.sync.from, "postgresql://USER@HOST/DATABASE: fetch what all stations pushed into --db FILE");
   to->excludes(from);

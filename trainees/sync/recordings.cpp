@@ -47,8 +47,8 @@ std::vector<Recorded> recorded(const Database& database, bool others) {
   std::vector<Recorded> all;
   sql::Statement rows(database.connection(), std::string("SELECT uuid, recording_sha256, recording_path FROM attempt a"
                                                          " WHERE status <> 'running' AND recording_sha256 <> '' AND id ") +
-                                                 (others ? "" : "NOT ") + "IN (SELECT attempt_id FROM replica) AND NOT EXISTS (SELECT 1 FROM"
-                                                 " erasure e WHERE e.trainee_id = a.trainee_id AND e.kind = 'training') ORDER BY id");
+                                                 (others ? "" : "NOT ") + "IN (SELECT attempt_id FROM replica) AND NOT EXISTS"
+                                                 " (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id AND e.kind = 'training') ORDER BY id");
   while (rows.step()) all.push_back({rows.text(0), rows.text(1), recording_here(database.file(), rows.text(2), rows.text(0))});
   return all;
 }
