@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/desk_facts.h"
+#include "app/commands/desk_films.h"
 #include "app/commands/desk_pictures.h"
 #include "app/commands/open_database.h"
 #include "app/commands/password_prompt.h"
@@ -22,6 +23,7 @@
 #include "scenarios/scoring/metrics.h"
 #include "trainees/accounts.h"
 #include "trainees/attempt_store.h"
+#include "trainees/live/live_stations.h"
 #include "trainees/review/desk_server.h"
 
 namespace trocar {
@@ -49,6 +51,17 @@ std::unique_ptr<DeskPictures> pictures_of(const std::filesystem::path& file, std
     return std::make_unique<DeskPictures>(find_assets(), opener(file));
   } catch (const EnvironmentError& error) {
     err << "no pictures of attempts: " << error.what() << '\n';
+    return nullptr;
+  }
+}
+
+/// Films that were made before can be watched where none can be made. @param why set to a sentence where none can.
+std::unique_ptr<DeskFilms> films_of(const std::filesystem::path& file, std::string& why) {
+  try {
+    why = DeskFilms::refusal();
+    return std::make_unique<DeskFilms>(find_assets(), file, opener(file));
+  } catch (const EnvironmentError& error) {
+    if (why.empty()) why = std::string("No film: ") + error.what();
     return nullptr;
   }
 }
@@ -124,7 +137,21 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.sources.metric_words = words_of_metric;
   served.sources.level_facts = desk_level_facts;
   served.sources.shipped_rules = shipped_rules();
-  if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
+  served.sources.stations = [file] { return look_at_stations(file); };
+  if (pictures) {
+    served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
+    served.sources.heat = [&](const std::string& uuid, const review::HeatQuestion& q, int width) {
+      return pictures->heat(uuid, q.of_force ? HeatOf::kForce : HeatOf::kTime, q.overview, width);
+    };
+  }
+  const auto films = films_of(file, served.sources.no_film);
+  if (films) {
+    served.sources.film.state = [&](const std::string& uuid) { return films->state(uuid); };
+    served.sources.film.part = [&](const std::string& uuid, std::uint64_t from, std::uint64_t count) {
+      return films->part(uuid, from, count);
+    };
+    if (served.sources.no_film.empty()) served.sources.film.make = [&](const std::string& uuid) { films->make(uuid); };
+  }
   served.routes = review::desk_routes();
   {
     Database opened = served.open();

@@ -1,5 +1,6 @@
 #include "trainees/markup/html.h"
 #include "trainees/review/attempt_parts.h"
+#include "trainees/review/film_page.h"
 #include "trainees/review/pages.h"
 
 namespace trocar::review {
@@ -102,8 +103,9 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
   const std::string note_action = "/attempt/" + url_part(view.result.uuid) + "/note";
   return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
                              subscore_table(view) + event_table(view) + compare_section(view, frame) + "</div><div>" +
-                             sign_off_section(view, frame) + notes_section(view.notes, note_action, frame) + "</div></div>" +
-                             path_section(view) + ratings(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
+                             sign_off_section(view, frame) + notes_section(view.notes, note_action, frame) +
+                             "</div></div>" + heat_section(view) + path_section(view) + film_section(view, frame) +
+                             ratings(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
                              "</div><div>" + origin_facts(view) + "</div></div>");
 }
 

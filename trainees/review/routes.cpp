@@ -9,7 +9,8 @@ std::vector<Route> desk_routes() {
   out.push_back({.method = "GET", .path = "/style.css", .audience = Audience::kEverybody, .answer = [](const Request&, Desk&) {
                    return Response{.type = "text/css; charset=utf-8", .body = style_sheet()};
                  }});
-  for (const auto& part : {page_routes(), opinion_routes(), curriculum_routes()}) out.insert(out.end(), part.begin(), part.end());
+  for (const auto& part : {page_routes(), opinion_routes(), curriculum_routes(), station_routes(), film_routes()})
+    out.insert(out.end(), part.begin(), part.end());
   return out;
 }
 

@@ -32,7 +32,7 @@ int main(int count, char** words) {
   write("compare.html", compare_page(sample_compare(), frame));
   write("curriculum.html", curriculum_page(sample_curriculum(), frame));
   frame.demo = true;
-  write("station.html", station_page(sample_station(), frame));
+  write("station.html", station_page(sample_stations(), frame));
   write("cohort_empty.html", cohort_page({}, frame));
   return 0;
 }
