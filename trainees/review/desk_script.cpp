@@ -30,7 +30,7 @@ constexpr char kScript[] = R"js('use strict';
       if (request.status === 401 || request.status === 403) { location.reload(); return; }
       var fresh = request.status === 200 && request.response ? request.response.getElementById('live') : null;
       if (request.status === 200 && !fresh) return;
-      if (fresh) put(document.importNode(fresh, true));
+      if (fresh) put(document.adoptNode(fresh));
       again();
     };
     request.onerror = request.ontimeout = again;
