@@ -47,9 +47,9 @@ AttemptPainter::AttemptPainter(const Scene& scene, const AssetRoots& assets, std
     : impl_(std::make_unique<Impl>(scene, assets, std::move(trainee), width, height, preset)) {}
 AttemptPainter::~AttemptPainter() = default;
 
-Image AttemptPainter::paint(const SessionView& view) {
-  return impl_->renderer.render(attempt_view(view, impl_->organ_T, impl_->trainee), impl_->width, impl_->height);
-}
+Image AttemptPainter::paint(const SessionView& view) { return paint(scene(view)); }
+SceneView AttemptPainter::scene(const SessionView& view) const { return attempt_view(view, impl_->organ_T, impl_->trainee); }
+Image AttemptPainter::paint(const SceneView& view) { return impl_->renderer.render(view, impl_->width, impl_->height); }
 
 PictureSink numbered_pictures(const std::filesystem::path& directory) {
   std::error_code error;

@@ -30,6 +30,9 @@ class AttemptPainter {
   ~AttemptPainter();
 
   Image paint(const SessionView& view);
+  /// The same in two steps, for what is changed in between.
+  SceneView scene(const SessionView& view) const;
+  Image paint(const SceneView& view);
 
  private:
   struct Impl;

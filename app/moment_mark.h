@@ -1,6 +1,7 @@
-// A moment that the trainee marked while it happened: an event of the recording that nobody grades.
+// A moment that the trainee marked while it happened, or at which a teacher's message was shown: an event of the recording that nobody
+// grades.
 //
-// It comes from a person's key, not from the loop, so running the recording again does not make it: verifying leaves it out. Thread: any.
+// They come from persons, not from the loop, so running the recording again does not make them: verifying leaves them out. Thread: any.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +14,13 @@
 namespace trocar {
 
 inline constexpr const char* kMomentMark = "MARKED";
+inline constexpr const char* kMessageMark = "MESSAGE";
 
-/// How often the key was pressed; window to tissue task.
+/// How often it happened; window to tissue task.
 using MarkCount = std::atomic<std::uint32_t>;
 
 inline std::vector<Event> without_marks(std::vector<Event> events) {
-  std::erase_if(events, [](const Event& event) { return event.type == kMomentMark; });
+  std::erase_if(events, [](const Event& event) { return event.type == kMomentMark || event.type == kMessageMark; });
   return events;
 }
 

@@ -53,6 +53,7 @@ struct SessionHooks {
   std::function<bool()> interrupted = {};         ///< asked now and then: true ends the attempt as aborted
   std::function<std::unique_ptr<Hand>()> hand = {};   ///< in place of the one that the setup names
   const MarkCount* marks = nullptr;               ///< live: each step up is an event of the recording (moment_mark.h)
+  const MarkCount* messages = nullptr;            ///< likewise, of messages that were shown
   std::function<bool()> board_answers = {};       ///< live: while it says no, everything stands still; needs `pause`, and no exam
   PauseSwitch* pause = nullptr;                   ///< live: lets everything stand still, the simulated device too
 };

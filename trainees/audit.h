@@ -17,6 +17,7 @@ namespace trocar {
 inline constexpr const char* kActionFinished = "attempt finished";      ///< subject: uuid, detail: row_hash
 inline constexpr const char* kActionReplicated = "attempt replicated";  ///< of another station; subject: uuid, detail: row_hash
 inline constexpr const char* kActionStation = "station made";           ///< subject: its uuid, detail: its name
+inline constexpr const char* kActionMessage = "message sent";           ///< shown at once at a station; subject: uuid of its note
 inline constexpr const char* kActionRenewed = "anchor renewed";         ///< a new anchor file begins with this entry
 inline constexpr const char* kActionMade = "database made";             ///< subject: schema
 inline constexpr const char* kActionMigrated = "schema migrated";       ///< subject: schema, detail: chain before

@@ -9,6 +9,7 @@
 #include "trainees/anchored_transaction.h"
 #include "trainees/attempt_chain.h"
 #include "trainees/attempt_identity.h"
+#include "trainees/audit.h"
 #include "trainees/kept_rows.h"
 #include "trainees/printed_text.h"
 #include "trainees/rating_scales.h"
@@ -120,15 +121,12 @@ Certificate certificate_of(const sql::Statement& row) {
           row.text(6), row.text(7), row.text(8), row.text(9), row.text(10)};
 }
 
-}  // namespace
-
-Note OpinionStore::add_note(const std::string& trainee, const std::string& attempt_uuid, const std::string& text,
-                            const Author& author) {
+/// Within a transaction.
+Note write_note(sqlite3* connection, const std::string& trainee, const std::string& attempt_uuid,
+                const std::string& text, const Author& author) {
   check_prose("note", text);
   check_printed("author", author.printed);
-  sqlite3* connection = database_->connection();
   const Note note{make_uuid(), trainee, attempt_uuid, author.account_uuid, author.printed, text, utc_now()};
-  AnchoredTransaction transaction(*database_);
   const std::int64_t id = trainee_id(connection, trainee);
   sql::Statement insert(connection, "INSERT INTO note (uuid, trainee_id, attempt_id, author, printed, text, utc)"
                                     " VALUES (?, ?, ?, ?, ?, ?, ?)");
@@ -137,8 +135,36 @@ Note OpinionStore::add_note(const std::string& trainee, const std::string& attem
   else insert.bind(attempt_of(connection, id, attempt_uuid));
   insert.bind(note.author).bind(note.printed).bind(note.text).bind(note.utc).run();
   seal_row(connection, "note", note.uuid, author.account_uuid);
+  return note;
+}
+
+}  // namespace
+
+Note OpinionStore::add_note(const std::string& trainee, const std::string& attempt_uuid, const std::string& text,
+                            const Author& author) {
+  AnchoredTransaction transaction(*database_);
+  const Note note = write_note(database_->connection(), trainee, attempt_uuid, text, author);
   transaction.commit();
   return note;
+}
+
+Note OpinionStore::add_message(const std::string& trainee, const std::string& text, const Author& author) {
+  if (text.size() > kLongestMessage)
+    throw InputError("a message has at most " + std::to_string(kLongestMessage) +
+                     " characters: it is read in passing. Write a note for more");
+  if (text.find_first_of("\r\n") != std::string::npos) throw InputError("a message is one line");
+  AnchoredTransaction transaction(*database_);
+  const Note note = write_note(database_->connection(), trainee, "", text, author);
+  append_audit(database_->connection(), kActionMessage, note.uuid, "", author.account_uuid.empty() ? "trocar" : author.account_uuid);
+  transaction.commit();
+  return note;
+}
+
+std::optional<Note> OpinionStore::unseen_message(const std::string& trainee) const {
+  sql::Statement row(database_->connection(), std::string(kNotes) + " AND s.utc IS NULL AND EXISTS (SELECT 1 FROM audit u"
+                     " WHERE u.subject = n.uuid AND u.action = ?) ORDER BY n.uuid LIMIT 1");
+  if (!row.bind(trainee).bind(kActionMessage).step()) return std::nullopt;
+  return note_of(row);
 }
 
 std::vector<Note> OpinionStore::notes_of(const std::string& trainee) const {

@@ -52,6 +52,12 @@ class OpinionStore {
   /// Newest first.
   std::vector<Note> notes_of(const std::string& trainee) const;
   std::optional<Note> newest_unseen(const std::string& trainee) const;
+  /// A note on the trainee that is shown at once where they practise; that it is one stands in the audit trail.
+  /// @throws InputError: as add_note(), longer than kLongestMessage, a line break.
+  static constexpr std::size_t kLongestMessage = 200;   ///< bytes
+  Note add_message(const std::string& trainee, const std::string& text, const Author& author);
+  /// The oldest one that the trainee has not met.
+  std::optional<Note> unseen_message(const std::string& trainee) const;
   /// The first time counts. @throws InputError: no such note.
   void mark_seen(const std::string& note_uuid);
 

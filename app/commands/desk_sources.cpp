@@ -37,6 +37,16 @@ std::unique_ptr<DeskPictures> desk_pictures(const std::filesystem::path& file, s
   }
 }
 
+std::unique_ptr<DeskFilms> desk_films(const std::filesystem::path& file, std::string& why) {
+  try {
+    why = DeskFilms::refusal();
+    return std::make_unique<DeskFilms>(find_assets(), file, desk_opener(file));
+  } catch (const EnvironmentError& error) {
+    if (why.empty()) why = std::string("No film: ") + error.what();
+    return nullptr;
+  }
+}
+
 review::DeskSources desk_sources() {
   review::DeskSources out;
   out.trace = trace_of;

@@ -5,7 +5,9 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <string>
 
+#include "app/commands/desk_films.h"
 #include "app/commands/desk_pictures.h"
 #include "trainees/review/route.h"
 
@@ -16,6 +18,9 @@ std::function<Database()> desk_opener(const std::filesystem::path& file);
 
 /// None without the assets that pictures are made of, which is said on `err`.
 std::unique_ptr<DeskPictures> desk_pictures(const std::filesystem::path& file, std::ostream& err);
+
+/// Films that were made before can be watched where none can be made. @param why set to a sentence where none can.
+std::unique_ptr<DeskFilms> desk_films(const std::filesystem::path& file, std::string& why);
 
 /// Traces, words for metrics, facts of levels; no pictures and no station yet.
 review::DeskSources desk_sources();

@@ -23,11 +23,27 @@
 #include "haptics/input_error.h"
 #include "trainees/accounts.h"
 #include "trainees/attempt_store.h"
+#include "trainees/live/live_stations.h"
 #include "trainees/review/desk_server.h"
 #include "trainees/sync/replica_keeper.h"
 
 namespace trocar {
 namespace {
+
+/// Pictures and maps of attempts.
+void add_pictures(review::DeskSources& sources, DeskPictures& pictures) {
+  sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures.png(uuid, t_s, width); };
+  sources.heat = [&](const std::string& uuid, const review::HeatQuestion& q, int width) {
+    return pictures.heat(uuid, q.of_force ? HeatOf::kForce : HeatOf::kTime, q.overview, width);
+  };
+}
+
+/// Films that were made before are shown also where none can be made.
+void add_films(review::DeskSources& sources, DeskFilms& films) {
+  sources.film.state = [&](const std::string& uuid) { return films.state(uuid); };
+  sources.film.part = [&](const std::string& uuid, std::uint64_t from, std::uint64_t count) { return films.part(uuid, from, count); };
+  if (sources.no_film.empty()) sources.film.make = [&](const std::string& uuid) { films.make(uuid); };
+}
 
 void tell(const review::DeskServer& desk, const ReviewServeOptions& options, std::ostream& out, std::ostream& err) {
   for (const std::string& address : desk.addresses()) out << address << '\n';
@@ -163,8 +179,11 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
     remove_demo_cohort(file);
     gone = true;
   };
-  if (pictures) served.sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures->png(uuid, t_s, width); };
   if (keeper) served.sources.central = [&, host = central_name({options.from})] { return standing_of(*keeper, host); };
+  served.sources.stations = [file] { return look_at_stations(file); };
+  if (pictures) add_pictures(served.sources, *pictures);
+  const auto films = desk_films(file, served.sources.no_film);
+  if (films) add_films(served.sources, *films);
   served.routes = review::desk_routes();
   {
     Database opened = served.open();

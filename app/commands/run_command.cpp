@@ -13,6 +13,7 @@
 #include "app/commands/replay_film.h"
 #include "app/device_files.h"
 #include "app/interrupt.h"
+#include "app/live_attempt.h"
 #include "app/patch_fit.h"
 #include "app/playback/video_writer.h"
 #include "app/true_plant.h"
@@ -24,6 +25,8 @@
 
 namespace trocar {
 namespace {
+
+constexpr const char* kGuestCode = "guest";   // nobody's
 
 const std::map<std::string, InjectedFaultKind>& injection_kinds() {
   using Kind = InjectedFaultKind;
@@ -76,7 +79,8 @@ void say_beginning(const Scene& scene, std::ostream& err) {
                                               : simulated_plant_words(static_cast<std::uint64_t>(scene.setup.seed));
   const double spacing_m = scene.setup.exercise.layout.min_spacing_m;
   if (scene.board.spacing_m > 0 && scene.board.spacing_m < spacing_m)
-    err << "trocar: the organ is small: targets lie from " << scene.board.spacing_m * 1e3 << " mm apart instead of " << spacing_m * 1e3 << " mm\n";
+    err << "trocar: the organ is small: targets lie from " << scene.board.spacing_m * 1e3 << " mm apart instead of "
+        << spacing_m * 1e3 << " mm\n";
   const std::string turned = turned_words(scene.placement);
   if (!turned.empty()) err << "trocar: " << turned << '\n';
   for (const std::string& name : scene.neighbours.set_aside)
@@ -166,7 +170,9 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   const AttemptId id = store.begin_attempt(start);
   say_beginning(scene, err);
   SessionHooks hooks;
-  hooks.observe = observe;
+  LivePublisher live(database.file());
+  LiveAttempt told(live_beginning(taught, "trocar run", start.trainee == kGuestCode ? "" : start.trainee, id.uuid));
+  hooks.observe = told_live(live, told, observe);
   hooks.interrupted = options.interrupted;
   const auto [outcome, recording] = record_or_abort(store, id, taught, assets, hooks);
   for (const std::string& note : outcome.notes) err << "trocar: " << note << '\n';

@@ -80,7 +80,7 @@ struct AttemptRunner::State {
   HandLink link;
   std::uint64_t intents = 0;    // window's
   PauseSwitch pause;
-  MarkCount marks{0};
+  MarkCount marks{0}, messages{0};
   std::atomic<bool> plugged{true};
   std::atomic<bool> abort{false}, give_up{false}, finished{false}, stored{false};
 
@@ -111,6 +111,7 @@ void AttemptRunner::State::record_and_grade() {
   if (steered) hooks.hand = [this] { return std::make_unique<PersonHand>(link); };
   hooks.pause = &pause;
   hooks.marks = &marks;
+  hooks.messages = &messages;
   if (scene->level.name != kExamLevel) hooks.board_answers = [this] { return plugged.load(std::memory_order_relaxed); };
   const auto [outcome, recording] = record_or_abort(store, id, *scene, assets, hooks);
   for (const std::string& line : outcome.notes) note(line);
@@ -201,6 +202,8 @@ bool AttemptRunner::plug(bool in) {
 }
 bool AttemptRunner::board_answers() const { return !state_->pause.asked_by(PauseSwitch::Cause::kBoard); }
 void AttemptRunner::mark() { state_->marks.fetch_add(1); }
+void AttemptRunner::mark_message() { state_->messages.fetch_add(1); }
+const std::string& AttemptRunner::attempt() const { return state_->id.uuid; }
 void AttemptRunner::abort() { state_->abort.store(true); }
 bool AttemptRunner::finished() const { return state_->finished.load(); }
 bool AttemptRunner::stored() const { return state_->stored.load(); }

@@ -57,6 +57,10 @@ class AttemptRunner {
   bool paused() const;
   /// The newest moment becomes an event of the recording, to find it again (app/moment_mark.h).
   void mark();
+  /// The newest moment becomes an event too: a teacher's message was shown then.
+  void mark_message();
+  /// UUID under which it is kept.
+  const std::string& attempt() const;
   /// The cable of the simulated board: out, the board answers nothing and the attempt stands still as in a pause, with all it holds;
   /// in, it goes on unless a person's pause holds it. @return whether it is as asked: an exam has no pause, there a silent board is a fault.
   bool plug(bool in);

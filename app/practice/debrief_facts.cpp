@@ -127,6 +127,7 @@ std::string event_words(const Words& words, const Event& event) {
   if (type == "PORT_HOLD") return words("Too close to the port");
   if (type == "DEADMAN_OPEN") return words("Deadman opened");
   if (type == kMomentMark) return words("Marked by you");
+  if (type == kMessageMark) return words("Message from your teacher");
   if (type == "DEVICE_FAULT") return words("Device stopped");
   if (type == "TIMEOUT") return words("Time over");
   return "";

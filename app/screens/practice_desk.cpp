@@ -133,6 +133,7 @@ std::string PracticeDesk::sign_in(const std::string& code) {
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
     if (const std::string said = s.recovered_words(s.trainee); !said.empty()) notice = said;
     s.look_for_note();
+    s.message.reset();
     s.session = make_uuid();
     return "";
   } catch (const InputError&) {
@@ -145,6 +146,7 @@ std::string PracticeDesk::sign_in(const std::string& code) {
 void PracticeDesk::sign_out() {
   state_->trainee = state_->scripted() ? kDemonstration : kGuest;
   state_->note.reset();
+  state_->message.reset();
   state_->session = make_uuid();
 }
 

@@ -107,6 +107,10 @@ class PracticeDesk {
   /// Finished attempts of whoever is here, newest first. @param exercise_id empty: all. Nothing while the database does not answer.
   std::vector<PastAttempt> past(const std::string& exercise_id = "") const;
 
+  /// Once a frame: tells the instructor's desk what goes on here, and takes up a teacher's messages. A message is a notice at once, but in an
+  /// exam, where it waits for the end; the recording of an attempt keeps the moment. @param dt_s since the last one.
+  void pass(double dt_s);
+
   /// Where this desk keeps attempts: ":memory:" when nothing is kept.
   std::filesystem::path database() const;
 

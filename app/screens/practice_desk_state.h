@@ -6,6 +6,7 @@
 #include <future>
 #include <utility>
 
+#include "app/live_attempt.h"
 #include "app/playback/expert_run.h"
 #include "app/screens/practice_desk.h"
 #include "trainees/attempt_identity.h"
@@ -39,6 +40,12 @@ struct PracticeDesk::State {
   std::pair<std::string, AttemptSetup> beside;   // attempt that the expert was asked for, and its setup
   std::shared_future<std::shared_ptr<const SceneView>> show_scene;
 
+  std::unique_ptr<LivePublisher> live;         // from the first frame on, where results are kept
+  std::optional<LiveAttempt> told;             // of the runner
+  std::string told_phase, told_trainee;        // as the desk was told last
+  std::optional<Note> message;                 // of a teacher, not shown yet
+  double unasked_s = 1e9;                      // since messages were asked for
+
   std::filesystem::path settings_file_path() const { return options.settings.empty() ? settings_file() : options.settings; }
   std::vector<RecoveredAttempt> recovered;     // found cut off when the database was opened
 
@@ -51,6 +58,9 @@ struct PracticeDesk::State {
   std::vector<AttemptSummary> attempts(const std::string& exercise) const;
   void look_for_note();
   void note_was_met();
+  void tell_desk(bool guest);
+  void look_for_message();
+  bool show_message(std::string& notice);
   std::shared_ptr<const Scene> built(AttemptSetup setup) const;
   std::int64_t seed() const;
 };

@@ -302,6 +302,7 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
     ++s.frames;
     if (s.picture_wanted) s.save_picture();
   }
+  s.desk.pass(dt_s);
   return s.name != ScreenName::kQuit;
 }
 

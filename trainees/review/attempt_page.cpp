@@ -1,5 +1,6 @@
 #include "trainees/markup/html.h"
 #include "trainees/review/attempt_parts.h"
+#include "trainees/review/film_page.h"
 #include "trainees/review/pages.h"
 
 namespace trocar::review {
@@ -141,7 +142,8 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
   return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
                              subscore_table(view) + event_table(view) + compare_section(view, frame) + "</div><div>" +
                              sign_off_section(view, frame) + notes_section(view.notes, note_action, frame) + "</div></div>" +
-                             rating_section(view, frame) + path_section(view) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
+                             rating_section(view, frame) + heat_section(view) + path_section(view) + film_section(view, frame) +
+                             metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
                              "</div><div>" + origin_facts(view) + "</div></div>");
 }
 

@@ -24,6 +24,7 @@ double peak_moment_s(const AttemptView& view);
 std::string verdict_band(const AttemptView& view);
 std::string moment_section(const AttemptView& view);
 std::string path_section(const AttemptView& view);
+std::string heat_section(const AttemptView& view);
 std::string event_table(const AttemptView& view);
 std::string subscore_table(const AttemptView& view);
 std::string metric_table(const AttemptView& view);

@@ -4,6 +4,7 @@
 #include "trainees/markup/html.h"
 #include "trainees/review/attempt_parts.h"
 #include "trainees/review/charts.h"
+#include "trainees/review/compare_moment.h"
 #include "trainees/review/pages.h"
 
 namespace trocar::review {
@@ -71,13 +72,20 @@ std::string head_of(const AttemptView& view, const std::string& words, bool firs
 std::string traces(const CompareView& view) {
   TimePlot plot;
   plot.limits = view.left.limits;
+  plot.cursor_s = view.left.trace ? std::min(view.t_s, length_s(*view.left.trace)) : -1;
+  plot.moment_href_html = "/compare/" + url_part(view.left.result.uuid) + "/" + url_part(view.right.result.uuid) +
+                          "?by=" + std::to_string(view.aligned) + "&amp;t=";
   if (view.left.trace) plot.lines.push_back({&*view.left.trace, false, view.left_words, kLeftColour, ""});
   if (view.right.trace) plot.lines.push_back({&*view.right.trace, false, view.right_words, kRightColour, kRightDash});
   if (plot.lines.empty()) return section("traces", "Force", "<p class=\"empty\">There is no recording of either attempt.</p>");
   std::string missing;
   if (!view.left.trace) missing = "No recording of the first. ";
   if (!view.right.trace) missing = "No recording of the second. ";
-  return section("traces", "Force", figure(time_plot_svg(plot), escape_html(missing) + "Both from their own beginning."));
+  return section(
+      "traces", "Force",
+      figure(time_plot_svg(plot),
+             escape_html(missing) +
+                 "Both from their own beginning. Click the plot to go there; the line is the first's moment."));
 }
 
 std::string paths(const CompareView& view) {
@@ -106,9 +114,10 @@ std::string cautions(const CompareView& view) {
 
 std::string compare_page(const CompareView& view, Frame frame) {
   frame.title = "Compare";
-  return document(frame, "<div class=\"title\"><h1>Compare: " + escape_html(view.exercise) + "</h1></div>" + cautions(view) +
-                             "<div class=\"two even\">" + head_of(view.left, view.left_words, true) +
-                             head_of(view.right, view.right_words, false) + "</div>" + traces(view) + paths(view) + metrics(view));
+  return document(frame, "<div class=\"title\"><h1>Compare: " + escape_html(view.exercise) + "</h1></div>" +
+                             cautions(view) + "<div class=\"two even\">" + head_of(view.left, view.left_words, true) +
+                             head_of(view.right, view.right_words, false) + "</div>" + compare_moment_section(view) +
+                             traces(view) + paths(view) + metrics(view));
 }
 
 }  // namespace trocar::review

@@ -211,6 +211,7 @@ Answer DeskGate::answered(Visit& visit) {
   request.query = *query;
   if (const auto refusal = refuse_foreign(visit)) return *refusal;
   if (!visit.number.empty()) request.token = sessions_.token(visit.number);
+  request.range = head.header("range");
   return page(visit);
 }
 
@@ -235,7 +236,7 @@ Answer DeskGate::answer(const Arrival& arrival, Desk& desk) {
 
 std::vector<std::pair<std::string, std::string>> DeskGate::headers(const Answer& answer) const {
   std::vector<std::pair<std::string, std::string>> out{
-      {"Content-Security-Policy", "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; form-action 'self'; "
+      {"Content-Security-Policy", "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; connect-src 'self'; media-src 'self'; form-action 'self'; "
                                   "frame-ancestors 'none'; base-uri 'none'"},
       {"X-Content-Type-Options", "nosniff"},
       {"X-Frame-Options", "DENY"},
@@ -246,6 +247,8 @@ std::vector<std::pair<std::string, std::string>> DeskGate::headers(const Answer&
   if (!response.location.empty()) out.emplace_back("Location", redirection_to(response.location));
   if (!response.download.empty())
     out.emplace_back("Content-Disposition", "attachment; filename=\"" + download_name(response.download) + "\"");
+  if (response.accept_ranges) out.emplace_back("Accept-Ranges", "bytes");
+  if (!response.content_range.empty() && header_value(response.content_range)) out.emplace_back("Content-Range", response.content_range);
   if (!answer.cookie.empty()) out.emplace_back("Set-Cookie", answer.cookie);
   if (!answer.allow.empty()) out.emplace_back("Allow", answer.allow);
   if (answer.retry_after_s > 0) out.emplace_back("Retry-After", std::to_string(answer.retry_after_s));

@@ -11,6 +11,7 @@
 #include "trainees/markup/html.h"
 #include "trainees/replica_facts.h"
 #include "trainees/review/charts.h"
+#include "trainees/review/compare_moment.h"
 #include "trainees/review/desk_memory.h"
 #include "trainees/review/desk_queries.h"
 #include "trainees/review/desk_rows.h"
@@ -135,6 +136,13 @@ void add_trace(AttemptView& view, Desk& desk) {
   }
 }
 
+void add_film(AttemptView& view, Desk& desk) {
+  if (desk.sources.film.state) view.film = desk.sources.film.state(view.result.uuid);
+  view.no_film = desk.sources.no_film;
+  if (view.no_film.empty() && !desk.sources.film.make) view.no_film = "No film: this desk makes none.";
+  if (view.no_film.empty() && view.result.recording_path.empty()) view.no_film = "No film: this attempt was not recorded.";
+}
+
 /// Own earlier attempts; an expert's for staff only: a trainee sees nobody else's.
 void add_rivals(AttemptView& view, const AttemptPicture& picture, bool staff) {
   const PastAttempt* best = nullptr;
@@ -195,6 +203,18 @@ double moment_of(const AttemptView& view, const std::string& text) {
   const double asked = std::strtod(text.c_str(), &end);
   const double t = end != text.c_str() && std::isfinite(asked) ? asked : std::max(0.0, worst);
   return std::clamp(t, 0.0, view.trace ? length_s(*view.trace) : 0.0);
+}
+
+/// As asked; else the middle of what is chosen to lie together, else the beginning.
+double compared_moment(const CompareView& view, const std::string& text) {
+  const std::vector<SharedMark> marks = shared_marks(view.left, view.right);
+  const double shift = shift_s(marks, view.aligned);
+  const double top_s = std::max(view.left.trace ? length_s(*view.left.trace) : 0,
+                                view.right.trace ? length_s(*view.right.trace) - shift : 0);
+  char* end = nullptr;
+  const double asked = std::strtod(text.c_str(), &end);
+  const double otherwise = view.aligned > 0 ? marks[static_cast<std::size_t>(view.aligned - 1)].left_s : 0;
+  return std::clamp(end != text.c_str() && std::isfinite(asked) ? asked : otherwise, 0.0, std::max(0.0, top_s));
 }
 
 std::string short_words(const AttemptView& view) { return view.result.trainee + ", " + view.result.started_utc.substr(0, 10); }
@@ -329,6 +349,9 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   view.less_is_better = facts.less_is_better;
   add_trace(view, desk);
   view.picture = static_cast<bool>(desk.sources.picture) && view.trace.has_value();
+  view.heat = static_cast<bool>(desk.sources.heat) && view.trace.has_value();
+  view.heat_of_force = argument(request.query, "heat") == "force";
+  add_film(view, desk);
   view.t_s = moment_of(view, argument(request.query, "t"));
   if (desk.sources.metric_words)
     for (const Metric& metric : view.result.grade.metrics) view.metric_words[metric.name] = desk.sources.metric_words(metric.name);
@@ -348,11 +371,23 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   return view;
 }
 
+AttemptView film_view(Desk& desk, const std::string& uuid) {
+  AttemptView view;
+  view.result = AttemptStore(desk.database).load(uuid);
+  view.exercise = exercise_title(desk.database, view.result.exercise_id);
+  add_film(view, desk);
+  return view;
+}
+
 CompareView compare_view(Desk& desk, const Request& request) {
   CompareView view;
   view.left = attempt_view(desk, request, argument(request.arguments, "attempt"));
   view.right = attempt_view(desk, request, argument(request.arguments, "other"));
   view.exercise = view.left.exercise + " " + view.left.result.level;
+  view.aligned = request.query.contains("by") ? whole_number(argument(request.query, "by"), 0)
+                                                : start_mark(shared_marks(view.left, view.right));
+  if (static_cast<std::size_t>(view.aligned) > shared_marks(view.left, view.right).size()) view.aligned = 0;
+  view.t_s = compared_moment(view, argument(request.query, "t"));
   view.left_words = short_words(view.left);
   view.right_words = short_words(view.right);
   if (view.right.result.hand == "expert") view.right_words = "expert, " + view.right.result.started_utc.substr(0, 10);

@@ -22,6 +22,8 @@ CohortView cohort_view(Desk& desk, const Request& request);
 TraineeView trainee_view(Desk& desk, const Request& request);
 /// @throws InputError: no such attempt, or still running.
 AttemptView attempt_view(Desk& desk, const Request& request, const std::string& uuid);
+/// What the film's page needs of it: no trace is read. @throws InputError: no such attempt, or still running.
+AttemptView film_view(Desk& desk, const std::string& uuid);
 CompareView compare_view(Desk& desk, const Request& request);
 /// Those of the attempt's exercise and level, and those that cite it.
 void add_certificates(AttemptView& view, Database& database);

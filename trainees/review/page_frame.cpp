@@ -121,7 +121,8 @@ std::string document(const Frame& frame, const std::string& main_html) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>";
-  if (frame.refresh_s > 0) out += "<meta http-equiv=\"refresh\" content=\"" + std::to_string(frame.refresh_s) + "\"/>";
+  // With script the page renews its parts instead (desk_script.cpp).
+  if (frame.refresh_s > 0) out += "<noscript><meta http-equiv=\"refresh\" content=\"" + std::to_string(frame.refresh_s) + "\"/></noscript>";
   out += "<title>" + escape_html(frame.title) +
          " - Trocar desk</title><link rel=\"icon\" href=\"/icon.svg\"/><link rel=\"stylesheet\" href=\"/style.css\"/>"
          "<script src=\"/desk.js\" defer=\"defer\"></script></head><body>"

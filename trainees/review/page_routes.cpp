@@ -50,6 +50,22 @@ Response picture(const Request& request, Desk& desk) {
   return out;
 }
 
+Response heat(const Request& request, Desk& desk) {
+  const std::string of = argument(request.query, "of", "time"), from = argument(request.query, "view", "scope");
+  if ((of != "time" && of != "force") || (from != "scope" && from != "overview"))
+    throw InputError("a map is of=time or of=force, view=scope or view=overview");
+  if (!desk.sources.heat) throw InputError("this desk runs without graphics: it makes no pictures");
+  Response out;
+  out.type = "image/png";
+  try {
+    out.body = desk.sources.heat(AttemptStore(desk.database).find(argument(request.arguments, "attempt")).uuid,
+                                 {of == "force", from == "overview"}, kPictureWidth);
+  } catch (const EnvironmentError& error) {
+    return refused(request, desk, 503, "No picture yet", error.what());
+  }
+  return out;
+}
+
 /// Both attempts must be the trainee's own; the server has looked at the first only.
 Response compare(const Request& request, Desk& desk) {
   const CompareView view = compare_view(desk, request);
@@ -113,11 +129,9 @@ std::vector<Route> page_routes() {
     return file(attempt_csv(attempt_view(d, r, argument(r.arguments, "attempt"))), "attempt-" + argument(r.arguments, "attempt") + ".csv");
   }));
   out.push_back(get("/attempt/{attempt}/picture.png", Audience::kOwnData, picture));
+  out.push_back(get("/attempt/{attempt}/heat.png", Audience::kOwnData, heat));
   out.push_back(get("/compare/{attempt}/{other}", Audience::kOwnData, compare));
   out.push_back(get("/compare", Audience::kInstructors, compare_by_name));
-  out.push_back(get("/station", Audience::kInstructors, [](const Request& r, Desk& d) {
-    return html(station_page(d.sources.station ? d.sources.station() : "", frame_of(r, d)));
-  }));
   out.push_back({"GET", "/desk.js", Audience::kEverybody, [](const Request&, Desk&) {
                    Response script;
                    script.type = "text/javascript; charset=utf-8";

@@ -10,6 +10,8 @@ namespace trocar::review {
 
 std::vector<Route> page_routes();        ///< pages to look at, their pictures and files
 std::vector<Route> opinion_routes();     ///< notes, signatures, overrides, certificates
+std::vector<Route> film_routes();        ///< films of attempts
+std::vector<Route> station_routes();     ///< the live view, messages
 std::vector<Route> curriculum_routes();  ///< rules, benchmarks, groups
 std::vector<Route> admin_routes();       ///< accounts, the record itself, its audit trail, retention, the demo's end
 

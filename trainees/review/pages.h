@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "trainees/live/live_stations.h"
 #include "trainees/review/page_frame.h"
 #include "trainees/review/views.h"
 
@@ -17,10 +18,10 @@ std::string trainee_page(const TraineeView& view, Frame frame);
 std::string attempt_page(const AttemptView& view, Frame frame);
 std::string compare_page(const CompareView& view, Frame frame);
 std::string curriculum_page(const CurriculumView& view, Frame frame);
-/// @param json what DeskSources::station says: an object with any of trainee, exercise, level, hand, status, elapsed_s, limit_s, force_n,
-/// peak_force_n, limit_n, done, count, events ([{"t_s","type","severity"}]), device ({"backend","rate_hz","overruns"}); "" when nothing
-/// runs.
-std::string station_page(const std::string& json, Frame frame);
+std::string station_page(const LiveStations& view, Frame frame);
+/// @param now what the trainee does now, a sentence. @param problem why it could not be sent; text is then what was typed.
+std::string station_message_page(const std::string& trainee, const std::string& now, const std::string& problem,
+                                 const std::string& text, Frame frame);
 /// A short page of one sentence: not found, refused, bad input. @param words not escaped yet.
 std::string message_page(const std::string& title, const std::string& words, Frame frame);
 

@@ -15,8 +15,10 @@
 #include "scenarios/scoring/trace.h"
 #include "trainees/accounts.h"
 #include "trainees/database.h"
+#include "trainees/live/live_stations.h"
 #include "trainees/markup/plots.h"
 #include "trainees/review/central_standing.h"
+#include "trainees/review/film_state.h"
 
 namespace trocar::review {
 
@@ -28,6 +30,7 @@ struct Request {
   std::optional<Account> account = {};                 ///< who is signed in; always there when the route asks for a role
   std::string token = {};                              ///< goes into every form as <input type=hidden name=token>
   std::string now_utc = {};
+  std::string range = {};                              ///< header "Range"
 };
 
 struct Response {
@@ -36,6 +39,8 @@ struct Response {
   std::string body = {};
   std::string location = {};                           ///< of a redirection (status 303)
   std::string download = {};                           ///< file name: the browser saves it
+  std::string content_range = {};                      ///< of status 206 and 416
+  bool accept_ranges = false;                          ///< parts of it may be asked for
 };
 
 /// Of an exercise at a level, as its file says.
@@ -45,12 +50,31 @@ struct LevelFacts {
   std::map<std::string, bool> less_is_better = {};   ///< of the metrics that the rubric judges
 };
 
+/// A map of an attempt on its scene.
+struct HeatQuestion {
+  bool of_force = false;      ///< else of time
+  bool overview = false;      ///< else as the scope saw it
+};
+
+/// Films of attempts, made one at a time in the background. Each function may be called by several threads.
+struct FilmSource {
+  std::function<FilmState(const std::string& attempt_uuid)> state = {};
+  /// Begins one, or leaves one that is there or being made. @throws InputError: no recording, or another one is being made.
+  std::function<void(const std::string& attempt_uuid)> make = {};
+  /// @throws InputError: not there.
+  std::function<std::string(const std::string& attempt_uuid, std::uint64_t from, std::uint64_t count)> part = {};
+};
+
 /// What pages need of the rest of the program; each may be empty, and the page says so.
 struct DeskSources {
   /// Samples of a recording. @throws InputError when it cannot be read.
   std::function<Trace(const std::filesystem::path& recording)> trace = {};
-  /// Picture of the attempt at exercise time t as PNG, at most so wide. @throws EnvironmentError without graphics.
+  /// Picture of the attempt t s after its recording began (as its trace counts) as PNG, at most so wide. @throws EnvironmentError without graphics.
   std::function<std::string(const std::string& attempt_uuid, double t_s, int width)> picture = {};
+  /// Scene of the attempt with such a map painted on it, as PNG. @throws as `picture`.
+  std::function<std::string(const std::string& attempt_uuid, const HeatQuestion& question, int width)> heat = {};
+  FilmSource film = {};
+  std::string no_film = {};   ///< why none can be made; "" when they can
   /// Words for a metric: what it measures and how (for the formula column); "" when unknown.
   std::function<std::string(const std::string& metric)> metric_words = {};
   /// What an exercise's file says of a level. @throws InputError: a text or level that cannot be read.
@@ -59,8 +83,8 @@ struct DeskSources {
   std::string shipped_rules = {};   ///< text of the progress rules that came with the program, where the editor begins
   /// How the desk stands with the centre whose record it serves. Called by several threads at once.
   std::function<CentralStanding()> central = {};
-  /// What runs on this station now, as JSON; "" when nothing does.
-  std::function<std::string()> station = {};
+  /// Programs that share this database and run now.
+  std::function<LiveStations()> stations = {};
   /// Removes the invented cohort that is served, files and all, and lets the desk end. @throws InputError: it holds no such cohort.
   std::function<void()> remove_demo = {};
   std::string program = {};         ///< its version

@@ -25,7 +25,7 @@ std::vector<Route> desk_routes() {
       {.method = "GET", .path = "/icon.svg", .audience = Audience::kEverybody, .answer = [](const Request&, Desk&) {
          return Response{.type = "image/svg+xml", .body = kIcon};
        }});
-  for (const auto& part : {page_routes(), opinion_routes(), curriculum_routes(), report_routes(), admin_routes()})
+  for (const auto& part : {page_routes(), opinion_routes(), curriculum_routes(), report_routes(), admin_routes(), station_routes(), film_routes()})
     out.insert(out.end(), part.begin(), part.end());
   return out;
 }

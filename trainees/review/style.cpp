@@ -183,6 +183,11 @@ output{font-weight:600}
 .side h2{display:flex;align-items:center;gap:4px}
 .live{font-size:1.15rem}
 .forcebar{max-width:640px;margin:10px 0}
+.stations{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,540px),1fr));gap:0 14px;align-items:start}
+.stations td.n,.stations th.n{width:5em}
+#together{flex-wrap:wrap}
+#together input{flex:1 1 200px;min-width:160px}
+progress{width:100%;max-width:480px;height:22px;accent-color:#00568a}
 footer{max-width:1400px;margin:0 auto;padding:0 18px 20px;color:#4a555f;font-size:.86rem}
 @media (max-width:1180px){.squares{grid-template-columns:repeat(3,minmax(0,1fr))}}
 @media (max-width:900px){.two,.two.even,.two.moment{grid-template-columns:minmax(0,1fr)}.states,.squares.four{grid-template-columns:repeat(2,minmax(0,1fr))}}

@@ -15,6 +15,7 @@
 #include "trainees/opinions.h"
 #include "trainees/progress/judgement.h"
 #include "trainees/verdicts.h"
+#include "trainees/review/film_state.h"
 
 namespace trocar::review {
 
@@ -159,6 +160,10 @@ struct AttemptView {
   std::optional<Trace> trace = {};
   std::string no_trace = {};  ///< why there is none
   bool picture = false;       ///< the program can make one
+  bool heat = false;          ///< and maps on the scene
+  bool heat_of_force = false; ///< which one is looked at
+  FilmState film = {};
+  std::string no_film = {};   ///< why none can be made
   double t_s = 0;             ///< moment looked at, s after the trace's beginning
   std::map<std::string, std::string> metric_words = {};
   std::vector<Signature> signatures = {};
@@ -182,6 +187,8 @@ struct CompareView {
   std::string exercise = {};
   AttemptView left = {}, right = {};
   std::string left_words = {}, right_words = {};
+  double t_s = 0;   ///< moment of the first that is looked at, s after its beginning
+  int aligned = 0;  ///< shared mark at which they lie on each other, from 1; 0: each one's beginning
 };
 
 /// Who would pass with the rules or numbers as they stand in the editor.

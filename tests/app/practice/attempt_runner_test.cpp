@@ -151,16 +151,21 @@ TEST(AttemptRunner, AMarkedMomentIsAnEventOfTheRecordingAndChangesNothingElse) {
   const double before_s = run.newest().t_s;
   run.mark();
   run.mark();
+  run.mark_message();
   ASSERT_TRUE(wait_for([&] { return run.newest().t_s > before_s + 0.3; }));
   run.abort();
   ASSERT_TRUE(wait_for([&] { return run.stored(); }));
   const AttemptResult kept = stored_attempt(folder.database());
-  std::vector<double> marked;
+  std::vector<double> marked, messages;
   for (const Event& event : kept.events)
     if (event.type == kMomentMark) marked.push_back(event.t_s);
+  for (const Event& event : kept.events)
+    if (event.type == kMessageMark) messages.push_back(event.t_s);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NEAR(messages[0], before_s, 0.25);
   ASSERT_EQ(marked.size(), 2u);
   EXPECT_NEAR(marked[0], before_s, 0.25);
-  EXPECT_EQ(without_marks(kept.events).size() + 2, kept.events.size());
+  EXPECT_EQ(without_marks(kept.events).size() + 3, kept.events.size());
   EXPECT_TRUE(verified(kept.recording_path)) << "the loop knows nothing of it";
 }
 

@@ -66,11 +66,11 @@ class DeskPicturesTest : public testing::Test {
 
 TEST_F(DeskPicturesTest, ShowTheReplay) {
   DeskPictures pictures(find_assets(), [this] { return Database(file_); });
-  const std::string begin = patiently(pictures, uuid_, 0, 480), later = patiently(pictures, uuid_, 3, 480);
+  const std::string begin = patiently(pictures, uuid_, 0, 480), later = patiently(pictures, uuid_, 9, 480);
   EXPECT_TRUE(begin.starts_with("\x89PNG"));
   EXPECT_EQ(width_of(begin), 480);
   EXPECT_NE(begin, later) << "time goes on";
-  EXPECT_EQ(patiently(pictures, uuid_, 3, 480), later);
+  EXPECT_EQ(patiently(pictures, uuid_, 9, 480), later);
   EXPECT_EQ(patiently(pictures, uuid_, -5, 480), begin) << "before the beginning is the beginning";
   EXPECT_EQ(patiently(pictures, uuid_, std::numeric_limits<double>::quiet_NaN(), 480), begin);
   EXPECT_EQ(patiently(pictures, uuid_, 1e300, 480), patiently(pictures, uuid_, 80000, 480)) << "behind the end is the end";
@@ -80,7 +80,44 @@ TEST_F(DeskPicturesTest, ShowTheReplay) {
   EXPECT_NE(message_of<InputError>([&] { patiently(pictures, "latest", 0, 480); }).find("there is none"), std::string::npos)
       << "whole UUIDs only";
   EXPECT_NE(message_of<InputError>([&] { patiently(pictures, "0000-none", 0, 480); }), "");
-  EXPECT_EQ(patiently(pictures, uuid_, 3, 480), later) << "what failed leaves the others";
+  EXPECT_EQ(patiently(pictures, uuid_, 9, 480), later) << "what failed leaves the others";
+}
+
+TEST_F(DeskPicturesTest, TwoAttemptsAreHeldBesideEachOther) {
+  DeskPictures pictures(find_assets(), [this] { return Database(file_); });
+  std::string other;
+  {
+    Database database(file_);
+    other = store(database, folder_ / "other.trec");
+  }
+  const std::string left = patiently(pictures, uuid_, 2, 480), right = patiently(pictures, other, 2, 480);
+  EXPECT_EQ(left, right) << "the same run under two names";
+  std::filesystem::remove(folder_ / "short.trec");
+  std::filesystem::remove(folder_ / "other.trec");
+  EXPECT_NE(patiently(pictures, uuid_, 9, 480), left);
+  EXPECT_NE(patiently(pictures, other, 9, 480), left) << "neither is read again";
+}
+
+TEST_F(DeskPicturesTest, MapsDifferByWhatAndWhenceAndAreKept) {
+  DeskPictures pictures(find_assets(), [this] { return Database(file_); });
+  const auto map = [&](HeatOf of, bool overview) {
+    while (true) {
+      try {
+        return pictures.heat(uuid_, of, overview, 480);
+      } catch (const EnvironmentError& error) {
+        if (std::string(error.what()).find("in a moment") == std::string::npos) throw;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
+    }
+  };
+  const std::string time = map(HeatOf::kTime, false), force = map(HeatOf::kForce, false), over = map(HeatOf::kTime, true);
+  EXPECT_EQ(width_of(time), 480);
+  EXPECT_NE(time, force);
+  EXPECT_NE(time, over);
+  EXPECT_NE(time, patiently(pictures, uuid_, 0, 480));
+  std::filesystem::remove(folder_ / "short.trec");
+  EXPECT_EQ(map(HeatOf::kForce, false), force);
+  EXPECT_NE(message_of<InputError>([&] { pictures.heat(bare_, HeatOf::kTime, false, 480); }), "");
 }
 
 }  // namespace

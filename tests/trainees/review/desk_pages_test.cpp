@@ -54,31 +54,6 @@ TEST(CurriculumPage, EmptyHostileAndReadOnly) {
   EXPECT_NE(curriculum_page(view, sample_frame()).find("At least three people"), std::string::npos);
 }
 
-TEST(StationPage, ShowsWhatRunsAndLooksAgain) {
-  const CheckedPage page = check_page(station_page(sample_station(), sample_frame()));
-  EXPECT_EQ(page.problems, std::vector<std::string>{});
-  bool refreshes = false;
-  for (const PageElement* meta : page.all("meta"))
-    refreshes = refreshes || (meta->of("http-equiv") == "refresh" && meta->of("content") == "2");
-  EXPECT_TRUE(refreshes);
-  const std::string now = page.by_id("now")->text;
-  for (const char* part : {"dubois: Surface touch L2", "Clock1:05 of 2:00", "Done7 of 12", "Force now0.6 N", "Peak force1.3 N",
-                           "simulated, 1000 Hz, missed 0"})
-    EXPECT_NE(now.find(part), std::string::npos) << part << "\n" << now;
-  EXPECT_LT(now.find("Excess force"), now.find("Target held"));  // newest first
-}
-
-TEST(StationPage, NothingRubbishAndHostile) {
-  EXPECT_NE(station_page("", sample_frame()).find("Nothing runs"), std::string::npos);
-  EXPECT_NE(station_page("{}", sample_frame()).find("Nothing runs"), std::string::npos);
-  for (const char* rubbish : {"{", "[]", "17", "null", "\"<script>\""})
-    EXPECT_NE(station_page(rubbish, sample_frame()).find("cannot be read"), std::string::npos) << rubbish;
-  for (const char* odd :
-       {R"({"trainee":"<script>","title":["x"],"elapsed_s":"now","events":[1,{"type":5},null],"device":7,"force_n":-1,"limit_n":1e300})",
-        R"({"events":{"a":1},"level":null,"status":"<b>","force_n":1e308,"peak_force_n":1e308})"})
-    EXPECT_EQ(check_page(station_page(odd, sample_frame())).problems, std::vector<std::string>{}) << odd;
-}
-
 TEST(MessagePage, SaysItEscaped) {
   const CheckedPage page = check_page(message_page("Not found", kHostile, sample_frame()));
   EXPECT_EQ(page.problems, std::vector<std::string>{});

@@ -112,7 +112,7 @@ TEST_P(DeskRoles, EveryAnswerHasTheSecurityHeaders) {
     for (const auto& [login, visitor] : visitors_) {
       const Answer answer = ask(route.method, filled(route.path, "T-otto", ottos_), visitor);
       EXPECT_EQ(header_of(*gate_, answer, "Content-Security-Policy"),
-                "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; form-action 'self'; frame-ancestors "
+                "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; connect-src 'self'; media-src 'self'; form-action 'self'; frame-ancestors "
                 "'none'; base-uri 'none'");
       EXPECT_EQ(header_of(*gate_, answer, "X-Content-Type-Options"), "nosniff");
       EXPECT_EQ(header_of(*gate_, answer, "Referrer-Policy"), "no-referrer");

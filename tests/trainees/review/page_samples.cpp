@@ -228,10 +228,37 @@ CurriculumView sample_curriculum() {
   return view;
 }
 
-std::string sample_station() {
-  return R"({"trainee":"dubois","exercise":"surface-touch","title":"Surface touch","level":"L2","hand":"mouse","status":"running","elapsed_s":65.2,
-    "limit_s":120,"force_n":0.62,"peak_force_n":1.34,"limit_n":1.5,"done":7,"count":12,"device":{"backend":"simulated","rate_hz":1000,"overruns":0},
-    "events":[{"t_s":12.5,"type":"TARGET_HELD","severity":"info"},{"t_s":44.1,"type":"EXCESS_FORCE","severity":"major"}]})";
+LiveStations sample_stations() {
+  LiveStation running, idle;
+  LiveMoment& now = running.told.moment;
+  now = {.program = "practice window",
+         .trainee = "dubois",
+         .exercise_id = "surface-touch",
+         .exercise = "EX2 Surface touch",
+         .level = "L2",
+         .hand = "mouse",
+         .setup = "board 3, organ phantom-liver (synthetic)",
+         .attempt = "01890000-aaaa-7bbb-8ccc-000000000009",
+         .phase = "running"};
+  now.elapsed_s = 65.2;
+  now.limit_s = 120;
+  now.force_n = 0.62;
+  now.peak_force_n = 1.34;
+  now.limit_n = 1.5;
+  now.done = 7;
+  now.count = 12;
+  now.device = "simulated";
+  now.device_state = "active";
+  now.rate_hz = 999.7;
+  now.missed = 0;
+  now.events = {{12.5, "Target done", false}, {44.1, "Too much force", true}};
+  running.told.process = {4711, "boot", 99};
+  running.told.machine = "lab-3";
+  idle.told.moment.program = "practice window";
+  idle.told.moment.trainee = "chen";
+  idle.told.moment.phase = "between attempts";
+  idle.told.process = {4712, "boot", 100};
+  return {{running, idle}, {}, ""};
 }
 
 }  // namespace trocar::review

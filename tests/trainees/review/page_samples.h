@@ -23,6 +23,7 @@ Trace sample_trace(double peak_n = 4);
 AttemptView sample_attempt(double score = 58, double peak_n = 5.2);
 CompareView sample_compare();
 CurriculumView sample_curriculum();
-std::string sample_station();
+/// Two programs: "dubois" in the middle of an attempt, "chen" between attempts.
+LiveStations sample_stations();
 
 }  // namespace trocar::review

@@ -42,7 +42,7 @@ int main(int count, char** words) {
   write("cohort_lost.html", cohort_page(sample_cohort(), frame));
   frame.central = {};
   frame.demo = true;
-  write("station.html", station_page(sample_station(), frame));
+  write("station.html", station_page(sample_stations(), frame));
   write("cohort_empty.html", cohort_page({}, frame));
   return 0;
 }

@@ -1,0 +1,32 @@
+// What a desk reads of the programs that share its database: one entry for each, and what could not be read.
+//
+// A program that died without a farewell has ended unexpectedly: its process is looked for by its identity, not by the
+// age of what it said. One that lives but has said nothing while a desk looked does not answer. Thread: any; nothing
+// throws.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trainees/live/live_moment.h"
+
+namespace trocar {
+
+struct LiveStation {
+  enum class State : std::uint8_t { kRunning, kQuiet, kEnded };
+  ToldMoment told = {};
+  State state = State::kRunning;
+  double age_s = 0;  ///< of what it said
+};
+
+struct LiveStations {
+  std::vector<LiveStation> stations = {};    ///< that run first, then by trainee
+  std::vector<std::string> unreadable = {};  ///< names of files that are none of a program's, or not to be trusted
+  std::string refusal = {};                  ///< why nothing at all is read
+};
+
+/// Programs write only while somebody looks: this tells them so. @param database its file.
+LiveStations look_at_stations(const std::filesystem::path& database);
+
+}  // namespace trocar
