@@ -4,6 +4,7 @@
 #include <string>
 
 #include "trainees/progress/rules.h"
+#include "trainees/review/desk_queries.h"
 #include "trainees/review/page_frame.h"
 #include "trainees/review/route.h"
 #include "trainees/review/views.h"
@@ -15,6 +16,10 @@ Frame frame_of(const Request& request, const Desk& desk);
 /// Who writes, as opinions are stored.
 Author author_of(const Request& request);
 bool is_staff(const Request& request);
+/// A number from 1 to a million of a page's address, else `otherwise`.
+int whole_number(const std::string& text, int otherwise);
+/// The cohort's lines, out of the desk's memory where it has one.
+std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const CohortFilter& filter, const std::string& now_utc);
 std::string argument(const std::map<std::string, std::string>& values, const std::string& name, const std::string& otherwise = "");
 
 CohortView cohort_view(Desk& desk, const Request& request);
