@@ -93,7 +93,6 @@ int erase_identity(sqlite3* connection, const Erased& erased, const Author& auth
   const int notes = erase_rows(connection, erased, "note", "trainee_id = ?1", author);
   for (const char* table : {"consent", "account"}) erase_rows(connection, erased, table, "trainee_id = ?1", author);
   for (const char* table : {"membership", "person"}) remove_rows(connection, erased, table, "trainee_id = ?1");
-  forget_person(connection, erased.uuid);
   return notes;
 }
 

@@ -13,8 +13,7 @@ namespace {
 
 constexpr const char* kTrainee = "SELECT uuid, created_utc FROM trainee WHERE uuid = ?";
 constexpr const char* kPerson =
-    "SELECT (SELECT seq FROM sqlite_sequence WHERE name = 'person ' || t.uuid), t.uuid, p.code, p.name, p.email"
-    " FROM person p JOIN trainee t ON t.id = p.trainee_id WHERE t.uuid = ?";
+    "SELECT p.salt, t.uuid, p.code, p.name, p.email FROM person p JOIN trainee t ON t.id = p.trainee_id WHERE t.uuid = ?";
 constexpr const char* kExercise = "SELECT id, number, title FROM exercise WHERE id = ?";
 
 std::string digest_of(sqlite3* connection, const char* table, const char* query, const std::string& key) {
@@ -159,9 +158,8 @@ void keep_trainee(sqlite3* connection, const std::string& uuid, const std::strin
 }
 
 void keep_person(sqlite3* connection, const std::string& trainee_uuid, const std::string& author) {
-  forget_person(connection, trainee_uuid);
-  sql::Statement salt(connection, "INSERT INTO sqlite_sequence (name, seq) VALUES ('person ' || ?, ?)");
-  salt.bind(trainee_uuid).bind(random_salt()).run();
+  sql::Statement salt(connection, "UPDATE person SET salt = ? WHERE trainee_id = (SELECT id FROM trainee WHERE uuid = ?)");
+  salt.bind(random_salt()).bind(trainee_uuid).run();
   const char* action = newest_digest(connection, kTables[1], trainee_uuid).empty() ? "person added" : "person changed";
   append_audit(connection, action, trainee_uuid, digest_of(connection, "person", kPerson, trainee_uuid), actor_of(author));
 }
@@ -169,10 +167,6 @@ void keep_person(sqlite3* connection, const std::string& trainee_uuid, const std
 bool person_holds(sqlite3* connection, const std::string& trainee_uuid) {
   const std::string kept = newest_digest(connection, kTables[1], trainee_uuid);
   return kept.empty() || kept == digest_of(connection, "person", kPerson, trainee_uuid);
-}
-
-void forget_person(sqlite3* connection, const std::string& trainee_uuid) {
-  sql::Statement(connection, "DELETE FROM sqlite_sequence WHERE name = 'person ' || ?").bind(trainee_uuid).run();
 }
 
 void keep_exercise(sqlite3* connection, const std::string& id) {

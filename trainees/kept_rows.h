@@ -8,8 +8,7 @@
 //   "group joined", "group left"       subject: the trainee's UUID; detail: the group
 //
 // Codes are few and short: a plain digest would tell, by trying them all, who an erased trainee was. So a person's digest has a random salt that
-// goes with the person. It stands in sqlite_sequence, SQLite's own table of counters, where schema 4 has room for it. Rows that were there before a
-// program kept entries have none: not_covered() names them. A database that was made since has no such excuse (kEveryRowKept).
+// stands in the person's row and goes with it. Rows that were there before a program kept entries have none: not_covered() names them. A database that was made since has no such excuse (kEveryRowKept).
 #pragma once
 
 #include <cstdint>
@@ -30,8 +29,6 @@ void keep_trainee(sqlite3* connection, const std::string& uuid, const std::strin
 void keep_person(sqlite3* connection, const std::string& trainee_uuid, const std::string& author = "");
 /// Whether the person is as the newest entry has it, so that a change may follow; an older program's without an entry is.
 bool person_holds(sqlite3* connection, const std::string& trainee_uuid);
-/// The person goes: so does the salt.
-void forget_person(sqlite3* connection, const std::string& trainee_uuid);
 void keep_exercise(sqlite3* connection, const std::string& id);
 /// Only where no entry is yet: an exercise of an older program's.
 void keep_exercise_once(sqlite3* connection, const std::string& id);

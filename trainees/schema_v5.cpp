@@ -273,6 +273,11 @@ CREATE INDEX event_grave ON event_row(kind_id) WHERE kind_id & 3;
 )sql";
 
 /// Texts of triggers that go with their table and come again; they are those of versions 2 to 4.
+constexpr const char kPerson[] = R"sql(
+-- Random, into the digest of the person's audit entries; goes with the person (kept_rows.h).
+ALTER TABLE person ADD COLUMN salt TEXT NOT NULL DEFAULT '';
+)sql";
+
 constexpr const char kGuards[] = R"sql(
 CREATE TRIGGER attempt_begins_running BEFORE INSERT ON attempt WHEN NEW.status <> 'running'
 BEGIN SELECT RAISE(ABORT, 'an attempt begins as running'); END;
@@ -347,7 +352,7 @@ std::string guards() {
 }  // namespace
 
 const char* schema_v5() {
-  static const std::string kSql = std::string(kKinds) + kRows + kCopy + kViews + kByName + kAttempt + kAudit + kExchange + kIndices +
+  static const std::string kSql = std::string(kKinds) + kRows + kCopy + kViews + kByName + kAttempt + kAudit + kExchange + kIndices + kPerson +
                                   guards();
   return kSql.c_str();
 }

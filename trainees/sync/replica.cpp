@@ -125,8 +125,8 @@ class Replica {
 
   void take_person(const std::string& uuid, std::int64_t trainee, const std::string& code, const std::string& name, const std::string& email) {
     sql::Statement keep(connection_,
-                        "INSERT INTO person VALUES (?1, ?2, ?3, ?4) ON CONFLICT (trainee_id) DO UPDATE SET code = ?2, name = ?3,"
-                        " email = ?4 WHERE (code, name, email) <> (?2, ?3, ?4) RETURNING 1");
+                        "INSERT INTO person (trainee_id, code, name, email) VALUES (?1, ?2, ?3, ?4) ON CONFLICT (trainee_id)"
+                        " DO UPDATE SET code = ?2, name = ?3, email = ?4 WHERE (code, name, email) <> (?2, ?3, ?4) RETURNING 1");
     if (!keep.bind(trainee).bind(code).bind(name).bind(email).step()) return;  // as it was
     keep.run();
     keep_person(connection_, uuid);
