@@ -180,7 +180,7 @@ TEST_F(KeptRows, ATrailThatOutlivesThePersonDoesNotTellTheirCode) {
 
 TEST_F(KeptRows, AnOlderDatabasePassesAndSaysWhatItDoesNotCover) {
   const fs::path old = folder_ / "old.db";
-  make_schema3(old, 4);
+  make_old_store(old, 3, 4);
   Database database(old);
   EXPECT_EQ(problems_of(database), "");
   const std::vector<std::string> told = database.not_covered();
