@@ -70,7 +70,7 @@ std::size_t chosen_curve(const std::vector<CurveView>& curves, const Request& re
   }
   std::string asked;
   for (const std::string& part : {exercise, level, hand, rubric}) asked += part.empty() ? "" : (asked.empty() ? "" : ", ") + part;
-  if (!asked.empty()) throw InputError(argument(request.arguments, "code") + " has no attempts that count of " + asked);
+  if (!asked.empty()) throw InputError("there is no attempt of " + argument(request.arguments, "code") + " that counts of " + asked);
   return 0;
 }
 

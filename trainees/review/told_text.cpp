@@ -5,10 +5,10 @@
 namespace trocar::review {
 namespace {
 
-constexpr const char* kEnds = " \t\r\n\"'<>(),;:";
+constexpr const char *kEnds = " \t\r\n\"'<>(),;:", *kBefore = " \t\r\n\"'<>(),;";   // an address of the net has a path after a colon
 
 bool begins_path(const std::string& text, std::size_t at) {
-  return text[at] == '/' && (at == 0 || std::string(kEnds).find(text[at - 1]) != std::string::npos);
+  return text[at] == '/' && (at == 0 || std::string(kBefore).find(text[at - 1]) != std::string::npos);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST_F(DeskAdmin, AccountsAreAddedDisabledEnabledAndGivenPasswords) {
   EXPECT_EQ(ask("POST", "/accounts/ines/enable", adam).response.status, 303);
   EXPECT_TRUE(AccountStore(database_).verify("ines", kPassword));
   const AuditView trail = audit_view(database_, {AccountStore(database_).find("adam")->uuid, "", 1});
-  EXPECT_EQ(trail.total, 4) << "what adam did stands under his name";
+  EXPECT_EQ(trail.total, 5) << "what adam did stands under his name, the sign-in too";
   EXPECT_EQ(trail.entries[0].who, "Adam, adam");
 }
 

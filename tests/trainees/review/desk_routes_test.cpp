@@ -379,7 +379,7 @@ TEST_F(DeskFolders, NoPageTellsWhereTheRecordLies) {
     EXPECT_NE(page.find(says), std::string::npos) << says << " is not in\n" << page;
   };
   clean(body("/attempt/" + id.uuid), "The recording cannot be read: ");
-  clean(body("/attempt/" + id.uuid + "/picture.png", {{"t", "1"}}), "x: no room");
+  clean(body("/attempt/" + id.uuid + "/picture.png", {{"t", "1"}}), "X: no room");
   clean(body("/trainee/T-9"), "no trainee");
   std::filesystem::remove(id.recording);
   clean(body("/attempt/" + id.uuid), "The recording is not in its place any more.");
@@ -392,7 +392,7 @@ TEST_F(DeskRoutes, AFormThatIsSentTwiceSignsOnce) {
   EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/sign", form).status, 303);
   const Response second = ask("POST", "/attempt/" + attempt_ + "/sign", form);
   EXPECT_EQ(second.status, 400);
-  EXPECT_NE(second.body.find("already signed"), std::string::npos);
+  EXPECT_NE(second.body.find("Already signed"), std::string::npos);
   EXPECT_EQ(OpinionStore(database_).signatures_of(attempt_).size(), 1u);
 }
 

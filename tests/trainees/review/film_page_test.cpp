@@ -104,7 +104,7 @@ class FilmRoutes : public testing::Test {
     attempt_ = AttemptStore(database_).latest()->uuid;
     desk_.sources.film.state = [this](const std::string&) { return film_; };
     desk_.sources.film.make = [this](const std::string& uuid) {
-      if (busy_) throw InputError("another one is being made");
+      if (busy_) throw InputError("Another one is being made");
       made_.push_back(uuid);
     };
     desk_.sources.film.part = [](const std::string&, std::uint64_t from, std::uint64_t count) {
@@ -174,7 +174,7 @@ TEST_F(FilmRoutes, MakingLeadsToTheFilmsPageAndARefusalSaysWhy) {
   busy_ = true;
   const Response refused = ask("POST", page);
   EXPECT_EQ(refused.status, 409);
-  EXPECT_NE(refused.body.find("another one is being made"), std::string::npos);
+  EXPECT_NE(refused.body.find("Another one is being made"), std::string::npos);
   desk_.sources.film.make = {};
   desk_.sources.no_film = "No film: the program ffmpeg is not on this machine.";
   EXPECT_NE(ask("POST", page).body.find("ffmpeg is not on this machine"), std::string::npos);
