@@ -89,7 +89,7 @@ Found flat(const Attempts& tried, const ProgressRules& rules) {
   const auto passes = static_cast<int>(std::count(passed.end() - seen->n, passed.end(), true));
   if (2 * passes >= seen->n) return std::nullopt;
   return Judgement{Flag::kPlateau,
-                   "scores rose by " + fixed(seen->rise, 1) + " points over the last " + number(seen->n) + " (flat below " +
+                   std::string("scores ") + (seen->rise < 0 ? "fell by " : "rose by ") + fixed(std::abs(seen->rise), 1) + " points over the last " + number(seen->n) + " (flat below " +
                        fixed(rules.plateau_rise, 1) + "), " + number(passes) + " of them passed",
                    seen->n, rules.version};
 }
@@ -129,7 +129,7 @@ Found ready(const std::vector<CusumPoint>& points, const ProgressRules& rules, s
   while (!(points[shown - 1].decided && points[shown - 1].test == CusumPoint::Test::kLearning)) --shown;
   return Judgement{Flag::kReady,
                    "competence shown at attempt " + number(static_cast<int>(shown)) + " of " + number(static_cast<int>(points.size())) +
-                       (reliable ? ", reliability " + fixed(*reliable, 2) : std::string(", reliability cannot be told yet")) +
+                       (reliable ? ", reliability " + reliability_words(*reliable) : std::string(", reliability cannot be told yet")) +
                        "; a person decides",
                    static_cast<int>(points.size()), rules.version};
 }
@@ -170,6 +170,8 @@ std::optional<Flag> flag_named(const std::string& name) {
     if (name == flag_name(flag)) return flag;
   return std::nullopt;
 }
+
+std::string reliability_words(double reliability) { return reliability > 0.99 ? "over 0.99" : fixed(reliability, 2); }
 
 std::optional<double> reliability(const std::vector<double>& scores, double between_variance) {
   const auto spread = spread_of(scores);

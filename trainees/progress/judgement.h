@@ -58,6 +58,8 @@ struct CurveAttempt {
 /// Reliability of the mean of the newest scores: 1 - (variance of the mean) / (variance between trainees); see docs/progress_rules.md.
 /// Empty where either variance cannot be told. @param between_variance of true scores over the cohort.
 std::optional<double> reliability(const std::vector<double>& scores, double between_variance);
+/// "0.84"; "over 0.99" where two decimals would say that nothing can be doubted.
+std::string reliability_words(double reliability);
 
 /// All that hold, gravest first; kLearning alone when none does. @param safety by attempt; attempts without one count as safe.
 /// @param certified_utc of a certificate that holds, "" without.

@@ -257,7 +257,7 @@ std::string plural(std::int64_t count, const std::string& one, const std::string
 }
 
 std::string reliability_text(const std::optional<double>& reliability) {
-  return reliability ? fixed_text(*reliability, 2) : "not known yet";
+  return reliability ? reliability_words(*reliability) : "not known yet";
 }
 
 std::string basis_text(const Judgement& judgement) {

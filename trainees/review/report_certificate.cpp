@@ -69,7 +69,7 @@ printed::CertificateSheet certificate_sheet(const CertificateView& view, const R
   const std::string period = view.attempts.empty() ? none : period_words(view.attempts.front().utc, view.attempts.back().utc);
   out.facts = {{"Attempts it rests on", view.n > 0 ? "n = " + std::to_string(view.n) : none},
                {"Passed", std::to_string(totals.passed) + " of " + std::to_string(view.attempts.size())},
-               {"Reliability of the mean score", view.reliability ? fixed_text(*view.reliability, 2) : "could not be told"},
+               {"Reliability of the mean score", view.reliability ? reliability_words(*view.reliability) : "could not be told"},
                {"Period of the attempts", period},
                {"Rules of progress", "version " + c.rule_version},
                {"Device, input", list_of(totals.devices, none) + "; " + list_of(totals.inputs, none)}};

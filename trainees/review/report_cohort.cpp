@@ -114,7 +114,7 @@ Table trainee_table(const std::vector<CohortEntry>& lines) {
                           score_text(line.best), score_text(line.last), Cell::drawn(spark_svg(line.scores, line.pass_at)),
                           line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93",
                           Cell(std::to_string(line.over_force), line.over_force > 0 ? Tone::kBad : Tone::kPlain),
-                          line.reliability ? fixed_text(*line.reliability, 2) : "\xE2\x80\x93", printed::day_text(line.last_utc)});
+                          line.reliability ? reliability_words(*line.reliability) : "\xE2\x80\x93", printed::day_text(line.last_utc)});
   }
   return table;
 }

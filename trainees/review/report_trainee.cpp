@@ -167,7 +167,7 @@ void add_curve(std::vector<Block>& out, const CurveView& curve) {
                       {"Last", score_text(curve.last)},
                       {"Pass mark", number_text(curve.pass_at)},
                       {"Trained", fixed_text(curve.trained_s / 60, 0) + " min"},
-                      {"Reliability", curve.reliability ? fixed_text(*curve.reliability, 2) : "not known yet"},
+                      {"Reliability", reliability_text(curve.reliability)},
                       {"Competence", competence.shown         ? "shown"
                                      : competence.first_shown ? "lost again"
                                                               : "not shown yet"},

@@ -125,6 +125,9 @@ TEST(Judgements, ReadinessWantsReliability) {
   EXPECT_EQ(flags(judged(kShown, 0.70)), "ready");
   const auto unknown = judged(kShown, std::nullopt);
   EXPECT_EQ(flags(unknown), "ready");
+  EXPECT_EQ(reliability_words(0.99), "0.99");
+  EXPECT_EQ(reliability_words(0.991), "over 0.99");
+  EXPECT_EQ(reliability_words(0.7), "0.70");
   EXPECT_NE(unknown[0].evidence.find("reliability cannot be told yet"), std::string::npos);
 }
 
