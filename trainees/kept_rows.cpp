@@ -101,8 +101,8 @@ void check_groups(sqlite3* connection, std::vector<std::string>& problems) {
   // The newest word on each trainee and group, beside the row; an erasure ends all of them.
   sql::Statement told(connection, R"sql(
 WITH word AS (
-  SELECT subject AS uuid, detail AS name, action = 'group joined' AS joined, max(position) FROM audit
-  WHERE action IN ('group joined', 'group left') GROUP BY subject, detail
+  SELECT subject AS uuid, detail AS name, action LIKE 'group joined%' AS joined, max(position) FROM audit
+  WHERE action IN ('group joined', 'group left', 'group joined elsewhere', 'group left elsewhere') GROUP BY subject, detail
 ), wanted AS (
   SELECT uuid, name FROM word WHERE joined
   AND uuid NOT IN (SELECT t.uuid FROM erasure e JOIN trainee t ON t.id = e.trainee_id)
@@ -177,8 +177,8 @@ void keep_exercise_once(sqlite3* connection, const std::string& id) {
   if (!has_entry(connection, id, "exercise kept")) keep_exercise(connection, id);
 }
 
-void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc) {
-  append_audit(connection, "note seen", note_uuid, utc);
+void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc, const std::string& author) {
+  append_audit(connection, "note seen", note_uuid, utc, actor_of(author));
 }
 
 std::vector<std::string> check_kept_rows(sqlite3* connection) {

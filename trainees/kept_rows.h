@@ -5,7 +5,7 @@
 //   "person added", "person changed"   subject: the trainee's UUID; digest of salt, code, name, e-mail; the newest counts
 //   "exercise kept"                    subject: its id; digest of id, number, title; the newest counts
 //   "note seen"                        subject: the note's UUID; detail: when
-//   "group joined", "group left"       subject: the trainee's UUID; detail: the group
+//   "group joined", "group left"       subject: the trainee's UUID; detail: the group; "... elsewhere" where a centre told it
 //
 // Codes are few and short: a plain digest would tell, by trying them all, who an erased trainee was. So a person's digest has a random salt that
 // stands in the person's row and goes with it. Rows that were there before a program kept entries have none: not_covered() names them. A database that was made since has no such excuse (kEveryRowKept).
@@ -32,7 +32,7 @@ bool person_holds(sqlite3* connection, const std::string& trainee_uuid);
 void keep_exercise(sqlite3* connection, const std::string& id);
 /// Only where no entry is yet: an exercise of an older program's.
 void keep_exercise_once(sqlite3* connection, const std::string& id);
-void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc);
+void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc, const std::string& author = "");
 
 /// Problems between rows and trail, one line each.
 std::vector<std::string> check_kept_rows(sqlite3* connection);

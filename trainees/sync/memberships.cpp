@@ -3,6 +3,7 @@
 #include <set>
 
 #include "trainees/anchored_transaction.h"
+#include "trainees/kept_rows.h"
 #include "trainees/sync/fetch.h"
 #include "trainees/sync/station.h"
 
@@ -66,13 +67,15 @@ void take_memberships(CentralLink& link, Database& database, const Links& links,
 void take_seen(CentralLink& link, Database& database, std::int64_t since, PullReport& report) {
   const auto rows = link.run("SELECT note_uuid, utc FROM note_seen WHERE seq > $1::bigint ORDER BY note_uuid", {std::to_string(since)});
   if (rows.empty()) return;
-  sql::Transaction transaction(database.connection());
+  AnchoredTransaction transaction(database);
   int taken = 0;
   for (const Values& row : rows) {
     sql::Statement insert(database.connection(), "INSERT INTO note_seen SELECT id, ?2 FROM note n WHERE uuid = ?1 AND NOT EXISTS"
                                                  " (SELECT 1 FROM note_seen WHERE note_id = n.id) RETURNING 1");
-    taken += insert.bind(*row[0]).bind(*row[1]).step();
+    if (!insert.bind(*row[0]).bind(*row[1]).step()) continue;
     insert.run();
+    keep_note_seen(database.connection(), *row[0], *row[1], kFromCentre);
+    ++taken;
   }
   transaction.commit();
   if (taken > 0) report.added["note_seen"] += taken;

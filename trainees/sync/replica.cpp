@@ -55,7 +55,7 @@ class Replica {
         AnchoredTransaction transaction(*database_);
         for (const Values& row : rows) {
           insert_local(connection_, table, row);
-          if (table.name == "trainee") keep_trainee(connection_, row.front().value_or(""));
+          if (table.name == "trainee") keep_trainee(connection_, row.front().value_or(""), kFromCentre);
           if (table.name == "exercise") keep_exercise(connection_, row.front().value_or(""));
         }
         transaction.commit();
@@ -129,7 +129,7 @@ class Replica {
                         " DO UPDATE SET code = ?2, name = ?3, email = ?4 WHERE (code, name, email) <> (?2, ?3, ?4) RETURNING 1");
     if (!keep.bind(trainee).bind(code).bind(name).bind(email).step()) return;  // as it was
     keep.run();
-    keep_person(connection_, uuid);
+    keep_person(connection_, uuid, kFromCentre);
   }
 
   Rows by_attempt(const CarriedTable& table, const std::vector<std::string>& keys) const {

@@ -79,7 +79,8 @@ TEST(CarriedRows, TakeEveryColumnOfTheTablesHere) {
   for (const sync::CarriedTable& table : all) {
     std::vector<std::string> here, carried;
     sql::Statement columns(database.connection(),
-                           "SELECT name, type FROM pragma_table_info(?) WHERE name <> 'id' OR type = 'TEXT' ORDER BY 1");
+                           "SELECT name, type FROM pragma_table_info(?) WHERE (name <> 'id' OR type = 'TEXT')"
+                           " AND name <> 'salt' ORDER BY 1");   // of the trail here alone
     columns.bind(table.name);
     while (columns.step()) here.push_back(columns.text(0));
     for (const sync::Column& column : table.columns) carried.push_back(column.local);

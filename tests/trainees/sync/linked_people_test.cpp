@@ -107,7 +107,7 @@ TEST_F(Linked, AMovedRowThatIsChangedIsFound) {
   link();
   refresh(copy);
   ASSERT_EQ(run_without_triggers(folder_ / "desk.db",
-                                 "UPDATE metric SET value = 1 WHERE score_id = (SELECT s.id FROM score s JOIN attempt a ON"
+                                 "UPDATE metric_row SET value = 1 WHERE id >> 10 = (SELECT s.id FROM score s JOIN attempt a ON"
                                  " a.id = s.attempt_id JOIN audit u ON u.subject = a.uuid AND u.action = 'linked' LIMIT 1)"), "");
   EXPECT_NE(problems_of(copy).find("of another station was changed"), std::string::npos) << problems_of(copy);
 }
