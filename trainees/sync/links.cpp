@@ -4,7 +4,9 @@
 #include <set>
 
 #include "trainees/anchored_transaction.h"
+#include "trainees/kept_rows.h"
 #include "trainees/replica_facts.h"
+#include "trainees/sync/fetch.h"
 
 namespace trocar::sync {
 namespace {
@@ -85,8 +87,11 @@ void move_rows(sqlite3* connection, const Movable& table, const std::map<std::st
   for (const auto& [unused, move] : moves) {
     // Whoever was parted from the one who is known here stands for themselves, unnamed.
     sql::Statement bare(connection, "INSERT INTO trainee (uuid, created_utc) SELECT ?1, created_utc FROM trainee WHERE NOT EXISTS"
-                                    " (SELECT 1 FROM trainee WHERE uuid = ?1) LIMIT 1");
-    bare.bind(move.home).run();
+                                    " (SELECT 1 FROM trainee WHERE uuid = ?1) LIMIT 1 RETURNING 1");
+    if (bare.bind(move.home).step()) {
+      bare.run();
+      keep_trainee(connection, move.home, kFromCentre);
+    }
     sql::Statement update(connection, std::string("UPDATE ") + table.name +
                                           " SET trainee_id = (SELECT id FROM trainee WHERE uuid = ?) WHERE uuid = ?");
     update.bind(move.home).bind(move.row).run();
