@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "trainees/markup/html.h"
 #include "trainees/markup/svg.h"
@@ -17,6 +18,7 @@ using svg::px;
 using svg::rect;
 
 constexpr double kWidth = 760, kHeight = 352, kLeft = 44, kRight = 748, kTop = 12, kBottom = 258, kEventRow = 276;
+constexpr double kLegendRow = 22;
 constexpr int kStrips = 88;  ///< links over the plot, one for so many parts of the time
 
 struct Values {
@@ -68,13 +70,14 @@ class Drawing {
   }
 
   std::string draw() const {
-    std::string out = "<svg class=\"time\" viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) +
+    const Legend key = legend();
+    std::string out = "<svg class=\"time\" viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight + kLegendRow * (key.rows - 1)) +
                       "\" role=\"group\" aria-label=\"Force against time\"" + attribute("data-left", px(kLeft)) +
                       attribute("data-right", px(kRight)) + attribute("data-end", fixed_text(t_end_, 3)) + ">";
     out +=
         "<defs><pattern id=\"hatch\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
         "<path d=\"M0 0V8\" stroke=\"#d55e00\" stroke-width=\"2\" stroke-opacity=\"0.4\"/></pattern></defs>";
-    return out + zones() + axes() + traces() + events() + cursor() + links() + legend() + "</svg>";
+    return out + zones() + axes() + traces() + events() + cursor() + links() + key.svg + "</svg>";
   }
 
  private:
@@ -162,25 +165,35 @@ class Drawing {
     return out + "</g>";
   }
 
-  std::string legend() const {
-    std::string out;
-    double at = kLeft;
-    const double base = kHeight - 8;
-    const auto entry = [&](const std::string& swatch, const std::string& words) {
-      out += swatch + label(at + 26, base, words);
-      at += 42 + 7.9 * static_cast<double>(words.size());
+  struct Legend {
+    std::string svg = {};
+    int rows = 1;
+  };
+
+  /// Entries from left to right, in a further row where the next would not fit.
+  Legend legend() const {
+    Legend out;
+    double at = kLeft, base = kHeight - 8;
+    const auto entry = [&](const std::function<std::string()>& swatch, const std::string& words) {
+      const double wide = 42 + 7.9 * static_cast<double>(words.size());
+      if (at > kLeft && at + wide - 16 > kWidth) {
+        at = kLeft;
+        base += kLegendRow;
+        ++out.rows;
+      }
+      out.svg += swatch() + label(at + 26, base, words);
+      at += wide;
     };
     for (const TimeLine& source : plot_.lines) {
       std::string style = std::string("stroke-width=\"2.4\" stroke=\"") + source.colour + "\"";
       if (*source.dash != '\0') style += attribute("stroke-dasharray", source.dash);
-      entry(line(at, base - 5, at + 20, base - 5, style), source.words);
+      entry([&] { return line(at, base - 5, at + 20, base - 5, style); }, source.words);
     }
+    const auto box = [&](const char* style) { return [&at, &base, style] { return rect(at, base - 11, 20, 12, style); }; };
     const ForceLimits& band = plot_.limits;
     if (band.high_n > band.low_n)
-      entry(rect(at, base - 11, 20, 12, "fill=\"#009e73\" fill-opacity=\"0.25\""),
-            "wanted " + number_text(band.low_n) + " to " + number_text(band.high_n) + " N");
-    if (band.hard_n > 0)
-      entry(rect(at, base - 11, 20, 12, "fill=\"url(#hatch)\" stroke=\"#d55e00\""), "over " + number_text(band.hard_n) + " N");
+      entry(box("fill=\"#009e73\" fill-opacity=\"0.25\""), "wanted " + number_text(band.low_n) + " to " + number_text(band.high_n) + " N");
+    if (band.hard_n > 0) entry(box("fill=\"url(#hatch)\" stroke=\"#d55e00\""), "over " + number_text(band.hard_n) + " N");
     return out;
   }
 

@@ -102,7 +102,7 @@ std::string record_page(const RecordView& view, Frame frame) {
       "<dl class=\"facts\">" + fact("Database", view.file.empty() ? "in memory" : view.file) +
       fact("Schema", std::to_string(view.schema)) + fact("Program", view.program.empty() ? "unknown" : view.program) +
       fact("Size", size_text(view.database_bytes)) + fact("Recordings", size_text(view.recordings_bytes)) +
-      fact("Last backup", view.backups.empty() ? "none here" : view.backups.front().utc.substr(0, 16) + " UTC") +
+      fact("Last backup", view.backups.empty() ? "none here" : view.backups.front().utc.substr(0, 10) + ", " + view.backups.front().utc.substr(11, 5) + " UTC") +
       "</dl>" + "<dl class=\"facts\">";
   for (const auto& [what, count] : view.counts) out += fact(what, std::to_string(count));
   out += "</dl><dl class=\"facts\">" +

@@ -94,6 +94,20 @@ TEST(SampleAt, TakesTheNearestRow) {
   EXPECT_EQ(length_s({}), 0);
 }
 
+TEST(TimePlotTest, AKeyThatDoesNotFitGoesOnInAFurtherRow) {
+  const Trace trace = sample_trace();
+  TimePlot plot;
+  plot.limits = {0.4, 0.8, 1.5};
+  const auto height = [&](const std::string& words) {
+    plot.lines = {{&trace, false, words, "#0072b2", ""}, {&trace, false, words, "#d55e00", ""}};
+    const std::string svg = time_plot_svg(plot);
+    EXPECT_NE(svg.find("over 1.5 N"), std::string::npos);
+    const std::size_t at = svg.find("viewBox=\"0 0 ");
+    return std::stod(svg.substr(svg.find(' ', at + 13)));
+  };
+  EXPECT_EQ(height("demo-amara, 2026-11-20"), height("short") + 22);
+}
+
 TEST(TimePlotTest, CursorStripsAndEventsStandAtTheirTimes) {
   const Trace trace = sample_trace(5);
   TimePlot plot;
