@@ -171,6 +171,8 @@ void copy_database(sqlite3* from, const fs::path& to) {
     sqlite3_backup* backup = sqlite3_backup_init(target.get(), "main", from, "main");
     if (backup != nullptr) sqlite3_backup_step(backup, -1);
     code = backup != nullptr ? sqlite3_backup_finish(backup) : sqlite3_errcode(target.get());
+    // One file by itself, which can be read where nothing can be written: without this it would want a log beside it.
+    if (code == SQLITE_OK) code = sqlite3_exec(target.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
   }
   const std::string detail = sqlite3_errmsg(target.get());
   target.reset();

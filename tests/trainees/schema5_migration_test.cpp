@@ -84,6 +84,7 @@ TEST_F(FromSchema4, TheBackupIsTheOldDatabaseWhole) {
   const fs::path backup = Database(file_).migration().backup;
   ASSERT_EQ(backup, file_.string() + ".schema4.backup");
   EXPECT_EQ(schema_of_file(backup), 4);
+  for (const char* beside : {"-wal", "-shm"}) EXPECT_FALSE(fs::exists(backup.string() + beside)) << "a backup is one file: " << beside;
   fs::rename(backup, folder_ / "again.db");
   Database again(folder_ / "again.db");
   EXPECT_EQ(again.migration().from, 4);
