@@ -65,7 +65,7 @@ class ExportCommand : public TemporaryFolder {
 
 TEST_F(ExportCommand, CsvAndJsonHoldEveryAttempt) {
   EXPECT_EQ(run("csv", folder_ / "tables"), 0);
-  EXPECT_EQ(names_in(folder_ / "tables").size(), 8u);
+  EXPECT_EQ(names_in(folder_ / "tables").size(), 9u);
   EXPECT_EQ(test::read_csv(bytes_of_file(folder_ / "tables/attempts.csv")).size(), 3u);
   EXPECT_EQ(out_.str(), "2 attempts in " + (folder_ / "tables").string() + "\n");
   EXPECT_EQ(run("json", folder_ / "all.json", {"B", "", ""}), 0);
