@@ -165,15 +165,21 @@ void store_all(std::vector<Planned>& planned, Database& database) {
 }
 
 void remove_database(const fs::path& database) {
-  fs::path recordings = database;
-  recordings.replace_extension(".recordings");
   for (const char* end : {"", "-wal", "-shm"}) {
     std::error_code ignored;
     fs::remove(database.string() + end, ignored);
   }
   std::error_code ignored;
   fs::remove(anchor_path(database), ignored);
-  fs::remove_all(recordings, ignored);
+  for (const char* beside : {".recordings", ".films", ".live"}) {
+    fs::path folder = database;
+    fs::remove_all(folder.replace_extension(beside), ignored);
+  }
+  const std::string old = database.filename().string() + ".schema";   // what a migration kept
+  std::vector<fs::path> backups;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(database).parent_path(), ignored))
+    if (entry.path().filename().string().starts_with(old)) backups.push_back(entry.path());
+  for (const fs::path& backup : backups) fs::remove(backup, ignored);
 }
 
 /// What the mark says; it is sealed, so that a demo database cannot be taken for another.

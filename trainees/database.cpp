@@ -2,13 +2,10 @@
 
 #include <sqlite3.h>
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <string_view>
 #include <thread>
 
 #include "haptics/input_error.h"
@@ -29,15 +26,15 @@ void make_folder(const fs::path& file) {
   if (!make_owner_folders(file.parent_path())) throw EnvironmentError(file.string() + ": its folder cannot be created: " + std::strerror(errno));
 }
 
-/// A file that is something else is not touched. SQLite itself takes one of a few bytes for an empty database and writes over it.
+/// A file that is something else is not touched. SQLite itself takes one of a few bytes for an empty database and writes over it; a longer one
+/// it refuses. The file is not opened here: closing it would drop the locks (POSIX) of every connection that this program has to it, and the
+/// next program would take itself for the only one and remove the log that they write to.
 void require_no_other_content(const fs::path& file) {
-  constexpr std::string_view kBeginning("SQLite format 3", 16);  // with its zero
-  std::array<char, kBeginning.size()> bytes{};
+  constexpr std::uintmax_t kLeastPage = 512;
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return;
-  std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), bytes.size());
-  if (in.gcount() == 0 || std::string_view(bytes.data(), static_cast<std::size_t>(in.gcount())) == kBeginning) return;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size == 0 || size >= kLeastPage) return;
   throw InputError(file.string() + ": is not a database");
 }
 

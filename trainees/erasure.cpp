@@ -127,8 +127,10 @@ std::vector<fs::path> files_of(const KeptRecording& recording) {
 }
 
 /// Only what is known to be the attempt's: a name given by --record may stand for another file by now.
-void remove_recording(const KeptRecording& recording, ErasureReport& report) {
+void remove_recording(const KeptRecording& recording, const fs::path& film, ErasureReport& report) {
   std::error_code error;
+  if (fs::remove(film, error)) report.recordings.push_back(film);
+  else if (error) report.left.push_back(film.string() + ": cannot be removed: " + error.message());
   if (!fs::exists(recording.file, error)) return;
   if (recording.file.stem() != recording.uuid && digest::of_readable_file(recording.file) != recording.sha256) {
     report.left.push_back(recording.file.string() + ": is not what attempt " + recording.uuid + " recorded; it was left");
@@ -206,7 +208,8 @@ ErasureReport erase_trainee(Database& database, const std::string& trainee, Eras
     }
     transaction.commit();
   }
-  for (const KeptRecording& recording : recordings) remove_recording(recording, report);
+  const fs::path films = database.file().parent_path() / (database.file().stem().string() + ".films");   // the desk's
+  for (const KeptRecording& recording : recordings) remove_recording(recording, films / (recording.uuid + ".mp4"), report);
   empty_log(database, report);
   return report;
 }

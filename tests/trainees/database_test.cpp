@@ -1,6 +1,7 @@
 // Opening: new, existing, missing, foreign, damaged, newer, busy, full, two at once.
 #include "trainees/database.h"
 
+#include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -56,6 +57,35 @@ std::string refused_unread(const fs::path& file, OpenMode mode) {
   EXPECT_TRUE(bytes_of(file) == before) << file;
   for (const char* beside : {"-wal", "-shm", "-journal", ".anchor"}) EXPECT_FALSE(fs::exists(file.string() + beside)) << beside;
   return message;
+}
+
+/// Whether another program would see that this one has the database open: SQLite's shared lock on the file.
+bool locked_for_others(const fs::path& file) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int opened = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    struct flock shared = {};
+    shared.l_type = F_WRLCK;
+    shared.l_whence = SEEK_SET;
+    shared.l_start = 0x40000002;
+    shared.l_len = 510;
+    const bool held = opened >= 0 && fcntl(opened, F_GETLK, &shared) == 0 && shared.l_type != F_UNLCK;
+    _exit(held ? 1 : 0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 1;
+}
+
+TEST_F(DatabaseFile, ASecondConnectionOfTheProgramLeavesTheFirstItsLock) {
+  const fs::path file = folder_ / "t.db";
+  Database first(file);
+  TraineeStore(first).ensure_trainee("T-1");
+  ASSERT_TRUE(locked_for_others(file));
+  Database second(file, OpenMode::kExisting);
+  EXPECT_TRUE(locked_for_others(file)) << "else the next program takes itself for the only one and removes the log";
+  { Database third(file, OpenMode::kExisting); }
+  EXPECT_TRUE(locked_for_others(file));
 }
 
 TEST_F(DatabaseFile, AnEmptyFileIsNotMadeIntoOneByReading) {

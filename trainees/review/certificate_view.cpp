@@ -7,11 +7,14 @@
 namespace trocar::review {
 namespace {
 
-bool cites(const Certificate& certificate, const std::string& attempt_uuid) {
+/// The attempt that it cites; "" where its evidence names none.
+std::string cited(const Certificate& certificate) {
   const nlohmann::json evidence = nlohmann::json::parse(certificate.evidence, nullptr, false);
-  const auto at = evidence.is_object() ? evidence.find("attempt") : evidence.end();
-  return evidence.is_object() && at != evidence.end() && *at == attempt_uuid;
+  if (!evidence.is_object() || !evidence.contains("attempt") || !evidence["attempt"].is_string()) return "";
+  return evidence["attempt"].get<std::string>();
 }
+
+bool cites(const Certificate& certificate, const std::string& attempt_uuid) { return cited(certificate) == attempt_uuid; }
 
 }  // namespace
 
@@ -36,6 +39,19 @@ void add_certificates(AttemptView& view, Database& database) {
     const bool same = certificate.exercise_id == view.result.exercise_id && certificate.level == view.result.level;
     if (of_this || same) view.certificates.push_back({std::move(certificate), of_this});
   }
+}
+
+ShakenCertificates shaken_certificates(Database& database, const std::vector<Certificate>& certificates) {
+  ShakenCertificates out;
+  const OpinionStore opinions(database);
+  for (const Certificate& certificate : certificates) {
+    if (!certificate.revoked_utc.empty()) continue;
+    const auto decisions = opinions.overrides_of(cited(certificate));
+    if (decisions.empty() || decisions.front().passed) continue;
+    const VerdictOverride& last = decisions.front();
+    out[certificate.uuid] = "The attempt that it cites was decided not passed by " + last.printed + " on " + last.utc.substr(0, 10) + ": " + last.reason;
+  }
+  return out;
 }
 
 std::string certificate_evidence(const AttemptView& view) {

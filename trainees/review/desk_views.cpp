@@ -194,6 +194,7 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   view.erased = picture.training_erased;
   view.notes = std::move(picture.notes);
   view.certificates = std::move(picture.certificates);
+  view.shaken = shaken_certificates(desk.database, view.certificates);
   view.rules_version = rules.version;
   view.created_utc = picture.created_utc;
   return view;

@@ -73,6 +73,7 @@ printed::CertificateSheet certificate_sheet(const CertificateView& view, const R
                {"Period of the attempts", period},
                {"Rules of progress", "version " + c.rule_version},
                {"Device, input", list_of(totals.devices, none) + "; " + list_of(totals.inputs, none)}};
+  if (!view.since.empty()) out.facts.push_back({"Since then", view.since});
   out.columns = {{"No.", 0.6, true}, {"When (UTC)", 2.2},  {"Score", 0.9, true},
                  {"Result", 2.6},    {"Chain", 0.9, true}, {"Row hash (sha256)", 4.6, false, true}};
   for (std::size_t i = 0; i < view.attempts.size(); ++i) {

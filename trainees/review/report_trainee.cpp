@@ -117,9 +117,11 @@ Table certificate_table(const TraineeView& view) {
     for (const CurveView& curve : view.curves)
       if (curve.key.exercise_id == c.exercise_id) title = curve.title;
     const bool holds = c.revoked_utc.empty();
+    const auto shaken = view.shaken.find(c.uuid);
+    const Cell held = shaken == view.shaken.end() ? Cell("holds", Tone::kGood) : Cell("holds, but: " + shaken->second, Tone::kBad);
     table.rows.push_back(
         {title + " " + c.level, printed::day_text(c.utc), c.printed, c.rule_version, evidence_words(c.evidence),
-         holds ? Cell("holds", Tone::kGood) : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad),
+         holds ? held : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad),
          c.uuid});
   }
   return table;

@@ -124,6 +124,9 @@ CohortReportView cohort_report_view(Desk& desk, const std::map<std::string, std:
   request.query = filters;
   CohortReportView out;
   out.cohort = cohort_view(desk, request);
+  const auto& groups = out.cohort.groups;
+  if (const std::string& group = out.cohort.asked.group; !group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
+    throw InputError("group \"" + group + "\": nobody is in a group of that name");
   const CohortQuestion& only = out.cohort.asked;
   for (Benchmark& b : CurriculumStore(desk.database).benchmarks(only.exercise_id, only.level)) {
     const bool known = std::any_of(out.benchmarks.begin(), out.benchmarks.end(), [&](const Benchmark& other) {
@@ -157,6 +160,7 @@ CertificateView certificate_view(Desk& desk, const std::string& uuid) {
   std::string attempt;
   read_evidence(out, attempt);
   out.attempts = attempts_behind(desk.database, out.certificate, attempt);
+  for (const auto& [unused, words] : shaken_certificates(desk.database, {out.certificate})) out.since = words;
   return out;
 }
 

@@ -59,6 +59,7 @@ struct CertificateView {
   std::string evidence = {};                     ///< the judgement's sentence
   int n = 0;                                     ///< that the judgement rested on; 0: not recorded
   std::optional<double> reliability = {};
+  std::string since = {};   ///< what happened to what it cites; "" nothing
 };
 printed::CertificateSheet certificate_sheet(const CertificateView& view, const ReportSetting& setting);
 

@@ -198,6 +198,8 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
     out += std::string("<article class=\"certificate") + (held ? "" : " withdrawn") + "\"><h3>" + shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
            (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " + escape_html(c.printed) + ", rules " +
            escape_html(c.rule_version) + "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
+    if (const auto shaken = view.shaken.find(c.uuid); shaken != view.shaken.end())
+      out += "<p class=\"warning\">" + shape("integrity") + escape_html(sentence(shaken->second)) + "</p>";
     if (frame.pdf) out += "<p class=\"files\">" + link_html("/report/certificate/" + url_part(c.uuid) + ".pdf", "Certificate as PDF") + "</p>";
     if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason) + "</p>";
     if (held && frame.may_write)

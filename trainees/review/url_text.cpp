@@ -89,6 +89,20 @@ std::string percent_encoded(std::string_view text) {
   return out;
 }
 
+namespace {
+
+/// Browsers end lines of a text with CR LF; here a line ends with LF.
+std::string one_line_end(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\r') out += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n') out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
 std::optional<std::map<std::string, std::string>> form_fields(std::string_view text, std::size_t most) {
   std::map<std::string, std::string> out;
   std::size_t count = 0;
@@ -101,7 +115,7 @@ std::optional<std::map<std::string, std::string>> form_fields(std::string_view t
     const auto name = percent_decoded(part.substr(0, equals), true);
     const auto value = percent_decoded(equals == std::string_view::npos ? "" : part.substr(equals + 1), true);
     if (!name || !value) return {};
-    out[*name] = *value;
+    out[*name] = one_line_end(*value);
   }
   return out;
 }

@@ -19,7 +19,7 @@ std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_s
 /// Letters, digits and -._~ stay; the rest becomes %XX.
 std::string percent_encoded(std::string_view text);
 
-/// "a=1&b=2" as map; the last of a name stands. @returns nothing when a part cannot be decoded, or there are more than `most`.
+/// "a=1&b=2" as map; the last of a name stands; CR LF and CR become LF. @returns nothing when a part cannot be decoded, or there are more than `most`.
 std::optional<std::map<std::string, std::string>> form_fields(std::string_view text, std::size_t most = 1000);
 
 /// A path of this desk: one '/' at its beginning, visible ASCII without backslash, at most 1000 bytes. What leads elsewhere is none.

@@ -114,7 +114,11 @@ struct DueDate {
   bool over = false;
 };
 
+/// Certificates that hold although the attempt that they cite was decided not passed later: by number, what happened.
+using ShakenCertificates = std::map<std::string, std::string>;
+
 struct TraineeView {
+  ShakenCertificates shaken = {};
   std::string code = {}, name = {};
   std::vector<std::string> groups = {};
   std::vector<CurveView> curves = {};

@@ -96,5 +96,11 @@ TEST(ToldText, LeavesWhatIsNoFolder) {
   }
 }
 
+TEST(FormFields, LinesEndOneWayWhateverTheBrowserSends) {
+  const auto fields = form_fields("text=one%0D%0Atwo%0Dthree%0Afour%0D%0A");
+  ASSERT_TRUE(fields);
+  EXPECT_EQ(fields->at("text"), "one\ntwo\nthree\nfour\n");
+}
+
 }  // namespace
 }  // namespace trocar::review
