@@ -240,7 +240,7 @@ Signature OpinionStore::sign(const std::string& attempt_uuid, const std::string&
     throw InputError("signature: its meaning is review, approval, responsibility or authorship, not \"" + meaning + "\"");
   }
   check_printed("signer", author.printed);
-  if (!note.empty()) check_prose("signature's note", note, 1000);
+  if (!note.empty()) check_prose("signature's note", note);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);

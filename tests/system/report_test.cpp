@@ -28,7 +28,10 @@ TEST_F(ReviewReport, WritesPdfAndHtmlForItsOwnerAlone) {
   EXPECT_TRUE(file_bytes(folder_ / "t.pdf").starts_with("%PDF-1."));
   EXPECT_TRUE(file_bytes(folder_ / "t.html").starts_with("<!DOCTYPE html>"));
   EXPECT_EQ(report({"--cohort", "-o", "c.pdf"}).exit_code, 0);
-  EXPECT_EQ(report({"--cohort", "--group", "2026 A", "-o", "a.html"}).exit_code, 0);
+  const Outcome nobody = report({"--cohort", "--group", "2026 A", "-o", "a.html"});
+  EXPECT_EQ(nobody.exit_code, 2);
+  EXPECT_NE(nobody.err.find("nobody is in a group of that name"), std::string::npos) << nobody.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.html"));
 }
 
 TEST_F(ReviewReport, ReplacesAFileOnlyWhenTold) {

@@ -119,7 +119,7 @@ TEST_F(KeptRows, APersonTakenOutWithoutAnErasureIsFound) {
 }
 
 TEST_F(KeptRows, APersonPutInForAnErasedTraineeIsFound) {
-  expect_found("INSERT INTO person VALUES (3, 'T-4', '', '')", "person of trainee ");
+  expect_found("INSERT INTO person VALUES (3, 'T-4', '', '', '')", "person of trainee ");
   EXPECT_NE(problems_of(Database(file_)).find("stands here although it was erased"), std::string::npos);
 }
 
@@ -253,7 +253,7 @@ TEST_F(KeptRows, NoColumnIsForgotten) {
   for (const Column& column : columns_with_rows(file_)) {
     if (column.table == "replica" || (column.name == "trainee_id" && column.table == "account")) continue;  // no rows; no trainee's account
     fresh_copy(copy);
-    ASSERT_EQ(run_without_triggers(copy, "UPDATE " + column.table + " SET " + column.name + " = " + changed(column)), "")
+    ASSERT_EQ(run_without_triggers(copy, "PRAGMA ignore_check_constraints = ON; UPDATE " + column.table + " SET " + column.name + " = " + changed(column)), "")
         << column.table << "." << column.name;
     if (problems_of(Database(copy)).empty()) silent.insert(column.table + "." + column.name);
   }
