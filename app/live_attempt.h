@@ -26,6 +26,8 @@ class LiveAttempt {
 
   /// Each moment that is shown. @param now of the clock
   void see(const SessionView& view, bool paused, Clock::time_point now);
+  /// Before anything was seen.
+  void see_paused() { moment_.phase = "paused"; }
   const LiveMoment& moment() const { return moment_; }
 
  private:

@@ -32,6 +32,8 @@ void PracticeDesk::State::tell_desk(bool guest) {
   }
   if (const RunMoment& moment = runner->newest(); moment.seen)
     told->see(view_of(runner->scene(), moment), runner->paused(), LiveAttempt::Clock::now());
+  else if (runner->paused())
+    told->see_paused();
   if (told->moment().phase == told_phase && !live->wanted()) return;
   told_phase = told->moment().phase;
   live->tell(told->moment());
