@@ -2,7 +2,8 @@
 add_library(trocar_options INTERFACE)
 target_include_directories(trocar_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Same input, same bytes: no fused multiply-add behind our back.
-target_compile_options(trocar_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+target_compile_options(trocar_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                       -Wno-subobject-linkage)  # joined translation units: a type of one .cpp looks as if it came from a header
 if(TROCAR_WERROR)
   target_compile_options(trocar_options INTERFACE -Werror)
 endif()
@@ -17,4 +18,29 @@ function(trocar_relax_sanitizer target)
   if(TROCAR_SANITIZE MATCHES "undefined")
     target_compile_options(${target} PRIVATE -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow)
   endif()
+endfunction()
+
+# Every .cpp of the named folders (not below them), so that a new file needs no line here.
+function(trocar_sources result)
+  set(_found)
+  foreach(_room IN LISTS ARGN)
+    file(GLOB _files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${_room}/*.cpp)
+    if(NOT _files)
+      message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR}/${_room}: no source in this folder")
+    endif()
+    list(APPEND _found ${_files})
+  endforeach()
+  set(${result} ${_found} PARENT_SCOPE)
+endfunction()
+
+# trocar_library(NAME ROOMS folders... [EXCEPT files...] [PUBLIC libs...] [PRIVATE libs...])
+# A static library of all sources of its rooms. What it is compiled with besides: trocar_options.
+function(trocar_library name)
+  cmake_parse_arguments(ARG "" "" "ROOMS;EXCEPT;PUBLIC;PRIVATE" ${ARGN})
+  trocar_sources(_sources ${ARG_ROOMS})
+  foreach(_file IN LISTS ARG_EXCEPT)
+    list(REMOVE_ITEM _sources ${CMAKE_CURRENT_SOURCE_DIR}/${_file})
+  endforeach()
+  add_library(${name} STATIC ${_sources})
+  target_link_libraries(${name} PUBLIC trocar_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()

@@ -10,13 +10,13 @@
 namespace trocar {
 
 DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRecord& record) noexcept {
-  const Motion motion = measure(in);                              // counts -> angles -> ArmState -> rates -> twist
-  Contact contact = feel(motion, patch);                          // instrument -> tissue, pinch -> tau = J^T F
-  TorqueShares shares = hold_up(motion, contact);                 // limit springs and weight, and the room they leave
-  shares.contact = make_passive(motion, contact);                 // budget, fed with what was applied
+  const Motion motion = measure(in);                                // counts -> angles -> ArmState -> rates -> twist
+  Contact contact = feel(motion, patch);                            // instrument -> tissue, pinch -> tau = J^T F
+  TorqueShares shares = hold_up(motion, contact);                   // limit springs and weight, and the room they leave
+  shares.contact = make_passive(motion, contact);                   // budget, fed with what was applied
   const LimitedTorque torque = share_out(motion, contact, shares);  // then friction, alignment; rate and size limited
-  watch(motion, contact, torque);                                 // faults, heat, warnings
-  const DacFrame out = to_codes(torque);                          // volts -> DAC codes; zero unless powered
+  watch(motion, contact, torque);                                   // faults, heat, warnings
+  const DacFrame out = to_codes(torque);                            // volts -> DAC codes; zero unless powered
   publish(in, motion, contact, torque, out, record);
   safety_log_.add(record);
   ++tick_;
@@ -25,9 +25,9 @@ DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRe
 
 PassivityParameters HapticLoopConfig::pinch_defaults() {
   PassivityParameters p;
-  p.viscous_n_s_per_m = 1.0;  // slide and finger pads [assumed]
-  p.coulomb_n = 0.04;         // [assumed]
-  p.effective_mass_kg = 0.02; // jaw and finger [assumed]
+  p.viscous_n_s_per_m = 1.0;   // slide and finger pads [assumed]
+  p.coulomb_n = 0.04;          // [assumed]
+  p.effective_mass_kg = 0.02;  // jaw and finger [assumed]
   return p;
 }
 
@@ -92,8 +92,8 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       instrument_(config.map),
       port_(config.port),
       contact_(config.contact_law, config.tool),
-      arm_passivity_(with_friction_left(with_period(config.passivity, period_s_, config.known_delay_periods),
-                                         config.friction)),
+      arm_passivity_(
+          with_friction_left(with_period(config.passivity, period_s_, config.known_delay_periods), config.friction)),
       pinch_(with_period(config.pinch_passivity, period_s_, config.known_delay_periods)),
       pinch_passivity_(pinch_),
       limiter_(torque_limits(config.device), torque_rates(config), period_s_),
@@ -136,7 +136,8 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
     motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
     if (i < kArmJoints) motion.lag_s = std::max(motion.lag_s, velocity_[i].lag_s());
   }
-  motion.travel = fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_).cwiseProduct(count_);
+  motion.travel =
+      fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_).cwiseProduct(count_);
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.tip_speed = twist.head<3>().norm();
@@ -181,7 +182,8 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
     return motion.arm.J_WS.transpose() * w;
   };
   contact.jaw_share = rendered_share(motion.arm.det_a);
-  contact.port_share = contact.jaw_share * instrument_.share();  // the clutch parts the arm from the scene, not the fingers
+  contact.port_share =
+      contact.jaw_share * instrument_.share();  // the clutch parts the arm from the scene, not the fingers
   const Wrench whole = instrument_.stylus_wrench(contact.tissue.F_I_T);
   const Wrench spring = instrument_.stylus_wrench(contact.tissue.spring_I_T);
   const JointVector spring_torque = torque_of(spring);
@@ -217,8 +219,7 @@ void HapticLoop::feel_port(const Motion& motion, Contact& contact) noexcept {
   contact.port.head<kArmJoints>() = contact.port_share * (motion.arm.J_WS.transpose() * w);
   w << alignment.force, alignment.moment;
   contact.alignment.head<kArmJoints>() = contact.port_share * motion.arm.J_WS.transpose() * w;
-  contact.port_stored_j =
-      map.force_scale * port_.stored_j() + alignment_energy_j(map, instrument_.X_WS(), stiffness);
+  contact.port_stored_j = map.force_scale * port_.stored_j() + alignment_energy_j(map, instrument_.X_WS(), stiffness);
 }
 
 double HapticLoop::rendered_share(double det_a) const noexcept {
@@ -229,7 +230,8 @@ TorqueShares HapticLoop::hold_up(const Motion& motion, Contact& contact) noexcep
   TorqueShares shares;
   if (!supervisor_.powered()) return shares;
   const JointVector qd = motion.qd.head<kArmJoints>();
-  shares.springs = supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd) + watch_.damping(motion.qd);
+  shares.springs =
+      supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd) + watch_.damping(motion.qd);
   if (config_.carry_weight) {
     shares.gravity.head<kArmJoints>() = supervisor_.ramp() * gravity_torque(config_.device, motion.arm);
   }
@@ -331,7 +333,8 @@ DacFrame HapticLoop::to_codes(const LimitedTorque& torque) noexcept {
   }
   const DacFrame out = dac_codes(config_.device, torque.total, config_.daq.dac_bits);
   // What quantisation left is charged to the contact: the observer sees the codes, not the wish.
-  asked_contact_.add(torque.contact + torque.alignment + (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total));
+  asked_contact_.add(torque.contact + torque.alignment +
+                     (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total));
   return out;
 }
 

@@ -8,17 +8,15 @@
 #include <array>
 #include <vector>
 
+#include "haptics/contact/contact_renderer.h"
+#include "haptics/contact/friction.h"
+#include "haptics/contact/stiffness_limit.h"
 #include "haptics/control/channel_velocity.h"
-#include "haptics/control/contact_renderer.h"
 #include "haptics/control/damping_distribution.h"
 #include "haptics/control/device_watch.h"
-#include "haptics/control/friction.h"
-#include "haptics/control/instrument_coupling.h"
 #include "haptics/control/passivity.h"
 #include "haptics/control/pinch_channel.h"
-#include "haptics/control/port_forces.h"
 #include "haptics/control/safety_log.h"
-#include "haptics/control/stiffness_limit.h"
 #include "haptics/control/sub_count_travel.h"
 #include "haptics/control/supervisor.h"
 #include "haptics/control/torque_history.h"
@@ -29,27 +27,29 @@
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/exchange/tick_record.h"
 #include "haptics/kinematics/hybrid_arm.h"
+#include "haptics/mapping/instrument_coupling.h"
+#include "haptics/mapping/port_forces.h"
 
 namespace trocar {
 
 struct HapticLoopConfig {
-  DaqCapabilities daq;                  ///< rate and DAC bits of the back-end
+  DaqCapabilities daq;  ///< rate and DAC bits of the back-end
   DeviceModel device;
   InstrumentMap map;
-  PortParameters port;                  ///< fulcrum mapping only
+  PortParameters port;  ///< fulcrum mapping only
   ToolShape tool;
   ContactLaw contact_law = ContactLaw::kProxy;
-  PassivityParameters passivity;        ///< arm; period_s is set from the rate
+  PassivityParameters passivity;  ///< arm; period_s is set from the rate
   PassivityParameters pinch_passivity = pinch_defaults();
   FrictionFeedForward friction;
   SafetyLimits safety;
   MotorHeatParameters heat;
   VelocityMethod velocity = VelocityMethod::kBlend;
-  int known_delay_periods = 0;          ///< whole periods between write and DAC beyond the seam's own one, as measured
-  bool carry_weight = true;             ///< gravity compensation; off only to show what it is good for
-  bool clamp_stiffness = false;         ///< contacts stiffer than K_max are weakened to it (stiffness_limit.h)
-  double torque_rate = 100;             ///< N m/s a joint
-  double pinch_force_rate = 500;        ///< N/s
+  int known_delay_periods = 0;    ///< whole periods between write and DAC beyond the seam's own one, as measured
+  bool carry_weight = true;       ///< gravity compensation; off only to show what it is good for
+  bool clamp_stiffness = false;   ///< contacts stiffer than K_max are weakened to it (stiffness_limit.h)
+  double torque_rate = 100;       ///< N m/s a joint
+  double pinch_force_rate = 500;  ///< N/s
 
   static PassivityParameters pinch_defaults();
 };
@@ -75,30 +75,30 @@ class HapticLoop {
   struct Motion {
     ArmState arm;
     ChannelVector q, qd;
-    ChannelVector travel;                          ///< since the last tick, to a fraction of a count
+    ChannelVector travel;  ///< since the last tick, to a fraction of a count
     Pose X_TI;
     Twist V_TI_T;
-    double tip_speed = 0;                          ///< of the stylus, m/s
-    std::array<std::int32_t, kChannels> delta{};   ///< counts since the last tick
-    double periods = 1;                            ///< since the last tick
-    double lag_s = 0;                              ///< of the slowest arm channel's velocity
+    double tip_speed = 0;                         ///< of the stylus, m/s
+    std::array<std::int32_t, kChannels> delta{};  ///< counts since the last tick
+    double periods = 1;                           ///< since the last tick
+    double lag_s = 0;                             ///< of the slowest arm channel's velocity
   };
   struct Contact {
     ContactResult tissue;
     GripResult grip;
     ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, times share, before passivity
-    double share = 1;                              ///< of the contact that ramp, singularity, heat, clutch and K_max let through
-    double port_share = 1;                         ///< the same of the port's friction: without the stiffness limit
-    double room = 1;                               ///< share of all contact torque that the motors can give
-    double jaw_share = 1;                          ///< the same of the grip, without the clutch, with its own K_max
-    StiffnessLimit limit;                          ///< K_max and what it left of the spring
-    StiffnessLimit jaw_limit;                      ///< the same of the block, share 1 once it is weakened
-    double stiffness = 0;                          ///< of that spring at the stylus, N/m
-    double spring_n = 0;                           ///< spring force asked at the stylus, without damping
-    Vec3 commanded_W = Vec3::Zero();               ///< force asked at the stylus
+    double share = 1;                 ///< of the contact that ramp, singularity, heat, clutch and K_max let through
+    double port_share = 1;            ///< the same of the port's friction: without the stiffness limit
+    double room = 1;                  ///< share of all contact torque that the motors can give
+    double jaw_share = 1;             ///< the same of the grip, without the clutch, with its own K_max
+    StiffnessLimit limit;             ///< K_max and what it left of the spring
+    StiffnessLimit jaw_limit;         ///< the same of the block, share 1 once it is weakened
+    double stiffness = 0;             ///< of that spring at the stylus, N/m
+    double spring_n = 0;              ///< spring force asked at the stylus, without damping
+    Vec3 commanded_W = Vec3::Zero();  ///< force asked at the stylus
     ChannelVector port = ChannelVector::Zero();       ///< friction of the port, times share
     ChannelVector alignment = ChannelVector::Zero();  ///< spring that leads the stylus along the shaft
-    double port_stored_j = 0;                      ///< in both, before share
+    double port_stored_j = 0;                         ///< in both, before share
     JointVector spring_torque = JointVector::Zero();  ///< conjugate to it, times share
     JointVector carried = JointVector::Zero();        ///< limit springs and weight
   };
@@ -120,26 +120,26 @@ class HapticLoop {
 
   HapticLoopConfig config_;
   double period_s_;
-  ChannelVector home_, count_;               ///< where the jig holds the channels; their count, rad (m)
+  ChannelVector home_, count_;  ///< where the jig holds the channels; their count, rad (m)
   std::uint64_t tick_ = 0, periods_ = 0;
   CountAccumulator counts_;
   bool counting_ = false;
   std::uint64_t checked_stamp_ = ~std::uint64_t{0};  ///< patch whose triangles were checked last
-  std::vector<ChannelVelocity> velocity_;  ///< one a channel, sized once
+  std::vector<ChannelVelocity> velocity_;            ///< one a channel, sized once
   InstrumentCoupling instrument_;
   PortForces port_;
   ContactRenderer contact_;
   PassivityController arm_passivity_;
-  PassivityParameters pinch_;                ///< with period and delay
+  PassivityParameters pinch_;  ///< with period and delay
   PassivityController pinch_passivity_;
   TorqueLimiter limiter_;
   Supervisor supervisor_;
   DeviceWatch watch_;
   SafetyLog safety_log_;
-  TorqueHistory asked_contact_;                             ///< of the ticks past: acts after the known delay
+  TorqueHistory asked_contact_;  ///< of the ticks past: acts after the known delay
   SubCountTravel fine_;
   SmoothedRates friction_rates_;
-  double last_port_j_ = 0;                                  ///< energy in the port's springs one tick ago
+  double last_port_j_ = 0;  ///< energy in the port's springs one tick ago
 };
 
 }  // namespace trocar

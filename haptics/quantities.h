@@ -10,9 +10,9 @@
 
 namespace trocar {
 
-inline constexpr int kArmJoints = 6;                ///< th1..th3 shoulder, th4 elbow, th5 th6 wrist
-inline constexpr int kPinchChannel = kArmJoints;    ///< index of the pinch among the channels
-inline constexpr int kChannels = kArmJoints + 1;    ///< arm joints, then the pinch
+inline constexpr int kArmJoints = 6;              ///< th1..th3 shoulder, th4 elbow, th5 th6 wrist
+inline constexpr int kPinchChannel = kArmJoints;  ///< index of the pinch among the channels
+inline constexpr int kChannels = kArmJoints + 1;  ///< arm joints, then the pinch
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;

@@ -13,7 +13,7 @@
 
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
-#include "scenarios/grasp_rules.h"
+#include "scenarios/kinds/grasp/grasp_rules.h"
 #include "scenarios/scoring/rubric.h"
 
 namespace trocar {
@@ -23,9 +23,12 @@ enum class Mapping : std::uint8_t { kDirect, kFulcrum };
 
 constexpr const char* kind_name(ExerciseKind kind) {
   switch (kind) {
-    case ExerciseKind::kReach: return "reach";
-    case ExerciseKind::kTouch: return "touch";
-    case ExerciseKind::kGrasp: return "grasp";
+    case ExerciseKind::kReach:
+      return "reach";
+    case ExerciseKind::kTouch:
+      return "touch";
+    case ExerciseKind::kGrasp:
+      return "grasp";
   }
   return "unknown";
 }
@@ -45,72 +48,72 @@ struct LevelAnchors {
 
 /// What one level asks for.
 struct ExerciseLevel {
-  std::string name;                    ///< "L1", "L2", "L3" or "exam"
+  std::string name;  ///< "L1", "L2", "L3" or "exam"
   Mapping mapping = Mapping::kDirect;
-  Vec3 port_m = Vec3::Zero();          ///< fulcrum only: the pivot, relative to the region's centre
-  double instrument_length_m = 0.300;  ///< fulcrum only: handle to tip
-  double motion_scale = 1;             ///< scene metres per device metre
-  double force_scale = 1;              ///< kappa; "auto" is resolved by the session and is negative here
+  Vec3 port_m = Vec3::Zero();            ///< fulcrum only: the pivot, relative to the region's centre
+  double instrument_length_m = 0.300;    ///< fulcrum only: handle to tip
+  double motion_scale = 1;               ///< scene metres per device metre
+  double force_scale = 1;                ///< kappa; "auto" is resolved by the session and is negative here
   std::string force_display = "always";  ///< always | band (only outside the limits) | after (not during the run)
-  bool guides = true;                  ///< guide lines from the tip to what is asked for
-  bool exam = false;                   ///< a trainee meets each board once
+  bool guides = true;                    ///< guide lines from the tip to what is asked for
+  bool exam = false;                     ///< a trainee meets each board once
   double time_limit_s = 0;
-  double expert_time_s = 0;            ///< muE of the rubric's time anchors; 0 when they need none
+  double expert_time_s = 0;                ///< muE of the rubric's time anchors; 0 when they need none
   double band_low_n = 0, band_high_n = 0;  ///< touch: lowest and highest wanted force
-  std::vector<WantedForce> bands;        ///< touch: one, or several dealt out to the discs
+  std::vector<WantedForce> bands;          ///< touch: one, or several dealt out to the discs
   double position_tolerance_m = 0, angle_tolerance_rad = 0;  ///< reach
-  std::vector<LevelAnchors> anchors;   ///< in place of the rubric's
-  GraspLevel grasp;                    ///< grasp
-  Rubric rubric;                       ///< with this level's anchors
+  std::vector<LevelAnchors> anchors;                         ///< in place of the rubric's
+  GraspLevel grasp;                                          ///< grasp
+  Rubric rubric;                                             ///< with this level's anchors
 };
 
 /// Where the objects of a board may lie; what only discs on an organ have is marked.
 struct TargetLayout {
   int count = 0;
-  double radius_m = 0;                 ///< disc
+  double radius_m = 0;                    ///< disc
   double region_x_m = 0, region_y_m = 0;  ///< extent of the board region in T
-  double relief_m = 0;                 ///< objects lie within +- this height of the region's centre
+  double relief_m = 0;                    ///< objects lie within +- this height of the region's centre
   double min_spacing_m = 0;
-  double max_slope_rad = 0;            ///< disc: between the surface normal and the approach axis (T's z)
-  double wrong_place_m = 0;            ///< disc: first contact further than this outside is a wrong place
+  double max_slope_rad = 0;  ///< disc: between the surface normal and the approach axis (T's z)
+  double wrong_place_m = 0;  ///< disc: first contact further than this outside is a wrong place
 };
 
 /// Touch: the grip event that ends the exercise.
 struct GripTask {
   double block_thickness_m = 0, block_stiffness_n_per_m = 0;
   double low_n = 0, high_n = 0, hold_s = 0;
-  double excess_n = 0;                 ///< GRIP_EXCESS above this
+  double excess_n = 0;  ///< GRIP_EXCESS above this
 };
 
 /// Reach: pens to match, tips on a spherical cap that opens upwards round the region's centre.
 struct PenRules {
-  double shell_radius_m = 0;           ///< of the sphere on which the tips lie
-  double cap_rad = 0;                  ///< half opening of the cap, about the downward axis
-  double tilt_rad = 0, roll_rad = 0;   ///< largest turn of a pen's axis from the resting instrument, and about it
-  double length_m = 0, radius_m = 0;   ///< as drawn
-  double timeout_s = 0;                ///< a lit pen not matched by then is an error and comes back at the end
+  double shell_radius_m = 0;          ///< of the sphere on which the tips lie
+  double cap_rad = 0;                 ///< half opening of the cap, about the downward axis
+  double tilt_rad = 0, roll_rad = 0;  ///< largest turn of a pen's axis from the resting instrument, and about it
+  double length_m = 0, radius_m = 0;  ///< as drawn
+  double timeout_s = 0;               ///< a lit pen not matched by then is an error and comes back at the end
 };
 
 struct Exercise {
   ExerciseKind kind = ExerciseKind::kTouch;
-  std::string id, title, version;      ///< "surface-touch"
-  std::string number;                  ///< "E02"
-  std::string goal;                    ///< one line for briefing and report
-  double time_limit_s = 0;             ///< unless the level names its own
+  std::string id, title, version;               ///< "surface-touch"
+  std::string number;                           ///< "E02"
+  std::string goal;                             ///< one line for briefing and report
+  double time_limit_s = 0;                      ///< unless the level names its own
   double start_sphere_m = 0, start_hold_s = 0;  ///< radius; time in it: READY -> ARMED -> RUN
-  Vec3 start_above_m = Vec3::Zero();   ///< start sphere's centre relative to the region's centre
+  Vec3 start_above_m = Vec3::Zero();            ///< start sphere's centre relative to the region's centre
   TargetLayout layout;
-  PenRules pens;                       ///< reach
-  double hold_s = 0;                   ///< time in band, or in pose, that completes a target
-  ContactMaterial surface;             ///< touch: of the organ
+  PenRules pens;            ///< reach
+  double hold_s = 0;        ///< time in band, or in pose, that completes a target
+  ContactMaterial surface;  ///< touch: of the organ
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
-  double retract_height_m = 0;         ///< of the ideal path between targets
-  GripTask grip;                       ///< touch
-  GraspRules grasp;                    ///< grasp
+  double retract_height_m = 0;  ///< of the ideal path between targets
+  GripTask grip;                ///< touch
+  GraspRules grasp;             ///< grasp
   std::vector<ExerciseLevel> levels;
-  Rubric rubric;                       ///< of the first level
+  Rubric rubric;  ///< of the first level
   std::filesystem::path file;
-  std::string text;                    ///< the file's bytes: embedded in recordings, hashed as the rubric's version
+  std::string text;  ///< the file's bytes: embedded in recordings, hashed as the rubric's version
 };
 
 /// Does the exercise happen on an organ?

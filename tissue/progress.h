@@ -1,7 +1,7 @@
 // How long work tells how far it is, and how it is stopped.
 //
-// The one who asks for the work passes a function; the work calls it now and then. The function may throw to stop the work: whoever
-// does the work holds nothing that a destructor does not give back, so nothing half-made stays.
+// The one who asks for the work passes a function; the work calls it now and then. The function may throw to stop the
+// work: whoever does the work holds nothing that a destructor does not give back, so nothing half-made stays.
 #pragma once
 
 #include <functional>

@@ -19,10 +19,10 @@ enum class ObjectMotion : std::uint8_t { kResting, kMoving, kHeld };
 
 /// A box of the scene, as it is now: enough to draw it.
 struct ObjectState {
-  Pose X_TO;                             ///< centre, axes along the edges
-  Vec3 size_m = Vec3::Zero();            ///< extents now (a crushed block is thinner)
+  Pose X_TO;                   ///< centre, axes along the edges
+  Vec3 size_m = Vec3::Zero();  ///< extents now (a crushed block is thinner)
   Vec3 velocity_T = Vec3::Zero();
-  std::int32_t kind = 0, colour = 0;     ///< as in its description
+  std::int32_t kind = 0, colour = 0;  ///< as in its description
   ObjectMotion motion = ObjectMotion::kResting;
   bool crushed = false;
 };
@@ -37,9 +37,9 @@ enum : std::int32_t { kPartyShaft = -1, kPartyJaw = -2, kPartyBoard = -3, kParty
 struct ContactPair {
   std::int32_t a = 0, b = 0;
   Vec3 point_T = Vec3::Zero();
-  Vec3 normal_T = Vec3::UnitZ();         ///< unit, from b to a
-  double depth_m = 0;                    ///< overlap, >= 0; two blocks touch from 0.1 mm before it on
-  double force_n = 0;                    ///< by the displayed stiffness; 0 between two objects
+  Vec3 normal_T = Vec3::UnitZ();  ///< unit, from b to a
+  double depth_m = 0;             ///< overlap, >= 0; two blocks touch from 0.1 mm before it on
+  double force_n = 0;             ///< by the displayed stiffness; 0 between two objects
 };
 
 enum class TissueMarkKind : std::uint8_t { kBlood, kChar, kWhitening, kWet };
@@ -47,27 +47,27 @@ enum class TissueMarkKind : std::uint8_t { kBlood, kChar, kWhitening, kWet };
 /// A place on the tissue that looks different from now on. It sticks to the tissue: its place is one at rest.
 struct TissueMark {
   TissueMarkKind kind = TissueMarkKind::kBlood;
-  Vec3 centre_T = Vec3::Zero();          ///< on the undeformed surface
+  Vec3 centre_T = Vec3::Zero();  ///< on the undeformed surface
   double radius_m = 0;
-  double strength = 0;                   ///< 0 none .. 1 full
+  double strength = 0;  ///< 0 none .. 1 full
 
   bool operator==(const TissueMark&) const = default;
 };
 
 struct TissueFrame {
-  std::uint64_t stamp = 0;               ///< frame number, from 1
-  double t_s = 0;                        ///< loop time of the state that it was made from
+  std::uint64_t stamp = 0;  ///< frame number, from 1
+  double t_s = 0;           ///< loop time of the state that it was made from
   std::int32_t object_count = 0;
   std::array<ObjectState, kMaxObjects> object;
   GripState grip = GripState::kEmpty;
-  std::int32_t grip_object = -1;         ///< the block that `grip` speaks of
-  double slipped_m = 0;                  ///< how far it has slid through the jaws since it was grasped
+  std::int32_t grip_object = -1;  ///< the block that `grip` speaks of
+  double slipped_m = 0;           ///< how far it has slid through the jaws since it was grasped
   std::int32_t pair_count = 0;
   std::array<ContactPair, kMaxContactPairs> pair;
   std::int32_t mark_count = 0;
   std::array<TissueMark, kMaxTissueMarks> mark;
-  double smoke_per_m = 0;                ///< extinction of the smoke in the cavity, 1/m: sight falls as exp(-k d)
-  double lens_fog = 0, lens_blood = 0;   ///< on the scope's lens, 0 clean .. 1 blind
+  double smoke_per_m = 0;               ///< extinction of the smoke in the cavity, 1/m: sight falls as exp(-k d)
+  double lens_fog = 0, lens_blood = 0;  ///< on the scope's lens, 0 clean .. 1 blind
 
   bool held() const { return grip == GripState::kHolding || grip == GripState::kSlipping; }
 };

@@ -6,8 +6,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kFirstStep = 0.01;     // s
-constexpr double kLongestStep = 0.05;   // s: a gap in the states never counts as more
+constexpr double kFirstStep = 0.01;    // s
+constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as more
 
 }  // namespace
 

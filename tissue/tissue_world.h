@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "haptics/control/tool_shape.h"
+#include "haptics/contact/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/exchange/stylus_state.h"
 #include "tissue/collision/patch_extraction.h"
-#include "tissue/mesh/triangle_surface.h"
+#include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/rigid/rigid_scene.h"
 #include "tissue/rigid/rigid_world.h"
 #include "tissue/tissue_frame.h"
@@ -21,7 +21,7 @@
 namespace trocar {
 
 struct TissueSetup {
-  const TriangleSurface* organ_T = nullptr;   ///< with its neighbours; must outlive the world; nullptr: none
+  const TriangleSurface* organ_T = nullptr;  ///< with its neighbours; must outlive the world; nullptr: none
   ContactMaterial organ;
   /// Of each triangle: 0 the organ, n the n-th of `neighbours`; empty: all the organ. Must outlive the world.
   std::span<const std::int32_t> triangle_material = {};

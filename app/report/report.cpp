@@ -7,12 +7,12 @@
 #include <numbers>
 #include <vector>
 
-#include "trainees/markup/html.h"
 #include "app/report/report_style.h"
 #include "app/report/stiffness_plot.h"
 #include "app/report/verdict.h"
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
+#include "trainees/markup/html.h"
 
 namespace trocar {
 namespace {

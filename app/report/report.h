@@ -1,15 +1,16 @@
 // The report of one attempt: a single HTML page with inline style and SVG, no script, no request to anywhere.
 //
-// Order: verdict and the one main reason, sub-scores (safety first, time last), force against time, stiffness beside K_max, tip path, events,
-// metrics, device receipt, origin of the organ, hashes. Prints on A4. Same input, same bytes. Thread: any.
+// Order: verdict and the one main reason, sub-scores (safety first, time last), force against time, stiffness beside
+// K_max, tip path, events, metrics, device receipt, origin of the organ, hashes. Prints on A4. Same input, same bytes.
+// Thread: any.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 #include "app/report/board_plots.h"
-#include "trainees/markup/plots.h"
 #include "scenarios/scoring/attempt_result.h"
+#include "trainees/markup/plots.h"
 
 namespace trocar {
 

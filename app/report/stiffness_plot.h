@@ -1,8 +1,8 @@
 // Stiffness of the contacts against time as inline SVG: what they asked of the device, K_max, and what was displayed.
 //
-// Displayed is what ramp, clamp, passivity control and torque budget left of the asked stiffness: asked times delivered over
-// commanded force. Mean of the ticks that touch in every pixel column; nothing is drawn where nothing is touched. N/m at the
-// stylus. Thread: any.
+// Displayed is what ramp, clamp, passivity control and torque budget left of the asked stiffness: asked times delivered
+// over commanded force. Mean of the ticks that touch in every pixel column; nothing is drawn where nothing is touched.
+// N/m at the stylus. Thread: any.
 #pragma once
 
 #include <string>

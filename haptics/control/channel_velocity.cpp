@@ -21,18 +21,26 @@ double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods
   const std::uint32_t periods = std::max<std::uint32_t>(1, elapsed_periods);
   double velocity = 0;
   switch (method_) {
-    case VelocityMethod::kBlend: velocity = blend(count, periods); break;
+    case VelocityMethod::kBlend:
+      velocity = blend(count, periods);
+      break;
     case VelocityMethod::kFoaw:
       velocity = foaw_.update(count, periods);
       lag_s_ = 0.5 * foaw_.window() * period_s_;
       break;
-    case VelocityMethod::kKalman: velocity = kalman_.update(count, periods); break;
+    case VelocityMethod::kKalman:
+      velocity = kalman_.update(count, periods);
+      break;
     case VelocityMethod::kBackward:
       velocity = started_ ? static_cast<double>(count - last_) * quantum_ / (periods * period_s_) : 0;
       lag_s_ = 0.5 * period_s_;
       break;
-    case VelocityMethod::kAverage: velocity = average(count, periods); break;
-    case VelocityMethod::kLowPass: velocity = low_pass(count, periods); break;
+    case VelocityMethod::kAverage:
+      velocity = average(count, periods);
+      break;
+    case VelocityMethod::kLowPass:
+      velocity = low_pass(count, periods);
+      break;
   }
   last_ = count;
   started_ = true;

@@ -32,9 +32,9 @@ inline constexpr std::array<VelocityMethodName, 6> kVelocityMethods{{{VelocityMe
 
 class ChannelVelocity {
  public:
-  static constexpr int kTaps = 8;              ///< of kAverage: the thesis' "velocity signal filter" [assumed length]
-  static constexpr double kCutOffHz = 40;      ///< of kLowPass
-  static constexpr double kSlow = 150, kFast = 300;    ///< counts/s
+  static constexpr int kTaps = 8;          ///< of kAverage: the thesis' "velocity signal filter" [assumed length]
+  static constexpr double kCutOffHz = 40;  ///< of kLowPass
+  static constexpr double kSlow = 150, kFast = 300;  ///< counts/s
 
   ChannelVelocity(VelocityMethod method, double quantum, double period_s);
 
@@ -55,7 +55,7 @@ class ChannelVelocity {
   KalmanVelocity kalman_;
   std::array<double, kTaps> tap_{};  ///< counts of the last periods
   std::size_t next_tap_ = 0;
-  double smooth_ = 0;                ///< of kLowPass, counts/s
+  double smooth_ = 0;  ///< of kLowPass, counts/s
   std::int64_t last_ = 0;
   bool started_ = false;
   double lag_s_ = 0;

@@ -6,7 +6,8 @@
 
 namespace trocar {
 
-PlacedDamping place_damping(double power_w, const JointVector& qd, const JointVector& headroom, const JointVector& weight) {
+PlacedDamping place_damping(double power_w, const JointVector& qd, const JointVector& headroom,
+                            const JointVector& weight) {
   PlacedDamping placed;
   if (!(power_w > 0) || !qd.allFinite()) return placed;
   std::array<bool, kArmJoints> held{};

@@ -59,8 +59,8 @@ std::int64_t DeviceWatch::arm_travel(const std::array<std::int32_t, kChannels>& 
   std::int64_t travel = 0;
   for (int i = 0; i < kArmJoints; ++i) {
     const std::int64_t off = static_cast<std::int64_t>(off_place_[i]) + delta[i];
-    off_place_[i] = static_cast<std::int32_t>(
-        std::clamp<std::int64_t>(off, -limits_.stuck_dither, limits_.stuck_dither));
+    off_place_[i] =
+        static_cast<std::int32_t>(std::clamp<std::int64_t>(off, -limits_.stuck_dither, limits_.stuck_dither));
     travel += std::abs(off - off_place_[i]);
   }
   return travel;

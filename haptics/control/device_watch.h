@@ -3,7 +3,8 @@
 // Warns first, reduces the torque next, raises a fault last (docs/device_and_safety.md names the values). A joint or
 // the tip that is too fast loses its contact force and is damped; if it is still too fast after overspeed_s, that is a
 // fault. An encoder is suspected when its motor pushes hard in free space and it counts nothing; it is at fault when
-// the other joints of the arm travel far meanwhile, or very far whatever the motor does. Thread: haptic task; no allocation.
+// the other joints of the arm travel far meanwhile, or very far whatever the motor does. Thread: haptic task; no
+// allocation.
 #pragma once
 
 #include <array>
@@ -21,12 +22,12 @@ struct WatchedTick {
   double periods = 1;                           ///< since the last tick
   std::array<std::int32_t, kChannels> delta{};  ///< counts since the last tick
   ChannelVector qd = ChannelVector::Zero();
-  double tip_speed = 0;                         ///< of the stylus, m/s
+  double tip_speed = 0;  ///< of the stylus, m/s
   double det_a = 1;
-  ChannelVector torque = ChannelVector::Zero(); ///< total asked of the motors
-  bool touching = false;                        ///< tissue or the jaws' block
+  ChannelVector torque = ChannelVector::Zero();  ///< total asked of the motors
+  bool touching = false;                         ///< tissue or the jaws' block
   bool saturated = false;
-  bool debt = false;                            ///< an energy budget has faded its stiffness
+  bool debt = false;  ///< an energy budget has faded its stiffness
 };
 
 class DeviceWatch {
@@ -58,7 +59,7 @@ class DeviceWatch {
   ChannelVector strong_ = ChannelVector::Zero();  ///< torque from which a channel should move
   double period_s_;
   std::array<MotorHeat, kChannels> heat_;
-  std::array<double, kChannels> pushed_s_{};        ///< much torque, no count, nothing touched
+  std::array<double, kChannels> pushed_s_{};              ///< much torque, no count, nothing touched
   std::array<std::int64_t, kArmJoints> pushed_travel_{};  ///< counts of the arm meanwhile
   std::array<std::int64_t, kArmJoints> quiet_travel_{};   ///< counts of the arm since this joint counted last
   std::array<std::int32_t, kArmJoints> off_place_{};  ///< counts from where travel was last taken, within the dither

@@ -49,7 +49,8 @@ Eigen::Matrix<double, 9, 1> gravity_parameters(const DeviceModel& model) {
     return p;
   }
   const Mat3 R_home = arm_state(home_angles()).R_WPprime;
-  for (const PlatformWeight& body : model.platform_weights) p.head<3>() += body.weight_n * (R_home.transpose() * body.home_W);
+  for (const PlatformWeight& body : model.platform_weights)
+    p.head<3>() += body.weight_n * (R_home.transpose() * body.home_W);
   p[0] -= model.stylus_weight_n * kLink1;
   p[3] += model.stylus_weight_n * kLink2;
   return p;

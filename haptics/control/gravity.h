@@ -2,9 +2,9 @@
 //
 // Three weights turn with the platform by ONE rotation, p(q) = R(q) R(home)^T p(home); the stylus weight sits at the
 // stylus origin. tau_g = dV/dq = -sum J_i^T G_i. The thesis' (4.3) to (4.7) add three partial rotations and are wrong
-// even at home (docs/thesis_errata.md). A model that has been identified carries base parameters instead of weights: first
-// moments of weight in P', 4, 5 and S, tau_g = dV/dq with V = z . (R_P' a + R_4 b + R_5 c + R_S d).
-// Thread: pure functions, any thread; no allocation.
+// even at home (docs/thesis_errata.md). A model that has been identified carries base parameters instead of weights:
+// first moments of weight in P', 4, 5 and S, tau_g = dV/dq with V = z . (R_P' a + R_4 b + R_5 c + R_S d). Thread: pure
+// functions, any thread; no allocation.
 #pragma once
 
 #include "haptics/device/device_model.h"

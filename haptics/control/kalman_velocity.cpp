@@ -5,8 +5,8 @@
 namespace trocar {
 namespace {
 
-constexpr int kToSteadyState = 4000;         // iterations; the gains stand still to 1e-12 after some 300
-constexpr std::uint32_t kLongestGap = 100;   // periods: beyond, the filter starts anew
+constexpr int kToSteadyState = 4000;        // iterations; the gains stand still to 1e-12 after some 300
+constexpr std::uint32_t kLongestGap = 100;  // periods: beyond, the filter starts anew
 
 Mat3 transition(double T) { return (Mat3() << 1, T, T * T / 2, 0, 1, T, 0, 0, 1).finished(); }
 

@@ -8,12 +8,12 @@
 namespace trocar {
 
 struct MotorHeatParameters {
-  double resistance_ohm = 2.32;         ///< [T table 3.1]
-  double winding_to_case_k_per_w = 3.1; ///< [M]
-  double case_to_air_k_per_w = 14;      ///< [M]
-  double winding_time_s = 12.4;         ///< [M]
-  double case_time_s = 612;             ///< [M]
-  double copper_per_k = 0.0039;         ///< [M]
+  double resistance_ohm = 2.32;          ///< [T table 3.1]
+  double winding_to_case_k_per_w = 3.1;  ///< [M]
+  double case_to_air_k_per_w = 14;       ///< [M]
+  double winding_time_s = 12.4;          ///< [M]
+  double case_time_s = 612;              ///< [M]
+  double copper_per_k = 0.0039;          ///< [M]
   double ambient_c = 25;
   double warn_c = 100, fade_c = 110, cut_c = 120;  ///< winding; limit of the motor is 125 C [M]
 };

@@ -15,7 +15,8 @@ constexpr double kStill = 1e-12;        // m
 }  // namespace
 
 void PassivityController::reset() {
-  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = lost_ = damping_w_ = thesis_j_ = stir_m_s_ = at_rest_s_ = 0;
+  energy_ = min_energy_ = budget_ = held_ = spring_ = missing_ = lost_ = damping_w_ = thesis_j_ = stir_m_s_ =
+      at_rest_s_ = 0;
   free_ticks_ = 0;
   active_ = false;
 }
@@ -24,7 +25,8 @@ double PassivityController::update(const ContactWork& work) {
   energy_ += work.absorbed_j;
   min_energy_ = std::min(min_energy_, energy_);
   const double v = work.speed_m_s;
-  const double eaten = 0.5 * p_.friction_left * (p_.viscous_n_s_per_m * v * v + p_.coulomb_n * std::abs(v)) * p_.period_s;
+  const double eaten =
+      0.5 * p_.friction_left * (p_.viscous_n_s_per_m * v * v + p_.coulomb_n * std::abs(v)) * p_.period_s;
   const double income = work.absorbed_j + eaten;
 
   double spring = work.wanted_n;
@@ -45,10 +47,16 @@ double PassivityController::update(const ContactWork& work) {
 double PassivityController::apply_law(const ContactWork& work, double income_j, double& spring) {
   double lost = 0;
   switch (p_.law) {
-    case PassivityLaw::kOff: return work.wanted_n;
-    case PassivityLaw::kThesis: return thesis_force(work);
-    case PassivityLaw::kReference: lost = damping(work); break;
-    case PassivityLaw::kIncrement: spring = bounded(work); break;
+    case PassivityLaw::kOff:
+      return work.wanted_n;
+    case PassivityLaw::kThesis:
+      return thesis_force(work);
+    case PassivityLaw::kReference:
+      lost = damping(work);
+      break;
+    case PassivityLaw::kIncrement:
+      spring = bounded(work);
+      break;
     case PassivityLaw::kCap:
       spring = capped(work, kappa());
       break;

@@ -3,22 +3,23 @@
 // Opening o = slide position; a block of thickness h and stiffness k pushes the jaws apart with F = k (h - o) while
 // o < h. The force is rendered through its own passivity budget (haptic_loop). Its limit, as the arm's:
 //   K_max = max(K_rest, min(2 b / T, b / (T/2 + Td), 2 fc / Delta))
-// with the pinch's own b and fc and the slide's way in one count, Delta (stiffness_limit.h names the sources); K_rest is
-// what the budget gives unpaid at rest. Stiffer blocks are weakened to it only where the arm's contacts are (clamp_stiffness).
-// Otherwise the budget reckons with the slide's own damping for them, without the fingers': with very light fingers, who damp
-// less than b, blocks of 1000 N/m and more swung for ever (pinch_budget_test.cpp). Thread: haptic task; no allocation.
+// with the pinch's own b and fc and the slide's way in one count, Delta (stiffness_limit.h names the sources); K_rest
+// is what the budget gives unpaid at rest. Stiffer blocks are weakened to it only where the arm's contacts are
+// (clamp_stiffness). Otherwise the budget reckons with the slide's own damping for them, without the fingers': with
+// very light fingers, who damp less than b, blocks of 1000 N/m and more swung for ever (pinch_budget_test.cpp). Thread:
+// haptic task; no allocation.
 #pragma once
 
 #include <algorithm>
 
+#include "haptics/contact/stiffness_limit.h"
 #include "haptics/control/passivity.h"
-#include "haptics/control/stiffness_limit.h"
 #include "haptics/exchange/contact_patch.h"
 
 namespace trocar {
 
 struct GripResult {
-  double force_n = 0;     ///< squeezing force, >= 0; renders as opening force on the slide
+  double force_n = 0;  ///< squeezing force, >= 0; renders as opening force on the slide
   double stored_j = 0;
 };
 
@@ -34,8 +35,8 @@ inline StiffnessLimit pinch_stiffness_limit(const PassivityParameters& pinch, do
   StiffnessLimit limit;
   if (pinch.law == PassivityLaw::kOff) return limit;  // the baseline: nothing is held back
   const double b = pinch.viscous_n_s_per_m;
-  const double passive = std::min({2 * b / pinch.period_s, b / (pinch.period_s / 2 + pinch.delay_s),
-                                   2 * pinch.coulomb_n / count_m});
+  const double passive =
+      std::min({2 * b / pinch.period_s, b / (pinch.period_s / 2 + pinch.delay_s), 2 * pinch.coulomb_n / count_m});
   limit.k_max = std::max(passive, pinch.rest_stiffness_n_per_m);
   if (asked > limit.k_max) limit.share = limit.k_max / asked;
   return limit;

@@ -29,7 +29,7 @@ struct SafetyRow {
 struct SafetyTransition {
   std::uint64_t tick = 0, period = 0;
   LoopState from = LoopState::kOff, to = LoopState::kOff;
-  Fault fault;   ///< cause, when `to` is FAULT
+  Fault fault;  ///< cause, when `to` is FAULT
 };
 
 class SafetyLog {

@@ -1,10 +1,10 @@
 // How far a quantised channel has truly moved, to a fraction of a count.
 //
-// A count n says no more than that the position lies in [n, n + 1). Inside it the position is followed with the estimated
-// velocity and kept within the bounds: x = clamp(x + v T, n, n + 1). Moving, that interpolates between the edges; at rest a
-// count that flickers leaves x at the edge, where the stylus truly is: booked as travel, each flicker would be a whole
-// count of work that nobody did. Slower than kCreep, where the velocity is one count over the whole window or nothing, the
-// position is not interpolated. Units: counts. Thread: haptic task; no allocation.
+// A count n says no more than that the position lies in [n, n + 1). Inside it the position is followed with the
+// estimated velocity and kept within the bounds: x = clamp(x + v T, n, n + 1). Moving, that interpolates between the
+// edges; at rest a count that flickers leaves x at the edge, where the stylus truly is: booked as travel, each flicker
+// would be a whole count of work that nobody did. Slower than kCreep, where the velocity is one count over the whole
+// window or nothing, the position is not interpolated. Units: counts. Thread: haptic task; no allocation.
 #pragma once
 
 #include <algorithm>

@@ -74,13 +74,17 @@ void Supervisor::advance(std::uint64_t tick, const DaqSample& sample, const Delt
   deadman_seen_open_ = deadman_seen_open_ || !deadman;
   in_state_s_ += period_s_;
   switch (state_) {
-    case LoopState::kOff: break;
-    case LoopState::kSelfTest: return self_test(tick, sample, still);
-    case LoopState::kUnhomed: return home(sample.digital_in & kHomeBeam, still);
+    case LoopState::kOff:
+      break;
+    case LoopState::kSelfTest:
+      return self_test(tick, sample, still);
+    case LoopState::kUnhomed:
+      return home(sample.digital_in & kHomeBeam, still);
     case LoopState::kHomed:
       if (deadman && deadman_seen_open_) enter(LoopState::kArmed);
       break;
-    case LoopState::kArmed: return arm(deadman);
+    case LoopState::kArmed:
+      return arm(deadman);
     case LoopState::kActive:
       ramp_ = std::min(1.0, ramp_ + period_s_ / limits_.ramp_s);
       if (!deadman) enter(LoopState::kHomed);

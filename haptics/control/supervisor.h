@@ -2,8 +2,8 @@
 //   OFF -> SELFTEST -> UNHOMED -> HOMED -> ARMED -> ACTIVE, any -> FAULT.
 //
 // OFF: until the first sample. SELFTEST: torque off; encoders still, DAC registers as written, no period missed and the
-// deadman seen open, all for 0.1 s on end. UNHOMED: torque off; homed after the jig's beam has been seen for 50 ms and no
-// encoder has moved for 0.5 s. HOMED: waits for the deadman to be closed by the operator: it must be seen open there
+// deadman seen open, all for 0.1 s on end. UNHOMED: torque off; homed after the jig's beam has been seen for 50 ms and
+// no encoder has moved for 0.5 s. HOMED: waits for the deadman to be closed by the operator: it must be seen open there
 // first. ARMED: amplifiers on, codes zero, 20 ms. ACTIVE: torque ramped up in 1 s. An open deadman returns to HOMED.
 // FAULT: a hard fault has codes zero and amplifiers inhibited within the same tick; a soft one (is_soft) fades weight
 // compensation within 20 ms and drops the contact at once. Only reset_fault() (an operator's act) leaves it, to
@@ -19,34 +19,35 @@
 namespace trocar {
 
 struct SafetyLimits {
-  double selftest_s = 0.1;               ///< all checks passed on end
-  double selftest_limit_s = 10;          ///< then the self-test has failed
-  double beam_s = 0.05;                  ///< beam seen without a break before homing
-  double still_s = 0.5;                  ///< no count on any channel before homing
-  double arm_s = 0.02;                   ///< amplifiers on, codes zero
-  double ramp_s = 1.0;                   ///< soft start
-  double fade_s = 0.02;                  ///< torque fade of a soft fault
-  double max_encoder_rate = 21.7;        ///< rad/s of joint, 30 counts a millisecond: faster is a fault of the encoder
-  double max_pinch_speed = 2;            ///< m/s of the slide, likewise
-  double max_joint_rate = 15;            ///< rad/s: damping, then fault
-  double max_tip_speed = 2;              ///< m/s of the stylus, likewise
-  double overspeed_s = 0.01;             ///< damped for so long before it is a fault
-  double overspeed_damping = 0.01;       ///< N m s/rad
+  double selftest_s = 0.1;          ///< all checks passed on end
+  double selftest_limit_s = 10;     ///< then the self-test has failed
+  double beam_s = 0.05;             ///< beam seen without a break before homing
+  double still_s = 0.5;             ///< no count on any channel before homing
+  double arm_s = 0.02;              ///< amplifiers on, codes zero
+  double ramp_s = 1.0;              ///< soft start
+  double fade_s = 0.02;             ///< torque fade of a soft fault
+  double max_encoder_rate = 21.7;   ///< rad/s of joint, 30 counts a millisecond: faster is a fault of the encoder
+  double max_pinch_speed = 2;       ///< m/s of the slide, likewise
+  double max_joint_rate = 15;       ///< rad/s: damping, then fault
+  double max_tip_speed = 2;         ///< m/s of the stylus, likewise
+  double overspeed_s = 0.01;        ///< damped for so long before it is a fault
+  double overspeed_damping = 0.01;  ///< N m s/rad
   double warn_det_a = 0.30, fault_det_a = 0.05;
-  double stuck_torque_share = 0.3;       ///< of the channel's largest torque
-  double stuck_s = 0.2;                  ///< so long without a count in free space: suspected
-  std::int64_t stuck_pushed_travel = 2400;  ///< counts of the arm during that: a fault [hands at work through a port reach 600]
-  std::int32_t stuck_dither = 4;         ///< counts to either side that are a held arm's trembling and no travel
-  std::int64_t stuck_travel = 12000;     ///< counts of the arm without one of this joint: a fault [4 x, likewise]
-  std::uint32_t max_missed_in_a_row = 20;   ///< periods without a tick between them
-  double max_missed_share = 0.01;        ///< of the last second
+  double stuck_torque_share = 0.3;  ///< of the channel's largest torque
+  double stuck_s = 0.2;             ///< so long without a count in free space: suspected
+  std::int64_t stuck_pushed_travel =
+      2400;                       ///< counts of the arm during that: a fault [hands at work through a port reach 600]
+  std::int32_t stuck_dither = 4;  ///< counts to either side that are a held arm's trembling and no travel
+  std::int64_t stuck_travel = 12000;       ///< counts of the arm without one of this joint: a fault [4 x, likewise]
+  std::uint32_t max_missed_in_a_row = 20;  ///< periods without a tick between them
+  double max_missed_share = 0.01;          ///< of the last second
 };
 
 /// What the self-test waits for; bits of Fault::value.
 enum SelfTestCheck : std::uint32_t {
-  kCheckStill = 1u << 0,     ///< an encoder moves with torque off
-  kCheckDeadman = 1u << 1,   ///< the deadman has never been seen open
-  kCheckPace = 1u << 2,      ///< periods are missed
+  kCheckStill = 1u << 0,    ///< an encoder moves with torque off
+  kCheckDeadman = 1u << 1,  ///< the deadman has never been seen open
+  kCheckPace = 1u << 2,     ///< periods are missed
 };
 
 class Supervisor {
@@ -90,8 +91,8 @@ class Supervisor {
   double in_state_s_ = 0, passed_s_ = 0;  ///< since the state was entered; of its condition on end
   double beam_s_ = 0, ramp_ = 0;
   std::uint32_t missed_in_a_row_ = 0;
-  double missed_lately_ = 0;              ///< periods, fading over a second
-  bool deadman_seen_open_ = false;        ///< since the self-test began, then since homing
+  double missed_lately_ = 0;        ///< periods, fading over a second
+  bool deadman_seen_open_ = false;  ///< since the self-test began, then since homing
   bool just_homed_ = false;
 };
 

@@ -37,7 +37,9 @@ class TorqueHistory {
 
  private:
   /// @param age ticks or missed periods before the newest.
-  const ChannelVector& at(int age) const { return asked_[static_cast<std::size_t>((newest_ + kLength - age) % kLength)]; }
+  const ChannelVector& at(int age) const {
+    return asked_[static_cast<std::size_t>((newest_ + kLength - age) % kLength)];
+  }
 
   std::array<ChannelVector, kLength> asked_ = [] {
     std::array<ChannelVector, kLength> zero;

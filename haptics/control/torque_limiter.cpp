@@ -8,9 +8,9 @@
 namespace trocar {
 namespace {
 
-constexpr double kSpringMargin = 8 * kDegree;  // where the springs begin
-constexpr double kSpringStiffness = 3.0;       // N m/rad
-constexpr double kSpringDamping = 0.02;        // N m s/rad
+constexpr double kSpringMargin = 8 * kDegree;       // where the springs begin
+constexpr double kSpringStiffness = 3.0;            // N m/rad
+constexpr double kSpringDamping = 0.02;             // N m s/rad
 constexpr double kFadeFrom = 0.20, kFadeTo = 0.10;  // det A
 
 }  // namespace

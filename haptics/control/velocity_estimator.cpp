@@ -8,7 +8,10 @@ namespace trocar {
 double VelocityEstimator::update(std::int64_t count, std::uint32_t elapsed_periods) {
   // A missed period is filled with the straight line: the window stays in units of periods.
   const std::int64_t last = filled_ > 0 ? at(0) : count;
-  const int steps = filled_ > 0 ? static_cast<int>(std::clamp<std::uint32_t>(elapsed_periods, 1, static_cast<std::uint32_t>(longest_))) : 1;
+  const int steps =
+      filled_ > 0
+          ? static_cast<int>(std::clamp<std::uint32_t>(elapsed_periods, 1, static_cast<std::uint32_t>(longest_)))
+          : 1;
   for (int i = 1; i <= steps; ++i) {
     head_ = (head_ + 1) % (kMaxWindow + 1);
     history_[head_] = last + (count - last) * i / steps;

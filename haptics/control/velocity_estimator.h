@@ -15,8 +15,8 @@ namespace trocar {
 
 class VelocityEstimator {
  public:
-  static constexpr int kWindow = 16;      ///< periods at 1 kHz and below; 16 ms at faster rates,
-  static constexpr int kMaxWindow = 64;   ///< up to these
+  static constexpr int kWindow = 16;     ///< periods at 1 kHz and below; 16 ms at faster rates,
+  static constexpr int kMaxWindow = 64;  ///< up to these
 
   /// @param quantum size of one count in the channel's unit; @param period_s sample period.
   VelocityEstimator(double quantum, double period_s)

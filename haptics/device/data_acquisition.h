@@ -35,7 +35,7 @@ struct DaqSample {
   std::array<std::int32_t, kChannels> counts{};  ///< quadrature counters, wrapping at 32 bit
   std::uint8_t valid = 0x7F;                     ///< bit i: channel i was latched correctly
   std::uint32_t elapsed_periods = 1;  ///< SYNC periods since the previous read (1 unless one was missed, 0: no news)
-  std::uint32_t digital_in = 0;                  ///< DigitalInput bits
+  std::uint32_t digital_in = 0;       ///< DigitalInput bits
 };
 
 struct DacFrame {
@@ -43,8 +43,8 @@ struct DacFrame {
 };
 
 struct DaqCapabilities {
-  const char* name = "";       ///< "simulated", "replay", ...
-  double rate_hz = 1000;       ///< SYNC rate
+  const char* name = "";  ///< "simulated", "replay", ...
+  double rate_hz = 1000;  ///< SYNC rate
   int dac_bits = 16;
 };
 

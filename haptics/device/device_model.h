@@ -1,5 +1,5 @@
 // What the controller believes about the device: nominal values, each with its source. The simulated plant has its
-// own copy of the world (haptics/device/plant_parameters.h) and differs from these on purpose.
+// own copy of the world (haptics/device/plant/plant_parameters.h) and differs from these on purpose.
 //
 // Marks: [T] thesis, [F] public data sheet, [C] computed from those, [assumed] to be identified on the real device.
 #pragma once
@@ -13,13 +13,13 @@ namespace trocar {
 
 /// One transmission from motor to joint (or to the pinch slide, whose "joint" unit is the metre).
 struct Transmission {
-  double ratio = 0.23;             ///< joint rad per motor rad [T 3.2]; m per rad for the pinch
-  double counts_per_turn = 2000;   ///< quadrature counts per motor turn [T 3.2.2]
-  double torque_constant = 0.0232; ///< N m/A [T table 3.1]
-  double amps_per_volt = 0.431;    ///< amplifier in current mode; +-10 V = 4.31 A [C]
-  double offset_v = 0;             ///< that the chain adds to every command, found by `trocar device calibrate`
-  double full_scale_v = 10;        ///< DAC range [T 3.2]
-  double max_motor_torque = 0.100; ///< N m at +-10 V [C]
+  double ratio = 0.23;              ///< joint rad per motor rad [T 3.2]; m per rad for the pinch
+  double counts_per_turn = 2000;    ///< quadrature counts per motor turn [T 3.2.2]
+  double torque_constant = 0.0232;  ///< N m/A [T table 3.1]
+  double amps_per_volt = 0.431;     ///< amplifier in current mode; +-10 V = 4.31 A [C]
+  double offset_v = 0;              ///< that the chain adds to every command, found by `trocar device calibrate`
+  double full_scale_v = 10;         ///< DAC range [T 3.2]
+  double max_motor_torque = 0.100;  ///< N m at +-10 V [C]
 };
 
 /// A weight that turns rigidly with the platform, given where it is at home.
@@ -41,23 +41,24 @@ inline std::array<Transmission, kChannels> nominal_transmissions() {
 /// Weights of the arm as base parameters, N m: what the joints can tell apart, however the masses are spread
 /// (haptics/identification). In the frames of arm_regressor.h; components along joint axes are part of the body before.
 struct IdentifiedGravity {
-  Vec3 platform = Vec3::Zero();                        ///< x y z in P'
-  Eigen::Vector2d link2 = Eigen::Vector2d::Zero();     ///< x y in 4
-  Eigen::Vector2d wrist = Eigen::Vector2d::Zero();     ///< x y in 5 (x along the roll axis)
-  Eigen::Vector2d stylus = Eigen::Vector2d::Zero();    ///< x y in S
+  Vec3 platform = Vec3::Zero();                      ///< x y z in P'
+  Eigen::Vector2d link2 = Eigen::Vector2d::Zero();   ///< x y in 4
+  Eigen::Vector2d wrist = Eigen::Vector2d::Zero();   ///< x y in 5 (x along the roll axis)
+  Eigen::Vector2d stylus = Eigen::Vector2d::Zero();  ///< x y in S
 };
 
 struct DeviceModel {
   std::array<Transmission, kChannels> transmission = nominal_transmissions();
-  std::array<PlatformWeight, 3> platform_weights{{{3.21, {0, -0.0125, 0.0095}},    // wrist motors [T table 4.1]
-                                                  {0.20, {0, 0, -0.073}},          // link l1 [T table 4.1]
-                                                  {1.61, {0, 0.0125, -0.146}}}};   // elbow motor [T table 4.1]
-  double stylus_weight_n = 0.76;             ///< at the stylus origin [T table 4.1]
+  std::array<PlatformWeight, 3> platform_weights{{{3.21, {0, -0.0125, 0.0095}},   // wrist motors [T table 4.1]
+                                                  {0.20, {0, 0, -0.073}},         // link l1 [T table 4.1]
+                                                  {1.61, {0, 0.0125, -0.146}}}};  // elbow motor [T table 4.1]
+  double stylus_weight_n = 0.76;                        ///< at the stylus origin [T table 4.1]
   std::optional<IdentifiedGravity> identified_gravity;  ///< takes the place of the weights above
-  JointVector coulomb = JointVector::Constant(0.0037 / 0.23 * 0.46);  ///< N m at the joint [C 37 mA no-load] x 2 [assumed]
-  JointVector viscous = JointVector::Constant(0.005);                 ///< N m s/rad [assumed]
-  double pinch_travel_m = 0.030;             ///< slide from closed (0) to fully open [assumed]
-  double pinch_home_m = 0.020;               ///< slide position in the home jig [assumed]
+  JointVector coulomb =
+      JointVector::Constant(0.0037 / 0.23 * 0.46);     ///< N m at the joint [C 37 mA no-load] x 2 [assumed]
+  JointVector viscous = JointVector::Constant(0.005);  ///< N m s/rad [assumed]
+  double pinch_travel_m = 0.030;                       ///< slide from closed (0) to fully open [assumed]
+  double pinch_home_m = 0.020;                         ///< slide position in the home jig [assumed]
 };
 
 }  // namespace trocar

@@ -13,48 +13,58 @@
 namespace trocar {
 
 /// What the exercise asks for at this moment, as the screen shows it.
-/// kOrient: bring the tip to the target and turn the instrument as it shows; kPick, kCarry, kPlace: take the object at the
-/// target, bring it there, set it down there.
+/// kOrient: bring the tip to the target and turn the instrument as it shows; kPick, kCarry, kPlace: take the object at
+/// the target, bring it there, set it down there.
 enum class Cue : std::uint8_t {
-  kNone, kWait, kReach, kPress, kGrip, kRelease, kFinished, kOrient, kPick, kCarry, kPlace
+  kNone,
+  kWait,
+  kReach,
+  kPress,
+  kGrip,
+  kRelease,
+  kFinished,
+  kOrient,
+  kPick,
+  kCarry,
+  kPlace
 };
 
 /// An object that the exercise is about, as it is seen on the screen.
 struct SeenObject {
-  Pose X_TO;                           ///< centre, axes along the edges
+  Pose X_TO;  ///< centre, axes along the edges
   Vec3 size_m = Vec3::Zero();
-  bool slipping = false;               ///< it creeps through the jaws
+  bool slipping = false;  ///< it creeps through the jaws
 };
 
 /// What the briefing taught about one kind of foam.
 struct FoamLore {
-  double stiffness_n_per_m = 0;        ///< how it feels between the jaws
-  double low_n = 0, high_n = 0;        ///< wanted grip
+  double stiffness_n_per_m = 0;  ///< how it feels between the jaws
+  double low_n = 0, high_n = 0;  ///< wanted grip
 };
 inline constexpr int kMostFoams = 4;
 
 /// What a person senses: delayed and noisy, nothing of the world that is not on the screen or in the fingers.
 struct Percept {
   double t_s = 0;
-  bool device_ready = false;           ///< the loop is active and holds the stylus weight
-  Vec3 tip_T = Vec3::Zero();           ///< seen position of the instrument tip (delayed, noisy), m
-  Mat3 R_TI = Mat3::Identity();        ///< seen orientation of the instrument
-  double felt_force_n = 0;             ///< felt magnitude of the contact force (noisy)
-  double felt_grip_n = 0;              ///< felt pinch force
-  double jaw_opening_m = 0;            ///< proprioception of the fingers
+  bool device_ready = false;     ///< the loop is active and holds the stylus weight
+  Vec3 tip_T = Vec3::Zero();     ///< seen position of the instrument tip (delayed, noisy), m
+  Mat3 R_TI = Mat3::Identity();  ///< seen orientation of the instrument
+  double felt_force_n = 0;       ///< felt magnitude of the contact force (noisy)
+  double felt_grip_n = 0;        ///< felt pinch force
+  double jaw_opening_m = 0;      ///< proprioception of the fingers
   Cue cue = Cue::kNone;
-  std::int32_t target_index = -1;      ///< which target is lit; changes when the next one lights
-  Vec3 target_T = Vec3::Zero();        ///< centre of the lit target (m)
-  Vec3 target_normal_T = Vec3::UnitZ();///< outward surface normal at the target
+  std::int32_t target_index = -1;        ///< which target is lit; changes when the next one lights
+  Vec3 target_T = Vec3::Zero();          ///< centre of the lit target (m)
+  Vec3 target_normal_T = Vec3::UnitZ();  ///< outward surface normal at the target
   double target_radius_m = 0;
-  bool target_oriented = false;        ///< the orientation below is asked for
-  Mat3 target_R_TI = Mat3::Identity(); ///< wanted orientation of the instrument
-  double target_angle_rad = 0;         ///< its tolerance
+  bool target_oriented = false;            ///< the orientation below is asked for
+  Mat3 target_R_TI = Mat3::Identity();     ///< wanted orientation of the instrument
+  double target_angle_rad = 0;             ///< its tolerance
   double band_low_n = 0, band_high_n = 0;  ///< wanted force as shown on the force bar
-  double shown_force_n = 0;            ///< reading of the force bar; NaN when the bar is hidden
-  double shown_grip_n = 0;             ///< kPick, kCarry, kPlace: reading of the grip bar; NaN when the bar is hidden
-  SeenObject object;                   ///< kPick, kCarry, kPlace: the lit object (delayed)
-  Vec3 goal_T = Vec3::Zero();          ///< there: where it shall stand
+  double shown_force_n = 0;                ///< reading of the force bar; NaN when the bar is hidden
+  double shown_grip_n = 0;     ///< kPick, kCarry, kPlace: reading of the grip bar; NaN when the bar is hidden
+  SeenObject object;           ///< kPick, kCarry, kPlace: the lit object (delayed)
+  Vec3 goal_T = Vec3::Zero();  ///< there: where it shall stand
   std::array<FoamLore, kMostFoams> foam;  ///< there: learnt before the start
   std::int32_t foam_count = 0;
 };

@@ -1,7 +1,7 @@
 // Back-end of the seam that plays back recorded samples: the loop sees exactly what it saw, bit for bit.
 //
-// What the loop writes goes nowhere. After the last sample it repeats it with all channels marked invalid, so that a loop
-// driven past the end faults instead of feeling a frozen device. Thread: haptic task; no allocation.
+// What the loop writes goes nowhere. After the last sample it repeats it with all channels marked invalid, so that a
+// loop driven past the end faults instead of feeling a frozen device. Thread: haptic task; no allocation.
 #pragma once
 
 #include <algorithm>

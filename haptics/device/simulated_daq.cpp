@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "haptics/device/plant_check.h"
+#include "haptics/device/plant/plant_check.h"
 
 namespace trocar {
 namespace {
@@ -159,7 +159,8 @@ void SimulatedDaq::watch_writes() noexcept {
   if (watchdog_fired_) written_ = {};
 }
 
-/// Periods that the codes in force lie back. Without jitter those of configuration and faults; with it no frame overtakes.
+/// Periods that the codes in force lie back. Without jitter those of configuration and faults; with it no frame
+/// overtakes.
 int SimulatedDaq::delay_now() noexcept {
   const int known = std::min(kMaxExtraDelayPeriods, config_.extra_delay_periods + faults_.extra_delay(time_s()));
   const int most = plant_.parameters().options.jitter_periods;
@@ -221,8 +222,8 @@ void SimulatedDaq::set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexc
 
 HandSense SimulatedDaq::sense() const noexcept {
   const StylusMotion m = plant_.motion();
-  return {m.X_BS, force_on_hand_, force_on_finger_, m.jaw, plant_.amplifiers_enabled(), plant_.clamped(),
-          moment_on_hand_};
+  return {m.X_BS,           force_on_hand_, force_on_finger_, m.jaw, plant_.amplifiers_enabled(),
+          plant_.clamped(), moment_on_hand_};
 }
 
 void SimulatedDaq::disturb_hand() noexcept {

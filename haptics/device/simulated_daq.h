@@ -23,11 +23,11 @@
 #include <vector>
 
 #include "haptics/device/data_acquisition.h"
-#include "haptics/device/device_plant.h"
-#include "haptics/device/hand_model.h"
-#include "haptics/device/plant_encoder.h"
-#include "haptics/device/plant_faults.h"
-#include "haptics/device/plant_parameters.h"
+#include "haptics/device/plant/device_plant.h"
+#include "haptics/device/plant/hand_model.h"
+#include "haptics/device/plant/plant_encoder.h"
+#include "haptics/device/plant/plant_faults.h"
+#include "haptics/device/plant/plant_parameters.h"
 
 namespace trocar {
 
@@ -45,8 +45,8 @@ struct SimulatedDaqConfig {
   std::optional<PlantParameters> plant;  ///< exact device instead of one drawn by the seed
   HandParameters hand;
   std::vector<InjectedFault> faults;
-  double watchdog_s = kWatchdogS;        ///< without a write until the board zeroes its DACs
-  bool dac_readback = true;              ///< the board can read its DAC registers back (kDacMismatch)
+  double watchdog_s = kWatchdogS;  ///< without a write until the board zeroes its DACs
+  bool dac_readback = true;        ///< the board can read its DAC registers back (kDacMismatch)
 };
 
 /// What the simulated person senses of the device, true values in W'.
@@ -118,7 +118,7 @@ class SimulatedDaq final : public DataAcquisition {
   PlantFaults faults_;
 
   std::uint64_t sync_ = 0;
-  std::uint32_t missed_ = 0;                                       ///< SYNCs since the last news
+  std::uint32_t missed_ = 0;  ///< SYNCs since the last news
   DacFrame written_, in_force_;
   std::array<DacFrame, kMaxExtraDelayPeriods + 1> delayed_{};  ///< ring of frames on their way to the DAC
   std::size_t delay_head_ = 0;
@@ -126,8 +126,8 @@ class SimulatedDaq final : public DataAcquisition {
   std::int64_t arrived_ = -1;  ///< newest SYNC whose frame has reached the DACs
   double armed_for_s_ = 0;
   bool armed_ = false, pressed_ = true, watchdog_fired_ = false;
-  double unwritten_s_ = 0;                                         ///< since the last write, while armed
-  std::uint32_t dac_mismatch_ = 0;                                 ///< bits of the group
+  double unwritten_s_ = 0;          ///< since the last write, while armed
+  std::uint32_t dac_mismatch_ = 0;  ///< bits of the group
   DaqSample last_;
   Vec3 force_on_hand_ = Vec3::Zero(), moment_on_hand_ = Vec3::Zero();
   double force_on_finger_ = 0;

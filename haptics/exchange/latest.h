@@ -1,12 +1,13 @@
-// Latest<T>: the newest whole value from one writer to one reader, wait-free on both sides. Newest wins; what the reader
-// did not fetch in time is overwritten unseen.
+// Latest<T>: the newest whole value from one writer to one reader, wait-free on both sides. Newest wins; what the
+// reader did not fetch in time is overwritten unseen.
 //
 // Triple buffer: the writer owns one slot, the reader another, the third waits between them under `middle_` with a bit
 // that says whether it is newer than what the reader holds. Both sides hand over by one exchange, so a value is never
 // torn and nobody ever waits. For several readers give each its own Latest.
-// Orders: each exchange releases what its side did to the slot that it gives away and acquires what the other side did to the slot
-// that it receives: the reader sees the whole value, and the writer overwrites a slot only after the reader's last look.
-// Threads: back() and publish() one thread, read() one other. No allocation unless T's own assignment does.
+// Orders: each exchange releases what its side did to the slot that it gives away and acquires what the other side did
+// to the slot that it receives: the reader sees the whole value, and the writer overwrites a slot only after the
+// reader's last look. Threads: back() and publish() one thread, read() one other. No allocation unless T's own
+// assignment does.
 #pragma once
 
 #include <array>
@@ -56,8 +57,8 @@ class Latest {
 
   std::array<Slot, 3> slots_;
   alignas(kCacheLine) std::atomic<std::uint8_t> middle_{1};
-  alignas(kCacheLine) std::uint8_t back_ = 0;    ///< writer's slot
-  alignas(kCacheLine) std::uint8_t front_ = 2;   ///< reader's slot
+  alignas(kCacheLine) std::uint8_t back_ = 0;   ///< writer's slot
+  alignas(kCacheLine) std::uint8_t front_ = 2;  ///< reader's slot
   static_assert(std::atomic<std::uint8_t>::is_always_lock_free);
 };
 

@@ -8,17 +8,17 @@
 namespace trocar {
 
 enum class LoopWarning : std::uint8_t {
-  kEncoderStuck,     ///< suspected: much torque and no count in free space
-  kHotMotor,         ///< winding model above its warning temperature
-  kNearSingular,     ///< det A of the shoulder below its warning value
-  kForceSaturated,   ///< the torque budget cut the contact force
-  kEnergyDebt,       ///< the passivity budget owes so much that the stiffness is faded
-  kOverspeed,        ///< joint or tip too fast: contact off, damping on
+  kEncoderStuck,    ///< suspected: much torque and no count in free space
+  kHotMotor,        ///< winding model above its warning temperature
+  kNearSingular,    ///< det A of the shoulder below its warning value
+  kForceSaturated,  ///< the torque budget cut the contact force
+  kEnergyDebt,      ///< the passivity budget owes so much that the stiffness is faded
+  kOverspeed,       ///< joint or tip too fast: contact off, damping on
 };
 
-inline constexpr std::array kLoopWarnings{LoopWarning::kEncoderStuck,   LoopWarning::kHotMotor,
-                                          LoopWarning::kNearSingular,   LoopWarning::kForceSaturated,
-                                          LoopWarning::kEnergyDebt,     LoopWarning::kOverspeed};
+inline constexpr std::array kLoopWarnings{LoopWarning::kEncoderStuck, LoopWarning::kHotMotor,
+                                          LoopWarning::kNearSingular, LoopWarning::kForceSaturated,
+                                          LoopWarning::kEnergyDebt,   LoopWarning::kOverspeed};
 
 using WarningBits = std::uint16_t;
 
@@ -29,12 +29,18 @@ constexpr WarningBits bit(LoopWarning warning) {
 /// Stable identifier used in JSON and messages.
 constexpr const char* warning_name(LoopWarning warning) {
   switch (warning) {
-    case LoopWarning::kEncoderStuck: return "encoder-stuck-suspected";
-    case LoopWarning::kHotMotor: return "hot-motor";
-    case LoopWarning::kNearSingular: return "near-singular";
-    case LoopWarning::kForceSaturated: return "force-saturated";
-    case LoopWarning::kEnergyDebt: return "energy-debt";
-    case LoopWarning::kOverspeed: return "overspeed";
+    case LoopWarning::kEncoderStuck:
+      return "encoder-stuck-suspected";
+    case LoopWarning::kHotMotor:
+      return "hot-motor";
+    case LoopWarning::kNearSingular:
+      return "near-singular";
+    case LoopWarning::kForceSaturated:
+      return "force-saturated";
+    case LoopWarning::kEnergyDebt:
+      return "energy-debt";
+    case LoopWarning::kOverspeed:
+      return "overspeed";
   }
   return "unknown";
 }

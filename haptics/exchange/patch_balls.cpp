@@ -10,8 +10,8 @@ namespace trocar {
 TriangleBall ball_round(const std::array<Vec3, 3>& triangle) {
   const auto& [a, b, c] = triangle;
   const Vec3 centre = (a + b + c) / 3;
-  return {centre, std::sqrt(std::max({(a - centre).squaredNorm(), (b - centre).squaredNorm(),
-                                      (c - centre).squaredNorm()}))};
+  return {centre,
+          std::sqrt(std::max({(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}))};
 }
 
 void enclose(const ContactPatch& patch, PatchBalls& balls) {

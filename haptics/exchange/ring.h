@@ -1,5 +1,6 @@
-// Ring<T, N>: every value from one producer to one consumer, in order, wait-free on both sides. When it is full the new value is
-// dropped and counted, never an old one overwritten: what arrives is without a gap up to the first drop, which is reported.
+// Ring<T, N>: every value from one producer to one consumer, in order, wait-free on both sides. When it is full the new
+// value is dropped and counted, never an old one overwritten: what arrives is without a gap up to the first drop, which
+// is reported.
 //
 // Lamport's queue: the producer alone moves `written_`, the consumer alone `taken_`; each keeps a copy of the other's
 // counter and looks at the real one only when the copy says full or empty, so that their cache lines seldom travel.
@@ -63,10 +64,10 @@ class Ring {
  private:
   alignas(kCacheLine) std::array<T, N> slots_{};
   alignas(kCacheLine) std::atomic<std::uint64_t> written_{0};
-  std::uint64_t taken_seen_ = 0;               ///< producer's copy
-  std::atomic<std::uint64_t> dropped_{0};      ///< written by the producer only
+  std::uint64_t taken_seen_ = 0;           ///< producer's copy
+  std::atomic<std::uint64_t> dropped_{0};  ///< written by the producer only
   alignas(kCacheLine) std::atomic<std::uint64_t> taken_{0};
-  std::uint64_t written_seen_ = 0;             ///< consumer's copy
+  std::uint64_t written_seen_ = 0;  ///< consumer's copy
 };
 
 }  // namespace trocar

@@ -1,4 +1,5 @@
-// A simulated force/torque sensor at the stylus with a fixture that hangs on it: force and moment late, noisy, drifting.
+// A simulated force/torque sensor at the stylus with a fixture that hangs on it: force and moment late, noisy,
+// drifting.
 //
 //   F_S = R_WS^T (F_on_hand + m g),   M_S = R_WS^T M_on_hand + c_S x (R_WS^T m g)
 // each through a SimulatedForceSensor of its own (one rate and lag). m, c_S: mass of the fixture and its centre in the

@@ -16,9 +16,9 @@ namespace trocar {
 namespace {
 
 constexpr double kMargin = 10 * kDegree;
-constexpr double kLeastDetA = 0.3;
+constexpr double kLeastPathDetA = 0.3;
 constexpr double kMostWeight = 0.28;  // N m at a joint: 64 mN m at the motor, of 100
-constexpr double kPassWay = 0.08;     // rad to either side of a static pose
+constexpr double kPathWay = 0.08;     // rad to either side of a static pose
 constexpr int kPathPoints = 60;
 constexpr double kCentreShare = 0.3;             // of the reach, for the centre of a trajectory
 constexpr double kMostSpeed = 4, kMostRoll = 8;  // rad/s; the roll joint is light and free
@@ -106,7 +106,7 @@ Eigen::MatrixXd regressor_along(const FourierPath& path, const BaseSet& base) {
 bool pose_allowed(const JointVector& q, const DeviceModel& model) {
   if (joint_limit_margin(q) < kMargin - 1e-12) return false;
   const ArmState arm = arm_state(q);
-  if (arm.det_a < kLeastDetA || gravity_torque(model, arm).cwiseAbs().maxCoeff() > kMostWeight) return false;
+  if (arm.det_a < kLeastPathDetA || gravity_torque(model, arm).cwiseAbs().maxCoeff() > kMostWeight) return false;
   const Mat3 R_WP = rotation_W_Wprime() * arm.R_WPprime * rotation_P_Pprime().transpose();
   return link_clearance(q.head<3>(), R_WP).clear();
 }
@@ -122,7 +122,7 @@ std::vector<StaticPose> draw_static_poses(std::uint64_t seed, int count, double 
       pose.q[i] = middle[i] + span * draw.between(-1, 1) * reach[i];
       pose.sign[i] = draw.sign();
     }
-    const JointVector ahead = pose.q + kPassWay * pose.sign, behind = pose.q - kPassWay * pose.sign;
+    const JointVector ahead = pose.q + kPathWay * pose.sign, behind = pose.q - kPathWay * pose.sign;
     if (!pose_allowed(pose.q, model) || !pose_allowed(ahead, model) || !pose_allowed(behind, model)) continue;
     if (tried < 100000 && !way_allowed(last, behind, model)) continue;
     poses.push_back(pose);

@@ -31,9 +31,7 @@ inline Mat3 rotation_P_Pprime() {
 }
 
 /// Pose of the stylus in W' while the device rests in its home jig.
-inline Pose home_pose() {
-  return {(Mat3() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished(), Vec3(0, -0.006, -0.272)};
-}
+inline Pose home_pose() { return {(Mat3() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished(), Vec3(0, -0.006, -0.272)}; }
 
 /// Joint limits, thesis table 2.4. theta6 has no stop: it is unwrapped from counts.
 struct JointRange {
@@ -41,10 +39,10 @@ struct JointRange {
   bool limited;
 };
 inline constexpr std::array<JointRange, kArmJoints> kJointRange{{{0, 90 * kDegree, true},
-                                                                {0, 90 * kDegree, true},
-                                                                {0, 90 * kDegree, true},
-                                                                {-120 * kDegree, 0, true},
-                                                                {-160 * kDegree, 0, true},
-                                                                {0, 360 * kDegree, false}}};
+                                                                 {0, 90 * kDegree, true},
+                                                                 {0, 90 * kDegree, true},
+                                                                 {-120 * kDegree, 0, true},
+                                                                 {-160 * kDegree, 0, true},
+                                                                 {0, 360 * kDegree, false}}};
 
 }  // namespace trocar

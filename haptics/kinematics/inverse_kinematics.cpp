@@ -10,7 +10,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kReachTolerance = 1e-12;   // m; rounding of |OA| for a straight arm
+constexpr double kReachTolerance = 1e-12;    // m; rounding of |OA| for a straight arm
 constexpr double kParallelTolerance = 1e-9;  // |AO x Z6| / |AO| under which the arm plane is undefined
 
 double positive_turn(double angle) {

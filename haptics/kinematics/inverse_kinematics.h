@@ -20,8 +20,8 @@ struct InverseCandidate {
 
 struct InverseSolutions {
   std::array<InverseCandidate, 2> candidate;
-  int count = 0;            ///< 0 when the pose is out of reach or Z6 is parallel to AO
-  double missed_by_m = 0;   ///< how far the stylus origin lies outside the reachable shell, 0 when inside
+  int count = 0;           ///< 0 when the pose is out of reach or Z6 is parallel to AO
+  double missed_by_m = 0;  ///< how far the stylus origin lies outside the reachable shell, 0 when inside
 };
 
 /// @param X_WS wanted stylus pose in W', m.

@@ -37,7 +37,8 @@ LinkClearance link_clearance(const Vec3& theta, const Mat3& R_WP) {
   // The ring seen from O is a cone about the sum of the axes: distance of l1's line from it, on the ring's sphere.
   const double ring_angle = std::acos(1 / std::sqrt(3.0)), tilt = std::acos(std::clamp(along.dot(axis), -1.0, 1.0));
   LinkClearance out;
-  out.ring_m = kBaseRing * std::sin(std::clamp(ring_angle - tilt, -std::numbers::pi / 2, std::numbers::pi / 2)) - kBodies;
+  out.ring_m =
+      kBaseRing * std::sin(std::clamp(ring_angle - tilt, -std::numbers::pi / 2, std::numbers::pi / 2)) - kBodies;
   out.legs_m = 1;
   for (int i = 0; i < 3; ++i) {
     out.legs_m = std::min({out.legs_m, to_arc(base[i], middle[i], kProximalArc, along) - kBodies,

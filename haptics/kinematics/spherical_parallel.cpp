@@ -61,10 +61,17 @@ Mat3 assembly_mode(const Vec3& theta, int mode) {
   EulerZyx e = working_mode(theta);
   const double pi = std::numbers::pi;
   switch (mode) {
-    case 1: e = {e.phi1, e.phi2, e.phi3 + pi}; break;
-    case 2: e = {e.phi1, e.phi2 + pi, -e.phi3}; break;
-    case 3: e = {e.phi1, e.phi2 + pi, pi - e.phi3}; break;
-    default: break;
+    case 1:
+      e = {e.phi1, e.phi2, e.phi3 + pi};
+      break;
+    case 2:
+      e = {e.phi1, e.phi2 + pi, -e.phi3};
+      break;
+    case 3:
+      e = {e.phi1, e.phi2 + pi, pi - e.phi3};
+      break;
+    default:
+      break;
   }
   return rotation_zyx(e);
 }

@@ -12,9 +12,9 @@
 namespace trocar {
 
 struct SphericalParallelState {
-  Mat3 R_WP = Mat3::Identity();         ///< platform in W; columns are V1 V2 V3
-  Mat3 rates = Mat3::Identity();        ///< omega_W = rates * (th1', th2', th3')
-  double det_a = 1;                     ///< s1 s2 s3 + c1 c2 c3: 0 at a singularity of the shoulder
+  Mat3 R_WP = Mat3::Identity();   ///< platform in W; columns are V1 V2 V3
+  Mat3 rates = Mat3::Identity();  ///< omega_W = rates * (th1', th2', th3')
+  double det_a = 1;               ///< s1 s2 s3 + c1 c2 c3: 0 at a singularity of the shoulder
 };
 
 /// @param theta th1..th3, rad. Regular for every joint triple with det A > 0.

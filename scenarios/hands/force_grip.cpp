@@ -11,9 +11,9 @@ constexpr double kForgiven = 0.5;         // of the time inside
 constexpr double kNothingFelt = -1;       // N
 constexpr double kRateTime = 0.08;        // s over which the change of the felt force is judged
 constexpr double kBiasFade = 0.6, kSpreadFade = 0.8;
-constexpr double kWanderTime = 0.5;       // s, correlation time of the force wander
-constexpr double kWanderShare = 0.3;      // of the CV
-constexpr double kSmallestGoal = 0.05;    // N
+constexpr double kWanderTime = 0.5;     // s, correlation time of the force wander
+constexpr double kWanderShare = 0.3;    // of the CV
+constexpr double kSmallestGoal = 0.05;  // N
 
 }  // namespace
 

@@ -2,8 +2,8 @@
 // for squeezing (intent closes the jaws).
 //
 // Felt force comes back after about 0.1 s and is smoothed; the integrator's crossover is about 0.5 Hz when the world
-// (tissue in series with the hand) is as stiff as expected, so the loop keeps a margin up to twice that with foresight and
-// three times without.
+// (tissue in series with the hand) is as stiff as expected, so the loop keeps a margin up to twice that with foresight
+// and three times without.
 #pragma once
 
 #include "scenarios/hands/hand_random.h"
@@ -16,8 +16,8 @@ class ForceGrip {
     double expected_stiffness_n_per_m = 100;  ///< force per metre of intent
     double crossover_rad_per_s = 3;
     double fastest_mps = 0.04;
-    double bias = 1, cv = 0;                  ///< of the force aimed at
-    double foresight_s = 0;                   ///< how far ahead a change of the felt force is reckoned with
+    double bias = 1, cv = 0;  ///< of the force aimed at
+    double foresight_s = 0;   ///< how far ahead a change of the felt force is reckoned with
   };
   explicit ForceGrip(const Tuning& tuning) : tuning_(tuning) {}
 
@@ -36,7 +36,7 @@ class ForceGrip {
   Tuning tuning_;
   double low_n_ = 0, high_n_ = 0, goal_n_ = 0;
   double outside_s_ = 0, wander_ = 0;
-  double last_n_ = 0, rate_n_per_s_ = 0;    ///< of the felt force
+  double last_n_ = 0, rate_n_per_s_ = 0;  ///< of the felt force
   int thoughts_ = 0;
 };
 

@@ -6,42 +6,43 @@
 namespace trocar {
 namespace {
 
-constexpr double kAimReference = 0.060, kAimFloor = 0.15;  // m of travel with the nominal aim error; share at rest
-constexpr double kOpenJaw = 0.022;          // m
-constexpr double kJawSpeed = 0.040;         // m/s of free opening
-constexpr double kClosingSpeed = 0.014;     // m/s until the block is felt
-constexpr double kTightestJaw = -0.030;     // m of intent: the fingers press beyond what they hold
-constexpr double kBeyondMiddle = 0.003;     // m that the tips reach beyond the block's middle
-constexpr double kHover = 0.032;            // m that the reach ends before the grip point, against the shaft ...
-constexpr double kRaised = 0.25;            // ... and a little above its line: clear of the neighbours
-constexpr double kOverRing = 0.034;         // m under the block while it is carried: 30 mm are asked for
-constexpr double kSeenLate = 0.16;          // s: the eyes are that late
-constexpr double kGoodAim = 0.0015;         // m off the grip point that needs no correction
-constexpr double kGoodTurn = 0.10;          // rad between pads and block that need no correction
-constexpr double kGoodRing = 0.4;           // of the ring's tolerance
-constexpr double kLevel = 0.7;              // largest sine of a side's slope that can be taken between the pads
-constexpr double kRoom = 0.004;             // m that open jaws are wider than what they take
-constexpr double kHit = 0.35;               // N met on the way down: the jaws stand on something
-constexpr double kSlowFrom = 0.010;         // m under a block that is lowered from which the hand slows down ...
-constexpr double kSlowest = 0.25;           // ... to this share of its speed
-constexpr double kGuiding = 1.5;            // 1/s of what is seen to be off, while it is lowered ...
-constexpr double kGuided = 0.001;           // ... to this height over the ring, m
-constexpr double kEasing = 0.020;           // m/s at which the hand takes its weight off what stands
-constexpr int kTriesASide = 2;              // met by something on the way down that often, the other sides are tried
-constexpr double kGripFelt = 0.08;          // N
-constexpr double kFlat = 0.995;             // least cosine of a block that is seen to stand flat
-constexpr double kSet = 0.15;               // N of the board on the block that tells that it stands
-constexpr double kFeelLow = 0.40, kFeelHigh = 0.55;   // N, a light squeeze that no foam minds
-constexpr double kFeelTime = 0.7, kFeelLook = 0.3;    // s of feeling; the last of it is what is judged by
-constexpr double kJudgement = 0.5;          // of the force CV: error of the judged stiffness
-constexpr double kLostTime = 0.25;          // s without felt grip before the block counts as lost
-constexpr double kTighter = 1.35;           // of the window when the block is seen to slip
-constexpr double kHighest = 0.055;          // m over the board: no higher when withdrawing
-constexpr double kPatience = 0.9;           // s to wait for the next block before trying the same again
+constexpr double kBlockAimReference = 0.060,
+                 kBlockAimFloor = 0.15;       // m of travel with the nominal aim error; share at rest
+constexpr double kBlockOpenJaw = 0.022;       // m
+constexpr double kBlockJawSpeed = 0.040;      // m/s of free opening
+constexpr double kBlockClosingSpeed = 0.014;  // m/s until the block is felt
+constexpr double kBlockTightestJaw = -0.030;  // m of intent: the fingers press beyond what they hold
+constexpr double kBeyondMiddle = 0.003;       // m that the tips reach beyond the block's middle
+constexpr double kHover = 0.032;              // m that the reach ends before the grip point, against the shaft ...
+constexpr double kRaised = 0.25;              // ... and a little above its line: clear of the neighbours
+constexpr double kOverRing = 0.034;           // m under the block while it is carried: 30 mm are asked for
+constexpr double kSeenLate = 0.16;            // s: the eyes are that late
+constexpr double kGoodAim = 0.0015;           // m off the grip point that needs no correction
+constexpr double kGoodTurn = 0.10;            // rad between pads and block that need no correction
+constexpr double kGoodRing = 0.4;             // of the ring's tolerance
+constexpr double kLevel = 0.7;                // largest sine of a side's slope that can be taken between the pads
+constexpr double kRoom = 0.004;               // m that open jaws are wider than what they take
+constexpr double kHit = 0.35;                 // N met on the way down: the jaws stand on something
+constexpr double kSlowFrom = 0.010;           // m under a block that is lowered from which the hand slows down ...
+constexpr double kSlowest = 0.25;             // ... to this share of its speed
+constexpr double kGuiding = 1.5;              // 1/s of what is seen to be off, while it is lowered ...
+constexpr double kGuided = 0.001;             // ... to this height over the ring, m
+constexpr double kEasing = 0.020;             // m/s at which the hand takes its weight off what stands
+constexpr int kTriesASide = 2;                // met by something on the way down that often, the other sides are tried
+constexpr double kGripFelt = 0.08;            // N
+constexpr double kFlat = 0.995;               // least cosine of a block that is seen to stand flat
+constexpr double kSet = 0.15;                 // N of the board on the block that tells that it stands
+constexpr double kFeelLow = 0.40, kFeelHigh = 0.55;  // N, a light squeeze that no foam minds
+constexpr double kFeelTime = 0.7, kFeelLook = 0.3;   // s of feeling; the last of it is what is judged by
+constexpr double kJudgement = 0.5;                   // of the force CV: error of the judged stiffness
+constexpr double kLostTime = 0.25;                   // s without felt grip before the block counts as lost
+constexpr double kTighter = 1.35;                    // of the window when the block is seen to slip
+constexpr double kHighest = 0.055;                   // m over the board: no higher when withdrawing
+constexpr double kPatience = 0.9;                    // s to wait for the next block before trying the same again
 
 /// Can the pads take the object across this axis of it? It lies level, and open jaws reach round it.
 bool between_pads(const SeenObject& object, int axis) {
-  return std::abs(object.X_TO.R(2, axis)) < kLevel && object.size_m[axis] < kOpenJaw - kRoom;
+  return std::abs(object.X_TO.R(2, axis)) < kLevel && object.size_m[axis] < kBlockOpenJaw - kRoom;
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ Vec3 GraspErrand::base_of(const SeenObject& object) {
 
 /// Across the pads the block is as thick as its thinner level side.
 double GraspErrand::thickness(const Percept& percept) {
-  double thinnest = kOpenJaw;
+  double thinnest = kBlockOpenJaw;
   for (int axis = 0; axis < 3; ++axis) {
     if (between_pads(percept.object, axis)) thinnest = std::min(thinnest, percept.object.size_m[axis]);
   }
@@ -77,8 +78,8 @@ Vec3 GraspErrand::way_out(const Percept& percept) {
   return kHover * (kRaised * Vec3::UnitZ() - percept.R_TI.col(2)).normalized();
 }
 
-/// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides that they
-/// can take; the other pair where the nearest was barred; 0 where they can take none.
+/// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides that
+/// they can take; the other pair where the nearest was barred; 0 where they can take none.
 double GraspErrand::roll_off(const Percept& percept) const {
   constexpr double kNone = 10;  // rad, more than any roll
   double best = kNone, other = kNone;
@@ -112,7 +113,7 @@ void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width
   const Vec3 across = Vec3::UnitZ().cross(way);
   if (across.norm() > 1e-6)
     shape.bulge = across.normalized() * (skill_.path_bulge * distance * (random.uniform() < 0.5 ? -1 : 1));
-  const double noise = std::sqrt(std::min(1.0, distance / kAimReference) + kAimFloor);
+  const double noise = std::sqrt(std::min(1.0, distance / kBlockAimReference) + kBlockAimFloor);
   const Vec3 error = noise * Vec3(skill_.aim_lateral_m * random.normal(), skill_.aim_lateral_m * random.normal(),
                                   skill_.aim_depth_m * random.normal());
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way + error, shape);
@@ -140,7 +141,7 @@ void GraspErrand::squeeze(const Percept& percept, const HandSenses& senses, doub
                           HandRandom& random) {
   const double closing = grip_.speed(senses.grip_n(), dt_s, random);
   intent.jaw_opening_m = std::clamp(intent.jaw_opening_m - closing * dt_s,
-                                    std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
+                                    std::min(kBlockTightestJaw, percept.jaw_opening_m), kBlockOpenJaw);
 }
 
 void GraspErrand::judge_foam(const Percept& percept, HandRandom& random) {
@@ -160,7 +161,7 @@ void GraspErrand::judge_foam(const Percept& percept, HandRandom& random) {
 
 void GraspErrand::approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
                            HandRandom& random) {
-  intent.jaw_opening_m = std::min(kOpenJaw, intent.jaw_opening_m + kJawSpeed * dt_s);
+  intent.jaw_opening_m = std::min(kBlockOpenJaw, intent.jaw_opening_m + kBlockJawSpeed * dt_s);
   const bool there = in_step_s_ > plan_.duration_s();
   if (step_ != Step::kLook) intent.X_TI.p = plan_.at(in_step_s_);
   if (step_ == Step::kReach && there) return enter(Step::kLook);
@@ -188,7 +189,7 @@ void GraspErrand::take(const Percept& percept, const HandSenses& senses, double 
   const bool told = percept.band_high_n > 0;
   switch (step_) {
     case Step::kClose:
-      intent.jaw_opening_m -= kClosingSpeed / skill_.speed_factor * dt_s;
+      intent.jaw_opening_m -= kBlockClosingSpeed / skill_.speed_factor * dt_s;
       if (senses.grip_n() > kGripFelt) {
         low_n_ = told ? percept.band_low_n : kFeelLow;
         high_n_ = told ? percept.band_high_n : kFeelHigh;
@@ -275,7 +276,8 @@ void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double
       if (stands && in_step_s_ > kSeenLate) enter(Step::kOpen);
       return;
     }
-    default: return;
+    default:
+      return;
   }
 }
 
@@ -288,11 +290,12 @@ void GraspErrand::withdraw(const Percept& percept, const HandIntent& intent) {
 }
 
 void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
-  intent.jaw_opening_m = std::min(kOpenJaw, std::max(intent.jaw_opening_m, percept.jaw_opening_m) + kJawSpeed * dt_s);
+  intent.jaw_opening_m =
+      std::min(kBlockOpenJaw, std::max(intent.jaw_opening_m, percept.jaw_opening_m) + kBlockJawSpeed * dt_s);
   switch (step_) {
     case Step::kOpen:
       if (intent.X_TI.p.z() < percept.tip_T.z()) intent.X_TI.p.z() += kEasing * dt_s;
-      if (percept.jaw_opening_m < std::min(thickness(percept) + 0.005, kOpenJaw - 0.001)) return;
+      if (percept.jaw_opening_m < std::min(thickness(percept) + 0.005, kBlockOpenJaw - 0.001)) return;
       return withdraw(percept, intent);
     case Step::kRetreat:
       intent.X_TI.p = plan_.at(in_step_s_);
@@ -311,15 +314,22 @@ void GraspErrand::update(const Percept& percept, const HandSenses& senses, doubl
   switch (step_) {
     case Step::kReach:
     case Step::kLook:
-    case Step::kDescend: approach(percept, senses, dt_s, intent, random); break;
+    case Step::kDescend:
+      approach(percept, senses, dt_s, intent, random);
+      break;
     case Step::kClose:
     case Step::kFeel:
-    case Step::kSqueeze: take(percept, senses, dt_s, intent, random); break;
+    case Step::kSqueeze:
+      take(percept, senses, dt_s, intent, random);
+      break;
     case Step::kLift:
     case Step::kCarry:
     case Step::kLookAtRing:
-    case Step::kLower: bring(percept, senses, dt_s, intent, random); break;
-    default: leave(percept, dt_s, intent, random);
+    case Step::kLower:
+      bring(percept, senses, dt_s, intent, random);
+      break;
+    default:
+      leave(percept, dt_s, intent, random);
   }
   const bool turning = step_ == Step::kReach && in_step_s_ < plan_.duration_s();
   const double turned = turning ? minimum_jerk(in_step_s_ / plan_.duration_s()) : 1;

@@ -1,6 +1,6 @@
-// How a simulated person moves a foam block: reach over it with open jaws, look, come down round it, close, feel what foam
-// it is when no colour tells, squeeze, lift, carry, look, lower until it stands, let go, withdraw. A block that is lost on
-// the way is fetched again; one that is seen to slip is held tighter.
+// How a simulated person moves a foam block: reach over it with open jaws, look, come down round it, close, feel what
+// foam it is when no colour tells, squeeze, lift, carry, look, lower until it stands, let go, withdraw. A block that is
+// lost on the way is fetched again; one that is seen to slip is held tighter.
 //
 // Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
@@ -25,12 +25,23 @@ class GraspErrand {
 
  private:
   enum class Step : std::uint8_t {
-    kReach, kLook, kDescend, kClose, kFeel, kSqueeze, kLift, kCarry, kLookAtRing, kLower, kOpen, kRetreat, kWait
+    kReach,
+    kLook,
+    kDescend,
+    kClose,
+    kFeel,
+    kSqueeze,
+    kLift,
+    kCarry,
+    kLookAtRing,
+    kLower,
+    kOpen,
+    kRetreat,
+    kWait
   };
 
   void enter(Step step);
-  void reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
-             HandRandom& random);
+  void reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent, HandRandom& random);
   void reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void withdraw(const Percept& percept, const HandIntent& intent);
@@ -53,13 +64,13 @@ class GraspErrand {
   ForceGrip grip_;
   ReachPlan plan_;
   Step step_ = Step::kWait;
-  Mat3 R_from_ = Mat3::Identity();    ///< orientation before the present reach, which turns it by turn_
+  Mat3 R_from_ = Mat3::Identity();  ///< orientation before the present reach, which turns it by turn_
   Eigen::AngleAxisd turn_{0, Vec3::UnitX()};
-  double low_n_ = 0, high_n_ = 0;     ///< window that the person believes in
+  double low_n_ = 0, high_n_ = 0;  ///< window that the person believes in
   double in_step_s_ = 0, lost_s_ = 0, slip_s_ = 0;
   double felt_sum_n_ = 0, opening_sum_m_ = 0;
   int felt_count_ = 0, corrections_ = 0;
-  int hits_ = 0;                      ///< on the way down, one after the other
+  int hits_ = 0;  ///< on the way down, one after the other
 };
 
 }  // namespace trocar

@@ -4,28 +4,28 @@
 #include <cmath>
 
 #include "haptics/input_error.h"
-#include "scenarios/strict_toml.h"
+#include "scenarios/files/strict_toml.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kMilli = 1e-3;
+constexpr double kScriptMilli = 1e-3;
 
 HandSkill read_skill(StrictTable table) {
   HandSkill skill;
   skill.speed_factor = table.number("speed_factor", 0.1, 20);
-  skill.aim_lateral_m = table.number("aim_lateral_mm", 0, 50) * kMilli;
-  skill.aim_depth_m = table.number("aim_depth_mm", 0, 50) * kMilli;
+  skill.aim_lateral_m = table.number("aim_lateral_mm", 0, 50) * kScriptMilli;
+  skill.aim_depth_m = table.number("aim_depth_mm", 0, 50) * kScriptMilli;
   skill.aim_angle_rad = table.number("aim_angle_deg", 0, 90) * M_PI / 180;
   skill.settle_share = table.number("settle_share", 0.05, 1);
-  skill.tremor_m = table.number("tremor_mm", 0, 5) * kMilli;
+  skill.tremor_m = table.number("tremor_mm", 0, 5) * kScriptMilli;
   skill.pause_s = table.number("pause_s", 0, 10);
   skill.force_bias = table.number("force_bias", 0, 10);
   skill.force_cv = table.number("force_cv", 0, 2);
   skill.path_bulge = table.number("path_bulge", 0, 1);
   skill.max_corrections = table.integer("max_corrections", 0, 20);
-  skill.hover_m = table.number("hover_mm", 0, 30) * kMilli;
-  skill.approach_speed_mps = table.number("approach_speed_mm_per_s", 1, 500) * kMilli;
+  skill.hover_m = table.number("hover_mm", 0, 30) * kScriptMilli;
+  skill.approach_speed_mps = table.number("approach_speed_mm_per_s", 1, 500) * kScriptMilli;
   skill.reaction_s = table.number_or("reaction_s", 0.05, 2, skill.reaction_s);
   skill.population_cv = table.number_or("population_cv", 0, 1, 0);
   table.finish();
@@ -34,11 +34,11 @@ HandSkill read_skill(StrictTable table) {
 
 ScriptedMove read_move(StrictTable table) {
   ScriptedMove move;
-  move.to_m = table.vector("to_mm", -1000, 1000) * kMilli;
+  move.to_m = table.vector("to_mm", -1000, 1000) * kScriptMilli;
   move.relative_to_ready = table.choice_or("from", {"theatre", "ready"}, "theatre") == "ready";
   move.seconds = table.number("seconds", 0.01, 600);
   move.hold_s = table.number_or("hold_s", 0, 3600, 0);
-  move.jaw_m = table.number_or("jaw_mm", -20, 60, 20) * kMilli;
+  move.jaw_m = table.number_or("jaw_mm", -20, 60, 20) * kScriptMilli;
   move.clutch = table.flag_or("clutch", false);
   table.finish();
   return move;

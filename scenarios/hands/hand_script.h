@@ -14,38 +14,38 @@ namespace trocar {
 
 /// What tells people apart.
 struct HandSkill {
-  double speed_factor = 1;          ///< multiplies every movement time
-  double aim_lateral_m = 0;         ///< SD of the end point across the approach, at 60 mm of travel
-  double aim_depth_m = 0;           ///< SD along the approach
-  double aim_angle_rad = 0;         ///< SD of the turn about each axis, at 30 deg of turn
-  double settle_share = 0.6;        ///< of a pose's tolerance: nearer than this is good enough
-  double tremor_m = 0;              ///< RMS of the 9 Hz tremor of the intent
-  double pause_s = 0;               ///< between seeing the next target and moving
-  double force_bias = 1;            ///< first force aimed at / middle of the band
-  double force_cv = 0;              ///< coefficient of variation of the force aimed at
-  double path_bulge = 0;            ///< sideways deviation / distance
-  int max_corrections = 0;          ///< looks and corrections before touching
-  double hover_m = 0;               ///< height over the target at which the reach ends
-  double approach_speed_mps = 0;    ///< from there to the tissue, before speed_factor
-  double reaction_s = 0.17;         ///< voluntary reaction 150-200 ms
-  double population_cv = 0;         ///< spread between persons: each parameter times a log-normal of this CV
+  double speed_factor = 1;        ///< multiplies every movement time
+  double aim_lateral_m = 0;       ///< SD of the end point across the approach, at 60 mm of travel
+  double aim_depth_m = 0;         ///< SD along the approach
+  double aim_angle_rad = 0;       ///< SD of the turn about each axis, at 30 deg of turn
+  double settle_share = 0.6;      ///< of a pose's tolerance: nearer than this is good enough
+  double tremor_m = 0;            ///< RMS of the 9 Hz tremor of the intent
+  double pause_s = 0;             ///< between seeing the next target and moving
+  double force_bias = 1;          ///< first force aimed at / middle of the band
+  double force_cv = 0;            ///< coefficient of variation of the force aimed at
+  double path_bulge = 0;          ///< sideways deviation / distance
+  int max_corrections = 0;        ///< looks and corrections before touching
+  double hover_m = 0;             ///< height over the target at which the reach ends
+  double approach_speed_mps = 0;  ///< from there to the tissue, before speed_factor
+  double reaction_s = 0.17;       ///< voluntary reaction 150-200 ms
+  double population_cv = 0;       ///< spread between persons: each parameter times a log-normal of this CV
 };
 
 /// One straight minimum-jerk move of a fixed script.
 struct ScriptedMove {
-  Vec3 to_m = Vec3::Zero();         ///< goal of the tip
-  bool relative_to_ready = false;   ///< to_m counts from where the tip was when the device became ready; else from T
-  double seconds = 0;               ///< duration of the move
-  double hold_s = 0;                ///< rest at its end
-  double jaw_m = 0.02;              ///< jaw opening at its end
-  bool clutch = false;              ///< made with the clutch held: the stylus moves, the instrument stays
+  Vec3 to_m = Vec3::Zero();        ///< goal of the tip
+  bool relative_to_ready = false;  ///< to_m counts from where the tip was when the device became ready; else from T
+  double seconds = 0;              ///< duration of the move
+  double hold_s = 0;               ///< rest at its end
+  double jaw_m = 0.02;             ///< jaw opening at its end
+  bool clutch = false;             ///< made with the clutch held: the stylus moves, the instrument stays
 };
 
-/// A person who gets better: every number of the skill goes from one hand's to another's, e^(-(n - 1) / attempts) of the
-/// way left at attempt n.
+/// A person who gets better: every number of the skill goes from one hand's to another's, e^(-(n - 1) / attempts) of
+/// the way left at attempt n.
 struct Learning {
-  std::string from, to;             ///< hands of the same folder
-  double attempts = 8;              ///< time constant
+  std::string from, to;  ///< hands of the same folder
+  double attempts = 8;   ///< time constant
 };
 
 enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kLearner, kIdle };

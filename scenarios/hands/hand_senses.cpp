@@ -8,17 +8,24 @@ namespace {
 
 HandErrand task_of(const Percept& percept) {
   switch (percept.cue) {
-    case Cue::kWait: return {HandErrand::Kind::kStart, -1};
+    case Cue::kWait:
+      return {HandErrand::Kind::kStart, -1};
     case Cue::kReach:
     case Cue::kPress:
-    case Cue::kRelease: return {HandErrand::Kind::kDisc, percept.target_index};
-    case Cue::kGrip: return {HandErrand::Kind::kGrip, -1};
-    case Cue::kFinished: return {HandErrand::Kind::kFinished, -1};
-    case Cue::kOrient: return {HandErrand::Kind::kPen, percept.target_index};
+    case Cue::kRelease:
+      return {HandErrand::Kind::kDisc, percept.target_index};
+    case Cue::kGrip:
+      return {HandErrand::Kind::kGrip, -1};
+    case Cue::kFinished:
+      return {HandErrand::Kind::kFinished, -1};
+    case Cue::kOrient:
+      return {HandErrand::Kind::kPen, percept.target_index};
     case Cue::kPick:
     case Cue::kCarry:
-    case Cue::kPlace: return {HandErrand::Kind::kBlock, percept.target_index};
-    case Cue::kNone: break;
+    case Cue::kPlace:
+      return {HandErrand::Kind::kBlock, percept.target_index};
+    case Cue::kNone:
+      break;
   }
   return {};
 }

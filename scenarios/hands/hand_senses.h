@@ -37,8 +37,8 @@ class HandSenses {
   const HandErrand& task() const { return task_; }
   /// What the screen asks for now, perhaps not noticed yet.
   const HandErrand& seen() const { return seen_; }
-  double force_n() const { return force_.value(); }   ///< contact force as judged for control (bar, else fingers)
-  double touch_n() const { return touch_.value(); }   ///< contact force as felt, quick, for noticing contact
+  double force_n() const { return force_.value(); }  ///< contact force as judged for control (bar, else fingers)
+  double touch_n() const { return touch_.value(); }  ///< contact force as felt, quick, for noticing contact
   double grip_n() const { return grip_.value(); }
 
  private:

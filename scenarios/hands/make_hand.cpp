@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
+#include "scenarios/files/strict_toml.h"
 #include "scenarios/hands/skilled_hand.h"
 #include "scenarios/hands/waypoint_hand.h"
-#include "scenarios/strict_toml.h"
 
 namespace trocar {
 

@@ -33,7 +33,8 @@ Vec3 ReachPlan::at(double t_s) const {
   Vec3 point = from_ + share * (to_ - from_) + std::sin(std::numbers::pi * share) * shape_.bulge;
   if (shape_.lift_time_s > 0) {
     const double up = minimum_jerk(t_s / shape_.lift_time_s);
-    point.z() += shape_.lift_m * (up - minimum_jerk((t_s - descent_start_s_) / shape_.lift_time_s)) - shape_.sunk_m * (1 - up);
+    point.z() +=
+        shape_.lift_m * (up - minimum_jerk((t_s - descent_start_s_) / shape_.lift_time_s)) - shape_.sunk_m * (1 - up);
   }
   return point;
 }

@@ -19,7 +19,7 @@ class ReachPlan {
     Vec3 bulge = Vec3::Zero();  ///< sideways deviation at half way, m
     double lift_time_s = 0;     ///< up, and again down; 0 with lift_m = 0
     double travel_time_s = 0.1;
-    double sunk_m = 0;          ///< how deep the start lies under the surface: given up while withdrawing
+    double sunk_m = 0;  ///< how deep the start lies under the surface: given up while withdrawing
   };
   ReachPlan() = default;
   ReachPlan(const Vec3& from, const Vec3& to, const Shape& shape);

@@ -8,26 +8,27 @@ namespace trocar {
 namespace {
 
 constexpr double kTremorHz = 9;
-constexpr double kAimReference = 0.060;     // m of travel at which the aim error has its nominal size
+constexpr double kAimReference = 0.060;  // m of travel at which the aim error has its nominal size
 constexpr double kAimFloor = 0.15;
 constexpr double kTurnReference = 30 * std::numbers::pi / 180;  // of turn at which the aim error has its nominal size
-constexpr double kNearEnough = 0.6;         // of the start ball's radius
-constexpr double kLift = 0.012;             // m of withdrawal before crossing
-constexpr double kLookTime = 0.16;          // s: the eyes are that late
-constexpr double kPenSettling = 0.15;       // s more before judging a pose: arm and instrument come to rest first
-constexpr double kTouchForce = 0.12;        // N that counts as feeling the tissue
-constexpr double kLongestDescent = 0.030;   // m below the hover point before looking again
-constexpr double kForesight = 0.08;         // s: a force that rises is judged by what it will be when the eyes and fingers tell
-constexpr double kSideGain = 1.2;           // 1/s, sideways correction while pressing
-constexpr double kSideDeadBand = 0.0010;    // m
-constexpr double kAsideTime = 0.5;          // s beside the target before lifting off to try again
-constexpr double kOpenJaw = 0.020;          // m, as taken from the jig and before squeezing
-constexpr double kClosedJaw = 0.002;        // m, while touching
-constexpr double kJawSpeed = 0.030;         // m/s of free opening and closing
-constexpr double kOpenEnough = 0.004;       // m short of open at which the fingers turn round
-constexpr double kTightestJaw = -0.010;     // m of intent: the fingers press beyond what they hold
-constexpr double kClosingSpeed = 0.012;     // m/s until the block is felt
-constexpr double kGripTouch = 0.08;         // N
+constexpr double kNearEnough = 0.6;                             // of the start ball's radius
+constexpr double kLift = 0.012;                                 // m of withdrawal before crossing
+constexpr double kLookTime = 0.16;                              // s: the eyes are that late
+constexpr double kPenSettling = 0.15;      // s more before judging a pose: arm and instrument come to rest first
+constexpr double kTouchForce = 0.12;       // N that counts as feeling the tissue
+constexpr double kLongestDescent = 0.030;  // m below the hover point before looking again
+constexpr double kForesight =
+    0.08;                          // s: a force that rises is judged by what it will be when the eyes and fingers tell
+constexpr double kSideGain = 1.2;  // 1/s, sideways correction while pressing
+constexpr double kSideDeadBand = 0.0010;                     // m
+constexpr double kAsideTime = 0.5;                           // s beside the target before lifting off to try again
+constexpr double kOpenJaw = 0.020;                           // m, as taken from the jig and before squeezing
+constexpr double kClosedJaw = 0.002;                         // m, while touching
+constexpr double kJawSpeed = 0.030;                          // m/s of free opening and closing
+constexpr double kOpenEnough = 0.004;                        // m short of open at which the fingers turn round
+constexpr double kTightestJaw = -0.010;                      // m of intent: the fingers press beyond what they hold
+constexpr double kClosingSpeed = 0.012;                      // m/s until the block is felt
+constexpr double kDiscGripTouch = 0.08;                      // N
 constexpr std::uint64_t kErrandStride = 0x9e3779b97f4a7c15;  // keeps the streams of the errands apart
 
 }  // namespace
@@ -35,8 +36,8 @@ constexpr std::uint64_t kErrandStride = 0x9e3779b97f4a7c15;  // keeps the stream
 HandSkill SkilledHand::drawn_person(const HandSkill& skill, HandRandom& random) {
   HandSkill person = skill;
   if (skill.population_cv <= 0) return person;
-  for (double* value : {&person.speed_factor, &person.aim_lateral_m, &person.aim_depth_m, &person.aim_angle_rad, &person.tremor_m,
-                        &person.pause_s, &person.force_bias, &person.force_cv, &person.path_bulge})
+  for (double* value : {&person.speed_factor, &person.aim_lateral_m, &person.aim_depth_m, &person.aim_angle_rad,
+                        &person.tremor_m, &person.pause_s, &person.force_bias, &person.force_cv, &person.path_bulge})
     *value *= random.log_normal(skill.population_cv);
   return person;
 }
@@ -90,8 +91,8 @@ void SkilledHand::reach(const Percept& percept, const Vec3& goal_T, bool lift) {
   in_step_s_ = 0;
 }
 
-/// Plans a turn of the intent such that the SEEN instrument would come to the pen's orientation; the longer of reach and
-/// turn sets the pace of both.
+/// Plans a turn of the intent such that the SEEN instrument would come to the pen's orientation; the longer of reach
+/// and turn sets the pace of both.
 void SkilledHand::turn(const Percept& percept) {
   const Mat3 R_missing = percept.target_R_TI * percept.R_TI.transpose();
   const double angle = Eigen::AngleAxisd(R_missing).angle();
@@ -107,11 +108,9 @@ void SkilledHand::reach_target(const Percept& percept, bool lift) {
   if (task_.kind == HandErrand::Kind::kPen && percept.target_oriented) turn(percept);
 }
 
-/// Every errand, and every press in it, has luck of its own: what an earlier one took, or when it ended, does not reach it. So
-/// an attempt that is shifted by some milliseconds stays the same attempt.
-void SkilledHand::draw_anew(std::uint64_t part) {
-  random_ = HandRandom(seed_ + kErrandStride * (2 * errands_ + part));
-}
+/// Every errand, and every press in it, has luck of its own: what an earlier one took, or when it ended, does not reach
+/// it. So an attempt that is shifted by some milliseconds stays the same attempt.
+void SkilledHand::draw_anew(std::uint64_t part) { random_ = HandRandom(seed_ + kErrandStride * (2 * errands_ + part)); }
 
 void SkilledHand::begin_task(const Percept& percept) {
   ++errands_;
@@ -120,8 +119,10 @@ void SkilledHand::begin_task(const Percept& percept) {
   in_step_s_ = 0;
   switch (task_.kind) {
     case HandErrand::Kind::kStart:
-    case HandErrand::Kind::kPen: return reach_target(percept, false);
-    case HandErrand::Kind::kDisc: return reach_target(percept, true);
+    case HandErrand::Kind::kPen:
+      return reach_target(percept, false);
+    case HandErrand::Kind::kDisc:
+      return reach_target(percept, true);
     case HandErrand::Kind::kBlock:
       block_intent_ = {{intent_R_, intent_T_}, jaw_m_};
       return blocks_.begin(percept, block_intent_, random_);
@@ -133,7 +134,8 @@ void SkilledHand::begin_task(const Percept& percept) {
       plan_ = ReachPlan(intent_T_, intent_T_ + Vec3(0, 0, 2 * kLift), {0, Vec3::Zero(), 0, 0.5 * skill_.speed_factor});
       step_ = task_.kind == HandErrand::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
-    case HandErrand::Kind::kNothing: step_ = Step::kStill;
+    case HandErrand::Kind::kNothing:
+      step_ = Step::kStill;
   }
 }
 
@@ -197,7 +199,7 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
     opened_ = in_step_s_ > plan_.duration_s() && percept.jaw_opening_m > kOpenJaw - kOpenEnough;
     return;
   }
-  const bool felt = senses_.grip_n() > kGripTouch;
+  const bool felt = senses_.grip_n() > kDiscGripTouch;
   const double closing = felt ? squeeze_.speed(senses_.grip_n(), dt_s, random_) : kClosingSpeed / skill_.speed_factor;
   jaw_m_ = std::clamp(jaw_m_ - closing * dt_s, std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
 }
@@ -247,7 +249,8 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
 
 void SkilledHand::act(const Percept& percept, double dt_s) {
   switch (step_) {
-    case Step::kStill: break;
+    case Step::kStill:
+      break;
     case Step::kReach:
       intent_T_ = plan_.at(in_step_s_);
       if (task_.kind == HandErrand::Kind::kPen) intent_R_ = turn_.at(in_step_s_);
@@ -262,9 +265,15 @@ void SkilledHand::act(const Percept& percept, double dt_s) {
       if (senses_.touch_n() > kTouchForce) on_unexpected_touch(percept);
       if (step_ == Step::kLook) look(percept);
       break;
-    case Step::kDescend: descend(percept, dt_s); break;
-    case Step::kPress: press(percept, dt_s); break;
-    case Step::kSqueeze: squeeze(percept, dt_s); break;
+    case Step::kDescend:
+      descend(percept, dt_s);
+      break;
+    case Step::kPress:
+      press(percept, dt_s);
+      break;
+    case Step::kSqueeze:
+      squeeze(percept, dt_s);
+      break;
   }
 }
 

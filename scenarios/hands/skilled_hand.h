@@ -2,9 +2,8 @@
 // comes down onto the tissue, presses until the felt force is what it wants, withdraws, and finally squeezes the block.
 //
 // Knows nothing but its Percept. Its intent pulls the stylus through the impedance of the hand, so while pressing the
-// intent lies inside the tissue. Frame T, m, N. Orientation: kept as seen when the device became ready, until a pen asks for
-// another.
-// Thread: the hand task's, once a loop period; does not allocate.
+// intent lies inside the tissue. Frame T, m, N. Orientation: kept as seen when the device became ready, until a pen
+// asks for another. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
 #include "haptics/device/hand.h"
@@ -46,24 +45,24 @@ class SkilledHand : public Hand {
   Vec3 tremor(double t_s) const;
 
   std::uint64_t seed_, errands_ = 0;
-  HandRandom random_;           ///< of the present errand
+  HandRandom random_;  ///< of the present errand
   HandSkill skill_;
   HandSenses senses_;
   ForceGrip press_, squeeze_;
   GraspErrand blocks_;
-  HandIntent block_intent_;     ///< of the errand with blocks, without tremor
+  HandIntent block_intent_;  ///< of the errand with blocks, without tremor
   ReachPlan plan_;
   TurnPlan turn_;
   HandErrand task_;
-  Percept attended_;            ///< target and band that the person works on
+  Percept attended_;  ///< target and band that the person works on
   Step step_ = Step::kStill;
-  Pose ready_;                  ///< pose seen when the device became ready
+  Pose ready_;  ///< pose seen when the device became ready
   Vec3 intent_T_ = Vec3::Zero();
   Mat3 intent_R_ = Mat3::Identity();
   Vec3 tremor_phase_ = Vec3::Zero();
   double jaw_m_, time_s_ = 0, in_step_s_ = 0, aside_s_ = 0;
   int corrections_ = 0;
-  bool opened_ = false;         ///< the jaws have been opened for the squeeze
+  bool opened_ = false;  ///< the jaws have been opened for the squeeze
   bool seen_ = false, is_ready_ = false;
 };
 

@@ -16,6 +16,8 @@ TurnPlan::TurnPlan(const Mat3& R_from, const Mat3& R_to, double duration_s) : R_
   angle_rad_ = turn.angle();
 }
 
-Mat3 TurnPlan::at(double t_s) const { return R_from_ * rotation_by(axis_ * (angle_rad_ * minimum_jerk(t_s / duration_s_))); }
+Mat3 TurnPlan::at(double t_s) const {
+  return R_from_ * rotation_by(axis_ * (angle_rad_ * minimum_jerk(t_s / duration_s_)));
+}
 
 }  // namespace trocar

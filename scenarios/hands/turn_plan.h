@@ -15,7 +15,7 @@ class TurnPlan {
 
  private:
   Mat3 R_from_ = Mat3::Identity();
-  Vec3 axis_ = Vec3::UnitX();      ///< in the frame turned
+  Vec3 axis_ = Vec3::UnitX();  ///< in the frame turned
   double angle_rad_ = 0, duration_s_ = 0.1;
 };
 

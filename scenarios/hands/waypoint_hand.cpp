@@ -27,7 +27,8 @@ HandIntent WaypointHand::update(const Percept& percept, double dt_s) {
   intent_.jaw_opening_m = from_jaw_m_ + share * (move.jaw_m - from_jaw_m_);
   intent_.clutch = move.clutch;
   if (in_move_s_ >= move.seconds + move.hold_s) {
-    if (move.clutch) intent_ = {{intent_.X_TI.R, from_T_}, intent_.jaw_opening_m, false};  // the instrument stayed there
+    if (move.clutch)
+      intent_ = {{intent_.X_TI.R, from_T_}, intent_.jaw_opening_m, false};  // the instrument stayed there
     from_T_ = intent_.X_TI.p;
     from_jaw_m_ = intent_.jaw_opening_m;
     in_move_s_ = 0;

@@ -17,9 +17,9 @@ struct Metric {
 
 struct Subscore {
   std::string name;
-  double value = 0;             ///< 0..1
+  double value = 0;  ///< 0..1
   double weight = 0;
-  std::optional<double> raw;    ///< the metric's value
+  std::optional<double> raw;  ///< the metric's value
   std::string unit;
   double full_at = 0, zero_at = 0;
   bool gate = false;
@@ -30,7 +30,7 @@ struct Grade {
   AttemptStatus status = AttemptStatus::kAborted;
   std::optional<double> score;  ///< 0..100; empty when void, aborted or fault
   bool passed = false;
-  std::string grade;            ///< "expert", "proficient", "pass", "below pass", "not graded"
+  std::string grade;  ///< "expert", "proficient", "pass", "below pass", "not graded"
   std::vector<Subscore> subscores;
   std::vector<std::string> caps;  ///< each cap applied, with its reason
   std::vector<Metric> metrics;
@@ -39,25 +39,26 @@ struct Grade {
 /// How often the device loop warned of something (docs/device_and_safety.md).
 struct DeviceWarning {
   std::string name;
-  double first_s = 0;                  ///< loop time
+  double first_s = 0;  ///< loop time
   std::uint64_t ticks = 0;
 };
 
 /// A change of state of the device loop.
 struct DeviceTransition {
-  double t_s = 0;                      ///< loop time
+  double t_s = 0;  ///< loop time
   std::string from, to;
 };
 
-/// How stiff the contacts were at the stylus beside K_max, what the device can display there (haptics/control/stiffness_limit.h).
+/// How stiff the contacts were at the stylus beside K_max, what the device can display there
+/// (haptics/contact/stiffness_limit.h).
 struct StiffnessReceipt {
-  bool recorded = false;               ///< recordings before format 3 do not say
-  bool clamped = false;                ///< contacts stiffer than K_max were weakened to it
-  std::uint64_t contact_ticks = 0;     ///< that felt a spring; what follows holds only with some
+  bool recorded = false;            ///< recordings before format 3 do not say
+  bool clamped = false;             ///< contacts stiffer than K_max were weakened to it
+  std::uint64_t contact_ticks = 0;  ///< that felt a spring; what follows holds only with some
   double k_max_min_n_per_m = 0, k_max_max_n_per_m = 0;
-  double asked_max_n_per_m = 0;        ///< stiffest contact, before any clamp
-  double share_min = 1;                ///< least of min(1, K_max / asked)
-  double above_share = 0;              ///< of the contact ticks: asked for more than K_max
+  double asked_max_n_per_m = 0;  ///< stiffest contact, before any clamp
+  double share_min = 1;          ///< least of min(1, K_max / asked)
+  double above_share = 0;        ///< of the contact ticks: asked for more than K_max
 };
 
 /// Loop quality of the attempt (the device receipt).
@@ -73,13 +74,13 @@ struct DeviceReceipt {
   StiffnessReceipt stiffness;
   /// The force was not rendered when the device lacked room in over 5 % of the contact time.
   bool force_not_rendered() const { return saturated_contact_share > 0.05; }
-  std::string fault;                   ///< cause of the first one, empty when none
-  std::string force_sensor;            ///< JSON: what the force sensor says of the delivered force; empty without one
-  std::string plant;                   ///< JSON: file and sha256 of the simulated device's plant file; empty: the seed's
-  std::string realtime;                ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep
-  int fault_channel = -1;              ///< -1: none in particular
-  double fault_s = 0, fault_value = 0; ///< loop time of the tick in which it was seen; the offending number
-  std::string reason;                  ///< why the loop ended, empty when the exercise ended it
+  std::string fault;         ///< cause of the first one, empty when none
+  std::string force_sensor;  ///< JSON: what the force sensor says of the delivered force; empty without one
+  std::string plant;         ///< JSON: file and sha256 of the simulated device's plant file; empty: the seed's
+  std::string realtime;      ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep
+  int fault_channel = -1;    ///< -1: none in particular
+  double fault_s = 0, fault_value = 0;  ///< loop time of the tick in which it was seen; the offending number
+  std::string reason;                   ///< why the loop ended, empty when the exercise ended it
   std::vector<DeviceWarning> warnings;
   std::vector<DeviceTransition> transitions;
 };
@@ -93,14 +94,14 @@ struct AttemptResult {
   Grade grade;
   std::vector<Event> events;
   DeviceReceipt device;
-  std::string safety_log_path;         ///< empty when nothing stopped the device
+  std::string safety_log_path;  ///< empty when nothing stopped the device
   std::string organ_name, organ_source, organ_sha256;
   bool organ_synthetic = false;
-  std::string organ_credit;            ///< licence and origin, shown wherever the organ is
+  std::string organ_credit;  ///< licence and origin, shown wherever the organ is
   std::string rubric_sha256, recording_sha256, recording_path;
-  std::string integrity;               ///< why it was aborted, void or stopped by the device; empty when nothing is wrong
-  std::string state_hash;              ///< 16 hexadecimal digits
-  std::string started_utc;             ///< ISO 8601, wall clock, informative only
+  std::string integrity;    ///< why it was aborted, void or stopped by the device; empty when nothing is wrong
+  std::string state_hash;   ///< 16 hexadecimal digits
+  std::string started_utc;  ///< ISO 8601, wall clock, informative only
 };
 
 }  // namespace trocar

@@ -58,7 +58,8 @@ void check_skill(Checks& c, const ValidityBars& bars) {
     c.at_least("expert mean", c.mean("expert"), bars.expert_mean);
     const std::vector<double>& scores = c.of("expert").scores;
     const auto full = std::count_if(scores.begin(), scores.end(), [](double s) { return s >= kFullMarks; });
-    c.at_most("expert at full marks", scores.empty() ? 0 : static_cast<double>(full) / static_cast<double>(scores.size()),
+    c.at_most("expert at full marks",
+              scores.empty() ? 0 : static_cast<double>(full) / static_cast<double>(scores.size()),
               bars.expert_full_marks_share);
   }
   if (c.has("expert") && c.has("intermediate")) {
@@ -75,8 +76,10 @@ void check_skill(Checks& c, const ValidityBars& bars) {
 
 void check_cheats(Checks& c, const ValidityScope& scope, const ValidityBars& bars) {
   if (c.has("novice")) {
-    if (scope.first_level) c.not_asked("novice passes", "not asked at the first level");
-    else c.at_most("novice passes", c.share("novice"), bars.novice_pass_share);
+    if (scope.first_level)
+      c.not_asked("novice passes", "not asked at the first level");
+    else
+      c.at_most("novice passes", c.share("novice"), bars.novice_pass_share);
   }
   if (c.has("clumsy")) {
     c.at_most("clumsy mean", c.mean("clumsy"), bars.clumsy_mean);
@@ -87,8 +90,10 @@ void check_cheats(Checks& c, const ValidityScope& scope, const ValidityBars& bar
     c.at_most("speed-runner passes", c.share(kSpeedRunner), 0);
   }
   if (c.has("heavy-handed")) {
-    if (!scope.judges_force) c.not_asked("heavy-handed passes", "the exercise judges no force");
-    else c.at_most("heavy-handed passes", c.share("heavy-handed"), 0);
+    if (!scope.judges_force)
+      c.not_asked("heavy-handed passes", "the exercise judges no force");
+    else
+      c.at_most("heavy-handed passes", c.share("heavy-handed"), 0);
   }
   if (c.has("idle")) c.at_most("idle highest", summarise(c.of("idle").scores).highest, 0);
 }

@@ -15,10 +15,10 @@ namespace trocar {
 
 /// Outcomes of one hand on one exercise and level, one entry a seed.
 struct HandOutcomes {
-  std::vector<double> scores;   ///< 0..100, attempts with a number only
+  std::vector<double> scores;  ///< 0..100, attempts with a number only
   int passes = 0;
-  int without_score = 0;        ///< aborted, void or fault
-  int too_fast = 0;             ///< of those: the device stopped because the arm went too fast
+  int without_score = 0;  ///< aborted, void or fault
+  int too_fast = 0;       ///< of those: the device stopped because the arm went too fast
 };
 
 struct GroupSummary {
@@ -38,16 +38,16 @@ double cliffs_delta(const std::vector<double>& first, const std::vector<double>&
 /// What an exercise must show at every level.
 struct ValidityBars {
   double expert_mean = 85;
-  double expert_over_intermediate = 5, intermediate_over_novice = 15;   ///< differences of means
+  double expert_over_intermediate = 5, intermediate_over_novice = 15;  ///< differences of means
   double delta_expert_intermediate = 0.6, delta_intermediate_novice = 0.8;
-  double novice_pass_share = 0.10;      ///< at most, from the second level on
+  double novice_pass_share = 0.10;  ///< at most, from the second level on
   double clumsy_mean = 50, clumsy_pass_share = 0.02, speed_runner_mean = 40;
   double expert_full_marks_share = 0.05;  ///< at most: a ceiling hides who is better
 };
 
 /// One statement and whether it holds.
 struct ValidityCheck {
-  std::string name;       ///< "expert mean"
+  std::string name;  ///< "expert mean"
   double value = 0;
   std::string bar;        ///< ">= 85"
   bool met = false;       ///< also when it is not asked

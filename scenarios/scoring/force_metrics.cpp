@@ -9,8 +9,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kRiseGrace = 0.5;        // s after the first touch in which a force below the band does not count
-constexpr double kGripThreshold = 0.05;   // N: the jaws hold something
+constexpr double kRiseGrace = 0.5;       // s after the first touch in which a force below the band does not count
+constexpr double kGripThreshold = 0.05;  // N: the jaws hold something
 
 using Samples = std::vector<TraceSample>;
 using Value = std::optional<double>;
@@ -63,12 +63,11 @@ std::vector<Window> windows_between(const std::vector<Event>& events, const std:
     const Event& event = events[i];
     if (event.type != opening || std::find(seen.begin(), seen.end(), event.object) != seen.end()) continue;
     seen.push_back(event.object);
-    const auto closed =
-        std::find_if(events.begin() + static_cast<std::ptrdiff_t>(i), events.end(),
-                     [&](const Event& e) { return e.type == closing && e.object == event.object; });
+    const auto closed = std::find_if(events.begin() + static_cast<std::ptrdiff_t>(i), events.end(),
+                                     [&](const Event& e) { return e.type == closing && e.object == event.object; });
     const auto index = static_cast<std::size_t>(std::max(0, event.object));
-    windows.push_back({event.t_s, closed == events.end() ? end : closed->t_s,
-                       index < bands.size() ? bands[index] : bands.front()});
+    windows.push_back(
+        {event.t_s, closed == events.end() ? end : closed->t_s, index < bands.size() ? bands[index] : bands.front()});
   }
   return windows;
 }
@@ -156,13 +155,12 @@ void add_grip_metrics(const Samples& samples, const std::vector<Event>& events, 
     sum += grip * weight[i];
   }
   const double end = samples.empty() ? 0 : samples.back().t_s;
-  const auto windows = windows_between(events, "GRIP_TOUCHED", "GRIP_HELD", end,
-                                       {{context.grip_low_n, context.grip_high_n}});
+  const auto windows =
+      windows_between(events, "GRIP_TOUCHED", "GRIP_HELD", end, {{context.grip_low_n, context.grip_high_n}});
   sink.push_back({"grip_max_n", time > 0 ? Value(largest) : std::nullopt, "N"});
   sink.push_back({"grip_mean_n", time > 0 ? Value(sum / time) : std::nullopt, "N"});
   sink.push_back({"grip_in_band_share",
-                  in_band_share(samples, windows, [](const TraceSample& sample) { return sample.grip_n; }),
-                  "1"});
+                  in_band_share(samples, windows, [](const TraceSample& sample) { return sample.grip_n; }), "1"});
   sink.push_back({"regrasps", grasps > 0 ? Value(grasps - 1) : std::nullopt, "1"});
 }
 

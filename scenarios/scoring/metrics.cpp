@@ -129,8 +129,8 @@ void add_count_metrics(const std::vector<Event>& events, const ScoringContext& c
   }
   const double total = context.objects_total;
   sink.push_back({"targets_held", static_cast<double>(held.size()), "1"});
-  sink.push_back({"objects_done_share",
-                  total > 0 ? std::optional<double>(context.objects_done / total) : std::nullopt, "1"});
+  sink.push_back(
+      {"objects_done_share", total > 0 ? std::optional<double>(context.objects_done / total) : std::nullopt, "1"});
   sink.push_back({"wrong_places", wrong, "1"});
   sink.push_back({"excess_events", excess, "1"});
   sink.push_back({"critical_events", critical, "1"});
@@ -146,9 +146,8 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   graded.rate_hz = trace.rate_hz;
   if (window) {
     graded = cut_trace(trace, window->first, window->second);
-    std::copy_if(events.begin(), events.end(), std::back_inserter(graded_events), [&](const Event& event) {
-      return event.t_s >= window->first && event.t_s <= window->second;
-    });
+    std::copy_if(events.begin(), events.end(), std::back_inserter(graded_events),
+                 [&](const Event& event) { return event.t_s >= window->first && event.t_s <= window->second; });
   }
   std::vector<Metric> metrics;
   add_motion_metrics(graded, graded_events, context, metrics);

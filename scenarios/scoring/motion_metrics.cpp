@@ -8,12 +8,12 @@
 namespace trocar {
 namespace {
 
-constexpr double kPeakProminence = 0.005;    // m/s
-constexpr double kIdleSpeed = 0.005;         // m/s, for at least kIdleTime
-constexpr double kIdleTime = 0.5;            // s
-constexpr double kMovementSpeed = 0.010;     // m/s, for at least kMovementTime
-constexpr double kMovementTime = 0.5;        // s
-constexpr double kAngleRateHz = 10;          // angular path: below this noise dominates
+constexpr double kPeakProminence = 0.005;  // m/s
+constexpr double kIdleSpeed = 0.005;       // m/s, for at least kIdleTime
+constexpr double kIdleTime = 0.5;          // s
+constexpr double kMovementSpeed = 0.010;   // m/s, for at least kMovementTime
+constexpr double kMovementTime = 0.5;      // s
+constexpr double kAngleRateHz = 10;        // angular path: below this noise dominates
 
 std::size_t samples_of(double seconds, double rate_hz) {
   return static_cast<std::size_t>(std::ceil(seconds * rate_hz - 1e-9));
@@ -85,8 +85,7 @@ void add_speed_metrics(const SmoothPath& path, double duration_s, MetricSink& si
   sink.push_back({"speed_max_mps", value(known ? *std::max_element(path.speed.begin(), path.speed.end()) : 0), "m/s"});
   sink.push_back({"speed_peaks", value(peaks), "1"});
   sink.push_back({"speed_peak_rate_hz", value(peaks / std::max(duration_s, 1e-9)), "1/s"});
-  sink.push_back(
-      {"idle_share", value(idle / static_cast<double>(std::max<std::size_t>(1, path.speed.size()))), "1"});
+  sink.push_back({"idle_share", value(idle / static_cast<double>(std::max<std::size_t>(1, path.speed.size()))), "1"});
 }
 
 /// Smoothness is averaged over movements: over the whole trial it would only be a clock.

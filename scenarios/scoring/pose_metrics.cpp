@@ -42,7 +42,8 @@ void add_pose_metrics(const std::vector<Event>& events, const ScoringContext& co
   const auto angle = mean_value(events, "ANGLE_ERROR");
   sink.push_back({"matched_in_time_share", in_time_share(events, context), "1"});
   sink.push_back({"position_error_m", mean_value(events, "POSITION_ERROR"), "m"});
-  sink.push_back({"angle_error_deg", angle ? std::optional<double>(*angle * 180 / std::numbers::pi) : std::nullopt, "deg"});
+  sink.push_back(
+      {"angle_error_deg", angle ? std::optional<double>(*angle * 180 / std::numbers::pi) : std::nullopt, "deg"});
   sink.push_back({"target_timeouts", count(events, "TARGET_TIMEOUT"), "1"});
   sink.push_back({"device_limits", count(events, "DEVICE_LIMIT"), "1"});
 }

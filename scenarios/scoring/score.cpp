@@ -84,8 +84,8 @@ Grade score_attempt(const Trace& trace, const std::vector<Event>& events, const 
     const std::optional<double> raw = metric ? metric->value : std::nullopt;
     const double value = subscore_value(rule, raw);
     total += rule.weight * value;
-    grade.subscores.push_back({rule.name, value, rule.weight, raw, metric ? metric->unit : "", rule.full_at,
-                               rule.zero_at, rule.gate});
+    grade.subscores.push_back(
+        {rule.name, value, rule.weight, raw, metric ? metric->unit : "", rule.full_at, rule.zero_at, rule.gate});
   }
   grade.score = 100 * total;
   apply_caps(grade, rubric, context);

@@ -1,6 +1,6 @@
 // What scoring must know of the exercise besides trace, events and rubric: bands, limits, the ideal path.
 //
-// Made from an exercise by scenarios/scoring_context.h and stored in the recording, so that a recording can be
+// Made from an exercise by scenarios/director/scoring_context.h and stored in the recording, so that a recording can be
 // regraded alone. Frame T, SI units.
 #pragma once
 
@@ -22,15 +22,15 @@ struct ObjectBand {
 struct ScoringContext {
   AttemptStatus outcome = AttemptStatus::kAborted;
   double time_limit_s = 0;
-  double band_low_n = 0, band_high_n = 0;            ///< wanted contact force
-  std::vector<ObjectBand> object_bands;              ///< by object where they differ; empty: the band above for all
+  double band_low_n = 0, band_high_n = 0;  ///< wanted contact force
+  std::vector<ObjectBand> object_bands;    ///< by object where they differ; empty: the band above for all
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
-  double grip_low_n = 0, grip_high_n = 0;            ///< wanted grip force
-  std::vector<std::array<double, 2>> grip_windows;   ///< wanted grip while carrying each block; empty: no blocks
-  double retract_height_m = 0;                       ///< of the ideal path between targets, along approach_T
-  Vec3 approach_T = Vec3::UnitZ();                   ///< direction in which the instrument withdraws
-  std::vector<Vec3> waypoints;                       ///< start, then the targets that were held, in lit order
-  std::optional<double> room_share;                  ///< of the region, where the device can give the soft limit
+  double grip_low_n = 0, grip_high_n = 0;           ///< wanted grip force
+  std::vector<std::array<double, 2>> grip_windows;  ///< wanted grip while carrying each block; empty: no blocks
+  double retract_height_m = 0;                      ///< of the ideal path between targets, along approach_T
+  Vec3 approach_T = Vec3::UnitZ();                  ///< direction in which the instrument withdraws
+  std::vector<Vec3> waypoints;                      ///< start, then the targets that were held, in lit order
+  std::optional<double> room_share;                 ///< of the region, where the device can give the soft limit
   int objects_total = 0, objects_done = 0;
 
   bool operator==(const ScoringContext&) const = default;

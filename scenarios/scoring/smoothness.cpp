@@ -59,8 +59,7 @@ std::optional<double> normalised_squared_jerk(const std::vector<Vec3>& position,
   const double dt = 1 / rate_hz, duration = static_cast<double>(position.size() - 1) * dt;
   double sum = 0;
   for (std::size_t i = 3; i < position.size(); ++i) {
-    const Vec3 jerk =
-        (position[i] - 3 * position[i - 1] + 3 * position[i - 2] - position[i - 3]) / (dt * dt * dt);
+    const Vec3 jerk = (position[i] - 3 * position[i - 1] + 3 * position[i - 2] - position[i - 3]) / (dt * dt * dt);
     sum += jerk.squaredNorm() * dt;
   }
   return std::pow(duration, 5) / (amplitude * amplitude) * sum;

@@ -39,7 +39,6 @@ struct Tremor {
   double power_share = 0;  ///< velocity power in the band / velocity power above 0.3 Hz
 };
 /// @param position uniform samples, m. Hann window. Empty below 1 s of data.
-std::optional<Tremor> tremor(const std::vector<Vec3>& position, double rate_hz, double low_hz = 8,
-                             double high_hz = 12);
+std::optional<Tremor> tremor(const std::vector<Vec3>& position, double rate_hz, double low_hz = 8, double high_hz = 12);
 
 }  // namespace trocar

@@ -1,6 +1,7 @@
-// Budget: an attempt's commit, p99 within 1 ms (WAL). Prints median, p99 and the longest of begin and finish: CPU of the thread, and wall
-// time, which on a busy machine is mostly waiting. As the store runs (synchronous = NORMAL) a commit waits for no disk but when the log is
-// copied back, once in some hundred; the last lines say what waiting at every commit (FULL) would cost here.
+// Budget: an attempt's commit, p99 within 1 ms (WAL). Prints median, p99 and the longest of begin and finish: CPU of
+// the thread, and wall time, which on a busy machine is mostly waiting. As the store runs (synchronous = NORMAL) a
+// commit waits for no disk but when the log is copied back, once in some hundred; the last lines say what waiting at
+// every commit (FULL) would cost here.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -8,8 +9,8 @@
 #include <functional>
 #include <vector>
 
-#include "tests/trainees/store_samples.h"
-#include "trainees/sqlite_handle.h"
+#include "tests/trainees/records/store_samples.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
-// Budget: a liver on 512 x 512 x 80 voxels to 10 000 triangles under 5 s of CPU and 1 GB; 1.1 million raw triangles under 30 s and 2 GB.
-// The label map is made in memory and not timed; reading and writing are not in these times.
+// Budget: a liver on 512 x 512 x 80 voxels to 10 000 triangles under 5 s of CPU and 1 GB; 1.1 million raw triangles
+// under 30 s and 2 GB. The label map is made in memory and not timed; reading and writing are not in these times.
 #include <benchmark/benchmark.h>
 
-#include "app/commands/bench_compiler.h"
-#include "tissue/mesh/nearest_surface.h"
-#include "tissue/mesh/organ_compiler.h"
+#include "app/cli/bench/bench_compiler.h"
+#include "tissue/mesh/surface/nearest_surface.h"
+#include "tissue/organ/organ_compiler.h"
 
 namespace {
 

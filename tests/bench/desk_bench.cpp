@@ -1,7 +1,8 @@
-// Bars of the desk: with 10^5 attempts of 500 trainees the cohort's page takes under 200 ms of the server's time, an attempt's under 300 ms
-// (a minute's trace included), and the database is under 500 MB without recordings. "page_": from the request to the last byte of HTML, as
-// the desk does it; the header Server-Timing of every answer tells the same. "_new" ones come after a commit of another connection, so that
-// nothing which was kept may be used. Makes such a database once and keeps it: some minutes.
+// Bars of the desk: with 10^5 attempts of 500 trainees the cohort's page takes under 200 ms of the server's time, an
+// attempt's under 300 ms (a minute's trace included), and the database is under 500 MB without recordings. "page_":
+// from the request to the last byte of HTML, as the desk does it; the header Server-Timing of every answer tells the
+// same. "_new" ones come after a commit of another connection, so that nothing which was kept may be used. Makes such a
+// database once and keeps it: some minutes.
 //
 //   bench_desk [FILE.db]        default: trocar_desk_bench.db in the folder of temporary files
 #include <benchmark/benchmark.h>
@@ -12,12 +13,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "tests/trainees/cohort_samples.h"
-#include "trainees/review/desk_memory.h"
-#include "trainees/review/desk_queries.h"
-#include "trainees/review/route.h"
-#include "trainees/sqlite_handle.h"
-#include "trainees/trainee_store.h"
+#include "tests/trainees/records/cohort_samples.h"
+#include "trainees/desk/queries/desk_queries.h"
+#include "trainees/desk/routes/route.h"
+#include "trainees/desk/server/desk_memory.h"
+#include "trainees/records/trainee_store.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace {
 
@@ -100,15 +101,17 @@ Trace minute(const std::filesystem::path&) {
 /// What a browser would get, without sockets.
 std::size_t page(benchmark::State& state, const std::string& route, const review::Request& request, bool changed) {
   static const std::vector<review::Route> routes = review::desk_routes();
-  const auto at = std::find_if(routes.begin(), routes.end(), [&](const review::Route& r) { return r.path == route && r.method == "GET"; });
+  const auto at = std::find_if(routes.begin(), routes.end(),
+                               [&](const review::Route& r) { return r.path == route && r.method == "GET"; });
   review::Desk desk{full_database(), {.trace = minute}, false, std::make_shared<review::DeskMemory>()};
   Database writer(g_file);
   std::size_t bytes = 0;
   for (auto step : state) {
     if (changed) {
       state.PauseTiming();
-      sql::execute(writer.connection(), "INSERT INTO sync_cursor VALUES ('bench', 0, '')"
-                                        " ON CONFLICT (remote) DO UPDATE SET position = position + 1");
+      sql::execute(writer.connection(),
+                   "INSERT INTO sync_cursor VALUES ('bench', 0, '')"
+                   " ON CONFLICT (remote) DO UPDATE SET position = position + 1");
       state.ResumeTiming();
     }
     const review::Response answer = at->answer(request, desk);
@@ -119,7 +122,8 @@ std::size_t page(benchmark::State& state, const std::string& route, const review
   return bytes;
 }
 
-review::Request as_instructor(std::map<std::string, std::string> arguments = {}, std::map<std::string, std::string> query = {}) {
+review::Request as_instructor(std::map<std::string, std::string> arguments = {},
+                              std::map<std::string, std::string> query = {}) {
   review::Request request;
   request.arguments = std::move(arguments);
   request.query = std::move(query);
@@ -140,7 +144,9 @@ void page_cohort_of_a_group_new(benchmark::State& state) {
 }
 BENCHMARK(page_cohort_of_a_group_new)->Unit(benchmark::kMillisecond);
 
-void page_trainee_new(benchmark::State& state) { page(state, "/trainee/{code}", as_instructor({{"code", "P042"}}), true); }
+void page_trainee_new(benchmark::State& state) {
+  page(state, "/trainee/{code}", as_instructor({{"code", "P042"}}), true);
+}
 BENCHMARK(page_trainee_new)->Unit(benchmark::kMillisecond);
 
 void page_attempt_new(benchmark::State& state) {
@@ -155,6 +161,6 @@ int main(int argc, char** argv) {
   if (argc > 1) g_file = argv[1];
   full_database();
   benchmark::RunSpecifiedBenchmarks();
-  std::printf("%s: %.0f MB, %d attempts, %d trainees\n", g_file.c_str(), static_cast<double>(std::filesystem::file_size(g_file)) / 1e6, kAttempts,
-              kTrainees);
+  std::printf("%s: %.0f MB, %d attempts, %d trainees\n", g_file.c_str(),
+              static_cast<double>(std::filesystem::file_size(g_file)) / 1e6, kAttempts, kTrainees);
 }

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "haptics/control/gravity.h"
+#include "tests/haptics/contact/surfaces.h"
 #include "tests/haptics/loop_rig.h"
-#include "tests/haptics/surfaces.h"
 #include "tissue/collision/patch_extraction.h"
 
 namespace {

@@ -1,13 +1,13 @@
-// Budget: a picture without GPU, 1280x720, soft preset, at least 20 /s on board scenes and 10 /s with an organ, on two cores with the
-// loop running. `CPU` adds the rasteriser's threads, so that the figure also means something on a busy machine: 50 ms of wall time on
-// two idle cores are 100 ms of it. LP_NUM_THREADS=1 leaves the other core to the loop.
+// Budget: a picture without GPU, 1280x720, soft preset, at least 20 /s on board scenes and 10 /s with an organ, on two
+// cores with the loop running. `CPU` adds the rasteriser's threads, so that the figure also means something on a busy
+// machine: 50 ms of wall time on two idle cores are 100 ms of it. LP_NUM_THREADS=1 leaves the other core to the loop.
 #include <benchmark/benchmark.h>
 
 #include <string>
 
-#include "app/graphics/headless_context.h"
-#include "app/graphics/renderer.h"
-#include "app/graphics/show_scene.h"
+#include "app/picture/gl/headless_context.h"
+#include "app/picture/models/show_scene.h"
+#include "app/picture/scene/renderer.h"
 #include "tests/support/board_scene.h"
 
 namespace {
@@ -35,7 +35,8 @@ void draw(benchmark::State& state, const std::string& name, trocar::Preset prese
     benchmark::DoNotOptimize(renderer.draw_scope(view, 1280, 720));  // as a window does: nothing is read back
     renderer.finish();
   }
-  state.counters["pictures/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["pictures/s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Budget: recording of 60 s at 1 kHz within 0.6 MiB, encoded within 20 ms.
 #include <benchmark/benchmark.h>
 
-#include "app/recorder/recording_reader.h"
-#include "tests/app/recording_samples.h"
+#include "app/session/recording/recording_reader.h"
+#include "tests/app/session/recording/recording_samples.h"
 
 namespace {
 

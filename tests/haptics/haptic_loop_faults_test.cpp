@@ -5,9 +5,9 @@
 #include <functional>
 #include <limits>
 
-#include "loop_rig.h"
+#include "tests/haptics/loop_rig.h"
 
-namespace trocar {
+namespace trocar::haptic_loop_faults_test {
 namespace {
 
 using test::LoopRig;
@@ -179,4 +179,4 @@ TEST(HapticLoopAllocation, NoTickTouchesTheHeap) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::haptic_loop_faults_test

@@ -1,9 +1,9 @@
 // Friction through the whole chain: held against a soft hand it neither creeps nor makes energy, and allocates nothing.
 #include <gtest/gtest.h>
 
-#include "loop_rig.h"
+#include "tests/haptics/loop_rig.h"
 
-namespace trocar {
+namespace trocar::haptic_loop_friction_test {
 namespace {
 
 using test::LoopRig;
@@ -77,4 +77,4 @@ TEST(HapticLoopFriction, GrasperAndHeldObjectAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::haptic_loop_friction_test

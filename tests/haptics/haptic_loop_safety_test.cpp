@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "haptics/control/gravity.h"
-#include "loop_rig.h"
+#include "tests/haptics/loop_rig.h"
 
-namespace trocar {
+namespace trocar::haptic_loop_safety_test {
 namespace {
 
 using test::LoopRig;
@@ -178,8 +178,8 @@ TEST(StuckDac, WithoutReadbackMotionBetraysIt) {
 
 /// A brisk press of the hand into a floor, then half a second of holding, under further delay behind the DAC register.
 struct Press {
-  double given_j = 0;   ///< most energy that the contact torque had given out beyond what it took in, true motion
-  double unrest = 0;    ///< fastest stylus during the last half second, m/s
+  double given_j = 0;  ///< most energy that the contact torque had given out beyond what it took in, true motion
+  double unrest = 0;   ///< fastest stylus during the last half second, m/s
   LoopState state = LoopState::kOff;
 };
 Press press_under_delay(double stiffness, int periods) {
@@ -323,4 +323,4 @@ TEST(Reset, LeadsThroughEveryStateBackToWork) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::haptic_loop_safety_test

@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "haptics/control/gravity.h"
-#include "loop_rig.h"
+#include "tests/haptics/loop_rig.h"
 
-namespace trocar {
+namespace trocar::haptic_loop_test {
 namespace {
 
 using test::LoopRig;
@@ -82,7 +82,8 @@ TEST(HapticLoop, PressAtRestRendersStiffnessTimesDepth) {
     rig.move(deep, 1.0);
     rig.run(1.0);
     const StylusState& s = rig.record.stylus;
-    ASSERT_TRUE(s.contact) << fault_name(s.fault.code) << " of channel " << int(s.fault.channel) << " at " << s.fault.tick;
+    ASSERT_TRUE(s.contact) << fault_name(s.fault.code) << " of channel " << int(s.fault.channel) << " at "
+                           << s.fault.tick;
     EXPECT_TRUE(s.tip_contact);
     EXPECT_FALSE(s.fault);
     EXPECT_GT(s.depth_m, 0.001);
@@ -254,4 +255,4 @@ TEST(ReplayDaq, AfterTheEndAllChannelsAreInvalid) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::haptic_loop_test

@@ -9,8 +9,8 @@
 #include "haptics/device/simulated_daq.h"
 #include "haptics/haptic_loop.h"
 #include "haptics/kinematics/inverse_kinematics.h"
-#include "haptics_fixtures.h"
-#include "support/allocation_guard.h"
+#include "tests/haptics/haptics_fixtures.h"
+#include "tests/support/allocation_guard.h"
 
 namespace trocar::test {
 

@@ -1,15 +1,15 @@
-// Construct validity of every exercise and level in the kinematic closed loop: better hands score better, dangerous ones
-// never pass, waiting and repeating earn nothing.
+// Construct validity of every exercise and level in the kinematic closed loop: better hands score better, dangerous
+// ones never pass, waiting and repeating earn nothing.
 #include <algorithm>
 #include <map>
 #include <memory>
 
 #include <gtest/gtest.h>
 
-#include "scenarios/exercise_loader.h"
+#include "scenarios/files/exercise_loader.h"
 #include "tests/scenarios/support/practice_world.h"
 
-namespace trocar {
+namespace trocar::practice_levels_test {
 namespace {
 
 constexpr int kRuns = 6;  // differences of 5 and 15 points stand out of a spread of 2 to 4
@@ -154,4 +154,4 @@ TEST(ThreeForces, AreDealtOutEvenlyAndJudgedEachByItsOwnBand) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::practice_levels_test

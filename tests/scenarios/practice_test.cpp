@@ -8,7 +8,7 @@
 #include "scenarios/hands/make_hand.h"
 #include "tests/scenarios/support/practice_world.h"
 
-namespace trocar {
+namespace trocar::practice_test {
 namespace {
 
 constexpr int kRuns = 20;
@@ -180,4 +180,4 @@ TEST(Practice, OneDiscAndStopEarnsAtMostItsShare) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::practice_test

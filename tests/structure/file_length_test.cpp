@@ -6,7 +6,7 @@
 #include "tests/structure/source_text.h"
 #include "tests/structure/source_tree.h"
 
-namespace trocar {
+namespace trocar::file_length_test {
 namespace {
 
 constexpr std::size_t kLongestFile = 400;
@@ -80,4 +80,4 @@ TEST(TestShare, TestsKeepPaceWithTheSource) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::file_length_test

@@ -8,7 +8,7 @@
 #include "tests/structure/source_text.h"
 #include "tests/structure/source_tree.h"
 
-namespace trocar {
+namespace trocar::function_length_test {
 namespace {
 
 constexpr std::size_t kLongestFunction = 50;
@@ -123,4 +123,4 @@ TEST(FunctionLengths, NoFunctionIsLongerThan50Lines) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::function_length_test

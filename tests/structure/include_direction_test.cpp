@@ -6,7 +6,7 @@
 #include "tests/structure/include_rules.h"
 #include "tests/structure/source_tree.h"
 
-namespace trocar {
+namespace trocar::include_direction_test {
 namespace {
 
 std::string quoted(const std::string& name) { return "#include \"" + name + "\"\n"; }
@@ -31,26 +31,26 @@ TEST(IncludesOf, FindsIncludesAndNothingElse) {
 }
 
 TEST(IncludeRules, RefuseWhatGoesAgainstTheDirection) {
-  const std::vector<Case> cases{{"haptics/haptic_loop.cpp", quoted("tissue/organ.h")},
+  const std::vector<Case> cases{{"haptics/haptic_loop.cpp", quoted("tissue/organ/organ.h")},
                                 {"haptics/haptic_loop.h", quoted("scenarios/scoring/trace.h")},
-                                {"haptics/device/device_plant.cpp", quoted("haptics/kinematics/hybrid_arm.h")},
-                                {"haptics/device/plant_motor.h", quoted("haptics/device/device_model.h")},
+                                {"haptics/device/plant/device_plant.cpp", quoted("haptics/kinematics/hybrid_arm.h")},
+                                {"haptics/device/plant/plant_motor.h", quoted("haptics/device/device_model.h")},
                                 {"haptics/device/simulated_daq.cpp", quoted("haptics/device/transmission.h")},
-                                {"haptics/device/hand_model.cpp", quoted("haptics/control/passivity.h")},
+                                {"haptics/device/plant/hand_model.cpp", quoted("haptics/control/passivity.h")},
                                 {"haptics/device/data_acquisition.h", quoted("haptics/device/device_model.h")},
                                 {"haptics/quantities.h", quoted("haptics/fault.h")},
-                                {"tissue/organ.cpp", quoted("scenarios/exercise.h")},
-                                {"tissue/mesh/remesh.cpp", quoted("app/scene.h")},
+                                {"tissue/organ/organ.cpp", quoted("scenarios/exercise.h")},
+                                {"tissue/mesh/surface/remesh.cpp", quoted("app/session/setup/scene.h")},
                                 {"haptics/haptic_loop.cpp", quoted("haptics/digest/digest.h")},
                                 {"haptics/digest/digest.cpp", quoted("haptics/fault.h")},
-                                {"scenarios/director.cpp", quoted("trainees/database.h")},
+                                {"scenarios/director/director.cpp", quoted("trainees/store/database.h")},
                                 {"scenarios/scoring/score.cpp", quoted("scenarios/exercise.h")},
                                 {"scenarios/scoring/metrics.cpp", quoted("haptics/haptic_loop.h")},
-                                {"trainees/database.cpp", quoted("scenarios/director.h")},
-                                {"trainees/cohort.cpp", quoted("tissue/organ.h")},
-                                {"app/recorder/chunk.cpp", quoted("app/commands/run_command.h")},
-                                {"app/graphics/renderer.cpp", quoted("trainees/database.h")},
-                                {"app/session.cpp", quoted("tests/support/sample_attempt.h")}};
+                                {"trainees/store/database.cpp", quoted("scenarios/director/director.h")},
+                                {"trainees/records/cohort.cpp", quoted("tissue/organ/organ.h")},
+                                {"app/session/recording/chunk.cpp", quoted("app/cli/attempts/run_command.h")},
+                                {"app/picture/scene/renderer.cpp", quoted("trainees/store/database.h")},
+                                {"app/session/session.cpp", quoted("tests/support/sample_attempt.h")}};
   for (const Case& one : cases)
     EXPECT_EQ(include_violations(one.path, one.text).size(), 1u) << one.path << ' ' << one.text;
 }
@@ -59,7 +59,8 @@ TEST(IncludeRules, RefuseThirdPartyTypesInHeaders) {
   for (const char* name : {"CGAL/Surface_mesh.h", "itkImage.h", "assimp/scene.h", "fcl/fcl.h", "sqlite3.h", "GL/gl.h",
                            "EGL/egl.h", "epoxy/gl.h", "toml++/toml.h", "nlohmann/json.hpp", "CLI/CLI.hpp", "png.h",
                            "ft2build.h", "zstd.h", "openssl/sha.h"}) {
-    for (const char* path : {"tissue/organ.h", "app/session.h", "app/graphics/renderer.h", "trainees/database.h"}) {
+    for (const char* path : {"tissue/organ/organ.h", "app/session/session.h", "app/picture/scene/renderer.h",
+                             "trainees/store/database.h"}) {
       EXPECT_EQ(include_violations(path, angled(name)).size(), 1u) << path << " <" << name << ">";
     }
   }
@@ -67,35 +68,36 @@ TEST(IncludeRules, RefuseThirdPartyTypesInHeaders) {
 
 TEST(IncludeRules, RefuseThirdPartyLibrariesOutsideTheirModule) {
   const std::vector<Case> cases{{"haptics/haptic_loop.cpp", angled("nlohmann/json.hpp")},
-                                {"scenarios/director.cpp", angled("CGAL/Surface_mesh.h")},
-                                {"trainees/cohort.cpp", angled("CGAL/Surface_mesh.h")},
-                                {"app/session.cpp", angled("sqlite3.h")},
-                                {"app/session.cpp", angled("epoxy/gl.h")},
-                                {"app/commands/run_command.cpp", angled("CLI/CLI.hpp")}};
+                                {"scenarios/director/director.cpp", angled("CGAL/Surface_mesh.h")},
+                                {"trainees/records/cohort.cpp", angled("CGAL/Surface_mesh.h")},
+                                {"app/session/session.cpp", angled("sqlite3.h")},
+                                {"app/session/session.cpp", angled("epoxy/gl.h")},
+                                {"app/cli/attempts/run_command.cpp", angled("CLI/CLI.hpp")}};
   for (const Case& one : cases)
     EXPECT_EQ(include_violations(one.path, one.text).size(), 1u) << one.path << ' ' << one.text;
 }
 
 TEST(IncludeRules, SayFileLineAndRule) {
-  const auto found = include_violations("tissue/organ.cpp", "\n" + quoted("app/scene.h"));
+  const auto found = include_violations("tissue/organ/organ.cpp", "\n" + quoted("app/session/setup/scene.h"));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0], "tissue/organ.cpp:2: includes app/scene.h: tissue knows haptics only");
+  EXPECT_EQ(found[0], "tissue/organ/organ.cpp:2: includes app/session/setup/scene.h: tissue knows haptics only");
 }
 
 TEST(IncludeRules, AllowWhatTheArchitectureDraws) {
   const std::vector<Case> cases{
       {"haptics/haptic_loop.h", quoted("haptics/quantities.h") + angled("Eigen/Core") + angled("vector")},
       {"haptics/device/simulated_daq.cpp",
-       quoted("haptics/device/device_plant.h") + quoted("haptics/device/data_acquisition.h")},
-      {"tissue/mesh/remesh.cpp", quoted("haptics/input_error.h") + angled("CGAL/Surface_mesh.h")},
-      {"tissue/organ.cpp", quoted("haptics/digest/digest.h")},
-      {"scenarios/director.cpp", quoted("tissue/mesh/triangle_surface.h") + quoted("scenarios/scoring/rubric.h")},
-      {"trainees/attempt_store.h", quoted("scenarios/scoring/attempt_result.h")},
-      {"trainees/database.cpp", angled("sqlite3.h") + angled("sys/stat.h")},
-      {"app/session.cpp", quoted("trainees/attempt_store.h") + angled("nlohmann/json.hpp")},
-      {"app/graphics/renderer.cpp", angled("epoxy/gl.h")},
+       quoted("haptics/device/plant/device_plant.h") + quoted("haptics/device/data_acquisition.h")},
+      {"tissue/mesh/surface/remesh.cpp", quoted("haptics/input_error.h") + angled("CGAL/Surface_mesh.h")},
+      {"tissue/organ/organ.cpp", quoted("haptics/digest/digest.h")},
+      {"scenarios/director/director.cpp",
+       quoted("tissue/mesh/surface/triangle_surface.h") + quoted("scenarios/scoring/rubric.h")},
+      {"trainees/records/attempt_store.h", quoted("scenarios/scoring/attempt_result.h")},
+      {"trainees/store/database.cpp", angled("sqlite3.h") + angled("sys/stat.h")},
+      {"app/session/session.cpp", quoted("trainees/records/attempt_store.h") + angled("nlohmann/json.hpp")},
+      {"app/picture/scene/renderer.cpp", angled("epoxy/gl.h")},
       {"tests/haptics/oracle_test.cpp", angled("fcl/fcl.h") + quoted("tests/support/sample_attempt.h")},
-      {"tests/system/run_test.cpp", quoted("app/session.h") + angled("nlohmann/json.hpp")}};
+      {"tests/system/run_test.cpp", quoted("app/session/session.h") + angled("nlohmann/json.hpp")}};
   for (const Case& one : cases)
     EXPECT_TRUE(include_violations(one.path, one.text).empty()) << one.path << ' ' << one.text;
 }
@@ -119,4 +121,4 @@ TEST(IncludeDirection, EveryHeaderIsIncludedOnceOnlyAndSaysWhatItIs) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::include_direction_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace trocar {
+namespace trocar::scripts_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ TEST(Scripts, EveryLibraryThatCMakeLooksForIsOnTheList) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::scripts_test

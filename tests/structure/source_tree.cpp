@@ -23,8 +23,7 @@ std::string read(const fs::path& path) {
 std::vector<SourceFile> walk() {
   const fs::path root = TROCAR_SOURCE_DIR;
   std::vector<SourceFile> files{{"CMakeLists.txt", read(root / "CMakeLists.txt")}};
-  for (const char* folder : {"app", "assets", "cmake", "haptics", "scenarios", "tests", "tissue",
-                             "trainees"}) {
+  for (const char* folder : {"app", "assets", "cmake", "haptics", "scenarios", "tests", "tissue", "trainees"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (!entry.is_regular_file() || !wanted(entry.path())) continue;
       files.push_back({entry.path().lexically_relative(root).generic_string(), read(entry.path())});

@@ -1,4 +1,4 @@
-#include "support/allocation_guard.h"
+#include "tests/support/allocation_guard.h"
 
 #include <cerrno>
 #include <cstdlib>

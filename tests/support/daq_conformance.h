@@ -13,7 +13,7 @@
 #include <functional>
 
 #include "haptics/device/data_acquisition.h"
-#include "support/allocation_guard.h"
+#include "tests/support/allocation_guard.h"
 
 namespace trocar::test {
 

@@ -23,9 +23,11 @@ bool asked(const char* name) {
 
 void write_golden(const BlockColours& blocks, const std::string& name) {
   std::ofstream out(golden_file(name));
-  out << "# OKLab x 1000 of " << kGoldenColumns << " x " << kGoldenRows << " blocks; written by TROCAR_RENEW_GOLDENS=1\n";
+  out << "# OKLab x 1000 of " << kGoldenColumns << " x " << kGoldenRows
+      << " blocks; written by TROCAR_RENEW_GOLDENS=1\n";
   for (const Eigen::Vector3d& lab : blocks)
-    out << std::lround(1000 * lab.x()) << ' ' << std::lround(1000 * lab.y()) << ' ' << std::lround(1000 * lab.z()) << '\n';
+    out << std::lround(1000 * lab.x()) << ' ' << std::lround(1000 * lab.y()) << ' ' << std::lround(1000 * lab.z())
+        << '\n';
 }
 
 }  // namespace
@@ -36,7 +38,8 @@ Eigen::Vector3d oklab(const std::uint8_t* srgb) {
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
@@ -81,13 +84,16 @@ BlockColours read_golden(const std::string& name) {
 }
 
 void expect_golden(const Image& image, const std::string& name) {
-  if (const char* folder = std::getenv("TROCAR_PICTURES"); folder && *folder) write_png(std::filesystem::path(folder) / (name + ".png"), image);
+  if (const char* folder = std::getenv("TROCAR_PICTURES"); folder && *folder)
+    write_png(std::filesystem::path(folder) / (name + ".png"), image);
   const BlockColours now = block_colours(image);
   if (asked("TROCAR_RENEW_GOLDENS")) return write_golden(now, name);
   const BlockDifference d = block_difference(now, read_golden(name));
-  std::printf("%s: mean %.4f (at most %.3f), worst block %.4f (at most %.3f)\n", name.c_str(), d.mean, kGoldenMean, d.worst, kGoldenWorst);
-  EXPECT_TRUE(alike(d)) << name << " does not look as it did: mean " << d.mean << " of " << kGoldenMean << ", worst block " << d.worst << " of "
-                        << kGoldenWorst << ". When that is wanted: TROCAR_RENEW_GOLDENS=1, and look at it with TROCAR_PICTURES=folder";
+  std::printf("%s: mean %.4f (at most %.3f), worst block %.4f (at most %.3f)\n", name.c_str(), d.mean, kGoldenMean,
+              d.worst, kGoldenWorst);
+  EXPECT_TRUE(alike(d)) << name << " does not look as it did: mean " << d.mean << " of " << kGoldenMean
+                        << ", worst block " << d.worst << " of " << kGoldenWorst
+                        << ". When that is wanted: TROCAR_RENEW_GOLDENS=1, and look at it with TROCAR_PICTURES=folder";
 }
 
 }  // namespace trocar::testing_support

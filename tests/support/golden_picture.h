@@ -1,8 +1,8 @@
 // Golden pictures: 16 x 9 mean colours of a picture in OKLab, kept as text, compared with a tolerance.
 //
-// A block's mean does not feel on which pixel an edge falls, which differs between rasterisers; it does feel another light, another look,
-// and a thing that is missing. Renew them after a wanted change: TROCAR_RENEW_GOLDENS=1 with the test's program, look at the pictures
-// (TROCAR_PICTURES=folder writes them), commit both.
+// A block's mean does not feel on which pixel an edge falls, which differs between rasterisers; it does feel another
+// light, another look, and a thing that is missing. Renew them after a wanted change: TROCAR_RENEW_GOLDENS=1 with the
+// test's program, look at the pictures (TROCAR_PICTURES=folder writes them), commit both.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "app/graphics/image.h"
+#include "app/picture/gl/image.h"
 
 namespace trocar::testing_support {
 
@@ -24,9 +24,12 @@ Eigen::Vector3d oklab(const std::uint8_t* srgb);
 BlockColours block_colours(const Image& image);
 
 /// Of two pictures' blocks: mean and greatest distance in OKLab.
-struct BlockDifference { double mean = 0, worst = 0; };
+struct BlockDifference {
+  double mean = 0, worst = 0;
+};
 BlockDifference block_difference(const BlockColours& a, const BlockColours& b);
-/// Two rasterisers of Mesa (llvmpipe, softpipe) differ by 0.0008 and 0.0028 at most; a lamp of 85 % and a missing instrument by more (tested).
+/// Two rasterisers of Mesa (llvmpipe, softpipe) differ by 0.0008 and 0.0028 at most; a lamp of 85 % and a missing
+/// instrument by more (tested).
 constexpr double kGoldenMean = 0.004, kGoldenWorst = 0.015;
 inline bool alike(const BlockDifference& d) { return d.mean <= kGoldenMean && d.worst <= kGoldenWorst; }
 

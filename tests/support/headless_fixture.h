@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "app/graphics/headless_context.h"
-#include "app/graphics/renderer.h"
+#include "app/picture/gl/headless_context.h"
+#include "app/picture/scene/renderer.h"
 
 namespace trocar::testing_support {
 

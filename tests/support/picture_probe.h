@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "app/graphics/image.h"
+#include "app/picture/gl/image.h"
 #include "haptics/quantities.h"
 
 namespace trocar::testing_support {

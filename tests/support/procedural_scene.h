@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include "app/graphics/scene_view.h"
-#include "app/graphics/solid_noise.h"
+#include "app/picture/models/solid_noise.h"
+#include "app/picture/scene/scene_view.h"
 
 namespace trocar::testing_support {
 

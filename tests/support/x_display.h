@@ -1,4 +1,5 @@
-// A display of its own for a test (Xvfb), and hands at it (xdotool). Skips are loud: a machine without both tests no window.
+// A display of its own for a test (Xvfb), and hands at it (xdotool). Skips are loud: a machine without both tests no
+// window.
 #pragma once
 
 #include <gtest/gtest.h>

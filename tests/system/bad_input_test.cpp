@@ -2,7 +2,7 @@
 #include "tests/system/system_fixture.h"
 #include "tests/tissue/support/nifti_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::bad_input_test {
 namespace {
 
 class BadInput : public SystemTest {
@@ -41,8 +41,9 @@ TEST_F(BadInput, UnknownNamesComeWithTheKnownOnes) {
                  "unknown exercise 'juggling': known are E01 reach-and-orient, E02 surface-touch, E03 limited-grasp");
   expect_refusal({"run", exercise, "--hand", "octopus", "--db", ":memory:"}, 2,
                  "unknown hand 'octopus': known are clumsy, expert");
-  expect_refusal(short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2,
-                 "heart-of-gold: neither a file nor an organ that ships (phantom-abdomen, phantom-gallbladder, phantom-liver)");
+  expect_refusal(
+      short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2,
+      "heart-of-gold: neither a file nor an organ that ships (phantom-abdomen, phantom-gallbladder, phantom-liver)");
   expect_refusal(short_run({"--level", "L9", "--db", ":memory:"}), 2, "no level 'L9': known are L1");
   expect_refusal(short_run({"--inject", "gremlin@3", "--db", ":memory:"}), 2, "known are channel-invalid");
   expect_refusal(short_run({"--inject", "encoder-jump:7@3", "--db", ":memory:"}), 2, "channels are 0 to 6");
@@ -115,4 +116,4 @@ TEST_F(BadInput, ASurfaceWithoutAUnitIsRefusedWithAGuess) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::bad_input_test

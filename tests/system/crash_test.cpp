@@ -4,7 +4,7 @@
 
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::crash_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST_F(Crash, WhatWasStoredBeforeIsUntouchedAndTheNextAttemptRuns) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::crash_test

@@ -6,7 +6,7 @@
 
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::device_bench_test {
 namespace {
 
 using DeviceBench = SystemTest;
@@ -96,4 +96,4 @@ TEST_F(DeviceBench, TablesOfForwardSolutionsFeedTheInverse) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::device_bench_test

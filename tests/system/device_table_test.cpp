@@ -4,7 +4,7 @@
 
 #include "tests/system/table.h"
 
-namespace trocar::test {
+namespace trocar::test::device_table_test {
 namespace {
 
 using DeviceTable = SystemTest;
@@ -79,4 +79,4 @@ TEST_F(DeviceTable, APoseOutOfReachIsNamedWithItsDistance) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::device_table_test

@@ -1,7 +1,7 @@
 // Device faults end an attempt with exit code 4, a machine that lacks something with 3; neither leaves a score behind.
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::fault_test {
 namespace {
 
 class Faults : public SystemTest {
@@ -39,21 +39,17 @@ TEST_F(Faults, ANonFiniteHandEndsTheAttempt) {
 struct Injected {
   const char* injection;
   const char* cause;
-  int channel;         ///< -1: none in particular
-  double latest_s;     ///< loop time
+  int channel;      ///< -1: none in particular
+  double latest_s;  ///< loop time
 };
 
 TEST_F(Faults, EveryInjectedStopNamesItsCauseItsTimeAndWhatToDo) {
-  const Injected table[] = {{"encoder-jump:2@2.5", "encoder-jump", 2, 2.502},
-                            {"channel-invalid:1@2.5", "channel-invalid", 1, 2.502},
-                            {"missed-sync:0:50@2.5", "late-loop", -1, 2.552},
-                            {"sensor-silence@2.5", "sensor-silent", -1, 2.502},
-                            {"dac-stuck:1@1.5", "dac-mismatch", 1, 1.51},
-                            {"watchdog@2.5", "watchdog", -1, 2.518},
-                            {"e-stop@2.5", "emergency-stop", -1, 2.502},
-                            {"drive-fault:5@2.5", "drive-fault", 5, 2.502},
-                            {"over-temperature:3@2.5", "drive-hot", 3, 2.502},
-                            {"hand-nan@2.5+0.1", "hand-non-finite", -1, 2.502}};
+  const Injected table[] = {
+      {"encoder-jump:2@2.5", "encoder-jump", 2, 2.502},  {"channel-invalid:1@2.5", "channel-invalid", 1, 2.502},
+      {"missed-sync:0:50@2.5", "late-loop", -1, 2.552},  {"sensor-silence@2.5", "sensor-silent", -1, 2.502},
+      {"dac-stuck:1@1.5", "dac-mismatch", 1, 1.51},      {"watchdog@2.5", "watchdog", -1, 2.518},
+      {"e-stop@2.5", "emergency-stop", -1, 2.502},       {"drive-fault:5@2.5", "drive-fault", 5, 2.502},
+      {"over-temperature:3@2.5", "drive-hot", 3, 2.502}, {"hand-nan@2.5+0.1", "hand-non-finite", -1, 2.502}};
   for (const Injected& row : table) {
     SCOPED_TRACE(row.injection);
     const Outcome outcome = trocar(short_run({"--db", "f.db", "--inject", row.injection}));
@@ -150,4 +146,4 @@ TEST_F(Machine, MissingAssetsAreNamedWithThePlacesLookedAt) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::fault_test

@@ -7,7 +7,7 @@
 
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::full_disk_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -73,7 +73,8 @@ TEST_F(FullDisk, ARecordingThatCannotBeWrittenAbortsTheAttemptWithTheReason) {
   const Words words = short_run({"--db", "t.db", "--record", "/dev/full"});
   const Outcome run = trocar(words);
   EXPECT_EQ(run.exit_code, 3) << run.err;
-  EXPECT_NE(run.err.find("/dev/full: the recording cannot be written: No space left on device"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("/dev/full: the recording cannot be written: No space left on device"), std::string::npos)
+      << run.err;
   const Json shown = json_of({"trainee", "show", "guest", "--db", "t.db", "--json"}, 0);
   EXPECT_EQ(shown["history"][0]["status"], "aborted");
   EXPECT_NE(shown["history"][0]["integrity"].get<std::string>().find("No space left"), std::string::npos);
@@ -87,4 +88,4 @@ TEST_F(FullDisk, WithoutRoomForADatabaseNothingIsStarted) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::full_disk_test

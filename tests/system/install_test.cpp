@@ -3,7 +3,7 @@
 
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::install_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,7 +27,8 @@ class Installed : public SystemTest {
     Words commands;
     std::istringstream lines(help.substr(help.find("Subcommands:")));
     for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ') commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+      if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
+        commands.push_back(line.substr(2, line.find(' ', 2) - 2));
     }
     EXPECT_GT(commands.size(), 10u);
     return commands;
@@ -146,8 +147,8 @@ TEST_F(Installed, TheManualPageNamesEveryCommandAndRendersWithoutAWarning) {
 TEST_F(Installed, BashCompletesCommandsAndFlags) {
   const std::string script = (folder_ / "prefix/share/bash-completion/completions/trocar").string();
   const auto completed = [&](const std::string& words, int last) {
-    Launch bash = launch({"-c", "source '" + script + "'; COMP_WORDS=(" + words + "); COMP_CWORD=" +
-                                    std::to_string(last) + "; _trocar; echo \"${COMPREPLY[@]}\""});
+    Launch bash = launch({"-c", "source '" + script + "'; COMP_WORDS=(" + words +
+                                    "); COMP_CWORD=" + std::to_string(last) + "; _trocar; echo \"${COMPREPLY[@]}\""});
     bash.program = "/bin/bash";
     return run_program(bash).out;
   };
@@ -183,4 +184,4 @@ TEST_F(Installed, DoctorFindsWhatIsThereAndWhatIsNot) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::install_test

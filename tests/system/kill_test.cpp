@@ -1,14 +1,19 @@
 // kill -9 at random moments of short attempts, of one and of two at once: the database opens, every attempt is complete
-// or aborted, every recording reads to its last whole chunk. KILL_MOMENTS says how many a round (four moments are five attempts),
-// KILL_ROUNDS how many rounds: 20 attempts in ./check, 1000 under the label long. The store itself: tests/trainees/store_kill_test.cpp.
+// or aborted, every recording reads to its last whole chunk. KILL_MOMENTS says how many a round (four moments are five
+// attempts), KILL_ROUNDS how many rounds: 20 attempts in ./check, 1000 under the label long. The store itself:
+// tests/trainees/store/store_kill_test.cpp.
 #include <chrono>
 #include <random>
 #include <thread>
 
+#include "tests/support/repeats.h"
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::kill_test {
 namespace {
+
+const int kMoments = repeats("KILL_MOMENTS", 16);
+const int kRounds = repeats("KILL_ROUNDS", 1);
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
@@ -64,7 +69,8 @@ class Kill : public SystemTest, public ::testing::WithParamInterface<int> {
   static bool header_is_whole(const std::string& bytes) {
     if (bytes.size() < 24) return false;  // magic and version, type, length, CRC
     std::uint32_t length = 0;
-    for (int i = 3; i >= 0; --i) length = length << 8 | static_cast<unsigned char>(bytes[16 + static_cast<std::size_t>(i)]);
+    for (int i = 3; i >= 0; --i)
+      length = length << 8 | static_cast<unsigned char>(bytes[16 + static_cast<std::size_t>(i)]);
     return bytes.size() >= 24 + length;
   }
 
@@ -74,18 +80,18 @@ class Kill : public SystemTest, public ::testing::WithParamInterface<int> {
 };
 
 TEST_P(Kill, AtRandomMomentsNothingIsLeftHalf) {
-  for (int moment = 0; moment < KILL_MOMENTS; ++moment) {
+  for (int moment = 0; moment < kMoments; ++moment) {
     kill_at_random(moment % 4 == 3 ? 2 : 1);
     expect_whole();
     if (HasFailure()) break;
   }
   expect_readable_recordings();
-  EXPECT_GT(killed_, KILL_MOMENTS / 3) << "most must have been killed, not have ended by themselves";
-  EXPECT_GT(readable_, KILL_MOMENTS / 4);
-  std::printf("%d of %d moments killed a program; %d recordings readable\n", killed_, KILL_MOMENTS, readable_);
+  EXPECT_GT(killed_, kMoments / 3) << "most must have been killed, not have ended by themselves";
+  EXPECT_GT(readable_, kMoments / 4);
+  std::printf("%d of %d moments killed a program; %d recordings readable\n", killed_, kMoments, readable_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Round, Kill, ::testing::Range(0, KILL_ROUNDS));
+INSTANTIATE_TEST_SUITE_P(Round, Kill, ::testing::Range(0, kRounds));
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::kill_test

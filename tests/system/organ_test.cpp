@@ -1,7 +1,7 @@
 // Organs from outside: the phantom is drawn, imported and practised on.
 #include "tests/system/hands_acceptance.h"
 
-namespace trocar::test {
+namespace trocar::test::organ_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -73,4 +73,4 @@ TEST_F(OrganCommands, ASurfaceThatIsNotTheManifestsIsRefused) {
 TEST_F(OrganCommands, SkillShowsOnTheShippedPhantom) { expect_skill_to_show("phantom-liver"); }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::organ_test

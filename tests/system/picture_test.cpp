@@ -3,7 +3,7 @@
 
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::picture_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_F(Pictures, ADemoThatCannotBeWrittenIsTheMachinesFault) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::picture_test

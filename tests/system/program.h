@@ -21,7 +21,7 @@ struct Launch {
   std::filesystem::path folder;                    ///< the child's working folder
   std::map<std::string, std::string> environment;  ///< set on top of the test's own; "" removes
   std::filesystem::path program = TROCAR_PROGRAM;
-  std::filesystem::path input = "/dev/null";       ///< standard input
+  std::filesystem::path input = "/dev/null";  ///< standard input
 };
 
 /// A started program. Its streams go to files in `launch.folder`'s hidden ".streams", so that no pipe can fill up.

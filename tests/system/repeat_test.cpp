@@ -1,7 +1,7 @@
 // The same command gives the same attempt; replay and regrade agree with it; damage and swaps are noticed.
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::repeat_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ TEST_F(Graded, LawsOfTheBaselineRunAndReplayToo) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::repeat_test

@@ -3,7 +3,7 @@
 
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::report_test {
 namespace {
 
 class ReviewReport : public SystemTest {
@@ -68,4 +68,4 @@ TEST_F(ReviewReport, SaysWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::report_test

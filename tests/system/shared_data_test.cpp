@@ -6,7 +6,7 @@
 #include "tests/system/hands_acceptance.h"
 #include "tests/system/table.h"
 
-namespace trocar::test {
+namespace trocar::test::shared_data_test {
 namespace {
 
 class SharedFolder : public HandsTest {
@@ -60,7 +60,8 @@ TEST_F(SharedFolder, ASpleenFromCtHasRoomForTheWholeInstrument) {
     EXPECT_GE(proof["worst"]["shaft_gap_m"].get<double>(), 0.0015) << proof["level"];
   }
   for (const char* level : {"L1", "L3"}) {
-    const Words words{"run", "E02", "--hand", "expert", "--level", level, "--organ", "spleen.organ.toml", "--db", ":memory:", "--json"};
+    const Words words{"run",  "E02",      "--hand", "expert", "--level", level, "--organ", "spleen.organ.toml",
+                      "--db", ":memory:", "--json"};
     const Json run = json_of(words, 0);
     EXPECT_EQ(run["status"], "completed") << level;
     EXPECT_EQ(run["passed"], true) << level << ": " << run["score"];
@@ -68,4 +69,4 @@ TEST_F(SharedFolder, ASpleenFromCtHasRoomForTheWholeInstrument) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::shared_data_test

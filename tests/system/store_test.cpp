@@ -1,7 +1,7 @@
 // The store seen from outside: many programs on one database, :memory:, backups, cohorts.
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,7 +72,8 @@ TEST_F(Store, CohortAndTraineeSayWhatTheRulesFind) {
   EXPECT_EQ(judgement["rules"], "1");
   EXPECT_EQ(judgement["n"], 1);
   EXPECT_EQ(json_of({"trainee", "show", "T-1", "--db", "t.db", "--json"}, 0)["curves"][0], rows[0]["curves"][0]);
-  EXPECT_NE(trocar({"trainee", "show", "T-1", "--db", "t.db"}).out.find(judgement["evidence"].get<std::string>()), std::string::npos);
+  EXPECT_NE(trocar({"trainee", "show", "T-1", "--db", "t.db"}).out.find(judgement["evidence"].get<std::string>()),
+            std::string::npos);
   EXPECT_NE(trocar({"cohort", "--db", "t.db"}).out.find("flags"), std::string::npos);
 }
 
@@ -97,4 +98,4 @@ TEST_F(Store, ATamperedDatabaseIsFound) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::store_test

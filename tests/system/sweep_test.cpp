@@ -1,13 +1,14 @@
 // `trocar sweep` from outside: the same bytes whatever the number of jobs, checks decide the exit code.
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::sweep_test {
 namespace {
 
 using Sweep = SystemTest;
 
 TEST_F(Sweep, TheNumberOfJobsDoesNotShow) {
-  const Words words{"sweep", exercise_of(3, 12), "--hand", "idle," + dip(), "--level", "L1", "--seeds", "3..5", "--json"};
+  const Words words{"sweep", exercise_of(3, 12), "--hand", "idle," + dip(), "--level",
+                    "L1",    "--seeds",          "3..5",   "--json"};
   Words one = words, three = words;
   one.insert(one.end(), {"--jobs", "1"});
   three.insert(three.end(), {"--jobs", "3"});
@@ -22,7 +23,8 @@ TEST_F(Sweep, TheNumberOfJobsDoesNotShow) {
 
 TEST_F(Sweep, AFailedCheckIsExitCodeOne) {
   // Nobody finishes in three seconds: the expert's mean is far below its bar.
-  const Json json = json_of({"sweep", exercise_of(3, 12), "--hand", "expert", "--level", "L1", "--seeds", "1", "--json"}, 1);
+  const Json json =
+      json_of({"sweep", exercise_of(3, 12), "--hand", "expert", "--level", "L1", "--seeds", "1", "--json"}, 1);
   EXPECT_EQ(json["met"], false);
 }
 
@@ -30,7 +32,8 @@ TEST_F(Sweep, ALineThatDoesNotApplySaysSo) {
   const Words words{"sweep", "reach-and-orient", "--hand", "heavy-handed", "--level", "L1", "--seeds", "1"};
   const Outcome text = trocar(words);
   EXPECT_EQ(text.exit_code, 0) << text.out << text.err;
-  EXPECT_NE(text.out.find("  n/a      heavy-handed passes: the exercise judges no force\n"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("  n/a      heavy-handed passes: the exercise judges no force\n"), std::string::npos)
+      << text.out;
   Words json = words;
   json.push_back("--json");
   const Json cell = json_of(json, 0)["cells"][0];
@@ -51,4 +54,4 @@ TEST_F(Sweep, RefusesWhatItCannotRun) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::sweep_test

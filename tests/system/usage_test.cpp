@@ -3,7 +3,7 @@
 
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::usage_test {
 namespace {
 
 using Usage = SystemTest;
@@ -11,15 +11,19 @@ using Usage = SystemTest;
 const std::map<std::string, Words>& other_commands_and_flags() {
   static const std::map<std::string, Words> table{
       {"run",
-       {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--video", "--fps",
-        "--rate", "--contact", "--passivity", "--clamp", "--calibration", "--device", "--inject", "--json"}},
+       {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--video",
+        "--fps", "--rate", "--contact", "--passivity", "--clamp", "--calibration", "--device", "--inject", "--json"}},
       {"practice",
-       {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed", "--width", "--height",
-        "--fullscreen", "--screens", "--timing", "--scope"}},
+       {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed",
+        "--width", "--height", "--fullscreen", "--screens", "--timing", "--scope"}},
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
-      {"replay", {"--frames", "--fps", "--verify", "--organ", "--db", "--video", "--speed", "--width", "--height", "--beside", "--preset"}},
+      {"replay",
+       {"--frames", "--fps", "--verify", "--organ", "--db", "--video", "--speed", "--width", "--height", "--beside",
+        "--preset"}},
       {"score", {"--rubric", "--jigsaws", "--db", "--json"}},
-      {"export", {"csv", "json", "xapi", "jigsaws", "--out", "--trainee", "--group", "--exercise", "--home-page", "--cmi5", "--db"}},
+      {"export",
+       {"csv", "json", "xapi", "jigsaws", "--out", "--trainee", "--group", "--exercise", "--home-page", "--cmi5",
+        "--db"}},
       {"demo", {"--headless", "--out", "--organ", "--exercise", "--level", "--video"}},
       {"bench", {"--organ", "--json"}},
       {"study", {"--out", "--quick", "--seed", "--json"}},
@@ -28,7 +32,8 @@ const std::map<std::string, Words>& other_commands_and_flags() {
       {"check", {"--organ"}},
       {"device", {"eval", "ik", "fk", "calibrate", "identify", "selftest", "monitor"}},
       {"device selftest", {"--seed", "--rate", "--inject", "--json"}},
-      {"device monitor", {"--seconds", "--lockstep", "--seed", "--rate", "--calibration", "--device", "--inject", "--json"}},
+      {"device monitor",
+       {"--seconds", "--lockstep", "--seed", "--rate", "--calibration", "--device", "--inject", "--json"}},
       {"device fk", {"--deg", "--csv", "--out", "--json"}},
       {"device calibrate", {"--seed", "--gain", "--out", "--check", "--json"}},
       {"device eval", {"--csv", "--out", "--device"}},
@@ -60,13 +65,17 @@ const std::map<std::string, Words>& commands_about_people() {
       {"trainee show", {"--db", "--limit", "--json"}},
       {"cohort", {"--db", "--trainee", "--json"}},
       {"review", {"serve", "account", "demo", "report"}},
-      {"review serve", {"--port", "--lan", "--cert", "--key", "--name", "--db", "--demo", "--from", "--password-file", "--recordings"}},
+      {"review serve",
+       {"--port", "--lan", "--cert", "--key", "--name", "--db", "--demo", "--from", "--password-file", "--recordings"}},
       {"review demo", {"--db", "--jobs", "--remove"}},
-      {"review report", {"--trainee", "--cohort", "--group", "--attempt", "--certificate", "--out", "--notes", "--force", "--db"}},
+      {"review report",
+       {"--trainee", "--cohort", "--group", "--attempt", "--certificate", "--out", "--notes", "--force", "--db"}},
       {"review account", {"add", "password", "disable", "enable", "list"}},
       {"review account add", {"--name", "--role", "--trainee", "--db"}},
       {"review account list", {"--json", "--db"}},
-      {"sync", {"link", "unlink", "--to", "--from", "--with-identity", "--recordings", "--apply-erasures", "--new-station", "--db"}},
+      {"sync",
+       {"link", "unlink", "--to", "--from", "--with-identity", "--recordings", "--apply-erasures", "--new-station",
+        "--db"}},
       {"sync link", {"--at", "--password-file", "--author"}},
       {"sync unlink", {"--at", "--password-file", "--author"}},
       {"db", {"check", "backup", "migrate", "anchor", "rubric", "retention"}},
@@ -123,24 +132,30 @@ TEST_F(Usage, AMisspeltWordIsNamedWithTheOneThatWasMeant) {
   expect_refusal({"replai", "x.trec"}, 2, "not understood: replai; did you mean 'replay'?");
   expect_refusal({"organ", "rendr"}, 2, "not understood: rendr; did you mean 'render'?");
   expect_refusal({"run", "surface-touch", "--hnad", "expert"}, 2, "not understood: --hnad; did you mean '--hand'?");
-  expect_refusal({"run", "surface-touch", "--hand=expert", "--sede=4"}, 2, "not understood: --sede; did you mean '--seed'?");
+  expect_refusal({"run", "surface-touch", "--hand=expert", "--sede=4"}, 2,
+                 "not understood: --sede; did you mean '--seed'?");
   expect_refusal({"--vresion"}, 2, "not understood: --vresion; did you mean '--version'?");
   const Outcome far = trocar({"xyzzy"});
   EXPECT_NE(far.err.find("not understood: xyzzy\n"), std::string::npos) << far.err;
   const Outcome missing = trocar({"run", "surface-touch"});
-  EXPECT_EQ(missing.err.find("not understood"), std::string::npos) << "everything that stands there is understood: " << missing.err;
+  EXPECT_EQ(missing.err.find("not understood"), std::string::npos)
+      << "everything that stands there is understood: " << missing.err;
   const Outcome value = trocar({"device", "fk", "--deg", "-1,x", "--jsn"});
-  EXPECT_NE(value.err.find("not understood: --jsn"), std::string::npos) << "a value may begin with a dash: " << value.err;
+  EXPECT_NE(value.err.find("not understood: --jsn"), std::string::npos)
+      << "a value may begin with a dash: " << value.err;
 }
 
 TEST_F(Usage, ATypedPathNeedsItsFolder) {
   const std::string said = "there is no folder typo; make it first";
-  for (const Words& words : {Words{"run", "surface-touch", "--hand", "idle", "--db", "typo/a.db"}, Words{"run", "E02", "--hand", "idle", "--record", "typo/a.trec"},
-                             Words{"run", "E02", "--hand", "idle", "--frames", "typo/f"}, Words{"demo", "--out", "typo/demo"},
-                             Words{"picture", "--out", "typo/a.png"}, Words{"practice", "--db", "typo/a.db"}, Words{"practice", "--screens", "typo/s"},
-                             Words{"replay", "a.trec", "--video", "typo/a.mp4"}, Words{"trainee", "add", "T-1", "--db", "typo/a.db"},
-                             Words{"organ", "phantom", "--out", "typo/p"}, Words{"study", "kinematics", "--out", "typo/k"},
-                             Words{"device", "plant", "--out", "typo/p.toml"}, Words{"db", "backup", "--out", "typo/b.db"}}) {
+  for (const Words& words :
+       {Words{"run", "surface-touch", "--hand", "idle", "--db", "typo/a.db"},
+        Words{"run", "E02", "--hand", "idle", "--record", "typo/a.trec"},
+        Words{"run", "E02", "--hand", "idle", "--frames", "typo/f"}, Words{"demo", "--out", "typo/demo"},
+        Words{"picture", "--out", "typo/a.png"}, Words{"practice", "--db", "typo/a.db"},
+        Words{"practice", "--screens", "typo/s"}, Words{"replay", "a.trec", "--video", "typo/a.mp4"},
+        Words{"trainee", "add", "T-1", "--db", "typo/a.db"}, Words{"organ", "phantom", "--out", "typo/p"},
+        Words{"study", "kinematics", "--out", "typo/k"}, Words{"device", "plant", "--out", "typo/p.toml"},
+        Words{"db", "backup", "--out", "typo/b.db"}}) {
     expect_refusal(words, 2, said);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "typo")) << words[0];
   }
@@ -154,8 +169,9 @@ TEST_F(Usage, AnExerciseIsNamedByIdNumberOrFile) {
     EXPECT_EQ(outcome.exit_code, 0) << word;
     EXPECT_EQ(outcome.out.find("E02  surface-touch"), 0u) << word;
   }
-  for (const Words& words : {Words{"run", "9", "--hand", "idle", "--db", ":memory:"}, Words{"check", "9"}, Words{"practice", "9", "--db", ":memory:", "--screens", "s"},
-                             Words{"sweep", "9"}, Words{"demo", "--exercise", "9"}}) {
+  for (const Words& words : {Words{"run", "9", "--hand", "idle", "--db", ":memory:"}, Words{"check", "9"},
+                             Words{"practice", "9", "--db", ":memory:", "--screens", "s"}, Words{"sweep", "9"},
+                             Words{"demo", "--exercise", "9"}}) {
     expect_refusal(words, 2, "unknown exercise '9': known are E01 reach-and-orient, E02 surface-touch, E03");
   }
 }
@@ -165,8 +181,10 @@ TEST_F(Usage, TwoRunsInOneFilmHaveOneLimit) {
   EXPECT_NE(help.find("with --beside from 720"), std::string::npos);
   EXPECT_NE(help.find("with --beside from 400"), std::string::npos);
   ASSERT_EQ(trocar(short_run({"--db", ":memory:", "--record", "a.trec"})).exit_code & ~1, 0);
-  expect_refusal({"replay", "a.trec", "--beside", "a.trec", "--frames", "f", "--width", "719", "--height", "400"}, 2, "at least 720 x 400 px, not 719 x 400");
-  expect_refusal({"replay", "a.trec", "--beside", "a.trec", "--frames", "f", "--width", "720", "--height", "399"}, 2, "at least 720 x 400");
+  expect_refusal({"replay", "a.trec", "--beside", "a.trec", "--frames", "f", "--width", "719", "--height", "400"}, 2,
+                 "at least 720 x 400 px, not 719 x 400");
+  expect_refusal({"replay", "a.trec", "--beside", "a.trec", "--frames", "f", "--width", "720", "--height", "399"}, 2,
+                 "at least 720 x 400");
 }
 
 TEST_F(Usage, NoSubcommandIsBadUsage) {
@@ -193,7 +211,8 @@ TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
   expect_refusal({"run", "surface-touch", "--hand", "idle", "--level", "exam", "--board", "3", "--db", ":memory:"}, 2,
                  "an exam's board is unseen, and drawn by --seed");
   expect_refusal(short_run({"--contact", "magic"}), 2, "known are proxy, thesis");
-  expect_refusal(short_run({"--passivity", "magic"}), 2, "known are budgeted, cap, distributed, increment, off, reference, thesis");
+  expect_refusal(short_run({"--passivity", "magic"}), 2,
+                 "known are budgeted, cap, distributed, increment, off, reference, thesis");
   expect_refusal(short_run({"--seed", "many"}), 2, "--seed");
 }
 
@@ -220,4 +239,4 @@ TEST_F(Usage, CheckProvesShippedBoardsAndRefusesBadFiles) {
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::usage_test

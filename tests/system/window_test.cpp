@@ -1,10 +1,11 @@
-// `trocar practice` as a person meets it: a real window on a display of its own, real keys; and what it does without a display.
+// `trocar practice` as a person meets it: a real window on a display of its own, real keys; and what it does without a
+// display.
 #include <algorithm>
 
 #include "tests/support/x_display.h"
 #include "tests/system/system_fixture.h"
 
-namespace trocar::test {
+namespace trocar::test::window_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -15,7 +16,8 @@ using testing_support::XDisplay;
 class WindowOnADisplay : public SystemTest {
  protected:
   void SetUp() override {
-    if (!XDisplay::missing().empty()) GTEST_SKIP() << "NO WINDOW IS TESTED HERE: " << XDisplay::missing() << " is not installed";
+    if (!XDisplay::missing().empty())
+      GTEST_SKIP() << "NO WINDOW IS TESTED HERE: " << XDisplay::missing() << " is not installed";
     display_ = std::make_unique<XDisplay>(folder_.path());
     ASSERT_FALSE(display_->name().empty()) << "Xvfb gave no display";
   }
@@ -23,9 +25,15 @@ class WindowOnADisplay : public SystemTest {
     if (program_ && program_->running()) program_->kill_at_once();
   }
   Launch on_display(const std::vector<std::string>& arguments) const {
-    return {arguments, folder_.path(), {{"DISPLAY", display_->name()}, {"WAYLAND_DISPLAY", ""}, {"XDG_DATA_HOME", (folder_ / "data").string()},
-            {"XDG_CONFIG_HOME", (folder_ / "config").string()}, {"XDG_CACHE_HOME", (folder_ / "cache").string()},
-            {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}, {"LANG", "C"}}};
+    return {arguments,
+            folder_.path(),
+            {{"DISPLAY", display_->name()},
+             {"WAYLAND_DISPLAY", ""},
+             {"XDG_DATA_HOME", (folder_ / "data").string()},
+             {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+             {"XDG_CACHE_HOME", (folder_ / "cache").string()},
+             {"XDG_PICTURES_DIR", (folder_ / "pictures").string()},
+             {"LANG", "C"}}};
   }
   void open_window(const std::vector<std::string>& arguments) {
     program_ = std::make_unique<RunningProgram>(on_display(arguments));
@@ -82,31 +90,36 @@ TEST_F(WindowOnADisplay, PointerAndResizingDoNotBreakIt) {
 using Practice = SystemTest;
 
 TEST_F(Practice, WithoutADisplayItEndsWith3AndSaysWhatWorks) {
-  const Outcome outcome = run_program({{"practice", "--db", ":memory:"}, folder_.path(), {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""},
-                                       {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});
+  const Outcome outcome =
+      run_program({{"practice", "--db", ":memory:"},
+                   folder_.path(),
+                   {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("DISPLAY"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("trocar demo --headless"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Practice, WritesPicturesOfItsScreensWithoutADisplay) {
-  const Outcome outcome = run_program({{"practice", "--screens", "pages", "--db", ":memory:", "--width", "640", "--height", "360"}, folder_.path(),
-                                       {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});
+  const Outcome outcome =
+      run_program({{"practice", "--screens", "pages", "--db", ":memory:", "--width", "640", "--height", "360"},
+                   folder_.path(),
+                   {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* page : {"start", "curriculum", "briefing", "settings", "notch", "help", "help-measures", "menu", "run", "device", "pause", "debrief",
-                           "progress", "replay"})
+  for (const char* page : {"start", "curriculum", "briefing", "settings", "notch", "help", "help-measures", "menu",
+                           "run", "device", "pause", "debrief", "progress", "replay"})
     EXPECT_TRUE(fs::exists(folder_ / "pages" / (std::string(page) + ".png"))) << page;
 }
 
 TEST_F(Practice, RefusesWhatIsNoneBeforeAWindowOpens) {
-  for (const Words& wrong : {Words{"E99"}, Words{"--level", "L9"}, Words{"--trainee", "a b"}, Words{"--language", "xx"}, Words{"--scale", "3"},
-                             Words{"--input", "joystick"}}) {
+  for (const Words& wrong : {Words{"E99"}, Words{"--level", "L9"}, Words{"--trainee", "a b"}, Words{"--language", "xx"},
+                             Words{"--scale", "3"}, Words{"--input", "joystick"}}) {
     Words arguments{"practice", "--db", ":memory:"};
     arguments.insert(arguments.end(), wrong.begin(), wrong.end());
-    const Outcome outcome = run_program({arguments, folder_.path(), {{"DISPLAY", ""}, {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});
+    const Outcome outcome =
+        run_program({arguments, folder_.path(), {{"DISPLAY", ""}, {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});
     EXPECT_EQ(outcome.exit_code, 2) << wrong.front() << ": " << outcome.err;
   }
 }
 
 }  // namespace
-}  // namespace trocar::test
+}  // namespace trocar::test::window_test

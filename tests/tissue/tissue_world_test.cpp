@@ -8,7 +8,7 @@
 #include "tests/tissue/support/shapes.h"
 #include "tests/tissue/support/world_rig.h"
 
-namespace trocar {
+namespace trocar::tissue_world_test {
 namespace {
 
 struct World : test::WorldRig {
@@ -164,4 +164,4 @@ TEST(TissueWorld, TheSameStatesGiveTheSameFrames) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::tissue_world_test

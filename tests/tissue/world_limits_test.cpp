@@ -8,7 +8,7 @@
 #include "tests/tissue/support/shapes.h"
 #include "tests/tissue/support/world_rig.h"
 
-namespace trocar {
+namespace trocar::world_limits_test {
 namespace {
 
 struct Scene : test::WorldRig {
@@ -207,4 +207,4 @@ TEST(WorldPairs, AHeldBlockMeetsThePortOnlyInItsTube) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::world_limits_test

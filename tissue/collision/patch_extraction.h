@@ -1,15 +1,15 @@
 // Cuts the contact patch out of the surface: the triangles within kPatchRadius of the axes of shaft, jaws and held
 // object, nearest first.
 //
-// Runs at the tissue rate. Of a surface too fine for the patch the nearest triangles are kept: `dropped` is then above 0 and
-// `reach` says how near to the tool nothing is missing.
-// Frame T. Thread: tissue task; allocates nothing once its buffer has grown.
+// Runs at the tissue rate. Of a surface too fine for the patch the nearest triangles are kept: `dropped` is then above
+// 0 and `reach` says how near to the tool nothing is missing. Frame T. Thread: tissue task; allocates nothing once its
+// buffer has grown.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "haptics/control/tool_shape.h"
+#include "haptics/contact/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "tissue/collision/surface_tree.h"
 

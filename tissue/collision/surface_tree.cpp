@@ -5,23 +5,23 @@
 #include <limits>
 #include <numeric>
 
-#include "haptics/control/segment_triangle.h"
+#include "haptics/contact/segment_triangle.h"
 
 namespace trocar {
 namespace {
 
 constexpr std::int32_t kLeafSize = 4;
-constexpr std::size_t kStack = 64;  // depth of a median-split tree over 2^31 triangles is below 32
-constexpr float kRounding = 1.2e-7f;  // a double as float is off by less than this share of itself
+constexpr std::size_t kStack = 64;        // depth of a median-split tree over 2^31 triangles is below 32
+constexpr float kTreeRounding = 1.2e-7f;  // a double as float is off by less than this share of itself
 
-std::array<Vec3, 3> corners(const TriangleSurface& surface, std::int32_t triangle) {
+std::array<Vec3, 3> triangle_corners(const TriangleSurface& surface, std::int32_t triangle) {
   const auto& [a, b, c] = surface.triangles[triangle];
   return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
 }
 
 /// The larger of: the segment's own box against the box, and the segment against the ball round the box (which is what
 /// prunes beside an oblique segment).
-double box_to_segment(const Eigen::AlignedBox3d& box, const Segment& segment) {
+double box_to_segment(const Eigen::AlignedBox3d& box, const QuerySegment& segment) {
   const double boxes =
       box.exteriorDistance(Eigen::AlignedBox3d(segment.a.cwiseMin(segment.b), segment.a.cwiseMax(segment.b)));
   const Vec3 along = segment.b - segment.a, centre = box.center();
@@ -37,7 +37,7 @@ SurfaceTree::SurfaceTree(const TriangleSurface& surface) : surface_(&surface), o
   std::vector<Vec3> centres;
   centres.reserve(order_.size());
   for (const std::int32_t triangle : order_) {
-    const auto tri = corners(surface, triangle);
+    const auto tri = triangle_corners(surface, triangle);
     centres.push_back((tri[0] + tri[1] + tri[2]) / 3);
   }
   if (!order_.empty()) build(0, static_cast<std::int32_t>(order_.size()), centres);
@@ -87,30 +87,30 @@ void SurfaceTree::refit() {
         high = high.cwiseMax(corner_[vertex]);
       }
     }
-    node.low = low - kRounding * low.cwiseAbs();
-    node.high = high + kRounding * high.cwiseAbs();
+    node.low = low - kTreeRounding * low.cwiseAbs();
+    node.high = high + kTreeRounding * high.cwiseAbs();
   }
 }
 
-double SurfaceTree::lower_bound(const Node& node, std::span<const Segment> segments) const {
+double SurfaceTree::lower_bound(const Node& node, std::span<const QuerySegment> segments) const {
   const Eigen::AlignedBox3d box(node.low.head<3>().cast<double>(), node.high.head<3>().cast<double>());
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Segment& s : segments) nearest = std::min(nearest, box_to_segment(box, s));
+  for (const QuerySegment& s : segments) nearest = std::min(nearest, box_to_segment(box, s));
   return nearest;
 }
 
-double SurfaceTree::distance(std::int32_t triangle, std::span<const Segment> segments) const {
-  const auto tri = corners(*surface_, triangle);
+double SurfaceTree::distance(std::int32_t triangle, std::span<const QuerySegment> segments) const {
+  const auto tri = triangle_corners(*surface_, triangle);
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Segment& s : segments) nearest = std::min(nearest, closest_segment_triangle(s.a, s.b, tri).distance);
+  for (const QuerySegment& s : segments) nearest = std::min(nearest, closest_segment_triangle(s.a, s.b, tri).distance);
   return nearest;
 }
 
-void SurfaceTree::within(std::span<const Segment> segments, double distance_m, std::vector<Hit>& hits) const {
+void SurfaceTree::within(std::span<const QuerySegment> segments, double distance_m, std::vector<Hit>& hits) const {
   nearest(segments, distance_m, std::numeric_limits<std::size_t>::max(), hits);
 }
 
-std::int64_t SurfaceTree::nearest(std::span<const Segment> segments, double distance_m, std::size_t most,
+std::int64_t SurfaceTree::nearest(std::span<const QuerySegment> segments, double distance_m, std::size_t most,
                                   std::vector<Hit>& hits) const {
   hits.clear();
   if (nodes_.empty() || most == 0) return 0;

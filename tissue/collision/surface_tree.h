@@ -1,10 +1,10 @@
 // Bounding-box tree over the triangles of a surface: which triangles lie nearest to some segments.
 //
-// Plain binary tree of axis-aligned float boxes (rounded outwards), split at the median of the longest axis, 4 triangles a
-// leaf. CGAL's and FCL's trees either cannot be refitted or answer wrongly after it. refit() follows moved vertices and
-// keeps the topology; the boxes stay exact, so after it, too, no triangle within the distance is ever missed
-// (tests/tissue/collision_test.cpp against brute force).
-// Frame of the surface, m. Thread: const but for refit().
+// Plain binary tree of axis-aligned float boxes (rounded outwards), split at the median of the longest axis, 4
+// triangles a leaf. CGAL's and FCL's trees either cannot be refitted or answer wrongly after it. refit() follows moved
+// vertices and keeps the topology; the boxes stay exact, so after it, too, no triangle within the distance is ever
+// missed (tests/tissue/collision/collision_test.cpp against brute force). Frame of the surface, m. Thread: const but
+// for refit().
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 #include <span>
 #include <vector>
 
-#include "tissue/mesh/triangle_surface.h"
+#include "tissue/mesh/surface/triangle_surface.h"
 
 namespace trocar {
 
 /// Axis of a capsule.
-struct Segment {
+struct QuerySegment {
   Vec3 a, b;
 };
 
@@ -39,11 +39,12 @@ class SurfaceTree {
     }
   };
 
-  /// All triangles within `distance` of any of the segments, unordered. @param hits cleared first; reused between calls.
-  void within(std::span<const Segment> segments, double distance, std::vector<Hit>& hits) const;
+  /// All triangles within `distance` of any of the segments, unordered. @param hits cleared first; reused between
+  /// calls.
+  void within(std::span<const QuerySegment> segments, double distance, std::vector<Hit>& hits) const;
 
   /// The `most` nearest of them, nearest first. @return 0 when these are all; else some measure of what was left out.
-  std::int64_t nearest(std::span<const Segment> segments, double distance, std::size_t most,
+  std::int64_t nearest(std::span<const QuerySegment> segments, double distance, std::size_t most,
                        std::vector<Hit>& hits) const;
 
   const TriangleSurface& surface() const { return *surface_; }
@@ -58,8 +59,8 @@ class SurfaceTree {
 
   std::int32_t build(std::int32_t first, std::int32_t count, const std::vector<Vec3>& centres);
   /// Lower bound of the distance between a node's triangles and the nearest segment.
-  double lower_bound(const Node& node, std::span<const Segment> segments) const;
-  double distance(std::int32_t triangle, std::span<const Segment> segments) const;
+  double lower_bound(const Node& node, std::span<const QuerySegment> segments) const;
+  double distance(std::int32_t triangle, std::span<const QuerySegment> segments) const;
 
   const TriangleSurface* surface_;
   std::vector<std::int32_t> order_;

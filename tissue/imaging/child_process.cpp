@@ -73,7 +73,7 @@ class Child {
   bool reaped_ = false;
 };
 
-bool write_all(int file, const char* bytes, std::size_t size) {
+bool write_to_child(int file, const char* bytes, std::size_t size) {
   while (size > 0) {
     const ssize_t written = write(file, bytes, size);
     if (written < 0 && errno == EINTR) continue;
@@ -122,7 +122,7 @@ Outcome answer(const std::function<std::string()>& work, std::string& bytes) {
   limit(limits);
   std::string bytes;
   const auto outcome = static_cast<char>(answer(work, bytes));
-  const bool told = write_all(answers, &outcome, 1) && write_all(answers, bytes.data(), bytes.size());
+  const bool told = write_to_child(answers, &outcome, 1) && write_to_child(answers, bytes.data(), bytes.size());
   _exit(told ? 0 : 1);  // no destructors, no flushing of what the parent has in its buffers
 }
 
@@ -157,10 +157,14 @@ std::string taken(std::string& bytes, const std::string& what) {
   const auto outcome = static_cast<Outcome>(bytes[0]);
   bytes.erase(0, 1);
   switch (outcome) {
-    case Outcome::kDone: return std::move(bytes);
-    case Outcome::kRefused: throw InputError(bytes);
-    case Outcome::kNoMemory: throw InputError(what + ": asks for more memory than an import may have");
-    case Outcome::kFailed: break;
+    case Outcome::kDone:
+      return std::move(bytes);
+    case Outcome::kRefused:
+      throw InputError(bytes);
+    case Outcome::kNoMemory:
+      throw InputError(what + ": asks for more memory than an import may have");
+    case Outcome::kFailed:
+      break;
   }
   throw InputError(what + ": " + bytes);
 }

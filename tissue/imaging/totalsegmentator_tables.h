@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "tissue/imaging/label_table.h"
+#include "tissue/imaging/labels/label_table.h"
 
 namespace trocar {
 

@@ -7,13 +7,13 @@
 namespace trocar {
 namespace {
 
-constexpr double kSubStep = 1e-3;        // s
+constexpr double kSubStep = 1e-3;  // s
 constexpr int kSweeps = 12;
-constexpr double kSlop = 2e-5;           // m of overlap left alone, so that resting contacts persist
-constexpr double kPushOut = 0.2;         // of the overlap a sub-step
-constexpr double kFastestPushOut = 0.1;  // m/s
+constexpr double kSlop = 2e-5;                           // m of overlap left alone, so that resting contacts persist
+constexpr double kPushOut = 0.2;                         // of the overlap a sub-step
+constexpr double kFastestPushOut = 0.1;                  // m/s
 constexpr double kQuietSpeed = 0.004, kQuietSpin = 0.4;  // m/s, rad/s: slower counts as rest
-constexpr double kQuietTime = 0.05;      // s of rest before sleep
+constexpr double kQuietTime = 0.05;                      // s of rest before sleep
 
 }  // namespace
 

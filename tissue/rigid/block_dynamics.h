@@ -1,9 +1,9 @@
 // Free blocks on a board: they fall, land without bouncing, tip over, are pushed by the instrument and come to rest.
 //
-// Sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) on the contact points of a sub-step,
-// Coulomb friction by a clamped tangential impulse, overlap removed at a limited speed. The instrument and a held block are
-// kinematic: they push with at most stiffness times overlap, so a block pinned against the board yields like foam.
-// Frame T, SI units. Deterministic. Thread: tissue task.
+// Sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) on the contact points of a
+// sub-step, Coulomb friction by a clamped tangential impulse, overlap removed at a limited speed. The instrument and a
+// held block are kinematic: they push with at most stiffness times overlap, so a block pinned against the board yields
+// like foam. Frame T, SI units. Deterministic. Thread: tissue task.
 #pragma once
 
 #include <vector>
@@ -16,11 +16,11 @@ namespace trocar {
 struct Pusher {
   CapsuleShape shape;
   Vec3 velocity_T = Vec3::Zero(), spin_T = Vec3::Zero(), about_T = Vec3::Zero();
-  int spares = -1;                      ///< index of a body that it does not push
+  int spares = -1;  ///< index of a body that it does not push
 };
 
 struct BlockDynamicsSettings {
-  double floor_z_m = 0;                 ///< height of the board and of the table round it
+  double floor_z_m = 0;  ///< height of the board and of the table round it
   double friction = 0.6;
   double push_stiffness_n_per_m = 300;  ///< of a block against what pushes it
 };
@@ -34,11 +34,11 @@ class BlockDynamics {
 
  private:
   struct Joint {
-    int a = -1, b = -1;                 ///< bodies; b < 0: the floor or a pusher
+    int a = -1, b = -1;  ///< bodies; b < 0: the floor or a pusher
     RigidContact contact;
-    Vec3 other_T = Vec3::Zero();        ///< velocity of what is not a body
-    double most = 0, pushed = 0;        ///< limit and sum of the normal impulse, N s
-    Vec3 rubbed = Vec3::Zero();         ///< sum of the tangential impulse
+    Vec3 other_T = Vec3::Zero();  ///< velocity of what is not a body
+    double most = 0, pushed = 0;  ///< limit and sum of the normal impulse, N s
+    Vec3 rubbed = Vec3::Zero();   ///< sum of the tangential impulse
   };
   void collect(std::vector<RigidBody>& bodies, const std::vector<Pusher>& pushers, double ahead_s, double dt_s);
   void collect_pushes(RigidBody& body, int index, const std::vector<Pusher>& pushers, double ahead_s, double dt_s);

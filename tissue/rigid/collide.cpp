@@ -7,8 +7,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kThread = 1e-4;      // m, radius of the thread that stands for a capsule's axis
-constexpr double kTolerance = 1e-9;   // m, of FCL's distance
+constexpr double kThread = 1e-4;     // m, radius of the thread that stands for a capsule's axis
+constexpr double kTolerance = 1e-9;  // m, of FCL's distance
 
 fcl::Transform3d transform(const Pose& X) {
   fcl::Transform3d out = fcl::Transform3d::Identity();
@@ -50,7 +50,7 @@ RigidContacts overlap(const A& a, const fcl::Transform3d& X_a, const B& b, const
 }
 
 struct Nearest {
-  double distance = 0;                      ///< of the axis, <= 0 when it enters the box
+  double distance = 0;  ///< of the axis, <= 0 when it enters the box
   Vec3 on_box = Vec3::Zero(), on_axis = Vec3::Zero();
 };
 
@@ -82,9 +82,9 @@ RigidContacts capsule_box(const CapsuleShape& capsule, const BoxShape& box) {
     if (depth > 0) out.add({near.on_box, (near.on_axis - near.on_box).normalized(), depth});
     return out;
   }
-  const RigidContacts inside = overlap(thread_of(capsule), along((capsule.from_T + capsule.to_T) / 2,
-                                                                 capsule.to_T - capsule.from_T),
-                                       box_of(box), transform(box.X_TB));
+  const RigidContacts inside =
+      overlap(thread_of(capsule), along((capsule.from_T + capsule.to_T) / 2, capsule.to_T - capsule.from_T),
+              box_of(box), transform(box.X_TB));
   if (inside.count == 0) return out;
   RigidContact deepest = inside.at[0];
   deepest.depth_m += capsule.radius_m;

@@ -1,9 +1,9 @@
 // Contact points between rigid primitives: boxes, capsules, cylinders, the plane of the board.
 //
 // Box against box, capsule against box and box against cylinder by FCL (kept in the source); against a horizontal
-// plane in closed form, because FCL gives one point where a resting box needs four. A capsule is asked for the distance of
-// its axis (as a thread of 0.1 mm), so overlaps up to its radius are exact to 3 um; FCL's own depth of a capsule is not.
-// Frame T, m. Thread: tissue task; FCL allocates.
+// plane in closed form, because FCL gives one point where a resting box needs four. A capsule is asked for the distance
+// of its axis (as a thread of 0.1 mm), so overlaps up to its radius are exact to 3 um; FCL's own depth of a capsule is
+// not. Frame T, m. Thread: tissue task; FCL allocates.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 namespace trocar {
 
 struct BoxShape {
-  Pose X_TB;                  ///< centre, axes along the edges
-  Vec3 half = Vec3::Zero();   ///< half extents
+  Pose X_TB;                 ///< centre, axes along the edges
+  Vec3 half = Vec3::Zero();  ///< half extents
 
   Vec3 corner(int index) const {
     const Vec3 sign(index & 1 ? 1 : -1, index & 2 ? 1 : -1, index & 4 ? 1 : -1);

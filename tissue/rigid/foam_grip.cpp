@@ -6,16 +6,16 @@
 namespace trocar {
 namespace {
 
-constexpr double kHoldFrom = 0.10, kHoldUntil = 0.05;   // N
-constexpr double kPadHalf = 0.008;      // m along the hinge axis from the pads' middle to a block's
-constexpr double kBehindTips = 0.016;   // m: how deep a block's middle may lie between the pads
-constexpr double kBeyondTips = 0.009;   // m: how far beyond the pads' ends it may lie
-constexpr double kAside = 0.001;        // m that a block may lie off between the pads and still be guided in
-constexpr double kSquare = 0.82;        // least cosine between the pads' normal and the block's: 35 degrees askew
-constexpr double kSlipSpeed = 0.040;    // m/s of a block that is not squeezed at all [D]
-constexpr double kPadFriction = 0.83;   // profiled jaws (pull held per pinch, tissue notes section 3)
-constexpr int kTurnSteps = 24;          // thirds of the angle: to a thousandth of a degree
-constexpr double kSupport = 1e-4;       // m above what carries it
+constexpr double kHoldFrom = 0.10, kHoldUntil = 0.05;  // N
+constexpr double kPadHalf = 0.008;                     // m along the hinge axis from the pads' middle to a block's
+constexpr double kBehindTips = 0.016;                  // m: how deep a block's middle may lie between the pads
+constexpr double kBeyondTips = 0.009;                  // m: how far beyond the pads' ends it may lie
+constexpr double kAside = 0.001;       // m that a block may lie off between the pads and still be guided in
+constexpr double kSquare = 0.82;       // least cosine between the pads' normal and the block's: 35 degrees askew
+constexpr double kSlipSpeed = 0.040;   // m/s of a block that is not squeezed at all [D]
+constexpr double kPadFriction = 0.83;  // profiled jaws (pull held per pinch, tissue notes section 3)
+constexpr int kTurnSteps = 24;         // thirds of the angle: to a thousandth of a degree
+constexpr double kSupport = 1e-4;      // m above what carries it
 
 /// The block's own axis across the pads.
 int pinched_axis(const RigidBody& body, const Mat3& R_TI) {

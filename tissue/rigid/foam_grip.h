@@ -5,9 +5,10 @@
 //   slip      held lighter than its slip force and carried free, it creeps down through the pads at
 //             v = v_slip (1 - F / F_slip): the ridges of the pads bite only into compressed foam
 //   crush     above its crush force it is thinner and softer for good
-//   set down  the board turns a held block towards flat against the foam in the pads (k h^2/12 per radian, h as long as they
+//   set down  the board turns a held block towards flat against the foam in the pads (k h^2/12 per radian, h as long as
+//   they
 //             hold it), and pushes it up through the pads when it presses harder than 2 mu F
-// The pads close in parallel: their opening is the same along them. Frames T and I (haptics/control/tool_shape.h: x the
+// The pads close in parallel: their opening is the same along them. Frames T and I (haptics/contact/tool_shape.h: x the
 // hinge axis, pads meeting in y = 0). SI units. Deterministic. Thread: tissue task.
 #pragma once
 
@@ -45,7 +46,7 @@ class FoamGrip {
   GripState state() const { return state_; }
   int object() const { return object_; }
   double slipped_m() const { return slipped_m_; }
-  double board_force_n() const { return board_force_n_; }   ///< of the board on the held block
+  double board_force_n() const { return board_force_n_; }  ///< of the board on the held block
   /// For the pinch channel: what lies between the pads.
   GripBlock block(const std::vector<RigidBody>& bodies, const std::vector<Foam>& foams, const Pose& X_TI) const;
   /// For the contact stage: the held block as a capsule.
@@ -62,7 +63,7 @@ class FoamGrip {
 
   GripState state_ = GripState::kEmpty;
   int object_ = -1;
-  Pose X_IO_;                ///< of the held block
+  Pose X_IO_;  ///< of the held block
   double slipped_m_ = 0, board_force_n_ = 0;
 };
 

@@ -4,7 +4,8 @@ namespace trocar {
 
 Mat3 RigidBody::inverse_inertia() const {
   const Vec3 squares = half.cwiseProduct(half);  // of a box: m/3 (b^2 + c^2) in half extents
-  const Vec3 inertia = mass_kg / 3 * Vec3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
+  const Vec3 inertia =
+      mass_kg / 3 * Vec3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
   return X_TB.R * inertia.cwiseInverse().asDiagonal() * X_TB.R.transpose();
 }
 

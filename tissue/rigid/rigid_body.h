@@ -8,17 +8,17 @@
 
 namespace trocar {
 
-inline constexpr double kGravity = 9.81;   ///< m/s^2, along -z of T
+inline constexpr double kGravity = 9.81;  ///< m/s^2, along -z of T
 
 struct RigidBody {
-  Vec3 half = Vec3::Zero();                ///< half extents, m
+  Vec3 half = Vec3::Zero();  ///< half extents, m
   double mass_kg = 1;
   Pose X_TB;
   Vec3 velocity_T = Vec3::Zero();
-  Vec3 spin_T = Vec3::Zero();              ///< rad/s
-  bool asleep = true;                      ///< at rest: neither gravity nor contacts are computed
-  bool carried = false;                    ///< moved by the jaws, not by impulses
-  double quiet_s = 0;                      ///< time at rest so far
+  Vec3 spin_T = Vec3::Zero();  ///< rad/s
+  bool asleep = true;          ///< at rest: neither gravity nor contacts are computed
+  bool carried = false;        ///< moved by the jaws, not by impulses
+  double quiet_s = 0;          ///< time at rest so far
 
   BoxShape shape() const { return {X_TB, half}; }
   bool moves() const { return !asleep && !carried; }

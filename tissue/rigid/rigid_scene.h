@@ -30,29 +30,29 @@ struct BoardPlate {
 
 /// A foam block: a box that springs between the jaws, slips when held too lightly and is crushed when held too hard.
 struct FoamBlock {
-  Vec3 size_m = Vec3::Zero();          ///< extents along its own axes
+  Vec3 size_m = Vec3::Zero();  ///< extents along its own axes
   double mass_kg = 0;
-  double stiffness_n_per_m = 0;        ///< between the jaws, force per compression
-  double slip_below_n = 0;             ///< a lighter grip does not hold its weight
-  double crush_above_n = 0;            ///< a harder grip crushes it for good
-  double crushed_thickness = 0.75;     ///< of the thickness, after crushing
-  double crushed_stiffness = 0.5;      ///< of the stiffness, after crushing
-  std::int32_t kind = 0;               ///< which foam
-  std::int32_t colour = 0;             ///< index of the colour that is shown; equal for all where colour is no cue
-  Pose X_TO;                           ///< at the start: z up, resting on the board
+  double stiffness_n_per_m = 0;     ///< between the jaws, force per compression
+  double slip_below_n = 0;          ///< a lighter grip does not hold its weight
+  double crush_above_n = 0;         ///< a harder grip crushes it for good
+  double crushed_thickness = 0.75;  ///< of the thickness, after crushing
+  double crushed_stiffness = 0.5;   ///< of the stiffness, after crushing
+  std::int32_t kind = 0;            ///< which foam
+  std::int32_t colour = 0;          ///< index of the colour that is shown; equal for all where colour is no cue
+  Pose X_TO;                        ///< at the start: z up, resting on the board
 };
 
 /// A ring printed on the board: where a block shall stand. It is felt no more than the board is.
 struct RingMark {
   Vec3 centre_T = Vec3::Zero();
-  double radius_m = 0;                 ///< inner
+  double radius_m = 0;  ///< inner
   std::int32_t colour = 0;
 };
 
 /// The port in the abdominal wall: a tube through which the shaft goes, widening above into a cone.
 struct PortTube {
-  Vec3 centre_T = Vec3::Zero();        ///< pivot, middle of the tube
-  Vec3 axis_T = Vec3::UnitZ();         ///< unit, outwards
+  Vec3 centre_T = Vec3::Zero();  ///< pivot, middle of the tube
+  Vec3 axis_T = Vec3::UnitZ();   ///< unit, outwards
   double radius_m = 0.006, length_m = 0.020;
 };
 

@@ -8,15 +8,24 @@
 namespace trocar {
 namespace {
 
-constexpr double kTableHalf = 0.25;       // m, of the table under the board
-constexpr double kTouchSkin = 1e-4;       // m between two blocks that still counts as touching
+constexpr double kTableHalf = 0.25;  // m, of the table under the board
+constexpr double kTouchSkin = 1e-4;  // m between two blocks that still counts as touching
 constexpr int kBoxTriangles = 12;
 constexpr std::int32_t kFirstBlockId = kFirstRigidId + 16;
 
 /// Corners of BoxShape::corner(), counter-clockwise from outside.
-constexpr std::array<std::array<int, 3>, kBoxTriangles> kBoxFaces{{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}}};
+constexpr std::array<std::array<int, 3>, kBoxTriangles> kBoxFaces{{{0, 2, 1},
+                                                                   {1, 2, 3},
+                                                                   {4, 5, 6},
+                                                                   {5, 7, 6},
+                                                                   {0, 1, 4},
+                                                                   {1, 5, 4},
+                                                                   {2, 6, 3},
+                                                                   {3, 6, 7},
+                                                                   {0, 4, 2},
+                                                                   {2, 4, 6},
+                                                                   {1, 3, 5},
+                                                                   {3, 7, 5}}};
 
 void add_triangle(ContactPatch& patch, const std::array<Vec3, 3>& vertex, std::int32_t id, std::int32_t material) {
   if (patch.count >= kMaxPatchTriangles) {
@@ -97,7 +106,8 @@ bool RigidWorld::near_tool(const JawReading& jaws, const RigidBody& body) const 
   for (int c = 0; c < tool.count; ++c) {
     const CapsuleShape shape = in_theatre(jaws.X_TI, tool.at[static_cast<std::size_t>(c)]);
     const Vec3 way = shape.to_T - shape.from_T;
-    const double share = std::clamp((body.X_TB.p - shape.from_T).dot(way) / std::max(1e-12, way.squaredNorm()), 0.0, 1.0);
+    const double share =
+        std::clamp((body.X_TB.p - shape.from_T).dot(way) / std::max(1e-12, way.squaredNorm()), 0.0, 1.0);
     if ((shape.from_T + share * way - body.X_TB.p).norm() < kPatchRadius + body.half.norm()) return true;
   }
   return false;
@@ -145,7 +155,8 @@ void RigidWorld::list_tool_pairs(const JawReading& jaws) {
     if (scene_.board) add_pair(party, kPartyBoard, capsule_plane(shape, floor_z_m_), board_.stiffness_n_per_m);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (static_cast<int>(i) == grip_.object()) continue;
-      add_pair(party, static_cast<std::int32_t>(i), capsule_box(shape, bodies_[i].shape()), foams_[i].stiffness_n_per_m);
+      add_pair(party, static_cast<std::int32_t>(i), capsule_box(shape, bodies_[i].shape()),
+               foams_[i].stiffness_n_per_m);
     }
   }
 }

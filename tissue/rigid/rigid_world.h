@@ -1,14 +1,14 @@
 // The rigid side of a scene: board, foam blocks and port, what the jaws do to the blocks, and what of them can be felt.
 //
-// One step: jaws grip (foam_grip.h), free blocks move (block_dynamics.h), pairs are listed. The board is felt through two
-// large triangles of its own material, every block near the tool through its twelve; the block between the jaws is felt by
-// the pinch instead, and once held it touches the rest as a capsule of the tool.
-// Frame T, SI units. Deterministic. Thread: tissue task.
+// One step: jaws grip (foam_grip.h), free blocks move (block_dynamics.h), pairs are listed. The board is felt through
+// two large triangles of its own material, every block near the tool through its twelve; the block between the jaws is
+// felt by the pinch instead, and once held it touches the rest as a capsule of the tool. Frame T, SI units.
+// Deterministic. Thread: tissue task.
 #pragma once
 
 #include <vector>
 
-#include "haptics/control/tool_shape.h"
+#include "haptics/contact/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "tissue/rigid/block_dynamics.h"
 #include "tissue/rigid/foam_grip.h"
@@ -18,7 +18,7 @@
 namespace trocar {
 
 inline constexpr std::int32_t kBoardMaterial = 1, kFirstFoamMaterial = 2;  ///< in the patch's table; 0 is the organ
-inline constexpr std::int32_t kFirstRigidId = 1 << 28;                     ///< patch triangles of the board, then blocks
+inline constexpr std::int32_t kFirstRigidId = 1 << 28;  ///< patch triangles of the board, then blocks
 
 class RigidWorld {
  public:

@@ -1,5 +1,5 @@
-// Files and folders that hold somebody's data: for the eyes of their owner alone (0600, 0700), whatever the umask, as far as the file system
-// knows rights. What is there already is narrowed, never widened. Thread: any.
+// Files and folders that hold somebody's data: for the eyes of their owner alone (0600, 0700), whatever the umask, as
+// far as the file system knows rights. What is there already is narrowed, never widened. Thread: any.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@ std::ofstream open_owner_file(const std::filesystem::path& file);
 /// A file that must not be there yet. @returns false when it is, or cannot be made; errno says why.
 bool make_owner_file(const std::filesystem::path& file);
 
-/// Folders that are missing on the way, each for its owner alone; those that exist stay as they are. @returns false: errno says why not.
+/// Folders that are missing on the way, each for its owner alone; those that exist stay as they are. @returns false:
+/// errno says why not.
 bool make_owner_folders(const std::filesystem::path& folder);
 
 }  // namespace trocar

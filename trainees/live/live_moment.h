@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "trainees/process_identity.h"
+#include "trainees/records/process_identity.h"
 
 namespace trocar {
 

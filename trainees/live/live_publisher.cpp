@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "haptics/input_error.h"
-#include "trainees/attempt_identity.h"
 #include "trainees/live/live_clock.h"
 #include "trainees/live/live_folder.h"
+#include "trainees/records/attempt_identity.h"
 
 namespace trocar {
 namespace {

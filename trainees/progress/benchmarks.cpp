@@ -23,7 +23,9 @@ std::vector<double> values_of(const std::vector<PersonValue>& persons) {
   return out;
 }
 
-bool reaches(double value, double limit, bool less_is_better) { return less_is_better ? value <= limit : value >= limit; }
+bool reaches(double value, double limit, bool less_is_better) {
+  return less_is_better ? value <= limit : value >= limit;
+}
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
@@ -34,23 +36,29 @@ double share_passing(double limit, const Spread& group, bool less_is_better) {
 }
 
 double counted_passing(double limit, bool less_is_better, const std::vector<PersonValue>& persons) {
-  return static_cast<double>(who_would_pass(limit, less_is_better, persons).size()) / static_cast<double>(persons.size());
+  return static_cast<double>(who_would_pass(limit, less_is_better, persons).size()) /
+         static_cast<double>(persons.size());
 }
 
 }  // namespace
 
 const char* benchmark_rule_name(BenchmarkRule rule) {
   switch (rule) {
-    case BenchmarkRule::kMeanLessSds: return "mean - SD";
-    case BenchmarkRule::kMedian: return "median";
-    case BenchmarkRule::kBestQuartile: return "best quartile";
-    case BenchmarkRule::kContrastingGroups: return "contrasting groups";
+    case BenchmarkRule::kMeanLessSds:
+      return "mean - SD";
+    case BenchmarkRule::kMedian:
+      return "median";
+    case BenchmarkRule::kBestQuartile:
+      return "best quartile";
+    case BenchmarkRule::kContrastingGroups:
+      return "contrasting groups";
   }
   return "unknown";
 }
 
-std::optional<DerivedBenchmark> derive_benchmark(BenchmarkRule rule, const std::vector<PersonValue>& persons, bool less_is_better,
-                                                 double sds, const std::string& who, const std::string& utc) {
+std::optional<DerivedBenchmark> derive_benchmark(BenchmarkRule rule, const std::vector<PersonValue>& persons,
+                                                 bool less_is_better, double sds, const std::string& who,
+                                                 const std::string& utc) {
   if (persons.size() < kLeastPersons || rule == BenchmarkRule::kContrastingGroups) return std::nullopt;
   const Spread spread = *spread_of(values_of(persons));
   const Quartiles fourths = *quartiles(values_of(persons));
@@ -65,7 +73,8 @@ std::optional<DerivedBenchmark> derive_benchmark(BenchmarkRule rule, const std::
   switch (rule) {
     case BenchmarkRule::kMeanLessSds:
       out.limit = spread.mean + (less_is_better ? sds : -sds) * spread.sd;
-      out.text = "mean " + text_of(spread.mean) + (less_is_better ? " + " : " - ") + text_of(sds) + " SD of " + text_of(spread.sd);
+      out.text = "mean " + text_of(spread.mean) + (less_is_better ? " + " : " - ") + text_of(sds) + " SD of " +
+                 text_of(spread.sd);
       break;
     case BenchmarkRule::kMedian:
       out.limit = fourths.median;
@@ -93,23 +102,28 @@ std::optional<double> density_crossing(double mean_a, double sd_a, double mean_b
   }
   const double root = b * b - 4 * a * c;
   if (root < 0) return std::nullopt;
-  const double q = -0.5 * (b + std::copysign(std::sqrt(root), b));   // no cancellation
+  const double q = -0.5 * (b + std::copysign(std::sqrt(root), b));  // no cancellation
   if (within(q / a)) return q / a;
   return q != 0 && within(c / q) ? std::optional(c / q) : std::nullopt;
 }
 
-std::optional<DerivedBenchmark> contrast_groups(const std::vector<PersonValue>& competent, const std::vector<PersonValue>& others,
-                                                bool less_is_better, const std::string& who, const std::string& utc) {
+std::optional<DerivedBenchmark> contrast_groups(const std::vector<PersonValue>& competent,
+                                                const std::vector<PersonValue>& others, bool less_is_better,
+                                                const std::string& who, const std::string& utc) {
   if (competent.size() < kLeastPersons || others.size() < kLeastPersons) return std::nullopt;
   const Spread good = *spread_of(values_of(competent)), poor = *spread_of(values_of(others));
   if (less_is_better ? good.mean >= poor.mean : good.mean <= poor.mean) return std::nullopt;
   const auto limit = density_crossing(good.mean, good.sd, poor.mean, poor.sd);
   if (!limit) return std::nullopt;
-  DerivedBenchmark out{*limit, BenchmarkRule::kContrastingGroups, good.n, poor.n, good.mean, good.sd, less_is_better, who, utc, "", {}, {}};
-  out.text = "densities of " + text_of(good.mean) + " (SD " + text_of(good.sd) + ", n " + std::to_string(good.n) + ") and " +
-             text_of(poor.mean) + " (SD " + text_of(poor.sd) + ", n " + std::to_string(poor.n) + ") cross";
-  out.theoretical = ErrorRates{share_passing(*limit, poor, less_is_better), 1 - share_passing(*limit, good, less_is_better)};
-  out.observed = ErrorRates{counted_passing(*limit, less_is_better, others), 1 - counted_passing(*limit, less_is_better, competent)};
+  DerivedBenchmark out{
+      *limit, BenchmarkRule::kContrastingGroups, good.n, poor.n, good.mean, good.sd, less_is_better, who, utc, "", {},
+      {}};
+  out.text = "densities of " + text_of(good.mean) + " (SD " + text_of(good.sd) + ", n " + std::to_string(good.n) +
+             ") and " + text_of(poor.mean) + " (SD " + text_of(poor.sd) + ", n " + std::to_string(poor.n) + ") cross";
+  out.theoretical =
+      ErrorRates{share_passing(*limit, poor, less_is_better), 1 - share_passing(*limit, good, less_is_better)};
+  out.observed = ErrorRates{counted_passing(*limit, less_is_better, others),
+                            1 - counted_passing(*limit, less_is_better, competent)};
   return out;
 }
 

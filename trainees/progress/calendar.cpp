@@ -18,7 +18,9 @@ std::optional<int> digits(std::string_view text, std::size_t at, std::size_t cou
   return value;
 }
 
-chrono::sys_days day_of(std::int64_t seconds) { return chrono::floor<chrono::days>(chrono::sys_seconds(chrono::seconds(seconds))); }
+chrono::sys_days day_of(std::int64_t seconds) {
+  return chrono::floor<chrono::days>(chrono::sys_seconds(chrono::seconds(seconds)));
+}
 
 std::string date_text(chrono::sys_days day) {
   const chrono::year_month_day date(day);
@@ -31,11 +33,13 @@ std::string date_text(chrono::sys_days day) {
 }  // namespace
 
 std::optional<std::int64_t> seconds_of_utc(std::string_view utc) {
-  if (utc.size() < 20 || utc[4] != '-' || utc[7] != '-' || utc[10] != 'T' || utc[13] != ':' || utc[16] != ':' || utc.back() != 'Z')
+  if (utc.size() < 20 || utc[4] != '-' || utc[7] != '-' || utc[10] != 'T' || utc[13] != ':' || utc[16] != ':' ||
+      utc.back() != 'Z')
     return std::nullopt;
   const auto year = digits(utc, 0, 4), month = digits(utc, 5, 2), day = digits(utc, 8, 2);
   const auto hour = digits(utc, 11, 2), minute = digits(utc, 14, 2), second = digits(utc, 17, 2);
-  if (!year || !month || !day || !hour || !minute || !second || *hour > 23 || *minute > 59 || *second > 60) return std::nullopt;
+  if (!year || !month || !day || !hour || !minute || !second || *hour > 23 || *minute > 59 || *second > 60)
+    return std::nullopt;
   const chrono::year_month_day date{chrono::year(*year), chrono::month(static_cast<unsigned>(*month)),
                                     chrono::day(static_cast<unsigned>(*day))};
   if (!date.ok()) return std::nullopt;
@@ -46,8 +50,8 @@ std::string utc_of_seconds(std::int64_t seconds) {
   const chrono::sys_days day = day_of(seconds);
   const std::int64_t rest = seconds - day.time_since_epoch().count() * kSecondsADay;
   char clock[32];
-  std::snprintf(clock, sizeof clock, "T%02d:%02d:%02dZ", static_cast<int>(rest / 3600), static_cast<int>(rest / 60 % 60),
-                static_cast<int>(rest % 60));
+  std::snprintf(clock, sizeof clock, "T%02d:%02d:%02dZ", static_cast<int>(rest / 3600),
+                static_cast<int>(rest / 60 % 60), static_cast<int>(rest % 60));
   return date_text(day) + clock;
 }
 

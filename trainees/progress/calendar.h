@@ -1,5 +1,5 @@
-// Days and weeks of the UTC texts that attempts carry ("2026-03-01T09:30:00.123Z"); proleptic Gregorian, no leap seconds.
-// Pure: no clock is read. Thread: any.
+// Days and weeks of the UTC texts that attempts carry ("2026-03-01T09:30:00.123Z"); proleptic Gregorian, no leap
+// seconds. Pure: no clock is read. Thread: any.
 #pragma once
 
 #include <cstdint>

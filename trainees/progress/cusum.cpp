@@ -8,7 +8,8 @@ namespace trocar {
 namespace {
 
 void require_meaning(const CusumRule& rule) {
-  if (!(0 < rule.adequate && rule.adequate < rule.inadequate && rule.inadequate < 1 && rule.shown_at > 0 && rule.relapse_at > 0))
+  if (!(0 < rule.adequate && rule.adequate < rule.inadequate && rule.inadequate < 1 && rule.shown_at > 0 &&
+        rule.relapse_at > 0))
     throw std::invalid_argument("cusum: wants 0 < adequate < inadequate < 1 and limits above 0");
 }
 

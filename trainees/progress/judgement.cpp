@@ -38,9 +38,8 @@ std::vector<const CurveAttempt*> newest(const Attempts& attempts, int window, Fi
 
 /// An attempt left after a critical event counts like a graded one: leaving hides nothing.
 Found unsafe(const Attempts& attempts, const ProgressRules& rules) {
-  const auto looked_at = newest(attempts, rules.unsafe_window, [](const CurveAttempt& a) {
-    return !a.broken && (a.score || a.critical_events > 0);
-  });
+  const auto looked_at = newest(attempts, rules.unsafe_window,
+                                [](const CurveAttempt& a) { return !a.broken && (a.score || a.critical_events > 0); });
   int unsafe = 0, critical = 0, gates = 0;
   for (const CurveAttempt* a : looked_at) {
     unsafe += a->critical_events > 0 || a->failed_gates > 0 ? 1 : 0;
@@ -50,8 +49,8 @@ Found unsafe(const Attempts& attempts, const ProgressRules& rules) {
   if (unsafe < rules.unsafe_attempts) return std::nullopt;
   const int n = static_cast<int>(looked_at.size());
   return Judgement{Flag::kUnsafe,
-                   number(unsafe) + " of the last " + counted(n, "attempt was", "attempts were") + " unsafe: " + number(critical) +
-                       " with a critical event, " + number(gates) + " with a failed safety gate",
+                   number(unsafe) + " of the last " + counted(n, "attempt was", "attempts were") + " unsafe: " +
+                       number(critical) + " with a critical event, " + number(gates) + " with a failed safety gate",
                    n, rules.version};
 }
 
@@ -62,8 +61,8 @@ Found relapsed(const std::vector<CusumPoint>& points, const ProgressRules& rules
   while (alarm > 0 && !(points[alarm - 1].decided && points[alarm - 1].test == CusumPoint::Test::kKeeping)) --alarm;
   return Judgement{Flag::kRelapsed,
                    "competence was shown at attempt " + number(*competence.first_shown) + "; failures reached " +
-                       fixed(points[alarm - 1].value, 1) + " (alarm at " + fixed(rules.cusum.relapse_at, 1) + ") at attempt " +
-                       number(static_cast<int>(alarm)),
+                       fixed(points[alarm - 1].value, 1) + " (alarm at " + fixed(rules.cusum.relapse_at, 1) +
+                       ") at attempt " + number(static_cast<int>(alarm)),
                    static_cast<int>(points.size()), rules.version};
 }
 
@@ -72,7 +71,8 @@ Found stuck(const Attempts& tried, const ProgressRules& rules) {
   for (auto at = tried.rbegin(); at != tried.rend() && !at->passed; ++at) ++since;
   if (since < rules.stuck_after) return std::nullopt;
   const bool ever = since < static_cast<int>(tried.size());
-  return Judgement{Flag::kStuck, counted(since, "attempt", "attempts") + (ever ? " since the last pass" : ", none passed yet"), since,
+  return Judgement{Flag::kStuck,
+                   counted(since, "attempt", "attempts") + (ever ? " since the last pass" : ", none passed yet"), since,
                    rules.version};
 }
 
@@ -89,7 +89,8 @@ Found flat(const Attempts& tried, const ProgressRules& rules) {
   const auto passes = static_cast<int>(std::count(passed.end() - seen->n, passed.end(), true));
   if (2 * passes >= seen->n) return std::nullopt;
   return Judgement{Flag::kPlateau,
-                   std::string("scores ") + (seen->rise < 0 ? "fell by " : "rose by ") + fixed(std::abs(seen->rise), 1) + " points over the last " + number(seen->n) + " (flat below " +
+                   std::string("scores ") + (seen->rise < 0 ? "fell by " : "rose by ") +
+                       fixed(std::abs(seen->rise), 1) + " points over the last " + number(seen->n) + " (flat below " +
                        fixed(rules.plateau_rise, 1) + "), " + number(passes) + " of them passed",
                    seen->n, rules.version};
 }
@@ -104,32 +105,37 @@ Found integrity(const Attempts& attempts, const ProgressRules& rules) {
   if (broken + doubtful < rules.integrity_attempts) return std::nullopt;
   const int n = static_cast<int>(looked_at.size());
   return Judgement{Flag::kIntegrity,
-                   "of the last " + counted(n, "attempt", "attempts") + " " + number(broken) + " void or ended by the device, " +
-                       number(doubtful) + " with a late loop or force that was not rendered",
+                   "of the last " + counted(n, "attempt", "attempts") + " " + number(broken) +
+                       " void or ended by the device, " + number(doubtful) +
+                       " with a late loop or force that was not rendered",
                    n, rules.version};
 }
 
-Found retention_due(const Attempts& attempts, const ProgressRules& rules, const std::string& certified_utc, const std::string& now_utc) {
+Found retention_due(const Attempts& attempts, const ProgressRules& rules, const std::string& certified_utc,
+                    const std::string& now_utc) {
   const auto dates = retention_dates(certified_utc, attempts, rules, now_utc);
   for (auto date = dates.rbegin(); date != dates.rend(); ++date)
     if (date->state == RetentionDate::State::kDue)
       return Judgement{Flag::kRetentionDue,
-                       "certified " + certified_utc.substr(0, 10) + "; the attempt after " + number(date->days) + " days was due " +
-                           date->due_utc.substr(0, 10),
+                       "certified " + certified_utc.substr(0, 10) + "; the attempt after " + number(date->days) +
+                           " days was due " + date->due_utc.substr(0, 10),
                        static_cast<int>(attempts.size()), rules.version};
   return std::nullopt;
 }
 
 /// @param safe no flag of safety or integrity holds.
-Found ready(const std::vector<CusumPoint>& points, const ProgressRules& rules, std::optional<double> reliable, bool safe,
-            const std::string& certified_utc) {
+Found ready(const std::vector<CusumPoint>& points, const ProgressRules& rules, std::optional<double> reliable,
+            bool safe, const std::string& certified_utc) {
   const Competence competence = competence_of(points);
-  if (!competence.shown || !safe || !certified_utc.empty() || reliable.value_or(1) < rules.least_reliability) return std::nullopt;
+  if (!competence.shown || !safe || !certified_utc.empty() || reliable.value_or(1) < rules.least_reliability)
+    return std::nullopt;
   std::size_t shown = points.size();
   while (!(points[shown - 1].decided && points[shown - 1].test == CusumPoint::Test::kLearning)) --shown;
   return Judgement{Flag::kReady,
-                   "competence shown at attempt " + number(static_cast<int>(shown)) + " of " + number(static_cast<int>(points.size())) +
-                       (reliable ? ", reliability " + reliability_words(*reliable) : std::string(", reliability cannot be told yet")) +
+                   "competence shown at attempt " + number(static_cast<int>(shown)) + " of " +
+                       number(static_cast<int>(points.size())) +
+                       (reliable ? ", reliability " + reliability_words(*reliable)
+                                 : std::string(", reliability cannot be told yet")) +
                        "; a person decides",
                    static_cast<int>(points.size()), rules.version};
 }
@@ -143,30 +149,40 @@ int decided_of(const Attempts& attempts, int n) {
 std::string learning_text(const Attempts& tried, const std::vector<CusumPoint>& points, const ProgressRules& rules) {
   const auto passes = std::count_if(tried.begin(), tried.end(), [](const CurveAttempt& a) { return a.passed; });
   const Competence competence = competence_of(points);
-  const std::string of = competence.shown ? "; competence shown"
-                                          : "; evidence " + fixed(competence.value, 1) + " of " + fixed(rules.cusum.shown_at, 1);
-  return number(static_cast<int>(passes)) + " of " + counted(static_cast<int>(tried.size()), "attempt", "attempts") + " passed" + of;
+  const std::string of = competence.shown
+                             ? "; competence shown"
+                             : "; evidence " + fixed(competence.value, 1) + " of " + fixed(rules.cusum.shown_at, 1);
+  return number(static_cast<int>(passes)) + " of " + counted(static_cast<int>(tried.size()), "attempt", "attempts") +
+         " passed" + of;
 }
 
 }  // namespace
 
 const char* flag_name(Flag flag) {
   switch (flag) {
-    case Flag::kUnsafe: return "unsafe";
-    case Flag::kRelapsed: return "relapsed";
-    case Flag::kStuck: return "stuck";
-    case Flag::kPlateau: return "plateau";
-    case Flag::kIntegrity: return "integrity";
-    case Flag::kRetentionDue: return "retention due";
-    case Flag::kReady: return "ready";
-    case Flag::kLearning: return "learning";
+    case Flag::kUnsafe:
+      return "unsafe";
+    case Flag::kRelapsed:
+      return "relapsed";
+    case Flag::kStuck:
+      return "stuck";
+    case Flag::kPlateau:
+      return "plateau";
+    case Flag::kIntegrity:
+      return "integrity";
+    case Flag::kRetentionDue:
+      return "retention due";
+    case Flag::kReady:
+      return "ready";
+    case Flag::kLearning:
+      return "learning";
   }
   return "unknown";
 }
 
 std::optional<Flag> flag_named(const std::string& name) {
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity, Flag::kRetentionDue,
-                          Flag::kReady, Flag::kLearning})
+  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity,
+                          Flag::kRetentionDue, Flag::kReady, Flag::kLearning})
     if (name == flag_name(flag)) return flag;
   return std::nullopt;
 }
@@ -202,7 +218,9 @@ std::vector<Judgement> judge(const Attempts& attempts, const ProgressRules& rule
   const bool unsound = add(integrity(attempts, rules));
   add(retention_due(tried, rules, certified_utc, now_utc));
   add(ready(points, rules, reliable, !harmful && !unsound, certified_utc));
-  if (out.empty()) out.push_back({Flag::kLearning, learning_text(tried, points, rules), static_cast<int>(tried.size()), rules.version});
+  if (out.empty())
+    out.push_back(
+        {Flag::kLearning, learning_text(tried, points, rules), static_cast<int>(tried.size()), rules.version});
   for (Judgement& judgement : out) {
     judgement.reliability = reliable;
     judgement.decided = decided_of(judgement.flag == Flag::kIntegrity ? attempts : tried, judgement.n);
@@ -210,8 +228,9 @@ std::vector<Judgement> judge(const Attempts& attempts, const ProgressRules& rule
   return out;
 }
 
-std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<SafetyRecord>& safety, const ProgressRules& rules,
-                             std::optional<double> reliable, const std::string& certified_utc, const std::string& now_utc) {
+std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<SafetyRecord>& safety,
+                             const ProgressRules& rules, std::optional<double> reliable,
+                             const std::string& certified_utc, const std::string& now_utc) {
   std::map<std::string, const SafetyRecord*> records;
   for (const SafetyRecord& record : safety) records[record.uuid] = &record;
   const auto started = [](const std::string& utc) { return seconds_of_utc(utc).value_or(0); };
@@ -229,7 +248,8 @@ std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<Safet
   }
   for (const auto& [uuid, record] : records)
     if (record->broken)
-      attempts.push_back({started(record->started_utc), {}, false, record->critical_events, record->failed_gates, true, false, false});
+      attempts.push_back(
+          {started(record->started_utc), {}, false, record->critical_events, record->failed_gates, true, false, false});
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const CurveAttempt& a, const CurveAttempt& b) { return a.started_s < b.started_s; });
   return judge(attempts, rules, reliable, certified_utc, now_utc);

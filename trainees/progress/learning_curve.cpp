@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "trainees/cohort.h"
+#include "trainees/records/cohort.h"
 
 namespace trocar {
 namespace {
@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kLeastForBand = 3;
 
 bool ended_by_device(const PastAttempt& attempt) {
-  return attempt.summary.status == status_name(AttemptStatus::kFault) || attempt.summary.status == status_name(AttemptStatus::kVoid);
+  return attempt.summary.status == status_name(AttemptStatus::kFault) ||
+         attempt.summary.status == status_name(AttemptStatus::kVoid);
 }
 
 /// Value between the sorted values at share p.
@@ -29,7 +30,8 @@ void add(LearningCurve& curve, const PastAttempt& attempt) {
   curve.attempts.push_back(attempt);
   curve.in_a_row = s.passed ? curve.in_a_row + 1 : 0;
   curve.passed += s.passed ? 1 : 0;
-  if (const auto time = attempt.metrics.find(kTimeMetric); time != attempt.metrics.end()) curve.trained_s += time->second;
+  if (const auto time = attempt.metrics.find(kTimeMetric); time != attempt.metrics.end())
+    curve.trained_s += time->second;
   if (!s.score) return;
   ++curve.graded;
   curve.last = s.score;
@@ -117,15 +119,17 @@ std::string attempts_csv(const std::vector<PastAttempt>& attempts) {
   std::set<std::string> names;
   for (const PastAttempt& attempt : attempts)
     for (const auto& [name, value] : attempt.metrics) names.insert(name);
-  std::string out = "started_utc,attempt,trainee,exercise,version,level,board,seed,input,status,score,passed,passed_by_score,decided_by,"
-                    "decided_utc,grade,reason,rubric_sha256";
+  std::string out =
+      "started_utc,attempt,trainee,exercise,version,level,board,seed,input,status,score,passed,passed_by_score,decided_"
+      "by,"
+      "decided_utc,grade,reason,rubric_sha256";
   for (const std::string& name : names) out += "," + name;
   out += "\r\n";
   for (const PastAttempt& attempt : attempts) {
     const AttemptSummary& s = attempt.summary;
     for (const std::string& cell :
-         {s.started_utc, s.uuid, s.trainee, s.exercise_id, s.exercise_version, s.level, std::to_string(s.board), std::to_string(s.seed), s.hand,
-          s.status, s.score ? exact(*s.score) : "", std::string(s.passed ? "1" : "0"),
+         {s.started_utc, s.uuid, s.trainee, s.exercise_id, s.exercise_version, s.level, std::to_string(s.board),
+          std::to_string(s.seed), s.hand, s.status, s.score ? exact(*s.score) : "", std::string(s.passed ? "1" : "0"),
           std::string(s.passed_by_score ? "1" : "0"), defused(s.decided_by), s.decided_utc, s.grade, s.integrity})
       out += quoted(cell) + ",";
     out += s.rubric_sha256;

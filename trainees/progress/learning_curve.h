@@ -1,7 +1,7 @@
 // How somebody learns an exercise at a level: scores in order, own median and quartiles, passes in a row, time spent.
 //
-// Attempts of another input (mouse, pad, device) or graded by another rubric are another curve: their scores do not compare.
-// Pure. Thread: any.
+// Attempts of another input (mouse, pad, device) or graded by another rubric are another curve: their scores do not
+// compare. Pure. Thread: any.
 #pragma once
 
 #include <string>
@@ -23,17 +23,17 @@ struct CurveKey {
   auto operator<=>(const CurveKey&) const = default;
 };
 
-inline constexpr int kBandAttempts = 10;   ///< newest scores that the own band is made of
+inline constexpr int kBandAttempts = 10;  ///< newest scores that the own band is made of
 
 struct LearningCurve {
   CurveKey key;
-  std::vector<PastAttempt> attempts;       ///< that were tried, oldest first; what the device ended is not among them
+  std::vector<PastAttempt> attempts;  ///< that were tried, oldest first; what the device ended is not among them
   int graded = 0, passed = 0;
-  int in_a_row = 0;                        ///< newest attempts passed
-  double trained_s = 0;                    ///< of the exercise's clock, over all that have one
-  std::optional<double> best, last;        ///< scores
-  std::optional<Quartiles> band;           ///< of the newest kBandAttempts scores, from three on
-  std::vector<bool> passes() const;        ///< oldest first; one that was left counts as failed
+  int in_a_row = 0;                  ///< newest attempts passed
+  double trained_s = 0;              ///< of the exercise's clock, over all that have one
+  std::optional<double> best, last;  ///< scores
+  std::optional<Quartiles> band;     ///< of the newest kBandAttempts scores, from three on
+  std::vector<bool> passes() const;  ///< oldest first; one that was left counts as failed
 };
 
 /// One curve a key, in the order of the last attempt, newest first. @param newest_first of one trainee.
@@ -46,7 +46,8 @@ struct OwnValues {
 };
 OwnValues own_values(const std::vector<PastAttempt>& attempts, const std::string& metric, bool less_is_better);
 
-/// RFC 4180: one line an attempt in the order given, one column a metric that any of them has; UTF-8, CRLF, numbers to the bit.
+/// RFC 4180: one line an attempt in the order given, one column a metric that any of them has; UTF-8, CRLF, numbers to
+/// the bit.
 std::string attempts_csv(const std::vector<PastAttempt>& attempts);
 
 }  // namespace trocar

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "trainees/sqlite_handle.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
 namespace {
@@ -32,7 +32,7 @@ PastAttempt past_attempt(const AttemptResult& result) {
   s.board = result.board;
   s.status = status_name(result.grade.status);
   s.score = result.grade.score;
-  s.passed = s.passed_by_score = result.grade.passed;   // a decision is a later row
+  s.passed = s.passed_by_score = result.grade.passed;  // a decision is a later row
   s.grade = result.grade.grade;
   s.organ_synthetic = result.organ_synthetic;
   s.rubric_sha256 = result.rubric_sha256;

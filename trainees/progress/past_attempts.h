@@ -1,4 +1,5 @@
-// Attempts of one trainee with all their numbers, for learning curves, own medians and export. Thread: that of the Database.
+// Attempts of one trainee with all their numbers, for learning curves, own medians and export. Thread: that of the
+// Database.
 #pragma once
 
 #include <map>
@@ -6,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "trainees/attempt_store.h"
+#include "trainees/records/attempt_store.h"
 
 namespace trocar {
 
@@ -19,6 +20,7 @@ struct PastAttempt {
 PastAttempt past_attempt(const AttemptResult& result);
 
 /// Finished attempts, newest first. @param exercise_id empty: all.
-std::vector<PastAttempt> past_attempts(Database& database, const std::string& trainee, const std::string& exercise_id = "");
+std::vector<PastAttempt> past_attempts(Database& database, const std::string& trainee,
+                                       const std::string& exercise_id = "");
 
 }  // namespace trocar

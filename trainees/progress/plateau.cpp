@@ -7,7 +7,8 @@ namespace trocar {
 std::optional<double> theil_sen_slope(const std::vector<double>& scores) {
   std::vector<double> slopes;
   for (std::size_t i = 0; i < scores.size(); ++i)
-    for (std::size_t j = i + 1; j < scores.size(); ++j) slopes.push_back((scores[j] - scores[i]) / static_cast<double>(j - i));
+    for (std::size_t j = i + 1; j < scores.size(); ++j)
+      slopes.push_back((scores[j] - scores[i]) / static_cast<double>(j - i));
   if (slopes.empty()) return std::nullopt;
   return quartiles(std::move(slopes))->median;
 }

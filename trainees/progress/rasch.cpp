@@ -41,7 +41,8 @@ Table table_of(const std::vector<RaschCell>& given) {
       number = table.names.size();
       table.names.push_back(name);
     }
-  for (const auto& [key, sum] : sums) table.cells.push_back({trainees[key.first], items[key.second], sum.first, sum.second});
+  for (const auto& [key, sum] : sums)
+    table.cells.push_back({trainees[key.first], items[key.second], sum.first, sum.second});
   return table;
 }
 
@@ -65,7 +66,8 @@ void walk(const Edges& edges, std::size_t start, std::vector<bool>& seen, std::v
   }
 }
 
-/// Largest strongly connected group of the graph "trainee passed item, item failed trainee" (Kosaraju). Others have no finite estimate.
+/// Largest strongly connected group of the graph "trainee passed item, item failed trainee" (Kosaraju). Others have no
+/// finite estimate.
 std::vector<bool> estimable(const Table& table) {
   const std::size_t n = table.names.size();
   Edges out(n), in(n);
@@ -97,7 +99,7 @@ std::vector<bool> estimable(const Table& table) {
 double chance(double logit) { return 1 / (1 + std::exp(-logit)); }
 
 struct Sums {
-  std::vector<double> left_over, information;   ///< passes less expected passes; variance of it
+  std::vector<double> left_over, information;  ///< passes less expected passes; variance of it
 };
 
 Sums sums_of(const Table& table, const std::vector<double>& logits) {
@@ -129,7 +131,8 @@ double improve(const Table& table, std::vector<double>& logits, std::size_t from
 /// Difficulties sum to nothing.
 void centre(std::vector<double>& logits, std::size_t trainees) {
   double mean = 0;
-  for (std::size_t k = trainees; k < logits.size(); ++k) mean += logits[k] / static_cast<double>(logits.size() - trainees);
+  for (std::size_t k = trainees; k < logits.size(); ++k)
+    mean += logits[k] / static_cast<double>(logits.size() - trainees);
   for (double& logit : logits) logit -= mean;
 }
 
@@ -148,7 +151,8 @@ std::vector<std::string> keep(Table& table, const std::vector<bool>& kept) {
     small.trainees += k < table.trainees ? 1 : 0;
   }
   for (Table::Cell cell : table.cells)
-    if (kept[cell.trainee] && kept[cell.item]) small.cells.push_back({number[cell.trainee], number[cell.item], cell.tries, cell.passes});
+    if (kept[cell.trainee] && kept[cell.item])
+      small.cells.push_back({number[cell.trainee], number[cell.item], cell.tries, cell.passes});
   table = std::move(small);
   std::sort(aside.begin(), aside.end());
   return aside;
@@ -174,7 +178,8 @@ std::optional<RaschFit> fit_rasch(const std::vector<RaschCell>& cells) {
   for (const Table::Cell& cell : table.cells)
     for (const std::size_t k : {cell.trainee, cell.item}) tries[k] += static_cast<int>(cell.tries);
   for (std::size_t k = 0; k < logits.size(); ++k)
-    (k < table.trainees ? fit.trainees : fit.items).push_back({table.names[k], logits[k], 1 / std::sqrt(sums.information[k]), tries[k]});
+    (k < table.trainees ? fit.trainees : fit.items)
+        .push_back({table.names[k], logits[k], 1 / std::sqrt(sums.information[k]), tries[k]});
   return fit;
 }
 

@@ -1,8 +1,10 @@
-// Rasch model over passed and failed attempts: logit P(pass) = ability(trainee) - difficulty(item), item = exercise and level.
+// Rasch model over passed and failed attempts: logit P(pass) = ability(trainee) - difficulty(item), item = exercise and
+// level.
 //
-// Joint maximum likelihood with difficulties summing to 0. An estimate exists only where everybody can be reached from everybody along
-// "passed" and "was failed by" (Fischer 1981): the largest such group is fitted, the rest (among them who has only passes or only
-// failures) set aside and named. Standard errors from the curvature. Shown from ProgressRules::rasch_least_attempts on. Pure. Thread: any.
+// Joint maximum likelihood with difficulties summing to 0. An estimate exists only where everybody can be reached from
+// everybody along "passed" and "was failed by" (Fischer 1981): the largest such group is fitted, the rest (among them
+// who has only passes or only failures) set aside and named. Standard errors from the curvature. Shown from
+// ProgressRules::rasch_least_attempts on. Pure. Thread: any.
 #pragma once
 
 #include <optional>
@@ -29,10 +31,10 @@ struct RaschEstimate {
 };
 
 struct RaschFit {
-  std::vector<RaschEstimate> trainees, items;     ///< by name
-  std::vector<std::string> set_aside;             ///< only passes or only failures, or not connected to the rest
+  std::vector<RaschEstimate> trainees, items;  ///< by name
+  std::vector<std::string> set_aside;          ///< only passes or only failures, or not connected to the rest
   int rounds = 0;
-  double largest_step = 0;                        ///< of the last round, logit
+  double largest_step = 0;  ///< of the last round, logit
 };
 
 /// Empty when nothing is left to fit.

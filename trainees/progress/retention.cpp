@@ -23,11 +23,16 @@ const CurveAttempt* first_graded(const std::vector<CurveAttempt>& attempts, std:
 
 const char* retention_state_name(State state) {
   switch (state) {
-    case State::kUpcoming: return "upcoming";
-    case State::kDue: return "due";
-    case State::kKept: return "kept";
-    case State::kNotKept: return "not kept";
-    case State::kMissed: return "missed";
+    case State::kUpcoming:
+      return "upcoming";
+    case State::kDue:
+      return "due";
+    case State::kKept:
+      return "kept";
+    case State::kNotKept:
+      return "not kept";
+    case State::kMissed:
+      return "missed";
   }
   return "unknown";
 }
@@ -39,9 +44,12 @@ std::vector<RetentionDate> retention_dates(const std::string& certified_utc, con
   if (!certified || !now) return dates;
   const auto due = [&](std::size_t k) { return *certified + rules.retention_days[k] * kSecondsADay; };
   // Never before the certificate, however early one may come.
-  const auto opens = [&](std::size_t k) { return std::max(*certified + 1, due(k) - rules.retention_early_days * kSecondsADay); };
+  const auto opens = [&](std::size_t k) {
+    return std::max(*certified + 1, due(k) - rules.retention_early_days * kSecondsADay);
+  };
   for (std::size_t k = 0; k < rules.retention_days.size(); ++k) {
-    const std::int64_t closes = k + 1 < rules.retention_days.size() ? opens(k + 1) : std::numeric_limits<std::int64_t>::max();
+    const std::int64_t closes =
+        k + 1 < rules.retention_days.size() ? opens(k + 1) : std::numeric_limits<std::int64_t>::max();
     RetentionDate date;
     date.days = rules.retention_days[k];
     date.due_utc = utc_of_seconds(due(k));

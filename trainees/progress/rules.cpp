@@ -24,7 +24,8 @@ std::string short_text(double value) {
 /// One table of the file; every key is asked for, what is left over is an error.
 class Section {
  public:
-  Section(const toml::table& document, std::string name, const std::string& file) : name_(std::move(name)), file_(file) {
+  Section(const toml::table& document, std::string name, const std::string& file)
+      : name_(std::move(name)), file_(file) {
     const toml::node* node = document.get(name_);
     if (node == nullptr) return;
     if (!node->is_table()) throw error_at(file_, node->source(), "'" + name_ + "' must be a table: [" + name_ + "]");
@@ -57,14 +58,16 @@ class Section {
   }
 
   void require(bool holds, const char* key, const std::string& what) const {
-    if (!holds) throw error_at(file_, table_->get(key) != nullptr ? table_->get(key)->source() : table_->source(), what);
+    if (!holds)
+      throw error_at(file_, table_->get(key) != nullptr ? table_->get(key)->source() : table_->source(), what);
   }
 
   void finish() const {
     if (table_ == nullptr) return;
     for (const auto& [key, value] : *table_)
       if (std::find(asked_.begin(), asked_.end(), key.str()) == asked_.end())
-        throw error_at(file_, key.source(), "unknown key '" + std::string(key.str()) + "' in [" + name_ + "]: known are " + known());
+        throw error_at(file_, key.source(),
+                       "unknown key '" + std::string(key.str()) + "' in [" + name_ + "]: known are " + known());
   }
 
  private:
@@ -79,8 +82,9 @@ class Section {
     if (!node.is_number()) throw error_at(file_, node.source(), called(key) + " must be a number");
     const double value = *node.value<double>();
     if (std::isfinite(value) && value >= low && value <= high) return value;
-    throw error_at(file_, node.source(),
-                   called(key) + " = " + short_text(value) + " is out of range " + short_text(low) + " to " + short_text(high));
+    throw error_at(
+        file_, node.source(),
+        called(key) + " = " + short_text(value) + " is out of range " + short_text(low) + " to " + short_text(high));
   }
 
   std::string known() const {
@@ -118,7 +122,8 @@ void read_flags(const toml::table& document, const std::string& name, ProgressRu
   stuck.read("attempts", rules.stuck_after, 2, 1000);
   unsafe.read("window", rules.unsafe_window, 1, 1000);
   unsafe.read("attempts", rules.unsafe_attempts, 1, 1000);
-  unsafe.require(rules.unsafe_attempts <= rules.unsafe_window, "attempts", "'unsafe.attempts' must not exceed 'unsafe.window'");
+  unsafe.require(rules.unsafe_attempts <= rules.unsafe_window, "attempts",
+                 "'unsafe.attempts' must not exceed 'unsafe.window'");
   integrity.read("window", rules.integrity_window, 1, 1000);
   integrity.read("attempts", rules.integrity_attempts, 1, 1000);
   integrity.read("late_share", rules.late_share, 0, 1);
@@ -136,7 +141,8 @@ void read_decisions(const toml::table& document, const std::string& name, Progre
   tests.read("inadequate", rules.cusum.inadequate, 1e-4, 0.99);
   tests.read("shown_at", rules.cusum.shown_at, 0.01, 100);
   tests.read("relapse_at", rules.cusum.relapse_at, 0.01, 100);
-  tests.require(rules.cusum.adequate < rules.cusum.inadequate, "adequate", "'cusum.adequate' must be less than 'cusum.inadequate'");
+  tests.require(rules.cusum.adequate < rules.cusum.inadequate, "adequate",
+                "'cusum.adequate' must be less than 'cusum.inadequate'");
   ready.read("least_reliability", rules.least_reliability, 0, 0.999);
   ready.read("window", rules.reliability_window, 3, 1000);
   retention.read("days", rules.retention_days, 1, 3660);
@@ -150,8 +156,9 @@ void read_decisions(const toml::table& document, const std::string& name, Progre
 
 ProgressRules read_progress_rules(const std::string& toml, const std::string& name) {
   const toml::table document = parsed(toml, name);
-  const std::vector<std::string> known{"version", "unlock", "stuck", "unsafe", "integrity", "plateau", "cusum",
-                                       "ready", "retention", "rasch", "course"};   // a curriculum's own; others read it
+  const std::vector<std::string> known{
+      "version", "unlock", "stuck",     "unsafe", "integrity", "plateau",
+      "cusum",   "ready",  "retention", "rasch",  "course"};  // a curriculum's own; others read it
   for (const auto& [key, value] : document)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
       throw error_at(name, key.source(), "unknown key '" + std::string(key.str()) + "'");

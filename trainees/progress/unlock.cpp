@@ -26,8 +26,10 @@ bool opens_next(const std::vector<AttemptSummary>& newest_first, int passes) {
   std::set<int> boards;
   for (const AttemptSummary& attempt : newest_first) {
     if (!counts(attempt)) continue;
-    if (attempt.passed) boards.insert(attempt.board);
-    else boards.clear();
+    if (attempt.passed)
+      boards.insert(attempt.board);
+    else
+      boards.clear();
     if (static_cast<int>(boards.size()) >= passes) return true;
   }
   return false;

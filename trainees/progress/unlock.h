@@ -1,11 +1,12 @@
 // What opens the next level: so many passes in a row, on as many boards; once open it stays so.
 //
-// An attempt that was left (aborted) counts as not passed; one that the device ended (fault, void) does not count. Pure. Thread: any.
+// An attempt that was left (aborted) counts as not passed; one that the device ended (fault, void) does not count.
+// Pure. Thread: any.
 #pragma once
 
 #include <vector>
 
-#include "trainees/attempt_store.h"
+#include "trainees/records/attempt_store.h"
 
 namespace trocar {
 

@@ -6,7 +6,7 @@
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
 
-namespace trocar {
+namespace trocar::digest_test {
 namespace {
 
 TEST(Digest, MatchesThePublishedExamples) {  // FIPS 180-2, appendix B; the empty message from NIST's example values
@@ -35,4 +35,4 @@ TEST(Digest, OfAFileEqualsThatOfItsBytesAcrossBlocks) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::digest_test

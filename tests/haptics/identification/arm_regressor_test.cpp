@@ -1,13 +1,13 @@
 // The identifier's rigid-body model against the simulated plant's, which was written apart from it.
 #include <gtest/gtest.h>
 
-#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
-#include "haptics/device/device_plant.h"
+#include "haptics/device/plant/device_plant.h"
 #include "haptics/identification/arm_regressor.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::arm_regressor_test {
 namespace {
 
 using test::Random;
@@ -125,4 +125,4 @@ TEST(ArmRegressor, NamesAndUnits) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::arm_regressor_test

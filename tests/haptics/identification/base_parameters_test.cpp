@@ -1,11 +1,11 @@
 // Base parameters: how many, which, and that they carry every torque of the whole set.
 #include <gtest/gtest.h>
 
-#include "../haptics_fixtures.h"
 #include "haptics/identification/base_parameters.h"
 #include "haptics/kinematics/device_geometry.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::base_parameters_test {
 namespace {
 
 using test::Random;
@@ -67,4 +67,4 @@ TEST(BaseParameters, ArePickedTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::base_parameters_test

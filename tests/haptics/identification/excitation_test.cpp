@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/identification/excitation.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::excitation_test {
 namespace {
 
 TEST(Excitation, PosesAreAllowedAndSpreadOverTheWorkspace) {
@@ -109,4 +109,4 @@ TEST(ConditionNumber, OfKnownMatrices) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::excitation_test

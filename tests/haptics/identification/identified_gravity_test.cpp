@@ -1,12 +1,12 @@
 // Gravity by base parameters: the same torques as the weights they stand for, and a potential of its own.
 #include <gtest/gtest.h>
 
-#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/identification/base_parameters.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::identified_gravity_test {
 namespace {
 
 using test::Random;
@@ -65,4 +65,4 @@ TEST(IdentifiedGravity, ParametersSurviveTheRoundTrip) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::identified_gravity_test

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <map>
 
-#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/identification/identify.h"
 #include "haptics/identification/measured_rows.h"
 #include "haptics/input_error.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::identify_test {
 namespace {
 
 IdentifyRequest small(std::uint64_t seed) {
@@ -178,4 +178,4 @@ TEST(MeasuredRows, ATrajectoryOfKnownMotionGivesTheRegressorOfThatMotion) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::identify_test

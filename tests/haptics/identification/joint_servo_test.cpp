@@ -1,14 +1,14 @@
 // The servo on the seam: follows, measures what it asks, and refuses a device that misbehaves.
 #include <gtest/gtest.h>
 
-#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/identification/joint_servo.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::joint_servo_test {
 namespace {
 
 SimulatedDaqConfig nominal() {
@@ -127,4 +127,4 @@ TEST(JointServo, RefusesADeviceThatIsNotInItsJig) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::joint_servo_test

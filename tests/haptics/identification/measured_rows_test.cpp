@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../haptics_fixtures.h"
 #include "haptics/control/gravity.h"
 #include "haptics/identification/measured_rows.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::measured_rows_test {
 namespace {
 
 const BaseSet& base() {
@@ -119,4 +119,4 @@ TEST(AddTrajectory, RatesSurviveQuantisedAngles) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::measured_rows_test

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "../haptics_fixtures.h"
 #include "haptics/identification/weighted_fit.h"
+#include "tests/haptics/haptics_fixtures.h"
 
-namespace trocar {
+namespace trocar::weighted_fit_test {
 namespace {
 
 using test::Random;
@@ -143,4 +143,4 @@ TEST(PredictionError, IsTheShareOfTheTorqueLeftOver) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::weighted_fit_test

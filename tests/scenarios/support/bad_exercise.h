@@ -6,7 +6,7 @@
 #include <string>
 
 #include "haptics/input_error.h"
-#include "scenarios/exercise_loader.h"
+#include "scenarios/files/exercise_loader.h"
 
 namespace trocar::test {
 

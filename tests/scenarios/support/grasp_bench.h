@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/director.h"
-#include "scenarios/exercise_loader.h"
-#include "scenarios/grasp_layout.h"
+#include "scenarios/director/director.h"
+#include "scenarios/director/scoring_context.h"
+#include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/grasp/grasp_layout.h"
 #include "scenarios/scoring/score.h"
-#include "scenarios/scoring_context.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar {

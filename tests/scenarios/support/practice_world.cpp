@@ -5,24 +5,24 @@
 #include <cstdlib>
 #include <limits>
 
-#include "scenarios/cue_percept.h"
-#include "scenarios/exercise_loader.h"
+#include "scenarios/director/cue_percept.h"
+#include "scenarios/director/scoring_context.h"
+#include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/make_hand.h"
-#include "scenarios/pen_layout.h"
-#include "scenarios/scoring_context.h"
+#include "scenarios/kinds/reach/pen_layout.h"
 #include "tests/scenarios/support/test_organs.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kDt = 1e-3;
-constexpr int kEyeDelay = 150;               // ticks
+constexpr int kEyeDelay = 150;  // ticks
 constexpr double kEyeNoise = 0.3e-3, kTouchNoise = 0.03;
-constexpr double kFingerStiffness = 400;     // N/m
-constexpr double kFingerLag = 0.04;          // s
+constexpr double kFingerStiffness = 400;  // N/m
+constexpr double kFingerLag = 0.04;       // s
 
-const std::filesystem::path kRoot = TROCAR_TEST_ROOT;
+const std::filesystem::path kRoot = TROCAR_SOURCE_DIR;
 
 Mat3 resting() { return Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix(); }
 

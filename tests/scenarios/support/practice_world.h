@@ -9,9 +9,9 @@
 #include <string>
 
 #include "haptics/device/hand.h"
-#include "scenarios/board_layout.h"
-#include "scenarios/director.h"
-#include "scenarios/height_field.h"
+#include "scenarios/director/director.h"
+#include "scenarios/layout/board_layout.h"
+#include "scenarios/layout/height_field.h"
 #include "scenarios/scoring/score.h"
 
 namespace trocar {

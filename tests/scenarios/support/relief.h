@@ -1,17 +1,19 @@
-// Closed surfaces by a height over a rectangle: organs with ridges, pits and valleys where a test wants them. Frame T, m.
+// Closed surfaces by a height over a rectangle: organs with ridges, pits and valleys where a test wants them. Frame T,
+// m.
 #pragma once
 
 #include <cmath>
 #include <functional>
 
-#include "tissue/mesh/triangle_surface.h"
+#include "tissue/mesh/surface/triangle_surface.h"
 
 namespace trocar {
 
 /// Upper face z = height(x, y) on a grid of `step`, flat floor at `floor_z`, walls between; outward.
 inline TriangleSurface relief(double half_x, double half_y, double step, double floor_z,
                               const std::function<double(double, double)>& height) {
-  const int nx = static_cast<int>(std::lround(2 * half_x / step)) + 1, ny = static_cast<int>(std::lround(2 * half_y / step)) + 1;
+  const int nx = static_cast<int>(std::lround(2 * half_x / step)) + 1,
+            ny = static_cast<int>(std::lround(2 * half_y / step)) + 1;
   TriangleSurface surface;
   for (const bool top : {true, false})
     for (int j = 0; j < ny; ++j)
@@ -40,11 +42,11 @@ inline TriangleSurface relief(double half_x, double half_y, double step, double 
   return surface;
 }
 
-/// Level ground of 110 x 90 mm, finely bumped so that no two places are equal, with a wall `height_m` high along the side where the
-/// instrument of level L1 comes from: the patient's left (+x) and the feet (-y).
+/// Level ground of 110 x 90 mm, finely bumped so that no two places are equal, with a wall `height_m` high along the
+/// side where the instrument of level L1 comes from: the patient's left (+x) and the feet (-y).
 inline TriangleSurface walled_ground(double height_m) {
   return relief(0.055, 0.045, 0.003, -0.03, [=](double x, double y) {
-    const double along = (x - y) / std::sqrt(2.0);   // towards the instrument
+    const double along = (x - y) / std::sqrt(2.0);  // towards the instrument
     const double wall = 0.5 * (1 + std::tanh((along - 0.030) / 0.004));
     return height_m * wall + 1e-4 * std::sin(90 * x) * std::cos(70 * y);
   });

@@ -1,7 +1,7 @@
 // Closed surfaces for tests, RAS axes, metres.
 #pragma once
 
-#include "tissue/mesh/triangle_surface.h"
+#include "tissue/mesh/surface/triangle_surface.h"
 
 namespace trocar {
 

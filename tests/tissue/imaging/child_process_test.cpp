@@ -9,7 +9,7 @@
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
 
-namespace trocar {
+namespace trocar::child_process_test {
 namespace {
 
 std::string refusal(const ChildLimits& limits, const std::function<std::string()>& work) {
@@ -66,4 +66,4 @@ TEST(ChildProcess, ProgressThatThrowsStopsTheChild) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::child_process_test

@@ -5,7 +5,7 @@
 
 #include "tissue/rigid/block_dynamics.h"
 
-namespace trocar {
+namespace trocar::block_dynamics_test {
 namespace {
 
 const Vec3 kHalf(0.007, 0.007, 0.010);
@@ -79,7 +79,8 @@ TEST(BlockDynamics, TipsOverBeyondItsDiagonalOnly) {
   for (const double share : {0.8, 1.2}) {
     const double tilt = share * balance;
     const double height = kHalf.x() * std::sin(tilt) + kHalf.z() * std::cos(tilt);
-    std::vector<RigidBody> bodies{block_at(Vec3(0, 0, height), Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix())};
+    std::vector<RigidBody> bodies{
+        block_at(Vec3(0, 0, height), Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix())};
     run(bodies, 1.5);
     EXPECT_NEAR(std::abs(bodies[0].X_TB.R(2, 2)), share < 1 ? 1 : 0, 0.01) << share;
     EXPECT_NEAR(bodies[0].X_TB.p.z(), share < 1 ? 0.010 : 0.007, 2e-4) << share;
@@ -88,7 +89,8 @@ TEST(BlockDynamics, TipsOverBeyondItsDiagonalOnly) {
 }
 
 TEST(BlockDynamics, NeverGainsEnergy) {
-  std::vector<RigidBody> bodies{block_at(Vec3(0, 0, 0.05), Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.3).normalized()).toRotationMatrix())};
+  std::vector<RigidBody> bodies{
+      block_at(Vec3(0, 0, 0.05), Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.3).normalized()).toRotationMatrix())};
   bodies[0].velocity_T = Vec3(0.2, -0.1, 0);
   bodies[0].spin_T = Vec3(5, -3, 8);
   BlockDynamics dynamics({0, 0.6, 300});
@@ -153,4 +155,4 @@ TEST(BlockDynamics, TheSameStepsGiveTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::block_dynamics_test

@@ -6,7 +6,7 @@
 
 #include "tissue/rigid/collide.h"
 
-namespace trocar {
+namespace trocar::collide_forms_test {
 namespace {
 
 constexpr double kFine = 5e-6;  // m: FCL's distances
@@ -112,4 +112,4 @@ TEST(BoxCylinder, MeetsTheTubeThroughItsWallAndNotBeyondItsEnds) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::collide_forms_test

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/haptics/surfaces.h"
+#include "tests/haptics/contact/surfaces.h"
 #include "tissue/rigid/collide.h"
 
-namespace trocar {
+namespace trocar::collide_test {
 namespace {
 
 using test::Random;
@@ -162,4 +162,4 @@ TEST(Collide, CapsuleOnPlaneAndBoxInCylinderByHand) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::collide_test

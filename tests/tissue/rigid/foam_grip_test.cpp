@@ -6,7 +6,7 @@
 #include "haptics/control/pinch_channel.h"
 #include "tissue/rigid/foam_grip.h"
 
-namespace trocar {
+namespace trocar::foam_grip_test {
 namespace {
 
 constexpr double kStep = 0.01;
@@ -218,8 +218,8 @@ TEST(FoamGrip, TheBoardTurnsATiltedBlockToWhereFoamAndBoardBalance) {
   for (const double pressed : {0.0002, 0.0005, 0.001}) {
     Rig rig = tilted(tilt, corner - pressed);
     const double left = lean(rig.body());
-    const double reach = 0.010 * std::cos(left) + 0.007 * std::sin(left);       // of the lowest edge under the middle
-    const double lever = 0.007 * std::cos(left) - 0.010 * std::sin(left);       // how fast turning raises it
+    const double reach = 0.010 * std::cos(left) + 0.007 * std::sin(left);  // of the lowest edge under the middle
+    const double lever = 0.007 * std::cos(left) - 0.010 * std::sin(left);  // how fast turning raises it
     const double force = rig.board.stiffness_n_per_m * (reach - (corner - pressed));
     EXPECT_NEAR(rig.grip.board_force_n(), force, 1e-6);
     EXPECT_NEAR(force * lever, turn_n_m * (tilt - left), 1e-5) << pressed;
@@ -255,4 +255,4 @@ TEST(FoamGrip, ABlockHeldUprightIsNotTurnedByTheBoard) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::foam_grip_test

@@ -8,7 +8,7 @@
 #include "tissue/rigid/block_dynamics.h"
 #include "tissue/rigid/foam_grip.h"
 
-namespace trocar {
+namespace trocar::foam_limits_test {
 namespace {
 
 constexpr double kStep = 0.01;
@@ -250,4 +250,4 @@ TEST(FoamGrip, TheHeldCapsuleLiesWithinTheBlockAlongItsLongestEdge) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::foam_limits_test

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/input_error.h"
-#include "tissue/imaging/volume_reader.h"
+#include "tissue/imaging/volumes/volume_reader.h"
 
 namespace trocar::test {
 

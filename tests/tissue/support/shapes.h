@@ -6,8 +6,8 @@
 #include <numbers>
 #include <string>
 
-#include "tissue/imaging/label_volume.h"
-#include "tissue/mesh/triangle_surface.h"
+#include "tissue/imaging/labels/label_volume.h"
+#include "tissue/mesh/surface/triangle_surface.h"
 
 namespace trocar::test {
 

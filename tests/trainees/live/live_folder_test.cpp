@@ -9,7 +9,7 @@
 
 #include "tests/tissue/support/temporary_folder.h"
 
-namespace trocar {
+namespace trocar::live_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ TEST_F(LiveFolderTest, WithoutAFileOfADatabaseOrAFolderThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::live_folder_test

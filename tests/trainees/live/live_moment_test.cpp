@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace trocar {
+namespace trocar::live_moment_test {
 namespace {
 
 ToldMoment sample() {
@@ -102,4 +102,4 @@ TEST(LiveMoment, NewsIsWhoWhatAndPhaseAndNotTheNumbers) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::live_moment_test

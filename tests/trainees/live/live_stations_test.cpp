@@ -17,7 +17,7 @@
 #include "trainees/live/live_folder.h"
 #include "trainees/live/live_publisher.h"
 
-namespace trocar {
+namespace trocar::live_stations_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ TEST_F(LiveStationsTest, AFolderThatCannotBeUsedHindersNobody) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::live_stations_test

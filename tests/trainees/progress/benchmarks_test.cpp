@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace trocar {
+namespace trocar::benchmarks_test {
 namespace {
 
 std::vector<PersonValue> persons(std::initializer_list<double> values) {
@@ -19,7 +19,8 @@ double density(double x, double mean, double sd) { return std::exp(-0.5 * std::p
 
 TEST(Benchmarks, MeanLessTwoSdByHand) {
   // 80, 90, 100: mean 90, SD 10.
-  const auto b = derive_benchmark(BenchmarkRule::kMeanLessSds, persons({80, 90, 100}), false, 2, "experts of ward 3", "2026-03-01T00:00:00Z");
+  const auto b = derive_benchmark(BenchmarkRule::kMeanLessSds, persons({80, 90, 100}), false, 2, "experts of ward 3",
+                                  "2026-03-01T00:00:00Z");
   EXPECT_NEAR(b->limit, 70, 1e-12);
   EXPECT_NEAR(b->mean, 90, 1e-12);
   EXPECT_NEAR(b->sd, 10, 1e-12);
@@ -28,7 +29,8 @@ TEST(Benchmarks, MeanLessTwoSdByHand) {
   EXPECT_EQ(b->utc, "2026-03-01T00:00:00Z");
   EXPECT_EQ(b->text, "mean 90 - 2 SD of 10 over 3 persons");
   EXPECT_FALSE(b->theoretical);
-  EXPECT_NEAR(derive_benchmark(BenchmarkRule::kMeanLessSds, persons({80, 90, 100}), true, 1, "", "")->limit, 100, 1e-12) << "less is better";
+  EXPECT_NEAR(derive_benchmark(BenchmarkRule::kMeanLessSds, persons({80, 90, 100}), true, 1, "", "")->limit, 100, 1e-12)
+      << "less is better";
 }
 
 TEST(Benchmarks, MedianAndBestQuartile) {
@@ -41,7 +43,8 @@ TEST(Benchmarks, MedianAndBestQuartile) {
 TEST(Benchmarks, TwoPersonsAreNoBenchmark) {
   EXPECT_FALSE(derive_benchmark(BenchmarkRule::kMedian, persons({10, 20}), false, 0, "", ""));
   EXPECT_FALSE(contrast_groups(persons({80, 90}), persons({10, 20, 30}), false, "", ""));
-  EXPECT_FALSE(derive_benchmark(BenchmarkRule::kContrastingGroups, persons({1, 2, 3}), false, 0, "", "")) << "wants the other group";
+  EXPECT_FALSE(derive_benchmark(BenchmarkRule::kContrastingGroups, persons({1, 2, 3}), false, 0, "", ""))
+      << "wants the other group";
 }
 
 TEST(Crossing, OfEqualSpreadsLiesInTheMiddle) {
@@ -120,7 +123,10 @@ TEST(Benchmarks, RulesHaveNames) {
 }
 
 TEST(LawfulRange, EveryKindOfMetricHasItsOwn) {
-  struct Row { const char *metric, *words; std::vector<double> good, bad; };
+  struct Row {
+    const char *metric, *words;
+    std::vector<double> good, bad;
+  };
   for (const Row& row : {Row{"score", "from 0 to 100", {0, 75, 100}, {-0.1, 100.1, NAN, INFINITY}},
                          {"idle_share", "from 0 to 1", {0, 1}, {-0.01, 1.01}},
                          {"economy", "from 0 to 1", {0.5}, {1.2}},
@@ -146,4 +152,4 @@ TEST(ReliabilityOfMeans, IsWhatChanceWithinLeavesOfTheSpreadBetween) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::benchmarks_test

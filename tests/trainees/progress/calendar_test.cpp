@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trocar {
+namespace trocar::calendar_test {
 namespace {
 
 TEST(Calendar, KnowsPublishedSeconds) {
@@ -26,17 +26,18 @@ TEST(Calendar, CountsLeapDays) {
 }
 
 TEST(Calendar, RefusesWhatIsNoTime) {
-  for (const char* text : {"", "yesterday", "2026-02-30T00:00:00Z", "2026-13-01T00:00:00Z", "2026-01-01 00:00:00Z", "2026-01-01T24:00:00Z",
-                           "2026-01-01T00:60:00Z", "2026-01-01T00:00:00", "2026-01-01T0a:00:00Z", "20260101T000000Z......"})
+  for (const char* text :
+       {"", "yesterday", "2026-02-30T00:00:00Z", "2026-13-01T00:00:00Z", "2026-01-01 00:00:00Z", "2026-01-01T24:00:00Z",
+        "2026-01-01T00:60:00Z", "2026-01-01T00:00:00", "2026-01-01T0a:00:00Z", "20260101T000000Z......"})
     EXPECT_FALSE(seconds_of_utc(text)) << text;
 }
 
 TEST(Calendar, WeeksBeginOnMonday) {
-  EXPECT_EQ(monday_of(0), "1969-12-29");                                              // a Thursday
-  EXPECT_EQ(monday_of(*seconds_of_utc("2026-03-01T23:59:59Z")), "2026-02-23");        // a Sunday
+  EXPECT_EQ(monday_of(0), "1969-12-29");                                        // a Thursday
+  EXPECT_EQ(monday_of(*seconds_of_utc("2026-03-01T23:59:59Z")), "2026-02-23");  // a Sunday
   EXPECT_EQ(monday_of(*seconds_of_utc("2026-03-02T00:00:00Z")), "2026-03-02");
   EXPECT_EQ(monday_of(*seconds_of_utc("2025-01-01T12:00:00Z")), "2024-12-30");
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::calendar_test

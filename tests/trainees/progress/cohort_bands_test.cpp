@@ -8,7 +8,7 @@
 
 #include "trainees/progress/judgement.h"
 
-namespace trocar {
+namespace trocar::cohort_bands_test {
 namespace {
 
 using Scores = std::vector<std::vector<double>>;
@@ -70,7 +70,7 @@ TEST(BetweenVariance, LooksAtTheNewestScoresAndWantsSomePeople) {
 TEST(Reliability, IsTheShareOfTrueVariance) {
   // Ten scores of variance 40: variance of the mean 4; between 12: 12 / 16.
   std::vector<double> scores;
-  for (int k = 0; k < 5; ++k) scores.insert(scores.end(), {70 + 6.0, 70 - 6.0});   // sum of squares 360, / 9
+  for (int k = 0; k < 5; ++k) scores.insert(scores.end(), {70 + 6.0, 70 - 6.0});  // sum of squares 360, / 9
   EXPECT_NEAR(*reliability(scores, 12), 0.75, 1e-12);
   EXPECT_FALSE(reliability(scores, 0));
   EXPECT_FALSE(reliability({70}, 12));
@@ -87,4 +87,4 @@ TEST(Reliability, IsTheSquaredCorrelationOfMeanAndTruth) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::cohort_bands_test

@@ -1,4 +1,5 @@
-// LC-CUSUM and CUSUM against weights worked by hand, the shortest runs and the simulated rates of reference/training.md, and an exact chain.
+// LC-CUSUM and CUSUM against weights worked by hand, the shortest runs and the simulated rates of
+// reference/training.md, and an exact chain.
 #include "trainees/progress/cusum.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace trocar {
+namespace trocar::cusum_test {
 namespace {
 
 using Phase = CusumPoint::Test;
@@ -21,7 +22,8 @@ std::vector<bool> runs(std::initializer_list<std::pair<int, bool>> parts) {
   return out;
 }
 
-/// Share of trainees who fail at that rate and show competence within 50 attempts, and the median of those 50 or "never".
+/// Share of trainees who fail at that rate and show competence within 50 attempts, and the median of those 50 or
+/// "never".
 std::pair<double, int> simulated(const CusumRule& rule, double fails, int trainees = 20000) {
   std::mt19937 random(17);
   std::vector<int> shown_at;
@@ -63,9 +65,18 @@ TEST(Cusum, ShortestRunsArePublishedOnes) {
 }
 
 TEST(Cusum, SimulatedRatesAreThoseOfTheReference) {
-  struct Row { CusumRule rule; double fails, declared; };
-  for (const Row& row : {Row{kLoose, 0.25, 0.68}, {kLoose, 0.10, 0.995}, {kLoose, 0.5, 0.043}, {{}, 0.25, 0.23}, {{}, 0.10, 0.937}, {{}, 0.5, 0.002},
-                         {kStrict, 0.15, 0.15}, {kStrict, 0.05, 0.80}})
+  struct Row {
+    CusumRule rule;
+    double fails, declared;
+  };
+  for (const Row& row : {Row{kLoose, 0.25, 0.68},
+                         {kLoose, 0.10, 0.995},
+                         {kLoose, 0.5, 0.043},
+                         {{}, 0.25, 0.23},
+                         {{}, 0.10, 0.937},
+                         {{}, 0.5, 0.002},
+                         {kStrict, 0.15, 0.15},
+                         {kStrict, 0.05, 0.80}})
     EXPECT_NEAR(simulated(row.rule, row.fails).first, row.declared, 0.012) << row.rule.shown_at << " at " << row.fails;
   EXPECT_NEAR(simulated(kLoose, 0.10).second, 12, 1);
   EXPECT_NEAR(simulated({}, 0.10).second, 22, 2);
@@ -125,9 +136,10 @@ TEST(Cusum, EachPointDependsOnThePastAlone) {
 TEST(Cusum, NothingAndNonsense) {
   EXPECT_TRUE(cusum({}).empty());
   EXPECT_FALSE(competence_of({}).shown);
-  for (const CusumRule& rule : {CusumRule{0.25, 0.10, 2, 2}, CusumRule{0, 0.2, 2, 2}, CusumRule{0.1, 1, 2, 2}, CusumRule{0.1, 0.2, 0, 2}})
+  for (const CusumRule& rule :
+       {CusumRule{0.25, 0.10, 2, 2}, CusumRule{0, 0.2, 2, 2}, CusumRule{0.1, 1, 2, 2}, CusumRule{0.1, 0.2, 0, 2}})
     EXPECT_THROW(cusum({true}, rule), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::cusum_test

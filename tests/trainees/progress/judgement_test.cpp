@@ -7,12 +7,13 @@
 
 #include "trainees/progress/calendar.h"
 
-namespace trocar {
+namespace trocar::judgement_test {
 namespace {
 
 constexpr const char* kNow = "2026-06-01T12:00:00Z";
 
-/// P pass, f fail, a left, C failed with a critical event, G failed gate, c left after a critical event, v void, d doubtful pass.
+/// P pass, f fail, a left, C failed with a critical event, G failed gate, c left after a critical event, v void, d
+/// doubtful pass.
 CurveAttempt attempt(char kind, std::size_t k) {
   CurveAttempt a;
   a.started_s = *seconds_of_utc("2026-01-01T00:00:00Z") + static_cast<std::int64_t>(k) * 3600;
@@ -32,7 +33,8 @@ std::vector<CurveAttempt> attempts(const std::string& kinds) {
 }
 
 /// By the shipped rules but for the plateau, which has a table of its own: the scores here are all alike.
-std::vector<Judgement> judged(const std::string& kinds, std::optional<double> reliable = 0.9, const std::string& certified = "") {
+std::vector<Judgement> judged(const std::string& kinds, std::optional<double> reliable = 0.9,
+                              const std::string& certified = "") {
   ProgressRules rules;
   rules.plateau_window = 1000;
   return judge(attempts(kinds), rules, reliable, certified, kNow);
@@ -44,10 +46,13 @@ std::string flags(const std::vector<Judgement>& judgements) {
   return out;
 }
 
-const std::string kShown(14, 'P');   // competence is shown
+const std::string kShown(14, 'P');  // competence is shown
 
 TEST(Judgements, TableByTable) {
-  struct Row { std::string kinds, flags; const char* why; };
+  struct Row {
+    std::string kinds, flags;
+    const char* why;
+  };
   for (const Row& row : {
            Row{"", "learning", "nothing yet"},
            {"f", "learning", "one attempt"},
@@ -98,11 +103,13 @@ TEST(Judgements, PlateauIsFlatScoresThatMostlyFail) {
 
 TEST(Judgements, EvidenceSaysTheNumbers) {
   const auto unsafe = judged("fPfCPfG");
-  EXPECT_EQ(unsafe[0].evidence, "2 of the last 5 attempts were unsafe: 1 with a critical event, 1 with a failed safety gate");
+  EXPECT_EQ(unsafe[0].evidence,
+            "2 of the last 5 attempts were unsafe: 1 with a critical event, 1 with a failed safety gate");
   EXPECT_EQ(unsafe[0].n, 5);
   EXPECT_EQ(judged("Pfffff")[0].evidence, "5 attempts since the last pass");
   EXPECT_EQ(judged("fffff")[0].evidence, "5 attempts, none passed yet");
-  EXPECT_EQ(judged(kShown + "fff")[0].evidence, "competence was shown at attempt 14; failures reached 2.7 (alarm at 2.0) at attempt 17");
+  EXPECT_EQ(judged(kShown + "fff")[0].evidence,
+            "competence was shown at attempt 14; failures reached 2.7 (alarm at 2.0) at attempt 17");
   EXPECT_EQ(judged("vPdP")[0].evidence,
             "of the last 4 attempts 1 void or ended by the device, 1 with a late loop or force that was not rendered");
   EXPECT_EQ(judged(kShown)[0].evidence, "competence shown at attempt 14 of 14, reliability 0.90; a person decides");
@@ -136,7 +143,8 @@ TEST(Judgements, CertifiedPeopleComeBack) {
   const auto due = judged(kShown, 0.9, certified);
   EXPECT_EQ(flags(due), "retention due");
   EXPECT_EQ(due[0].evidence, "certified 2026-01-05; the attempt after 14 days was due 2026-01-19");
-  EXPECT_EQ(flags(judged(kShown, 0.9, "2026-05-25T00:00:00Z")), "learning") << "certified, nothing due: not to be certified again";
+  EXPECT_EQ(flags(judged(kShown, 0.9, "2026-05-25T00:00:00Z")), "learning")
+      << "certified, nothing due: not to be certified again";
 }
 
 TEST(Judgements, OfACurveAreThoseOfItsAttempts) {
@@ -151,7 +159,8 @@ TEST(Judgements, OfACurveAreThoseOfItsAttempts) {
     curve.attempts.push_back(past);
   }
   EXPECT_EQ(flags(judge(curve, safety, {}, {}, "", kNow)), "stuck,plateau");
-  safety = {{"u4", 1, 0}, {"u5", 0, 1}, {"u9", 0, 0, true, false, "2026-01-03T12:00:00.000Z"}, {"u3", 0, 0, false, true}};
+  safety = {
+      {"u4", 1, 0}, {"u5", 0, 1}, {"u9", 0, 0, true, false, "2026-01-03T12:00:00.000Z"}, {"u3", 0, 0, false, true}};
   EXPECT_EQ(flags(judge(curve, safety, {}, {}, "", kNow)), "unsafe,stuck,plateau,integrity");
   safety.resize(1);
   EXPECT_EQ(flags(judge(curve, safety, {}, {}, "", kNow)), "stuck,plateau") << "one critical event alone";
@@ -175,7 +184,8 @@ TEST(Judgements, OldVoidOnesFindTheirPlace) {
 }
 
 TEST(Flags, HaveNamesThatReadBack) {
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity, Flag::kRetentionDue, Flag::kReady, Flag::kLearning})
+  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity,
+                          Flag::kRetentionDue, Flag::kReady, Flag::kLearning})
     EXPECT_EQ(flag_named(flag_name(flag)), flag);
   EXPECT_FALSE(flag_named("perfect"));
 }
@@ -199,4 +209,4 @@ TEST(Judgements, SayReliabilityAndHowManyWereDecided) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::judgement_test

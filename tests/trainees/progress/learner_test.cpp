@@ -1,4 +1,5 @@
-// Acceptance of training.md 5.4, item 7: who learns is seen, who has stopped learning is not, who forgets is seen again.
+// Acceptance of training.md 5.4, item 7: who learns is seen, who has stopped learning is not, who forgets is seen
+// again.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +8,7 @@
 #include "trainees/progress/cusum.h"
 #include "trainees/progress/judgement.h"
 
-namespace trocar {
+namespace trocar::learner_test {
 namespace {
 
 constexpr int kRuns = 2000;
@@ -18,7 +19,8 @@ class Learner {
 
   bool passes(double failure_rate) { return random_() / 4294967296.0 >= failure_rate; }
 
-  /// Score of a hand whose faults decay from a novice's to an expert's (table 5.3: 49.1 and 97.8) with time constant 8, spread 5.6 to 1.2.
+  /// Score of a hand whose faults decay from a novice's to an expert's (table 5.3: 49.1 and 97.8) with time constant 8,
+  /// spread 5.6 to 1.2.
   double score(int attempt) {
     const double left = std::exp(-attempt / 8.0);
     return 97.8 - (97.8 - 49.1) * left + (1.2 + 4.4 * left) * normal_(random_);
@@ -113,4 +115,4 @@ TEST(Acceptance, TheDeskSaysSo) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::learner_test

@@ -1,11 +1,12 @@
-// Own attempts with their numbers: read back whole, never mixed over inputs or rubrics, medians, and an export that others can read.
+// Own attempts with their numbers: read back whole, never mixed over inputs or rubrics, medians, and an export that
+// others can read.
 #include "trainees/progress/learning_curve.h"
 
 #include <cmath>
 
-#include "tests/trainees/store_samples.h"
+#include "tests/trainees/records/store_samples.h"
 
-namespace trocar {
+namespace trocar::learning_curve_test {
 namespace {
 
 PastAttempt run(double score, bool passed, const std::string& hand = "mouse", const std::string& level = "L1") {
@@ -35,7 +36,7 @@ std::vector<std::string> lines(const std::string& csv) {
 TEST(Quartiles, LieBetweenValuesInProportion) {
   EXPECT_FALSE(quartiles({}));
   EXPECT_EQ(quartiles({7})->median, 7);
-  const auto four = quartiles({4, 1, 3, 2});   // type 7: 1.75, 2.5, 3.25
+  const auto four = quartiles({4, 1, 3, 2});  // type 7: 1.75, 2.5, 3.25
   EXPECT_DOUBLE_EQ(four->low, 1.75);
   EXPECT_DOUBLE_EQ(four->median, 2.5);
   EXPECT_DOUBLE_EQ(four->high, 3.25);
@@ -43,7 +44,8 @@ TEST(Quartiles, LieBetweenValuesInProportion) {
 }
 
 TEST(LearningCurves, KeepInputsLevelsAndRubricsApart) {
-  std::vector<PastAttempt> newest_first{run(80, true, "device"), run(70, false), run(60, false), run(90, true, "mouse", "L2")};
+  std::vector<PastAttempt> newest_first{run(80, true, "device"), run(70, false), run(60, false),
+                                        run(90, true, "mouse", "L2")};
   newest_first.push_back(run(50, false));
   newest_first.back().summary.rubric_sha256 = "older";
   const auto curves = learning_curves(newest_first);
@@ -116,7 +118,8 @@ TEST(PastAttempts, ComeBackFromTheStoreAsTheResultHadThem) {
   ASSERT_EQ(all.size(), 3u) << "codes know no case, what still runs is not past";
   EXPECT_EQ(all[0].summary.exercise_id, "limited-grasp");
   EXPECT_FALSE(all[1].summary.score);
-  EXPECT_EQ(all[2].metrics, (std::map<std::string, double>{{"time_s", 41.5}, {"force_max_n", 2.8}})) << "an undefined metric is missing";
+  EXPECT_EQ(all[2].metrics, (std::map<std::string, double>{{"time_s", 41.5}, {"force_max_n", 2.8}}))
+      << "an undefined metric is missing";
   EXPECT_EQ(past_attempts(database, "A", "surface-touch").size(), 2u);
   EXPECT_TRUE(past_attempts(database, "nobody").empty());
   const PastAttempt same = past_attempt(AttemptStore(database).load(all[2].summary.uuid));
@@ -147,4 +150,4 @@ TEST(AttemptsCsv, QuotesWhatWouldBreakALine) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::learning_curve_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace trocar {
+namespace trocar::plateau_test {
 namespace {
 
 TEST(TheilSen, IsTheSlopeOfALine) {
@@ -17,7 +17,8 @@ TEST(TheilSen, IsTheSlopeOfALine) {
 }
 
 TEST(TheilSen, IsTheMedianOfSlopesByHand) {
-  // Pairs of 1, 4, 2: 3, 0.5, -2; median 0.5. Of 1, 4, 2, 8: 3, 0.5, 7/3, -2, 2, 6: sorted -2 0.5 2 2.33 3 6, median 13/6.
+  // Pairs of 1, 4, 2: 3, 0.5, -2; median 0.5. Of 1, 4, 2, 8: 3, 0.5, 7/3, -2, 2, 6: sorted -2 0.5 2 2.33 3 6, median
+  // 13/6.
   EXPECT_DOUBLE_EQ(*theil_sen_slope({1, 4, 2}), 0.5);
   EXPECT_NEAR(*theil_sen_slope({1, 4, 2, 8}), 13.0 / 6, 1e-12);
 }
@@ -53,11 +54,11 @@ TEST(Plateau, LooksAtTheNewestScoresOnly) {
 }
 
 TEST(Plateau, BoundIsTheRiseOverTheWindow) {
-  const std::vector<double> scores{50, 50.4, 50.8, 51.2, 51.6, 52};   // 2.0 over the window
+  const std::vector<double> scores{50, 50.4, 50.8, 51.2, 51.6, 52};  // 2.0 over the window
   EXPECT_FALSE(plateau(scores, 6, 1.99)->flat);
   EXPECT_TRUE(plateau(scores, 6, 2.01)->flat);
   EXPECT_FALSE(plateau(scores, 1, 2));
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::plateau_test

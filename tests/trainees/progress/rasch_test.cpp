@@ -1,5 +1,5 @@
-// The Rasch model: simulated answers recovered within the standard errors, an independent maximiser of the same likelihood, and who cannot
-// be estimated at all.
+// The Rasch model: simulated answers recovered within the standard errors, an independent maximiser of the same
+// likelihood, and who cannot be estimated at all.
 #include "trainees/progress/rasch.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace trocar {
+namespace trocar::rasch_test {
 namespace {
 
 double chance(double logit) { return 1 / (1 + std::exp(-logit)); }
@@ -19,18 +19,22 @@ struct Simulated {
   std::vector<RaschCell> cells;
 };
 
-std::string number(const char* letter, std::size_t k) { return letter + std::string(k < 10 ? "0" : "") + std::to_string(k); }
+std::string number(const char* letter, std::size_t k) {
+  return letter + std::string(k < 10 ? "0" : "") + std::to_string(k);
+}
 
 /// Difficulties spread evenly and sum to 0. @param tries of each trainee at each item.
 Simulated simulate(unsigned seed, std::size_t trainees, std::size_t items, int tries) {
   std::mt19937 random(seed);
   Simulated out;
-  for (std::size_t i = 0; i < items; ++i) out.difficulties.push_back(-1.5 + 3.0 * static_cast<double>(i) / static_cast<double>(items - 1));
+  for (std::size_t i = 0; i < items; ++i)
+    out.difficulties.push_back(-1.5 + 3.0 * static_cast<double>(i) / static_cast<double>(items - 1));
   for (std::size_t t = 0; t < trainees; ++t) out.abilities.push_back(-1 + 2 * (random() / 4294967296.0));
   for (std::size_t t = 0; t < trainees; ++t)
     for (std::size_t i = 0; i < items; ++i) {
       RaschCell cell{number("T", t), number("I", i), tries, 0};
-      for (int k = 0; k < tries; ++k) cell.passes += random() / 4294967296.0 < chance(out.abilities[t] - out.difficulties[i]) ? 1 : 0;
+      for (int k = 0; k < tries; ++k)
+        cell.passes += random() / 4294967296.0 < chance(out.abilities[t] - out.difficulties[i]) ? 1 : 0;
       out.cells.push_back(cell);
     }
   return out;
@@ -38,7 +42,8 @@ Simulated simulate(unsigned seed, std::size_t trainees, std::size_t items, int t
 
 /// Newton on all parameters at once, the last difficulty being less the sum of the others.
 Eigen::VectorXd oracle(const Simulated& sim) {
-  const auto n = static_cast<Eigen::Index>(sim.abilities.size()), m = static_cast<Eigen::Index>(sim.difficulties.size());
+  const auto n = static_cast<Eigen::Index>(sim.abilities.size()),
+             m = static_cast<Eigen::Index>(sim.difficulties.size());
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n + m - 1);
   for (int round = 0; round < 100; ++round) {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
@@ -47,8 +52,10 @@ Eigen::VectorXd oracle(const Simulated& sim) {
       const auto t = static_cast<Eigen::Index>(c) / m, i = static_cast<Eigen::Index>(c) % m;
       Eigen::VectorXd row = Eigen::VectorXd::Zero(x.size());
       row[t] = 1;
-      if (i < m - 1) row[n + i] = -1;
-      else row.tail(m - 1).setConstant(1);
+      if (i < m - 1)
+        row[n + i] = -1;
+      else
+        row.tail(m - 1).setConstant(1);
       const double p = chance(row.dot(x)), tries = sim.cells[c].tries;
       gradient += row * (sim.cells[c].passes - tries * p);
       curvature += tries * p * (1 - p) * row * row.transpose();
@@ -85,7 +92,8 @@ TEST(Rasch, RecoversWhatWasSimulatedWithinItsStandardErrors) {
       ++n;
     }
     for (std::size_t i = 0; i < fit->items.size(); ++i)
-      items_worst = std::max(items_worst, std::abs(fit->items[i].logit - sim.difficulties[i]) / fit->items[i].standard_error);
+      items_worst =
+          std::max(items_worst, std::abs(fit->items[i].logit - sim.difficulties[i]) / fit->items[i].standard_error);
   }
   EXPECT_NEAR(std::sqrt(squares / n), 1, 0.12) << "the error is what the standard error says";
   EXPECT_NEAR(static_cast<double>(beyond) / n, 0.05, 0.035);
@@ -119,11 +127,13 @@ TEST(Rasch, AnswersOneByOneAreTheSame) {
 
 TEST(Rasch, SetsAsideWhoOnlyPassesOrOnlyFails) {
   Simulated sim = simulate(7, 10, 4, 10);
-  for (const RaschCell& cell : {RaschCell{"always", "I00", 5, 5}, {"never", "I00", 5, 0}, {"T00", "too easy", 5, 5}, {"T01", "untried", 0, 0}})
+  for (const RaschCell& cell :
+       {RaschCell{"always", "I00", 5, 5}, {"never", "I00", 5, 0}, {"T00", "too easy", 5, 5}, {"T01", "untried", 0, 0}})
     sim.cells.push_back(cell);
   const auto fit = fit_rasch(sim.cells);
   EXPECT_EQ(fit->set_aside, (std::vector<std::string>{"always", "never", "too easy"}));
-  EXPECT_NEAR(fit->trainees[3].logit, fit_rasch(simulate(7, 10, 4, 10).cells)->trainees[3].logit, 1e-8) << "and nobody else's estimate moves";
+  EXPECT_NEAR(fit->trainees[3].logit, fit_rasch(simulate(7, 10, 4, 10).cells)->trainees[3].logit, 1e-8)
+      << "and nobody else's estimate moves";
 }
 
 TEST(Rasch, SetsAsideWhoIsNotConnected) {
@@ -134,7 +144,8 @@ TEST(Rasch, SetsAsideWhoIsNotConnected) {
 }
 
 TEST(Rasch, AStaircaseHasNoEstimate) {
-  // Both trainees pass all that is easy and fail all that is hard: any distance between the two items fits better than a smaller one.
+  // Both trainees pass all that is easy and fail all that is hard: any distance between the two items fits better than
+  // a smaller one.
   std::vector<RaschCell> cells;
   for (const char* trainee : {"T1", "T2"})
     for (int k = 0; k < 3; ++k) {
@@ -146,7 +157,8 @@ TEST(Rasch, AStaircaseHasNoEstimate) {
 }
 
 TEST(Rasch, OrdersBoardsThatNobodyMetTogether) {
-  // Strong and weak trainees meet different items; one of each meets both: raw pass rates would put the hard item first.
+  // Strong and weak trainees meet different items; one of each meets both: raw pass rates would put the hard item
+  // first.
   std::mt19937 random(21);
   std::vector<RaschCell> cells;
   const auto add = [&](const std::string& who, double ability, const char* item, double difficulty) {
@@ -164,4 +176,4 @@ TEST(Rasch, OrdersBoardsThatNobodyMetTogether) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::rasch_test

@@ -5,12 +5,12 @@
 
 #include "trainees/progress/calendar.h"
 
-namespace trocar {
+namespace trocar::retention_test {
 namespace {
 
 using State = RetentionDate::State;
 
-constexpr const char* kCertified = "2026-01-10T12:00:00.000Z";   // due 2026-01-24 and 2026-07-12
+constexpr const char* kCertified = "2026-01-10T12:00:00.000Z";  // due 2026-01-24 and 2026-07-12
 
 std::string day(int after) { return utc_of_seconds(*seconds_of_utc(kCertified) + after * kSecondsADay); }
 
@@ -79,4 +79,4 @@ TEST(Retention, StatesHaveWords) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::retention_test

@@ -1,12 +1,13 @@
-// The rules as a file: the shipped one says what the program does by itself, and whatever is wrong is told with its line and column.
+// The rules as a file: the shipped one says what the program does by itself, and whatever is wrong is told with its
+// line and column.
 #include "trainees/progress/rules.h"
 
 #include <fstream>
 #include <sstream>
 
-#include "tests/trainees/store_samples.h"
+#include "tests/trainees/records/store_samples.h"
 
-namespace trocar {
+namespace trocar::rules_test {
 namespace {
 
 std::string shipped() {
@@ -48,7 +49,8 @@ TEST(ProgressRules, EveryNumberIsTakenFromItsOwnKey) {
   const ProgressRules r = read_progress_rules(
       "version = \"ward 3\"\n[unlock]\npasses_in_a_row = 4\n[stuck]\nattempts = 6\n[unsafe]\nwindow = 8\nattempts = 3\n"
       "[integrity]\nwindow = 12\nattempts = 4\nlate_share = 0.02\n[plateau]\nwindow = 7\nrise = 1.5\n"
-      "[cusum]\nadequate = 0.05\ninadequate = 0.15\nshown_at = 2.4\nrelapse_at = 1.8\n[ready]\nleast_reliability = 0.8\nwindow = 9\n"
+      "[cusum]\nadequate = 0.05\ninadequate = 0.15\nshown_at = 2.4\nrelapse_at = 1.8\n[ready]\nleast_reliability = "
+      "0.8\nwindow = 9\n"
       "[retention]\ndays = [7, 30, 90]\nearly_days = 1\n[rasch]\nleast_attempts = 300\nlargest_standard_error = 0.4\n",
       "mine.toml");
   EXPECT_EQ(r.version, "ward 3");
@@ -81,15 +83,19 @@ TEST(ProgressRules, WhatIsNotNamedKeepsTheShippedValue) {
 }
 
 TEST(ProgressRules, WrongOnesAreToldWithLineAndColumn) {
-  struct Row { const char *toml, *place, *what; };
+  struct Row {
+    const char *toml, *place, *what;
+  };
   for (const Row& row : {
            Row{"[stuck]\nattempts = 5\n", "mine.toml:", "missing key 'version'"},
            {"version = 1\n", "mine.toml:1:11:", "must be a text"},
            {"version = \"\"\n", "mine.toml:1:11:", "must be a text"},
            {"version = \"1\"\nstuck = 5\n", "mine.toml:2:9:", "must be a table"},
-           {"version = \"1\"\n[stuck]\nattempt = 5\n", "mine.toml:3:1:", "unknown key 'attempt' in [stuck]: known are attempts"},
+           {"version = \"1\"\n[stuck]\nattempt = 5\n",
+            "mine.toml:3:1:", "unknown key 'attempt' in [stuck]: known are attempts"},
            {"version = \"1\"\n[stuk]\n", "mine.toml:2:", "unknown key 'stuk'"},
-           {"version = \"1\"\n[stuck]\nattempts = 1\n", "mine.toml:3:12:", "'stuck.attempts' = 1 is out of range 2 to 1000"},
+           {"version = \"1\"\n[stuck]\nattempts = 1\n",
+            "mine.toml:3:12:", "'stuck.attempts' = 1 is out of range 2 to 1000"},
            {"version = \"1\"\n[stuck]\nattempts = 5.5\n", "mine.toml:3:12:", "whole number"},
            {"version = \"1\"\n[stuck]\nattempts = \"5\"\n", "mine.toml:3:12:", "whole number"},
            {"version = \"1\"\n[plateau]\nrise = nan\n", "mine.toml:3:8:", "out of range"},
@@ -110,7 +116,8 @@ TEST(ProgressRules, WrongOnesAreToldWithLineAndColumn) {
 }
 
 TEST(ProgressRules, ACurriculumsCoursesArePassedOver) {
-  EXPECT_EQ(read_progress_rules("version = \"3\"\n[[course]]\nexercise = \"surface-touch\"\n", "mine.toml").version, "3");
+  EXPECT_EQ(read_progress_rules("version = \"3\"\n[[course]]\nexercise = \"surface-touch\"\n", "mine.toml").version,
+            "3");
 }
 
 TEST(ProgressRules, NoRetentionIsAllowed) {
@@ -118,4 +125,4 @@ TEST(ProgressRules, NoRetentionIsAllowed) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::rules_test

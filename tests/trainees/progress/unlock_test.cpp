@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trocar {
+namespace trocar::unlock_test {
 namespace {
 
 /// Newest first: upper case passed, lower case failed, the letter is the board; '-' left, '!' void, '.' running.
@@ -20,10 +20,26 @@ std::vector<AttemptSummary> attempts(const std::string& newest_first) {
 }
 
 TEST(Unlock, CountsBoardsNotAttempts) {
-  struct Row { const char* newest_first; int in_a_row; bool opens; };
-  for (const Row& row : {Row{"", 0, false}, {"A", 1, false}, {"AB", 2, false}, {"ABC", 3, true}, {"AAA", 1, false}, {"ABA", 2, false}, {"ABAC", 3, true},
-                         {"ABcD", 2, false}, {"aABC", 0, true}, {"-ABC", 0, true}, {"A-BC", 1, false}, {"A!BC", 3, true}, {".ABC", 3, true},
-                         {"aBcDEFg", 0, true}, {"ABcAB", 2, false}}) {
+  struct Row {
+    const char* newest_first;
+    int in_a_row;
+    bool opens;
+  };
+  for (const Row& row : {Row{"", 0, false},
+                         {"A", 1, false},
+                         {"AB", 2, false},
+                         {"ABC", 3, true},
+                         {"AAA", 1, false},
+                         {"ABA", 2, false},
+                         {"ABAC", 3, true},
+                         {"ABcD", 2, false},
+                         {"aABC", 0, true},
+                         {"-ABC", 0, true},
+                         {"A-BC", 1, false},
+                         {"A!BC", 3, true},
+                         {".ABC", 3, true},
+                         {"aBcDEFg", 0, true},
+                         {"ABcAB", 2, false}}) {
     EXPECT_EQ(passes_in_a_row(attempts(row.newest_first)), row.in_a_row) << row.newest_first;
     EXPECT_EQ(opens_next(attempts(row.newest_first)), row.opens) << row.newest_first;
   }
@@ -36,4 +52,4 @@ TEST(Unlock, NumberIsTheRules) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::unlock_test

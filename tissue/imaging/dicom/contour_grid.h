@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tissue/imaging/dicom/structure_contours.h"
-#include "tissue/imaging/image_volume.h"
+#include "tissue/imaging/volumes/image_volume.h"
 
 namespace trocar {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "tissue/imaging/image_volume.h"
+#include "tissue/imaging/volumes/image_volume.h"
 #include "tissue/progress.h"
 
 namespace trocar {

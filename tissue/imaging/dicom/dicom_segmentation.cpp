@@ -15,7 +15,7 @@ namespace trocar {
 namespace {
 
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;  // of all frames: 128 MiB as bits
-constexpr double kSameDirection = 2e-3, kSameSpacing = 5e-4;
+constexpr double kSameFrameDirection = 2e-3, kSameFrameSpacing = 5e-4;
 
 struct Header {
   int rows = 0, columns = 0, frames = 0;
@@ -127,11 +127,11 @@ class SegmentationGrid {
 
  private:
   void require_same(const SlicePlace& place, const DicomInstance& file) const {
-    if ((place.along_row - first_.along_row).norm() > kSameDirection ||
-        (place.along_column - first_.along_column).norm() > kSameDirection)
+    if ((place.along_row - first_.along_row).norm() > kSameFrameDirection ||
+        (place.along_column - first_.along_column).norm() > kSameFrameDirection)
       refuse(file, "has frames of different orientations: they are not one volume");
-    if (std::abs(place.row_step / first_.row_step - 1) > kSameSpacing ||
-        std::abs(place.column_step / first_.column_step - 1) > kSameSpacing)
+    if (std::abs(place.row_step / first_.row_step - 1) > kSameFrameSpacing ||
+        std::abs(place.column_step / first_.column_step - 1) > kSameFrameSpacing)
       refuse(file, "has frames of different pixel spacings: they are not one volume");
     const Eigen::Vector3d offset = place.position - first_.position;
     const Eigen::Vector2d shift(first_.along_row.dot(offset) / first_.row_step,

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "tissue/imaging/label_map.h"
+#include "tissue/imaging/labels/label_map.h"
 #include "tissue/progress.h"
 
 namespace trocar {

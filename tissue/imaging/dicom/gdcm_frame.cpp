@@ -15,7 +15,7 @@ void silence() {
   gdcm::Trace::ErrorOff();
 }
 
-gdcm::DataElement fragments_of(const std::string& bytes) {
+gdcm::DataElement gdcm_fragments(const std::string& bytes) {
   gdcm::Fragment fragment;
   fragment.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   const gdcm::SmartPointer<gdcm::SequenceOfFragments> sequence = new gdcm::SequenceOfFragments;
@@ -41,7 +41,7 @@ std::string decode_frame_gdcm(const std::string& bytes, const DicomImage& image,
                                          static_cast<unsigned short>(format.high_bit), format.is_signed ? 1 : 0));
   frame.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
   frame.SetTransferSyntax(gdcm::TransferSyntax::GetTSType(std::string(image.syntax->uid).c_str()));
-  frame.SetDataElement(fragments_of(bytes));
+  frame.SetDataElement(gdcm_fragments(bytes));
   const std::size_t need = static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns) *
                            static_cast<std::size_t>(format.allocated / 8);
   std::string values(frame.GetBufferLength(), '\0');

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "tissue/imaging/image_volume.h"
-#include "tissue/imaging/label_map.h"
+#include "tissue/imaging/labels/label_map.h"
+#include "tissue/imaging/volumes/image_volume.h"
 #include "tissue/progress.h"
 
 namespace trocar {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
-#include "tissue/imaging/image_volume.h"
+#include "tissue/imaging/volumes/image_volume.h"
 
 namespace trocar {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tissue/imaging/label_map.h"
+#include "tissue/imaging/labels/label_map.h"
 
 namespace trocar {
 

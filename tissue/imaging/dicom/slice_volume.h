@@ -7,9 +7,9 @@
 
 #include <vector>
 
-#include "tissue/imaging/axis_order.h"
 #include "tissue/imaging/dicom/slice_stack.h"
-#include "tissue/imaging/image_volume.h"
+#include "tissue/imaging/volumes/axis_order.h"
+#include "tissue/imaging/volumes/image_volume.h"
 
 namespace trocar {
 

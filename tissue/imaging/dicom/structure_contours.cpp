@@ -18,7 +18,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kFarthest = 1e5;  // mm
+constexpr double kFarthestContour = 1e5;  // mm
 constexpr std::uint64_t kMostBytes = std::uint64_t{512} << 20;
 
 std::string printable(const OFString& name) {
@@ -67,7 +67,7 @@ std::map<int, std::string> names_of(DRTStructureSetIOD& set) {
   return names;
 }
 
-std::string load(const std::filesystem::path& path, const std::string& file) {
+std::string load_structures(const std::filesystem::path& path, const std::string& file) {
   silence_dcmtk();
   DcmFileFormat format;
   DRTStructureSetIOD set;
@@ -87,7 +87,7 @@ Contour unpacked_contour(PackedReader& in, const std::string& file) {
   for (std::uint64_t left = in.get_count(24); left > 0; --left) {
     const double x = in.get<double>(), y = in.get<double>(), z = in.get<double>();
     const Eigen::Vector3d point(x, y, z);
-    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kFarthest)
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kFarthestContour)
       throw InputError(file + ": a contour point is no number or lies more than 100 m away");
     contour.push_back(point);
   }
@@ -129,7 +129,7 @@ std::vector<Structure> read_structures(const DicomStudy& study, const Progress& 
   const std::string file = series.instances.front().name;
   load_dcmtk_dictionary();
   const std::string bytes =
-      in_child(file, ChildLimits{std::uint64_t{1} << 30, 300}, progress, [&] { return load(path, file); });
+      in_child(file, ChildLimits{std::uint64_t{1} << 30, 300}, progress, [&] { return load_structures(path, file); });
   PackedReader in(bytes, file);
   std::vector<Structure> structures;
   for (std::uint64_t left = in.get_count(20); left > 0; --left) structures.push_back(unpacked_structure(in, file));

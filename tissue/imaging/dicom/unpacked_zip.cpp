@@ -17,7 +17,7 @@
 namespace trocar {
 namespace {
 
-constexpr std::size_t kBlock = 65536;
+constexpr std::size_t kZipBlock = 65536;
 
 struct CloseArchive {
   void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -28,7 +28,7 @@ struct CloseEntry {
 using Archive = std::unique_ptr<zip_t, CloseArchive>;
 using Entry = std::unique_ptr<zip_file_t, CloseEntry>;
 
-std::string printable(const char* name) {
+std::string printable_name(const char* name) {
   std::string text = name != nullptr ? std::string(name).substr(0, 200) : "";
   for (char& letter : text)
     if (static_cast<unsigned char>(letter) < ' ' || letter == 127) letter = '?';
@@ -67,7 +67,7 @@ class Unpacking {
   void unpack_entry(zip_t* archive, zip_uint64_t index) {
     zip_stat_t facts;
     if (zip_stat_index(archive, index, 0, &facts) != 0) refuse("is damaged");
-    const std::string entry_name = printable(facts.name);
+    const std::string entry_name = printable_name(facts.name);
     if (entry_name.empty() || entry_name.back() == '/') return;
     if ((facts.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && facts.encryption_method != ZIP_EM_NONE)
       refuse("is encrypted: unpack it with its password and give the folder");
@@ -78,8 +78,8 @@ class Unpacking {
 
   std::size_t read_block(zip_file_t* entry) {
     std::size_t filled = 0;
-    while (filled < kBlock) {
-      const zip_int64_t got = zip_fread(entry, block_.data() + filled, kBlock - filled);
+    while (filled < kZipBlock) {
+      const zip_int64_t got = zip_fread(entry, block_.data() + filled, kZipBlock - filled);
       if (got < 0) refuse("is damaged: a file in it cannot be unpacked");
       if (got == 0) break;
       filled += static_cast<std::size_t>(got);
@@ -110,7 +110,7 @@ class Unpacking {
   std::filesystem::path folder_;
   ZipLimits limits_;
   std::uint64_t most_, all_ = 0;
-  std::vector<char> block_ = std::vector<char>(kBlock);
+  std::vector<char> block_ = std::vector<char>(kZipBlock);
   std::string list_;
 };
 

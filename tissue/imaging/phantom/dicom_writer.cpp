@@ -6,7 +6,7 @@
 #include <deque>
 #include <stdexcept>
 
-#include "tissue/mesh/staged_file.h"
+#include "tissue/organ/staged_file.h"
 
 namespace trocar {
 namespace {
@@ -18,33 +18,33 @@ constexpr const char* kExplicitLittleEndian = "1.2.840.10008.1.2.1";
 constexpr int kIntercept = -1024, kLargestStored = 4095;
 
 template <typename T>
-void append(std::string& bytes, T value) {
+void append_element(std::string& bytes, T value) {
   const std::size_t at = bytes.size();
   bytes.resize(at + sizeof(T));
   std::memcpy(bytes.data() + at, &value, sizeof(T));
 }
 
 /// One data element with an explicit value representation; values are padded to an even length.
-void element(std::string& bytes, std::uint16_t group, std::uint16_t number, const char* representation,
+void element(std::string& bytes, std::uint16_t group, std::uint16_t number_text, const char* representation,
              std::string value) {
   const std::string_view vr(representation);
   const bool binary = vr == "UI" || vr == "OB" || vr == "OW";
   if (value.size() % 2 != 0) value += binary ? '\0' : ' ';
-  append(bytes, group);
-  append(bytes, number);
+  append_element(bytes, group);
+  append_element(bytes, number_text);
   bytes += vr;
   if (vr == "OB" || vr == "OW") {
-    append(bytes, std::uint16_t{0});
-    append(bytes, static_cast<std::uint32_t>(value.size()));
+    append_element(bytes, std::uint16_t{0});
+    append_element(bytes, static_cast<std::uint32_t>(value.size()));
   } else {
-    append(bytes, static_cast<std::uint16_t>(value.size()));
+    append_element(bytes, static_cast<std::uint16_t>(value.size()));
   }
   bytes += value;
 }
 
-void number(std::string& bytes, std::uint16_t group, std::uint16_t tag, int value) {
+void number_text(std::string& bytes, std::uint16_t group, std::uint16_t tag, int value) {
   std::string packed;
-  append(packed, static_cast<std::uint16_t>(value));
+  append_element(packed, static_cast<std::uint16_t>(value));
   element(bytes, group, tag, "US", packed);
 }
 
@@ -84,7 +84,7 @@ std::string file_meta(const Identifiers& id) {
   element(meta, 0x0002, 0x0010, "UI", kExplicitLittleEndian);
   element(meta, 0x0002, 0x0012, "UI", "2.25.85207264183265");
   std::string length, bytes(128, '\0');
-  append(length, static_cast<std::uint32_t>(meta.size()));
+  append_element(length, static_cast<std::uint32_t>(meta.size()));
   bytes += "DICM";
   element(bytes, 0x0002, 0x0000, "UL", length);
   return bytes + meta;
@@ -127,15 +127,15 @@ void geometry(std::string& bytes, const LabelVolume& grid, int k, const Identifi
 
 void pixel_format(std::string& bytes, const LabelVolume& grid) {
   const Eigen::Matrix3d step = grid.index_to_ras_mm.linear();
-  number(bytes, 0x0028, 0x0002, 1);
+  number_text(bytes, 0x0028, 0x0002, 1);
   element(bytes, 0x0028, 0x0004, "CS", "MONOCHROME2");
-  number(bytes, 0x0028, 0x0010, grid.size[1]);
-  number(bytes, 0x0028, 0x0011, grid.size[0]);
+  number_text(bytes, 0x0028, 0x0010, grid.size[1]);
+  number_text(bytes, 0x0028, 0x0011, grid.size[0]);
   element(bytes, 0x0028, 0x0030, "DS", decimal(step(1, 1)) + "\\" + decimal(step(0, 0)));
-  number(bytes, 0x0028, 0x0100, 16);
-  number(bytes, 0x0028, 0x0101, 12);
-  number(bytes, 0x0028, 0x0102, 11);
-  number(bytes, 0x0028, 0x0103, 0);
+  number_text(bytes, 0x0028, 0x0100, 16);
+  number_text(bytes, 0x0028, 0x0101, 12);
+  number_text(bytes, 0x0028, 0x0102, 11);
+  number_text(bytes, 0x0028, 0x0103, 0);
   element(bytes, 0x0028, 0x1050, "DS", "50");
   element(bytes, 0x0028, 0x1051, "DS", "400");
   element(bytes, 0x0028, 0x1052, "DS", std::to_string(kIntercept));
@@ -152,7 +152,7 @@ std::string pixels(const CtPhantom& phantom, int k) {
     for (int i = grid.size[0] - 1; i >= 0; --i) {
       const int stored = phantom.hounsfield[grid.offset(i, j, k)] - kIntercept;
       if (stored < 0 || stored > kLargestStored) throw std::invalid_argument("write_phantom_dicom: HU beyond 12 bits");
-      append(packed, static_cast<std::uint16_t>(stored));
+      append_element(packed, static_cast<std::uint16_t>(stored));
     }
   return packed;
 }

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tissue/imaging/label_volume.h"
+#include "tissue/imaging/labels/label_volume.h"
 #include "tissue/progress.h"
 
 namespace trocar {

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "tissue/imaging/label_table.h"
+#include "tissue/imaging/labels/label_table.h"
 
 namespace trocar {
 

@@ -54,7 +54,7 @@ void blur_line(std::vector<float>& line, const std::vector<float>& from, const s
   }
 }
 
-void blur(std::vector<float>& values, const std::array<int, 3>& size, const std::vector<float>& kernel) {
+void blur_slice(std::vector<float>& values, const std::array<int, 3>& size, const std::vector<float>& kernel) {
   std::size_t stride = 1;
   for (const int extent : size) {
     const auto length = static_cast<std::size_t>(extent);
@@ -81,7 +81,7 @@ void scan(std::vector<float>& hounsfield, const std::array<int, 3>& size, const 
   const double white = scanner.noise_hu / std::pow(left, 1.5);  // the same kernel along three axes
   Noise noise(scanner.seed);
   for (float& value : hounsfield) value += static_cast<float>(white * noise());
-  blur(hounsfield, size, kernel);
+  blur_slice(hounsfield, size, kernel);
 }
 
 }  // namespace trocar::phantom

@@ -1,0 +1,146 @@
+#include "app/cli/attempts/attempt_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json subscores(const Grade& grade) {
+  Json list = Json::array();
+  for (const Subscore& row : grade.subscores) {
+    list.push_back({{"name", row.name},
+                    {"value", number(row.value)},
+                    {"weight", number(row.weight)},
+                    {"raw", number(row.raw)},
+                    {"unit", row.unit},
+                    {"full_at", number(row.full_at)},
+                    {"zero_at", number(row.zero_at)},
+                    {"gate", row.gate}});
+  }
+  return list;
+}
+
+Json events(const AttemptResult& result) {
+  Json list = Json::array();
+  for (const Event& event : result.events) {
+    list.push_back({{"t_s", number(event.t_s)},
+                    {"type", event.type},
+                    {"severity", severity_name(event.severity)},
+                    {"object", event.object < 0 ? Json(nullptr) : Json(event.object)},
+                    {"value", number(event.value)},
+                    {"unit", event.unit},
+                    {"tip_m", {number(event.tip_T.x()), number(event.tip_T.y()), number(event.tip_T.z())}}});
+  }
+  return list;
+}
+
+Json metrics(const Grade& grade) {
+  Json table = Json::object();
+  for (const Metric& metric : grade.metrics) {
+    table[metric.name] = {{"value", number(metric.value)}, {"unit", metric.unit}};
+  }
+  return table;
+}
+
+Json warnings(const DeviceReceipt& receipt) {
+  Json list = Json::array();
+  for (const DeviceWarning& w : receipt.warnings) {
+    list.push_back({{"name", w.name}, {"first_s", number(w.first_s)}, {"ticks", w.ticks}});
+  }
+  return list;
+}
+
+Json transitions(const DeviceReceipt& receipt) {
+  Json list = Json::array();
+  for (const DeviceTransition& t : receipt.transitions) {
+    list.push_back({{"t_s", number(t.t_s)}, {"from", t.from}, {"to", t.to}});
+  }
+  return list;
+}
+
+Json fault_detail(const DeviceReceipt& receipt) {
+  if (receipt.fault.empty()) return nullptr;
+  return {{"cause", receipt.fault},
+          {"channel", receipt.fault_channel < 0 ? Json(nullptr) : Json(receipt.fault_channel)},
+          {"first_s", number(receipt.fault_s)},
+          {"value", number(receipt.fault_value)}};
+}
+
+void add_stiffness(Json& json, const StiffnessReceipt& stiffness) {
+  const bool touched = stiffness.contact_ticks > 0;
+  const auto measured = [&](double value) { return touched ? number(value) : Json(nullptr); };
+  json["stiffness_clamp"] = stiffness.recorded ? Json(stiffness.clamped) : Json(nullptr);
+  json["stiffness_contact_ticks"] = stiffness.recorded ? Json(stiffness.contact_ticks) : Json(nullptr);
+  json["stiffness_asked_max_n_per_m"] = measured(stiffness.asked_max_n_per_m);
+  json["k_max_min_n_per_m"] = measured(stiffness.k_max_min_n_per_m);
+  json["k_max_max_n_per_m"] = measured(stiffness.k_max_max_n_per_m);
+  json["stiffness_share_min"] = measured(stiffness.share_min);
+  json["above_k_max_share"] = measured(stiffness.above_share);
+}
+
+Json device(const DeviceReceipt& receipt) {
+  Json json = {{"backend", receipt.backend},
+               {"rate_hz", number(receipt.rate_hz)},
+               {"ticks", receipt.ticks},
+               {"overruns", receipt.overruns},
+               {"saturated_contact_share", number(receipt.saturated_contact_share)},
+               {"force_not_rendered", receipt.force_not_rendered()},
+               {"passivity_active_share", number(receipt.passivity_active_share)},
+               {"min_energy_j", number(receipt.min_energy_j)},
+               {"kappa", number(receipt.kappa)},
+               {"fault", receipt.fault.empty() ? Json(nullptr) : Json(receipt.fault)},
+               {"fault_detail", fault_detail(receipt)},
+               {"warnings", warnings(receipt)},
+               {"transitions", transitions(receipt)}};
+  add_stiffness(json, receipt.stiffness);
+  if (!receipt.force_sensor.empty()) json["force_sensor"] = Json::parse(receipt.force_sensor);
+  if (!receipt.plant.empty()) json["plant"] = Json::parse(receipt.plant);
+  if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
+  return json;
+}
+
+}  // namespace
+
+std::string attempt_json(const AttemptResult& result) {
+  const Json json = {{"exercise",
+                      {{"id", result.exercise_id},
+                       {"version", result.exercise_version},
+                       {"level", result.level},
+                       {"seed", result.seed},
+                       {"board", result.board}}},
+                     {"trainee", result.trainee},
+                     {"hand", result.hand},
+                     {"status", status_name(result.grade.status)},
+                     {"score", number(result.grade.score)},
+                     {"passed", result.grade.passed},
+                     {"grade", result.grade.grade},
+                     {"integrity", result.integrity.empty() ? Json(nullptr) : Json(result.integrity)},
+                     {"subscores", subscores(result.grade)},
+                     {"caps", result.grade.caps},
+                     {"events", events(result)},
+                     {"metrics", metrics(result.grade)},
+                     {"device", device(result.device)},
+                     {"organ",
+                      {{"name", result.organ_name},
+                       {"source", result.organ_source},
+                       {"sha256", result.organ_sha256},
+                       {"synthetic", result.organ_synthetic},
+                       {"credit", result.organ_credit}}},
+                     {"rubric_sha256", result.rubric_sha256},
+                     {"recording_sha256", result.recording_sha256},
+                     {"state_hash", result.state_hash},
+                     {"attempt",
+                      {{"uuid", result.uuid},
+                       {"started_utc", result.started_utc},
+                       {"recording", result.recording_path},
+                       {"safety_log", result.safety_log_path.empty() ? Json(nullptr) : Json(result.safety_log_path)}}}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace trocar

@@ -1,0 +1,119 @@
+#include "app/cli/attempts/check_command.h"
+
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+
+#include <nlohmann/json.hpp>
+
+#include "haptics/input_error.h"
+#include "scenarios/files/exercise_loader.h"
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json reach_json(const Reach& reach) {
+  Json json = {{"reachable", reach.reachable},
+               {"joint_margin_deg", reach.joint_margin_rad / kDegree},
+               {"det_a", reach.det_a},
+               {"off_axis", reach.off_axis},
+               {"link_clearance_m", reach.clearance_m},
+               {"torque_share", reach.torque_share},
+               {"held_s", reach.held_s}};
+  if (reach.handle_to_port_m < 1) json["handle_to_port_m"] = reach.handle_to_port_m;
+  if (reach.shaft_gap_m < 1) json["shaft_gap_m"] = reach.shaft_gap_m;
+  return json;
+}
+
+Json proof_json(const LevelProof& proof) {
+  Json boards = Json::array();
+  for (const BoardReach& board : proof.boards) {
+    boards.push_back({{"board", board.board}, {"worst", reach_json(board.worst)}});
+  }
+  return {{"exercise", proof.exercise},
+          {"level", proof.level},
+          {"mapping", proof.fulcrum ? "fulcrum" : "direct"},
+          {"sound", proof.sound},
+          {"why", proof.why},
+          {"kappa", proof.kappa},
+          {"room_share", proof.room_share},
+          {"room_n", proof.room_n},
+          {"organ_roll_deg", proof.placement.roll_rad / kDegree},
+          {"organ_turn_deg", proof.placement.turn_rad / kDegree},
+          {"hottest_winding_c", proof.hottest_c},
+          {"worst", reach_json(proof.worst)},
+          {"boards", std::move(boards)}};
+}
+
+void print(const LevelProof& proof, std::ostream& out) {
+  const Reach& w = proof.worst;
+  out << proof.exercise << ' ' << proof.level << " (" << (proof.fulcrum ? "fulcrum" : "direct")
+      << "): " << (proof.sound ? "sound" : "NOT sound: " + proof.why) << '\n'
+      << std::fixed << std::setprecision(1) << "  " << proof.boards.size() << " boards; worst joint margin "
+      << w.joint_margin_rad / kDegree << " deg, det A " << std::setprecision(2) << w.det_a << ", |AO x Z6| "
+      << w.off_axis << ", link clearance " << std::setprecision(1) << 1e3 * w.clearance_m << " mm";
+  if (proof.fulcrum) out << ", handle to port " << 1e3 * w.handle_to_port_m << " mm";
+  if (w.shaft_gap_m < 1) out << ", shaft to organ " << 1e3 * w.shaft_gap_m << " mm";
+  const std::string turned = turned_words(proof.placement);
+  if (!turned.empty()) out << "\n  " << turned;
+  out << "\n  gravity and hard limit take " << std::setprecision(0) << 100 * w.torque_share
+      << " % of a motor's torque, held " << w.held_s << " s from cold; winding " << proof.hottest_c
+      << " C after the time limit\n  kappa " << std::setprecision(2) << proof.kappa << ", soft limit given in "
+      << std::setprecision(1) << 100 * proof.room_share << " % of the region, " << std::setprecision(2) << proof.room_n
+      << " N at its 5th percentile\n";
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw EnvironmentError(file.string() + ": cannot be written");
+}
+
+struct Checked {
+  std::vector<LevelProof> proofs;
+  std::vector<Scene> scenes;  ///< one a proof, of its first board
+};
+
+void check_exercise(const Exercise& exercise, const Organ& organ, const CheckOptions& options, Checked& checked) {
+  for (const ExerciseLevel& level : exercise.levels) {
+    checked.proofs.push_back(prove_level(exercise, level.name, organ, options.unseen));
+    AttemptSetup setup;
+    setup.exercise = exercise;
+    setup.level = level.name;
+    checked.scenes.push_back(build_scene(setup, organ, {"simulated", 1000, 16}));
+  }
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err) {
+  const AssetRoots assets = find_assets();
+  const Organ organ = load_organ(find_organ(options.organ, assets.assets));
+  Checked checked;
+  bool sound = true;
+  for (const std::string& subject : options.subjects) {
+    try {
+      const Exercise exercise = find_exercise(subject, assets.exercises);
+      check_exercise(exercise, organ, options, checked);
+      if (!options.inversion.empty()) paint_inversion(exercise, organ, assets, options.inversion);
+    } catch (const InputError& error) {
+      err << "trocar: " << error.what() << '\n';
+      sound = false;
+    }
+  }
+  Json json = Json::array();
+  for (const LevelProof& proof : checked.proofs) {
+    sound = sound && proof.sound;
+    if (options.json)
+      json.push_back(proof_json(proof));
+    else
+      print(proof, out);
+  }
+  if (options.json) out << json.dump(2) << '\n';
+  if (!options.map.empty()) write_text(options.map, room_map_svg(checked.proofs, checked.scenes));
+  return sound ? 0 : 2;
+}
+
+}  // namespace trocar

@@ -1,0 +1,119 @@
+#include "app/cli/attempts/demo_command.h"
+
+#include <optional>
+#include <ostream>
+
+#include "app/cli/attempts/attempt_json.h"
+#include "app/cli/attempts/replay_film.h"
+#include "app/cli/attempts/run_command.h"
+#include "app/picture/attempt/attempt_picture.h"
+#include "app/picture/films/video_writer.h"
+#include "app/report/report.h"
+#include "haptics/input_error.h"
+#include "tissue/tissue_frame.h"
+#include "trainees/files/owner_file.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kPictureHold = 0.5;     // of a disc's hold, so that the force bar stands in its band
+constexpr double kPictureReach = 0.012;  // m from a pen's tip: instrument and pen are both seen, the dial speaks
+
+constexpr double kPictureLift = 0.030;  // m of a block's middle over the board: well in the air
+
+/// The moment that shows most of an exercise: half way, so that done, lit and waiting are all in view.
+bool telling_moment(const SessionView& view) {
+  const DirectorStatus& status = view.director.status();
+  if (2 * status.targets_done < static_cast<int>(view.scene.board.targets.size())) return false;
+  switch (view.scene.setup.exercise.kind) {
+    case ExerciseKind::kReach:
+      return status.demand.oriented && (view.record.stylus.X_TI.p - status.demand.centre_T).norm() < kPictureReach;
+    case ExerciseKind::kTouch:
+      return status.hold_progress >= kPictureHold;
+    case ExerciseKind::kGrasp:
+      return status.cue == Cue::kCarry && view.tissue && view.tissue->held() &&
+             view.tissue->object[static_cast<std::size_t>(view.tissue->grip_object)].X_TO.p.z() > kPictureLift;
+  }
+  return false;
+}
+
+/// Takes the one picture of the demo as soon as the moment has come.
+class Photographer {
+ public:
+  Photographer(const Scene& scene, const AssetRoots& assets, const std::string& trainee)
+      : painter_(scene, assets, trainee) {}
+  void observe(const SessionView& view) {
+    if (!picture_ && telling_moment(view)) picture_ = painter_.paint(view);
+  }
+  const std::optional<Image>& picture() const { return picture_; }
+
+ private:
+  AttemptPainter painter_;
+  std::optional<Image> picture_;
+};
+
+void write_demo_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out = open_owner_file(file);
+  out << text;
+  out.flush();
+  if (!out) throw EnvironmentError(file.string() + ": cannot be written");
+}
+
+ReportContext report_context(const Scene& scene, const std::filesystem::path& picture) {
+  const Exercise& exercise = scene.setup.exercise;
+  ReportContext context;
+  context.exercise_number = exercise.number;
+  context.exercise_title = exercise.title;
+  context.goal = exercise.goal;
+  context.band = {scene.level.band_low_n, scene.level.band_high_n, exercise.hard_force_n};
+  if (exercise.kind == ExerciseKind::kReach)
+    context.pose = {scene.level.position_tolerance_m, scene.level.angle_tolerance_rad};
+  for (const FoamBlock& block : scene.board.rigid.blocks)
+    context.blocks.push_back({block.slip_below_n, block.crush_above_n});
+  context.pass_mark = scene.level.rubric.pass_at;
+  context.time_limit_s = scene.level.time_limit_s;
+  context.picture = picture;
+  context.program_version = TROCAR_VERSION;
+  return context;
+}
+
+}  // namespace
+
+int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& err) {
+  const AssetRoots assets = find_assets();
+  if (!options.video.empty()) check_video_file(options.video);
+  std::error_code error;
+  std::filesystem::create_directories(options.output, error);
+  if (error) throw EnvironmentError(options.output.string() + ": cannot be made: " + error.message());
+
+  RunOptions run;
+  run.exercise = options.exercise;
+  run.level = options.level;
+  run.hand = "expert";
+  run.organ = options.organ;
+  run.trainee = "demo-expert";
+  run.database = options.output / "demo.db";
+  const AttemptSetup setup = attempt_setup(run, assets);
+  const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
+  Photographer photographer(scene, assets, run.trainee);
+  const AttemptResult result =
+      run_attempt(run, scene, assets, err, [&](const SessionView& view) { photographer.observe(view); });
+
+  const auto picture = options.output / "picture.png", score = options.output / "score.json",
+             report = options.output / "report.html";
+  if (photographer.picture()) write_png(picture, *photographer.picture());
+  write_demo_text(score, attempt_json(result));
+  const Recording recording = read_recording(result.recording_path);
+  write_report(report, result, rebuild_trace(recording.ticks, recording.rate_hz),
+               report_context(scene, photographer.picture() ? picture : std::filesystem::path{}));
+  if (!options.video.empty()) {
+    RecordingOptions film;
+    film.video = options.video;
+    replay_as_film(film, find_subject(result.recording_path, {}, err), assets, err);
+  }
+  print_result(result, out);
+  out << "picture  " << picture.string() << "\nscore    " << score.string() << "\nreport   " << report.string() << '\n';
+  return exit_code(result);
+}
+
+}  // namespace trocar

@@ -1,0 +1,20 @@
+// The command line's part for the trainee's window. Sees CLI11 in the source only.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace CLI {
+class App;
+}
+
+namespace trocar {
+
+struct PracticeCommandLine;
+
+/// Adds `practice`. @param choose is called with the action when it was given. @return what its options are read into:
+/// keep it.
+std::shared_ptr<PracticeCommandLine> add_practice_command(CLI::App& app,
+                                                          const std::function<void(std::function<int()>)>& choose);
+
+}  // namespace trocar

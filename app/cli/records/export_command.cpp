@@ -1,0 +1,167 @@
+#include "app/cli/records/export_command.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "app/cli/records/open_database.h"
+#include "app/cli/text_table.h"
+#include "app/session/recording/recording_reader.h"
+#include "haptics/input_error.h"
+#include "scenarios/files/exercise_loader.h"
+#include "scenarios/scoring/metrics.h"
+#include "trainees/exchange/export/jigsaws.h"
+#include "trainees/exchange/export/table_export.h"
+#include "trainees/exchange/export/xapi_export.h"
+#include "trainees/records/attempt_store.h"
+#include "trainees/records/cohort.h"
+
+namespace trocar {
+namespace {
+
+using Shape = PendingExport::Shape;
+
+std::string bytes_of(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file.string() + ": no such file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw EnvironmentError(file.string() + ": cannot be read");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// By the rules that the attempt was graded with, which an older program may have written.
+std::optional<double> pass_mark(const std::string& toml, const std::string& level) {
+  try {
+    return find_level(parse_exercise(toml, "ruleset"), level).rubric.pass_at;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// Parsing a ruleset costs more than a statement: each is parsed once a level.
+PassMark remembered_pass_mark() {
+  using Ruleset = std::pair<std::string, std::string>;
+  return
+      [known = std::map<Ruleset, std::optional<double>>()](const std::string& toml, const std::string& level) mutable {
+        const auto [at, fresh] = known.try_emplace({toml, level});
+        if (fresh) at->second = pass_mark(toml, level);
+        return at->second;
+      };
+}
+
+std::string file_name_of(const std::string& text) {
+  std::string name;
+  for (const char c : text) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+  return name;
+}
+
+char skill_of(const std::string& hand) {
+  if (hand == "expert") return 'E';
+  if (hand == "intermediate") return 'I';
+  return hand == "novice" ? 'N' : 'X';
+}
+
+/// The graded stretch as text. @throws InputError: no recording, another one, nothing in it.
+std::string kinematics_of(const AttemptResult& attempt) {
+  if (attempt.recording_path.empty()) throw InputError("it was not recorded");
+  const Recording recording = read_recording(attempt.recording_path);
+  if (recording.sha256 != attempt.recording_sha256)
+    throw InputError("its recording is not the one that was graded (its sha256 differs)");
+  const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
+  const auto window = graded_window(trace, recording.events);
+  return jigsaws_text(window ? cut_trace(trace, window->first, window->second) : trace);
+}
+
+int write_jigsaws(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
+  std::map<std::string, std::string> meta;
+  int written = 0;
+  for (const std::int64_t row : choice.attempts) {
+    const AttemptResult attempt = AttemptStore(database).load(row);
+    try {
+      const std::string text = kinematics_of(attempt);
+      const std::string task = file_name_of(attempt.exercise_id);
+      const JigsawsTrial trial{task + "_" + attempt.uuid, skill_of(attempt.hand)};
+      folder.file(task + "/kinematics/AllGestures/" + trial.name + ".txt") << text;
+      meta[task] += jigsaws_meta_line(trial);
+      ++written;
+    } catch (const InputError& error) {
+      err << "trocar: attempt " << attempt.uuid << " is left out: " << error.what() << '\n';
+    }
+  }
+  if (written == 0) throw InputError("none of the attempts has a recording to export");
+  for (const auto& [task, lines] : meta) folder.file(task + "/meta_file_" + task + ".txt") << lines;
+  return written;
+}
+
+void check_options(const ExportOptions& options) {
+  const std::string& f = options.format;
+  if (f != "csv" && f != "json" && f != "xapi" && f != "jigsaws") {
+    throw InputError("export " + f + ": csv, json, xapi and jigsaws are known");
+  }
+  if (f != "xapi" && (!options.home_page.empty() || !options.cmi5.empty()))
+    throw InputError("--home-page and --cmi5 belong to xapi");
+  if (!options.home_page.empty() && !options.cmi5.empty())
+    throw InputError("with --cmi5 the home page is that of the launch");
+}
+
+void write_statements(const ExportOptions& options, Database& database, const ExportChoice& choice,
+                      std::ostream& file) {
+  if (!options.cmi5.empty()) {
+    const Cmi5Launch launch = parse_cmi5_launch(bytes_of(options.cmi5), options.cmi5.string());
+    return write_cmi5(database, choice, launch, remembered_pass_mark(), file);
+  }
+  XapiSetting setting;
+  if (!options.home_page.empty()) setting.home_page = options.home_page;
+  write_xapi(database, choice, setting, remembered_pass_mark(), file);
+}
+
+}  // namespace
+
+int export_command(const ExportOptions& options, std::ostream& out, std::ostream& err) {
+  check_options(options);
+  const bool folder = options.format == "csv" || options.format == "jigsaws";
+  PendingExport pending(options.out, folder ? Shape::kFolder : Shape::kFile);  // before minutes of work
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const ReadSnapshot snapshot(database);
+  const ExportChoice choice = choose_attempts(database, options.filter);
+  std::size_t attempts = options.cmi5.empty() ? choice.attempts.size() : 1;
+  if (options.format == "csv") write_csv_files(database, choice, pending);
+  if (options.format == "json") write_json(database, choice, pending.file());
+  if (options.format == "xapi") write_statements(options, database, choice, pending.file());
+  if (options.format == "jigsaws") attempts = static_cast<std::size_t>(write_jigsaws(database, choice, pending, err));
+  pending.commit();
+  if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";
+  out << attempts << (attempts == 1 ? " attempt in " : " attempts in ") << options.out.string() << '\n';
+  return 0;
+}
+
+int kinematics_command(const KinematicsOptions& options, std::ostream& out) {
+  if (options.side != "right" && options.side != "left")
+    throw InputError("--jigsaws " + options.side + ": right or left");
+  const JigsawsSide side = options.side == "right" ? JigsawsSide::kRight : JigsawsSide::kLeft;
+  const Trace trace = parse_jigsaws(bytes_of(options.file), options.file.string(), side);
+  const std::vector<Metric> metrics = kinematic_metrics(trace);
+  if (options.json) {
+    nlohmann::ordered_json json = {{"file", options.file.string()},
+                                   {"side", options.side},
+                                   {"rate_hz", trace.rate_hz},
+                                   {"samples", trace.samples.size()},
+                                   {"metrics", nlohmann::ordered_json::object()}};
+    for (const Metric& metric : metrics)
+      json["metrics"][metric.name] = {{"value", *metric.value}, {"unit", metric.unit}};
+    out << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+    return 0;
+  }
+  TextTable table({{"metric"}, {"value", TextTable::Align::kRight}, {"unit"}});
+  for (const Metric& metric : metrics) {
+    char value[32];
+    std::snprintf(value, sizeof value, "%.6g", *metric.value);
+    table.add({metric.name, value, metric.unit});
+  }
+  table.print(out);
+  return 0;
+}
+
+}  // namespace trocar

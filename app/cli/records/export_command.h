@@ -1,0 +1,34 @@
+// `trocar export`: attempts for other programs. `trocar score FILE --jigsaws SIDE`: the motion metrics of somebody
+// else's kinematics. InputError and EnvironmentError leave as they are.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+#include "trainees/exchange/export/export_choice.h"
+
+namespace trocar {
+
+struct ExportOptions {
+  std::string format;         ///< csv, json, xapi or jigsaws
+  std::filesystem::path out;  ///< folder of csv and jigsaws, else a file; must not exist
+  ExportFilter filter = {};
+  std::filesystem::path database;   ///< empty: the default path
+  std::string home_page = {};       ///< xapi: of the actors; empty: XapiSetting's
+  std::filesystem::path cmi5 = {};  ///< xapi: launch data; empty: no launch
+};
+
+/// @return exit code 0.
+int export_command(const ExportOptions& options, std::ostream& out, std::ostream& err);
+
+struct KinematicsOptions {
+  std::filesystem::path file;
+  std::string side;  ///< right or left
+  bool json = false;
+};
+
+/// @return exit code 0.
+int kinematics_command(const KinematicsOptions& options, std::ostream& out);
+
+}  // namespace trocar

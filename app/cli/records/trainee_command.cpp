@@ -1,0 +1,131 @@
+#include "app/cli/records/trainee_command.h"
+
+#include <ostream>
+
+#include "app/cli/records/open_database.h"
+#include "app/cli/records/store_json.h"
+#include "app/cli/text_table.h"
+#include "haptics/input_error.h"
+#include "trainees/records/attempt_identity.h"
+
+namespace trocar {
+namespace {
+
+using Align = TextTable::Align;
+
+/// "yes" or "no" as it counts; with who decided it where somebody did.
+std::string verdict_cell(const AttemptSummary& attempt) {
+  return std::string(attempt.passed ? "yes" : "no") + (attempt.decided_by.empty() ? "" : ", by " + attempt.decided_by);
+}
+
+void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& out) {
+  TextTable table({{"no.", Align::kRight},
+                   {"started (UTC)"},
+                   {"exercise"},
+                   {"rubric"},
+                   {"level"},
+                   {"board", Align::kRight},
+                   {"hand"},
+                   {"status"},
+                   {"score", Align::kRight},
+                   {"grade"},
+                   {"passed"},
+                   {"organ"},
+                   {"attempt"}});
+  for (const AttemptSummary& attempt : attempts) {
+    table.add({std::to_string(attempt.row), cell_time(attempt.started_utc), attempt.exercise_id,
+               cell_rubric(attempt.exercise_version, attempt.rubric_sha256), attempt.level,
+               std::to_string(attempt.board), attempt.hand, attempt.status, cell(attempt.score, 1), attempt.grade,
+               verdict_cell(attempt), attempt.organ_synthetic ? "synthetic" : "", attempt.uuid});
+  }
+  table.print(out);
+}
+
+void print_person(const Trainee& trainee, std::ostream& out) {
+  out << trainee.code << "  " << trainee.uuid << '\n';
+  if (!trainee.name.empty() || !trainee.email.empty()) {
+    out << trainee.name << (trainee.name.empty() || trainee.email.empty() ? "" : ", ") << trainee.email << '\n';
+  }
+}
+
+/// What the rules say of each curve, with what they rest on.
+void print_judgements(const std::vector<CohortLine>& lines, std::ostream& out) {
+  TextTable table({{"exercise"},
+                   {"level"},
+                   {"hand"},
+                   {"flag"},
+                   {"evidence"},
+                   {"n", Align::kRight},
+                   {"decided", Align::kRight},
+                   {"reliability", Align::kRight},
+                   {"rules"}});
+  for (const CohortLine& line : lines)
+    for (const Judgement& j : line.judgements)
+      table.add({line.key.exercise_id, line.key.level, line.key.hand, flag_name(j.flag), j.evidence,
+                 std::to_string(j.n), std::to_string(j.decided), cell(j.reliability, 2), j.rule_version});
+  table.print(out);
+}
+
+}  // namespace
+
+int trainee_add(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kCreate, err);
+  TraineeStore store(database);
+  if (const auto known = store.find(options.code)) err << "trainee " << known->code << " exists already\n";
+  const Trainee trainee = store.ensure_trainee(options.code);
+  if (options.json) {
+    out << trainee_json(trainee, {}, {});
+  } else {
+    out << trainee.code << "  " << trainee.uuid << '\n';
+  }
+  return 0;
+}
+
+int trainee_edit(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const Trainee trainee = TraineeStore(database).edit(options.code, options.name, options.email, "");
+  if (options.json)
+    out << trainee_json(trainee, {}, {});
+  else
+    print_person(trainee, out);
+  return 0;
+}
+
+int trainee_list(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const std::vector<Trainee> trainees = TraineeStore(database).list();
+  if (options.json) {
+    out << trainees_json(trainees);
+    return 0;
+  }
+  TextTable table(
+      {{"trainee"}, {"attempts", Align::kRight}, {"passes", Align::kRight}, {"last (UTC)"}, {"since (UTC)"}});
+  for (const Trainee& trainee : trainees) {
+    table.add({trainee.code, std::to_string(trainee.attempts), std::to_string(trainee.passes),
+               cell_time(trainee.last_utc), cell_time(trainee.created_utc)});
+  }
+  table.print(out);
+  return 0;
+}
+
+int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const auto trainee = TraineeStore(database).find(options.code);
+  if (!trainee) throw InputError(database.file().string() + ": no trainee \"" + options.code + "\"");
+  const auto attempts = AttemptStore(database).list({trainee->code, "", options.limit});
+  CohortFilter filter;
+  filter.trainee = trainee->code;
+  const auto lines = cohort_lines(database, rules_in_force(database), filter, utc_now());
+  if (options.json) {
+    out << trainee_json(*trainee, attempts, lines);
+    return 0;
+  }
+  print_person(*trainee, out);
+  out << "since " << cell_time(trainee->created_utc) << " UTC\n"
+      << trainee->attempts << " attempts, " << trainee->passes << " passed\n";
+  if (!lines.empty()) print_judgements(lines, out << '\n');
+  if (!attempts.empty()) print_attempts(attempts, out << '\n');
+  return 0;
+}
+
+}  // namespace trocar

@@ -1,0 +1,247 @@
+#include "app/desk/demo_cohort.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "app/desk/demo_people.h"
+#include "app/session/keeping/attempt_keeping.h"
+#include "haptics/input_error.h"
+#include "scenarios/files/exercise_loader.h"
+#include "scenarios/hands/make_hand.h"
+#include "scenarios/layout/board_numbers.h"
+#include "trainees/integrity/anchor_file.h"
+#include "trainees/progress/calendar.h"
+#include "trainees/records/curricula.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMark = "demo-cohort";
+constexpr const char* kOrgan = "phantom-liver";
+constexpr int kSpan_days = 63;
+
+/// One attempt to be made, and what came of it.
+struct Planned {
+  DemoStint stint;
+  std::string trainee;
+  int number = 1;  ///< of the hand, from 1
+  std::int64_t seed = 1;
+  std::string started_utc;
+  fs::path recording;
+  std::optional<Scene> scene;  // only what attempt_start() needs is kept
+  AttemptStart start;
+  SessionOutcome outcome;
+  std::optional<Recording> record;
+};
+
+std::string utc_of(std::chrono::system_clock::time_point time) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S.000Z", &parts);
+  return text;
+}
+
+/// Three attempts a sitting, six minutes apart; sittings spread evenly over the trainee's days.
+std::string date_of(const DemoPerson& person, int index, int all) {
+  using namespace std::chrono;
+  constexpr int kSitting = 3;
+  const int sittings = (all + kSitting - 1) / kSitting, sitting = index / kSitting;
+  const int last_day = person.last_day, first_day = person.first_day;
+  const int day = first_day + (sittings > 1 ? sitting * (last_day - first_day) / (sittings - 1) : 0);
+  const auto midnight = floor<days>(system_clock::now()) - days(kSpan_days + 1 - day);
+  return utc_of(midnight + hours(person.hour) + minutes(6 * (index % kSitting) + person.hour));
+}
+
+std::vector<Planned> plan(const DemoCohortOptions& options, const fs::path& folder) {
+  std::vector<Planned> out;
+  std::int64_t seed = 1000;
+  for (const DemoPerson& person : demo_people()) {
+    std::vector<Planned> own;
+    for (const DemoStint& stint : person.stints)
+      for (int i = 0; i < stint.attempts; ++i) {
+        Planned one;
+        one.stint = stint;
+        one.trainee = person.code;
+        one.number = stint.from_attempt + i;
+        one.seed = ++seed;
+        one.recording = folder / (std::to_string(seed) + ".trec");
+        own.push_back(std::move(one));
+      }
+    if (options.least_attempts > 0 && static_cast<int>(own.size()) > options.least_attempts)
+      own.erase(own.begin() + options.least_attempts, own.end());
+    for (std::size_t i = 0; i < own.size(); ++i)
+      own[i].started_utc = date_of(person, static_cast<int>(i), static_cast<int>(own.size()));
+    std::move(own.begin(), own.end(), std::back_inserter(out));
+  }
+  return out;
+}
+
+/// Runs it in lockstep; the recording lies in its file afterwards.
+void perform(Planned& one, const AssetRoots& assets) {
+  AttemptSetup setup;
+  setup.exercise = find_exercise(one.stint.exercise, assets.exercises);
+  setup.level = one.stint.level;
+  setup.organ = kOrgan;
+  setup.hand = "mouse";
+  setup.seed = one.seed;
+  setup.board = drawn_board(one.seed, false);
+  const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
+  SessionHooks hooks;
+  hooks.hand = [&] {
+    return make_hand((assets.assets / "demo" / (std::string(one.stint.hand) + ".toml")).string(),
+                     static_cast<std::uint64_t>(one.seed), assets.hands, one.number);
+  };
+  auto [outcome, recording] = record_session(scene, assets, hooks, one.recording);
+  one.start = attempt_start(scene, one.trainee);
+  one.start.hand = "invented";
+  one.start.started_utc = one.started_utc;
+  one.outcome = std::move(outcome);
+  one.record = std::move(recording);
+}
+
+/// @return false: stopped.
+bool perform_all(std::vector<Planned>& planned, const DemoCohortOptions& options, const AssetRoots& assets) {
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stopped{false};
+  int done = 0;
+  std::exception_ptr failure;
+  std::mutex mutex;  // guards done, failure and options.going
+  const auto work = [&] {
+    for (std::size_t i = next++; i < planned.size() && !stopped; i = next++) {
+      try {
+        perform(planned[i], assets);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        stopped = true;
+        return;
+      }
+      const std::lock_guard lock(mutex);
+      ++done;
+      if (options.going && !options.going(done, static_cast<int>(planned.size()))) stopped = true;
+    }
+  };
+  const unsigned wanted =
+      options.jobs > 0 ? static_cast<unsigned>(options.jobs) : std::max(1u, std::thread::hardware_concurrency());
+  {
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < wanted; ++i) threads.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+  return !stopped;
+}
+
+/// By the same invented clock as the beginning: as long afterwards as the loop ran.
+std::string ended(const std::string& started_utc, const DeviceReceipt& device) {
+  const double ran_s = device.rate_hz > 0 ? static_cast<double>(device.ticks) / device.rate_hz : 0;
+  const auto started =
+      std::chrono::system_clock::from_time_t(static_cast<std::time_t>(seconds_of_utc(started_utc).value_or(0)));
+  return utc_of(started + std::chrono::seconds(static_cast<std::int64_t>(std::ceil(ran_s))));
+}
+
+/// In order of their dates, as they would have come.
+void store_all(std::vector<Planned>& planned, Database& database) {
+  std::stable_sort(planned.begin(), planned.end(),
+                   [](const Planned& a, const Planned& b) { return a.started_utc < b.started_utc; });
+  AttemptStore store(database);
+  for (Planned& one : planned) {
+    const AttemptId id = store.begin_attempt(one.start);
+    fs::create_directories(id.recording.parent_path());
+    fs::rename(one.recording, id.recording);
+    const AttemptResult result = kept_result(one.start, id, one.outcome, *one.record);
+    store.finish_attempt(id, result, ended(id.started_utc, result.device));
+    one.record.reset();
+  }
+}
+
+void remove_database(const fs::path& database) {
+  for (const char* end : {"", "-wal", "-shm"}) {
+    std::error_code ignored;
+    fs::remove(database.string() + end, ignored);
+  }
+  std::error_code ignored;
+  fs::remove(anchor_path(database), ignored);
+  for (const char* beside : {".recordings", ".films", ".live"}) {
+    fs::path folder = database;
+    fs::remove_all(folder.replace_extension(beside), ignored);
+  }
+  const std::string old = database.filename().string() + ".schema";  // what a migration kept
+  std::vector<fs::path> backups;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(database).parent_path(), ignored))
+    if (entry.path().filename().string().starts_with(old)) backups.push_back(entry.path());
+  for (const fs::path& backup : backups) fs::remove(backup, ignored);
+}
+
+/// What the mark says; it is sealed, so that a demo database cannot be taken for another.
+std::string mark_text(const std::vector<Planned>& planned) {
+  std::string text = "# Invented trainees: hands that learn, on the simulated plant. Dates are invented.\n";
+  for (const DemoPerson& person : demo_people()) text += "[" + person.code + "]\nstory = \"" + person.story + "\"\n";
+  return text + "\n[all]\nattempts = " + std::to_string(planned.size()) + "\n";
+}
+
+void tell_demo(Database& database, const std::vector<Planned>& planned) {
+  const Author author{"", "Demo"};
+  CurriculumStore curricula(database);
+  curricula.add(kMark, mark_text(planned), author);
+  for (const DemoPerson& person : demo_people()) curricula.join(person.code, person.group, author);
+  add_demo_opinions(database, author);
+}
+
+}  // namespace
+
+fs::path demo_database_beside(const fs::path& database) {
+  return (database.empty() ? default_database_path() : database).parent_path() / "demo.db";
+}
+
+bool is_demo(Database& database) { return CurriculumStore(database).newest(kMark).has_value(); }
+
+int make_demo_cohort(const DemoCohortOptions& options, const AssetRoots& assets) {
+  if (fs::exists(options.database)) throw InputError(options.database.string() + ": exists already");
+  const fs::path folder = fs::path(options.database.string() + ".part");
+  std::error_code error;
+  fs::remove_all(folder, error);
+  fs::create_directories(folder, error);
+  if (error) throw EnvironmentError(folder.string() + ": cannot be made: " + error.message());
+  struct Cleared {
+    const fs::path& folder;
+    ~Cleared() {
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);
+    }
+  } const cleared{folder};
+  std::vector<Planned> planned = plan(options, folder);
+  if (!perform_all(planned, options, assets)) return 0;
+  try {
+    Database database(options.database);
+    store_all(planned, database);
+    tell_demo(database, planned);
+  } catch (...) {
+    remove_database(options.database);
+    throw;
+  }
+  return static_cast<int>(planned.size());
+}
+
+void remove_demo_cohort(const fs::path& database) {
+  {
+    Database opened(database, OpenMode::kExisting);
+    if (!is_demo(opened)) throw InputError(database.string() + ": holds no demo cohort; it was left as it is");
+  }
+  remove_database(database);
+}
+
+}  // namespace trocar

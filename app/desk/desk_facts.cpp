@@ -1,0 +1,33 @@
+#include "app/desk/desk_facts.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "scenarios/files/exercise_loader.h"
+
+namespace trocar {
+
+review::LevelFacts desk_level_facts(const std::string& exercise_text, const std::string& level) {
+  const Exercise exercise = parse_exercise(exercise_text, "exercise of the attempt");
+  const ExerciseLevel& found = find_level(exercise, level);
+  review::LevelFacts facts;
+  if (found.bands.size() <= 1) {  // several bands: what is wanted differs from disc to disc
+    facts.limits.low_n = found.band_low_n;
+    facts.limits.high_n = found.band_high_n;
+  }
+  facts.limits.hard_n = exercise.hard_force_n;
+  facts.pass_at = found.rubric.pass_at;
+  for (const SubscoreRule& rule : found.rubric.subscores)
+    facts.less_is_better[rule.metric] = rule.full_at < rule.zero_at;
+  return facts;
+}
+
+std::string shipped_progress_rules(const std::string& assets_folder) {
+  std::ifstream file(std::filesystem::path(assets_folder) / "progress.toml", std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return file ? text.str() : "";
+}
+
+}  // namespace trocar

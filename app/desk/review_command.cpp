@@ -1,0 +1,275 @@
+#include "app/desk/review_command.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <ostream>
+#include <sstream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "app/cli/progress_display.h"
+#include "app/cli/records/open_database.h"
+#include "app/cli/text_table.h"
+#include "app/desk/demo_cohort.h"
+#include "app/desk/desk_facts.h"
+#include "app/desk/desk_sources.h"
+#include "app/desk/password_prompt.h"
+#include "app/session/interrupt.h"
+#include "haptics/input_error.h"
+#include "trainees/desk/server/desk_server.h"
+#include "trainees/exchange/sync/replica_keeper.h"
+#include "trainees/live/live_stations.h"
+#include "trainees/records/accounts.h"
+#include "trainees/records/attempt_store.h"
+
+namespace trocar {
+namespace {
+
+/// Pictures and maps of attempts.
+void add_pictures(review::DeskSources& sources, DeskPictures& pictures) {
+  sources.picture = [&](const std::string& uuid, double t_s, int width) { return pictures.png(uuid, t_s, width); };
+  sources.heat = [&](const std::string& uuid, const review::HeatQuestion& q, int width) {
+    return pictures.heat(uuid, q.of_force ? HeatOf::kForce : HeatOf::kTime, q.overview, width);
+  };
+}
+
+/// Films that were made before are shown also where none can be made.
+void add_films(review::DeskSources& sources, DeskFilms& films) {
+  sources.film.state = [&](const std::string& uuid) { return films.state(uuid); };
+  sources.film.part = [&](const std::string& uuid, std::uint64_t from, std::uint64_t count) {
+    return films.part(uuid, from, count);
+  };
+  if (sources.no_film.empty()) sources.film.make = [&](const std::string& uuid) { films.make(uuid); };
+}
+
+void tell(const review::DeskServer& desk, const ReviewServeOptions& options, std::ostream& out, std::ostream& err) {
+  for (const std::string& address : desk.addresses()) out << address << '\n';
+  out << std::flush;
+  err << "The desk is open" << (options.lan ? " to the network: everybody signs in" : " on this machine")
+      << ". Ctrl-C closes it.\n";
+  if (options.lan && options.certificate.empty()) {
+    err << "WARNING: without a certificate passwords and results cross the network readable by anybody on it.\n"
+           "WARNING: give --cert FILE --key FILE, or keep this to a network where nobody listens.\n";
+  }
+}
+
+/// The editor begins empty without them.
+std::string shipped_rules() {
+  try {
+    return shipped_progress_rules(find_assets().assets);
+  } catch (const EnvironmentError&) {
+    return "";
+  }
+}
+
+constexpr std::chrono::milliseconds kTurn{100};
+constexpr int kLast_turns = 30;
+
+Role required_role(const std::string& name) {
+  if (const auto role = role_named(name)) return *role;
+  throw InputError("--role " + name + ": trainee, instructor and administrator are known");
+}
+
+/// @throws Interrupted
+void make_demo(const std::filesystem::path& file, int jobs, std::ostream& err) {
+  ProgressDisplay progress(err, error_is_terminal());
+  err << "Eight invented trainees make their attempts on the simulated plant, each on the clock of its own "
+         "simulation.\n";
+  DemoCohortOptions made;
+  made.database = file;
+  made.jobs = jobs;
+  made.going = [&](int done, int all) {
+    progress.show("attempts", static_cast<double>(done) / all);
+    return true;
+  };
+  make_demo_cohort(made, find_assets());
+}
+
+/// The copy of a central record that the desk serves, for its owner alone: everybody's results are in it.
+std::filesystem::path copy_of_centre(const ReviewServeOptions& options, std::ostream& err) {
+  umask(077);
+  const std::filesystem::path file = options.database.empty() ? default_replica_path({options.from}) : options.database;
+  Database database = open_database(file, OpenMode::kCreate, err);
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(database.file().parent_path(), none)) {
+    if (!entry.path().filename().string().starts_with(database.file().filename().string())) continue;
+    std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write,
+                                 none);
+  }
+  return database.file();
+}
+
+std::string host_name() {
+  char name[256] = "";
+  return gethostname(name, sizeof name - 1) == 0 ? name : "here";
+}
+
+/// @throws Interrupted
+std::unique_ptr<ReplicaKeeper> keeper_of(const ReviewServeOptions& options, const std::filesystem::path& file,
+                                         const std::function<void(const std::string&)>& log, std::ostream& err) {
+  if (options.from.empty()) return nullptr;
+  KeeperOptions kept;
+  kept.central = {options.from, options.password_file};
+  kept.open = desk_opener(file);
+  kept.station_name = ("desk " + host_name()).substr(0, 64);
+  kept.recordings = options.recordings;
+  kept.log = log;
+  ProgressDisplay progress(err, error_is_terminal());
+  enum class Stage : char { kFilling, kInterrupted, kServing };
+  auto stage = std::make_shared<Stage>(Stage::kFilling);
+  kept.going = [&progress, stage](std::size_t done, std::size_t all) {
+    if (*stage == Stage::kServing) return;
+    *stage = Stage::kInterrupted;  // unless it comes back
+    progress.show("attempts", static_cast<double>(done) / static_cast<double>(all));
+    *stage = Stage::kFilling;
+  };
+  auto keeper = std::make_unique<ReplicaKeeper>(std::move(kept));
+  if (*stage == Stage::kInterrupted)
+    throw Interrupted();  // a copy that had been filled would have been served as it was
+  *stage = Stage::kServing;
+  err << "The record of " << central_name({options.from}) << " is kept in " << file.string()
+      << ".\nAccounts of this desk: trocar review account add LOGIN --role instructor --db " << file.string() << '\n';
+  return keeper;
+}
+
+review::CentralStanding standing_of(const ReplicaKeeper& keeper, const std::string& host) {
+  const KeeperStanding now = keeper.standing();
+  return {host, now.as_of_utc, now.lost_since_utc, now.why, now.waiting};
+}
+
+/// The database that is served; the demo's is made when it is not there yet.
+std::filesystem::path served_database(const ReviewServeOptions& options, std::ostream& err) {
+  if (!options.from.empty()) return copy_of_centre(options, err);
+  if (options.demo) {
+    const std::filesystem::path demo = demo_database_beside("");
+    if (!std::filesystem::exists(demo)) make_demo(demo, 0, err);
+    return open_database(demo, OpenMode::kExisting, err).file();
+  }
+  Database database = open_database(options.database, OpenMode::kCreate, err);
+  if (!AttemptStore(database).latest())
+    err << "No attempt is kept yet: with --demo the desk shows an invented cohort.\n";
+  return database.file();
+}
+
+}  // namespace
+
+int review_demo(const ReviewDemoOptions& options, std::ostream& out, std::ostream& err) {
+  const std::filesystem::path file = options.database.empty() ? demo_database_beside("") : options.database;
+  if (options.remove)
+    remove_demo_cohort(file);
+  else
+    make_demo(file, options.jobs, err);
+  out << file.string() << '\n';
+  return 0;
+}
+
+int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostream& err) {
+  InterruptWatch interrupt;  // before any thread
+  const std::filesystem::path file = served_database(options, err);
+  std::mutex said;
+  const auto log = [&](const std::string& line) {
+    const std::scoped_lock lock(said);
+    err << line << std::endl;
+  };
+  const auto keeper = keeper_of(options, file, log, err);
+  const auto pictures = desk_pictures(file, err);
+  review::DeskServerOptions served;
+  served.open = desk_opener(file);
+  served.sources = desk_sources();
+  served.sources.shipped_rules = shipped_rules();
+  served.sources.program = TROCAR_VERSION;
+  std::atomic<bool> gone{false};
+  served.sources.remove_demo = [&] {
+    remove_demo_cohort(file);
+    gone = true;
+  };
+  if (keeper) served.sources.central = [&, host = central_name({options.from})] { return standing_of(*keeper, host); };
+  served.sources.stations = [file] { return look_at_stations(file); };
+  if (pictures) add_pictures(served.sources, *pictures);
+  const auto films = desk_films(file, served.sources.no_film);
+  if (films) add_films(served.sources, *films);
+  served.routes = review::desk_routes();
+  {
+    Database opened = served.open();
+    served.demo = is_demo(opened);
+  }
+  served.port = options.port;
+  served.lan = options.lan;
+  served.certificate = options.certificate;
+  served.key = options.key;
+  served.names = options.names;
+  served.log = log;
+  review::DeskServer desk(std::move(served));
+  desk.start();
+  if (keeper) keeper->start();
+  tell(desk, options, out, err);
+  // The page that says that the demo is gone still fetches its style.
+  for (int left = kLast_turns; left > 0 && !interrupt.seen(); left -= gone ? 1 : 0) std::this_thread::sleep_for(kTurn);
+  desk.stop();
+  err << (gone ? "The demo is removed and the desk is closed.\n" : "The desk is closed.\n");
+  return 0;
+}
+
+int review_account_add(const ReviewAccountOptions& options, std::istream& in, std::ostream& out, std::ostream& err) {
+  const Role role = required_role(options.role);
+  Database database = open_database(options.database, OpenMode::kCreate, err);
+  AccountStore accounts(database);
+  const std::string trainee = role == Role::kTrainee && options.trainee.empty() ? options.login : options.trainee;
+  const Account made = accounts.add(options.login, options.name.empty() ? options.login : options.name, role, trainee,
+                                    new_password(options.login, in, err), "");
+  out << made.login << ' ' << role_name(made.role) << '\n';
+  bool staff = false;
+  for (const Account& account : accounts.list()) staff = staff || account.role != Role::kTrainee;
+  if (!staff)
+    err << "No instructor has an account yet, and from now on everybody signs in at the desk:\n"
+           "  trocar review account add LOGIN --role instructor\n";
+  return 0;
+}
+
+int review_account_password(const ReviewAccountOptions& options, std::istream& in, std::ostream&, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  AccountStore accounts(database);
+  if (!accounts.find(options.login)) throw InputError("account \"" + options.login + "\": there is none");
+  accounts.set_password(options.login, new_password(options.login, in, err), "");
+  err << options.login << ": the password is changed; whoever was signed in with it has to sign in again\n";
+  return 0;
+}
+
+int review_account_disable(const ReviewAccountOptions& options, bool disabled, std::ostream&, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  AccountStore(database).set_disabled(options.login, disabled, "");
+  err << options.login << (disabled ? ": can no longer sign in\n" : ": can sign in again\n");
+  return 0;
+}
+
+int review_account_list(const ReviewAccountOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const std::vector<Account> accounts = AccountStore(database).list();
+  if (options.json) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const Account& account : accounts) {
+      json.push_back({{"login", account.login},
+                      {"name", account.name},
+                      {"role", role_name(account.role)},
+                      {"trainee", account.trainee_code},
+                      {"created_utc", account.created_utc},
+                      {"disabled_utc", account.disabled_utc}});
+    }
+    out << json.dump(2) << '\n';
+    return 0;
+  }
+  TextTable table({{"login"}, {"name"}, {"role"}, {"trainee"}, {"made (UTC)"}, {"disabled (UTC)"}});
+  for (const Account& account : accounts) {
+    table.add({account.login, account.name, role_name(account.role), account.trainee_code,
+               cell_time(account.created_utc), cell_time(account.disabled_utc)});
+  }
+  table.print(out);
+  return 0;
+}
+
+}  // namespace trocar

@@ -1,0 +1,131 @@
+#include "app/device_bench/plant_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "haptics/device/plant/plant_parameters.h"
+#include "scenarios/hands/minimum_jerk.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kJawOpening = 0.02;  // m, as the jig leaves it
+constexpr double kInJigS = 0.65;      // self-test and homing
+constexpr double kSoftStartS = 1.2;   // arming and the torque's ramp
+constexpr double kWallSide = 0.08;    // m
+constexpr int kWallCells = 4;
+
+HapticLoopConfig matched(HapticLoopConfig loop, const SimulatedDaq& daq) {
+  loop.daq = daq.capabilities();
+  return loop;
+}
+
+void add_triangle(ContactPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
+  patch.triangle[static_cast<std::size_t>(patch.count)] = {{a, b, c}, (b - a).cross(c - a).normalized(), patch.count};
+  ++patch.count;
+}
+
+}  // namespace
+
+SimulatedDaqConfig nominal_device() {
+  SimulatedDaqConfig device;
+  device.plant = nominal_parameters();
+  device.hand.tremor_m = 0;
+  return device;
+}
+
+PlantBench::PlantBench(const SimulatedDaqConfig& device, const HapticLoopConfig& loop)
+    : daq_(device),
+      config_(matched(loop, daq_)),
+      loop_(config_),
+      patch_(std::make_unique<ContactPatch>()),
+      goal_(daq_.sense().X_BS),
+      jaw_(kJawOpening),
+      last_q_(daq_.plant().angles()),
+      on_the_way_(static_cast<std::size_t>(device.extra_delay_periods) + 2, JointVector::Zero()) {}
+
+PlantBench::PlantBench(const PlantBench& other)
+    : daq_(other.daq_),
+      config_(other.config_),
+      loop_(other.loop_),
+      patch_(std::make_unique<ContactPatch>(*other.patch_)),
+      record_(other.record_),
+      goal_(other.goal_),
+      jaw_(other.jaw_),
+      holding_(other.holding_),
+      last_q_(other.last_q_),
+      on_the_way_(other.on_the_way_),
+      absorbed_j_(other.absorbed_j_) {}
+
+const TickRecord& PlantBench::tick() {
+  if (holding_) daq_.set_hand_intent(goal_, jaw_);
+  const DaqSample sample = daq_.read();
+  account();
+  const DacFrame out = loop_.tick(sample, *patch_, record_);
+  daq_.arm(record_.amplifiers_armed);
+  daq_.write(out);
+  on_the_way_.push_back(record_.contact_torque.head<kArmJoints>());
+  on_the_way_.pop_front();
+  const Fault& fault = record_.stylus.fault;
+  if (fault.code != FaultCode::kNone) {
+    throw BenchFault("the device loop of the bench has faulted at " + std::to_string(time_s()) +
+                     " s: " + fault_name(fault.code));
+  }
+  return record_;
+}
+
+void PlantBench::account() {
+  const JointVector q = daq_.plant().angles();
+  absorbed_j_ -= on_the_way_.front().dot(q - last_q_);
+  last_q_ = q;
+}
+
+void PlantBench::run(double seconds) {
+  for (long n = std::lround(seconds * config_.daq.rate_hz); n > 0; --n) tick();
+}
+
+void PlantBench::start() {
+  run(kInJigS);
+  goal_ = daq_.sense().X_BS;
+  holding_ = true;
+  run(kSoftStartS);
+  absorbed_j_ = 0;
+}
+
+void PlantBench::move(const Pose& to, double seconds) {
+  const Pose from = goal_;
+  const Eigen::AngleAxisd turn(Mat3(to.R * from.R.transpose()));
+  const long n = std::lround(seconds * config_.daq.rate_hz);
+  for (long k = 1; k <= n; ++k) {
+    const double s = minimum_jerk(static_cast<double>(k) / static_cast<double>(n));
+    goal_.p = from.p + s * (to.p - from.p);
+    goal_.R = Eigen::AngleAxisd(s * turn.angle(), turn.axis()) * from.R;
+    tick();
+  }
+}
+
+void PlantBench::put_wall(const Vec3& point_T, const Vec3& normal_T, const ContactMaterial& material) {
+  const Vec3 n = normal_T.normalized();
+  const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+  const Vec3 corner = point_T - config_.tool.radius_m * n - 0.5 * kWallSide * (u + v);
+  const auto at = [&](int i, int j) { return Vec3(corner + kWallSide / kWallCells * (i * u + j * v)); };
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (int i = 0; i < kWallCells; ++i) {
+    for (int j = 0; j < kWallCells; ++j) {
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  put_surface(triangles, material);
+}
+
+void PlantBench::put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material) {
+  if (triangles_T.size() > kMaxPatchTriangles) throw std::invalid_argument("bench: a surface of too many triangles");
+  patch_->count = 0;
+  patch_->material[0] = material;
+  for (const auto& [a, b, c] : triangles_T) add_triangle(*patch_, a, b, c);
+  ++patch_->stamp;
+}
+
+}  // namespace trocar

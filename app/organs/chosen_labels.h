@@ -1,0 +1,28 @@
+// Which labels of a map the user means, with their names: by the file's own names, a table that was named, or a number.
+//
+// A bare number is never given a name from a table that nobody named, except where every built-in table that could have
+// numbered the map agrees on it ("5 liver"); that is said. Thread: any.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/organs/import_options.h"
+#include "tissue/imaging/labels/label_map.h"
+
+namespace trocar {
+
+struct ChosenLabel {
+  Segment segment;
+  std::string table;  ///< that gave the name; "" when the file did, or nothing
+};
+
+/// @param file of the map, for messages. @param decisions what was assumed, as sentences
+/// @throws InputError naming file and option: unknown or ambiguous label, table that does not exist
+std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const LabelMap& map, const std::string& file,
+                                       std::vector<std::string>& decisions);
+
+/// Name for files: lower case letters, digits, '-' and '_'; "label-7" when nothing is left of it.
+std::string file_name_of(const Segment& segment);
+
+}  // namespace trocar

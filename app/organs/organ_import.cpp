@@ -1,0 +1,358 @@
+#include "app/organs/organ_import.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+#include "app/organs/chosen_labels.h"
+#include "app/organs/import_source.h"
+#include "app/organs/organ_page.h"
+#include "app/organs/organ_report.h"
+#include "app/organs/replaced_files.h"
+#include "app/organs/volume_files.h"
+#include "haptics/digest/digest.h"
+#include "haptics/input_error.h"
+#include "tissue/imaging/labels/label_table_file.h"
+#include "tissue/imaging/phantom/phantom_labels.h"
+#include "tissue/organ/mesh_alone.h"
+#include "tissue/organ/organ_compiler.h"
+#include "tissue/organ/scene_compiler.h"
+#include "tissue/organ/surface_import.h"
+#include "tissue/organ/utf8_text.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "trocar " TROCAR_VERSION;
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Decisions that the list of repairs does not tell already, each once.
+std::vector<std::string> untold(const std::vector<std::string>& decisions, const std::vector<std::string>& repairs) {
+  std::vector<std::string> fresh;
+  const auto among = [](const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  };
+  for (const std::string& decision : decisions)
+    if (!among(repairs, decision) && !among(fresh, decision)) fresh.push_back(decision);
+  return fresh;
+}
+
+/// Image values for the page; none without an image.
+std::vector<LabelValues> values_of(const OrganImportOptions& options, const ImportSource& source,
+                                   const std::vector<ChosenLabel>& labels) {
+  std::vector<LabelValues> values;
+  if (source.image && !options.report.empty())
+    for (const ChosenLabel& label : labels) values.push_back(image_values(source, label.segment));
+  return values;
+}
+
+/// What is the same for every organ of an import.
+OrganManifest common_manifest(const OrganImportOptions& options, const OrganSource& source) {
+  OrganManifest manifest;
+  manifest.program = kProgram;
+  manifest.source = source;
+  manifest.licence = options.licence.empty() ? "unknown" : options.licence;
+  manifest.credit = options.credit;
+  manifest.synthetic = options.synthetic || options.label_table == kPhantomTable;
+  return manifest;
+}
+
+OrganManifest label_manifest(const OrganImportOptions& options, const ImportSource& source, const ChosenLabel& label) {
+  OrganManifest manifest = common_manifest(options, source.source);
+  manifest.source.label = label.segment.number;
+  manifest.source.label_name = is_utf8(label.segment.name) ? label.segment.name : file_name_of(label.segment);
+  manifest.source.label_table = label.table;
+  return manifest;
+}
+
+void name_organ(const OrganImportOptions& options, const std::string& by_default, OrganManifest& manifest) {
+  manifest.name = options.name.empty() ? by_default : options.name;
+  manifest.material = options.material.empty() ? manifest.name : options.material;
+}
+
+WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& source, const ChosenLabel& label,
+                           const std::vector<std::string>& decisions, const fs::path& stem) {
+  OrganManifest manifest = label_manifest(options, source, label);
+  const bool nameless = label.segment.name.empty() && source.map.segments.size() == 1;
+  name_organ(options, nameless ? source.stem : file_name_of(label.segment), manifest);
+  const LabelVolume& layer = source.map.layers[label.segment.layer];
+  const CompileOptions how{options.triangles, {.only_largest = options.largest_only}, options.progress};
+  CompiledOrgan organ = compile_label(layer, label.segment.number, how);
+  manifest.mesh = std::move(organ.facts);
+  manifest.decisions = untold(decisions, manifest.mesh.repairs);
+  std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {&layer, label.segment.number}, manifest);
+  WrittenOrgans written;
+  written.organs.push_back({std::move(manifest), std::move(organ.surface)});
+  written.files = std::move(files);
+  written.values = values_of(options, source, {label});
+  written.image = std::move(source.image);
+  written.labels = std::move(source.map);
+  return written;
+}
+
+SurfaceImportOptions surface_options(const OrganImportOptions& options) {
+  const SurfaceChoices& asked = options.surface;
+  SurfaceImportOptions how{.unit = asked.unit,
+                           .frame = asked.frame,
+                           .up_axis = asked.up_axis,
+                           .part = asked.part,
+                           .organ = options.name,
+                           .fill_holes_mm = asked.fill_holes_mm,
+                           .wrap = {}};
+  if (asked.wrap) how.wrap = WrapSettings{.alpha_mm = asked.wrap_alpha_mm};
+  return how;
+}
+
+WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::path& stem) {
+  const fs::path path = options.input;
+  if (!options.labels.empty() || !options.label.empty() || options.all || options.threshold.window)
+    throw InputError("--label, --labels, --all and --threshold go with images, not with " + options.input);
+  const ImportedSurface source = import_surface(path, surface_options(options), options.progress);
+  const OrganSource origin{path.filename().string(), digest::of_file(path), "surface", source.unit, {}, "", ""};
+  OrganManifest manifest = common_manifest(options, origin);
+  name_organ(options, options.surface.part.empty() ? path.stem().string() : file_name_of({0, 0, options.surface.part}),
+             manifest);
+  manifest.decisions = source.decisions;
+  append(manifest.decisions, source.warnings);
+  CompiledOrgan organ = compile_surface(source.surface, {options.triangles, {}, options.progress});
+  organ.facts.repairs.insert(organ.facts.repairs.begin(), source.repairs.begin(), source.repairs.end());
+  for (const double volume : source.lost_volumes_m3) organ.facts.lost.push_back({"part", 0, volume * 1e6});
+  manifest.mesh = std::move(organ.facts);
+  std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {}, manifest);
+  WrittenOrgans written;
+  written.organs.push_back({std::move(manifest), std::move(organ.surface)});
+  written.files = std::move(files);
+  return written;
+}
+
+/// The organ that exercises are done on: as asked, else the liver, else the largest.
+std::string subject_of(const OrganImportOptions& options, const std::vector<CompiledMember>& organs) {
+  const auto named = [&](const std::string& name) {
+    return std::any_of(organs.begin(), organs.end(),
+                       [&](const CompiledMember& organ) { return organ.manifest.name == name; });
+  };
+  if (!options.subject.empty() && !named(options.subject))
+    throw InputError("--subject " + options.subject + ": not one of the organs of the scene");
+  if (!options.subject.empty()) return options.subject;
+  if (named("liver")) return "liver";
+  const auto largest =
+      std::max_element(organs.begin(), organs.end(), [](const CompiledMember& a, const CompiledMember& b) {
+        return a.manifest.mesh.volume_ml < b.manifest.mesh.volume_ml;
+      });
+  return largest->manifest.name;
+}
+
+/// Names of what organs lie against: the file's, the named table's, or the number. The table is read once.
+class LabelWords {
+ public:
+  LabelWords(const LabelMap& map, const std::string& table) : map_(map) {
+    if (!table.empty()) table_ = label_table_or_file(table);
+  }
+
+  std::string operator()(const Attachment& attachment) const {
+    for (const Segment& segment : map_.segments)
+      if (segment.layer == attachment.layer && segment.number == attachment.number && is_utf8(segment.name) &&
+          !segment.name.empty())
+        return segment.name;
+    if (table_)
+      if (const auto name = table_->table().name_of(attachment.number)) return std::string(*name);
+    return "label " + std::to_string(attachment.number);
+  }
+
+ private:
+  const LabelMap& map_;
+  std::optional<OwnLabelTable> table_;
+};
+
+std::vector<SceneRequest> requests_of(const OrganImportOptions& options, const std::vector<ChosenLabel>& labels) {
+  std::vector<SceneRequest> requests;
+  for (const ChosenLabel& label : labels)
+    requests.push_back({label.segment.layer, label.segment.number, file_name_of(label.segment), options.triangles});
+  return requests;
+}
+
+/// What lies against what, by names. Triangles are common only where neither organ was meshed alone.
+OrganSet set_of(const OrganImportOptions& options, const LabelMap& map, const CompiledScene& scene,
+                const std::vector<CompiledMember>& organs) {
+  OrganSet set;
+  set.subject = subject_of(options, organs);
+  const auto name = [&](std::size_t organ) { return organs[organ].manifest.name; };
+  for (const SharedInterface& shared : scene.shared)
+    set.contacts.push_back({name(shared.first), name(shared.second), shared.area_m2, !shared.triangles.empty()});
+  const LabelWords words(map, options.label_table);
+  for (const Attachment& attachment : scene.attachments)
+    set.attachments.push_back({name(attachment.organ), words(attachment), attachment.area_m2, attachment.triangles});
+  return set;
+}
+
+/// One organ of a scene, with its files.
+CompiledMember member_of(const OrganImportOptions& options, const ImportSource& source, const ChosenLabel& label,
+                         CompiledOrgan&& organ, const std::vector<std::string>& decisions, const fs::path& stem,
+                         std::vector<SideFile>& files) {
+  OrganManifest manifest = label_manifest(options, source, label);
+  manifest.name = manifest.material = file_name_of(label.segment);
+  manifest.mesh = std::move(organ.facts);
+  manifest.decisions = untold(decisions, manifest.mesh.repairs);
+  const fs::path member = member_stem(stem, manifest.name);
+  const LabelledOrgan made_from{&source.map.layers[label.segment.layer], label.segment.number};
+  for (SideFile& file : volume_meshes(options, member, organ.surface, made_from, manifest))
+    files.push_back(std::move(file));
+  for (SideFile& file : vessel_files(options, member, made_from, manifest.name)) files.push_back(std::move(file));
+  return {std::move(manifest), std::move(organ.surface)};
+}
+
+WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& source,
+                           const std::vector<ChosenLabel>& labels, const std::vector<std::string>& decisions,
+                           const fs::path& stem) {
+  if (!options.material.empty())
+    throw InputError("--material goes with one organ; those of a scene have theirs by name");
+  const std::vector<SceneRequest> requests = requests_of(options, labels);
+  const SceneOptions how{{.only_largest = options.largest_only}, options.progress};
+  CompiledScene scene = compile_scene(source.map, requests, how);
+  mesh_alone_what_cuts_itself(source.map, requests, how, scene);
+  WrittenOrgans written;
+  for (std::size_t n = 0; n < labels.size(); ++n)
+    written.organs.push_back(
+        member_of(options, source, labels[n], std::move(scene.organs[n]), decisions, stem, written.files));
+  written.set = set_of(options, source.map, scene, written.organs);
+  written.set->name = options.name.empty() ? stem.filename().string() : options.name;
+  written.values = values_of(options, source, labels);
+  written.image = std::move(source.image);
+  written.labels = std::move(source.map);
+  written.notes = std::move(scene.notes);
+  return written;
+}
+
+/// Organ files are TOML, which is UTF-8: a name in another encoding could be written and never read again.
+void check_texts(const OrganImportOptions& options) {
+  for (const auto& [option, text] : {std::pair("-o", &options.output), std::pair("--name", &options.name),
+                                     std::pair("--material", &options.material),
+                                     std::pair("--licence", &options.licence), std::pair("--credit", &options.credit)})
+    if (!is_utf8(*text))
+      throw InputError(std::string(option) +
+                       ": the text is not UTF-8, which organ files are written in: use UTF-8 or plain letters");
+  for (const std::string& file : {options.input, options.labels})
+    if (!is_utf8(fs::path(file).filename().string()))
+      throw InputError("an input's file name is not UTF-8, and organ files record it: rename the file (" +
+                       fs::path(file).extension().string() + ")");
+}
+
+void check_options(const OrganImportOptions& options) {
+  constexpr int kFewest = 200, kMost = 200000;
+  if (options.input.empty()) throw InputError("no input file");
+  if (options.output.empty()) throw InputError("-o: no output name");
+  if (options.triangles < kFewest || options.triangles > kMost)
+    throw InputError("--triangles " + std::to_string(options.triangles) + ": 200 to 200000 are wanted");
+  if (!options.report.empty() && options.report.extension() != ".html" && options.report.extension() != ".htm")
+    throw InputError("--report " + options.report.string() + ": the page is HTML: name it NAME.html");
+  check_texts(options);
+  if (!fs::exists(options.input)) throw InputError(options.input + ": no such file or folder");
+}
+
+fs::path stem_of(const std::string& output) {
+  fs::path stem = output;
+  for (const std::string_view suffix : {kOrganSuffix, kOrganSetSuffix})
+    if (output.ends_with(suffix)) stem = output.substr(0, output.size() - suffix.size());
+  if (stem.filename().empty() || stem.filename() == "." || stem.filename() == "..")
+    throw InputError("-o " + output + ": names a folder, not an organ");
+  return stem;
+}
+
+/// Two names of one file: the surface would replace what it was made from.
+void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
+  std::error_code missing;
+  for (const std::string& suffix : {std::string(".ply"), std::string(".lattice"), std::string(".msh")})
+    if (fs::equivalent(stem.string() + suffix, options.input, missing))
+      throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
+}
+
+/// The page is made before anything is written, and written with the rest.
+void add_page(const OrganImportOptions& options, WrittenOrgans& written) {
+  for (CompiledMember& organ : written.organs)
+    organ.surface_bytes = enter_surface(written.set ? member_stem(written.stem, organ.manifest.name) : written.stem,
+                                        organ.manifest, organ.surface);
+  const OrganPageContent content{written.organs,
+                                 written.set ? &*written.set : nullptr,
+                                 written.image ? &*written.image : nullptr,
+                                 written.labels ? &*written.labels : nullptr,
+                                 written.notes,
+                                 options.assets,
+                                 written.values};
+  written.files.push_back({fs::absolute(options.report).string(), organ_page(content)});
+}
+
+/// Writes everything, then takes away what an older organ of this name had and this one has not.
+void write(const OrganImportOptions& options, WrittenOrgans& written) {
+  const fs::path manifest = written.stem.string() + std::string(written.set ? kOrganSetSuffix : kOrganSuffix);
+  const std::set<std::string> before = files_named_by(manifest);
+  if (written.set) {
+    written.manifest = write_organ_set(written.stem, *written.set, written.organs, written.files);
+  } else {
+    CompiledMember& organ = written.organs[0];
+    if (organ.surface_bytes.empty()) organ.surface_bytes = enter_surface(written.stem, organ.manifest, organ.surface);
+    written.manifest = write_entered_organ(written.stem, organ.manifest, organ.surface_bytes, written.files);
+  }
+  written.removed =
+      remove_replaced(manifest, before, files_named_by(manifest), {options.input, options.labels, options.report});
+}
+
+void remark(const WrittenOrgans& written, std::ostream& err) {
+  for (const CompiledMember& organ : written.organs) {
+    const MeshFacts& mesh = organ.manifest.mesh;
+    for (const std::string& decision : organ.manifest.decisions) {
+      if (&organ == &written.organs.front()) err << "note: " << decision << "\n";
+    }
+    if (mesh.self_intersections > 0)
+      err << "warning: " << organ.manifest.name << ": the surface cuts itself in " << mesh.self_intersections
+          << " places; try another --triangles\n";
+    if (mesh.cut_at_border())
+      err << "note: " << organ.manifest.name
+          << " is cut at the volume border: the image ends inside it, the flat cap is not anatomy\n";
+  }
+  for (const std::string& note : written.notes) err << "note: " << note << "\n";
+  for (const std::string& file : written.removed)
+    err << "note: removed " << file << ", which the organ of this name had before\n";
+}
+
+}  // namespace
+
+WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err) {
+  check_options(options);
+  const fs::path stem = stem_of(options.output);
+  check_not_input(stem, options);
+  WrittenOrgans written;
+  if (is_surface_input(options)) {
+    written = import_surface_file(options, stem);
+  } else {
+    ImportSource source = read_import_source(options);
+    std::vector<std::string> decisions = source.map.notes;
+    if (source.image) append(decisions, source.image->notes);
+    const std::vector<ChosenLabel> labels = choose_labels(options, source.map, source.file, decisions);
+    const bool scene = labels.size() > 1 || options.all || options.output.ends_with(kOrganSetSuffix);
+    written = scene ? import_scene(options, std::move(source), labels, decisions, stem)
+                    : import_label(options, std::move(source), labels.front(), decisions, stem);
+  }
+  written.stem = stem;
+  if (!options.report.empty()) add_page(options, written);
+  write(options, written);
+  remark(written, err);
+  return written;
+}
+
+int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostream& err) {
+  const WrittenOrgans written = import_organs(options, err);
+  if (written.set)
+    out << (options.json ? scene_report_json(*written.set, written.organs)
+                         : scene_report_text(*written.set, written.organs));
+  else
+    out << (options.json ? organ_json(written.organs[0].manifest, written.organs[0].surface.bounds())
+                         : organ_text(written.organs[0].manifest, written.organs[0].surface.bounds()));
+  return 0;
+}
+
+}  // namespace trocar

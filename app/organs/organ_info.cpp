@@ -1,0 +1,77 @@
+#include "app/organs/organ_info.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include "app/organs/organ_report.h"
+#include "haptics/input_error.h"
+#include "tissue/organ/organ.h"
+#include "tissue/organ/organ_set.h"
+#include "tissue/organ/surface_import.h"
+#include "tissue/solid/lattice.h"
+#include "tissue/solid/tetrahedra.h"
+
+namespace trocar {
+namespace {
+
+/// The tetrahedra read back from their file, counted and measured anew.
+void prove_tetrahedra(const std::filesystem::path& file, VolumeMeshFile& facts) {
+  ImportedTetrahedra read = read_tetrahedra(
+      file, {.unit = "m", .frame = "RAS", .up_axis = {}, .part = {}, .organ = {}, .fill_holes_mm = {}, .wrap = {}});
+  if (read.vertices.size() != facts.nodes || read.tetrahedra.size() != facts.cells)
+    throw InputError(file.string() + ": holds " + std::to_string(read.vertices.size()) + " nodes and " +
+                     std::to_string(read.tetrahedra.size()) + " tetrahedra, the manifest says " +
+                     std::to_string(facts.nodes) + " and " + std::to_string(facts.cells));
+  const TetrahedraMesh mesh{std::move(read.vertices), std::move(read.tetrahedra), {}};
+  facts.worst = 180;
+  for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n)
+    facts.worst = std::min(facts.worst, smallest_dihedral_deg(mesh, n));
+}
+
+/// Lattice and tetrahedra beside the manifest: there, unchanged, and what the manifest says.
+void prove_volume_meshes(const std::filesystem::path& path, OrganManifest& manifest) {
+  if (manifest.lattice) {
+    const std::filesystem::path file = path.parent_path() / manifest.lattice->file;
+    const Lattice lattice = parse_lattice(read_unchanged(file, manifest.lattice->sha256, path.string()), file.string());
+    if (lattice.nodes.size() != manifest.lattice->nodes || lattice.cells.size() != manifest.lattice->cells)
+      throw InputError(file.string() + ": holds another number of nodes or cells than the manifest says");
+  }
+  if (manifest.tetrahedra) {
+    const std::filesystem::path file = path.parent_path() / manifest.tetrahedra->file;
+    read_unchanged(file, manifest.tetrahedra->sha256, path.string());
+    prove_tetrahedra(file, *manifest.tetrahedra);
+  }
+}
+
+/// The manifest with what can be proved on the surface proved anew.
+CompiledMember proved(const std::filesystem::path& path, std::ostream& err) {
+  const Organ organ = load_organ(path);
+  CompiledMember member{parse_manifest(read_bytes(path), path.string()), organ.surface};
+  member.manifest.mesh.topology = analyse_topology(organ.surface);
+  member.manifest.mesh.quality = mesh_quality(organ.surface);
+  member.manifest.mesh.self_intersections = count_self_intersections(organ.surface);
+  prove_volume_meshes(path, member.manifest);
+  if (member.manifest.mesh.self_intersections > 0) err << "warning: " << organ.name << ": the surface cuts itself\n";
+  return member;
+}
+
+}  // namespace
+
+int organ_info(const OrganInfoOptions& options, std::ostream& out, std::ostream& err) {
+  const std::filesystem::path path = without_subject(options.manifest);
+  const std::string file = path.string();
+  if (!file.ends_with(kOrganSetSuffix)) {
+    const CompiledMember organ = proved(path, err);
+    out << (options.json ? organ_json(organ.manifest, organ.surface.bounds())
+                         : organ_text(organ.manifest, organ.surface.bounds()));
+    return 0;
+  }
+  const OrganSet set = parse_organ_set(read_bytes(path), file);
+  load_organ(path);  // every member is there and unchanged
+  std::vector<CompiledMember> organs;
+  for (const std::string& member : set.files) organs.push_back(proved(path.parent_path() / member, err));
+  out << (options.json ? scene_report_json(set, organs) : scene_report_text(set, organs));
+  return 0;
+}
+
+}  // namespace trocar

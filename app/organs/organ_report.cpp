@@ -1,0 +1,211 @@
+#include "app/organs/organ_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tissue/library_versions.h"
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value, double digits) {
+  const double scale = std::pow(10.0, digits);
+  const double result = std::round(value * scale) / scale;
+  return result == 0 ? 0 : result;  // no "-0.0"
+}
+
+Json distance_json(const SurfaceDistance& distance) {
+  return {{"mean", rounded(distance.mean_m * 1e3, 4)},
+          {"rms", rounded(distance.rms_m * 1e3, 4)},
+          {"p99", rounded(distance.p99_m * 1e3, 4)},
+          {"max", rounded(distance.max_m * 1e3, 4)}};
+}
+
+Json corner_json(const Vec3& corner) {
+  return {rounded(corner.x(), 6), rounded(corner.y(), 6), rounded(corner.z(), 6)};
+}
+
+Json source_json(const OrganSource& source) {
+  Json json{{"file", source.file}, {"sha256", source.sha256}};
+  json["label"] = source.label ? Json(*source.label) : Json(nullptr);
+  json["label_name"] = source.label_name;
+  json["label_table"] = source.label_table;
+  json["modality"] = source.modality;
+  return json;
+}
+
+void add_mesh(Json& json, const MeshFacts& mesh) {
+  json["vertices"] = mesh.topology.vertices;
+  json["triangles"] = mesh.topology.triangles;
+  json["closed"] = mesh.topology.closed();
+  json["manifold"] = mesh.topology.manifold();
+  json["self_intersections"] = mesh.self_intersections;
+  json["degenerate_triangles"] = mesh.topology.degenerate_triangles;
+  json["components"] = mesh.topology.components;
+  json["genus"] = mesh.topology.genus;
+  json["volume_ml"] = rounded(mesh.volume_ml, 4);
+  json["label_volume_ml"] = mesh.label_volume_ml ? Json(rounded(*mesh.label_volume_ml, 4)) : Json(nullptr);
+  json["volume_error_pct"] = rounded(mesh.volume_error_pct, 4);
+  json["kept_volume_ml"] = rounded(mesh.kept_volume_ml, 4);
+  json["kept_error_pct"] = rounded(mesh.kept_error_pct, 4);
+  json["distance_mm"] = distance_json(mesh.distance);
+  json["distance_back_mm"] = distance_json(mesh.distance_back);
+  json["hausdorff_mm"] = rounded(mesh.hausdorff_m() * 1e3, 4);
+  json["hausdorff_voxels"] = mesh.hausdorff_voxels() ? Json(rounded(*mesh.hausdorff_voxels(), 4)) : Json(nullptr);
+  json["centroid_offset_mm"] = rounded(mesh.centroid_offset_m * 1e3, 4);
+  json["boundary_edges"] = mesh.topology.boundary_edges;
+  json["nonmanifold_edges"] = mesh.topology.nonmanifold_edges;
+  json["misoriented_edges"] = mesh.topology.misoriented_edges;
+  const MeshQuality& quality = mesh.quality;
+  json["angles_deg"] = {{"min", rounded(quality.min_angle_deg, 3)},
+                        {"p01", rounded(quality.p01_angle_deg, 3)},
+                        {"share_above_15", rounded(quality.share_above_15, 5)}};
+  json["edges_mm"] = {{"min", rounded(quality.edge_min_m * 1e3, 3)},
+                      {"p05", rounded(quality.edge_p05_m * 1e3, 3)},
+                      {"median", rounded(quality.edge_median_m * 1e3, 3)},
+                      {"p95", rounded(quality.edge_p95_m * 1e3, 3)},
+                      {"max", rounded(quality.edge_max_m * 1e3, 3)}};
+}
+
+template <typename Part>
+Json parts_json(const std::vector<Part>& parts) {
+  Json list = Json::array();
+  for (const Part& part : parts)
+    list.push_back({{"kind", part.kind}, {"voxels", part.voxels}, {"volume_ml", rounded(part.volume_ml, 4)}});
+  return list;
+}
+
+Json volume_mesh_json(const std::optional<VolumeMeshFile>& mesh, const char* worst) {
+  if (!mesh) return nullptr;
+  return {{"file", mesh->file},
+          {"sha256", mesh->sha256},
+          {"nodes", mesh->nodes},
+          {"cells", mesh->cells},
+          {"size_mm", rounded(mesh->size_mm, 4)},
+          {"volume_error_pct", rounded(mesh->volume_error_pct, 4)},
+          {worst, rounded(mesh->worst, 4)}};
+}
+
+Json organ_object(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds) {
+  const MeshFacts& mesh = manifest.mesh;
+  Json json{{"name", manifest.name},
+            {"surface", manifest.surface},
+            {"surface_sha256", manifest.surface_sha256},
+            {"material", manifest.material}};
+  add_mesh(json, mesh);
+  json["bbox_m"] = {corner_json(bounds.min()), corner_json(bounds.max())};
+  json["cut_at_border"] = mesh.cut_at_border();
+  json["border_voxels"] = mesh.border_voxels;
+  json["lost"] = parts_json(mesh.lost);
+  json["added"] = parts_json(mesh.added);
+  json["repairs"] = mesh.repairs;
+  json["decisions"] = manifest.decisions;
+  json["unit"] = "m";
+  json["source_unit"] = manifest.source.unit;
+  json["frame"] = "RAS";
+  json["source"] = source_json(manifest.source);
+  json["licence"] = manifest.licence;
+  json["credit"] = manifest.credit;
+  json["synthetic"] = manifest.synthetic;
+  json["lattice"] = volume_mesh_json(manifest.lattice, "floored_share");
+  json["tetrahedra"] = volume_mesh_json(manifest.tetrahedra, "min_dihedral_deg");
+  json["program"] = manifest.program;
+  Json versions = Json::object();
+  for (const auto& [library, version] : library_versions()) versions[library] = version;
+  json["versions"] = versions;
+  return json;
+}
+
+void text_of_volume_mesh(std::ostream& out, const char* title, const std::optional<VolumeMeshFile>& mesh,
+                         const char* worst) {
+  if (!mesh) return;
+  out << "  " << title << mesh->file << ", " << mesh->nodes << " nodes, " << mesh->cells << " cells of "
+      << mesh->size_mm << " mm, volume " << mesh->volume_error_pct << " %, " << worst << mesh->worst << "\n";
+}
+
+void text_of_parts(std::ostream& out, const MeshFacts& mesh) {
+  constexpr std::size_t kMost = 8;
+  for (std::size_t n = 0; n < std::min(mesh.lost.size(), kMost); ++n)
+    out << "  lost       " << mesh.lost[n].kind << " of " << mesh.lost[n].volume_ml << " mL (" << mesh.lost[n].voxels
+        << " voxels)\n";
+  if (mesh.lost.size() > kMost) out << "  lost       and " << mesh.lost.size() - kMost << " smaller parts\n";
+  for (const AddedPart& part : mesh.added)
+    out << "  added      " << part.kind << " of " << part.volume_ml << " mL (" << part.voxels << " voxels)\n";
+}
+
+}  // namespace
+
+std::string organ_json(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds) {
+  return organ_object(manifest, bounds).dump(2) + "\n";
+}
+
+std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds) {
+  const MeshFacts& mesh = manifest.mesh;
+  const Vec3 extent = bounds.sizes() * 1e3;
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(2);
+  out << manifest.name << (manifest.synthetic ? " (synthetic)" : "") << ", material " << manifest.material << "\n"
+      << "  surface    " << manifest.surface << ", " << mesh.topology.vertices << " vertices, "
+      << mesh.topology.triangles << " triangles, " << (mesh.topology.closed() ? "closed" : "OPEN") << ", "
+      << (mesh.topology.manifold() ? "manifold" : "NOT MANIFOLD") << ", genus " << mesh.topology.genus << ", "
+      << mesh.self_intersections << " self-intersections\n"
+      << "  volume     " << mesh.volume_ml << " mL";
+  if (mesh.label_volume_ml) out << ", label " << *mesh.label_volume_ml << " mL (" << mesh.volume_error_pct << " %)";
+  out << "\n  size       " << extent.x() << " x " << extent.y() << " x " << extent.z() << " mm\n"
+      << "  distance   mean " << mesh.distance.mean_m * 1e3 << ", p99 " << mesh.distance.p99_m * 1e3 << ", max "
+      << mesh.distance.max_m * 1e3 << " mm from the original surface\n"
+      << "  triangles  smallest angle " << mesh.quality.min_angle_deg << " deg, " << 100 * mesh.quality.share_above_15
+      << " % from 15 deg on; edges " << mesh.quality.edge_min_m * 1e3 << " to " << mesh.quality.edge_max_m * 1e3
+      << " mm\n"
+      << "  source     " << manifest.source.file << " (" << manifest.source.modality << ", " << manifest.source.unit
+      << "), sha256 " << manifest.source.sha256.substr(0, 16) << "\n"
+      << "  licence    " << manifest.licence << (manifest.credit.empty() ? "" : "; ") << manifest.credit << "\n";
+  text_of_volume_mesh(out, "lattice    ", manifest.lattice, "share of nearly empty cells ");
+  text_of_volume_mesh(out, "tetrahedra ", manifest.tetrahedra, "smallest dihedral angle, degrees ");
+  if (mesh.cut_at_border())
+    out << "  CUT        the image ends inside the organ (" << mesh.border_voxels
+        << " voxels): the flat cap is not anatomy\n";
+  text_of_parts(out, mesh);
+  for (const std::string& repair : mesh.repairs) out << "  repair     " << repair << "\n";
+  for (const std::string& decision : manifest.decisions) out << "  decided    " << decision << "\n";
+  return out.str();
+}
+
+std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMember>& organs) {
+  Json json{{"name", set.name}, {"subject", set.subject}, {"frame", "RAS"}, {"unit", "m"}};
+  json["organs"] = Json::array();
+  for (const CompiledMember& organ : organs)
+    json["organs"].push_back(organ_object(organ.manifest, organ.surface.bounds()));
+  json["contacts"] = Json::array();
+  for (const OrganContact& contact : set.contacts)
+    json["contacts"].push_back({{"a", contact.a},
+                                {"b", contact.b},
+                                {"area_cm2", rounded(contact.area_m2 * 1e4, 3)},
+                                {"shared", contact.shared}});
+  json["attachments"] = Json::array();
+  for (const OrganAttachment& attachment : set.attachments)
+    json["attachments"].push_back(
+        {{"organ", attachment.organ}, {"label", attachment.label}, {"area_cm2", rounded(attachment.area_m2 * 1e4, 3)}});
+  json["files"] = set.more_files;
+  return json.dump(2) + "\n";
+}
+
+std::string scene_report_text(const OrganSet& set, const std::vector<CompiledMember>& organs) {
+  std::string text =
+      set.name + ": " + std::to_string(organs.size()) + " organs, exercises are done on " + set.subject + "\n";
+  for (const CompiledMember& organ : organs) text += organ_text(organ.manifest, organ.surface.bounds());
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(2);
+  for (const OrganContact& contact : set.contacts)
+    out << contact.a << " lies against " << contact.b << " over " << contact.area_m2 * 1e4 << " cm2"
+        << (contact.shared ? ", the same triangles in both" : "") << "\n";
+  return text + out.str();
+}
+
+}  // namespace trocar

@@ -1,0 +1,20 @@
+// What is known about an organ or a scene as text for people or as JSON for programs (keys: docs/commands.md).
+//
+// Pure; nothing in it names a patient. Thread: any.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "tissue/organ/organ_set.h"
+
+namespace trocar {
+
+std::string organ_json(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds);
+std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds);
+
+std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMember>& organs);
+std::string scene_report_text(const OrganSet& set, const std::vector<CompiledMember>& organs);
+
+}  // namespace trocar

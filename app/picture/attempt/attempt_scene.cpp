@@ -1,0 +1,259 @@
+#include "app/picture/attempt/attempt_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tissue/tissue_frame.h"
+
+namespace trocar {
+namespace {
+
+using Shape = SceneObject::Shape;
+using Style = SceneObject::Style;
+using Look = SceneObject::Look;
+
+constexpr double kFieldDeg = 72;
+constexpr double kBoardSide = 0.100, kBoardThickness = 0.004;
+constexpr double kBoardBelowPens = 0.030;  // m: seen, not felt, so it keeps out of the instrument's way
+constexpr double kSleeveInside = 0.025;    // m of the port's tube on the scope's side of the wall
+
+const Vec3 kBoardGrey(0.15, 0.16, 0.17), kPenBoardLines(0.34, 0.34, 0.33), kBoardLines(0.44, 0.44, 0.42);
+const Vec3 kNeutralFoam(0.45, 0.43, 0.38);
+
+SceneObject board_object(double top_z, double side, double thickness, const Vec3& centre, const Vec3& lines) {
+  SceneObject board;
+  board.shape = Shape::kBoard;
+  board.look = Look::kBoard;
+  board.size_m = {side, side, thickness};
+  board.X_TO.p = {centre.x(), centre.y(), top_z};
+  board.colour = kBoardGrey;
+  board.accent = lines;
+  return board;
+}
+
+bool on_organ(const Scene& scene) { return needs_organ(scene.setup.exercise.kind); }
+bool has_pens(const Scene& scene) { return scene.setup.exercise.kind == ExerciseKind::kReach; }
+
+/// Upper face of the board that the picture shows under the pens.
+double pen_board_z(const Board& board) {
+  double lowest = board.centre_T.z();
+  for (const Target& pen : board.targets) lowest = std::min(lowest, pen.centre_T.z());
+  return lowest - kBoardBelowPens;
+}
+
+/// Everything that must be in the field: the picture's frame and its backdrop come from this.
+Eigen::AlignedBox3d work_box(const Scene& scene) {
+  Eigen::AlignedBox3d box;
+  if (has_pens(scene)) {
+    for (const Target& pen : scene.board.targets)
+      for (const double back : {0.0, 0.6 * scene.setup.exercise.pens.length_m})
+        box.extend(Vec3(pen.centre_T - back * pen.R_TI.col(2)));
+  } else if (scene.board.rigid.board) {
+    const BoardPlate& plate = *scene.board.rigid.board;
+    const double h = plate.half_extent_m;
+    box.extend(Vec3(-h, -h, plate.top_z_m)).extend(Vec3(h, h, plate.top_z_m + 0.03));
+  }
+  return box;
+}
+
+std::vector<TargetMark> marks(const DirectorView& director) {
+  std::vector<TargetMark> out;
+  const DirectorStatus& status = director.status();
+  for (std::size_t i = 0; i < director.board().targets.size(); ++i) {
+    const Target& target = director.board().targets[i];
+    const int index = static_cast<int>(i);
+    auto state = TargetMark::State::kWaiting;
+    if (status.done.test(i))
+      state = TargetMark::State::kDone;
+    else if (index == status.target_index)
+      state = TargetMark::State::kLit;
+    out.push_back({target.centre_T, target.normal_T, target.radius_m, state});
+  }
+  return out;
+}
+
+Style pen_style(const DirectorStatus& status, int index) {
+  if (index == status.target_index) return Style::kGhostLit;
+  return status.done.test(static_cast<std::size_t>(index)) ? Style::kGhostDone : Style::kGhost;
+}
+
+/// Pole from the lit tip down to the board and a ring at its foot: tells where over the board the tip stands.
+void add_plumb_line(const Vec3& tip, double board_z, std::vector<SceneObject>& out) {
+  SceneObject pole;
+  pole.shape = Shape::kCylinder;
+  pole.style = Style::kGhostLit;
+  pole.size_m = {0.0006, 0.0006, tip.z() - board_z};
+  pole.X_TO.p = {tip.x(), tip.y(), 0.5 * (tip.z() + board_z)};
+  SceneObject foot;
+  foot.shape = Shape::kRing;
+  foot.style = Style::kGhostLit;
+  foot.size_m = {0.008, 0.008, 0.0008};
+  foot.X_TO.p = {tip.x(), tip.y(), board_z + 0.0004};
+  out.push_back(pole);
+  out.push_back(foot);
+}
+
+void add_pens(const SessionView& view, std::vector<SceneObject>& out) {
+  const PenRules& rules = view.scene.setup.exercise.pens;
+  const Board& board = view.director.board();
+  const double board_z = pen_board_z(board);
+  out.push_back(board_object(board_z, kBoardSide, kBoardThickness, board.centre_T, kPenBoardLines));
+  for (std::size_t i = 0; i < board.targets.size(); ++i) {
+    SceneObject pen;
+    pen.shape = Shape::kPen;
+    pen.size_m = {2 * rules.radius_m, 2 * rules.radius_m, rules.length_m};
+    pen.X_TO = {board.targets[i].R_TI, board.targets[i].centre_T};
+    pen.style = pen_style(view.director.status(), static_cast<int>(i));
+    out.push_back(pen);
+    if (pen.style == Style::kGhostLit && view.scene.level.guides) add_plumb_line(pen.X_TO.p, board_z, out);
+  }
+}
+
+void add_start(const SessionView& view, std::vector<SceneObject>& out) {
+  const Phase phase = view.director.status().phase;
+  if (phase != Phase::kReady && phase != Phase::kArmed) return;
+  SceneObject start;
+  start.shape = Shape::kSphere;
+  start.style = Style::kGhostLit;
+  start.size_m = Vec3::Constant(2 * view.scene.setup.exercise.start_sphere_m);
+  start.X_TO.p = view.director.board().start_T;
+  out.push_back(start);
+}
+
+/// The port rides on the shaft: its tube follows the shaft's direction, the wall gives way.
+void add_port(const SessionView& view, std::vector<SceneObject>& out) {
+  if (!view.scene.loop.map.fulcrum) return;
+  SceneObject sleeve;
+  sleeve.shape = Shape::kSleeve;
+  sleeve.size_m = {2 * view.scene.loop.tool.radius_m + 0.0006, 0, 2 * kSleeveInside};
+  sleeve.colour = {0.42, 0.45, 0.47};
+  sleeve.accent = {0.02, 0.02, 0.02};
+  sleeve.X_TO.R = view.record.stylus.X_TI.R;
+  sleeve.X_TO.p = view.scene.loop.map.fulcrum->port_T + kSleeveInside * sleeve.X_TO.R.col(2);
+  out.push_back(sleeve);
+}
+
+SceneObject block_object(const Pose& X_TO, const Vec3& size, int colour) {
+  SceneObject block;
+  block.look = Look::kFoam;
+  block.X_TO = X_TO;
+  block.size_m = size;
+  if (colour >= 0 && colour < static_cast<int>(foam_classes().size())) {
+    const FoamClass& foam = foam_classes()[static_cast<std::size_t>(colour)];
+    block.colour = foam.colour;
+    block.accent = foam.band;
+    block.bands = foam.bands;
+  } else {
+    block.colour = kNeutralFoam;
+  }
+  return block;
+}
+
+/// A block between the jaws gives way: by as much as the jaws are nearer to each other than it is thick.
+void pinch(SceneObject& block, const StylusState& stylus) {
+  const Vec3 across_O = block.X_TO.R.transpose() * stylus.X_TI.R.col(1);  // jaws open along y of I
+  Eigen::Index axis = 0;
+  across_O.cwiseAbs().maxCoeff(&axis);
+  block.pinch_O = Vec3::Unit(axis);
+  block.pinch_depth_m = std::clamp(block.size_m[axis] - stylus.jaw_opening_m, 0.0, 0.6 * block.size_m[axis]);
+}
+
+/// Blood, char and the like, smoke, and what is on the lens.
+void add_marks(const TissueFrame& tissue, SceneView& out) {
+  out.marks.assign(tissue.mark.begin(), tissue.mark.begin() + tissue.mark_count);
+  out.smoke_per_m = tissue.smoke_per_m;
+  out.lens.fog = tissue.lens_fog;
+  out.lens.blood = tissue.lens_blood;
+}
+
+}  // namespace
+
+std::vector<SceneObject> rigid_objects(const RigidScene& rigid, const TissueFrame* frame, int lit_block) {
+  std::vector<SceneObject> out;
+  if (rigid.board) {
+    const BoardPlate& plate = *rigid.board;
+    out.push_back(board_object(plate.top_z_m, 2 * plate.half_extent_m, plate.thickness_m, Vec3::Zero(), kBoardLines));
+  }
+  for (std::size_t i = 0; i < rigid.rings.size(); ++i) {
+    SceneObject ring;
+    ring.shape = Shape::kRing;
+    ring.size_m = {2 * rigid.rings[i].radius_m + 0.002, 0, 0.001};
+    ring.X_TO.p = rigid.rings[i].centre_T;
+    ring.colour = Vec3(0.46, 0.46, 0.45);
+    if (static_cast<int>(i) == lit_block) ring.style = Style::kLit;
+    out.push_back(ring);
+  }
+  for (std::size_t i = 0; i < rigid.blocks.size(); ++i) {
+    const FoamBlock& laid = rigid.blocks[i];
+    SceneObject block = block_object(laid.X_TO, laid.size_m, laid.colour);
+    if (frame && static_cast<int>(i) < frame->object_count) {
+      const ObjectState& now = frame->object[i];
+      block.X_TO = now.X_TO;
+      block.size_m = now.size_m;
+      block.wear = now.crushed ? 1 : 0;
+    }
+    if (static_cast<int>(i) == lit_block) block.style = Style::kLit;
+    out.push_back(block);
+  }
+  return out;
+}
+
+Camera attempt_camera(const Scene& scene) {
+  const TargetLayout& layout = scene.setup.exercise.layout;
+  Camera camera;
+  camera.diagonal_fov_deg = kFieldDeg;
+  const Eigen::AlignedBox3d work = work_box(scene);
+  if (work.isEmpty()) {
+    camera.look_at_T = scene.board.centre_T + Vec3(0, 0.004, 0.004);
+    camera.eye_T = camera.look_at_T + Vec3(-0.012, -1.15 * layout.region_y_m, 1.0 * layout.region_y_m);
+    return camera;
+  }
+  // The frame cuts the round field above and below: 0.5 of the height against a radius of 0.64 of it.
+  const double half_field = std::atan(0.5 / 0.64 * std::tan(0.5 * kFieldDeg * std::numbers::pi / 180));
+  const double distance = 0.5 * work.sizes().norm() / std::sin(half_field);
+  camera.look_at_T = work.center();
+  camera.eye_T = camera.look_at_T + Vec3(-0.08, -0.75, 0.66).normalized() * distance;
+  return camera;
+}
+
+SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T) {
+  const StylusState& stylus = view.record.stylus;
+  SceneView out;
+  if (on_organ(view.scene)) {
+    out.organ = organ_T;
+    out.material = view.scene.organ.material;
+    out.targets = marks(view.director);
+    for (const NeighbourOrgan& organ : view.scene.neighbours.organs)
+      out.neighbours.push_back({organ.surface_T, organ.material});
+  }
+  if (has_pens(view.scene)) add_pens(view, out.objects);
+  auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
+  if (view.tissue && view.tissue->held()) {
+    const std::size_t first = rigid.size() - view.scene.board.rigid.blocks.size();  // blocks come last
+    pinch(rigid.at(first + static_cast<std::size_t>(view.tissue->grip_object)), stylus);
+  }
+  out.objects.insert(out.objects.end(), rigid.begin(), rigid.end());
+  add_start(view, out.objects);
+  add_port(view, out.objects);
+  for (const SceneObject& object : out.objects) {
+    if (object.shape != Shape::kBoard) continue;
+    const Vec3 half(0.5 * object.size_m.x(), 0.5 * object.size_m.y(), 0);
+    out.stage_T.extend(Vec3(object.X_TO.p - half - Vec3(0, 0, object.size_m.z()))).extend(Vec3(object.X_TO.p + half));
+  }
+  out.X_TI = stylus.X_TI;
+  out.shaft_radius_m = view.scene.loop.tool.radius_m;
+  out.shaft_length_m = view.scene.loop.tool.shaft_length_m;
+  out.jaw_opening_m = stylus.jaw_opening_m;
+  out.roll_stripe = has_pens(view.scene);
+  if (stylus.contact && on_organ(view.scene)) {
+    out.dimple_T = stylus.contact_point_T;
+    out.dimple_normal_T = stylus.contact_normal_T;
+    out.dimple_depth_m = stylus.depth_m;
+  }
+  if (view.tissue) add_marks(*view.tissue, out);
+  out.camera = attempt_camera(view.scene);
+  return out;
+}
+
+}  // namespace trocar

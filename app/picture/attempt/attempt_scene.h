@@ -1,0 +1,24 @@
+// What lies in the picture of an attempt: discs or ghost pens, board, blocks, rings, port, start sphere; and the
+// camera.
+//
+// Frame T, m. Pure: same moment, same scene. The renderer knows no exercise, this knows no OpenGL. Thread: any.
+#pragma once
+
+#include <memory>
+
+#include "app/picture/scene/scene_view.h"
+#include "app/session/session.h"
+
+namespace trocar {
+
+/// The moment as a scene, without its head-up display.
+SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T);
+
+/// Scope that frames the exercise: on an organ from the trainee's side over the board region, otherwise so that all
+/// that belongs to the board fits into the field.
+Camera attempt_camera(const Scene& scene);
+
+/// Board, blocks and ring marks as they are now. @param frame newest state of the blocks; nullptr: as laid out.
+std::vector<SceneObject> rigid_objects(const RigidScene& rigid, const TissueFrame* frame, int lit_block);
+
+}  // namespace trocar

@@ -1,0 +1,33 @@
+// Draws the instruments: shaft and the two jaws, each posed from its InstrumentView.
+//
+// Meshes are kept by size of the shaft. Frame T, m. Thread: the one on which the context is current.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "app/picture/gl/gl_objects.h"
+#include "app/picture/scene/object_painter.h"
+#include "app/picture/scene/scene_view.h"
+
+namespace trocar {
+
+/// All instruments of a view, the first one first.
+std::vector<InstrumentView> instruments_of(const SceneView& view);
+
+class InstrumentPainter {
+ public:
+  /// Into the shadow map, with a bound depth program.
+  void draw_shadows(Program& depth, const SceneView& view);
+  void draw(const ProgramBinder& bind, const SceneView& view);
+
+ private:
+  struct Meshes {
+    GpuMesh shaft, jaw;
+  };
+  void draw_parts(Program& program, const InstrumentView& instrument);
+  std::map<std::array<long, 2>, Meshes> meshes_;
+};
+
+}  // namespace trocar

@@ -1,0 +1,65 @@
+// How much of the picture a machine can afford: three presets, and the choice among them by timing.
+//
+//   potato  half size, plain Phong, round field; no shadow, no glow
+//   soft    half size, thinner meshes, shadow map of 512; the camera's work at the small size
+//   full    full size, shadow map of 1024, finest meshes, more taps
+// Each is a set of program variants (#define), never a branch at run time: software rasterisers run both sides of a
+// branch. Thread: that of the context for measure_preset(), any for the rest.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "app/picture/gl/graphics_context.h"
+
+namespace trocar {
+
+class Renderer;
+struct SceneView;
+
+enum class Preset : std::uint8_t { kPotato, kSoft, kFull };
+
+struct PresetTraits {
+  std::string define;  ///< of the shaders: "PRESET_FULL"
+  double scale = 1;    ///< of the 3-D picture relative to its window
+  int shadow_px = 0;   ///< edge of the shadow map; 0: no shadow
+  bool glow = false;
+  std::size_t organ_triangles = 0, neighbour_triangles = 0;  ///< at most, each
+};
+const PresetTraits& traits_of(Preset preset);
+
+std::string preset_name(Preset preset);
+/// Empty for a name that is none.
+std::optional<Preset> preset_named(const std::string& name);
+
+/// The richest preset that is quick enough; potato when none is. Tries from `first` downwards and times each once.
+/// @param frame_s seconds of one picture. @param wanted_s at most.
+Preset choose_preset(Preset first, double wanted_s, const std::function<double(Preset)>& frame_s);
+
+/// Whether a preset that was chosen by timing turns out too slow: some other program may have taken the cores
+/// meanwhile.
+class PresetWatch {
+ public:
+  static constexpr double kTooSlow_s = 0.1, kStandstill_s = 1.0;
+  static constexpr int kInARow = 20;
+  /// @param dt_s since the last picture; a standstill (a hidden window, a machine that slept) says nothing.
+  /// @return the next plainer preset after kInARow slow pictures in a row; empty: stay.
+  std::optional<Preset> picture(double dt_s, Preset now);
+
+ private:
+  int slow_ = 0;
+};
+
+/// choose_preset() by drawing pictures of a scene: ten each, fewer when a preset is clearly too slow. A software
+/// rasteriser is not tried at full, which would cost it a second. The renderer's preset is left as it was tried last.
+/// @param width,height px of the scope's picture.
+/// @throws EnvironmentError when a shader is missing or refused.
+Preset measure_preset(Renderer& renderer, Preset first, const SceneView& view, int width, int height);
+/// The same with a renderer and a scene of its own.
+Preset measure_preset(GraphicsContext& context, const std::filesystem::path& asset_root, int width, int height);
+
+}  // namespace trocar

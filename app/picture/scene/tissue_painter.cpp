@@ -1,0 +1,282 @@
+#include "app/picture/scene/tissue_painter.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "app/picture/models/picture_mesh.h"
+#include "app/picture/scene/backdrop.h"
+#include "app/picture/scene/mark_block.h"
+#include "app/picture/scene/scene_block.h"
+
+namespace trocar {
+namespace {
+
+/// Look of every material whose name holds the word; the first that fits counts.
+constexpr std::pair<std::string_view, std::string_view> kLooks[] = {
+    {"liver", "LOOK_LIVER"},      {"gallbladder", "LOOK_GALLBLADDER"},
+    {"duct", "LOOK_DUCT"},        {"biliary", "LOOK_DUCT"},
+    {"fat", "LOOK_FAT"},          {"omentum", "LOOK_FAT"},
+    {"mesenter", "LOOK_FAT"},     {"spleen", "LOOK_SPLEEN"},
+    {"kidney", "LOOK_KIDNEY"},    {"artery", "LOOK_ARTERY"},
+    {"aorta", "LOOK_ARTERY"},     {"vein", "LOOK_VEIN"},
+    {"cava", "LOOK_VEIN"},        {"pancreas", "LOOK_PANCREAS"},
+    {"adrenal", "LOOK_PANCREAS"}, {"vertebra", "LOOK_BONE"},
+    {"spine", "LOOK_BONE"},       {"bone", "LOOK_BONE"},
+    {"hip", "LOOK_BONE"},         {"rib", "LOOK_BONE"}};
+
+/// A gallbladder alone lies on the liver; everything else on fat.
+std::string bed_look(const SceneView& view) {
+  return view.material == "gallbladder" && view.neighbours.empty() ? "LOOK_LIVER" : "LOOK_FAT";
+}
+
+/// A scene with fat of its own needs no bed of it.
+bool brings_fat(const SceneView& view) {
+  return std::any_of(view.neighbours.begin(), view.neighbours.end(),
+                     [](const NeighbourView& one) { return tissue_look(one.material) == "LOOK_FAT"; });
+}
+
+std::string mark_look(TargetMark::State state) {
+  switch (state) {
+    case TargetMark::State::kWaiting:
+      return "MARK_WAITING";
+    case TargetMark::State::kLit:
+      return "MARK_LIT";
+    case TargetMark::State::kDone:
+      return "MARK_DONE";
+  }
+  return "MARK_WAITING";
+}
+
+void set_vector(int location, const Vec3& v, double w) {
+  glUniform4f(location, static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()),
+              static_cast<float>(w));
+}
+void set_vector(int location, const Vec3& v) {
+  glUniform3f(location, static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
+}
+
+Eigen::AlignedBox3d box_of(const PictureMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const PictureVertex& v : mesh.vertices) box.extend(Vec3(v.position[0], v.position[1], v.position[2]));
+  return box;
+}
+
+/// Height of the bed of fat, whose vertices stand in rows on an even grid, under a point; far below outside it.
+double bed_height(const PictureMesh& bed, const Eigen::AlignedBox3d& box, const Vec3& p) {
+  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(bed.vertices.size()))));
+  const Eigen::Vector2d at =
+      (p - box.min()).head<2>().cwiseQuotient(box.sizes().head<2>()) * static_cast<double>(side - 1);
+  if ((at.array() < 0).any() || (at.array() > static_cast<double>(side - 1)).any()) return -1e9;
+  const auto row = static_cast<std::size_t>(std::lround(at.x())),
+             column = static_cast<std::size_t>(std::lround(at.y()));
+  return bed.vertices[row * side + column].position[2];
+}
+
+/// Takes light from what lies close over the bed.
+void darken_over(PictureMesh& mesh, const PictureMesh& bed, const Eigen::AlignedBox3d& bed_box) {
+  constexpr double kReach_m = 0.009;
+  for (PictureVertex& vertex : mesh.vertices) {
+    const double gap =
+        vertex.position[2] - bed_height(bed, bed_box, Vec3(vertex.position[0], vertex.position[1], vertex.position[2]));
+    const double down = std::clamp(0.75 - 0.6 * vertex.normal[2], 0.0, 1.0);  // what faces up is hardly hidden by it
+    vertex.light[0] *= static_cast<float>(1 - 0.75 * down * std::exp(-std::max(gap, 0.0) / kReach_m));
+  }
+}
+
+/// Whether any of a box can lie in the round field.
+bool in_field(const Eigen::AlignedBox3d& box, const Camera& camera, const ScopeOptics& optics) {
+  const double radius = 0.5 * box.diagonal().norm();
+  const Vec3 to = box.center() - optics.eye();
+  const double distance = to.norm();
+  if (distance <= radius) return true;
+  const double off = std::acos(std::clamp(to.dot(optics.forward()) / distance, -1.0, 1.0));
+  return off - std::asin(radius / distance) < 0.5 * camera.diagonal_fov_deg * std::numbers::pi / 180;
+}
+
+}  // namespace
+
+std::string tissue_look(const std::string& material) {
+  for (const auto& [word, look] : kLooks)
+    if (material.find(word) != std::string::npos) return std::string(look);
+  return "LOOK_FLESH";
+}
+
+std::vector<TissuePainter::Part*> TissuePainter::parts() {
+  std::vector<Part*> all;
+  for (auto* one : {&organ_, &fat_, &wall_})
+    if (*one) all.push_back(&**one);
+  for (Part& one : neighbours_) all.push_back(&one);
+  return all;
+}
+
+bool TissuePainter::built_for(const SceneView& view, const PresetTraits& traits) const {
+  if (built_preset_ != traits.define || !organ_ || organ_->source.lock() != view.organ) return false;
+  std::size_t i = 0;
+  for (const NeighbourView& neighbour : view.neighbours) {
+    if (!neighbour.surface || neighbour.surface->triangles.empty()) continue;
+    if (i >= neighbours_.size() || neighbours_[i].source.lock() != neighbour.surface) return false;
+    ++i;
+  }
+  return i == neighbours_.size();
+}
+
+void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
+  const auto part = [](const std::shared_ptr<const TriangleSurface>& surface, std::size_t triangles) {
+    Part out;
+    out.source = surface;
+    out.mesh = build_picture_mesh(*surface, triangles);
+    out.box = surface->bounds();
+    out.solid = std::make_shared<SolidGrid>(*surface);
+    return out;
+  };
+  neighbours_.clear();
+  organ_ = part(view.organ, traits.organ_triangles);
+  Eigen::AlignedBox3d bounds = organ_->box;
+  for (const NeighbourView& neighbour : view.neighbours) {
+    if (!neighbour.surface || neighbour.surface->triangles.empty()) continue;
+    neighbours_.push_back(part(neighbour.surface, traits.neighbour_triangles));
+    bounds.extend(neighbours_.back().box);
+  }
+  wall_.emplace();
+  wall_->mesh = build_cavity(bounds);
+  wall_->box = box_of(wall_->mesh);
+  fat_.reset();
+  if (!brings_fat(view)) {
+    fat_.emplace();
+    fat_->mesh = build_fat_bed(bounds);
+    fat_->box = box_of(fat_->mesh);
+  }
+  bake_all();
+  for (Part* one : parts()) one->gpu = GpuMesh(one->mesh);
+  built_preset_ = traits.define;
+  ++version_;
+}
+
+/// Every organ takes light from every other and from the fat beside it.
+void TissuePainter::bake_all() {
+  const std::vector<Part*> all = parts();
+  for (Part* one : all)
+    for (Part* other : all)
+      if (one != other && other->solid && one != &*wall_ && one->box.exteriorDistance(other->box) < 0.02)
+        darken_beside(one->mesh, *other->solid);
+  for (Part* one : all)
+    if (one->solid && fat_) darken_over(one->mesh, fat_->mesh, fat_->box);
+  for (Part* one : all) one->solid.reset();
+}
+
+void TissuePainter::prepare(const SceneView& view, const PresetTraits& traits) {
+  if (!view.organ || view.organ->triangles.empty()) {
+    if (!organ_) return;
+    const int next = version_ + 1;
+    *this = {};
+    version_ = next;
+    return;
+  }
+  if (!built_for(view, traits)) {
+    decals_.clear();
+    marks_.clear();
+    build(view, traits);
+  }
+  organ_->look = tissue_look(view.material);
+  if (fat_) fat_->look = bed_look(view);
+  wall_->look = "LOOK_WALL";
+  std::size_t i = 0;
+  for (const NeighbourView& neighbour : view.neighbours)
+    if (neighbour.surface && !neighbour.surface->triangles.empty())
+      neighbours_[i++].look = tissue_look(neighbour.material);
+  prepare_marks(view);
+  prepare_decals(view);
+}
+
+void TissuePainter::prepare_marks(const SceneView& view) {
+  if (marks_ == view.marks) return;
+  marks_ = view.marks;
+  if (marks_.size() > kMaxTissueMarks) marks_.resize(kMaxTissueMarks);
+  if (mark_block_.id() == 0) mark_block_ = GlObject(GlObject::Kind::kBuffer);
+  const MarkBlock block = make_mark_block(marks_);
+  glBindBuffer(GL_UNIFORM_BUFFER, mark_block_.id());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+  for (Part* part : parts()) {
+    std::vector<std::uint32_t> indices = triangles_marked(part->mesh, marks_);
+    part->marked_count = static_cast<int>(indices.size());
+    part->marked = part->marked_count > 0 ? upload_indices(indices) : GlObject();
+  }
+  marks_ = view.marks;
+}
+
+void TissuePainter::prepare_decals(const SceneView& view) {
+  bool same = decals_.size() == view.targets.size();
+  for (std::size_t i = 0; same && i < decals_.size(); ++i)
+    same = decals_[i].centre_T == view.targets[i].centre_T && decals_[i].radius_m == view.targets[i].radius_m;
+  if (same) return;
+  decals_.clear();
+  for (const TargetMark& mark : view.targets) {
+    const auto indices = triangles_near(organ_->mesh, mark.centre_T, 1.9 * mark.radius_m);
+    decals_.push_back({mark.centre_T, mark.radius_m, upload_indices(indices), static_cast<int>(indices.size())});
+  }
+}
+
+void TissuePainter::draw_shadows() {
+  if (organ_) organ_->gpu.draw();
+  for (Part& one : neighbours_) one.gpu.draw();
+}
+
+void TissuePainter::draw_part(Part& part, const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
+  if (!in_field(part.box, view.camera, optics)) return;
+  std::vector<std::string> defines;
+  const bool is_organ = organ_ && &part == &*organ_;
+  if (is_organ && has_dimple(view)) defines.emplace_back("DIMPLED");
+  defines.push_back(part.look);
+  // The lining hangs on the wall, the fat on what lies under it: the organs breathe most.
+  const double share = wall_ && &part == &*wall_ ? 0.0 : fat_ && &part == &*fat_ ? 0.4 : 1.0;
+  const auto draw = [&](const std::vector<std::string>& with) -> Program& {
+    Program& program = bind("tissue", "tissue", with);
+    set_vector(program.uniform("u_breath"), share * view.breath_T);
+    return program;
+  };
+  draw(defines);
+  part.gpu.draw();
+  if (part.marked_count == 0) return;
+  defines.emplace_back("MARKED");
+  draw(defines).bind_block("Marks", 1);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 1, mark_block_.id());
+  part.gpu.draw_subset(part.marked, part.marked_count);
+}
+
+void TissuePainter::draw(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
+  for (Part& one : neighbours_) draw_part(one, bind, view, optics);
+  for (auto* one : {&organ_, &fat_, &wall_})
+    if (*one) draw_part(**one, bind, view, optics);
+  if (organ_) draw_decals(bind, view, optics);
+}
+
+void TissuePainter::draw_decals(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  for (std::size_t i = 0; i < decals_.size(); ++i) {
+    const TargetMark& mark = view.targets[i];
+    std::vector<std::string> defines;
+    if (has_dimple(view)) defines.emplace_back("DIMPLED");
+    defines.push_back(mark_look(mark.state));
+    Program& program = bind("tissue", "decal", defines);
+    const Vec3 normal = mark.normal_T.normalized();
+    Vec3 across = optics.right() - normal * normal.dot(optics.right());
+    across = across.norm() > 1e-6 ? Vec3(across.normalized()) : normal.unitOrthogonal();
+    set_vector(program.uniform("u_breath"), view.breath_T);
+    set_vector(program.uniform("u_mark"), mark.centre_T, mark.radius_m);
+    set_vector(program.uniform("u_across"), across);
+    set_vector(program.uniform("u_up"), normal.cross(across));
+    set_vector(program.uniform("u_normal"), normal);
+    organ_->gpu.draw_subset(decals_[i].indices, decals_[i].count);
+  }
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace trocar

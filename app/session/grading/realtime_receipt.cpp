@@ -1,0 +1,86 @@
+#include "app/session/grading/realtime_receipt.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/session/lanes/real_time.h"
+
+namespace trocar {
+namespace {
+
+using ReceiptJson = nlohmann::ordered_json;
+
+ReceiptJson distribution(const DurationCounts& counts) {
+  return {{"p50", counts.percentile_us(0.5)},
+          {"p99", counts.percentile_us(0.99)},
+          {"p99.9", counts.percentile_us(0.999)},
+          {"p99.99", counts.percentile_us(0.9999)},
+          {"max", static_cast<double>(counts.max_ns()) * 1e-3},
+          {"above_1ms", counts.above_us(1000)}};
+}
+
+ReceiptJson lane(const LaneReport& report) {
+  ReceiptJson json = {{"policy", report.policy}};
+  if (!report.refusal.empty()) json["refused"] = report.refusal;
+  json["rate_hz"] = report.seconds > 0 ? static_cast<double>(report.wakes + report.missed) / report.seconds : 0.0;
+  json["wakes"] = report.wakes;
+  json["missed"] = report.missed;
+  json["overruns"] = report.overruns;
+  json["longest_gap_ms"] = static_cast<double>(report.longest_gap_ns) * 1e-6;
+  json["late_us"] = distribution(report.late);
+  json["cpu_us"] = distribution(report.cpu);
+  return json;
+}
+
+}  // namespace
+
+std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) {
+  ReceiptJson json = {{"kernel_realtime", real_time_kernel()},
+                      {"memory_locked", executor.memory_locked()},
+                      {"lost_records", lost},
+                      {"lanes", ReceiptJson::object()}};
+  for (const LaneReport* report : executor.reports()) json["lanes"][report->name] = lane(*report);
+  for (const ThreadedExecutor::Pause& pause : executor.pauses())
+    json["pauses"].push_back({{"at_s", pause.at_s}, {"seconds", pause.seconds}});
+  return json.dump();
+}
+
+std::string force_sensor_json(const ForceSensorTask& sensor) {
+  return ReceiptJson{{"rate_hz", sensor.config().rate_hz},
+                     {"lag_s", sensor.config().lag_s},
+                     {"samples", sensor.measured().count()},
+                     {"measured_rms_n", sensor.measured().rms()},
+                     {"residual_samples", sensor.residual().count()},
+                     {"residual_rms_n", sensor.residual().rms()},
+                     {"residual_max_n", sensor.residual().largest()}}
+      .dump();
+}
+
+std::vector<StoodStill> pauses_of(const std::string& realtime) {
+  std::vector<StoodStill> out;
+  const ReceiptJson json = ReceiptJson::parse(realtime, nullptr, false);
+  if (!json.is_object() || !json.contains("pauses") || !json["pauses"].is_array()) return out;
+  for (const ReceiptJson& pause : json["pauses"])
+    if (pause.is_object() && pause.contains("at_s") && pause["at_s"].is_number() && pause.contains("seconds") &&
+        pause["seconds"].is_number())
+      out.push_back({pause["at_s"].get<double>(), pause["seconds"].get<double>()});
+  return out;
+}
+
+std::vector<std::string> realtime_notes(const ThreadedExecutor& executor, std::uint64_t lost) {
+  std::vector<std::string> notes;
+  for (const LaneReport* report : executor.reports()) {
+    if (!report->refusal.empty()) {
+      notes.push_back("soft real time: the " + report->name + " thread did not get SCHED_FIFO (" + report->refusal +
+                      ")");
+    }
+  }
+  if (!executor.memory_locked()) notes.push_back("memory is not locked (" + executor.lock_refusal() + ")");
+  if (lost > 0) {
+    notes.push_back(std::to_string(lost) +
+                    " records found no room on their way to the disk: the recording can be graded "
+                    "but not replayed");
+  }
+  return notes;
+}
+
+}  // namespace trocar

@@ -1,0 +1,61 @@
+// The hand task: gives a scripted hand its percept, late and noisy, and hands its intent to the simulated device.
+//
+// What is seen lags by 150 ms and errs by 0.3 mm, felt forces err by 0.03 N and do not lag here (what a
+// person makes of them late is the hand's part, hand_senses.h): design choices, named here. The force felt is
+// the one that the loop delivers, in scene newtons: device errors between DAC and hand act on the hand through the
+// plant, but are not in its percept. Nothing of the world goes to the hand but the Percept. It is part of the simulated
+// world: it runs beside the device, once a period of it, also in periods that the loop missed. Thread: the haptic
+// task's, before it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/session/lanes/exercise_frame.h"
+#include "app/session/lanes/haptic_task.h"
+#include "app/session/lanes/task.h"
+#include "app/session/setup/scene.h"
+#include "scenarios/hands/hand_random.h"
+
+namespace trocar {
+
+class HandTask final : public Task {
+ public:
+  static constexpr double kEyeDelay_s = 0.150;
+  static constexpr double kEyeError_m = 0.3e-3;  ///< SD on each axis, redrawn every 20 ms
+  static constexpr double kTouchError_n = 0.03;  ///< SD
+  static constexpr double kReadyAfter_s = 1.1;   ///< the lamp lights when the soft start is over
+  static constexpr double kPressAfter_s = 0.2;   ///< from the lamp that says "homed" to the thumb on the deadman
+
+  HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseFrame>& frames, std::unique_ptr<Hand> hand,
+           SimulatedDaq& daq);
+
+  std::uint32_t period() const override { return 1; }
+  void run(std::uint64_t tick) override;
+  /// The person goes on while the loop is late, and so does the device: period by period.
+  void missed(std::uint64_t periods) override;
+
+ private:
+  Percept perceive(std::uint64_t tick);
+  Pose see();
+  void draw_eye_error(const DirectorStatus& status);
+  void press_deadman();
+
+  const Scene& scene_;
+  const HapticTask& haptic_;
+  Inlet<ExerciseFrame>& frames_;
+  std::unique_ptr<Hand> hand_;
+  SimulatedDaq& daq_;
+  HandRandom random_;
+  std::vector<Pose> past_;  ///< ring over the eye's delay
+  Pose stylus_W_;           ///< where the hand wants the stylus
+  std::vector<SeenObject> past_objects_;
+  Vec3 eye_error_ = Vec3::Zero();
+  std::uint64_t active_ticks_ = 0, homed_ticks_ = 0, periods_ = 0;
+  std::uint64_t periods_of_target_ = 0;  ///< since what is shown changed
+  Cue shown_ = Cue::kNone;
+  int shown_target_ = -1;
+  std::uint64_t targets_ = 0;
+};
+
+}  // namespace trocar

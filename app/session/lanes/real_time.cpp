@@ -1,0 +1,71 @@
+#include "app/session/lanes/real_time.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace trocar {
+namespace {
+
+constexpr std::size_t kStackBytes = 256 * 1024;  // more than any task uses
+constexpr std::size_t kPage = 4096;
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// The pages of the stack are there before the first tick needs them.
+[[gnu::noinline]] void touch_stack() {
+  std::array<volatile char, kStackBytes> stack;
+  for (std::size_t i = 0; i < stack.size(); i += kPage) stack[i] = 0;
+}
+
+#if defined(__SSE__)
+constexpr unsigned kFlushToZero = 1u << 15, kDenormalsAreZero = 1u << 6;
+#endif
+
+}  // namespace
+
+#if defined(__SSE__)
+FlushDenormals::FlushDenormals() noexcept : before_(_mm_getcsr()) {
+  _mm_setcsr(before_ | kFlushToZero | kDenormalsAreZero);
+}
+FlushDenormals::~FlushDenormals() { _mm_setcsr(before_); }
+#else
+// Other processors keep their denormals, in every executor alike.
+FlushDenormals::FlushDenormals() noexcept = default;
+FlushDenormals::~FlushDenormals() { before_ = 0; }
+#endif
+
+MemoryLock::MemoryLock() {
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0) refusal_ = reason(errno);
+}
+MemoryLock::~MemoryLock() {
+  if (held()) ::munlockall();
+}
+
+std::string become_real_time(int priority) {
+  touch_stack();
+  ::prctl(PR_SET_TIMERSLACK, 1UL);
+  if (priority <= 0) return "";
+  sched_param param{};
+  param.sched_priority = priority;
+  const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &param);
+  return error == 0 ? "" : reason(error);
+}
+
+bool real_time_kernel() {
+  std::ifstream file("/sys/kernel/realtime");
+  int flag = 0;
+  return file >> flag && flag == 1;
+}
+
+}  // namespace trocar

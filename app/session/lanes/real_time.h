@@ -1,0 +1,45 @@
+// What the operating system gives a thread that must be on time, asked for and honestly reported.
+//
+// SCHED_FIFO needs a privilege (rtprio in limits.conf, or root), mlockall a limit (memlock). Without them the run goes
+// on as ordinary threads with the timer slack of 1 ns that anybody may have, and says so.
+#pragma once
+
+#include <string>
+
+namespace trocar {
+
+/// Denormal numbers are flushed to zero in every thread that computes, in every executor: one rule, so that live,
+/// lockstep and replay agree to the bit, and no tick is slow because a force fades out. Restores what was before.
+class FlushDenormals {
+ public:
+  FlushDenormals() noexcept;
+  ~FlushDenormals();
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned before_ = 0;
+};
+
+/// Locks all memory, present and future, while it lives.
+class MemoryLock {
+ public:
+  MemoryLock();
+  ~MemoryLock();
+  MemoryLock(const MemoryLock&) = delete;
+  MemoryLock& operator=(const MemoryLock&) = delete;
+  bool held() const { return refusal_.empty(); }
+  const std::string& refusal() const { return refusal_; }  ///< empty when locked
+
+ private:
+  std::string refusal_;
+};
+
+/// Asks SCHED_FIFO for the calling thread (priority 0: none asked), least timer slack, and touches its stack.
+/// @return why SCHED_FIFO was refused; empty when it was given or not asked.
+std::string become_real_time(int priority);
+
+/// Whether the kernel says that it is preemptible throughout (PREEMPT_RT).
+bool real_time_kernel();
+
+}  // namespace trocar

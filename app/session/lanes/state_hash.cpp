@@ -1,0 +1,123 @@
+#include "app/session/lanes/state_hash.h"
+
+#include <cstdio>
+
+namespace trocar {
+
+void StateHash::add(const TickRecord& r) {
+  const StylusState& s = r.stylus;
+  for (const auto count : r.in.counts) add(static_cast<std::uint64_t>(count));
+  for (const auto code : r.out.codes) add(static_cast<std::uint64_t>(code));
+  add(std::uint64_t{r.in.elapsed_periods} << 32 | r.in.digital_in);
+  add(std::uint64_t{r.amplifiers_armed} | std::uint64_t(s.loop) << 8 | std::uint64_t(s.fault.code) << 16 |
+      std::uint64_t{s.contact} << 24 | std::uint64_t{s.saturated} << 25 | std::uint64_t{s.passivity_active} << 26 |
+      std::uint64_t{s.tip_contact} << 27 | std::uint64_t{s.clutched} << 28 | std::uint64_t{s.port_held} << 29 |
+      std::uint64_t{static_cast<std::uint8_t>(s.fault.channel)} << 32);
+  add(std::uint64_t{r.warnings} << 8 | r.in.valid);
+  add(s.fault.tick);
+  add(s.fault.value);
+  add(s.period);
+  add(r.patch_stamp);
+  add(r.q);
+  add(r.qd);
+  add(r.torque);
+  add(s.X_TI.R);
+  add(s.X_TI.p);
+  add(s.F_I_T.force);
+  add(s.F_I_T.moment);
+  add(s.commanded_force_T);
+  add(s.rendered_force_T);
+  add(s.registration.shift_T);
+  add(s.registration.turn);
+  add(s.V_TI_T.linear);
+  add(s.V_TI_T.angular);
+  add(s.contact_point_T);
+  add(s.contact_normal_T);
+  for (const double value : {r.winding_c, r.det_a, r.contact_scale, r.stored_j, r.min_energy_j, s.t_s, s.jaw_opening_m,
+                             s.grip_force_n, s.rendered_grip_n, s.depth_m, s.energy_j}) {
+    add(value);
+  }
+}
+
+void StateHash::add(const ContactPatch& patch) {
+  add(patch.stamp);
+  add(static_cast<std::uint64_t>(patch.count) << 32 | static_cast<std::uint32_t>(patch.dropped));
+  for (int i = 0; i < patch.count; ++i) {
+    const PatchTriangle& triangle = patch.triangle[i];
+    add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(triangle.id)) << 32 |
+        static_cast<std::uint32_t>(triangle.material));
+    for (const Vec3& vertex : triangle.vertex) add(vertex);
+  }
+  add(patch.reach_m);
+  for (const ContactMaterial& m : patch.material) {
+    for (const double value : {m.stiffness_n_per_m, m.damping_s_per_m, m.mu_static, m.mu_dynamic, m.stribeck_m_s}) {
+      add(value);
+    }
+  }
+  add(patch.held.from_I);
+  add(patch.held.to_I);
+  add(patch.held.radius_m);
+  add(patch.grip.thickness_m);
+  add(patch.grip.stiffness_n_per_m);
+}
+
+void StateHash::add(const TissueFrame& frame) {
+  add(frame.stamp);
+  add(frame.t_s);
+  add(static_cast<std::uint64_t>(frame.object_count) | std::uint64_t(frame.grip) << 32);
+  add(static_cast<std::uint64_t>(frame.grip_object + 1) << 32 | static_cast<std::uint64_t>(frame.pair_count));
+  add(frame.slipped_m);
+  for (int i = 0; i < frame.object_count; ++i) {
+    const ObjectState& object = frame.object[static_cast<std::size_t>(i)];
+    add(object.X_TO.R);
+    add(object.X_TO.p);
+    add(object.size_m);
+    add(object.velocity_T);
+    add(static_cast<std::uint64_t>(object.kind) | static_cast<std::uint64_t>(object.colour) << 16 |
+        std::uint64_t(object.motion) << 32 | std::uint64_t{object.crushed} << 40);
+  }
+  for (int i = 0; i < frame.pair_count; ++i) {
+    const ContactPair& pair = frame.pair[static_cast<std::size_t>(i)];
+    add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(pair.a)) << 32 | static_cast<std::uint32_t>(pair.b));
+    add(pair.point_T);
+    add(pair.normal_T);
+    add(pair.depth_m);
+    add(pair.force_n);
+  }
+  add_marks(frame);
+}
+
+/// Nothing at all while the tissue is unmarked and the air and the lens are clear: runs without them keep their hash.
+void StateHash::add_marks(const TissueFrame& frame) {
+  if (frame.mark_count == 0 && frame.smoke_per_m == 0 && frame.lens_fog == 0 && frame.lens_blood == 0) return;
+  add(static_cast<std::uint64_t>(frame.mark_count));
+  for (int i = 0; i < frame.mark_count; ++i) {
+    const TissueMark& mark = frame.mark[static_cast<std::size_t>(i)];
+    add(std::uint64_t(mark.kind));
+    add(mark.centre_T);
+    add(mark.radius_m);
+    add(mark.strength);
+  }
+  add(frame.smoke_per_m);
+  add(frame.lens_fog);
+  add(frame.lens_blood);
+}
+
+void StateHash::add(const DirectorStatus& status) {
+  add(std::uint64_t(status.phase) | std::uint64_t(status.cue) << 8 |
+      static_cast<std::uint64_t>(status.targets_done) << 16 | static_cast<std::uint64_t>(status.wrong_places) << 32);
+  add(static_cast<std::uint64_t>(status.target_index + 1) << 32 | static_cast<std::uint64_t>(status.excess_forces));
+  add(status.run_time_s);
+  add(status.hold_progress);
+  add(status.peak_force_n);
+  add(status.grip.thickness_m);
+  add(status.grip.stiffness_n_per_m);
+}
+
+std::string StateHash::hex() const {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
+  return digits;
+}
+
+}  // namespace trocar

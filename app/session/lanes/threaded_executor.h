@@ -1,0 +1,84 @@
+// Runs the same tasks live: lanes, one thread each, paced by absolute times of CLOCK_MONOTONIC. The only place of a run
+// that reads a clock.
+//
+// A lane wakes at each period of its first task and runs its tasks in order. After a late wake it never catches up with
+// calls in a burst: the periods that passed are told to its tasks (Task::missed), which run once, and the next wake is
+// the next boundary. The last lane may be the calling thread's (pictures belong to the thread that made their context).
+// The run ends when a task has finished, `interrupted` says so, or a task throws; then all lanes are joined, every task
+// is stopped in its order, and what was thrown is thrown again. A PauseSwitch lets all lanes stand still
+// (pause_switch.h). Threads: construct, add and run from one.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/session/lanes/pause_switch.h"
+#include "app/session/lanes/task.h"
+#include "app/session/lanes/timing.h"
+
+namespace trocar {
+
+/// What one lane did. Latency: wake after the wished time; cpu: of all its tasks in one wake.
+struct LaneReport {
+  std::string name;
+  std::string policy;                   ///< "SCHED_FIFO 80" or "SCHED_OTHER"
+  std::string refusal;                  ///< why the policy asked for was not given, else empty
+  std::uint64_t wakes = 0, missed = 0;  ///< calls, and periods that passed without one
+  std::uint64_t overruns = 0;           ///< wakes whose tasks were still at work when the next period began
+  double seconds = 0;                   ///< from the first wish to the end, pauses aside
+  DurationCounts late, cpu;
+  std::int64_t longest_gap_ns = 0;  ///< between two wakes
+};
+
+class ThreadedExecutor {
+ public:
+  /// @param pause outlives the executor; nullptr: it never stands still.
+  explicit ThreadedExecutor(double rate_hz, PauseSwitch* pause = nullptr);
+  ~ThreadedExecutor();
+
+  /// @param tasks run in this order, at the period of the first; they outlive the executor. @param priority of
+  /// SCHED_FIFO, 0: none.
+  /// @param offset of its wakes, in loop periods: a lane half a period after another sees what that one has just done,
+  /// as in lockstep.
+  void add_lane(const std::string& name, std::vector<Task*> tasks, int priority, double offset = 0);
+  /// The last lane added asks this before each wake: while it says no, all lanes stand still, as in a pause. It must
+  /// not wait.
+  void await(std::function<bool()> answers);
+  /// A lane in the thread that calls run().
+  void add_own_lane(const std::string& name, std::vector<Task*> tasks);
+
+  /// @param interrupted asked about 50 times a second by the calling thread.
+  void run(const std::function<bool()>& interrupted = {});
+
+  /// Of all lanes, when run() has ended or thrown.
+  std::vector<const LaneReport*> reports() const;
+  bool memory_locked() const { return lock_refusal_.empty(); }
+  const std::string& lock_refusal() const { return lock_refusal_; }
+  /// When the run stood still and for how long; times of the run, in which pauses do not pass.
+  struct Pause {
+    double at_s = 0, seconds = 0;
+  };
+  std::vector<Pause> pauses() const;
+
+ private:
+  struct Lane;
+  bool stood_still(Lane& lane, const std::function<bool()>& interrupted);
+  void work(Lane& lane) noexcept;
+  void pace(Lane& lane, const std::function<bool()>& interrupted);
+  void call(Lane& lane, std::uint64_t missed);
+  void join();
+
+  double rate_hz_;
+  PauseSwitch* pause_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  Lane* own_ = nullptr;
+  std::atomic<bool> stop_{false};
+  std::int64_t start_ns_ = 0;
+  std::string lock_refusal_;
+};
+
+}  // namespace trocar

@@ -1,0 +1,90 @@
+// The tissue task (100 Hz): steps the world with the newest haptic state, publishes its patch and frame, tells the
+// director.
+//
+// Reads and writes through its ports only. Thread: its own.
+#pragma once
+
+#include "app/session/lanes/channel.h"
+#include "app/session/lanes/exercise_frame.h"
+#include "app/session/lanes/state_hash.h"
+#include "app/session/lanes/task.h"
+#include "app/session/setup/scene.h"
+#include "haptics/exchange/ring.h"
+#include "scenarios/director/director.h"
+#include "tissue/tissue_world.h"
+
+namespace trocar {
+
+inline constexpr double kTissueRateHz = 100;
+
+using StepRing = Ring<TissueStep, 1024>;
+using EventRing = Ring<Event, 1024>;
+
+/// What the tissue task reads from and writes to. An absent reader costs nothing.
+struct TissuePorts {
+  Inlet<StylusState>& state;
+  Outlet<ContactPatch>& patch;
+  Outlet<ExerciseFrame>* hand = nullptr;
+  Outlet<ExerciseFrame>* observer = nullptr;
+  StepRing* steps = nullptr;
+  EventRing* events = nullptr;
+};
+
+class TissueTask final : public Task {
+ public:
+  TissueTask(const Scene& scene, Director& director, const TissuePorts& ports)
+      : director_(director),
+        ports_(ports),
+        world_({.organ_T = &felt_surface(scene),
+                .organ = scene.setup.exercise.surface,
+                .triangle_material = scene.neighbours.triangle_material,
+                .neighbours = scene.neighbours.materials,
+                .rigid = scene.board.rigid,
+                .tool = scene.loop.tool}),
+        period_(static_cast<std::uint32_t>(scene.loop.daq.rate_hz / kTissueRateHz)) {}
+
+  std::uint32_t period() const override { return period_; }
+  void run(std::uint64_t tick) override {
+    const StylusState& state = ports_.state.newest(tick);
+    ContactPatch& patch = ports_.patch.begin(tick);
+    world_.step(state, inserted_, patch);
+    director_.update(state, &world_.frame());
+    // The jig lies beneath the board: the world is there from the moment the tip first rests at the start, in free
+    // space.
+    inserted_ = inserted_ || director_.status().phase != Phase::kReady;
+    if (patch.grip.stiffness_n_per_m <= 0) patch.grip = director_.status().grip;
+    hash_.add(patch);
+    hash_.add(world_.frame());
+    hash_.add(director_.status());
+    tell(tick, state.period);
+    ports_.patch.commit();  // last: whoever sees this stamp finds its step in the ring
+  }
+  bool finished() const override { return director_.finished(); }
+
+  const StateHash& hash() const { return hash_; }
+  const TissueWorld& world() const { return world_; }
+
+ private:
+  void tell(std::uint64_t tick, std::uint64_t seen_period) {
+    for (Outlet<ExerciseFrame>* outlet : {ports_.hand, ports_.observer}) {
+      if (!outlet) continue;
+      ExerciseFrame& frame = outlet->begin(tick);
+      frame.status = director_.status();
+      frame.tissue = world_.frame();
+      outlet->commit();
+    }
+    if (ports_.steps) ports_.steps->push({seen_period, static_cast<std::uint8_t>(director_.status().phase)});
+    const std::vector<Event>& events = director_.events();
+    for (; ports_.events && told_ < events.size(); ++told_) ports_.events->push(events[told_]);
+  }
+
+  Director& director_;
+  TissuePorts ports_;
+  StateHash hash_;
+  TissueWorld world_;
+  std::uint32_t period_;
+  std::size_t told_ = 0;  ///< events that the recorder has
+  bool inserted_ = false;
+};
+
+}  // namespace trocar

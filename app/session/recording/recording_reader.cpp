@@ -1,0 +1,179 @@
+#include "app/session/recording/recording_reader.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "app/session/recording/byte_order.h"
+#include "app/session/recording/chunk.h"
+#include "app/session/recording/event_codec.h"
+#include "app/session/recording/recording_header.h"
+
+namespace trocar {
+namespace {
+
+class Parser {
+ public:
+  Parser(std::string_view file, const std::string& name, Reading reading)
+      : file_(file), name_(name), strict_(reading == Reading::kStrict) {}
+
+  Recording parse() {
+    check_prefix();
+    std::size_t offset = read_header();
+    while (offset < file_.size()) {
+      if (const auto chunk = chunk_at(file_, offset)) {
+        accept(*chunk);
+        offset = chunk->end();
+      } else if (const auto next = find_chunk(file_, offset + 1)) {
+        report(offset, "does not agree with its CRC; " + std::to_string(*next - offset) + " bytes are lost");
+        offset = *next;
+      } else {
+        reject_tail(offset);
+        break;
+      }
+    }
+    check_end();
+    recording_.sha256 = digest::of_bytes(file_);
+    return std::move(recording_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+  void report(std::size_t offset, const std::string& what) {
+    const std::string message = "the chunk at byte " + std::to_string(offset) + " " + what;
+    if (strict_) fail(message);
+    recording_.damage.push_back(message);
+  }
+
+  void check_prefix() {
+    if (file_.substr(0, kRecordingMagic.size()) != kRecordingMagic || file_.size() < kRecordingPrefixSize) {
+      fail("is not a recording of trocar");
+    }
+    bytes::Reader reader(file_.substr(kRecordingMagic.size()));
+    recording_.version = reader.take<std::uint32_t>();
+    if (recording_.version < kOldestReadable || recording_.version > kRecordingVersion) {
+      fail("has recording format " + std::to_string(recording_.version) + ", this program reads formats " +
+           std::to_string(kOldestReadable) + " to " + std::to_string(kRecordingVersion));
+    }
+  }
+
+  std::size_t read_header() {
+    const auto chunk = chunk_at(file_, kRecordingPrefixSize);
+    if (!chunk || chunk->type != ChunkType::kHeader) fail("its header (byte 12) is damaged or cut off");
+    try {
+      RecordingHeader header = decode_header(chunk->payload);
+      recording_.session = std::move(header.session);
+      recording_.rate_hz = header.rate_hz;
+      channels_ = std::move(header.channels);
+      check_channels();
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+    return chunk->end();
+  }
+
+  /// The version stands outside every CRC; the channels are inside one.
+  void check_channels() const {
+    const bool stiffness = std::ranges::find(channels_, "k_max", &RecordedChannel::name) != channels_.end();
+    if (stiffness == (recording_.version >= kFirstWithStiffness)) return;
+    throw InputError("says recording format " + std::to_string(recording_.version) +
+                     ", but its channels are not of that format");
+  }
+
+  /// Takes over one whole chunk.
+  void accept(const Chunk& chunk) {
+    if (recording_.end) return report(chunk.offset, "stands after the END");
+    try {
+      switch (chunk.type) {
+        case ChunkType::kHeader:
+          return report(chunk.offset, "is a second header");
+        case ChunkType::kTicks:
+          return accept_ticks(chunk);
+        case ChunkType::kEvents:
+          return accept_events(chunk);
+        case ChunkType::kReceipt:
+          recording_.receipt_json = std::string(chunk.payload);
+          return;
+        case ChunkType::kSchedule:
+          return accept_schedule(chunk);
+        case ChunkType::kEnd:
+          recording_.end = decode_end(chunk.payload);
+          return;
+      }
+    } catch (const InputError& error) {
+      report(chunk.offset, std::string("cannot be decoded: ") + error.what());
+    }
+  }
+
+  void accept_ticks(const Chunk& chunk) {
+    const std::vector<RecordedTick> rows = decode_ticks(chunk.payload, channels_);
+    if (!recording_.ticks.empty() && rows.front().tick <= recording_.ticks.back().tick) {
+      return report(chunk.offset, "repeats ticks that came before");
+    }
+    recording_.ticks.insert(recording_.ticks.end(), rows.begin(), rows.end());
+  }
+
+  void accept_events(const Chunk& chunk) {
+    std::vector<Event> events = decode_events(chunk.payload);
+    recording_.events.insert(recording_.events.end(), std::make_move_iterator(events.begin()),
+                             std::make_move_iterator(events.end()));
+  }
+
+  void accept_schedule(const Chunk& chunk) {
+    const Schedule part = decode_schedule(chunk.payload);
+    Schedule& whole = recording_.schedule;
+    const bool follows = whole.patches.empty() || part.patches.empty() ||
+                         (part.patches.front().period > whole.patches.back().period &&
+                          part.patches.front().stamp > whole.patches.back().stamp);
+    if (!follows) return report(chunk.offset, "repeats a schedule that came before");
+    whole.patches.insert(whole.patches.end(), part.patches.begin(), part.patches.end());
+    whole.steps.insert(whole.steps.end(), part.steps.begin(), part.steps.end());
+  }
+
+  /// Nothing whole follows: either the file was cut off, or its last chunk is damaged.
+  void reject_tail(std::size_t offset) {
+    const std::string bytes = std::to_string(file_.size() - offset) + " bytes";
+    if (recording_.end) return report(offset, "stands after the END (" + bytes + ")");
+    if (chunk_fits(file_, offset)) return report(offset, "does not agree with its CRC; " + bytes + " are lost");
+    recording_.torn = "cut off at byte " + std::to_string(offset) + ": the last " + bytes + " are not a whole chunk";
+  }
+
+  void check_end() {
+    if (!recording_.end) {
+      if (recording_.torn.empty()) recording_.torn = "ends without an END chunk: the attempt was cut off";
+      return;
+    }
+    const RecordingEnd& end = *recording_.end;
+    const auto compare = [&](const char* what, std::uint64_t said, std::size_t read) {
+      if (said == read) return;
+      const std::string message = std::string("END speaks of ") + std::to_string(said) + " " + what + ", " +
+                                  std::to_string(read) + " were read";
+      if (strict_) fail(message);
+      recording_.damage.push_back(message);
+    };
+    compare("ticks", end.tick_count, recording_.ticks.size());
+    compare("events", end.event_count, recording_.events.size());
+  }
+
+  std::string_view file_;
+  const std::string& name_;
+  bool strict_;
+  std::vector<RecordedChannel> channels_;
+  Recording recording_;
+};
+
+}  // namespace
+
+Recording read_recording(const std::filesystem::path& file, Reading reading) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": no such recording");
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  return parse_recording(bytes, file.string(), reading);
+}
+
+Recording parse_recording(std::string_view bytes, const std::string& name, Reading reading) {
+  return Parser(bytes, name, reading).parse();
+}
+
+}  // namespace trocar

@@ -1,0 +1,337 @@
+#include "app/session/session.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "app/device_bench/device_words.h"
+#include "app/session/grading/realtime_receipt.h"
+#include "app/session/grading/recorded_result.h"
+#include "app/session/lanes/force_sensor_task.h"
+#include "app/session/lanes/hand_task.h"
+#include "app/session/lanes/haptic_task.h"
+#include "app/session/lanes/lockstep_executor.h"
+#include "app/session/lanes/recorder_task.h"
+#include "app/session/lanes/replay_executor.h"
+#include "app/session/lanes/threaded_executor.h"
+#include "app/session/lanes/tissue_task.h"
+#include "app/session/recording/safety_file.h"
+#include "app/session/setup/true_plant.h"
+#include "haptics/device/replay_daq.h"
+#include "haptics/input_error.h"
+#include "scenarios/director/scoring_context.h"
+#include "scenarios/files/exercise_loader.h"
+#include "scenarios/hands/make_hand.h"
+#include "scenarios/scoring/score.h"
+
+namespace trocar {
+namespace {
+
+constexpr std::uint64_t kPatchDelay = 5;  // ticks from the tissue task to the haptic task
+constexpr double kPictureRateHz = 50;     // live; frames that come too late are dropped
+constexpr int kHapticPriority = 80, kTissuePriority = 60, kSensorPriority = 50;
+constexpr std::uint64_t kSensorSeed = 0xf0ece5;  // the sensor's noise, apart from the hand's
+constexpr double kTissueOffset = 0.5;            // loop periods: a tissue step sees the tick of its own period
+constexpr double kLongestBeyondLimit_s = 60;     // homing, start and reading, on top of the exercise's limit
+
+/// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
+struct Rig {
+  Rig(const Scene& scene_in, DataAcquisition& daq, Timing timing, std::unique_ptr<Channel<ContactPatch>> patches,
+      RecorderRings* recorder)
+      : scene(scene_in),
+        state(make_channel<StylusState>(timing)),
+        patch(std::move(patches)),
+        hand_frames(make_channel<ExerciseFrame>(timing)),
+        observer_frames(make_channel<ExerciseFrame>(timing)),
+        records(make_channel<TickRecord>(timing)),
+        loop(scene.loop),
+        director(scene.setup.exercise, scene.level, scene.board),
+        haptic(daq, loop, {*patch, *state, records.get(), recorder ? &recorder->ticks : nullptr},
+               scene.level.time_limit_s + kLongestBeyondLimit_s),
+        tissue(scene, director,
+               {*state, *patch, hand_frames.get(), observer_frames.get(), recorder ? &recorder->steps : nullptr,
+                recorder ? &recorder->events : nullptr}) {}
+
+  SessionOutcome outcome(const char* backend) {
+    const TickRecord& record = haptic.record();
+    SessionOutcome out;
+    out.status = record.stylus.fault ? AttemptStatus::kFault : director.outcome();
+    out.events = director.events();
+    out.device.backend = backend;
+    out.device.rate_hz = scene.loop.daq.rate_hz;
+    out.device.kappa = scene.loop.map.force_scale;
+    haptic.account().fill(out.device);
+    tell_stop(record, out);
+    StateHash hash;
+    hash.add(haptic.hash().value());
+    hash.add(tissue.hash().value());
+    out.state_hash = hash.value();
+    out.state_hash_hex = hash.hex();
+    out.patch_triangles_dropped = tissue.world().dropped();
+    ScoringContext context =
+        scoring_context(scene.setup.exercise, scene.level, director.board(), out.events, out.status);
+    context.room_share = scene.room_share;
+    out.scoring_json = scoring_context_json(context);
+    return out;
+  }
+
+  /// Why it ended, if not by the exercise, and what the loop remembers when its torque went off on the way.
+  void tell_stop(const TickRecord& record, SessionOutcome& out) const {
+    const bool reached_run = director.status().run_time_s > 0;
+    out.device.reason = end_words(out.status, out.device, loop_state_name(record.stylus.loop), reached_run);
+    bool stopped = false;
+    for (const SafetyTransition& t : loop.safety_log().transitions()) {
+      const double t_s = static_cast<double>(t.period) / scene.loop.daq.rate_hz;
+      out.device.transitions.push_back({t_s, loop_state_name(t.from), loop_state_name(t.to)});
+      stopped = stopped || t.to == LoopState::kFault || t.from == LoopState::kActive;
+    }
+    if (stopped) {
+      out.safety_csv = safety_csv(loop.safety_log().transitions(), loop.safety_log().rows(), scene.loop.daq.rate_hz);
+    }
+  }
+
+  const Scene& scene;
+  std::unique_ptr<Channel<StylusState>> state;
+  std::unique_ptr<Channel<ContactPatch>> patch;
+  std::unique_ptr<Channel<ExerciseFrame>> hand_frames, observer_frames;
+  std::unique_ptr<Channel<TickRecord>> records;
+  HapticLoop loop;
+  Director director;
+  HapticTask haptic;
+  TissueTask tissue;
+};
+
+/// Shows the run to an observer.
+class ObserverTask final : public Task {
+ public:
+  /// @param period loop ticks between two views.
+  ObserverTask(Rig& rig, const SessionObserver& observe, std::uint32_t period)
+      : rig_(rig), observe_(observe), period_(period) {}
+  std::uint32_t period() const override { return period_; }
+  void run(std::uint64_t tick) override {
+    if (!observe_) return;
+    const TickRecord& record = rig_.records->newest(tick);
+    const ExerciseFrame& frame = rig_.observer_frames->newest(tick);
+    observe_({rig_.scene, record, {frame.status, rig_.scene.board}, record.stylus.t_s, &frame.tissue});
+  }
+
+ private:
+  Rig& rig_;
+  const SessionObserver& observe_;
+  std::uint32_t period_;
+};
+
+/// Writes down the moments that the trainee marks, or those of messages: in the tissue task's thread, whose ring of
+/// events it shares.
+class MarkTask final : public Task {
+ public:
+  MarkTask(Rig& rig, EventRing& events, const MarkCount& marks, const char* type)
+      : rig_(rig), events_(events), marks_(marks), type_(type) {}
+  std::uint32_t period() const override { return rig_.tissue.period(); }
+  void run(std::uint64_t tick) override {
+    const StylusState& seen = rig_.state->newest(tick);
+    for (const std::uint32_t asked = marks_.load(); taken_ != asked; ++taken_) {
+      Event event;
+      event.type = type_;
+      const std::vector<Event>& told = rig_.director.events();
+      event.t_s = told.empty() ? seen.t_s : std::max(seen.t_s, told.back().t_s);  // events stand in their order
+      event.tip_T = seen.X_TI.p;
+      events_.push(event);
+    }
+  }
+
+ private:
+  Rig& rig_;
+  EventRing& events_;
+  const MarkCount& marks_;
+  const char* type_;
+  std::uint32_t taken_ = 0;
+};
+
+/// A whole attempt on the simulated device: the rig, the world beside it and what keeps books.
+struct Attempt {
+  Attempt(const Scene& scene, std::unique_ptr<Hand> person, RecordingWriter& writer, Timing timing)
+      : daq(simulated_device(scene.setup)),
+        rig(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
+        hand(scene, rig.haptic, *rig.hand_frames, std::move(person), daq),
+        forces(make_channel<StylusForces>(timing)),
+        tap(daq, rig.haptic, scene.loop.map.X_TW.R, *forces, sensor_of(scene).fixture_kg * sensor_of(scene).gravity),
+        sensor(*forces, sensor_of(scene).force, seed_of(scene) ^ kSensorSeed, scene.loop.daq.rate_hz),
+        recorder(*rings, scene.loop.daq.rate_hz, writer) {}
+
+  static WrenchSensorConfig sensor_of(const Scene& scene) {
+    return scene.setup.plant ? scene.setup.plant->sensor.value_or(WrenchSensorConfig{}) : WrenchSensorConfig{};
+  }
+  static std::uint64_t seed_of(const Scene& scene) { return static_cast<std::uint64_t>(scene.setup.seed); }
+  SessionOutcome outcome() {
+    SessionOutcome out = rig.outcome(daq.capabilities().name);
+    out.device.force_sensor = force_sensor_json(sensor);
+    if (rig.scene.setup.plant) out.device.plant = plant_json(*rig.scene.setup.plant);
+    return out;
+  }
+
+  std::unique_ptr<RecorderRings> rings = std::make_unique<RecorderRings>();
+  SimulatedDaq daq;
+  Rig rig;
+  HandTask hand;
+  std::unique_ptr<Channel<StylusForces>> forces;
+  ForceTapTask tap;
+  ForceSensorTask sensor;
+  RecorderTask recorder;
+};
+
+SessionOutcome run_lockstep(Attempt& attempt, const SessionHooks& hooks) {
+  Rig& rig = attempt.rig;
+  ObserverTask observer(rig, hooks.observe, rig.tissue.period());
+  LockstepExecutor executor;
+  for (Task* task : std::initializer_list<Task*>{&attempt.hand, &rig.haptic, &attempt.tap, &rig.tissue, &attempt.sensor,
+                                                 &attempt.recorder, &observer}) {
+    executor.add(*task);
+  }
+  executor.run(hooks.interrupted);
+  return attempt.outcome();
+}
+
+/// Lanes of their own for what must be on time; pictures in this thread, to which their context belongs, or wherever an
+/// observer of each step takes them.
+SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
+  Rig& rig = attempt.rig;
+  const double rate_hz = rig.scene.loop.daq.rate_hz;
+  const bool each_step = hooks.observe && hooks.observe_each_step;
+  ObserverTask observer(rig, hooks.observe,
+                        each_step ? rig.tissue.period() : static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
+  ThreadedExecutor executor(rate_hz, hooks.pause);
+  std::vector<Task*> tissue{&rig.tissue};
+  if (each_step) tissue.push_back(&observer);
+  std::optional<MarkTask> marks, messages;
+  if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks, kMomentMark));
+  if (hooks.messages) tissue.push_back(&messages.emplace(rig, attempt.rings->events, *hooks.messages, kMessageMark));
+  executor.add_lane("haptic", {&attempt.hand, &rig.haptic, &attempt.tap}, kHapticPriority);
+  if (hooks.board_answers) executor.await(hooks.board_answers);
+  executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
+  executor.add_lane("force-sensor", {&attempt.sensor}, kSensorPriority, kTissueOffset);
+  executor.add_lane("recorder", {&attempt.recorder}, 0);
+  if (hooks.observe && !each_step) executor.add_own_lane("pictures", {&observer});
+  executor.run(hooks.interrupted);
+  SessionOutcome out = attempt.outcome();
+  out.device.realtime = realtime_json(executor, attempt.recorder.lost());
+  out.notes = realtime_notes(executor, attempt.recorder.lost());
+  return out;
+}
+
+SessionHooks hooks_of(const SessionObserver& observe, const std::function<bool()>& interrupted) {
+  SessionHooks hooks;
+  hooks.observe = observe;
+  hooks.interrupted = interrupted;
+  return hooks;
+}
+
+}  // namespace
+
+SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
+  SimulatedDaqConfig config;
+  config.rate_hz = setup.rate_hz;
+  config.seed = static_cast<std::uint64_t>(setup.seed);
+  config.hand = hand_parameters(GripPreset::kNormal);
+  if (setup.plant) {
+    config.plant = setup.plant->parameters;
+    config.hand = setup.plant->hand.value_or(config.hand);
+  }
+  config.faults = setup.faults;
+  // The board's watchdog is as patient as the loop's own limits: live on a busy machine both are wide.
+  if (setup.pace != PaceLimits{}) config.watchdog_s = setup.pace.missed_in_a_row / setup.rate_hz;
+  return config;
+}
+
+SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
+                           RecordingWriter& writer) {
+  const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
+  auto hand = hooks.hand ? hooks.hand()
+                         : make_hand(scene.setup.hand, Attempt::seed_of(scene), assets.hands, scene.setup.attempt);
+  const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing);
+  SessionOutcome out = timing == Timing::kLive ? run_live(*attempt, hooks) : run_lockstep(*attempt, hooks);
+  if (out.status == AttemptStatus::kAborted && hooks.interrupted && hooks.interrupted()) {
+    out.device.reason = "interrupted before its end";
+  }
+  RecordingEnd end;
+  end.state_hash = out.state_hash;
+  end.status = out.status;
+  end.summary_json = out.scoring_json;
+  writer.close(end, receipt_json(out.device));
+  return out;
+}
+
+SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
+                           const SessionObserver& observe, const std::function<bool()>& interrupted) {
+  return run_session(scene, assets, hooks_of(observe, interrupted), writer);
+}
+
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
+                                                    const std::filesystem::path& file, const SessionObserver& observe,
+                                                    const std::function<bool()>& interrupted) {
+  return record_session(scene, assets, hooks_of(observe, interrupted), file);
+}
+
+std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const AssetRoots& assets,
+                                                    const SessionHooks& hooks, const std::filesystem::path& file) {
+  const std::string header = scene_json(scene);
+  if (file.empty()) {
+    MemorySink memory;
+    RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
+    SessionOutcome outcome = run_session(scene, assets, hooks, writer);
+    return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
+  }
+  RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
+  SessionOutcome outcome = run_session(scene, assets, hooks, writer);
+  return {std::move(outcome), read_recording(file)};
+}
+
+SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe) {
+  const double rate_hz = scene.loop.daq.rate_hz;
+  const ReplayExecutor executor(
+      recording.ticks,
+      recording.version > 1
+          ? recording.schedule
+          : declared_schedule(recording.ticks, static_cast<std::uint64_t>(rate_hz / kTissueRateHz), kPatchDelay));
+  std::vector<DaqSample> samples;
+  samples.reserve(recording.ticks.size());
+  for (const RecordedTick& row : recording.ticks) samples.push_back(device_input(row));
+  ReplayDaq daq(std::move(samples), scene.loop.daq);
+  const auto rig = std::make_unique<Rig>(scene, daq, Timing::kLockstep,
+                                         std::make_unique<RecordedPatches>(executor.stamps()), nullptr);
+  ObserverTask observer(*rig, observe, rig->tissue.period());
+  executor.run(rig->haptic, {&rig->tissue, &observer});
+  return rig->outcome(daq.capabilities().name);
+}
+
+Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {
+  const RecordedSetup recorded = parse_scene_json(recording.session, name);
+  const Exercise& own = recorded.setup.exercise;
+  const Rubric& rubric = find_level(rubric_of ? *rubric_of : own, recorded.setup.level).rubric;
+  ScoringContext context;
+  if (recording.end && !recording.end->summary_json.empty()) {
+    context = parse_scoring_context(recording.end->summary_json, name);
+  } else {
+    context.outcome = AttemptStatus::kAborted;  // cut off: no number, but the metrics of what is there
+    const ExerciseLevel& level = find_level(own, recorded.setup.level);
+    context = scoring_context(own, level, Board{}, recording.events, AttemptStatus::kAborted);
+  }
+  const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
+  return score_attempt(trace, recording.events, rubric, context);
+}
+
+void fill_shares(const Recording& recording, DeviceReceipt& device) {
+  std::uint64_t contact = 0, saturated = 0, passivity = 0;
+  for (const RecordedTick& row : recording.ticks) {
+    if (!(row.flags & kFlagContact)) continue;
+    ++contact;
+    saturated += row.flags & kFlagSaturated ? 1 : 0;
+    passivity += row.flags & kFlagPassivityActive ? 1 : 0;
+  }
+  if (contact == 0) return;
+  device.saturated_contact_share = static_cast<double>(saturated) / static_cast<double>(contact);
+  device.passivity_active_share = static_cast<double>(passivity) / static_cast<double>(contact);
+}
+
+}  // namespace trocar

@@ -1,0 +1,37 @@
+// The organs round the one that an exercise is done on: placed with it, felt with it, seen with it.
+//
+// An organ that lies over the board's region, seen from above, is set aside as a surgeon would hold it away: it is
+// neither felt nor seen, and its name is told. Frame T, SI units. Thread: loading only.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "haptics/exchange/contact_patch.h"
+#include "scenarios/exercise.h"
+#include "tissue/organ/material_table.h"
+#include "tissue/organ/organ.h"
+
+namespace trocar {
+
+struct NeighbourOrgan {
+  std::string name, material;
+  std::shared_ptr<const TriangleSurface> surface_T;
+};
+
+struct Neighbours {
+  std::vector<NeighbourOrgan> organs;
+  std::vector<std::string> set_aside;  ///< names of those that would cover the region
+  TriangleSurface felt_T;  ///< the organ's triangles, then those of the neighbours; empty without neighbours
+  std::vector<std::int32_t> triangle_material;  ///< of felt_T: 0 the organ, n materials[n - 1]
+  std::vector<ContactMaterial> materials;       ///< of the neighbours; at most kMaxPatchMaterials - 1 different ones
+};
+
+/// @param organ with neighbours. @param organ_T placed. @param X_TO its pose
+/// @param exercise its region and the surface that it sets for the organ
+Neighbours place_neighbours(const Organ& organ, const TriangleSurface& organ_T, const Pose& X_TO,
+                            const Exercise& exercise, const MaterialTable& materials);
+
+}  // namespace trocar

@@ -1,0 +1,265 @@
+#include "app/session/setup/scene.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "app/session/setup/force_scale.h"
+#include "app/session/setup/patch_fit.h"
+#include "app/session/setup/placement.h"
+#include "haptics/input_error.h"
+#include "haptics/kinematics/device_geometry.h"
+#include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/grasp/grasp_layout.h"
+#include "scenarios/kinds/reach/pen_layout.h"
+#include "scenarios/layout/board_layout.h"
+#include "scenarios/layout/board_numbers.h"
+#include "scenarios/layout/shaft_room.h"
+
+namespace trocar {
+const TriangleSurface& felt_surface(const Scene& scene) {
+  return scene.neighbours.felt_T.triangles.empty() ? scene.organ_T : scene.neighbours.felt_T;
+}
+
+namespace {
+
+constexpr int kFormat = 1;
+constexpr double kFarthest = 10;  // m of an image's origin from the theatre's
+constexpr const char* kUnreadable = ": the recording's setup cannot be read: ";
+
+nlohmann::json file_json(const DeviceFile& file) { return {{"text", file.text}, {"file", file.name}}; }
+
+std::optional<DeviceFile> file_of(const nlohmann::json& setup, const char* key) {
+  if (!setup.contains(key)) return std::nullopt;
+  return DeviceFile{setup.at(key).at("text").get<std::string>(), setup.at(key).at("file").get<std::string>()};
+}
+
+/// Every digit is kept: what is laid from it lies as before, to the last bit.
+nlohmann::json placement_json(const OrganPlacement& placement) {
+  const Mat3& R = placement.X_TO.R;
+  nlohmann::json rows = nlohmann::json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({R(i, 0), R(i, 1), R(i, 2)});
+  const Vec3& p = placement.X_TO.p;
+  return {{"R", rows},
+          {"p_m", {p.x(), p.y(), p.z()}},
+          {"roll_rad", placement.roll_rad},
+          {"turn_rad", placement.turn_rad},
+          {"even_m2", placement.even_m2},
+          {"free_m2", placement.free_m2}};
+}
+
+/// @throws InputError: a pose that is none.
+OrganPlacement placement_of(const nlohmann::json& json, const std::string& name) {
+  OrganPlacement out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      out.X_TO.R(static_cast<int>(i), static_cast<int>(j)) = json.at("R").at(i).at(j).get<double>();
+    out.X_TO.p[static_cast<int>(i)] = json.at("p_m").at(i).get<double>();
+  }
+  const Mat3& R = out.X_TO.R;
+  const bool rotation = (R * R.transpose() - Mat3::Identity()).norm() < 1e-9 && R.determinant() > 0;
+  if (!rotation || !out.X_TO.p.allFinite() || out.X_TO.p.norm() > kFarthest)
+    throw InputError(name + kUnreadable + "the organ's place is no pose in the theatre");
+  out.roll_rad = json.at("roll_rad").get<double>();
+  out.turn_rad = json.at("turn_rad").get<double>();
+  out.even_m2 = json.at("even_m2").get<double>();
+  out.free_m2 = json.at("free_m2").get<double>();
+  return out;
+}
+
+const char* law_name(ContactLaw law) { return law == ContactLaw::kThesis ? "thesis" : "proxy"; }
+
+}  // namespace
+
+AssetRoots find_assets() {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> roots;
+  const char* named = std::getenv("TROCAR_ASSETS");
+  if (named) roots.emplace_back(named);
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!named && !error) roots.push_back(program.parent_path().parent_path() / "share" / "trocar");
+  // A program in its build folder uses the source tree; an installed one never does.
+  const fs::path within = program.lexically_relative(TROCAR_BUILD_DIR);
+  if (!named && !within.empty() && *within.begin() != "..") roots.emplace_back(TROCAR_SOURCE_DIR);
+  std::string looked;
+  for (const fs::path& root : roots) {
+    // Installed, exercises and hands lie together under the share folder; in the source tree under scenarios.
+    for (const fs::path& scripts : {root, root / "scenarios"}) {
+      if (fs::is_directory(scripts / "exercises") && fs::is_directory(root / "assets" / "shaders")) {
+        return {scripts / "exercises", scripts / "hands", root / "assets"};
+      }
+    }
+    looked += "\n  " + root.string();
+  }
+  throw EnvironmentError("the program's exercises and assets were not found; looked in" + looked);
+}
+
+namespace {
+
+/// Refuses a surface so fine that a patch would end before the tool can reach its end.
+void require_reach(const Scene& scene) {
+  const PatchFit fit = patch_fit(scene);
+  if (fit.felt()) return;
+  throw InputError(scene.organ.manifest.string() + ": the surface is too fine to be felt: " + fit.words());
+}
+
+constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
+
+/// Board of the exercise's kind. The loop's map is set before: pens turn from the resting instrument.
+Board lay_out(const Scene& scene, int board, const ShaftRoom* room) {
+  const Exercise& exercise = scene.setup.exercise;
+  switch (exercise.kind) {
+    case ExerciseKind::kGrasp:
+      return lay_out_blocks(exercise, scene.level, board);
+    case ExerciseKind::kReach:
+      return lay_out_pens(exercise, scene.level, scene.loop.map.instrument_pose(home_pose()).R, board);
+    case ExerciseKind::kTouch:
+      break;
+  }
+  return lay_out_board(scene.organ_T, exercise, scene.level, board, room);
+}
+
+/// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be
+/// met, and asks nothing.
+double force_scale(const Scene& scene, const ShaftRoom* room) {
+  if (scene.level.force_scale > 0) return std::min(1.0, scene.level.force_scale);
+  std::vector<Board> boards;
+  for (int k = 0; k < kPracticeBoards + kProvedUnseen; ++k) {
+    try {
+      boards.push_back(
+          lay_out(scene, k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, scene.level.exam), room));
+    } catch (const InputError&) {
+    }
+  }
+  return auto_force_scale(scene.loop.map, scene.loop.device, scene.setup.exercise, boards);
+}
+
+/// Lays the organ, and what lies round it, into the theatre.
+void place(Scene& scene) {
+  const Exercise& exercise = scene.setup.exercise;
+  scene.placement = scene.setup.placement
+                        ? *scene.setup.placement
+                        : place_organ(scene.organ.surface, exercise, scene.level, {scene.loop.tool, scene.loop.map});
+  scene.organ_T = scene.organ.surface.transformed(scene.placement.X_TO);
+  if (scene.organ.neighbours.empty()) return;
+  const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
+  scene.neighbours = place_neighbours(scene.organ, scene.organ_T, scene.placement.X_TO, exercise, materials);
+}
+
+/// Organ, board, force scale, and the instrument that the exercise takes.
+void set_stage(Scene& scene) {
+  const Exercise& exercise = scene.setup.exercise;
+  std::optional<ShaftRoom> room;
+  if (needs_organ(exercise.kind)) {
+    place(scene);
+    room.emplace(felt_surface(scene), scene.loop.tool, scene.loop.map);
+  }
+  const ShaftRoom* behind_tip = room ? &*room : nullptr;
+  scene.board = lay_out(scene, scene.setup.board, behind_tip);
+  if (needs_organ(exercise.kind)) require_reach(scene);
+  if (exercise.kind == ExerciseKind::kGrasp) scene.loop.tool.jaw_length_m = kJawLength;
+  scene.loop.map.force_scale = force_scale(scene, behind_tip);
+}
+
+}  // namespace
+
+Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets) {
+  if (needs_organ(setup.exercise.kind)) return load_organ(find_organ(setup.organ, assets.assets));
+  Organ none;
+  none.name = "none";
+  return none;
+}
+
+Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq) {
+  find_level(setup.exercise, setup.level);  // a wrong level is refused before anything is loaded
+  return build_scene(setup, organ_of(setup, assets), daq);
+}
+
+Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities& daq) {
+  Scene scene;
+  scene.setup = setup;
+  scene.level = find_level(setup.exercise, setup.level);
+  scene.organ = std::move(organ);
+  scene.loop.daq = daq;
+  scene.loop.device = device_model(setup.device);
+  scene.loop.map = place_theatre(scene.level);
+  set_stage(scene);
+  scene.room_share = room_share(scene.loop.map, scene.loop.device, setup.exercise.layout, setup.exercise.soft_force_n);
+  scene.loop.safety.max_missed_in_a_row = setup.pace.missed_in_a_row;
+  scene.loop.safety.max_missed_share = setup.pace.missed_share;
+  scene.loop.contact_law = setup.contact_law;
+  scene.loop.passivity.law = setup.passivity_law;
+  scene.loop.pinch_passivity.law = setup.passivity_law;
+  scene.loop.clamp_stiffness = setup.clamp_stiffness;
+  return scene;
+}
+
+std::string scene_json(const Scene& scene) {
+  const AttemptSetup& s = scene.setup;
+  nlohmann::json json = {
+      {"format", kFormat},
+      {"exercise", {{"text", s.exercise.text}, {"file", s.exercise.file.filename().string()}, {"level", s.level}}},
+      {"organ",
+       {{"reference", s.organ},
+        {"sha256", scene.organ.sha256},
+        {"name", scene.organ.name},
+        {"synthetic", scene.organ.synthetic},
+        {"credit", scene.organ.credit}}},
+      {"hand", s.hand},
+      {"seed", s.seed},
+      {"board", s.board},
+      {"rate_hz", scene.loop.daq.rate_hz},
+      {"dac_bits", scene.loop.daq.dac_bits},
+      {"realtime", s.realtime},
+      {"pace", {{"missed_in_a_row", s.pace.missed_in_a_row}, {"missed_share", s.pace.missed_share}}},
+      {"contact_law", law_name(s.contact_law)},
+      {"passivity_law", passivity_law_name(s.passivity_law)},
+      {"clamp_stiffness", s.clamp_stiffness},
+      {"force_scale", scene.loop.map.force_scale}};
+  if (needs_organ(s.exercise.kind)) json["placement"] = placement_json(scene.placement);
+  if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
+  if (s.device.identified) json["device"] = file_json(*s.device.identified);
+  return json.dump();
+}
+
+RecordedSetup parse_scene_json(const std::string& text, const std::string& name) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    if (json.at("format").get<int>() != kFormat) throw InputError(name + kUnreadable + "unknown format");
+    RecordedSetup out;
+    AttemptSetup& s = out.setup;
+    const auto& exercise = json.at("exercise");
+    s.exercise = parse_exercise(exercise.at("text").get<std::string>(), exercise.at("file").get<std::string>());
+    s.level = exercise.at("level").get<std::string>();
+    s.organ = json.at("organ").at("reference").get<std::string>();
+    out.organ_sha256 = json.at("organ").at("sha256").get<std::string>();
+    s.hand = json.at("hand").get<std::string>();
+    s.seed = json.at("seed").get<std::int64_t>();
+    s.board = json.at("board").get<int>();
+    s.rate_hz = json.at("rate_hz").get<double>();
+    s.realtime = json.value("realtime", false);
+    if (json.contains("pace")) {  // recordings before live runs kept the defaults
+      s.pace = {json.at("pace").at("missed_in_a_row").get<std::uint32_t>(),
+                json.at("pace").at("missed_share").get<double>()};
+    }
+    out.daq = {"replay", s.rate_hz, json.at("dac_bits").get<int>()};
+    out.force_scale = json.at("force_scale").get<double>();
+    s.contact_law = json.at("contact_law").get<std::string>() == "thesis" ? ContactLaw::kThesis : ContactLaw::kProxy;
+    const auto law = passivity_law_named(json.at("passivity_law").get<std::string>());
+    if (!law)
+      throw InputError(name + kUnreadable + "passivity law '" + json.at("passivity_law").get<std::string>() + "'");
+    s.passivity_law = *law;
+    s.clamp_stiffness = json.value("clamp_stiffness", false);
+    if (json.contains("placement"))
+      s.placement = placement_of(json.at("placement"), name);  // older recordings: looked for again
+    s.device = {file_of(json, "calibration"), file_of(json, "device")};
+    return out;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(name + kUnreadable + error.what());
+  }
+}
+
+}  // namespace trocar

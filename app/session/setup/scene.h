@@ -1,0 +1,101 @@
+// One attempt, set up: everything that is fixed before the loop starts, and its text in the recording.
+//
+// The same setup drives an attempt, a replay and a picture: they differ only in back-end and executor.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/setup/device_files.h"
+#include "app/session/setup/neighbours.h"
+#include "haptics/contact/contact_renderer.h"
+#include "haptics/device/simulated_daq.h"
+#include "haptics/haptic_loop.h"
+#include "scenarios/director/director.h"
+#include "scenarios/exercise.h"
+#include "scenarios/files/plant_file.h"
+#include "scenarios/layout/organ_placement.h"
+#include "tissue/organ/organ.h"
+
+namespace trocar {
+
+/// Where the program finds what it ships.
+struct AssetRoots {
+  std::filesystem::path exercises, hands;
+  std::filesystem::path assets;  ///< holds organs/ and shaders/
+};
+
+/// Finds the assets of an installed or a just built program. @throws EnvironmentError naming the places looked at.
+AssetRoots find_assets();
+
+/// How late the loop may be before it is a fault.
+struct PaceLimits {
+  std::uint32_t missed_in_a_row = 20;
+  double missed_share = 0.01;  ///< of the last second
+  bool operator==(const PaceLimits&) const = default;
+};
+
+/// Live on the simulated device nobody holds a motor, and the machine may be busy with other things: a hole that would
+/// be a fault at a real device is borne, counted and stated in the receipt. At a quarter of a second, about what a
+/// person needs to react to what the eye sees, it is no longer the same task and a fault here too.
+inline constexpr PaceLimits kSimulatedLivePace{250, 0.25};
+
+struct AttemptSetup {
+  Exercise exercise;
+  std::string level = "L1";
+  std::string organ;  ///< manifest path or name of a shipped organ, as given
+  std::string hand;   ///< name or script; a replay knows it and does not use it
+  int attempt = 1;    ///< of a learning hand
+  std::int64_t seed = 1;
+  int board = 0;
+  double rate_hz = 1000;
+  ContactLaw contact_law = ContactLaw::kProxy;
+  PassivityLaw passivity_law = PassivityLaw::kBudgeted;
+  bool clamp_stiffness = false;             ///< contacts stiffer than K_max are weakened to it
+  DeviceFiles device;                       ///< what the loop knows of its device beyond the nominal model
+  std::vector<InjectedFault> faults;        ///< simulated back-end only
+  std::shared_ptr<const PlantFile> plant;   ///< of the simulated back-end; none: drawn by the seed. A replay needs none
+  std::optional<OrganPlacement> placement;  ///< where the organ lies, when that is known; none: it is looked for
+  bool realtime = false;                    ///< threads and the clock drive the tasks, else lockstep
+  PaceLimits pace;
+};
+
+/// The setup resolved: organ placed, board laid out, loop configured.
+struct Scene {
+  AttemptSetup setup;
+  ExerciseLevel level;
+  Organ organ;
+  OrganPlacement placement;
+  TriangleSurface organ_T;
+  Neighbours neighbours;  ///< what lies round the organ, when it is one of several
+  Board board;
+  HapticLoopConfig loop;
+  double room_share = 1;  ///< of the region, where the device can give the soft force limit
+};
+
+/// Everything that the instrument can touch: the organ, with what lies round it.
+const TriangleSurface& felt_surface(const Scene& scene);
+
+/// @param daq rate and DAC bits of the back-end. @throws InputError.
+Scene build_scene(const AttemptSetup& setup, const AssetRoots& assets, const DaqCapabilities& daq);
+/// The organ that the setup names; one named "none", without a surface, when the exercise happens without.
+Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets);
+/// The same on an organ that has been loaded already.
+Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities& daq);
+
+/// Text for the recording's header: JSON with all that a replay and a regrade need (exercise embedded, organ by hash).
+std::string scene_json(const Scene& scene);
+
+/// The setup written by scene_json(). @param name of the recording, for messages. @throws InputError.
+struct RecordedSetup {
+  AttemptSetup setup;
+  std::string organ_sha256;
+  DaqCapabilities daq;
+  double force_scale = 1;  ///< kappa that the recorded attempt used
+};
+RecordedSetup parse_scene_json(const std::string& json, const std::string& name);
+
+}  // namespace trocar

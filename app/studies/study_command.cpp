@@ -1,0 +1,94 @@
+#include "app/studies/study_command.h"
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+
+#include "app/session/setup/true_plant.h"
+#include "app/studies/admittance/admittance_study.h"
+#include "app/studies/contact/contact_law_study.h"
+#include "app/studies/contact/contact_torque_study.h"
+#include "app/studies/contact/passivity_study.h"
+#include "app/studies/contact/transparency_study.h"
+#include "app/studies/contact/walls_study.h"
+#include "app/studies/contact/zwidth_study.h"
+#include "app/studies/device/force_study.h"
+#include "app/studies/device/gravity_study.h"
+#include "app/studies/device/kinematics_study.h"
+#include "app/studies/device/motor_study.h"
+#include "app/studies/device/plant_study.h"
+#include "app/studies/device/velocity_study.h"
+#include "app/studies/study_files.h"
+#include "app/studies/workspace/workspace_study.h"
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+struct KnownStudy {
+  const char* name;
+  StudyResult (*run)(const StudyRequest&);
+  bool takes_plant = false;  ///< works on the device of the request
+};
+
+/// In the order of the thesis, then what goes beyond it.
+constexpr std::array kStudies{
+    KnownStudy{"kinematics", kinematics_study},
+    KnownStudy{"motor", motor_study},
+    KnownStudy{"force", force_study},
+    KnownStudy{"walls", walls_study},
+    KnownStudy{"torque-x", [](const StudyRequest& request) { return torque_study('x', request); }},
+    KnownStudy{"torque-y", [](const StudyRequest& request) { return torque_study('y', request); }},
+    KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
+    KnownStudy{"gravity", gravity_study, true},
+    KnownStudy{"passivity", passivity_study},
+    KnownStudy{"admittance", admittance_study},
+    KnownStudy{"velocity", velocity_study},
+    KnownStudy{"zwidth", zwidth_study},
+    KnownStudy{"transparency", transparency_study, true},
+    KnownStudy{"workspace", workspace_study},
+    KnownStudy{"plant", plant_study, true},
+    KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
+};
+
+StudyRequest request_of(const StudyOptions& options, bool takes_plant) {
+  StudyRequest request{options.quick, options.seed};
+  if (options.plant.empty()) return request;
+  if (!takes_plant) {
+    std::string others;
+    for (const KnownStudy& known : kStudies) {
+      if (known.takes_plant) others += std::string(others.empty() ? "" : ", ") + known.name;
+    }
+    throw InputError("study " + options.name + " works on a device of its own; --plant is for " + others);
+  }
+  const TruePlant plant = true_plant(options.plant, options.seed);
+  request.plant = plant.parameters;
+  request.plant_words = plant.words;
+  return request;
+}
+
+}  // namespace
+
+std::vector<std::string> study_names() {
+  std::vector<std::string> names;
+  for (const KnownStudy& study : kStudies) names.emplace_back(study.name);
+  return names;
+}
+
+int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  const auto study = std::find_if(kStudies.begin(), kStudies.end(),
+                                  [&](const KnownStudy& known) { return options.name == known.name; });
+  if (study == kStudies.end()) {
+    std::string known;
+    for (const std::string& name : study_names()) known += " " + name;
+    throw InputError("no study '" + options.name + "'; there are:" + known);
+  }
+  const StudyResult result = study->run(request_of(options, study->takes_plant));
+  write_study(result, options.out);
+  out << (options.json ? summary_json(result) : table_markdown(result));
+  err << "trocar: data, plots and summary.json in " << options.out.string() << '\n';
+  const bool met = std::all_of(result.cases.begin(), result.cases.end(), [](const StudyCase& c) { return c.met; });
+  return met ? 0 : 1;
+}
+
+}  // namespace trocar

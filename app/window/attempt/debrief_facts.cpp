@@ -1,0 +1,140 @@
+#include "app/window/attempt/debrief_facts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/session/moment_mark.h"
+#include "app/window/attempt/debrief_reason.h"
+#include "scenarios/scoring/metrics.h"
+#include "trainees/progress/learning_curve.h"
+
+namespace trocar {
+namespace {
+
+std::string own_text(const Words& words, const DebriefRow& row, const std::optional<double>& value) {
+  return value ? metric_text(words, row.metric, value, row.unit) : "";
+}
+
+/// The metric at which the gate opens, as a sentence part.
+std::string needed_text(const Words& words, const DebriefRow& row, const Subscore& s, double floor) {
+  double x = s.zero_at + floor * (s.full_at - s.zero_at);
+  const bool less = s.full_at < s.zero_at;
+  if (is_count(row.metric, row.unit)) x = less ? std::floor(x + 1e-9) : std::ceil(x - 1e-9);
+  const std::string text = metric_text(words, row.metric, x, row.unit);
+  return less ? words("at most {0}", {text}) : words("at least {0}", {text});
+}
+
+void compare(const Words& words, DebriefRow& row, const Subscore& s, const DebriefPast& past) {
+  const bool less = s.full_at < s.zero_at;
+  const OwnValues own = own_values(past.own, row.metric, less);
+  row.best = own_text(words, row, own.best);
+  row.median = own_text(words, row, own.median);
+  if (const auto at = past.expert.find(row.metric); at != past.expert.end())
+    row.expert = own_text(words, row, at->second);
+  if (!own.median || !s.raw || row.value == row.median) return;
+  row.against_median = (*s.raw < *own.median) == less ? 1 : -1;
+}
+
+DebriefRow row_of(const Words& words, const Subscore& s, const ExerciseLevel* level, const DebriefPast& past) {
+  const SubscoreRule* rule = rule_named(level, s.name);
+  SubscoreRule stand_in;
+  stand_in.gate = s.gate;
+  if (s.name == "time") stand_in.metric = "time_s";
+  DebriefRow row;
+  row.subscore = s.name;
+  row.metric = rule ? rule->metric : stand_in.metric;
+  row.unit = s.unit;
+  if (const MetricDefinition* metric = find_metric(row.metric); metric && row.unit.empty()) row.unit = metric->unit;
+  row.group = group_of(rule ? *rule : stand_in);
+  row.name = subscore_words(words, s.name);
+  row.value = metric_text(words, row.metric, s.raw, row.unit);
+  row.full = metric_text(words, row.metric, s.full_at, row.unit);
+  row.none = metric_text(words, row.metric, s.zero_at, row.unit);
+  row.gate = s.gate;
+  const double floor = rule ? rule->gate_below : SubscoreRule{}.gate_below;
+  row.failed = s.gate && s.value < floor;
+  if (s.gate) row.needed = needed_text(words, row, s, floor);
+  row.possible = 100 * s.weight;
+  row.lost = 100 * s.weight * (1 - s.value);
+  compare(words, row, s, past);
+  return row;
+}
+
+void add_rows(const Words& words, DebriefFacts& facts, const AttemptResult& result, const ExerciseLevel* level,
+              const DebriefPast& past) {
+  double lost = 0;
+  for (const Subscore& s : result.grade.subscores) {
+    facts.rows.push_back(row_of(words, s, level, past));
+    lost += facts.rows.back().lost;
+  }
+  std::stable_sort(facts.rows.begin(), facts.rows.end(), [](const DebriefRow& a, const DebriefRow& b) {
+    return a.group != b.group ? a.group < b.group : a.lost > b.lost;
+  });
+  facts.lost_to_caps = std::max(0.0, 100 - *facts.score - lost);
+}
+
+}  // namespace
+
+DebriefFacts debrief_facts(const Words& words, const AttemptResult& result, const Exercise& exercise,
+                           const DebriefPast& past) {
+  const ExerciseLevel* level = level_named(exercise, result.level);
+  DebriefFacts facts;
+  facts.score = result.grade.score;
+  facts.pass_at = level ? level->rubric.pass_at : exercise.rubric.pass_at;
+  facts.outcome = outcome_of(result);
+  facts.verdict = verdict_words(words, facts.outcome);
+  if (facts.score) add_rows(words, facts, result, level, past);
+  facts.reason = reason_words(words, result, facts, exercise);
+  facts.more = further_words(words, result, facts);
+  return facts;
+}
+
+std::vector<std::string> explained(const Words& words, const DebriefRow& row, const AttemptResult& result,
+                                   const Exercise& exercise) {
+  const ExerciseLevel* level = level_named(exercise, result.level);
+  const SubscoreRule* rule = rule_named(level, row.subscore);
+  std::vector<std::string> out;
+  if (const MetricDefinition* metric = find_metric(row.metric))
+    out.push_back(words("Measured: {0}.", {words.made(metric->meaning)}));
+  out.push_back(words("Points: {0} x clamp((value - {1}) / ({2} - {1}), 0, 1). All at {2}, none at {1}.",
+                      {words.number(row.possible, 0), row.none, row.full}));
+  out.push_back(words("Here: {0}, so {1} of {2} points.",
+                      {row.value, words.number(row.possible - row.lost, 1), words.number(row.possible, 0)}));
+  if (row.gate && rule)
+    out.push_back(words("Safety gate: a pass needs {0}; without it the score is {1} or less.",
+                        {row.needed, words.number(level->rubric.gate_cap, 0)}));
+  if (row.metric == "time_s" && level && level->expert_time_s > 0)
+    out.push_back(words("The expert hand takes {0} s on average.", {words.number(level->expert_time_s, 1)}));
+  if (!row.metric.empty()) out.push_back(words("Its name in exports: {0}.", {row.metric}));
+  return out;
+}
+
+std::string event_words(const Words& words, const Event& event) {
+  const std::string& type = event.type;
+  if (type == "EXCESS_FORCE") return words("Too much force");
+  if (type == "CRITICAL_FORCE") return words("Critical force");
+  if (type == "GRIP_EXCESS") return words("Grip too hard");
+  if (type == "WRONG_PLACE") return words("Wrong place");
+  if (type == "TARGET_HELD") return words("Target held");
+  if (type == "TARGET_TIMEOUT") return words("Time for this target over");
+  if (type == "TOOL_COLLISION") return words("Shaft pressed on tissue");
+  if (type == "GRIP_HELD") return words("Grip held");
+  if (type == "CRUSH") return words("Block crushed");
+  if (type == "SLIP") return words("Block slipped");
+  if (type == "DROP") return words("Block dropped");
+  if (type == "LOST") return words("Block lost");
+  if (type == "PLACED") return words("Block placed");
+  if (type == "MISPLACED") return words("Block misplaced");
+  if (type == "REGRASP") return words("Grasped again");
+  if (type == "WRONG_BLOCK") return words("Wrong block");
+  if (type == "REMOVED") return words("Placed block taken away");
+  if (type == "PORT_HOLD") return words("Too close to the port");
+  if (type == "DEADMAN_OPEN") return words("Deadman opened");
+  if (type == kMomentMark) return words("Marked by you");
+  if (type == kMessageMark) return words("Message from your teacher");
+  if (type == "DEVICE_FAULT") return words("Device stopped");
+  if (type == "TIMEOUT") return words("Time over");
+  return "";
+}
+
+}  // namespace trocar

@@ -1,0 +1,186 @@
+#include "app/window/attempt/debrief_reason.h"
+
+#include <algorithm>
+
+#include "app/device_bench/device_words.h"
+#include "app/session/grading/realtime_receipt.h"
+#include "app/window/attempt/cut_off.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kWorthSaying = 0.5;  // points
+
+struct Undone {
+  std::string done, all;
+};
+
+/// "not finished: 7 of 12: at most 28.6" of the caps.
+std::optional<Undone> undone(const Grade& grade) {
+  const std::string begin = "not finished: ";
+  for (const std::string& cap : grade.caps) {
+    if (!cap.starts_with(begin)) continue;
+    const std::size_t of = cap.find(" of ", begin.size()), end = cap.find(':', begin.size());
+    if (of == std::string::npos || end == std::string::npos || of > end) continue;
+    return Undone{cap.substr(begin.size(), of - begin.size()), cap.substr(of + 4, end - of - 4)};
+  }
+  return std::nullopt;
+}
+
+std::string critical_words(const Words& words, const AttemptResult& result, const Event& event,
+                           const Exercise& exercise) {
+  const std::string t = words.number(clock_s(result, event.t_s), 1);
+  if (event.type == "CRITICAL_FORCE")
+    return words("{0} N at {1} s: above the critical limit of {2} N.",
+                 {words.number(event.value, 2), t, words.number(exercise.critical_force_n, 1)});
+  if (event.type == "LOST") return words("A block was lost at {0} s: it lies outside the field.", {t});
+  if (event.type == "CRUSH") return words("Too many blocks crushed, the last one at {0} s.", {t});
+  return words("A critical event at {0} s: {1}.",
+               {t, event_words(words, event).empty() ? event.type : event_words(words, event)});
+}
+
+std::string undone_words(const Words& words, const AttemptResult& result, const Undone& left) {
+  return result.grade.status == AttemptStatus::kTimeout
+             ? words("Time ran out: {0} of {1} done.", {left.done, left.all})
+             : words("Not finished: {0} of {1} done.", {left.done, left.all});
+}
+
+std::string gate_words(const Words& words, const DebriefRow& row) {
+  return words("{0}: {1}; a pass needs {2}.", {row.name, row.value, row.needed});
+}
+
+std::string score_words(const Words& words, const DebriefFacts& facts) {
+  const std::string score = words.number(*facts.score, 1), pass = words.number(facts.pass_at, 0);
+  const DebriefRow* worst = largest_loss(facts.rows);
+  if (!worst) return words("{0} of 100 points, a pass needs {1}.", {score, pass});
+  return words("{0} of 100 points, a pass needs {1}. Most points were lost on: {2}.", {score, pass, worst->name});
+}
+
+std::string ungraded_words(const Words& words, const AttemptResult& result, Outcome outcome) {
+  const double t = result.events.empty() ? 0 : clock_s(result, result.events.back().t_s);
+  switch (outcome) {
+    case Outcome::kStopped:
+      if (was_cut_off(result.integrity))
+        return words("The attempt was cut off with its program, so there is no score. It counts as not passed.");
+      return t > 0 ? words("You left the attempt, so there is no score. It counts as not passed.")
+                   : words("You left before the clock began, so there is no score. It counts as not passed.");
+    case Outcome::kDeviceStopped:
+      return words("The device stopped. That is not your doing: the attempt does not count.");
+    default:
+      return words("The attempt is void: its record cannot be graded, and it does not count.");
+  }
+}
+
+/// That it stood still: no point is lost by it, but it belongs to the attempt.
+void add_pauses(const Words& words, const AttemptResult& result, std::vector<std::string>& out) {
+  const std::vector<StoodStill> pauses = pauses_of(result.device.realtime);
+  if (pauses.empty()) return;
+  double all_s = 0;
+  for (const StoodStill& pause : pauses) all_s += pause.seconds;
+  const std::string took = words.number(all_s, all_s < 10 ? 1 : 0),
+                    at = words.number(clock_s(result, pauses.front().at_s), 1);
+  out.push_back(pauses.size() == 1 ? words("Paused once, at {0} s, for {1} s.", {at, took})
+                                   : words("Paused {0} times, first at {1} s, {2} s in all.",
+                                           {std::to_string(pauses.size()), at, took}));
+}
+
+}  // namespace
+
+double clock_s(const AttemptResult& result, double t_s) {
+  const auto start =
+      std::find_if(result.events.begin(), result.events.end(), [](const Event& e) { return e.type == "START"; });
+  return start == result.events.end() ? 0 : std::max(0.0, t_s - start->t_s);
+}
+
+const Event* first_critical(const AttemptResult& result) {
+  const auto at = std::find_if(result.events.begin(), result.events.end(),
+                               [](const Event& e) { return e.severity == Severity::kCritical; });
+  return at == result.events.end() ? nullptr : &*at;
+}
+
+const DebriefRow* largest_loss(const std::vector<DebriefRow>& rows) {
+  const DebriefRow* worst = nullptr;
+  for (const DebriefRow& row : rows)
+    if (row.lost >= kWorthSaying && (!worst || row.lost > worst->lost + 1e-9)) worst = &row;
+  return worst;
+}
+
+const DebriefRow* worst_gate(const std::vector<DebriefRow>& rows) {
+  const DebriefRow* worst = nullptr;
+  for (const DebriefRow& row : rows)
+    if (row.failed && (!worst || row.lost > worst->lost + 1e-9)) worst = &row;
+  return worst;
+}
+
+Outcome outcome_of(const AttemptResult& result) {
+  switch (result.grade.status) {
+    case AttemptStatus::kCompleted:
+    case AttemptStatus::kTimeout:
+      if (!result.grade.score) return Outcome::kVoid;
+      return result.grade.passed ? Outcome::kPass : Outcome::kNotYet;
+    case AttemptStatus::kAborted:
+      return Outcome::kStopped;
+    case AttemptStatus::kFault:
+      return Outcome::kDeviceStopped;
+    case AttemptStatus::kVoid:
+      return Outcome::kVoid;
+  }
+  return Outcome::kVoid;
+}
+
+std::string verdict_words(const Words& words, Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kPass:
+      return words("PASS");
+    case Outcome::kNotYet:
+      return words("NOT YET");
+    case Outcome::kStopped:
+      return words("STOPPED");
+    case Outcome::kDeviceStopped:
+      return words("DEVICE STOPPED");
+    case Outcome::kVoid:
+      return words("VOID");
+  }
+  return "";
+}
+
+std::string reason_words(const Words& words, const AttemptResult& result, const DebriefFacts& facts,
+                         const Exercise& exercise) {
+  if (!facts.score) return ungraded_words(words, result, facts.outcome);
+  if (facts.outcome == Outcome::kPass) return score_words(words, facts);
+  if (const Event* event = first_critical(result)) return critical_words(words, result, *event, exercise);
+  if (const DebriefRow* gate = worst_gate(facts.rows)) return gate_words(words, *gate);
+  if (const auto left = undone(result.grade)) return undone_words(words, result, *left);
+  if (result.grade.status == AttemptStatus::kTimeout) return words("Time ran out before the task was done.");
+  return score_words(words, facts);
+}
+
+std::vector<std::string> further_words(const Words& words, const AttemptResult& result, const DebriefFacts& facts) {
+  std::vector<std::string> out;
+  if (!facts.score) {
+    const std::string fault = fault_words(result.device);
+    if (!fault.empty())
+      out.push_back(words.made(fault));
+    else if (!result.integrity.empty())
+      out.push_back(words.made(result.integrity));
+    else if (!result.grade.caps.empty())
+      out.push_back(words.made(result.grade.caps.front()));
+    add_pauses(words, result, out);
+    return out;
+  }
+  const bool critical = facts.outcome != Outcome::kPass && first_critical(result) != nullptr;
+  const DebriefRow* first = critical ? nullptr : worst_gate(facts.rows);
+  for (const DebriefRow& row : facts.rows)
+    if (row.failed && &row != first) out.push_back(gate_words(words, row));
+  if (const auto left = undone(result.grade); left && (critical || first))
+    out.push_back(undone_words(words, result, *left));
+  if (result.device.force_not_rendered())
+    out.push_back(
+        words("The device could not give the force in {0} % of the contact time: this attempt does not count for a "
+              "certificate.",
+              {words.number(100 * result.device.saturated_contact_share, 0)}));
+  add_pauses(words, result, out);
+  return out;
+}
+
+}  // namespace trocar

@@ -1,0 +1,44 @@
+#include "app/window/attempt/person_hand.h"
+
+#include <algorithm>
+
+namespace trocar {
+namespace {
+
+double share_of(double way, double longest) { return way > longest ? longest / way : 1; }
+
+}  // namespace
+
+void PersonHand::follow(const HandIntent& wanted, double dt_s) {
+  const Vec3 way = wanted.X_TI.p - intent_.X_TI.p;
+  intent_.X_TI.p += share_of(way.norm(), kSpeed * dt_s) * way;
+  const Eigen::AngleAxisd turn(Mat3(wanted.X_TI.R * intent_.X_TI.R.transpose()));
+  const double share = share_of(turn.angle(), kTurnSpeed * dt_s);
+  if (share < 1)
+    intent_.X_TI.R = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix() * intent_.X_TI.R;
+  else
+    intent_.X_TI.R = wanted.X_TI.R;
+  const double close = wanted.jaw_opening_m - intent_.jaw_opening_m;
+  intent_.jaw_opening_m += std::clamp(close, -kFingerSpeed * dt_s, kFingerSpeed * dt_s);
+  intent_.clutch = wanted.clutch;
+}
+
+HandIntent PersonHand::update(const Percept& percept, double dt_s) {
+  const bool ready = link_.ready.load(std::memory_order_relaxed);
+  if (!holding_ || (!ready && percept.device_ready)) {
+    intent_.X_TI = {percept.R_TI, percept.tip_T};
+    if (!holding_) intent_.jaw_opening_m = percept.jaw_opening_m;
+  }
+  holding_ = true;
+  if (!ready && percept.device_ready) link_.ready.store(true, std::memory_order_release);
+  link_.felt.store(taken_, std::memory_order_release);  // the tick of the previous call is over
+  if (ready) {
+    const SteeredIntent& wanted = link_.wanted.read();
+    if (wanted.number > 0) follow(wanted.intent, dt_s);
+    taken_ = wanted.number;
+  }
+  link_.target.write(intent_);
+  return intent_;
+}
+
+}  // namespace trocar

@@ -1,0 +1,51 @@
+// The hand of a person at mouse, keys, pad or puck: goes where the newest intent says, no faster than a person could.
+//
+// It takes hold where the instrument is and rests there until the device is ready and a first intent has come. A leap
+// of the intent (the pointer has crossed the window at once) becomes a movement at kSpeed, so that it cannot throw the
+// arm; the spring between this hand and the stylus is the plant's own (haptics/device/plant/hand_model.h). Frame T, SI.
+// No allocation, no lock: wait-free on both sides. Threads: update() the haptic task's; the link's other ends belong to
+// one more.
+#pragma once
+
+#include <atomic>
+
+#include "haptics/device/hand.h"
+#include "haptics/exchange/latest.h"
+
+namespace trocar {
+
+/// An intent and its number, counted from 1.
+struct SteeredIntent {
+  HandIntent intent;
+  std::uint64_t number = 0;
+};
+
+/// Between the window and the hand; outlives both.
+struct HandLink {
+  Latest<SteeredIntent> wanted;        ///< window to hand
+  Latest<HandIntent> target;           ///< hand to window: where the hand pulls to now
+  std::atomic<bool> ready{false};      ///< the hand moves: the device is active and soft start is over
+  std::atomic<std::uint64_t> felt{0};  ///< newest intent that a finished tick of the loop has had
+};
+
+class PersonHand final : public Hand {
+ public:
+  static constexpr double kSpeed =
+      0.5;  ///< m/s: peak of fast reaches over 10 cm; keeps a leap of the pointer a movement
+  static constexpr double kTurnSpeed = 6;       ///< rad/s
+  static constexpr double kFingerSpeed = 0.05;  ///< m/s: fully open to closed in 0.4 s
+
+  /// @param link outlives the hand.
+  explicit PersonHand(HandLink& link) : link_(link) {}
+  HandIntent update(const Percept& percept, double dt_s) override;
+
+ private:
+  void follow(const HandIntent& wanted, double dt_s);
+
+  HandLink& link_;
+  HandIntent intent_;
+  std::uint64_t taken_ = 0;  ///< number of the newest intent
+  bool holding_ = false;
+};
+
+}  // namespace trocar

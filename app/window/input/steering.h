@@ -1,0 +1,57 @@
+// Turns what hands do to mouse, keys, pad or puck into where a person's hand wants the instrument (HandIntent).
+//
+// The intent pulls the simulated device's stylus through the impedance of the hand: nothing here sets the stylus.
+// Movements are in the picture's plane about the view's own axes; depth is along the line of sight. Speeds are limited,
+// and the target stays in a ball about the work space. The wrist turns the shaft about the tip: its far end goes where
+// the hand goes, within what the device's wrist can follow (steering_reach.h); roll is about the shaft. Through a port
+// only tip and roll can be had. Frame T, m, rad. Same events and same steps give the same intents. Thread: the
+// window's.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/picture/scene/scene_view.h"
+#include "app/window/input/input_event.h"
+#include "app/window/input/key_map.h"
+#include "app/window/input/scope_hand.h"
+#include "app/window/input/steering_reach.h"
+#include "haptics/device/hand.h"
+
+namespace trocar {
+
+struct SteeringOptions {
+  bool left_handed = false;     ///< wrist of mouse, sticks and puck mirrored; left column for the panel
+  bool like_a_fulcrum = false;  ///< a movement of the hand moves the tip the other way, as through a real port
+  double sensitivity = 1;       ///< 0.25 to 4
+};
+
+class Steering {
+ public:
+  Steering(const KeyMap& keys, const SteeringOptions& options);
+  ~Steering();
+
+  /// Other keys or options from now on; nothing is held afterwards.
+  void retune(const KeyMap& keys, const SteeringOptions& options);
+  /// Where the instrument is when steering begins (and after a restart). @param reach of the exercise:
+  /// steering_reach().
+  void begin(const Pose& X_TI, double jaw_opening_m, const Vec3& centre_T, const SteeringReach& reach = {});
+  /// @return true when the event was one of steering; false: it may be a command (KeyMap::action_of) or nothing. A
+  /// window that lost the focus releases all (false: others may care too), and the jaws keep what they hold.
+  bool handle(const InputEvent& event);
+  /// Moves what is held (keys, sticks) by dt and gives the newest intent. @param camera axes of the picture.
+  /// @param height_px of the scope's picture, for the mouse.
+  const HandIntent& advance(double dt_s, const Camera& camera, double height_px);
+  const HandIntent& intent() const;
+
+  InputKind kind() const;  ///< what moved the hand last
+  bool latched() const;    ///< the jaws keep their opening
+  using ScopeMove = trocar::ScopeMove;
+  ScopeMove scope() const;  ///< turned by the person: light post, about its port, depth
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trocar

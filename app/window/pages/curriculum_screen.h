@@ -1,0 +1,63 @@
+// T2: the course. Left the exercises by level and how the trainee stands to each, right a card of the chosen one.
+//
+// Arrows choose, Enter opens the briefing. Thread: the window's.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/lessons/lesson_picture.h"
+#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/screen.h"
+#include "app/window/ui/ui.h"
+
+namespace trocar {
+
+/// How a standing is shown: a shape with words, colour only beside them.
+Mark standing_mark(const Standing& standing);
+/// "L1: passed 2 x", "L2: needs L1 passed 3 x in a row".
+std::string standing_words(const Words& words, const Exercise& exercise, const std::string& level,
+                           const Standing& standing);
+/// What the newest attempt of all was of; none before the first.
+struct LastTried {
+  std::string exercise_id, level, started_utc;
+};
+
+class CurriculumScreen final : public Screen {
+ public:
+  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
+  void settle(PracticeDesk& desk, double wait_s) override { picture_.settle(desk, wait_s); }
+  bool takes_escape() const override { return true; }
+
+ private:
+  struct Row {
+    const Exercise* exercise;
+    std::string level;
+    Standing standing;
+  };
+  void load(PracticeDesk& desk);
+  void keys(const Ui& ui, PracticeDesk& desk);
+  void choose(PracticeDesk& desk, std::size_t row);
+  void tree(Ui& ui, PracticeDesk& desk, const Area& area);
+  void card(Ui& ui, PracticeDesk& desk, const Area& area);
+  void wide_card(Ui& ui, PracticeDesk& desk, const Area& area);
+  void head(Ui& ui, PracticeDesk& desk) const;
+  void facts(Ui& ui, PracticeDesk& desk, double sparkline_at_720) const;
+  void advice(Ui& ui, PracticeDesk& desk) const;
+  void caption(Ui& ui, const PracticeDesk& desk) const;
+  std::optional<ScreenName> act(const std::string& chosen, PracticeDesk& desk);
+
+  std::vector<Row> rows_;
+  std::size_t chosen_ = 0;
+  std::optional<std::size_t> revealed_;  // the chosen row that the list has been scrolled to
+  PracticeDesk::Advice next_;
+  std::optional<LastTried> last_;
+  std::string wrong_;
+  LessonPicture picture_;
+  Area picture_area_;
+  double dt_s_ = 0;
+};
+
+}  // namespace trocar

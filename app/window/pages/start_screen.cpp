@@ -1,0 +1,152 @@
+#include "app/window/pages/start_screen.h"
+
+#include <algorithm>
+
+#include "app/window/pages/show_scene.h"
+#include "app/window/practice/practice_desk.h"
+#include "app/window/ui/theme.h"
+#include "app/window/ui/ui.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kPanelWidth = 500, kMargin = 24;
+constexpr double kFirstWait_s = 1.0;  // for the scene: the first frame is lit if it can be
+
+/// Where the panel stands: left of the scene, or over it where there is no room for both.
+Area panel_area(double scale, double width, double height) {
+  const double unit = ui_unit(scale, width, height), margin = std::min(unit * kMargin, 0.02 * width);
+  const double wide = std::min(unit * kPanelWidth, width - 2 * margin);
+  const bool beside = width - margin - wide >= 0.4 * width;
+  return {margin, margin, beside ? wide : width - 2 * margin, height - 2 * margin};
+}
+
+/// px that are left to the scene beside the panel; 0: it lies behind it.
+double free_width(const Area& panel, double width) {
+  const double left = width - panel.x - panel.width;
+  return left >= 0.4 * width ? left : 0;
+}
+
+std::string title_of(const PracticeDesk& desk, const std::string& id) {
+  for (const Exercise& exercise : desk.exercises())
+    if (exercise.id == id) return exercise.number + " " + desk.words()(exercise.title);
+  return id;
+}
+
+}  // namespace
+
+std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, int height) {
+  if (!scene_) scene_ = desk.show_scene(t_s_ == 0 ? kFirstWait_s : 0);
+  if (!scene_) return {};
+  if (!film_) film_ = std::make_unique<FilmLoop>(desk.show_setup(), desk.assets());
+  Stage stage;
+  stage.view = film_->ready() ? film_->view() : show_view(*scene_, t_s_);
+  const double beside = free_width(panel_area(desk.scale(), width, height), width);
+  stage.x = beside > 0 ? width - beside : 0;
+  stage.width = beside > 0 ? beside : width;
+  stage.height = height;
+  stage.dim = beside > 0 ? 0 : 0.45;
+  return stage;
+}
+
+std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeDesk& desk) {
+  const Words& w = desk.words();
+  std::optional<ScreenName> to;
+  const bool coded = !code_.empty();  // what Enter means is blue
+  if (ui.button("try", w("Try now as a guest"), coded ? "" : "Enter", !coded, kPanelWidth - 36)) {
+    const PracticeDesk::Advice advice = desk.next();
+    desk.exercise_id = advice.exercise_id;
+    desk.level = advice.level;
+    to = ScreenName::kBriefing;
+  }
+  ui.text(w("No account, mouse and keyboard are enough."), Ink::kDim);
+  ui.gap(6);
+  ui.heading(w("Sign in"));
+  const bool entered = ui.field("code", w("Your code"), code_);
+  if (ui.button("signin", w("Sign in"), coded ? "Enter" : "", coded) || entered) {
+    wrong_ = desk.sign_in(code_);
+    if (wrong_.empty()) to = ScreenName::kCurriculum;
+  }
+  if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
+  return to;
+}
+
+std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeDesk& desk) {
+  const Words& w = desk.words();
+  const PracticeDesk::Advice advice = desk.next();
+  std::optional<ScreenName> to;
+  ui.marked(Mark::kTick, w("Signed in as {0}", {desk.trainee()}));
+  if (ui.button("next", w("Next: {0}, {1}", {title_of(desk, advice.exercise_id), advice.level}), "Enter", true,
+                kPanelWidth - 36)) {
+    desk.exercise_id = advice.exercise_id;
+    desk.level = advice.level;
+    to = ScreenName::kBriefing;
+  }
+  ui.text(advice.why, Ink::kDim);
+  if (ui.button("exercises", w("All exercises"))) to = ScreenName::kCurriculum;
+  ui.same_line();
+  if (ui.button("progress", w("My progress"))) to = ScreenName::kProgress;
+  ui.same_line();
+  if (ui.button("signout", w("Sign out"))) desk.sign_out();
+  return to;
+}
+
+std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeDesk& desk) {
+  const Words& w = desk.words();
+  std::optional<ScreenName> to;
+  if (languages_.empty()) languages_ = languages(desk.assets().assets / "languages");
+  std::vector<std::string> names;
+  int chosen = 0;
+  for (const Language& language : languages_) {
+    if (language.code == desk.words().language()) chosen = static_cast<int>(names.size());
+    names.push_back(language.name);
+  }
+  if (names.size() > 1 && ui.choice("language", w("Language"), names, chosen)) {
+    desk.choose_language(languages_[static_cast<std::size_t>(chosen)].code);
+  }
+  const auto resize = [&](double by) { desk.choose_scale(desk.scale() + by); };
+  if (ui.button("smaller", w("Smaller"), "-")) resize(-0.25);
+  ui.same_line();
+  if (ui.button("larger", w("Larger"), "=")) resize(0.25);
+  ui.same_line();
+  if (ui.button("settings", w("Settings"))) to = ScreenName::kSettings;
+  return to;
+}
+
+/// What is seen, and that it is nobody.
+void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
+  const Area panel = panel_area(desk.scale(), ui.width(), ui.height());
+  const double free = free_width(panel, ui.width());
+  if (!scene_ || free <= 0) return;
+  const Words& w = desk.words();
+  const std::string said = film_ && film_->ready() ? w("Replay of the expert: {0}", {w.name(film_->scene().organ.name)})
+                                                   : w("Still scene, synthetic: no patient.");
+  const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), high = ui.line_height(),
+               pad = ui.px(10);
+  const double y = ui.height() - high - ui.px(22);
+  ui.paint_ground({x - pad, y - pad / 2, std::min(room, ui.text_width(said)) + 2 * pad, high + pad}, 0.85, ui.px(6));
+  ui.text_at(x, y, said, Ink::kDim, room);
+}
+
+std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
+  t_s_ += dt_s;
+  if (film_) film_->advance(dt_s);
+  const Words& w = desk.words();
+  caption(ui, desk);
+  ui.begin_panel("start", panel_area(desk.scale(), ui.width(), ui.height()));
+  ui.title("Trocar");
+  ui.text(w("Practise laparoscopy and feel what you touch."), Ink::kDim);
+  ui.gap(10);
+  std::optional<ScreenName> to = desk.is_guest() ? guest_part(ui, desk) : trainee_part(ui, desk);
+  ui.to_bottom(236);
+  if (const auto chosen = foot(ui, desk)) to = chosen;
+  ui.gap(4);
+  ui.marked(Mark::kInfo, w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."), Ink::kDim);
+  ui.gap(4);
+  ui.heading(w("Teacher"));
+  ui.text(w("Results, notes, sign-off and export: trocar review serve."), Ink::kDim);
+  ui.end_panel();
+  return to;
+}
+
+}  // namespace trocar

@@ -1,0 +1,32 @@
+// T1: the first page. Try as a guest, sign in, language and size; behind it the show scene, then the expert at work.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/picture/films/film_loop.h"
+#include "app/window/practice/screen.h"
+#include "app/window/words/words.h"
+
+namespace trocar {
+
+class StartScreen final : public Screen {
+ public:
+  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
+
+ private:
+  std::optional<ScreenName> guest_part(Ui& ui, PracticeDesk& desk);
+  std::optional<ScreenName> trainee_part(Ui& ui, PracticeDesk& desk);
+  std::optional<ScreenName> foot(Ui& ui, PracticeDesk& desk);
+  void caption(Ui& ui, const PracticeDesk& desk) const;
+
+  double t_s_ = 0;
+  std::shared_ptr<const SceneView> scene_;
+  std::unique_ptr<FilmLoop> film_;  ///< over the show scene, as soon as there is one
+  std::vector<Language> languages_;
+  std::string code_, wrong_;
+};
+
+}  // namespace trocar

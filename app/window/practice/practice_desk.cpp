@@ -1,0 +1,370 @@
+#include "app/window/practice/practice_desk.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numbers>
+#include <thread>
+
+#include "app/picture/models/show_scene.h"
+#include "app/session/setup/recorded_scene.h"
+#include "app/window/practice/practice_desk_state.h"
+#include "haptics/input_error.h"
+#include "scenarios/files/exercise_loader.h"
+#include "scenarios/layout/board_numbers.h"
+#include "trainees/records/attempt_identity.h"
+#include "trainees/records/trainee_store.h"
+#include "trainees/records/verdicts.h"
+
+namespace trocar {
+namespace {
+
+constexpr int kStoring_ms = 500;  // that a result may take to the database before the person is told
+
+/// The parser's own words are English and for who writes programs: the line says enough.
+std::string unread_words(const Words& w, const Settings& settings, const std::filesystem::path& file) {
+  const std::string kept = unread_settings(file).filename().string();
+  if (settings.note_line > 0)
+    return w("{0}, line {1}, cannot be read: the usual settings hold. With your next change it is kept as {2}.",
+             {file.string(), std::to_string(settings.note_line), kept});
+  return w("{0} cannot be read: the usual settings hold. With your next change it is kept as {1}.",
+           {file.string(), kept});
+}
+
+}  // namespace
+
+PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.options = options;
+  s.assets = assets;
+  if (s.scripted()) s.trainee = kDemonstration;
+  s.check_names();
+  s.exercises = list_exercises(assets.exercises);
+  if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
+  s.show_scene = std::async(std::launch::async, [] {
+                   return std::make_shared<const SceneView>(trocar::show_scene("abdomen"));
+                 }).share();
+  s.settings = load_settings(s.settings_file_path());
+  s.take_up(notice);
+  if (!s.settings.note.empty()) notice = unread_words(s.words, s.settings, s.settings_file_path());
+  s.open_database(notice);
+  exercise_id = s.exercises.front().id;
+  level = options.level;
+  organ = options.organ;
+  if (!options.exercise.empty()) {
+    const Exercise chosen = find_exercise(options.exercise, assets.exercises);
+    const auto known =
+        std::find_if(s.exercises.begin(), s.exercises.end(), [&](const Exercise& e) { return e.id == chosen.id; });
+    if (known == s.exercises.end())
+      s.exercises.push_back(chosen);
+    else
+      *known = chosen;
+    exercise_id = chosen.id;
+  }
+  find_level(exercise(), level);
+  if (options.trainee.empty()) return;
+  if (const std::string wrong = sign_in(options.trainee); !wrong.empty())
+    throw InputError("--trainee " + options.trainee + ": " + wrong);
+}
+
+PracticeDesk::~PracticeDesk() = default;
+
+const AssetRoots& PracticeDesk::assets() const { return state_->assets; }
+const std::vector<Exercise>& PracticeDesk::exercises() const { return state_->exercises; }
+const Words& PracticeDesk::words() const { return state_->words; }
+double PracticeDesk::scale() const {
+  return std::clamp(state_->options.scale.value_or(state_->settings.scale), 1.0, 2.0);
+}
+const std::string& PracticeDesk::scope() const {
+  return state_->options.scope.empty() ? state_->settings.scope : state_->options.scope;
+}
+double PracticeDesk::scope_tilt_rad() const { return std::stod(scope()) * std::numbers::pi / 180; }
+Settings& PracticeDesk::settings() { return state_->settings; }
+const KeyMap& PracticeDesk::keys() const { return state_->keys; }
+Steering& PracticeDesk::steering() { return *state_->steering; }
+Sound& PracticeDesk::sound() { return *state_->sound; }
+std::filesystem::path PracticeDesk::database() const {
+  return state_->database->in_memory() ? std::filesystem::path(":memory:") : state_->database->file();
+}
+
+void PracticeDesk::choose_language(const std::string& code) {
+  state_->options.language.clear();
+  state_->settings.language = code;
+  settings_changed();
+}
+
+void PracticeDesk::choose_scale(double scale) {
+  state_->options.scale.reset();
+  state_->settings.scale = std::clamp(scale, 1.0, 2.0);
+  settings_changed();
+}
+
+void PracticeDesk::choose_scope(const std::string& degrees) {
+  state_->options.scope.clear();
+  state_->settings.scope = degrees;
+  settings_changed();
+}
+
+void PracticeDesk::settings_changed() {
+  State& s = *state_;
+  // What was chosen here holds over what the command line said; what was not touched stays as it said.
+  if (s.settings.scale != s.followed.scale) s.options.scale.reset();
+  if (s.settings.language != s.followed.language) s.options.language.clear();
+  s.take_up(notice);
+  try {
+    save_settings(s.settings_file_path(), s.settings);
+  } catch (const EnvironmentError& error) {
+    notice = s.words("The settings hold now but cannot be kept: {0}", {error.what()});
+  }
+}
+
+std::shared_ptr<const SceneView> PracticeDesk::show_scene(double wait_s) const {
+  const auto& scene = state_->show_scene;
+  if (!scene.valid() || scene.wait_for(std::chrono::duration<double>(wait_s)) != std::future_status::ready)
+    return nullptr;
+  return scene.get();
+}
+
+AttemptSetup PracticeDesk::show_setup() const {
+  const std::vector<Exercise>& all = state_->exercises;
+  const auto touch =
+      std::find_if(all.begin(), all.end(), [](const Exercise& e) { return e.kind == ExerciseKind::kTouch; });
+  AttemptSetup setup;
+  setup.exercise = touch == all.end() ? all.front() : *touch;
+  setup.level = setup.exercise.levels.front().name;
+  setup.organ = "phantom-abdomen";
+  return setup;
+}
+
+const std::string& PracticeDesk::trainee() const { return state_->trainee; }
+bool PracticeDesk::is_guest() const { return state_->trainee == kGuest || state_->trainee == kDemonstration; }
+
+std::string PracticeDesk::sign_in(const std::string& code) {
+  State& s = *state_;
+  if (code.empty()) return s.words("Type your code first.");
+  if (code == kDemonstration || code == kGuest)
+    return s.words("This code is kept for runs that are nobody's; take another.");
+  try {
+    s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
+    if (const std::string said = s.recovered_words(s.trainee); !said.empty()) notice = said;
+    s.look_for_note();
+    s.message.reset();
+    s.session = make_uuid();
+    return "";
+  } catch (const InputError&) {
+    return s.words("A code is 1 to 32 letters, digits, dots or dashes, and begins with a letter or digit.");
+  } catch (const EnvironmentError& error) {
+    return s.words("The database does not answer: {0}", {error.what()});
+  }
+}
+
+void PracticeDesk::sign_out() {
+  state_->trainee = state_->scripted() ? kDemonstration : kGuest;
+  state_->note.reset();
+  state_->message.reset();
+  state_->session = make_uuid();
+}
+
+bool PracticeDesk::is_demonstration() const { return state_->scripted(); }
+
+std::string PracticeDesk::who() const {
+  const Words& w = state_->words;
+  if (state_->scripted()) return w("Demonstration");
+  return is_guest() ? w("Guest") : w("Signed in as {0}", {trainee()});
+}
+
+const Exercise& PracticeDesk::exercise() const {
+  const auto& all = state_->exercises;
+  const auto at = std::find_if(all.begin(), all.end(), [this](const Exercise& e) { return e.id == exercise_id; });
+  return at == all.end() ? all.front() : *at;
+}
+
+bool PracticeDesk::exercise_given() const { return !state_->options.exercise.empty(); }
+
+Standing PracticeDesk::standing(const std::string& id, const std::string& of_level) const {
+  const auto& all = state_->exercises;
+  const auto at = std::find_if(all.begin(), all.end(), [&id](const Exercise& e) { return e.id == id; });
+  return at == all.end() ? Standing{} : standing_of(*at, of_level, state_->attempts(id));
+}
+
+PracticeDesk::Advice PracticeDesk::next() const {
+  const Words& w = state_->words;
+  const auto found = next_step(practice_order(state_->exercises, is_guest()),
+                               [this](const Exercise& e, const std::string& name) { return standing(e.id, name); });
+  if (!found) {
+    const Exercise& first = state_->exercises.front();
+    return {first.id, first.levels.back().name, w("Everything is passed: stay in practice.")};
+  }
+  const Standing& s = found->standing;
+  const std::string why = s.attempts == 0 ? w("Not tried yet.")
+                          : s.passed_in_a_row == 0
+                              ? w(s.attempts == 1 ? "Tried once, the row of passes is still to come."
+                                                  : "Tried {0} times, the row of passes is still to come.",
+                                  {std::to_string(s.attempts)})
+                              : w("{0} of 3 passes in a row.", {std::to_string(s.passed_in_a_row)});
+  return {found->exercise->id, found->level, why};
+}
+
+std::string PracticeDesk::locked() const {
+  const std::vector<ExerciseLevel>& levels = exercise().levels;
+  const auto at =
+      std::find_if(levels.begin(), levels.end(), [this](const ExerciseLevel& one) { return one.name == level; });
+  if (state_->scripted() || at == levels.begin() || at == levels.end() || standing(exercise_id, level).unlocked)
+    return "";
+  const Words& w = state_->words;
+  const std::string& before = std::prev(at)->name;
+  return w("{0} is locked: three passes in a row on three boards at {1} open it. So far: {2} of 3.",
+           {w(level), w(before), std::to_string(std::min(3, standing(exercise_id, before).passed_in_a_row))});
+}
+
+std::optional<std::string> PracticeDesk::teacher_note() const {
+  const std::optional<Note>& note = state_->note;
+  return note ? std::optional(note->printed.empty() ? note->text : note->text + " (" + note->printed + ")")
+              : std::nullopt;
+}
+
+std::vector<PastAttempt> PracticeDesk::past(const std::string& id) const {
+  const State& s = *state_;
+  std::vector<PastAttempt> out;
+  if (s.database->in_memory()) {
+    std::copy_if(s.unkept_numbers.begin(), s.unkept_numbers.end(), std::back_inserter(out), [&](const PastAttempt& a) {
+      return a.summary.trainee == s.trainee && s.counts(a.summary) && (id.empty() || a.summary.exercise_id == id);
+    });
+    return out;
+  }
+  try {
+    out = past_attempts(*s.database, s.trainee, id);
+    std::erase_if(out, [&](const PastAttempt& a) { return !s.counts(a.summary); });
+    return out;
+  } catch (const EnvironmentError&) {
+    return {};
+  }
+}
+
+std::string PracticeDesk::begin_attempt() {
+  State& s = *state_;
+  if (s.runner) return s.words("An attempt is running.");
+  const bool scripted = s.scripted();
+  if (std::string why = locked(); !why.empty()) return why;
+  AttemptRequest request;
+  request.setup.exercise = exercise();
+  request.setup.level = level;
+  request.setup.organ = organ;
+  request.setup.hand = scripted                     ? s.options.hand
+                       : s.options.input != "auto"  ? s.options.input
+                       : s.settings.input != "auto" ? s.settings.input
+                                                    : input_name(s.steering->kind());
+  request.setup.seed = s.seed();
+  request.setup.board = drawn_board(request.setup.seed, level == kExamLevel);
+  request.setup.realtime = true;
+  request.setup.pace = kSimulatedLivePace;
+  request.trainee = scripted ? kDemonstration : s.trainee;
+  request.session = s.session;
+  request.database = s.options.database;
+  request.steered = !scripted;
+  try {
+    s.runner = std::make_unique<AttemptRunner>(request, s.assets, s.built(request.setup));
+    s.last_scene = s.runner->shared_scene();
+    s.note_was_met();
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const EnvironmentError& error) {
+    return error.what();
+  }
+}
+
+void PracticeDesk::begin_steering() {
+  State& s = *state_;
+  if (!s.runner) return;
+  const Scene& scene = s.runner->scene();
+  const StylusState& stylus = s.runner->newest().record.stylus;
+  s.steering->begin(stylus.X_TI, stylus.jaw_opening_m, scene.board.centre_T,
+                    steering_reach(scene.setup.exercise, scene.level));
+}
+
+AttemptRunner* PracticeDesk::running() { return state_->runner.get(); }
+
+bool PracticeDesk::end_attempt() {
+  State& s = *state_;
+  if (!s.runner) return false;
+  std::erase_if(s.unstored, [](const std::unique_ptr<AttemptRunner>& old) { return old->stored(); });
+  std::unique_ptr<AttemptRunner> runner = std::move(s.runner);
+  try {
+    if (!runner->finished()) runner->abort();
+    s.result = runner->result();
+    for (int i = 0; i < kStoring_ms && !runner->stored(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (!runner->stored()) {
+      notice = s.words("The database is busy: the result is kept and will be stored as soon as it answers.");
+      s.unstored.push_back(std::move(runner));
+    }
+  } catch (const std::exception& error) {
+    s.result.reset();
+    notice = s.words("The attempt ended without a result: {0}", {error.what()});
+    return false;
+  }
+  if (!s.database->in_memory()) return true;
+  AttemptSummary summary;
+  summary.uuid = s.result->uuid;
+  summary.trainee = s.result->trainee;
+  summary.exercise_id = s.result->exercise_id;
+  summary.level = s.result->level;
+  summary.started_utc = s.result->started_utc;
+  summary.board = s.result->board;
+  summary.hand = s.result->hand;
+  summary.status = status_name(s.result->grade.status);
+  summary.score = s.result->grade.score;
+  summary.passed = s.result->grade.passed;
+  s.unkept.insert(s.unkept.begin(), summary);
+  s.unkept_numbers.insert(s.unkept_numbers.begin(), past_attempt(*s.result));
+  return true;
+}
+
+bool PracticeDesk::open_result(const std::string& uuid) {
+  State& s = *state_;
+  try {
+    AttemptResult found = AttemptStore(*s.database).load(uuid);
+    exercise_id = found.exercise_id;
+    level = found.level;
+    s.result = std::move(found);
+    if (const auto decision = verdict_of(*s.database, *s.result).decision)
+      notice = s.words(decision->passed ? "{0} decided on {1} that this attempt is passed: {2}"
+                                        : "{0} decided on {1} that this attempt is not passed: {2}",
+                       {decision->printed, decision->utc.substr(0, 10), decision->reason});
+    return true;
+  } catch (const std::exception& error) {
+    notice = s.words("This attempt cannot be opened: {0}", {error.what()});
+    return false;
+  }
+}
+
+const std::optional<AttemptResult>& PracticeDesk::result() const { return state_->result; }
+std::shared_ptr<const Scene> PracticeDesk::last_scene() const { return state_->last_scene; }
+std::filesystem::path PracticeDesk::recording() const { return state_->result ? state_->result->recording_path : ""; }
+
+std::filesystem::path PracticeDesk::expert_recording() {
+  State& s = *state_;
+  AttemptSetup setup;
+  setup.exercise = exercise();
+  setup.level = level;
+  setup.organ = organ;
+  setup.seed = s.options.seed.value_or(1);
+  setup.board = drawn_board(setup.seed, false);
+  const bool same = s.result && s.result->exercise_id == exercise_id && s.result->level == level;
+  try {
+    if (same && !s.result->recording_path.empty()) {  // the very attempt: its exercise, organ, board and way of holding
+      if (s.beside.first != s.result->uuid) s.beside = {s.result->uuid, recorded_setup(s.result->recording_path)};
+      setup = s.beside.second;
+    } else if (same && s.last_scene) {
+      setup = s.last_scene->setup;
+    }
+  } catch (const InputError&) {
+    setup.seed = s.result->seed;  // its recording cannot be read: the same board on what is chosen here
+    setup.board = s.result->board;
+  }
+  return s.expert.ask(expert_setup(setup), s.assets);
+}
+
+const std::string& PracticeDesk::expert_refusal() const { return state_->expert.refusal(); }
+
+}  // namespace trocar

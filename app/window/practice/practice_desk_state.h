@@ -1,0 +1,70 @@
+// What a PracticeDesk keeps. Only app/screens/practice_desk*.cpp includes this.
+//
+// Thread: the window's.
+#pragma once
+
+#include <future>
+#include <utility>
+
+#include "app/session/keeping/live_attempt.h"
+#include "app/session/playback/expert_run.h"
+#include "app/window/practice/practice_desk.h"
+#include "trainees/records/attempt_identity.h"
+#include "trainees/records/opinions.h"
+
+namespace trocar {
+
+inline constexpr const char* kGuest = "guest";
+inline constexpr const char* kDemonstration = "demonstration";  // whose the runs of scripted hands are
+
+struct PracticeDesk::State {
+  DeskOptions options;
+  AssetRoots assets;
+  std::vector<Exercise> exercises;
+  Settings settings, followed;  // as they are; as they were when they were last taken up
+  Words words;
+  KeyMap keys;
+  std::unique_ptr<Steering> steering;
+  std::unique_ptr<Sound> sound;
+  bool sound_wanted = true;
+  std::unique_ptr<Database> database;
+  std::string trainee = kGuest, session = make_uuid();  // session: of a sign-in
+  std::optional<Note> note;                             // of a teacher, that the trainee has not met yet
+  std::unique_ptr<AttemptRunner> runner;
+  std::vector<std::unique_ptr<AttemptRunner>> unstored;  // over, but the database has not taken them yet
+  std::optional<AttemptResult> result;
+  std::shared_ptr<const Scene> last_scene;
+  std::vector<AttemptSummary> unkept;       // of this sitting, newest first, when nothing is kept
+  std::vector<PastAttempt> unkept_numbers;  // the same with their metrics
+  ExpertRun expert;
+  std::pair<std::string, AttemptSetup> beside;  // attempt that the expert was asked for, and its setup
+  std::shared_future<std::shared_ptr<const SceneView>> show_scene;
+
+  std::unique_ptr<LivePublisher> live;   // from the first frame on, where results are kept
+  std::optional<LiveAttempt> told;       // of the runner
+  std::string told_phase, told_trainee;  // as the desk was told last
+  std::optional<Note> message;           // of a teacher, not shown yet
+  double unasked_s = 1e9;                // since messages were asked for
+
+  std::filesystem::path settings_file_path() const {
+    return options.settings.empty() ? settings_file() : options.settings;
+  }
+  std::vector<RecoveredAttempt> recovered;  // found cut off when the database was opened
+
+  bool scripted() const { return !options.hand.empty(); }
+  bool counts(const AttemptSummary& attempt) const { return scripted() || !by_scripted_hand(attempt); }
+  std::string recovered_words(const std::string& of) const;
+  void check_names() const;
+  void take_up(std::string& notice);
+  void open_database(std::string& notice);
+  std::vector<AttemptSummary> attempts(const std::string& exercise) const;
+  void look_for_note();
+  void note_was_met();
+  void tell_desk(bool guest);
+  void look_for_message();
+  bool show_message(std::string& notice);
+  std::shared_ptr<const Scene> built(AttemptSetup setup) const;
+  std::int64_t seed() const;
+};
+
+}  // namespace trocar

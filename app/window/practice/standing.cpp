@@ -1,0 +1,68 @@
+#include "app/window/practice/standing.h"
+
+#include <algorithm>
+
+#include "app/window/input/input_event.h"
+
+namespace trocar {
+namespace {
+
+std::vector<AttemptSummary> at_level(const std::vector<AttemptSummary>& attempts, const std::string& level) {
+  std::vector<AttemptSummary> out;
+  std::copy_if(attempts.begin(), attempts.end(), std::back_inserter(out),
+               [&level](const AttemptSummary& a) { return a.level == level; });
+  return out;
+}
+
+}  // namespace
+
+std::optional<NextStep> next_step(const std::vector<const Exercise*>& order,
+                                  const std::function<Standing(const Exercise&, const std::string&)>& standing) {
+  std::size_t most = 0;
+  for (const Exercise* e : order) most = std::max(most, e->levels.size());
+  for (std::size_t i = 0; i < most; ++i) {
+    for (const Exercise* e : order) {
+      if (i >= e->levels.size()) continue;
+      Standing s = standing(*e, e->levels[i].name);
+      if (s.unlocked && !opens_next(s.newest_first)) return NextStep{e, e->levels[i].name, std::move(s)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bool guest) {
+  std::vector<const Exercise*> order;
+  for (const Exercise& e : all) order.push_back(&e);
+  if (guest)
+    std::stable_partition(order.begin(), order.end(),
+                          [](const Exercise* e) { return e->kind == ExerciseKind::kTouch; });
+  return order;
+}
+
+bool by_scripted_hand(const AttemptSummary& attempt) {
+  for (const InputKind kind :
+       {InputKind::kMouse, InputKind::kKeyboard, InputKind::kPad, InputKind::kPuck, InputKind::kDevice})
+    if (attempt.hand == input_name(kind)) return false;
+  return !attempt.hand.empty();
+}
+
+Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts) {
+  Standing out;
+  out.newest_first = at_level(attempts, level);
+  for (const AttemptSummary& attempt : out.newest_first) {
+    if (attempt.status == "running") continue;
+    ++out.attempts;
+    out.passed += attempt.passed ? 1 : 0;
+    if (!attempt.score) continue;
+    if (!out.last) out.last = attempt.score;
+    out.best = std::max(out.best.value_or(*attempt.score), *attempt.score);
+  }
+  out.passed_in_a_row = passes_in_a_row(out.newest_first);
+  const auto at = std::find_if(exercise.levels.begin(), exercise.levels.end(),
+                               [&level](const ExerciseLevel& l) { return l.name == level; });
+  if (at != exercise.levels.begin() && at != exercise.levels.end())
+    out.unlocked = opens_next(at_level(attempts, std::prev(at)->name));
+  return out;
+}
+
+}  // namespace trocar

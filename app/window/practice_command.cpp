@@ -1,0 +1,108 @@
+#include "app/window/practice_command.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <ostream>
+#include <thread>
+#include <utility>
+
+#include "app/session/interrupt.h"
+#include "app/window/glfw/window.h"
+#include "app/window/practice/practice_loop.h"
+#include "app/window/practice_pictures.h"
+#include "trainees/records/replica_facts.h"
+
+namespace trocar {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+/// Each attempt starts threads; with heaps of their own for all of them the process grew by 28 MiB in 39 attempts, with
+/// two it stays.
+constexpr int kHeaps = 2;
+
+/// Another window of the same size in place of one whose context is lost.
+std::unique_ptr<Window> opened_anew(std::unique_ptr<Window> lost, PracticeLoop& loop) {
+  const WindowOptions same{"Trocar", lost->width(), lost->height(), loop.fullscreen(), true};
+  loop.lose_pictures();
+  lost.reset();
+  auto window = std::make_unique<Window>(same);
+  loop.take_up(*window);
+  return window;
+}
+
+/// How soon the debrief stands after an exercise's end, by the clock: the longest wait of all attempts.
+class DebriefWait {
+ public:
+  /// After each frame.
+  void look(const PracticeLoop& loop, PracticeDesk& desk) {
+    AttemptRunner* run = desk.running();
+    const bool over = run && loop.here() == ScreenName::kRun && run->newest().status.phase >= Phase::kDone;
+    if (over && !waiting_) since_ = Clock::now();
+    const bool waited = std::exchange(waiting_, over) && !over;
+    if (waited && loop.here() == ScreenName::kDebrief) longest_s_ = std::max(longest_s_, seconds_since(since_));
+  }
+  double longest_s() const { return longest_s_; }
+
+ private:
+  bool waiting_ = false;
+  Clock::time_point since_ = {};
+  double longest_s_ = 0;
+};
+
+/// Frames until the window is closed or a screen says quit. What a signal asks for is a quit too: an attempt ends as
+/// aborted.
+void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWatch& interrupt, Clock::time_point begin,
+                std::ostream& err) {
+  auto window =
+      std::make_unique<Window>(WindowOptions{"Trocar", options.width, options.height, options.fullscreen, true});
+  PracticeLoop loop(desk, *window, true);
+  bool fullscreen = options.fullscreen, going = true;
+  Clock::time_point last = Clock::now();
+  double first_s = 0, first_cpu_s = 0;
+  long frames = 0;
+  DebriefWait debrief;
+  while (going && !window->close_asked() && !interrupt.seen()) {
+    const std::vector<InputEvent> events = window->poll();
+    const double dt_s = seconds_since(last);
+    last = Clock::now();
+    going = loop.frame(window->width(), window->height(), dt_s, events);
+    if (window->width() == 0 || window->height() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    window->present();
+    debrief.look(loop, desk);
+    if (window->lost()) window = opened_anew(std::move(window), loop);
+    if (++frames == 1) {
+      first_s = seconds_since(begin);
+      first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    }
+    if (loop.fullscreen() != fullscreen) window->set_fullscreen(fullscreen = loop.fullscreen());
+  }
+  if (options.timing)
+    err << "trocar: first frame after " << first_s << " s (" << first_cpu_s << " s of CPU), " << frames << " frames in "
+        << seconds_since(begin) << " s on " << window->info().renderer << ", preset " << preset_name(loop.preset())
+        << '\n';
+  if (options.timing && debrief.longest_s() > 0)
+    err << "trocar: debrief at most " << debrief.longest_s() << " s after the end of an exercise\n";
+}
+
+}  // namespace
+
+int practice_command(const PracticeOptions& options, std::ostream& out, std::ostream& err) {
+  ::mallopt(M_ARENA_MAX, kHeaps);
+  const Clock::time_point begin = Clock::now();
+  if (!options.screens.empty()) return picture_screens(options, out);
+  InterruptWatch interrupt;  // before the desk starts a thread: it must inherit what is blocked
+  PracticeDesk desk(options.desk, find_assets());
+  // Told now, not after the first exercise.
+  if (desk.database() != ":memory:") require_no_replica(Database(desk.database(), OpenMode::kExisting));
+  run_window(options, desk, interrupt, begin, err);
+  return 0;
+}
+
+}  // namespace trocar

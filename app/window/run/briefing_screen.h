@@ -1,0 +1,59 @@
+// T3: what will be done and measured, on one page; beside it the device is checked. Enter starts.
+//
+// At 720 lines and scale 1 everything stands on the page; with larger text the page keys move it. Thread: the window's.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/device/device_check.h"
+#include "app/window/lessons/lesson_words.h"
+#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/screen.h"
+#include "app/window/ui/ui.h"
+
+namespace trocar {
+
+/// A line of the device check as a trainee reads it: "Weight left over 0.04 N (limit 0.20 N)".
+std::string check_words(const Words& words, const DeviceCheck::Line& line);
+
+class BriefingScreen final : public Screen {
+ public:
+  /// @param limits of the device check; tests make them fail.
+  explicit BriefingScreen(const CheckLimits& limits = {}) : limits_(limits) {}
+  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  void settle(PracticeDesk& desk, double wait_s) override;
+  bool takes_escape() const override { return true; }
+
+ private:
+  void load(PracticeDesk& desk);
+  void head(Ui& ui, PracticeDesk& desk) const;
+  void column(Ui& ui, PracticeDesk& desk, const Area& area);
+  void sheet(Ui& ui, PracticeDesk& desk, const Area& area);
+  std::string page(Ui& ui, PracticeDesk& desk);
+  std::string explanation(Ui& ui, PracticeDesk& desk);
+  void steps(Ui& ui) const;
+  void stage_words(Ui& ui, PracticeDesk& desk) const;
+  void limits(Ui& ui, PracticeDesk& desk) const;
+  void measures(Ui& ui, PracticeDesk& desk) const;
+  void device(Ui& ui, PracticeDesk& desk) const;
+  std::optional<ScreenName> start(PracticeDesk& desk);
+
+  CheckLimits limits_;
+  std::unique_ptr<DeviceCheck> check_;
+  std::string shown_;  ///< exercise and level that the texts below are of
+  std::vector<LessonStep> steps_;
+  std::vector<LessonLimit> rows_;
+  std::vector<LessonMeasure> measures_;
+  std::shared_future<std::string> organ_;  ///< its credit
+  std::string credit_;
+  bool explaining_ = false;
+  std::size_t measure_ = 0;
+  std::string locked_;  ///< why the level cannot be started; empty: it can
+  std::string wrong_;
+};
+
+}  // namespace trocar

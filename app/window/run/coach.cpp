@@ -1,0 +1,68 @@
+#include "app/window/run/coach.h"
+
+#include <cmath>
+
+namespace trocar {
+namespace {
+
+constexpr double kEnough_px = 120;  // of the pointer's way: not a twitch
+constexpr double kPushed = 0.4;     // of a stick
+
+}  // namespace
+
+void Coach::begin(bool wanted) {
+  *this = Coach();
+  wanted_ = wanted;
+}
+
+void Coach::pass(double dt_s) {
+  if (all()) over_s_ += dt_s;
+}
+
+void Coach::saw(const InputEvent& event, const KeyMap& keys) {
+  using Kind = InputEvent::Kind;
+  const auto action = event.kind == Kind::kKeyDown ? keys.action_of(event.key) : std::nullopt;
+  if (action && *action <= Action::kDown) done_[0] = true;
+  if (action == Action::kInsert || action == Action::kWithdraw || event.kind == Kind::kWheel) done_[1] = true;
+  if (action == Action::kClose || action == Action::kLatch || action == Action::kOpen) done_[2] = true;
+  if (event.kind == Kind::kButtonDown && event.button == MouseButton::kLeft) done_[2] = true;
+  if (event.kind == Kind::kMouseMove) {
+    if (last_x_ >= 0) way_px_ += std::hypot(event.x - last_x_, event.y - last_y_);
+    last_x_ = event.x;
+    last_y_ = event.y;
+    if (way_px_ > kEnough_px) done_[0] = true;
+  }
+  if (event.kind == Kind::kPad || event.kind == Kind::kPuck) {
+    const auto& a = event.axis;
+    if (std::hypot(a[0], a[1]) > kPushed) done_[0] = true;
+    if (event.kind == Kind::kPuck ? std::abs(a[2]) > kPushed : (event.buttons & 0x30U) != 0) done_[1] = true;
+    if (event.kind == Kind::kPuck ? (event.buttons & 1U) != 0 : std::max(a[4], a[5]) > kPushed) done_[2] = true;
+  }
+}
+
+std::vector<Coach::CoachMark> Coach::marks(const Words& words, const KeyMap& keys, InputKind kind) const {
+  const auto name = [&](Action action) { return words.name(key_name(keys.key_of(action))); };
+  switch (kind) {
+    case InputKind::kPad:
+      return {{words("Left stick: move the tip"), done_[0]},
+              {words("Shoulder buttons: deeper, back"), done_[1]},
+              {words("Trigger: close the jaws"), done_[2]}};
+    case InputKind::kPuck:
+      return {{words("Push the cap: move the tip"), done_[0]},
+              {words("Press or lift it: deeper, back"), done_[1]},
+              {words("First button: close the jaws"), done_[2]}};
+    case InputKind::kKeyboard:
+      return {{words("Arrow keys: move the tip"), done_[0]},
+              {words("{0}, {1}: deeper, back", {name(Action::kInsert), name(Action::kWithdraw)}), done_[1]},
+              {words("{0}: close the jaws", {name(Action::kClose)}), done_[2]}};
+    case InputKind::kDevice:
+      return {{words("Move the stylus: the tip moves"), true}, {words("Press the pads to grip"), true}};
+    case InputKind::kMouse:
+      break;
+  }
+  return {{words("Mouse: move the tip"), done_[0]},
+          {words("Wheel: deeper, back"), done_[1]},
+          {words("Left button: close the jaws"), done_[2]}};
+}
+
+}  // namespace trocar

@@ -1,0 +1,127 @@
+#include "app/window/run/overlays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scenarios/scoring/metrics.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kNoticeSeconds = 6, kPerCharacter_s = 0.07;  // long ones take longer to read
+constexpr double kLongestStep_s = 0.1;                // a frame that took long (the first) takes nothing off a notice
+constexpr double kNoticeTop = 50, kNoticeSides = 36;  // below the clock of a run
+
+/// A panel in the middle, as large as asked or as there is room.
+Area middle(const Ui& ui, double width_at_720, double height_at_720) {
+  const double margin = ui.px(12);
+  const double w = std::min(ui.px(width_at_720), ui.width() - 2 * margin),
+               h = std::min(ui.px(height_at_720), ui.height() - 2 * margin);
+  return {(ui.width() - w) / 2, (ui.height() - h) / 2, w, h};
+}
+
+std::vector<Ui::Cell> key_row(const PracticeDesk& desk, const ActionName& action) {
+  return {{desk.words().name(key_name(desk.keys().key_of(action.action))), Ink::kAccent}, {desk.words()(action.words)}};
+}
+
+void key_tables(Ui& ui, const PracticeDesk& desk) {
+  const Words& w = desk.words();
+  for (const bool steering : {true, false}) {
+    ui.heading(steering ? w("Steering with keys") : w("Commands"));
+    std::vector<std::vector<Ui::Cell>> rows;
+    for (const ActionName& action : action_names())
+      if (action.steering == steering) rows.push_back(key_row(desk, action));
+    if (!steering) rows.push_back({{"F11", Ink::kAccent}, {w("Fill the screen")}});
+    ui.table(steering ? "keys.steering" : "keys.commands", {w("Key"), w("What it does")}, {0.3, 0.7}, rows);
+    ui.gap();
+  }
+  ui.heading(w("Mouse"));
+  ui.text(
+      w("Move: the tip in the plane of the picture. Wheel: in and out. Left button: close the jaws. Right button held: "
+        "roll and turn the shaft."));
+}
+
+void metric_table(Ui& ui, const PracticeDesk& desk) {
+  const Words& w = desk.words();
+  for (const MetricDefinition& metric : metric_catalogue()) {
+    ui.heading(metric.unit.empty() ? std::string(metric.name)
+                                   : std::string(metric.name) + "  [" + std::string(metric.unit) + "]");
+    ui.text(w(metric.meaning));
+    ui.gap(4);
+  }
+}
+
+}  // namespace
+
+MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs) {
+  const Words& w = desk.words();
+  MenuChoice choice = MenuChoice::kNone;
+  ui.begin_panel("menu", middle(ui, 460, attempt_runs ? 308 : 269), 0.97);
+  ui.in_front();
+  ui.title(w("Menu"));
+  const auto item = [&](const char* id, const std::string& text, MenuChoice what, bool strong = false) {
+    if (ui.button(id, text, "", strong, 424)) choice = what;
+  };
+  item("back", attempt_runs ? w("Go on with the attempt") : w("Back"), MenuChoice::kBack, true);
+  if (attempt_runs) item("leave", w("Leave this attempt"), MenuChoice::kLeaveAttempt);
+  item("start", w("Start page"), MenuChoice::kStart);
+  item("settings", w("Settings"), MenuChoice::kSettings);
+  item("fullscreen", w("Fill the screen"), MenuChoice::kFullscreen);
+  item("quit", w("Quit"), MenuChoice::kQuit);
+  ui.end_panel();
+  return choice;
+}
+
+bool help_overlay(Ui& ui, PracticeDesk& desk, HelpPage& page, SoundPage& sounds) {
+  const Words& w = desk.words();
+  const Area all = middle(ui, 900, 680);
+  const double foot = ui.strip_height(1), gap = ui.px(8);
+  ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot - gap}, 0.97);
+  ui.in_front();
+  ui.title(page == HelpPage::kKeys ? w("Keys") : page == HelpPage::kMetrics ? w("What is measured") : w("Sounds"));
+  if (page == HelpPage::kKeys)
+    key_tables(ui, desk);
+  else if (page == HelpPage::kMetrics)
+    metric_table(ui, desk);
+  else
+    sounds.frame(ui, desk);
+  ui.end_panel();
+  ui.begin_strip("help.foot", {all.x, all.y + all.height - foot, all.width, foot}, 0.97);
+  ui.in_front();
+  const bool close = ui.button("close", w("Close"), "Enter", true);
+  ui.same_line();
+  const bool keys = page == HelpPage::kKeys;
+  if (ui.button("page", keys ? w("What is measured") : w("Keys"), "F2"))
+    page = keys ? HelpPage::kMetrics : HelpPage::kKeys;
+  ui.same_line();
+  if (ui.button("sounds", w("Sounds"), "F4")) page = HelpPage::kSounds;
+  ui.end_panel();
+  return close;
+}
+
+void small_window(Ui& ui) {
+  ui.begin_strip("small", {0, 0, ui.width(), ui.height()});
+  ui.text(ui.words()("Please make the window larger."));
+  ui.end_panel();
+}
+
+void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std::string& shown) {
+  if (!desk.notice.empty()) {
+    shown = std::exchange(desk.notice, "");
+    age_s = 0;
+  }
+  if (shown.empty()) return;
+  age_s += std::min(dt_s, kLongestStep_s);
+  if (age_s > std::max(kNoticeSeconds, kPerCharacter_s * static_cast<double>(shown.size()))) return shown.clear();
+  const double mark = ui.line_height() + ui.px(10), sides = ui.px(kNoticeSides),
+               most = std::min(ui.px(720), ui.width() - ui.px(24));
+  const double wide = std::min(most, ui.text_width(shown) + mark + sides + 2);
+  const double high = ui.strip_height(1) - ui.px(14) + ui.text_height(shown, wide - mark - sides) - ui.line_height();
+  ui.begin_strip("notice", {(ui.width() - wide) / 2, ui.px(kNoticeTop), wide, std::min(high, ui.height())}, 0.97);
+  ui.in_front();
+  ui.marked(Mark::kInfo, shown);
+  ui.end_panel();
+}
+
+}  // namespace trocar

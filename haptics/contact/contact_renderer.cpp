@@ -1,0 +1,337 @@
+#include "haptics/contact/contact_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "haptics/contact/half_spaces.h"
+#include "haptics/contact/segment_triangle.h"
+
+namespace trocar {
+namespace {
+
+constexpr int kMaxSteps = 10;  // of half a radius: 12 mm a tick at r = 2.5 mm, 6 mm with jaws
+constexpr int kSweeps = 4;     // pushes a step over all near triangles
+constexpr int kShareRounds = 12;
+constexpr double kShareGain = 1e-10;     // m, a contact that would carry less is not asked
+constexpr double kSingularGram = 1e-12;  // determinant of the normals' products
+constexpr int kMostFall = 32;            // of half a radius in the air between two surfaces: 20 mm with jaws
+constexpr double kIdleTravel = 1e-3;     // m a period, beyond what the instrument itself moves
+constexpr double kArrived = 1e-7;        // m, remaining slide at which the proxy rests
+constexpr double kSlideSlack = 5e-5;     // m beyond the radius within which a triangle bounds the slide
+constexpr double kShareSlack = 1e-5;     // m beyond the radius within which a triangle may carry force
+constexpr double kSameNormal = 0.9998;   // cosine of 1.1 deg: contacts closer than this are one
+constexpr double kSamePoint = 5e-4;      // m
+constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a change of material
+
+}  // namespace
+
+ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch,
+                                      double jaw_opening_m) {
+  if (law_ == ContactLaw::kThesis) return thesis_law(X_TI, patch);
+  tool_ = tool_capsules(shape_, jaw_opening_m, patch.held);
+  return proxy_law(X_TI, V_TI_T, patch);
+}
+
+ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) const {
+  ContactResult result;
+  double nearest = -1;
+  const PatchTriangle* triangle = nullptr;
+  for (int i = 0; i < patch.count; ++i) {
+    const Vec3 point = closest_point_on_triangle(X_TI.p, patch.triangle[i].vertex);
+    const double distance = (point - X_TI.p).norm();
+    if (nearest < 0 || distance < nearest) {
+      nearest = distance;
+      triangle = &patch.triangle[i];
+      result.point_T = point;
+    }
+  }
+  if (!triangle || (X_TI.p - result.point_T).dot(triangle->normal) >= 0) return result;
+  result.contact = result.tip_contact = true;
+  result.depth_m = nearest;
+  result.normal_T = triangle->normal;
+  const double stiffness = patch.material[static_cast<std::size_t>(triangle->material)].stiffness_n_per_m;
+  result.F_I_T.force = stiffness * (result.point_T - X_TI.p);
+  result.F_I_T.moment = (result.point_T - X_TI.p).cross(result.F_I_T.force);
+  result.spring_I_T = result.F_I_T;
+  result.stored_j = 0.5 * stiffness * nearest * nearest;
+  return result;
+}
+
+void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch) {
+  const double turn = turn_to(axes);
+  // The proxy slides no further than this in one period.
+  double allowance = kIdleTravel + 1.5 * (goal - last_goal_).norm();
+  last_goal_ = goal;
+  touch_count_ = 0;
+  const double stride = 0.5 * thinnest_m_;
+  const int turns = std::clamp(static_cast<int>(std::ceil(turn / stride)), 1, kMaxSteps);
+  const CapsuleAxes before = axes_;
+  for (int i = 1; i <= turns; ++i) {
+    const double s = static_cast<double>(i) / turns;
+    for (int c = 0; c < tool_.count; ++c) {
+      axes_[c].front = before[c].front + s * (axes[c].front - before[c].front);
+      axes_[c].back = before[c].back + s * (axes[c].back - before[c].back);
+    }
+    near_.turn(before, axes, 1.0 / turns);
+    project(patch, kSlideSlack);  // the instrument may have turned into the surface
+  }
+  for (int slides = 0, falls = 0; slides < kMaxSteps && falls < kMostFall;) {
+    // In the air, slid off an edge, it carries nothing however deep the instrument is: it falls until it lands.
+    const bool in_air = touch_count_ == 0;
+    if (!in_air && allowance <= kArrived) break;
+    ++(in_air ? falls : slides);
+    const Vec3 step = free_step(goal - proxy_);
+    const double length = step.norm();
+    if (length < kArrived) break;
+    const double travel = std::min({length, stride, in_air ? stride : allowance});
+    proxy_ += step * (travel / length);
+    if (!in_air) allowance -= travel;
+    near_.travel(travel);
+    project(patch, kSlideSlack);
+    if (in_air && touch_count_ > 0) allowance = std::max(allowance, kIdleTravel);
+  }
+  // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.
+  project(patch, kShareSlack);
+  if (touch_count_ == 0) lean_on_nearest(goal, patch);
+}
+
+void ContactRenderer::lean_on_nearest(const Vec3& goal, const ContactPatch& patch) {
+  project(patch, kSlideSlack);
+  if (touch_count_ == 0 || (goal - proxy_).norm() < kArrived) return;
+  const auto nearest = std::min_element(touch_.begin(), touch_.begin() + touch_count_,
+                                        [](const Touch& l, const Touch& r) { return l.gap < r.gap; });
+  const double gap = std::max(0.0, nearest->gap);
+  proxy_ -= gap * nearest->normal;
+  near_.travel(gap);
+  project(patch, kShareSlack);
+}
+
+double ContactRenderer::turn_to(const CapsuleAxes& axes) const {
+  double furthest = 0;
+  for (int c = 0; c < tool_.count; ++c) {
+    furthest = std::max({furthest, (axes[c].front - axes_[c].front).norm(), (axes[c].back - axes_[c].back).norm()});
+  }
+  return furthest;
+}
+
+CapsuleAxes ContactRenderer::place_capsules(const Pose& X_TI) {
+  CapsuleAxes axes;
+  thinnest_m_ = tool_.at[0].radius_m;
+  for (int c = 0; c < tool_.count; ++c) {
+    const Capsule& capsule = tool_.at[c];
+    thinnest_m_ = std::min(thinnest_m_, capsule.radius_m);
+    axes[c].front = X_TI.R * capsule.X_IC.p;
+    axes[c].back = axes[c].front - X_TI.R * (capsule.X_IC.R.col(2) * capsule.length_m);
+  }
+  if (!started_) {
+    proxy_ = last_goal_ = X_TI.p;
+    axes_ = axes;
+    started_ = true;
+  }
+  for (int c = known_; c < tool_.count; ++c) axes_[c] = axes[c];  // picked up just now
+  known_ = tool_.count;
+  return axes;
+}
+
+ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch) {
+  const Vec3 goal = X_TI.p;
+  const CapsuleAxes axes = place_capsules(X_TI);
+  const double travel = (goal - last_goal_).norm();
+  move_proxy(goal, axes, patch);
+
+  ContactResult result;
+  const Vec3 y = proxy_ - goal;
+  const bool free = touch_count_ == 0 || y.norm() < kArrived;
+  if (!free) share_out(y);
+  const Touch* largest = &touch_[0];
+  for (int i = 0; !free && i < touch_count_; ++i) {
+    if (touch_[i].share > largest->share) largest = &touch_[i];
+  }
+  if (free || largest->share <= 0) {
+    touching_ = false;
+    friction_.reset();
+    return result;
+  }
+  blend_material(patch, travel);
+  const double approach = approach_speed(V_TI_T, y.norm());
+  const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * blend_.damping_s_per_m * approach);
+  for (int i = 0; i < touch_count_; ++i) {
+    const Touch& t = touch_[i];
+    const Vec3 force = blend_.stiffness_n_per_m * t.share * t.normal;
+    result.spring_I_T.force += force;
+    result.spring_I_T.moment += (t.point - proxy_).cross(force);
+  }
+  result.F_I_T = result.spring_I_T * damping;
+  result.contact = true;
+  result.tip_contact = largest->at_tip;
+  result.point_T = largest->point;
+  result.normal_T = y.normalized();
+  result.depth_m = y.norm();
+  result.stored_j = 0.5 * blend_.stiffness_n_per_m * y.squaredNorm();
+  add_friction(X_TI, V_TI_T, patch, result);
+  return result;
+}
+
+void ContactRenderer::add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch,
+                                   ContactResult& result) {
+  std::array<PressedPlace, ContactFriction::kMaxPlaces> places;
+  std::size_t count = 0;
+  for (int i = 0; i < touch_count_ && count < places.size(); ++i) {
+    const Touch& t = touch_[i];
+    if (t.share > 0) places[count++] = {t.point, t.normal, t.share, t.index, t.capsule};
+  }
+  const FrictionResult friction =
+      friction_.update({X_TI, V_TI_T, tool_, proxy_ - X_TI.p}, {places.data(), count}, blend_.stiffness_n_per_m, patch);
+  result.F_I_T = result.F_I_T + friction.F_I_T;
+  result.spring_I_T = result.spring_I_T + friction.F_I_T;
+  result.stored_j += friction.stored_j;
+  result.slipping = friction.slipping;
+}
+
+void ContactRenderer::blend_material(const ContactPatch& patch, double travel_m) {
+  double sum = 0, stiffness = 0, damping = 0;
+  for (int i = 0; i < touch_count_; ++i) {
+    const auto& material = patch.material[static_cast<std::size_t>(patch.triangle[touch_[i].index].material)];
+    sum += touch_[i].share;
+    stiffness += touch_[i].share * material.stiffness_n_per_m;
+    damping += touch_[i].share * material.damping_s_per_m;
+  }
+  const double follow = touching_ ? std::min(1.0, travel_m / kBlendTravel) : 1;
+  touching_ = true;
+  blend_.stiffness_n_per_m += follow * (stiffness / sum - blend_.stiffness_n_per_m);
+  blend_.damping_s_per_m += follow * (damping / sum - blend_.damping_s_per_m);
+}
+
+double ContactRenderer::approach_speed(const Twist& V_TI_T, double depth_m) const {
+  double power = 0;
+  for (int i = 0; i < touch_count_; ++i) {
+    const Vec3 lever = touch_[i].point - proxy_;
+    power -= touch_[i].share * touch_[i].normal.dot(V_TI_T.linear + V_TI_T.angular.cross(lever));
+  }
+  return power / depth_m;
+}
+
+void ContactRenderer::project(const ContactPatch& patch, double slack) {
+  for (int i = 0; i < kSweeps; ++i) {
+    if (sweep(patch, slack) < kArrived) return;
+  }
+}
+
+double ContactRenderer::sweep(const ContactPatch& patch, double slack) {
+  const PlacedTool placed{tool_, axes_, proxy_};
+  touch_count_ = 0;
+  double deepest = 0;
+  near_.keep_up(placed, patch, slack);
+  for (int n = 0; n < near_.count(); ++n) {
+    if (!near_.due(near_.at(n), slack)) continue;
+    const NearPairs::Pair pair = near_.at(n);
+    const PatchTriangle& triangle = patch.triangle[pair.index];
+    const CapsuleAxis& axis = axes_[pair.capsule];
+    const Capsule& capsule = tool_.at[pair.capsule];
+    const ClosestPair closest = closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, triangle.vertex);
+    const double gap = closest.distance - capsule.radius_m;
+    near_.measured(n, gap);
+    if (gap > slack) continue;
+    // On the axis itself the direction is undefined: the surface's own normal leads out.
+    Vec3 normal = triangle.normal;
+    if (closest.distance > 1e-9) normal = (closest.on_segment - closest.on_triangle) / closest.distance;
+    if (gap < 0) {
+      proxy_ -= gap * normal;
+      near_.travel(-gap);
+      if (near_.keep_up(placed, patch, slack)) n = near_.first_after(pair) - 1;  // pushed further than the list reached
+    }
+    deepest = std::max(deepest, -gap);
+    const bool at_tip = capsule.foremost && closest.along == 0;
+    add_touch({normal, closest.on_triangle, gap, pair.index, pair.capsule, at_tip});
+  }
+  return deepest;
+}
+
+void ContactRenderer::add_touch(const Touch& touch) {
+  for (int i = 0; i < touch_count_; ++i) {
+    if (touch_[i].capsule == touch.capsule && touch_[i].normal.dot(touch.normal) > kSameNormal &&
+        (touch_[i].point - touch.point).norm() < kSamePoint) {
+      if (touch.gap < touch_[i].gap) touch_[i] = touch;  // the nearer one is the surface's true foot
+      return;
+    }
+  }
+  if (touch_count_ < kMaxContacts) {
+    touch_[touch_count_++] = touch;
+    return;
+  }
+  const auto furthest =
+      std::max_element(touch_.begin(), touch_.end(), [](const Touch& l, const Touch& r) { return l.gap < r.gap; });
+  if (touch.gap < furthest->gap) *furthest = touch;
+}
+
+Vec3 ContactRenderer::free_step(const Vec3& wish) const {
+  std::array<HalfSpace, kMaxContacts> half_spaces;
+  for (int i = 0; i < touch_count_; ++i) {
+    half_spaces[i] = {touch_[i].normal, std::max(0.0, touch_[i].gap)};
+  }
+  return nearest_allowed(wish, {half_spaces.data(), static_cast<std::size_t>(touch_count_)});
+}
+
+Vec3 ContactRenderer::share_out(const Vec3& y) {
+  // min |sum share_i n_i - y|^2, share_i >= 0, by the active-set method of Lawson and Hanson (1974): exact after a few
+  // rounds however nearly parallel the normals are. At most three contacts carry in space. What is left of y is its
+  // projection on the directions that no contact opposes.
+  for (int i = 0; i < touch_count_; ++i) touch_[i].share = 0;
+  carrying_count_ = 0;
+  Vec3 rest = y;
+  for (int round = 0; round < kShareRounds && carrying_count_ < kMaxCarrying; ++round) {
+    int best = -1;
+    double gain = kShareGain;
+    for (int i = 0; i < touch_count_; ++i) {
+      if (touch_[i].share == 0 && touch_[i].normal.dot(rest) > gain) {
+        best = i;
+        gain = touch_[i].normal.dot(rest);
+      }
+    }
+    if (best < 0) break;
+    carrying_[carrying_count_++] = best;
+    balance(y);
+    rest = y;
+    for (int i = 0; i < carrying_count_; ++i) rest -= touch_[carrying_[i]].share * touch_[carrying_[i]].normal;
+  }
+  return rest;
+}
+
+void ContactRenderer::balance(const Vec3& y) {
+  while (carrying_count_ > 0) {
+    Mat3 gram = Mat3::Identity();
+    Vec3 wanted = Vec3::Zero();
+    for (int i = 0; i < carrying_count_; ++i) {
+      wanted[i] = touch_[carrying_[i]].normal.dot(y);
+      for (int j = 0; j < i; ++j) {
+        gram(i, j) = gram(j, i) = touch_[carrying_[i]].normal.dot(touch_[carrying_[j]].normal);
+      }
+    }
+    if (gram.determinant() < kSingularGram) {  // the newest lies in the plane of the others
+      touch_[carrying_[--carrying_count_]].share = 0;
+      return;
+    }
+    const Vec3 share = gram.inverse() * wanted;
+    double reach = 1;  // how far towards that solution all shares stay positive
+    for (int i = 0; i < carrying_count_; ++i) {
+      const double now = touch_[carrying_[i]].share;
+      if (share[i] <= 0) reach = std::min(reach, now / (now - share[i]));
+    }
+    int kept = 0;
+    for (int i = 0; i < carrying_count_; ++i) {
+      double& now = touch_[carrying_[i]].share;
+      now += reach * (share[i] - now);
+      if (share[i] <= 0 && now <= kShareGain) {
+        now = 0;
+      } else {
+        carrying_[kept++] = carrying_[i];
+      }
+    }
+    if (kept == carrying_count_) return;
+    carrying_count_ = kept;
+  }
+}
+
+}  // namespace trocar

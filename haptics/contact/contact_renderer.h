@@ -1,0 +1,121 @@
+// Contact of the instrument with the tissue patch: the force of the local elasticity on shaft, jaws and what they hold.
+//
+// The instrument is a set of capsules (tool_shape.h). A proxy of all of them, displaced by y without rotation, is kept
+// outside the surface: it moves towards the instrument in steps under half a radius and is pushed out of every triangle
+// nearer than the radius, so it can never change sides (side memory). Turning and opening jaws are followed in steps as
+// short. At rest y is the shortest displacement that frees the instrument and F = k y; the moment is that of the
+// contact forces about the tip (virtual work of V = k |y|^2 / 2, so the law is conservative). One k serves all
+// contacts: that of the touched materials by the force they carry; where it changes it follows over 2 mm of travel, so
+// that no border between materials is a step. The radius rounds convex edges: the normal turns continuously. Damping
+// multiplies the force by 1 + 1.5 c v, v the approach speed, bounded below by 0: it never pulls (Hunt and Crossley
+// 1975, exponent 1). Friction comes on top (contact_friction.h). Zilles and Salisbury 1995 (god-object), Ortega, Redon
+// and Coquillart 2007 (6-DOF god-object).
+//
+// The thesis' law (nearest point, F = k x, M = (p_contact - p_origin) x F) is kept as a selectable baseline.
+// Frame T. Thread: haptic task; no allocation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "haptics/contact/contact_friction.h"
+#include "haptics/contact/near_pairs.h"
+#include "haptics/contact/tool_shape.h"
+#include "haptics/exchange/contact_patch.h"
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+enum class ContactLaw : std::uint8_t { kProxy, kThesis };
+
+struct ContactResult {
+  Wrench F_I_T;               ///< on the instrument, moment about the tip: factor * normal springs + friction
+  Wrench spring_I_T;          ///< of that what springs hold, without damping: normal springs + friction
+  double damping_factor = 1;  ///< >= 0
+  bool slipping = false;      ///< friction has reached its limit somewhere
+  bool contact = false;
+  bool tip_contact = false;       ///< the largest contact force acts on the tip sphere
+  Vec3 point_T = Vec3::Zero();    ///< surface point under the largest contact
+  Vec3 normal_T = Vec3::UnitZ();  ///< direction of the force
+  double depth_m = 0;             ///< |y|
+  double stored_j = 0;            ///< k |y|^2 / 2 and what friction stores
+};
+
+class ContactRenderer {
+ public:
+  explicit ContactRenderer(ContactLaw law, ToolShape shape = {}) : law_(law), shape_(shape) {}
+
+  /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
+  void reset() {
+    started_ = touching_ = false;
+    near_.forget();
+    friction_.reset();
+  }
+
+  /// What has been looked at since this was last asked; for benchmarks and tests.
+  NearPairs::Work take_work() { return std::exchange(near_.work, {}); }
+
+  /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
+  /// @param jaw_opening_m gap between the ends of the jaw pads.
+  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, double jaw_opening_m = 0);
+
+ private:
+  static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
+  static constexpr int kMaxCarrying = 3;   ///< of them, those that can carry at once in space
+
+  struct Touch {
+    Vec3 normal, point;  ///< unit from surface to axis; surface point
+    double gap;          ///< between the surfaces of capsule and triangle, m; negative: they overlap
+    std::int32_t index;  ///< triangle in the patch
+    std::int8_t capsule;
+    bool at_tip;
+    double share = 0;  ///< part of y carried, m
+  };
+
+  ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
+  /// Where the axes of all capsules lie now; on the first call the proxy begins there.
+  CapsuleAxes place_capsules(const Pose& X_TI);
+  /// Moves the proxy to where it rests this period and lists what it touches.
+  void move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch);
+  ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// The period ended in the middle of a slide, a hair off the surface: brings the proxy to what it slides along.
+  void lean_on_nearest(const Vec3& goal, const ContactPatch& patch);
+  /// Furthest that an end of a capsule has to go against the tip to take this place.
+  double turn_to(const CapsuleAxes& axes) const;
+  void blend_material(const ContactPatch& patch, double travel_m);
+  void add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, ContactResult& result);
+  /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
+  double approach_speed(const Twist& V_TI_T, double depth_m) const;
+  /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
+  void project(const ContactPatch& patch, double slack);
+  /// One round of that over all of them. @return the deepest overlap that it met, m
+  double sweep(const ContactPatch& patch, double slack);
+  void add_touch(const Touch& touch);
+  /// The part of a wish that the touched triangles allow, each with the gap that is left before it.
+  Vec3 free_step(const Vec3& wish) const;
+  /// Splits y among the contacts, all shares >= 0. @return the part of y that no contact carries.
+  Vec3 share_out(const Vec3& y);
+  /// Least-squares shares of the carrying contacts; those that would pull are dropped.
+  void balance(const Vec3& y);
+
+  ContactLaw law_;
+  ToolShape shape_;
+  bool started_ = false;
+  Vec3 proxy_ = Vec3::Zero();      ///< tip centre of the proxy, T
+  Vec3 last_goal_ = Vec3::Zero();  ///< tip of the instrument one period ago, T
+  ToolCapsules tool_;
+  int known_ = 0;          ///< capsules of the last period
+  double thinnest_m_ = 0;  ///< least radius in tool_
+  CapsuleAxes axes_{};     ///< of the proxy
+  ContactFriction friction_;
+  ContactMaterial blend_;  ///< stiffness and damping in use
+  bool touching_ = false;  ///< carried force in the last period
+  NearPairs near_;
+  std::array<Touch, kMaxContacts> touch_{};
+  int touch_count_ = 0;
+  std::array<std::int32_t, kMaxCarrying> carrying_{};
+  int carrying_count_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,64 @@
+// One part of a run: what the trainee has to do now, judged from one haptic state per tissue period.
+//
+// The director strings parts together (discs, then a squeeze; pens; ...) and keeps what all share: start, clock,
+// safety, end. A new kind of exercise is a part of its own here with a line in make_tasks(), and what
+// docs/architecture.md lists at its end. Frame T, SI units. Deterministic: same states in, same events out. Thread: the
+// tissue task's.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "haptics/exchange/stylus_state.h"
+#include "scenarios/director/director.h"
+#include "scenarios/exercise.h"
+
+namespace trocar {
+
+/// Events so far, stamped with the present time and tip.
+struct EventLog {
+  std::vector<Event> events;
+  double t_s = 0;
+  Vec3 tip_T = Vec3::Zero();
+
+  void add(const std::string& type, Severity severity, std::int32_t object = -1, double value = 0,
+           const std::string& unit = "");
+};
+
+/// What a part is told each period.
+struct TaskInput {
+  const StylusState& stylus;
+  const TissueFrame* tissue = nullptr;  ///< objects of the world; nullptr when it has none
+  double dt_s = 0;
+  bool too_hard = false;  ///< contact above the hard limit, not yet eased off
+};
+
+class ExerciseTask {
+ public:
+  virtual ~ExerciseTask() = default;
+  /// The part begins now: it may ask for its first object.
+  virtual void begin(EventLog& log) = 0;
+  virtual void update(const TaskInput& input, EventLog& log) = 0;
+  virtual bool finished() const = 0;
+  /// Object that the trainee is busy with, -1 when none: events of the safety watch name it.
+  virtual std::int32_t object() const = 0;
+  /// Writes what screen and hand shall see: cue, demand, progress, counts, message. Other fields are the director's.
+  virtual void describe(const TaskInput& input, DirectorStatus& status) const = 0;
+};
+
+/// The parts of an exercise in their order; they keep copies of what they need.
+std::vector<std::unique_ptr<ExerciseTask>> make_tasks(const Exercise& exercise, const ExerciseLevel& level,
+                                                      const Board& board);
+
+/// Sets message, hint and warning.
+void say(DirectorStatus& status, const std::string& message, const std::string& hint, bool warning = false);
+
+/// Is a measured force shown now? @param display always | band | after. @param outside the wanted band, while it
+/// matters.
+bool force_shown(const std::string& display, bool outside);
+
+/// "0.4 to 0.8 N"
+std::string band_text(const WantedForce& band);
+
+}  // namespace trocar

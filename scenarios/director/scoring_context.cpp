@@ -1,0 +1,160 @@
+#include "scenarios/director/scoring_context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct NumberField {
+  const char* key;
+  double ScoringContext::*member;
+};
+constexpr NumberField kNumbers[] = {{"time_limit_s", &ScoringContext::time_limit_s},
+                                    {"band_low_n", &ScoringContext::band_low_n},
+                                    {"band_high_n", &ScoringContext::band_high_n},
+                                    {"soft_force_n", &ScoringContext::soft_force_n},
+                                    {"hard_force_n", &ScoringContext::hard_force_n},
+                                    {"critical_force_n", &ScoringContext::critical_force_n},
+                                    {"grip_low_n", &ScoringContext::grip_low_n},
+                                    {"grip_high_n", &ScoringContext::grip_high_n},
+                                    {"retract_height_m", &ScoringContext::retract_height_m}};
+
+constexpr AttemptStatus kStatuses[] = {AttemptStatus::kCompleted, AttemptStatus::kTimeout, AttemptStatus::kAborted,
+                                       AttemptStatus::kFault, AttemptStatus::kVoid};
+
+Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Vec3 vector_from(const Json& json) {
+  if (!json.is_array() || json.size() != 3) throw std::invalid_argument("a point must be an array of three numbers");
+  return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
+AttemptStatus status_from(const std::string& name) {
+  for (const AttemptStatus status : kStatuses) {
+    if (name == status_name(status)) return status;
+  }
+  throw std::invalid_argument("unknown outcome '" + name + "'");
+}
+
+void require_finite(const ScoringContext& context) {
+  bool finite = context.approach_T.allFinite();
+  for (const auto& [key, member] : kNumbers) finite = finite && std::isfinite(context.*member);
+  finite = finite && std::isfinite(context.room_share.value_or(0));
+  for (const Vec3& point : context.waypoints) finite = finite && point.allFinite();
+  for (const ObjectBand& band : context.object_bands)
+    finite = finite && std::isfinite(band.low_n) && std::isfinite(band.high_n);
+  for (const auto& [low, high] : context.grip_windows) finite = finite && std::isfinite(low) && std::isfinite(high);
+  if (!finite) throw std::invalid_argument("scoring context holds a number that is not finite");
+}
+
+}  // namespace
+
+namespace {
+
+/// Windows of all blocks; the way to each placed block and on to its ring, in the order of placing. A block that left
+/// its ring again is not done, and so is one that is lost.
+void add_blocks(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
+  for (const Target& ring : board.targets) context.grip_windows.push_back({ring.band.low_n, ring.band.high_n});
+  std::set<std::int32_t> done, seen;
+  for (const Event& event : events) {
+    const auto index = static_cast<std::size_t>(event.object);
+    if (event.object < 0 || index >= board.rigid.blocks.size()) continue;
+    if (event.type == "REMOVED" || event.type == "LOST") done.erase(event.object);
+    if (event.type != "PLACED") continue;
+    done.insert(event.object);
+    if (!seen.insert(event.object).second) continue;
+    const Vec3 up(0, 0, board.rigid.blocks[index].size_m.z() / 2);
+    context.waypoints.push_back(board.rigid.blocks[index].X_TO.p);
+    context.waypoints.push_back(board.targets[index].centre_T + up);
+  }
+  context.objects_total = static_cast<int>(board.targets.size());
+  context.objects_done = static_cast<int>(done.size());
+}
+
+}  // namespace
+
+ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& level, const Board& board,
+                               const std::vector<Event>& events, AttemptStatus outcome) {
+  ScoringContext context;
+  context.outcome = outcome;
+  context.time_limit_s = exercise.time_limit_s;
+  context.band_low_n = level.band_low_n;
+  context.band_high_n = level.band_high_n;
+  if (level.bands.size() > 1) {
+    for (const Target& target : board.targets) context.object_bands.push_back({target.band.low_n, target.band.high_n});
+  }
+  context.soft_force_n = exercise.soft_force_n;
+  context.hard_force_n = exercise.hard_force_n;
+  context.critical_force_n = exercise.critical_force_n;
+  context.grip_low_n = exercise.grip.low_n;
+  context.grip_high_n = exercise.grip.high_n;
+  context.retract_height_m = exercise.retract_height_m;
+  context.waypoints.push_back(board.start_T);
+  if (exercise.kind == ExerciseKind::kGrasp) {
+    add_blocks(board, events, context);
+    return context;
+  }
+  std::set<std::int32_t> done;
+  for (const Event& event : events) {
+    const bool disc = event.type == "TARGET_HELD";
+    if (!(disc || event.type == "GRIP_HELD") || !done.insert(event.object).second) continue;
+    const auto index = static_cast<std::size_t>(event.object);
+    if (disc && event.object >= 0 && index < board.targets.size())
+      context.waypoints.push_back(board.targets[index].centre_T);
+  }
+  const int blocks = exercise.kind == ExerciseKind::kTouch ? 1 : 0;  // the one to squeeze comes last
+  context.objects_total = static_cast<int>(board.targets.size()) + blocks;
+  context.objects_done = static_cast<int>(done.size());
+  return context;
+}
+
+std::string scoring_context_json(const ScoringContext& context) {
+  require_finite(context);
+  Json json;
+  json["outcome"] = status_name(context.outcome);
+  for (const auto& [key, member] : kNumbers) json[key] = context.*member;
+  json["approach"] = to_json(context.approach_T);
+  json["waypoints"] = Json::array();
+  for (const Vec3& point : context.waypoints) json["waypoints"].push_back(to_json(point));
+  if (!context.object_bands.empty()) json["object_bands"] = Json::array();
+  for (const ObjectBand& band : context.object_bands) json["object_bands"].push_back({band.low_n, band.high_n});
+  if (!context.grip_windows.empty()) json["grip_windows"] = Json::array();
+  for (const auto& [low, high] : context.grip_windows) json["grip_windows"].push_back({low, high});
+  json["objects_total"] = context.objects_total;
+  json["objects_done"] = context.objects_done;
+  if (context.room_share) json["room_share"] = *context.room_share;
+  return json.dump();
+}
+
+ScoringContext parse_scoring_context(const std::string& text, const std::string& name) {
+  try {
+    const Json json = Json::parse(text);
+    ScoringContext context;
+    context.outcome = status_from(json.at("outcome").get<std::string>());
+    for (const auto& [key, member] : kNumbers) context.*member = json.at(key).get<double>();
+    context.approach_T = vector_from(json.at("approach"));
+    for (const Json& point : json.at("waypoints")) context.waypoints.push_back(vector_from(point));
+    for (const Json& band : json.value("object_bands", Json::array()))
+      context.object_bands.push_back({band.at(0).get<double>(), band.at(1).get<double>()});
+    for (const Json& window : json.value("grip_windows", Json::array()))
+      context.grip_windows.push_back({window.at(0).get<double>(), window.at(1).get<double>()});
+    context.objects_total = json.at("objects_total").get<int>();
+    context.objects_done = json.at("objects_done").get<int>();
+    if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();
+    require_finite(context);
+    return context;
+  } catch (const std::exception& error) {
+    throw InputError(name + ": " + error.what());
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,89 @@
+#include "scenarios/kinds/grasp/grasp_layout.h"
+
+#include <random>
+#include <utility>
+
+namespace trocar {
+namespace {
+
+constexpr std::int32_t kNeutralColour = -1;
+
+/// Uniform number in [0, 1) by an explicit formula: the same on every standard library.
+double block_uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
+
+/// Fisher and Yates, by the explicit uniform above.
+template <typename T>
+void shuffle(std::vector<T>& items, std::mt19937_64& generator) {
+  for (std::size_t i = items.size(); i > 1; --i)
+    std::swap(items[i - 1], items[static_cast<std::size_t>(block_uniform(generator) * static_cast<double>(i))]);
+}
+
+FoamBlock block_of(const GraspRules& rules, const GraspLevel& level, std::int32_t kind) {
+  const FoamKind& foam = rules.kinds[static_cast<std::size_t>(kind)];
+  FoamBlock block;
+  block.size_m = rules.block_m;
+  block.mass_kg = rules.block_mass_kg;
+  block.stiffness_n_per_m = foam.stiffness_n_per_m;
+  block.slip_below_n = foam.slip_below_n;
+  block.crush_above_n = foam.crush_above_n;
+  block.kind = kind;
+  block.colour = level.colour_cue ? kind : kNeutralColour;
+  return block;
+}
+
+struct Place {
+  double x = 0, y = 0;
+};
+
+/// Middles of the blocks, row by row; block and ring lie symmetrically about the board's middle.
+std::vector<Place> places_of(const GraspRules& rules) {
+  std::vector<Place> places;
+  for (int row = 0; row < rules.rows; ++row) {
+    for (int column = 0; column < rules.columns; ++column) {
+      places.push_back({-rules.carry_m / 2 + (column - (rules.columns - 1) / 2.0) * rules.column_m,
+                        (row - (rules.rows - 1) / 2.0) * rules.row_m});
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+Board lay_out_blocks(const Exercise& exercise, const ExerciseLevel& level, int board) {
+  const GraspRules& rules = exercise.grasp;
+  const GraspLevel& asked = level.grasp;
+  std::mt19937_64 generator(0x9E3779B97F4A7C15ull * (static_cast<std::uint64_t>(board) + 1));
+  std::vector<Place> places = places_of(rules);
+  std::vector<std::int32_t> kinds;
+  for (std::size_t i = 0; i < places.size(); ++i) kinds.push_back(static_cast<std::int32_t>(i % rules.kinds.size()));
+  shuffle(places, generator);
+  shuffle(kinds, generator);
+
+  Board result;
+  result.start_T = exercise.start_above_m;
+  BoardPlate plate;
+  plate.half_extent_m = rules.board_half_m;
+  plate.material.stiffness_n_per_m = rules.board_stiffness_n_per_m;
+  result.rigid.board = plate;
+  const auto spread = [&](double half) { return (2 * block_uniform(generator) - 1) * half; };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    FoamBlock block = block_of(rules, asked, kinds[i]);
+    const double yaw = asked.yaw_rad + spread(asked.yaw_spread_rad);
+    block.X_TO.R = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
+    const Vec3 shift(spread(asked.place_spread_m), spread(asked.place_spread_m), 0);
+    block.X_TO.p = Vec3(places[i].x, places[i].y, rules.block_m.z() / 2) + shift;
+    const Vec3 ring = Vec3(places[i].x + rules.carry_m, places[i].y, 0) +
+                      Vec3(spread(asked.place_spread_m), spread(asked.place_spread_m), 0);
+    result.rigid.blocks.push_back(block);
+    result.rigid.rings.push_back({ring, rules.ring_radius_m, block.colour});
+    const GripWindow window = grip_window(rules.kinds[static_cast<std::size_t>(kinds[i])], asked);
+    Target target;
+    target.centre_T = ring;
+    target.radius_m = asked.place_tolerance_m;
+    target.band = {window.low_n, window.high_n};
+    result.targets.push_back(target);
+  }
+  return result;
+}
+
+}  // namespace trocar

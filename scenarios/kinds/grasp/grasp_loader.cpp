@@ -1,0 +1,82 @@
+#include "scenarios/kinds/grasp/grasp_loader.h"
+
+#include <cmath>
+
+#include "haptics/device/hand.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kGraspMilli = 1e-3, kGraspDegrees = M_PI / 180;
+
+FoamKind read_foam(StrictTable table, const Vec3& block_m) {
+  FoamKind kind;
+  kind.name = table.text("name");
+  kind.stiffness_n_per_m = table.number("stiffness_n_per_m", 10, 2000);
+  kind.slip_below_n = table.number("slip_below_n", 0.1, 20);
+  kind.crush_above_n = table.number("crush_above_n", 0.1, 50);
+  if (kind.crush_above_n <= kind.slip_below_n)
+    table.fail("crush_above_n", "'crush_above_n' must be above 'slip_below_n'");
+  if (kind.crush_above_n / kind.stiffness_n_per_m > block_m.head<2>().minCoeff())
+    table.fail("stiffness_n_per_m", "foam '" + kind.name + "' is too soft to be squeezed with 'crush_above_n'");
+  table.finish();
+  return kind;
+}
+
+void read_blocks(StrictTable table, GraspRules& rules) {
+  rules.block_m = table.vector("size_mm", 2, 60) * kGraspMilli;
+  rules.block_mass_kg = table.number("mass_g", 0.1, 200) * kGraspMilli;
+  rules.rows = table.integer("rows", 1, 8);
+  rules.columns = table.integer("columns", 1, 8);
+  rules.row_m = table.number("row_mm", 1, 200) * kGraspMilli;
+  rules.column_m = table.number("column_mm", 1, 200) * kGraspMilli;
+  rules.lift_m = table.number("lift_mm", 1, 200) * kGraspMilli;
+  rules.carry_m = table.number("carry_mm", 1, 300) * kGraspMilli;
+  rules.ring_radius_m = table.number("ring_mm", 1, 100) / 2 * kGraspMilli;
+  rules.drop_m = table.number("drop_mm", 0.5, 50) * kGraspMilli;
+  rules.critical_crushed = table.integer("critical_crushed", 1, 100);
+  for (StrictTable& kind : table.tables("kinds")) rules.kinds.push_back(read_foam(kind, rules.block_m));
+  if (rules.kinds.size() > kMostFoams) table.fail("kinds", "at most " + std::to_string(kMostFoams) + " kinds of foam");
+  const double widest = rules.block_m.head<2>().norm();
+  if (rules.row_m < widest) table.fail("row_mm", "'row_mm' lets blocks overlap");
+  if (rules.column_m < widest) table.fail("column_mm", "'column_mm' lets blocks overlap");
+  table.finish();
+}
+
+void read_board(StrictTable table, GraspRules& rules) {
+  rules.board_half_m = table.number("side_mm", 10, 400) / 2 * kGraspMilli;
+  rules.board_stiffness_n_per_m = table.number("stiffness_n_per_m", 10, 5000);
+  rules.lost_margin_m = table.number("lost_beyond_mm", 0, 100) * kGraspMilli;
+  table.finish();
+}
+
+}  // namespace
+
+void read_grasp(StrictTable& document, Exercise& exercise) {
+  GraspRules& rules = exercise.grasp;
+  read_blocks(document.table("blocks"), rules);
+  read_board(document.table("board"), rules);
+  if (rules.rows * rules.columns != exercise.layout.count)
+    document.fail("blocks", "'rows' times 'columns' must be the 'count' of [targets]");
+}
+
+void read_grasp_level(StrictTable& table, bool derived, const GraspRules& rules, GraspLevel& level) {
+  const auto number = [&](const std::string& key, double low, double high, double unit, double& value) {
+    value = unit * (derived ? table.number_or(key, low, high, value / unit) : table.number(key, low, high));
+  };
+  level.colour_cue = table.flag_or("colour_cue", level.colour_cue);
+  number("window_margin", 0, 0.9, 1, level.window_margin);
+  number("place_tolerance_mm", 0.5, 50, kGraspMilli, level.place_tolerance_m);
+  number("yaw_deg", -180, 180, kGraspDegrees, level.yaw_rad);
+  number("yaw_spread_deg", 0, 45, kGraspDegrees, level.yaw_spread_rad);
+  number("place_spread_mm", 0, 20, kGraspMilli, level.place_spread_m);
+  if (level.place_tolerance_m > rules.ring_radius_m)
+    table.fail("place_tolerance_mm", "'place_tolerance_mm' is wider than the ring");
+  for (const FoamKind& kind : rules.kinds) {
+    const GripWindow window = grip_window(kind, level);
+    if (window.high_n <= window.low_n)
+      table.fail("window_margin", "'window_margin' leaves no grip for foam '" + kind.name + "'");
+  }
+}
+
+}  // namespace trocar

@@ -1,0 +1,96 @@
+// The invented cohort: complete, marked, chained, in order of its dates, gone without a trace when removed or stopped.
+#include "app/desk/demo_cohort.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/desk/demo_people.h"
+#include "haptics/input_error.h"
+#include "tests/tissue/support/temporary_folder.h"
+#include "trainees/desk/queries/desk_queries.h"
+#include "trainees/progress/calendar.h"
+#include "trainees/records/attempt_store.h"
+#include "trainees/records/curricula.h"
+#include "trainees/records/opinions.h"
+
+namespace trocar::demo_cohort_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One attempt of each: the same way as all, in seconds.
+int make_short(const fs::path& database) {
+  DemoCohortOptions options;
+  options.database = database;
+  options.least_attempts = 1;
+  return make_demo_cohort(options, find_assets());
+}
+
+TEST(DemoCohort, IsEightPeopleAndAHundredAttempts) {
+  int attempts = 0;
+  std::set<std::string> codes;
+  for (const DemoPerson& person : demo_people()) {
+    codes.insert(person.code);
+    EXPECT_TRUE(person.code.starts_with("demo-")) << person.code;
+    EXPECT_LE(person.first_day, person.last_day) << person.code;
+    for (const DemoStint& stint : person.stints) attempts += stint.attempts;
+  }
+  EXPECT_EQ(codes.size(), 8u);
+  EXPECT_GE(attempts, 100);
+}
+
+TEST(DemoCohort, IsMarkedChainedAndInOrderOfItsDates) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "demo.db";
+  ASSERT_EQ(make_short(file), 8);
+  Database database(file, OpenMode::kExisting);
+  EXPECT_TRUE(is_demo(database));
+  EXPECT_EQ(database.check(), std::vector<std::string>{});
+  EXPECT_EQ(AttemptStore(database).check_recordings(), std::vector<std::string>{});
+  std::string later = "9999";
+  for (const AttemptSummary& attempt : AttemptStore(database).list()) {
+    EXPECT_LE(attempt.started_utc, later);
+    EXPECT_EQ(attempt.hand, "invented");
+    EXPECT_EQ(attempt.status, "completed") << attempt.trainee;
+    later = attempt.started_utc;
+    const AttemptPicture picture = attempt_picture_data(database, attempt.uuid);
+    const std::int64_t began = *seconds_of_utc(attempt.started_utc), ended = *seconds_of_utc(picture.finished_utc);
+    const double ran_s = static_cast<double>(picture.result.device.ticks) / picture.result.device.rate_hz;
+    EXPECT_NEAR(static_cast<double>(ended - began), ran_s, 1.0) << "one invented clock has both";
+    const TraineePicture trainee = trainee_picture(database, attempt.trainee, {}, "2030-01-01T00:00:00Z");
+    EXPECT_EQ(trainee.weeks.back().monday, monday_of(ended)) << "the week that it ended in";
+  }
+  EXPECT_EQ(CurriculumStore(database).members("Demo spring").size(), 4u);
+  ASSERT_EQ(OpinionStore(database).notes_of("demo-chen").size(), 1u);
+}
+
+TEST(DemoCohort, ARealDatabaseIsNoneAndIsNeverRemoved) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "trocar.db";
+  {
+    Database database(file);
+    EXPECT_FALSE(is_demo(database));
+  }
+  EXPECT_THROW(remove_demo_cohort(file), InputError);
+  EXPECT_TRUE(fs::exists(file));
+  EXPECT_THROW(make_short(file), InputError);
+}
+
+TEST(DemoCohort, StoppedOrRemovedItLeavesNothing) {
+  const test::TemporaryFolder folder;
+  DemoCohortOptions options;
+  options.database = folder.path() / "demo.db";
+  options.jobs = 1;
+  options.going = [](int done, int) { return done < 1; };
+  EXPECT_EQ(make_demo_cohort(options, find_assets()), 0);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  options.going = {};
+  options.least_attempts = 1;
+  ASSERT_EQ(make_demo_cohort(options, find_assets()), 8);
+  remove_demo_cohort(options.database);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace trocar::demo_cohort_test

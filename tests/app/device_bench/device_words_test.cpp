@@ -1,0 +1,70 @@
+// What is said of a device that stopped: every fault has a cause and advice, every ungraded end a reason.
+#include "app/device_bench/device_words.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "haptics/fault.h"
+#include "tests/tissue/support/temporary_folder.h"
+
+namespace trocar::device_words_test {
+namespace {
+
+DeviceReceipt stopped(const std::string& fault) {
+  DeviceReceipt receipt;
+  receipt.fault = fault;
+  receipt.fault_channel = 2;
+  receipt.fault_s = 3.0006;
+  receipt.fault_value = 1234.5;
+  return receipt;
+}
+
+TEST(FaultWords, EveryFaultOfTheDeviceHasACauseAndAdvice) {
+  std::set<std::string> texts;
+  for (int code = 1; code <= static_cast<int>(FaultCode::kDriveHot); ++code) {
+    const std::string name = fault_name(static_cast<FaultCode>(code));
+    ASSERT_NE(name, "unknown") << code;
+    const std::string words = fault_words(stopped(name));
+    EXPECT_EQ(words.find(name + " on channel 2 at 3.001 s: "), 0u) << words;
+    EXPECT_CONTAINS(words, "; then reset, home the device in its jig and start again.");
+    EXPECT_EQ(words.find('%'), std::string::npos) << "the value stands in its place: " << words;
+    texts.insert(words.substr(words.find(": ")));
+  }
+  EXPECT_EQ(texts.size(), static_cast<std::size_t>(FaultCode::kDriveHot)) << "each says something else";
+}
+
+TEST(FaultWords, SayTheNumberWhereThereIsOne) {
+  EXPECT_CONTAINS(fault_words(stopped("encoder-jump")), "the counter moved by 1234.5 counts in one period");
+  EXPECT_EQ(fault_words(stopped("emergency-stop")).find("1234"), std::string::npos) << "a button has no number";
+  DeviceReceipt endless = stopped("overspeed");
+  endless.fault_value = std::numeric_limits<double>::infinity();
+  EXPECT_CONTAINS(fault_words(endless), "it moved at inf (rad/s");
+}
+
+TEST(FaultWords, NoChannelIsNotNamedAndNoFaultIsSilence) {
+  DeviceReceipt receipt = stopped("late-loop");
+  receipt.fault_channel = -1;
+  EXPECT_EQ(fault_words(receipt).find("late-loop at 3.001 s: 1234.5 periods were missed. Close"), 0u);
+  EXPECT_EQ(fault_words(stopped("")), "");
+  EXPECT_EQ(fault_words(stopped("of-tomorrow")), "of-tomorrow on channel 2 at 3.001 s") << "no cause is made up";
+}
+
+TEST(EndWords, SayWhyAnAttemptWasNotGraded) {
+  const DeviceReceipt none;
+  EXPECT_EQ(end_words(AttemptStatus::kFault, stopped("drive-hot"), "fault", true),
+            "device fault " + fault_words(stopped("drive-hot")));
+  EXPECT_CONTAINS(end_words(AttemptStatus::kVoid, none, "run", true), "the deadman was opened");
+  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, "run", true), "the exercise did not end within its time");
+  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, "homed", false),
+            "the exercise never began: the device was homed, waiting for the deadman to be closed");
+  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, "self-test", false),
+            "the exercise never began: the device was self-test");
+  for (const AttemptStatus graded : {AttemptStatus::kCompleted, AttemptStatus::kTimeout}) {
+    EXPECT_EQ(end_words(graded, stopped("drive-hot"), "run", true), "") << status_name(graded);
+  }
+}
+
+}  // namespace
+}  // namespace trocar::device_words_test

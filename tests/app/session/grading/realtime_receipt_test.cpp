@@ -1,0 +1,156 @@
+// Receipts of pacing and of the force sensor, and the device's receipt as a recording keeps it.
+#include "app/session/grading/realtime_receipt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/session/grading/recorded_result.h"
+#include "haptics/input_error.h"
+#include "tests/tissue/support/temporary_folder.h"
+
+namespace trocar::realtime_receipt_test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Counted final : public Task {
+ public:
+  explicit Counted(std::uint64_t calls) : calls_(calls) {}
+  std::uint32_t period() const override { return 1; }
+  void run(std::uint64_t) override { ++runs_; }
+  bool finished() const override { return runs_ >= calls_; }
+
+ private:
+  std::uint64_t calls_, runs_ = 0;
+};
+
+TEST(RealtimeReceipt, EveryLaneSaysItsPolicyRateAndLatencies) {
+  Counted first(50), second(1000000);
+  ThreadedExecutor executor(500);
+  executor.add_lane("first", {&first}, 0);
+  executor.add_lane("second", {&second}, 0);
+  executor.run();
+  const Json json = Json::parse(realtime_json(executor, 7));
+  EXPECT_TRUE(json.at("kernel_realtime").is_boolean());
+  EXPECT_EQ(json.at("memory_locked"), executor.memory_locked());
+  EXPECT_EQ(json.at("lost_records"), 7);
+  ASSERT_EQ(json.at("lanes").size(), 2u);
+  const Json& lane = json.at("lanes").at("first");
+  EXPECT_EQ(lane.at("wakes"), 50);
+  EXPECT_EQ(lane.at("policy"), "SCHED_OTHER");
+  EXPECT_FALSE(lane.contains("refused")) << "nothing was asked for";
+  const LaneReport& report = *executor.reports()[0];
+  EXPECT_DOUBLE_EQ(lane.at("rate_hz"), static_cast<double>(report.wakes + report.missed) / report.seconds);
+  EXPECT_DOUBLE_EQ(lane.at("longest_gap_ms"), static_cast<double>(report.longest_gap_ns) * 1e-6);
+  for (const char* what : {"late_us", "cpu_us"}) {
+    const Json& spread = lane.at(what);
+    EXPECT_LE(spread.at("p50"), spread.at("p99")) << what;
+    EXPECT_LE(spread.at("p99"), spread.at("p99.9")) << what;
+    EXPECT_LE(spread.at("p99.9"), spread.at("p99.99")) << what;
+    EXPECT_LE(spread.at("p99.99"), spread.at("max")) << what;
+    EXPECT_LE(spread.at("above_1ms"), 50) << what;
+  }
+}
+
+TEST(RealtimeReceipt, NotesSayWhatWasRefusedAndWhatWasLost) {
+  Counted task(5);
+  ThreadedExecutor executor(500);
+  executor.add_lane("haptic", {&task}, 80);
+  executor.run();
+  const LaneReport& report = *executor.reports()[0];
+  const std::size_t refused = (report.refusal.empty() ? 0 : 1) + (executor.memory_locked() ? 0 : 1);
+  const std::vector<std::string> whole = realtime_notes(executor, 0), torn = realtime_notes(executor, 3);
+  EXPECT_EQ(whole.size(), refused);
+  ASSERT_EQ(torn.size(), refused + 1);
+  EXPECT_EQ(torn.back().find("3 records found no room"), 0u) << torn.back();
+  const Json lane = Json::parse(realtime_json(executor, 0)).at("lanes").at("haptic");
+  EXPECT_EQ(lane.contains("refused"), !report.refusal.empty());
+  if (!report.refusal.empty()) {
+    EXPECT_CONTAINS(whole.front(), "the haptic thread did not get SCHED_FIFO (" + report.refusal + ")");
+  }
+}
+
+TEST(ForceSensorReceipt, HoldsWhatWasMeasuredAndWhatTheLoopDidNotKnow) {
+  LiveChannel<StylusForces> forces;
+  ForceSensorTask sensor(forces, {.rate_hz = 40, .lag_s = 0.15, .noise_n = 0, .drift_n_per_h = 0}, 1, 1000);
+  constexpr int kCalls = 20, kLag = 6;  // 0.15 s at 40 Hz
+  for (int i = 0; i < kCalls; ++i) {
+    forces.write(static_cast<std::uint64_t>(i), {Vec3(0, 0, 2), Vec3(0, 0, i < 10 ? 1.5 : 1.0)});
+    sensor.run(static_cast<std::uint64_t>(i));
+  }
+  const Json json = Json::parse(force_sensor_json(sensor));
+  EXPECT_EQ(json.at("rate_hz"), 40);
+  EXPECT_EQ(json.at("lag_s"), 0.15);
+  EXPECT_EQ(json.at("samples"), kCalls - kLag);
+  EXPECT_NEAR(json.at("measured_rms_n"), 2, 1e-12);
+  EXPECT_EQ(json.at("residual_samples"), kCalls - kLag);
+  EXPECT_NEAR(json.at("residual_max_n"), 1, 1e-12);
+  EXPECT_NEAR(json.at("residual_rms_n"), std::sqrt((10 * 0.25 + 4 * 1.0) / 14), 1e-12) << "10 early, 4 late ones";
+}
+
+TEST(ForceSensorReceipt, WithoutASampleItIsZeroNotNothing) {
+  LiveChannel<StylusForces> forces;
+  const ForceSensorTask sensor(forces, {}, 1, 1000);
+  const Json json = Json::parse(force_sensor_json(sensor));
+  EXPECT_EQ(json.at("samples"), 0);
+  EXPECT_EQ(json.at("measured_rms_n"), 0);
+  EXPECT_EQ(json.at("residual_rms_n"), 0);
+}
+
+DeviceReceipt stopped() {
+  DeviceReceipt receipt;
+  receipt.backend = "simulated";
+  receipt.fault = "overspeed";
+  receipt.fault_channel = 5;
+  receipt.fault_s = 1.0 / 3;
+  receipt.fault_value = -0.1;
+  receipt.reason = "device fault \"overspeed\"\n\xc3\xa4";
+  receipt.warnings = {{"saturated", 0.1, 12}, {"near-limit", 2.0 / 3, 1}};
+  receipt.transitions = {{0.0, "off", "self-test"}, {0.7, "self-test", "homed"}};
+  receipt.force_sensor = R"({"rate_hz":40.0,"samples":3})";
+  return receipt;
+}
+
+TEST(ReceiptJson, AStopComesBackWithItsWarningsAndTransitions) {
+  const DeviceReceipt given = stopped(), back = parse_receipt(receipt_json(given), "a.trec");
+  EXPECT_EQ(
+      std::tie(back.fault, back.fault_channel, back.fault_s, back.fault_value, back.reason, back.force_sensor),
+      std::tie(given.fault, given.fault_channel, given.fault_s, given.fault_value, given.reason, given.force_sensor));
+  EXPECT_EQ(back.realtime, "") << "a run in lockstep has none";
+  ASSERT_EQ(back.warnings.size(), 2u);
+  EXPECT_EQ(back.warnings[1].name, "near-limit");
+  EXPECT_EQ(back.warnings[1].first_s, 2.0 / 3);
+  EXPECT_EQ(back.warnings[0].ticks, 12u);
+  ASSERT_EQ(back.transitions.size(), 2u);
+  EXPECT_EQ(back.transitions[1].t_s, 0.7);
+  EXPECT_EQ(back.transitions[1].from, "self-test");
+  EXPECT_EQ(back.transitions[1].to, "homed");
+  EXPECT_EQ(receipt_json(back), receipt_json(given)) << "and again the same bytes";
+}
+
+TEST(ReceiptJson, ANumberThatIsNotFiniteDoesNotSpoilTheReceipt) {
+  DeviceReceipt receipt = stopped();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    receipt.fault_value = bad;
+    EXPECT_EQ(parse_receipt(receipt_json(receipt), "a.trec").fault_value, 0);
+  }
+}
+
+TEST(ReceiptJson, OldReceiptsThatDoNotSayHowItStoppedAreRead) {
+  Json json = Json::parse(receipt_json(stopped()));
+  for (const char* key : {"reason", "warnings", "transitions", "fault_channel", "fault_s", "fault_value"}) {
+    json.erase(key);
+  }
+  const DeviceReceipt old = parse_receipt(json.dump(), "old.trec");
+  EXPECT_EQ(old.fault, "overspeed");
+  EXPECT_EQ(old.fault_channel, -1);
+  EXPECT_TRUE(old.warnings.empty() && old.transitions.empty() && old.reason.empty());
+  json["reason"] = "half of the new keys";
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { parse_receipt(json.dump(), "half.trec"); }), "half.trec: ");
+}
+
+}  // namespace
+}  // namespace trocar::realtime_receipt_test

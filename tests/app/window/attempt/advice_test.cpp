@@ -1,0 +1,114 @@
+// One thing to try next: chosen by rule, never by chance, and there is a sentence for every part of every exercise.
+#include "app/window/attempt/advice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "tests/app/window/attempt/attempt_samples.h"
+
+namespace trocar::advice_test {
+namespace {
+
+using Kind = AdviceTopic::Kind;
+using testing_support::event;
+using testing_support::graded;
+using testing_support::put_caps;
+using testing_support::shipped_exercise;
+
+class AdviceTest : public ::testing::Test {
+ protected:
+  AdviceTopic topic(const AttemptResult& result) const {
+    return advice_topic(result, debrief_facts(words_, result, touch_));
+  }
+  std::string said(const AttemptResult& result, const Exercise& exercise) const {
+    return advice(words_, result, debrief_facts(words_, result, exercise), exercise);
+  }
+  const Words words_;
+  const Exercise touch_ = shipped_exercise("surface-touch");
+};
+
+TEST_F(AdviceTest, CriticalBeforeGateBeforeLargestLoss) {
+  AttemptResult result = graded(touch_, "L1", {{"excess_events", 4}, {"time_s", 1000}, {"wrong_places", 6}});
+  EXPECT_EQ(topic(result).kind, Kind::kGate);
+  EXPECT_EQ(topic(result).metric, "excess_events") << "13 points, though time took 15 and places 20";
+  result.events = {event(4, "CRITICAL_FORCE", Severity::kCritical, 5, "N")};
+  EXPECT_EQ(topic(result).kind, Kind::kCritical);
+  EXPECT_EQ(topic(graded(touch_, "L1", {{"time_s", 1000}, {"wrong_places", 6}})).metric, "wrong_places")
+      << "20 against 15 points";
+}
+
+TEST_F(AdviceTest, EqualLossesGoToSafetyFirst) {
+  // A third of 0.20 each: excess_events (safety) and wrong_places (accuracy).
+  const AdviceTopic t = topic(graded(touch_, "L1", {{"excess_events", 2}, {"wrong_places", 2}}));
+  EXPECT_EQ(t.kind, Kind::kLoss);
+  EXPECT_EQ(t.metric, "excess_events");
+}
+
+TEST_F(AdviceTest, TheTopicIsAlwaysTheLargestLossWhenNothingFailed) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> share(0.5, 1);
+  for (int i = 0; i < 200; ++i) {
+    std::map<std::string, double> values;
+    double worst = 0;
+    for (const SubscoreRule& rule : touch_.levels[0].rubric.subscores) {
+      const double s = share(random);
+      values[rule.metric] = std::lerp(rule.zero_at, rule.full_at, s);
+      worst = std::max(worst, 100 * rule.weight * (1 - s));
+    }
+    const AttemptResult result = graded(touch_, "L1", values);
+    const DebriefFacts facts = debrief_facts(words_, result, touch_);
+    const AdviceTopic t = advice_topic(result, facts);
+    const auto row = std::find_if(facts.rows.begin(), facts.rows.end(),
+                                  [&](const DebriefRow& r) { return r.subscore == t.subscore; });
+    ASSERT_NE(row, facts.rows.end());
+    EXPECT_NEAR(row->lost, worst, 1e-6);
+  }
+}
+
+TEST_F(AdviceTest, NothingLostLeadsOnward) {
+  EXPECT_EQ(topic(graded(touch_, "L1")).kind, Kind::kOnward);
+  EXPECT_EQ(topic(graded(touch_, "L1", {{"path_ratio", 1.05}})).kind, Kind::kOnward) << "less than half a point";
+}
+
+TEST_F(AdviceTest, EndsWithoutAGradeAskForTheSameAgain) {
+  AttemptResult result;
+  result.grade.status = AttemptStatus::kAborted;
+  EXPECT_EQ(topic(result).kind, Kind::kAgain);
+  for (const auto status : {AttemptStatus::kFault, AttemptStatus::kVoid}) {
+    result.grade.status = status;
+    EXPECT_EQ(topic(result).kind, Kind::kDevice);
+  }
+}
+
+TEST_F(AdviceTest, EveryPartOfEveryLevelHasASentenceOfItsOwn) {
+  for (const char* id : {"surface-touch", "limited-grasp", "reach-and-orient"}) {
+    const Exercise exercise = shipped_exercise(id);
+    for (const ExerciseLevel& level : exercise.levels) {
+      std::set<std::string> sentences;
+      for (const SubscoreRule& rule : level.rubric.subscores) {
+        const std::string text = said(graded(exercise, level.name, {{rule.metric, rule.zero_at}}), exercise);
+        EXPECT_TRUE(text.starts_with("Try next: ")) << text;
+        EXPECT_EQ(text.find(", now "), std::string::npos) << "only the stand-in says it so: " << text;
+        EXPECT_LE(text.size(), 130u) << text;
+        sentences.insert(text);
+      }
+      EXPECT_EQ(sentences.size(), level.rubric.subscores.size()) << id << " " << level.name;
+    }
+  }
+}
+
+TEST_F(AdviceTest, NumbersComeFromTheExercise) {
+  EXPECT_EQ(said(graded(touch_, "L1", {{"in_band_share", 0.35}}), touch_),
+            "Try next: press to 0.4 to 0.8 N in one go, then keep still until the disc is done.");
+  EXPECT_EQ(said(graded(touch_, "L3", {{"in_band_share", 0.35}}), touch_),
+            "Try next: press into the band in one go and then keep still until the disc is done.");
+  EXPECT_NE(said(graded(touch_, "L1", {{"excess_events", 5}}), touch_).find("below 1.5 N"), std::string::npos);
+  EXPECT_NE(said(graded(touch_, "L1", {{"time_s", 110}}), touch_).find("38 s"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar::advice_test

@@ -1,0 +1,286 @@
+// Wrist, port, jaws, scope, clutch, options; what is no steering; a window that loses the focus.
+#include <cmath>
+#include <numbers>
+
+#include "tests/app/window/input/steered.h"
+
+namespace trocar::steering_rules_test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Roll of the instrument against its begin, about its own shaft (shaft not leant).
+double roll_of(const Steered& s) {
+  const Mat3 turn = Steered::resting().transpose() * s.steering.intent().X_TI.R;
+  return std::atan2(turn(1, 0), turn(0, 0));
+}
+
+TEST(SteeringWrist, DragRollsAndLeansAboutTheTip) {
+  Steered s;
+  s.button(MouseButton::kRight, true);
+  s.move(640 + 72, 360);  // a tenth of the height: 36 degrees
+  s.run(0.5);
+  EXPECT_NEAR(roll_of(s), 36 * kDegree, 1e-9);
+  EXPECT_EQ(s.tip(), Vec3(Vec3::Zero()));
+  const Vec3 before = s.far();
+  s.move(640 + 72, 360 - 60);  // up by 10 degrees
+  s.run(0.5);
+  EXPECT_NEAR(std::acos(before.dot(s.far())), 10 * kDegree, 1e-9);
+  EXPECT_GT((s.far() - before).dot(axes_of(s.camera).up), 0);
+  EXPECT_EQ(s.tip(), Vec3(Vec3::Zero()));
+}
+
+TEST(SteeringWrist, WithControlADragTurnsSideways) {
+  Steered s;
+  s.press(kKeyControl);
+  s.button(MouseButton::kRight, true);
+  const Vec3 before = s.far();
+  InputEvent drag = event_of(InputEvent::Kind::kMouseMove);
+  drag.x = 640 - 60;
+  drag.y = 360;
+  drag.control = true;
+  s.steering.handle(drag);
+  s.run(0.5);
+  EXPECT_LT((s.far() - before).dot(axes_of(s.camera).right), -0.1);
+}
+
+TEST(SteeringWrist, KeysTurnWhereTheySay) {
+  const Axes axes = axes_of(front_camera());
+  const auto lean = [](std::int32_t key) {
+    Steered s;
+    const Vec3 before = s.far();
+    s.press(key);
+    s.run(0.3);
+    return Vec3(s.far() - before);
+  };
+  EXPECT_GT(lean('Z').dot(axes.up), 0.05);
+  EXPECT_LT(lean('C').dot(axes.up), -0.05);
+  EXPECT_LT(lean(kKeyHome).dot(axes.right), -0.05);
+  EXPECT_GT(lean(kKeyEnd).dot(axes.right), 0.05);
+  for (const auto& [key, sign] : {std::pair{'Q', -1}, std::pair{'E', 1}}) {
+    Steered s;
+    s.press(key);
+    s.run(0.3);
+    EXPECT_NEAR(roll_of(s), sign * 27 * kDegree, 1e-6);
+    EXPECT_LT((s.far() + Steered::resting().col(2)).norm(), 1e-12);  // the shaft itself stands still
+  }
+}
+
+TEST(SteeringWrist, AShaftUprightInThePictureLeansAway) {
+  Steered s;
+  const Axes axes = axes_of(s.camera);
+  const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axes.up).toRotationMatrix();
+  s.steering.begin({R, Vec3::Zero()}, 0.02, Vec3::Zero(), wide_reach());
+  s.press('Z');
+  s.run(0.3);
+  EXPECT_GT(s.far().dot(axes.away), 0.1);
+}
+
+TEST(SteeringWrist, StaysWithinItsLimitsAndARotation) {
+  Steered s;
+  for (const int key : std::initializer_list<int>{'E', 'Z', kKeyEnd}) s.press(key);
+  s.run(20);
+  const Mat3 R = s.steering.intent().X_TI.R;
+  EXPECT_NEAR(std::acos(s.far().dot(-Steered::resting().col(2))), 35 * kDegree, 1e-9);
+  EXPECT_LT((R * R.transpose() - Mat3::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(R.determinant(), 1, 1e-12);
+  s.release('Z');
+  s.release(kKeyEnd);
+  s.press('C');
+  s.press(kKeyHome);
+  s.run(0.3);
+  EXPECT_LT(std::acos(s.far().dot(-Steered::resting().col(2))), 25 * kDegree);  // back at once
+}
+
+TEST(SteeringWrist, LimitsAreThoseOfTheReach) {
+  Steered s({}, SteeringReach());
+  for (const int key : std::initializer_list<int>{'E', kKeyEnd}) s.press(key);
+  s.run(3);
+  EXPECT_NEAR(std::acos(s.far().dot(-Steered::resting().col(2))), 24 * kDegree, 1e-9);
+  s.release(kKeyEnd);
+  s.press(kKeyHome);
+  s.run(24.0 / 45);
+  s.release(kKeyHome);
+  s.run(0.2);
+  EXPECT_NEAR(roll_of(s), 20 * kDegree, 2e-2);
+}
+
+TEST(SteeringPort, OnlyTipAndRollCanBeHad) {
+  SteeringReach reach = wide_reach();
+  reach.port_T = Vec3(0.05, -0.05, 0.12);
+  Steered s({}, reach);
+  s.press('Z');
+  s.press(kKeyRight);
+  s.run(1);
+  EXPECT_LT((s.far() - (*reach.port_T - s.tip()).normalized()).norm(), 1e-9);
+  s.release('Z');
+  s.release(kKeyRight);
+  const Mat3 before = s.steering.intent().X_TI.R;
+  s.press('E');
+  s.run(0.5);
+  const Eigen::AngleAxisd turn(before.transpose() * s.steering.intent().X_TI.R);
+  EXPECT_NEAR(turn.angle(), 45 * kDegree, 1e-6);
+  EXPECT_NEAR(turn.axis().z(), 1, 1e-9);
+}
+
+TEST(SteeringJaws, ButtonKeyAndLatch) {
+  Steered s;
+  s.button(MouseButton::kLeft, true);
+  EXPECT_NEAR(s.run(0.2).jaw_opening_m, 0.010, 1e-9);
+  s.press(kKeySpace);
+  s.release(kKeySpace);
+  EXPECT_TRUE(s.steering.latched());
+  s.button(MouseButton::kLeft, false);
+  EXPECT_NEAR(s.run(1).jaw_opening_m, 0.010, 1e-9);
+  s.press('X');
+  EXPECT_DOUBLE_EQ(s.run(0.5).jaw_opening_m, 0.02);
+  s.release('X');
+  s.press('S');  // without a mouse
+  EXPECT_NEAR(s.run(0.4).jaw_opening_m, 0, 1e-9);
+}
+
+TEST(SteeringScope, MiddleDragAltAndKeys) {
+  Steered s;
+  s.button(MouseButton::kMiddle, true);
+  s.move(640 + 72, 360 + 36);
+  s.wheel(2);
+  s.run(kStep_s);
+  EXPECT_NEAR(s.steering.scope().yaw_rad, 6 * kDegree, 1e-9);
+  EXPECT_NEAR(s.steering.scope().pitch_rad, -3 * kDegree, 1e-9);
+  EXPECT_NEAR(s.steering.scope().depth_m, 0.010, 1e-9);
+  s.button(MouseButton::kMiddle, false);
+  s.press(kKeyAlt);
+  s.press(kKeyUp);
+  s.run(0.5);
+  EXPECT_GT(s.steering.scope().pitch_rad, 0);
+  s.release(kKeyUp);
+  s.release(kKeyAlt);
+  s.press('D');
+  s.run(0.5);
+  EXPECT_NEAR(s.steering.scope().post_rad, 30 * kDegree, 1e-9);
+  EXPECT_EQ(s.tip(), Vec3(Vec3::Zero()));
+  s.release('D');
+  s.press('H');
+  s.run(1);
+  EXPECT_EQ(s.steering.scope().post_rad, 0);
+  EXPECT_EQ(s.steering.scope().yaw_rad, 0);
+  EXPECT_EQ(s.steering.scope().depth_m, 0);
+}
+
+TEST(SteeringScope, HasLimitsAndAPostGoesRound) {
+  ScopeHand hand;
+  for (int i = 0; i < 100; ++i) hand.turn({0.1, 0.1, -0.1, 0.01});
+  EXPECT_DOUBLE_EQ(hand.move().yaw_rad, ScopeHand::kMostTurn_rad);
+  EXPECT_DOUBLE_EQ(hand.move().pitch_rad, -ScopeHand::kMostTurn_rad);
+  EXPECT_DOUBLE_EQ(hand.move().depth_m, ScopeHand::kMostDepth_m);
+  EXPECT_NEAR(hand.move().post_rad, 10 - 4 * std::numbers::pi, 1e-9);
+}
+
+TEST(SteeringClutch, TheInstrumentIsWhereItStoodWhenTheClutchIsLetGo) {
+  Steered s;
+  s.wheel(2);
+  s.run(0.5);
+  const Vec3 stood = s.tip();
+  s.press('W');
+  s.run(kStep_s);
+  EXPECT_TRUE(s.steering.intent().clutch);
+  s.press(kKeyRight);
+  s.run(0.5);
+  EXPECT_GT((s.tip() - stood).norm(), 0.003);  // where the stylus would bring it
+  s.release(kKeyRight);
+  s.release('W');
+  s.run(kStep_s);
+  EXPECT_FALSE(s.steering.intent().clutch);
+  EXPECT_EQ(s.tip(), stood);
+}
+
+TEST(SteeringOptions, LikeAFulcrumTurnsThePlaneRoundAndLeavesTheDepth) {
+  SteeringOptions options;
+  options.like_a_fulcrum = true;
+  Steered s(options);
+  s.move(640 + 60, 360 - 40);
+  s.wheel(1);
+  s.run(0.5);
+  const Axes axes = axes_of(s.camera);
+  EXPECT_LT(s.tip().dot(axes.right), -0.005);
+  EXPECT_LT(s.tip().dot(axes.up), -0.003);
+  EXPECT_NEAR(s.tip().dot(axes.away), 0.005, 1e-12);
+}
+
+TEST(SteeringOptions, LeftHandedMirrorsTheWristAndNotTheTip) {
+  SteeringOptions options;
+  options.left_handed = true;
+  Steered s(options);
+  s.move(640 + 60, 360);
+  s.run(0.5);
+  EXPECT_GT(s.tip().dot(axes_of(s.camera).right), 0);
+  s.button(MouseButton::kRight, true);
+  s.move(640 + 60 + 72, 360);
+  s.run(0.5);
+  EXPECT_NEAR(roll_of(s), -36 * kDegree, 1e-9);
+  s.button(MouseButton::kRight, false);
+  s.press('E');  // a key does what its name says
+  s.run(0.4);
+  EXPECT_NEAR(roll_of(s), 0, 1e-6);
+}
+
+TEST(SteeringEvents, TellSteeringFromCommands) {
+  Steered s;
+  for (const int key : std::initializer_list<int>{'Q', kKeySpace, kKeyAlt})
+    EXPECT_TRUE(s.steering.handle(key_event(key, true)));
+  for (const int key : std::initializer_list<int>{'P', kKeyEscape, kKeyTab})
+    EXPECT_FALSE(s.steering.handle(key_event(key, true)));
+  EXPECT_TRUE(s.steering.handle(event_of(InputEvent::Kind::kWheel)));
+}
+
+TEST(SteeringEvents, OtherKeysCanBeTakenUp) {
+  Steered s;
+  KeyMap keys;
+  keys.assign(Action::kRight, 'J');
+  s.press(kKeyLeft);
+  s.steering.retune(keys, {});
+  s.press('J');
+  s.run(0.5);
+  EXPECT_GT(s.tip().dot(axes_of(s.camera).right), 0.004);  // and the other key is no longer held
+  EXPECT_FALSE(s.steering.handle(key_event(kKeyRight, true)));
+}
+
+TEST(SteeringEvents, AKeyThatRepeatsIsPressedOnce) {
+  Steered s;
+  InputEvent again = key_event(kKeySpace, true);
+  s.steering.handle(again);
+  again.repeat = true;
+  for (int i = 0; i < 5; ++i) s.steering.handle(again);
+  EXPECT_TRUE(s.steering.latched());
+}
+
+TEST(SteeringEvents, FocusLostReleasesAllAndDropsNothing) {
+  Steered s;
+  s.press(kKeyRight);
+  s.press('E');
+  s.press('W');
+  s.button(MouseButton::kLeft, true);
+  s.sticks(InputEvent::Kind::kPad, {1, 0, 0, 0, 0, 0});
+  s.run(0.2);
+  EXPECT_FALSE(s.steering.handle(event_of(InputEvent::Kind::kFocusLost)));
+  s.run(1);  // what was wanted is reached
+  const HandIntent stood = s.steering.intent();
+  s.run(1);
+  EXPECT_EQ(s.tip(), stood.X_TI.p);
+  EXPECT_EQ(s.steering.intent().X_TI.R, stood.X_TI.R);
+  EXPECT_NEAR(stood.jaw_opening_m, 0.010, 1e-9);
+  EXPECT_FALSE(stood.clutch);
+  s.move(900, 200);  // first word of the pointer after it came back
+  s.run(0.5);
+  EXPECT_EQ(s.tip(), stood.X_TI.p);
+}
+
+TEST(SteeringEvents, AStandstillOfTheWindowIsOneShortStep) {
+  Steered s;
+  s.press(kKeyRight);
+  s.steering.advance(30, s.camera, kHeight_px);
+  EXPECT_LT(s.tip().norm(), 0.025 + 1e-9);
+}
+
+}  // namespace
+}  // namespace trocar::steering_rules_test

@@ -1,0 +1,75 @@
+// Pages in memory for tests, with results to show; a picture of each when TROCAR_PAGE_PICTURES names a folder.
+#pragma once
+
+#include <cstdlib>
+
+#include "app/picture/gl/image.h"
+#include "app/window/attempt/advice.h"
+#include "app/window/debrief/debrief_page.h"
+#include "tests/app/window/attempt/attempt_samples.h"
+#include "tests/app/window/pages/layout_check.h"
+#include "tests/app/window/pages/ui_bench.h"
+
+namespace trocar::testing_support {
+
+class PageBench : public UiBench {
+ protected:
+  void expect_clear(const std::string& where) const { expect_laid_out(texts_, width_, height_, where); }
+  bool says(const std::string& part) const {
+    return std::any_of(texts_.begin(), texts_.end(),
+                       [&](const DrawnText& t) { return t.text.find(part) != std::string::npos; });
+  }
+  void picture(const std::string& name) const {
+    const char* folder = std::getenv("TROCAR_PAGE_PICTURES");
+    if (folder && *folder) write_png(std::filesystem::path(folder) / (name + ".png"), target_->read());
+  }
+
+  /// As the screen makes it.
+  DebriefContent content_of(const AttemptResult& result, const Exercise& exercise, const DebriefPast& past = {}) {
+    DebriefContent c;
+    c.heading = exercise.number + " " + exercise.title + ", " + result.level + ", board 4, by mouse";
+    c.facts = debrief_facts(words_, result, exercise, past);
+    c.advice = advice(words_, result, c.facts, exercise);
+    for (const DebriefRow& row : c.facts.rows) c.explained.push_back(explained(words_, row, result, exercise));
+    c.plots.lines = force_lines(exercise, result.level);
+    trace_ = force_trace(pressing_trace(), pressing_events());
+    c.plots.trace = &trace_;
+    c.plots.events = plot_events(words_, result.events, trace_);
+    c.can_watch = c.can_compare = true;
+    c.next_name = "E02 L2";
+    return c;
+  }
+  ForceTrace trace_;
+};
+
+/// A run of somebody who pressed too hard and too long, with a past to compare with.
+inline AttemptResult heavy_run(const Exercise& exercise) {
+  AttemptResult result = graded(
+      exercise, "L1",
+      {{"excess_events", 4}, {"in_band_share", 0.72}, {"time_s", 61.5}, {"path_ratio", 1.52}, {"wrong_places", 1}});
+  result.events = pressing_events();
+  put_caps(result, exercise);
+  return result;
+}
+
+inline AttemptResult good_run(const Exercise& exercise) {
+  AttemptResult result = graded(exercise, "L1", {{"in_band_share", 0.91}, {"time_s", 44.2}, {"path_ratio", 1.31}});
+  result.events = pressing_events();
+  return result;
+}
+
+inline DebriefPast some_past(const AttemptResult& result) {
+  DebriefPast past;
+  for (int n = 0; n < 6; ++n)
+    past.own.push_back(past_run(result, n, 60 + 4 * n, n > 3,
+                                {{"time_s", 70.0 - 3 * n},
+                                 {"in_band_share", 0.6 + 0.03 * n},
+                                 {"excess_events", 5.0 - n},
+                                 {"path_ratio", 1.7 - 0.05 * n},
+                                 {"wrong_places", n % 3}}));
+  past.expert = {
+      {"time_s", 37.1}, {"in_band_share", 0.97}, {"excess_events", 0}, {"path_ratio", 1.12}, {"wrong_places", 0}};
+  return past;
+}
+
+}  // namespace trocar::testing_support

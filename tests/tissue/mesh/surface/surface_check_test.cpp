@@ -1,0 +1,98 @@
+#include "tissue/mesh/surface/surface_check.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/tissue/support/shapes.h"
+#include "tissue/mesh/surface/mesh_quality.h"
+#include "tissue/mesh/surface/remesh.h"
+#include "tissue/mesh/surface/surface_fit.h"
+#include "tissue/mesh/surface/topology.h"
+
+namespace trocar::surface_check_test {
+namespace {
+
+using test::box;
+
+TEST(SurfaceCheck, FindsSelfIntersections) {
+  const TriangleSurface apart =
+      test::joined(box(Vec3::Zero(), Vec3::Ones()), box(Vec3::Constant(2), Vec3::Constant(3)));
+  const TriangleSurface crossing =
+      test::joined(box(Vec3::Zero(), Vec3::Ones()), box(Vec3::Constant(0.5), Vec3::Constant(1.6)));
+  EXPECT_EQ(count_self_intersections(apart), 0U);
+  EXPECT_GT(count_self_intersections(crossing), 0U);
+}
+
+TEST(SurfaceCheck, TurnsASurfaceOutwards) {
+  TriangleSurface inward = box(Vec3::Zero(), Vec3::Ones());
+  for (auto& triangle : inward.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_EQ(orient_outward(inward), 12U);
+  EXPECT_NEAR(inward.volume_m3(), 1, 1e-12);
+  TriangleSurface mixed = box(Vec3::Zero(), Vec3::Ones());
+  std::swap(mixed.triangles[7][1], mixed.triangles[7][2]);
+  EXPECT_EQ(orient_outward(mixed), 1U);
+  EXPECT_TRUE(analyse_topology(mixed).manifold());
+  EXPECT_EQ(orient_outward(mixed), 0U);
+}
+
+TEST(SurfaceCheck, RefusesToOrientAnOpenSurface) {
+  TriangleSurface open = box(Vec3::Zero(), Vec3::Ones());
+  open.triangles.pop_back();
+  EXPECT_THROW(orient_outward(open), std::invalid_argument);
+}
+
+TEST(SurfaceCheck, DistanceOfConcentricSpheresIsTheDifferenceOfTheirRadii) {
+  const TriangleSurface inner = test::sphere(Vec3::Zero(), 1, 5), outer = test::sphere(Vec3::Zero(), 1.1, 5);
+  const SurfaceDistance distance = distance_from_to(inner, outer);
+  EXPECT_NEAR(distance.mean_m, 0.1, 1e-3);  // facets of edge 0.05 lie 3e-4 below the sphere
+  EXPECT_NEAR(distance.p99_m, 0.1, 2e-3);
+  EXPECT_NEAR(distance.max_m, 0.1, 2e-3);
+  EXPECT_NEAR(distance_from_to(inner, inner).max_m, 0, 1e-12);
+}
+
+TEST(SurfaceCheck, DistanceSeesWhatOnlyOneSurfaceHas) {
+  const TriangleSurface plain = box(Vec3::Zero(), Vec3::Ones());
+  const TriangleSurface extra = test::joined(plain, test::sphere(Vec3(4, 0.5, 0.5), 0.5, 3));
+  EXPECT_NEAR(distance_from_to(plain, extra).max_m, 0, 1e-12);
+  EXPECT_NEAR(distance_from_to(extra, plain).max_m, 3.5, 0.05);
+}
+
+TEST(Remesh, GivesTrianglesOfTheWantedSizeOnTheSameSurface) {
+  const TriangleSurface dense = test::sphere(Vec3(0.1, 0.2, 0.3), 0.05, 5);
+  const TriangleSurface coarse = remeshed(dense, std::vector<double>(dense.vertices.size(), 0.008), {});
+  const SurfaceTopology facts = analyse_topology(coarse);
+  EXPECT_TRUE(facts.closed() && facts.manifold());
+  EXPECT_EQ(facts.genus, 0);
+  double shortest = 1, longest = 0;
+  for (const auto& triangle : coarse.triangles)
+    for (std::size_t n = 0; n < 3; ++n) {
+      const double edge = (coarse.vertices[static_cast<std::size_t>(triangle[n])] -
+                           coarse.vertices[static_cast<std::size_t>(triangle[(n + 1) % 3])])
+                              .norm();
+      shortest = std::min(shortest, edge), longest = std::max(longest, edge);
+    }
+  EXPECT_GT(shortest, 0.3 * 0.008);
+  EXPECT_LT(longest, 1.6 * 0.008);
+  EXPECT_GT(mesh_quality(coarse).min_angle_deg, 25);
+  for (const Vec3& vertex : coarse.vertices) EXPECT_NEAR((vertex - Vec3(0.1, 0.2, 0.3)).norm(), 0.05, 1e-4);
+}
+
+TEST(Remesh, RefusesWhatIsNoManifold) {
+  TriangleSurface fin = box(Vec3::Zero(), Vec3::Ones());
+  fin.triangles.push_back({0, 1, 7});
+  EXPECT_THROW(remeshed(fin, std::vector<double>(8, 0.3), {}), std::invalid_argument);
+  EXPECT_THROW(remeshed(box(Vec3::Zero(), Vec3::Ones()), {0.3}, {}), std::invalid_argument);
+}
+
+TEST(SurfaceFit, BringsFacetsCloserToTheShape) {
+  const TriangleSurface dense = test::sphere(Vec3::Zero(), 1, 6);
+  const TriangleSurface coarse = remeshed(dense, std::vector<double>(dense.vertices.size(), 0.4), {});
+  const double before = distance_from_to(coarse, dense).mean_m,
+               after = distance_from_to(fitted(coarse, dense, 4), dense).mean_m;
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_EQ(fitted(coarse, dense, 0).vertices.size(), coarse.vertices.size());
+}
+
+}  // namespace
+}  // namespace trocar::surface_check_test

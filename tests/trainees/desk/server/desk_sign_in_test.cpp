@@ -1,0 +1,219 @@
+// Signing in and out, the station's own instructor, and what ends a session besides time.
+#include <gtest/gtest.h>
+
+#include "tests/trainees/desk/server/desk_samples.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar::review::desk_sign_in_test {
+namespace {
+
+class DeskSignIn : public DeskTest {
+ protected:
+  int staff_page(const Visitor& visitor) { return ask("GET", "/staff/x", visitor).response.status; }
+};
+
+TEST_F(DeskSignIn, TheRightPasswordOpensTheDesk) {
+  add_accounts();
+  make_gate();
+  const Visitor before = stranger();
+  const Answer answer = try_sign_in("ines", kPassword, before);
+  EXPECT_EQ(answer.response.status, 303);
+  EXPECT_EQ(header_of(*gate_, answer, "Location"), "/");
+  EXPECT_NE(cookie_of(answer), before.cookie) << "a number that was known before would be somebody else's to choose";
+  EXPECT_EQ(ask("GET", "/staff/x", {cookie_of(answer), ""}).response.body, "page for ines\n");
+  EXPECT_EQ(staff_page(before), 401);
+  EXPECT_EQ(header_of(*gate_, try_sign_in("anna", kPassword, stranger()), "Location"), "/trainee/T-anna");
+}
+
+TEST_F(DeskSignIn, CookiesAreOutOfReach) {
+  add_accounts();
+  make_gate({.cookie = "trocar_desk_8642"});
+  const std::string plain = ask("GET", "/sign-in").cookie;
+  EXPECT_TRUE(plain.starts_with("trocar_desk_8642=")) << plain;
+  EXPECT_TRUE(plain.ends_with("; Path=/; HttpOnly; SameSite=Strict")) << plain;
+  make_gate({.secure = true, .cookie = "trocar_desk_8642"});
+  const std::string secure = ask("GET", "/sign-in").cookie;
+  EXPECT_TRUE(secure.starts_with("__Host-trocar_desk_8642=")) << secure;
+  EXPECT_TRUE(secure.ends_with("; Path=/; HttpOnly; SameSite=Strict; Secure")) << secure;
+  EXPECT_EQ(secure.find("Domain"), std::string::npos);
+}
+
+TEST_F(DeskSignIn, WrongOnesAreTurnedAwayAlike) {
+  add_accounts();
+  make_gate();
+  std::string first;
+  for (const auto& [login, password] : std::vector<std::pair<std::string, std::string>>{
+           {"ines", "wrong"}, {"nobody", kPassword}, {"ines", ""}, {"' OR 1=1 --", "x"}}) {
+    const Answer answer = try_sign_in(login, password, stranger());
+    EXPECT_EQ(answer.response.status, 401) << login;
+    EXPECT_NE(answer.response.body.find("Login or password is wrong."), std::string::npos);
+    EXPECT_EQ(staff_page({cookie_of(answer), ""}), 401);
+    EXPECT_EQ(answer.response.body.find(kPassword), std::string::npos) << "a password never comes back";
+  }
+}
+
+TEST_F(DeskSignIn, TooManyTriesWait) {
+  add_accounts();
+  make_gate();
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(try_sign_in("ines", "wrong", stranger()).response.status, 401);
+  const Answer late = try_sign_in("ines", kPassword, stranger());
+  EXPECT_EQ(late.response.status, 429) << "even the right one";
+  EXPECT_EQ(header_of(*gate_, late, "Retry-After"), "30");
+  address_ = "10.0.0.8";
+  EXPECT_EQ(try_sign_in("Ines", kPassword, stranger()).response.status, 429) << "from elsewhere too";
+  EXPECT_EQ(try_sign_in("adam", kPassword, stranger()).response.status, 303) << "others are let in from elsewhere";
+  now_ += std::chrono::seconds(31);
+  EXPECT_EQ(try_sign_in("ines", kPassword, stranger()).response.status, 303);
+}
+
+TEST_F(DeskSignIn, TheFormNeedsItsToken) {
+  add_accounts();
+  make_gate();
+  const Visitor one = stranger(), other = stranger();
+  EXPECT_EQ(try_sign_in("ines", kPassword, {one.cookie, other.token}).response.status, 403);
+  EXPECT_EQ(try_sign_in("ines", kPassword, {one.cookie, ""}).response.status, 403);
+  EXPECT_EQ(try_sign_in("ines", kPassword, {"", one.token}).response.status, 403);
+  EXPECT_EQ(ask("POST", "/sign-in", one, "login=ines&password=correct+horse+battery", {"Sec-Fetch-Site: cross-site"})
+                .response.status,
+            403);
+  EXPECT_EQ(try_sign_in("ines", kPassword, one).response.status, 303);
+}
+
+TEST_F(DeskSignIn, LeadsBackToWhereOneWanted) {
+  add_accounts();
+  make_gate();
+  const Answer asked = ask("GET", "/staff/x?sort=last&state=stuck");
+  EXPECT_EQ(asked.response.status, 401);
+  EXPECT_EQ(field_of(asked.response.body, "next"), "/staff/x?sort=last&amp;state=stuck");
+  EXPECT_EQ(header_of(*gate_, try_sign_in("ines", kPassword, stranger(), "/staff/x?sort=last"), "Location"),
+            "/staff/x?sort=last");
+  for (const char* elsewhere :
+       {"//evil.example", "https://evil.example", "/\\evil.example", "/a\r\nSet-Cookie: x=1", "/sign-out", "x"}) {
+    EXPECT_EQ(header_of(*gate_, try_sign_in("ines", kPassword, stranger(), elsewhere), "Location"), "/") << elsewhere;
+  }
+}
+
+TEST_F(DeskSignIn, SigningOutEndsIt) {
+  add_accounts();
+  make_gate();
+  const Visitor ines = signed_in("ines"), elsewhere = signed_in("ines");
+  EXPECT_EQ(ask("GET", "/sign-out", ines).response.status, 405);
+  EXPECT_EQ(ask("POST", "/sign-out", {ines.cookie, "x"}).response.status, 403);
+  EXPECT_EQ(staff_page(ines), 200);
+  const Answer out = ask("POST", "/sign-out", ines);
+  EXPECT_EQ(out.response.status, 303);
+  EXPECT_NE(out.cookie.find("Max-Age=0"), std::string::npos);
+  EXPECT_EQ(staff_page(ines), 401);
+  EXPECT_EQ(staff_page(elsewhere), 200) << "another browser stays signed in";
+}
+
+TEST_F(DeskSignIn, ChangesOfTheAccountEndItsSessions) {
+  add_accounts();
+  make_gate();
+  const Visitor ines = signed_in("ines"), adam = signed_in("adam");
+  AccountStore accounts(database_);
+  accounts.add("eva", "Eva", Role::kAdministrator, "", kPassword, "");  // the last one cannot be disabled
+  accounts.set_password("ines", "another long password", "");
+  EXPECT_EQ(staff_page(ines), 401);
+  accounts.set_disabled("adam", true, "");
+  EXPECT_EQ(ask("GET", "/admin", adam).response.status, 401);
+  EXPECT_EQ(try_sign_in("adam", kPassword, stranger()).response.status, 401);
+  accounts.set_disabled("adam", false, "");
+  EXPECT_EQ(ask("GET", "/admin", adam).response.status, 401) << "an ended session does not come back";
+}
+
+TEST_F(DeskSignIn, TheStationsOwnUserNeedsNoAccount) {
+  make_gate();
+  const Answer first = ask("GET", "/admin");
+  EXPECT_EQ(first.response.body, "page for local\n");
+  const Visitor local{cookie_of(first), ""};
+  EXPECT_EQ(ask("POST", "/admin", local).response.status, 403) << "a token is asked of him as of everybody";
+  EXPECT_EQ(ask("POST", "/admin").response.status, 401) << "what is posted opens no session";
+  const Visitor with_token{local.cookie, field_of(ask("GET", "/sign-in", local).response.body, "token")};
+  EXPECT_EQ(ask("POST", "/admin", with_token).response.status, 200);
+  same_user_ = false;
+  EXPECT_EQ(ask("GET", "/admin").response.status, 401) << "another user of the machine";
+  EXPECT_EQ(ask("GET", "/admin", local).response.status, 200) << "who has the number is the one who got it";
+}
+
+TEST_F(DeskSignIn, TheFirstAccountClosesTheOpenDesk) {
+  make_gate();
+  const Visitor local{cookie_of(ask("GET", "/admin")), ""};
+  add_accounts();
+  EXPECT_EQ(ask("GET", "/admin", local).response.status, 401);
+  EXPECT_EQ(ask("GET", "/admin").response.status, 401);
+}
+
+TEST_F(DeskSignIn, OnTheNetworkNobodyIsLocal) {
+  make_gate({.lan = true});
+  const Answer answer = ask("GET", "/admin");
+  EXPECT_EQ(answer.response.status, 401);
+  EXPECT_NE(answer.response.body.find("trocar review account add"), std::string::npos) << "says what to do";
+}
+
+TEST_F(DeskSignIn, LogsWhoWithoutWhat) {
+  add_accounts();
+  make_gate();
+  try_sign_in("ines", "my secret password", stranger());
+  try_sign_in("evil\nsigned in: adam", "x", stranger());
+  signed_in("adam");
+  ASSERT_EQ(log_.size(), 3U);
+  EXPECT_EQ(log_[0], "sign-in refused: ines from 10.0.0.7");
+  EXPECT_EQ(log_[1], "sign-in refused: evil?signed?in:?adam from 10.0.0.7");
+  EXPECT_EQ(log_[2], "signed in: adam from 10.0.0.7");
+}
+
+/// Entries about coming and going, "action login" each.
+std::vector<std::string> comings(Database& database) {
+  std::vector<std::string> out;
+  sql::Statement rows(
+      database.connection(),
+      "SELECT u.action || ' ' || coalesce(a.login, 'nobody') || ' by ' || coalesce(b.login, u.actor) || u.detail"
+      " FROM audit u LEFT JOIN account a ON a.uuid = u.subject LEFT JOIN account b ON b.uuid = u.actor"
+      " WHERE u.action LIKE 'sign%' AND u.action NOT LIKE 'signature%' ORDER BY u.position");
+  while (rows.step()) out.push_back(rows.text(0));
+  return out;
+}
+
+TEST_F(DeskSignIn, ComingAndGoingIsOnRecord) {
+  add_accounts();
+  make_gate();
+  const Visitor ines = signed_in("ines");
+  signed_in("anna");
+  EXPECT_EQ(ask("POST", "/sign-out", ines, "token=" + ines.token).response.status, 303);
+  EXPECT_EQ(ask("POST", "/sign-out", ines, "token=" + ines.token).response.status, 303) << "out already";
+  EXPECT_EQ(comings(database_),
+            (std::vector<std::string>{"signed in ines by ines", "signed in anna by anna", "signed out ines by ines"}));
+  EXPECT_EQ(problems_of(database_), "");
+}
+
+TEST_F(DeskSignIn, ManyWrongTriesLeaveOneEntry) {
+  add_accounts();
+  make_gate();
+  for (int i = 0; i < 4; ++i) try_sign_in("ines", "wrong", stranger());
+  EXPECT_TRUE(comings(database_).empty()) << "somebody who mistypes";
+  for (int i = 0; i < 500; ++i) try_sign_in("ines", "wrong", stranger());
+  EXPECT_EQ(comings(database_), std::vector<std::string>{"sign-in held back ines by trocar"});
+  now_ += std::chrono::hours(2);
+  address_ = "10.0.0.9";
+  for (int i = 0; i < 8; ++i) try_sign_in("nobody-" + std::to_string(i), "wrong", stranger());
+  EXPECT_EQ(comings(database_).size(), 2u);
+  EXPECT_EQ(comings(database_).back(), "sign-in held back nobody by trocar")
+      << "a login that does not exist is not written down";
+  EXPECT_EQ(problems_of(database_), "");
+}
+
+TEST_F(DeskSignIn, WhatCannotBeRecordedDoesNotHappen) {
+  add_accounts();
+  make_gate();
+  const Visitor visitor = stranger();
+  sql::execute(database_.connection(), "PRAGMA query_only = ON");
+  const Answer answer = try_sign_in("ines", kPassword, visitor);
+  EXPECT_EQ(answer.response.status, 503);
+  EXPECT_EQ(staff_page({cookie_of(answer), ""}), 401);
+  sql::execute(database_.connection(), "PRAGMA query_only = OFF");
+  EXPECT_EQ(try_sign_in("ines", kPassword, visitor).response.status, 303);
+}
+
+}  // namespace
+}  // namespace trocar::review::desk_sign_in_test

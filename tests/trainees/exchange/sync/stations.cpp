@@ -1,0 +1,85 @@
+#include "tests/trainees/exchange/sync/stations.h"
+
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar::test {
+namespace {
+
+std::string next_name() {
+  static int count = 0;
+  return "c" + std::to_string(++count);
+}
+
+}  // namespace
+
+void Stations::SetUp() {
+  if (!server_.reason().empty()) GTEST_SKIP() << server_.reason();
+  central_ = server_.make_database(next_name());
+}
+
+CentralAddress Stations::another_central() { return server_.make_database(next_name()); }
+
+CentralAddress Stations::backup_of_central() { return server_.copy_database(central_, next_name()); }
+
+PushReport Stations::push_named(Database& database, const std::string& name) {
+  PushOptions options{central_};
+  options.station_name = name;
+  options.with_identity = true;
+  return push_to_central(database, options);
+}
+
+Database Stations::desk(const std::string& name) {
+  Database database = station(name);
+  EXPECT_EQ(replicate_central(database, central_).problems, std::vector<std::string>{});
+  EXPECT_EQ(problems_of(database), "");
+  return database;
+}
+
+std::string Stations::trainee_uuid(Database& database, const std::string& code) const {
+  sql::Statement row(database.connection(), "SELECT uuid FROM known_trainee WHERE code = ?");
+  return row.bind(code).step() ? row.text(0) : "";
+}
+
+void Stations::practise(Database& database, const std::string& code, int attempts) {
+  OpinionStore opinions(database);
+  for (int i = 0; i < attempts; ++i) {
+    AttemptStart start = sample_start(code);
+    start.seed = i;
+    const AttemptId id = store_attempt(database, start, sample_result(60 + i));
+    if (i > 0) continue;
+    opinions.add_note(code, id.uuid,
+                      "Keep the left hand still: \xc3\xbc"
+                      "ben \"jetzt\"\n\\n",
+                      kTeacher);
+    opinions.add_rating(id.uuid, "GOALS", "efficiency", 1.0 / 3, kTeacher);
+    opinions.sign(id.uuid, "approval", "", kTeacher);
+    opinions.override_verdict(id.uuid, true, "The camera was knocked", kTeacher);
+    if (opinions.certificates_of(code).empty()) opinions.certify(code, "surface-touch", "L1", "1", "{}", kTeacher);
+  }
+}
+
+PushReport Stations::push(Database& database, const std::string& name) {
+  PushOptions options{central_};
+  options.station_name = name;
+  return push_to_central(database, options);
+}
+
+std::string Stations::one(const std::string& sql) const {
+  const auto rows = ask(sql);
+  return rows.size() == 1 ? rows.front() : std::to_string(rows.size()) + " rows";
+}
+
+std::vector<std::string> Stations::everything(const CentralAddress& central) const {
+  std::string union_of;
+  for (const std::string& table :
+       server_.ask(central,
+                   "SELECT table_name FROM information_schema.tables WHERE table_schema = 'trocar'"
+                   " AND table_name <> 'central' ORDER BY 1")) {
+    union_of += (union_of.empty() ? "" : " UNION ALL ") + std::string("SELECT '") + table +
+                " ' || (to_jsonb(t) - 'received' - 'first_seen' - 'last_seen' - 'seq')::text AS line FROM \"" + table +
+                "\" t";
+  }
+  return server_.ask(central, union_of + " ORDER BY line");
+}
+
+}  // namespace trocar::test

@@ -1,0 +1,230 @@
+// What people wrote, changed by somebody who knows SQL and puts the triggers back: each forgery is found and named.
+#include "trainees/integrity/sealed_rows.h"
+
+#include <sqlite3.h>
+
+#include "tests/trainees/records/store_samples.h"
+#include "trainees/records/accounts.h"
+#include "trainees/records/consents.h"
+#include "trainees/records/curricula.h"
+#include "trainees/records/opinions.h"
+#include "trainees/records/trainee_store.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar::sealed_rows_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReason = "The camera was knocked at 12 s";
+const Author kAuthor{"0192-account", "Ida Adler"};
+
+/// A row of every sealed table, two attempts of two trainees.
+class SealedRows : public TemporaryFolder {
+ protected:
+  SealedRows() : file_(folder_ / "t.db") {
+    Database database(file_);
+    for (const char* code : {"T-1", "T-2"})
+      attempts_.push_back(store_attempt(database, sample_start(code), sample_result()).uuid);
+    OpinionStore opinions(database);
+    note_ = opinions.add_note("T-1", attempts_[0], "Keep the left hand still.", kAuthor).uuid;
+    opinions.add_rating(attempts_[0], "GOALS", "efficiency", 3, kAuthor);
+    for (const std::string& attempt : attempts_)
+      signatures_.push_back(opinions.sign(attempt, "approval", "", kAuthor).uuid);
+    opinions.override_verdict(attempts_[0], false, kReason, kAuthor);
+    opinions.revoke(opinions.certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor).uuid, kReason, kAuthor);
+    CurriculumStore(database).add("course", "a = 1\n", kAuthor);
+    CurriculumStore(database).add_benchmark(
+        {"", "surface-touch", "L1", "time_s", "six people", "median", "", "", 30, 90, 6}, kAuthor);
+    ConsentStore(database).record("T-1", "research", true, "I agree.", kAuthor);
+    AccountStore(database).add("i.adler", "Ida Adler", Role::kInstructor, "", "correct horse", "");
+  }
+  std::string after(const std::string& sql) const {
+    EXPECT_EQ(run_without_triggers(file_, sql), "") << sql;
+    return problems_of(Database(file_));
+  }
+  void expect_found(const std::string& sql, const std::string& problem) const {
+    const std::string problems = after(sql);
+    EXPECT_NE(problems.find(problem), std::string::npos) << sql << "\n" << problems;
+    EXPECT_EQ(problems.find("schema"), std::string::npos) << "the triggers were put back: " << problems;
+  }
+  fs::path file_;
+  std::vector<std::string> attempts_, signatures_;
+  std::string note_;
+};
+
+TEST_F(SealedRows, AreSoundWhenUntouchedAndWhenTheTriggersWereOutAndBack) {
+  EXPECT_EQ(problems_of(Database(file_)), "");
+  EXPECT_EQ(after("SELECT 1"), "");
+}
+
+TEST_F(SealedRows, AnEditedRowOfAnyTableIsFound) {
+  const std::pair<const char*, const char*> edits[] = {{"note", "text = 'Well done.'"},
+                                                       {"note", "utc = '2020-01-01T00:00:00.000Z'"},
+                                                       {"rating", "value = 5"},
+                                                       {"signature", "signer = 'Otto'"},
+                                                       {"verdict_override", "passed = 1"},
+                                                       {"certificate", "level = 'L3'"},
+                                                       {"revocation", "reason = 'by mistake ..'"},
+                                                       {"curriculum", "author = 'me'"},
+                                                       {"benchmark", "zero_at = 900"},
+                                                       {"consent", "given = 0"},
+                                                       {"account", "role = 'administrator'"},
+                                                       {"account", "password = 'x'"}};
+  for (const auto& [table, change] : edits) {
+    const fs::path copy = folder_ / (std::string(table) + ".db");
+    fs::remove(copy);
+    { Database(file_).backup(copy); }
+    ASSERT_EQ(run_without_triggers(copy, std::string("UPDATE ") + table + " SET " + change), "") << change;
+    const std::string problems = problems_of(Database(copy));
+    EXPECT_NE(problems.find(std::string("records: ") + table + " "), std::string::npos) << table << ": " << problems;
+    EXPECT_NE(problems.find("was changed after it was written"), std::string::npos) << table << ": " << problems;
+    for (const char* more : {"", "-wal", "-shm", ".anchor"}) fs::remove(copy.string() + more);
+  }
+}
+
+TEST_F(SealedRows, ADeletedRowIsFound) { expect_found("DELETE FROM note", "records: note " + note_ + " is missing"); }
+
+TEST_F(SealedRows, ADeletedRevocationMakesNoCertificateValidAgain) {
+  expect_found("DELETE FROM revocation", "records: revocation ");
+}
+
+TEST_F(SealedRows, ADeletedAccountIsFound) { expect_found("DELETE FROM account", "records: account "); }
+
+TEST_F(SealedRows, SwappedSignaturesAreFound) {
+  expect_found("UPDATE signature SET attempt_id = 3 - attempt_id", "signature " + signatures_[0] + " was changed");
+  EXPECT_NE(problems_of(Database(file_))
+                .find("signature " + signatures_[1] + " was given for another record than attempt " + attempts_[0]),
+            std::string::npos);
+}
+
+TEST_F(SealedRows, ASignatureMovedToAnotherAttemptIsFoundEvenWithThatAttemptsHash) {
+  expect_found(
+      "UPDATE signature SET attempt_id = 2, row_hash = (SELECT row_hash FROM attempt WHERE id = 2) WHERE attempt_id = "
+      "1",
+      "signature " + signatures_[0] + " was changed after it was written");
+}
+
+TEST_F(SealedRows, SwappedIdentifiersAreFound) {
+  expect_found("UPDATE signature SET uuid = 'x' WHERE id = 1; UPDATE signature SET uuid = '" + signatures_[0] +
+                   "' WHERE id = 2; UPDATE signature SET uuid = '" + signatures_[1] + "' WHERE id = 1",
+               "signature " + signatures_[0] + " was changed");
+}
+
+TEST_F(SealedRows, ARowThatCameInAnotherWayIsFound) {
+  expect_found(
+      "INSERT INTO certificate SELECT 9, 'forged', trainee_id, exercise_id, 'L3', rule_version, evidence, author, "
+      "printed, utc"
+      " FROM certificate",
+      "records: certificate forged has no entry in the audit trail: it came in by another way");
+}
+
+TEST_F(SealedRows, ARowWithoutIdentifierIsFound) {
+  expect_found("INSERT INTO rating (attempt_id, rater, scale, item, value, utc) VALUES (1, 'x', 'GOALS', 'y', 5, '')",
+               "records: a row of rating has no identifier");
+}
+
+TEST_F(SealedRows, AReorderedChainIsFound) {
+  expect_found(
+      "UPDATE attempt SET chain_position = NULL, row_hash = row_hash || 'x' WHERE id = 1;"
+      "UPDATE attempt SET chain_position = 1 WHERE id = 2;"
+      "UPDATE attempt SET chain_position = 2, row_hash = substr(row_hash, 1, 64) WHERE id = 1",
+      "does not follow the attempt before it");
+  EXPECT_NE(problems_of(Database(file_)).find("hash chain: attempt " + attempts_[1] + " was changed"),
+            std::string::npos)
+      << "the position is hashed, too";
+}
+
+TEST_F(SealedRows, AReorderedTrailIsFound) {
+  expect_found(
+      "UPDATE audit SET position = 100 WHERE position = 3; UPDATE audit SET position = 3 WHERE position = 4;"
+      "UPDATE audit SET position = 4 WHERE position = 100",
+      "audit trail: entry 3");
+}
+
+TEST_F(SealedRows, WhichOverrideHoldsDoesNotGoByRowNumbers) {
+  Database database(file_);
+  OpinionStore opinions(database);
+  opinions.override_verdict(attempts_[0], true, "Seen again on the film", kAuthor);
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE verdict_override SET id = 50 WHERE id = 1"), "");
+  EXPECT_TRUE(opinions.overrides_of(attempts_[0])[0].passed);
+  EXPECT_EQ(problems_of(database), "");
+}
+
+TEST_F(SealedRows, AnOldBackupPutBackLosesTheNotesSinceAndIsFound) {
+  { Database(file_).backup(folder_ / "copy.db"); }
+  EXPECT_EQ(problems_of(Database(folder_ / "copy.db")), "");
+  {
+    Database database(file_);
+    OpinionStore(database).add_note("T-1", "", "Written after the backup.", kAuthor);
+  }
+  for (const char* log : {"-wal", "-shm"}) fs::remove(file_.string() + log);
+  fs::copy_file(folder_ / "copy.db", file_, fs::copy_options::overwrite_existing);
+  EXPECT_NE(problems_of(Database(file_)).find("anchor: the newest entries are missing"), std::string::npos);
+}
+
+TEST_F(SealedRows, ANoteTakenOutWithItsEntryIsFoundByTheAnchor) {
+  std::string last;
+  {
+    Database database(file_);
+    last = OpinionStore(database).add_note("T-1", "", "The last one.", kAuthor).uuid;
+  }
+  expect_found("DELETE FROM note WHERE uuid = '" + last + "'; DELETE FROM audit WHERE subject = '" + last + "'",
+               "anchor: the newest entries are missing");
+}
+
+TEST_F(SealedRows, AForgedErasureExcusesNothing) {
+  expect_found(
+      "INSERT INTO erasure VALUES (1, 'forged', 1, 'identity', 'request of the person', '', ''); DELETE FROM note",
+      "erasure forged has no entry");
+  EXPECT_NE(problems_of(Database(file_)).find("note " + note_ + " is missing"), std::string::npos);
+}
+
+TEST_F(SealedRows, ATextThatIsNotTheOneOfItsDigestIsFound) {
+  expect_found("UPDATE curriculum SET toml = 'a = 2'",
+               "curriculum course, version 1: its text is not the one of its sha256");
+}
+
+TEST_F(SealedRows, DigestsFollowTypesAndPlaces) {
+  Database database(file_);
+  sqlite3* connection = database.connection();
+  EXPECT_EQ(digest_of_row(connection, "note", note_).size(), 64u);
+  EXPECT_EQ(digest_of_row(connection, "note", note_), digest_of_row(connection, "note", note_));
+  EXPECT_NE(digest_of_row(connection, "signature", signatures_[0]),
+            digest_of_row(connection, "signature", signatures_[1]));
+  EXPECT_THROW(digest_of_row(connection, "signature", note_), InputError);
+  EXPECT_THROW(digest_of_row(connection, "no table", note_), InputError);
+  const auto& tables = sealed_tables();
+  EXPECT_EQ(tables.size(), 10u);
+  EXPECT_LT(std::find(tables.begin(), tables.end(), "certificate"),
+            std::find(tables.begin(), tables.end(), "revocation"));
+}
+
+TEST_F(SealedRows, ConsentsAreGivenAndWithdrawnAndTheNewestHolds) {
+  Database database(file_);
+  ConsentStore consents(database);
+  EXPECT_TRUE(consents.holds("t-1", "research"));
+  EXPECT_FALSE(consents.holds("T-1", "film"));
+  consents.record("T-1", "research", false, "I withdraw.", kAuthor);
+  EXPECT_FALSE(consents.holds("T-1", "research"));
+  ASSERT_EQ(consents.of("T-1").size(), 2u);
+  EXPECT_EQ(consents.of("T-1")[0].text, "I withdraw.");
+  EXPECT_NE(message_of<InputError>([&] {
+              consents.record("T-1", "film", false, "I withdraw.", kAuthor);
+            }).find("none is given"),
+            std::string::npos)
+      << "what was never given cannot be withdrawn";
+  EXPECT_THROW(consents.record("T-1", "research", false, "Again.", kAuthor), InputError)
+      << "nor what was withdrawn before";
+  EXPECT_EQ(consents.of("T-1").size(), 2u);
+  EXPECT_NE(
+      message_of<InputError>([&] { consents.record("T-9", "research", false, "x", kAuthor); }).find("there is none"),
+      std::string::npos);
+  EXPECT_THROW(consents.record("T-9", "research", true, "x", kAuthor), InputError);
+  EXPECT_THROW(consents.record("T-1", "", true, "x", kAuthor), InputError);
+  EXPECT_THROW(consents.record("T-1", "research", true, "", kAuthor), InputError);
+  EXPECT_EQ(problems_of(database), "");
+}
+
+}  // namespace
+}  // namespace trocar::sealed_rows_test

@@ -1,0 +1,75 @@
+// What the readers of surface files hand over, as the file has it: its own unit, its own axes, its own winding.
+//
+// Each reader takes the bytes of a whole file whose kind was checked (file_kind.h), checks every count against the
+// length of the file before it makes room, and every index before it is used. Thread: any.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tissue/mesh/surface/triangle_surface.h"
+
+namespace trocar {
+
+inline constexpr std::uintmax_t kMaxSurfaceBytes = std::uintmax_t{512} << 20;
+inline constexpr std::size_t kMaxTriangles = 5'000'000;  ///< of one file; also the most tetrahedra
+inline constexpr std::size_t kMaxVertices = 3 * kMaxTriangles;
+inline constexpr std::size_t kMaxParts = 4096;
+inline constexpr std::size_t kMaxCorners = 64;  ///< of one polygon
+inline constexpr std::size_t kMaxNameBytes = 80;
+
+/// A node, mesh, group or region with vertices of its own.
+struct FilePart {
+  std::string name;
+  std::vector<std::string> groups;  ///< nodes above it, the nearest first
+  TriangleSurface surface;          ///< units and axes of the file
+};
+
+struct FileTetrahedra {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::int32_t, 4>> tetrahedra;
+  std::vector<std::int32_t> regions;      ///< of each tetrahedron: index into region_names; empty for one region
+  std::vector<std::string> region_names;  ///< never empty when there are tetrahedra
+};
+
+struct SurfaceFile {
+  std::vector<FilePart> parts;
+  FileTetrahedra tetrahedra;     ///< empty in surface files; `parts` then holds what surfaces were stored beside them
+  std::optional<double> unit_m;  ///< metres of one unit, where the file says so
+  std::string unit_source;       ///< "glTF is in metres by its standard"
+  std::string frame;             ///< "RAS", "LPS" ...; "" when the file does not say
+  std::string frame_source;      ///< "the header says SPACE=LPS"
+  std::vector<std::string> remarks;  ///< what was left out or repaired while reading
+};
+
+/// Adds a polygon as triangles (ear clipping: concave ones keep their outline). @param corners at least three, all in
+/// range
+void add_polygon(TriangleSurface& surface, const std::vector<std::int32_t>& corners);
+
+/// Gives a surface whose triangles are in numbers of `all` those vertices that it uses, in the order of first use.
+/// @param scratch -1 for each of `all`, and so again afterwards
+void take_vertices(TriangleSurface& surface, const std::vector<Vec3>& all, std::vector<std::int32_t>& scratch);
+
+/// A name out of a file, safe to print: printable ASCII and at most kMaxNameBytes bytes.
+std::string printable(std::string_view name);
+
+/// "RAS" or "LPS" where a comment of 3D Slicer says "SPACE=RAS", "" where it says nothing.
+std::string slicer_space(std::string_view comment);
+
+/// @throws InputError naming the file when the count is above the cap: "7000000 triangles are more than the 5000000
+/// ..."
+void check_count(std::uint64_t count, std::uint64_t most, const char* what, const std::string& file);
+
+// One reader a format. @param bytes the whole file @param file its name for messages @throws InputError naming file and
+// place
+SurfaceFile read_stl(std::string_view bytes, const std::string& file);
+SurfaceFile read_obj(std::string_view bytes, const std::string& file);
+SurfaceFile read_off(std::string_view bytes, const std::string& file);
+SurfaceFile read_vtk_legacy(std::string_view bytes, const std::string& file);
+SurfaceFile read_vtk_xml(std::string_view bytes, const std::string& file);
+SurfaceFile read_gmsh(std::string_view bytes, const std::string& file);
+
+}  // namespace trocar

@@ -1,0 +1,28 @@
+// An indexed triangle surface: the form in which every organ surface lives at run time.
+//
+// Metres, counter-clockwise seen from outside. Plain data; CGAL, ITK and assimp stay behind the .cpp files that make
+// or repair such surfaces. Thread: immutable after loading.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "haptics/quantities.h"
+
+namespace trocar {
+
+struct TriangleSurface {
+  std::vector<Vec3> vertices;                          ///< m
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< vertex indices, outward by the right-hand rule
+
+  /// Area-weighted unit vertex normals (same order as vertices).
+  std::vector<Vec3> vertex_normals() const;
+  /// Signed enclosed volume (divergence theorem), m^3. Meaningful for closed surfaces only.
+  double volume_m3() const;
+  Eigen::AlignedBox3d bounds() const;
+  /// Copy moved by a rigid transform.
+  TriangleSurface transformed(const Pose& X) const;
+};
+
+}  // namespace trocar

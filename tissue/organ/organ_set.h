@@ -1,0 +1,78 @@
+// Several organs of one image in one frame: a TOML file NAME.scene.toml that names the organ files beside it.
+//
+// One organ is the subject, on which an exercise is done; the others lie round it where the image had them, are seen
+// and touched. Frame RAS, metres. Thread: any, not the tick.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tissue/organ/organ.h"
+#include "tissue/organ/organ_manifest.h"
+
+namespace trocar {
+
+/// Two organs that lie against each other.
+struct OrganContact {
+  std::string a, b;     ///< names; a before b in the file's order
+  double area_m2 = 0;   ///< of the common face
+  bool shared = false;  ///< the common face is made of the same triangles in both
+  bool operator==(const OrganContact&) const = default;
+};
+
+/// Where an organ lies against something of the image that is not in the scene: what holds it, or what was left out.
+struct OrganAttachment {
+  std::string organ;  ///< name
+  std::string label;  ///< name of the label that it lies against, or its number
+  double area_m2 = 0;
+  std::vector<std::int32_t> triangles;  ///< of the organ's surface
+  bool operator==(const OrganAttachment&) const = default;
+};
+
+struct OrganSet {
+  std::string name;
+  std::string subject;              ///< name of one of the organs
+  std::vector<std::string> files;   ///< manifests beside the scene file
+  std::vector<std::string> sha256;  ///< of the manifests' bytes, in their order
+  std::vector<OrganContact> contacts;
+  std::vector<OrganAttachment> attachments;
+  std::vector<std::string> more_files;  ///< others that belong to it, "abdomen.vessels.toml"
+};
+
+inline constexpr int kOrganSetFormat = 1;
+inline constexpr std::string_view kOrganSetSuffix = ".scene.toml";
+
+std::string organ_set_text(const OrganSet& set);
+
+/// @param file name for messages. @throws InputError with line and column
+OrganSet parse_organ_set(const std::string& text, const std::string& file);
+
+/// The subject as an organ, with the others as its neighbours; credits and licences of all joined, sha256 that of the
+/// scene file.
+/// @param subject another subject than the file's; "" for that
+/// @throws InputError naming file and place: a member missing, changed or damaged, an unknown subject, two organs of
+/// one name
+Organ load_organ_set(const std::filesystem::path& path, const std::string& subject = "");
+
+/// One organ to be written.
+struct CompiledMember {
+  OrganManifest manifest;
+  TriangleSurface surface;
+  std::string surface_bytes = {};  ///< of the surface's file, once enter_surface made them
+};
+
+/// Path without suffix of one organ of a scene: STEM-NAME.
+std::filesystem::path member_stem(const std::filesystem::path& stem, const std::string& name);
+
+/// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing:
+/// everything is staged beside its place and then renamed, the scene file last.
+/// @param members manifests; their surface names and hashes are filled in, unless surface_bytes tells that they are
+/// @return path of the scene file
+/// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
+std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set,
+                                      std::vector<CompiledMember>& members, const std::vector<SideFile>& more);
+
+}  // namespace trocar

@@ -1,0 +1,110 @@
+// What all pages of the desk share: head, navigation, ribbon, footer; badges, dates, links, fields of forms.
+//
+// Functions return HTML; what they take is plain text unless its name ends in _html. Thread: any.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trainees/desk/queries/central_standing.h"
+#include "trainees/progress/judgement.h"
+
+namespace trocar::review {
+
+/// A form that was refused: its page comes back with what stood in it, and why beside the field.
+struct RefusedForm {
+  std::string form = {};  ///< "" when none was
+  std::string why = {};
+  std::map<std::string, std::string> values = {};
+};
+
+/// Around every page.
+struct Frame {
+  std::string title = {};
+  std::string who = {};       ///< name of who looks; "" on pages before signing in
+  bool signed_in = true;      ///< by an account, so that signing out means something
+  std::string own_code = {};  ///< of a trainee: sees own pages only
+  std::string token = {};     ///< goes into every form
+  std::string now_utc = {};
+  bool demo = false;
+  bool may_write = true;  ///< instructors and administrators
+  bool administrator = false;
+  bool demo_goes = false;        ///< the demo cohort can be removed from here
+  bool ended = false;            ///< the desk closes: there is nowhere to go from this page
+  bool pdf = false;              ///< PDF of this page can be had
+  int refresh_s = 0;             ///< page asks for itself again
+  std::string notice = {};       ///< what has just been done
+  CentralStanding central = {};  ///< of a desk that serves a central record
+  RefusedForm refused = {};
+};
+
+/// What stood in that field of that form when it was refused, else `otherwise`.
+std::string kept(const Frame& frame, const std::string& form, const std::string& field,
+                 const std::string& otherwise = "");
+/// Why that form was refused, for the place below its field; "" when it was not.
+std::string why_refused(const Frame& frame, const std::string& form);
+/// Attributes that tie the field to that reason; "" when it was not refused.
+std::string refused_field(const Frame& frame, const std::string& form);
+/// A message of the program as a sentence: first letter large, a stop at its end, folders of the machine left out.
+std::string sentence(const std::string& message);
+
+/// Whole document. @param main_html what stands between header and footer.
+std::string document(const Frame& frame, const std::string& main_html);
+
+/// Part of a path or query: everything but letters, digits and -._~ as %XX.
+std::string url_part(const std::string& text);
+/// "?a=1&amp;b=2" for an attribute; empty values are left out; "?" when nothing is left.
+std::string query_html(const std::vector<std::pair<std::string, std::string>>& items);
+std::string link_html(const std::string& href_html, const std::string& words);
+
+/// State as colour, shape and word.
+std::string badge(Flag flag);
+std::string flag_words(Flag flag);           ///< "check record": as the badge says it
+std::string shape(const std::string& name);  ///< a small drawn shape: a flag's name, or pass, fail, void
+Flag state_named(const std::string& name, Flag otherwise);
+/// Gravest first: unsafe, relapsed, stuck, integrity, plateau, retention due, ready, learning.
+int gravity(Flag flag);
+
+/// "22 Nov 2026, 13:05" in a <time>; text that is no date stays as it is.
+std::string date_html(const std::string& utc);
+std::string day_html(const std::string& utc);
+/// "86.5", or a dash for nothing.
+std::string score_text(const std::optional<double>& score);
+/// "1:05" of seconds; "0:12".
+std::string clock_text(double seconds);
+std::string plural(std::int64_t count, const std::string& one, const std::string& many);
+
+/// What a decision rests on: "n = 16, 2 by decision, reliability 0.84, rules 1".
+std::string basis_text(const Judgement& judgement);
+std::string basis_html(const Judgement& judgement);  ///< small and dim
+/// "0.84", or "not known yet".
+std::string reliability_text(const std::optional<double>& reliability);
+
+/// A certificate's evidence (JSON) as a sentence; text that is no JSON object stays as it is.
+std::string evidence_text(const std::string& json);
+
+/// A form that posts, with the token. @param action_html already escaped.
+std::string form_begin(const std::string& action_html, const Frame& frame);
+std::string text_field(const std::string& id, const std::string& name, const std::string& label,
+                       const std::string& value, const std::string& extra_html = "");
+std::string area_field(const std::string& id, const std::string& name, const std::string& label,
+                       const std::string& value, int rows, const std::string& extra_html = "");
+std::string select_field(const std::string& id, const std::string& name, const std::string& label,
+                         const std::vector<std::pair<std::string, std::string>>& choices, const std::string& chosen);
+
+/// <section> with a heading that names it.
+std::string section(const std::string& id, const std::string& title, const std::string& inner_html,
+                    const std::string& classes = "card");
+/// <figure> that scrolls by itself where the screen is narrow.
+std::string figure(const std::string& svg_html, const std::string& caption_html);
+/// A table in a scroller of its own. @param head_html cells of the head.
+std::string table(const std::string& caption, const std::string& head_html, const std::string& rows_html,
+                  const std::string& classes = "");
+std::string head_cells(const std::vector<std::string>& words);  ///< ">word" for a number's column
+std::string cell(const std::string& words);
+std::string number_cell(const std::string& words);
+
+}  // namespace trocar::review

@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <cmath>
+
+#include "trainees/desk/queries/record_views.h"
+#include "trainees/markup/html.h"
+
+namespace trocar::review {
+namespace {
+
+/// "1.2 MB", decimal.
+std::string size_text(std::uintmax_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (value < 1e3) return std::to_string(bytes) + " B";
+  if (value < 1e6) return fixed_text(value / 1e3, 1) + " kB";
+  return value < 1e9 ? fixed_text(value / 1e6, 1) + " MB" : fixed_text(value / 1e9, 2) + " GB";
+}
+
+std::string parts(const char* here) {
+  std::string out = "<nav class=\"parts\" aria-label=\"Record\">";
+  for (const auto& [path, words] :
+       {std::pair("/record", "Record"), std::pair("/audit", "Audit trail"), std::pair("/retention", "Retention")})
+    out += std::string("<a href=\"") + path + "\"" + (std::string(path) == here ? " aria-current=\"page\"" : "") + ">" +
+           words + "</a>";
+  return out + "</nav>";
+}
+
+std::string record_fact(const std::string& name, const std::string& words, bool mono = false) {
+  return "<div><dt>" + escape_html(name) + "</dt><dd" + (mono ? " class=\"mono\"" : "") + ">" + escape_html(words) +
+         "</dd></div>";
+}
+
+std::string check_section(const RecordView& view, const Frame& frame) {
+  std::string out;
+  if (view.problems && view.problems->empty())
+    out = "<p class=\"notice\" role=\"status\">" + shape("pass") +
+          "Sound: file, schema, references, hash chain, audit trail, signatures, anchor and recordings.</p>";
+  if (view.problems && !view.problems->empty()) {
+    out = "<div class=\"error\" role=\"alert\"><p>" + shape("fail") + "<strong>" +
+          plural(static_cast<std::int64_t>(view.problems->size()), "problem", "problems") +
+          "</strong>. Change nothing, keep the backups, and find out what happened.</p><ul>";
+    constexpr std::size_t kShown = 100;
+    const std::size_t all = view.problems->size();
+    for (std::size_t k = 0; k < all && k < kShown; ++k)
+      out += "<li>" + escape_html(sentence((*view.problems)[k])) + "</li>";
+    if (all > kShown) out += "<li>and " + std::to_string(all - kShown) + " more: trocar db check tells all</li>";
+    out += "</ul></div>";
+  }
+  return section("check", "Check",
+                 out +
+                     "<p>Reads every row and every recording again and compares them with the hash chain, the audit "
+                     "trail and the anchor. "
+                     "With many recordings it takes minutes.</p>" +
+                     form_begin("/record/check#check", frame) + "<p><button>Check the record</button></p></form>");
+}
+
+std::string backup_section(const RecordView& view, const Frame& frame) {
+  std::string rows;
+  for (const BackupFile& backup : view.backups)
+    rows += "<tr><th scope=\"row\" class=\"mono\">" + escape_html(backup.name) + "</th><td>" + date_html(backup.utc) +
+            "</td>" + number_cell(size_text(backup.bytes)) + "</tr>";
+  const std::string listed = rows.empty() ? "<p>None lies beside the record.</p>"
+                                          : table("Backups beside the record, newest first",
+                                                  head_cells({"File", "Made (UTC)", ">Size"}), rows);
+  return section("backups", "Backups",
+                 listed + why_refused(frame, "backup") + form_begin("/record/backup", frame) +
+                     "<p><button>Make a backup</button></p></form><p class=\"dim\">A whole copy of the database in the "
+                     "same folder, without the "
+                     "recordings. Take it to another disk: one beside the record is lost with it.</p>");
+}
+
+std::string audit_filters(const AuditView& view) {
+  std::vector<std::pair<std::string, std::string>> persons = {{"", "everybody"}}, actions = {{"", "any action"}};
+  persons.insert(persons.end(), view.persons.begin(), view.persons.end());
+  for (const std::string& action : view.actions) actions.emplace_back(action, action);
+  return "<form class=\"filters\" method=\"get\" action=\"/audit\">" +
+         select_field("f-person", "person", "Done by", persons, view.asked.person) +
+         select_field("f-action", "action", "Action", actions, view.asked.action) +
+         "<p class=\"field\"><button>Show</button> " + link_html("/audit", "Reset") + "</p></form>";
+}
+
+std::string audit_pages(const AuditView& view) {
+  const auto last = static_cast<int>(std::max<std::int64_t>(1, (view.total + kAuditOnPage - 1) / kAuditOnPage));
+  if (last == 1) return "";
+  const auto to = [&](int page, const std::string& words) {
+    return link_html(
+        "/audit" +
+            query_html({{"person", view.asked.person}, {"action", view.asked.action}, {"page", std::to_string(page)}}),
+        words);
+  };
+  std::string out = "<nav class=\"pages\" aria-label=\"Parts of the trail\">";
+  if (view.asked.page > 1) out += to(1, "Newest") + to(view.asked.page - 1, "Newer");
+  out += "<strong aria-current=\"page\">Page " + std::to_string(view.asked.page) + " of " + std::to_string(last) +
+         "</strong>";
+  if (view.asked.page < last) out += to(view.asked.page + 1, "Older") + to(last, "Oldest");
+  return out + "</nav>";
+}
+
+}  // namespace
+
+std::string record_page(const RecordView& view, Frame frame) {
+  frame.title = "Record";
+  std::string out =
+      "<dl class=\"facts\">" + record_fact("Database", view.file.empty() ? "in memory" : view.file) +
+      record_fact("Schema", std::to_string(view.schema)) +
+      record_fact("Program", view.program.empty() ? "unknown" : view.program) +
+      record_fact("Size", size_text(view.database_bytes)) +
+      record_fact("Recordings", size_text(view.recordings_bytes)) +
+      record_fact("Last backup", view.backups.empty() ? "none here"
+                                                      : view.backups.front().utc.substr(0, 10) + ", " +
+                                                            view.backups.front().utc.substr(11, 5) + " UTC") +
+      "</dl>" + "<dl class=\"facts\">";
+  for (const auto& [what, count] : view.counts) out += record_fact(what, std::to_string(count));
+  out += "</dl><dl class=\"facts\">" +
+         record_fact("Head of the audit trail: noted elsewhere, it shows any later change", view.head, true) + "</dl>";
+  return document(frame, "<div class=\"title\"><h1>Record</h1></div>" + parts("/record") +
+                             section("facts", "What is kept", out) + "<div class=\"two even\"><div>" +
+                             check_section(view, frame) + "</div><div>" + backup_section(view, frame) + "</div></div>");
+}
+
+std::string audit_page(const AuditView& view, Frame frame) {
+  frame.title = "Audit trail";
+  std::string rows;
+  for (const AuditEntry& entry : view.entries) {
+    const bool attempt = entry.action.starts_with("attempt ") && entry.subject.size() == 36;
+    rows += "<tr><th scope=\"row\" class=\"n\">" + std::to_string(entry.position) + "</th><td>" + date_html(entry.utc) +
+            "</td>" + cell(entry.who) + cell(entry.action) + "<td class=\"mono long\">" +
+            (attempt ? link_html("/attempt/" + url_part(entry.subject), entry.subject) : escape_html(entry.subject)) +
+            "</td><td class=\"mono\">" +
+            escape_html(entry.detail.size() > 40 ? entry.detail.substr(0, 16) + "\xE2\x80\xA6" : entry.detail) +
+            "</td></tr>";
+  }
+  if (rows.empty()) rows = "<tr><td colspan=\"6\">No entry matches.</td></tr>";
+  return document(
+      frame,
+      "<div class=\"title\"><h1>Audit trail</h1><p class=\"dim\">Entries are added, never changed; each holds the hash "
+      "of the one "
+      "before it.</p></div>" +
+          parts("/audit") +
+          section("trail", plural(view.total, "entry", "entries"),
+                  audit_filters(view) +
+                      table("Newest first; times are UTC",
+                            head_cells({">No.", "When", "Done by", "Action", "Of", "Detail"}), rows, "audit") +
+                      audit_pages(view)));
+}
+
+std::string retention_page(const RetentionView& view, Frame frame) {
+  frame.title = "Retention";
+  std::string rows;
+  for (const RetentionLine& line : view.lines)
+    rows += "<tr><th scope=\"row\">" + link_html("/trainee/" + url_part(line.code), line.code) + "</th>" +
+            number_cell(std::to_string(line.attempts)) + "<td>" +
+            (line.last_utc.empty() ? "never" : day_html(line.last_utc)) + "</td><td>" + day_html(line.created_utc) +
+            "</td></tr>";
+  const std::string days = std::to_string(view.days);
+  std::string out = "<form class=\"filters\" method=\"get\" action=\"/retention\">" +
+                    text_field("r-days", "days", "Not here for so many days", days,
+                               "inputmode=\"numeric\" maxlength=\"5\" size=\"6\"") +
+                    "<p class=\"field\"><button>Show</button></p></form>";
+  if (!view.problem.empty())
+    out += "<p class=\"error\" role=\"alert\">" + shape("fail") + escape_html(view.problem) + "</p>";
+  else if (rows.empty())
+    out += "<p>Nobody: every trainee was here within " + days + " days.</p>";
+  else
+    out += table(
+        plural(static_cast<std::int64_t>(view.lines.size()), "trainee", "trainees") + " not here for " + days + " days",
+        head_cells({"Trainee", ">Attempts", "Last attempt", "Known since"}), rows);
+  return document(
+      frame,
+      "<div class=\"title\"><h1>Retention</h1><p class=\"dim\">A look ahead: nothing is erased from here.</p></div>" +
+          parts("/retention") +
+          section(
+              "old", "Who would be erased",
+              out +
+                  "<p class=\"dim\">Erasing cannot be undone, so it is done on the station: <code>trocar db retention "
+                  "--days " +
+                  days +
+                  " --erase</code>. What goes and what stays stands in the privacy page of the documentation.</p>"));
+}
+
+std::string demo_question_page(Frame frame) {
+  frame.title = "Remove the demo";
+  return document(frame,
+                  "<section class=\"card\"><h1>Remove the demo?</h1><p>The eight invented trainees go, with their "
+                  "attempts and recordings, and "
+                  "what was written about them. No other record is touched. The desk ends then; <code>trocar review "
+                  "serve --demo</code> "
+                  "makes the cohort anew.</p>" +
+                      why_refused(frame, "demo") + form_begin("/demo/remove", frame) +
+                      "<p><button class=\"danger\">Remove the demo</button> " + link_html("/", "Keep it") +
+                      "</p></form></section>");
+}
+
+std::string demo_gone_page(Frame frame) {
+  frame.title = "The demo is removed";
+  frame.demo = false;
+  frame.ended = true;
+  return document(frame,
+                  "<section class=\"card\"><h1>The demo is removed</h1><p>The invented trainees, their attempts and "
+                  "recordings are gone, and this "
+                  "desk has ended. Your own desk opens with <code>trocar review serve</code>.</p></section>");
+}
+
+}  // namespace trocar::review

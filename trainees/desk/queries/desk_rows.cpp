@@ -1,0 +1,97 @@
+#include "trainees/desk/queries/desk_rows.h"
+
+#include "scenarios/scoring/attempt_result.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar::desk {
+namespace {
+
+/// Different values of the index's next column, from one to the next. (A comparison of several columns at once would
+/// read all between.)
+std::vector<std::string> steps(sqlite3* connection, const std::string& column, const std::string& fixed,
+                               const std::vector<std::string>& at) {
+  const std::string all = "SELECT min(" + column + ") FROM attempt INDEXED BY attempt_by_curve WHERE " + fixed;
+  std::vector<std::string> out;
+  sql::Statement first(connection, all), next(connection, all + " AND " + column + " > ?");
+  for (const std::string& value : at) first.bind(value);
+  for (sql::Statement* found = &first; found->step() && !found->is_null(0); found = &next) {
+    out.push_back(found->text(0));
+    if (found == &next) next.run();
+    for (const std::string& value : at) next.bind(value);
+    next.bind(out.back());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Combination> combinations(sqlite3* connection) {
+  std::vector<Combination> out;
+  sql::Statement exercises(connection, "SELECT id FROM exercise ORDER BY id");
+  while (exercises.step()) {
+    const std::string exercise = exercises.text(0);
+    for (const std::string& level : steps(connection, "level", "exercise_id = ?", {exercise}))
+      for (const std::string& hand : steps(connection, "hand", "exercise_id = ? AND level = ?", {exercise, level}))
+        out.push_back({exercise, level, hand});
+  }
+  return out;
+}
+
+std::map<std::int64_t, Person> people(sqlite3* connection) {
+  std::map<std::int64_t, Person> out;
+  sql::Statement rows(connection,
+                      "SELECT t.id, t.code, coalesce(p.name, ''), t.created_utc FROM known_trainee t"
+                      " LEFT JOIN person p ON p.trainee_id = t.id ORDER BY t.id");
+  while (rows.step()) out[rows.integer(0)] = {rows.integer(0), rows.text(1), rows.text(2), rows.text(3)};
+  sql::Statement groups(connection, "SELECT trainee_id, group_name FROM membership ORDER BY trainee_id, group_name");
+  while (groups.step()) out[groups.integer(0)].groups.push_back(groups.text(1));
+  return out;
+}
+
+std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection) {
+  std::map<CertifiedSkill, std::string> out;
+  sql::Statement rows(connection,
+                      "SELECT trainee_id, exercise_id, level, max(utc) FROM certificate c"
+                      " WHERE NOT EXISTS (SELECT 1 FROM revocation r WHERE r.certificate_id = c.id)"
+                      " GROUP BY trainee_id, exercise_id, level");
+  while (rows.step()) out[{rows.integer(0), rows.text(1), rows.text(2)}] = rows.text(3);
+  return out;
+}
+
+std::set<std::int64_t> training_erased(sqlite3* connection) {
+  std::set<std::int64_t> out;
+  sql::Statement rows(connection, "SELECT trainee_id FROM erasure WHERE kind = 'training'");
+  while (rows.step()) out.insert(rows.integer(0));
+  return out;
+}
+
+bool of_erased(sqlite3* connection, const std::string& attempt_uuid) {
+  sql::Statement row(
+      connection,
+      "SELECT 1 FROM attempt a JOIN erasure e ON e.trainee_id = a.trainee_id WHERE a.uuid = ? AND e.kind = 'training'");
+  return row.bind(attempt_uuid).step();
+}
+
+bool doubtful(double ticks, double overruns, double saturated_share, double late_share) {
+  return overruns > late_share * ticks || saturated_share > kNotRendered;
+}
+
+bool broken(const std::string& status) {
+  return status == status_name(AttemptStatus::kFault) || status == status_name(AttemptStatus::kVoid);
+}
+
+std::string rubric_start(const std::string& sha256) { return sha256.substr(0, 16); }
+
+std::map<std::int64_t, std::vector<double>> cohort_scores(sqlite3* connection, const CurveKey& key) {
+  std::map<std::int64_t, std::vector<double>> out;
+  sql::Statement rows(connection,
+                      "SELECT a.trainee_id, s.value FROM attempt a INDEXED BY attempt_by_curve"
+                      " CROSS JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
+                      " WHERE a.exercise_id = ? AND a.level = ? AND a.hand = ? AND substr(a.ruleset_sha256, 1, 16) = ?"
+                      " AND a.status IN ('completed', 'timeout') AND s.value IS NOT NULL ORDER BY a.trainee_id, a.id");
+  rows.bind(key.exercise_id).bind(key.level).bind(key.hand).bind(rubric_start(key.rubric_sha256));
+  while (rows.step()) out[rows.integer(0)].push_back(rows.real(1));
+  return out;
+}
+
+}  // namespace trocar::desk

@@ -1,0 +1,210 @@
+#include "trainees/desk/queries/desk_views.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "haptics/input_error.h"
+#include "trainees/desk/queries/desk_queries.h"
+#include "trainees/desk/queries/desk_rows.h"
+#include "trainees/desk/queries/level_reader.h"
+#include "trainees/desk/server/desk_memory.h"
+#include "trainees/markup/html.h"
+#include "trainees/records/attempt_store.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar::review {
+namespace {
+
+CurvePoint point_of(const AttemptSummary& s) {
+  return {s.uuid, s.started_utc, s.status, s.score, s.passed, s.row, s.decided_by, s.passed_by_score};
+}
+
+CurveView curve_view(const CurvePicture& picture, const std::map<std::string, std::string>& titles, LevelReader& levels,
+                     const ProgressRules& rules) {
+  CurveView out;
+  const LearningCurve& curve = picture.curve;
+  out.key = curve.key;
+  const auto title = titles.find(curve.key.exercise_id);
+  out.title = title == titles.end() || title->second.empty() ? curve.key.exercise_id : title->second;
+  for (const PastAttempt& attempt : curve.attempts) {
+    const AttemptSummary& s = attempt.summary;
+    out.points.push_back(point_of(s));
+  }
+  out.pass_at = levels.of(curve.key.rubric_sha256, curve.key.level).pass_at;
+  out.best = curve.best;
+  out.last = curve.last;
+  out.graded = curve.graded;
+  out.passed = curve.passed;
+  out.in_a_row = curve.in_a_row;
+  out.trained_s = curve.trained_s;
+  for (const Benchmark& benchmark : picture.benchmarks)
+    if (!out.benchmark && benchmark.metric == "score") out.benchmark = benchmark;
+  for (const CohortPoint& point : picture.cohort) out.cohort.push_back({point.attempt, point.people, point.scores});
+  out.cusum = picture.cusum;
+  out.rule = rules.cusum;
+  out.judgements = picture.judgements;
+  out.reliability = picture.reliability;
+  return out;
+}
+
+std::string days_words(int days) { return std::to_string(days) + " days after the certificate"; }
+
+void add_due(TraineeView& view, const CurvePicture& picture, const std::string& title) {
+  for (const RetentionDate& date : picture.retention) {
+    const bool open = date.state == RetentionDate::State::kDue || date.state == RetentionDate::State::kMissed;
+    view.due.push_back({title, picture.curve.key.level, date.due_utc,
+                        days_words(date.days) + ": " + retention_state_name(date.state), open});
+  }
+}
+
+/// The first that the query fits. What is not there is said: a page about something else would mislead.
+std::size_t chosen_curve(const std::vector<CurveView>& curves, const Request& request) {
+  const std::string exercise = argument(request.query, "exercise"), level = argument(request.query, "level"),
+                    hand = argument(request.query, "hand"), rubric = argument(request.query, "rubric");
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const CurveKey& key = curves[i].key;
+    if ((exercise.empty() || key.exercise_id == exercise) && (level.empty() || key.level == level) &&
+        (hand.empty() || key.hand == hand) && (rubric.empty() || key.rubric_sha256.starts_with(rubric)))
+      return i;
+  }
+  std::string asked;
+  for (const std::string& part : {exercise, level, hand, rubric})
+    asked += part.empty() ? "" : (asked.empty() ? "" : ", ") + part;
+  if (!asked.empty())
+    throw InputError("there is no attempt of " + argument(request.arguments, "code") + " that counts of " + asked);
+  return 0;
+}
+
+}  // namespace
+
+std::string argument(const std::map<std::string, std::string>& values, const std::string& name,
+                     const std::string& otherwise) {
+  const auto it = values.find(name);
+  return it == values.end() ? otherwise : it->second;
+}
+
+int whole_number(const std::string& text, int otherwise) {
+  char* end = nullptr;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  return end == text.c_str() || *end != '\0' || value < 1 || value > 1000000 ? otherwise : static_cast<int>(value);
+}
+
+std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const CohortFilter& filter,
+                                 const std::string& now_utc) {
+  if (!desk.memory) return cohort_lines(desk.database, rules, filter, now_utc);
+  return filtered(desk.memory->lines(desk.database, now_utc), filter);
+}
+
+bool is_staff(const Request& request) { return request.account && request.account->role != Role::kTrainee; }
+
+Frame frame_of(const Request& request, const Desk& desk) {
+  Frame frame;
+  if (request.account) frame.who = request.account->name.empty() ? request.account->login : request.account->name;
+  if (request.account && request.account->role == Role::kTrainee) frame.own_code = request.account->trainee_code;
+  frame.token = request.token;
+  frame.now_utc = request.now_utc;
+  frame.demo = desk.demo;
+  frame.may_write = is_staff(request);
+  frame.pdf = true;
+  if (desk.sources.central) frame.central = desk.sources.central();
+  frame.signed_in = request.account && !request.account->uuid.empty();
+  frame.administrator = request.account && request.account->role == Role::kAdministrator;
+  frame.demo_goes = frame.administrator && desk.demo && desk.sources.remove_demo;
+  return frame;
+}
+
+Author author_of(const Request& request) {
+  if (!request.account) return {};
+  return {request.account->uuid, request.account->name.empty() ? request.account->login : request.account->name};
+}
+
+std::vector<Choice> exercise_choices(Database& database) {
+  sql::Statement query(database.connection(), "SELECT id, title FROM exercise ORDER BY number, id");
+  std::vector<Choice> out;
+  while (query.step()) out.emplace_back(query.text(0), query.text(1).empty() ? query.text(0) : query.text(1));
+  return out;
+}
+
+std::string exercise_title(Database& database, const std::string& id) {
+  sql::Statement query(database.connection(), "SELECT title FROM exercise WHERE id = ?1");
+  query.bind(id);
+  return query.step() && !query.text(0).empty() ? query.text(0) : id;
+}
+
+std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column) {
+  std::set<std::string> values;
+  for (const desk::Combination& one : desk::combinations(database.connection()))
+    values.insert(column == "hand" ? one.hand : one.level);
+  return {values.begin(), values.end()};
+}
+
+CohortView cohort_view(Desk& desk, const Request& request) {
+  CohortView view;
+  view.asked = {argument(request.query, "group"), argument(request.query, "exercise"),
+                argument(request.query, "level"), argument(request.query, "state"),
+                argument(request.query, "sort"),  whole_number(argument(request.query, "page"), 1)};
+  const ProgressRules rules = rules_in_force(desk.database);
+  view.rules_version = rules.version;
+  view.groups = CurriculumStore(desk.database).groups();
+  view.exercises = exercise_choices(desk.database);
+  view.levels = distinct_attempt_values(desk.database, "level");
+  view.attempts = static_cast<int>(sql::query_integer(
+      desk.database.connection(),
+      "SELECT (SELECT count(*) FROM attempt) - (SELECT count(*) FROM attempt WHERE status = 'running' OR trainee_id IN"
+      " (SELECT trainee_id FROM erasure WHERE kind = 'training'))"));
+  view.erased = static_cast<int>(desk::training_erased(desk.database.connection()).size());
+  const std::map<std::string, std::string> titles(view.exercises.begin(), view.exercises.end());
+  CohortFilter filter;
+  filter.group = view.asked.group;
+  filter.exercise = view.asked.exercise_id;
+  filter.level = view.asked.level;
+  LevelReader levels(desk);
+  std::string before;
+  for (CohortLine& line : lines_of(desk, rules, filter, request.now_utc)) {
+    if (line.trainee != before) ++view.trainees;
+    before = line.trainee;
+    const auto title = titles.find(line.key.exercise_id);
+    view.lines.push_back({line.trainee, line.name, line.key.exercise_id,
+                          title == titles.end() ? line.key.exercise_id : title->second, line.key.level, line.key.hand,
+                          line.tries, line.best, line.last, std::move(line.newest_scores),
+                          levels.of(line.key.rubric_sha256, line.key.level).pass_at, line.mean_peak_n, line.over_force,
+                          std::move(line.judgements), line.last_utc, line.graded, line.passes, line.reliability,
+                          line.key.rubric_sha256});
+  }
+  return view;
+}
+
+TraineeView trainee_view(Desk& desk, const Request& request) {
+  const ProgressRules rules = rules_in_force(desk.database);
+  TraineePicture picture = trainee_picture(desk.database, argument(request.arguments, "code"), rules, request.now_utc);
+  TraineeView view;
+  view.code = picture.code;
+  view.name = picture.name;
+  view.groups = picture.groups;
+  const std::vector<Choice> exercises = exercise_choices(desk.database);
+  const std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
+  LevelReader levels(desk);
+  for (const CurvePicture& curve : picture.curves) {
+    view.curves.push_back(curve_view(curve, titles, levels, rules));
+    add_due(view, curve, view.curves.back().title);
+  }
+  std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
+  view.chosen = chosen_curve(view.curves, request);
+  view.page = whole_number(argument(request.query, "page"), 1);
+  for (const PastAttempt& attempt : picture.ended_by_device) {
+    const AttemptSummary& s = attempt.summary;
+    view.ended_by_device.push_back({{s.exercise_id, s.level, s.hand, s.rubric_sha256}, point_of(s)});
+  }
+  view.ability = {picture.ability_logit, picture.ability_se, picture.ability_n, picture.ability_missing};
+  for (const WeekMinutes& week : picture.weeks) view.minutes_by_week.emplace_back(week.monday, week.minutes);
+  view.erased = picture.training_erased;
+  view.notes = std::move(picture.notes);
+  view.certificates = std::move(picture.certificates);
+  view.shaken = shaken_certificates(desk.database, view.certificates);
+  view.rules_version = rules.version;
+  view.created_utc = picture.created_utc;
+  return view;
+}
+
+}  // namespace trocar::review

@@ -1,0 +1,200 @@
+#include "trainees/desk/queries/report_views.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "haptics/input_error.h"
+#include "trainees/desk/pages/attempt_parts.h"
+#include "trainees/desk/queries/desk_queries.h"
+#include "trainees/desk/queries/desk_rows.h"
+#include "trainees/desk/queries/desk_views.h"
+#include "trainees/records/attempt_store.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar::review {
+namespace {
+
+constexpr int kPictureWidth = 1280;
+
+Request asked(const std::string& now_utc) {
+  Request request;
+  request.now_utc = now_utc;
+  return request;
+}
+
+template <class Page>
+std::string file_of(const Page& page, ReportFormat format) {
+  return format == ReportFormat::kPdf ? printed::pdf_of(page) : printed::html_of(page);
+}
+
+ReportSetting setting_of(Desk& desk, bool notes) { return {desk.demo, notes, rules_in_force(desk.database)}; }
+
+/// Newest decision of each attempt of a trainee.
+std::map<std::string, VerdictOverride> decisions_of(Database& database, const std::string& code) {
+  std::map<std::string, VerdictOverride> out;
+  sql::Statement rows(database.connection(),
+                      "SELECT a.uuid, o.uuid, o.author, o.printed, o.reason, o.utc, o.passed FROM verdict_override o"
+                      " JOIN attempt a ON a.id = o.attempt_id JOIN known_trainee k ON k.id = a.trainee_id"
+                      " WHERE k.code = ? COLLATE NOCASE ORDER BY o.id");
+  rows.bind(code);
+  while (rows.step())
+    out[rows.text(0)] = {rows.text(1), rows.text(2), rows.text(3), rows.text(4), rows.text(5), rows.integer(6) != 0};
+  return out;
+}
+
+Exclusion counted(Database& database, const std::string& words, const std::string& condition,
+                  const std::string& group) {
+  sql::Statement row(
+      database.connection(),
+      "SELECT count(*), count(DISTINCT a.trainee_id) FROM attempt a LEFT JOIN score s INDEXED BY score_first"
+      " ON s.attempt_id = a.id AND s.revision = 0 WHERE a.status <> 'running' AND (" +
+          condition + ") AND (?1 = '' OR a.trainee_id IN (SELECT trainee_id FROM membership WHERE group_name = ?1))");
+  row.bind(group);
+  row.step();
+  return {words, static_cast<int>(row.integer(0)), static_cast<int>(row.integer(1))};
+}
+
+std::vector<Exclusion> exclusions_of(Database& database, const std::string& group) {
+  return {
+      counted(database, "Void: not a measurement (counted nowhere)", "a.status = 'void'", group),
+      counted(database, "Ended by the device (counted nowhere)", "a.status = 'fault'", group),
+      counted(database, "Left before the end (a try that failed, without a score)", "a.status = 'aborted'", group),
+      counted(database, "Without a score for another reason",
+              "a.status IN ('completed', 'timeout') AND s.value IS NULL", group),
+      counted(database, "Force not rendered in over 5 % of the contact (counted, with a doubt)",
+              "a.status NOT IN ('void', 'fault') AND a.saturated_contact_share > 0.05", group),
+      counted(database, "Device loop late in over 1 % of its ticks (counted, with a doubt)",
+              "a.status NOT IN ('void', 'fault') AND a.device_ticks > 0 AND a.device_overruns > 0.01 * a.device_ticks",
+              group)};
+}
+
+Certificate find_certificate(Database& database, const std::string& uuid) {
+  for (Certificate& certificate : OpinionStore(database).certificates_of(""))
+    if (certificate.uuid == uuid) return std::move(certificate);
+  throw InputError("certificate \"" + uuid + "\": there is none of that number");
+}
+
+/// What was written down when it was given.
+void read_evidence(CertificateView& view, std::string& attempt) {
+  const nlohmann::json evidence = nlohmann::json::parse(view.certificate.evidence, nullptr, false);
+  if (!evidence.is_object()) {
+    view.evidence = view.certificate.evidence;
+    return;
+  }
+  const auto text = [&](const char* name) {
+    return evidence.contains(name) && evidence[name].is_string() ? evidence[name].get<std::string>() : std::string();
+  };
+  view.evidence = text("words");
+  attempt = text("attempt");
+  if (evidence.contains("n") && evidence["n"].is_number_integer()) view.n = evidence["n"].get<int>();
+  if (evidence.contains("reliability") && evidence["reliability"].is_number())
+    view.reliability = evidence["reliability"].get<double>();
+}
+
+/// Those of the curve of `attempt` (all of exercise and level where it is not named) that ended before the certificate
+/// was given.
+std::vector<CertifiedAttempt> attempts_behind(Database& database, const Certificate& certificate,
+                                              const std::string& attempt) {
+  std::vector<CertifiedAttempt> out;
+  sql::Statement rows(
+      database.connection(),
+      "SELECT a.uuid, a.started_utc, a.status, coalesce(a.row_hash, ''), a.device_backend, a.hand, "
+      "coalesce(a.chain_position, 0), s.value,"
+      " coalesce(o.passed, s.passed, 0), coalesce(o.printed, '')"
+      " FROM certificate c JOIN attempt a ON a.trainee_id = c.trainee_id AND a.exercise_id = c.exercise_id AND a.level "
+      "= c.level"
+      " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
+      " LEFT JOIN attempt e ON e.uuid = ?2"
+      " LEFT JOIN verdict_override o ON o.id = (SELECT max(id) FROM verdict_override WHERE attempt_id = a.id AND utc "
+      "<= c.utc)"
+      " WHERE c.uuid = ?1 AND a.status IN ('completed', 'timeout', 'aborted') AND a.finished_utc <= c.utc"
+      " AND (e.id IS NULL OR (a.hand = e.hand AND a.ruleset_sha256 = e.ruleset_sha256)) ORDER BY a.id");
+  rows.bind(certificate.uuid).bind(attempt);
+  while (rows.step()) {
+    CertifiedAttempt one{rows.text(0), rows.text(1),    rows.text(2), rows.text(3),         rows.text(4),
+                         rows.text(5), rows.integer(6), {},           rows.integer(8) != 0, rows.text(9)};
+    one.score = rows.optional_real(7);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace
+
+TraineeReportView trainee_report_view(Desk& desk, const std::string& code, const std::string& now_utc) {
+  Request request = asked(now_utc);
+  request.arguments["code"] = code;
+  TraineeReportView out;
+  out.trainee = trainee_view(desk, request);
+  out.decisions = decisions_of(desk.database, out.trainee.code);
+  return out;
+}
+
+CohortReportView cohort_report_view(Desk& desk, const std::map<std::string, std::string>& filters,
+                                    const std::string& now_utc) {
+  Request request = asked(now_utc);
+  request.query = filters;
+  CohortReportView out;
+  out.cohort = cohort_view(desk, request);
+  const auto& groups = out.cohort.groups;
+  if (const std::string& group = out.cohort.asked.group;
+      !group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
+    throw InputError("group \"" + group + "\": nobody is in a group of that name");
+  const CohortQuestion& only = out.cohort.asked;
+  for (Benchmark& b : CurriculumStore(desk.database).benchmarks(only.exercise_id, only.level)) {
+    const bool known = std::any_of(out.benchmarks.begin(), out.benchmarks.end(), [&](const Benchmark& other) {
+      return other.exercise_id == b.exercise_id && other.level == b.level && other.metric == b.metric;
+    });
+    if (!known) out.benchmarks.push_back(std::move(b));
+  }
+  out.exclusions = exclusions_of(desk.database, only.group);
+  out.certificates = OpinionStore(desk.database).certificates_of("");
+  return out;
+}
+
+AttemptReportView attempt_report_view(Desk& desk, const std::string& name, const std::string& now_utc) {
+  AttemptReportView out;
+  out.attempt = attempt_view(desk, asked(now_utc), AttemptStore(desk.database).find(name).uuid);
+  if (!out.attempt.picture) return out;
+  try {
+    out.picture_png = desk.sources.picture(out.attempt.result.uuid, peak_moment_s(out.attempt), kPictureWidth);
+  } catch (const std::exception& error) {  // the report says all without it
+    out.no_picture = std::string("No picture: ") + error.what() + ".";
+  }
+  return out;
+}
+
+CertificateView certificate_view(Desk& desk, const std::string& uuid) {
+  CertificateView out;
+  out.certificate = find_certificate(desk.database, uuid);
+  out.exercise = exercise_title(desk.database, out.certificate.exercise_id);
+  for (const auto& [id, person] : desk::people(desk.database.connection()))
+    if (person.code == out.certificate.trainee) out.name = person.name;
+  std::string attempt;
+  read_evidence(out, attempt);
+  out.attempts = attempts_behind(desk.database, out.certificate, attempt);
+  for (const auto& [unused, words] : shaken_certificates(desk.database, {out.certificate})) out.since = words;
+  return out;
+}
+
+std::string trainee_file(Desk& desk, const std::string& code, const ReportQuestion& question) {
+  return file_of(trainee_report(trainee_report_view(desk, code, question.now_utc), setting_of(desk, question.notes)),
+                 question.format);
+}
+
+std::string cohort_file(Desk& desk, const std::map<std::string, std::string>& filters, const ReportQuestion& question) {
+  return file_of(cohort_report(cohort_report_view(desk, filters, question.now_utc), setting_of(desk, question.notes)),
+                 question.format);
+}
+
+std::string attempt_file(Desk& desk, const std::string& name, const ReportQuestion& question) {
+  return file_of(attempt_report(attempt_report_view(desk, name, question.now_utc), setting_of(desk, question.notes)),
+                 question.format);
+}
+
+std::string certificate_file(Desk& desk, const std::string& uuid, const ReportQuestion& question) {
+  return file_of(certificate_sheet(certificate_view(desk, uuid), setting_of(desk, question.notes)), question.format);
+}
+
+}  // namespace trocar::review

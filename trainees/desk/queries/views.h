@@ -1,0 +1,247 @@
+// What the desk's pages show, as plain values: a page is a function of one of these, so that every page is tested
+// without a database.
+//
+// Scores 0..100, forces in virtual newtons, times of an attempt in seconds from its beginning, dates ISO 8601 UTC.
+// Thread: any.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/scoring/attempt_result.h"
+#include "trainees/desk/queries/film_state.h"
+#include "trainees/markup/plots.h"
+#include "trainees/progress/judgement.h"
+#include "trainees/records/curricula.h"
+#include "trainees/records/opinions.h"
+#include "trainees/records/verdicts.h"
+
+namespace trocar::review {
+
+/// What a choice sends and what it is called.
+using Choice = std::pair<std::string, std::string>;
+
+/// One trainee at one exercise, level and input.
+struct CohortEntry {
+  std::string code = {}, name = {}, exercise_id = {}, exercise = {}, level = {}, hand = {};
+  int tries = 0;
+  std::optional<double> best = {}, last = {};
+  std::vector<double> scores = {};  ///< newest few, oldest first
+  double pass_at = 75;
+  std::optional<double> peak_force_n = {};  ///< mean of the peaks of the graded attempts
+  int over_force = 0;                       ///< times over the hard limit, over all tries
+  std::vector<Judgement> judgements = {};   ///< gravest first
+  std::string last_utc = {};
+  int graded = 0, passes = 0;
+  std::optional<double> reliability = {};
+  std::string rubric_sha256 = {};
+  Flag state() const { return judgements.empty() ? Flag::kLearning : judgements.front().flag; }
+};
+
+/// What is asked of the cohort. sort: a column's name, "-" before it for falling; "" for the gravest first.
+struct CohortQuestion {
+  std::string group = {}, exercise_id = {}, level = {}, state = {}, sort = {};
+  int page = 1;
+};
+
+struct CohortView {
+  CohortQuestion asked = {};
+  std::vector<std::string> groups = {}, levels = {};
+  std::vector<Choice> exercises = {};
+  std::vector<CohortEntry> lines = {};  ///< of group, exercise and level; state and order are the page's work
+  int trainees = 0, attempts = 0;
+  int erased = 0;  ///< people whose training data were erased: in no line and no count
+  std::string rules_version = {};
+};
+
+struct CurvePoint {
+  std::string uuid = {}, utc = {}, status = {};
+  std::optional<double> score = {};
+  bool passed = false;          ///< as it counts
+  std::int64_t number = 0;      ///< of the attempt in this database
+  std::string decided_by = {};  ///< "" where the score decides
+  bool passed_by_score = false;
+};
+
+/// Quartiles of the cohort at the n-th attempt of each.
+struct CohortBand {
+  int attempt = 0, n = 0;
+  Quartiles quartiles = {};
+};
+
+struct CurveView {
+  CurveKey key = {};
+  std::string title = {};
+  std::vector<CurvePoint> points = {};  ///< oldest first
+  double pass_at = 75;
+  std::optional<double> best = {}, last = {};
+  int graded = 0, passed = 0, in_a_row = 0;
+  double trained_s = 0;
+  std::optional<Benchmark> benchmark = {};  ///< of the metric "score"
+  std::vector<CohortBand> cohort = {};
+  std::vector<CusumPoint> cusum = {};
+  CusumRule rule = {};
+  std::vector<Judgement> judgements = {};
+  std::optional<double> reliability = {};
+};
+
+/// An attempt that the device ended: in no curve, yet in lists and files.
+struct EndedAttempt {
+  CurveKey key = {};
+  CurvePoint point = {};
+};
+
+/// Rasch: where a trainee or an exercise stands, or the sentence that says what is missing.
+struct AbilityView {
+  std::optional<double> logit = {}, standard_error = {};
+  int n = 0;  ///< own attempts that it rests on
+  std::string missing = {};
+};
+struct DifficultyLine {
+  std::string exercise = {}, level = {}, hand = {};
+  double logit = 0, standard_error = 0;
+  int n = 0;
+};
+struct DifficultyView {
+  std::vector<DifficultyLine> lines = {};  ///< easiest first
+  int attempts = 0;
+  std::string missing = {}, rules_version = {};
+};
+
+struct DueDate {
+  std::string exercise = {}, level = {}, utc = {}, why = {};
+  bool over = false;
+};
+
+/// Certificates that hold although the attempt that they cite was decided not passed later: by number, what happened.
+using ShakenCertificates = std::map<std::string, std::string>;
+
+struct TraineeView {
+  ShakenCertificates shaken = {};
+  std::string code = {}, name = {};
+  std::vector<std::string> groups = {};
+  std::vector<CurveView> curves = {};
+  std::size_t chosen = 0;                          ///< curve that is drawn
+  std::vector<EndedAttempt> ended_by_device = {};  ///< oldest first
+  int page = 1;                                    ///< of the list of attempts
+  AbilityView ability = {};
+  std::vector<std::pair<std::string, double>> minutes_by_week =
+      {};                        ///< Monday's date, minutes; oldest first, no week left out
+  std::vector<Note> notes = {};  ///< newest first
+  std::vector<Certificate> certificates = {};
+  std::vector<DueDate> due = {};
+  bool erased = false;  ///< the training data: nothing is judged
+  std::string rules_version = {};
+  std::string created_utc = {};
+};
+
+/// Another attempt that this one may be laid over.
+struct Rival {
+  std::string words = {}, uuid = {};
+  std::optional<double> score = {};
+};
+
+/// The newest decision on an attempt of a curve.
+struct CurveDecision {
+  std::string attempt_uuid = {};
+  VerdictOverride decision = {};
+};
+
+/// A certificate that an attempt's page shows.
+struct CitedCertificate {
+  Certificate certificate = {};
+  bool cites = false;  ///< this very attempt is its evidence
+};
+
+struct AttemptView {
+  AttemptResult result = {};
+  std::int64_t number = 0;  ///< in this database
+  std::string exercise = {}, program = {}, finished_utc = {}, row_hash = {};
+  std::int64_t chain_position = 0;
+  double pass_at = 75;
+  ForceLimits limits = {};
+  std::map<std::string, bool> less_is_better = {};  ///< of the metrics that the rubric judges
+  std::optional<Trace> trace = {};
+  std::string no_trace = {};   ///< why there is none
+  bool picture = false;        ///< the program can make one
+  bool heat = false;           ///< and maps on the scene
+  bool heat_of_force = false;  ///< which one is looked at
+  FilmState film = {};
+  std::string no_film = {};  ///< why none can be made
+  double t_s = 0;            ///< moment looked at, s after the trace's beginning
+  std::map<std::string, std::string> metric_words = {};
+  std::vector<Signature> signatures = {};
+  std::vector<VerdictOverride> overrides = {};  ///< newest first
+  std::vector<Rating> ratings = {};
+  std::vector<Note> notes = {};
+  std::vector<Rival> rivals = {};
+  std::optional<Judgement> ready = {};  ///< evidence for a certificate
+  std::vector<CitedCertificate> certificates =
+      {};  ///< of this exercise and level, or that cite this attempt; newest first
+  std::vector<CurveDecision> curve_decisions =
+      {};                                 ///< of this trainee's attempts on the same curve, oldest attempt first
+  std::vector<std::string> missing = {};  ///< conditions of a certificate that do not hold, a sentence each
+  std::string rules_version = {};
+  double late_share = 0.01;  ///< of ticks missed, above which the rules call an attempt late
+  Verdict verdict() const {
+    return verdict_of(result.grade.status, result.grade.passed,
+                      overrides.empty() ? std::nullopt : std::optional(overrides.front()));
+  }
+  double begin_s() const { return trace && !trace->samples.empty() ? trace->samples.front().t_s : 0; }
+};
+
+struct CompareView {
+  std::string exercise = {};
+  AttemptView left = {}, right = {};
+  std::string left_words = {}, right_words = {};
+  double t_s = 0;   ///< moment of the first that is looked at, s after its beginning
+  int aligned = 0;  ///< shared mark at which they lie on each other, from 1; 0: each one's beginning
+};
+
+/// Who would pass with the rules or numbers as they stand in the editor.
+struct PassPreview {
+  std::string trainee = {}, exercise = {}, level = {}, why = {};
+  std::optional<bool> passes_now = false;  ///< nothing: there is nothing now to pass
+  bool would_pass = false;
+};
+
+struct BenchmarkQuestion {
+  std::string exercise_id = {}, level = {}, metric = "score", who = {}, rule = "mean-2sd", fixed = {}, zero_at = {};
+};
+
+struct BenchmarkProposal {
+  BenchmarkQuestion asked = {};
+  std::string problem = {};  ///< why there is no number
+  std::string source = {};   ///< who the n were
+  std::optional<double> value = {}, mean = {}, deviation = {};
+  int n = 0;
+  bool set_by_person = false;              ///< a fixed number: n is 0, and that is no small sample
+  std::optional<double> reliability = {};  ///< of the persons' means
+  std::string rules_version = {};
+  std::vector<PassPreview> preview = {};
+};
+
+struct GroupView {
+  std::string name = {};
+  std::vector<std::string> members = {};
+};
+
+struct CurriculumView {
+  std::vector<Curriculum> versions = {};                ///< newest first
+  std::map<std::string, std::string> own_version = {};  ///< that the text of a version gives itself, by its UUID
+  std::map<std::string, std::string> authors = {};      ///< names by account
+  DifficultyView difficulties = {};
+  std::string rules_version = {};  ///< in force
+  std::string name = "standard", text = {}, problem = {}, saved = {};
+  std::optional<std::vector<PassPreview>> preview = {};
+  std::vector<Benchmark> benchmarks = {};
+  std::optional<BenchmarkProposal> proposal = {};
+  std::vector<GroupView> groups = {};
+  std::vector<std::string> trainees = {}, levels = {}, hands = {};
+  std::vector<Choice> exercises = {};
+};
+
+}  // namespace trocar::review

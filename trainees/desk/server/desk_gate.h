@@ -1,0 +1,85 @@
+// Between the network and the pages: everything that must hold before a page is called, without a socket, so that it is
+// tested without one.
+//
+// In this order: name of the host, method, route, session, audience, token and origin of what is posted, decoding,
+// whose data. A page is called only when all of it holds; docs/decisions/0009-desk-sign-in.md says why so. Thread: any;
+// the Desk is its thread's own.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trainees/desk/routes/route_table.h"
+#include "trainees/desk/server/desk_sessions.h"
+#include "trainees/desk/server/request_head.h"
+#include "trainees/desk/server/sign_in_limit.h"
+
+namespace trocar::review {
+
+struct GateOptions {
+  bool lan = false;                     ///< everybody signs in
+  bool secure = false;                  ///< behind TLS
+  std::string cookie = "trocar_desk";   ///< name; cookies do not tell ports apart, so the port stands in it
+  std::vector<std::string> hosts = {};  ///< names it goes by, in lower case, without port
+  int port = 0;
+  std::function<void(const std::string&)> log = {};  ///< one line; any thread
+  std::function<DeskTime()> clock = std::chrono::steady_clock::now;
+  SessionLimits sessions = {};
+};
+
+/// A request as it came, whole.
+struct Arrival {
+  RequestHead head;
+  std::string body;
+  std::string address;                   ///< of who sent it
+  std::string local_address = {};        ///< at which it arrived: a name it goes by too
+  std::function<bool()> same_user = {};  ///< sent by a program of the user that runs the desk; asked when it matters
+};
+
+/// An answer as it goes out: the page's, and what only the server knows.
+struct Answer {
+  Response response;
+  std::string cookie = {};  ///< "Set-Cookie"
+  std::string allow = {};   ///< of 405
+  int retry_after_s = 0;    ///< of 429 and 503
+  double made_in_ms = 0;    ///< told as "Server-Timing"; 0: not measured
+};
+
+class DeskGate {
+ public:
+  DeskGate(GateOptions options, std::vector<Route> routes);
+
+  /// Never throws but for what no answer can be made of (no memory).
+  Answer answer(const Arrival& arrival, Desk& desk);
+  /// Ones that every answer has, and those of this one. Values are safe to send.
+  std::vector<std::pair<std::string, std::string>> headers(const Answer& answer) const;
+
+ private:
+  struct Visit;
+  Answer answered(Visit& visit);
+  bool known_host(const Arrival& arrival) const;
+  void open_session(Visit& visit);
+  std::optional<Answer> refuse_audience(Visit& visit) const;
+  std::optional<Answer> refuse_posted(Visit& visit) const;
+  std::optional<Answer> refuse_foreign(Visit& visit) const;
+  Answer page(Visit& visit);
+  Answer sign_in(Visit& visit);
+  Answer try_sign_in(Visit& visit, const std::string& login, const std::string& next);
+  Answer sign_out(Visit& visit);
+  Answer ask_to_sign_in(Visit& visit, int status, const std::string& message, const std::string& login,
+                        const std::string& next);
+  void set_cookie(Visit& visit, const std::string& number) const;
+  std::string cookie_name() const;
+  void say(const std::string& line) const;
+
+  GateOptions options_;
+  RouteTable table_;
+  DeskSessions sessions_;
+  SignInLimit limit_;
+  std::atomic<int> verifying_{0};
+};
+
+}  // namespace trocar::review

@@ -1,0 +1,56 @@
+// The connection to the central database: transactions, statements with parameters as text, errors of ours. Internal to
+// trainees/sync.
+//
+// A writing transaction holds one advisory lock of the centre from beginning to end: stations take turns batch by
+// batch. So two that push at once cannot lock each other out, and an erasure cannot slip past a row that is just coming
+// in. Thread: one.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trainees/exchange/sync/synchronise.h"
+
+namespace trocar::sync {
+
+/// Values as text, in the order of the columns; empty: NULL.
+using Values = std::vector<std::optional<std::string>>;
+
+/// What libpq is given: the address with password and time-outs. @throws InputError: not an address, holds a password,
+/// file unfit.
+std::string connection_text(const CentralAddress& address);
+
+class CentralLink {
+ public:
+  /// Connects, makes the schema when it is missing. @throws as push_to_central.
+  explicit CentralLink(const CentralAddress& address);
+  ~CentralLink();
+  CentralLink(const CentralLink&) = delete;
+  CentralLink& operator=(const CentralLink&) = delete;
+
+  /// UUID of the central database.
+  const std::string& uuid() const { return uuid_; }
+
+  void begin();
+  /// Sees one state from beginning to end and holds up nobody.
+  void begin_reading();
+  void commit();
+  /// Inside a writing transaction: what it brought is news for those who fetch.
+  void touch();
+  /// Inside a transaction: highest number of arrival of what it sees.
+  std::int64_t revision();
+  /// Inside a transaction. Parameters are $1, $2, ...
+  std::vector<Values> run(const std::string& sql, const std::vector<std::string>& parameters = {});
+
+ private:
+  struct Session;
+  void open(const std::string& first);
+  void make_schema();
+  std::unique_ptr<Session> session_;
+  std::string uuid_;
+};
+
+}  // namespace trocar::sync

@@ -1,0 +1,29 @@
+// Pushing and fetching over a connection that is there already: what a desk that is kept fresh does over and over.
+// Internal to trainees/sync.
+#pragma once
+
+#include "trainees/exchange/sync/central_link.h"
+#include "trainees/exchange/sync/synchronise.h"
+
+namespace trocar::sync {
+
+PushReport push_over(CentralLink& link, Database& database, const PushOptions& options);
+
+/// @param whole compares everything; else only what arrived since the last time is asked for.
+PullReport replicate_over(CentralLink& link, Database& database, const ReplicaOptions& options, bool whole);
+
+/// Name of the row in sync_cursor that says up to which arrival this copy has that centre, and when it last looked.
+std::string arrivals_of(const std::string& central_uuid);
+
+/// Recordings of this station's attempts whose row is at the centre, of nobody who was erased; whole ones are left.
+/// @param problems files that are not what the attempt recorded. @returns how many were completed.
+int push_recordings(CentralLink& link, Database& database, const std::string& station,
+                    std::vector<std::string>& problems);
+
+/// Whole recordings of attempts of other stations that are not here yet; and takes away those of people who were
+/// erased.
+/// @returns how many.
+int fetch_recordings(CentralLink& link, Database& database, std::vector<std::string>& problems);
+void drop_erased_recordings(Database& database);
+
+}  // namespace trocar::sync

@@ -1,0 +1,89 @@
+// Groups, and that notes were met: what changes at stations and at desks without being sealed.
+#include <map>
+#include <set>
+
+#include "trainees/exchange/sync/fetch.h"
+#include "trainees/exchange/sync/station.h"
+#include "trainees/integrity/anchored_transaction.h"
+#include "trainees/integrity/kept_rows.h"
+
+namespace trocar::sync {
+namespace {
+
+using Membership = std::pair<std::string, std::string>;  // UUID of the trainee here, group
+
+/// What was joined or left here and the centre has not heard of.
+std::set<Membership> unpushed(sqlite3* connection, std::int64_t cursor, const Links& links) {
+  std::set<Membership> all;
+  sql::Statement rows(
+      connection, "SELECT subject, detail FROM audit WHERE position > ? AND action IN ('group joined', 'group left')");
+  rows.bind(cursor);
+  while (rows.step()) all.emplace(links.home(connection, rows.text(0)), rows.text(1));
+  return all;
+}
+
+/// A person is in a group when one of the trainees that they are is.
+std::map<Membership, bool> at_the_centre(CentralLink& link, sqlite3* connection, const Links& links) {
+  std::map<Membership, bool> all;
+  for (const Values& row :
+       link.run("SELECT DISTINCT ON (subject, detail) subject, detail, action FROM audit a WHERE action IN"
+                " ('group joined', 'group left') ORDER BY subject, detail, a.seq DESC")) {
+    bool& member = all[{links.home(connection, *row[0]), *row[1]}];
+    member = member || *row[2] == "group joined";
+  }
+  return all;
+}
+
+/// Row of a trainee who has a name here; 0: none.
+std::int64_t named_trainee(sqlite3* connection, const std::string& uuid) {
+  sql::Statement row(connection, "SELECT t.id FROM trainee t JOIN person p ON p.trainee_id = t.id WHERE t.uuid = ?");
+  return row.bind(uuid).step() ? row.integer(0) : 0;
+}
+
+}  // namespace
+
+void take_memberships(CentralLink& link, Database& database, const Links& links, PullReport& report) {
+  sqlite3* connection = database.connection();
+  const auto there = at_the_centre(link, connection, links);
+  if (there.empty()) return;
+  AnchoredTransaction transaction(database);
+  const auto own = unpushed(connection, cursor_of(database, link.uuid()), links);
+  int changed = 0;
+  for (const auto& [membership, member] : there) {
+    const std::int64_t trainee = named_trainee(connection, membership.first);
+    if (trainee == 0 || own.contains(membership)) continue;
+    sql::Statement known(connection, "SELECT 1 FROM membership WHERE trainee_id = ? AND group_name = ?");
+    if (known.bind(trainee).bind(membership.second).step() == member) continue;
+    known.run();
+    sql::Statement change(connection, member ? "INSERT INTO membership VALUES (?, ?)"
+                                             : "DELETE FROM membership WHERE trainee_id = ? AND group_name = ?");
+    change.bind(trainee).bind(membership.second).run();
+    append_audit(connection, member ? "group joined elsewhere" : "group left elsewhere", membership.first,
+                 membership.second, kFromCentre);
+    ++changed;
+  }
+  if (changed == 0) return;
+  transaction.commit();
+  report.added["membership"] += changed;
+}
+
+void take_seen(CentralLink& link, Database& database, std::int64_t since, PullReport& report) {
+  const auto rows = link.run("SELECT note_uuid, utc FROM note_seen WHERE seq > $1::bigint ORDER BY note_uuid",
+                             {std::to_string(since)});
+  if (rows.empty()) return;
+  AnchoredTransaction transaction(database);
+  int taken = 0;
+  for (const Values& row : rows) {
+    sql::Statement insert(database.connection(),
+                          "INSERT INTO note_seen SELECT id, ?2 FROM note n WHERE uuid = ?1 AND NOT EXISTS"
+                          " (SELECT 1 FROM note_seen WHERE note_id = n.id) RETURNING 1");
+    if (!insert.bind(*row[0]).bind(*row[1]).step()) continue;
+    insert.run();
+    keep_note_seen(database.connection(), *row[0], *row[1], kFromCentre);
+    ++taken;
+  }
+  transaction.commit();
+  if (taken > 0) report.added["note_seen"] += taken;
+}
+
+}  // namespace trocar::sync

@@ -1,0 +1,97 @@
+#include "trainees/integrity/audit.h"
+
+#include "haptics/digest/digest.h"
+#include "trainees/records/attempt_identity.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+std::string hash_of(const std::string& previous, std::int64_t position, const std::string& utc,
+                    const std::string& actor, const std::string& action, const std::string& subject,
+                    const std::string& detail) {
+  return digest::of_bytes("trocar-audit-1\n" + previous + "\n" + std::to_string(position) + "\n" + utc + "\n" + actor +
+                          "\n" + action + "\n" + subject + "\n" + detail);
+}
+
+void check_links(sqlite3* connection, std::vector<std::string>& problems) {
+  sql::Statement rows(connection,
+                      "SELECT position, utc, actor, action, subject, detail, prev_hash, row_hash FROM audit"
+                      " ORDER BY position");
+  std::string previous;
+  std::int64_t expected = 1;
+  while (rows.step()) {
+    const std::int64_t position = rows.integer(0);
+    const std::string name = "entry " + std::to_string(position) + " (" + rows.text(3) + ")";
+    if (position != expected)
+      problems.push_back("before " + name + ": entries are missing");
+    else if (rows.text(6) != previous)
+      problems.push_back(name + " does not follow the entry before it");
+    if (hash_of(rows.text(6), position, rows.text(1), rows.text(2), rows.text(3), rows.text(4), rows.text(5)) !=
+        rows.text(7)) {
+      problems.push_back(name + " was changed");
+    }
+    previous = rows.text(7);
+    expected = position + 1;
+  }
+}
+
+void check_attempts(sqlite3* connection, std::vector<std::string>& problems) {
+  sql::Statement gone(connection,
+                      "SELECT subject, utc FROM audit u WHERE action IN (?, ?) AND NOT EXISTS"
+                      " (SELECT 1 FROM attempt a WHERE a.uuid = u.subject AND a.row_hash = u.detail)");
+  gone.bind(kActionFinished).bind(kActionReplicated);
+  while (gone.step()) {
+    problems.push_back("attempt " + gone.text(0) + ", finished " + gone.text(1) + ", is missing or was changed");
+  }
+  sql::Statement unknown(connection,
+                         "SELECT uuid FROM attempt a WHERE status <> 'running' AND hash_version >= 2 AND NOT EXISTS"
+                         " (SELECT 1 FROM audit u WHERE u.action IN (?, ?) AND u.subject = a.uuid)");
+  unknown.bind(kActionFinished).bind(kActionReplicated);
+  while (unknown.step()) problems.push_back("attempt " + unknown.text(0) + " has no entry");
+}
+
+std::string field_at(sqlite3* connection, const char* query, std::int64_t position) {
+  sql::Statement row(connection, query);
+  return row.bind(position).step() ? row.text(0) : "";
+}
+
+}  // namespace
+
+void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
+                  const std::string& actor) {
+  const AuditHead head = audit_head(connection);
+  const std::string utc = utc_now();
+  sql::Statement insert(connection, "INSERT INTO audit VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(head.position + 1).bind(utc).bind(actor).bind(action).bind(subject).bind(detail).bind(head.row_hash);
+  insert.bind(hash_of(head.row_hash, head.position + 1, utc, actor, action, subject, detail)).run();
+}
+
+AuditHead audit_head(sqlite3* connection) {
+  sql::Statement last(connection, "SELECT position, row_hash FROM audit ORDER BY position DESC LIMIT 1");
+  if (!last.step()) return {};
+  return {last.integer(0), last.text(1)};
+}
+
+std::string audit_hash(sqlite3* connection, std::int64_t position) {
+  return field_at(connection, "SELECT row_hash FROM audit WHERE position = ?", position);
+}
+
+std::string audit_action(sqlite3* connection, std::int64_t position) {
+  return field_at(connection, "SELECT action FROM audit WHERE position = ?", position);
+}
+
+std::vector<std::string> check_audit(sqlite3* connection) {
+  std::vector<std::string> problems;
+  check_links(connection, problems);
+  check_attempts(connection, problems);
+  // AUTOINCREMENT counts every attempt that was ever begun, also one that never finished.
+  if (sql::query_integer(connection,
+                         "SELECT coalesce((SELECT seq FROM sqlite_sequence WHERE name = 'attempt'), 0) >"
+                         " coalesce((SELECT max(id) FROM attempt), 0)") != 0) {
+    problems.push_back("the newest attempts were deleted: the counter of attempts is ahead of them");
+  }
+  return problems;
+}
+
+}  // namespace trocar

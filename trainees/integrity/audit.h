@@ -1,0 +1,46 @@
+// The audit trail: what was done to the database, in a hash chain of its own. Internal to trainees/.
+//
+// row_hash_n = SHA-256("trocar-audit-1\n" + row_hash_(n-1) + "\n" + n + "\n" + utc + "\n" + actor + "\n" + action +
+// "\n" + subject + "\n" + detail); n counts from 1, row_hash_0 is empty. Every finished attempt has an entry with its
+// row_hash, so that the trail knows of attempts that the table no longer holds. What the trail itself has lost at its
+// end only the anchor file knows (anchor_file.h).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+struct sqlite3;
+
+namespace trocar {
+
+inline constexpr const char* kActionFinished = "attempt finished";  ///< subject: uuid, detail: row_hash
+inline constexpr const char* kActionReplicated =
+    "attempt replicated";                                      ///< of another station; subject: uuid, detail: row_hash
+inline constexpr const char* kActionStation = "station made";  ///< subject: its uuid, detail: its name
+inline constexpr const char* kActionMessage =
+    "message sent";  ///< shown at once at a station; subject: uuid of its note
+inline constexpr const char* kActionRenewed = "anchor renewed";    ///< a new anchor file begins with this entry
+inline constexpr const char* kActionMade = "database made";        ///< subject: schema
+inline constexpr const char* kActionMigrated = "schema migrated";  ///< subject: schema, detail: chain before
+
+struct AuditHead {
+  std::int64_t position = 0;  ///< 0: no entry yet
+  std::string row_hash;
+};
+
+/// Adds an entry. Call inside a transaction. @param actor account's UUID of whoever did it, "trocar" for the program
+/// itself.
+void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
+                  const std::string& actor = "trocar");
+
+AuditHead audit_head(sqlite3* connection);
+
+/// row_hash of the entry, "" when there is none; its action.
+std::string audit_hash(sqlite3* connection, std::int64_t position);
+std::string audit_action(sqlite3* connection, std::int64_t position);
+
+/// Problems of the trail and between trail and attempts, one line each.
+std::vector<std::string> check_audit(sqlite3* connection);
+
+}  // namespace trocar

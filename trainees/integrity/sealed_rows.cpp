@@ -1,0 +1,171 @@
+#include "trainees/integrity/sealed_rows.h"
+
+#include <map>
+
+#include "haptics/digest/digest.h"
+#include "haptics/input_error.h"
+#include "trainees/integrity/audit.h"
+#include "trainees/records/replica_facts.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+constexpr const char* kAccountTable = "account";
+
+struct SealedTable {
+  std::string name, columns, from;  ///< r: the row itself
+};
+
+/// Other rows stand by their UUID, so that digests hold in every database that a row is carried to.
+const std::vector<SealedTable>& tables() {
+  static const std::string whose = origin_sql("r.uuid", "t.uuid");
+  static const std::string of_trainee = " r JOIN trainee t ON t.id = r.trainee_id";
+  static const std::string of_attempt = " r JOIN attempt a ON a.id = r.attempt_id";
+  static const std::vector<SealedTable> kSealedTables{
+      {"curriculum", "r.name, r.version, r.sha256, r.toml, r.author, r.utc", "curriculum r"},
+      {"benchmark", "r.exercise_id, r.level, r.metric, r.full_at, r.zero_at, r.n, r.source, r.rule, r.author, r.utc",
+       "benchmark r"},
+      {"consent", whose + ", r.purpose, r.given, r.text, r.author, r.utc", "consent" + of_trainee},
+      {"note", whose + ", (SELECT uuid FROM attempt WHERE id = r.attempt_id), r.author, r.printed, r.text, r.utc",
+       "note" + of_trainee},
+      {"rating", "a.uuid, r.account_uuid, r.rater, r.scale, r.item, r.value, r.utc", "rating" + of_attempt},
+      {"signature", "a.uuid, r.row_hash, r.account_uuid, r.signer, r.meaning, r.note, r.utc", "signature" + of_attempt},
+      {"verdict_override", "a.uuid, r.row_hash, r.author, r.printed, r.passed, r.reason, r.utc",
+       "verdict_override" + of_attempt},
+      {"certificate", whose + ", r.exercise_id, r.level, r.rule_version, r.evidence, r.author, r.printed, r.utc",
+       "certificate" + of_trainee},
+      {"revocation", "c.uuid, r.author, r.printed, r.reason, r.utc",
+       "revocation r JOIN certificate c ON c.id = r.certificate_id"},
+      {"erasure", "t.uuid, r.kind, r.rule, r.author, r.utc", "erasure" + of_trainee},
+      {kAccountTable,
+       "r.login, r.name, r.role, (SELECT uuid FROM trainee WHERE id = r.trainee_id), r.password, r.created_utc,"
+       " r.disabled_utc",
+       "account r"},
+  };
+  return kSealedTables;
+}
+
+std::string actor_of(const std::string& author) { return author.empty() ? "trocar" : author; }
+
+/// Column 0 is the UUID.
+std::string digest_of_columns(const std::string& table, const sql::Statement& row) {
+  std::string content = "trocar-row-1\n" + table + "\n";
+  for (int column = 0; column < row.columns(); ++column) content += row.canonical(column);
+  return digest::of_bytes(content);
+}
+
+std::string query_of(const SealedTable& table) { return "SELECT r.uuid, " + table.columns + " FROM " + table.from; }
+
+/// Digests of the table's rows as they stand, by UUID. Rows that nothing can name are told at once.
+std::map<std::string, std::string> digests_of(sqlite3* connection, const SealedTable& table,
+                                              std::vector<std::string>& problems) {
+  std::map<std::string, std::string> digests;
+  sql::Statement rows(connection, query_of(table));
+  while (rows.step()) {
+    if (rows.text(0).empty()) {
+      problems.push_back("a row of " + table.name + " has no identifier: it came in by another way");
+    } else {
+      digests[rows.text(0)] = digest_of_columns(table.name, rows);
+    }
+  }
+  return digests;
+}
+
+bool erased_on_record(sqlite3* connection, const std::string& table, const std::string& uuid) {
+  sql::Statement entry(
+      connection, "SELECT 1 FROM audit u JOIN erasure e ON e.uuid = u.detail WHERE u.subject = ? AND u.action = ?");
+  return entry.bind(uuid).bind(table + " erased").step();
+}
+
+std::string named(const std::string& table, const std::string& uuid) { return table + " " + uuid; }
+
+void check_table(sqlite3* connection, const SealedTable& table, std::vector<std::string>& problems) {
+  auto digests = digests_of(connection, table, problems);
+  const bool account = table.name == kAccountTable;  // of an account only the newest entry counts
+  sql::Statement entries(
+      connection, account ? "SELECT subject, detail FROM audit u WHERE action GLOB ? AND action <> 'account erased' AND"
+                            " position = (SELECT max(position) FROM audit WHERE subject = u.subject AND action GLOB"
+                            " 'account *' AND action <> 'account erased') ORDER BY position"
+                          : "SELECT subject, detail FROM audit WHERE action = ? ORDER BY position");
+  entries.bind(table.name + (account ? " *" : " added"));
+  while (entries.step()) {
+    const std::string uuid = entries.text(0);
+    const auto row = digests.find(uuid);
+    if (row == digests.end()) {
+      if (!erased_on_record(connection, table.name, uuid)) problems.push_back(named(table.name, uuid) + " is missing");
+      continue;
+    }
+    if (row->second != entries.text(1))
+      problems.push_back(named(table.name, uuid) + " was changed after it was written");
+    digests.erase(row);
+  }
+  for (const auto& [uuid, unused] : digests) {
+    problems.push_back(named(table.name, uuid) + " has no entry in the audit trail: it came in by another way");
+  }
+}
+
+/// What is bound to an attempt is bound to its bytes.
+void check_bound(sqlite3* connection, const char* table, std::vector<std::string>& problems) {
+  sql::Statement rows(
+      connection, std::string("SELECT r.uuid, a.uuid FROM ") + table +
+                      " r JOIN attempt a ON a.id = r.attempt_id WHERE r.row_hash IS NOT a.row_hash ORDER BY r.uuid");
+  while (rows.step()) {
+    problems.push_back(named(table, rows.text(0)) + " was given for another record than attempt " + rows.text(1) +
+                       " holds");
+  }
+}
+
+void check_texts(sqlite3* connection, std::vector<std::string>& problems) {
+  sql::Statement rows(connection, "SELECT sha256, toml, name, version FROM curriculum ORDER BY uuid");
+  while (rows.step()) {
+    if (digest::of_bytes(rows.text(1)) == rows.text(0)) continue;
+    problems.push_back("curriculum " + rows.text(2) + ", version " + rows.text(3) +
+                       ": its text is not the one of its sha256");
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& sealed_tables() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const SealedTable& table : tables()) {
+      if (table.name != kAccountTable) names.push_back(table.name);
+    }
+    return names;
+  }();
+  return kNames;
+}
+
+std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid) {
+  for (const SealedTable& sealed : tables()) {
+    if (sealed.name != table) continue;
+    sql::Statement row(connection, query_of(sealed) + " WHERE r.uuid = ?");
+    if (row.bind(uuid).step()) return digest_of_columns(table, row);
+  }
+  throw InputError(named(table, uuid) + ": not in this database");
+}
+
+void seal_row(sqlite3* connection, const std::string& table, const std::string& uuid, const std::string& author) {
+  append_audit(connection, table + " added", uuid, digest_of_row(connection, table, uuid), actor_of(author));
+}
+
+void note_erased_row(sqlite3* connection, const std::string& table, const std::string& uuid,
+                     const std::string& erasure_uuid, const std::string& author) {
+  append_audit(connection, table + " erased", uuid, erasure_uuid, actor_of(author));
+}
+
+void seal_account(sqlite3* connection, const std::string& action, const std::string& uuid, const std::string& author) {
+  append_audit(connection, action, uuid, digest_of_row(connection, kAccountTable, uuid), actor_of(author));
+}
+
+std::vector<std::string> check_sealed_rows(sqlite3* connection) {
+  std::vector<std::string> problems;
+  for (const SealedTable& table : tables()) check_table(connection, table, problems);
+  for (const char* table : {"signature", "verdict_override"}) check_bound(connection, table, problems);
+  check_texts(connection, problems);
+  return problems;
+}
+
+}  // namespace trocar

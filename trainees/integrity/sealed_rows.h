@@ -1,0 +1,40 @@
+// Rows that people write (notes, signatures, overrides, certificates, curricula, benchmarks, ratings, consents,
+// erasures): each has a time-ordered UUID and an entry "TABLE added" in the audit trail with the digest of its content.
+// Internal to trainees/.
+//
+// digest = SHA-256("trocar-row-1\n" + table + "\n" + every value of the row with its type, in fixed order; other rows
+// stand by their UUID). A changed, exchanged or removed row, and one that got in by another way, shows when all digests
+// are computed again. A row that went with its person has an entry "TABLE erased" with the erasure's UUID. Accounts can
+// change: every change has an entry "account ..." with the digest of what it left, and the newest must be that of the
+// row. Row numbers mean nothing: newest is by UUID.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct sqlite3;
+
+namespace trocar {
+
+/// Tables whose rows are sealed, in the order in which they may refer to one another.
+const std::vector<std::string>& sealed_tables();
+
+/// Puts the row with that UUID into the audit trail. Call inside the transaction that inserts it.
+/// @param author account's UUID, "" from the command line.
+void seal_row(sqlite3* connection, const std::string& table, const std::string& uuid, const std::string& author);
+
+/// Notes in the trail that the row went with its person. Call inside the transaction that deletes it.
+void note_erased_row(sqlite3* connection, const std::string& table, const std::string& uuid,
+                     const std::string& erasure_uuid, const std::string& author);
+
+/// Puts a new or changed account into the trail. @param action "account added", "account password", ...
+void seal_account(sqlite3* connection, const std::string& action, const std::string& uuid, const std::string& author);
+
+/// Digest of a row of a sealed table or of an account as it stands. @throws InputError: no such row.
+std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid);
+
+/// Problems between rows and trail, one line each. Rows that went by a recorded erasure are none.
+std::vector<std::string> check_sealed_rows(sqlite3* connection);
+
+}  // namespace trocar

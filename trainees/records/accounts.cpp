@@ -1,0 +1,221 @@
+#include "trainees/records/accounts.h"
+
+#include <sodium.h>
+
+#include <algorithm>
+#include <array>
+
+#include "haptics/input_error.h"
+#include "trainees/integrity/anchored_transaction.h"
+#include "trainees/integrity/sealed_rows.h"
+#include "trainees/records/attempt_identity.h"
+#include "trainees/records/printed_text.h"
+
+namespace trocar {
+namespace {
+
+constexpr std::size_t kShortestLogin = 2, kLongestLogin = 32, kShortestPassword = 10, kLongestPassword = 1024,
+                      kPinDigits = 6;
+
+/// Of a password that nobody knows, at the cost of the others: a login that does not exist takes as long.
+constexpr const char* kNobody =
+    "$argon2id$v=19$m=65536,t=2,p=1$tVhy7qshpHm00lpcSlXODw$eepptbEJrJTe6pzFHq1XN6y2qqbJ513A7wIJ5vzwhdg";
+
+constexpr const char* kSelect =
+    "SELECT a.uuid, a.login, a.name, a.role, coalesce(t.code, ''), a.created_utc, coalesce(a.disabled_utc, ''), "
+    "a.password"
+    " FROM account a LEFT JOIN known_trainee t ON t.id = a.trainee_id";
+
+void start_library() {
+  if (sodium_init() < 0) throw EnvironmentError("passwords: the library libsodium cannot be started");
+}
+
+bool digit(char c) { return c >= '0' && c <= '9'; }
+
+void check_login(const std::string& login) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || digit(c) || c == '.' || c == '-' || c == '_';
+  };
+  if (login.size() >= kShortestLogin && login.size() <= kLongestLogin &&
+      std::all_of(login.begin(), login.end(), allowed))
+    return;
+  throw InputError("login: give 2 to 32 letters, digits, '.', '-' or '_'");
+}
+
+void check_password(const std::string& password, Role role) {
+  if (password.size() > kLongestPassword) throw InputError("password: give no more than 1024 characters");
+  const auto characters =
+      std::count_if(password.begin(), password.end(), [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
+  if (static_cast<std::size_t>(characters) >= kShortestPassword) return;
+  const bool pin = password.size() == kPinDigits && std::all_of(password.begin(), password.end(), digit);
+  if (pin && role == Role::kTrainee) return;
+  throw InputError(role == Role::kTrainee ? "password: give at least 10 characters, or a PIN of 6 digits"
+                                          : "password: give at least 10 characters");
+}
+
+std::string hashed(const std::string& password) {
+  start_library();
+  std::array<char, crypto_pwhash_STRBYTES> text{};
+  if (crypto_pwhash_str(text.data(), password.data(), password.size(), crypto_pwhash_OPSLIMIT_INTERACTIVE,
+                        crypto_pwhash_MEMLIMIT_INTERACTIVE) != 0) {
+    throw EnvironmentError("passwords: there is no room in memory to hash one (64 MiB)");
+  }
+  return text.data();
+}
+
+Account account_of(const sql::Statement& row) {
+  return {row.text(0), row.text(1), row.text(2), role_named(row.text(3)).value_or(Role::kTrainee),
+          row.text(4), row.text(5), row.text(6)};
+}
+
+Account required(const std::optional<Account>& account, const std::string& login) {
+  if (!account) throw InputError("account \"" + login + "\": there is none");
+  return *account;
+}
+
+void note_coming(Database& database, const char* action, const std::string& account, const std::string& actor) {
+  AnchoredTransaction transaction(database);
+  append_audit(database.connection(), action, account, "", actor.empty() ? "trocar" : actor);
+  transaction.commit();
+}
+
+/// Somebody must remain who can manage the desk: without any enabled account it would be open to whoever sits at the
+/// machine.
+void require_another(sqlite3* connection, const Account& account) {
+  if (account.role == Role::kTrainee) return;
+  sql::Statement others(connection,
+                        "SELECT 1 FROM account WHERE uuid <> ?1 AND disabled_utc IS NULL AND password <> ''"
+                        " AND (role = 'administrator' OR (role = 'instructor' AND ?2 = 'instructor'))");
+  if (others.bind(account.uuid).bind(role_name(account.role)).step()) return;
+  throw InputError("account \"" + account.login + "\": is the last " + role_name(account.role) +
+                   " who can sign in; make or enable another one first, nothing was changed");
+}
+
+/// Row of the trainee whose account it is to be. Call inside the transaction.
+std::int64_t trainee_without_account(sqlite3* connection, const std::string& code) {
+  sql::Statement row(connection,
+                     "SELECT p.trainee_id, a.login FROM person p LEFT JOIN account a ON a.trainee_id = p.trainee_id"
+                     " WHERE p.code = ?");
+  if (!row.bind(code).step()) throw InputError("trainee \"" + code + "\": there is none; add the trainee first");
+  if (!row.is_null(1)) throw InputError("trainee \"" + code + "\": has the account \"" + row.text(1) + "\" already");
+  return row.integer(0);
+}
+
+}  // namespace
+
+const char* role_name(Role role) {
+  switch (role) {
+    case Role::kTrainee:
+      return "trainee";
+    case Role::kInstructor:
+      return "instructor";
+    case Role::kAdministrator:
+      return "administrator";
+  }
+  return "";
+}
+
+std::optional<Role> role_named(const std::string& name) {
+  for (const Role role : {Role::kTrainee, Role::kInstructor, Role::kAdministrator}) {
+    if (name == role_name(role)) return role;
+  }
+  return std::nullopt;
+}
+
+Account AccountStore::add(const std::string& login, const std::string& name, Role role, const std::string& trainee_code,
+                          const std::string& password, const std::string& author) {
+  check_login(login);
+  check_printed("name", name);
+  check_password(password, role);
+  if ((role == Role::kTrainee) == trainee_code.empty()) {
+    throw InputError(role == Role::kTrainee ? "account: say whose it is by the trainee's code"
+                                            : "account: only a trainee's has a trainee code");
+  }
+  const std::string hash = hashed(password), uuid = make_uuid();
+  sqlite3* connection = database_->connection();
+  AnchoredTransaction transaction(*database_);
+  if (find(login)) throw InputError("login \"" + login + "\": is taken");
+  sql::Statement insert(connection,
+                        "INSERT INTO account (uuid, login, name, role, trainee_id, password, created_utc)"
+                        " VALUES (?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(uuid).bind(login).bind(name).bind(role_name(role));
+  if (role == Role::kTrainee)
+    insert.bind(trainee_without_account(connection, trainee_code));
+  else
+    insert.bind_null();
+  insert.bind(hash).bind(utc_now()).run();
+  seal_account(connection, "account added", uuid, author);
+  transaction.commit();
+  return by_uuid(uuid).value();
+}
+
+void AccountStore::set_password(const std::string& login, const std::string& password, const std::string& author) {
+  check_password(password, required(find(login), login).role);
+  const std::string hash = hashed(password);
+  AnchoredTransaction transaction(*database_);
+  const Account account = required(find(login), login);
+  sql::Statement(database_->connection(), "UPDATE account SET password = ? WHERE uuid = ?")
+      .bind(hash)
+      .bind(account.uuid)
+      .run();
+  seal_account(database_->connection(), "account password", account.uuid, author);
+  transaction.commit();
+}
+
+void AccountStore::set_disabled(const std::string& login, bool disabled, const std::string& author) {
+  AnchoredTransaction transaction(*database_);
+  const Account account = required(find(login), login);
+  if (disabled != account.disabled_utc.empty()) return;  // it is so already
+  if (disabled) require_another(database_->connection(), account);
+  sql::Statement update(database_->connection(), "UPDATE account SET disabled_utc = ? WHERE uuid = ?");
+  if (disabled)
+    update.bind(utc_now());
+  else
+    update.bind_null();
+  update.bind(account.uuid).run();
+  seal_account(database_->connection(), disabled ? "account disabled" : "account enabled", account.uuid, author);
+  transaction.commit();
+}
+
+void AccountStore::signed_in(const std::string& account) { note_coming(*database_, "signed in", account, account); }
+void AccountStore::signed_out(const std::string& account) { note_coming(*database_, "signed out", account, account); }
+void AccountStore::held_back(const std::string& account) { note_coming(*database_, "sign-in held back", account, ""); }
+
+std::optional<Account> AccountStore::verify(const std::string& login, const std::string& password) const {
+  start_library();
+  std::optional<Account> account;
+  std::string hash = kNobody;
+  {
+    sql::Statement row(database_->connection(), std::string(kSelect) +
+                                                    " WHERE a.login = ? AND a.disabled_utc IS NULL"
+                                                    " AND a.password <> ''");
+    if (row.bind(login).step()) {
+      account = account_of(row);
+      hash = row.text(7);
+    }
+  }
+  const std::string given = password.substr(0, kLongestPassword + 1);  // what is longer is wrong, and takes no longer
+  const bool right = crypto_pwhash_str_verify(hash.c_str(), given.data(), given.size()) == 0;
+  return right ? account : std::nullopt;
+}
+
+std::optional<Account> AccountStore::find(const std::string& login) const {
+  sql::Statement row(database_->connection(), std::string(kSelect) + " WHERE a.login = ?");
+  if (!row.bind(login).step()) return std::nullopt;
+  return account_of(row);
+}
+
+std::optional<Account> AccountStore::by_uuid(const std::string& uuid) const {
+  sql::Statement row(database_->connection(), std::string(kSelect) + " WHERE a.uuid = ?");
+  if (!row.bind(uuid).step()) return std::nullopt;
+  return account_of(row);
+}
+
+std::vector<Account> AccountStore::list() const {
+  std::vector<Account> accounts;
+  sql::Statement rows(database_->connection(), std::string(kSelect) + " ORDER BY a.login");
+  while (rows.step()) accounts.push_back(account_of(rows));
+  return accounts;
+}
+
+}  // namespace trocar

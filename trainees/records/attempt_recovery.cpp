@@ -1,0 +1,134 @@
+#include "trainees/records/attempt_recovery.h"
+
+#include <cstdint>
+#include <utility>
+
+#include "haptics/digest/digest.h"
+#include "haptics/input_error.h"
+#include "trainees/records/attempt_rows.h"
+#include "trainees/records/process_identity.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolderEnding = ".recordings";
+
+struct RunningAttempt {
+  std::int64_t id;
+  std::string uuid, trainee, stored_recording;
+  ProcessIdentity owner;
+};
+
+std::vector<RunningAttempt> running_attempts(sqlite3* connection) {
+  std::vector<RunningAttempt> attempts;
+  sql::Statement rows(
+      connection,
+      "SELECT a.id, a.uuid, t.code, recording_path, owner_pid, owner_boot, owner_start"
+      " FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id WHERE status = 'running' ORDER BY a.id");
+  while (rows.step()) {
+    attempts.push_back(
+        {rows.integer(0), rows.text(1), rows.text(2), rows.text(3), {rows.integer(4), rows.text(5), rows.integer(6)}});
+  }
+  return attempts;
+}
+
+/// Nothing but what is left of an attempt that was cut off.
+AttemptResult aborted_result(const fs::path& recording, const std::string& reason) {
+  AttemptResult result;
+  result.grade.status = AttemptStatus::kAborted;
+  result.grade.grade = "not graded";
+  result.integrity = reason;
+  if (!recording.empty()) result.recording_sha256 = digest::of_readable_file(recording);
+  return result;
+}
+
+AttemptResult recovered_result(const fs::path& recording, const Regrade& regrade) {
+  try {
+    if (regrade && !recording.empty()) {
+      if (auto graded = regrade(recording)) return std::move(*graded);
+    }
+    return aborted_result(recording, "its program ended before the attempt did");
+  } catch (const InputError& error) {
+    return aborted_result(recording, std::string("its program ended; its recording cannot be graded: ") + error.what());
+  }
+}
+
+/// @returns false when another program has ended the attempt in the meantime.
+bool end_attempt(sqlite3* connection, const RunningAttempt& attempt, const AttemptResult& result,
+                 const std::string& recording) {
+  sql::Transaction transaction(connection);
+  {
+    sql::Statement again(connection, "SELECT 1 FROM attempt WHERE id = ? AND status = 'running'");
+    if (!again.bind(attempt.id).step()) return false;
+  }
+  write_result(connection, attempt.id, result, recording);
+  transaction.commit();
+  return true;
+}
+
+}  // namespace
+
+std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const fs::path& database,
+                                                    const Regrade& regrade) {
+  std::vector<RecoveredAttempt> recovered;
+  for (const RunningAttempt& attempt : running_attempts(connection)) {
+    if (process_lives(attempt.owner)) continue;
+    const fs::path recording = located_recording(database, attempt.stored_recording);
+    std::error_code error;
+    const bool left = !recording.empty() && fs::is_regular_file(recording, error);
+    const AttemptResult result = recovered_result(left ? recording : fs::path(), regrade);
+    if (!end_attempt(connection, attempt, result, left ? attempt.stored_recording : "")) continue;
+    recovered.push_back(
+        {attempt.uuid, attempt.trainee, left ? recording : fs::path(), result.grade.status, result.grade.score});
+  }
+  return recovered;
+}
+
+void require_no_running_attempt(sqlite3* connection) {
+  sql::Statement rows(connection,
+                      "SELECT uuid, owner_pid, owner_boot, owner_start FROM attempt WHERE status = 'running'");
+  while (rows.step()) {
+    if (!process_lives({rows.integer(1), rows.text(2), rows.integer(3)})) continue;
+    throw EnvironmentError("attempt " + rows.text(0) + " is being run by an older trocar (process " +
+                           std::to_string(rows.integer(1)) + "); the database is migrated when that has ended");
+  }
+}
+
+std::string stored_recording_path(const fs::path& database, const fs::path& recording) {
+  if (recording.empty()) return "";
+  const fs::path absolute = fs::absolute(recording).lexically_normal();
+  if (database.empty()) return absolute.string();
+  const fs::path relative = absolute.lexically_relative(database.parent_path());
+  return relative.empty() || *relative.begin() == ".." ? absolute.string() : relative.string();
+}
+
+std::vector<fs::path> recording_places(const fs::path& database, const std::string& stored) {
+  if (stored.empty()) return {};
+  const fs::path name = stored;
+  if (database.empty()) return {name};
+  const fs::path kept = name.is_absolute() ? name : database.parent_path() / name,
+                 own = recordings_folder(database) / name.filename();
+  if (kept == own) return {kept};
+  // The usual place moves with the database's name; one that somebody chose is looked at first.
+  const bool usual = !name.is_absolute() && name.parent_path().extension() == kFolderEnding;
+  return usual ? std::vector<fs::path>{own, kept} : std::vector<fs::path>{kept, own};
+}
+
+fs::path located_recording(const fs::path& database, const std::string& stored) {
+  const std::vector<fs::path> places = recording_places(database, stored);
+  std::error_code error;
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place, error)) return place;
+  return places.empty()                   ? fs::path()
+         : fs::path(stored).is_absolute() ? fs::path(stored)
+                                          : database.parent_path() / stored;
+}
+
+fs::path recordings_folder(const fs::path& database) {
+  return database.parent_path() / (database.stem().string() + kFolderEnding);
+}
+
+}  // namespace trocar

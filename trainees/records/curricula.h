@@ -1,0 +1,53 @@
+// Courses, progress rules and benchmarks as versioned text: added, never changed; groups of trainees. Thread: that of
+// the Database.
+//
+// What the text says is the reader's business (trainees/progress/rules.h); here it is bytes with a digest, an author
+// and a date.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trainees/records/opinions.h"
+
+namespace trocar {
+
+struct Curriculum {
+  std::string uuid, name, sha256, toml, author, utc;  ///< author: account's UUID, or the printed name of who has none
+  int version = 0;
+};
+
+struct Benchmark {
+  /// source: who the n were; rule: how the numbers came from them
+  /// author: account's UUID, or the printed name of who has none
+  std::string uuid, exercise_id, level, metric, source, rule, author, utc;
+  double full_at = 0, zero_at = 0;
+  int n = 0;
+};
+
+class CurriculumStore {
+ public:
+  explicit CurriculumStore(Database& database) : database_(&database) {}
+
+  /// The next version of that name. The same text again adds nothing. @throws InputError: name not 1 to 64 characters,
+  /// empty text.
+  Curriculum add(const std::string& name, const std::string& toml, const Author& author);
+  std::optional<Curriculum> newest(const std::string& name) const;
+  std::vector<Curriculum> list() const;  ///< every version, newest first
+
+  Benchmark add_benchmark(const Benchmark& numbers, const Author& author);  ///< uuid, author and utc are set here
+  std::vector<Benchmark> benchmarks(const std::string& exercise_id = "",
+                                    const std::string& level = "") const;  ///< newest first
+
+  void join(const std::string& trainee, const std::string& group, const Author& author);
+  void leave(const std::string& trainee, const std::string& group, const Author& author);
+  std::vector<std::string> groups() const;
+  std::vector<std::string> groups_of(const std::string& trainee) const;
+  std::vector<std::string> members(const std::string& group) const;  ///< codes
+
+ private:
+  Database* database_;
+};
+
+}  // namespace trocar

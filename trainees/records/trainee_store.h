@@ -1,0 +1,48 @@
+// Trainees, known by a code ("T-expert") and a UUID. Name and e-mail address are kept where somebody gives them, and go
+// with the identity. Thread: that of the Database.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trainees/store/database.h"
+
+namespace trocar {
+
+struct Trainee {
+  std::int64_t id = 0;
+  std::string uuid, code, created_utc;
+  std::string name = {}, email = {};  ///< empty where none was given
+  int attempts = 0;                   ///< finished ones
+  int passes = 0;
+  std::string last_utc;  ///< start of the newest attempt, empty when none
+};
+
+class TraineeStore {
+ public:
+  explicit TraineeStore(Database& database) : database_(&database), connection_(database.connection()) {}
+
+  /// The trainee of that code, created when new. Codes differ by more than case.
+  /// @throws InputError: a code is 1 to 32 letters, digits, '.', '-' or '_', beginning with a letter or digit, and
+  /// not with "erased-".
+  Trainee ensure_trainee(const std::string& code);
+  /// The same, but only the row's number, and inside the caller's transaction.
+  std::int64_t ensure_id(const std::string& code);
+  /// @param name code, "erased-..." of somebody whose identity has gone, or the trainee's whole UUID.
+  std::optional<Trainee> find(const std::string& name) const;
+  /// Name and e-mail address; what is not given stays, "" takes it away. @param author account's UUID, "" from the
+  /// command line.
+  /// @throws InputError: nobody, erased, a name of more than 100 bytes, no address.
+  Trainee edit(const std::string& code, const std::optional<std::string>& name, const std::optional<std::string>& email,
+               const std::string& author);
+  /// All, by code.
+  std::vector<Trainee> list() const;
+
+ private:
+  Database* database_;
+  sqlite3* connection_;
+};
+
+}  // namespace trocar

@@ -1,0 +1,31 @@
+#include "trainees/records/verdicts.h"
+
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar {
+
+bool judged_passed(bool ended_by_device, bool by_score, const std::optional<bool>& decided) {
+  return !ended_by_device && decided.value_or(by_score);
+}
+
+Verdict verdict_of(AttemptStatus status, bool by_score, const std::optional<VerdictOverride>& newest) {
+  const bool ended_by_device = status == AttemptStatus::kFault || status == AttemptStatus::kVoid;
+  return {judged_passed(ended_by_device, by_score, newest ? std::optional(newest->passed) : std::nullopt), by_score,
+          newest};
+}
+
+Verdict verdict_of(Database& database, const AttemptResult& result) {
+  const auto decisions = OpinionStore(database).overrides_of(result.uuid);
+  return verdict_of(result.grade.status, result.grade.passed,
+                    decisions.empty() ? std::nullopt : std::optional(decisions.front()));
+}
+
+std::map<std::int64_t, bool> newest_decisions(const Database& database) {
+  std::map<std::int64_t, bool> out;
+  sql::Statement rows(database.connection(),
+                      "SELECT attempt_id, passed FROM verdict_override ORDER BY uuid");  // later ones over earlier ones
+  while (rows.step()) out[rows.integer(0)] = rows.integer(1) != 0;
+  return out;
+}
+
+}  // namespace trocar

@@ -1,0 +1,46 @@
+// Whether an attempt passed: the one place that decides it.
+//
+// The score has a verdict of its own (score.passed), and people may decide otherwise (verdict_override): the newest
+// decision holds wherever passes count. What the device ended (fault, void) is never passed. The score itself never
+// changes. Thread: that of the Database.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "scenarios/scoring/attempt_result.h"
+#include "trainees/records/opinions.h"
+
+namespace trocar {
+
+struct Verdict {
+  bool passed = false;                           ///< what counts
+  bool by_score = false;                         ///< what the score says
+  std::optional<VerdictOverride> decision = {};  ///< the newest, where there is one
+};
+
+/// The rule. @param decided of the newest decision.
+bool judged_passed(bool ended_by_device, bool by_score, const std::optional<bool>& decided);
+
+Verdict verdict_of(AttemptStatus status, bool by_score, const std::optional<VerdictOverride>& newest);
+/// Of a stored attempt.
+Verdict verdict_of(Database& database, const AttemptResult& result);
+
+namespace sql {
+
+/// The same rule for queries. Behind `attempt a` and its `score s`: the newest decision as `o`.
+inline constexpr const char* kDecision =
+    " LEFT JOIN verdict_override o ON o.id = (SELECT v.id FROM verdict_override v WHERE v.attempt_id = a.id ORDER BY "
+    "v.uuid DESC LIMIT 1)";
+/// 1 or 0.
+inline constexpr const char* kPassed =
+    "(CASE WHEN a.status IN ('fault', 'void') THEN 0 ELSE coalesce(o.passed, s.passed, 0) END)";
+
+}  // namespace sql
+
+/// Newest decision of every attempt that has one, by its row: for queries that read whole columns.
+std::map<std::int64_t, bool> newest_decisions(const Database& database);
+
+}  // namespace trocar

@@ -1,0 +1,189 @@
+#include "trainees/store/migrations.h"
+
+#include <sqlite3.h>
+
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "haptics/input_error.h"
+#include "trainees/files/owner_file.h"
+#include "trainees/integrity/audit.h"
+#include "trainees/integrity/kept_rows.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Close {
+  void operator()(sqlite3* connection) const { sqlite3_close_v2(connection); }
+};
+using Connection = std::unique_ptr<sqlite3, Close>;
+
+int schema_version(sqlite3* connection) {
+  return static_cast<int>(sql::query_integer(connection, "PRAGMA user_version"));
+}
+
+std::string name_of(const fs::path& file) { return file.empty() ? "database" : file.string(); }
+
+void check_owner(sqlite3* connection, const fs::path& file) {
+  // Tables first: another program may be making the database right now, and commits tables and id together. Once tables
+  // are seen, so is its id; the other order could see no id yet, and then the tables.
+  const bool empty = sql::query_integer(connection, "SELECT count(*) FROM sqlite_schema") == 0;
+  const auto id = sql::query_integer(connection, "PRAGMA application_id");
+  if (id == kApplicationId || (id == 0 && empty)) return;
+  throw InputError(name_of(file) + ": is a database of another program");
+}
+
+/// trocar.db -> trocar.db.schema1.backup, or .schema1-2.backup when that exists.
+fs::path backup_name(const fs::path& file, int version) {
+  fs::path name = file;
+  name += ".schema" + std::to_string(version) + ".backup";
+  for (int n = 2; fs::exists(name); ++n) {
+    name = file;
+    name += ".schema" + std::to_string(version) + "-" + std::to_string(n) + ".backup";
+  }
+  return name;
+}
+
+/// @param from the version that the whole way began at.
+void apply(sqlite3* connection, std::span<const Migration> migrations, int from) {
+  sql::Transaction transaction(connection);
+  // Another program may have migrated since we looked: the version is read again under the lock.
+  const int present = schema_version(connection);
+  for (const Migration& migration : migrations) {
+    if (migration.version <= present) continue;
+    sql::execute(connection, migration.sql);
+    if (migration.after != nullptr) migration.after(connection, from);
+  }
+  if (!sql::query_text(connection, "SELECT \"table\" FROM pragma_foreign_key_check").empty()) {
+    throw InputError("database: migrating would break references between its tables; it was left as it was");
+  }
+  sql::execute(connection, ("PRAGMA user_version = " + std::to_string(migrations.back().version)).c_str());
+  sql::execute(connection, ("PRAGMA application_id = " + std::to_string(kApplicationId)).c_str());
+  transaction.commit();
+}
+
+std::vector<std::string> table_names(sqlite3* connection) {
+  std::vector<std::string> names;
+  sql::Statement rows(connection, "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name");
+  while (rows.step()) names.push_back(rows.text(0));
+  return names;
+}
+
+/// A backup that is not whole must be found now, not when it is needed.
+void verify_copy(sqlite3* original, const fs::path& copy) {
+  sqlite3* raw = nullptr;
+  const int code = sqlite3_open_v2(copy.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr);
+  const Connection opened(raw);
+  bool whole = code == SQLITE_OK && schema_version(raw) == schema_version(original) &&
+               sql::query_text(raw, "PRAGMA integrity_check") == "ok";
+  for (const std::string& table : table_names(original)) {
+    const std::string count = "SELECT count(*) FROM \"" + table + "\"";
+    whole = whole && sql::query_integer(raw, count) == sql::query_integer(original, count);
+  }
+  if (!whole) throw EnvironmentError(copy.string() + ": the backup is not whole; the database was not migrated");
+}
+
+/// The way ends with an entry of the trail: what was there before, and the head of its chain.
+void note_migration(sqlite3* connection, int from) {
+  const std::string to = std::to_string(shipped_migrations().back().version);
+  if (from == 0) return append_audit(connection, kActionMade, "schema " + to, kEveryRowKept);
+  const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
+  const std::string head = sql::query_text(
+      connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
+  append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to " + to,
+               attempts + " attempts, head " + (head.empty() ? "none" : head));
+}
+
+/// Everything that a schema is made of, by type and name.
+std::map<std::string, std::string> schema_of(sqlite3* connection) {
+  std::map<std::string, std::string> parts;
+  sql::Statement rows(connection, "SELECT type, name, sql FROM sqlite_schema WHERE name NOT LIKE 'sqlite_stat%'");
+  while (rows.step()) parts[rows.text(0) + " " + rows.text(1)] = rows.text(2);
+  return parts;
+}
+
+}  // namespace
+
+std::span<const Migration> shipped_migrations() {
+  static const Migration kMigrations[] = {
+      {1, kSchemaV1}, {2, schema_v2()}, {3, kSchemaV3}, {4, schema_v4()}, {5, schema_v5(), note_migration}};
+  return kMigrations;
+}
+
+std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations) {
+  sqlite3* raw = nullptr;
+  sqlite3_open(":memory:", &raw);
+  const Connection fresh(raw);
+  migrate(raw, "", migrations);
+  const auto found = schema_of(connection), wanted = schema_of(raw);
+  std::vector<std::string> problems;
+  for (const auto& [part, text] : wanted) {
+    const auto present = found.find(part);
+    if (present == found.end())
+      problems.push_back(part + " is missing");
+    else if (present->second != text)
+      problems.push_back(part + " was altered");
+  }
+  for (const auto& [part, text] : found) {
+    if (!wanted.contains(part)) problems.push_back(part + " does not belong here");
+  }
+  return problems;
+}
+
+void require_ours(sqlite3* connection, const fs::path& file, std::span<const Migration> migrations) {
+  check_owner(connection, file);
+  const int present = schema_version(connection), known = migrations.back().version;
+  if (present <= known) return;
+  throw EnvironmentError(name_of(file) + ": was written by a newer trocar (schema " + std::to_string(present) +
+                         ", this program knows up to " + std::to_string(known) + "); it was left as it is");
+}
+
+MigrationReport migrate(sqlite3* connection, const fs::path& file, std::span<const Migration> migrations) {
+  require_ours(connection, file, migrations);
+  MigrationReport report;
+  report.from = schema_version(connection);
+  report.to = migrations.back().version;
+  if (report.from == report.to) return report;
+  if (report.from > 0 && !file.empty()) {
+    report.backup = backup_name(file, report.from);
+    copy_database(connection, report.backup);
+    verify_copy(connection, report.backup);
+  }
+  apply(connection, migrations, report.from);
+  return report;
+}
+
+void copy_database(sqlite3* from, const fs::path& to) {
+  if (fs::exists(to)) throw InputError(to.string() + ": exists already; a backup never overwrites");
+  fs::path part = to;
+  part += ".part";
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  if (!make_owner_file(part))
+    throw EnvironmentError(to.string() + ": the backup cannot be written: " + std::strerror(errno));
+  sqlite3* raw = nullptr;
+  int code = sqlite3_open_v2(part.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr);
+  Connection target(raw);
+  if (code == SQLITE_OK) {
+    sqlite3_backup* backup = sqlite3_backup_init(target.get(), "main", from, "main");
+    if (backup != nullptr) sqlite3_backup_step(backup, -1);
+    code = backup != nullptr ? sqlite3_backup_finish(backup) : sqlite3_errcode(target.get());
+    // One file by itself, which can be read where nothing can be written: without this it would want a log beside it.
+    if (code == SQLITE_OK) code = sqlite3_exec(target.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  }
+  const std::string detail = sqlite3_errmsg(target.get());
+  target.reset();
+  std::error_code error;
+  if (code == SQLITE_OK) fs::rename(part, to, error);
+  if (code == SQLITE_OK && !error) return;
+  fs::remove(part, ignored);
+  throw EnvironmentError(to.string() + ": the backup cannot be written: " + (error ? error.message() : detail));
+}
+
+}  // namespace trocar
