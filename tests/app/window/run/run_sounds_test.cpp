@@ -9,7 +9,7 @@
 #include "tests/app/window/pages/desk_bench.h"
 #include "tests/app/window/pages/ui_bench.h"
 
-namespace trocar::run_sounds_test {
+namespace trocar {
 namespace {
 
 struct Heard {
@@ -254,4 +254,4 @@ TEST_F(SoundPageTest, LeavingThePageSilencesIt) {
 }
 
 }  // namespace
-}  // namespace trocar::run_sounds_test
+}  // namespace trocar

@@ -37,7 +37,7 @@ class DicomFolder {
 };
 
 /// Value at a point of patient space (LPS, as DICOM has it); the point must be the centre of a voxel.
-inline float value_at(const ImageVolume& volume, const Eigen::Vector3d& lps) {
+inline float value_at_lps(const ImageVolume& volume, const Eigen::Vector3d& lps) {
   const Eigen::Vector3d index = volume.index_to_ras_mm.inverse() * Eigen::Vector3d(-lps.x(), -lps.y(), lps.z());
   const Eigen::Vector3i whole = index.array().round().cast<int>();
   EXPECT_LT((index - whole.cast<double>()).norm(), 1e-6) << index.transpose();
@@ -59,7 +59,7 @@ inline void expect_holds(const ImageVolume& volume, const std::vector<SliceFixtu
     for (int j = 0; j < slice.rows; ++j)
       for (int i = 0; i < slice.columns; ++i)
         ASSERT_FLOAT_EQ(
-            value_at(volume, centre_of(slice, i, j)),
+            value_at_lps(volume, centre_of(slice, i, j)),
             static_cast<float>(slice.rescale ? slice.slope * slice.value(i, j) + slice.intercept : slice.value(i, j)))
             << i << " " << j;
 }

@@ -133,7 +133,7 @@ TEST(DicomPixels, LossyBaselineJpegIsReadWithANote) {
     folder.write(std::to_string(n), compressed(slices[n].file(), kJpegBaseline));
   const ImageVolume volume = folder.read();
   EXPECT_CONTAINS(volume.notes.at(0), "compressed with loss");
-  EXPECT_NEAR(value_at(volume, centre_of(slices[1], 10, 10)), 110, 4);
+  EXPECT_NEAR(value_at_lps(volume, centre_of(slices[1], 10, 10)), 110, 4);
 }
 
 /// Frames of a multi-frame file, one fragment each, and one frame in two fragments found through the offset table.

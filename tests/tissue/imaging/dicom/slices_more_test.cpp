@@ -121,7 +121,7 @@ TEST(SliceVolumeMore, UprightPilesInAnyPoseKeepEveryValueInItsPlace) {
         for (int column = 0; column < 5; ++column) {
           const Eigen::Vector3d lps =
               slices[static_cast<std::size_t>(k)].place.position + turn * Eigen::Vector3d(0.8 * column, 0.6 * row, 0);
-          ASSERT_EQ(value_at(image, lps), static_cast<float>(100 * k + 5 * row + column));
+          ASSERT_EQ(value_at_lps(image, lps), static_cast<float>(100 * k + 5 * row + column));
         }
   }
 }
