@@ -10,18 +10,15 @@
 namespace trocar {
 namespace {
 
-// What version 1 covers, under the names of today's schema.
 const std::string kAttempt =
     "SELECT a.uuid, " + origin_sql("a.uuid", "t.uuid") +
     ", a.exercise_id, exercise_version, a.ruleset_sha256, level, seed, board, hand, organ_name,"
     " organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc, owner_pid, owner_boot, owner_start,"
     " finished_utc, s.value, coalesce(s.passed, 0), coalesce(s.grade, 'not graded'), recording_path, recording_sha256,"
     " state_hash, device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share,"
-    " passivity_active_share, min_energy_j, kappa, device_fault";
-constexpr const char* kAttemptSince2 =
-    ", program, integrity, device_realtime, (SELECT uuid FROM session WHERE id = session_id),"
-    " (SELECT sha256 FROM device_calibration WHERE id = calibration_id), s.revision, s.ruleset_sha256";
-constexpr const char* kOfAttempt =
+    " passivity_active_share, min_energy_j, kappa, device_fault,"
+    " program, integrity, device_realtime, (SELECT uuid FROM session WHERE id = session_id),"
+    " (SELECT sha256 FROM device_calibration WHERE id = calibration_id), s.revision, s.ruleset_sha256"
     " FROM attempt a JOIN trainee t ON t.id = a.trainee_id LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
     " WHERE a.id = ?";
 
@@ -37,8 +34,6 @@ constexpr const char* kRows[] = {
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY r.id",
     "SELECT position, reason FROM score_cap m JOIN score s ON s.id = m.score_id"
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
-};
-constexpr const char* kRowsSince3[] = {
     "SELECT position, name, first_s, ticks FROM device_warning WHERE attempt_id = ? ORDER BY position",
     "SELECT r.id & 1048575, t_s, from_state, to_state FROM device_transition_row r CROSS JOIN device_change c ON c.id "
     "= r.change_id"
@@ -55,13 +50,11 @@ void add_rows(sqlite3* connection, const std::string& query, std::int64_t attemp
   content += "--\n";
 }
 
-std::string content_of(sqlite3* connection, std::int64_t attempt, std::int64_t version) {
+std::string content_of(sqlite3* connection, std::int64_t attempt) {
   std::string content;
   content.reserve(16384);
-  add_rows(connection, kAttempt + (version >= 2 ? kAttemptSince2 : "") + kOfAttempt, attempt, content);
+  add_rows(connection, kAttempt, attempt, content);
   for (const char* query : kRows) add_rows(connection, query, attempt, content);
-  if (version < 3) return content;
-  for (const char* query : kRowsSince3) add_rows(connection, query, attempt, content);
   return content;
 }
 
@@ -74,7 +67,7 @@ struct Link {
 std::string row_hash(sqlite3* connection, const Link& link) {
   return digest::of_bytes("trocar-attempt-" + std::to_string(link.version) + "\n" + link.previous + "\n" +
                           std::to_string(link.position) + "\n" + link.status + "\n" +
-                          content_of(connection, link.attempt, link.version));
+                          content_of(connection, link.attempt));
 }
 
 constexpr const char* kLinks =
@@ -90,10 +83,7 @@ Link link_of(const sql::Statement& row) {
 }
 
 Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) {
-  // The version that it began with: a program before this one may have begun it.
-  sql::Statement begun(connection, "SELECT hash_version FROM attempt WHERE id = ?");
-  begun.bind(attempt).step();
-  Link link{attempt, 1, begun.integer(0), "", status_name(status)};
+  Link link{attempt, 1, kHashVersion, "", status_name(status)};
   sql::Statement last(connection,
                       "SELECT chain_position, row_hash FROM attempt WHERE chain_position IS NOT NULL"
                       " ORDER BY chain_position DESC LIMIT 1");

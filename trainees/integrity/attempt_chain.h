@@ -1,14 +1,13 @@
 // The hash chain over finished attempts: a change to any of them, or a gap, shows. Internal to trainees/.
 //
 // row_hash_n = SHA-256("trocar-attempt-V\n" + row_hash_(n-1) + "\n" + n + "\n" + status + "\n" + content_n), where
-// content is every value of the attempt and of its events, metrics, sub-scores and caps with its type, in fixed order;
-// row_hash_0 is empty. n counts finished attempts from 1. V is the attempt's hash_version: 1 for attempts that schema 1
-// stored (their hashes still hold), 2 with program, integrity, session and calibration, 3 with what the device warned
-// of and how its state changed. Later columns need a new version. The chain shows changes; a cut-off end shows in the
-// audit trail (audit.h); nothing stops who recomputes all. Of a trainee whose training data were erased (erasure.h) the
-// content is gone and only the links are checked. Attempts that were fetched from other stations (table replica) keep
-// the place in the chain of the station that made them: each is computed again, and what it followed must be here; the
-// chain of this database leaves them out.
+// content is every value of the attempt and of its events, metrics, sub-scores, caps, device warnings and changes of
+// the device's state with its type, in fixed order; row_hash_0 is empty. n counts finished attempts from 1. V is the
+// attempt's hash_version: what is covered later besides needs a new one. The chain shows changes; a cut-off end shows
+// in the audit trail (audit.h); nothing stops who recomputes all. Of a trainee whose training data were erased
+// (erasure.h) the content is gone and only the links are checked. Attempts that were fetched from other stations (table
+// replica) keep the place in the chain of the station that made them: each is computed again, and what it followed must
+// be here; the chain of this database leaves them out.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ struct sqlite3;
 namespace trocar {
 
 /// Content that row_hash covers in attempts begun by this program.
-inline constexpr int kHashVersion = 3;
+inline constexpr int kHashVersion = 1;
 
 /// Ends a running attempt whose rows are all written: sets its status and its place in the chain, which freezes it,
 /// and in the audit trail. Call inside a transaction.

@@ -45,7 +45,7 @@ void check_attempts(sqlite3* connection, std::vector<std::string>& problems) {
     problems.push_back("attempt " + gone.text(0) + ", finished " + gone.text(1) + ", is missing or was changed");
   }
   sql::Statement unknown(connection,
-                         "SELECT uuid FROM attempt a WHERE status <> 'running' AND hash_version >= 2 AND NOT EXISTS"
+                         "SELECT uuid FROM attempt a WHERE status <> 'running' AND NOT EXISTS"
                          " (SELECT 1 FROM audit u WHERE u.action IN (?, ?) AND u.subject = a.uuid)");
   unknown.bind(kActionFinished).bind(kActionReplicated);
   while (unknown.step()) problems.push_back("attempt " + unknown.text(0) + " has no entry");

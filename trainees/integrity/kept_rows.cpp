@@ -39,11 +39,6 @@ std::string random_salt() {
   return text.data();
 }
 
-bool every_row_kept(sqlite3* connection) {
-  sql::Statement made(connection, "SELECT 1 FROM audit WHERE action = ? AND detail = ?");
-  return made.bind(kActionMade).bind(kEveryRowKept).step();
-}
-
 /// A table whose rows have each a newest entry with a digest.
 struct KeptTable {
   const char *name, *row, *keys, *actions;  ///< actions: as in IN (...)
@@ -79,16 +74,14 @@ bool erased(sqlite3* connection, const std::string& trainee_uuid) {
   return row.bind(trainee_uuid).step();
 }
 
-void check_kept_table(sqlite3* connection, const KeptTable& table, bool complete, std::vector<std::string>& problems) {
+void check_kept_table(sqlite3* connection, const KeptTable& table, std::vector<std::string>& problems) {
   const bool person = std::string(table.name) == "person";
   for (const std::string& key : keys_of(connection, table)) {
     const std::string kept = newest_digest(connection, table, key);
-    // An older trainee may have an older person; whoever was added with an entry has one for both.
-    const bool excused = !complete && !(person && has_entry(connection, key, "trainee added"));
     const bool other = !kept.empty() && kept != digest_of(connection, table.name, table.row, key);
     if (person && erased(connection, key))
       problems.push_back(named_row(table, key) + " stands here although it was erased");
-    else if (kept.empty() && !excused)
+    else if (kept.empty())
       problems.push_back(named_row(table, key) + " has no entry in the audit trail: it came in by another way");
     else if (other)
       problems.push_back(named_row(table, key) + " was changed by another way");
@@ -120,14 +113,14 @@ UNION ALL SELECT uuid, name, 'came in by another way' FROM (SELECT * FROM presen
     problems.push_back("membership of trainee " + told.text(0) + " in \"" + told.text(1) + "\" " + told.text(2));
 }
 
-void check_seen(sqlite3* connection, bool complete, std::vector<std::string>& problems) {
+void check_seen(sqlite3* connection, std::vector<std::string>& problems) {
   sql::Statement rows(
       connection,
       "SELECT n.uuid, coalesce(s.utc, ''), coalesce(u.detail, '') FROM note n LEFT JOIN note_seen s ON s.note_id = n.id"
       " LEFT JOIN audit u ON u.subject = n.uuid AND u.action = 'note seen' ORDER BY n.uuid");
   while (rows.step()) {
     const std::string seen = rows.text(1), kept = rows.text(2), name = "note " + rows.text(0);
-    if (seen == kept || (kept.empty() && !complete)) continue;
+    if (seen == kept) continue;
     problems.push_back(kept.empty()   ? name + " counts as met, which has no entry in the audit trail"
                        : seen.empty() ? name + " was met on " + kept + ": that is missing"
                                       : name + " was met on " + kept + ", not on " + seen);
@@ -181,7 +174,7 @@ void keep_person(sqlite3* connection, const std::string& trainee_uuid, const std
 
 bool person_holds(sqlite3* connection, const std::string& trainee_uuid) {
   const std::string kept = newest_digest(connection, kTables[1], trainee_uuid);
-  return kept.empty() || kept == digest_of(connection, "person", kPerson, trainee_uuid);
+  return kept == digest_of(connection, "person", kPerson, trainee_uuid);
 }
 
 void keep_exercise(sqlite3* connection, const std::string& id) {
@@ -199,35 +192,13 @@ void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std
 
 std::vector<std::string> check_kept_rows(sqlite3* connection) {
   std::vector<std::string> problems;
-  const bool complete = every_row_kept(connection);
-  for (const KeptTable& table : kTables) check_kept_table(connection, table, complete, problems);
+  for (const KeptTable& table : kTables) check_kept_table(connection, table, problems);
   check_groups(connection, problems);
-  check_seen(connection, complete, problems);
+  check_seen(connection, problems);
   check_revisions(connection, problems);
   check_sessions(connection, problems);
   check_station(connection, problems);
   return problems;
-}
-
-std::vector<std::string> not_covered(sqlite3* connection) {
-  std::vector<std::string> lines;
-  if (every_row_kept(connection)) return lines;
-  const auto tell = [&](std::int64_t count, const std::string& what) {
-    if (count > 0)
-      lines.push_back(std::to_string(count) + " of " + what +
-                      ": written by an older trocar without an entry in the audit trail");
-  };
-  for (const KeptTable& table : kTables) {
-    std::int64_t count = 0;
-    for (const std::string& key : keys_of(connection, table))
-      count += newest_digest(connection, table, key).empty() ? 1 : 0;
-    tell(count, table.name);
-  }
-  tell(sql::query_integer(connection,
-                          "SELECT count(*) FROM note_seen s JOIN note n ON n.id = s.note_id WHERE NOT EXISTS"
-                          " (SELECT 1 FROM audit WHERE subject = n.uuid AND action = 'note seen')"),
-       "note_seen");
-  return lines;
 }
 
 }  // namespace trocar

@@ -1,15 +1,16 @@
 // Rows that may change, and yet are evidence: trainees, people, exercises, groups, what was met, this station. Every
 // lawful change leaves an entry in the audit trail, against which the rows are compared. Internal to trainees/.
 //
-//   "trainee added"                    subject: its UUID; digest of UUID and time
-//   "person added", "person changed"   subject: the trainee's UUID; digest of salt, code, name, e-mail; the newest
-//   counts "exercise kept"                    subject: its id; digest of id, number, title; the newest counts "note
-//   seen"                        subject: the note's UUID; detail: when "group joined", "group left"       subject: the
-//   trainee's UUID; detail: the group; "... elsewhere" where a centre told it
+// Entry: subject, detail.
+//
+//   "trainee added": its UUID, digest of UUID and time
+//   "person added", "person changed": the trainee's UUID, digest of salt, code, name, e-mail; the newest counts
+//   "exercise kept": its id, digest of id, number, title; the newest counts
+//   "note seen": the note's UUID, when
+//   "group joined", "group left": the trainee's UUID, the group; "... elsewhere" where a central database told it
 //
 // Codes are few and short: a plain digest would tell, by trying them all, who an erased trainee was. So a person's
-// digest has a random salt that stands in the person's row and goes with it. Rows that were there before a program kept
-// entries have none: not_covered() names them. A database that was made since has no such excuse (kEveryRowKept).
+// digest has a random salt that stands in the person's row and goes with it.
 #pragma once
 
 #include <cstdint>
@@ -20,28 +21,21 @@ struct sqlite3;
 
 namespace trocar {
 
-/// Detail of the entry "database made": no row of the tables above is without an entry.
-inline constexpr const char* kEveryRowKept = "every row kept";
-
 // Each is called in the transaction that has made the change. @param author account's UUID, "" for the program and the
 // command line.
 /// A new trainee, and the person when there is one.
 void keep_trainee(sqlite3* connection, const std::string& uuid, const std::string& author = "");
 /// A new or changed code, name or e-mail address.
 void keep_person(sqlite3* connection, const std::string& trainee_uuid, const std::string& author = "");
-/// Whether the person is as the newest entry has it, so that a change may follow; an older program's without an entry
-/// is.
+/// Whether the person is as the newest entry has it, so that a change may follow.
 bool person_holds(sqlite3* connection, const std::string& trainee_uuid);
 void keep_exercise(sqlite3* connection, const std::string& id);
-/// Only where no entry is yet: an exercise of an older program's.
+/// Only where no entry is yet.
 void keep_exercise_once(sqlite3* connection, const std::string& id);
 void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc,
                     const std::string& author = "");
 
 /// Problems between rows and trail, one line each.
 std::vector<std::string> check_kept_rows(sqlite3* connection);
-
-/// Rows that an older program wrote without an entry: what check_kept_rows() cannot tell anything of, one line a table.
-std::vector<std::string> not_covered(sqlite3* connection);
 
 }  // namespace trocar

@@ -87,16 +87,6 @@ std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const f
   return recovered;
 }
 
-void require_no_running_attempt(sqlite3* connection) {
-  sql::Statement rows(connection,
-                      "SELECT uuid, owner_pid, owner_boot, owner_start FROM attempt WHERE status = 'running'");
-  while (rows.step()) {
-    if (!process_lives({rows.integer(1), rows.text(2), rows.integer(3)})) continue;
-    throw EnvironmentError("attempt " + rows.text(0) + " is being run by an older trocar (process " +
-                           std::to_string(rows.integer(1)) + "); the database is migrated when that has ended");
-  }
-}
-
 std::string stored_recording_path(const fs::path& database, const fs::path& recording) {
   if (recording.empty()) return "";
   const fs::path absolute = fs::absolute(recording).lexically_normal();

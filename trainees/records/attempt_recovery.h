@@ -32,9 +32,6 @@ using Regrade = std::function<std::optional<AttemptResult>(const std::filesystem
 std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const std::filesystem::path& database,
                                                     const Regrade& regrade);
 
-/// @throws EnvironmentError when a living program runs an attempt: its result would find another schema.
-void require_no_running_attempt(sqlite3* connection);
-
 /// How a recording is named in the database: relative to the database's folder when it lies inside, so that both can
 /// move together; absolute otherwise.
 std::string stored_recording_path(const std::filesystem::path& database, const std::filesystem::path& recording);

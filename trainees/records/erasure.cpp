@@ -81,7 +81,7 @@ void remove_rows(sqlite3* connection, const Erased& erased, const std::string& t
   sql::Statement(connection, "DELETE FROM " + table + " WHERE " + where).bind(erased.id).run();
 }
 
-/// Events, transitions, metrics and sub-scores, whose number says whose they are (schema_v5.cpp).
+/// Events, transitions, metrics and sub-scores, whose number says whose they are (schema.cpp).
 void remove_numbered(sqlite3* connection, const Erased& erased) {
   sql::Statement events(connection, "DELETE FROM event_row WHERE id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575");
   sql::Statement changes(connection,

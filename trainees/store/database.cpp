@@ -55,7 +55,7 @@ bool compacted(sqlite3* connection) {
   return sqlite3_exec(connection, "VACUUM", nullptr, nullptr, nullptr) == SQLITE_OK;
 }
 
-// Rows that say by their number alone whose they are (schema_v5.cpp).
+// Rows that say by their number alone whose they are (schema.cpp).
 constexpr const char* kStrays = R"sql(
 SELECT 'event_row', min(id), 'attempt or event_kind' FROM event_row r WHERE NOT EXISTS (SELECT 1 FROM attempt WHERE id = r.id >> 20)
   OR NOT EXISTS (SELECT 1 FROM event_kind WHERE id = r.kind_id) GROUP BY id >> 20
@@ -92,16 +92,17 @@ std::optional<int> schema_of_file(const fs::path& file) {
 
 void Database::Close::operator()(sqlite3* connection) const { sql::close_connection(connection); }
 
-Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, const Regrade& regrade) {
+Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, const Regrade& regrade,
+                   std::span<const Migration> migrations)
+    : migrations_(migrations) {
   if (file != ":memory:") file_ = fs::absolute(file).lexically_normal();
   open(mode, busy_timeout_ms);
   sqlite3_busy_timeout(connection_.get(), busy_timeout_ms);
   if (mode == OpenMode::kExisting && !in_memory() && schema_version() == 0) {
-    require_ours(connection_.get(), file_, shipped_migrations());
+    require_ours(connection_.get(), file_, migrations_);
     throw InputError(file_.string() + ": holds no tables, no database of trocar; it was left as it is");
   }
-  if (schema_version() == 1) require_no_running_attempt(connection_.get());
-  migration_ = migrate(connection_.get(), file_, shipped_migrations());
+  migration_ = migrate(connection_.get(), file_, migrations_);
   if (!migration_.backup.empty()) migration_.compacted = compacted(connection_.get());
   if (!in_memory()) enter_wal(busy_timeout_ms);
   // The log is copied back every 8000 pages (32 MB), not every 1000: a commit that has to do it waits for the disk.
@@ -188,7 +189,7 @@ std::vector<std::string> Database::check() const {
   const auto add = [&](const char* what, const std::vector<std::string>& found) {
     for (const std::string& problem : found) problems.push_back(what + problem);
   };
-  add("schema: ", check_schema(connection_.get(), shipped_migrations()));
+  add("schema: ", check_schema(connection_.get(), migrations_));
   add("hash chain: ", check_chain(connection_.get()));
   add("audit trail: ", check_audit(connection_.get()));
   add("records: ", check_sealed_rows(connection_.get()));
@@ -196,8 +197,6 @@ std::vector<std::string> Database::check() const {
   add("anchor: ", check_anchor(file_, connection_.get()));
   return problems;
 }
-
-std::vector<std::string> Database::not_covered() const { return trocar::not_covered(connection_.get()); }
 
 void Database::backup(const fs::path& to) const {
   make_folder(fs::absolute(to));

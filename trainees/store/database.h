@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,11 @@ class Database {
   /// @param file path, or ":memory:" for one that vanishes with the object.
   /// @param busy_timeout_ms how long to wait for another program's write.
   /// @param regrade grades whole recordings of attempts found dead; without it they are aborted.
+  /// @param migrations the way to the schema wanted; another than the program's own only in tests.
   /// @throws EnvironmentError: cannot be opened or written, folder not creatable, disk full, busy too long, a newer
   /// schema. @throws InputError: not a database, another program's database, damaged.
   explicit Database(const std::filesystem::path& file, OpenMode mode = OpenMode::kCreate, int busy_timeout_ms = 5000,
-                    const Regrade& regrade = {});
+                    const Regrade& regrade = {}, std::span<const Migration> migrations = shipped_migrations());
   ~Database();
   Database(Database&&) noexcept;
 
@@ -55,9 +57,6 @@ class Database {
   /// Problems of file, schema, references, hash chain, audit trail, what people wrote and anchor, one line each; empty
   /// when sound.
   std::vector<std::string> check() const;
-  /// What check() can tell nothing of, because an older program wrote it without an entry; one line a table, empty in
-  /// databases made since.
-  std::vector<std::string> not_covered() const;
   /// Head of the audit trail as "POSITION:HASH": noted elsewhere, it shows any later change of what is there now.
   std::string head() const;
   /// Begins a new anchor file where the old one was lost, and says so in the audit trail.
@@ -77,6 +76,7 @@ class Database {
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, Close> connection_;
+  std::span<const Migration> migrations_;
   MigrationReport migration_;
   std::vector<RecoveredAttempt> recovered_;
 };

@@ -11,7 +11,7 @@
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
 #include "trainees/integrity/audit.h"
-#include "trainees/integrity/kept_rows.h"
+#include "trainees/store/schema.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
@@ -58,12 +58,13 @@ void apply(sqlite3* connection, std::span<const Migration> migrations, int from)
   for (const Migration& migration : migrations) {
     if (migration.version <= present) continue;
     sql::execute(connection, migration.sql);
-    if (migration.after != nullptr) migration.after(connection, from);
   }
+  const Migration& last = migrations.back();
+  if (last.version > present && last.after != nullptr) last.after(connection, from, last.version);
   if (!sql::query_text(connection, "SELECT \"table\" FROM pragma_foreign_key_check").empty()) {
     throw InputError("database: migrating would break references between its tables; it was left as it was");
   }
-  sql::execute(connection, ("PRAGMA user_version = " + std::to_string(migrations.back().version)).c_str());
+  sql::execute(connection, ("PRAGMA user_version = " + std::to_string(last.version)).c_str());
   sql::execute(connection, ("PRAGMA application_id = " + std::to_string(kApplicationId)).c_str());
   transaction.commit();
 }
@@ -89,17 +90,6 @@ void verify_copy(sqlite3* original, const fs::path& copy) {
   if (!whole) throw EnvironmentError(copy.string() + ": the backup is not whole; the database was not migrated");
 }
 
-/// The way ends with an entry of the trail: what was there before, and the head of its chain.
-void note_migration(sqlite3* connection, int from) {
-  const std::string to = std::to_string(shipped_migrations().back().version);
-  if (from == 0) return append_audit(connection, kActionMade, "schema " + to, kEveryRowKept);
-  const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
-  const std::string head = sql::query_text(
-      connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
-  append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to " + to,
-               attempts + " attempts, head " + (head.empty() ? "none" : head));
-}
-
 /// Everything that a schema is made of, by type and name.
 std::map<std::string, std::string> schema_of(sqlite3* connection) {
   std::map<std::string, std::string> parts;
@@ -111,9 +101,18 @@ std::map<std::string, std::string> schema_of(sqlite3* connection) {
 }  // namespace
 
 std::span<const Migration> shipped_migrations() {
-  static const Migration kMigrations[] = {
-      {1, kSchemaV1}, {2, schema_v2()}, {3, kSchemaV3}, {4, schema_v4()}, {5, schema_v5(), note_migration}};
+  static const Migration kMigrations[] = {{1, schema_sql(), note_migration}};
   return kMigrations;
+}
+
+void note_migration(sqlite3* connection, int from, int to) {
+  const std::string wanted = std::to_string(to);
+  if (from == 0) return append_audit(connection, kActionMade, "schema " + wanted, "");
+  const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
+  const std::string head = sql::query_text(
+      connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
+  append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to " + wanted,
+               attempts + " attempts, head " + (head.empty() ? "none" : head));
 }
 
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations) {

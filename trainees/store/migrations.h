@@ -19,11 +19,15 @@ inline constexpr int kApplicationId = 0x54524352;  // "TRCR"
 struct Migration {
   int version;  ///< the schema version that it leads to; 1, 2, 3, ...
   const char* sql;
-  void (*after)(sqlite3* connection, int from) = nullptr;  ///< what SQL cannot do, in the same transaction
+  /// Called in the same transaction when the way ends with this step.
+  void (*after)(sqlite3* connection, int from, int to) = nullptr;
 };
 
 /// Migrations of this program, in order.
 std::span<const Migration> shipped_migrations();
+
+/// An entry of the audit trail: what was there before, and the head of its chain. @param from 0: the database was made.
+void note_migration(sqlite3* connection, int from, int to);
 
 struct MigrationReport {
   int from = 0, to = 0;          ///< equal when nothing was to do; from is 0 for a new database
@@ -46,12 +50,5 @@ void copy_database(sqlite3* from, const std::filesystem::path& to);
 
 /// Where the schema of the database is not that of `migrations`: tables, indices, triggers, views; one line each.
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations);
-
-/// The schema's first version (schema_v1.cpp), and what leads to the later ones.
-extern const char* const kSchemaV1;
-const char* schema_v2();
-extern const char* const kSchemaV3;
-const char* schema_v4();
-const char* schema_v5();
 
 }  // namespace trocar

@@ -34,8 +34,6 @@ int db_check(const DbOptions& options, std::ostream& out, std::ostream& err) {
   } else {
     for (const std::string& problem : problems) out << problem << '\n';
   }
-  if (!options.json)
-    for (const std::string& line : database.not_covered()) err << "not covered: " << line << '\n';
   return problems.empty() ? 0 : kProblemsFound;
 }
 

@@ -118,8 +118,7 @@ std::string problems_json(const Database& database, const std::vector<std::strin
                   {"schema", database.schema_version()},
                   {"head", database.head()},
                   {"sound", problems.empty()},
-                  {"problems", problems},
-                  {"not_covered", database.not_covered()}});
+                  {"problems", problems}});
 }
 
 }  // namespace trocar

@@ -10,7 +10,6 @@
 
 #include "haptics/digest/digest.h"
 #include "tests/trainees/records/store_samples.h"
-#include "tests/trainees/store/old_stores.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/consents.h"
@@ -89,7 +88,6 @@ class KeptRows : public TemporaryFolder {
 TEST_F(KeptRows, AreSoundAfterEveryLawfulChange) {
   Database database(file_);
   EXPECT_EQ(problems_of(database), "");
-  EXPECT_TRUE(database.not_covered().empty());
   TraineeStore(database).edit("T-1", "", std::nullopt, "");
   TraineeStore(database).edit("T-1", "Anna Z.", "", kAuthor.account_uuid);
   CurriculumStore(database).join("T-1", "winter", kAuthor);
@@ -185,34 +183,6 @@ TEST_F(KeptRows, ATrailThatOutlivesThePersonDoesNotTellTheirCode) {
   for (const std::string& digest : digests) EXPECT_EQ(digest.size(), 64u);
   erase_trainee(database, "T-2", ErasureKind::kIdentity, "request of the person", kAuthor);
   EXPECT_EQ(sql::query_integer(connection, salts), 1);
-}
-
-TEST_F(KeptRows, AnOlderDatabasePassesAndSaysWhatItDoesNotCover) {
-  const fs::path old = folder_ / "old.db";
-  make_old_store(old, 3, 4);
-  Database database(old);
-  EXPECT_EQ(problems_of(database), "");
-  const std::vector<std::string> told = database.not_covered();
-  ASSERT_EQ(told.size(), 3u);
-  EXPECT_EQ(told[0], "1 of trainee: written by an older trocar without an entry in the audit trail");
-  EXPECT_EQ(told[1].find("1 of person"), 0u);
-  EXPECT_EQ(told[2].find("1 of exercise"), 0u);
-  AttemptStart start = sample_start("T-new");
-  start.level = "L2";
-  store_attempt(database, start, sample_result());
-  EXPECT_EQ(database.not_covered().size(), 2u) << "the exercise has its entry now";
-  EXPECT_EQ(problems_of(database), "");
-  ASSERT_EQ(run_without_triggers(old, "UPDATE person SET code = 'T-other' WHERE code = 'T-new'"), "");
-  EXPECT_NE(problems_of(database).find("was changed by another way"), std::string::npos)
-      << "new rows of an old database are covered";
-  ASSERT_EQ(
-      run_without_triggers(
-          old,
-          "UPDATE person SET code = 'T-new' WHERE code = 'T-other'; UPDATE person SET name = 'x' WHERE code = 'T-old'"),
-      "");
-  EXPECT_EQ(problems_of(database), "") << "old ones are not: that is what it says";
-  TraineeStore(database).edit("T-old", "Olga", std::nullopt, "");
-  EXPECT_EQ(database.not_covered().size(), 1u);
 }
 
 /// `table.column` in the section on what is not evidence.

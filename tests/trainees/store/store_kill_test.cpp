@@ -11,7 +11,7 @@
 
 #include "tests/support/repeats.h"
 #include "tests/trainees/records/store_samples.h"
-#include "tests/trainees/store/old_stores.h"
+#include "tests/trainees/store/next_schema.h"
 #include "trainees/records/opinions.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
@@ -127,16 +127,16 @@ TEST_F(StoreKill, NothingThatWasCommittedIsLostAndWhatWasInterruptedIsMarked) {
 }
 
 TEST_F(StoreKill, AMigrationIsDoneOrHasNotBegun) {
-  make_old_store(folder_ / "old.db", 4, 60);
+  make_store(folder_ / "old.db", 60);
   const auto fresh = [&](const fs::path& file) {
-    for (const char* more : {"", "-wal", "-shm", ".anchor", ".schema4.backup", ".schema4-2.backup"})
+    for (const char* more : {"", "-wal", "-shm", ".anchor", ".schema1.backup", ".schema1-2.backup"})
       fs::remove(file.string() + more);
     for (const char* more : {"", ".anchor"}) fs::copy_file((folder_ / "old.db").string() + more, file.string() + more);
   };
   const fs::path file = folder_ / "t.db";
   fresh(file);
   const auto begin = Clock::now();
-  { Database database(file); }
+  { open_by_next_program(file); }
   const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin);
   long longest = whole.count() * 3 / 2;
   int before = 0, after = 0;
@@ -145,7 +145,7 @@ TEST_F(StoreKill, AMigrationIsDoneOrHasNotBegun) {
     const pid_t child = fork();
     if (child == 0) {
       try {
-        Database database(file);
+        open_by_next_program(file);
       } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
       }
@@ -155,12 +155,12 @@ TEST_F(StoreKill, AMigrationIsDoneOrHasNotBegun) {
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds(random_)));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    const int version = schema_of_file(file).value_or(0);
-    EXPECT_TRUE(version == 4 || version == 5) << version;
-    version == 4 ? ++before : ++after;
-    longest = version == 4 ? longest * 5 / 4 : longest * 4 / 5;  // round its end, however busy the machine is
-    Database database(file);
-    EXPECT_EQ(database.schema_version(), 5);
+    const int version = written_version(file);
+    EXPECT_TRUE(version == 1 || version == 2) << version;
+    version == 1 ? ++before : ++after;
+    longest = version == 1 ? longest * 5 / 4 : longest * 4 / 5;  // round its end, however busy the machine is
+    Database database = open_by_next_program(file);
+    EXPECT_EQ(database.schema_version(), 2);
     EXPECT_EQ(AttemptStore(database).list().size(), 60u);
     EXPECT_EQ(problems_of(database), "") << "kill " << round;
   }

@@ -1,5 +1,5 @@
-// No room, no leave, no peace, a page gone bad: what people write is refused whole, with a message, and nothing stored
-// is lost.
+// A full disk, missing rights, a busy database, a damaged page: what people write is refused whole, with a message, and
+// nothing stored is lost.
 #include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "tests/trainees/records/store_samples.h"
-#include "tests/trainees/store/old_stores.h"
+#include "tests/trainees/store/next_schema.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
@@ -144,7 +144,7 @@ TEST_F(StoreRoom, ADamagedPageIsFoundAndSaidWhereItIsRead) {
 }
 
 TEST_F(StoreRoom, AMigrationWithoutRoomLeavesTheOldDatabase) {
-  make_old_store(folder_ / "old.db", 4, 30);
+  make_store(folder_ / "old.db", 30);
   const auto size = fs::file_size(folder_ / "old.db");
   for (const double share : {0.2, 1.01}) {  // no room for the backup; none for the log of the migration
     const pid_t child = fork();
@@ -153,14 +153,14 @@ TEST_F(StoreRoom, AMigrationWithoutRoomLeavesTheOldDatabase) {
       const auto bytes = static_cast<rlim_t>(static_cast<double>(size) * share);
       const rlimit small{bytes, bytes};
       setrlimit(RLIMIT_FSIZE, &small);
-      const std::string message = message_of<EnvironmentError>([&] { Database{folder_ / "old.db"}; });
+      const std::string message = message_of<EnvironmentError>([&] { open_by_next_program(folder_ / "old.db"); });
       _exit(message.empty() && share < 1 ? 1 : 0);
     }
     int status = 0;
     waitpid(child, &status, 0);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << share;
   }
-  Database database(folder_ / "old.db");
+  Database database = open_by_next_program(folder_ / "old.db");
   EXPECT_EQ(AttemptStore(database).list().size(), 30u);
   EXPECT_EQ(problems_of(database), "");
 }
