@@ -124,7 +124,7 @@ std::string document(const Frame& frame, const std::string& main_html) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>";
-  // With script the page renews its parts instead (desk_script.cpp).
+  // With script the page renews its parts instead (desk.js).
   if (frame.refresh_s > 0)
     out += "<noscript><meta http-equiv=\"refresh\" content=\"" + std::to_string(frame.refresh_s) + "\"/></noscript>";
   out += "<title>" + escape_html(frame.title) +

@@ -43,6 +43,4 @@ std::string cohort_csv(const CohortView& view);
 std::string trainee_csv(const TraineeView& view);
 std::string attempt_csv(const AttemptView& view);
 
-const char* desk_script();
-
 }  // namespace trocar::review

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "haptics/input_error.h"
+#include "trainees/desk/assets/assets.h"
 #include "trainees/desk/pages/pages.h"
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/server/told_text.h"

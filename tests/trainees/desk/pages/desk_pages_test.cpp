@@ -7,7 +7,7 @@
 
 #include "tests/trainees/desk/pages/page_checker.h"
 #include "tests/trainees/desk/pages/page_samples.h"
-#include "trainees/desk/pages/style.h"
+#include "trainees/desk/assets/assets.h"
 
 namespace trocar::review::desk_pages_test {
 namespace {

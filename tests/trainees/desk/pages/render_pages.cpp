@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "tests/trainees/desk/pages/page_samples.h"
-#include "trainees/desk/pages/style.h"
+#include "trainees/desk/assets/assets.h"
 
 namespace fs = std::filesystem;
 using namespace trocar::review;

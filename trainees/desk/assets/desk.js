@@ -1,11 +1,4 @@
-// The desk's only script: the attempt page follows the slider, and what changes by itself is renewed, without loading
-// the page anew. Everything works without it.
-#include "trainees/desk/pages/pages.h"
-
-namespace trocar::review {
-
-namespace {
-constexpr char kScript[] = R"js('use strict';
+'use strict';
 // Parts that change by themselves (id "live") are asked for again and put in place of the old; without script the whole page is.
 (function () {
   var live = document.getElementById('live');
@@ -143,9 +136,3 @@ document.querySelectorAll('img.patient').forEach(follower);
     if (link.closest('#events')) document.getElementById('moment').scrollIntoView();
   });
 })();
-)js";
-}  // namespace
-
-const char* desk_script() { return kScript; }
-
-}  // namespace trocar::review
