@@ -15,7 +15,8 @@ struct Direction {
   const char* rule;
 };
 
-constexpr const char* kPlant = "haptics/device/(device_plant|plant_[a-z_]+|simulated_daq|hand_model)";
+/// The simulated device's side of the seam.
+constexpr const char* kPlant = "haptics/device/(plant/[a-z_]+|simulated_daq)";
 
 const std::vector<Direction>& directions() {
   static const std::string plant_files = std::string("^") + kPlant + "\\.(h|cpp)$";
@@ -29,12 +30,25 @@ const std::vector<Direction>& directions() {
       {"^haptics/quantities\\.h$", "^$", "quantities stand alone"},
       {"^haptics/digest/", "^haptics/(digest/|input_error\\.h$)", "digest stands alone but for the error it throws"},
       {"^tissue/", "^(tissue|haptics)/", "tissue knows haptics only"},
+      {"^tissue/(collision|rigid|solid)/",
+       "^(haptics|tissue/(collision|rigid|solid|mesh|organ|imaging)/|tissue/[a-z_]+\\.h$)",
+       "what moves in the scene does not know the files that it came from"},
+      {"^tissue/imaging/", "^(haptics/|tissue/(imaging|organ|mesh)/|tissue/progress\\.h$)",
+       "images know no lattice and no world"},
       {"^scenarios/", "^(scenarios|tissue|haptics)/", "scenarios know tissue and haptics only"},
       {"^scenarios/scoring/", "^(scenarios/scoring/|haptics/quantities\\.h$)", "scoring is pure"},
       {"^trainees/", "^(trainees|scenarios/scoring|haptics)/", "trainees know scoring and haptics only"},
-      {"^app/(recorder|graphics|report|executor)/",
-       "^(app/(recorder|graphics|report|executor|scene\\.h)|trainees/(files|markup)/|haptics/|tissue/|scenarios/)",
+      {"^trainees/(store|records|integrity|progress)/",
+       "^(trainees/(store|records|integrity|progress|files)|scenarios/scoring|haptics)/", "the record knows no desk"},
+      {"^trainees/desk/(pages|reports|print)/", "^(?!trainees/desk/(server/desk_server|server/connection))",
+       "pages are made without a server"},
+      {"^app/(session/(recording|lanes)|picture/(display|gl|models|scene)|report)/",
+       "^(app/(session/(recording|lanes|setup/scene\\.h)|picture/(display|gl|models|scene)|report)|"
+       "trainees/(files|markup)/|haptics/|tissue/|scenarios/)",
        "parts of the program do not know its commands or the store"},
+      {"^app/(session|picture)/", "^(?!app/(cli|window|studies|desk|organs)/)",
+       "an attempt and its picture know no command and no window"},
+      {"^app/studies/", "^(?!app/(window|desk)/)", "studies know no window and no desk"},
       {"^(app|haptics|tissue|scenarios|trainees)/", "^(app|haptics|tissue|scenarios|trainees)/",
        "no source knows the tests"},
   };
@@ -53,18 +67,18 @@ const std::vector<Territory>& territories() {
       {"^(CGAL|assimp|dcmtk|fcl|gdcm|vtk)/|^(itk|expat)", "^tissue/.*\\.cpp$",
        "geometry and image libraries stay in sources of tissue"},
       {"^sqlite3", "^trainees/.*\\.cpp$", "SQLite stays in sources of trainees"},
-      {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/graphics/.*\\.cpp$",
-       "graphics libraries stay in sources of app/graphics"},
-      {"^CLI/", "^app/command_line(_[a-z]+)?\\.cpp$", "the command line is read in one place"},
-      {"^toml", "^(scenarios|tissue|trainees/progress|app/(words|practice))/.*\\.cpp$",
+      {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/picture/.*\\.cpp$",
+       "graphics libraries stay in sources of app/picture"},
+      {"^CLI/", "^app/(main|(cli|desk|organs|studies|window)/.*)\\.cpp$",
+       "the command line is read in sources of commands"},
+      {"^toml", "^(scenarios|tissue|trainees/progress|app/window/(words|attempt))/.*\\.cpp$",
        "TOML is read in sources of scenarios, tissue, progress rules, words and settings"},
-      {"^imgui|^GLFW/", "^app/(screens|window)/.*\\.cpp$",
-       "the window's libraries stay in sources of app/screens and app/window"},
-      {"^AL/", "^app/sound/.*\\.cpp$", "OpenAL stays in sources of app/sound"},
+      {"^imgui|^GLFW/", "^app/window/.*\\.cpp$", "the window's libraries stay in sources of app/window"},
+      {"^AL/", "^app/window/sound/.*\\.cpp$", "OpenAL stays in sources of app/window/sound"},
       {"^httplib|^sodium", "^trainees/.*\\.cpp$", "the web server and its cryptography stay in sources of trainees"},
-      {"^hpdf", "^trainees/printed/.*\\.cpp$", "PDF is written in sources of trainees/printed"},
-      {"^pqxx", "^trainees/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/sync"},
-      {"^hidapi", "^app/input/.*\\.cpp$", "HID stays in sources of app/input"},
+      {"^hpdf", "^trainees/desk/print/.*\\.cpp$", "PDF is written in sources of trainees/desk/print"},
+      {"^pqxx", "^trainees/exchange/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/exchange/sync"},
+      {"^hidapi", "^app/window/input/.*\\.cpp$", "HID stays in sources of app/window/input"},
   };
   return table;
 }

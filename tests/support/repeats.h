@@ -1,4 +1,5 @@
-// How often a sweep is repeated: a few times in every run, many times under the ctest label long, which sets the variable.
+// How often a sweep is repeated: a few times in every run, many times under the ctest label long, which sets the
+// variable.
 #pragma once
 
 #include <cstdlib>
