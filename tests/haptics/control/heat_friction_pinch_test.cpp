@@ -77,12 +77,12 @@ TEST(MotorHeat, EnergyBalanceAtTheBeginning) {
   EXPECT_NEAR(heat.winding_c() - 25, 16 * 2.32 * 1e-3 * 3.1 / 12.4, 1e-12);
 }
 
-TEST(Friction, NothingAtRestOrInsideTheDeadBand) {
+TEST(HeatFrictionPinch, NothingAtRestOrInsideTheDeadBand) {
   EXPECT_EQ(friction_torque({}, {}, JointVector::Zero()).norm(), 0);
   EXPECT_EQ(friction_torque({}, {}, JointVector::Constant(0.0199)).norm(), 0);
 }
 
-TEST(Friction, HelpsTheMotionByAtMostSeventyHundredths) {
+TEST(HeatFrictionPinch, HelpsTheMotionByAtMostSeventyHundredths) {
   test::Random random(1);
   const DeviceModel model;
   const FrictionFeedForward p;
@@ -98,7 +98,7 @@ TEST(Friction, HelpsTheMotionByAtMostSeventyHundredths) {
   }
 }
 
-TEST(Friction, FastMotionGetsTheShareOfCoulombAndViscous) {
+TEST(HeatFrictionPinch, FastMotionGetsTheShareOfCoulombAndViscous) {
   const DeviceModel model;
   const FrictionFeedForward p;
   const JointVector torque = friction_torque(model, p, JointVector::Constant(3));
