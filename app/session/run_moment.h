@@ -1,7 +1,7 @@
 // One moment of an attempt as a whole value: what a picture, a screen or a scrub bar needs. Copied between threads.
 //
 // Frame T, SI units. Live it is the newest one (app/window/attempt/attempt_runner.h), in a replay any one
-// (app/playback).
+// (app/session/playback).
 #pragma once
 
 #include "app/session/session.h"

@@ -1,4 +1,4 @@
-// What a PracticeDesk keeps. Only app/screens/practice_desk*.cpp includes this.
+// What a PracticeDesk keeps. Only app/window/practice/practice_desk*.cpp includes this.
 //
 // Thread: the window's.
 #pragma once

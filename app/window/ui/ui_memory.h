@@ -1,6 +1,6 @@
 // What the pieces of Ui share from frame to frame with the layer below them: fonts, keys pressed now, the order of Tab.
 //
-// Kept by UiLayer, reached through ImGui's own context. Only app/screens/ui*.cpp includes this. Thread: the window's.
+// Kept by UiLayer, reached through ImGui's own context. Only app/window/ui/ui*.cpp includes this. Thread: the window's.
 #pragma once
 
 #include <array>

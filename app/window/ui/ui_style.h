@@ -1,4 +1,4 @@
-// ImGui's style and fonts in the theme's colours and sizes. Only app/screens/ui*.cpp includes this. Thread: the
+// ImGui's style and fonts in the theme's colours and sizes. Only app/window/ui/ui*.cpp includes this. Thread: the
 // window's.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Small sets of rows that several of the desk's queries want. Internal to trainees/review.
+// Small sets of rows that several of the desk's queries want. Internal to trainees/desk.
 #pragma once
 
 #include <cstdint>

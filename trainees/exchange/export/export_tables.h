@@ -1,5 +1,5 @@
 // The tables that csv and json export: columns with their units, and the SQL that reads the rows of one attempt or one
-// trainee. Internal to trainees/export.
+// trainee. Internal to trainees/exchange/export.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Words of the Experience API and forms of its values. Internal to trainees/export. Pure.
+// Words of the Experience API and forms of its values. Internal to trainees/exchange/export. Pure.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // A stretch of a station's audit trail with the rows that it speaks of: read in one go, so that SQLite is free while
-// the network is slow. Internal to trainees/sync.
+// the network is slow. Internal to trainees/exchange/sync.
 #pragma once
 
 #include <cstdint>

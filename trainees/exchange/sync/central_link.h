@@ -1,5 +1,5 @@
 // The connection to the central database: transactions, statements with parameters as text, errors of ours. Internal to
-// trainees/sync.
+// trainees/exchange/sync.
 //
 // A writing transaction holds one advisory lock of the centre from beginning to end: stations take turns batch by
 // batch. So two that push at once cannot lock each other out, and an erasure cannot slip past a row that is just coming

@@ -1,4 +1,4 @@
-// Schema of the central PostgreSQL database, all of it in its schema "trocar". Internal to trainees/sync.
+// Schema of the central PostgreSQL database, all of it in its schema "trocar". Internal to trainees/exchange/sync.
 // docs/many_stations.md.
 //
 // Version 2: every row has a number of arrival (column seq); whoever writes holds the lock until the end, so that

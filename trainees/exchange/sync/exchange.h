@@ -1,5 +1,5 @@
 // Pushing and fetching over a connection that is there already: what a desk that is kept fresh does over and over.
-// Internal to trainees/sync.
+// Internal to trainees/exchange/sync.
 #pragma once
 
 #include "trainees/exchange/sync/central_link.h"

@@ -1,5 +1,5 @@
 // What pulling and replicating share: what is at the centre and not here, rows taken one by one, erasures. Internal to
-// trainees/sync.
+// trainees/exchange/sync.
 #pragma once
 
 #include <cstdint>

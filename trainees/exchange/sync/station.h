@@ -1,4 +1,4 @@
-// This database under its own name, and how far a central database has it. Internal to trainees/sync.
+// This database under its own name, and how far a central database has it. Internal to trainees/exchange/sync.
 #pragma once
 
 #include <cstdint>
