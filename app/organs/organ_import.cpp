@@ -12,13 +12,13 @@
 #include "app/organs/volume_files.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 #include "tissue/imaging/labels/label_table_file.h"
 #include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/organ/mesh_alone.h"
 #include "tissue/organ/organ_compiler.h"
 #include "tissue/organ/scene_compiler.h"
 #include "tissue/organ/surface_import.h"
-#include "tissue/organ/utf8_text.h"
 
 namespace trocar {
 namespace {

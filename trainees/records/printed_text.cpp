@@ -3,37 +3,17 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 
 namespace trocar {
 namespace {
 
 constexpr std::size_t kShortestReason = 10;
 
-/// Length of the character that begins there, 0 when it is no UTF-8.
-std::size_t character_at(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0u) == 0x80u; };
-  const unsigned first = byte(at), second = byte(at + 1);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first < 0xE0) return follows(at + 1) ? 2 : 0;
-  if (first >= 0xE0 && first < 0xF0) {
-    const bool shortest = first != 0xE0 || second >= 0xA0, no_surrogate = first != 0xED || second < 0xA0;
-    return follows(at + 1) && follows(at + 2) && shortest && no_surrogate ? 3 : 0;
-  }
-  if (first < 0xF0 || first > 0xF4) return 0;
-  const bool in_range = (first != 0xF0 || second >= 0x90) && (first != 0xF4 || second < 0x90);
-  return follows(at + 1) && follows(at + 2) && follows(at + 3) && in_range ? 4 : 0;
-}
-
 /// Number of characters. @throws InputError: no UTF-8.
 std::size_t characters_of(const std::string& what, const std::string& text) {
-  std::size_t count = 0;
-  for (std::size_t at = 0; at < text.size(); ++count) {
-    const std::size_t length = character_at(text, at);
-    if (length == 0) throw InputError(what + ": is no UTF-8 text");
-    at += length;
-  }
-  return count;
+  if (const auto count = utf8_characters(text)) return *count;
+  throw InputError(what + ": is no UTF-8 text");
 }
 
 bool blank(const std::string& text) {

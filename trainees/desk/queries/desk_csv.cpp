@@ -1,34 +1,14 @@
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "trainees/desk/pages/pages.h"
+#include "trainees/markup/csv.h"
 
 namespace trocar::review {
 namespace {
 
-/// Quoted where it must be. A text that a spreadsheet would compute gets an apostrophe before it.
-std::string field(const std::string& text) {
-  std::string safe = text;
-  if (!safe.empty() && std::string("=+-@\t\r").find(safe[0]) != std::string::npos) safe = "'" + safe;
-  if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
-  std::string out = "\"";
-  for (const char c : safe) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
-/// Shortest text that reads back to the same bits; "" for nothing.
-std::string number(const std::optional<double>& value) {
-  if (!value || !std::isfinite(*value)) return "";
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), *value);
-  return {text.data(), end.ptr};
-}
-
-std::string row(const std::vector<std::string>& cells) {
-  std::string out;
-  for (const std::string& cell : cells) out += (&cell == &cells.front() ? "" : ",") + cell;
-  return out + "\r\n";
+/// "" for nothing, and for what is no finite number.
+std::string csv_number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? trocar::csv_number(*value) : "";
 }
 
 std::string flags(const std::vector<Judgement>& judgements) {
@@ -41,27 +21,28 @@ std::string flags(const std::vector<Judgement>& judgements) {
 
 std::string cohort_csv(const CohortView& view) {
   std::string out =
-      row({"trainee", "name", "exercise", "level", "input", "tries", "best", "last", "pass_at", "peak_force_n",
-           "over_force", "last_utc", "states", "evidence", "n", "decided", "reliability", "rules"});
+      csv_line({"trainee", "name", "exercise", "level", "input", "tries", "best", "last", "pass_at", "peak_force_n",
+                "over_force", "last_utc", "states", "evidence", "n", "decided", "reliability", "rules"});
   for (const CohortEntry& l : selected_lines(view))
-    out += row({field(l.code), field(l.name), field(l.exercise_id), field(l.level), field(l.hand),
-                std::to_string(l.tries), number(l.best), number(l.last), number(l.pass_at), number(l.peak_force_n),
-                std::to_string(l.over_force), field(l.last_utc), field(flags(l.judgements)),
-                field(l.judgements.empty() ? "" : l.judgements.front().evidence),
-                std::to_string(l.judgements.empty() ? l.tries : l.judgements.front().n),
-                std::to_string(l.judgements.empty() ? 0 : l.judgements.front().decided),
-                number(l.judgements.empty() ? std::nullopt : l.judgements.front().reliability),
-                field(view.rules_version)});
+    out += csv_line({csv_text(l.code), csv_text(l.name), csv_text(l.exercise_id), csv_text(l.level), csv_text(l.hand),
+                     std::to_string(l.tries), csv_number(l.best), csv_number(l.last), csv_number(l.pass_at),
+                     csv_number(l.peak_force_n), std::to_string(l.over_force), csv_text(l.last_utc),
+                     csv_text(flags(l.judgements)), csv_text(l.judgements.empty() ? "" : l.judgements.front().evidence),
+                     std::to_string(l.judgements.empty() ? l.tries : l.judgements.front().n),
+                     std::to_string(l.judgements.empty() ? 0 : l.judgements.front().decided),
+                     csv_number(l.judgements.empty() ? std::nullopt : l.judgements.front().reliability),
+                     csv_text(view.rules_version)});
   return out;
 }
 
 std::string trainee_csv(const TraineeView& view) {
-  std::string out = row({"trainee", "exercise", "level", "input", "rules_sha256", "try", "number", "attempt",
-                         "started_utc", "status", "score", "passed", "passed_by_score", "decided_by"});
+  std::string out = csv_line({"trainee", "exercise", "level", "input", "rules_sha256", "try", "number", "attempt",
+                              "started_utc", "status", "score", "passed", "passed_by_score", "decided_by"});
   const auto line = [&](const CurveKey& key, const std::string& at, const CurvePoint& p) {
-    return row({field(view.code), field(key.exercise_id), field(key.level), field(key.hand), field(key.rubric_sha256),
-                at, std::to_string(p.number), field(p.uuid), field(p.utc), field(p.status), number(p.score),
-                p.passed ? "1" : "0", p.passed_by_score ? "1" : "0", field(p.decided_by)});
+    return csv_line({csv_text(view.code), csv_text(key.exercise_id), csv_text(key.level), csv_text(key.hand),
+                     csv_text(key.rubric_sha256), at, std::to_string(p.number), csv_text(p.uuid), csv_text(p.utc),
+                     csv_text(p.status), csv_number(p.score), p.passed ? "1" : "0", p.passed_by_score ? "1" : "0",
+                     csv_text(p.decided_by)});
   };
   for (const CurveView& curve : view.curves)
     for (std::size_t i = 0; i < curve.points.size(); ++i)
@@ -74,21 +55,23 @@ std::string trainee_csv(const TraineeView& view) {
 std::string attempt_csv(const AttemptView& view) {
   const AttemptResult& r = view.result;
   std::string out =
-      row({"attempt", "kind", "name", "value", "unit", "t_s", "severity", "weight", "full_at", "zero_at"});
-  out += row({field(r.uuid), "score", "score", number(r.grade.score), "", "", "", "", "", ""});
+      csv_line({"attempt", "kind", "name", "value", "unit", "t_s", "severity", "weight", "full_at", "zero_at"});
+  out += csv_line({csv_text(r.uuid), "score", "score", csv_number(r.grade.score), "", "", "", "", "", ""});
   const Verdict verdict = view.verdict();
-  out += row({field(r.uuid), "verdict", "passed", verdict.passed ? "1" : "0", "", "", "", "", "", ""});
-  out += row({field(r.uuid), "verdict", "passed_by_score", verdict.by_score ? "1" : "0", "", "", "", "", "", ""});
+  out += csv_line({csv_text(r.uuid), "verdict", "passed", verdict.passed ? "1" : "0", "", "", "", "", "", ""});
+  out +=
+      csv_line({csv_text(r.uuid), "verdict", "passed_by_score", verdict.by_score ? "1" : "0", "", "", "", "", "", ""});
   for (const VerdictOverride& o : view.overrides)
-    out += row({field(r.uuid), "decision", field(o.printed), o.passed ? "1" : "0", "", "", "", "", "", ""});
+    out += csv_line({csv_text(r.uuid), "decision", csv_text(o.printed), o.passed ? "1" : "0", "", "", "", "", "", ""});
   for (const Metric& m : r.grade.metrics)
-    out += row({field(r.uuid), "metric", field(m.name), number(m.value), field(m.unit), "", "", "", "", ""});
+    out += csv_line(
+        {csv_text(r.uuid), "metric", csv_text(m.name), csv_number(m.value), csv_text(m.unit), "", "", "", "", ""});
   for (const Subscore& s : r.grade.subscores)
-    out += row({field(r.uuid), "part", field(s.name), number(s.value), "", "", "", number(s.weight), number(s.full_at),
-                number(s.zero_at)});
+    out += csv_line({csv_text(r.uuid), "part", csv_text(s.name), csv_number(s.value), "", "", "", csv_number(s.weight),
+                     csv_number(s.full_at), csv_number(s.zero_at)});
   for (const Event& e : r.events)
-    out += row({field(r.uuid), "event", field(e.type), number(e.value), field(e.unit), number(e.t_s),
-                severity_name(e.severity), "", "", ""});
+    out += csv_line({csv_text(r.uuid), "event", csv_text(e.type), csv_number(e.value), csv_text(e.unit),
+                     csv_number(e.t_s), severity_name(e.severity), "", "", ""});
   return out;
 }
 

@@ -1,7 +1,8 @@
 #include "trainees/desk/server/url_text.h"
 
 #include <algorithm>
-#include <cstdint>
+
+#include "haptics/utf8.h"
 
 namespace trocar::review {
 namespace {
@@ -32,33 +33,7 @@ void append_hex(std::string& out, char c) {
   out += kDigits[byte & 15];
 }
 
-/// Bytes of the character that begins at `at`; 0 when there is none that is well formed.
-std::size_t character_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(at);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || at + length > text.size()) return 0;
-  std::uint32_t value = first & (0xffU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xc0) != 0x80) return 0;
-    value = value << 6 | (byte(at + i) & 0x3fU);
-  }
-  constexpr std::uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = value >= 0xd800 && value <= 0xdfff;
-  return value < kSmallest[length] || value > 0x10ffff || surrogate ? 0 : length;
-}
-
 }  // namespace
-
-bool well_formed_utf8(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_length(text, at);
-    if (length == 0) return false;
-    at += length;
-  }
-  return true;
-}
 
 std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_space) {
   std::string out;
@@ -76,7 +51,7 @@ std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_s
     if (refused_control(c)) return {};
     out += c;
   }
-  if (!well_formed_utf8(out)) return {};
+  if (!is_utf8(out)) return {};
   return out;
 }
 

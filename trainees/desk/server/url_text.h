@@ -12,8 +12,6 @@
 
 namespace trocar::review {
 
-bool well_formed_utf8(std::string_view text);
-
 /// "%41" becomes "A". @returns nothing for a broken escape, text that is not UTF-8, and control characters but tab and
 /// line ends.
 std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_space);

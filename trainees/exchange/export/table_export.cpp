@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "trainees/exchange/export/csv_text.h"
 #include "trainees/exchange/export/export_tables.h"
+#include "trainees/markup/csv.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {

@@ -27,18 +27,6 @@ TEST(UrlText, RefusesWhatCannotBeDecoded) {
   EXPECT_TRUE(percent_decoded("a%0D%0Ab%09", true)) << "text areas send line ends";
 }
 
-TEST(UrlText, KnowsUtf8) {
-  for (const char* good :
-       {"", "plain", "\xC2\x80", "\xDF\xBF", "\xE0\xA0\x80", "\xEF\xBF\xBF", "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"}) {
-    EXPECT_TRUE(well_formed_utf8(good));
-  }
-  // Overlong forms, surrogates, beyond U+10FFFF, cut off, continuation alone.
-  for (const char* bad : {"\xC0\xAF", "\xC1\xBF", "\xE0\x9F\xBF", "\xF0\x8F\xBF\xBF", "\xED\xA0\x80",
-                          "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xE2\x82", "\xBF"}) {
-    EXPECT_FALSE(well_formed_utf8(bad));
-  }
-}
-
 TEST(UrlText, EncodingIsUndone) {
   std::mt19937 random(7);
   for (int round = 0; round < 500; ++round) {

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "tests/trainees/exchange/export/export_samples.h"
-#include "trainees/exchange/export/csv_text.h"
+#include "trainees/markup/csv.h"
 
-namespace trocar::csv_text_test {
+namespace trocar::csv_test {
 namespace {
 
 /// What a reader of the file has in hand, with the one leading apostrophe taken away.
@@ -87,4 +87,4 @@ TEST(CsvLine, JoinsAndEndsInCrLf) {
 }
 
 }  // namespace
-}  // namespace trocar::csv_text_test
+}  // namespace trocar::csv_test

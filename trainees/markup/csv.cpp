@@ -1,4 +1,4 @@
-#include "trainees/exchange/export/csv_text.h"
+#include "trainees/markup/csv.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "tissue/organ/utf8_text.h"
+#include "haptics/utf8.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace trocar::utf8_text_test {
+namespace trocar::utf8_test {
 namespace {
 
 TEST(Utf8, TakesEveryLengthAndTheEndsOfEachRange) {
@@ -22,4 +22,4 @@ TEST(Utf8, RefusesWhatTheTableLeavesOut) {
 }
 
 }  // namespace
-}  // namespace trocar::utf8_text_test
+}  // namespace trocar::utf8_test
