@@ -198,7 +198,7 @@ void tell_demo(Database& database, const std::vector<Planned>& planned) {
   CurriculumStore curricula(database);
   curricula.add(kMark, mark_text(planned), author);
   for (const DemoPerson& person : demo_people()) curricula.join(person.code, person.group, author);
-  add_demo_opinions(database, author);
+  add_demo_assessments(database, author);
 }
 
 }  // namespace

@@ -48,15 +48,15 @@ const std::vector<DemoPerson>& demo_people() {
   return kPeople;
 }
 
-void add_demo_opinions(Database& database, const Author& author) {
-  OpinionStore opinions(database);
+void add_demo_assessments(Database& database, const Author& author) {
+  AssessmentStore assessments(database);
   AttemptStore attempts(database);
-  opinions.add_note("demo-chen", "", "Stop above the disc, look, then lower the tip slowly until the bar turns green.",
-                    author);
+  assessments.add_note("demo-chen", "",
+                       "Stop above the disc, look, then lower the tip slowly until the bar turns green.", author);
   if (const auto latest = attempts.latest("demo-goran")) {
-    opinions.add_note("demo-goran", latest->uuid,
-                      "Steady and gentle. Come back in two weeks for the attempt that shows it lasts.", author);
-    opinions.sign(latest->uuid, "review", "Seen from beginning to end.", author);
+    assessments.add_note("demo-goran", latest->uuid,
+                         "Steady and gentle. Come back in two weeks for the attempt that shows it lasts.", author);
+    assessments.sign(latest->uuid, "review", "Seen from beginning to end.", author);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar {
 
@@ -27,6 +27,6 @@ struct DemoPerson {
 const std::vector<DemoPerson>& demo_people();
 
 /// A note to the one who is stuck, a signature and a certificate for the one who came experienced.
-void add_demo_opinions(Database& database, const Author& author);
+void add_demo_assessments(Database& database, const Author& author);
 
 }  // namespace trocar

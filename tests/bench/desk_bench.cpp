@@ -72,14 +72,14 @@ BENCHMARK(cohort_unsafe)->Unit(benchmark::kMillisecond);
 
 void trainee(benchmark::State& state) {
   Database& database = full_database();
-  for (auto step : state) benchmark::DoNotOptimize(trainee_picture(database, "P042", {}, kNow));
+  for (auto step : state) benchmark::DoNotOptimize(trainee_detail(database, "P042", {}, kNow));
 }
 BENCHMARK(trainee)->Unit(benchmark::kMillisecond);
 
 void attempt(benchmark::State& state) {
   Database& database = full_database();
   const std::string uuid = AttemptStore(database).latest()->uuid;
-  for (auto step : state) benchmark::DoNotOptimize(attempt_picture_data(database, uuid));
+  for (auto step : state) benchmark::DoNotOptimize(attempt_detail(database, uuid));
 }
 BENCHMARK(attempt)->Unit(benchmark::kMillisecond);
 

@@ -109,7 +109,7 @@ LiveMoment moment_of(const json& from) {
 
 }  // namespace
 
-std::string live_text(const ToldMoment& told) {
+std::string live_text(const StatusSnapshot& told) {
   const json out = {
       {"form", kForm},
       {"process", {{"pid", told.process.pid}, {"boot", told.process.boot}, {"start", told.process.start}}},
@@ -121,12 +121,12 @@ std::string live_text(const ToldMoment& told) {
   return out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::optional<ToldMoment> parse_live_text(const std::string& text) {
+std::optional<StatusSnapshot> parse_live_text(const std::string& text) {
   const json from = json::parse(text, nullptr, false);
   if (!from.is_object() || text_of(from, "form") != kForm) return {};
   const auto process = from.find("process"), moment = from.find("moment");
   if (process == from.end() || !process->is_object() || moment == from.end() || !moment->is_object()) return {};
-  ToldMoment out;
+  StatusSnapshot out;
   out.process = {whole_of(*process, "pid"), text_of(*process, "boot"), whole_of(*process, "start")};
   if (out.process.pid <= 0 || out.process.boot.empty()) return {};
   out.machine = text_of(from, "machine");

@@ -40,7 +40,7 @@ struct LiveMoment {
 inline constexpr std::size_t kLiveEvents = 12;
 
 /// A moment with who told it and when.
-struct ToldMoment {
+struct StatusSnapshot {
   LiveMoment moment = {};
   ProcessIdentity process = {};
   std::string machine = {};  ///< its name in the network
@@ -48,9 +48,9 @@ struct ToldMoment {
   double told_s = 0;  ///< since boot, sleep included
 };
 
-std::string live_text(const ToldMoment& told);
+std::string live_text(const StatusSnapshot& told);
 /// Nothing when the text is none of this form; texts in it are cut to 200 bytes.
-std::optional<ToldMoment> parse_live_text(const std::string& text);
+std::optional<StatusSnapshot> parse_live_text(const std::string& text);
 
 /// The news of a moment: who, what, which phase. Told at once even when nobody looks.
 bool same_news(const LiveMoment& a, const LiveMoment& b);

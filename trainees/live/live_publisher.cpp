@@ -22,7 +22,7 @@ void sweep(LiveFolder& folder) {
   for (const std::string& name : folder.names()) {
     if (folder.age_s(name).value_or(0) < LivePublisher::kLeftFor_s) continue;
     const std::optional<std::string> text = folder.read(name);
-    const std::optional<ToldMoment> told = text ? parse_live_text(*text) : std::nullopt;
+    const std::optional<StatusSnapshot> told = text ? parse_live_text(*text) : std::nullopt;
     if (told && !process_lives(told->process)) folder.remove(name);
   }
 }
@@ -46,8 +46,8 @@ struct LivePublisher::State {
     return look && *look < kLookedFor_s;
   }
 
-  LiveFolder folder;  // the thread's, once it runs
-  ToldMoment told;    // likewise
+  LiveFolder folder;    // the thread's, once it runs
+  StatusSnapshot told;  // likewise
   std::string name;
   std::mutex mutex;
   std::condition_variable come;

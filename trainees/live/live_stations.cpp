@@ -24,7 +24,7 @@ bool lives(const ProcessIdentity& process) {
 }
 
 /// @param look_s how long ago a desk looked before this time; nothing: it did not, or nobody could have answered yet.
-LiveStation judged(ToldMoment told, const std::string& here, std::optional<double> look_s, double file_age_s) {
+LiveStation judged(StatusSnapshot told, const std::string& here, std::optional<double> look_s, double file_age_s) {
   const bool elsewhere = told.machine != here;  // its processes are not to be seen from here, nor is its clock of boot
   LiveStation out;
   out.age_s = std::max(0.0, elsewhere ? file_age_s : since_boot_s() - told.told_s);
@@ -49,7 +49,7 @@ LiveStations look_at_stations(const std::filesystem::path& database) {
   const std::optional<double> look_s = folder.last_look_s();
   for (const std::string& name : folder.names()) {
     const std::optional<std::string> text = folder.read(name);
-    std::optional<ToldMoment> told = text ? parse_live_text(*text) : std::nullopt;
+    std::optional<StatusSnapshot> told = text ? parse_live_text(*text) : std::nullopt;
     const double age_s = folder.age_s(name).value_or(0);
     if (!told) {
       if (text || folder.age_s(name))

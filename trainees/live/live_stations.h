@@ -15,7 +15,7 @@ namespace trocar {
 
 struct LiveStation {
   enum class State : std::uint8_t { kRunning, kQuiet, kEnded };
-  ToldMoment told = {};
+  StatusSnapshot told = {};
   State state = State::kRunning;
   double age_s = 0;  ///< of what it said
 };

@@ -4,7 +4,7 @@
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/verdicts.h"
-#include "trainees/store/row_kinds.h"
+#include "trainees/store/lookup_tables.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {

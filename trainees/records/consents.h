@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar {
 

@@ -205,9 +205,9 @@ ErasurePreview preview_erasure(Database& database, const std::string& trainee, E
   preview.groups = count("membership WHERE trainee_id = ?1");
   preview.accounts = count("account WHERE trainee_id = ?1");
   for (const char* table : {"signature", "rating"})
-    preview.opinions += count(table + (" WHERE " + (training ? kOnAttempts : kOwnWords)));
+    preview.assessments += count(table + (" WHERE " + (training ? kOnAttempts : kOwnWords)));
   if (!training) return preview;
-  preview.opinions += count("verdict_override WHERE " + kOnAttempts);
+  preview.assessments += count("verdict_override WHERE " + kOnAttempts);
   preview.certificates = count("certificate WHERE trainee_id = ?1");
   std::error_code error;
   for (const KeptRecording& recording : recordings_of(database, erased))

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar {
 
@@ -30,7 +30,7 @@ struct ErasurePreview {
   std::string code, trainee_uuid, last_utc;  ///< last_utc: start of the newest attempt, else when the trainee was added
   int attempts = 0;                          ///< emptied with kTraining, else kept without a name
   int notes = 0, consents = 0, groups = 0, accounts = 0;
-  int opinions = 0;  ///< signatures, ratings, overrides: own ones, with kTraining all on the attempts
+  int assessments = 0;  ///< signatures, ratings, overrides: own ones, with kTraining all on the attempts
   int certificates = 0, recordings = 0;  ///< with kTraining; files that are there
 };
 /// @throws InputError as erase_trainee().

@@ -1,7 +1,7 @@
 #include "trainees/records/rating_scales.h"
 
 #include "haptics/input_error.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar {
 

@@ -15,7 +15,7 @@ Verdict verdict_of(AttemptStatus status, bool by_score, const std::optional<Verd
 }
 
 Verdict verdict_of(Database& database, const AttemptResult& result) {
-  const auto decisions = OpinionStore(database).overrides_of(result.uuid);
+  const auto decisions = AssessmentStore(database).overrides_of(result.uuid);
   return verdict_of(result.grade.status, result.grade.passed,
                     decisions.empty() ? std::nullopt : std::optional(decisions.front()));
 }

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "scenarios/scoring/attempt_result.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar {
 

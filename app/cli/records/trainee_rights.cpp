@@ -9,11 +9,11 @@
 #include "app/cli/text_table.h"
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/erasure.h"
-#include "trainees/records/opinions.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar {
@@ -57,7 +57,7 @@ std::string with_it(const ErasurePreview& p) {
                         {p.consents, "consent"},
                         {p.groups, "group"},
                         {p.accounts, "account"},
-                        {p.opinions, "opinion"},
+                        {p.assessments, "opinion"},
                         {p.certificates, "certificate"},
                         {p.recordings, "recording"}});
 }
@@ -140,7 +140,7 @@ int trainee_note(const TraineeRightsOptions& options, std::ostream& out, std::os
   } else if (!options.attempt.empty()) {
     attempt = AttemptStore(database).find(options.attempt).uuid;
   }
-  out << OpinionStore(database).add_note(options.code, attempt, options.text, author_of(options)).uuid << '\n';
+  out << AssessmentStore(database).add_note(options.code, attempt, options.text, author_of(options)).uuid << '\n';
   return 0;
 }
 

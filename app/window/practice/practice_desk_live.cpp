@@ -43,7 +43,7 @@ void PracticeDesk::State::tell_desk(bool guest) {
 void PracticeDesk::State::look_for_message() {
   if (message) return;
   try {
-    message = OpinionStore(*database).unseen_message(trainee);
+    message = AssessmentStore(*database).unseen_message(trainee);
   } catch (const EnvironmentError&) {
   }
 }
@@ -54,7 +54,7 @@ bool PracticeDesk::State::show_message(std::string& notice) {
   if (!message || !notice.empty() || (runs && runner->scene().level.name == kExamLevel)) return false;
   const Note shown = *std::exchange(message, std::nullopt);
   try {
-    OpinionStore(*database).mark_seen(shown.uuid);
+    AssessmentStore(*database).mark_seen(shown.uuid);
   } catch (const EnvironmentError&) {
     return false;  // it comes again
   }

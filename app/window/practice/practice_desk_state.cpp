@@ -120,7 +120,7 @@ void PracticeDesk::State::look_for_note() {
   note.reset();
   if (database->in_memory()) return;
   try {
-    note = OpinionStore(*database).newest_unseen(trainee);
+    note = AssessmentStore(*database).newest_unseen(trainee);
   } catch (const EnvironmentError&) {
   }
 }
@@ -129,7 +129,7 @@ void PracticeDesk::State::look_for_note() {
 void PracticeDesk::State::note_was_met() {
   if (!note) return;
   try {
-    OpinionStore(*database).mark_seen(note->uuid);
+    AssessmentStore(*database).mark_seen(note->uuid);
   } catch (const EnvironmentError&) {
   }
   note.reset();

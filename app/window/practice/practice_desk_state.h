@@ -9,8 +9,8 @@
 #include "app/session/keeping/live_attempt.h"
 #include "app/session/playback/expert_run.h"
 #include "app/window/practice/practice_desk.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/attempt_identity.h"
-#include "trainees/records/opinions.h"
 
 namespace trocar {
 

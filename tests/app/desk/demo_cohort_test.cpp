@@ -10,9 +10,9 @@
 #include "tests/tissue/support/temporary_folder.h"
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/progress/calendar.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 
 namespace trocar::demo_cohort_test {
 namespace {
@@ -54,15 +54,15 @@ TEST(DemoCohort, IsMarkedChainedAndInOrderOfItsDates) {
     EXPECT_EQ(attempt.hand, "invented");
     EXPECT_EQ(attempt.status, "completed") << attempt.trainee;
     later = attempt.started_utc;
-    const AttemptPicture picture = attempt_picture_data(database, attempt.uuid);
-    const std::int64_t began = *seconds_of_utc(attempt.started_utc), ended = *seconds_of_utc(picture.finished_utc);
-    const double ran_s = static_cast<double>(picture.result.device.ticks) / picture.result.device.rate_hz;
+    const AttemptDetail detail = attempt_detail(database, attempt.uuid);
+    const std::int64_t began = *seconds_of_utc(attempt.started_utc), ended = *seconds_of_utc(detail.finished_utc);
+    const double ran_s = static_cast<double>(detail.result.device.ticks) / detail.result.device.rate_hz;
     EXPECT_NEAR(static_cast<double>(ended - began), ran_s, 1.0) << "one invented clock has both";
-    const TraineePicture trainee = trainee_picture(database, attempt.trainee, {}, "2030-01-01T00:00:00Z");
+    const TraineeDetail trainee = trainee_detail(database, attempt.trainee, {}, "2030-01-01T00:00:00Z");
     EXPECT_EQ(trainee.weeks.back().monday, monday_of(ended)) << "the week that it ended in";
   }
   EXPECT_EQ(CurriculumStore(database).members("Demo spring").size(), 4u);
-  ASSERT_EQ(OpinionStore(database).notes_of("demo-chen").size(), 1u);
+  ASSERT_EQ(AssessmentStore(database).notes_of("demo-chen").size(), 1u);
 }
 
 TEST(DemoCohort, ARealDatabaseIsNoneAndIsNeverRemoved) {

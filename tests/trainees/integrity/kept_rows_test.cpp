@@ -12,10 +12,10 @@
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/records/accounts.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
-#include "trainees/records/opinions.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -49,14 +49,14 @@ class KeptRows : public TemporaryFolder {
     curricula.leave("T-1", "winter", kAuthor);
     curricula.add("course", "a = 1\n", kAuthor);
     curricula.add_benchmark({"", "surface-touch", "L1", "time_s", "six people", "median", "", "", 30, 90, 6}, kAuthor);
-    OpinionStore opinions(database);
-    met_ = opinions.add_note("T-1", attempts_[0], "Keep the left hand still.", kAuthor).uuid;
-    opinions.mark_seen(met_);
-    unmet_ = opinions.add_note("T-1", "", "Slower.", kAuthor).uuid;
-    opinions.add_rating(attempts_[0], "GOALS", "efficiency", 3, kAuthor);
-    opinions.sign(attempts_[0], "approval", "", kAuthor);
-    opinions.override_verdict(attempts_[0], false, kWhy, kAuthor);
-    opinions.revoke(opinions.certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor).uuid, kWhy, kAuthor);
+    AssessmentStore assessments(database);
+    met_ = assessments.add_note("T-1", attempts_[0], "Keep the left hand still.", kAuthor).uuid;
+    assessments.mark_seen(met_);
+    unmet_ = assessments.add_note("T-1", "", "Slower.", kAuthor).uuid;
+    assessments.add_rating(attempts_[0], "GOALS", "efficiency", 3, kAuthor);
+    assessments.sign(attempts_[0], "approval", "", kAuthor);
+    assessments.override_verdict(attempts_[0], false, kWhy, kAuthor);
+    assessments.revoke(assessments.certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor).uuid, kWhy, kAuthor);
     ConsentStore(database).record("T-1", "research", true, "I agree.", kAuthor);
     AccountStore(database).add("i.adler", "Ida Adler", Role::kInstructor, "", "correct horse", "");
     TraineeStore(database).ensure_trainee("T-3");
@@ -91,8 +91,8 @@ TEST_F(KeptRows, AreSoundAfterEveryLawfulChange) {
   TraineeStore(database).edit("T-1", "", std::nullopt, "");
   TraineeStore(database).edit("T-1", "Anna Z.", "", kAuthor.account_uuid);
   CurriculumStore(database).join("T-1", "winter", kAuthor);
-  OpinionStore(database).mark_seen(unmet_);
-  OpinionStore(database).mark_seen(unmet_);
+  AssessmentStore(database).mark_seen(unmet_);
+  AssessmentStore(database).mark_seen(unmet_);
   EXPECT_EQ(problems_of(database), "");
   erase_trainee(database, "T-1", ErasureKind::kIdentity, "request of the person", kAuthor);
   EXPECT_EQ(problems_of(database), "");

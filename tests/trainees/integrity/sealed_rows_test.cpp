@@ -5,9 +5,9 @@
 
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/records/accounts.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -26,13 +26,13 @@ class SealedRows : public TemporaryFolder {
     Database database(file_);
     for (const char* code : {"T-1", "T-2"})
       attempts_.push_back(store_attempt(database, sample_start(code), sample_result()).uuid);
-    OpinionStore opinions(database);
-    note_ = opinions.add_note("T-1", attempts_[0], "Keep the left hand still.", kAuthor).uuid;
-    opinions.add_rating(attempts_[0], "GOALS", "efficiency", 3, kAuthor);
+    AssessmentStore assessments(database);
+    note_ = assessments.add_note("T-1", attempts_[0], "Keep the left hand still.", kAuthor).uuid;
+    assessments.add_rating(attempts_[0], "GOALS", "efficiency", 3, kAuthor);
     for (const std::string& attempt : attempts_)
-      signatures_.push_back(opinions.sign(attempt, "approval", "", kAuthor).uuid);
-    opinions.override_verdict(attempts_[0], false, kReason, kAuthor);
-    opinions.revoke(opinions.certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor).uuid, kReason, kAuthor);
+      signatures_.push_back(assessments.sign(attempt, "approval", "", kAuthor).uuid);
+    assessments.override_verdict(attempts_[0], false, kReason, kAuthor);
+    assessments.revoke(assessments.certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor).uuid, kReason, kAuthor);
     CurriculumStore(database).add("course", "a = 1\n", kAuthor);
     CurriculumStore(database).add_benchmark(
         {"", "surface-touch", "L1", "time_s", "six people", "median", "", "", 30, 90, 6}, kAuthor);
@@ -144,10 +144,10 @@ TEST_F(SealedRows, AReorderedTrailIsFound) {
 
 TEST_F(SealedRows, WhichOverrideHoldsDoesNotGoByRowNumbers) {
   Database database(file_);
-  OpinionStore opinions(database);
-  opinions.override_verdict(attempts_[0], true, "Seen again on the film", kAuthor);
+  AssessmentStore assessments(database);
+  assessments.override_verdict(attempts_[0], true, "Seen again on the film", kAuthor);
   ASSERT_EQ(run_without_triggers(file_, "UPDATE verdict_override SET id = 50 WHERE id = 1"), "");
-  EXPECT_TRUE(opinions.overrides_of(attempts_[0])[0].passed);
+  EXPECT_TRUE(assessments.overrides_of(attempts_[0])[0].passed);
   EXPECT_EQ(problems_of(database), "");
 }
 
@@ -156,7 +156,7 @@ TEST_F(SealedRows, AnOldBackupPutBackLosesTheNotesSinceAndIsFound) {
   EXPECT_EQ(problems_of(Database(folder_ / "copy.db")), "");
   {
     Database database(file_);
-    OpinionStore(database).add_note("T-1", "", "Written after the backup.", kAuthor);
+    AssessmentStore(database).add_note("T-1", "", "Written after the backup.", kAuthor);
   }
   for (const char* log : {"-wal", "-shm"}) fs::remove(file_.string() + log);
   fs::copy_file(folder_ / "copy.db", file_, fs::copy_options::overwrite_existing);
@@ -167,7 +167,7 @@ TEST_F(SealedRows, ANoteTakenOutWithItsEntryIsFoundByTheAnchor) {
   std::string last;
   {
     Database database(file_);
-    last = OpinionStore(database).add_note("T-1", "", "The last one.", kAuthor).uuid;
+    last = AssessmentStore(database).add_note("T-1", "", "The last one.", kAuthor).uuid;
   }
   expect_found("DELETE FROM note WHERE uuid = '" + last + "'; DELETE FROM audit WHERE subject = '" + last + "'",
                "anchor: the newest entries are missing");

@@ -7,8 +7,8 @@
 namespace trocar::live_moment_test {
 namespace {
 
-ToldMoment sample() {
-  ToldMoment told;
+StatusSnapshot sample() {
+  StatusSnapshot told;
   told.moment = {.program = "trocar run",
                  .trainee = "T-7",
                  .exercise_id = "surface-touch",
@@ -33,7 +33,7 @@ ToldMoment sample() {
 }
 
 TEST(LiveMoment, ComesBackFromItsTextAsItWas) {
-  const ToldMoment told = sample();
+  const StatusSnapshot told = sample();
   const auto read = parse_live_text(live_text(told));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->moment, told.moment);
@@ -46,7 +46,7 @@ TEST(LiveMoment, ComesBackFromItsTextAsItWas) {
 }
 
 TEST(LiveMoment, NumbersThatAreNoneAreLeftOutAndTextsMayHoldAnything) {
-  ToldMoment told = sample();
+  StatusSnapshot told = sample();
   told.moment.force_n = std::numeric_limits<double>::quiet_NaN();
   told.moment.limit_n = std::numeric_limits<double>::infinity();
   told.moment.trainee = "a\"\\\n\xC3\x28";

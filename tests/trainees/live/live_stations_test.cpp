@@ -148,7 +148,7 @@ TEST_F(LiveStationsTest, AKilledProgramHasEndedUnexpectedlyAndIsForgottenInTime)
 
 TEST_F(LiveStationsTest, AnotherProcessOfTheSameNumberIsNotTakenForIt) {
   LiveFolder folder(database_, LiveFolder::Open::kMake);
-  ToldMoment told;
+  StatusSnapshot told;
   told.moment = moment("T-1");
   told.process = this_process();
   told.machine = machine_name();
@@ -172,7 +172,7 @@ TEST_F(LiveStationsTest, AProgramThatStandsStillDoesNotAnswer) {
 
 TEST_F(LiveStationsTest, OldNewsOfAProgramThatNobodyLookedAtIsNotSilence) {
   LiveFolder folder(database_, LiveFolder::Open::kMake);
-  ToldMoment told;
+  StatusSnapshot told;
   told.moment = moment("T-1");
   told.process = this_process();
   told.machine = machine_name();
@@ -187,7 +187,7 @@ TEST_F(LiveStationsTest, OldNewsOfAProgramThatNobodyLookedAtIsNotSilence) {
 
 TEST_F(LiveStationsTest, AProgramOfAnotherMachineIsJudgedByItsSilenceAlone) {
   LiveFolder folder(database_, LiveFolder::Open::kMake);
-  ToldMoment told;
+  StatusSnapshot told;
   told.moment = moment("T-9");
   told.process = {4, "another boot", 5};
   told.machine = "another-" + machine_name();

@@ -26,25 +26,25 @@ constexpr const char* kWord = "Zimtstern";  // in everything that must go
 
 class Erasure : public TemporaryFolder {
  protected:
-  Erasure() : file_(folder_ / "t.db"), database_(file_), opinions_(database_) {
+  Erasure() : file_(folder_ / "t.db"), database_(file_), assessments_(database_) {
     for (int i = 0; i < 3; ++i) attempts_.push_back(recorded(kCode));
     other_ = recorded("T-other");
     TraineeStore(database_).edit(kCode, "Zimtstern, Anna", "a@zimtstern", "");
-    opinions_.add_note(kCode, attempts_[0], std::string("Zimtstern: keep the left hand still."), kAuthor);
-    opinions_.mark_seen(opinions_.newest_unseen(kCode)->uuid);
-    opinions_.add_note("T-other", other_, "Good.", kAuthor);
-    opinions_.add_rating(attempts_[0], "GOALS", "efficiency", 3, kAuthor);
-    opinions_.sign(attempts_[0], "approval", "", kAuthor);
-    opinions_.sign(other_, "approval", "", kAuthor);
-    opinions_.override_verdict(attempts_[1], true, "The camera was knocked", kAuthor);
-    opinions_.revoke(opinions_.certify(kCode, "surface-touch", "L1", "1", "{}", kAuthor).uuid, "issued too early",
-                     kAuthor);
+    assessments_.add_note(kCode, attempts_[0], std::string("Zimtstern: keep the left hand still."), kAuthor);
+    assessments_.mark_seen(assessments_.newest_unseen(kCode)->uuid);
+    assessments_.add_note("T-other", other_, "Good.", kAuthor);
+    assessments_.add_rating(attempts_[0], "GOALS", "efficiency", 3, kAuthor);
+    assessments_.sign(attempts_[0], "approval", "", kAuthor);
+    assessments_.sign(other_, "approval", "", kAuthor);
+    assessments_.override_verdict(attempts_[1], true, "The camera was knocked", kAuthor);
+    assessments_.revoke(assessments_.certify(kCode, "surface-touch", "L1", "1", "{}", kAuthor).uuid, "issued too early",
+                        kAuthor);
     ConsentStore(database_).record(kCode, "research", true, "I, Zimtstern, agree.", kAuthor);
     CurriculumStore(database_).join(kCode, "autumn", kAuthor);
     const Account account =
         AccountStore(database_).add("zimtstern", "Anna Zimtstern", Role::kTrainee, kCode, "123456", "");
-    opinions_.sign(attempts_[2], "authorship", "", {account.uuid, "Anna Zimtstern"});
-    opinions_.add_rating(attempts_[2], "self", "overall", 3, {account.uuid, "Anna Zimtstern"});
+    assessments_.sign(attempts_[2], "authorship", "", {account.uuid, "Anna Zimtstern"});
+    assessments_.add_rating(attempts_[2], "self", "overall", 3, {account.uuid, "Anna Zimtstern"});
   }
   /// An attempt with a recording of its own.
   std::string recorded(const std::string& trainee) {
@@ -86,7 +86,7 @@ class Erasure : public TemporaryFolder {
   static constexpr const char* kCode = "T-Zimtstern";
   fs::path file_;
   Database database_;
-  OpinionStore opinions_;
+  AssessmentStore assessments_;
   std::vector<std::string> attempts_;
   std::string other_;
 };
@@ -164,10 +164,10 @@ TEST_F(Erasure, IsToldBeforehandAndNothingIsDone) {
   EXPECT_EQ(identity.consents, 1);
   EXPECT_EQ(identity.groups, 1);
   EXPECT_EQ(identity.accounts, 1);
-  EXPECT_EQ(identity.opinions, 2) << "the own signature and rating";
+  EXPECT_EQ(identity.assessments, 2) << "the own signature and rating";
   EXPECT_EQ(identity.certificates + identity.recordings, 0);
   const ErasurePreview training = preview_erasure(database_, kCode, ErasureKind::kTraining);
-  EXPECT_EQ(training.opinions, 5);
+  EXPECT_EQ(training.assessments, 5);
   EXPECT_EQ(training.certificates, 1);
   EXPECT_EQ(training.recordings, 3);
   EXPECT_EQ(sql::query_text(database_.connection(), "SELECT max(position) FROM audit"), before);
@@ -247,8 +247,8 @@ TEST_F(Erasure, SaysThatAReaderKeepsTheLog) {
 
 TEST_F(Erasure, NothingCanBeSaidOfWhatHasGone) {
   erase(ErasureKind::kTraining);
-  EXPECT_THROW(opinions_.add_note(kCode, "", "x", kAuthor), InputError);
-  EXPECT_NE(message_of<InputError>([&] { opinions_.sign(attempts_[0], "review", "", kAuthor); }).find("were erased"),
+  EXPECT_THROW(assessments_.add_note(kCode, "", "x", kAuthor), InputError);
+  EXPECT_NE(message_of<InputError>([&] { assessments_.sign(attempts_[0], "review", "", kAuthor); }).find("were erased"),
             std::string::npos);
   EXPECT_THROW(TraineeStore(database_).ensure_trainee("Erased-0123"), InputError)
       << "a code that would look like an erased one";

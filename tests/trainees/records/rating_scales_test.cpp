@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "tests/trainees/records/store_samples.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -26,7 +26,7 @@ class Ratings : public testing::Test {
   std::vector<RatingSheet> sheets() { return rating_sheets(store_.ratings_of(attempt_), goals_scale()); }
 
   Database database_{":memory:"};
-  OpinionStore store_{database_};
+  AssessmentStore store_{database_};
   const Author ida_{"0192-ida", "Ida Adler"}, otto_{"", "Otto"};
   std::string attempt_;
 };

@@ -24,13 +24,13 @@ class Verdicts : public testing::Test {
     return store_attempt(database_, start, result);
   }
   void decide(const AttemptId& id, bool passed, const std::string& by = "Dr B") {
-    opinions_.override_verdict(id.uuid, passed, kReason, {"", by});
+    assessments_.override_verdict(id.uuid, passed, kReason, {"", by});
   }
   AttemptSummary summary(const AttemptId& id) { return store_.find(id.uuid); }
 
   Database database_{":memory:"};
   AttemptStore store_{database_};
-  OpinionStore opinions_{database_};
+  AssessmentStore assessments_{database_};
 };
 
 TEST(JudgedPassed, IsTheScoreUnlessSomebodyDecidedAndNeverWhatTheDeviceEnded) {
@@ -109,24 +109,24 @@ TEST_F(Verdicts, AnAttemptThatWasLeftCanBeDecidedOneThatTheDeviceEndedCannot) {
   EXPECT_TRUE(summary(left).passed);
   EXPECT_NE(message_of<InputError>([&] { decide(broken, true); }).find("ended by the device or is void"),
             std::string::npos);
-  EXPECT_TRUE(opinions_.overrides_of(broken.uuid).empty());
+  EXPECT_TRUE(assessments_.overrides_of(broken.uuid).empty());
 }
 
 TEST_F(Verdicts, ACertificateCitesNoAttemptThatIsNotPassed) {
   const AttemptId good = attempt(90), other = store_attempt(database_, sample_start("T-2"), sample_result(90));
   const auto certify = [&](const AttemptId& id) {
     return message_of<InputError>([&] {
-      opinions_.certify("T-1", "surface-touch", "L1", "1", "{\"attempt\":\"" + id.uuid + "\"}", {"", "Dr B"});
+      assessments_.certify("T-1", "surface-touch", "L1", "1", "{\"attempt\":\"" + id.uuid + "\"}", {"", "Dr B"});
     });
   };
   decide(good, false, "Dr A");
   EXPECT_NE(certify(good).find("is not passed by decision of Dr A"), std::string::npos) << certify(good);
   EXPECT_NE(certify(other).find("none of this trainee's"), std::string::npos);
   EXPECT_NE(certify(attempt(40)).find("is not passed, so"), std::string::npos);
-  EXPECT_TRUE(opinions_.certificates_of("").empty());
+  EXPECT_TRUE(assessments_.certificates_of("").empty());
   decide(good, true);
   EXPECT_EQ(certify(good), "");
-  EXPECT_EQ(opinions_.certificates_of("T-1").size(), 1u);
+  EXPECT_EQ(assessments_.certificates_of("T-1").size(), 1u);
   EXPECT_EQ(database_.check(), std::vector<std::string>{});
 }
 

@@ -7,8 +7,8 @@
 
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/records/accounts.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -23,13 +23,15 @@ constexpr const char* kPassword = "correct horse";
 /// What the desk and the window write, each against an open database.
 std::vector<std::pair<std::string, std::function<void(Database&)>>> writings() {
   return {
-      {"note", [](Database& d) { OpinionStore(d).add_note("T-1", "", "Slower.", kAuthor); }},
-      {"note met", [](Database& d) { OpinionStore(d).mark_seen(OpinionStore(d).newest_unseen("T-1")->uuid); }},
-      {"signature", [](Database& d) { OpinionStore(d).sign(AttemptStore(d).latest()->uuid, "review", "", kAuthor); }},
-      {"certificate", [](Database& d) { OpinionStore(d).certify("T-1", "surface-touch", "L2", "1", "{}", kAuthor); }},
+      {"note", [](Database& d) { AssessmentStore(d).add_note("T-1", "", "Slower.", kAuthor); }},
+      {"note met", [](Database& d) { AssessmentStore(d).mark_seen(AssessmentStore(d).newest_unseen("T-1")->uuid); }},
+      {"signature",
+       [](Database& d) { AssessmentStore(d).sign(AttemptStore(d).latest()->uuid, "review", "", kAuthor); }},
+      {"certificate",
+       [](Database& d) { AssessmentStore(d).certify("T-1", "surface-touch", "L2", "1", "{}", kAuthor); }},
       {"revocation",
        [](Database& d) {
-         OpinionStore(d).revoke(OpinionStore(d).certificates_of("")[0].uuid, "issued too early", kAuthor);
+         AssessmentStore(d).revoke(AssessmentStore(d).certificates_of("")[0].uuid, "issued too early", kAuthor);
        }},
       {"account", [](Database& d) { AccountStore(d).add("second", "Second", Role::kInstructor, "", kPassword, ""); }},
       {"password", [](Database& d) { AccountStore(d).set_password("i.adler", "a longer secret", ""); }},
@@ -43,8 +45,8 @@ class ReadOnly : public TemporaryFolder {
   ReadOnly() : file_(folder_ / "shut" / "t.db") {
     Database database(file_);
     const std::string attempt = store_attempt(database, sample_start("T-1"), sample_result()).uuid;
-    OpinionStore(database).add_note("T-1", attempt, "Keep the left hand still.", kAuthor);
-    OpinionStore(database).certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor);
+    AssessmentStore(database).add_note("T-1", attempt, "Keep the left hand still.", kAuthor);
+    AssessmentStore(database).certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor);
     AccountStore(database).add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
     before_ = state(database);
     fs::permissions(folder_, fs::perms(0755));

@@ -12,7 +12,7 @@
 #include "tests/support/repeats.h"
 #include "tests/trainees/records/store_samples.h"
 #include "tests/trainees/store/next_schema.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -38,7 +38,7 @@ void committed(int pipe, char kind, const std::string& uuid) {
   try {
     Database database(file);
     AttemptStore attempts(database);
-    OpinionStore opinions(database);
+    AssessmentStore assessments(database);
     while (true) {
       const AttemptId id = attempts.begin_attempt(sample_start("T-killed"));
       const std::string attempt = id.uuid;
@@ -46,10 +46,10 @@ void committed(int pipe, char kind, const std::string& uuid) {
       std::this_thread::sleep_for(std::chrono::milliseconds(3));  // the run
       attempts.finish_attempt(id, sample_result());
       committed(pipe, 'a', attempt);
-      committed(pipe, 'n', opinions.add_note("T-killed", attempt, "Slower.", kAuthor).uuid);
-      committed(pipe, 's', opinions.sign(attempt, "review", "", kAuthor).uuid);
-      committed(pipe, 'o', opinions.override_verdict(attempt, true, "The camera was knocked", kAuthor).uuid);
-      opinions.mark_seen(opinions.newest_unseen("T-killed")->uuid);
+      committed(pipe, 'n', assessments.add_note("T-killed", attempt, "Slower.", kAuthor).uuid);
+      committed(pipe, 's', assessments.sign(attempt, "review", "", kAuthor).uuid);
+      committed(pipe, 'o', assessments.override_verdict(attempt, true, "The camera was knocked", kAuthor).uuid);
+      assessments.mark_seen(assessments.newest_unseen("T-killed")->uuid);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

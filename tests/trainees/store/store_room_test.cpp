@@ -12,10 +12,10 @@
 #include "tests/trainees/records/store_samples.h"
 #include "tests/trainees/store/next_schema.h"
 #include "trainees/records/accounts.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
-#include "trainees/records/opinions.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::store_room_test {
@@ -34,17 +34,19 @@ struct Write {
 /// One of every kind.
 const std::vector<Write>& writes() {
   static const std::vector<Write> kWrites{
-      {"note",
-       [](Database& d, const std::string& a) { OpinionStore(d).add_note("T-1", a, std::string(4000, 'x'), kAuthor); }},
+      {"note", [](Database& d,
+                  const std::string& a) { AssessmentStore(d).add_note("T-1", a, std::string(4000, 'x'), kAuthor); }},
       {"rating",
-       [](Database& d, const std::string& a) { OpinionStore(d).add_rating(a, "GOALS", "efficiency", 3, kAuthor); }},
+       [](Database& d, const std::string& a) { AssessmentStore(d).add_rating(a, "GOALS", "efficiency", 3, kAuthor); }},
       {"signature",
-       [](Database& d, const std::string& a) { OpinionStore(d).sign(a, "review", std::string(4000, 'x'), kAuthor); }},
+       [](Database& d, const std::string& a) {
+         AssessmentStore(d).sign(a, "review", std::string(4000, 'x'), kAuthor);
+       }},
       {"override",
-       [](Database& d, const std::string& a) { OpinionStore(d).override_verdict(a, true, kReason, kAuthor); }},
+       [](Database& d, const std::string& a) { AssessmentStore(d).override_verdict(a, true, kReason, kAuthor); }},
       {"certificate",
        [](Database& d, const std::string&) {
-         OpinionStore(d).certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor);
+         AssessmentStore(d).certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor);
        }},
       {"curriculum",
        [](Database& d, const std::string&) { CurriculumStore(d).add("course", std::string(20000, '#'), kAuthor); }},
@@ -65,7 +67,7 @@ class StoreRoom : public TemporaryFolder {
   StoreRoom() : file_(folder_ / "t.db") {
     Database database(file_);
     attempt_ = store_attempt(database, sample_start("T-1"), sample_result()).uuid;
-    OpinionStore(database).add_note("T-1", attempt_, "There before.", kAuthor);
+    AssessmentStore(database).add_note("T-1", attempt_, "There before.", kAuthor);
   }
   static std::int64_t rows(const Database& database) {
     std::int64_t all = 0;
@@ -126,7 +128,7 @@ TEST_F(StoreRoom, AFullDiskRefusesEachWholeAndLaterTakesIt) {
 TEST_F(StoreRoom, ADamagedPageIsFoundAndSaidWhereItIsRead) {
   {
     Database database(file_);
-    for (int i = 0; i < 300; ++i) OpinionStore(database).add_note("T-1", "", std::string(1000, 'x'), kAuthor);
+    for (int i = 0; i < 300; ++i) AssessmentStore(database).add_note("T-1", "", std::string(1000, 'x'), kAuthor);
     sql::query_integer(database.connection(), "PRAGMA wal_checkpoint(TRUNCATE)");
   }
   const auto size = fs::file_size(file_);

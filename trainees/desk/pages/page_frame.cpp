@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "trainees/desk/server/told_text.h"
+#include "trainees/desk/server/path_redaction.h"
 #include "trainees/markup/html.h"
 #include "trainees/markup/svg.h"
 
@@ -160,7 +160,7 @@ std::string refused_field(const Frame& frame, const std::string& form) {
 }
 
 std::string sentence(const std::string& message) {
-  std::string out = told_without_folders(message);
+  std::string out = without_folders(message);
   if (!out.empty() && out[0] >= 'a' && out[0] <= 'z') out[0] = static_cast<char>(out[0] - 32);
   if (!out.empty() && std::string(".!?").find(out.back()) == std::string::npos) out += '.';
   return out;

@@ -3,7 +3,7 @@
 #include "trainees/desk/pages/pages.h"
 #include "trainees/live/live_stations.h"
 #include "trainees/markup/html.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar::review {
 namespace {
@@ -156,7 +156,7 @@ std::string station_page(const LiveStations& view, Frame frame) {
 std::string station_message_page(const std::string& trainee, const std::string& now, const std::string& problem,
                                  const std::string& text, Frame frame) {
   frame.title = "Write to " + trainee;
-  const std::string most = std::to_string(OpinionStore::kLongestMessage);
+  const std::string most = std::to_string(AssessmentStore::kLongestMessage);
   return document(
       frame, "<div class=\"title\"><h1>Write to " + escape_html(trainee) + "</h1><p class=\"dim\">" + escape_html(now) +
                  "</p></div>" +

@@ -84,9 +84,9 @@ std::vector<double> of_metric(const Values& values, const std::string& name) {
   return at == values.end() ? std::vector<double>{} : at->second;
 }
 
-MetricPicture picture_of(const Metric& metric, const std::vector<PastAttempt>& earlier, const Values& cohort,
-                         const Values& experts) {
-  MetricPicture out;
+MetricDetail metric_detail(const Metric& metric, const std::vector<PastAttempt>& earlier, const Values& cohort,
+                           const Values& experts) {
+  MetricDetail out;
   out.name = metric.name;
   out.unit = metric.unit;
   out.value = metric.value;
@@ -99,21 +99,21 @@ MetricPicture picture_of(const Metric& metric, const std::vector<PastAttempt>& e
   return out;
 }
 
-void add_record(sqlite3* connection, AttemptPicture& picture) {
+void add_record(sqlite3* connection, AttemptDetail& detail) {
   sql::Statement row(connection,
                      "SELECT coalesce(finished_utc, ''), coalesce(row_hash, ''), program FROM attempt WHERE id = ?");
-  row.bind(picture.summary.row).step();
-  picture.finished_utc = row.text(0);
-  picture.row_hash = row.text(1);
-  picture.program = row.text(2);
+  row.bind(detail.summary.row).step();
+  detail.finished_utc = row.text(0);
+  detail.row_hash = row.text(1);
+  detail.program = row.text(2);
 }
 
 }  // namespace
 
-AttemptPicture attempt_picture_data(Database& database, const std::string& name) {
+AttemptDetail attempt_detail(Database& database, const std::string& name) {
   sqlite3* connection = database.connection();
   const AttemptStore store(database);
-  AttemptPicture out;
+  AttemptDetail out;
   out.summary = store.find(name);
   if (out.summary.status == "running") throw InputError("attempt " + out.summary.uuid + ": still runs");
   out.result = store.load(out.summary.row);
@@ -128,7 +128,7 @@ AttemptPicture attempt_picture_data(Database& database, const std::string& name)
   const Values of_cohort = values_of(connection, one_of_each(connection, out.summary)),
                of_experts = values_of(connection, experts);
   for (const Metric& metric : out.result.grade.metrics)
-    out.metrics.push_back(picture_of(metric, out.earlier, of_cohort, of_experts));
+    out.metrics.push_back(metric_detail(metric, out.earlier, of_cohort, of_experts));
   return out;
 }
 

@@ -11,7 +11,7 @@
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/queries/level_reader.h"
-#include "trainees/desk/server/told_text.h"
+#include "trainees/desk/server/path_redaction.h"
 #include "trainees/markup/html.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/replica_facts.h"
@@ -44,9 +44,8 @@ void add_trace(AttemptView& view, Desk& desk) {
       view.no_trace =
           desk::of_erased(desk.database.connection(), view.result.uuid)
               ? "The recording was erased with the training data."
-          : there
-              ? sentence("The recording cannot be read: " + told_without_folders(error.what(), desk.database.file()))
-              : "The recording is not in its place any more.";
+          : there ? sentence("The recording cannot be read: " + without_folders(error.what(), desk.database.file()))
+                  : "The recording is not in its place any more.";
     }
   }
 }
@@ -60,18 +59,18 @@ void add_film(AttemptView& view, Desk& desk) {
 }
 
 /// Own earlier attempts; an expert's for staff only: a trainee sees nobody else's.
-void add_rivals(AttemptView& view, const AttemptPicture& picture, bool staff) {
+void add_rivals(AttemptView& view, const AttemptDetail& detail, bool staff) {
   const PastAttempt* best = nullptr;
-  for (const PastAttempt& attempt : picture.earlier)
+  for (const PastAttempt& attempt : detail.earlier)
     if (attempt.summary.score && (best == nullptr || *attempt.summary.score > *best->summary.score)) best = &attempt;
   if (best != nullptr) view.rivals.push_back({"own best before", best->summary.uuid, best->summary.score});
-  if (!picture.earlier.empty())
+  if (!detail.earlier.empty())
     view.rivals.push_back(
-        {"own attempt before", picture.earlier.front().summary.uuid, picture.earlier.front().summary.score});
-  if (staff && !picture.experts.empty()) {
-    const AttemptSummary& expert = picture.experts.front();
-    if (expert.uuid != picture.result.uuid)
-      view.rivals.push_back({expert.board == picture.result.board ? "expert, same board" : "expert, another board",
+        {"own attempt before", detail.earlier.front().summary.uuid, detail.earlier.front().summary.score});
+  if (staff && !detail.experts.empty()) {
+    const AttemptSummary& expert = detail.experts.front();
+    if (expert.uuid != detail.result.uuid)
+      view.rivals.push_back({expert.board == detail.result.board ? "expert, same board" : "expert, another board",
                              expert.uuid, expert.score});
   }
 }
@@ -135,14 +134,14 @@ std::string short_words(const AttemptView& view) {
 }  // namespace
 
 AttemptView attempt_view(Desk& desk, const Request& request, const std::string& uuid) {
-  const AttemptPicture picture = attempt_picture_data(desk.database, uuid);
+  const AttemptDetail detail = attempt_detail(desk.database, uuid);
   AttemptView view;
-  view.result = picture.result;
-  view.number = picture.summary.row;
+  view.result = detail.result;
+  view.number = detail.summary.row;
   view.exercise = exercise_title(desk.database, view.result.exercise_id);
-  view.program = picture.program;
-  view.finished_utc = picture.finished_utc;
-  view.row_hash = picture.row_hash;
+  view.program = detail.program;
+  view.finished_utc = detail.finished_utc;
+  view.row_hash = detail.row_hash;
   view.chain_position = chain_position(desk.database, view.result.uuid);
   const LevelFacts facts = LevelReader(desk).of(view.result.rubric_sha256, view.result.level);
   view.pass_at = facts.pass_at;
@@ -157,15 +156,15 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   if (desk.sources.metric_words)
     for (const Metric& metric : view.result.grade.metrics)
       view.metric_words[metric.name] = desk.sources.metric_words(metric.name);
-  const OpinionStore opinions(desk.database);
-  view.signatures = opinions.signatures_of(view.result.uuid);
-  view.overrides = opinions.overrides_of(view.result.uuid);
-  view.ratings = opinions.ratings_of(view.result.uuid);
-  for (Note& note : opinions.notes_of(view.result.trainee))
+  const AssessmentStore assessments(desk.database);
+  view.signatures = assessments.signatures_of(view.result.uuid);
+  view.overrides = assessments.overrides_of(view.result.uuid);
+  view.ratings = assessments.ratings_of(view.result.uuid);
+  for (Note& note : assessments.notes_of(view.result.trainee))
     if (note.attempt_uuid == view.result.uuid) view.notes.push_back(std::move(note));
   add_certificates(view, desk.database);
   view.curve_decisions = decisions_of_curve(desk.database, view.result);
-  add_rivals(view, picture, is_staff(request));
+  add_rivals(view, detail, is_staff(request));
   const ProgressRules rules = rules_in_force(desk.database);
   view.rules_version = rules.version;
   view.late_share = rules.late_share;

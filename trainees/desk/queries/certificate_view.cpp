@@ -37,7 +37,7 @@ std::vector<CurveDecision> decisions_of_curve(Database& database, const AttemptR
 }
 
 void add_certificates(AttemptView& view, Database& database) {
-  for (Certificate& certificate : OpinionStore(database).certificates_of(view.result.trainee)) {
+  for (Certificate& certificate : AssessmentStore(database).certificates_of(view.result.trainee)) {
     const bool of_this = cites(certificate, view.result.uuid);
     const bool same = certificate.exercise_id == view.result.exercise_id && certificate.level == view.result.level;
     if (of_this || same) view.certificates.push_back({std::move(certificate), of_this});
@@ -46,10 +46,10 @@ void add_certificates(AttemptView& view, Database& database) {
 
 ShakenCertificates shaken_certificates(Database& database, const std::vector<Certificate>& certificates) {
   ShakenCertificates out;
-  const OpinionStore opinions(database);
+  const AssessmentStore assessments(database);
   for (const Certificate& certificate : certificates) {
     if (!certificate.revoked_utc.empty()) continue;
-    const auto decisions = opinions.overrides_of(cited(certificate));
+    const auto decisions = assessments.overrides_of(cited(certificate));
     if (decisions.empty() || decisions.front().passed) continue;
     const VerdictOverride& last = decisions.front();
     out[certificate.uuid] = "The attempt that it cites was decided not passed by " + last.printed + " on " +

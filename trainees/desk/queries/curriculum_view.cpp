@@ -136,7 +136,7 @@ void add_groups(CurriculumView& view, const CurriculumStore& store) {
 }
 
 DifficultyView difficulties(Database& database, const ProgressRules& rules, const std::vector<Choice>& exercises) {
-  const RaschPicture rasch = rasch_picture(database, rules);
+  const RaschReport rasch = rasch_report(database, rules);
   DifficultyView out;
   out.attempts = rasch.attempts;
   out.missing = rasch.missing;

@@ -1,4 +1,4 @@
-// What the pages of the desk ask of the database: the cohort in a line each, one trainee's picture, one attempt's.
+// What the pages of the desk ask of the database: the cohort in a line each, one trainee's detail, one attempt's.
 //
 // Everything is derived from the attempts as they stand; nothing is stored. Curves are never mixed over input or rubric
 // (CurveKey). With 10^5 attempts of 500 trainees the cohort takes under 150 ms of CPU, an attempt under 100 ms
@@ -16,8 +16,8 @@
 #include "trainees/progress/learning_curve.h"
 #include "trainees/progress/rasch.h"
 #include "trainees/progress/retention.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 
 namespace trocar {
 
@@ -61,7 +61,7 @@ std::vector<CohortLine> cohort_lines(Database& database, const ProgressRules& ru
 void sort_by_gravity(std::vector<CohortLine>& lines);
 
 /// How somebody stands at one exercise, level, input and rubric, and the cohort beside it.
-struct CurvePicture {
+struct CurveDetail {
   LearningCurve curve = {};
   std::vector<CusumPoint> cusum = {};
   Competence competence = {};
@@ -78,11 +78,11 @@ struct WeekMinutes {
   int attempts = 0;
 };
 
-struct TraineePicture {
+struct TraineeDetail {
   std::string code, name = {}, created_utc = {};
   bool training_erased = false;  ///< then there are no curves and no weeks
   std::vector<std::string> groups = {};
-  std::vector<CurvePicture> curves = {};          ///< newest first
+  std::vector<CurveDetail> curves = {};           ///< newest first
   std::vector<Certificate> certificates = {};     ///< newest first, revoked ones too
   std::vector<Note> notes = {};                   ///< newest first
   std::vector<WeekMinutes> weeks = {};            ///< oldest first; no week between is left out
@@ -96,15 +96,15 @@ struct TraineePicture {
 };
 
 /// @throws InputError: no such trainee.
-TraineePicture trainee_picture(Database& database, const std::string& code, const ProgressRules& rules,
-                               const std::string& now_utc);
+TraineeDetail trainee_detail(Database& database, const std::string& code, const ProgressRules& rules,
+                             const std::string& now_utc);
 
 /// An item of the Rasch model.
 struct RaschItem {
   std::string exercise_id, level, hand;
   RaschEstimate estimate = {};
 };
-struct RaschPicture {
+struct RaschReport {
   int attempts = 0;
   std::vector<RaschItem> items = {};  ///< easiest first; only with a standard error that the rules allow
   std::map<std::string, RaschEstimate> abilities = {};  ///< by the trainee's row as text
@@ -112,12 +112,12 @@ struct RaschPicture {
   std::string missing = {};  ///< one sentence, where nothing can be estimated
 };
 /// Over all attempts of the database, as they count; nothing before the rules' number of attempts.
-RaschPicture rasch_picture(Database& database, const ProgressRules& rules);
+RaschReport rasch_report(Database& database, const ProgressRules& rules);
 
 inline constexpr int kEarlierAttempts = 50, kExpertAttempts = 10;
 
 /// Values of one metric round an attempt.
-struct MetricPicture {
+struct MetricDetail {
   std::string name, unit;
   std::optional<double> value = {};
   OwnValues own = {};                    ///< best is left empty: which way is better the metric does not say
@@ -126,17 +126,17 @@ struct MetricPicture {
   std::optional<double> expert = {};  ///< median of the expert attempts
 };
 
-struct AttemptPicture {
+struct AttemptDetail {
   AttemptSummary summary = {};
   AttemptResult result = {};
   std::string finished_utc = {}, row_hash = {}, program = {};
-  std::vector<MetricPicture> metrics = {};  ///< in the result's order
-  std::vector<PastAttempt> earlier = {};    ///< own graded ones of the same curve before this one, newest first
+  std::vector<MetricDetail> metrics = {};  ///< in the result's order
+  std::vector<PastAttempt> earlier = {};   ///< own graded ones of the same curve before this one, newest first
   std::vector<AttemptSummary> experts =
       {};  ///< hand "expert", same exercise, level and rubric, newest first; same board first
 };
 
 /// @param name as AttemptStore::find takes it. @throws InputError: unknown, several, still running.
-AttemptPicture attempt_picture_data(Database& database, const std::string& name);
+AttemptDetail attempt_detail(Database& database, const std::string& name);
 
 }  // namespace trocar

@@ -20,10 +20,10 @@ CurvePoint point_of(const AttemptSummary& s) {
   return {s.uuid, s.started_utc, s.status, s.score, s.passed, s.row, s.decided_by, s.passed_by_score};
 }
 
-CurveView curve_view(const CurvePicture& picture, const std::map<std::string, std::string>& titles, LevelReader& levels,
+CurveView curve_view(const CurveDetail& detail, const std::map<std::string, std::string>& titles, LevelReader& levels,
                      const ProgressRules& rules) {
   CurveView out;
-  const LearningCurve& curve = picture.curve;
+  const LearningCurve& curve = detail.curve;
   out.key = curve.key;
   const auto title = titles.find(curve.key.exercise_id);
   out.title = title == titles.end() || title->second.empty() ? curve.key.exercise_id : title->second;
@@ -38,22 +38,22 @@ CurveView curve_view(const CurvePicture& picture, const std::map<std::string, st
   out.passed = curve.passed;
   out.in_a_row = curve.in_a_row;
   out.trained_s = curve.trained_s;
-  for (const Benchmark& benchmark : picture.benchmarks)
+  for (const Benchmark& benchmark : detail.benchmarks)
     if (!out.benchmark && benchmark.metric == "score") out.benchmark = benchmark;
-  for (const CohortPoint& point : picture.cohort) out.cohort.push_back({point.attempt, point.people, point.scores});
-  out.cusum = picture.cusum;
+  for (const CohortPoint& point : detail.cohort) out.cohort.push_back({point.attempt, point.people, point.scores});
+  out.cusum = detail.cusum;
   out.rule = rules.cusum;
-  out.judgements = picture.judgements;
-  out.reliability = picture.reliability;
+  out.judgements = detail.judgements;
+  out.reliability = detail.reliability;
   return out;
 }
 
 std::string days_words(int days) { return std::to_string(days) + " days after the certificate"; }
 
-void add_due(TraineeView& view, const CurvePicture& picture, const std::string& title) {
-  for (const RetentionDate& date : picture.retention) {
+void add_due(TraineeView& view, const CurveDetail& detail, const std::string& title) {
+  for (const RetentionDate& date : detail.retention) {
     const bool open = date.state == RetentionDate::State::kDue || date.state == RetentionDate::State::kMissed;
-    view.due.push_back({title, picture.curve.key.level, date.due_utc,
+    view.due.push_back({title, detail.curve.key.level, date.due_utc,
                         days_words(date.days) + ": " + retention_state_name(date.state), open});
   }
 }
@@ -177,7 +177,7 @@ CohortView cohort_view(Desk& desk, const Request& request) {
 
 TraineeView trainee_view(Desk& desk, const Request& request) {
   const ProgressRules rules = rules_in_force(desk.database);
-  TraineePicture picture = trainee_picture(desk.database, argument(request.arguments, "code"), rules, request.now_utc);
+  TraineeDetail picture = trainee_detail(desk.database, argument(request.arguments, "code"), rules, request.now_utc);
   TraineeView view;
   view.code = picture.code;
   view.name = picture.name;
@@ -185,7 +185,7 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   const std::vector<Choice> exercises = exercise_choices(desk.database);
   const std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
   LevelReader levels(desk);
-  for (const CurvePicture& curve : picture.curves) {
+  for (const CurveDetail& curve : picture.curves) {
     view.curves.push_back(curve_view(curve, titles, levels, rules));
     add_due(view, curve, view.curves.back().title);
   }

@@ -13,7 +13,7 @@ namespace trocar::review {
 
 /// Name, own code, token, demo of the one who asks.
 Frame frame_of(const Request& request, const Desk& desk);
-/// Who writes, as opinions are stored.
+/// Who writes, as assessments are stored.
 Author author_of(const Request& request);
 bool is_staff(const Request& request);
 /// A number from 1 to a million of a page's address, else `otherwise`.

@@ -48,24 +48,24 @@ struct Cells {
   }
 };
 
-void add_items(const Cells& cells, const RaschFit& fit, const ProgressRules& rules, RaschPicture& picture) {
+void add_items(const Cells& cells, const RaschFit& fit, const ProgressRules& rules, RaschReport& report) {
   std::map<std::string, Item> items;
   for (const auto& [key, cell] : cells.all) items[cell.item] = key.second;
   for (const RaschEstimate& estimate : fit.items) {
     const auto& [exercise, level, hand] = items[estimate.name];
-    if (estimate.standard_error < rules.rasch_largest_se) picture.items.push_back({exercise, level, hand, estimate});
+    if (estimate.standard_error < rules.rasch_largest_se) report.items.push_back({exercise, level, hand, estimate});
   }
-  std::stable_sort(picture.items.begin(), picture.items.end(),
+  std::stable_sort(report.items.begin(), report.items.end(),
                    [](const RaschItem& a, const RaschItem& b) { return a.estimate.logit < b.estimate.logit; });
 }
 
 }  // namespace
 
-RaschPicture rasch_picture(Database& database, const ProgressRules& rules) {
+RaschReport rasch_report(Database& database, const ProgressRules& rules) {
   Cells cells;
   cells.add(database.connection(), kCells);
   cells.add(database.connection(), corrections());
-  RaschPicture out;
+  RaschReport out;
   out.attempts = cells.attempts;
   if (out.attempts < rules.rasch_least_attempts) {
     out.missing = "There are " + std::to_string(out.attempts) + " of the " +

@@ -70,7 +70,7 @@ std::vector<Exclusion> exclusions_of(Database& database, const std::string& grou
 }
 
 Certificate find_certificate(Database& database, const std::string& uuid) {
-  for (Certificate& certificate : OpinionStore(database).certificates_of(""))
+  for (Certificate& certificate : AssessmentStore(database).certificates_of(""))
     if (certificate.uuid == uuid) return std::move(certificate);
   throw InputError("certificate \"" + uuid + "\": there is none of that number");
 }
@@ -149,7 +149,7 @@ CohortReportView cohort_report_view(Desk& desk, const std::map<std::string, std:
     if (!known) out.benchmarks.push_back(std::move(b));
   }
   out.exclusions = exclusions_of(desk.database, only.group);
-  out.certificates = OpinionStore(desk.database).certificates_of("");
+  out.certificates = AssessmentStore(desk.database).certificates_of("");
   return out;
 }
 

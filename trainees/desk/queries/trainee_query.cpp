@@ -100,8 +100,8 @@ class TraineeQuery {
         safety_(safety_of(connection_, trainee.id, rules.late_share)),
         certificates_(desk::certificates_that_hold(connection_)) {}
 
-  CurvePicture picture_of(LearningCurve curve) {
-    CurvePicture out;
+  CurveDetail curve_detail(LearningCurve curve) {
+    CurveDetail out;
     out.curve = std::move(curve);
     out.cusum = cusum(out.curve.passes(), rules_.cusum);
     out.competence = competence_of(out.cusum);
@@ -134,14 +134,14 @@ class TraineeQuery {
   std::map<desk::CertifiedSkill, std::string> certificates_;
 };
 
-void add_ability(Database& database, const Trainee& trainee, const ProgressRules& rules, TraineePicture& picture) {
-  const RaschPicture rasch = rasch_picture(database, rules);
-  picture.rasch_attempts = rasch.attempts;
-  picture.ability_missing = rasch.missing;
+void add_ability(Database& database, const Trainee& trainee, const ProgressRules& rules, TraineeDetail& detail) {
+  const RaschReport rasch = rasch_report(database, rules);
+  detail.rasch_attempts = rasch.attempts;
+  detail.ability_missing = rasch.missing;
   if (!rasch.missing.empty()) return;
   const auto found = rasch.abilities.find(std::to_string(trainee.id));
   if (found == rasch.abilities.end()) {
-    picture.ability_missing =
+    detail.ability_missing =
         trainee.attempts == 0
             ? "No attempt yet."
             : "There are only passes or only failures so far, or no exercise shared with others: no ability "
@@ -149,14 +149,14 @@ void add_ability(Database& database, const Trainee& trainee, const ProgressRules
     return;
   }
   const RaschEstimate& own = found->second;
-  picture.ability_n = own.n;
+  detail.ability_n = own.n;
   if (own.standard_error < rules.rasch_largest_se) {
-    picture.ability_logit = own.logit;
-    picture.ability_se = own.standard_error;
+    detail.ability_logit = own.logit;
+    detail.ability_se = own.standard_error;
   } else {
-    picture.ability_missing = "Its standard error after " + std::to_string(own.n) +
-                              (own.n == 1 ? " attempt" : " attempts") + " is " + two_digits(own.standard_error) +
-                              " logit; it is shown below " + two_digits(rules.rasch_largest_se) + ".";
+    detail.ability_missing = "Its standard error after " + std::to_string(own.n) +
+                             (own.n == 1 ? " attempt" : " attempts") + " is " + two_digits(own.standard_error) +
+                             " logit; it is shown below " + two_digits(rules.rasch_largest_se) + ".";
   }
 }
 
@@ -176,11 +176,11 @@ ProgressRules rules_in_force(Database& database) {
   return read_progress_rules(kept->toml, "curriculum " + kept->name + ", version " + std::to_string(kept->version));
 }
 
-TraineePicture trainee_picture(Database& database, const std::string& code, const ProgressRules& rules,
-                               const std::string& now_utc) {
+TraineeDetail trainee_detail(Database& database, const std::string& code, const ProgressRules& rules,
+                             const std::string& now_utc) {
   const auto trainee = TraineeStore(database).find(code);
   if (!trainee) throw InputError("there is no trainee \"" + code + "\" in this record");
-  TraineePicture out;
+  TraineeDetail out;
   out.code = trainee->code;
   out.created_utc = trainee->created_utc;
   out.rule_version = rules.version;
@@ -190,11 +190,11 @@ TraineePicture trainee_picture(Database& database, const std::string& code, cons
   out.training_erased = desk::training_erased(database.connection()).contains(trainee->id);
   const auto attempts = out.training_erased ? std::vector<PastAttempt>{} : past_attempts(database, trainee->code);
   TraineeQuery query(database, *trainee, rules, now_utc);
-  for (LearningCurve& curve : learning_curves(attempts)) out.curves.push_back(query.picture_of(std::move(curve)));
+  for (LearningCurve& curve : learning_curves(attempts)) out.curves.push_back(query.curve_detail(std::move(curve)));
   out.weeks = weeks_of(attempts);
-  const OpinionStore opinions(database);
-  out.certificates = opinions.certificates_of(trainee->code);
-  out.notes = opinions.notes_of(trainee->code);
+  const AssessmentStore assessments(database);
+  out.certificates = assessments.certificates_of(trainee->code);
+  out.notes = assessments.notes_of(trainee->code);
   out.ended_by_device = ended_by_device(attempts);
   if (!out.training_erased) add_ability(database, *trainee, rules, out);
   return out;

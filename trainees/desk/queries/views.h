@@ -15,8 +15,8 @@
 #include "trainees/desk/queries/film_state.h"
 #include "trainees/markup/plots.h"
 #include "trainees/progress/judgement.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 #include "trainees/records/verdicts.h"
 
 namespace trocar::review {

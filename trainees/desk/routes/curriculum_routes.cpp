@@ -2,7 +2,7 @@
 #include "trainees/desk/pages/pages.h"
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/routes/page_routes.h"
-#include "trainees/desk/server/told_text.h"
+#include "trainees/desk/server/path_redaction.h"
 
 namespace trocar::review {
 namespace {
@@ -32,7 +32,7 @@ Response rules(const Request& request, Desk& desk) {
     }
     view.preview = preview_rules(desk, read, request.now_utc);
   } catch (const InputError& error) {
-    view.problem = told_without_folders(error.what(), desk.database.file());
+    view.problem = without_folders(error.what(), desk.database.file());
     return curriculum_answer(view, request, desk, 400);
   }
   return curriculum_answer(view, request, desk);

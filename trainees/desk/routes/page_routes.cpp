@@ -7,7 +7,7 @@
 #include "trainees/desk/assets/assets.h"
 #include "trainees/desk/pages/pages.h"
 #include "trainees/desk/queries/desk_views.h"
-#include "trainees/desk/server/told_text.h"
+#include "trainees/desk/server/path_redaction.h"
 #include "trainees/records/attempt_store.h"
 
 namespace trocar::review {
@@ -31,7 +31,7 @@ Response file(std::string body, const std::string& name) {
 
 Response refused(const Request& request, Desk& desk, int status, const std::string& title, const std::string& words) {
   Response out =
-      html_answer(message_page(title, told_without_folders(words, desk.database.file()), frame_of(request, desk)));
+      html_answer(message_page(title, without_folders(words, desk.database.file()), frame_of(request, desk)));
   out.status = status;
   return out;
 }

@@ -9,7 +9,7 @@
 namespace trocar::review {
 
 std::vector<Route> page_routes();        ///< pages to look at, their pictures and files
-std::vector<Route> opinion_routes();     ///< notes, signatures, overrides, certificates
+std::vector<Route> assessment_routes();  ///< notes, signatures, overrides, certificates
 std::vector<Route> film_routes();        ///< films of attempts
 std::vector<Route> station_routes();     ///< the live view, messages
 std::vector<Route> curriculum_routes();  ///< rules, benchmarks, groups

@@ -52,7 +52,7 @@ Response message_form(const Request& request, Desk& desk) {
 Response send(const Request& request, Desk& desk) {
   const std::string trainee = addressee(argument(request.form, "trainee")), text = argument(request.form, "text");
   try {
-    OpinionStore(desk.database).add_message(trainee, text, author_of(request));
+    AssessmentStore(desk.database).add_message(trainee, text, author_of(request));
   } catch (const InputError& error) {
     Response out = station_answer(station_message_page(trainee, station_now(now_running(desk), trainee), error.what(),
                                                        text, frame_of(request, desk)));

@@ -7,8 +7,8 @@
 #include "trainees/desk/pages/desk_page.h"
 #include "trainees/desk/pages/page_frame.h"
 #include "trainees/desk/server/desk_accounts.h"
-#include "trainees/desk/server/desk_visit.h"
-#include "trainees/desk/server/told_text.h"
+#include "trainees/desk/server/path_redaction.h"
+#include "trainees/desk/server/request_context.h"
 #include "trainees/desk/server/url_text.h"
 #include "trainees/records/attempt_identity.h"
 
@@ -61,55 +61,55 @@ void DeskGate::say(const std::string& line) const {
 
 std::string DeskGate::cookie_name() const { return options_.secure ? "__Host-" + options_.cookie : options_.cookie; }
 
-void DeskGate::set_cookie(Visit& visit, const std::string& number) const {
-  visit.number = number;
-  visit.cookie = cookie_name() + "=" + number + "; Path=/; HttpOnly; SameSite=Strict" +
-                 (options_.secure ? "; Secure" : "") + (number.empty() ? "; Max-Age=0" : "");
+void DeskGate::set_cookie(RequestContext& context, const std::string& number) const {
+  context.number = number;
+  context.cookie = cookie_name() + "=" + number + "; Path=/; HttpOnly; SameSite=Strict" +
+                   (options_.secure ? "; Secure" : "") + (number.empty() ? "; Max-Age=0" : "");
 }
 
-bool DeskGate::known_host(const Arrival& arrival) const {
-  const std::string host = lower(arrival.head.header("host"));
+bool DeskGate::known_host(const IncomingRequest& incoming) const {
+  const std::string host = lower(incoming.head.header("host"));
   const std::size_t colon = host.rfind(':');
   const std::string name = host.substr(0, colon);
   const int usual = options_.secure ? 443 : 80;
   const std::string port = colon == std::string::npos ? std::to_string(usual) : host.substr(colon + 1);
   if (port != std::to_string(options_.port)) return false;
   if (std::find(options_.hosts.begin(), options_.hosts.end(), name) != options_.hosts.end()) return true;
-  const bool loopback = arrival.local_address.starts_with("127.");
-  return (!name.empty() && name == arrival.local_address) || (loopback && name == "localhost");
+  const bool loopback = incoming.local_address.starts_with("127.");
+  return (!name.empty() && name == incoming.local_address) || (loopback && name == "localhost");
 }
 
-void DeskGate::open_session(Visit& visit) {
-  Database& database = visit.desk.database;
+void DeskGate::open_session(RequestContext& context) {
+  Database& database = context.desk.database;
   const bool open_to_user = !options_.lan && !somebody_can_sign_in(database);
-  if (const auto session = sessions_.find(visit.number, visit.now)) {
+  if (const auto session = sessions_.find(context.number, context.now)) {
     if (session->account.empty()) {
-      if (open_to_user) visit.request.account = local_instructor();
+      if (open_to_user) context.request.account = local_instructor();
     } else if (const std::string stamp = sign_in_stamp(database, session->account);
                !stamp.empty() && stamp == session->stamp) {
-      visit.request.account = AccountStore(database).by_uuid(session->account);
+      context.request.account = AccountStore(database).by_uuid(session->account);
     }
-    if (!visit.request.account) sessions_.end(visit.number);
+    if (!context.request.account) sessions_.end(context.number);
   }
-  if (visit.request.account || !open_to_user || visit.posts()) return;
-  if (!visit.arrival.same_user || !visit.arrival.same_user()) return;
-  set_cookie(visit, sessions_.begin({}, visit.now));
-  visit.request.account = local_instructor();
+  if (context.request.account || !open_to_user || context.posts()) return;
+  if (!context.incoming.same_user || !context.incoming.same_user()) return;
+  set_cookie(context, sessions_.begin({}, context.now));
+  context.request.account = local_instructor();
 }
 
-std::optional<Answer> DeskGate::refuse_audience(Visit& visit) const {
-  const Audience audience = visit.found.route->audience;
+std::optional<Answer> DeskGate::refuse_audience(RequestContext& context) const {
+  const Audience audience = context.found.route->audience;
   if (audience == Audience::kEverybody) return {};
-  if (!visit.request.account)
+  if (!context.request.account)
     return Answer{.response = {.status = 401}};  // the form is made by whoever may set a cookie
-  const Role role = visit.request.account->role;
+  const Role role = context.request.account->role;
   if (audience == Audience::kAdministrators && role != Role::kAdministrator) return refused(403);
   if (audience == Audience::kInstructors && role == Role::kTrainee) return refused(403);
   return {};
 }
 
-std::optional<Answer> DeskGate::refuse_posted(Visit& visit) const {
-  const RequestHead& head = visit.arrival.head;
+std::optional<Answer> DeskGate::refuse_posted(RequestContext& context) const {
+  const RequestHead& head = context.incoming.head;
   const std::string site = lower(head.header("sec-fetch-site")), origin = lower(head.header("origin"));
   if (!site.empty() && site != "same-origin" && site != "none")
     return refused(403, "This form was sent by another site.");
@@ -119,24 +119,24 @@ std::optional<Answer> DeskGate::refuse_posted(Visit& visit) const {
   const std::string type = lower(head.header("content-type"));
   if (type.substr(0, type.find(';')) != "application/x-www-form-urlencoded")
     return refused(415, "Only forms of this desk are read here.");
-  const auto form = form_fields(visit.arrival.body);
+  const auto form = form_fields(context.incoming.body);
   if (!form) return refused(400);
-  visit.request.form = *form;
-  const std::string token = visit.request.form["token"];
-  visit.request.form.erase("token");
-  if (visit.number.empty() || !sessions_.token_fits(visit.number, token))
+  context.request.form = *form;
+  const std::string token = context.request.form["token"];
+  context.request.form.erase("token");
+  if (context.number.empty() || !sessions_.token_fits(context.number, token))
     return Answer{.response = error_page(
                       403,
                       "This form is too old, or not from this desk. Nothing was changed. Open the page again and "
                       "repeat what you did.",
-                      prose_of(visit.request.form))};
+                      prose_of(context.request.form))};
   return {};
 }
 
-std::optional<Answer> DeskGate::refuse_foreign(Visit& visit) const {
-  Request& request = visit.request;
+std::optional<Answer> DeskGate::refuse_foreign(RequestContext& context) const {
+  Request& request = context.request;
   if (!request.account || request.account->role != Role::kTrainee ||
-      visit.found.route->audience == Audience::kEverybody)
+      context.found.route->audience == Audience::kEverybody)
     return {};
   const Account& account = *request.account;
   const auto end = request.arguments.end();
@@ -144,36 +144,36 @@ std::optional<Answer> DeskGate::refuse_foreign(Visit& visit) const {
              certificate = request.arguments.find("certificate");
   const bool none = code == end && attempt == end && certificate == end;
   if (none || (code != end && !may_see_trainee(account, code->second)) ||
-      (certificate != end && !may_see_certificate(account, visit.desk.database, certificate->second)))
+      (certificate != end && !may_see_certificate(account, context.desk.database, certificate->second)))
     return refused(403, "You see your own attempts only.");
   if (attempt != end) {
-    const auto own = own_attempt(account, visit.desk.database, attempt->second);
+    const auto own = own_attempt(account, context.desk.database, attempt->second);
     if (!own) return refused(403, "You see your own attempts only.");
     attempt->second = *own;  // whatever comes in between, the page takes the one that was looked at
   }
   for (const auto* fields : {&request.query, &request.form, &request.arguments}) {
     for (const auto& [name, value] : *fields) {
-      if (names_another(visit.desk.database, value, account.trainee_code))
+      if (names_another(context.desk.database, value, account.trainee_code))
         return refused(403, "You see your own attempts only.");
     }
   }
   return {};
 }
 
-Answer DeskGate::page(Visit& visit) {
-  const bool staff = visit.request.account && visit.request.account->role != Role::kTrainee;
-  const std::string what = visit.arrival.head.method + " " + visit.arrival.head.path.substr(0, 200);
+Answer DeskGate::page(RequestContext& context) {
+  const bool staff = context.request.account && context.request.account->role != Role::kTrainee;
+  const std::string what = context.incoming.head.method + " " + context.incoming.head.path.substr(0, 200);
   try {
-    Answer out{.response = visit.found.route->answer(visit.request, visit.desk)};
+    Answer out{.response = context.found.route->answer(context.request, context.desk)};
     const int status = out.response.status;
     if (status < 200 || status > 599 || !header_value(out.response.type))
       throw std::logic_error("answer with status or type that cannot be sent");
     return out;
   } catch (const InputError& error) {
-    return refused(400, staff ? sentence(told_without_folders(error.what(), visit.desk.database.file())) : "");
+    return refused(400, staff ? sentence(without_folders(error.what(), context.desk.database.file())) : "");
   } catch (const EnvironmentError& error) {
     say(what + ": " + error.what());
-    Answer out = refused(503, staff ? sentence(told_without_folders(error.what(), visit.desk.database.file())) : "");
+    Answer out = refused(503, staff ? sentence(without_folders(error.what(), context.desk.database.file())) : "");
     out.retry_after_s = 5;
     return out;
   } catch (const std::exception& error) {
@@ -182,54 +182,54 @@ Answer DeskGate::page(Visit& visit) {
   }
 }
 
-Answer DeskGate::answered(Visit& visit) {
-  const RequestHead& head = visit.arrival.head;
-  if (!known_host(visit.arrival)) return refused(421);
+Answer DeskGate::answered(RequestContext& context) {
+  const RequestHead& head = context.incoming.head;
+  if (!known_host(context.incoming)) return refused(421);
   if (head.method != "GET" && head.method != "HEAD" && head.method != "POST") {
     Answer out = refused(405);
     out.allow = "GET, HEAD, POST";
     return out;
   }
-  if (head.path == "/sign-in") return sign_in(visit);
-  if (head.path == "/sign-out") return sign_out(visit);
-  visit.found = table_.find(head.method, head.path);
-  if (visit.found.methods.empty()) return refused(404);
-  if (!visit.found.route) {
+  if (head.path == "/sign-in") return sign_in(context);
+  if (head.path == "/sign-out") return sign_out(context);
+  context.found = table_.find(head.method, head.path);
+  if (context.found.methods.empty()) return refused(404);
+  if (!context.found.route) {
     Answer out = refused(405);
-    for (const std::string& method : visit.found.methods) out.allow += (out.allow.empty() ? "" : ", ") + method;
+    for (const std::string& method : context.found.methods) out.allow += (out.allow.empty() ? "" : ", ") + method;
     return out;
   }
-  Request& request = visit.request;
+  Request& request = context.request;
   request.path = head.path;
-  request.arguments = visit.found.arguments;
+  request.arguments = context.found.arguments;
   request.now_utc = utc_now();
-  if (visit.found.route->audience != Audience::kEverybody) open_session(visit);
-  if (const auto own = own_page(request.account); own && !visit.posts() && head.path == "/")
+  if (context.found.route->audience != Audience::kEverybody) open_session(context);
+  if (const auto own = own_page(request.account); own && !context.posts() && head.path == "/")
     return {.response = {.status = 303, .location = *own}};
-  if (const auto refusal = refuse_audience(visit)) {
+  if (const auto refusal = refuse_audience(context)) {
     if (refusal->response.status != 401) return *refusal;
-    const std::string next = visit.posts() ? "" : head.path + (head.query.empty() ? "" : "?" + head.query);
-    return ask_to_sign_in(visit, 401, "", "", next);
+    const std::string next = context.posts() ? "" : head.path + (head.query.empty() ? "" : "?" + head.query);
+    return ask_to_sign_in(context, 401, "", "", next);
   }
-  if (visit.posts()) {
-    if (const auto refusal = refuse_posted(visit)) return *refusal;
+  if (context.posts()) {
+    if (const auto refusal = refuse_posted(context)) return *refusal;
   }
   const auto query = form_fields(head.query);
   if (!query) return refused(400);
   request.query = *query;
-  if (const auto refusal = refuse_foreign(visit)) return *refusal;
-  if (!visit.number.empty()) request.token = sessions_.token(visit.number);
+  if (const auto refusal = refuse_foreign(context)) return *refusal;
+  if (!context.number.empty()) request.token = sessions_.token(context.number);
   request.range = head.header("range");
-  return page(visit);
+  return page(context);
 }
 
-Answer DeskGate::answer(const Arrival& arrival, Desk& desk) {
-  Visit visit{arrival, desk, options_.clock()};
+Answer DeskGate::answer(const IncomingRequest& incoming, Desk& desk) {
+  RequestContext context{incoming, desk, options_.clock()};
   Answer out;
   try {
-    visit.number = cookie_value(arrival.head.header("cookie"), cookie_name());
-    if (!DeskSessions::is_number(visit.number)) visit.number.clear();
-    out = answered(visit);
+    context.number = cookie_value(incoming.head.header("cookie"), cookie_name());
+    if (!DeskSessions::is_number(context.number)) context.number.clear();
+    out = answered(context);
   } catch (const EnvironmentError& error) {
     say(error.what());
     out = refused(503);
@@ -238,7 +238,7 @@ Answer DeskGate::answer(const Arrival& arrival, Desk& desk) {
     say(error.what());
     out = refused(500);
   }
-  out.cookie = visit.cookie;
+  out.cookie = context.cookie;
   return out;
 }
 

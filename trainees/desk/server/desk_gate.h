@@ -31,7 +31,7 @@ struct GateOptions {
 };
 
 /// A request as it came, whole.
-struct Arrival {
+struct IncomingRequest {
   RequestHead head;
   std::string body;
   std::string address;                   ///< of who sent it
@@ -53,25 +53,25 @@ class DeskGate {
   DeskGate(GateOptions options, std::vector<Route> routes);
 
   /// Never throws but for what no answer can be made of (no memory).
-  Answer answer(const Arrival& arrival, Desk& desk);
+  Answer answer(const IncomingRequest& incoming, Desk& desk);
   /// Ones that every answer has, and those of this one. Values are safe to send.
   std::vector<std::pair<std::string, std::string>> headers(const Answer& answer) const;
 
  private:
-  struct Visit;
-  Answer answered(Visit& visit);
-  bool known_host(const Arrival& arrival) const;
-  void open_session(Visit& visit);
-  std::optional<Answer> refuse_audience(Visit& visit) const;
-  std::optional<Answer> refuse_posted(Visit& visit) const;
-  std::optional<Answer> refuse_foreign(Visit& visit) const;
-  Answer page(Visit& visit);
-  Answer sign_in(Visit& visit);
-  Answer try_sign_in(Visit& visit, const std::string& login, const std::string& next);
-  Answer sign_out(Visit& visit);
-  Answer ask_to_sign_in(Visit& visit, int status, const std::string& message, const std::string& login,
+  struct RequestContext;
+  Answer answered(RequestContext& context);
+  bool known_host(const IncomingRequest& incoming) const;
+  void open_session(RequestContext& context);
+  std::optional<Answer> refuse_audience(RequestContext& context) const;
+  std::optional<Answer> refuse_posted(RequestContext& context) const;
+  std::optional<Answer> refuse_foreign(RequestContext& context) const;
+  Answer page(RequestContext& context);
+  Answer sign_in(RequestContext& context);
+  Answer try_sign_in(RequestContext& context, const std::string& login, const std::string& next);
+  Answer sign_out(RequestContext& context);
+  Answer ask_to_sign_in(RequestContext& context, int status, const std::string& message, const std::string& login,
                         const std::string& next);
-  void set_cookie(Visit& visit, const std::string& number) const;
+  void set_cookie(RequestContext& context, const std::string& number) const;
   std::string cookie_name() const;
   void say(const std::string& line) const;
 

@@ -173,14 +173,14 @@ Answer DeskServer::Impl::answer_to(Connection& connection, bool& head_only) {
     return {.response = refusal->status == 0 ? Response{.status = 0} : error_page(refusal->status, refusal->why)};
   auto& request = std::get<ReceivedRequest>(received);
   head_only = request.head.method == "HEAD";
-  const Arrival arrival{.head = std::move(request.head),
-                        .body = std::move(request.body),
-                        .address = connection.remote_address(),
-                        .local_address = connection.local_address(),
-                        .same_user = [&] { return connection.same_user(); }};
+  const IncomingRequest incoming{.head = std::move(request.head),
+                                 .body = std::move(request.body),
+                                 .address = connection.remote_address(),
+                                 .local_address = connection.local_address(),
+                                 .same_user = [&] { return connection.same_user(); }};
   const auto make = [&](Desk& desk) {
     const auto begin = std::chrono::steady_clock::now();
-    Answer made = gate->answer(arrival, desk);
+    Answer made = gate->answer(incoming, desk);
     made.made_in_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return made;
   };

@@ -3,7 +3,7 @@
 
 #include "trainees/desk/pages/desk_page.h"
 #include "trainees/desk/server/desk_accounts.h"
-#include "trainees/desk/server/desk_visit.h"
+#include "trainees/desk/server/request_context.h"
 #include "trainees/desk/server/url_text.h"
 
 namespace trocar::review {
@@ -49,19 +49,19 @@ class Counted {
 
 }  // namespace
 
-Answer DeskGate::ask_to_sign_in(Visit& visit, int status, const std::string& message, const std::string& login,
-                                const std::string& next) {
-  if (visit.number.empty()) set_cookie(visit, DeskSessions::fresh_number());
+Answer DeskGate::ask_to_sign_in(RequestContext& context, int status, const std::string& message,
+                                const std::string& login, const std::string& next) {
+  if (context.number.empty()) set_cookie(context, DeskSessions::fresh_number());
   SignInForm form{.status = status,
                   .message = message,
                   .login = login,
                   .next = local_path(next) ? next : "",
-                  .token = sessions_.token(visit.number)};
-  if (visit.posts() && visit.arrival.head.path != "/sign-in") {
+                  .token = sessions_.token(context.number)};
+  if (context.posts() && context.incoming.head.path != "/sign-in") {
     form.message = "Your sign-in has ended. Nothing was changed.";
-    if (const auto sent = form_fields(visit.arrival.body)) form.written = prose_of(*sent);
+    if (const auto sent = form_fields(context.incoming.body)) form.written = prose_of(*sent);
   }
-  if (form.message.empty() && !somebody_can_sign_in(visit.desk.database))
+  if (form.message.empty() && !somebody_can_sign_in(context.desk.database))
     form.message =
         "Nobody has an account yet, and this desk is open without one only to the person who started it, on that "
         "machine. "
@@ -69,65 +69,65 @@ Answer DeskGate::ask_to_sign_in(Visit& visit, int status, const std::string& mes
   return {.response = sign_in_page(form)};
 }
 
-Answer DeskGate::sign_in(Visit& visit) {
-  if (!visit.posts()) {
-    const auto query = form_fields(visit.arrival.head.query);
+Answer DeskGate::sign_in(RequestContext& context) {
+  if (!context.posts()) {
+    const auto query = form_fields(context.incoming.head.query);
     const std::string next = query && query->contains("next") ? query->at("next") : "";
-    return ask_to_sign_in(visit, 200, "", "", next);
+    return ask_to_sign_in(context, 200, "", "", next);
   }
-  if (auto refusal = refuse_posted(visit)) {
+  if (auto refusal = refuse_posted(context)) {
     if (refusal->response.status != 403) return *refusal;
-    return ask_to_sign_in(visit, 403, "The form was too old. Sign in again.", "", "");
+    return ask_to_sign_in(context, 403, "The form was too old. Sign in again.", "", "");
   }
-  std::map<std::string, std::string>& form = visit.request.form;
-  return try_sign_in(visit, form["login"], form["next"]);
+  std::map<std::string, std::string>& form = context.request.form;
+  return try_sign_in(context, form["login"], form["next"]);
 }
 
-Answer DeskGate::try_sign_in(Visit& visit, const std::string& login, const std::string& next) {
-  const std::string &password = visit.request.form["password"],
-                    who = printable(login) + " from " + visit.arrival.address;
+Answer DeskGate::try_sign_in(RequestContext& context, const std::string& login, const std::string& next) {
+  const std::string &password = context.request.form["password"],
+                    who = printable(login) + " from " + context.incoming.address;
   const Counted counted(verifying_);
   if (counted.before() >= kVerifyingAtOnce) {
-    Answer busy = ask_to_sign_in(visit, 429, "Many sign in at this moment. Try again.", login, next);
+    Answer busy = ask_to_sign_in(context, 429, "Many sign in at this moment. Try again.", login, next);
     busy.retry_after_s = 2;
     return busy;
   }
-  if (const int seconds = limit_.begin(login, visit.arrival.address, visit.now); seconds > 0) {
+  if (const int seconds = limit_.begin(login, context.incoming.address, context.now); seconds > 0) {
     say("sign-in held back: " + who);
-    Answer late = ask_to_sign_in(visit, 429, waiting_words(seconds), login, next);
+    Answer late = ask_to_sign_in(context, 429, waiting_words(seconds), login, next);
     late.retry_after_s = seconds;
     return late;
   }
-  AccountStore accounts(visit.desk.database);
+  AccountStore accounts(context.desk.database);
   const auto account = accounts.verify(login, password);
-  const std::string stamp = account ? sign_in_stamp(visit.desk.database, account->uuid) : "";
+  const std::string stamp = account ? sign_in_stamp(context.desk.database, account->uuid) : "";
   if (stamp.empty()) {
     say("sign-in refused: " + who);
-    if (limit_.tell_held_back(login, visit.arrival.address, visit.now)) {
+    if (limit_.tell_held_back(login, context.incoming.address, context.now)) {
       const auto known = accounts.find(login);
       accounts.held_back(known ? known->uuid : "");
     }
-    return ask_to_sign_in(visit, 401, "Login or password is wrong.", login, next);
+    return ask_to_sign_in(context, 401, "Login or password is wrong.", login, next);
   }
-  limit_.was_right(login, visit.arrival.address);
+  limit_.was_right(login, context.incoming.address);
   accounts.signed_in(account->uuid);  // what cannot be recorded does not happen
-  sessions_.end(visit.number);
-  set_cookie(visit, sessions_.begin({account->uuid, stamp}, visit.now));
+  sessions_.end(context.number);
+  set_cookie(context, sessions_.begin({account->uuid, stamp}, context.now));
   say("signed in: " + who);
   return redirection(first_page(*account, next));
 }
 
-Answer DeskGate::sign_out(Visit& visit) {
-  if (!visit.posts()) {
+Answer DeskGate::sign_out(RequestContext& context) {
+  if (!context.posts()) {
     Answer out{.response = error_page(405, "Sign out with the button that pages have.")};
     out.allow = "POST";
     return out;
   }
-  if (const auto refusal = refuse_posted(visit)) return *refusal;
-  const auto session = sessions_.find(visit.number, visit.now);
-  sessions_.end(visit.number);
-  set_cookie(visit, "");
-  if (session && !session->account.empty()) AccountStore(visit.desk.database).signed_out(session->account);
+  if (const auto refusal = refuse_posted(context)) return *refusal;
+  const auto session = sessions_.find(context.number, context.now);
+  sessions_.end(context.number);
+  set_cookie(context, "");
+  if (session && !session->account.empty()) AccountStore(context.desk.database).signed_out(session->account);
   return redirection("/sign-in");
 }
 

@@ -12,7 +12,7 @@
 #include "app/cli/text_table.h"
 #include "haptics/digest/digest.h"
 #include "tests/trainees/records/store_samples.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::recording_store_commands_test {
@@ -82,7 +82,7 @@ TEST_F(StoreCommands, ADecisionCountsInEveryListAndIsNamedBesideTheScoresOwnVerd
   {
     Database database(file_);
     const AttemptSummary failed = AttemptStore(database).find("2");
-    OpinionStore(database).override_verdict(failed.uuid, true, "The stand slipped twice", {"", "Dr B"});
+    AssessmentStore(database).override_verdict(failed.uuid, true, "The stand slipped twice", {"", "Dr B"});
   }
   EXPECT_EQ(trainee_show({file_, "T-one"}, out_, err_), 0);
   EXPECT_NE(out_.str().find("2 attempts, 2 passed"), std::string::npos) << out_.str();

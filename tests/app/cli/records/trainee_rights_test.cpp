@@ -10,7 +10,7 @@
 
 #include "app/cli/records/trainee_command.h"
 #include "tests/trainees/records/store_samples.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::trainee_rights_test {
@@ -53,7 +53,7 @@ TEST_F(TraineeRights, ANoteIsOfATraineeOrAnAttempt) {
   note.attempt = first_.substr(24);
   EXPECT_EQ(trainee_note(note, out_, err_), 0);
   Database database(file_);
-  const auto notes = OpinionStore(database).notes_of("T-one");
+  const auto notes = AssessmentStore(database).notes_of("T-one");
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_EQ(notes[2].attempt_uuid, "");
   EXPECT_EQ(notes[1].attempt_uuid, first_) << "the trainee's latest, not anybody's";

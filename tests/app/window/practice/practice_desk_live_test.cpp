@@ -7,7 +7,7 @@
 #include "app/window/practice/practice_desk.h"
 #include "tests/app/window/pages/desk_bench.h"
 #include "trainees/live/live_stations.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar::practice_desk_live_test {
 namespace {
@@ -19,11 +19,11 @@ class PracticeDeskLive : public testing::Test {
   PracticeDeskLive() { desk_ = bench_.desk(); }
   void send(const std::string& text) const {
     Database database(file());
-    OpinionStore(database).add_message("T-7", text, {"a-1", "Ines"});
+    AssessmentStore(database).add_message("T-7", text, {"a-1", "Ines"});
   }
   bool waits() const {
     Database database(file());
-    return OpinionStore(database).unseen_message("T-7").has_value();
+    return AssessmentStore(database).unseen_message("T-7").has_value();
   }
   std::filesystem::path file() const { return bench_.folder.path() / "trocar.db"; }
   /// Frames until something has been said to the trainee, or for two seconds of the desk's time.

@@ -12,7 +12,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/layout/board_numbers.h"
 #include "tests/app/window/pages/desk_bench.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar::practice_desk_test {
 namespace {
@@ -156,7 +156,7 @@ TEST(PracticeDesk, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsOp
   const std::string uuid = desk->past(first.id)[1].summary.uuid;
   {
     Database db(bench.options().database);
-    OpinionStore(db).override_verdict(uuid, true, "The stand slipped twice", {"", "Dr B"});
+    AssessmentStore(db).override_verdict(uuid, true, "The stand slipped twice", {"", "Dr B"});
   }
   EXPECT_TRUE(desk->standing(first.id, "L2").unlocked);
   EXPECT_EQ(desk->standing(first.id, "L1").passed, 3);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar::test::desk_story_test {
 namespace {
@@ -111,8 +111,8 @@ class DeskStory : public BrowsedDesk {
     expect_quiet({"401 (Unauthorized)",
                   "400 (Bad Request)"});  // what the desk answers to who has not signed in, and to three spaces
     Database database(file_);
-    EXPECT_EQ(OpinionStore(database).notes_of(kRisky).at(0).text, kNote);
-    EXPECT_EQ(OpinionStore(database).signatures_of(attempt_).at(0).signer, "Dr Ines Brandt");
+    EXPECT_EQ(AssessmentStore(database).notes_of(kRisky).at(0).text, kNote);
+    EXPECT_EQ(AssessmentStore(database).signatures_of(attempt_).at(0).signer, "Dr Ines Brandt");
     EXPECT_EQ(problems_of(database), "");
   }
 };

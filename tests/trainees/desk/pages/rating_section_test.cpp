@@ -7,7 +7,7 @@
 #include "tests/trainees/desk/server/desk_samples.h"
 #include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/desk/routes/page_routes.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/rating_scales.h"
 
 namespace trocar::review::rating_section_test {
@@ -75,13 +75,13 @@ class RatingRoute : public DeskTest {
  protected:
   RatingRoute() {
     add_accounts();
-    make_gate({}, opinion_routes());
+    make_gate({}, assessment_routes());
   }
   Answer rate(const std::string& login, const std::string& body) {
     const Visitor visitor = signed_in(login);
     return ask("POST", "/attempt/" + annas_ + "/rate", visitor, "token=" + visitor.token + "&scale=GOALS" + body);
   }
-  std::vector<Rating> kept() { return OpinionStore(database_).ratings_of(annas_); }
+  std::vector<Rating> kept() { return AssessmentStore(database_).ratings_of(annas_); }
 };
 
 TEST_F(RatingRoute, KeepsWhatWasChosenUnderTheRatersName) {

@@ -8,7 +8,7 @@
 #include "trainees/desk/routes/page_routes.h"
 #include "trainees/desk/routes/route_table.h"
 #include "trainees/integrity/audit.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::review::station_page_test {
@@ -96,7 +96,7 @@ class StationRoutes : public TemporaryFolder {
     request.token = "token-4711";
     return found.route->answer(request, desk_);
   }
-  std::optional<Note> waiting() { return OpinionStore(database_).unseen_message("dubois"); }
+  std::optional<Note> waiting() { return AssessmentStore(database_).unseen_message("dubois"); }
 
   Database database_;
   Desk desk_;
@@ -124,21 +124,21 @@ TEST_F(StationRoutes, AMessageIsASealedNoteThatIsKnownAsOne) {
 }
 
 TEST_F(StationRoutes, MessagesAreMetInOrderOnceAndOrdinaryNotesAreNone) {
-  OpinionStore opinions(database_);
-  opinions.add_note("dubois", "", "a long thought for the next lesson", {"a-1", "Ines"});
+  AssessmentStore assessments(database_);
+  assessments.add_note("dubois", "", "a long thought for the next lesson", {"a-1", "Ines"});
   EXPECT_FALSE(waiting()) << "a note is no message";
-  opinions.add_message("dubois", "one", {"a-1", "Ines"});
-  opinions.add_message("dubois", "two", {"a-1", "Ines"});
+  assessments.add_message("dubois", "one", {"a-1", "Ines"});
+  assessments.add_message("dubois", "two", {"a-1", "Ines"});
   ASSERT_EQ(waiting()->text, "one");
-  opinions.mark_seen(waiting()->uuid);
+  assessments.mark_seen(waiting()->uuid);
   ASSERT_EQ(waiting()->text, "two");
-  opinions.mark_seen(waiting()->uuid);
+  assessments.mark_seen(waiting()->uuid);
   EXPECT_FALSE(waiting());
-  EXPECT_EQ(opinions.newest_unseen("dubois")->text, "a long thought for the next lesson");
+  EXPECT_EQ(assessments.newest_unseen("dubois")->text, "a long thought for the next lesson");
 }
 
 TEST_F(StationRoutes, WhatCannotBeSentStaysInTheFormWithTheReason) {
-  const std::string long_text(OpinionStore::kLongestMessage + 1, 'x');
+  const std::string long_text(AssessmentStore::kLongestMessage + 1, 'x');
   const Response refused = ask("POST", "/station/message", {{"trainee", "dubois"}, {"text", long_text}});
   EXPECT_EQ(refused.status, 400);
   EXPECT_NE(refused.body.find(long_text), std::string::npos);

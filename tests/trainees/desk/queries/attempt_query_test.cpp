@@ -1,4 +1,4 @@
-// An attempt's picture: what stands beside it is of the same curve, everybody counts once, and experts are told apart.
+// An attempt's detail: what stands beside it is of the same curve, everybody counts once, and experts are told apart.
 #include <algorithm>
 
 #include "tests/trainees/records/cohort_samples.h"
@@ -18,31 +18,31 @@ AttemptId stored(Database& database, const std::string& trainee, double score, c
   return store_attempt(database, start, result);
 }
 
-const MetricPicture& metric(const AttemptPicture& picture, const std::string& name) {
-  return *std::find_if(picture.metrics.begin(), picture.metrics.end(),
-                       [&](const MetricPicture& m) { return m.name == name; });
+const MetricDetail& metric(const AttemptDetail& detail, const std::string& name) {
+  return *std::find_if(detail.metrics.begin(), detail.metrics.end(),
+                       [&](const MetricDetail& m) { return m.name == name; });
 }
 
-TEST(AttemptPicture, ShowsTheResultAndItsRecord) {
+TEST(AttemptDetail, ShowsTheResultAndItsRecord) {
   Database database(":memory:");
   const AttemptId id = stored(database, "A", 80);
-  const AttemptPicture picture = attempt_picture_data(database, id.uuid);
-  EXPECT_EQ(picture.summary.uuid, id.uuid);
-  EXPECT_EQ(picture.result.uuid, id.uuid);
-  EXPECT_EQ(picture.result.grade.score, 80);
-  EXPECT_EQ(picture.row_hash.size(), 64u);
-  EXPECT_FALSE(picture.finished_utc.empty());
-  ASSERT_EQ(picture.metrics.size(), 3u);
-  EXPECT_EQ(picture.metrics[1].name, "force_max_n");
-  EXPECT_EQ(picture.metrics[1].unit, "N");
-  EXPECT_EQ(picture.metrics[1].value, 2.8);
-  EXPECT_FALSE(picture.metrics[2].value) << "undefined stays undefined";
-  EXPECT_TRUE(picture.earlier.empty());
-  EXPECT_TRUE(picture.experts.empty());
-  EXPECT_FALSE(picture.metrics[1].cohort);
+  const AttemptDetail detail = attempt_detail(database, id.uuid);
+  EXPECT_EQ(detail.summary.uuid, id.uuid);
+  EXPECT_EQ(detail.result.uuid, id.uuid);
+  EXPECT_EQ(detail.result.grade.score, 80);
+  EXPECT_EQ(detail.row_hash.size(), 64u);
+  EXPECT_FALSE(detail.finished_utc.empty());
+  ASSERT_EQ(detail.metrics.size(), 3u);
+  EXPECT_EQ(detail.metrics[1].name, "force_max_n");
+  EXPECT_EQ(detail.metrics[1].unit, "N");
+  EXPECT_EQ(detail.metrics[1].value, 2.8);
+  EXPECT_FALSE(detail.metrics[2].value) << "undefined stays undefined";
+  EXPECT_TRUE(detail.earlier.empty());
+  EXPECT_TRUE(detail.experts.empty());
+  EXPECT_FALSE(detail.metrics[1].cohort);
 }
 
-TEST(AttemptPicture, EarlierOnesAreOfTheSameCurveAndBefore) {
+TEST(AttemptDetail, EarlierOnesAreOfTheSameCurveAndBefore) {
   Database database(":memory:");
   stored(database, "A", 50);
   stored(database, "A", 60);
@@ -56,70 +56,70 @@ TEST(AttemptPicture, EarlierOnesAreOfTheSameCurveAndBefore) {
   store_attempt(database, start, left);
   const AttemptId id = stored(database, "A", 70);
   stored(database, "A", 99);
-  const AttemptPicture picture = attempt_picture_data(database, id.uuid);
-  ASSERT_EQ(picture.earlier.size(), 2u);
-  EXPECT_EQ(picture.earlier[0].summary.score, 60) << "newest first";
-  EXPECT_EQ(picture.earlier[1].summary.score, 50);
-  EXPECT_EQ(picture.earlier[0].summary.trainee, "A");
-  EXPECT_EQ(metric(picture, "time_s").own.count, 2);
-  EXPECT_EQ(metric(picture, "time_s").own.median, 55);
-  EXPECT_FALSE(metric(picture, "time_s").own.best);
+  const AttemptDetail detail = attempt_detail(database, id.uuid);
+  ASSERT_EQ(detail.earlier.size(), 2u);
+  EXPECT_EQ(detail.earlier[0].summary.score, 60) << "newest first";
+  EXPECT_EQ(detail.earlier[1].summary.score, 50);
+  EXPECT_EQ(detail.earlier[0].summary.trainee, "A");
+  EXPECT_EQ(metric(detail, "time_s").own.count, 2);
+  EXPECT_EQ(metric(detail, "time_s").own.median, 55);
+  EXPECT_FALSE(metric(detail, "time_s").own.best);
 }
 
-TEST(AttemptPicture, InTheCohortEverybodyCountsOnce) {
+TEST(AttemptDetail, InTheCohortEverybodyCountsOnce) {
   Database database(":memory:");
   for (int k = 0; k < 20; ++k) stored(database, "A", 5 + k);
   for (const auto& [code, score] : {std::pair{"B", 50.0}, {"C", 60.0}, {"D", 70.0}}) stored(database, code, score);
   stored(database, "E", 1000.0 / 11, "device");
   const AttemptId id = stored(database, "A", 40);
-  const MetricPicture time = metric(attempt_picture_data(database, id.uuid), "time_s");
+  const MetricDetail time = metric(attempt_detail(database, id.uuid), "time_s");
   EXPECT_EQ(time.people, 4);
   EXPECT_DOUBLE_EQ(time.cohort->median, 55);  // 40 50 60 70
   EXPECT_DOUBLE_EQ(time.cohort->low, 47.5);
 }
 
-TEST(AttemptPicture, TwoPeopleAreNoCohort) {
+TEST(AttemptDetail, TwoPeopleAreNoCohort) {
   Database database(":memory:");
   const AttemptId id = stored(database, "A", 40);
   stored(database, "B", 50);
-  EXPECT_FALSE(metric(attempt_picture_data(database, id.uuid), "time_s").cohort);
+  EXPECT_FALSE(metric(attempt_detail(database, id.uuid), "time_s").cohort);
 }
 
-TEST(AttemptPicture, ExpertsOfTheSameBoardComeFirst) {
+TEST(AttemptDetail, ExpertsOfTheSameBoardComeFirst) {
   Database database(":memory:");
   for (int k = 0; k < 12; ++k) stored(database, "X", 90 + k * 0.5, "expert", k == 2 ? 7 : 5);
   const AttemptId id = stored(database, "A", 40, "mouse", 7);
-  const AttemptPicture picture = attempt_picture_data(database, id.uuid);
-  ASSERT_EQ(picture.experts.size(), static_cast<std::size_t>(kExpertAttempts));
-  EXPECT_EQ(picture.experts[0].board, 7);
-  EXPECT_EQ(picture.experts[1].score, 95.5);
-  EXPECT_EQ(picture.experts[0].trainee, "X");
-  EXPECT_TRUE(metric(picture, "time_s").expert);
-  const AttemptPicture own = attempt_picture_data(database, picture.experts[0].uuid);
+  const AttemptDetail detail = attempt_detail(database, id.uuid);
+  ASSERT_EQ(detail.experts.size(), static_cast<std::size_t>(kExpertAttempts));
+  EXPECT_EQ(detail.experts[0].board, 7);
+  EXPECT_EQ(detail.experts[1].score, 95.5);
+  EXPECT_EQ(detail.experts[0].trainee, "X");
+  EXPECT_TRUE(metric(detail, "time_s").expert);
+  const AttemptDetail own = attempt_detail(database, detail.experts[0].uuid);
   EXPECT_TRUE(std::none_of(own.experts.begin(), own.experts.end(), [&](const AttemptSummary& e) {
     return e.uuid == own.summary.uuid;
   })) << "not compared with itself";
 }
 
-TEST(AttemptPicture, RefusesWhatIsNoFinishedAttempt) {
+TEST(AttemptDetail, RefusesWhatIsNoFinishedAttempt) {
   Database database(":memory:");
   const AttemptId running = AttemptStore(database).begin_attempt(sample_start("A"));
-  EXPECT_NE(message_of<InputError>([&] { attempt_picture_data(database, running.uuid); }).find("still runs"),
+  EXPECT_NE(message_of<InputError>([&] { attempt_detail(database, running.uuid); }).find("still runs"),
             std::string::npos);
-  EXPECT_THROW(attempt_picture_data(database, "01234567"), InputError);
-  EXPECT_THROW(attempt_picture_data(database, "'; DROP TABLE attempt"), InputError);
+  EXPECT_THROW(attempt_detail(database, "01234567"), InputError);
+  EXPECT_THROW(attempt_detail(database, "'; DROP TABLE attempt"), InputError);
 }
 
-TEST(AttemptPicture, StandsForEveryAttemptOfACohort) {
+TEST(AttemptDetail, StandsForEveryAttemptOfACohort) {
   Database database(":memory:");
   test::CohortPlan plan;
   plan.attempts = 120;
   plan.metrics = 8;
   fill_cohort(database, plan);
   for (const AttemptSummary& summary : AttemptStore(database).list()) {
-    const AttemptPicture picture = attempt_picture_data(database, summary.uuid);
-    EXPECT_EQ(picture.metrics.size(), picture.result.grade.metrics.size());
-    for (const PastAttempt& past : picture.earlier) {
+    const AttemptDetail detail = attempt_detail(database, summary.uuid);
+    EXPECT_EQ(detail.metrics.size(), detail.result.grade.metrics.size());
+    for (const PastAttempt& past : detail.earlier) {
       EXPECT_LT(past.summary.row, summary.row);
       EXPECT_EQ(past.summary.hand, summary.hand);
       EXPECT_EQ(past.summary.level, summary.level);

@@ -186,13 +186,13 @@ TEST(CohortLines, RunningAttemptsAreNotThereYet) {
 TEST(CohortLines, CertificatesThatHoldBringPeopleBack) {
   Database database(":memory:");
   store_attempt(database, sample_start("A"), sample_result(80));
-  OpinionStore opinions(database);
-  const Certificate first = opinions.certify("A", "surface-touch", "L1", "1", "{}", {"", "Dr. B"});
+  AssessmentStore assessments(database);
+  const Certificate first = assessments.certify("A", "surface-touch", "L1", "1", "{}", {"", "Dr. B"});
   const auto after = [&](int days) { return utc_of_seconds(*seconds_of_utc(first.utc) + days * kSecondsADay); };
   EXPECT_EQ(cohort_lines(database, {}, {}, after(13))[0].certified_utc, first.utc);
   EXPECT_EQ(cohort_lines(database, {}, {}, after(13))[0].judgements.front().flag, Flag::kLearning);
   EXPECT_EQ(cohort_lines(database, {}, {}, after(14))[0].judgements.front().flag, Flag::kRetentionDue);
-  opinions.revoke(first.uuid, "given to the wrong person", {"", "Dr. B"});
+  assessments.revoke(first.uuid, "given to the wrong person", {"", "Dr. B"});
   EXPECT_EQ(cohort_lines(database, {}, {}, after(14))[0].certified_utc, "");
   EXPECT_EQ(cohort_lines(database, {}, {}, after(14))[0].judgements.front().flag, Flag::kLearning);
 }

@@ -27,13 +27,13 @@ Database& small() {
   return database;
 }
 
-TEST(TraineePicture, AgreesWithTheCohortsLines) {
+TEST(TraineeDetail, AgreesWithTheCohortsLines) {
   Database& database = small();
   for (const std::string code : {"P001", "P004", "P008"}) {
-    const TraineePicture picture = trainee_picture(database, code, {}, kNow);
+    const TraineeDetail picture = trainee_detail(database, code, {}, kNow);
     const auto lines = cohort_lines(database, {}, {.trainee = code}, kNow);
     ASSERT_EQ(picture.curves.size(), lines.size());
-    for (const CurvePicture& curve : picture.curves) {
+    for (const CurveDetail& curve : picture.curves) {
       const auto line =
           std::find_if(lines.begin(), lines.end(), [&](const CohortLine& l) { return l.key == curve.curve.key; });
       ASSERT_NE(line, lines.end());
@@ -47,9 +47,9 @@ TEST(TraineePicture, AgreesWithTheCohortsLines) {
   }
 }
 
-TEST(TraineePicture, CohortIsTheQuartilesOfEverybodysScores) {
+TEST(TraineeDetail, CohortIsTheQuartilesOfEverybodysScores) {
   Database& database = small();
-  const CurvePicture curve = trainee_picture(database, "P002", {}, kNow).curves.front();
+  const CurveDetail curve = trainee_detail(database, "P002", {}, kNow).curves.front();
   std::vector<std::vector<double>> scores;
   for (int t = 1; t <= 9; ++t)
     for (const LearningCurve& other : learning_curves(past_attempts(database, "P00" + std::to_string(t)))) {
@@ -66,9 +66,9 @@ TEST(TraineePicture, CohortIsTheQuartilesOfEverybodysScores) {
   }
 }
 
-TEST(TraineePicture, WeeksHaveNoGapsAndAllMinutes) {
+TEST(TraineeDetail, WeeksHaveNoGapsAndAllMinutes) {
   Database& database = small();
-  const TraineePicture picture = trainee_picture(database, "P001", {}, kNow);
+  const TraineeDetail picture = trainee_detail(database, "P001", {}, kNow);
   double minutes = 0, wanted = 0;
   int attempts = 0;
   for (std::size_t k = 0; k < picture.weeks.size(); ++k) {
@@ -85,28 +85,28 @@ TEST(TraineePicture, WeeksHaveNoGapsAndAllMinutes) {
   EXPECT_EQ(attempts, static_cast<int>(all.size()));
 }
 
-TEST(TraineePicture, AbilityIsShownOnlyWhenItIsWorthIt) {
+TEST(TraineeDetail, AbilityIsShownOnlyWhenItIsWorthIt) {
   Database& database = small();
-  const TraineePicture picture = trainee_picture(database, "P001", {}, kNow);
+  const TraineeDetail picture = trainee_detail(database, "P001", {}, kNow);
   EXPECT_GT(picture.rasch_attempts, 500);
   ASSERT_TRUE(picture.ability_logit);
   EXPECT_LT(*picture.ability_se, 0.5);
   ProgressRules rules;
   rules.rasch_least_attempts = 10000;
-  EXPECT_FALSE(trainee_picture(database, "P001", rules, kNow).ability_logit);
+  EXPECT_FALSE(trainee_detail(database, "P001", rules, kNow).ability_logit);
   rules = {};
   rules.rasch_largest_se = 0.05;
-  EXPECT_FALSE(trainee_picture(database, "P001", rules, kNow).ability_logit);
+  EXPECT_FALSE(trainee_detail(database, "P001", rules, kNow).ability_logit);
 }
 
-TEST(TraineePicture, HasNotesAndCertificatesAndWhatIsDue) {
+TEST(TraineeDetail, HasNotesAndCertificatesAndWhatIsDue) {
   Database database(":memory:");
   store_attempt(database, sample_start("A"), sample_result(80));
-  OpinionStore opinions(database);
-  opinions.add_note("A", "", "Lift before you turn.", {"", "Dr. B"});
-  const Certificate certificate = opinions.certify("A", "surface-touch", "L1", "1", "{}", {"", "Dr. B"});
+  AssessmentStore assessments(database);
+  assessments.add_note("A", "", "Lift before you turn.", {"", "Dr. B"});
+  const Certificate certificate = assessments.certify("A", "surface-touch", "L1", "1", "{}", {"", "Dr. B"});
   const auto certified = *seconds_of_utc(certificate.utc);
-  TraineePicture picture = trainee_picture(database, "a", {}, utc_of_seconds(certified + 20 * kSecondsADay));
+  TraineeDetail picture = trainee_detail(database, "a", {}, utc_of_seconds(certified + 20 * kSecondsADay));
   EXPECT_EQ(picture.code, "A");
   ASSERT_EQ(picture.notes.size(), 1u);
   EXPECT_EQ(picture.notes[0].text, "Lift before you turn.");
@@ -114,8 +114,8 @@ TEST(TraineePicture, HasNotesAndCertificatesAndWhatIsDue) {
   ASSERT_EQ(picture.curves[0].retention.size(), 2u);
   EXPECT_EQ(picture.curves[0].retention[0].state, RetentionDate::State::kDue);
   EXPECT_EQ(picture.curves[0].judgements.front().flag, Flag::kRetentionDue);
-  opinions.revoke(certificate.uuid, "given to the wrong person", {"", "Dr. B"});
-  picture = trainee_picture(database, "A", {}, utc_of_seconds(certified + 20 * kSecondsADay));
+  assessments.revoke(certificate.uuid, "given to the wrong person", {"", "Dr. B"});
+  picture = trainee_detail(database, "A", {}, utc_of_seconds(certified + 20 * kSecondsADay));
   EXPECT_TRUE(picture.curves[0].retention.empty());
 }
 
@@ -132,13 +132,12 @@ TEST(RulesInForce, AreTheNewestKeptOrTheShipped) {
   EXPECT_TRUE(message.starts_with("curriculum standard, version 2:3:12:")) << message;
 }
 
-TEST(TraineePicture, StrangersAndBeginners) {
+TEST(TraineeDetail, StrangersAndBeginners) {
   Database database(":memory:");
-  EXPECT_NE(
-      message_of<InputError>([&] { trainee_picture(database, "nobody", {}, kNow); }).find("no trainee \"nobody\""),
-      std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { trainee_detail(database, "nobody", {}, kNow); }).find("no trainee \"nobody\""),
+            std::string::npos);
   AttemptStore(database).begin_attempt(sample_start("A"));
-  const TraineePicture picture = trainee_picture(database, "A", {}, kNow);
+  const TraineeDetail picture = trainee_detail(database, "A", {}, kNow);
   EXPECT_TRUE(picture.curves.empty());
   EXPECT_TRUE(picture.weeks.empty());
   EXPECT_FALSE(picture.ability_logit);

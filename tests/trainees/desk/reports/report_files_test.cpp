@@ -10,9 +10,9 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/queries/report_views.h"
 #include "trainees/desk/routes/route_table.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
-#include "trainees/records/opinions.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review::report_files_test {
@@ -57,7 +57,7 @@ class ReportFiles : public testing::Test {
     const std::string json =
         R"({"attempt":")" + attempt_ +
         R"(","n":14,"reliability":0.83,"rules":"1","words":"competence shown at attempt 14 of 14; a person decides"})";
-    return OpinionStore(database_)
+    return AssessmentStore(database_)
         .certify(trainee_, cited_.exercise_id, cited_.level, "1", evidence.empty() ? json : evidence,
                  {"", "Dr Ines Okafor"})
         .uuid;
@@ -114,8 +114,9 @@ TEST_F(ReportFiles, TheTraineesReportHoldsEveryAttemptOfTheRecord) {
 }
 
 TEST_F(ReportFiles, AnOverrideIsShownWhereverTheAttemptIs) {
-  OpinionStore(database_).override_verdict(attempt_, false, "Camera failed in the middle", {"", "Dr Ines Okafor"});
-  OpinionStore(database_).override_verdict(attempt_, true, "Second thought: the film is fine", {"", "Dr Ines Okafor"});
+  AssessmentStore(database_).override_verdict(attempt_, false, "Camera failed in the middle", {"", "Dr Ines Okafor"});
+  AssessmentStore(database_).override_verdict(attempt_, true, "Second thought: the film is fine",
+                                              {"", "Dr Ines Okafor"});
   const ReadPdf trainee = read("/report/trainee/" + trainee_ + ".pdf");
   EXPECT_TRUE(trainee.holds("passed by decision of Dr Ines"));
   EXPECT_TRUE(trainee.holds("Second thought:"));
@@ -169,7 +170,7 @@ TEST_F(ReportFiles, EvidenceInWordsAloneIsPrintedAsItStands) {
 
 TEST_F(ReportFiles, AWithdrawnCertificateSaysSo) {
   const std::string uuid = certify();
-  OpinionStore(database_).revoke(uuid, "Device was out of calibration", {"", "Dr Ines Okafor"});
+  AssessmentStore(database_).revoke(uuid, "Device was out of calibration", {"", "Dr Ines Okafor"});
   EXPECT_TRUE(read("/report/certificate/" + uuid + ".pdf").holds("WITHDRAWN on "));
   EXPECT_TRUE(read("/report/trainee/" + trainee_ + ".pdf").holds("WITHDRAWN "));
 }
@@ -206,7 +207,7 @@ TEST_F(ReportFiles, ThePictureIsInItOrTheReasonWhyNot) {
 }
 
 TEST_F(ReportFiles, NotesOnlyWhereTheyAreAskedFor) {
-  OpinionStore(database_).add_note(trainee_, "", "Lets go too early", {"", "Dr Ines Okafor"});
+  AssessmentStore(database_).add_note(trainee_, "", "Lets go too early", {"", "Dr Ines Okafor"});
   EXPECT_FALSE(read("/report/trainee/" + trainee_ + ".pdf").holds("Lets go too early"));
   EXPECT_TRUE(read("/report/trainee/" + trainee_ + ".pdf", {{"notes", "yes"}}).holds("Lets go too early"));
 }

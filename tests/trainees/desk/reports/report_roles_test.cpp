@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/trainees/desk/server/desk_samples.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar::review::report_roles_test {
 namespace {
@@ -17,7 +17,7 @@ class ReportRoles : public DeskTest {
   }
   std::string certify(const std::string& attempt) {
     const AttemptSummary s = AttemptStore(database_).find(attempt);
-    return OpinionStore(database_)
+    return AssessmentStore(database_)
         .certify(s.trainee, s.exercise_id, s.level, "1", "14 passes in a row", {"", "Dr Ines Okafor"})
         .uuid;
   }

@@ -5,7 +5,7 @@
 
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/server/url_text.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::review::desk_admin_test {
@@ -148,7 +148,8 @@ TEST_F(DeskAdmin, ACheckThatFindsThousandsOfProblemsStaysReadable) {
 TEST_F(DeskAdmin, TheAuditTrailIsPagedAndFiltered) {
   add_accounts();
   const Visitor adam = signed_in("adam");
-  for (int i = 0; i < 110; ++i) OpinionStore(database_).add_note("T-anna", "", "note " + std::to_string(i), {"", "x"});
+  for (int i = 0; i < 110; ++i)
+    AssessmentStore(database_).add_note("T-anna", "", "note " + std::to_string(i), {"", "x"});
   const AuditView all = audit_view(database_, {}), notes = audit_view(database_, {"", "note added", 2});
   EXPECT_EQ(notes.total, 111);
   EXPECT_EQ(notes.entries.size(), 11U);

@@ -9,8 +9,8 @@
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/routes/route_table.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 
 namespace trocar::review::desk_decisions_test {
 namespace {
@@ -109,10 +109,10 @@ TEST_F(DeskDecisions, ACertificateCitesWhatIsPassedAndNamesDecisionsAndReliabili
   EXPECT_EQ(ask("POST", path_of(last_) + "/certify").status, 400);
   EXPECT_NE(text(path_of(last_), "sign").find("This attempt is not passed, so no certificate can cite it"),
             std::string::npos);
-  EXPECT_TRUE(OpinionStore(database_).certificates_of("").empty());
+  EXPECT_TRUE(AssessmentStore(database_).certificates_of("").empty());
   decide(last_, true);
   EXPECT_EQ(ask("POST", path_of(last_) + "/certify").status, 303);
-  const auto held = OpinionStore(database_).certificates_of("steady");
+  const auto held = AssessmentStore(database_).certificates_of("steady");
   ASSERT_EQ(held.size(), 1u);
   const auto evidence = nlohmann::json::parse(held[0].evidence);
   EXPECT_EQ(evidence["attempt"], last_.uuid);
@@ -139,7 +139,7 @@ TEST_F(DeskDecisions, TheAttemptsPageShowsTheCertificatesThatHoldAndWhoGaveThem)
   EXPECT_EQ(beside.find("cites this attempt"), std::string::npos) << beside;
   decide(last_, false);
   EXPECT_NE(text(path_of(last_), "sign").find("This attempt is not passed any more"), std::string::npos);
-  const std::string uuid = OpinionStore(database_).certificates_of("steady")[0].uuid;
+  const std::string uuid = AssessmentStore(database_).certificates_of("steady")[0].uuid;
   ASSERT_EQ(ask("POST", "/certificate/" + uuid + "/revoke", {{"reason", kReason}}).status, 303);
   EXPECT_NE(text(path_of(last_), "sign").find("Withdrawn"), std::string::npos);
   who_ = Account{"a-2", "steady", "S", Role::kTrainee, "steady"};

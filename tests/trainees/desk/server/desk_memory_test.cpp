@@ -7,9 +7,9 @@
 #include "tests/trainees/records/cohort_samples.h"
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/routes/route.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
-#include "trainees/records/opinions.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review::desk_memory_test {
@@ -79,7 +79,7 @@ TEST_F(DeskMemoryTest, SeesWhatAnotherConnectionCommits) {
   expect_fresh("an attempt");
   EXPECT_TRUE(
       std::any_of(lines().begin(), lines().end(), [&](const CohortLine& line) { return line.last_uuid == uuid; }));
-  OpinionStore(other_).override_verdict(uuid, false, "The camera was knocked", {"", "Ida Adler"});
+  AssessmentStore(other_).override_verdict(uuid, false, "The camera was knocked", {"", "Ida Adler"});
   expect_fresh("a decision");
   CurriculumStore(other_).join("T-new", "autumn", {"", "Ida Adler"});
   expect_fresh("a group");

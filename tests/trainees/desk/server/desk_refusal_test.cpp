@@ -5,8 +5,8 @@
 
 #include "trainees/desk/pages/page_frame.h"
 #include "trainees/desk/server/url_text.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 
 namespace trocar::review::desk_refusal_test {
 namespace {
@@ -50,7 +50,7 @@ TEST_F(DeskRefusal, ANoteStaysInItsField) {
   EXPECT_NE(on_attempt.find("aria-describedby=\"why-note\""), std::string::npos);
   EXPECT_NE(on_attempt.find("id=\"why-note\""), std::string::npos);
   EXPECT_NE(refused("/trainee/T-anna/note", "text=" + too_long, "no more than 4000").find(too_long), std::string::npos);
-  EXPECT_TRUE(OpinionStore(database_).notes_of("T-anna").empty());
+  EXPECT_TRUE(AssessmentStore(database_).notes_of("T-anna").empty());
   EXPECT_EQ(ask("GET", "/attempt/" + annas_ + "/note", ines_).response.location, "/attempt/" + annas_ + "#notes")
       << "loading the page again works";
 }
@@ -66,7 +66,7 @@ TEST_F(DeskRefusal, ADecisionASignatureAndAWithdrawalStayInTheirs) {
   const std::string signature =
       refused("/attempt/" + annas_ + "/sign", "meaning=admiration&note=well+done", "Signature: its meaning is review");
   EXPECT_NE(signature.find("value=\"well done\""), std::string::npos);
-  const Certificate held = OpinionStore(database_).certify("T-anna", "surface-touch", "L1", "1", "{}", {"", "x"});
+  const Certificate held = AssessmentStore(database_).certify("T-anna", "surface-touch", "L1", "1", "{}", {"", "x"});
   const std::string withdrawal = refused("/certificate/" + held.uuid + "/revoke", "reason=why", "Reason: say why");
   EXPECT_NE(withdrawal.find("<details open=\"open\"><summary>Withdraw"), std::string::npos);
   EXPECT_NE(withdrawal.find("value=\"why\""), std::string::npos);

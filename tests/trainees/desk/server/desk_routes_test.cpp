@@ -11,9 +11,9 @@
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/routes/route_table.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
-#include "trainees/records/opinions.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::review::desk_routes_test {
@@ -159,31 +159,31 @@ TEST_F(DeskRoutes, NotesSignaturesOverridesAreStoredWithTheirAuthor) {
       ask("POST", "/attempt/" + attempt_ + "/override", {{"passed", "yes"}, {"reason", "The stand slipped twice"}})
           .status,
       303);
-  const OpinionStore opinions(database_);
-  ASSERT_EQ(opinions.notes_of(trainee_).size(), 2U);
-  EXPECT_EQ(opinions.notes_of(trainee_)[0].printed, "Dr Ines Okafor");
-  ASSERT_EQ(opinions.signatures_of(attempt_).size(), 1U);
-  EXPECT_EQ(opinions.signatures_of(attempt_)[0].meaning, "approval");
-  EXPECT_TRUE(opinions.overrides_of(attempt_)[0].passed);
+  const AssessmentStore assessments(database_);
+  ASSERT_EQ(assessments.notes_of(trainee_).size(), 2U);
+  EXPECT_EQ(assessments.notes_of(trainee_)[0].printed, "Dr Ines Okafor");
+  ASSERT_EQ(assessments.signatures_of(attempt_).size(), 1U);
+  EXPECT_EQ(assessments.signatures_of(attempt_)[0].meaning, "approval");
+  EXPECT_TRUE(assessments.overrides_of(attempt_)[0].passed);
   const CheckedPage answer = page("/attempt/" + attempt_);
   EXPECT_NE(answer.by_id("notes")->text.find("Too strong <b>"), std::string::npos);
   EXPECT_NE(answer.all("section", "verdict")[0]->text.find("Passed by decision of Dr Ines Okafor"), std::string::npos);
 }
 
-TEST_F(DeskRoutes, BadOpinionsAreRefusedAndNothingIsStored) {
+TEST_F(DeskRoutes, BadAssessmentsAreRefusedAndNothingIsStored) {
   EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/note", {{"text", ""}}).status, 400);
   EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/sign", {{"meaning", "admiration"}}).status, 400);
   EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/override", {{"passed", "yes"}, {"reason", "short"}}).status, 400);
   EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/override", {{"reason", "long enough a reason"}}).status, 400);
   EXPECT_EQ(ask("POST", "/certificate/none/revoke", {{"reason", "long enough a reason"}}).status, 400);
-  EXPECT_TRUE(OpinionStore(database_).notes_of(trainee_).empty());
-  EXPECT_TRUE(OpinionStore(database_).overrides_of(attempt_).empty());
+  EXPECT_TRUE(AssessmentStore(database_).notes_of(trainee_).empty());
+  EXPECT_TRUE(AssessmentStore(database_).overrides_of(attempt_).empty());
 }
 
 TEST_F(DeskRoutes, NobodyIsCertifiedWithoutEvidence) {
   ASSERT_EQ(page("/attempt/" + attempt_).by_id("sign")->text.find("Certify"), std::string::npos);
   EXPECT_EQ(ask("POST", "/attempt/" + attempt_ + "/certify").status, 400);
-  EXPECT_TRUE(OpinionStore(database_).certificates_of("").empty());
+  EXPECT_TRUE(AssessmentStore(database_).certificates_of("").empty());
 }
 
 /// Attempts of one trainee, one a board, without anything critical.
@@ -217,7 +217,7 @@ TEST_F(DeskRoutes, EvidenceMakesACertificateOnce) {
   EXPECT_EQ(check_page(page).problems, std::vector<std::string>{});
   EXPECT_EQ(table_.find("POST", "/attempt/x/certify").route->answer(request, desk).location,
             "/trainee/steady#certificates");
-  const auto held = OpinionStore(database).certificates_of("steady");
+  const auto held = AssessmentStore(database).certificates_of("steady");
   ASSERT_EQ(held.size(), 1U);
   EXPECT_EQ(held[0].printed, "Dr Ines Okafor");
   EXPECT_NE(held[0].evidence.find(last.uuid), std::string::npos);
@@ -336,7 +336,7 @@ TEST_F(DeskRoutes, WhoseTrainingDataWereErasedIsInNoLineAndNoCount) {
   EXPECT_EQ(cohort.find(who), std::string::npos);
   EXPECT_EQ(ask("GET", "/cohort.csv").body.find(who), std::string::npos);
   EXPECT_EQ(ask("GET", "/curriculum").body.find(who), std::string::npos) << "nobody puts them into a group";
-  const TraineePicture picture = trainee_picture(database_, who, rules_in_force(database_), "2026-06-01T10:00:00Z");
+  const TraineeDetail picture = trainee_detail(database_, who, rules_in_force(database_), "2026-06-01T10:00:00Z");
   EXPECT_TRUE(picture.training_erased);
   EXPECT_TRUE(picture.curves.empty() && picture.weeks.empty());
   const CheckedPage page_of_them = page("/trainee/" + who);
@@ -356,7 +356,7 @@ TEST_F(DeskRoutes, AbilitiesOfOthersDoNotFollowFromWhatWasErased) {
   const auto tries = [&] {
     for (const Trainee& one : TraineeStore(database_).list())
       if (one.code != trainee_ && !one.code.starts_with("erased-"))
-        return trainee_picture(database_, one.code, rules_in_force(database_), "2026-06-01T10:00:00Z").rasch_attempts;
+        return trainee_detail(database_, one.code, rules_in_force(database_), "2026-06-01T10:00:00Z").rasch_attempts;
     return 0;
   };
   const int before = tries();
@@ -417,7 +417,7 @@ TEST_F(DeskRoutes, AFormThatIsSentTwiceSignsOnce) {
   const Response second = ask("POST", "/attempt/" + attempt_ + "/sign", form);
   EXPECT_EQ(second.status, 400);
   EXPECT_NE(second.body.find("Already signed"), std::string::npos);
-  EXPECT_EQ(OpinionStore(database_).signatures_of(attempt_).size(), 1u);
+  EXPECT_EQ(AssessmentStore(database_).signatures_of(attempt_).size(), 1u);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "trainees/desk/server/url_text.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::review {
@@ -56,7 +56,7 @@ DeskTest::DeskTest() : file_(folder_ / "desk.db"), database_(file_) {
   ottos_ = store_attempt(database_, sample_start("T-otto"), sample_result(60)).uuid;
   store_attempt(database_, sample_start("T-anna"), sample_result(82));
   store_attempt(database_, sample_start("T-otto"), sample_result(64));
-  OpinionStore(database_).add_note("T-otto", "", kSecretNote, {"", "I. Instructor"});
+  AssessmentStore(database_).add_note("T-otto", "", kSecretNote, {"", "I. Instructor"});
 }
 
 void DeskTest::add_accounts() {
@@ -95,12 +95,12 @@ Answer DeskTest::ask(const std::string& method, const std::string& target, const
     ADD_FAILURE() << target << ": " << refusal->why;
     return {};
   }
-  const Arrival arrival{.head = std::get<RequestHead>(head),
-                        .body = form,
-                        .address = address_,
-                        .local_address = local_address_,
-                        .same_user = [this] { return same_user_; }};
-  return gate_->answer(arrival, desk_);
+  const IncomingRequest incoming{.head = std::get<RequestHead>(head),
+                                 .body = form,
+                                 .address = address_,
+                                 .local_address = local_address_,
+                                 .same_user = [this] { return same_user_; }};
+  return gate_->answer(incoming, desk_);
 }
 
 Visitor DeskTest::stranger() {

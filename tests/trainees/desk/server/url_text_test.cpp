@@ -1,6 +1,6 @@
 // Decoding of addresses and forms: RFC 3986 examples, what must be refused, and that encoding is undone by decoding.
 #include "trainees/desk/server/url_text.h"
-#include "trainees/desk/server/told_text.h"
+#include "trainees/desk/server/path_redaction.h"
 
 #include <gtest/gtest.h>
 
@@ -74,21 +74,19 @@ TEST(UrlText, NamesDownloads) {
   EXPECT_EQ(download_name(std::string(300, 'a')).size(), 100U);
 }
 
-TEST(ToldText, KeepsNamesAndDropsFolders) {
-  EXPECT_EQ(told_without_folders("/home/ida/data/trocar.db: no trainee \"T-9\""), "trocar.db: no trainee \"T-9\"");
-  EXPECT_EQ(told_without_folders("cannot open \"/srv/x/t.recordings/1.trec\" (/tmp/a/b)"),
-            "cannot open \"1.trec\" (b)");
-  EXPECT_EQ(
-      told_without_folders("/srv/my files/t.db: full; see /srv/my files/t.recordings/1.trec", "/srv/my files/t.db"),
-      "t.db: full; see t.recordings/1.trec");
-  EXPECT_EQ(told_without_folders("/srv/x/"), "");
+TEST(PathRedaction, KeepsNamesAndDropsFolders) {
+  EXPECT_EQ(without_folders("/home/ida/data/trocar.db: no trainee \"T-9\""), "trocar.db: no trainee \"T-9\"");
+  EXPECT_EQ(without_folders("cannot open \"/srv/x/t.recordings/1.trec\" (/tmp/a/b)"), "cannot open \"1.trec\" (b)");
+  EXPECT_EQ(without_folders("/srv/my files/t.db: full; see /srv/my files/t.recordings/1.trec", "/srv/my files/t.db"),
+            "t.db: full; see t.recordings/1.trec");
+  EXPECT_EQ(without_folders("/srv/x/"), "");
 }
 
-TEST(ToldText, LeavesWhatIsNoFolder) {
+TEST(PathRedaction, LeavesWhatIsNoFolder) {
   for (const std::string text :
        {"", "81.5 / 100", "1/2 of it", "and/or", "/curriculum", "3 m/s, N/m", "2026-01-01T10:00:00Z"}) {
-    EXPECT_EQ(told_without_folders(text), text);
-    EXPECT_EQ(told_without_folders(text, "t.db"), text);
+    EXPECT_EQ(without_folders(text), text);
+    EXPECT_EQ(without_folders(text, "t.db"), text);
   }
 }
 

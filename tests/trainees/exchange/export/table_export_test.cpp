@@ -8,8 +8,8 @@
 #include "tests/trainees/records/cohort_samples.h"
 #include "trainees/exchange/export/export_tables.h"
 #include "trainees/exchange/export/table_export.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
-#include "trainees/records/opinions.h"
 
 namespace trocar::table_export_test {
 namespace {
@@ -32,11 +32,11 @@ class TableExport : public TemporaryFolder {
     third_ = store("A", 90, "peg-transfer");
     AttemptStore(database_).begin_attempt(sample_start("A"));  // still running: not exported
     CurriculumStore(database_).join("B", "2026 B", kTeacher);
-    OpinionStore opinions(database_);
-    opinions.add_note("A", first_.uuid, "=cmd|' /C calc'!A0\nsecond line, \"quoted\"", kTeacher);
-    opinions.add_note("A", "", "On the whole: good", kTeacher);
-    opinions.sign(first_.uuid, "review", "+49 seen", kTeacher);
-    opinions.override_verdict(second_.uuid, true, "Patient moved; see film", kTeacher);
+    AssessmentStore assessments(database_);
+    assessments.add_note("A", first_.uuid, "=cmd|' /C calc'!A0\nsecond line, \"quoted\"", kTeacher);
+    assessments.add_note("A", "", "On the whole: good", kTeacher);
+    assessments.sign(first_.uuid, "review", "+49 seen", kTeacher);
+    assessments.override_verdict(second_.uuid, true, "Patient moved; see film", kTeacher);
   }
 
   AttemptId store(const std::string& trainee, double score, const std::string& exercise) {
@@ -183,7 +183,7 @@ TEST_F(TableExport, TextOfPeopleIsDefused) {
 TEST_F(TableExport, ADecisionCountsAndTheScoresOwnVerdictStandsBesideIt) {
   const CsvTable before = table(csv(), "attempts");
   EXPECT_EQ(cell_of(before, first_.uuid, "decided_by"), "");
-  OpinionStore(database_).override_verdict(first_.uuid, false, "The assistant did half of it", {"", "Dr Late"});
+  AssessmentStore(database_).override_verdict(first_.uuid, false, "The assistant did half of it", {"", "Dr Late"});
   const CsvTable attempts = table(csv(), "attempts");
   EXPECT_EQ(cell_of(attempts, first_.uuid, "passed"), "0");
   EXPECT_EQ(cell_of(attempts, first_.uuid, "passed_by_score"), "1");

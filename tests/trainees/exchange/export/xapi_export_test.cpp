@@ -6,7 +6,7 @@
 #include "tests/trainees/records/cohort_samples.h"
 #include "trainees/exchange/export/xapi_export.h"
 #include "trainees/records/accounts.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::xapi_export_test {
@@ -62,10 +62,10 @@ TEST(XapiExport, TheNewestSignersAccountIsTheInstructor) {
   AccountStore accounts(database);
   const Account one = accounts.add("one", "Dr One", Role::kInstructor, "", "long enough to sign in", "");
   const Account two = accounts.add("two", "Dr Two", Role::kInstructor, "", "long enough to sign in", "");
-  OpinionStore opinions(database);
-  opinions.sign(id.uuid, "review", "", {one.uuid, one.name});
-  opinions.sign(id.uuid, "approval", "", {two.uuid, two.name});
-  opinions.sign(id.uuid, "review", "", {"", "from the command line"});
+  AssessmentStore assessments(database);
+  assessments.sign(id.uuid, "review", "", {one.uuid, one.name});
+  assessments.sign(id.uuid, "approval", "", {two.uuid, two.name});
+  assessments.sign(id.uuid, "review", "", {"", "from the command line"});
   const json statement = written(database, {}, {}, {"https://hospital.example/"})[0];
   EXPECT_EQ(statement["context"]["instructor"]["account"],
             (json{{"homePage", "https://hospital.example/"}, {"name", two.uuid}}));

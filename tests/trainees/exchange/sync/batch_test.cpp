@@ -54,9 +54,9 @@ TEST_F(BatchOf, IsAStretchOfTheTrail) {
 TEST_F(BatchOf, OwnWordsOfTraineesAreIdentities) {
   const Account own = AccountStore(database_).add("anna", "Anna", Role::kTrainee, "T-a", "123456", "");
   const std::string attempt = AttemptStore(database_).list().front().uuid;
-  OpinionStore opinions(database_);
-  opinions.sign(attempt, "authorship", "", {own.uuid, own.name});
-  opinions.sign(attempt, "approval", "", kTeacher);
+  AssessmentStore assessments(database_);
+  assessments.sign(attempt, "authorship", "", {own.uuid, own.name});
+  assessments.sign(attempt, "approval", "", kTeacher);
   const Batch batch = read_batch(connection(), 0, 1000);
   EXPECT_EQ(rows_in(batch, "signature"), 1u);
   EXPECT_EQ(rows_in(batch, "person"), 0u);
@@ -68,7 +68,7 @@ TEST_F(BatchOf, OwnWordsOfTraineesAreIdentities) {
 }
 
 TEST_F(BatchOf, ErasedPeopleHaveBareAttemptsAndNoProblems) {
-  OpinionStore(database_).add_note("T-a", "", "Keep still.", kTeacher);
+  AssessmentStore(database_).add_note("T-a", "", "Keep still.", kTeacher);
   erase_trainee(database_, "T-a", ErasureKind::kTraining, "request of the person", kTeacher);
   const Batch batch = read_batch(connection(), 0, 1000);
   EXPECT_EQ(rows_in(batch, "attempt"), 3u);

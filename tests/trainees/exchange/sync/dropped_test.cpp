@@ -31,7 +31,7 @@ class Dropped : public Stations {
     Database first = station("first");
     practise(first, "T-a", 4);
     CurriculumStore(first).join("T-a", "monday", kTeacher);
-    OpinionStore(first).mark_seen(OpinionStore(first).notes_of("T-a").front().uuid);
+    AssessmentStore(first).mark_seen(AssessmentStore(first).notes_of("T-a").front().uuid);
     sync::own_station(first, "first", false);  // its UUID is in every copy
   }
   /// A copy of the first station as it was before any push.
@@ -172,13 +172,13 @@ TEST_F(Stations, ACentrePutBackFromABackupIsToldAndFilledAgain) {
   const CentralAddress backup = backup_of_central();
   practise(a, "T-a", 2);
   practise(b, "T-b", 1);
-  OpinionStore(a).mark_seen(OpinionStore(a).notes_of("T-a").front().uuid);
+  AssessmentStore(a).mark_seen(AssessmentStore(a).notes_of("T-a").front().uuid);
   push_named(a, "a");
   push_named(b, "b");
   Database copy = desk();
   const Lines before = everything();
   const std::string attempt = AttemptStore(copy).find("latest").uuid;
-  OpinionStore(copy).sign(attempt, "review", "", kTeacher);
+  AssessmentStore(copy).sign(attempt, "review", "", kTeacher);
   push(copy, "desk");
   central_ = backup;  // the disk of the centre was replaced
 

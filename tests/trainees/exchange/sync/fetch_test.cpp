@@ -109,7 +109,7 @@ TEST_F(Erased, WhatTheySignedThemselvesGoesEverywhere) {
   Database first = station("first");
   const Account own = AccountStore(first).add("gone", "Anna Gone", Role::kTrainee, "T-gone", "123456", "");
   const std::string attempt = AttemptStore(first).list({"T-gone", ""}).front().uuid;
-  const std::string signature = OpinionStore(first).sign(attempt, "authorship", "", {own.uuid, own.name}).uuid;
+  const std::string signature = AssessmentStore(first).sign(attempt, "authorship", "", {own.uuid, own.name}).uuid;
   PushOptions named{central_};
   named.with_identity = true;
   push_to_central(first, named);
@@ -143,7 +143,7 @@ TEST_F(Erased, TrainingLeavesBareAttempts) {
 
 TEST_F(Erased, NobodyComesBackFromAStationThatHasNotHeard) {
   Database second = station("second");
-  OpinionStore(second).add_note("T-gone", "", "Written before the news came.", kTeacher);
+  AssessmentStore(second).add_note("T-gone", "", "Written before the news came.", kTeacher);
   erase(ErasureKind::kIdentity);
   PushOptions options{central_};
   options.with_identity = true;
@@ -227,7 +227,8 @@ TEST_F(Desk, HasEverythingAndItsHashesHold) {
     decided += there.decided_by.empty() || there.passed == there.passed_by_score ? 0 : 1;
     EXPECT_EQ(store.load(there.row).grade.metrics.size(), AttemptStore(north).load(here.row).grade.metrics.size());
     EXPECT_EQ(store.load(there.row).events.at(0).t_s, AttemptStore(north).load(here.row).events.at(0).t_s);
-    EXPECT_EQ(OpinionStore(desk).signatures_of(here.uuid).size(), OpinionStore(north).signatures_of(here.uuid).size());
+    EXPECT_EQ(AssessmentStore(desk).signatures_of(here.uuid).size(),
+              AssessmentStore(north).signatures_of(here.uuid).size());
   }
   EXPECT_EQ(decided, 1) << "one of north's is passed by decision alone";
   EXPECT_TRUE(replicate_central(desk, central_).added.empty());
@@ -296,7 +297,7 @@ TEST_F(Desk, WhatIsWrittenAtItGoesBackToTheCentre) {
   Database desk = station("desk");
   replicate_central(desk, central_);
   const std::string attempt = AttemptStore(desk).find("latest").uuid;
-  const Signature signature = OpinionStore(desk).sign(attempt, "approval", "Seen.", kTeacher);
+  const Signature signature = AssessmentStore(desk).sign(attempt, "approval", "Seen.", kTeacher);
   const PushReport report = push(desk, "desk");
   EXPECT_EQ(report.added.at("signature"), 1);
   EXPECT_EQ(report.added.count("attempt"), 0u);

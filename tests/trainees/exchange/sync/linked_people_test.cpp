@@ -57,8 +57,8 @@ TEST_F(Linked, HaveOneCurveAndOneSetOfNotesAtTheDesk) {
   const auto curves = learning_curves(past_attempts(copy, "anna"));
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_EQ(curves[0].attempts.size(), 5u);
-  EXPECT_EQ(OpinionStore(copy).notes_of("anna").size(), 2u);
-  EXPECT_EQ(OpinionStore(copy).certificates_of("anna").size(), 2u);
+  EXPECT_EQ(AssessmentStore(copy).notes_of("anna").size(), 2u);
+  EXPECT_EQ(AssessmentStore(copy).certificates_of("anna").size(), 2u);
   EXPECT_TRUE(ConsentStore(copy).holds("anna", "research"));
   EXPECT_EQ(CurriculumStore(copy).groups_of("anna"), Lines{"monday"});
 }
@@ -73,7 +73,7 @@ TEST_F(Linked, ThatComesAfterwardsJoinsThem) {
   EXPECT_EQ(attempts(copy, "anna"), 7u);
   Database late = desk("late");  // a desk that begins after it was said
   EXPECT_EQ(attempts(late, "anna"), 7u);
-  EXPECT_EQ(OpinionStore(late).notes_of("anna").size(), 3u);
+  EXPECT_EQ(AssessmentStore(late).notes_of("anna").size(), 3u);
 }
 
 TEST_F(Linked, AreTwoAgainWhenItIsTakenBack) {
@@ -84,8 +84,8 @@ TEST_F(Linked, AreTwoAgainWhenItIsTakenBack) {
   refresh(copy);
   EXPECT_EQ(attempts(copy, "anna"), 2u);
   EXPECT_EQ(attempts(copy, "a.nna"), 3u);
-  EXPECT_EQ(OpinionStore(copy).notes_of("anna").size(), 1u);
-  EXPECT_EQ(OpinionStore(copy).certificates_of("a.nna").size(), 1u);
+  EXPECT_EQ(AssessmentStore(copy).notes_of("anna").size(), 1u);
+  EXPECT_EQ(AssessmentStore(copy).certificates_of("a.nna").size(), 1u);
   EXPECT_FALSE(ConsentStore(copy).holds("anna", "research"));
   link();
   refresh(copy);
@@ -120,21 +120,21 @@ TEST_F(Linked, GetNotesAtWhicheverStationTheyComeTo) {
   Database copy = station("desk"), south = station("south"), north = station("north");
   link();
   refresh(copy);
-  OpinionStore(copy).add_note("anna", "", "See me on Friday.", kTeacher);
-  OpinionStore(copy).certify("anna", "surface-touch", "L2", "1", "{}", kTeacher);
+  AssessmentStore(copy).add_note("anna", "", "See me on Friday.", kTeacher);
+  AssessmentStore(copy).certify("anna", "surface-touch", "L2", "1", "{}", kTeacher);
   push(copy);
   for (Database* one : {&south, &north}) {
     EXPECT_EQ(pull_from_central(*one, central_, false).problems, Lines{});
     EXPECT_EQ(problems_of(*one), "");
   }
-  EXPECT_EQ(OpinionStore(south).newest_unseen("a.nna")->text, "See me on Friday.");
-  EXPECT_EQ(OpinionStore(north).newest_unseen("anna")->text, "See me on Friday.");
-  EXPECT_EQ(OpinionStore(south).certificates_of("a.nna").front().level, "L2");
+  EXPECT_EQ(AssessmentStore(south).newest_unseen("a.nna")->text, "See me on Friday.");
+  EXPECT_EQ(AssessmentStore(north).newest_unseen("anna")->text, "See me on Friday.");
+  EXPECT_EQ(AssessmentStore(south).certificates_of("a.nna").front().level, "L2");
   EXPECT_EQ(attempts(south, "a.nna"), 3u) << "a station keeps its own attempts as they are";
   EXPECT_EQ(push(south).conflicts, Lines{}) << "what it was told goes back as it was written";
   part();
   EXPECT_EQ(pull_from_central(south, central_, false).problems, Lines{});
-  EXPECT_EQ(OpinionStore(south).notes_of("a.nna").front().text.substr(0, 4), "Keep") << "not hers any more";
+  EXPECT_EQ(AssessmentStore(south).notes_of("a.nna").front().text.substr(0, 4), "Keep") << "not hers any more";
   EXPECT_EQ(problems_of(south), "");
 }
 

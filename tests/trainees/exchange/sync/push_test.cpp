@@ -78,8 +78,8 @@ TEST_F(Stations, NobodyIsNamedUnlessAsked) {
   const Account own =
       AccountStore(database).add("zimtstern", "Anna Zimtstern", Role::kTrainee, "T-Zimtstern", "123456", "");
   const std::string attempt = AttemptStore(database).list().front().uuid;
-  OpinionStore(database).sign(attempt, "authorship", "", {own.uuid, own.name});
-  OpinionStore(database).add_rating(attempt, "self", "overall", 3, {own.uuid, own.name});
+  AssessmentStore(database).sign(attempt, "authorship", "", {own.uuid, own.name});
+  AssessmentStore(database).add_rating(attempt, "self", "overall", 3, {own.uuid, own.name});
   push(database);
   EXPECT_EQ(one("SELECT count(*) FROM signature"), "1");  // the teacher's
   EXPECT_FALSE(holds(everything(), "imtstern"));

@@ -61,19 +61,19 @@ TEST_F(Keeper, BringsWhatStationsPushWithoutBeingAsked) {
   practise(north, "T-north", 1);
   push(north);
   until([&] { return AttemptStore(copy).list().size() == 3; });
-  until([&] { return OpinionStore(copy).notes_of("T-north").size() == 2; });
+  until([&] { return AssessmentStore(copy).notes_of("T-north").size() == 2; });
 }
 
 TEST_F(Keeper, PushesWhatIsWrittenAtTheDeskAndTheTraineeMeetsItAtTheStation) {
   const auto kept = keeper();
   Database copy = station("desk"), north = station("north");
-  OpinionStore(copy).add_note("T-north", "", "Slower on the way out.", kTeacher);
+  AssessmentStore(copy).add_note("T-north", "", "Slower on the way out.", kTeacher);
   CurriculumStore(copy).add("standard", "version = \"2\"\n", kTeacher);
   CurriculumStore(copy).join("T-north", "monday", kTeacher);
   until([&] { return one("SELECT count(*) FROM note WHERE text LIKE 'Slower%'") == "1"; });
   until([&] { return kept->standing().waiting == 0; });
   pull_from_central(north, central_, false);
-  EXPECT_EQ(OpinionStore(north).newest_unseen("T-north")->text, "Slower on the way out.");
+  EXPECT_EQ(AssessmentStore(north).newest_unseen("T-north")->text, "Slower on the way out.");
   EXPECT_TRUE(CurriculumStore(north).newest("standard"));
   EXPECT_EQ(CurriculumStore(north).groups_of("T-north"), Lines{"monday"});
 }
@@ -87,8 +87,8 @@ TEST_F(Keeper, SaysSinceWhenTheCentreIsLostAndWhatWaitsAndSendsItWhenItIsBack) {
   EXPECT_NE(lost.why.find("central database"), std::string::npos) << lost.why;
   EXPECT_NE(lost.as_of_utc, "") << "what is there is as of then";
   EXPECT_LE(lost.as_of_utc, lost.lost_since_utc);
-  OpinionStore(copy).add_note("T-north", "", "Written in a dark hour.", kTeacher);
-  OpinionStore(copy).add_note("T-north", "", "And another.", kTeacher);
+  AssessmentStore(copy).add_note("T-north", "", "Written in a dark hour.", kTeacher);
+  AssessmentStore(copy).add_note("T-north", "", "And another.", kTeacher);
   until([&] { return kept->standing().waiting == 2; });
   EXPECT_EQ(kept->standing().lost_since_utc, lost.lost_since_utc) << "the first moment, not the newest try";
   proxy_->mend();
@@ -104,7 +104,7 @@ TEST_F(Keeper, KeepsWhatWaitsWhenTheDeskIsClosed) {
     proxy_->cut_after(0);
     until([&] { return !kept->standing().lost_since_utc.empty(); });
     Database copy = station("desk");
-    OpinionStore(copy).add_note("T-north", "", "Written in a dark hour.", kTeacher);
+    AssessmentStore(copy).add_note("T-north", "", "Written in a dark hour.", kTeacher);
   }
   {
     const auto kept = keeper();  // begins without a centre, from what it had
@@ -134,11 +134,11 @@ TEST_F(Keeper, TwoDesksThatWriteAtOnceEndWithTheSame) {
   Database one_desk = station("desk"), other_desk = station("second");
   const std::string attempt = AttemptStore(one_desk).find("latest").uuid;
   for (int i = 0; i < 5; ++i) {
-    OpinionStore(one_desk).override_verdict(attempt, true, "The camera was knocked over.", kTeacher);
-    OpinionStore(other_desk)
+    AssessmentStore(one_desk).override_verdict(attempt, true, "The camera was knocked over.", kTeacher);
+    AssessmentStore(other_desk)
         .override_verdict(attempt, false, "I saw it: it was the hand.", {"0192-other", "Otto Blau"});
   }
-  const auto all = [&](Database& database) { return OpinionStore(database).overrides_of(attempt); };
+  const auto all = [&](Database& database) { return AssessmentStore(database).overrides_of(attempt); };
   until([&] { return all(one_desk).size() == 10 && all(other_desk).size() == all(one_desk).size(); });
   EXPECT_EQ(all(one_desk).front().uuid, all(other_desk).front().uuid);
   until([&] { return first->standing().waiting == 0 && second->standing().waiting == 0; });
@@ -149,9 +149,9 @@ TEST_F(Keeper, TwoDesksThatWriteAtOnceEndWithTheSame) {
 TEST_F(Keeper, SettlesDownWhenNobodyWrites) {
   const auto first = keeper("desk"), second = keeper("second");
   Database copy = station("desk");
-  OpinionStore(copy).add_note("T-north", "", "Slower on the way out.", kTeacher);
+  AssessmentStore(copy).add_note("T-north", "", "Slower on the way out.", kTeacher);
   Database other = station("second");
-  until([&] { return OpinionStore(other).notes_of("T-north").size() == 2; });
+  until([&] { return AssessmentStore(other).notes_of("T-north").size() == 2; });
   const auto quiet = [&] {
     const std::string before = one("SELECT revision FROM central") + copy.head() + other.head();
     std::this_thread::sleep_for(std::chrono::milliseconds(300));

@@ -41,20 +41,21 @@ std::string Stations::trainee_uuid(Database& database, const std::string& code) 
 }
 
 void Stations::practise(Database& database, const std::string& code, int attempts) {
-  OpinionStore opinions(database);
+  AssessmentStore assessments(database);
   for (int i = 0; i < attempts; ++i) {
     AttemptStart start = sample_start(code);
     start.seed = i;
     const AttemptId id = store_attempt(database, start, sample_result(60 + i));
     if (i > 0) continue;
-    opinions.add_note(code, id.uuid,
-                      "Keep the left hand still: \xc3\xbc"
-                      "ben \"jetzt\"\n\\n",
-                      kTeacher);
-    opinions.add_rating(id.uuid, "GOALS", "efficiency", 1.0 / 3, kTeacher);
-    opinions.sign(id.uuid, "approval", "", kTeacher);
-    opinions.override_verdict(id.uuid, true, "The camera was knocked", kTeacher);
-    if (opinions.certificates_of(code).empty()) opinions.certify(code, "surface-touch", "L1", "1", "{}", kTeacher);
+    assessments.add_note(code, id.uuid,
+                         "Keep the left hand still: \xc3\xbc"
+                         "ben \"jetzt\"\n\\n",
+                         kTeacher);
+    assessments.add_rating(id.uuid, "GOALS", "efficiency", 1.0 / 3, kTeacher);
+    assessments.sign(id.uuid, "approval", "", kTeacher);
+    assessments.override_verdict(id.uuid, true, "The camera was knocked", kTeacher);
+    if (assessments.certificates_of(code).empty())
+      assessments.certify(code, "surface-touch", "L1", "1", "{}", kTeacher);
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "tests/trainees/exchange/sync/postgres_server.h"
 #include "tests/trainees/records/store_samples.h"
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 namespace trocar::test {
 

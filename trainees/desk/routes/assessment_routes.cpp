@@ -47,7 +47,7 @@ Response on_trainee(const Request& request, Desk& desk, const std::string& code,
 Response note_on_trainee(const Request& request, Desk& desk) {
   const std::string code = argument(request.arguments, "code");
   const auto add = [&] {
-    OpinionStore(desk.database).add_note(code, "", argument(request.form, "text"), author_of(request));
+    AssessmentStore(desk.database).add_note(code, "", argument(request.form, "text"), author_of(request));
   };
   return on_trainee(request, desk, code, "note", add, "#notes");
 }
@@ -55,14 +55,14 @@ Response note_on_trainee(const Request& request, Desk& desk) {
 Response note_on_attempt(const Request& request, Desk& desk) {
   return on_attempt(request, desk, "note", [&](const std::string& uuid) {
     const AttemptSummary attempt = AttemptStore(desk.database).find(uuid);
-    OpinionStore(desk.database).add_note(attempt.trainee, uuid, argument(request.form, "text"), author_of(request));
+    AssessmentStore(desk.database).add_note(attempt.trainee, uuid, argument(request.form, "text"), author_of(request));
     return see("/attempt/" + url_part(uuid) + "#notes");
   });
 }
 
 Response sign(const Request& request, Desk& desk) {
   return on_attempt(request, desk, "sign", [&](const std::string& uuid) {
-    OpinionStore(desk.database)
+    AssessmentStore(desk.database)
         .sign(uuid, argument(request.form, "meaning"), argument(request.form, "note"), author_of(request));
     return see("/attempt/" + url_part(uuid) + "#sign");
   });
@@ -72,7 +72,7 @@ Response override_verdict(const Request& request, Desk& desk) {
   return on_attempt(request, desk, "override", [&](const std::string& uuid) {
     const std::string passed = argument(request.form, "passed");
     if (passed != "yes" && passed != "no") throw InputError("decision: say passed or not passed");
-    OpinionStore(desk.database)
+    AssessmentStore(desk.database)
         .override_verdict(uuid, passed == "yes", argument(request.form, "reason"), author_of(request));
     return see("/attempt/" + url_part(uuid) + "#sign");
   });
@@ -90,7 +90,7 @@ Response rate(const Request& request, Desk& desk) {
         throw InputError("rating " + scale.name + ", " + item.name + ": choose a value");
       values[item.name] = text[0] - '0';
     }
-    OpinionStore(desk.database).rate(uuid, scale.name, values, author_of(request));
+    AssessmentStore(desk.database).rate(uuid, scale.name, values, author_of(request));
     return see("/attempt/" + url_part(uuid) + "#ratings");
   });
 }
@@ -104,7 +104,7 @@ Response certify(const Request& request, Desk& desk) {
       for (const std::string& condition : view.missing) why += " " + sentence(condition);
       throw InputError(why);
     }
-    OpinionStore(desk.database)
+    AssessmentStore(desk.database)
         .certify(view.result.trainee, view.result.exercise_id, view.result.level, view.ready->rule_version,
                  certificate_evidence(view), author_of(request));
     return see("/trainee/" + url_part(view.result.trainee) + "#certificates");
@@ -112,19 +112,19 @@ Response certify(const Request& request, Desk& desk) {
 }
 
 Response revoke(const Request& request, Desk& desk) {
-  OpinionStore opinions(desk.database);
+  AssessmentStore assessments(desk.database);
   const std::string uuid = argument(request.arguments, "certificate");
-  for (const Certificate& certificate : opinions.certificates_of(""))
+  for (const Certificate& certificate : assessments.certificates_of(""))
     if (certificate.uuid == uuid) {
-      const auto act = [&] { opinions.revoke(uuid, argument(request.form, "reason"), author_of(request)); };
+      const auto act = [&] { assessments.revoke(uuid, argument(request.form, "reason"), author_of(request)); };
       return on_trainee(request, desk, certificate.trainee, "revoke-" + uuid, act, "#certificates");
     }
   throw InputError("there is no such certificate in this record");
 }
 
 /// A form's address asked for as a page, as after signing in again: the page that has the form.
-Route opinion_form(const std::string& path, const std::string& kind, const std::string& argument_name,
-                   const std::string& after) {
+Route assessment_form(const std::string& path, const std::string& kind, const std::string& argument_name,
+                      const std::string& after) {
   return {"GET", path, Audience::kOwnData, [=](const Request& request, Desk&) {
             return see("/" + kind + "/" + url_part(argument(request.arguments, argument_name)) + after);
           }};
@@ -140,7 +140,7 @@ Route post(const std::string& path, Action action) {
 
 }  // namespace
 
-std::vector<Route> opinion_routes() {
+std::vector<Route> assessment_routes() {
   std::vector<Route> out = {post("/trainee/{code}/note", note_on_trainee),
                             post("/attempt/{attempt}/note", note_on_attempt),
                             post("/attempt/{attempt}/sign", sign),
@@ -148,11 +148,11 @@ std::vector<Route> opinion_routes() {
                             post("/attempt/{attempt}/rate", rate),
                             post("/attempt/{attempt}/certify", certify),
                             post("/certificate/{certificate}/revoke", revoke)};
-  out.push_back(opinion_form("/trainee/{code}/note", "trainee", "code", "#notes"));
-  out.push_back(opinion_form("/attempt/{attempt}/note", "attempt", "attempt", "#notes"));
-  out.push_back(opinion_form("/attempt/{attempt}/rate", "attempt", "attempt", "#ratings"));
+  out.push_back(assessment_form("/trainee/{code}/note", "trainee", "code", "#notes"));
+  out.push_back(assessment_form("/attempt/{attempt}/note", "attempt", "attempt", "#notes"));
+  out.push_back(assessment_form("/attempt/{attempt}/rate", "attempt", "attempt", "#ratings"));
   for (const char* form : {"sign", "override", "certify"})
-    out.push_back(opinion_form(std::string("/attempt/{attempt}/") + form, "attempt", "attempt", "#sign"));
+    out.push_back(assessment_form(std::string("/attempt/{attempt}/") + form, "attempt", "attempt", "#sign"));
   return out;
 }
 

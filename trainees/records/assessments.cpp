@@ -1,4 +1,4 @@
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -154,15 +154,15 @@ Note write_note(sqlite3* connection, const std::string& trainee, const std::stri
 
 }  // namespace
 
-Note OpinionStore::add_note(const std::string& trainee, const std::string& attempt_uuid, const std::string& text,
-                            const Author& author) {
+Note AssessmentStore::add_note(const std::string& trainee, const std::string& attempt_uuid, const std::string& text,
+                               const Author& author) {
   AnchoredTransaction transaction(*database_);
   const Note note = write_note(database_->connection(), trainee, attempt_uuid, text, author);
   transaction.commit();
   return note;
 }
 
-Note OpinionStore::add_message(const std::string& trainee, const std::string& text, const Author& author) {
+Note AssessmentStore::add_message(const std::string& trainee, const std::string& text, const Author& author) {
   if (text.size() > kLongestMessage)
     throw InputError("a message has at most " + std::to_string(kLongestMessage) +
                      " characters: it is read in passing. Write a note for more");
@@ -175,7 +175,7 @@ Note OpinionStore::add_message(const std::string& trainee, const std::string& te
   return note;
 }
 
-std::optional<Note> OpinionStore::unseen_message(const std::string& trainee) const {
+std::optional<Note> AssessmentStore::unseen_message(const std::string& trainee) const {
   sql::Statement row(database_->connection(),
                      std::string(kNotes) +
                          " AND s.utc IS NULL AND EXISTS (SELECT 1 FROM audit u"
@@ -184,7 +184,7 @@ std::optional<Note> OpinionStore::unseen_message(const std::string& trainee) con
   return note_of(row);
 }
 
-std::vector<Note> OpinionStore::notes_of(const std::string& trainee) const {
+std::vector<Note> AssessmentStore::notes_of(const std::string& trainee) const {
   std::vector<Note> notes;
   sql::Statement rows(database_->connection(), std::string(kNotes) + " ORDER BY n.uuid DESC");
   rows.bind(trainee);
@@ -192,13 +192,13 @@ std::vector<Note> OpinionStore::notes_of(const std::string& trainee) const {
   return notes;
 }
 
-std::optional<Note> OpinionStore::newest_unseen(const std::string& trainee) const {
+std::optional<Note> AssessmentStore::newest_unseen(const std::string& trainee) const {
   sql::Statement row(database_->connection(), std::string(kNotes) + " AND s.utc IS NULL ORDER BY n.uuid DESC LIMIT 1");
   if (!row.bind(trainee).step()) return std::nullopt;
   return note_of(row);
 }
 
-void OpinionStore::mark_seen(const std::string& note_uuid) {
+void AssessmentStore::mark_seen(const std::string& note_uuid) {
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
   {
@@ -214,8 +214,8 @@ void OpinionStore::mark_seen(const std::string& note_uuid) {
   transaction.commit();
 }
 
-void OpinionStore::add_rating(const std::string& attempt_uuid, const std::string& scale, const std::string& item,
-                              double value, const Author& author) {
+void AssessmentStore::add_rating(const std::string& attempt_uuid, const std::string& scale, const std::string& item,
+                                 double value, const Author& author) {
   check_printed("scale", scale);
   check_printed("item", item);
   check_printed("author", author.printed);
@@ -226,8 +226,8 @@ void OpinionStore::add_rating(const std::string& attempt_uuid, const std::string
   transaction.commit();
 }
 
-void OpinionStore::rate(const std::string& attempt_uuid, const std::string& scale_name,
-                        const std::map<std::string, double>& values, const Author& author) {
+void AssessmentStore::rate(const std::string& attempt_uuid, const std::string& scale_name,
+                           const std::map<std::string, double>& values, const Author& author) {
   const RatingScale& scale = rating_scale(scale_name);
   check_printed("author", author.printed);
   if (values.empty()) throw InputError("rating " + scale.name + ": no item was rated");
@@ -243,7 +243,7 @@ void OpinionStore::rate(const std::string& attempt_uuid, const std::string& scal
   transaction.commit();
 }
 
-std::vector<Rating> OpinionStore::ratings_of(const std::string& attempt_uuid) const {
+std::vector<Rating> AssessmentStore::ratings_of(const std::string& attempt_uuid) const {
   std::vector<Rating> ratings;
   sql::Statement rows(database_->connection(),
                       "SELECT r.uuid, account_uuid, rater, scale, item, utc, value FROM rating r"
@@ -256,8 +256,8 @@ std::vector<Rating> OpinionStore::ratings_of(const std::string& attempt_uuid) co
   return ratings;
 }
 
-Signature OpinionStore::sign(const std::string& attempt_uuid, const std::string& meaning, const std::string& note,
-                             const Author& author) {
+Signature AssessmentStore::sign(const std::string& attempt_uuid, const std::string& meaning, const std::string& note,
+                                const Author& author) {
   if (meaning != "review" && meaning != "approval" && meaning != "responsibility" && meaning != "authorship") {
     throw InputError("signature: its meaning is review, approval, responsibility or authorship, not \"" + meaning +
                      "\"");
@@ -288,7 +288,7 @@ Signature OpinionStore::sign(const std::string& attempt_uuid, const std::string&
   return signature;
 }
 
-std::vector<Signature> OpinionStore::signatures_of(const std::string& attempt_uuid) const {
+std::vector<Signature> AssessmentStore::signatures_of(const std::string& attempt_uuid) const {
   std::vector<Signature> signatures;
   sql::Statement rows(database_->connection(),
                       "SELECT s.uuid, s.row_hash, account_uuid, signer, meaning, note, utc FROM signature s"
@@ -301,8 +301,8 @@ std::vector<Signature> OpinionStore::signatures_of(const std::string& attempt_uu
   return signatures;
 }
 
-VerdictOverride OpinionStore::override_verdict(const std::string& attempt_uuid, bool passed, const std::string& reason,
-                                               const Author& author) {
+VerdictOverride AssessmentStore::override_verdict(const std::string& attempt_uuid, bool passed,
+                                                  const std::string& reason, const Author& author) {
   check_reason(reason);
   check_printed("author", author.printed);
   sqlite3* connection = database_->connection();
@@ -329,7 +329,7 @@ VerdictOverride OpinionStore::override_verdict(const std::string& attempt_uuid, 
   return verdict;
 }
 
-std::vector<VerdictOverride> OpinionStore::overrides_of(const std::string& attempt_uuid) const {
+std::vector<VerdictOverride> AssessmentStore::overrides_of(const std::string& attempt_uuid) const {
   std::vector<VerdictOverride> verdicts;
   sql::Statement rows(database_->connection(),
                       "SELECT o.uuid, author, printed, reason, utc, passed FROM verdict_override o"
@@ -340,8 +340,9 @@ std::vector<VerdictOverride> OpinionStore::overrides_of(const std::string& attem
   return verdicts;
 }
 
-Certificate OpinionStore::certify(const std::string& trainee, const std::string& exercise_id, const std::string& level,
-                                  const std::string& rule_version, const std::string& evidence, const Author& author) {
+Certificate AssessmentStore::certify(const std::string& trainee, const std::string& exercise_id,
+                                     const std::string& level, const std::string& rule_version,
+                                     const std::string& evidence, const Author& author) {
   check_printed("level", level);
   check_printed("rule", rule_version);
   check_prose("evidence", evidence, kLongestEvidence);
@@ -368,7 +369,7 @@ Certificate OpinionStore::certify(const std::string& trainee, const std::string&
   return certificate;
 }
 
-void OpinionStore::revoke(const std::string& certificate_uuid, const std::string& reason, const Author& author) {
+void AssessmentStore::revoke(const std::string& certificate_uuid, const std::string& reason, const Author& author) {
   check_reason(reason);
   check_printed("author", author.printed);
   sqlite3* connection = database_->connection();
@@ -396,7 +397,7 @@ void OpinionStore::revoke(const std::string& certificate_uuid, const std::string
   transaction.commit();
 }
 
-std::vector<Certificate> OpinionStore::certificates_of(const std::string& trainee) const {
+std::vector<Certificate> AssessmentStore::certificates_of(const std::string& trainee) const {
   std::vector<Certificate> certificates;
   sql::Statement rows(database_->connection(), kCertificates);
   rows.bind(trainee);

@@ -43,9 +43,9 @@ struct Certificate {
   std::string revoked_utc = {}, revoked_reason = {};  ///< "" while it holds
 };
 
-class OpinionStore {
+class AssessmentStore {
  public:
-  explicit OpinionStore(Database& database) : database_(&database) {}
+  explicit AssessmentStore(Database& database) : database_(&database) {}
 
   /// @param trainee code (here and below). @param attempt_uuid "" for a note on the trainee.
   /// @throws InputError: empty, longer than 4000 characters, no such trainee, no such attempt of theirs.

@@ -1,6 +1,6 @@
 // Notes, ratings, signatures, overrides, certificates: what can be said of whom, in which order it is read, and that it
 // stays as it was.
-#include "trainees/records/opinions.h"
+#include "trainees/records/assessments.h"
 
 #include <atomic>
 #include <barrier>
@@ -11,16 +11,16 @@
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
-namespace trocar::opinions_test {
+namespace trocar::assessments_test {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kReason = "The camera was knocked at 12 s";
 
-class Opinions : public testing::Test {
+class Assessments : public testing::Test {
  protected:
-  Opinions() {
+  Assessments() {
     TraineeStore(database_).ensure_trainee("T-1");
     attempt_ = store_attempt(database_, sample_start("T-1"), sample_result()).uuid;
     hash_ = sql::query_text(database_.connection(), "SELECT row_hash FROM attempt WHERE id = 1");
@@ -33,12 +33,12 @@ class Opinions : public testing::Test {
   void outside(const char* sql) { sql::execute(database_.connection(), sql); }
 
   Database database_{":memory:"};
-  OpinionStore store_{database_};
+  AssessmentStore store_{database_};
   const Author author_{"0192-account", "Ida Adler"};
   std::string attempt_, hash_;
 };
 
-TEST_F(Opinions, NotesAreReadNewestFirstAndMetOnce) {
+TEST_F(Assessments, NotesAreReadNewestFirstAndMetOnce) {
   const Note first = store_.add_note("T-1", "", "Keep the left hand still.", author_);
   const Note second = store_.add_note("t-1", attempt_, "Look at 12 s:\nthe tip\tslips.", {"", "Otto"});
   const auto notes = store_.notes_of("T-1");
@@ -61,7 +61,7 @@ TEST_F(Opinions, NotesAreReadNewestFirstAndMetOnce) {
   EXPECT_TRUE(database_.check().empty());
 }
 
-TEST_F(Opinions, NotesThatSayNothingOrOfNobodyAreRefused) {
+TEST_F(Assessments, NotesThatSayNothingOrOfNobodyAreRefused) {
   refuses([&] { store_.add_note("T-2", "", "x", author_); }, "trainee \"T-2\"");
   refuses([&] { store_.add_note("T-1", "", " \n ", author_); }, "note: is empty");
   refuses([&] { store_.add_note("T-1", "", std::string(4001, 'x'), author_); }, "no more than 4000");
@@ -79,7 +79,7 @@ TEST_F(Opinions, NotesThatSayNothingOrOfNobodyAreRefused) {
   EXPECT_EQ(store_.notes_of("T-1").size(), 1u);
 }
 
-TEST_F(Opinions, RatingsAreKeptItemByItem) {
+TEST_F(Assessments, RatingsAreKeptItemByItem) {
   store_.add_rating(attempt_, "GOALS", "depth perception", 4, author_);
   store_.add_rating(attempt_, "GOALS", "efficiency", 3.5, author_);
   const auto ratings = store_.ratings_of(attempt_);
@@ -95,7 +95,7 @@ TEST_F(Opinions, RatingsAreKeptItemByItem) {
   refuses([&] { store_.add_rating("0192-none", "GOALS", "x", 1, author_); }, "not in this database");
 }
 
-TEST_F(Opinions, ASignatureIsBoundToTheBytesOfTheAttempt) {
+TEST_F(Assessments, ASignatureIsBoundToTheBytesOfTheAttempt) {
   const Signature signature = store_.sign(attempt_, "approval", "", author_);
   EXPECT_EQ(signature.row_hash, hash_);
   const auto signatures = store_.signatures_of(attempt_);
@@ -111,7 +111,7 @@ TEST_F(Opinions, ASignatureIsBoundToTheBytesOfTheAttempt) {
           "was changed after it was finished and cannot be signed");
 }
 
-TEST_F(Opinions, TheNewestOverrideStandsFirstAndTheScoreStays) {
+TEST_F(Assessments, TheNewestOverrideStandsFirstAndTheScoreStays) {
   const double before = AttemptStore(database_).load(attempt_).grade.score.value();
   store_.override_verdict(attempt_, false, kReason, author_);
   store_.override_verdict(attempt_, true, "Looked at the film again: it was not", author_);
@@ -125,7 +125,7 @@ TEST_F(Opinions, TheNewestOverrideStandsFirstAndTheScoreStays) {
   refuses([&] { store_.override_verdict(begun(), true, kReason, author_); }, "still running");
 }
 
-TEST_F(Opinions, ACertificateHoldsUntilItIsRevoked) {
+TEST_F(Assessments, ACertificateHoldsUntilItIsRevoked) {
   const Certificate first = store_.certify("T-1", "surface-touch", "L1", "2026-1", "{\"n\":14}", author_);
   const Certificate second = store_.certify("T-1", "surface-touch", "L2", "2026-1", "{\"n\":20}", author_);
   ASSERT_EQ(store_.certificates_of("t-1").size(), 2u);
@@ -146,7 +146,7 @@ TEST_F(Opinions, ACertificateHoldsUntilItIsRevoked) {
   EXPECT_TRUE(database_.check().empty());
 }
 
-TEST_F(Opinions, TheTablesRefuseChangeDeletionAndReplacement) {
+TEST_F(Assessments, TheTablesRefuseChangeDeletionAndReplacement) {
   store_.add_note("T-1", attempt_, "a note", author_);
   store_.add_rating(attempt_, "GOALS", "efficiency", 3, author_);
   store_.sign(attempt_, "review", "", author_);
@@ -165,7 +165,7 @@ TEST_F(Opinions, TheTablesRefuseChangeDeletionAndReplacement) {
   EXPECT_TRUE(database_.check().empty());
 }
 
-TEST_F(Opinions, OnePersonSignsAnAttemptOnceWithAMeaning) {
+TEST_F(Assessments, OnePersonSignsAnAttemptOnceWithAMeaning) {
   store_.sign(attempt_, "review", "Seen.", author_);
   const auto entries = [&] { return sql::query_integer(database_.connection(), "SELECT count(*) FROM audit"); };
   const auto before = entries();
@@ -181,7 +181,7 @@ TEST_F(Opinions, OnePersonSignsAnAttemptOnceWithAMeaning) {
   EXPECT_EQ(store_.signatures_of(attempt_).size(), 5u);
 }
 
-TEST_F(Opinions, ACertificateIsHeldOnceUntilItIsRevoked) {
+TEST_F(Assessments, ACertificateIsHeldOnceUntilItIsRevoked) {
   const auto certify = [&](const std::string& level) {
     return store_.certify("T-1", "surface-touch", level, "1", "{}", author_).uuid;
   };
@@ -211,7 +211,7 @@ TEST_F(TwoDesks, GiveOneCertificateAndOneSignatureBetweenThem) {
   std::barrier together(2);
   const auto desk = [&](const std::string& name) {
     Database database(file, OpenMode::kExisting, 20000);
-    OpinionStore store(database);
+    AssessmentStore store(database);
     const auto once = [&](std::atomic<int>& done, const std::function<void()>& action) {
       together.arrive_and_wait();
       try {
@@ -234,9 +234,9 @@ TEST_F(TwoDesks, GiveOneCertificateAndOneSignatureBetweenThem) {
   EXPECT_EQ(signed_ones, kRounds);
   EXPECT_EQ(refused, 2 * kRounds);
   Database database(file);
-  EXPECT_EQ(OpinionStore(database).certificates_of("T-1").size(), static_cast<std::size_t>(kRounds));
+  EXPECT_EQ(AssessmentStore(database).certificates_of("T-1").size(), static_cast<std::size_t>(kRounds));
   EXPECT_EQ(problems_of(database), "");
 }
 
 }  // namespace
-}  // namespace trocar::opinions_test
+}  // namespace trocar::assessments_test

@@ -8,6 +8,6 @@
 namespace trocar::review {
 
 /// Every absolute path is cut to its last name. @param database its folder may have blanks, so it is taken out first.
-std::string told_without_folders(const std::string& message, const std::filesystem::path& database = {});
+std::string without_folders(const std::string& message, const std::filesystem::path& database = {});
 
 }  // namespace trocar::review

@@ -1,4 +1,4 @@
-#include "trainees/store/row_kinds.h"
+#include "trainees/store/lookup_tables.h"
 
 #include <initializer_list>
 

@@ -9,7 +9,7 @@
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
-namespace trocar::opinions_sync_test {
+namespace trocar::assessments_sync_test {
 namespace {
 
 using test::kTeacher;
@@ -19,7 +19,7 @@ using Lines = std::vector<std::string>;
 const Author kOther{"0192-other", "Otto Blau"};
 
 /// Two stations with a trainee each, and a desk.
-class Opinions : public Stations {
+class Assessments : public Stations {
  protected:
   void SetUp() override {
     Stations::SetUp();
@@ -50,29 +50,29 @@ class Opinions : public Stations {
   }
 };
 
-TEST_F(Opinions, ANoteOfTheDeskMeetsTheTraineeAtTheStationAndTheDeskHearsThatItDid) {
+TEST_F(Assessments, ANoteOfTheDeskMeetsTheTraineeAtTheStationAndTheDeskHearsThatItDid) {
   Database copy = station("desk"), north = station("north"), south = station("south");
-  const Note written = OpinionStore(copy).add_note("T-north", newest(copy, "T-north"), "Rest your elbow.", kTeacher);
+  const Note written = AssessmentStore(copy).add_note("T-north", newest(copy, "T-north"), "Rest your elbow.", kTeacher);
   travel(copy, north);
-  const auto met = OpinionStore(north).newest_unseen("T-north");
+  const auto met = AssessmentStore(north).newest_unseen("T-north");
   ASSERT_TRUE(met);
   EXPECT_EQ(met->text, "Rest your elbow.");
   EXPECT_EQ(met->printed, "Ida Adler");
   EXPECT_EQ(met->attempt_uuid, written.attempt_uuid);
   EXPECT_FALSE(pull(south).added.contains("note")) << "it is no business of that station";
-  OpinionStore(north).mark_seen(met->uuid);
+  AssessmentStore(north).mark_seen(met->uuid);
   push(north);
   replicate_central(copy, central_);
-  EXPECT_EQ(OpinionStore(copy).notes_of("T-north").front().seen_utc,
-            OpinionStore(north).notes_of("T-north").front().seen_utc);
-  EXPECT_NE(OpinionStore(copy).notes_of("T-north").front().seen_utc, "");
+  EXPECT_EQ(AssessmentStore(copy).notes_of("T-north").front().seen_utc,
+            AssessmentStore(north).notes_of("T-north").front().seen_utc);
+  EXPECT_NE(AssessmentStore(copy).notes_of("T-north").front().seen_utc, "");
   EXPECT_TRUE(push(north).added.empty());
   EXPECT_TRUE(pull(north).added.empty());
 }
 
-TEST_F(Opinions, DecisionsOfTheDeskStandAtTheStation) {
+TEST_F(Assessments, DecisionsOfTheDeskStandAtTheStation) {
   Database copy = station("desk"), north = station("north");
-  OpinionStore said(copy);
+  AssessmentStore said(copy);
   const std::string attempt = newest(copy, "T-north");
   said.sign(attempt, "approval", "", kTeacher);
   said.add_rating(attempt, "GOALS", "depth perception", 4, kTeacher);
@@ -80,14 +80,14 @@ TEST_F(Opinions, DecisionsOfTheDeskStandAtTheStation) {
   const Certificate certificate = said.certify("T-north", "surface-touch", "L1", "1", "{}", kTeacher);
   EXPECT_EQ(travel(copy, north).added,
             (std::map<std::string, int>{{"signature", 1}, {"rating", 1}, {"verdict_override", 1}, {"certificate", 1}}));
-  EXPECT_TRUE(OpinionStore(north).overrides_of(attempt).at(0).passed);
-  EXPECT_EQ(OpinionStore(north).certificates_of("T-north").at(0).uuid, certificate.uuid);
+  EXPECT_TRUE(AssessmentStore(north).overrides_of(attempt).at(0).passed);
+  EXPECT_EQ(AssessmentStore(north).certificates_of("T-north").at(0).uuid, certificate.uuid);
   said.revoke(certificate.uuid, "The wrong trainee was at the table.", kTeacher);
   travel(copy, north);
-  EXPECT_NE(OpinionStore(north).certificates_of("T-north").at(0).revoked_utc, "");
+  EXPECT_NE(AssessmentStore(north).certificates_of("T-north").at(0).revoked_utc, "");
 }
 
-TEST_F(Opinions, ConsentsAreKnownWhereverThePersonIs) {
+TEST_F(Assessments, ConsentsAreKnownWhereverThePersonIs) {
   Database copy = station("desk"), north = station("north");
   ConsentStore(north).record("T-north", "research", true, "I agree.", kTeacher);
   push(north);
@@ -98,48 +98,49 @@ TEST_F(Opinions, ConsentsAreKnownWhereverThePersonIs) {
   EXPECT_TRUE(ConsentStore(copy).holds("T-north", "research"));
 }
 
-TEST_F(Opinions, TwoDesksThatDecideAtOnceBothStandAndEverybodySeesTheSameFirst) {
+TEST_F(Assessments, TwoDesksThatDecideAtOnceBothStandAndEverybodySeesTheSameFirst) {
   Database copy = station("desk"), second = desk("second"), north = station("north");
   const std::string attempt = newest(copy, "T-north");
-  OpinionStore(copy).override_verdict(attempt, true, "The camera was knocked over.", kTeacher);
-  OpinionStore(second).override_verdict(attempt, false, "I saw it: it was the hand.", kOther);
-  OpinionStore(copy).certify("T-north", "surface-touch", "L1", "1", "{}", kTeacher);
-  OpinionStore(second).certify("T-north", "surface-touch", "L1", "1", "{}", kOther);
+  AssessmentStore(copy).override_verdict(attempt, true, "The camera was knocked over.", kTeacher);
+  AssessmentStore(second).override_verdict(attempt, false, "I saw it: it was the hand.", kOther);
+  AssessmentStore(copy).certify("T-north", "surface-touch", "L1", "1", "{}", kTeacher);
+  AssessmentStore(second).certify("T-north", "surface-touch", "L1", "1", "{}", kOther);
   for (int turn = 0; turn < 2; ++turn) {  // in either order of arrival
     push(second, "second");
     push(copy, "desk");
     for (Database* one : {&copy, &second}) EXPECT_EQ(replicate_central(*one, central_).problems, Lines{});
     pull(north);
   }
-  const auto here = OpinionStore(copy).overrides_of(attempt);
+  const auto here = AssessmentStore(copy).overrides_of(attempt);
   ASSERT_EQ(here.size(), 2u);
   for (Database* other : {&second, &north}) {
-    EXPECT_EQ(OpinionStore(*other).overrides_of(attempt).at(0).uuid, here[0].uuid) << "the same one holds everywhere";
-    EXPECT_EQ(OpinionStore(*other).certificates_of("T-north").size(), 2u);
+    EXPECT_EQ(AssessmentStore(*other).overrides_of(attempt).at(0).uuid, here[0].uuid)
+        << "the same one holds everywhere";
+    EXPECT_EQ(AssessmentStore(*other).certificates_of("T-north").size(), 2u);
     EXPECT_EQ(problems_of(*other), "");
   }
 }
 
-TEST_F(Opinions, TwoDesksThatRevokeOneCertificateBothRevokedIt) {
+TEST_F(Assessments, TwoDesksThatRevokeOneCertificateBothRevokedIt) {
   Database copy = station("desk"), second = desk("second"), north = station("north");
-  const Certificate certificate = OpinionStore(copy).certify("T-north", "surface-touch", "L1", "1", "{}", kTeacher);
+  const Certificate certificate = AssessmentStore(copy).certify("T-north", "surface-touch", "L1", "1", "{}", kTeacher);
   push(copy, "desk");
   replicate_central(second, central_);
-  OpinionStore(copy).revoke(certificate.uuid, "The wrong trainee was at it.", kTeacher);
-  OpinionStore(second).revoke(certificate.uuid, "The table was not level then.", kOther);
+  AssessmentStore(copy).revoke(certificate.uuid, "The wrong trainee was at it.", kTeacher);
+  AssessmentStore(second).revoke(certificate.uuid, "The table was not level then.", kOther);
   push(second, "second");
   push(copy, "desk");
   EXPECT_EQ(one("SELECT count(*) FROM revocation"), "2") << "the centre has both";
   for (Database* other : {&copy, &second}) {
     EXPECT_EQ(replicate_central(*other, central_).problems, Lines{});
     EXPECT_EQ(problems_of(*other), "");
-    EXPECT_NE(OpinionStore(*other).certificates_of("T-north").at(0).revoked_utc, "");
+    EXPECT_NE(AssessmentStore(*other).certificates_of("T-north").at(0).revoked_utc, "");
   }
   pull(north);
-  EXPECT_NE(OpinionStore(north).certificates_of("T-north").at(0).revoked_utc, "");
+  EXPECT_NE(AssessmentStore(north).certificates_of("T-north").at(0).revoked_utc, "");
 }
 
-TEST_F(Opinions, GroupsAreThoseOfTheNewestChangeThatReachedTheCentre) {
+TEST_F(Assessments, GroupsAreThoseOfTheNewestChangeThatReachedTheCentre) {
   Database copy = station("desk"), north = station("north");
   CurriculumStore(north).join("T-north", "monday", kTeacher);
   CurriculumStore(copy).join("T-south", "monday", kTeacher);
@@ -158,7 +159,7 @@ TEST_F(Opinions, GroupsAreThoseOfTheNewestChangeThatReachedTheCentre) {
   EXPECT_EQ(problems_of(copy), "");
 }
 
-TEST_F(Opinions, AGroupThatWasLeftHereIsNotJoinedAgainByOlderNews) {
+TEST_F(Assessments, AGroupThatWasLeftHereIsNotJoinedAgainByOlderNews) {
   Database copy = station("desk"), north = station("north");
   CurriculumStore(copy).join("T-north", "monday", kTeacher);
   travel(copy, north);
@@ -170,21 +171,21 @@ TEST_F(Opinions, AGroupThatWasLeftHereIsNotJoinedAgainByOlderNews) {
   EXPECT_EQ(CurriculumStore(copy).groups_of("T-north"), Lines{});
 }
 
-TEST_F(Opinions, WhatWasChangedAtTheCentreDoesNotReachTheStation) {
+TEST_F(Assessments, WhatWasChangedAtTheCentreDoesNotReachTheStation) {
   Database copy = station("desk"), north = station("north");
-  const Note note = OpinionStore(copy).add_note("T-north", "", "Once more with the left.", kTeacher);
+  const Note note = AssessmentStore(copy).add_note("T-north", "", "Once more with the left.", kTeacher);
   push(copy);
   ask("UPDATE note SET text = 'Splendid.' RETURNING 1");
   const PullReport pulled = pull_from_central(north, central_, false);
   ASSERT_EQ(pulled.problems.size(), 1u);
   EXPECT_NE(pulled.problems[0].find("note " + note.uuid + ": its content is not that of its hash"), std::string::npos);
-  EXPECT_FALSE(OpinionStore(north).newest_unseen("T-north"));
+  EXPECT_FALSE(AssessmentStore(north).newest_unseen("T-north"));
   EXPECT_EQ(problems_of(north), "");
 }
 
-TEST_F(Opinions, NobodyWhoWasErasedHereGetsNotesAgain) {
+TEST_F(Assessments, NobodyWhoWasErasedHereGetsNotesAgain) {
   Database copy = station("desk"), north = station("north");
-  OpinionStore(copy).add_note("T-north", "", "Once more with the left.", kTeacher);
+  AssessmentStore(copy).add_note("T-north", "", "Once more with the left.", kTeacher);
   push(copy);
   erase_trainee(north, "T-north", ErasureKind::kIdentity, "request of the person", kTeacher);
   EXPECT_FALSE(pull(north).added.contains("note"));
@@ -192,7 +193,7 @@ TEST_F(Opinions, NobodyWhoWasErasedHereGetsNotesAgain) {
   EXPECT_EQ(one("SELECT count(*) FROM note"), "0");
 }
 
-TEST_F(Opinions, ACopyTakesNoAttemptsAndSaysWhy) {
+TEST_F(Assessments, ACopyTakesNoAttemptsAndSaysWhy) {
   Database copy = station("desk");
   const std::string refused =
       message_of<InputError>([&] { AttemptStore(copy).begin_attempt(sample_start("T-north")); });
@@ -210,15 +211,15 @@ TEST_F(Opinions, ACopyTakesNoAttemptsAndSaysWhy) {
       << "a station that fetches is no copy";
 }
 
-TEST_F(Opinions, ACopyPushesNoIdentities) {
+TEST_F(Assessments, ACopyPushesNoIdentities) {
   Database copy = station("desk");
   EXPECT_NE(message_of<InputError>([&] { push_named(copy, "desk"); }).find("is a copy for a desk"), std::string::npos);
 }
 
-TEST_F(Opinions, OnlyWhatIsNewIsFetchedTheNextTimeAndItIsAllThereIs) {
+TEST_F(Assessments, OnlyWhatIsNewIsFetchedTheNextTimeAndItIsAllThereIs) {
   Database copy = station("desk"), north = station("north");
   store_attempt(north, sample_start("T-north"), sample_result(99));
-  OpinionStore(north).add_note("T-north", newest(north, "T-north"), "So it is.", kTeacher);
+  AssessmentStore(north).add_note("T-north", newest(north, "T-north"), "So it is.", kTeacher);
   push(north);
   const PullReport pulled = replicate_central(copy, central_);
   EXPECT_EQ(pulled.added, (std::map<std::string, int>{{"attempt", 1}, {"note", 1}}));
@@ -226,4 +227,4 @@ TEST_F(Opinions, OnlyWhatIsNewIsFetchedTheNextTimeAndItIsAllThereIs) {
 }
 
 }  // namespace
-}  // namespace trocar::opinions_sync_test
+}  // namespace trocar::assessments_sync_test

@@ -1,4 +1,4 @@
-#include "trainees/desk/server/told_text.h"
+#include "trainees/desk/server/path_redaction.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ bool begins_path(const std::string& text, std::size_t at) {
 
 }  // namespace
 
-std::string told_without_folders(const std::string& message, const std::filesystem::path& database) {
+std::string without_folders(const std::string& message, const std::filesystem::path& database) {
   std::string text = message;
   if (const std::string folder = database.parent_path().string() + "/"; folder.size() > 1) {
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.erase(at, folder.size());

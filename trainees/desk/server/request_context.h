@@ -5,8 +5,8 @@
 
 namespace trocar::review {
 
-struct DeskGate::Visit {
-  const Arrival& arrival;
+struct DeskGate::RequestContext {
+  const IncomingRequest& incoming;
   Desk& desk;
   DeskTime now;
   std::string number = {};  ///< of the visitor's cookie, "" without one
@@ -14,7 +14,7 @@ struct DeskGate::Visit {
   RouteTable::Found found = {};
   Request request = {};
 
-  bool posts() const { return arrival.head.method == "POST"; }
+  bool posts() const { return incoming.head.method == "POST"; }
 };
 
 }  // namespace trocar::review
