@@ -1,9 +1,7 @@
-// What a push reads, without a server; and what else arrives: records of older programs, extreme numbers, texts that
-// cannot go.
+// What a push reads, without a server; and what else arrives: extreme numbers, texts that cannot go.
 #include "trainees/exchange/sync/batch.h"
 
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "tests/trainees/exchange/sync/stations.h"
@@ -152,23 +150,6 @@ TEST_F(Stations, ExtremeNumbersComeBackToTheBit) {
       EXPECT_EQ(there.canonical(0) + there.canonical(1), here.canonical(0) + here.canonical(1));
     }
   }
-}
-
-TEST_F(Stations, AttemptsOlderThanTheTrailGoToo) {
-  const std::string schema = kSchemaV1;
-  const std::size_t triggers = schema.find("CREATE TRIGGER");
-  std::ifstream in(TROCAR_SOURCE_DIR "/tests/trainees/store/schema_v1_sample.sql");
-  const std::string sample((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  ASSERT_EQ(run_outside(folder_ / "old.db", "BEGIN;" + schema.substr(0, triggers) + sample + schema.substr(triggers) +
-                                                "PRAGMA user_version = 1; PRAGMA application_id = " +
-                                                std::to_string(kApplicationId) + "; COMMIT"),
-            "");
-  Database old = station("old");
-  EXPECT_EQ(push(old).added.at("attempt"), 3);
-  EXPECT_TRUE(push(old).added.empty());
-  Database desk = station("desk");
-  EXPECT_EQ(replicate_central(desk, central_).added.at("attempt"), 3);
-  EXPECT_EQ(desk.check(), std::vector<std::string>{});
 }
 
 TEST_F(Stations, TextThatIsNoUtf8IsNamedAndNothingGoes) {
