@@ -1,7 +1,7 @@
-// Numbers of what events, metrics and sub-scores are called, from the dictionaries of schema 5; what is new is added.
+// Numbers of what events, metrics and sub-scores are called, from the lookup tables; what is new is added.
 // Internal to trainees/.
 //
-// A dictionary is read whole, once for each object: they are short, and an attempt needs most of it. Make one inside
+// A table is read whole, once for each object: they are short, and an attempt needs most of it. Make one inside
 // the transaction that writes, and drop it with that: another program may add words meanwhile. Thread: the
 // connection's.
 #pragma once
