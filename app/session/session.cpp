@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/device_bench/device_words.h"
+#include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_receipt.h"
 #include "app/session/grading/recorded_result.h"
 #include "app/session/lanes/force_sensor_task.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/device_bench/device_words.h"
+#include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_receipt.h"
 #include "app/window/attempt/cut_off.h"
 

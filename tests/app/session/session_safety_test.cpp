@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/device_bench/device_words.h"
+#include "app/session/grading/device_words.h"
 #include "app/session/recording/safety_file.h"
 #include "app/session/session.h"
 #include "haptics/input_error.h"

@@ -48,7 +48,8 @@ TEST(Sound, WithoutCardOrServerTheLibraryIsNotEvenAsked) {
   EXPECT_NE(sound.refusal(), "");
 }
 
-TEST(Sound, PlaysOnADeviceAndCanBeMadeAgain) {
+// A suite, and so a process, of its own: OpenAL reads once which drivers it may use.
+TEST(SoundOnADevice, PlaysAndCanBeMadeAgain) {
   drivers("null");
   for (int i = 0; i < 3; ++i) {
     Sound sound(true);

@@ -1,5 +1,5 @@
 // What is said of a device that stopped: every fault has a cause and advice, every ungraded end a reason.
-#include "app/device_bench/device_words.h"
+#include "app/session/grading/device_words.h"
 
 #include <gtest/gtest.h>
 

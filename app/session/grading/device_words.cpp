@@ -1,4 +1,4 @@
-#include "app/device_bench/device_words.h"
+#include "app/session/grading/device_words.h"
 
 #include <cstdio>
 #include <map>
