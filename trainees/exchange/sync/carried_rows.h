@@ -1,4 +1,5 @@
-// Which rows go between a station's SQLite and the centre's PostgreSQL, and their text form. Internal to trainees/exchange/sync.
+// Which rows go between a station's SQLite and the centre's PostgreSQL, and their text form. Internal to
+// trainees/exchange/sync.
 //
 // One line a table says columns and types; statements of both sides are made from it. Other rows stand by their UUID,
 // so that row numbers stay at home. Numbers go as the shortest text that reads back to the same bits. Thread: any;

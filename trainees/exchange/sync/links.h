@@ -1,4 +1,5 @@
-// People who are known under several trainees, because somebody linked them at the centre. Internal to trainees/exchange/sync.
+// People who are known under several trainees, because somebody linked them at the centre. Internal to
+// trainees/exchange/sync.
 //
 // Nothing is renamed there: the centre keeps who is the same as whom, and every database puts rows that came from it
 // under one of them, its "home": the lowest UUID among those that have a name here, else among those that are known

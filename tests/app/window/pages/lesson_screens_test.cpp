@@ -101,7 +101,7 @@ TEST_F(LessonScreens, ChosenRowIsAlwaysSeenHoweverSmallTheWindow) {
   go(ScreenName::kCurriculum);
   for (int i = 0; i < 12; ++i) {
     EXPECT_TRUE(sees_part(desk_->level + ":")) << desk_->exercise_id << " " << desk_->level;
-    EXPECT_TRUE(sees(desk_->exercise().number + " " + desk_->exercise().title) || i % 4 != 0);
+    if (i % 4 == 0) EXPECT_TRUE(sees(desk_->exercise().number + " " + desk_->exercise().title)) << i;
     tap(kKeyDown);
   }
 }
@@ -130,7 +130,7 @@ TEST_F(LessonScreens, ExamWaitsForTheDeviceCheck) {
   frame();
   tap(kKeyEnter);
   EXPECT_EQ(desk_->running(), nullptr);
-  EXPECT_TRUE(sees_part("An exam waits for the device check") || sees_part("is locked"));
+  EXPECT_TRUE(sees_part("is locked"));
 }
 
 TEST_F(LessonScreens, ResultsOfTheDeviceCheckStandInTheBriefing) {
