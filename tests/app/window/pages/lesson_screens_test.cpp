@@ -101,7 +101,9 @@ TEST_F(LessonScreens, ChosenRowIsAlwaysSeenHoweverSmallTheWindow) {
   go(ScreenName::kCurriculum);
   for (int i = 0; i < 12; ++i) {
     EXPECT_TRUE(sees_part(desk_->level + ":")) << desk_->exercise_id << " " << desk_->level;
-    if (i % 4 == 0) EXPECT_TRUE(sees(desk_->exercise().number + " " + desk_->exercise().title)) << i;
+    if (i % 4 == 0) {
+      EXPECT_TRUE(sees(desk_->exercise().number + " " + desk_->exercise().title)) << i;
+    }
     tap(kKeyDown);
   }
 }
