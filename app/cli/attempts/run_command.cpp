@@ -145,6 +145,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.attempt = std::max(1, options.attempt);
   setup.seed = options.seed;
   setup.board = board_of(options);
+  setup.backend = options.backend;
   setup.rate_hz = options.rate_hz;
   setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});
@@ -246,7 +247,7 @@ int run_command(const RunOptions& given, std::ostream& out, std::ostream& err) {
   if (!options.interrupted) options.interrupted = [&] { return interrupt.seen(); };
   const AssetRoots assets = find_assets();
   const AttemptSetup setup = attempt_setup(options, assets);
-  const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
+  const Scene scene = build_scene(setup, assets, backend_capabilities(setup.backend, setup.rate_hz));
   const AttemptResult result = run_with_pictures(options, scene, assets, err);
   if (options.json)
     out << attempt_json(result);

@@ -51,6 +51,7 @@ struct AttemptSetup {
   int attempt = 1;    ///< of a learning hand
   std::int64_t seed = 1;
   int board = 0;
+  std::string backend = "simulated";  ///< a name that make_backend() knows; a replay does not use it
   double rate_hz = 1000;
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
