@@ -43,6 +43,7 @@ struct SessionView {
   const DirectorView director;
   double t_s;
   const TissueFrame* tissue = nullptr;  ///< newest frame of the world's objects; nullptr: none known
+  SurfacePtr organ_T = nullptr;         ///< newest of the organ; nullptr: as the scene has it
 };
 using SessionObserver = std::function<void(const SessionView&)>;
 

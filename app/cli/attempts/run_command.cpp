@@ -227,7 +227,7 @@ AttemptResult run_with_pictures(const RunOptions& options, const Scene& scene, c
   if (!options.video.empty() && !options.frames.empty()) throw InputError("--video and --frames: one of the two");
   if (options.video.empty() && options.frames.empty()) return run_attempt(options, scene, assets, err, {});
   const Preset preset = options.video.empty() ? Preset::kFull : film_preset("auto", err);
-  AttemptPainter painter(scene, assets, options.trainee, 1280, 720, preset);
+  AttemptPainter painter(assets, options.trainee, 1280, 720, preset);
   std::optional<VideoWriter> video;
   const double fps = options.fps.value_or(options.video.empty() ? 10 : 25);
   if (!options.video.empty()) video.emplace(options.video, 1280, 720, fps);

@@ -53,7 +53,7 @@ class WallsTask final : public Task {
  private:
   static TissueSetup setup_of(const Scene& scene) {
     TissueSetup setup;
-    setup.organ_T = &scene.organ_T;
+    setup.organ_T = scene.organ_T.get();
     setup.tool = scene.loop.tool;
     return setup;
   }
