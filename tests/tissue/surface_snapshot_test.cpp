@@ -4,7 +4,7 @@
 
 #include "tests/tissue/support/world_rig.h"
 
-namespace trocar {
+namespace trocar::surface_snapshot_test {
 namespace {
 
 TEST(SurfaceSnapshot, AnOrganThatStandsStillIsOneForAllSteps) {
@@ -18,4 +18,4 @@ TEST(SurfaceSnapshot, AnOrganThatStandsStillIsOneForAllSteps) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::surface_snapshot_test

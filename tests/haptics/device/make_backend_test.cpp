@@ -4,7 +4,7 @@
 
 #include "haptics/input_error.h"
 
-namespace trocar {
+namespace trocar::make_backend_test {
 namespace {
 
 TEST(MakeBackend, TheSimulatedOneHasAWorldASensorAndNoClockOfItsOwn) {
@@ -50,4 +50,4 @@ TEST(MakeBackend, ARecordingIsOneWithoutWorldAndSensor) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::make_backend_test
