@@ -12,7 +12,7 @@ constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as
 }  // namespace
 
 TissueWorld::TissueWorld(const TissueSetup& setup)
-    : organ_(setup.organ), neighbours_(setup.neighbours), tool_(setup.tool) {
+    : organ_(setup.organ), neighbours_(setup.neighbours), tool_(setup.tool), seen_(setup.seen_T) {
   assert(neighbours_.size() < kMaxPatchMaterials && (neighbours_.empty() || setup.rigid.empty()));
   if (setup.organ_T && !setup.organ_T->triangles.empty()) extraction_.emplace(*setup.organ_T, setup.triangle_material);
   if (!setup.rigid.empty()) rigid_.emplace(setup.rigid, setup.tool);

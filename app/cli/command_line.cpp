@@ -114,6 +114,9 @@ void add_run(CommandLine& c) {
   run->add_option("--video", c.run.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(kPlaced);
   run->add_option("--fps", c.run.fps, "Frames per second of loop time (default: 10, of a film 25)")
       ->check(CLI::Range(0.1, 50.0));
+  std::string backends;
+  for (const std::string& name : backend_names()) backends += (backends.empty() ? "" : ", ") + name;
+  run->add_option("--backend", c.run.backend, "Device that it runs on: " + backends)->capture_default_str();
   run->add_option("--rate", c.run.rate_hz, "Loop rate, Hz")
       ->capture_default_str()
       ->check(CLI::IsMember({1000, 2000, 4000}));

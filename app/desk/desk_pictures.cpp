@@ -136,7 +136,7 @@ void DeskPictures::State::wait_until(const Loaded& one, double t_s) {
 AttemptPainter& DeskPictures::State::painter_of(Loaded& one, int width) const {
   if (!one.painter || one.painter_width != width) {
     one.painter.reset();
-    one.painter = std::make_unique<AttemptPainter>(one.run.scene(), assets, one.trainee, width, width * kShape / kOf);
+    one.painter = std::make_unique<AttemptPainter>(assets, one.trainee, width, width * kShape / kOf);
     one.painter_width = width;
   }
   return *one.painter;

@@ -1,5 +1,7 @@
 #include "app/device_bench/simulated_bench.h"
 
+#include "haptics/device/backends/make_backend.h"
+
 namespace trocar {
 
 std::unique_ptr<DataAcquisition> SimulatedBench::open(const BoardActs& acts) {
@@ -9,19 +11,19 @@ std::unique_ptr<DataAcquisition> SimulatedBench::open(const BoardActs& acts) {
   if (acts.counters_at) {
     SimulatedDaqConfig sound = config;
     sound.faults.clear();
-    const DaqSample first = SimulatedDaq(sound).read();
+    const DaqSample first = make_backend(kSimulatedBackend, {.simulated = sound}).daq->read();
     if (!config.plant) config.plant = draw_parameters(config.seed);
     for (int i = 0; i < kChannels; ++i) {
       const auto c = static_cast<std::size_t>(i);
       config.plant->channel[c].encoder_offset_counts += static_cast<double>(*acts.counters_at) - first.counts[c];
     }
   }
-  auto daq = std::make_unique<SimulatedDaq>(config);
+  Backend backend = make_backend(kSimulatedBackend, {.simulated = config});
   if (acts.held) {
-    const HandSense sense = daq->sense();
-    daq->set_hand_intent(sense.X_BS, sense.jaw_opening_m);
+    const HandSense sense = backend.world->sense();
+    backend.world->set_hand_intent(sense.X_BS, sense.jaw_opening_m);
   }
-  return daq;
+  return std::move(backend.daq);
 }
 
 }  // namespace trocar

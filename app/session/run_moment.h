@@ -16,14 +16,15 @@ struct RunMoment {
   TickRecord record;
   DirectorStatus status;
   TissueFrame tissue;
-  double t_s = 0;             ///< loop time
-  bool seen = false;          ///< false: nothing has been seen of the run yet
-  std::uint64_t steered = 0;  ///< number of the newest intent of a person that the device had felt by then; 0: none
+  double t_s = 0;                ///< loop time
+  bool seen = false;             ///< false: nothing has been seen of the run yet
+  std::uint64_t steered = 0;     ///< number of the newest intent of a person that the device had felt by then; 0: none
+  SurfacePtr organ_T = nullptr;  ///< the organ as it was; nullptr: as the scene has it
 };
 
 /// The moment as pictures and displays take it. Refers to both arguments.
 inline SessionView view_of(const Scene& scene, const RunMoment& moment) {
-  return {scene, moment.record, {moment.status, scene.board}, moment.t_s, &moment.tissue};
+  return {scene, moment.record, {moment.status, scene.board}, moment.t_s, &moment.tissue, moment.organ_T};
 }
 
 }  // namespace trocar

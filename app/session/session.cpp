@@ -18,7 +18,7 @@
 #include "app/session/lanes/tissue_task.h"
 #include "app/session/recording/safety_file.h"
 #include "app/session/setup/true_plant.h"
-#include "haptics/device/replay_daq.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/exercise_loader.h"
@@ -113,7 +113,7 @@ class ObserverTask final : public Task {
     if (!observe_) return;
     const TickRecord& record = rig_.records->newest(tick);
     const ExerciseFrame& frame = rig_.observer_frames->newest(tick);
-    observe_({rig_.scene, record, {frame.status, rig_.scene.board}, record.stylus.t_s, &frame.tissue});
+    observe_({rig_.scene, record, {frame.status, rig_.scene.board}, record.stylus.t_s, &frame.tissue, frame.organ_T});
   }
 
  private:
@@ -149,35 +149,46 @@ class MarkTask final : public Task {
   std::uint32_t taken_ = 0;
 };
 
-/// A whole attempt on the simulated device: the rig, the world beside it and what keeps books.
+WrenchSensorConfig sensor_of(const AttemptSetup& setup) {
+  return setup.plant ? setup.plant->sensor.value_or(WrenchSensorConfig{}) : WrenchSensorConfig{};
+}
+std::uint64_t seed_of(const AttemptSetup& setup) { return static_cast<std::uint64_t>(setup.seed); }
+
+/// A whole attempt: back-end and rig, the simulated person and the sensor where the back-end has them, and what keeps
+/// books.
 struct Attempt {
   Attempt(const Scene& scene, std::unique_ptr<Hand> person, RecordingWriter& writer, Timing timing)
-      : daq(simulated_device(scene.setup)),
-        rig(scene, daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
-        hand(scene, rig.haptic, *rig.hand_frames, std::move(person), daq),
+      : backend(setup_backend(scene.setup)),
+        rig(scene, *backend.daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
         forces(make_channel<StylusForces>(timing)),
-        tap(daq, rig.haptic, scene.loop.map.X_TW.R, *forces, sensor_of(scene).fixture_kg * sensor_of(scene).gravity),
-        sensor(*forces, sensor_of(scene).force, seed_of(scene) ^ kSensorSeed, scene.loop.daq.rate_hz),
-        recorder(*rings, scene.loop.daq.rate_hz, writer) {}
-
-  static WrenchSensorConfig sensor_of(const Scene& scene) {
-    return scene.setup.plant ? scene.setup.plant->sensor.value_or(WrenchSensorConfig{}) : WrenchSensorConfig{};
+        tap(backend.world, rig.haptic, scene.loop.map.X_TW.R, *forces,
+            sensor_of(scene.setup).fixture_kg * sensor_of(scene.setup).gravity),
+        recorder(*rings, scene.loop.daq.rate_hz, writer) {
+    if (backend.world) hand.emplace(scene, rig.haptic, *rig.hand_frames, std::move(person), *backend.world);
+    if (backend.sensor) sensor.emplace(*forces, *backend.sensor, scene.loop.daq.rate_hz);
   }
-  static std::uint64_t seed_of(const Scene& scene) { return static_cast<std::uint64_t>(scene.setup.seed); }
+
+  /// What runs in the haptic thread, in this order.
+  std::vector<Task*> haptic_lane() {
+    std::vector<Task*> tasks;
+    if (hand) tasks.push_back(&*hand);
+    tasks.insert(tasks.end(), {&rig.haptic, &tap});
+    return tasks;
+  }
   SessionOutcome outcome() {
-    SessionOutcome out = rig.outcome(daq.capabilities().name);
-    out.device.force_sensor = force_sensor_json(sensor);
+    SessionOutcome out = rig.outcome(backend.daq->capabilities().name);
+    if (sensor) out.device.force_sensor = force_sensor_json(*sensor);
     if (rig.scene.setup.plant) out.device.plant = plant_json(*rig.scene.setup.plant);
     return out;
   }
 
   std::unique_ptr<RecorderRings> rings = std::make_unique<RecorderRings>();
-  SimulatedDaq daq;
+  Backend backend;
   Rig rig;
-  HandTask hand;
+  std::optional<HandTask> hand;
   std::unique_ptr<Channel<StylusForces>> forces;
   ForceTapTask tap;
-  ForceSensorTask sensor;
+  std::optional<ForceSensorTask> sensor;
   RecorderTask recorder;
 };
 
@@ -185,10 +196,11 @@ SessionOutcome run_lockstep(Attempt& attempt, const SessionHooks& hooks) {
   Rig& rig = attempt.rig;
   ObserverTask observer(rig, hooks.observe, rig.tissue.period());
   LockstepExecutor executor;
-  for (Task* task : std::initializer_list<Task*>{&attempt.hand, &rig.haptic, &attempt.tap, &rig.tissue, &attempt.sensor,
-                                                 &attempt.recorder, &observer}) {
-    executor.add(*task);
-  }
+  for (Task* task : attempt.haptic_lane()) executor.add(*task);
+  executor.add(rig.tissue);
+  if (attempt.sensor) executor.add(*attempt.sensor);
+  executor.add(attempt.recorder);
+  executor.add(observer);
   executor.run(hooks.interrupted);
   return attempt.outcome();
 }
@@ -201,16 +213,16 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   const bool each_step = hooks.observe && hooks.observe_each_step;
   ObserverTask observer(rig, hooks.observe,
                         each_step ? rig.tissue.period() : static_cast<std::uint32_t>(rate_hz / kPictureRateHz));
-  ThreadedExecutor executor(rate_hz, hooks.pause);
+  ThreadedExecutor executor(rate_hz, attempt.backend.can.pause ? hooks.pause : nullptr);
   std::vector<Task*> tissue{&rig.tissue};
   if (each_step) tissue.push_back(&observer);
   std::optional<MarkTask> marks, messages;
   if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks, kMomentMark));
   if (hooks.messages) tissue.push_back(&messages.emplace(rig, attempt.rings->events, *hooks.messages, kMessageMark));
-  executor.add_lane("haptic", {&attempt.hand, &rig.haptic, &attempt.tap}, kHapticPriority);
+  executor.add_lane("haptic", attempt.haptic_lane(), kHapticPriority);
   if (hooks.board_answers) executor.await(hooks.board_answers);
   executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
-  executor.add_lane("force-sensor", {&attempt.sensor}, kSensorPriority, kTissueOffset);
+  if (attempt.sensor) executor.add_lane("force-sensor", {&*attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);
   if (hooks.observe && !each_step) executor.add_own_lane("pictures", {&observer});
   executor.run(hooks.interrupted);
@@ -244,12 +256,21 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
   return config;
 }
 
+Backend setup_backend(const AttemptSetup& setup) {
+  return make_backend(setup.backend, {.simulated = simulated_device(setup),
+                                      .sensor = sensor_of(setup).force,
+                                      .sensor_seed = seed_of(setup) ^ kSensorSeed});
+}
+
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
                            RecordingWriter& writer) {
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
-  auto hand = hooks.hand ? hooks.hand()
-                         : make_hand(scene.setup.hand, Attempt::seed_of(scene), assets.hands, scene.setup.attempt);
+  auto hand =
+      hooks.hand ? hooks.hand() : make_hand(scene.setup.hand, seed_of(scene.setup), assets.hands, scene.setup.attempt);
   const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing);
+  if (timing == Timing::kLockstep && !attempt->backend.can.pace) {
+    throw InputError("--backend " + scene.setup.backend + ": runs by its own clock; add --realtime");
+  }
   SessionOutcome out = timing == Timing::kLive ? run_live(*attempt, hooks) : run_lockstep(*attempt, hooks);
   if (out.status == AttemptStatus::kAborted && hooks.interrupted && hooks.interrupted()) {
     out.device.reason = "interrupted before its end";
@@ -297,12 +318,12 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
   std::vector<DaqSample> samples;
   samples.reserve(recording.ticks.size());
   for (const RecordedTick& row : recording.ticks) samples.push_back(device_input(row));
-  ReplayDaq daq(std::move(samples), scene.loop.daq);
-  const auto rig = std::make_unique<Rig>(scene, daq, Timing::kLockstep,
+  const Backend backend = replay_backend(std::move(samples), scene.loop.daq);
+  const auto rig = std::make_unique<Rig>(scene, *backend.daq, Timing::kLockstep,
                                          std::make_unique<RecordedPatches>(executor.stamps()), nullptr);
   ObserverTask observer(*rig, observe, rig->tissue.period());
   executor.run(rig->haptic, {&rig->tissue, &observer});
-  return rig->outcome(daq.capabilities().name);
+  return rig->outcome(backend.daq->capabilities().name);
 }
 
 Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {

@@ -18,6 +18,7 @@
 #include "app/session/recording/recording_reader.h"
 #include "app/session/recording/recording_writer.h"
 #include "app/session/setup/scene.h"
+#include "haptics/device/backend.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {
@@ -42,6 +43,7 @@ struct SessionView {
   const DirectorView director;
   double t_s;
   const TissueFrame* tissue = nullptr;  ///< newest frame of the world's objects; nullptr: none known
+  SurfacePtr organ_T = nullptr;         ///< newest of the organ; nullptr: as the scene has it
 };
 using SessionObserver = std::function<void(const SessionView&)>;
 
@@ -73,8 +75,9 @@ struct SessionOutcome {
   std::string scoring_json;        ///< what grading must know (scenarios/director/scoring_context.h): summary of END
 };
 
-/// An attempt on the simulated device. @param writer receives every tick and is closed.
-/// Live when the setup says so (threads, the clock), else in lockstep. @throws EnvironmentError of the writer.
+/// An attempt on the back-end that the setup names. @param writer receives every tick and is closed.
+/// Live when the setup says so (threads, the clock), else in lockstep, which a back-end with a clock of its own
+/// refuses. @throws InputError, EnvironmentError of the writer.
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
                            RecordingWriter& writer);
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, RecordingWriter& writer,
@@ -94,6 +97,8 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
 
 /// Configuration of the simulated back-end of a setup.
 SimulatedDaqConfig simulated_device(const AttemptSetup& setup);
+/// The back-end that a setup names. @throws InputError when there is none of that name.
+Backend setup_backend(const AttemptSetup& setup);
 
 /// Grade of a recording by its own rubric, or by another exercise file's. The recording is enough: no organ, no device.
 /// @param rubric_of exercise whose rubric to use; nullptr: the one embedded in the recording.

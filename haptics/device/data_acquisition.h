@@ -2,7 +2,8 @@
 // quantities.h.
 //
 // One call of read() is one SYNC: it latches all encoders at one instant. write() sets the codes that the DACs take
-// at the NEXT SYNC (one period of delay). Back-ends: SimulatedDaq, ReplayDaq; real boards implement the same class.
+// at the NEXT SYNC (one period of delay). Back-ends: SimulatedDaq, ReplayDaq; real boards implement the same class
+// (made by backends/make_backend.h).
 // Thread: the haptic task's. No call allocates, locks or throws.
 #pragma once
 

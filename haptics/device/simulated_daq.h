@@ -28,6 +28,7 @@
 #include "haptics/device/plant/plant_encoder.h"
 #include "haptics/device/plant/plant_faults.h"
 #include "haptics/device/plant/plant_parameters.h"
+#include "haptics/device/simulated_world.h"
 
 namespace trocar {
 
@@ -49,18 +50,7 @@ struct SimulatedDaqConfig {
   bool dac_readback = true;        ///< the board can read its DAC registers back (kDacMismatch)
 };
 
-/// What the simulated person senses of the device, true values in W'.
-struct HandSense {
-  Pose X_BS;                          ///< stylus
-  Vec3 force_on_hand = Vec3::Zero();  ///< N, mean over the last period
-  double force_on_finger_n = 0;       ///< N, mean over the last period, positive opens the fingers
-  double jaw_opening_m = 0;
-  bool amplifiers_enabled = false;
-  bool in_jig = true;
-  Vec3 moment_on_hand = Vec3::Zero();  ///< N m about the stylus origin, mean over the last period
-};
-
-class SimulatedDaq final : public DataAcquisition {
+class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
  public:
   /// @throws std::invalid_argument when a rate, bit count, delay, channel or time is out of range.
   explicit SimulatedDaq(const SimulatedDaqConfig& config);
@@ -70,22 +60,17 @@ class SimulatedDaq final : public DataAcquisition {
   void write(const DacFrame& frame) noexcept override;
   void arm(bool enabled) noexcept override;
 
-  /// Intent of the hand for the coming period: stylus pose in W', jaw opening in m. The first one takes hold.
-  void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept;
-  /// The hand's clutch switch, from the next period on.
-  void press_clutch(bool pressed) noexcept { clutch_pressed_ = pressed; }
+  void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept override;
+  void press_clutch(bool pressed) noexcept override { clutch_pressed_ = pressed; }
+  void press_deadman(bool pressed) noexcept override { pressed_ = pressed; }
+  HandSense sense() const noexcept override;
+  void miss_sync() noexcept override;
+  double time_s() const noexcept override { return static_cast<double>(sync_) * period_s_; }
+
   void set_hand_parameters(const HandParameters& parameters) noexcept { hand_.set_parameters(parameters); }
   void release_hand() noexcept { hand_.let_go(); }
   /// The operator carries the arm back into its jig within kReturnS, where it is clamped again.
   void return_to_jig() noexcept;
-  /// The enabling switch in the handle, pressed at first; it counts only while the hand holds the stylus.
-  void press_deadman(bool pressed) noexcept { pressed_ = pressed; }
-  HandSense sense() const noexcept;
-  /// Live: lets one period pass that the loop has missed. The next read() counts it.
-  void miss_sync() noexcept;
-
-  /// Time of the last SYNC, s.
-  double time_s() const noexcept { return static_cast<double>(sync_) * period_s_; }
   /// Codes that act on the DACs now, and counts that the encoders have missed: for tests and studies only.
   const DacFrame& codes_in_force() const noexcept { return in_force_; }
   std::int64_t counts_lost(int channel) const noexcept { return encoders_.lost(channel); }

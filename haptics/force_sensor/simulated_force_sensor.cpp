@@ -33,8 +33,8 @@ double SimulatedForceSensor::normal() {
   return radius * std::cos(2 * std::numbers::pi * uniform());
 }
 
-ForceSample SimulatedForceSensor::sample(const Vec3& force) {
-  line_[number_ % line_.size()] = force;
+ForceSample SimulatedForceSensor::sample(const Vec3& acting) {
+  line_[number_ % line_.size()] = acting;
   ++number_;
   ForceSample out;
   out.number = number_;

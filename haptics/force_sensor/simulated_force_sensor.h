@@ -9,34 +9,18 @@
 #include <random>
 #include <vector>
 
-#include "haptics/quantities.h"
+#include "haptics/force_sensor/force_sensor.h"
 
 namespace trocar {
 
-struct ForceSensorConfig {
-  double rate_hz = 40;         ///< serial link of the thesis
-  double lag_s = 0.15;         ///< measured in the thesis
-  double noise_n = 0.020;      ///< SD on each axis [assumed]
-  double drift_n_per_h = 0.1;  ///< of the zero [assumed]
-};
-
-struct ForceSample {
-  std::uint64_t number = 0;   ///< counts from 1
-  Vec3 force = Vec3::Zero();  ///< N, as it was lag_s ago
-  bool valid = false;         ///< the delay line is full
-};
-
-class SimulatedForceSensor {
+class SimulatedForceSensor final : public ForceSensor {
  public:
   /// @throws std::invalid_argument when rate, lag or noise are negative, not finite, or the lag exceeds 10 s.
   SimulatedForceSensor(const ForceSensorConfig& config, std::uint64_t seed);
 
-  /// One sample. @param force true force now, N.
-  ForceSample sample(const Vec3& force);
-
-  const ForceSensorConfig& config() const { return config_; }
-  /// Samples between a force and its appearance.
-  std::size_t delay() const { return line_.size() - 1; }
+  ForceSample sample(const Vec3& acting) override;
+  const ForceSensorConfig& config() const override { return config_; }
+  std::size_t delay() const override { return line_.size() - 1; }
 
  private:
   double normal();

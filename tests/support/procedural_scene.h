@@ -121,7 +121,7 @@ inline Hud sample_hud() {
 inline SceneView procedural_scene(const std::string& material = "liver") {
   SceneView view;
   const Vec3 half = material == "gallbladder" ? Vec3(0.022, 0.045, 0.018) : Vec3(0.095, 0.070, 0.045);
-  view.organ = std::make_shared<TriangleSurface>(lumpy_ellipsoid(half));
+  view.organ = still_surface(lumpy_ellipsoid(half));
   view.material = material;
   using S = TargetMark::State;
   const double spread = material == "gallbladder" ? 0.45 : 1.0;

@@ -109,7 +109,7 @@ void paint_inversion(const Exercise& exercise, const Organ& organ, const AssetRo
     TickRecord record;
     record.stylus.X_TI = map.instrument_pose(X_WS);
     const Director director(scene.setup.exercise, scene.level, scene.board);
-    SceneView view = attempt_scene({scene, record, director, 0}, std::make_shared<TriangleSurface>(scene.organ_T));
+    SceneView view = attempt_scene({scene, record, director, 0});
     view.targets.clear();
     std::erase_if(view.objects, [](const SceneObject& o) { return o.shape == SceneObject::Shape::kSphere; });
     SceneObject ghost;

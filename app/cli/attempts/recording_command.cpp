@@ -30,7 +30,7 @@ SessionOutcome replay_plainly(const RecordingOptions& options, const Subject& su
                               std::ostream& err) {
   const Scene scene = recorded_scene(subject.recording, subject.file, assets, options.organ);
   if (options.frames.empty()) return replay_session(scene, subject.recording);
-  AttemptPainter painter(scene, assets, subject.stored ? subject.stored->trainee : "", options.width, options.height);
+  AttemptPainter painter(assets, subject.stored ? subject.stored->trainee : "", options.width, options.height);
   FrameWriter frames(painter, options.frames, options.fps.value_or(kPicturesPerSecond));
   const SessionOutcome outcome =
       replay_session(scene, subject.recording, [&](const SessionView& view) { frames.observe(view); });

@@ -145,6 +145,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.attempt = std::max(1, options.attempt);
   setup.seed = options.seed;
   setup.board = board_of(options);
+  setup.backend = options.backend;
   setup.rate_hz = options.rate_hz;
   setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});
@@ -226,7 +227,7 @@ AttemptResult run_with_pictures(const RunOptions& options, const Scene& scene, c
   if (!options.video.empty() && !options.frames.empty()) throw InputError("--video and --frames: one of the two");
   if (options.video.empty() && options.frames.empty()) return run_attempt(options, scene, assets, err, {});
   const Preset preset = options.video.empty() ? Preset::kFull : film_preset("auto", err);
-  AttemptPainter painter(scene, assets, options.trainee, 1280, 720, preset);
+  AttemptPainter painter(assets, options.trainee, 1280, 720, preset);
   std::optional<VideoWriter> video;
   const double fps = options.fps.value_or(options.video.empty() ? 10 : 25);
   if (!options.video.empty()) video.emplace(options.video, 1280, 720, fps);
@@ -246,7 +247,7 @@ int run_command(const RunOptions& given, std::ostream& out, std::ostream& err) {
   if (!options.interrupted) options.interrupted = [&] { return interrupt.seen(); };
   const AssetRoots assets = find_assets();
   const AttemptSetup setup = attempt_setup(options, assets);
-  const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
+  const Scene scene = build_scene(setup, assets, backend_capabilities(setup.backend, setup.rate_hz));
   const AttemptResult result = run_with_pictures(options, scene, assets, err);
   if (options.json)
     out << attempt_json(result);

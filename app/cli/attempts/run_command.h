@@ -10,6 +10,7 @@
 
 #include "app/session/session.h"
 #include "app/session/setup/scene.h"
+#include "haptics/device/backends/make_backend.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {
@@ -28,6 +29,7 @@ struct RunOptions {
   std::filesystem::path frames;      ///< empty: no pictures
   std::filesystem::path video = {};  ///< empty: no film
   std::optional<double> fps;         ///< none: 10 of pictures, 25 of a film
+  std::string backend = kSimulatedBackend;
   double rate_hz = 1000;
   std::string contact_law = "proxy", passivity_law = "budgeted";
   bool clamp = false;                   ///< contacts stiffer than K_max are weakened to it

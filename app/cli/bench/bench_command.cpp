@@ -47,7 +47,7 @@ Captured capture(const Scene& scene, const Recording& recording) {
   Captured captured;
   for (const RecordedTick& row : recording.ticks) captured.samples.push_back(device_input(row));
   HapticLoop loop(scene.loop);
-  PatchExtraction extraction(scene.organ_T);
+  PatchExtraction extraction(*scene.organ_T);
   auto patch = std::make_unique<ContactPatch>();
   patch->material[0] = scene.setup.exercise.surface;
   for (std::size_t i = 0; i < captured.samples.size(); ++i) {
@@ -60,7 +60,7 @@ Captured capture(const Scene& scene, const Recording& recording) {
 
 std::vector<StageTimes> time_stages(const Scene& scene, const Captured& run) {
   const std::size_t count = run.samples.size();
-  PatchExtraction extraction(scene.organ_T);
+  PatchExtraction extraction(*scene.organ_T);
   auto patch = std::make_unique<ContactPatch>();
   patch->material[0] = scene.setup.exercise.surface;
   ContactRenderer contact(scene.loop.contact_law, scene.loop.tool);
@@ -210,7 +210,7 @@ nlohmann::ordered_json loop_figures(const BenchOptions& options, const AssetRoot
   const Recording recording = parse_recording(memory.bytes(), "bench");
   nlohmann::ordered_json json;
   json["organ"] = scene.organ.name;
-  json["organ_triangles"] = scene.organ_T.triangles.size();
+  json["organ_triangles"] = scene.organ_T->triangles.size();
   json["ticks"] = outcome.device.ticks;
   json["wall_s_per_simulated_s"] = seconds / simulated;
   json["times_real_time"] = simulated / seconds;

@@ -16,6 +16,7 @@
 #include "app/cli/attempts/run_command.h"
 #include "app/session/interrupt.h"
 #include "app/session/setup/device_files.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/haptic_loop.h"
 #include "haptics/input_error.h"
 
@@ -33,22 +34,22 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 class Bench {
  public:
   explicit Bench(const MonitorOptions& options)
-      : daq_(device_of(options)),
+      : backend_(make_backend(kSimulatedBackend, {.simulated = device_of(options)})),
         loop_(loop_of(options)),
         patch_(std::make_unique<ContactPatch>()),
-        goal_(daq_.sense().X_BS),
+        goal_(backend_.world->sense().X_BS),
         centre_(goal_) {}
 
   const TickRecord& tick() {
     lead();
-    const DaqSample sample = daq_.read();
+    const DaqSample sample = backend_.daq->read();
     const DacFrame out = loop_.tick(sample, *patch_, record_);
-    daq_.arm(record_.amplifiers_armed);
-    daq_.write(out);
+    backend_.daq->arm(record_.amplifiers_armed);
+    backend_.daq->write(out);
     return record_;
   }
   const TickRecord& record() const { return record_; }
-  double time_s() const { return daq_.time_s(); }
+  double time_s() const { return backend_.world->time_s(); }
 
  private:
   static SimulatedDaqConfig device_of(const MonitorOptions& options) {
@@ -66,16 +67,16 @@ class Bench {
   }
 
   void lead() {
-    if (daq_.time_s() < kInJigS) return;
-    const double turning_s = daq_.time_s() - kInJigS - kSoftStartS;
+    if (time_s() < kInJigS) return;
+    const double turning_s = time_s() - kInJigS - kSoftStartS;
     if (turning_s > 0) {
       const double angle = 2 * std::numbers::pi * kTurnsHz * turning_s, grown = std::min(1.0, turning_s);
       goal_.p = centre_.p + grown * kCircle_m * Vec3(std::cos(angle) - 1, std::sin(angle), 0);
     }
-    daq_.set_hand_intent(goal_, 0.020);
+    backend_.world->set_hand_intent(goal_, 0.020);
   }
 
-  SimulatedDaq daq_;
+  Backend backend_;
   HapticLoop loop_;
   std::unique_ptr<ContactPatch> patch_;
   TickRecord record_;

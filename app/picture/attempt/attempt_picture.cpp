@@ -10,9 +10,8 @@
 
 namespace trocar {
 
-SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T,
-                       const std::string& trainee, const std::optional<Camera>& seen) {
-  SceneView out = attempt_scene(view, organ_T);
+SceneView attempt_view(const SessionView& view, const std::string& trainee, const std::optional<Camera>& seen) {
+  SceneView out = attempt_scene(view);
   if (seen) out.camera = *seen;
   out.hud = attempt_hud(view, out.camera, trainee);
   return out;
@@ -29,29 +28,24 @@ RenderOptions with(Preset preset) {
 }  // namespace
 
 struct AttemptPainter::Impl {
-  Impl(const Scene& scene, const AssetRoots& assets, std::string trainee_in, int width_in, int height_in, Preset preset)
+  Impl(const AssetRoots& assets, std::string trainee_in, int width_in, int height_in, Preset preset)
       : renderer(context, assets.assets, with(preset)),
-        organ_T(std::make_shared<TriangleSurface>(scene.organ_T)),
         trainee(std::move(trainee_in)),
         width(width_in),
         height(height_in) {}
 
   HeadlessContext context;
   Renderer renderer;
-  std::shared_ptr<const TriangleSurface> organ_T;
   std::string trainee;
   int width, height;
 };
 
-AttemptPainter::AttemptPainter(const Scene& scene, const AssetRoots& assets, std::string trainee, int width, int height,
-                               Preset preset)
-    : impl_(std::make_unique<Impl>(scene, assets, std::move(trainee), width, height, preset)) {}
+AttemptPainter::AttemptPainter(const AssetRoots& assets, std::string trainee, int width, int height, Preset preset)
+    : impl_(std::make_unique<Impl>(assets, std::move(trainee), width, height, preset)) {}
 AttemptPainter::~AttemptPainter() = default;
 
 Image AttemptPainter::paint(const SessionView& view) { return paint(scene(view)); }
-SceneView AttemptPainter::scene(const SessionView& view) const {
-  return attempt_view(view, impl_->organ_T, impl_->trainee);
-}
+SceneView AttemptPainter::scene(const SessionView& view) const { return attempt_view(view, impl_->trainee); }
 Image AttemptPainter::paint(const SceneView& view) { return impl_->renderer.render(view, impl_->width, impl_->height); }
 
 PictureSink numbered_pictures(const std::filesystem::path& directory) {

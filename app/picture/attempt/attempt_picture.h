@@ -18,14 +18,13 @@ namespace trocar {
 
 /// What one picture of the running attempt shows. @param trainee code, shown in the top bar. @param seen through which
 /// it is seen, when that is not the exercise's own camera: the display's directions follow it.
-SceneView attempt_view(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T,
-                       const std::string& trainee, const std::optional<Camera>& seen = {});
+SceneView attempt_view(const SessionView& view, const std::string& trainee, const std::optional<Camera>& seen = {});
 
 /// Renders an attempt as it runs: every 1/fps s of loop time into DIR/frame_00001.png, or single pictures on demand.
 class AttemptPainter {
  public:
   /// @throws EnvironmentError without EGL, font or shaders.
-  AttemptPainter(const Scene& scene, const AssetRoots& assets, std::string trainee, int width = 1280, int height = 720,
+  AttemptPainter(const AssetRoots& assets, std::string trainee, int width = 1280, int height = 720,
                  Preset preset = Preset::kFull);
   ~AttemptPainter();
 

@@ -217,11 +217,11 @@ Camera attempt_camera(const Scene& scene) {
   return camera;
 }
 
-SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T) {
+SceneView attempt_scene(const SessionView& view) {
   const StylusState& stylus = view.record.stylus;
   SceneView out;
   if (on_organ(view.scene)) {
-    out.organ = organ_T;
+    out.organ = view.organ_T ? view.organ_T : view.scene.organ_T;
     out.material = view.scene.organ.material;
     out.targets = marks(view.director);
     for (const NeighbourOrgan& organ : view.scene.neighbours.organs)

@@ -4,15 +4,13 @@
 // Frame T, m. Pure: same moment, same scene. The renderer knows no exercise, this knows no OpenGL. Thread: any.
 #pragma once
 
-#include <memory>
-
 #include "app/picture/scene/scene_view.h"
 #include "app/session/session.h"
 
 namespace trocar {
 
 /// The moment as a scene, without its head-up display.
-SceneView attempt_scene(const SessionView& view, const std::shared_ptr<const TriangleSurface>& organ_T);
+SceneView attempt_scene(const SessionView& view);
 
 /// Scope that frames the exercise: on an organ from the trainee's side over the board region, otherwise so that all
 /// that belongs to the board fits into the field.

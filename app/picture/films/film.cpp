@@ -32,7 +32,7 @@ void check_size_for_two(int width, int height) {
 }
 
 int make_film(const RecordedRun& run, const AssetRoots& assets, const FilmOptions& options, const PictureSink& sink) {
-  AttemptPainter painter(run.scene(), assets, options.name, options.width, options.height, options.preset);
+  AttemptPainter painter(assets, options.name, options.width, options.height, options.preset);
   return take_pictures(-std::min(kLead_s, run.begin_s()), film_length(run), options, sink, [&](double clock) {
     const RunMoment moment = run.at(loop_time(run, clock));
     return painter.paint(view_of(run.scene(), moment));
@@ -42,7 +42,7 @@ int make_film(const RecordedRun& run, const AssetRoots& assets, const FilmOption
 int make_film(const RecordedRun& run, const RecordedRun& beside, const AssetRoots& assets, const FilmOptions& options,
               const PictureSink& sink) {
   check_size_for_two(options.width, options.height);
-  SideBySidePainter painter(run.scene(), beside.scene(), assets, options.width, options.height, options.preset);
+  SideBySidePainter painter(assets, options.width, options.height, options.preset);
   const double lead_s = std::min({kLead_s, run.begin_s(), beside.begin_s()});
   return take_pictures(-lead_s, std::max(film_length(run), film_length(beside)), options, sink, [&](double clock) {
     const RunMoment left = run.at(loop_time(run, clock)), right = beside.at(loop_time(beside, clock));

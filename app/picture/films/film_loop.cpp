@@ -19,8 +19,8 @@ void FilmLoop::advance(double dt_s) {
     return;
   }
   if (!run_->has_pictures() || run_->available_until() < run_->begin_s()) return;
-  if (!organ_T_) {
-    organ_T_ = std::make_shared<const TriangleSurface>(run_->scene().organ_T);
+  if (!ready_) {
+    ready_ = true;
     return;
   }
   clock_s_ += dt_s;
@@ -30,12 +30,12 @@ void FilmLoop::advance(double dt_s) {
   if (run_->stage() == RecordedRun::Stage::kReplaying) clock_s_ = std::min(clock_s_, known_s);
 }
 
-bool FilmLoop::ready() const { return organ_T_ != nullptr; }
+bool FilmLoop::ready() const { return ready_; }
 const Scene& FilmLoop::scene() const { return run_->scene(); }
 
 SceneView FilmLoop::view() const {
   const RunMoment moment = run_->at(loop_time(*run_, clock_s_));
-  return attempt_scene(view_of(run_->scene(), moment), organ_T_);
+  return attempt_scene(view_of(run_->scene(), moment));
 }
 
 std::string FilmLoop::refusal() const { return run_ ? run_->failure() : expert_.refusal(); }

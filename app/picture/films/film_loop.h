@@ -5,7 +5,6 @@
 // and a person who is quick, come first. Frame T, SI. Thread: the window's.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "app/picture/scene/scene_view.h"
@@ -38,7 +37,7 @@ class FilmLoop {
   AssetRoots assets_;
   ExpertRun expert_;
   std::optional<RecordedRun> run_;
-  std::shared_ptr<const TriangleSurface> organ_T_;
+  bool ready_ = false;
   double waited_s_ = 0, clock_s_ = 0;
 };
 

@@ -117,20 +117,18 @@ HudInk ink_of(const ForceBar& bar) {
 }  // namespace
 
 struct SideBySidePainter::Impl {
-  Impl(const Scene& left, const Scene& right, const AssetRoots& assets, int w, int h, const RenderOptions& options)
+  Impl(const AssetRoots& assets, int w, int h, const RenderOptions& options)
       : renderer{Renderer(context, assets.assets, options), Renderer(context, assets.assets, options)},
-        organ_T{std::make_shared<TriangleSurface>(left.organ_T), std::make_shared<TriangleSurface>(right.organ_T)},
         width(w),
         height(h) {}
 
-  SceneView view_of_side(int index, const FilmSide& side) const {
-    return attempt_view(view_of(side.scene, side.moment), organ_T[index], side.name);
+  SceneView view_of_side(const FilmSide& side) const {
+    return attempt_view(view_of(side.scene, side.moment), side.name);
   }
   void paint(Image& image, int index, const FilmSide& side, SceneView view, int bars, double seconds);
 
   HeadlessContext context;
   Renderer renderer[2];  // each keeps its own organ on the GPU
-  std::shared_ptr<const TriangleSurface> organ_T[2];
   FontSet fonts;
   int width, height;
 };
@@ -154,20 +152,19 @@ void SideBySidePainter::Impl::paint(Image& image, int index, const FilmSide& sid
   paint_hud(image, out.layout, fonts);
 }
 
-SideBySidePainter::SideBySidePainter(const Scene& left, const Scene& right, const AssetRoots& assets, int width,
-                                     int height, Preset preset) {
+SideBySidePainter::SideBySidePainter(const AssetRoots& assets, int width, int height, Preset preset) {
   if (width < kLeastWidth || height < kLeastHeight)
     throw std::invalid_argument("two runs side by side need a larger picture");
   RenderOptions options;
   options.preset = preset;
-  impl_ = std::make_unique<Impl>(left, right, assets, width, height, options);
+  impl_ = std::make_unique<Impl>(assets, width, height, options);
 }
 SideBySidePainter::~SideBySidePainter() = default;
 
 Image SideBySidePainter::paint(const FilmSide& left, const FilmSide& right, double seconds) {
   Image image(impl_->width, impl_->height);
   for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint8_t>(12 + 2 * (i % 3));
-  SceneView views[2] = {impl_->view_of_side(0, left), impl_->view_of_side(1, right)};
+  SceneView views[2] = {impl_->view_of_side(left), impl_->view_of_side(right)};
   const int bars = static_cast<int>(std::min(kMostBars, std::max(views[0].hud.bars.size(), views[1].hud.bars.size())));
   impl_->paint(image, 0, left, std::move(views[0]), bars, seconds);
   impl_->paint(image, 1, right, std::move(views[1]), bars, seconds);

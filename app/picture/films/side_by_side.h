@@ -26,8 +26,7 @@ class SideBySidePainter {
   static constexpr int kLeastWidth = 720, kLeastHeight = 400;  ///< px
 
   /// @throws EnvironmentError without EGL, font or shaders; std::invalid_argument for a smaller picture.
-  SideBySidePainter(const Scene& left, const Scene& right, const AssetRoots& assets, int width, int height,
-                    Preset preset = Preset::kFull);
+  SideBySidePainter(const AssetRoots& assets, int width, int height, Preset preset = Preset::kFull);
   ~SideBySidePainter();
   /// @param seconds on the clock of both, from RUN's beginning.
   Image paint(const FilmSide& left, const FilmSide& right, double seconds);

@@ -1,6 +1,5 @@
 #include "app/picture/models/organ_scene.h"
 
-#include <memory>
 #include <string>
 
 #include "tissue/theatre_frame.h"
@@ -45,12 +44,11 @@ SceneView organ_scene(const Organ& organ) {
   to_centre.R = theatre_from_ras();
   to_centre.p = -(to_centre.R * whole_box(organ).center());
   SceneView view;
-  view.organ = std::make_shared<TriangleSurface>(organ.surface.transformed(to_centre));
+  view.organ = still_surface(organ.surface.transformed(to_centre));
   view.material = organ.material;
   for (const Organ& neighbour : organ.neighbours)
     if (!surrounds(neighbour, organ))
-      view.neighbours.push_back(
-          {std::make_shared<TriangleSurface>(neighbour.surface.transformed(to_centre)), neighbour.material});
+      view.neighbours.push_back({still_surface(neighbour.surface.transformed(to_centre)), neighbour.material});
   Eigen::AlignedBox3d box = view.organ->bounds();
   for (const NeighbourView& neighbour : view.neighbours) box.extend(neighbour.surface->bounds());
   const Vec3 size = box.sizes();

@@ -64,7 +64,7 @@ Camera abdomen_camera() {
 SceneView abdomen(std::uint64_t seed) {
   SceneView view;
   for (const ShowOrgan& organ : show_anatomy(seed)) {
-    auto surface = std::make_shared<TriangleSurface>(implicit_surface(organ.distance, organ.box, organ.cell_m));
+    SurfacePtr surface = still_surface(implicit_surface(organ.distance, organ.box, organ.cell_m));
     if (view.organ)
       view.neighbours.push_back({std::move(surface), organ.material});
     else

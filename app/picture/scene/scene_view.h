@@ -11,7 +11,7 @@
 
 #include "app/picture/scene/scene_object.h"
 #include "haptics/quantities.h"
-#include "tissue/mesh/surface/triangle_surface.h"
+#include "tissue/surface_snapshot.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar {
@@ -110,13 +110,13 @@ struct InstrumentView {
 
 /// An organ beside the one in the middle.
 struct NeighbourView {
-  std::shared_ptr<const TriangleSurface> surface;  ///< in T; shared between frames
-  std::string material;                            ///< selects the look
+  SurfacePtr surface;    ///< in T; shared between frames
+  std::string material;  ///< selects the look
 };
 
 struct SceneView {
-  std::shared_ptr<const TriangleSurface> organ;  ///< already in T; shared between frames
-  std::string material;                          ///< selects the tissue look: "liver", "gallbladder", ...
+  SurfacePtr organ;      ///< already in T; shared between frames
+  std::string material;  ///< selects the tissue look: "liver", "gallbladder", ...
   std::vector<NeighbourView> neighbours;
   std::vector<TargetMark> targets;
   std::vector<SceneObject> objects;  ///< board, blocks, rings, ghost pens, port

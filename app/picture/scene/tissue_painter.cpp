@@ -126,7 +126,7 @@ bool TissuePainter::built_for(const SceneView& view, const PresetTraits& traits)
 }
 
 void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
-  const auto part = [](const std::shared_ptr<const TriangleSurface>& surface, std::size_t triangles) {
+  const auto part = [](const SurfacePtr& surface, std::size_t triangles) {
     Part out;
     out.source = surface;
     out.mesh = build_picture_mesh(*surface, triangles);

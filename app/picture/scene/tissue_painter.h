@@ -35,7 +35,7 @@ class TissuePainter {
  private:
   /// One mesh with its look, and those of its triangles that bear marks.
   struct Part {
-    std::weak_ptr<const TriangleSurface> source;
+    std::weak_ptr<const SurfaceSnapshot> source;
     std::string look;
     PictureMesh mesh;
     GpuMesh gpu;

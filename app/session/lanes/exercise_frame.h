@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "scenarios/director/director.h"
+#include "tissue/surface_snapshot.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar {
@@ -11,6 +12,7 @@ namespace trocar {
 struct ExerciseFrame {
   DirectorStatus status;
   TissueFrame tissue;
+  SurfacePtr organ_T;
 };
 
 /// One step of the tissue task for the recorder: the schedule of the run, and the phase that a row shows.

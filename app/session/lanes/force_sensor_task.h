@@ -2,7 +2,7 @@
 //
 // The residual holds what the loop does not know: friction, inertia, errors of weight compensation and of the
 // amplifiers. It is stated in the receipt and reaches neither loop nor exercise. Delivered forces are delayed as the
-// sensor delays. Threads: the tap beside the simulated device, the sensor its own.
+// sensor delays. Threads: the tap beside the device, the sensor its own.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 #include "app/session/lanes/channel.h"
 #include "app/session/lanes/haptic_task.h"
 #include "app/session/lanes/task.h"
-#include "haptics/device/simulated_daq.h"
-#include "haptics/force_sensor/simulated_force_sensor.h"
+#include "haptics/device/simulated_world.h"
+#include "haptics/force_sensor/force_sensor.h"
 
 namespace trocar {
 
@@ -23,20 +23,22 @@ struct StylusForces {
   Vec3 delivered_T = Vec3::Zero();  ///< as the loop believes
 };
 
-/// Publishes the forces of the simulated device after each of its periods.
+/// Publishes the forces at the stylus after each period of the device.
 class ForceTapTask final : public Task {
  public:
-  /// @param R_TW from the device's base to the theatre. @param fixture_n weight that hangs on the sensor.
-  ForceTapTask(const SimulatedDaq& daq, const HapticTask& haptic, const Mat3& R_TW, Outlet<StylusForces>& forces,
+  /// @param world nullptr: nobody knows the true force. @param R_TW from the device's base to the theatre.
+  /// @param fixture_n weight that hangs on the sensor.
+  ForceTapTask(const SimulatedWorld* world, const HapticTask& haptic, const Mat3& R_TW, Outlet<StylusForces>& forces,
                double fixture_n = 0)
-      : daq_(daq), haptic_(haptic), R_TW_(R_TW), forces_(forces), fixture_W_(0, 0, -fixture_n) {}
+      : world_(world), haptic_(haptic), R_TW_(R_TW), forces_(forces), fixture_W_(0, 0, -fixture_n) {}
   std::uint32_t period() const override { return 1; }
   void run(std::uint64_t tick) override {
-    forces_.write(tick, {R_TW_ * (daq_.sense().force_on_hand + fixture_W_), haptic_.record().stylus.rendered_force_T});
+    const Vec3 on_hand_T = world_ ? Vec3(R_TW_ * (world_->sense().force_on_hand + fixture_W_)) : Vec3(Vec3::Zero());
+    forces_.write(tick, {on_hand_T, haptic_.record().stylus.rendered_force_T});
   }
 
  private:
-  const SimulatedDaq& daq_;
+  const SimulatedWorld* world_;
   const HapticTask& haptic_;
   Mat3 R_TW_;
   Outlet<StylusForces>& forces_;
@@ -62,11 +64,11 @@ class VectorSpread {
 
 class ForceSensorTask final : public Task {
  public:
-  ForceSensorTask(Inlet<StylusForces>& forces, const ForceSensorConfig& config, std::uint64_t seed, double loop_rate_hz)
+  ForceSensorTask(Inlet<StylusForces>& forces, ForceSensor& sensor, double loop_rate_hz)
       : forces_(forces),
-        sensor_(config, seed),
+        sensor_(sensor),
         delivered_(sensor_.delay() + 1, Vec3::Zero()),
-        period_(static_cast<std::uint32_t>(std::lround(loop_rate_hz / config.rate_hz))) {}
+        period_(static_cast<std::uint32_t>(std::lround(loop_rate_hz / sensor.config().rate_hz))) {}
 
   std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
@@ -87,7 +89,7 @@ class ForceSensorTask final : public Task {
 
  private:
   Inlet<StylusForces>& forces_;
-  SimulatedForceSensor sensor_;
+  ForceSensor& sensor_;
   std::vector<Vec3> delivered_;  ///< ring as long as the sensor's delay
   std::uint32_t period_;
   ForceSample newest_;

@@ -18,12 +18,12 @@ constexpr std::uint64_t kMostMissed = 1000;  // what is longer is a fault anyway
 }  // namespace
 
 HandTask::HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseFrame>& frames,
-                   std::unique_ptr<Hand> hand, SimulatedDaq& daq)
+                   std::unique_ptr<Hand> hand, SimulatedWorld& world)
     : scene_(scene),
       haptic_(haptic),
       frames_(frames),
       hand_(std::move(hand)),
-      daq_(daq),
+      world_(world),
       random_(static_cast<std::uint64_t>(scene.setup.seed) ^ kSensesSeed),
       past_(std::max<std::size_t>(1, static_cast<std::size_t>(kEyeDelay_s * scene.loop.daq.rate_hz)),
             scene.loop.map.instrument_pose(home_pose())),
@@ -68,7 +68,7 @@ Percept HandTask::perceive(std::uint64_t tick) {
   const double felt = state.delivered_share * state.F_I_T.force.norm();  // what the fingers make of it in scene newtons
   percept.felt_force_n = std::max(0.0, felt + kTouchError_n * random_.normal());
   percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
-  percept.jaw_opening_m = daq_.sense().jaw_opening_m;
+  percept.jaw_opening_m = world_.sense().jaw_opening_m;
   percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
   percept.shown_grip_n = status.force_shown ? state.grip_force_n : std::numeric_limits<double>::quiet_NaN();
   show_cue(status, percept);
@@ -80,7 +80,7 @@ Percept HandTask::perceive(std::uint64_t tick) {
 /// Presses when the device has homed and keeps pressing, whatever happens afterwards.
 void HandTask::press_deadman() {
   if (haptic_.record().stylus.loop == LoopState::kHomed) ++homed_ticks_;
-  daq_.press_deadman(static_cast<double>(homed_ticks_) > kPressAfter_s * scene_.loop.daq.rate_hz);
+  world_.press_deadman(static_cast<double>(homed_ticks_) > kPressAfter_s * scene_.loop.daq.rate_hz);
 }
 
 void HandTask::run(std::uint64_t tick) {
@@ -93,15 +93,15 @@ void HandTask::run(std::uint64_t tick) {
     map.registration = state.registration;  // a hand finds the stylus where clutching has left it
     stylus_W_ = map.stylus_pose(intent.X_TI);
   }
-  daq_.set_hand_intent(stylus_W_, intent.jaw_opening_m);
-  daq_.press_clutch(intent.clutch);
+  world_.set_hand_intent(stylus_W_, intent.jaw_opening_m);
+  world_.press_clutch(intent.clutch);
   ++periods_;
 }
 
 void HandTask::missed(std::uint64_t periods) {
   for (std::uint64_t n = 0; n < std::min(periods, kMostMissed); ++n) {
     run(periods_);
-    daq_.miss_sync();
+    world_.miss_sync();
   }
 }
 

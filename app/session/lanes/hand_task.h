@@ -15,6 +15,7 @@
 #include "app/session/lanes/haptic_task.h"
 #include "app/session/lanes/task.h"
 #include "app/session/setup/scene.h"
+#include "haptics/device/simulated_world.h"
 #include "scenarios/hands/hand_random.h"
 
 namespace trocar {
@@ -28,7 +29,7 @@ class HandTask final : public Task {
   static constexpr double kPressAfter_s = 0.2;   ///< from the lamp that says "homed" to the thumb on the deadman
 
   HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseFrame>& frames, std::unique_ptr<Hand> hand,
-           SimulatedDaq& daq);
+           SimulatedWorld& world);
 
   std::uint32_t period() const override { return 1; }
   void run(std::uint64_t tick) override;
@@ -45,7 +46,7 @@ class HandTask final : public Task {
   const HapticTask& haptic_;
   Inlet<ExerciseFrame>& frames_;
   std::unique_ptr<Hand> hand_;
-  SimulatedDaq& daq_;
+  SimulatedWorld& world_;
   HandRandom random_;
   std::vector<Pose> past_;  ///< ring over the eye's delay
   Pose stylus_W_;           ///< where the hand wants the stylus

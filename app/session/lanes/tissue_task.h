@@ -4,6 +4,8 @@
 // Reads and writes through its ports only. Thread: its own.
 #pragma once
 
+#include <memory>
+
 #include "app/session/lanes/channel.h"
 #include "app/session/lanes/exercise_frame.h"
 #include "app/session/lanes/state_hash.h"
@@ -35,26 +37,21 @@ class TissueTask final : public Task {
   TissueTask(const Scene& scene, Director& director, const TissuePorts& ports)
       : director_(director),
         ports_(ports),
-        world_({.organ_T = &felt_surface(scene),
-                .organ = scene.setup.exercise.surface,
-                .triangle_material = scene.neighbours.triangle_material,
-                .neighbours = scene.neighbours.materials,
-                .rigid = scene.board.rigid,
-                .tool = scene.loop.tool}),
+        world_(make_world(scene)),
         period_(static_cast<std::uint32_t>(scene.loop.daq.rate_hz / kTissueRateHz)) {}
 
   std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
     const StylusState& state = ports_.state.newest(tick);
     ContactPatch& patch = ports_.patch.begin(tick);
-    world_.step(state, inserted_, patch);
-    director_.update(state, &world_.frame());
+    world_->step(state, inserted_, patch);
+    director_.update(state, &world_->frame());
     // The jig lies beneath the board: the world is there from the moment the tip first rests at the start, in free
     // space.
     inserted_ = inserted_ || director_.status().phase != Phase::kReady;
     if (patch.grip.stiffness_n_per_m <= 0) patch.grip = director_.status().grip;
     hash_.add(patch);
-    hash_.add(world_.frame());
+    hash_.add(world_->frame());
     hash_.add(director_.status());
     tell(tick, state.period);
     ports_.patch.commit();  // last: whoever sees this stamp finds its step in the ring
@@ -62,15 +59,25 @@ class TissueTask final : public Task {
   bool finished() const override { return director_.finished(); }
 
   const StateHash& hash() const { return hash_; }
-  const TissueWorld& world() const { return world_; }
+  const World& world() const { return *world_; }
 
  private:
+  static std::unique_ptr<World> make_world(const Scene& scene) {
+    return std::make_unique<TissueWorld>(TissueSetup{.organ_T = &felt_surface(scene),
+                                                     .seen_T = scene.organ_T,
+                                                     .organ = scene.setup.exercise.surface,
+                                                     .triangle_material = scene.neighbours.triangle_material,
+                                                     .neighbours = scene.neighbours.materials,
+                                                     .rigid = scene.board.rigid,
+                                                     .tool = scene.loop.tool});
+  }
   void tell(std::uint64_t tick, std::uint64_t seen_period) {
     for (Outlet<ExerciseFrame>* outlet : {ports_.hand, ports_.observer}) {
       if (!outlet) continue;
       ExerciseFrame& frame = outlet->begin(tick);
       frame.status = director_.status();
-      frame.tissue = world_.frame();
+      frame.tissue = world_->frame();
+      frame.organ_T = world_->surface();
       outlet->commit();
     }
     if (ports_.steps) ports_.steps->push({seen_period, static_cast<std::uint8_t>(director_.status().phase)});
@@ -81,7 +88,7 @@ class TissueTask final : public Task {
   Director& director_;
   TissuePorts ports_;
   StateHash hash_;
-  TissueWorld world_;
+  std::unique_ptr<World> world_;
   std::uint32_t period_;
   std::size_t told_ = 0;  ///< events that the recorder has
   bool inserted_ = false;

@@ -36,6 +36,7 @@ class MomentStore {
     DirectorStatus status;
     std::vector<std::uint64_t> tissue = {};  ///< runs of words: place << 32 | count, then they
     double t_s = 0;
+    SurfacePtr organ_T = nullptr;
   };
   void thin();
 

@@ -57,7 +57,7 @@ Neighbours place_neighbours(const Organ& organ, const TriangleSurface& organ_T, 
   append(organ_T, 0, all);
   const HeightField field(organ_T);
   for (const Organ& neighbour : organ.neighbours) {
-    auto surface_T = std::make_shared<const TriangleSurface>(neighbour.surface.transformed(X_TO));
+    SurfacePtr surface_T = still_surface(neighbour.surface.transformed(X_TO));
     if (covers_region(*surface_T, field, exercise.layout)) {
       all.set_aside.push_back(neighbour.name);
       continue;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,12 +12,13 @@
 #include "scenarios/exercise.h"
 #include "tissue/organ/material_table.h"
 #include "tissue/organ/organ.h"
+#include "tissue/surface_snapshot.h"
 
 namespace trocar {
 
 struct NeighbourOrgan {
   std::string name, material;
-  std::shared_ptr<const TriangleSurface> surface_T;
+  SurfacePtr surface_T;
 };
 
 struct Neighbours {

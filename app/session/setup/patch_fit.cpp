@@ -49,7 +49,7 @@ PatchFit patch_fit(const Scene& scene) {
     }
   }
   const double share = fit.most > 0 ? std::min(1.0, static_cast<double>(kMaxPatchTriangles) / fit.most) : 1;
-  const double organ = static_cast<double>(scene.organ_T.triangles.size());
+  const double organ = static_cast<double>(scene.organ_T->triangles.size());
   fit.advised = std::max(kRounding, static_cast<int>(kSafety * share * organ) / kRounding * kRounding);
   return fit;
 }

@@ -20,7 +20,7 @@
 
 namespace trocar {
 const TriangleSurface& felt_surface(const Scene& scene) {
-  return scene.neighbours.felt_T.triangles.empty() ? scene.organ_T : scene.neighbours.felt_T;
+  return scene.neighbours.felt_T.triangles.empty() ? *scene.organ_T : scene.neighbours.felt_T;
 }
 
 namespace {
@@ -119,7 +119,7 @@ Board lay_out(const Scene& scene, int board, const ShaftRoom* room) {
     case ExerciseKind::kTouch:
       break;
   }
-  return lay_out_board(scene.organ_T, exercise, scene.level, board, room);
+  return lay_out_board(*scene.organ_T, exercise, scene.level, board, room);
 }
 
 /// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be
@@ -143,10 +143,10 @@ void place(Scene& scene) {
   scene.placement = scene.setup.placement
                         ? *scene.setup.placement
                         : place_organ(scene.organ.surface, exercise, scene.level, {scene.loop.tool, scene.loop.map});
-  scene.organ_T = scene.organ.surface.transformed(scene.placement.X_TO);
+  scene.organ_T = still_surface(scene.organ.surface.transformed(scene.placement.X_TO));
   if (scene.organ.neighbours.empty()) return;
   const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
-  scene.neighbours = place_neighbours(scene.organ, scene.organ_T, scene.placement.X_TO, exercise, materials);
+  scene.neighbours = place_neighbours(scene.organ, *scene.organ_T, scene.placement.X_TO, exercise, materials);
 }
 
 /// Organ, board, force scale, and the instrument that the exercise takes.

@@ -19,6 +19,7 @@
 #include "scenarios/files/plant_file.h"
 #include "scenarios/layout/organ_placement.h"
 #include "tissue/organ/organ.h"
+#include "tissue/surface_snapshot.h"
 
 namespace trocar {
 
@@ -51,6 +52,7 @@ struct AttemptSetup {
   int attempt = 1;    ///< of a learning hand
   std::int64_t seed = 1;
   int board = 0;
+  std::string backend = "simulated";  ///< a name that make_backend() knows; a replay does not use it
   double rate_hz = 1000;
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
@@ -69,8 +71,8 @@ struct Scene {
   ExerciseLevel level;
   Organ organ;
   OrganPlacement placement;
-  TriangleSurface organ_T;
-  Neighbours neighbours;  ///< what lies round the organ, when it is one of several
+  SurfacePtr organ_T = still_surface({});  ///< shared by all who show it
+  Neighbours neighbours;                   ///< what lies round the organ, when it is one of several
   Board board;
   HapticLoopConfig loop;
   double room_share = 1;  ///< of the region, where the device can give the soft force limit

@@ -1,6 +1,6 @@
 #include "app/studies/device/identified_device.h"
 
-#include "haptics/device/simulated_daq.h"
+#include "haptics/device/backends/make_backend.h"
 
 namespace trocar {
 namespace {
@@ -44,8 +44,7 @@ IdentifyRequest seeded_identification(std::uint64_t seed, bool quick) {
 Identification identify_simulated(const PlantParameters& truth, const IdentifyRequest& request) {
   SimulatedDaqConfig config;
   config.plant = truth;
-  SimulatedDaq device(config);
-  return identify(device, DeviceModel{}, request);
+  return identify(*make_backend(kSimulatedBackend, {.simulated = config}).daq, DeviceModel{}, request);
 }
 
 }  // namespace trocar

@@ -53,7 +53,7 @@ class WallsTask final : public Task {
  private:
   static TissueSetup setup_of(const Scene& scene) {
     TissueSetup setup;
-    setup.organ_T = &scene.organ_T;
+    setup.organ_T = scene.organ_T.get();
     setup.tool = scene.loop.tool;
     return setup;
   }
@@ -70,18 +70,18 @@ class WallsTask final : public Task {
 /// Device, loop, hand and walls, whatever drives them.
 struct NotchRig {
   NotchRig(const Scene& scene, std::unique_ptr<Hand> person, Timing timing)
-      : daq(simulated_device(scene.setup)),
+      : backend(setup_backend(scene.setup)),
         state(make_channel<StylusState>(timing)),
         patch(make_channel<ContactPatch>(timing, kPatchDelay)),
         frames(make_channel<ExerciseFrame>(timing)),
         records(make_channel<TickRecord>(timing)),
         loop(scene.loop),
-        haptic(daq, loop, {*patch, *state, records.get(), nullptr}, kLongest_s),
-        hand(scene, haptic, *frames, std::move(person), daq),
+        haptic(*backend.daq, loop, {*patch, *state, records.get(), nullptr}, kLongest_s),
+        hand(scene, haptic, *frames, std::move(person), *backend.world),
         walls(scene, *state, *records, *patch, stiffness) {}
 
   std::atomic<double> stiffness{kThesisWall_n_per_m};
-  SimulatedDaq daq;
+  Backend backend;
   std::unique_ptr<Channel<StylusState>> state;
   std::unique_ptr<Channel<ContactPatch>> patch;
   std::unique_ptr<Channel<ExerciseFrame>> frames;

@@ -58,7 +58,7 @@ Scene notch_scene(const AssetRoots& assets, std::int64_t seed, const Notch& notc
   setup.pace = kSimulatedLivePace;
   Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
   scene.board = {};
-  scene.organ_T = notch_surface(notch);
+  scene.organ_T = still_surface(notch_surface(notch));
   scene.loop.map.force_scale = 1;
   scene.loop.tool.shaft_length_m =
       kTipOnly_m;  // what touches is the cursor, as in the thesis: a ball, so forces without moments

@@ -53,7 +53,6 @@ struct LessonPicture::State {
   std::future<std::shared_ptr<const Scene>> making;
   std::string making_key;
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const TriangleSurface> organ_T;
   std::future<std::shared_ptr<const RecordedRun>> filming;
   std::string filming_key;
   std::shared_ptr<const RecordedRun> film;
@@ -79,7 +78,6 @@ void LessonPicture::State::advance_scene(PracticeDesk& desk, double wait_s) {
     auto made = making.get();
     if (making_key == key && made) {
       scene = made;
-      organ_T = std::make_shared<const TriangleSurface>(made->organ_T);
       return;
     }
     if (making_key == key) return;
@@ -122,12 +120,11 @@ std::optional<SceneView> LessonPicture::view(PracticeDesk& desk, double dt_s) {
   if (!s.scene) return std::nullopt;
   if (s.film) {
     const double length = std::max(1.0, s.film->end_s() - s.film->begin_s());
-    SceneView view =
-        attempt_scene(view_of(s.film->scene(), s.film->at(s.film->begin_s() + std::fmod(s.t_s, length))), s.organ_T);
+    SceneView view = attempt_scene(view_of(s.film->scene(), s.film->at(s.film->begin_s() + std::fmod(s.t_s, length))));
     view.hud = {};
     return view;
   }
-  return lesson_view(*s.scene, s.organ_T, s.t_s);
+  return lesson_view(*s.scene, s.t_s);
 }
 
 std::string LessonPicture::caption(const Words& w) const {
@@ -141,7 +138,7 @@ void LessonPicture::settle(PracticeDesk& desk, double wait_s) {
   state_->advance_scene(desk, wait_s);
 }
 
-SceneView lesson_view(const Scene& scene, const std::shared_ptr<const TriangleSurface>& organ_T, double t_s) {
+SceneView lesson_view(const Scene& scene, double t_s) {
   RunMoment moment;
   moment.t_s = t_s;
   StylusState& stylus = moment.record.stylus;
@@ -153,7 +150,7 @@ SceneView lesson_view(const Scene& scene, const std::shared_ptr<const TriangleSu
   moment.status.phase = Phase::kRun;
   moment.status.target_index =
       scene.board.targets.empty() ? -1 : static_cast<int>(t_s / 3) % static_cast<int>(scene.board.targets.size());
-  SceneView view = attempt_scene(view_of(scene, moment), organ_T);
+  SceneView view = attempt_scene(view_of(scene, moment));
   view.hud = {};
   view.hud.elapsed_s = t_s;
   return view;

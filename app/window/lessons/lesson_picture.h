@@ -18,7 +18,7 @@ namespace trocar {
 class RecordedRun;
 
 /// The moving still scene: over board or organ, along a slow round. Pure: same scene and time, same view.
-SceneView lesson_view(const Scene& scene, const std::shared_ptr<const TriangleSurface>& organ_T, double t_s);
+SceneView lesson_view(const Scene& scene, double t_s);
 
 class LessonPicture {
  public:

@@ -28,9 +28,7 @@ std::string speed_words(const Words& w, double speed) { return w("speed {0}", {w
 
 }  // namespace
 
-void ReplayScreen::Side::look_after() {
-  if (run && !organ_T && run->has_pictures()) organ_T = std::make_shared<const TriangleSurface>(run->scene().organ_T);
-}
+void ReplayScreen::Side::look_after() { seen = seen || (run && run->has_pictures()); }
 
 void ReplayScreen::open(PracticeDesk& desk) {
   opened_ = true;
@@ -96,7 +94,7 @@ void ReplayScreen::settle(PracticeDesk& desk, double wait_s) {
 Screen::Stage ReplayScreen::stage_of(const Side& side, double x, double width) const {
   const RunMoment moment = side.run->at(loop_time(*side.run, clock_.now_s()));
   Stage stage;
-  stage.view = attempt_scene(view_of(side.run->scene(), moment), side.organ_T);
+  stage.view = attempt_scene(view_of(side.run->scene(), moment));
   stage.x = x;
   stage.width = width;
   stage.height = picture_height_;

@@ -33,10 +33,10 @@ class ReplayScreen final : public Screen {
   /// One of the two runs.
   struct Side {
     std::optional<RecordedRun> run;
-    std::shared_ptr<const TriangleSurface> organ_T;
     std::string name;
-    bool shown() const { return organ_T != nullptr; }
+    bool shown() const { return seen; }
     void look_after();
+    bool seen = false;  ///< there has been something to show
   };
   void open(PracticeDesk& desk);
   void look_after(PracticeDesk& desk, double dt_s);

@@ -36,8 +36,7 @@ struct RunScreen::State {
   FontSet fonts;
   bool begun = false, steering = false, was_paused = false, overlay = false;
   bool again = false;  // the overlay asks whether to start again
-  std::shared_ptr<const TriangleSurface> organ_T;
-  RunMoment before;  // shown while nothing has been seen
+  RunMoment before;    // shown while nothing has been seen
   Camera camera;
   PixelRect picture;
   HudLayout layout;
@@ -76,7 +75,6 @@ const LatencyMeter& RunScreen::latency() const { return state_->latency; }
 /// An attempt that has just begun.
 void RunScreen::State::begin(PracticeDesk& desk) {
   const Scene& scene = desk.running()->scene();
-  organ_T = std::make_shared<const TriangleSurface>(scene.organ_T);
   before = first_moment(scene);
   camera = attempt_camera(scene);
   steering = was_paused = overlay = again = false;
@@ -120,7 +118,7 @@ SceneView RunScreen::State::view(PracticeDesk& desk) {
   const RunMoment& moment = newest.seen ? newest : before;
   if (newest.seen) latency.drawn(newest.steered);
   sounds.hear(run.scene(), moment, desk.sound());
-  SceneView out = attempt_view(view_of(run.scene(), moment), organ_T,
+  SceneView out = attempt_view(view_of(run.scene(), moment),
                                desk.is_demonstration() ? desk.who()
                                : desk.is_guest()       ? ""
                                                        : desk.trainee(),

@@ -73,14 +73,14 @@ TEST(AttemptSceneOfFields, ShowsWhatTheFrameHolds) {
   frame.smoke_per_m = 3;
   frame.lens_fog = 0.2;
   frame.lens_blood = 0.1;
-  const SceneView view = attempt_scene({scene, record, {status, scene.board}, 0, &frame}, nullptr);
+  const SceneView view = attempt_scene({scene, record, {status, scene.board}, 0, &frame});
   ASSERT_EQ(view.marks.size(), 2U);
   EXPECT_EQ(view.marks[1], frame.mark[1]);
   EXPECT_EQ(view.smoke_per_m, 3);
   EXPECT_EQ(view.lens.fog, 0.2);
   EXPECT_EQ(view.lens.blood, 0.1);
   EXPECT_EQ(view.lens.wipe, 0);
-  const SceneView without = attempt_scene({scene, record, {status, scene.board}, 0, nullptr}, nullptr);
+  const SceneView without = attempt_scene({scene, record, {status, scene.board}, 0, nullptr});
   EXPECT_TRUE(without.marks.empty());
   EXPECT_EQ(without.smoke_per_m, 0);
 }

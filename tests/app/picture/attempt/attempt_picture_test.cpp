@@ -32,7 +32,7 @@ struct Moment {
   Director director{scene().setup.exercise, scene().level, scene().board};
   TickRecord record;
   SessionView at(double t_s) const { return {scene(), record, director, t_s}; }
-  SceneView seen(const std::string& trainee = "T-1") const { return attempt_view(at(0), nullptr, trainee); }
+  SceneView seen(const std::string& trainee = "T-1") const { return attempt_view(at(0), trainee); }
 };
 
 const HudRow& row(const std::vector<HudRow>& rows, const std::string& name) {
@@ -91,7 +91,7 @@ TEST(AttemptView, ALevelThatHidesTheForceKeepsItsPlaceButNotItsValue) {
   Scene hidden = scene();
   hidden.level.force_display = "after";
   const Moment moment;
-  const SceneView view = attempt_view({hidden, moment.record, moment.director, 0}, nullptr, "");
+  const SceneView view = attempt_view({hidden, moment.record, moment.director, 0}, "");
   ASSERT_EQ(view.hud.bars.size(), 2u);
   for (const ForceBar& bar : view.hud.bars) {
     EXPECT_TRUE(bar.hidden) << bar.label;
@@ -142,7 +142,7 @@ class Frames : public ::testing::Test {
 };
 
 TEST_F(Frames, AreWrittenAtTheirRateAndNumberedFromOne) {
-  AttemptPainter painter(scene(), find_assets(), "T-1", 320, 240);
+  AttemptPainter painter(find_assets(), "T-1", 320, 240);
   FrameWriter writer(painter, folder_ / "deep" / "frames", 4);
   const Moment moment;
   for (int i = 0; i <= 100; ++i) writer.observe(moment.at(0.01 * i));
@@ -153,7 +153,7 @@ TEST_F(Frames, AreWrittenAtTheirRateAndNumberedFromOne) {
 }
 
 TEST_F(Frames, APaintedMomentIsAPictureOfTheSizeAskedFor) {
-  AttemptPainter painter(scene(), find_assets(), "T-1", 320, 240);
+  AttemptPainter painter(find_assets(), "T-1", 320, 240);
   const Image image = painter.paint(Moment().at(0));
   EXPECT_EQ(image.width, 320);
   EXPECT_EQ(image.height, 240);
@@ -162,7 +162,7 @@ TEST_F(Frames, APaintedMomentIsAPictureOfTheSizeAskedFor) {
 }
 
 TEST_F(Frames, AFolderThatCannotBeMadeIsTheMachinesFault) {
-  AttemptPainter painter(scene(), find_assets(), "T-1", 320, 240);
+  AttemptPainter painter(find_assets(), "T-1", 320, 240);
   folder_.write("file", "");
   EXPECT_THROW(FrameWriter(painter, folder_ / "file" / "frames", 4), EnvironmentError);
 }

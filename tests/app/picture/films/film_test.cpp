@@ -86,7 +86,7 @@ TEST_F(Films, AnExerciseWithoutForceBarsLeavesTheirRoomToThePicture) {
   AttemptSetup setup = short_setup();
   setup.exercise = find_exercise("reach-and-orient", find_assets().exercises);
   const Scene scene = build_scene(setup, find_assets(), {"simulated", 1000, 16});
-  SideBySidePainter painter(scene, scene, find_assets(), 720, 400, Preset::kPotato);
+  SideBySidePainter painter(find_assets(), 720, 400, Preset::kPotato);
   RunMoment moment;
   moment.record.stylus.X_TI.p = scene.board.start_T;
   const Image image = painter.paint({scene, moment, "T-1"}, {scene, moment, "expert"}, 1);
@@ -96,7 +96,7 @@ TEST_F(Films, AnExerciseWithoutForceBarsLeavesTheirRoomToThePicture) {
 
 TEST_F(Films, ThePainterOfTwoSaysWhoHasEnded) {
   const Scene scene = short_scene();
-  SideBySidePainter painter(scene, scene, find_assets(), 720, 400);
+  SideBySidePainter painter(find_assets(), 720, 400);
   RunMoment moment;
   moment.record.stylus.X_TI.p = scene.board.start_T;
   const Image running = painter.paint({scene, moment, "T-1"}, {scene, moment, "expert"}, 12.5);
@@ -107,7 +107,7 @@ TEST_F(Films, ThePainterOfTwoSaysWhoHasEnded) {
       (x < 360 ? changed_left : changed_right) += running.pixel(x, y)[1] != ended.pixel(x, y)[1] ? 1 : 0;
   EXPECT_GT(changed_left, 20) << "its time gives way to the word";
   EXPECT_EQ(changed_right, 0);
-  EXPECT_THROW(SideBySidePainter(scene, scene, find_assets(), 719, 400), std::invalid_argument);
+  EXPECT_THROW(SideBySidePainter(find_assets(), 719, 400), std::invalid_argument);
 }
 
 }  // namespace

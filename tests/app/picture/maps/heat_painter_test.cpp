@@ -67,7 +67,7 @@ TEST(SeenPlaces, APixelsPlaceIsProjectedBackOntoIt) {
 
 TEST(SeenPlaces, WhatLiesInFrontHidesWhatLiesBehind) {
   SceneView view;
-  view.organ = std::make_shared<TriangleSurface>(sphere(0.02));
+  view.organ = still_surface(sphere(0.02));
   view.objects = {board(0.1, -0.03)};
   SeenPlaces seen(from({0, 0, 0.12}), 320, 180);
   seen.add(view);
@@ -134,7 +134,7 @@ TEST(OverviewCamera, SeesTheWholeBoardAndTheWholeOrgan) {
   view.camera = from({0, 0, 0.02});
   EXPECT_EQ(overview_camera(view).eye_T, view.camera.eye_T) << "nothing to look over";
   view.objects = {board(0.1, -0.05)};
-  view.organ = std::make_shared<TriangleSurface>(sphere(0.05));
+  view.organ = still_surface(sphere(0.05));
   const Camera camera = overview_camera(view);
   const ScopeOptics optics(camera, {0, 0, 640, 360});
   for (const Vec3& corner : board_face(view.objects[0]).vertices) {

@@ -93,7 +93,7 @@ SceneView two_balls(bool away) {
   const auto ball = [](const Vec3& centre) {
     TriangleSurface s = testing_support::icosphere(4);
     for (Vec3& v : s.vertices) v = centre + 0.02 * v;
-    return std::make_shared<const TriangleSurface>(s);
+    return still_surface(s);
   };
   view.organ = ball({0.02, 0, 0});
   view.material = "liver";

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/grading/recorded_result.h"
+#include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
 
@@ -78,7 +79,8 @@ TEST(RealtimeReceipt, NotesSayWhatWasRefusedAndWhatWasLost) {
 
 TEST(ForceSensorReceipt, HoldsWhatWasMeasuredAndWhatTheLoopDidNotKnow) {
   LiveChannel<StylusForces> forces;
-  ForceSensorTask sensor(forces, {.rate_hz = 40, .lag_s = 0.15, .noise_n = 0, .drift_n_per_h = 0}, 1, 1000);
+  SimulatedForceSensor simulated({.rate_hz = 40, .lag_s = 0.15, .noise_n = 0, .drift_n_per_h = 0}, 1);
+  ForceSensorTask sensor(forces, simulated, 1000);
   constexpr int kCalls = 20, kLag = 6;  // 0.15 s at 40 Hz
   for (int i = 0; i < kCalls; ++i) {
     forces.write(static_cast<std::uint64_t>(i), {Vec3(0, 0, 2), Vec3(0, 0, i < 10 ? 1.5 : 1.0)});
@@ -96,7 +98,8 @@ TEST(ForceSensorReceipt, HoldsWhatWasMeasuredAndWhatTheLoopDidNotKnow) {
 
 TEST(ForceSensorReceipt, WithoutASampleItIsZeroNotNothing) {
   LiveChannel<StylusForces> forces;
-  const ForceSensorTask sensor(forces, {}, 1, 1000);
+  SimulatedForceSensor simulated({}, 1);
+  const ForceSensorTask sensor(forces, simulated, 1000);
   const Json json = Json::parse(force_sensor_json(sensor));
   EXPECT_EQ(json.at("samples"), 0);
   EXPECT_EQ(json.at("measured_rms_n"), 0);

@@ -52,7 +52,7 @@ struct PenMoment {
     status.demand.angle_tolerance_rad = 0.14;
   }
   SessionView view() const { return {scene, record, {status, scene.board}, 0, tissue}; }
-  SceneView drawn() const { return attempt_scene(view(), nullptr); }
+  SceneView drawn() const { return attempt_scene(view()); }
   Hud hud() const { return attempt_hud(view(), attempt_camera(scene), "T-1"); }
 
   Scene scene;

@@ -70,9 +70,9 @@ TEST(Neighbours, WithoutAnyTheOrganAloneIsFelt) {
   const Neighbours all = place.placed();
   EXPECT_TRUE(all.felt_T.triangles.empty());
   Scene scene;
-  scene.organ_T = place.organ.surface;
+  scene.organ_T = still_surface(place.organ.surface);
   scene.neighbours = all;
-  EXPECT_EQ(&felt_surface(scene), &scene.organ_T);
+  EXPECT_EQ(&felt_surface(scene), scene.organ_T.get());
 }
 
 TEST(Neighbours, MoreMaterialsThanAPatchHoldsShareTheMostAlike) {
@@ -132,7 +132,7 @@ TEST(ShippedAbdomen, IsOneFrameOfOrgansForTheTouchExercise) {
   setup.hand = "expert";
   const Scene scene = build_scene(setup, assets, {"simulated", 1000, 16});
   EXPECT_EQ(scene.neighbours.organs.size() + scene.neighbours.set_aside.size(), names.size());
-  EXPECT_GT(scene.neighbours.felt_T.triangles.size(), scene.organ_T.triangles.size());
+  EXPECT_GT(scene.neighbours.felt_T.triangles.size(), scene.organ_T->triangles.size());
   EXPECT_EQ(scene.board.targets.size(), 12U);
   EXPECT_EQ(scene.board.spacing_m, setup.exercise.layout.min_spacing_m) << "a whole liver has room";
 }

@@ -46,7 +46,7 @@ TEST(PatchWords, WithoutTargetsNothingIsMeasuredAndTheAdviceIsTheReserve) {
   EXPECT_EQ(none.reach_m, kPatchRadius);
   EXPECT_EQ(none.needed_m, with.needed_m);
   EXPECT_EQ(none.advised % 50, 0);
-  const double wanted = 0.9 * static_cast<double>(scene.organ_T.triangles.size());
+  const double wanted = 0.9 * static_cast<double>(scene.organ_T->triangles.size());
   EXPECT_LE(none.advised, wanted);
   EXPECT_GT(none.advised, wanted - 50);
 }

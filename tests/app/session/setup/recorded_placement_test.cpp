@@ -41,8 +41,8 @@ TEST_F(RecordedPlacement, ComesBackToTheLastBit) {
   EXPECT_EQ(replayed.placement.X_TO.R, scene.placement.X_TO.R);
   EXPECT_EQ(replayed.placement.X_TO.p, scene.placement.X_TO.p);
   EXPECT_EQ(replayed.placement.free_m2, scene.placement.free_m2);
-  ASSERT_EQ(replayed.organ_T.vertices.size(), scene.organ_T.vertices.size());
-  EXPECT_EQ(replayed.organ_T.vertices.back(), scene.organ_T.vertices.back());
+  ASSERT_EQ(replayed.organ_T->vertices.size(), scene.organ_T->vertices.size());
+  EXPECT_EQ(replayed.organ_T->vertices.back(), scene.organ_T->vertices.back());
   EXPECT_EQ(scene_json(replayed), scene_json(scene)) << "a replay of a replay is the same";
 }
 

@@ -28,7 +28,7 @@ SessionHooks MousePlayer::hooks() {
 }
 
 MousePlayer::Seen MousePlayer::see(const SessionView& view) const {
-  const SceneView scene = attempt_scene(view, nullptr);
+  const SceneView scene = attempt_scene(view);
   const ScopeOptics optics(camera_, kPicture);
   const DirectorStatus& status = view.director.status();
   Seen seen;

@@ -102,7 +102,7 @@ TEST(LessonView, LightsOneTargetAfterTheOtherOverTheBoard) {
   const Scene scene = board_of("reach-and-orient");
   const int count = static_cast<int>(scene.board.targets.size());
   for (int i = 0; i <= count; ++i) {
-    const SceneView view = lesson_view(scene, nullptr, 3 * i + 0.1);
+    const SceneView view = lesson_view(scene, 3 * i + 0.1);
     std::vector<Vec3> lit;
     for (const SceneObject& o : view.objects)
       if (o.shape == Shape::kPen && o.style == Style::kGhostLit) lit.push_back(o.X_TO.p);
@@ -114,8 +114,8 @@ TEST(LessonView, LightsOneTargetAfterTheOtherOverTheBoard) {
     EXPECT_EQ(view.jaw_opening_m, 0) << "a probe";
     EXPECT_TRUE(view.hud.title.empty() && view.hud.bars.empty());
   }
-  EXPECT_EQ(lesson_view(scene, nullptr, 4.2).X_TI.p, lesson_view(scene, nullptr, 4.2).X_TI.p);
-  const SceneView grasp = lesson_view(board_of("limited-grasp"), nullptr, 1);
+  EXPECT_EQ(lesson_view(scene, 4.2).X_TI.p, lesson_view(scene, 4.2).X_TI.p);
+  const SceneView grasp = lesson_view(board_of("limited-grasp"), 1);
   EXPECT_NEAR(grasp.jaw_opening_m, 0.018, 1e-12) << "jaws move";
 }
 

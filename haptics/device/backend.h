@@ -1,0 +1,28 @@
+// A back-end: the device behind the seam, with what comes along with it. Session, commands and checks hold one of these
+// and no class of a particular device.
+//
+// Made by make_backend() (haptics/device/backends). Thread: whoever owns it; its parts say their own.
+#pragma once
+
+#include <memory>
+
+#include "haptics/device/data_acquisition.h"
+#include "haptics/device/simulated_world.h"
+#include "haptics/force_sensor/force_sensor.h"
+
+namespace trocar {
+
+/// What a back-end lets its owner do with time.
+struct BackendAbilities {
+  bool pause = false;  ///< everything behind the seam stands still while nobody reads
+  bool pace = false;   ///< reads set the pace: a run in lockstep is as quick as the machine is
+};
+
+struct Backend {
+  std::unique_ptr<DataAcquisition> daq;
+  std::unique_ptr<ForceSensor> sensor = {};  ///< at the stylus; nullptr: none
+  SimulatedWorld* world = nullptr;           ///< plant and hand, part of `daq`; nullptr: a person holds a real device
+  BackendAbilities can = {};
+};
+
+}  // namespace trocar

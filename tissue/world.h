@@ -1,0 +1,30 @@
+// The world that the instrument is in, tissue and board alike, as the loop's neighbours see it: tissue task, director,
+// hands and pictures.
+//
+// step() takes the newest haptic state at the tissue rate (100 Hz) and gives back what the loop needs until the next
+// step (ContactPatch); frame() and surface() are what everybody else may know of it. Frame T, SI units. Deterministic:
+// same states in, same frames out. Thread: tissue task.
+#pragma once
+
+#include <cstdint>
+
+#include "haptics/exchange/contact_patch.h"
+#include "haptics/exchange/stylus_state.h"
+#include "tissue/surface_snapshot.h"
+#include "tissue/tissue_frame.h"
+
+namespace trocar {
+
+class World {
+ public:
+  virtual ~World() = default;
+  /// @param present the instrument is in the scene: before that nothing is felt or moved by it. @param patch filled.
+  virtual void step(const StylusState& state, bool present, ContactPatch& patch) = 0;
+  virtual const TissueFrame& frame() const = 0;
+  /// The organ after the step; nullptr: none is to be seen.
+  virtual SurfacePtr surface() const = 0;
+  /// Triangles in reach that did not fit into a patch, over the run.
+  virtual std::uint64_t dropped() const = 0;
+};
+
+}  // namespace trocar
