@@ -34,8 +34,4 @@ struct KindPicture {
 
 const KindPicture& picture_of(const Exercise&);
 
-KindPicture reach_picture();
-KindPicture touch_picture();
-KindPicture grasp_picture();
-
 }  // namespace trocar

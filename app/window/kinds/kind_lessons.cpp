@@ -4,9 +4,18 @@
 
 namespace trocar {
 
-const KindLesson& lesson_of(const Exercise& exercise) {
+// One each of this folder's sources.
+KindLesson reach_lesson();
+KindLesson touch_lesson();
+KindLesson grasp_lesson();
+
+const std::vector<KindLesson>& all_lessons() {
   static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(), grasp_lesson()};
-  return *std::find_if(lessons.begin(), lessons.end(),
+  return lessons;
+}
+
+const KindLesson& lesson_of(const Exercise& exercise) {
+  return *std::find_if(all_lessons().begin(), all_lessons().end(),
                        [&](const KindLesson& lesson) { return lesson.kind == exercise.kind; });
 }
 

@@ -26,7 +26,10 @@ KindLesson reach_lesson() {
                 return w("Skill: depth from a flat picture, and turning the instrument where you want it.");
               },
           .steps = reach_steps,
-          .add_limits = add_reach_limits};
+          .add_limits = add_reach_limits,
+          .display = {words("Pen {0}."), words("Bring the tip to the lit pen"),
+                      words("Turn the instrument along the pen"), words("The tip is right."),
+                      words("Match each lit pen and hold"), words("Pens matched"), words("Out of time")}};
 }
 
 }  // namespace trocar

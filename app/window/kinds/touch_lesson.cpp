@@ -37,7 +37,32 @@ KindLesson touch_lesson() {
   return {.kind = ExerciseKind::kTouch,
           .skill = [](const Words& w) { return w("Skill: touching where you mean to, with a force that you choose."); },
           .steps = touch_steps,
-          .add_limits = add_touch_limits};
+          .add_limits = add_touch_limits,
+          .display = {words("Too hard - ease off"),
+                      words("Stay between {0}."),
+                      words("Wrong place"),
+                      words("Lift off and touch inside the lit disc."),
+                      words("Touch the lit disc"),
+                      words("Disc {0}: {1}."),
+                      words("Move onto the lit disc"),
+                      words("The tip is beside it."),
+                      words("Hold by feel"),
+                      words("Wanted: {0}."),
+                      words("Press gently"),
+                      words("Reach {0} and hold."),
+                      words("Keep the force steady."),
+                      words("Open the jaws"),
+                      words("A block will be placed between them."),
+                      words("Squeeze the block by feel"),
+                      words("Too tight - ease off"),
+                      words("Squeeze with {0}."),
+                      words("Keep the squeeze steady."),
+                      words("Touch and hold each disc"),
+                      words("Squeeze the block"),
+                      words("Discs held"),
+                      words("Wrong places"),
+                      words("Too much force"),
+                      words("Tip force")}};
 }
 
 }  // namespace trocar
