@@ -18,6 +18,7 @@
 #include "app/session/recording/recording_reader.h"
 #include "app/session/recording/recording_writer.h"
 #include "app/session/setup/scene.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {

@@ -30,7 +30,7 @@ enum class WatchedForce : std::uint8_t { kNone, kTip, kGrip };
 enum class ToolKind : std::uint8_t { kProbe, kGrasper };
 
 /// Above these a force is far too much, N; nothing: that force is not judged.
-struct ForceLimits {
+struct JudgedForces {
   std::optional<double> tip_n, grip_n;
 };
 
@@ -50,7 +50,7 @@ struct KindDescription {
   bool jaws_hold;  ///< objects of the world lie between the jaws
   ToolKind tool;
   WatchedForce watched;
-  ForceLimits (*limits)(const Exercise&, const ExerciseLevel&, const Board&, int lit);  ///< lit -1: of all objects
+  JudgedForces (*limits)(const Exercise&, const ExerciseLevel&, const Board&, int lit);  ///< lit -1: of all objects
 
   // While loading. The keys of [targets], of the document and of a level that only this kind has.
   void (*read_targets)(StrictTable& targets, TargetLayout&);
@@ -71,10 +71,10 @@ const KindDescription& kind_of(const Exercise&);
 const KindDescription* kind_named(const std::string& name);
 
 /// Limits of the exercise as a whole: of its hardest object.
-ForceLimits force_limits(const Exercise&, const ExerciseLevel&, const Board&);
+JudgedForces judged_forces(const Exercise&, const ExerciseLevel&, const Board&);
 /// Limits that hold now. Where nothing tells the trainee what the lit object bears, they are those of the hardest.
-ForceLimits force_limits(const Exercise&, const ExerciseLevel&, const Board&, const DirectorStatus&);
-/// The force that is judged now. Who is judged at which limit: force_limits() of this.
+JudgedForces judged_forces(const Exercise&, const ExerciseLevel&, const Board&, const DirectorStatus&);
+/// The force that is judged now. Who is judged at which limit: judged_forces() of this.
 WatchedForce watched_now(const Exercise&, const DirectorStatus&);
 
 }  // namespace trocar

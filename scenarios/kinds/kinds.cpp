@@ -24,12 +24,12 @@ const KindDescription* kind_named(const std::string& name) {
   return nullptr;
 }
 
-ForceLimits force_limits(const Exercise& exercise, const ExerciseLevel& level, const Board& board) {
+JudgedForces judged_forces(const Exercise& exercise, const ExerciseLevel& level, const Board& board) {
   return kind_of(exercise).limits(exercise, level, board, -1);
 }
 
-ForceLimits force_limits(const Exercise& exercise, const ExerciseLevel& level, const Board& board,
-                         const DirectorStatus& status) {
+JudgedForces judged_forces(const Exercise& exercise, const ExerciseLevel& level, const Board& board,
+                           const DirectorStatus& status) {
   return kind_of(exercise).limits(exercise, level, board, std::max(0, status.target_index));
 }
 

@@ -11,7 +11,7 @@ constexpr double kTellingLift = 0.030;  // m of a block's middle over the board:
 std::vector<ForceBar> block_bar(const SessionView& view) {
   const ExerciseLevel& level = view.scene.level;
   const DirectorStatus& status = view.director.status();
-  const ForceLimits limits = force_limits(view.scene.setup.exercise, level, view.scene.board, status);
+  const JudgedForces limits = judged_forces(view.scene.setup.exercise, level, view.scene.board, status);
   ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n, status.demand.band, *limits.grip_n);
   grip.hidden = !status.force_shown;
   grip.hidden_note = hidden_note(level.force_display);

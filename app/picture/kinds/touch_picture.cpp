@@ -11,7 +11,7 @@ std::vector<ForceBar> touch_bars(const SessionView& view) {
   const Exercise& exercise = view.scene.setup.exercise;
   const ExerciseLevel& level = view.scene.level;
   const DirectorStatus& status = view.director.status();
-  const ForceLimits limits = force_limits(exercise, level, view.scene.board, status);
+  const JudgedForces limits = judged_forces(exercise, level, view.scene.board, status);
   const bool gripping = watched_now(exercise, status) == WatchedForce::kGrip;
   WantedForce band = status.demand.band;
   if (gripping || band.high_n <= 0) band = {level.band_low_n, level.band_high_n};

@@ -34,7 +34,7 @@ bool of_grip(const Scene& scene) { return kind_of(scene.setup.exercise).watched 
 
 /// Its hard limit, where one is judged.
 std::optional<double> limit_of(const Scene& scene) {
-  const ForceLimits limits = force_limits(scene.setup.exercise, scene.level, scene.board);
+  const JudgedForces limits = judged_forces(scene.setup.exercise, scene.level, scene.board);
   return of_grip(scene) ? limits.grip_n : limits.tip_n;
 }
 

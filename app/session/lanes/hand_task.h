@@ -15,6 +15,7 @@
 #include "app/session/lanes/haptic_task.h"
 #include "app/session/lanes/task.h"
 #include "app/session/setup/scene.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/hands/hand_random.h"
 
 namespace trocar {

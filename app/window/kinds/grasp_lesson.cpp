@@ -36,7 +36,13 @@ KindLesson grasp_lesson() {
       .skill =
           [](const Words& w) { return w("Skill: a grip that holds and does not hurt, lifted and set down gently."); },
       .steps = grasp_steps,
-      .add_limits = add_grasp_limits};
+      .add_limits = add_grasp_limits,
+      .display = {words("Block {0}."), words("Hold it with {0}."), words("A little tighter"),
+                  words("Pick up the lit block"), words("Set it down within the ring"), words("Let go when it stands."),
+                  words("Carry it to its ring"), words("Lift it well clear of the others."),
+                  words("Crushed - hold it more gently"), words("It slips - hold it tighter"),
+                  words("Dropped - pick it up again"), words("Lift it higher on the way"),
+                  words("Carry each lit block to its ring"), words("Blocks placed"), words("Errors")}};
 }
 
 }  // namespace trocar

@@ -25,7 +25,7 @@ double felt_force_n(const Scene& scene, const RunMoment& moment) {
 double force_tone(const Scene& scene, const RunMoment& moment) {
   const DirectorStatus& status = moment.status;
   if (status.phase != Phase::kRun || !status.force_shown || scene.level.force_display == "after") return 0;
-  const ForceLimits limits = force_limits(scene.setup.exercise, scene.level, scene.board, status);
+  const JudgedForces limits = judged_forces(scene.setup.exercise, scene.level, scene.board, status);
   const double limit = (by_grip(scene, status) ? limits.grip_n : limits.tip_n).value_or(0);
   const double high = status.demand.band.high_n;
   if (high <= 0 || limit <= high) return 0;

@@ -11,7 +11,7 @@ namespace trocar {
 namespace {
 
 /// Where the lit block's foam is crushed; where no colour tells it, where the hardest is.
-ForceLimits grasp_limits(const Exercise& exercise, const ExerciseLevel& level, const Board& board, int lit) {
+JudgedForces grasp_limits(const Exercise& exercise, const ExerciseLevel& level, const Board& board, int lit) {
   if (lit >= 0 && level.grasp.colour_cue && static_cast<std::size_t>(lit) < board.rigid.blocks.size())
     return {.tip_n = {}, .grip_n = board.rigid.blocks[static_cast<std::size_t>(lit)].crush_above_n};
   double limit_n = 0;

@@ -76,7 +76,7 @@ void read_bands(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level)
   }
 }
 
-ForceLimits touch_limits(const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
+JudgedForces touch_limits(const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
   return {exercise.hard_force_n, exercise.grip.excess_n};
 }
 
