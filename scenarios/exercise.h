@@ -14,24 +14,16 @@
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
 #include "scenarios/kinds/grasp/grasp_rules.h"
+#include "scenarios/kinds/reach/reach_rules.h"
+#include "scenarios/kinds/touch/touch_rules.h"
 #include "scenarios/scoring/rubric.h"
 
 namespace trocar {
 
+/// What each kind is: scenarios/kinds/kind.h.
 enum class ExerciseKind : std::uint8_t { kReach, kTouch, kGrasp };
-enum class Mapping : std::uint8_t { kDirect, kFulcrum };
 
-constexpr const char* kind_name(ExerciseKind kind) {
-  switch (kind) {
-    case ExerciseKind::kReach:
-      return "reach";
-    case ExerciseKind::kTouch:
-      return "touch";
-    case ExerciseKind::kGrasp:
-      return "grasp";
-  }
-  return "unknown";
-}
+enum class Mapping : std::uint8_t { kDirect, kFulcrum };
 constexpr const char* mapping_name(Mapping mapping) { return mapping == Mapping::kFulcrum ? "fulcrum" : "direct"; }
 
 /// A wanted force, N.
@@ -78,22 +70,6 @@ struct TargetLayout {
   double wrong_place_m = 0;  ///< disc: first contact further than this outside is a wrong place
 };
 
-/// Touch: the grip event that ends the exercise.
-struct GripTask {
-  double block_thickness_m = 0, block_stiffness_n_per_m = 0;
-  double low_n = 0, high_n = 0, hold_s = 0;
-  double excess_n = 0;  ///< GRIP_EXCESS above this
-};
-
-/// Reach: pens to match, tips on a spherical cap that opens upwards round the region's centre.
-struct PenRules {
-  double shell_radius_m = 0;          ///< of the sphere on which the tips lie
-  double cap_rad = 0;                 ///< half opening of the cap, about the downward axis
-  double tilt_rad = 0, roll_rad = 0;  ///< largest turn of a pen's axis from the resting instrument, and about it
-  double length_m = 0, radius_m = 0;  ///< as drawn
-  double timeout_s = 0;               ///< a lit pen not matched by then is an error and comes back at the end
-};
-
 struct Exercise {
   ExerciseKind kind = ExerciseKind::kTouch;
   std::string id, title, version;               ///< "surface-touch"
@@ -115,8 +91,5 @@ struct Exercise {
   std::filesystem::path file;
   std::string text;  ///< the file's bytes: embedded in recordings, hashed as the rubric's version
 };
-
-/// Does the exercise happen on an organ?
-constexpr bool needs_organ(ExerciseKind kind) { return kind == ExerciseKind::kTouch; }
 
 }  // namespace trocar

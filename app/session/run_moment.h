@@ -5,9 +5,9 @@
 #pragma once
 
 #include "app/session/session.h"
-#include "haptics/device/hand.h"
 #include "haptics/exchange/tick_record.h"
 #include "scenarios/director/director.h"
+#include "scenarios/hands/hand.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar {

@@ -19,6 +19,7 @@
 #include "app/session/recording/recording_writer.h"
 #include "app/session/setup/scene.h"
 #include "haptics/device/backend.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {

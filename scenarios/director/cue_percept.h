@@ -2,8 +2,8 @@
 // the hand task's part.
 #pragma once
 
-#include "haptics/device/hand.h"
 #include "scenarios/director/director.h"
+#include "scenarios/hands/percept.h"
 
 namespace trocar {
 

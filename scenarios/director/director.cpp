@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "scenarios/director/director_tasks.h"
 #include "scenarios/director/exercise_task.h"
+#include "scenarios/director/safety_watch.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -19,7 +20,7 @@ struct Director::State {
         display(level.force_display),
         board(std::move(board_in)),
         watch(exercise),
-        tasks(make_tasks(exercise, level, board)) {
+        tasks(kind_of(exercise).tasks(exercise, level, board)) {
     status.cue = Cue::kWait;
     status.demand.centre_T = board.start_T;
     status.demand.radius_m = exercise.start_sphere_m;
@@ -74,7 +75,7 @@ void Director::State::describe_start(bool active) {
   if (status.phase == Phase::kArmed)
     return say(status, "Hold still in the start ball", "The clock starts in a moment.");
   say(status, "Move the tip into the start ball",
-      needs_organ(exercise.kind) ? "It floats above the organ." : "It floats above the board.");
+      kind_of(exercise).on_organ ? "It floats above the organ." : "It floats above the board.");
 }
 
 void Director::State::wait_for_start(const StylusState& state, double dt_s) {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "haptics/device/hand.h"
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/exchange/stylus_state.h"
 #include "scenarios/exercise.h"
+#include "scenarios/hands/percept.h"
 #include "scenarios/scoring/trace.h"
 #include "tissue/rigid/rigid_scene.h"
 
@@ -32,7 +32,7 @@ struct Target {
   Mat3 R_TI = Mat3::Identity();  ///< pen: wanted orientation of the instrument
 };
 
-/// Targets of one board, drawn by the board number (board_layout.h, pen_layout.h).
+/// Targets of one board, drawn by the board number as the exercise's kind lays them out.
 struct Board {
   Vec3 centre_T = Vec3::Zero();  ///< centre of the region on the surface
   Vec3 start_T = Vec3::Zero();   ///< centre of the start sphere

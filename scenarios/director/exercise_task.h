@@ -1,12 +1,10 @@
 // One part of a run: what the trainee has to do now, judged from one haptic state per tissue period.
 //
 // The director strings parts together (discs, then a squeeze; pens; ...) and keeps what all share: start, clock,
-// safety, end. A new kind of exercise is a part of its own here with a line in make_tasks(), and what
-// docs/architecture.md lists at its end. Frame T, SI units. Deterministic: same states in, same events out. Thread: the
-// tissue task's.
+// safety, end. Each kind has parts of its own in its room (scenarios/kinds). Frame T, SI units. Deterministic: same
+// states in, same events out. Thread: the tissue task's.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,10 +44,6 @@ class ExerciseTask {
   /// Writes what screen and hand shall see: cue, demand, progress, counts, message. Other fields are the director's.
   virtual void describe(const TaskInput& input, DirectorStatus& status) const = 0;
 };
-
-/// The parts of an exercise in their order; they keep copies of what they need.
-std::vector<std::unique_ptr<ExerciseTask>> make_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                      const Board& board);
 
 /// Sets message, hint and warning.
 void say(DirectorStatus& status, const std::string& message, const std::string& hint, bool warning = false);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "haptics/input_error.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -58,29 +59,16 @@ void require_finite(const ScoringContext& context) {
 
 }  // namespace
 
-namespace {
-
-/// Windows of all blocks; the way to each placed block and on to its ring, in the order of placing. A block that left
-/// its ring again is not done, and so is one that is lost.
-void add_blocks(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
-  for (const Target& ring : board.targets) context.grip_windows.push_back({ring.band.low_n, ring.band.high_n});
-  std::set<std::int32_t> done, seen;
+void account_held_targets(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
+  std::set<std::int32_t> done;
   for (const Event& event : events) {
+    if (event.type != "TARGET_HELD" || !done.insert(event.object).second) continue;
     const auto index = static_cast<std::size_t>(event.object);
-    if (event.object < 0 || index >= board.rigid.blocks.size()) continue;
-    if (event.type == "REMOVED" || event.type == "LOST") done.erase(event.object);
-    if (event.type != "PLACED") continue;
-    done.insert(event.object);
-    if (!seen.insert(event.object).second) continue;
-    const Vec3 up(0, 0, board.rigid.blocks[index].size_m.z() / 2);
-    context.waypoints.push_back(board.rigid.blocks[index].X_TO.p);
-    context.waypoints.push_back(board.targets[index].centre_T + up);
+    if (event.object >= 0 && index < board.targets.size()) context.waypoints.push_back(board.targets[index].centre_T);
   }
   context.objects_total = static_cast<int>(board.targets.size());
   context.objects_done = static_cast<int>(done.size());
 }
-
-}  // namespace
 
 ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& level, const Board& board,
                                const std::vector<Event>& events, AttemptStatus outcome) {
@@ -99,21 +87,7 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
   context.grip_high_n = exercise.grip.high_n;
   context.retract_height_m = exercise.retract_height_m;
   context.waypoints.push_back(board.start_T);
-  if (exercise.kind == ExerciseKind::kGrasp) {
-    add_blocks(board, events, context);
-    return context;
-  }
-  std::set<std::int32_t> done;
-  for (const Event& event : events) {
-    const bool disc = event.type == "TARGET_HELD";
-    if (!(disc || event.type == "GRIP_HELD") || !done.insert(event.object).second) continue;
-    const auto index = static_cast<std::size_t>(event.object);
-    if (disc && event.object >= 0 && index < board.targets.size())
-      context.waypoints.push_back(board.targets[index].centre_T);
-  }
-  const int blocks = exercise.kind == ExerciseKind::kTouch ? 1 : 0;  // the one to squeeze comes last
-  context.objects_total = static_cast<int>(board.targets.size()) + blocks;
-  context.objects_done = static_cast<int>(done.size());
+  kind_of(exercise).account(board, events, context);
   return context;
 }
 

@@ -18,6 +18,9 @@ namespace trocar {
 ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& level, const Board& board,
                                const std::vector<Event>& events, AttemptStatus outcome);
 
+/// What a kind whose targets are held tells of them: all asked for, those that were held done, past them the way.
+void account_held_targets(const Board& board, const std::vector<Event>& events, ScoringContext& context);
+
 /// One line of JSON. @throws std::invalid_argument when a number is not finite.
 std::string scoring_context_json(const ScoringContext& context);
 /// @throws InputError naming the missing or mistyped key. @param name of the source, for messages.

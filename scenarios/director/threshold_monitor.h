@@ -5,6 +5,10 @@
 
 namespace trocar {
 
+/// Shared by the limits of all kinds: share of the limit, s.
+inline constexpr double kRearmShare = 0.8, kRearmTime = 0.2;
+inline constexpr double kHoldGrace = 0.1;  ///< s out of what is wanted that only pause a hold
+
 class ThresholdMonitor {
  public:
   /// @param enter fires above this. @param leave, rearm_s: armed again after rearm_s below `leave`.

@@ -3,28 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/kinds/grasp/grasp_loader.h"
+#include "scenarios/files/file_units.h"
+#include "scenarios/files/level_keys.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/metrics.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kMilliOf = 1e-3, kDegreesOf = M_PI / 180;
+using file_units::kDegrees, file_units::kMilli;
+
 const std::vector<std::string> kLevelNames{"L1", "L2", "L3", "exam"};
-
-/// The keys of one level; those that the level it is like has given may be left out.
-class LevelKeys {
- public:
-  LevelKeys(StrictTable& table, bool derived) : table_(table), derived_(derived) {}
-  /// @param unit SI units in one unit of the key.
-  void number(const std::string& key, double low, double high, double unit, double& value) {
-    value = derived_ ? unit * table_.number_or(key, low, high, value / unit) : unit * table_.number(key, low, high);
-  }
-
- private:
-  StrictTable& table_;
-  bool derived_;
-};
 
 void read_mapping(StrictTable& table, bool derived, ExerciseLevel& level) {
   const std::string before = mapping_name(level.mapping);
@@ -38,15 +27,14 @@ void read_mapping(StrictTable& table, bool derived, ExerciseLevel& level) {
     }
     level.port_m = Vec3::Zero();
   } else {
-    level.port_m = kMilliOf * (inherits ? table.vector_or("port_mm", -500, 500, level.port_m / kMilliOf)
-                                        : table.vector("port_mm", -500, 500));
+    level.port_m = kMilli * (inherits ? table.vector_or("port_mm", -500, 500, level.port_m / kMilli)
+                                      : table.vector("port_mm", -500, 500));
     if (level.port_m.z() < 0.020) table.fail("port_mm", "'port_mm' must lie at least 20 mm above the region's centre");
-    level.instrument_length_m =
-        kMilliOf * table.number_or("instrument_mm", 100, 600, level.instrument_length_m / kMilliOf);
+    level.instrument_length_m = kMilli * table.number_or("instrument_mm", 100, 600, level.instrument_length_m / kMilli);
     if (level.port_m.norm() + 0.020 > level.instrument_length_m)
       table.fail("port_mm", "'port_mm': the instrument is too short, its handle would be in the port");
   }
-  LevelKeys(table, derived).number("motion_scale", 0.1, 10, 1, level.motion_scale);
+  LevelKeys{table, derived}.number("motion_scale", 0.1, 10, 1, level.motion_scale);
   table.allow("force_scale");
   if (!derived || table.has("force_scale"))
     level.force_scale = table.number_or_word("force_scale", 0.01, 1, "auto", -1);
@@ -60,45 +48,6 @@ void read_feedback(StrictTable& table, bool derived, ExerciseLevel& level) {
   level.exam = level.name == "exam";
   if (level.exam && level.force_display != "after")
     table.fail("force_display", "an exam shows no force: 'force_display' must be \"after\"");
-}
-
-void read_bands(StrictTable& table, bool derived, const Exercise& exercise, ExerciseLevel& level) {
-  table.allow("band_n");
-  table.allow("bands_n");
-  const bool one = table.has("band_n"), several = table.has("bands_n");
-  if (one && several) table.fail("bands_n", "'bands_n' and 'band_n' exclude each other");
-  const std::string key = several ? "bands_n" : "band_n";
-  if (derived && !one && !several) return;
-  level.bands.clear();
-  if (several) {
-    for (const auto& [low, high] : table.pairs("bands_n", 0.01, 50)) level.bands.push_back({low, high});
-  } else {
-    const auto [low, high] = table.pair("band_n", 0.01, 50);
-    level.bands.push_back({low, high});
-  }
-  level.band_low_n = level.bands.front().low_n;
-  level.band_high_n = level.bands.front().high_n;
-  for (const WantedForce& band : level.bands) {
-    if (band.high_n <= band.low_n) table.fail(key, "'" + key + "' must be [low, high] with low below high");
-    if (band.high_n > exercise.hard_force_n) table.fail(key, "'" + key + "' reaches above 'hard_n'");
-    level.band_low_n = std::min(level.band_low_n, band.low_n);
-    level.band_high_n = std::max(level.band_high_n, band.high_n);
-  }
-}
-
-/// What only levels of this kind of exercise have.
-void read_task_keys(StrictTable& table, bool derived, const Exercise& exercise, ExerciseLevel& level) {
-  LevelKeys keys(table, derived);
-  switch (exercise.kind) {
-    case ExerciseKind::kTouch:
-      return read_bands(table, derived, exercise, level);
-    case ExerciseKind::kReach:
-      keys.number("position_tolerance_mm", 0.1, 20, kMilliOf, level.position_tolerance_m);
-      keys.number("angle_tolerance_deg", 0.5, 45, kDegreesOf, level.angle_tolerance_rad);
-      return;
-    case ExerciseKind::kGrasp:
-      return read_grasp_level(table, derived, exercise.grasp, level.grasp);
-  }
 }
 
 /// [[levels.anchors]]: the rubric's own stand for every sub-score that is not named.
@@ -134,7 +83,8 @@ ExerciseLevel read_level(StrictTable& table, const std::vector<std::string>& sub
   level.name = name;
   read_mapping(table, derived, level);
   read_feedback(table, derived, level);
-  read_task_keys(table, derived, exercise, level);
+  LevelKeys keys{table, derived};
+  kind_of(exercise).read_level(keys, exercise, level);
   read_anchors(table, subscores, level);
   level.time_limit_s = table.number_or("time_limit_s", 1, 3600, level.time_limit_s);
   level.expert_time_s = table.number_or("expert_time_s", 1, 3600, level.expert_time_s);
@@ -191,7 +141,7 @@ Rubric read_rubric(StrictTable table, const ExerciseLevel& level) {
       {"_expert_times", level.expert_time_s > 0 ? level.expert_time_s : own_time_s,
        "'expert_time_s' in every level or in [rubric]"},
       {"_position_tolerances", level.position_tolerance_m, "a level with 'position_tolerance_mm'"},
-      {"_angle_tolerances", level.angle_tolerance_rad / kDegreesOf, "a level with 'angle_tolerance_deg'"}};
+      {"_angle_tolerances", level.angle_tolerance_rad / kDegrees, "a level with 'angle_tolerance_deg'"}};
   double sum = 0;
   for (StrictTable& rule : table.tables("subscores")) {
     rubric.subscores.push_back(read_rule(rule, units));

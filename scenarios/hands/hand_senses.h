@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "haptics/device/hand.h"
+#include "scenarios/hands/hand.h"
 
 namespace trocar {
 

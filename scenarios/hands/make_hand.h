@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "haptics/device/hand.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/hands/hand_script.h"
 
 namespace trocar {

@@ -6,14 +6,14 @@
 // asks for another. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
-#include "haptics/device/hand.h"
 #include "scenarios/hands/force_grip.h"
-#include "scenarios/hands/grasp_errand.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/hand_script.h"
 #include "scenarios/hands/hand_senses.h"
 #include "scenarios/hands/minimum_jerk.h"
 #include "scenarios/hands/turn_plan.h"
+#include "scenarios/kinds/grasp/grasp_errand.h"
 
 namespace trocar {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "haptics/device/hand.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/hands/hand_script.h"
 
 namespace trocar {

@@ -1,6 +1,6 @@
 // Which boards are for practice, and which are drawn by the seed so that nobody has practised on them.
 //
-// A board's number and the exercise's level say what is laid out (board_layout.h, pen_layout.h, grasp_layout.h); the
+// A board's number and the exercise's level say what is laid out; the
 // seed does so only through the number. Exams have a range of their own: no run at another level shows an exam's board.
 #pragma once
 

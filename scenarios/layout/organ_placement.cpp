@@ -8,7 +8,7 @@
 
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
-#include "scenarios/layout/board_layout.h"
+#include "scenarios/kinds/touch/disc_layout.h"
 #include "scenarios/layout/target_ground.h"
 #include "tissue/theatre_frame.h"
 
@@ -166,7 +166,7 @@ bool boards_fit(const TriangleSurface& organ_RAS, const OrganPlacement& placemen
   const TriangleSurface organ_T = organ_RAS.transformed(placement.X_TO);
   const ShaftRoom room(organ_T, instrument.tool, instrument.map);
   try {
-    for (int board = 0; board < kTriedBoards; ++board) lay_out_board(organ_T, exercise, level, board, &room);
+    for (int board = 0; board < kTriedBoards; ++board) lay_out_discs(organ_T, exercise, level, board, &room);
   } catch (const InputError&) {
     return false;
   }

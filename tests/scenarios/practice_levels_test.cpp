@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/kind.h"
 #include "tests/scenarios/support/practice_world.h"
 
 namespace trocar::practice_levels_test {
@@ -71,7 +72,7 @@ TEST_P(PracticeLevels, KeepOutHasteAndClumsiness) {
 }
 
 TEST_P(PracticeLevels, KeepOutAHeavyHandWhereForceIsAskedFor) {
-  if (room(GetParam().exercise).exercise.kind != ExerciseKind::kTouch) return;
+  if (!kind_of(room(GetParam().exercise).exercise).on_organ) return;
   EXPECT_EQ(cohort(GetParam(), "heavy-handed").passes, 0);
 }
 

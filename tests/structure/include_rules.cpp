@@ -21,11 +21,11 @@ constexpr const char* kPlant = "haptics/device/(plant/[a-z_]+|simulated_daq)";
 const std::vector<Direction>& directions() {
   static const std::string plant_files = std::string("^") + kPlant + "\\.(h|cpp)$";
   static const std::string plant_sees =
-      std::string("^(haptics/quantities\\.h|haptics/device/(data_acquisition|hand|simulated_world)\\.h|") + kPlant + "\\.h)$";
+      std::string("^(haptics/quantities\\.h|haptics/device/(data_acquisition|simulated_world)\\.h|") + kPlant + "\\.h)$";
   static const std::vector<Direction> table{
       {"^haptics/(?!digest/)", "^haptics/(?!digest/)", "haptics depends on nobody"},
       {plant_files.c_str(), plant_sees.c_str(), "the plant shares nothing with the controller but the seam"},
-      {"^haptics/device/(data_acquisition|hand|simulated_world)\\.h$", "^haptics/(quantities|fault)\\.h$",
+      {"^haptics/device/(data_acquisition|simulated_world)\\.h$", "^haptics/(quantities|fault)\\.h$",
        "the seam brings nothing of the controller along"},
       {"^haptics/quantities\\.h$", "^$", "quantities stand alone"},
       {"^haptics/digest/", "^haptics/(digest/|input_error\\.h$)", "digest stands alone but for the error it throws"},

@@ -11,6 +11,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/files/strict_toml.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/metrics.h"
 #include "scenarios/scoring/trace_filter.h"
 
@@ -50,7 +51,7 @@ Json level_json(const Exercise& exercise, const ExerciseLevel& level) {
                {"expert_time_s", level.expert_time_s}};
   if (level.mapping == Mapping::kFulcrum) json["port_m"] = {level.port_m.x(), level.port_m.y(), level.port_m.z()};
   for (const WantedForce& band : level.bands) json["bands_n"].push_back({band.low_n, band.high_n});
-  if (exercise.kind == ExerciseKind::kReach) {
+  if (kind_of(exercise).oriented) {
     json["position_tolerance_m"] = level.position_tolerance_m;
     json["angle_tolerance_rad"] = level.angle_tolerance_rad;
   }
@@ -63,7 +64,7 @@ Json exercise_json(const Exercise& exercise) {
   for (const ExerciseLevel& level : exercise.levels) levels.push_back(level_json(exercise, level));
   return {{"id", exercise.id},
           {"number", exercise.number},
-          {"kind", kind_name(exercise.kind)},
+          {"kind", kind_of(exercise).name},
           {"version", exercise.version},
           {"title", exercise.title},
           {"goal", exercise.goal},
@@ -85,7 +86,7 @@ void list_exercise(const Exercise& exercise, std::ostream& out) {
     out << "     " << std::setw(6) << level.name << mapping_name(level.mapping)
         << ", force shown: " << level.force_display << ", " << level.time_limit_s << " s";
     for (const WantedForce& band : level.bands) out << ", " << band.low_n << "-" << band.high_n << " N";
-    if (exercise.kind == ExerciseKind::kReach)
+    if (kind_of(exercise).oriented)
       out << ", " << 1e3 * level.position_tolerance_m << " mm, " << level.angle_tolerance_rad * 180 / M_PI << " deg";
     out << '\n';
   }

@@ -8,6 +8,7 @@
 #include "app/cli/attempts/run_command.h"
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/films/video_writer.h"
+#include "app/picture/kinds/kind_picture.h"
 #include "app/report/report.h"
 #include "haptics/input_error.h"
 #include "tissue/tissue_frame.h"
@@ -16,25 +17,11 @@
 namespace trocar {
 namespace {
 
-constexpr double kPictureHold = 0.5;     // of a disc's hold, so that the force bar stands in its band
-constexpr double kPictureReach = 0.012;  // m from a pen's tip: instrument and pen are both seen, the dial speaks
-
-constexpr double kPictureLift = 0.030;  // m of a block's middle over the board: well in the air
-
 /// The moment that shows most of an exercise: half way, so that done, lit and waiting are all in view.
 bool telling_moment(const SessionView& view) {
   const DirectorStatus& status = view.director.status();
   if (2 * status.targets_done < static_cast<int>(view.scene.board.targets.size())) return false;
-  switch (view.scene.setup.exercise.kind) {
-    case ExerciseKind::kReach:
-      return status.demand.oriented && (view.record.stylus.X_TI.p - status.demand.centre_T).norm() < kPictureReach;
-    case ExerciseKind::kTouch:
-      return status.hold_progress >= kPictureHold;
-    case ExerciseKind::kGrasp:
-      return status.cue == Cue::kCarry && view.tissue && view.tissue->held() &&
-             view.tissue->object[static_cast<std::size_t>(view.tissue->grip_object)].X_TO.p.z() > kPictureLift;
-  }
-  return false;
+  return picture_of(view.scene.setup.exercise).telling(view);
 }
 
 /// Takes the one picture of the demo as soon as the moment has come.
@@ -66,8 +53,7 @@ ReportContext report_context(const Scene& scene, const std::filesystem::path& pi
   context.exercise_title = exercise.title;
   context.goal = exercise.goal;
   context.band = {scene.level.band_low_n, scene.level.band_high_n, exercise.hard_force_n};
-  if (exercise.kind == ExerciseKind::kReach)
-    context.pose = {scene.level.position_tolerance_m, scene.level.angle_tolerance_rad};
+  if (kind_of(exercise).oriented) context.pose = {scene.level.position_tolerance_m, scene.level.angle_tolerance_rad};
   for (const FoamBlock& block : scene.board.rigid.blocks)
     context.blocks.push_back({block.slip_below_n, block.crush_above_n});
   context.pass_mark = scene.level.rubric.pass_at;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/picture/kinds/board_object.h"
+#include "app/picture/kinds/kind_picture.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar {
@@ -14,48 +16,10 @@ using Style = SceneObject::Style;
 using Look = SceneObject::Look;
 
 constexpr double kFieldDeg = 72;
-constexpr double kBoardSide = 0.100, kBoardThickness = 0.004;
-constexpr double kBoardBelowPens = 0.030;  // m: seen, not felt, so it keeps out of the instrument's way
-constexpr double kSleeveInside = 0.025;    // m of the port's tube on the scope's side of the wall
+constexpr double kSleeveInside = 0.025;  // m of the port's tube on the scope's side of the wall
 
-const Vec3 kBoardGrey(0.15, 0.16, 0.17), kPenBoardLines(0.34, 0.34, 0.33), kBoardLines(0.44, 0.44, 0.42);
+const Vec3 kBoardLines(0.44, 0.44, 0.42);
 const Vec3 kNeutralFoam(0.45, 0.43, 0.38);
-
-SceneObject board_object(double top_z, double side, double thickness, const Vec3& centre, const Vec3& lines) {
-  SceneObject board;
-  board.shape = Shape::kBoard;
-  board.look = Look::kBoard;
-  board.size_m = {side, side, thickness};
-  board.X_TO.p = {centre.x(), centre.y(), top_z};
-  board.colour = kBoardGrey;
-  board.accent = lines;
-  return board;
-}
-
-bool on_organ(const Scene& scene) { return needs_organ(scene.setup.exercise.kind); }
-bool has_pens(const Scene& scene) { return scene.setup.exercise.kind == ExerciseKind::kReach; }
-
-/// Upper face of the board that the picture shows under the pens.
-double pen_board_z(const Board& board) {
-  double lowest = board.centre_T.z();
-  for (const Target& pen : board.targets) lowest = std::min(lowest, pen.centre_T.z());
-  return lowest - kBoardBelowPens;
-}
-
-/// Everything that must be in the field: the picture's frame and its backdrop come from this.
-Eigen::AlignedBox3d work_box(const Scene& scene) {
-  Eigen::AlignedBox3d box;
-  if (has_pens(scene)) {
-    for (const Target& pen : scene.board.targets)
-      for (const double back : {0.0, 0.6 * scene.setup.exercise.pens.length_m})
-        box.extend(Vec3(pen.centre_T - back * pen.R_TI.col(2)));
-  } else if (scene.board.rigid.board) {
-    const BoardPlate& plate = *scene.board.rigid.board;
-    const double h = plate.half_extent_m;
-    box.extend(Vec3(-h, -h, plate.top_z_m)).extend(Vec3(h, h, plate.top_z_m + 0.03));
-  }
-  return box;
-}
 
 std::vector<TargetMark> marks(const DirectorView& director) {
   std::vector<TargetMark> out;
@@ -71,43 +35,6 @@ std::vector<TargetMark> marks(const DirectorView& director) {
     out.push_back({target.centre_T, target.normal_T, target.radius_m, state});
   }
   return out;
-}
-
-Style pen_style(const DirectorStatus& status, int index) {
-  if (index == status.target_index) return Style::kGhostLit;
-  return status.done.test(static_cast<std::size_t>(index)) ? Style::kGhostDone : Style::kGhost;
-}
-
-/// Pole from the lit tip down to the board and a ring at its foot: tells where over the board the tip stands.
-void add_plumb_line(const Vec3& tip, double board_z, std::vector<SceneObject>& out) {
-  SceneObject pole;
-  pole.shape = Shape::kCylinder;
-  pole.style = Style::kGhostLit;
-  pole.size_m = {0.0006, 0.0006, tip.z() - board_z};
-  pole.X_TO.p = {tip.x(), tip.y(), 0.5 * (tip.z() + board_z)};
-  SceneObject foot;
-  foot.shape = Shape::kRing;
-  foot.style = Style::kGhostLit;
-  foot.size_m = {0.008, 0.008, 0.0008};
-  foot.X_TO.p = {tip.x(), tip.y(), board_z + 0.0004};
-  out.push_back(pole);
-  out.push_back(foot);
-}
-
-void add_pens(const SessionView& view, std::vector<SceneObject>& out) {
-  const PenRules& rules = view.scene.setup.exercise.pens;
-  const Board& board = view.director.board();
-  const double board_z = pen_board_z(board);
-  out.push_back(board_object(board_z, kBoardSide, kBoardThickness, board.centre_T, kPenBoardLines));
-  for (std::size_t i = 0; i < board.targets.size(); ++i) {
-    SceneObject pen;
-    pen.shape = Shape::kPen;
-    pen.size_m = {2 * rules.radius_m, 2 * rules.radius_m, rules.length_m};
-    pen.X_TO = {board.targets[i].R_TI, board.targets[i].centre_T};
-    pen.style = pen_style(view.director.status(), static_cast<int>(i));
-    out.push_back(pen);
-    if (pen.style == Style::kGhostLit && view.scene.level.guides) add_plumb_line(pen.X_TO.p, board_z, out);
-  }
 }
 
 void add_start(const SessionView& view, std::vector<SceneObject>& out) {
@@ -203,7 +130,7 @@ Camera attempt_camera(const Scene& scene) {
   const TargetLayout& layout = scene.setup.exercise.layout;
   Camera camera;
   camera.diagonal_fov_deg = kFieldDeg;
-  const Eigen::AlignedBox3d work = work_box(scene);
+  const Eigen::AlignedBox3d work = picture_of(scene.setup.exercise).work(scene);
   if (work.isEmpty()) {
     camera.look_at_T = scene.board.centre_T + Vec3(0, 0.004, 0.004);
     camera.eye_T = camera.look_at_T + Vec3(-0.012, -1.15 * layout.region_y_m, 1.0 * layout.region_y_m);
@@ -220,14 +147,15 @@ Camera attempt_camera(const Scene& scene) {
 SceneView attempt_scene(const SessionView& view) {
   const StylusState& stylus = view.record.stylus;
   SceneView out;
-  if (on_organ(view.scene)) {
+  const KindDescription& kind = kind_of(view.scene.setup.exercise);
+  if (kind.on_organ) {
     out.organ = view.organ_T ? view.organ_T : view.scene.organ_T;
     out.material = view.scene.organ.material;
     out.targets = marks(view.director);
     for (const NeighbourOrgan& organ : view.scene.neighbours.organs)
       out.neighbours.push_back({organ.surface_T, organ.material});
   }
-  if (has_pens(view.scene)) add_pens(view, out.objects);
+  picture_of(view.scene.setup.exercise).add_objects(view, out.objects);
   auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
   if (view.tissue && view.tissue->held()) {
     const std::size_t first = rigid.size() - view.scene.board.rigid.blocks.size();  // blocks come last
@@ -245,8 +173,8 @@ SceneView attempt_scene(const SessionView& view) {
   out.shaft_radius_m = view.scene.loop.tool.radius_m;
   out.shaft_length_m = view.scene.loop.tool.shaft_length_m;
   out.jaw_opening_m = stylus.jaw_opening_m;
-  out.roll_stripe = has_pens(view.scene);
-  if (stylus.contact && on_organ(view.scene)) {
+  out.roll_stripe = kind.oriented;
+  if (stylus.contact && kind.on_organ) {
     out.dimple_T = stylus.contact_point_T;
     out.dimple_normal_T = stylus.contact_normal_T;
     out.dimple_depth_m = stylus.depth_m;

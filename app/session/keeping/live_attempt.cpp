@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenarios/exercise.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -29,17 +29,14 @@ const char* phase_words(Phase phase) {
   return "";
 }
 
-/// Hard limit of the force that the exercise watches; 0: none. Of grasping it is the grip's: where the hardest foam is
-/// crushed.
-double limit_of(const Exercise& exercise) {
-  if (exercise.kind == ExerciseKind::kTouch) return exercise.hard_force_n;
-  double out = 0;
-  if (exercise.kind == ExerciseKind::kGrasp)
-    for (const FoamKind& kind : exercise.grasp.kinds) out = std::max(out, kind.crush_above_n);
-  return out;
-}
+/// The one force that the live view follows.
+bool of_grip(const Scene& scene) { return kind_of(scene.setup.exercise).watched == WatchedForce::kGrip; }
 
-bool of_grip(const Scene& scene) { return scene.setup.exercise.kind == ExerciseKind::kGrasp; }
+/// Its hard limit, where one is judged.
+std::optional<double> limit_of(const Scene& scene) {
+  const JudgedForces limits = judged_forces(scene.setup.exercise, scene.level, scene.board);
+  return of_grip(scene) ? limits.grip_n : limits.tip_n;
+}
 
 }  // namespace
 
@@ -56,12 +53,12 @@ LiveMoment live_beginning(const Scene& scene, const std::string& program, const 
   out.attempt = attempt;
   out.phase = phase_words(Phase::kReady);
   if (scene.level.time_limit_s > 0) out.limit_s = scene.level.time_limit_s;
-  if (const double limit_n = limit_of(exercise); limit_n > 0) out.limit_n = limit_n;
+  if (const auto limit_n = limit_of(scene); limit_n > 0.0) out.limit_n = *limit_n;
   out.count = static_cast<int>(scene.board.targets.size());
   out.device = "simulated";
   out.setup =
       "board " + std::to_string(scene.setup.board) +
-      (needs_organ(exercise.kind) ? ", organ " + scene.organ.name + (scene.organ.synthetic ? " (synthetic)" : "") : "");
+      (kind_of(exercise).on_organ ? ", organ " + scene.organ.name + (scene.organ.synthetic ? " (synthetic)" : "") : "");
   return out;
 }
 

@@ -16,6 +16,7 @@
 #include "app/session/lanes/task.h"
 #include "app/session/setup/scene.h"
 #include "haptics/device/simulated_world.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/hands/hand_random.h"
 
 namespace trocar {

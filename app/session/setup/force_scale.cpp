@@ -7,16 +7,17 @@
 #include "app/session/setup/torque_budget.h"
 #include "haptics/control/gravity.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 
 std::vector<Stop> stops_of(const Exercise& exercise, const Board& board, const Mat3& R_TI_rest) {
-  const bool pens = exercise.kind == ExerciseKind::kReach;
+  const bool oriented = kind_of(exercise).oriented;
   std::vector<Stop> stops{{{R_TI_rest, board.start_T}, Vec3::UnitZ()}};
   for (const Target& target : board.targets) {
-    const Mat3& R = pens ? target.R_TI : R_TI_rest;
+    const Mat3& R = oriented ? target.R_TI : R_TI_rest;
     stops.push_back({{R, target.centre_T}, target.normal_T});
-    const Vec3 back = pens ? Vec3(-R.col(2)) : Vec3::UnitZ();
+    const Vec3 back = oriented ? Vec3(-R.col(2)) : Vec3::UnitZ();
     stops.push_back({{R, target.centre_T + exercise.retract_height_m * back}, target.normal_T});
   }
   return stops;

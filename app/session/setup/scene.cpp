@@ -12,9 +12,7 @@
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/files/exercise_loader.h"
-#include "scenarios/kinds/grasp/grasp_layout.h"
-#include "scenarios/kinds/reach/pen_layout.h"
-#include "scenarios/layout/board_layout.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
 #include "scenarios/layout/shaft_room.h"
 
@@ -108,18 +106,11 @@ void require_reach(const Scene& scene) {
 
 constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
 
-/// Board of the exercise's kind. The loop's map is set before: pens turn from the resting instrument.
-Board lay_out(const Scene& scene, int board, const ShaftRoom* room) {
+/// The loop's map is set before: pens turn from the resting instrument.
+Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
   const Exercise& exercise = scene.setup.exercise;
-  switch (exercise.kind) {
-    case ExerciseKind::kGrasp:
-      return lay_out_blocks(exercise, scene.level, board);
-    case ExerciseKind::kReach:
-      return lay_out_pens(exercise, scene.level, scene.loop.map.instrument_pose(home_pose()).R, board);
-    case ExerciseKind::kTouch:
-      break;
-  }
-  return lay_out_board(*scene.organ_T, exercise, scene.level, board, room);
+  const Mat3 R_TI_rest = scene.loop.map.instrument_pose(home_pose()).R;
+  return kind_of(exercise).lay_out(exercise, scene.level, board, {scene.organ_T, behind_tip, R_TI_rest});
 }
 
 /// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be
@@ -153,21 +144,21 @@ void place(Scene& scene) {
 void set_stage(Scene& scene) {
   const Exercise& exercise = scene.setup.exercise;
   std::optional<ShaftRoom> room;
-  if (needs_organ(exercise.kind)) {
+  if (kind_of(exercise).on_organ) {
     place(scene);
     room.emplace(felt_surface(scene), scene.loop.tool, scene.loop.map);
   }
   const ShaftRoom* behind_tip = room ? &*room : nullptr;
   scene.board = lay_out(scene, scene.setup.board, behind_tip);
-  if (needs_organ(exercise.kind)) require_reach(scene);
-  if (exercise.kind == ExerciseKind::kGrasp) scene.loop.tool.jaw_length_m = kJawLength;
+  if (kind_of(exercise).on_organ) require_reach(scene);
+  if (kind_of(exercise).jaws_hold) scene.loop.tool.jaw_length_m = kJawLength;
   scene.loop.map.force_scale = force_scale(scene, behind_tip);
 }
 
 }  // namespace
 
 Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets) {
-  if (needs_organ(setup.exercise.kind)) return load_organ(find_organ(setup.organ, assets.assets));
+  if (kind_of(setup.exercise).on_organ) return load_organ(find_organ(setup.organ, assets.assets));
   Organ none;
   none.name = "none";
   return none;
@@ -219,7 +210,7 @@ std::string scene_json(const Scene& scene) {
       {"passivity_law", passivity_law_name(s.passivity_law)},
       {"clamp_stiffness", s.clamp_stiffness},
       {"force_scale", scene.loop.map.force_scale}};
-  if (needs_organ(s.exercise.kind)) json["placement"] = placement_json(scene.placement);
+  if (kind_of(s.exercise).on_organ) json["placement"] = placement_json(scene.placement);
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
   if (s.device.identified) json["device"] = file_json(*s.device.identified);
   return json.dump();

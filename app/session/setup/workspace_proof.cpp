@@ -12,6 +12,7 @@
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "haptics/kinematics/link_clearance.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
 
 namespace trocar {
@@ -137,7 +138,7 @@ LevelProof prove_level(const Exercise& exercise, const std::string& level, const
       const Wrench hard{exercise.hard_force_n * stop.normal_T, Vec3::Zero()};
       board.worst.add(reach_of(scene.loop.device, scene.loop.map, stop.X_TI, hard));
     }
-    if (needs_organ(exercise.kind)) {
+    if (kind_of(exercise).on_organ) {
       board.worst.shaft_gap_m = least_shaft_gap(scene);
       setup.placement = proof.placement = scene.placement;  // the same for every board of the level
     }

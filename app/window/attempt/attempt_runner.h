@@ -18,7 +18,7 @@
 #include "app/session/run_moment.h"
 #include "app/session/setup/scene.h"
 #include "app/window/input/input_event.h"
-#include "haptics/device/hand.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {

@@ -13,7 +13,7 @@
 
 #include "app/session/run_moment.h"
 #include "app/window/attempt/notch_scene.h"
-#include "haptics/device/hand.h"
+#include "scenarios/hands/hand.h"
 
 namespace trocar {
 

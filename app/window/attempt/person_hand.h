@@ -9,8 +9,8 @@
 
 #include <atomic>
 
-#include "haptics/device/hand.h"
 #include "haptics/exchange/latest.h"
+#include "scenarios/hands/hand.h"
 
 namespace trocar {
 

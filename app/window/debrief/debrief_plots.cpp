@@ -6,6 +6,7 @@
 #include "app/session/moment_mark.h"
 #include "app/window/attempt/debrief_facts.h"
 #include "app/window/ui/plot.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -150,9 +151,9 @@ void move_cursor(const ForceTrace& trace, std::optional<double>& cursor_s, int s
 ForceLines force_lines(const Exercise& exercise, const std::string& level_name) {
   ForceLines out;
   const ExerciseLevel* level = level_named(exercise, level_name);
-  out.speed = exercise.kind == ExerciseKind::kReach;
+  out.speed = kind_of(exercise).watched == WatchedForce::kNone;
   out.tip_hard_n = exercise.hard_force_n;
-  if (exercise.kind != ExerciseKind::kTouch) return out;
+  if (kind_of(exercise).watched != WatchedForce::kTip) return out;
   if (level) out.tip = level->bands;
   out.grip = {{exercise.grip.low_n, exercise.grip.high_n}};
   out.grip_hard_n = exercise.grip.excess_n;

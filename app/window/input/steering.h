@@ -16,7 +16,7 @@
 #include "app/window/input/key_map.h"
 #include "app/window/input/scope_hand.h"
 #include "app/window/input/steering_reach.h"
-#include "haptics/device/hand.h"
+#include "scenarios/hands/hand.h"
 
 namespace trocar {
 

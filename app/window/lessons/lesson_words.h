@@ -36,7 +36,7 @@ struct LessonMeasure {
   std::string gate;        ///< what a bad value does to the whole score; empty: nothing
 };
 
-std::string lesson_skill(const Words& words, ExerciseKind kind);
+std::string lesson_skill(const Words& words, const Exercise& exercise);
 /// 3 to 6 steps.
 std::vector<LessonStep> lesson_steps(const Words& words, const Exercise& exercise, const ExerciseLevel& level);
 std::vector<LessonLimit> lesson_limits(const Words& words, const Exercise& exercise, const ExerciseLevel& level);

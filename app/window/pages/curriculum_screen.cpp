@@ -91,7 +91,7 @@ void CurriculumScreen::head(Ui& ui, PracticeDesk& desk) const {
   const Words& w = desk.words();
   ui.title(lesson_title(w, desk.exercise(), desk.level), desk.who());
   ui.text(w(desk.exercise().goal));
-  ui.text(lesson_skill(w, desk.exercise().kind), Ink::kDim);
+  ui.text(lesson_skill(w, desk.exercise()), Ink::kDim);
 }
 
 void CurriculumScreen::facts(Ui& ui, PracticeDesk& desk, double sparkline_at_720) const {

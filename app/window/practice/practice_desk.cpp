@@ -10,6 +10,7 @@
 #include "app/window/practice/practice_desk_state.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/trainee_store.h"
@@ -126,8 +127,7 @@ std::shared_ptr<const SceneView> PracticeDesk::show_scene(double wait_s) const {
 
 AttemptSetup PracticeDesk::show_setup() const {
   const std::vector<Exercise>& all = state_->exercises;
-  const auto touch =
-      std::find_if(all.begin(), all.end(), [](const Exercise& e) { return e.kind == ExerciseKind::kTouch; });
+  const auto touch = std::find_if(all.begin(), all.end(), [](const Exercise& e) { return kind_of(e).on_organ; });
   AttemptSetup setup;
   setup.exercise = touch == all.end() ? all.front() : *touch;
   setup.level = setup.exercise.levels.front().name;

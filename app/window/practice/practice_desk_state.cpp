@@ -10,6 +10,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
+#include "scenarios/kinds/kind.h"
 #include "tissue/organ/organ.h"
 
 namespace trocar {
@@ -109,7 +110,7 @@ std::shared_ptr<const Scene> PracticeDesk::State::built(AttemptSetup setup) cons
   find_level(setup.exercise, setup.level);
   Organ made = organ_of(setup, assets);
   const Scene* last = last_scene.get();
-  if (last && needs_organ(setup.exercise.kind) && last->organ.sha256 == made.sha256 &&
+  if (last && kind_of(setup.exercise).on_organ && last->organ.sha256 == made.sha256 &&
       last->setup.exercise.text == setup.exercise.text && last->setup.level == setup.level)
     setup.placement = last->placement;
   return std::make_shared<const Scene>(build_scene(setup, std::move(made), {"simulated", setup.rate_hz, 16}));

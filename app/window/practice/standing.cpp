@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/window/input/input_event.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -33,9 +34,7 @@ std::optional<NextStep> next_step(const std::vector<const Exercise*>& order,
 std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bool guest) {
   std::vector<const Exercise*> order;
   for (const Exercise& e : all) order.push_back(&e);
-  if (guest)
-    std::stable_partition(order.begin(), order.end(),
-                          [](const Exercise* e) { return e->kind == ExerciseKind::kTouch; });
+  if (guest) std::stable_partition(order.begin(), order.end(), [](const Exercise* e) { return kind_of(*e).on_organ; });
   return order;
 }
 

@@ -11,6 +11,7 @@
 #include "app/window/practice/practice_desk.h"
 #include "app/window/replay/replay_plot.h"
 #include "app/window/ui/ui.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -201,8 +202,9 @@ void ReplayScreen::time_line(Ui& ui, double height_px) {
   const Scene& scene = own_.run->scene();
   const Exercise& exercise = scene.setup.exercise;
   ReplayPlotContent content{*own_.run, two() ? &*beside_.run : nullptr, events_};
-  content.grip = exercise.kind == ExerciseKind::kGrasp;
-  if (exercise.kind == ExerciseKind::kTouch) {
+  const WatchedForce watched = kind_of(exercise).watched;
+  content.grip = watched == WatchedForce::kGrip;
+  if (watched == WatchedForce::kTip) {
     content.band = {scene.level.band_low_n, scene.level.band_high_n};
     content.limit_n = exercise.hard_force_n;
   }

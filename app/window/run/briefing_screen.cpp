@@ -6,6 +6,7 @@
 #include "app/window/lessons/lesson_icons.h"
 #include "app/window/ui/button_row.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/kind.h"
 #include "tissue/organ/organ.h"
 
 namespace trocar {
@@ -119,7 +120,7 @@ void BriefingScreen::stage_words(Ui& ui, PracticeDesk& desk) const {
   ui.text(lesson_tool(w, exercise, level));
   const auto key = [&](Action action) { return w.name(key_name(desk.keys().key_of(action))); };
   ui.text(lesson_scope(w, desk.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
-  if (needs_organ(exercise.kind))
+  if (kind_of(exercise).on_organ)
     ui.text(credit_.empty() ? w("On the organ {0}.", {desk.organ}) : w.made(credit_), Ink::kDim);
   else
     ui.text(w("On a training board; each attempt has another layout."), Ink::kDim);

@@ -3,26 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "scenarios/kinds/kind.h"
+
 namespace trocar {
 
 namespace {
 
 constexpr double kArmedAgain = 0.9;  // of the band's upper end, below which the next crossing warns again
 
-/// Where a grip is far too much: the exercise's own limit, or where the lit block's foam is crushed.
-double grip_limit_n(const Scene& scene, const DirectorStatus& status) {
-  const Exercise& exercise = scene.setup.exercise;
-  if (exercise.kind != ExerciseKind::kGrasp) return exercise.grip.excess_n;
-  const auto lit = static_cast<std::size_t>(std::max(0, status.target_index));
-  if (scene.level.grasp.colour_cue && lit < scene.board.rigid.blocks.size())
-    return scene.board.rigid.blocks[lit].crush_above_n;
-  double limit_n = 0;
-  for (const FoamKind& kind : exercise.grasp.kinds) limit_n = std::max(limit_n, kind.crush_above_n);
-  return limit_n;
-}
-
 bool by_grip(const Scene& scene, const DirectorStatus& status) {
-  return status.cue == Cue::kGrip || scene.setup.exercise.kind == ExerciseKind::kGrasp;
+  return watched_now(scene.setup.exercise, status) == WatchedForce::kGrip;
 }
 
 /// Of what is asked for now: the tip's or the grip's.
@@ -35,7 +25,8 @@ double felt_force_n(const Scene& scene, const RunMoment& moment) {
 double force_tone(const Scene& scene, const RunMoment& moment) {
   const DirectorStatus& status = moment.status;
   if (status.phase != Phase::kRun || !status.force_shown || scene.level.force_display == "after") return 0;
-  const double limit = by_grip(scene, status) ? grip_limit_n(scene, status) : scene.setup.exercise.hard_force_n;
+  const JudgedForces limits = judged_forces(scene.setup.exercise, scene.level, scene.board, status);
+  const double limit = (by_grip(scene, status) ? limits.grip_n : limits.tip_n).value_or(0);
   const double high = status.demand.band.high_n;
   if (high <= 0 || limit <= high) return 0;
   return std::clamp((felt_force_n(scene, moment) - high) / (limit - high), 0.0, 1.0);

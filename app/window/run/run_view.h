@@ -10,7 +10,7 @@
 #include "app/picture/display/hud_layout.h"
 #include "app/picture/scene/scope_optics.h"
 #include "app/window/input/steering.h"
-#include "haptics/device/hand.h"
+#include "scenarios/hands/hand.h"
 
 namespace trocar {
 

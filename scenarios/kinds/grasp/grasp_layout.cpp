@@ -1,22 +1,11 @@
 #include "scenarios/kinds/grasp/grasp_layout.h"
 
-#include <random>
-#include <utility>
+#include "scenarios/layout/board_random.h"
 
 namespace trocar {
 namespace {
 
 constexpr std::int32_t kNeutralColour = -1;
-
-/// Uniform number in [0, 1) by an explicit formula: the same on every standard library.
-double block_uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
-
-/// Fisher and Yates, by the explicit uniform above.
-template <typename T>
-void shuffle(std::vector<T>& items, std::mt19937_64& generator) {
-  for (std::size_t i = items.size(); i > 1; --i)
-    std::swap(items[i - 1], items[static_cast<std::size_t>(block_uniform(generator) * static_cast<double>(i))]);
-}
 
 FoamBlock block_of(const GraspRules& rules, const GraspLevel& level, std::int32_t kind) {
   const FoamKind& foam = rules.kinds[static_cast<std::size_t>(kind)];
@@ -52,12 +41,12 @@ std::vector<Place> places_of(const GraspRules& rules) {
 Board lay_out_blocks(const Exercise& exercise, const ExerciseLevel& level, int board) {
   const GraspRules& rules = exercise.grasp;
   const GraspLevel& asked = level.grasp;
-  std::mt19937_64 generator(0x9E3779B97F4A7C15ull * (static_cast<std::uint64_t>(board) + 1));
+  BoardRandom random(board);
   std::vector<Place> places = places_of(rules);
   std::vector<std::int32_t> kinds;
   for (std::size_t i = 0; i < places.size(); ++i) kinds.push_back(static_cast<std::int32_t>(i % rules.kinds.size()));
-  shuffle(places, generator);
-  shuffle(kinds, generator);
+  random.shuffle(places);
+  random.shuffle(kinds);
 
   Board result;
   result.start_T = exercise.start_above_m;
@@ -65,7 +54,7 @@ Board lay_out_blocks(const Exercise& exercise, const ExerciseLevel& level, int b
   plate.half_extent_m = rules.board_half_m;
   plate.material.stiffness_n_per_m = rules.board_stiffness_n_per_m;
   result.rigid.board = plate;
-  const auto spread = [&](double half) { return (2 * block_uniform(generator) - 1) * half; };
+  const auto spread = [&](double half) { return (2 * random.uniform() - 1) * half; };
   for (std::size_t i = 0; i < places.size(); ++i) {
     FoamBlock block = block_of(rules, asked, kinds[i]);
     const double yaw = asked.yaw_rad + spread(asked.yaw_spread_rad);

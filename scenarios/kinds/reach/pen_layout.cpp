@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "haptics/input_error.h"
+#include "scenarios/layout/board_random.h"
 
 namespace trocar {
 namespace {
 
 constexpr int kPenDraws = 4000;
 
-/// Uniform number in [0, 1) by an explicit formula: the same on every standard library.
-double pen_uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
-
-Vec3 tip_on_cap(const PenRules& pens, double relief_m, std::mt19937_64& generator) {
-  const double polar = std::acos(1 - pen_uniform(generator) * (1 - std::cos(pens.cap_rad)));
-  const double round = 2 * std::numbers::pi * pen_uniform(generator);
+Vec3 tip_on_cap(const PenRules& pens, double relief_m, BoardRandom& random) {
+  const double polar = std::acos(1 - random.uniform() * (1 - std::cos(pens.cap_rad)));
+  const double round = 2 * std::numbers::pi * random.uniform();
   const Vec3 down(std::sin(polar) * std::cos(round), std::sin(polar) * std::sin(round), -std::cos(polar));
   return Vec3(0, 0, pens.shell_radius_m - relief_m) + pens.shell_radius_m * down;
 }
@@ -25,10 +22,10 @@ Vec3 tip_on_cap(const PenRules& pens, double relief_m, std::mt19937_64& generato
 /// Rotation of the wanted instrument: the resting one swung (to the port's line, or freely by up to the tilt), then
 /// rolled.
 Mat3 pen_rotation(const PenRules& pens, const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& tip_T,
-                  std::mt19937_64& generator) {
-  const double tilt = pens.tilt_rad * std::sqrt(pen_uniform(generator));
-  const double towards = 2 * std::numbers::pi * pen_uniform(generator);
-  const double roll = pens.roll_rad * (2 * pen_uniform(generator) - 1);
+                  BoardRandom& random) {
+  const double tilt = pens.tilt_rad * std::sqrt(random.uniform());
+  const double towards = 2 * std::numbers::pi * random.uniform();
+  const double roll = pens.roll_rad * (2 * random.uniform() - 1);
   const Mat3 rolled = Eigen::AngleAxisd(roll, Vec3::UnitZ()).toRotationMatrix();
   if (level.mapping == Mapping::kFulcrum) {
     const Vec3 axis = (tip_T - level.port_m).normalized();
@@ -42,18 +39,18 @@ Mat3 pen_rotation(const PenRules& pens, const ExerciseLevel& level, const Mat3& 
 
 Board lay_out_pens(const Exercise& exercise, const ExerciseLevel& level, const Mat3& R_TI_rest, int board) {
   const TargetLayout& layout = exercise.layout;
-  std::mt19937_64 generator(0x9E3779B97F4A7C15ull * (static_cast<std::uint64_t>(board) + 1));
+  BoardRandom random(board);
   Board result;
   result.start_T = exercise.start_above_m;
   for (int draw = 0; draw < kPenDraws && static_cast<int>(result.targets.size()) < layout.count; ++draw) {
-    const Vec3 tip = tip_on_cap(exercise.pens, layout.relief_m, generator);
+    const Vec3 tip = tip_on_cap(exercise.pens, layout.relief_m, random);
     const bool outside = std::abs(tip.x()) > layout.region_x_m / 2 || std::abs(tip.y()) > layout.region_y_m / 2 ||
                          std::abs(tip.z()) > layout.relief_m;
     const bool crowded = std::any_of(result.targets.begin(), result.targets.end(), [&](const Target& other) {
       return (other.centre_T - tip).norm() < layout.min_spacing_m;
     });
     if (outside || crowded) continue;
-    const Mat3 R_TI = pen_rotation(exercise.pens, level, R_TI_rest, tip, generator);
+    const Mat3 R_TI = pen_rotation(exercise.pens, level, R_TI_rest, tip, random);
     result.targets.push_back({tip, -R_TI.col(2), level.position_tolerance_m, {}, R_TI});
   }
   if (static_cast<int>(result.targets.size()) < layout.count) {

@@ -6,8 +6,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kSettled = 0.5;        // of the hold: before, the instrument is still arriving
-constexpr double kPoseHoldGrace = 0.1;  // s out of the tolerance that only pause the hold
+constexpr double kSettled = 0.5;  // of the hold: before, the instrument is still arriving
 
 }  // namespace
 
@@ -23,7 +22,7 @@ PoseTask::PoseTask(const Exercise& exercise, const ExerciseLevel& level, const s
       position_tolerance_m_(level.position_tolerance_m),
       angle_tolerance_rad_(level.angle_tolerance_rad),
       timeout_s_(exercise.pens.timeout_s),
-      hold_(exercise.hold_s, kPoseHoldGrace) {
+      hold_(exercise.hold_s, kHoldGrace) {
   for (std::size_t i = 0; i < pens_.size(); ++i) waiting_.push_back(static_cast<std::int32_t>(i));
 }
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "haptics/input_error.h"
-#include "scenarios/layout/board_layout.h"
+#include "scenarios/kinds/touch/disc_layout.h"
 #include "tests/tissue/support/shapes.h"
 #include "tests/tissue/support/temporary_folder.h"
 
@@ -56,7 +56,7 @@ double nearest_pair(const Board& board) {
 TEST(BoardSpacing, ALargeOrganKeepsTheExercisesSpacing) {
   const Exercise exercise = touch(10, 0.014);
   for (int number = 0; number < 10; ++number) {
-    const Board board = lay_out_board(slab(0.2, 0.2), exercise, level(), number);
+    const Board board = lay_out_discs(slab(0.2, 0.2), exercise, level(), number);
     EXPECT_EQ(board.targets.size(), 10U);
     EXPECT_EQ(board.spacing_m, 0.014) << "exactly what was asked";
     EXPECT_GE(nearest_pair(board), 0.014);
@@ -67,7 +67,7 @@ TEST(BoardSpacing, ASmallOrganMovesThemTogetherButNeverRimIntoRim) {
   const Exercise exercise = touch(12, 0.02);
   int closer = 0;
   for (int number = 0; number < 6; ++number) {
-    const Board board = lay_out_board(slab(0.062, 0.052), exercise, level(), number);
+    const Board board = lay_out_discs(slab(0.062, 0.052), exercise, level(), number);
     ASSERT_EQ(board.targets.size(), 12U) << number;
     EXPECT_GE(board.spacing_m, kClosest - 1e-12);
     EXPECT_LE(board.spacing_m, 0.02);
@@ -81,7 +81,7 @@ TEST(BoardSpacing, LessRoomNeverMeansMoreSpace) {
   const Exercise exercise = touch(9, 0.02);
   double before = 0.02;
   for (const double width : {0.12, 0.08, 0.06, 0.05}) {
-    const Board board = lay_out_board(slab(width, width), exercise, level(), 1);
+    const Board board = lay_out_discs(slab(width, width), exercise, level(), 1);
     EXPECT_LE(board.spacing_m, before + 0.001) << width;
     before = board.spacing_m;
   }
@@ -91,7 +91,7 @@ TEST(BoardSpacing, LessRoomNeverMeansMoreSpace) {
 TEST(BoardSpacing, WhereEvenTouchingRimsDoNotFitTheRefusalCounts) {
   const Exercise exercise = touch(12, 0.014);
   const std::string message =
-      test::message_of<InputError>([&] { lay_out_board(slab(0.03, 0.03), exercise, level(), 7); });
+      test::message_of<InputError>([&] { lay_out_discs(slab(0.03, 0.03), exercise, level(), 7); });
   EXPECT_CONTAINS(message, "board 7 of exercise 'touch'");
   EXPECT_CONTAINS(message, "of 12 targets");
   EXPECT_EQ(message.find("room for 0 "), std::string::npos) << "some fit: " << message;
@@ -99,9 +99,9 @@ TEST(BoardSpacing, WhereEvenTouchingRimsDoNotFitTheRefusalCounts) {
 
 TEST(BoardSpacing, ASpacingBelowTheRimsIsLeftAsItIs) {
   const Exercise exercise = touch(5, 0.008);
-  EXPECT_EQ(lay_out_board(slab(0.2, 0.2), exercise, level(), 0).spacing_m, 0.008);
+  EXPECT_EQ(lay_out_discs(slab(0.2, 0.2), exercise, level(), 0).spacing_m, 0.008);
   const std::string message =
-      test::message_of<InputError>([&] { lay_out_board(slab(0.018, 0.018), exercise, level(), 0); });
+      test::message_of<InputError>([&] { lay_out_discs(slab(0.018, 0.018), exercise, level(), 0); });
   EXPECT_CONTAINS(message, "of 5 targets");
 }
 
@@ -109,11 +109,11 @@ TEST(BoardSpacing, TheSameNumberIsTheSameBoardToTheBit) {
   const Exercise exercise = touch(12, 0.02);
   for (const double width : {0.2, 0.062}) {
     const TriangleSurface organ = slab(width, 0.052);
-    const Board a = lay_out_board(organ, exercise, level(), 4), b = lay_out_board(organ, exercise, level(), 4);
+    const Board a = lay_out_discs(organ, exercise, level(), 4), b = lay_out_discs(organ, exercise, level(), 4);
     ASSERT_EQ(a.targets.size(), b.targets.size());
     EXPECT_EQ(a.spacing_m, b.spacing_m);
     for (std::size_t n = 0; n < a.targets.size(); ++n) EXPECT_EQ(a.targets[n].centre_T, b.targets[n].centre_T) << n;
-    const Board other = lay_out_board(organ, exercise, level(), 5);
+    const Board other = lay_out_discs(organ, exercise, level(), 5);
     EXPECT_NE(a.targets[0].centre_T, other.targets[0].centre_T);
   }
 }
@@ -121,11 +121,11 @@ TEST(BoardSpacing, TheSameNumberIsTheSameBoardToTheBit) {
 TEST(BoardSpacing, TheOrderOfTrianglesDoesNotChangeTheBoard) {
   const Exercise exercise = touch(12, 0.02);
   TriangleSurface organ = slab(0.062, 0.052);
-  const Board before = lay_out_board(organ, exercise, level(), 2);
+  const Board before = lay_out_discs(organ, exercise, level(), 2);
   std::mt19937 generator(3);
   std::shuffle(organ.triangles.begin(), organ.triangles.end(), generator);
   for (auto& [a, b, c] : organ.triangles) std::tie(a, b, c) = std::tuple(b, c, a);
-  const Board after = lay_out_board(organ, exercise, level(), 2);
+  const Board after = lay_out_discs(organ, exercise, level(), 2);
   EXPECT_EQ(before.spacing_m, after.spacing_m);
   for (std::size_t n = 0; n < before.targets.size(); ++n)
     EXPECT_NEAR((before.targets[n].centre_T - after.targets[n].centre_T).norm(), 0, 1e-12) << n;
@@ -135,7 +135,7 @@ TEST(BoardSpacing, EveryTargetLiesWithItsRimInsideTheRegionAndOnTheOrgan) {
   Exercise exercise = touch(12, 0.014);
   exercise.layout.region_x_m = 0.07, exercise.layout.region_y_m = 0.06;
   for (const double width : {0.3, 0.06}) {
-    const Board board = lay_out_board(slab(width, 0.3), exercise, level(), 3);
+    const Board board = lay_out_discs(slab(width, 0.3), exercise, level(), 3);
     for (const Target& target : board.targets) {
       EXPECT_LE(std::abs(target.centre_T.x()), 0.035 - kRadius - kWrong + 1e-12);
       EXPECT_LE(std::abs(target.centre_T.y()), 0.030 - kRadius - kWrong + 1e-12);
@@ -152,7 +152,7 @@ TEST(BoardSpacing, OnABallEverySlopeAndHeightIsWithinItsLimit) {
   Exercise exercise = touch(12, 0.02);
   const double radius = 0.045;
   const TriangleSurface ball = test::sphere(Vec3(0, 0, -radius), radius, 4);
-  const Board board = lay_out_board(ball, exercise, level(), 0);
+  const Board board = lay_out_discs(ball, exercise, level(), 0);
   ASSERT_EQ(board.targets.size(), 12U);
   for (const Target& target : board.targets) {
     EXPECT_NEAR((target.centre_T - Vec3(0, 0, -radius)).norm(), radius, 0.001);
@@ -165,7 +165,7 @@ TEST(BoardSpacing, OnABallEverySlopeAndHeightIsWithinItsLimit) {
 TEST(BoardSpacing, StartLiesAboveTheMiddleOfTheSurface) {
   const Exercise exercise = touch(4, 0.014);
   const TriangleSurface high = slab(0.2, 0.2).transformed(Pose{Mat3::Identity(), Vec3(0, 0, 0.01)});
-  const Board board = lay_out_board(high, exercise, level(), 0);
+  const Board board = lay_out_discs(high, exercise, level(), 0);
   EXPECT_NEAR((board.centre_T - Vec3(0, 0, 0.01)).norm(), 0, 1e-12);
   EXPECT_NEAR((board.start_T - Vec3(0.01, -0.02, 0.055)).norm(), 0, 1e-12);
 }
@@ -175,7 +175,7 @@ TEST(BoardSpacing, BandsAreDealtEvenlyAlsoWhereTargetsMoveTogether) {
   const std::vector<WantedForce> bands{{0.2, 0.4}, {0.4, 0.8}, {0.8, 1.2}};
   bool mixed = false;
   for (int number = 0; number < 4; ++number) {
-    const Board board = lay_out_board(slab(0.062, 0.052), exercise, level(bands), number);
+    const Board board = lay_out_discs(slab(0.062, 0.052), exercise, level(bands), number);
     std::map<double, int> dealt;
     for (std::size_t n = 0; n < board.targets.size(); ++n) {
       ++dealt[board.targets[n].band.low_n];
@@ -208,7 +208,7 @@ TEST(PlaceOrgan, AndABoardGoTogetherWhereverTheImageLay) {
   const TriangleSurface here = test::sphere(Vec3::Zero(), 0.06, 3);
   const TriangleSurface there = here.transformed(Pose{Mat3::Identity(), Vec3(0.25, -0.5, 0.125)});
   const auto board = [&](const TriangleSurface& organ) {
-    return lay_out_board(organ.transformed(place_organ(organ, exercise.layout)), exercise, level(), 6);
+    return lay_out_discs(organ.transformed(place_organ(organ, exercise.layout)), exercise, level(), 6);
   };
   const Board a = board(here), b = board(there);
   for (std::size_t n = 0; n < a.targets.size(); ++n)

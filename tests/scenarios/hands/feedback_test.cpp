@@ -7,7 +7,7 @@
 
 #include "scenarios/director/cue_percept.h"
 #include "scenarios/director/director.h"
-#include "scenarios/director/director_tasks.h"
+#include "scenarios/director/safety_watch.h"
 #include "scenarios/files/exercise_loader.h"
 
 namespace trocar::feedback_test {

@@ -9,7 +9,7 @@
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/files/exercise_loader.h"
-#include "scenarios/layout/board_layout.h"
+#include "scenarios/kinds/touch/disc_layout.h"
 #include "tests/scenarios/support/relief.h"
 #include "tests/scenarios/support/test_organs.h"
 
@@ -47,8 +47,8 @@ TEST(PlacementForTheShaft, AnOrganWithRoomLiesAndIsLaidOutAsForTheTipAlone) {
   const TriangleSurface organ_T = organ.transformed(found.X_TO);
   const ShaftRoom room(organ_T, instrument().tool, instrument().map);
   for (int number = 0; number < 5; ++number) {
-    const Board alone = lay_out_board(organ_T, exercise, exercise.levels[0], number);
-    const Board whole = lay_out_board(organ_T, exercise, exercise.levels[0], number, &room);
+    const Board alone = lay_out_discs(organ_T, exercise, exercise.levels[0], number);
+    const Board whole = lay_out_discs(organ_T, exercise, exercise.levels[0], number, &room);
     if (least_gap(alone, room) < ShaftRoom::kLeastGap) continue;
     for (std::size_t i = 0; i < alone.targets.size(); ++i)
       EXPECT_EQ(alone.targets[i].centre_T, whole.targets[i].centre_T);
@@ -61,9 +61,9 @@ TEST(PlacementForTheShaft, BehindAWallDiscsForTheTipAloneCannotBeReached) {
   const ShaftRoom room(ground, instrument().tool, instrument().map);
   int blocked = 0;
   for (int number = 0; number < 5; ++number) {
-    const Board alone = lay_out_board(ground, exercise, exercise.levels[0], number);
+    const Board alone = lay_out_discs(ground, exercise, exercise.levels[0], number);
     blocked += least_gap(alone, room) <= 0 ? 1 : 0;
-    const Board whole = lay_out_board(ground, exercise, exercise.levels[0], number, &room);
+    const Board whole = lay_out_discs(ground, exercise, exercise.levels[0], number, &room);
     EXPECT_EQ(whole.targets.size(), alone.targets.size());
     EXPECT_GE(least_gap(whole, room), ShaftRoom::kLeastGap);
   }
@@ -81,7 +81,7 @@ TEST(PlacementForTheShaft, BesideAHighWallEveryBoardKeepsToWhereTheInstrumentHas
   const TriangleSurface organ_T = organ.transformed(found.X_TO);
   const ShaftRoom room(organ_T, instrument().tool, instrument().map);
   for (int number = 0; number < 20; ++number)
-    EXPECT_GE(least_gap(lay_out_board(organ_T, exercise, exercise.levels[0], number, &room), room),
+    EXPECT_GE(least_gap(lay_out_discs(organ_T, exercise, exercise.levels[0], number, &room), room),
               ShaftRoom::kLeastGap)
         << number;
   const OrganPlacement again = place_organ(organ, exercise, exercise.levels[0], instrument());
@@ -100,10 +100,10 @@ TEST(PlacementForTheShaft, ATubIsRefusedBecauseOfTheShaft) {
   const Exercise exercise = shipped();
   const TriangleSurface ground = tub(0.110);
   const ShaftRoom room(ground, instrument().tool, instrument().map);
-  EXPECT_EQ(lay_out_board(ground, exercise, exercise.levels[0], 0).targets.size(), 12U)
+  EXPECT_EQ(lay_out_discs(ground, exercise, exercise.levels[0], 0).targets.size(), 12U)
       << "for the tip alone there is room";
   try {
-    lay_out_board(ground, exercise, exercise.levels[0], 0, &room);
+    lay_out_discs(ground, exercise, exercise.levels[0], 0, &room);
     FAIL() << "the shaft has no way in";
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -120,7 +120,7 @@ TEST(PlacementForTheShaft, AnOrganTooSmallIsRefusedForItsSizeNotForTheShaft) {
   const TriangleSurface organ_T = organ.transformed(found.X_TO);
   const ShaftRoom room(organ_T, instrument().tool, instrument().map);
   try {
-    lay_out_board(organ_T, exercise, exercise.levels[0], 3, &room);
+    lay_out_discs(organ_T, exercise, exercise.levels[0], 3, &room);
     FAIL() << "twelve discs cannot fit";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("choose a larger organ"), std::string::npos) << error.what();

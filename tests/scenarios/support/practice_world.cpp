@@ -10,7 +10,7 @@
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/make_hand.h"
-#include "scenarios/kinds/reach/pen_layout.h"
+#include "scenarios/kinds/kind.h"
 #include "tests/scenarios/support/test_organs.h"
 
 namespace trocar {
@@ -42,7 +42,7 @@ struct World {
     state.contact = state.tip_contact = false;
     state.depth_m = 0;
     state.F_I_T = {};
-    if (!needs_organ(room.exercise.kind)) return;
+    if (!kind_of(room.exercise).on_organ) return;
     const auto surface = room.field.top(state.X_TI.p.x(), state.X_TI.p.y());
     if (!surface) return;
     const double depth = (surface->position - state.X_TI.p).dot(surface->normal);
@@ -118,7 +118,7 @@ TraceSample sample_of(const StylusState& state) {
 }
 
 TriangleSurface placed_organ(const Exercise& exercise) {
-  if (!needs_organ(exercise.kind)) return {};
+  if (!kind_of(exercise).on_organ) return {};
   const TriangleSurface organ = liver_like();
   return organ.transformed(place_organ(organ, exercise.layout));
 }
@@ -134,8 +134,7 @@ PracticeAttempt practise(const PracticeRoom& room, Hand& hand, int board, std::u
                          const WorldTuning& tuning) {
   const ExerciseLevel& level = find_level(room.exercise, tuning.level);
   Director director(room.exercise, level,
-                    needs_organ(room.exercise.kind) ? lay_out_board(room.organ_T, room.exercise, level, board)
-                                                    : lay_out_pens(room.exercise, level, resting(), board));
+                    kind_of(room.exercise).lay_out(room.exercise, level, board, {room.organ_T, nullptr, resting()}));
   World world(room, level, tuning, director.board().start_T + Vec3(0.02, 0.03, 0.02), seed + 1000003);
   PracticeAttempt attempt;
   while (!director.finished() && world.state.t_s < tuning.longest_s) {

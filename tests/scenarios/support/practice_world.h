@@ -8,9 +8,9 @@
 #include <memory>
 #include <string>
 
-#include "haptics/device/hand.h"
 #include "scenarios/director/director.h"
-#include "scenarios/layout/board_layout.h"
+#include "scenarios/hands/hand.h"
+#include "scenarios/kinds/touch/disc_layout.h"
 #include "scenarios/layout/height_field.h"
 #include "scenarios/scoring/score.h"
 

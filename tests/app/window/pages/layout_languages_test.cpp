@@ -9,6 +9,7 @@
 #include "app/window/run/hud_words.h"
 #include "app/window/run/overlays.h"
 #include "app/window/ui/theme.h"
+#include "scenarios/kinds/kind.h"
 #include "tests/app/window/pages/desk_bench.h"
 #include "tests/app/window/pages/layout_check.h"
 #include "tests/app/window/pages/ui_bench.h"
@@ -166,7 +167,7 @@ TEST_P(LanguageLayout, DisplayOfARunIsUncut) {
     bar.limit_n = 1.5;
     bar.full_scale_n = 2;
     hud.bars = {bar};
-    hud.credit = needs_organ(exercise.kind) ? "Organ: liver (synthetic) · synthetic CT phantom made by Trocar"
+    hud.credit = kind_of(exercise).on_organ ? "Organ: liver (synthetic) · synthetic CT phantom made by Trocar"
                                             : "No organ, no patient data · board exercise in a box trainer";
     hud.limit_s = 120;
     const HudLayout layout = layout_hud(in_words(hud, desk_->words()), width, height, scale, fonts);

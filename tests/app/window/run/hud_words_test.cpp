@@ -33,7 +33,7 @@ bool known(const std::string& sentence) {
 TEST(HudWords, EverySentenceOfTheDirectorIsKnown) {
   const std::regex call(R"(say\(status, ([^;]*)\);)"), literal(R"re("((?:[^"\\]|\\.)+)")re");
   int found = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(TROCAR_SOURCE_DIR) / "scenarios")) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(TROCAR_SOURCE_DIR) / "scenarios")) {
     if (entry.path().extension() != ".cpp") continue;
     const std::string text = text_of(entry.path());
     for (std::sregex_iterator it(text.begin(), text.end(), call), end; it != end; ++it) {

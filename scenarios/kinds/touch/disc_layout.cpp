@@ -1,11 +1,11 @@
-#include "scenarios/layout/board_layout.h"
+#include "scenarios/kinds/touch/disc_layout.h"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 
 #include "haptics/input_error.h"
+#include "scenarios/layout/board_random.h"
 #include "scenarios/layout/target_ground.h"
 
 namespace trocar {
@@ -16,16 +16,13 @@ constexpr int kDraws = 3000, kRestarts = 8;
 constexpr double kWantedLeg = 0.035;     // m, travel between neighbours in the order of lighting
 constexpr double kLegClearance = 0.004;  // m between the ideal path and the surface
 
-/// Uniform number in [0, 1) by an explicit formula: the same on every standard library.
-double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
-
 /// One round of dart throwing; may return fewer targets than wanted.
-std::vector<Target> throw_darts(const TargetGround& ground, const TargetLayout& layout, std::mt19937_64& generator) {
+std::vector<Target> throw_darts(const TargetGround& ground, const TargetLayout& layout, BoardRandom& random) {
   std::vector<Target> targets;
   const double margin = layout.radius_m + layout.wrong_place_m;
   const double span_x = layout.region_x_m - 2 * margin, span_y = layout.region_y_m - 2 * margin;
   for (int draw = 0; draw < kDraws && static_cast<int>(targets.size()) < layout.count; ++draw) {
-    const double x = (uniform(generator) - 0.5) * span_x, y = (uniform(generator) - 0.5) * span_y;
+    const double x = (random.uniform() - 0.5) * span_x, y = (random.uniform() - 0.5) * span_y;
     const bool crowded = std::any_of(targets.begin(), targets.end(), [&](const Target& t) {
       return std::hypot(t.centre_T.x() - x, t.centre_T.y() - y) < layout.min_spacing_m;
     });
@@ -38,21 +35,21 @@ std::vector<Target> throw_darts(const TargetGround& ground, const TargetLayout& 
 }
 
 /// The best of several rounds.
-std::vector<Target> best_throw(const TargetGround& ground, const TargetLayout& layout, std::mt19937_64& generator) {
+std::vector<Target> best_throw(const TargetGround& ground, const TargetLayout& layout, BoardRandom& random) {
   std::vector<Target> best;
   for (int restart = 0; restart < kRestarts && static_cast<int>(best.size()) < layout.count; ++restart) {
-    std::vector<Target> targets = throw_darts(ground, layout, generator);
+    std::vector<Target> targets = throw_darts(ground, layout, random);
     if (targets.size() > best.size()) best = std::move(targets);
   }
   return best;
 }
 
 /// Points of a hexagonal lattice of random place and turn that qualify: denser than darts, for organs with little room.
-std::vector<Target> lattice_throw(const TargetGround& ground, const TargetLayout& layout, std::mt19937_64& generator) {
+std::vector<Target> lattice_throw(const TargetGround& ground, const TargetLayout& layout, BoardRandom& random) {
   const double margin = layout.radius_m + layout.wrong_place_m, pitch = layout.min_spacing_m;
   const double half_x = layout.region_x_m / 2 - margin, half_y = layout.region_y_m / 2 - margin;
-  const Eigen::Rotation2Dd turn(uniform(generator) * M_PI / 3);
-  const Eigen::Vector2d shift(uniform(generator) * pitch, uniform(generator) * pitch);
+  const Eigen::Rotation2Dd turn(random.uniform() * M_PI / 3);
+  const Eigen::Vector2d shift(random.uniform() * pitch, random.uniform() * pitch);
   const int reach = static_cast<int>(std::hypot(half_x, half_y) / pitch) + 2;
   std::vector<Target> targets;
   for (int row = -reach; row <= reach; ++row)
@@ -65,20 +62,19 @@ std::vector<Target> lattice_throw(const TargetGround& ground, const TargetLayout
         targets.push_back({point->position, point->normal, layout.radius_m, {}, Mat3::Identity()});
     }
   while (static_cast<int>(targets.size()) > layout.count)
-    targets.erase(targets.begin() +
-                  static_cast<std::ptrdiff_t>(uniform(generator) * static_cast<double>(targets.size())));
+    targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(random.index(targets.size())));
   return targets;
 }
 
 /// The exercise's spacing where the organ has room; else closer together, down to where the wrong-place rims touch.
-std::vector<Target> place_targets(const TargetGround& ground, TargetLayout& layout, std::mt19937_64& generator) {
+std::vector<Target> place_targets(const TargetGround& ground, TargetLayout& layout, BoardRandom& random) {
   constexpr int kLattices = 1000;
-  std::vector<Target> best = best_throw(ground, layout, generator);
+  std::vector<Target> best = best_throw(ground, layout, random);
   const double closest = closest_spacing(layout);
   while (static_cast<int>(best.size()) < layout.count && layout.min_spacing_m > closest) {
     layout.min_spacing_m = std::max(closest, layout.min_spacing_m - kCloserBy);
     for (int n = 0; n < kLattices && static_cast<int>(best.size()) < layout.count; ++n) {
-      std::vector<Target> targets = lattice_throw(ground, layout, generator);
+      std::vector<Target> targets = lattice_throw(ground, layout, random);
       if (targets.size() > best.size()) best = std::move(targets);
     }
   }
@@ -137,26 +133,12 @@ void order_targets(const TargetGround& ground, double retract_m, std::vector<Tar
   targets = ordered;
 }
 
-}  // namespace
-
-namespace {
-
-/// Gives each target its band: every band as often as the others, in a drawn order (Fisher and Yates).
-void deal_bands(const std::vector<WantedForce>& bands, std::mt19937_64& generator, std::vector<Target>& targets) {
-  for (std::size_t i = 0; i < targets.size(); ++i) targets[i].band = bands[i % bands.size()];
-  if (bands.size() < 2) return;
-  for (std::size_t i = targets.size() - 1; i > 0; --i) {
-    const auto other = static_cast<std::size_t>(uniform(generator) * static_cast<double>(i + 1));
-    std::swap(targets[i].band, targets[other].band);
-  }
-}
-
-}  // namespace
-
-namespace {
-
-std::mt19937_64 generator_of(int board) {
-  return std::mt19937_64(0x9E3779B97F4A7C15ull * (static_cast<std::uint64_t>(board) + 1));
+/// Gives each target its band: every band as often as the others, in a drawn order.
+void deal_bands(const std::vector<WantedForce>& bands, BoardRandom& random, std::vector<Target>& targets) {
+  std::vector<WantedForce> dealt;
+  for (std::size_t i = 0; i < targets.size(); ++i) dealt.push_back(bands[i % bands.size()]);
+  if (bands.size() > 1) random.shuffle(dealt);
+  for (std::size_t i = 0; i < targets.size(); ++i) targets[i].band = dealt[i];
 }
 
 /// Why the targets do not fit: the organ is too small, or the instrument's shaft has no room.
@@ -167,10 +149,10 @@ std::mt19937_64 generator_of(int board) {
                     ": the organ has room for " + std::to_string(found) + " of " +
                     std::to_string(exercise.layout.count) + " targets (slope, relief and spacing limits";
   if (ground.room != nullptr) {
-    std::mt19937_64 generator = generator_of(board);
+    BoardRandom random(board);
     TargetLayout tried = exercise.layout;
     const std::size_t tip_only =
-        place_targets({ground.field, exercise.layout, ground.centre_z, nullptr}, tried, generator).size();
+        place_targets({ground.field, exercise.layout, ground.centre_z, nullptr}, tried, random).size();
     if (tip_only > found) {
       throw InputError(
           why + "); " + std::to_string(tip_only) +
@@ -184,19 +166,19 @@ std::mt19937_64 generator_of(int board) {
 
 }  // namespace
 
-Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board,
+Board lay_out_discs(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board,
                     const ShaftRoom* room) {
   const TargetLayout& layout = exercise.layout;
   const HeightField field(organ_T);
   const auto centre = field.top(0, 0);
   if (!centre) throw InputError("the organ does not lie under the middle of the board region: place it first");
   const TargetGround ground{field, layout, centre->position.z(), room};
-  std::mt19937_64 generator = generator_of(board);
+  BoardRandom random(board);
   TargetLayout tried = layout;
-  std::vector<Target> best = place_targets(ground, tried, generator);
+  std::vector<Target> best = place_targets(ground, tried, random);
   if (static_cast<int>(best.size()) < layout.count) refuse(ground, exercise, level, board, best.size());
   order_targets(ground, exercise.retract_height_m, best);
-  deal_bands(level.bands, generator, best);
+  deal_bands(level.bands, random, best);
   Board result;
   result.centre_T = centre->position;
   result.start_T = centre->position + exercise.start_above_m;

@@ -1,13 +1,12 @@
-#include "scenarios/kinds/grasp/grasp_loader.h"
+#include "scenarios/kinds/grasp/grasp_reader.h"
 
-#include <cmath>
-
-#include "haptics/device/hand.h"
+#include "scenarios/files/file_units.h"
+#include "scenarios/hands/percept.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kGraspMilli = 1e-3, kGraspDegrees = M_PI / 180;
+using file_units::kDegrees, file_units::kMilli;
 
 FoamKind read_foam(StrictTable table, const Vec3& block_m) {
   FoamKind kind;
@@ -24,16 +23,16 @@ FoamKind read_foam(StrictTable table, const Vec3& block_m) {
 }
 
 void read_blocks(StrictTable table, GraspRules& rules) {
-  rules.block_m = table.vector("size_mm", 2, 60) * kGraspMilli;
-  rules.block_mass_kg = table.number("mass_g", 0.1, 200) * kGraspMilli;
+  rules.block_m = table.vector("size_mm", 2, 60) * kMilli;
+  rules.block_mass_kg = table.number("mass_g", 0.1, 200) * kMilli;
   rules.rows = table.integer("rows", 1, 8);
   rules.columns = table.integer("columns", 1, 8);
-  rules.row_m = table.number("row_mm", 1, 200) * kGraspMilli;
-  rules.column_m = table.number("column_mm", 1, 200) * kGraspMilli;
-  rules.lift_m = table.number("lift_mm", 1, 200) * kGraspMilli;
-  rules.carry_m = table.number("carry_mm", 1, 300) * kGraspMilli;
-  rules.ring_radius_m = table.number("ring_mm", 1, 100) / 2 * kGraspMilli;
-  rules.drop_m = table.number("drop_mm", 0.5, 50) * kGraspMilli;
+  rules.row_m = table.number("row_mm", 1, 200) * kMilli;
+  rules.column_m = table.number("column_mm", 1, 200) * kMilli;
+  rules.lift_m = table.number("lift_mm", 1, 200) * kMilli;
+  rules.carry_m = table.number("carry_mm", 1, 300) * kMilli;
+  rules.ring_radius_m = table.number("ring_mm", 1, 100) / 2 * kMilli;
+  rules.drop_m = table.number("drop_mm", 0.5, 50) * kMilli;
   rules.critical_crushed = table.integer("critical_crushed", 1, 100);
   for (StrictTable& kind : table.tables("kinds")) rules.kinds.push_back(read_foam(kind, rules.block_m));
   if (rules.kinds.size() > kMostFoams) table.fail("kinds", "at most " + std::to_string(kMostFoams) + " kinds of foam");
@@ -44,9 +43,9 @@ void read_blocks(StrictTable table, GraspRules& rules) {
 }
 
 void read_board(StrictTable table, GraspRules& rules) {
-  rules.board_half_m = table.number("side_mm", 10, 400) / 2 * kGraspMilli;
+  rules.board_half_m = table.number("side_mm", 10, 400) / 2 * kMilli;
   rules.board_stiffness_n_per_m = table.number("stiffness_n_per_m", 10, 5000);
-  rules.lost_margin_m = table.number("lost_beyond_mm", 0, 100) * kGraspMilli;
+  rules.lost_margin_m = table.number("lost_beyond_mm", 0, 100) * kMilli;
   table.finish();
 }
 
@@ -60,16 +59,16 @@ void read_grasp(StrictTable& document, Exercise& exercise) {
     document.fail("blocks", "'rows' times 'columns' must be the 'count' of [targets]");
 }
 
-void read_grasp_level(StrictTable& table, bool derived, const GraspRules& rules, GraspLevel& level) {
-  const auto number = [&](const std::string& key, double low, double high, double unit, double& value) {
-    value = unit * (derived ? table.number_or(key, low, high, value / unit) : table.number(key, low, high));
-  };
+void read_grasp_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& of) {
+  const GraspRules& rules = exercise.grasp;
+  GraspLevel& level = of.grasp;
+  StrictTable& table = keys.table;
   level.colour_cue = table.flag_or("colour_cue", level.colour_cue);
-  number("window_margin", 0, 0.9, 1, level.window_margin);
-  number("place_tolerance_mm", 0.5, 50, kGraspMilli, level.place_tolerance_m);
-  number("yaw_deg", -180, 180, kGraspDegrees, level.yaw_rad);
-  number("yaw_spread_deg", 0, 45, kGraspDegrees, level.yaw_spread_rad);
-  number("place_spread_mm", 0, 20, kGraspMilli, level.place_spread_m);
+  keys.number("window_margin", 0, 0.9, 1, level.window_margin);
+  keys.number("place_tolerance_mm", 0.5, 50, kMilli, level.place_tolerance_m);
+  keys.number("yaw_deg", -180, 180, kDegrees, level.yaw_rad);
+  keys.number("yaw_spread_deg", 0, 45, kDegrees, level.yaw_spread_rad);
+  keys.number("place_spread_mm", 0, 20, kMilli, level.place_spread_m);
   if (level.place_tolerance_m > rules.ring_radius_m)
     table.fail("place_tolerance_mm", "'place_tolerance_mm' is wider than the ring");
   for (const FoamKind& kind : rules.kinds) {

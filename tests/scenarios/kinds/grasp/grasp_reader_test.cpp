@@ -1,5 +1,5 @@
 // The keys of limited grasp: read as written, and every mistake refused at its line and column.
-#include "scenarios/kinds/grasp/grasp_loader.h"
+#include "scenarios/kinds/grasp/grasp_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-// The parts of surface touch (E02), discs to press and a block to squeeze, and the watch on safety that every run has.
-// The parts of the other kinds: pose_task.h, grasp_task.h.
+// The discs of surface touch: each is pressed within its band of force for a while.
 //
 // Frame T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once
@@ -11,22 +10,6 @@
 #include "scenarios/director/threshold_monitor.h"
 
 namespace trocar {
-
-/// EXCESS_FORCE, CRITICAL_FORCE, TOOL_COLLISION, DEVICE_LIMIT, CLUTCH, PORT_HOLD.
-class SafetyWatch {
- public:
-  explicit SafetyWatch(const Exercise& exercise);
-  void update(const StylusState& state, double dt_s, std::int32_t object, EventLog& log);
-  bool too_hard() const { return excess_.above(); }
-  int excess_count() const { return excess_count_; }
-  double peak_n() const { return peak_n_; }
-
- private:
-  ThresholdMonitor excess_, critical_, collision_, limit_;
-  int excess_count_ = 0;
-  double peak_n_ = 0;
-  bool clutched_ = false, held_ = false;
-};
 
 /// Lights the discs one after the other: TARGET_LIT, TARGET_TOUCHED, WRONG_PLACE, TARGET_HELD.
 class DiscTask final : public ExerciseTask {
@@ -54,29 +37,6 @@ class DiscTask final : public ExerciseTask {
   Vec3 last_contact_T_ = Vec3::Zero();
   double astray_s_ = 0;  ///< touching beside the discs without a break
   double free_s_ = 1, lit_at_s_ = 0, since_wrong_place_s_ = 1e9;
-};
-
-/// Offers the block between open jaws: GRIP_OFFERED, GRIP_TOUCHED, GRIP_EXCESS, GRIP_HELD.
-class SqueezeTask final : public ExerciseTask {
- public:
-  SqueezeTask(const GripTask& task, const ExerciseLevel& level, std::int32_t object);
-  void begin(EventLog&) override {}
-  void update(const TaskInput& input, EventLog& log) override;
-  bool finished() const override { return finished_; }
-  std::int32_t object() const override { return -1; }
-  void describe(const TaskInput& input, DirectorStatus& status) const override;
-
- private:
-  GripBlock block() const;
-
-  GripTask task_;
-  std::string display_;
-  std::int32_t object_;
-  HoldTimer hold_;
-  ThresholdMonitor excess_;
-  bool offered_ = false, touched_ = false, finished_ = false;
-  int excess_count_ = 0;
-  double offered_at_s_ = 0;
 };
 
 }  // namespace trocar

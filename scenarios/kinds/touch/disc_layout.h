@@ -21,7 +21,7 @@ namespace trocar {
 /// are dealt out evenly, in an order drawn by the board.
 /// @param room behind the instrument's tip; none: only the tip is asked for.
 /// @throws InputError when they do not fit, saying how many do, and whether the shaft is why.
-Board lay_out_board(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board,
+Board lay_out_discs(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board,
                     const ShaftRoom* room = nullptr);
 
 }  // namespace trocar

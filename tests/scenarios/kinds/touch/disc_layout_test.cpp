@@ -1,5 +1,5 @@
 // Organ placement and boards: on the surface, within every limit, the same for the same number, refused when too small.
-#include "scenarios/layout/board_layout.h"
+#include "scenarios/kinds/touch/disc_layout.h"
 
 #include <chrono>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "scenarios/layout/height_field.h"
 #include "tests/scenarios/support/test_organs.h"
 
-namespace trocar::board_layout_test {
+namespace trocar::disc_layout_test {
 namespace {
 
 Exercise shipped() {
@@ -96,7 +96,7 @@ TEST(Board, KeepsEveryLimitOnTwentyBoards) {
   const TriangleSurface organ_T = placed(liver_like(), exercise);
   const HeightField field(organ_T);
   for (int number = 0; number < 20; ++number) {
-    const Board board = lay_out_board(organ_T, exercise, exercise.levels[0], number);
+    const Board board = lay_out_discs(organ_T, exercise, exercise.levels[0], number);
     ASSERT_EQ(board.targets.size(), 12u) << number;
     for (std::size_t i = 0; i < board.targets.size(); ++i) {
       const Target& target = board.targets[i];
@@ -118,9 +118,9 @@ TEST(Board, KeepsEveryLimitOnTwentyBoards) {
 TEST(Board, IsTheSameForTheSameNumberAndAnotherForAnother) {
   const Exercise exercise = shipped();
   const TriangleSurface organ_T = placed(liver_like(), exercise);
-  const Board one = lay_out_board(organ_T, exercise, exercise.levels[0], 3),
-              same = lay_out_board(organ_T, exercise, exercise.levels[0], 3);
-  const Board other = lay_out_board(organ_T, exercise, exercise.levels[0], 4);
+  const Board one = lay_out_discs(organ_T, exercise, exercise.levels[0], 3),
+              same = lay_out_discs(organ_T, exercise, exercise.levels[0], 3);
+  const Board other = lay_out_discs(organ_T, exercise, exercise.levels[0], 4);
   for (std::size_t i = 0; i < one.targets.size(); ++i) EXPECT_EQ(one.targets[i].centre_T, same.targets[i].centre_T);
   EXPECT_NE(one.targets[0].centre_T, other.targets[0].centre_T);
 }
@@ -130,7 +130,7 @@ TEST(Board, AsksForTravelWithoutRunningIntoTheOrgan) {
   const TriangleSurface organ_T = placed(liver_like(), exercise);
   const HeightField field(organ_T);
   for (int number = 0; number < 20; ++number) {
-    const Board board = lay_out_board(organ_T, exercise, exercise.levels[0], number);
+    const Board board = lay_out_discs(organ_T, exercise, exercise.levels[0], number);
     for (std::size_t i = 1; i < board.targets.size(); ++i) {
       const Vec3 a = board.targets[i - 1].centre_T, b = board.targets[i].centre_T;
       EXPECT_GT((a - b).norm(), 0.014);
@@ -147,7 +147,7 @@ TEST(Board, AsksForTravelWithoutRunningIntoTheOrgan) {
 
 TEST(Board, StartsAboveTheRegion) {
   const Exercise exercise = shipped();
-  const Board board = lay_out_board(placed(liver_like(), exercise), exercise, exercise.levels[0], 0);
+  const Board board = lay_out_discs(placed(liver_like(), exercise), exercise, exercise.levels[0], 0);
   EXPECT_NEAR((board.start_T - board.centre_T - exercise.start_above_m).norm(), 0, 1e-12);
   EXPECT_GT(board.start_T.z(), exercise.start_sphere_m + exercise.layout.relief_m);
 }
@@ -156,7 +156,7 @@ TEST(Board, RefusesASmallOrganSayingHowManyFit) {
   const Exercise exercise = shipped();
   const TriangleSurface organ_T = placed(gallbladder_like(), exercise);
   try {
-    lay_out_board(organ_T, exercise, exercise.levels[0], 0);
+    lay_out_discs(organ_T, exercise, exercise.levels[0], 0);
     FAIL() << "twelve discs cannot fit";
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -168,7 +168,7 @@ TEST(Board, RefusesASmallOrganSayingHowManyFit) {
 
 TEST(Board, RefusesAnOrganThatWasNotPlaced) {
   const Pose away{Mat3::Identity(), Vec3(5, 5, 5)};
-  EXPECT_THROW(lay_out_board(liver_like().transformed(away), shipped(), shipped().levels[0], 0), InputError);
+  EXPECT_THROW(lay_out_discs(liver_like().transformed(away), shipped(), shipped().levels[0], 0), InputError);
 }
 
 TEST(Board, IsLaidOutQuickly) {
@@ -176,11 +176,11 @@ TEST(Board, IsLaidOutQuickly) {
   const TriangleSurface organ = liver_like();
   const std::clock_t before = std::clock();
   const TriangleSurface organ_T = placed(organ, exercise);
-  lay_out_board(organ_T, exercise, exercise.levels[0], 0);
+  lay_out_discs(organ_T, exercise, exercise.levels[0], 0);
   const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   RecordProperty("cpu_ms", static_cast<int>(seconds * 1000));
   EXPECT_LT(seconds, 1.0) << "50 ms in a release build; the bound leaves room for sanitizers";
 }
 
 }  // namespace
-}  // namespace trocar::board_layout_test
+}  // namespace trocar::disc_layout_test

@@ -1,8 +1,6 @@
-// The hand as the rest of the program meets it: what it perceives and what it intends. A hand never sets the pose of
-// the stylus; its intent pulls the stylus through the impedance of hand_model.h.
+// What a person at the exercise perceives: what the screen asks for and shows, and what the fingers feel.
 //
-// Frames: theatre T (what a person sees on the screen); the hand task turns an intent into device coordinates through
-// the inverse of the exercise's instrument map. Rate: hands are asked once a loop period. Must not allocate.
+// Frame: theatre T (what a person sees on the screen). Plain values; must not allocate.
 #pragma once
 
 #include <array>
@@ -67,20 +65,6 @@ struct Percept {
   Vec3 goal_T = Vec3::Zero();  ///< there: where it shall stand
   std::array<FoamLore, kMostFoams> foam;  ///< there: learnt before the start
   std::int32_t foam_count = 0;
-};
-
-/// Where the hand wants the instrument to be.
-struct HandIntent {
-  Pose X_TI;                    ///< wanted pose of the instrument tip in the theatre
-  double jaw_opening_m = 0.02;  ///< wanted opening of the fingers at the pads
-  bool clutch = false;          ///< holds the clutch: X_TI then says where the stylus would bring the instrument
-};
-
-class Hand {
- public:
-  virtual ~Hand() = default;
-  /// Called once a period of the simulated device. @param dt_s time since the previous call, s.
-  virtual HandIntent update(const Percept& percept, double dt_s) = 0;
 };
 
 }  // namespace trocar

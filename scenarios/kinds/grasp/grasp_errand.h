@@ -5,8 +5,8 @@
 // Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
-#include "haptics/device/hand.h"
 #include "scenarios/hands/force_grip.h"
+#include "scenarios/hands/hand.h"
 #include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/hand_script.h"
 #include "scenarios/hands/hand_senses.h"

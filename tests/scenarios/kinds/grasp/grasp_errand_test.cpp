@@ -1,5 +1,5 @@
 // The errand with a block in a small world of its own: the tip follows the intent, foam springs between the pads.
-#include "scenarios/hands/grasp_errand.h"
+#include "scenarios/kinds/grasp/grasp_errand.h"
 
 #include <algorithm>
 #include <cmath>

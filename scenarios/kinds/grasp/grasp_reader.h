@@ -4,14 +4,14 @@
 #pragma once
 
 #include "scenarios/exercise.h"
-#include "scenarios/files/strict_toml.h"
+#include "scenarios/files/level_keys.h"
 
 namespace trocar {
 
 /// Reads [blocks], [[blocks.kinds]] and [board] into exercise.grasp. @param exercise its [targets] read before.
 void read_grasp(StrictTable& document, Exercise& exercise);
 
-/// @param derived keys that are left out keep the value that `level` has already.
-void read_grasp_level(StrictTable& table, bool derived, const GraspRules& rules, GraspLevel& level);
+/// Into level.grasp.
+void read_grasp_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level);
 
 }  // namespace trocar

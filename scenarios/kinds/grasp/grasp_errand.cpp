@@ -1,4 +1,4 @@
-#include "scenarios/hands/grasp_errand.h"
+#include "scenarios/kinds/grasp/grasp_errand.h"
 
 #include <algorithm>
 #include <cmath>

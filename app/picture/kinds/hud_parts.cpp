@@ -1,0 +1,38 @@
+#include "app/picture/kinds/hud_parts.h"
+
+#include <cstdio>
+
+namespace trocar {
+
+std::string hud_number(const char* format, double value) {
+  char buffer[48];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+HudStep hud_step(const char* words, bool done, bool current) {
+  return {words, done ? HudStep::State::kDone : current ? HudStep::State::kCurrent : HudStep::State::kOpen};
+}
+
+std::string targets_done(const Scene& scene, const DirectorStatus& status) {
+  return std::to_string(status.targets_done) + " / " + std::to_string(scene.board.targets.size());
+}
+
+HudRow hold_row(const DirectorStatus& status) { return {"Hold", hud_number("%.0f", 100 * status.hold_progress), "%"}; }
+
+ForceBar force_bar(const char* label, double value_n, const WantedForce& band, double limit_n) {
+  ForceBar out;
+  out.label = label;
+  out.value_n = value_n;
+  out.band_low_n = band.low_n;
+  out.band_high_n = band.high_n;
+  out.limit_n = limit_n;
+  out.full_scale_n = 1.25 * limit_n;
+  return out;
+}
+
+std::string hidden_note(const std::string& display) {
+  return display == "after" ? "shown after the run" : "shown only outside the limits";
+}
+
+}  // namespace trocar

@@ -1,0 +1,23 @@
+// Pieces that displays of all kinds are put together from. Thread: any.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/picture/scene/scene_view.h"
+#include "app/session/session.h"
+
+namespace trocar {
+
+/// @param format of printf for one number.
+std::string hud_number(const char* format, double value);
+HudStep hud_step(const char* words, bool done, bool current);
+/// "3 / 12" targets.
+std::string targets_done(const Scene& scene, const DirectorStatus& status);
+/// Percent of the present hold.
+HudRow hold_row(const DirectorStatus& status);
+ForceBar force_bar(const char* label, double value_n, const WantedForce& band, double limit_n);
+/// Why a bar is hidden. @param display of the level: band | after.
+std::string hidden_note(const std::string& display);
+
+}  // namespace trocar

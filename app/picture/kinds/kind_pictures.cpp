@@ -1,0 +1,18 @@
+#include <algorithm>
+
+#include "app/picture/kinds/kind_picture.h"
+
+namespace trocar {
+
+// One each of this folder's sources.
+KindPicture reach_picture();
+KindPicture touch_picture();
+KindPicture grasp_picture();
+
+const KindPicture& picture_of(const Exercise& exercise) {
+  static const std::vector<KindPicture> pictures{reach_picture(), touch_picture(), grasp_picture()};
+  return *std::find_if(pictures.begin(), pictures.end(),
+                       [&](const KindPicture& picture) { return picture.kind == exercise.kind; });
+}
+
+}  // namespace trocar

@@ -1,0 +1,22 @@
+#include <algorithm>
+
+#include "app/window/kinds/kind_lesson.h"
+
+namespace trocar {
+
+// One each of this folder's sources.
+KindLesson reach_lesson();
+KindLesson touch_lesson();
+KindLesson grasp_lesson();
+
+const std::vector<KindLesson>& all_lessons() {
+  static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(), grasp_lesson()};
+  return lessons;
+}
+
+const KindLesson& lesson_of(const Exercise& exercise) {
+  return *std::find_if(all_lessons().begin(), all_lessons().end(),
+                       [&](const KindLesson& lesson) { return lesson.kind == exercise.kind; });
+}
+
+}  // namespace trocar

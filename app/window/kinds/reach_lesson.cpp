@@ -1,0 +1,35 @@
+#include "app/window/kinds/kind_lesson.h"
+#include "app/window/lessons/lesson_numbers.h"
+
+namespace trocar {
+namespace {
+
+std::vector<LessonStep> reach_steps(const Words& w, const Exercise& e, const ExerciseLevel& level) {
+  return {{StepIcon::kReach,
+           w("Bring the tip to the lit pen, to {0} or nearer.", {millimetres(w, level.position_tolerance_m)})},
+          {StepIcon::kTurn,
+           w("Turn the instrument along it and about it, to {0} or nearer.", {degrees(w, level.angle_tolerance_rad)})},
+          {StepIcon::kHold, w("Hold still for {0} s; the next pen lights.", {brief(w, e.hold_s)})}};
+}
+
+void add_reach_limits(const Words& w, const Exercise& e, const ExerciseLevel&, std::vector<LessonLimit>& out) {
+  out.push_back({w("Pens"), std::to_string(e.layout.count)});
+  out.push_back({w("A pen's time"), w("{0} s, then it comes back at the end", {brief(w, e.pens.timeout_s)})});
+}
+
+}  // namespace
+
+KindLesson reach_lesson() {
+  return {.kind = ExerciseKind::kReach,
+          .skill =
+              [](const Words& w) {
+                return w("Skill: depth from a flat picture, and turning the instrument where you want it.");
+              },
+          .steps = reach_steps,
+          .add_limits = add_reach_limits,
+          .display = {words("Pen {0}."), words("Bring the tip to the lit pen"),
+                      words("Turn the instrument along the pen"), words("The tip is right."),
+                      words("Match each lit pen and hold"), words("Pens matched"), words("Out of time")}};
+}
+
+}  // namespace trocar

@@ -1,0 +1,40 @@
+#include <algorithm>
+
+#include "scenarios/director/director.h"
+#include "scenarios/kinds/grasp/grasp_kind.h"
+#include "scenarios/kinds/kind.h"
+#include "scenarios/kinds/reach/reach_kind.h"
+#include "scenarios/kinds/touch/touch_kind.h"
+
+namespace trocar {
+
+const std::vector<KindDescription>& all_kinds() {
+  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind()};
+  return kinds;
+}
+
+const KindDescription& kind_of(const Exercise& exercise) {
+  return *std::find_if(all_kinds().begin(), all_kinds().end(),
+                       [&](const KindDescription& kind) { return kind.kind == exercise.kind; });
+}
+
+const KindDescription* kind_named(const std::string& name) {
+  for (const KindDescription& kind : all_kinds())
+    if (name == kind.name) return &kind;
+  return nullptr;
+}
+
+JudgedForces judged_forces(const Exercise& exercise, const ExerciseLevel& level, const Board& board) {
+  return kind_of(exercise).limits(exercise, level, board, -1);
+}
+
+JudgedForces judged_forces(const Exercise& exercise, const ExerciseLevel& level, const Board& board,
+                           const DirectorStatus& status) {
+  return kind_of(exercise).limits(exercise, level, board, std::max(0, status.target_index));
+}
+
+WatchedForce watched_now(const Exercise& exercise, const DirectorStatus& status) {
+  return status.cue == Cue::kGrip ? WatchedForce::kGrip : kind_of(exercise).watched;
+}
+
+}  // namespace trocar

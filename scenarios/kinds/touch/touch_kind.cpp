@@ -1,0 +1,122 @@
+#include "scenarios/kinds/touch/touch_kind.h"
+
+#include <algorithm>
+
+#include "scenarios/director/scoring_context.h"
+#include "scenarios/files/file_units.h"
+#include "scenarios/files/level_keys.h"
+#include "scenarios/kinds/touch/disc_layout.h"
+#include "scenarios/kinds/touch/disc_task.h"
+#include "scenarios/kinds/touch/squeeze_task.h"
+
+namespace trocar {
+namespace {
+
+using file_units::kDegrees, file_units::kMilli;
+
+void read_discs(StrictTable& table, TargetLayout& layout) {
+  layout.radius_m = table.number("diameter_mm", 1, 50) / 2 * kMilli;
+  layout.max_slope_rad = table.number("max_slope_deg", 1, 80) * kDegrees;
+  layout.wrong_place_m = table.number("wrong_place_mm", 0, 50) * kMilli;
+  if (layout.min_spacing_m < 2 * layout.radius_m) table.fail("min_spacing_mm", "'min_spacing_mm' lets discs overlap");
+}
+
+void read_surface(StrictTable table, Exercise& exercise) {
+  exercise.surface.stiffness_n_per_m = table.number("stiffness_n_per_m", 1, 5000);
+  exercise.surface.damping_s_per_m = table.number("damping_s_per_m", 0, 50);
+  exercise.surface.mu_static = table.number_or("friction_static", 0, 2, 0);
+  exercise.surface.mu_dynamic = table.number_or("friction_dynamic", 0, 2, 0);
+  if (exercise.surface.mu_dynamic > exercise.surface.mu_static)
+    table.fail("friction_dynamic", "'friction_dynamic' must not be above 'friction_static'");
+  table.finish();
+}
+
+void read_grip(StrictTable table, GripTask& grip) {
+  grip.block_thickness_m = table.number("block_thickness_mm", 0.5, 50) * kMilli;
+  grip.block_stiffness_n_per_m = table.number("block_stiffness_n_per_m", 10, 5000);
+  grip.low_n = table.number("low_n", 0, 50);
+  grip.high_n = table.number("high_n", 0, 50);
+  grip.excess_n = table.number("excess_n", 0, 100);
+  grip.hold_s = table.number("hold_s", 0.05, 30);
+  if (grip.high_n <= grip.low_n) table.fail("high_n", "'high_n' must be above 'low_n'");
+  if (grip.excess_n <= grip.high_n) table.fail("excess_n", "'excess_n' must be above 'high_n'");
+  if (grip.high_n / grip.block_stiffness_n_per_m > grip.block_thickness_m)
+    table.fail("block_thickness_mm", "the block is too thin to be squeezed with 'high_n'");
+  table.finish();
+}
+
+void read_touch(StrictTable& document, Exercise& exercise) {
+  exercise.hold_s = document.number("hold_s", 0.05, 60);
+  read_surface(document.table("surface"), exercise);
+  read_grip(document.table("grip"), exercise.grip);
+}
+
+void read_bands(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level) {
+  StrictTable& table = keys.table;
+  table.allow("band_n");
+  table.allow("bands_n");
+  const bool one = table.has("band_n"), several = table.has("bands_n");
+  if (one && several) table.fail("bands_n", "'bands_n' and 'band_n' exclude each other");
+  const std::string key = several ? "bands_n" : "band_n";
+  if (keys.derived && !one && !several) return;
+  level.bands.clear();
+  if (several) {
+    for (const auto& [low, high] : table.pairs("bands_n", 0.01, 50)) level.bands.push_back({low, high});
+  } else {
+    const auto [low, high] = table.pair("band_n", 0.01, 50);
+    level.bands.push_back({low, high});
+  }
+  level.band_low_n = level.bands.front().low_n;
+  level.band_high_n = level.bands.front().high_n;
+  for (const WantedForce& band : level.bands) {
+    if (band.high_n <= band.low_n) table.fail(key, "'" + key + "' must be [low, high] with low below high");
+    if (band.high_n > exercise.hard_force_n) table.fail(key, "'" + key + "' reaches above 'hard_n'");
+    level.band_low_n = std::min(level.band_low_n, band.low_n);
+    level.band_high_n = std::max(level.band_high_n, band.high_n);
+  }
+}
+
+JudgedForces touch_limits(const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
+  return {exercise.hard_force_n, exercise.grip.excess_n};
+}
+
+Board lay_out_touch(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
+  return lay_out_discs(place.organ_T, exercise, level, board, place.behind_tip);
+}
+
+std::vector<std::unique_ptr<ExerciseTask>> touch_tasks(const Exercise& exercise, const ExerciseLevel& level,
+                                                       const Board& board) {
+  std::vector<std::unique_ptr<ExerciseTask>> tasks;
+  tasks.push_back(std::make_unique<DiscTask>(exercise, level, board.targets));
+  tasks.push_back(std::make_unique<SqueezeTask>(exercise.grip, level, static_cast<std::int32_t>(board.targets.size())));
+  return tasks;
+}
+
+/// The discs, and the block to squeeze.
+void account_touch(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
+  account_held_targets(board, events, context);
+  context.objects_total += 1;
+  context.objects_done +=
+      std::any_of(events.begin(), events.end(), [](const Event& event) { return event.type == "GRIP_HELD"; }) ? 1 : 0;
+}
+
+}  // namespace
+
+KindDescription touch_kind() {
+  return {.kind = ExerciseKind::kTouch,
+          .name = "touch",
+          .on_organ = true,
+          .oriented = false,
+          .jaws_hold = false,
+          .tool = ToolKind::kGrasper,
+          .watched = WatchedForce::kTip,
+          .limits = touch_limits,
+          .read_targets = read_discs,
+          .read = read_touch,
+          .read_level = read_bands,
+          .lay_out = lay_out_touch,
+          .tasks = touch_tasks,
+          .account = account_touch};
+}
+
+}  // namespace trocar
