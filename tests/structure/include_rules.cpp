@@ -55,7 +55,7 @@ const std::vector<Territory>& territories() {
       {"^sqlite3", "^trainees/.*\\.cpp$", "SQLite stays in sources of trainees"},
       {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/graphics/.*\\.cpp$",
        "graphics libraries stay in sources of app/graphics"},
-      {"^CLI/", "^app/command_line(_[a-z]+)?\\.cpp$", "the command line is read in one place"},
+      {"^CLI/", "^app/.*\\.cpp$", "command line options stay in sources of app"},
       {"^toml", "^(scenarios|tissue|trainees/progress|app/(words|practice))/.*\\.cpp$",
        "TOML is read in sources of scenarios, tissue, progress rules, words and settings"},
       {"^imgui|^GLFW/", "^app/(screens|window)/.*\\.cpp$",
