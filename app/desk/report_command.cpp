@@ -1,7 +1,13 @@
 #include "app/desk/report_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <chrono>
-#include <ostream>
 #include <thread>
 
 #include "app/cli/records/open_database.h"
@@ -73,6 +79,24 @@ int review_report(const ReviewReportOptions& options, std::ostream& out, std::os
   pending.commit();
   out << options.out.string() << '\n';
   return 0;
+}
+
+void add_review_report(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ReviewReportOptions>();
+  ReviewReportOptions& o = *given;
+  CLI::App* report =
+      add_command(parent, "report", "A report as PDF or HTML: of a trainee, a cohort, an attempt, or a certificate",
+                  chosen, [given] { return review_report(*given, std::cout, std::cerr); });
+  report->add_option("--trainee", o.trainee, "Code of the trainee");
+  report->add_flag("--cohort", o.cohort, "Everybody, or a group");
+  report->add_option("--group", o.group, "With --cohort: one group only");
+  report->add_option("--attempt", o.attempt, "Number of the attempt, or its beginning");
+  report->add_option("--certificate", o.certificate, "Number of the certificate");
+  report->add_option("-o,--out", o.out, "File to be made, NAME.pdf or NAME.html; for its owner alone to read")
+      ->required();
+  report->add_flag("--notes", o.notes, "With the instructors' notes");
+  report->add_flag("--force", o.force, "A file of that name gives way");
+  report->add_option("--db", o.database, "Database file");
 }
 
 }  // namespace trocar

@@ -1,12 +1,18 @@
 #include "app/desk/review_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <ostream>
 #include <sstream>
 #include <thread>
 
@@ -270,6 +276,70 @@ int review_account_list(const ReviewAccountOptions& options, std::ostream& out, 
   }
   table.print(out);
   return 0;
+}
+
+void add_review_serve(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ReviewServeOptions>();
+  ReviewServeOptions& o = *given;
+  CLI::App* serve = add_command(parent, "serve", "The desk as web pages, until Ctrl-C", chosen,
+                                [given] { return review_serve(*given, std::cout, std::cerr); });
+  serve->add_option("--port", o.port, "Port (0: any that is free)")->capture_default_str()->check(CLI::Range(0, 65535));
+  serve->add_flag("--lan", o.lan, "For the network too; everybody signs in");
+  serve->add_option("--cert", o.certificate, "Certificate (PEM): with --key the pages go through TLS");
+  serve->add_option("--key", o.key, "Private key of the certificate (PEM)");
+  serve->add_option("--name", o.names, "A name that the machine goes by in the network, besides its own; repeatable");
+  CLI::Option* db = serve->add_option("--db", o.database, "Database file");
+  CLI::Option* demo =
+      serve->add_flag("--demo", o.demo, "An invented cohort in a file of its own, made the first time (minutes)");
+  demo->excludes(db);
+  CLI::Option* from = serve->add_option("--from", o.from,
+                                        "postgresql://USER@HOST/DATABASE: the record of all stations, kept fresh in a"
+                                        " copy (--db FILE, else in the cache)");
+  from->excludes(demo);
+  CLI::Option* password = serve->add_option("--password-file", o.password_file,
+                                            "First line: the password of that database (else PGPASSWORD, ~/.pgpass)");
+  password->needs(from);
+  serve->add_flag("--recordings", o.recordings, "Fetch the recordings that stations pushed, too")->needs(from);
+}
+
+void add_review_account(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ReviewAccountOptions>();
+  ReviewAccountOptions& o = *given;
+  CLI::App* account = add_group(parent, "account", "Who may sign in at the desk");
+  const auto add = [&](const char* name, const char* help, Action action) {
+    CLI::App* command = add_command(*account, name, help, chosen, std::move(action));
+    command->add_option("--db", o.database, "Database file");
+    return command;
+  };
+  CLI::App* fresh = add("add", "New account; the password is asked for, or read from the input's first line",
+                        [given] { return review_account_add(*given, std::cin, std::cout, std::cerr); });
+  fresh->add_option("--name", o.name, "As it is printed (default: the login)");
+  fresh->add_option("--role", o.role, "trainee (own attempts), instructor (all) or administrator (accounts too)")
+      ->capture_default_str();
+  fresh->add_option("--trainee", o.trainee, "Code of the trainee whose account it is (default: the login)");
+  CLI::App* password = add("password", "New password",
+                           [given] { return review_account_password(*given, std::cin, std::cout, std::cerr); });
+  CLI::App* disable = add("disable", "Can no longer sign in",
+                          [given] { return review_account_disable(*given, true, std::cout, std::cerr); });
+  CLI::App* enable = add("enable", "Can sign in again",
+                         [given] { return review_account_disable(*given, false, std::cout, std::cerr); });
+  for (CLI::App* command : {fresh, password, disable, enable})
+    command->add_option("login", o.login, "Name to sign in with")->required();
+  CLI::App* list = add("list", "All accounts", [given] { return review_account_list(*given, std::cout, std::cerr); });
+  list->add_flag("--json", o.json, "As JSON");
+}
+
+void add_review_demo(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ReviewDemoOptions>();
+  ReviewDemoOptions& o = *given;
+  CLI::App* demo = add_command(
+      parent, "demo", "A database of eight invented trainees with a hundred attempts, to look at the desk with", chosen,
+      [given] { return review_demo(*given, std::cout, std::cerr); });
+  demo->add_option("--db", o.database, "The demo's own file (default: demo.db beside the usual database)");
+  demo->add_option("--jobs", o.jobs, "Attempts at a time, 0: one a core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 256));
+  demo->add_flag("--remove", o.remove, "Remove it, with its recordings");
 }
 
 }  // namespace trocar

@@ -31,6 +31,11 @@ struct SurfaceChoices {
   double wrap_alpha_mm = 2;
 };
 
+/// What `organ import` and `organ inspect` read, for their help.
+constexpr const char* kInputForms =
+    "Label map or image (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd), DICOM folder, zip, DICOMDIR or file, or surface "
+    "(.stl .ply .obj .off .glb .gltf .fbx .vtk .vtp .vtu .msh)";
+
 struct OrganImportOptions {
   std::string input;   ///< volume, label map, DICOM folder, zip or file, or surface
   std::string labels;  ///< label map, SEG or RTSTRUCT that goes with the image `input`; "" when `input` is one

@@ -1,7 +1,14 @@
 #include "app/organs/organ_info.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/session/setup/scene.h"
+
 #include <algorithm>
-#include <ostream>
 
 #include "app/organs/organ_report.h"
 #include "haptics/input_error.h"
@@ -72,6 +79,25 @@ int organ_info(const OrganInfoOptions& options, std::ostream& out, std::ostream&
   for (const std::string& member : set.files) organs.push_back(proved(path.parent_path() / member, err));
   out << (options.json ? scene_report_json(set, organs) : scene_report_text(set, organs));
   return 0;
+}
+
+namespace {
+struct OrganInfoArguments {
+  OrganInfoOptions options;
+  std::string organ;
+};
+}  // namespace
+
+void add_organ_info(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<OrganInfoArguments>();
+  OrganInfoOptions& o = given->options;
+  CLI::App* info = add_command(parent, "info", "What an organ is and how good its surface", chosen, [given] {
+    const std::filesystem::path assets = find_assets().assets;
+    given->options.manifest = find_organ(given->organ, assets);
+    return organ_info(given->options, std::cout, std::cerr);
+  });
+  info->add_flag("--json", o.json, "As JSON");
+  info->add_option("organ", given->organ, kOrganForms)->required();
 }
 
 }  // namespace trocar

@@ -1,10 +1,18 @@
 #include "app/organs/organ_inspect.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/cli/progress_display.h"
+#include "app/organs/import_options.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <ostream>
 #include <sstream>
 
 #include "haptics/input_error.h"
@@ -186,6 +194,20 @@ int organ_inspect(const OrganInspectOptions& options, std::ostream& out, std::os
     json = dicom_json(options);
   out << (options.json ? json.dump(2) + "\n" : words(json));
   return 0;
+}
+
+void add_organ_inspect(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<OrganInspectOptions>();
+  OrganInspectOptions& o = *given;
+  CLI::App* inspect =
+      add_command(parent, "inspect", "What an input holds: DICOM series, labels, parts of a surface", chosen, [given] {
+        ProgressDisplay progress(std::cerr, error_is_terminal());
+        given->progress = progress.function();
+        return organ_inspect(*given, std::cout, std::cerr);
+      });
+  inspect->add_option("input", o.input, kInputForms)->required();
+  inspect->add_option("--label-table", o.label_table, "Table that names the numbers");
+  inspect->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

@@ -1,9 +1,16 @@
 #include "app/organs/organ_package.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/session/setup/scene.h"
+
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <ostream>
 
 #include "app/organs/zip_writer.h"
 #include "haptics/input_error.h"
@@ -94,6 +101,18 @@ int organ_package(const OrganPackageOptions& options, std::ostream& out, std::os
   file.commit();
   out << options.output.string() << ": " << package.files() << " files, each with a licence\n";
   return 0;
+}
+
+void add_organ_package(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<OrganPackageOptions>();
+  OrganPackageOptions& o = *given;
+  CLI::App* package =
+      add_command(parent, "package", "Organs with a licence, and their credits, as a zip to pass on", chosen, [given] {
+        given->assets = find_assets().assets;
+        return organ_package(*given, std::cout, std::cerr);
+      });
+  package->add_option("organs", o.organs, "NAME.organ.toml, NAME.scene.toml or shipped organs")->required();
+  package->add_option("-o,--output", o.output, "FILE.zip")->required()->check(writable_path());
 }
 
 }  // namespace trocar

@@ -1,8 +1,15 @@
 #include "app/organs/organ_phantom.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/cli/progress_display.h"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <sstream>
 
 #include "app/organs/organ_import.h"
@@ -149,6 +156,32 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
                                       {"scene", scene}};
   if (options.json) out << report.dump(2) << "\n";
   return 0;
+}
+
+void add_organ_phantom(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<OrganPhantomOptions>();
+  OrganPhantomOptions& o = *given;
+  CLI::App* phantom =
+      add_command(parent, "phantom", "The synthetic abdominal CT phantom and its organs", chosen, [given] {
+        ProgressDisplay progress(std::cerr, error_is_terminal());
+        given->progress = progress.function();
+        return organ_phantom(*given, std::cout, std::cerr);
+      });
+  phantom->add_option("--out", o.out, "Folder")->required()->check(writable_path());
+  phantom->add_option("--seed", o.seed, "Seed of the noise, and of --variant by-seed")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 9e18, "SEED"));
+  phantom
+      ->add_option("--variant", o.variant,
+                   "normal, short-duct, low-insertion, fat or artery-anterior; by-seed: the one that --seed stands for")
+      ->capture_default_str();
+  phantom->add_option("--patient", o.patient, "Natural variation; 0: the standard patient")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 9e18, "PATIENT"));
+  phantom->add_option("--voxel", o.voxel_mm, "Voxel in mm; 1.25 shows ducts and arteries well")->capture_default_str();
+  phantom->add_flag("--scene", o.scene, "The organs round the gallbladder as one scene as well");
+  phantom->add_flag("--dicom", o.dicom, "The CT as a DICOM series as well");
+  phantom->add_flag("--json", o.json, "Report as JSON");
 }
 
 }  // namespace trocar

@@ -1,7 +1,14 @@
 #include "app/organs/organ_render.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/session/setup/scene.h"
+
 #include <cstdint>
-#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +36,27 @@ int organ_render(const OrganRenderOptions& options, const std::filesystem::path&
   file.commit();
   out << options.output.string() << "\n";
   return 0;
+}
+
+namespace {
+struct OrganRenderArguments {
+  OrganRenderOptions options;
+  std::string organ;
+};
+}  // namespace
+
+void add_organ_render(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<OrganRenderArguments>();
+  OrganRenderOptions& o = given->options;
+  CLI::App* render = add_command(parent, "render", "A picture of an organ or a scene", chosen, [given] {
+    const std::filesystem::path assets = find_assets().assets;
+    given->options.manifest = find_organ(given->organ, assets);
+    return organ_render(given->options, assets, std::cout, std::cerr);
+  });
+  render->add_option("-o,--output", o.output, "PNG file")->required()->check(writable_path());
+  render->add_option("--width", o.width, "px")->capture_default_str();
+  render->add_option("--height", o.height, "px")->capture_default_str();
+  render->add_option("organ", given->organ, kOrganForms)->required();
 }
 
 }  // namespace trocar

@@ -1,8 +1,14 @@
 #include "app/studies/study_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <algorithm>
 #include <array>
-#include <ostream>
 
 #include "app/session/setup/true_plant.h"
 #include "app/studies/admittance/admittance_study.h"
@@ -89,6 +95,22 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   err << "trocar: data, plots and summary.json in " << options.out.string() << '\n';
   const bool met = std::all_of(result.cases.begin(), result.cases.end(), [](const StudyCase& c) { return c.met; });
   return met ? 0 : 1;
+}
+
+void add_study(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<StudyOptions>();
+  StudyOptions& o = *given;
+  std::string studies;
+  for (const std::string& name : study_names()) studies += (studies.empty() ? "" : ", ") + name;
+  CLI::App* study = add_command(parent, "study", "Do an experiment again: data, plots, summary", chosen,
+                                [given] { return study_command(*given, std::cout, std::cerr); });
+  study->add_option("name", o.name, "One of: " + studies)->required();
+  study->add_option("--out", o.out, "Folder")->required()->check(writable_path());
+  study->add_flag("--quick", o.quick, "Fewer trials of the same kind");
+  study->add_option("--plant", o.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant")
+      ->check(file_name());
+  study->add_option("--seed", o.seed, "Of everything that is drawn")->capture_default_str()->check(seed_range());
+  study->add_flag("--json", o.json, "Summary as JSON");
 }
 
 }  // namespace trocar

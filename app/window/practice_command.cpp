@@ -1,12 +1,17 @@
 #include "app/window/practice_command.h"
 
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <memory>
-#include <ostream>
 #include <thread>
 #include <utility>
 
@@ -103,6 +108,63 @@ int practice_command(const PracticeOptions& options, std::ostream& out, std::ost
   if (desk.database() != ":memory:") require_no_replica(Database(desk.database(), OpenMode::kExisting));
   run_window(options, desk, interrupt, begin, err);
   return 0;
+}
+
+namespace {
+
+struct PracticeArguments {
+  PracticeOptions options;
+  double scale = 1;
+  std::int64_t seed = 0;
+};
+
+}  // namespace
+
+void add_practice(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<PracticeArguments>();
+  PracticeOptions& o = given->options;
+  CLI::App* practice = parent.add_subcommand("practice", "The trainee's window: see, feel, be judged, try again");
+  practice->add_option("exercise", o.desk.exercise, "Exercise id, number or FILE.toml: straight to its briefing");
+  practice->add_option("--level", o.desk.level, "Level: L1, L2, L3 or exam")->capture_default_str();
+  practice->add_option("--trainee", o.desk.trainee,
+                       "Trainee code, created when new (default: a guest, until signed in)");
+  practice
+      ->add_option("--input", o.desk.input,
+                   "What steers: auto (the first that moves), mouse, keyboard, gamepad, spacemouse or device")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "mouse", "keyboard", "gamepad", "spacemouse", "device"}));
+  practice->add_option("--organ", o.desk.organ, kOrganForms)->capture_default_str();
+  practice->add_option("--db", o.desk.database, "Database file, or :memory:, which keeps nothing")
+      ->check(writable_path());
+  CLI::Option* scale =
+      practice->add_option("--scale", given->scale, "Size of text and buttons, this time (default: as in the settings)")
+          ->check(CLI::Range(1.0, 2.0));
+  practice->add_option("--language", o.desk.language,
+                       "en, fr or de, this time (default: as in the settings, else of LANG)");
+  practice
+      ->add_option(
+          "--scope", o.desk.scope,
+          "Tip of the scope, degrees, this time: 0 or 30, turned by its light post (default: as in the settings)")
+      ->check(CLI::IsMember({"0", "30"}));
+  practice
+      ->add_option("--settings", o.desk.settings, "Settings file (default: trocar/settings.toml in $XDG_CONFIG_HOME)")
+      ->check(writable_path());
+  practice->add_option("--hand", o.desk.hand,
+                       "A scripted hand in place of a person: expert, novice, ... or SCRIPT.toml");
+  CLI::Option* seed = practice->add_option("--seed", given->seed,
+                                           "Every attempt draws its board from this (default: a fresh one each)");
+  practice->add_option("--width", o.width, "Of the window, px")->capture_default_str()->check(CLI::Range(200, 16384));
+  practice->add_option("--height", o.height, "Of the window, px")->capture_default_str()->check(CLI::Range(100, 16384));
+  practice->add_flag("--fullscreen", o.fullscreen, "Fill the screen (F11 turns it on and off)");
+  practice->add_option("--screens", o.screens, "No window: a PNG of every screen into this folder")
+      ->check(writable_path());
+  practice->add_flag("--timing", o.timing,
+                     "Say how soon the first frame and the debrief stood, and how many frames there were");
+  practice->callback([given, scale, seed, &chosen] {
+    if (scale->count() > 0) given->options.desk.scale = given->scale;
+    if (seed->count() > 0) given->options.desk.seed = given->seed;
+    chosen = [given] { return practice_command(given->options, std::cout, std::cerr); };
+  });
 }
 
 }  // namespace trocar

@@ -2,7 +2,7 @@
 // under 30 s and 2 GB. The label map is made in memory and not timed; reading and writing are not in these times.
 #include <benchmark/benchmark.h>
 
-#include "app/cli/bench/bench_compiler.h"
+#include "app/cli/machine/bench_compiler.h"
 #include "tissue/mesh/surface/nearest_surface.h"
 #include "tissue/organ/organ_compiler.h"
 

@@ -21,7 +21,8 @@ constexpr const char* kPlant = "haptics/device/(plant/[a-z_]+|simulated_daq)";
 const std::vector<Direction>& directions() {
   static const std::string plant_files = std::string("^") + kPlant + "\\.(h|cpp)$";
   static const std::string plant_sees =
-      std::string("^(haptics/quantities\\.h|haptics/device/(data_acquisition|simulated_world)\\.h|") + kPlant + "\\.h)$";
+      std::string("^(haptics/quantities\\.h|haptics/device/(data_acquisition|simulated_world)\\.h|") + kPlant +
+      "\\.h)$";
   static const std::vector<Direction> table{
       {"^haptics/(?!digest/)", "^haptics/(?!digest/)", "haptics depends on nobody"},
       {plant_files.c_str(), plant_sees.c_str(), "the plant shares nothing with the controller but the seam"},
@@ -69,8 +70,7 @@ const std::vector<Territory>& territories() {
       {"^sqlite3", "^trainees/.*\\.cpp$", "SQLite stays in sources of trainees"},
       {"^(GL|GLES[23]?|EGL|KHR|epoxy)/|^(ft2build|png)\\.h|^freetype", "^app/picture/.*\\.cpp$",
        "graphics libraries stay in sources of app/picture"},
-      {"^CLI/", "^app/(main|(cli|desk|organs|studies|window)/.*)\\.cpp$",
-       "the command line is read in sources of commands"},
+      {"^CLI/", "^app/.*\\.cpp$", "command line options stay in sources of app"},
       {"^toml", "^(scenarios|tissue|trainees/progress|app/window/(words|attempt))/.*\\.cpp$",
        "TOML is read in sources of scenarios, tissue, progress rules, words and settings"},
       {"^imgui|^GLFW/", "^app/window/.*\\.cpp$", "the window's libraries stay in sources of app/window"},

@@ -1,8 +1,14 @@
 #include "app/cli/attempts/catalogue_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <algorithm>
 #include <iomanip>
-#include <ostream>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -177,6 +183,15 @@ int exercises_command(const ExercisesOptions& options, std::ostream& out, std::o
   }
   if (options.json) out << json.dump(2) << '\n';
   return 0;
+}
+
+void add_exercises(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ExercisesOptions>();
+  ExercisesOptions& o = *given;
+  CLI::App* exercises = add_command(parent, "exercises", "The catalogue of exercises", chosen,
+                                    [given] { return exercises_command(*given, std::cout, std::cerr); });
+  exercises->add_flag("--json", o.json, "As JSON");
+  exercises->add_option("--explain", o.explain, "Explain a metric, an exercise or a sub-score");
 }
 
 }  // namespace trocar

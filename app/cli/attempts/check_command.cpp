@@ -1,8 +1,14 @@
 #include "app/cli/attempts/check_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <fstream>
 #include <iomanip>
-#include <ostream>
 
 #include <nlohmann/json.hpp>
 
@@ -114,6 +120,22 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
   if (options.json) out << json.dump(2) << '\n';
   if (!options.map.empty()) write_text(options.map, room_map_svg(checked.proofs, checked.scenes));
   return sound ? 0 : 2;
+}
+
+void add_check(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<CheckOptions>();
+  CheckOptions& o = *given;
+  CLI::App* check = add_command(parent, "check", "Prove that the device can do what exercises ask for", chosen,
+                                [given] { return check_command(*given, std::cout, std::cerr); });
+  check->add_option("exercise", o.subjects, "Exercise ids or files")->required();
+  check->add_option("--organ", o.organ, "Organ to lay the boards on")->capture_default_str();
+  check->add_option("--unseen", o.unseen, "Boards of graded runs to prove besides the practice boards 0 to 19")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  check->add_option("--map", o.map, "SVG of the force that the device can give over the board")->check(writable_path());
+  check->add_option("--inversion", o.inversion, "Folder for two pictures of one hand motion, direct and through a port")
+      ->check(writable_path());
+  check->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

@@ -1,7 +1,13 @@
 #include "app/cli/attempts/demo_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <optional>
-#include <ostream>
 
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/attempts/replay_film.h"
@@ -100,6 +106,26 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
   print_result(result, out);
   out << "picture  " << picture.string() << "\nscore    " << score.string() << "\nreport   " << report.string() << '\n';
   return exit_code(result);
+}
+
+namespace {
+struct DemoArguments {
+  DemoOptions demo;
+  bool headless = false;
+};
+}  // namespace
+
+void add_demo(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<DemoArguments>();
+  DemoOptions& o = given->demo;
+  CLI::App* demo = add_command(parent, "demo", "The whole chain once: picture, score, report", chosen,
+                               [given] { return demo_command(given->demo, std::cout, std::cerr); });
+  demo->add_flag("--headless", given->headless, "Without a window, as it always is; trocar practice is the window");
+  demo->add_option("--out", o.output, "Folder")->capture_default_str()->check(writable_path());
+  demo->add_option("--video", o.video, "Film of it too: FILE.mp4, .webm or .mkv, by ffmpeg")->check(writable_path());
+  demo->add_option("--exercise", o.exercise, "Identifier of the exercise, or its TOML file")->capture_default_str();
+  demo->add_option("--level", o.level, "L1, L2, L3 or exam")->capture_default_str();
+  demo->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
 }
 
 }  // namespace trocar

@@ -1,10 +1,17 @@
 #include "app/cli/attempts/picture_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/session/setup/scene.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <ostream>
 #include <string_view>
 
 #include "app/picture/gl/headless_context.h"
@@ -82,6 +89,23 @@ int picture_command(const PictureOptions& options, const std::filesystem::path& 
   file.commit();
   out << options.output.string() << "\n";
   return 0;
+}
+
+void add_picture(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<PictureOptions>();
+  PictureOptions& o = *given;
+  CLI::App* picture =
+      add_command(parent, "picture", "A picture of the show scene, as this machine draws it", chosen,
+                  [given] { return picture_command(*given, find_assets().assets, std::cout, std::cerr); });
+  picture->add_option("--out", o.output, "PNG file")->required()->check(writable_path());
+  picture->add_option("--scene", o.scene, "One of: " + listed(picture_scenes()))->capture_default_str();
+  picture->add_option("--preset", o.preset, "potato, soft, full, or auto: chosen by timing")->capture_default_str();
+  picture->add_option("--scope", o.scope, "Tip of the scope: 0 or 30 degrees")->capture_default_str();
+  picture->add_option("--post", o.post_deg, "Degrees by which the light post is turned")->capture_default_str();
+  picture->add_option("--width", o.width, "Pixels")->capture_default_str();
+  picture->add_option("--height", o.height, "Pixels")->capture_default_str();
+  picture->add_flag("--no-grain", o.no_grain, "Without sensor grain: smaller files");
+  picture->add_option("--seed", o.seed, "Of lumps and lobes")->capture_default_str()->check(seed_range());
 }
 
 }  // namespace trocar

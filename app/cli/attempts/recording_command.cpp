@@ -1,8 +1,15 @@
 #include "app/cli/attempts/recording_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/cli/records/export_command.h"
+
 #include <cmath>
 #include <optional>
-#include <ostream>
 
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/attempts/recording_subject.h"
@@ -102,6 +109,69 @@ int score_command(const RecordingOptions& options, std::ostream& out, std::ostre
     err << "trocar: equal to the stored score\n";
   }
   return exit_code(result);
+}
+
+namespace {
+
+void add_subject(CLI::App& command, RecordingOptions& o) {
+  command.add_option("recording", o.subject, "Recording file or attempt (UUID part, 'latest')")->required();
+  command.add_option("--db", o.database, "Database file");
+}
+
+struct ScoreArguments {
+  RecordingOptions recording;
+  std::string jigsaws_side;
+};
+
+int run_score(const ScoreArguments& given) {
+  if (given.jigsaws_side.empty()) return score_command(given.recording, std::cout, std::cerr);
+  return kinematics_command({given.recording.subject, given.jigsaws_side, given.recording.json}, std::cout);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<RecordingOptions>();
+  RecordingOptions& o = *given;
+  CLI::App* replay = add_command(parent, "replay", "Run the loop again from a recording", chosen,
+                                 [given] { return replay_command(*given, std::cout, std::cerr); });
+  replay->add_flag("--verify", o.verify, "Compare the state hash with the recorded one");
+  replay->add_option("--frames", o.frames, "Folder for PNG frames")->check(writable_path());
+  replay->add_option("--video", o.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(writable_path());
+  replay->add_option("--fps", o.fps, "Frames per second (default: 10, of a film 25)")->check(CLI::Range(0.1, 60.0));
+  replay->add_option("--speed", o.speed, "Of the film: 0.25 is slow motion, 4 four times as fast")
+      ->capture_default_str()
+      ->check(CLI::Range(0.05, 20.0));
+  replay->add_option("--width", o.width, "Of the pictures, px: from 320, with --beside from 720")
+      ->capture_default_str()
+      ->check(CLI::Range(320, 7680));
+  replay->add_option("--height", o.height, "Of the pictures, px: from 240, with --beside from 400")
+      ->capture_default_str()
+      ->check(CLI::Range(240, 4320));
+  replay
+      ->add_option("--preset", o.preset,
+                   "Of a film's pictures: potato, soft, full, or auto: full, and soft where no GPU draws")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "potato", "soft", "full"}));
+  replay->add_option("--beside", o.beside, "Second run in the same film: recording, attempt, or 'expert'")
+      ->check(file_name());
+  replay->add_option("--organ", o.organ, "Where the recorded organ lies now");
+  add_subject(*replay, o);
+}
+
+void add_score(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ScoreArguments>();
+  RecordingOptions& o = given->recording;
+  CLI::App* score =
+      add_command(parent, "score", "Grade again from the raw record", chosen, [given] { return run_score(*given); });
+  CLI::Option* rubric = score->add_option("--rubric", o.rubric, "Exercise file whose rubric to use instead");
+  score
+      ->add_option("--jigsaws", given->jigsaws_side,
+                   "Not a recording but kinematics of 76 columns: motion metrics of the right or left tool")
+      ->check(CLI::IsMember({"right", "left"}))
+      ->excludes(rubric);
+  score->add_flag("--json", o.json, "Result as JSON on stdout");
+  add_subject(*score, o);
 }
 
 }  // namespace trocar

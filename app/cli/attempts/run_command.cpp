@@ -1,10 +1,16 @@
 #include "app/cli/attempts/run_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <charconv>
 #include <cmath>
 #include <iomanip>
 #include <map>
-#include <ostream>
 
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/attempts/replay_film.h"
@@ -17,6 +23,7 @@
 #include "app/session/setup/device_files.h"
 #include "app/session/setup/patch_fit.h"
 #include "app/session/setup/true_plant.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
@@ -254,6 +261,57 @@ int run_command(const RunOptions& given, std::ostream& out, std::ostream& err) {
   else
     print_result(result, out);
   return exit_code(result);
+}
+
+void add_run(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<RunOptions>();
+  RunOptions& o = *given;
+  CLI::App* run = add_command(parent, "run", "One scripted, headless attempt (lockstep), recorded, graded and stored",
+                              chosen, [given] { return run_command(*given, std::cout, std::cerr); });
+  run->add_option("exercise", o.exercise, "Exercise id, number or FILE.toml")->required();
+  run->add_option("--hand", o.hand,
+                  "expert, intermediate, novice, clumsy, speed-runner, heavy-handed, idle, learner, or SCRIPT.toml")
+      ->required();
+  run->add_option("--attempt", o.attempt,
+                  "Attempt of the learner, from 1 (default: one more than the trainee has stored)")
+      ->check(CLI::Range(1, 100000));
+  run->add_option("--level", o.level,
+                  "Level: L1, L2, L3, or exam, where a trainee meets each board of an exercise once")
+      ->capture_default_str();
+  run->add_option("--seed", o.seed, "Seed of everything random")->capture_default_str();
+  run->add_option("--board", o.board,
+                  "Practice board 0-19, refused at level exam (default: an unseen one drawn by the seed)");
+  run->add_option("--trainee", o.trainee, "Trainee code, created when new")->capture_default_str();
+  run->add_option("--db", o.database, "Database file, or :memory:")->check(writable_path());
+  run->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
+  run->add_option("--record", o.record, "Recording file (default: beside the database)")->check(writable_path());
+  run->add_option("--frames", o.frames, "Folder for PNG frames")->check(writable_path());
+  run->add_option("--video", o.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(writable_path());
+  run->add_option("--fps", o.fps, "Frames per second of loop time (default: 10, of a film 25)")
+      ->check(CLI::Range(0.1, 50.0));
+  std::string backends;
+  for (const std::string& name : backend_names()) backends += (backends.empty() ? "" : ", ") + name;
+  run->add_option("--backend", o.backend, "Device that it runs on: " + backends)->capture_default_str();
+  run->add_option("--rate", o.rate_hz, "Loop rate, Hz")
+      ->capture_default_str()
+      ->check(CLI::IsMember({1000, 2000, 4000}));
+  run->add_option("--contact", o.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
+  run->add_option("--passivity", o.passivity_law,
+                  "Passivity law: budgeted, distributed, increment, cap, reference, thesis or off")
+      ->capture_default_str();
+  run->add_flag("--clamp", o.clamp, "Weaken contacts stiffer than K_max, what the device can display, to it");
+  run->add_option("--calibration", o.calibration,
+                  "Amplifier gains and offsets from device calibrate (default: nominal)")
+      ->check(file_name());
+  run->add_option("--device", o.device, "Weights and friction from device identify (default: nominal)")
+      ->check(file_name());
+  run->add_option("--inject", o.injections,
+                  "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, "
+                  "channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, "
+                  "drive-fault, over-temperature, hand-nan, hand-lets-go");
+  run->add_option("--plant", o.plant, "Plant file of the simulated device, instead of the seed's")->check(file_name());
+  run->add_flag("--realtime", o.realtime, "Live: threads and the clock instead of lockstep");
+  run->add_flag("--json", o.json, "Result as JSON on stdout");
 }
 
 }  // namespace trocar

@@ -1,12 +1,18 @@
 #include "app/cli/attempts/sweep_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <exception>
 #include <map>
 #include <mutex>
-#include <ostream>
 #include <system_error>
 #include <thread>
 
@@ -262,6 +268,22 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   if (options.json)
     out << nlohmann::ordered_json{{"seeds", options.seeds}, {"met", met}, {"cells", list}}.dump(2) << '\n';
   return met ? 0 : 1;
+}
+
+void add_sweep(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<SweepOptions>();
+  SweepOptions& o = *given;
+  CLI::App* sweep = add_command(parent, "sweep", "Many scripted attempts: does the score tell skill apart?", chosen,
+                                [given] { return sweep_command(*given, std::cout, std::cerr); });
+  sweep->add_option("exercise", o.exercises, "Exercise ids, numbers or files (default: all)");
+  sweep->add_option("--hand", o.hands, "Hands, separated by commas")->delimiter(',')->capture_default_str();
+  sweep->add_option("--level", o.levels, "Levels, separated by commas (default: all)")->delimiter(',');
+  sweep->add_option("--seeds", o.seeds, "First and last seed, A..B")->capture_default_str();
+  sweep->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
+  sweep->add_option("--jobs", o.jobs, "Attempts at once (0: one a processor)")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 256));
+  sweep->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

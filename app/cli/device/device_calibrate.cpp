@@ -1,8 +1,14 @@
 #include "app/cli/device/device_calibrate.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <cmath>
 #include <fstream>
-#include <ostream>
 #include <sstream>
 
 #include "app/cli/text_table.h"
@@ -85,6 +91,22 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
   err << "trocar: on the simulated device of " << true_plant(options.plant, options.seed).words
       << "; the calibrated model renders torque to " << error.maxCoeff() * 100 << " %\n";
   return error.maxCoeff() <= kRendered ? 0 : 1;
+}
+
+void add_device_calibrate(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<CalibrateOptions>();
+  CalibrateOptions& o = *given;
+  CLI::App* calibrate = add_command(parent, "calibrate", "Gain and offset of the amplifiers, found on a bench rig",
+                                    chosen, [given] { return device_calibrate(*given, std::cout, std::cerr); });
+  calibrate->add_option("--seed", o.seed, "Of the simulated device and the rig")
+      ->capture_default_str()
+      ->check(seed_range());
+  calibrate->add_option("--gain", o.gain, "Of the simulated amplifiers over nominal (the thesis': 5)")
+      ->capture_default_str();
+  calibrate->add_option("--out", o.out, "Calibration as JSON")->check(writable_path());
+  calibrate->add_option("--check", o.check, "A calibration file: how well does it render on this device?");
+  calibrate->add_option("--plant", o.plant, "Plant file of the device, instead of the seed's")->check(file_name());
+  calibrate->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

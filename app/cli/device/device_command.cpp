@@ -1,8 +1,14 @@
 #include "app/cli/device/device_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <array>
 #include <optional>
-#include <ostream>
 
 #include "app/cli/device/numeric_csv.h"
 #include "haptics/control/gravity.h"
@@ -128,6 +134,35 @@ int device_ik(const std::filesystem::path& input, const std::filesystem::path& o
   err << "trocar: " << out.rows.size() << " candidates for " << in.rows.size() << " poses into " << output.string()
       << '\n';
   return unsolved == 0 ? 0 : 2;
+}
+
+namespace {
+
+struct TableArguments {
+  std::filesystem::path in, out, device;
+};
+
+void add_tables(CLI::App& command, TableArguments& o) {
+  command.add_option("--csv", o.in, "Input table")->required();
+  command.add_option("--out", o.out, "Output table")->required()->check(writable_path());
+}
+
+}  // namespace
+
+void add_device_eval(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<TableArguments>();
+  CLI::App* eval = add_command(parent, "eval", "Pose, twist, torques, gravity, conditioning of joint angles", chosen,
+                               [given] { return device_eval(given->in, given->out, std::cerr, given->device); });
+  add_tables(*eval, *given);
+  eval->add_option("--device", given->device, "Device file with identified weights (default: nominal)")
+      ->check(file_name());
+}
+
+void add_device_ik(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<TableArguments>();
+  CLI::App* ik = add_command(parent, "ik", "Every inverse kinematic candidate of stylus poses", chosen,
+                             [given] { return device_ik(given->in, given->out, std::cerr); });
+  add_tables(*ik, *given);
 }
 
 }  // namespace trocar

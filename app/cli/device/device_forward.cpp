@@ -1,8 +1,14 @@
 #include "app/cli/device/device_forward.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <cmath>
 #include <iomanip>
-#include <ostream>
 
 #include <nlohmann/json.hpp>
 
@@ -102,6 +108,17 @@ int device_forward(const ForwardOptions& options, std::ostream& out, std::ostrea
   else
     print_table(angles_of(options.angle_deg), out);
   return 0;
+}
+
+void add_device_forward(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ForwardOptions>();
+  ForwardOptions& o = *given;
+  CLI::App* fk = add_command(parent, "fk", "All eight forward solutions of joint angles", chosen,
+                             [given] { return device_forward(*given, std::cout, std::cerr); });
+  fk->add_option("--deg", o.angle_deg, "th1,...,th6 in degrees")->delimiter(',');
+  fk->add_option("--csv", o.table_in, "Input table instead of --deg");
+  fk->add_option("--out", o.table_out, "Output table")->check(writable_path());
+  fk->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

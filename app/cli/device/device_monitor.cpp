@@ -1,5 +1,11 @@
 #include "app/cli/device/device_monitor.h"
 
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <unistd.h>
 
 #include <chrono>
@@ -7,7 +13,6 @@
 #include <iomanip>
 #include <memory>
 #include <numbers>
-#include <ostream>
 #include <sstream>
 #include <thread>
 
@@ -201,6 +206,26 @@ int device_monitor(const MonitorOptions& given, std::ostream& out, std::ostream&
   options.terminal = isatty(STDOUT_FILENO) != 0;
   options.interrupted = [&] { return interrupt.seen(); };
   return monitor(options, out, err);
+}
+
+void add_device_monitor(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<MonitorOptions>();
+  MonitorOptions& o = *given;
+  CLI::App* monitor = add_command(parent, "monitor", "Live values of the device loop, ten times a second", chosen,
+                                  [given] { return device_monitor(*given, std::cout, std::cerr); });
+  monitor->add_option("--seconds", o.seconds, "Until it ends by itself")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 86400.0));
+  monitor->add_flag("--lockstep", o.lockstep, "As fast as it goes instead of by the clock");
+  monitor->add_option("--calibration", o.calibration, "Amplifier gains and offsets from device calibrate")
+      ->check(file_name());
+  monitor->add_option("--device", o.device, "Weights and friction from device identify")->check(file_name());
+  monitor->add_flag("--json", o.json, "A JSON object a line");
+  monitor->add_option("--seed", o.seed, "Of the simulated device")->capture_default_str()->check(seed_range());
+  monitor->add_option("--rate", o.rate_hz, "Loop rate, Hz")
+      ->capture_default_str()
+      ->check(CLI::IsMember({1000, 2000, 4000}));
+  monitor->add_option("--inject", o.injections, "Device fault as in run, repeatable");
 }
 
 }  // namespace trocar

@@ -1,11 +1,17 @@
 #include "app/cli/device/device_plant.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <ostream>
 #include <sstream>
 
 #include "app/session/setup/true_plant.h"
@@ -106,6 +112,19 @@ int device_plant(const PlantOptionsGiven& options, std::ostream& out, std::ostre
   }
   report(plant, what, err);
   return 0;
+}
+
+void add_device_plant(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<PlantOptionsGiven>();
+  PlantOptionsGiven& o = *given;
+  CLI::App* plant = add_command(
+      parent, "plant", "The simulated device as a plant file, every value with its source; or the check of one", chosen,
+      [given] { return device_plant(*given, std::cout, std::cerr); });
+  plant->add_option("--seed", o.seed, "The device that this seed draws (default: the nominal one)")
+      ->check(seed_range());
+  plant->add_flag("--all", o.all, "Draw also what seeds leave nominal");
+  plant->add_option("--plant", o.plant, "Plant file: check it and print it complete")->check(file_name());
+  plant->add_option("--out", o.out, "File instead of standard output")->check(writable_path());
 }
 
 }  // namespace trocar

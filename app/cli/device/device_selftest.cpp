@@ -1,7 +1,13 @@
 #include "app/cli/device/device_selftest.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <algorithm>
-#include <ostream>
 
 #include <nlohmann/json.hpp>
 
@@ -50,6 +56,20 @@ int device_selftest(const SelfTestOptions& options, std::ostream& out, std::ostr
   err << "trocar: " << checks.size() << " checks of the simulated device, seed " << options.seed << ", " << failed
       << " failed\n";
   return failed == 0 ? 0 : kSelftestFault;
+}
+
+void add_device_selftest(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<SelfTestOptions>();
+  SelfTestOptions& o = *given;
+  CLI::App* selftest =
+      add_command(parent, "selftest", "What the back-end owes the loop, check by check; 4 when one fails", chosen,
+                  [given] { return device_selftest(*given, std::cout, std::cerr); });
+  selftest->add_flag("--json", o.json, "As JSON");
+  selftest->add_option("--seed", o.seed, "Of the simulated device")->capture_default_str()->check(seed_range());
+  selftest->add_option("--rate", o.rate_hz, "SYNC rate, Hz")
+      ->capture_default_str()
+      ->check(CLI::IsMember({1000, 2000, 4000}));
+  selftest->add_option("--inject", o.injections, "Device fault as in run, repeatable: see a check fail");
 }
 
 }  // namespace trocar

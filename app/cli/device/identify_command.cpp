@@ -1,8 +1,14 @@
 #include "app/cli/device/identify_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <fstream>
 #include <iomanip>
-#include <ostream>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -127,6 +133,28 @@ int identify_command(const IdentifyOptions& options, std::ostream& out, std::ost
     err << "trocar: device file " << options.out.string() << '\n';
   }
   return id.doubts.empty() ? 0 : 1;
+}
+
+void add_device_identify(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<IdentifyOptions>();
+  IdentifyOptions& o = *given;
+  CLI::App* identify =
+      add_command(parent, "identify", "Weights, inertias and friction of a simulated device from its motion", chosen,
+                  [given] { return identify_command(*given, std::cout, std::cerr); });
+  identify->add_option("--seed", o.seed, "Of the simulated device, poses and trajectories")
+      ->capture_default_str()
+      ->check(seed_range());
+  identify->add_option("--poses", o.poses, "Static poses")->capture_default_str()->check(CLI::Range(6, 1000));
+  identify->add_option("--span", o.span, "Share of workspace and amplitude that is used")
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 1.0));
+  identify->add_option("--payload", o.payload_kg, "Unknown mass on the stylus, kg")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.05));
+  identify->add_option("--plant", o.plant, "Plant file of the device, instead of the seed's")->check(file_name());
+  identify->add_flag("--quick", o.quick, "20 poses and one trajectory");
+  identify->add_option("--out", o.out, "Device file (TOML) to write")->check(writable_path());
+  identify->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

@@ -1,7 +1,13 @@
 #include "app/cli/records/cohort_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <algorithm>
-#include <ostream>
 
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
@@ -60,6 +66,16 @@ int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream
   table.print(out);
   if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";
   return 0;
+}
+
+void add_cohort(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<CohortOptions>();
+  CohortOptions& o = *given;
+  CLI::App* cohort = add_command(parent, "cohort", "Who tried what, how often, how well", chosen,
+                                 [given] { return cohort_command(*given, std::cout, std::cerr); });
+  cohort->add_option("--db", o.database, "Database file");
+  cohort->add_option("--trainee", o.trainee, "One trainee only");
+  cohort->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

@@ -1,7 +1,13 @@
 #include "app/cli/records/db_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <algorithm>
-#include <ostream>
 
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
@@ -67,6 +73,27 @@ int db_migrate(const DbOptions& options, std::ostream& out, std::ostream& err) {
     out << "schema " << migration.from << " -> " << migration.to << '\n';
   }
   return 0;
+}
+
+void add_db_upkeep(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<DbOptions>();
+  DbOptions& o = *given;
+  CLI::App* check =
+      add_command(parent, "check", "File, schema, references, hash chain, audit trail, what people wrote, recordings",
+                  chosen, [given] { return db_check(*given, std::cout, std::cerr); });
+  check->add_flag("--json", o.json, "As JSON");
+  CLI::App* backup = add_command(parent, "backup", "Consistent copy", chosen,
+                                 [given] { return db_backup(*given, std::cout, std::cerr); });
+  backup->add_option("-o,--out", o.output, "File (default: beside the database)")->check(writable_path());
+  CLI::App* migrate = add_command(parent, "migrate", "Bring to this program's schema", chosen,
+                                  [given] { return db_migrate(*given, std::cout, std::cerr); });
+  CLI::App* anchor = add_command(parent, "anchor", "Begin a new anchor file where the old one was lost", chosen,
+                                 [given] { return db_anchor(*given, std::cout, std::cerr); });
+  CLI::App* rubric = add_command(parent, "rubric", "Print the exercise file that attempts were graded by", chosen,
+                                 [given] { return db_rubric(*given, std::cout, std::cerr); });
+  rubric->add_option("sha256", o.rubric, "At least 4 digits of its sha256")->required();
+  for (CLI::App* command : {check, backup, migrate, anchor, rubric})
+    command->add_option("--db", o.database, "Database file");
 }
 
 }  // namespace trocar

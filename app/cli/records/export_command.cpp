@@ -1,11 +1,17 @@
 #include "app/cli/records/export_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
@@ -162,6 +168,26 @@ int kinematics_command(const KinematicsOptions& options, std::ostream& out) {
   }
   table.print(out);
   return 0;
+}
+
+void add_export(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<ExportOptions>();
+  ExportOptions& o = *given;
+  CLI::App* command =
+      add_command(parent, "export", "Attempts for other programs: tables, one document, xAPI statements, kinematics",
+                  chosen, [given] { return export_command(*given, std::cout, std::cerr); });
+  command->add_option("format", o.format, "csv, json, xapi or jigsaws")
+      ->required()
+      ->check(CLI::IsMember({"csv", "json", "xapi", "jigsaws"}));
+  command->add_option("--out", o.out, "Folder (csv, jigsaws) or file (json, xapi) that does not exist yet")->required();
+  command->add_option("--trainee", o.filter.trainee, "One trainee only");
+  command->add_option("--group", o.filter.group, "One group only");
+  command->add_option("--exercise", o.filter.exercise, "One exercise only, by its id");
+  command->add_option("--attempt", o.filter.attempt, "One attempt only: its number, a part of its UUID, or 'latest'");
+  command->add_option("--home-page", o.home_page,
+                      "xapi: URL of who runs the simulator, of which the trainees' UUIDs are accounts");
+  command->add_option("--cmi5", o.cmi5, "xapi: JSON with the data of a cmi5 launch, which the newest attempt answers");
+  command->add_option("--db", o.database, "Database file");
 }
 
 }  // namespace trocar

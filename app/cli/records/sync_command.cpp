@@ -1,8 +1,14 @@
 #include "app/cli/records/sync_command.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
 #include "app/cli/records/open_database.h"
 #include "haptics/input_error.h"
@@ -116,6 +122,54 @@ int sync_command(const SyncOptions& options, std::ostream& out, std::ostream& er
   }
   Database database = open_database(options.database, OpenMode::kExisting, err);
   return exchange(database, options, out, err);
+}
+
+namespace {
+
+void add_links(CLI::App& sync, Action& chosen) {
+  const auto given = std::make_shared<SyncLinkOptions>();
+  SyncLinkOptions& o = *given;
+  CLI::App* link = add_command(sync, "link", "Two trainees are one person, who practises at two stations", chosen,
+                               [given] { return sync_link(*given, std::cout, std::cerr); });
+  CLI::App* unlink = add_command(sync, "unlink", "Two who were linked are two people after all", chosen,
+                                 [given] { return sync_unlink(*given, std::cout, std::cerr); });
+  for (CLI::App* command : {link, unlink}) {
+    command->add_option("one", o.one, "CODE@STATION, or the trainee's UUID")->required();
+    command->add_option("other", o.other, "Likewise")->required();
+    command->add_option("--at", o.at, "postgresql://USER@HOST/DATABASE")->required();
+    command->add_option("--password-file", o.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
+    command->add_option("--author", o.author, "Who says so (default: $USER)");
+  }
+}
+
+}  // namespace
+
+void add_sync(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<SyncOptions>();
+  SyncOptions& o = *given;
+  CLI::App* sync = parent.add_subcommand(
+      "sync", "This station's record to a central PostgreSQL database, or all stations' into a file for a desk");
+  CLI::Option* to =
+      sync->add_option("--to", o.to,
+                       "postgresql://USER@HOST/DATABASE: push what is finished, fetch rules, and what was said of"
+                       " the people here");
+  CLI::Option* from = sync->add_option(
+      "--from", o.from, "postgresql://USER@HOST/DATABASE: fetch what all stations pushed into --db FILE");
+  to->excludes(from);
+  sync->add_option("--password-file", o.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
+  sync->add_option("--station", o.station, "Name of this station (default: the host's)")->needs(to);
+  sync->add_flag("--new-station", o.new_station,
+                 "Go on under a new UUID: an older copy was put back, or the database was copied")
+      ->needs(to);
+  sync->add_flag("--with-identity", o.with_identity, "Also codes, names and e-mail addresses")->needs(to);
+  sync->add_flag("--apply-erasures", o.apply_erasures, "Erase here too whom another station erased")->needs(to);
+  sync->add_option("--db", o.database, "Database file");
+  sync->add_flag("--json", o.json, "As JSON");
+  sync->add_flag("--recordings", o.recordings, "Also the recordings of attempts; motion tells who moved");
+  add_links(*sync, chosen);
+  sync->callback([given, sync, &chosen] {
+    if (sync->get_subcommands().empty()) chosen = [given] { return sync_command(*given, std::cout, std::cerr); };
+  });
 }
 
 }  // namespace trocar

@@ -1,6 +1,11 @@
 #include "app/cli/records/trainee_command.h"
 
-#include <ostream>
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
 
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
@@ -126,6 +131,27 @@ int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream&
   if (!lines.empty()) print_judgements(lines, out << '\n');
   if (!attempts.empty()) print_attempts(attempts, out << '\n');
   return 0;
+}
+
+void add_trainee_people(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<TraineeOptions>();
+  TraineeOptions& o = *given;
+  CLI::App* add = add_command(parent, "add", "Add a trainee", chosen,
+                              [given] { return trainee_add(*given, std::cout, std::cerr); });
+  CLI::App* list = add_command(parent, "list", "All trainees", chosen,
+                               [given] { return trainee_list(*given, std::cout, std::cerr); });
+  CLI::App* show = add_command(parent, "show", "One trainee's attempts", chosen,
+                               [given] { return trainee_show(*given, std::cout, std::cerr); });
+  CLI::App* edit = add_command(parent, "edit", "Name and e-mail address, which an erasure takes along", chosen,
+                               [given] { return trainee_edit(*given, std::cout, std::cerr); });
+  edit->add_option("--name", o.name, "Name; '' takes it away");
+  edit->add_option("--email", o.email, "E-mail address; '' takes it away");
+  for (CLI::App* command : {add, show, edit}) command->add_option("code", o.code, "Trainee code")->required();
+  show->add_option("--limit", o.limit, "Newest attempts listed, 0: all")->capture_default_str();
+  for (CLI::App* command : {add, list, show, edit}) {
+    command->add_option("--db", o.database, "Database file")->check(writable_path());
+    command->add_flag("--json", o.json, "As JSON");
+  }
 }
 
 }  // namespace trocar

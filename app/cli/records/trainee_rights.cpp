@@ -1,8 +1,14 @@
 #include "app/cli/records/trainee_rights.h"
 
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+
 #include <algorithm>
 #include <cstdlib>
-#include <ostream>
 #include <set>
 
 #include "app/cli/records/open_database.h"
@@ -184,6 +190,49 @@ int db_retention(const TraineeRightsOptions& options, std::ostream& out, std::os
   else
     table.print(out);
   return 0;
+}
+
+void add_trainee_rights(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<TraineeRightsOptions>();
+  TraineeRightsOptions& o = *given;
+  CLI::App* note = add_command(parent, "note", "A note that the trainee meets first next time", chosen,
+                               [given] { return trainee_note(*given, std::cout, std::cerr); });
+  CLI::App* all = add_command(parent, "export", "Everything kept of one person, as JSON", chosen,
+                              [given] { return trainee_export(*given, std::cout, std::cerr); });
+  CLI::App* consent =
+      add_command(parent, "consent", "What a trainee consented to; with a purpose: consent given or withdrawn", chosen,
+                  [given] { return trainee_consent(*given, std::cout, std::cerr); });
+  CLI::App* erase = add_command(parent, "erase", "Erase who a trainee is; attempts stay without a name", chosen,
+                                [given] { return trainee_erase(*given, std::cout, std::cerr); });
+  for (CLI::App* command : {note, all, consent, erase}) {
+    command->add_option("code", o.code, "Trainee code, or what an erasure printed: erased-... or the UUID")->required();
+    command->add_option("--db", o.database, "Database file");
+  }
+  note->add_option("text", o.text, "What it says, up to 4000 characters")->required();
+  note->add_option("--attempt", o.attempt,
+                   "Of one attempt: 'latest' of the trainee, its number, or a part of its UUID");
+  all->add_option("-o,--out", o.output, "File (default: standard output)")->check(writable_path());
+  CLI::Option* purpose = consent->add_option("--purpose", o.purpose, "What for: research, ...");
+  consent->add_option("--text", o.text, "The words that were agreed to or withdrawn")->needs(purpose);
+  consent->add_flag("--withdrawn", o.withdrawn, "Withdrawn, not given")->needs(purpose);
+  for (CLI::App* command : {note, consent, erase})
+    command->add_option("--author", o.author, "Who says so (default: $USER)");
+  erase->add_flag("--training", o.training, "Every number and recording of theirs, too");
+  erase->add_option("--reason", o.reason, "Kept with the erasure")->capture_default_str();
+  erase->add_flag("--yes", o.yes, "It cannot be undone");
+}
+
+void add_db_retention(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<TraineeRightsOptions>();
+  TraineeRightsOptions& o = *given;
+  CLI::App* retention = add_command(parent, "retention", "Trainees who have not been here for long", chosen,
+                                    [given] { return db_retention(*given, std::cout, std::cerr); });
+  retention->add_option("--days", o.days, "Since their newest attempt")->required()->check(CLI::Range(1, 36500));
+  CLI::Option* erase = retention->add_flag("--erase", o.erase, "Who they are, listed; erased with --yes");
+  retention->add_flag("--training", o.training, "Every number and recording of theirs, too")->needs(erase);
+  retention->add_option("--author", o.author, "Who says so (default: $USER)")->needs(erase);
+  retention->add_flag("--yes", o.yes, "Erase them; it cannot be undone")->needs(erase);
+  retention->add_option("--db", o.database, "Database file");
 }
 
 }  // namespace trocar

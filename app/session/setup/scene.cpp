@@ -110,7 +110,7 @@ constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises wi
 Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
   const Exercise& exercise = scene.setup.exercise;
   const Mat3 R_TI_rest = scene.loop.map.instrument_pose(home_pose()).R;
-  return kind_of(exercise).lay_out(exercise, scene.level, board, {scene.organ_T, behind_tip, R_TI_rest});
+  return kind_of(exercise).lay_out(exercise, scene.level, board, {*scene.organ_T, behind_tip, R_TI_rest});
 }
 
 /// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be

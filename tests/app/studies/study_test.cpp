@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/cli/bench/bench_contact.h"
+#include "app/cli/machine/bench_contact.h"
 #include "app/studies/contact/contact_law_study.h"
 #include "app/studies/study_command.h"
 #include "app/studies/study_files.h"

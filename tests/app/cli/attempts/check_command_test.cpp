@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "app/cli/attempts/sweep_command.h"
-#include "app/cli/doctor_command.h"
+#include "app/cli/machine/doctor_command.h"
 #include "haptics/input_error.h"
 #include "tests/app/cli/command_samples.h"
 #include "tests/tissue/support/temporary_folder.h"

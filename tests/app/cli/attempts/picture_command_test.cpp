@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "app/cli/attempts/picture_command.h"
-#include "app/cli/bench/bench_pictures.h"
+#include "app/cli/machine/bench_pictures.h"
 #include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 

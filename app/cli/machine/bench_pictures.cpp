@@ -1,4 +1,4 @@
-#include "app/cli/bench/bench_pictures.h"
+#include "app/cli/machine/bench_pictures.h"
 
 #include <time.h>
 

@@ -1,11 +1,11 @@
-#include "app/cli/bench/bench_compiler.h"
+#include "app/cli/machine/bench_compiler.h"
 
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/bench/bench_contact.h"
+#include "app/cli/machine/bench_contact.h"
 #include "tissue/imaging/labels/smooth_field.h"
 #include "tissue/mesh/surface/isosurface.h"
 #include "tissue/organ/organ_compiler.h"

@@ -1,11 +1,14 @@
-#include "app/cli/command_line_texts.h"
+#include "app/cli/command_texts.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
+#include <iostream>
 #include <iterator>
+#include <memory>
 #include <sstream>
 
+#include "app/cli/command.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/strict_toml.h"
 
@@ -167,10 +170,6 @@ std::string fish_script(const CLI::App& app) {
   return out.str();
 }
 
-}  // namespace
-
-namespace {
-
 std::string not_understood(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = nearest_word(word, known);
   return "not understood: " + word + (near.empty() ? "" : "; did you mean '" + near + "'?");
@@ -179,6 +178,30 @@ std::string not_understood(const std::string& word, const std::vector<std::strin
 std::vector<std::string> split(const std::string& words) {
   std::istringstream in(words);
   return {std::istream_iterator<std::string>(in), {}};
+}
+
+/// trocar(1) in roff, man macros.
+std::string manual_page(const CLI::App& app) {
+  std::ostringstream out;
+  out << ".TH TROCAR 1 \"\" \"trocar " TROCAR_VERSION "\" \"User Commands\"\n.SH NAME\ntrocar \\- "
+      << roff(app.get_description()) << "\n.SH SYNOPSIS\n.B trocar\n.I command\n.RI [ options ]\n.SH DESCRIPTION\n"
+      << "Results go to standard output, messages to standard error. This page lists every command and option; what "
+         "they\n"
+         "mean is told in the document commands.md that is installed with the program.\n.SH COMMANDS\n";
+  each_command(app, "", [&](const CLI::App& command, const std::string& path) {
+    if (path.empty()) return;
+    out << ".SS trocar " << roff(path) << '\n' << roff(command.get_description()) << ".\n";
+    write_options(command, out);
+  });
+  return out.str() + kAfterOptions;
+}
+
+/// Completion for "bash", "zsh" or "fish". @throws InputError for another shell.
+std::string completion_script(const CLI::App& app, const std::string& shell) {
+  if (shell == "bash") return bash_script(app);
+  if (shell == "zsh") return zsh_script(app);
+  if (shell == "fish") return fish_script(app);
+  throw InputError("completion " + shell + ": bash, zsh and fish are known");
 }
 
 }  // namespace
@@ -203,26 +226,28 @@ std::string misspelt(const CLI::App& app, const std::vector<std::string>& words)
   return "";
 }
 
-std::string manual_page(const CLI::App& app, const std::string& version) {
-  std::ostringstream out;
-  out << ".TH TROCAR 1 \"\" \"trocar " << version << "\" \"User Commands\"\n.SH NAME\ntrocar \\- "
-      << roff(app.get_description()) << "\n.SH SYNOPSIS\n.B trocar\n.I command\n.RI [ options ]\n.SH DESCRIPTION\n"
-      << "Results go to standard output, messages to standard error. This page lists every command and option; what "
-         "they\n"
-         "mean is told in the document commands.md that is installed with the program.\n.SH COMMANDS\n";
-  each_command(app, "", [&](const CLI::App& command, const std::string& path) {
-    if (path.empty()) return;
-    out << ".SS trocar " << roff(path) << '\n' << roff(command.get_description()) << ".\n";
-    write_options(command, out);
+void add_version(CLI::App& program, Action& chosen) {
+  add_command(program, "version", "Version of the program", chosen, [] {
+    std::cout << "trocar " TROCAR_VERSION "\n";
+    return 0;
   });
-  return out.str() + kAfterOptions;
 }
 
-std::string completion_script(const CLI::App& app, const std::string& shell) {
-  if (shell == "bash") return bash_script(app);
-  if (shell == "zsh") return zsh_script(app);
-  if (shell == "fish") return fish_script(app);
-  throw InputError("completion " + shell + ": bash, zsh and fish are known");
+void add_completion(CLI::App& program, Action& chosen) {
+  const auto shell = std::make_shared<std::string>();
+  CLI::App* completion =
+      add_command(program, "completion", "Shell completion, as it is installed", chosen, [&program, shell] {
+        std::cout << completion_script(program, *shell);
+        return 0;
+      });
+  completion->add_option("shell", *shell, "bash, zsh or fish")->required();
+}
+
+void add_manual(CLI::App& program, Action& chosen) {
+  add_command(program, "manual", "Manual page in roff, as it is installed", chosen, [&program] {
+    std::cout << manual_page(program);
+    return 0;
+  });
 }
 
 }  // namespace trocar

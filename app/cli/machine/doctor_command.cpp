@@ -1,4 +1,11 @@
-#include "app/cli/doctor_command.h"
+#include "app/cli/machine/doctor_command.h"
+
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -7,7 +14,6 @@
 #include <functional>
 #include <iomanip>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -140,6 +146,15 @@ int doctor_command(const DoctorOptions& options, std::ostream& out, std::ostream
     }
   }
   return sound ? 0 : 3;
+}
+
+void add_doctor(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<DoctorOptions>();
+  DoctorOptions& o = *given;
+  CLI::App* doctor = add_command(parent, "doctor", "What this machine offers, and what is missing", chosen,
+                                 [given] { return doctor_command(*given, std::cout, std::cerr); });
+  doctor->add_option("--db", o.database, "Database file");
+  doctor->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

@@ -1,4 +1,4 @@
-#include "app/cli/bench/bench_contact.h"
+#include "app/cli/machine/bench_contact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,19 +1,24 @@
-#include "app/cli/bench/bench_command.h"
+#include "app/cli/machine/bench_command.h"
+
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
 
 #include <algorithm>
 #include <chrono>
 #include <functional>
 #include <iomanip>
 #include <memory>
-#include <ostream>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "app/cli/attempts/run_command.h"
-#include "app/cli/bench/bench_compiler.h"
-#include "app/cli/bench/bench_contact.h"
-#include "app/cli/bench/bench_pictures.h"
+#include "app/cli/machine/bench_compiler.h"
+#include "app/cli/machine/bench_contact.h"
+#include "app/cli/machine/bench_pictures.h"
 #include "app/session/recording/recording_reader.h"
 #include "app/session/session.h"
 #include "app/window/practice/latency_bench.h"
@@ -259,6 +264,15 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
       << "recording                          " << std::setprecision(3)
       << json["recording_bytes_per_60_s"].get<double>() / 1048576 << " MiB a minute\n";
   return 0;
+}
+
+void add_bench(CLI::App& parent, Action& chosen) {
+  const auto given = std::make_shared<BenchOptions>();
+  BenchOptions& o = *given;
+  CLI::App* bench = add_command(parent, "bench", "What one tick, one picture and the organ compiler cost", chosen,
+                                [given] { return bench_command(*given, std::cout, std::cerr); });
+  bench->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
+  bench->add_flag("--json", o.json, "As JSON");
 }
 
 }  // namespace trocar

@@ -1,4 +1,4 @@
-#include "app/cli/bench/bench_compiler.h"
+#include "app/cli/machine/bench_compiler.h"
 
 #include <gtest/gtest.h>
 

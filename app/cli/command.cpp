@@ -1,0 +1,34 @@
+#include "app/cli/command.h"
+
+#include <CLI/CLI.hpp>
+#include <utility>
+
+#include "app/session/setup/typed_path.h"
+
+namespace trocar {
+
+CLI::App* add_command(CLI::App& parent, const char* name, const char* help, Action& chosen, Action action) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->callback([&chosen, action = std::move(action)] { chosen = action; });
+  return command;
+}
+
+CLI::App* add_group(CLI::App& parent, const char* name, const char* help) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->require_subcommand(1);
+  return command;
+}
+
+CLI::Validator writable_path() {
+  return CLI::Validator([](std::string& path) { return typed_path_fault(path); }, "PATH");
+}
+
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](std::string& file) { return file.empty() ? std::string("is empty: a file is asked for") : std::string(); },
+      "FILE");
+}
+
+CLI::Validator seed_range() { return CLI::Range(0.0, 9e18, "SEED"); }
+
+}  // namespace trocar
