@@ -55,7 +55,7 @@ int fail(const std::exception& error, int code) {
 
 /// @return exit code: 0 done, 1 below the pass mark, 2 bad usage or input, 3 environment, 4 device fault.
 int run_program(int argc, char** argv) {
-  Action chosen;
+  CommandAction chosen;
   CLI::App program{"Trocar: laparoscopic surgery training simulator round a 6-DOF haptic device"};
   program.require_subcommand(1);
   program.set_version_flag("--version", "trocar " TROCAR_VERSION, "Version of the program");

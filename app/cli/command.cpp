@@ -7,7 +7,8 @@
 
 namespace trocar {
 
-CLI::App* add_command(CLI::App& parent, const char* name, const char* help, Action& chosen, Action action) {
+CLI::App* add_command(CLI::App& parent, const char* name, const char* help, CommandAction& chosen,
+                      CommandAction action) {
   CLI::App* command = parent.add_subcommand(name, help);
   command->callback([&chosen, action = std::move(action)] { chosen = action; });
   return command;

@@ -14,10 +14,11 @@ class Validator;
 namespace trocar {
 
 /// What a command does, its options read. @return exit code: docs/commands.md
-using Action = std::function<int()>;
+using CommandAction = std::function<int()>;
 
 /// Adds a subcommand of `parent`; when it is the one given, `action` becomes `chosen`. `chosen` outlives the program.
-CLI::App* add_command(CLI::App& parent, const char* name, const char* help, Action& chosen, Action action);
+CLI::App* add_command(CLI::App& parent, const char* name, const char* help, CommandAction& chosen,
+                      CommandAction action);
 
 /// Adds a subcommand that asks for one of its own.
 CLI::App* add_group(CLI::App& parent, const char* name, const char* help);
@@ -33,7 +34,7 @@ constexpr const char* kOrganForms =
     "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ";
 
 /// Adds one or more subcommands of `parent`.
-using AddCommand = void(CLI::App& parent, Action& chosen);
+using AddCommand = void(CLI::App& parent, CommandAction& chosen);
 
 AddCommand add_practice;
 AddCommand add_run;

@@ -226,14 +226,14 @@ std::string misspelt(const CLI::App& app, const std::vector<std::string>& words)
   return "";
 }
 
-void add_version(CLI::App& program, Action& chosen) {
+void add_version(CLI::App& program, CommandAction& chosen) {
   add_command(program, "version", "Version of the program", chosen, [] {
     std::cout << "trocar " TROCAR_VERSION "\n";
     return 0;
   });
 }
 
-void add_completion(CLI::App& program, Action& chosen) {
+void add_completion(CLI::App& program, CommandAction& chosen) {
   const auto shell = std::make_shared<std::string>();
   CLI::App* completion =
       add_command(program, "completion", "Shell completion, as it is installed", chosen, [&program, shell] {
@@ -243,7 +243,7 @@ void add_completion(CLI::App& program, Action& chosen) {
   completion->add_option("shell", *shell, "bash, zsh or fish")->required();
 }
 
-void add_manual(CLI::App& program, Action& chosen) {
+void add_manual(CLI::App& program, CommandAction& chosen) {
   add_command(program, "manual", "Manual page in roff, as it is installed", chosen, [&program] {
     std::cout << manual_page(program);
     return 0;

@@ -81,7 +81,7 @@ int review_report(const ReviewReportOptions& options, std::ostream& out, std::os
   return 0;
 }
 
-void add_review_report(CLI::App& parent, Action& chosen) {
+void add_review_report(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ReviewReportOptions>();
   ReviewReportOptions& o = *given;
   CLI::App* report =

@@ -278,7 +278,7 @@ int review_account_list(const ReviewAccountOptions& options, std::ostream& out, 
   return 0;
 }
 
-void add_review_serve(CLI::App& parent, Action& chosen) {
+void add_review_serve(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ReviewServeOptions>();
   ReviewServeOptions& o = *given;
   CLI::App* serve = add_command(parent, "serve", "The desk as web pages, until Ctrl-C", chosen,
@@ -302,11 +302,11 @@ void add_review_serve(CLI::App& parent, Action& chosen) {
   serve->add_flag("--recordings", o.recordings, "Fetch the recordings that stations pushed, too")->needs(from);
 }
 
-void add_review_account(CLI::App& parent, Action& chosen) {
+void add_review_account(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ReviewAccountOptions>();
   ReviewAccountOptions& o = *given;
   CLI::App* account = add_group(parent, "account", "Who may sign in at the desk");
-  const auto add = [&](const char* name, const char* help, Action action) {
+  const auto add = [&](const char* name, const char* help, CommandAction action) {
     CLI::App* command = add_command(*account, name, help, chosen, std::move(action));
     command->add_option("--db", o.database, "Database file");
     return command;
@@ -329,7 +329,7 @@ void add_review_account(CLI::App& parent, Action& chosen) {
   list->add_flag("--json", o.json, "As JSON");
 }
 
-void add_review_demo(CLI::App& parent, Action& chosen) {
+void add_review_demo(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ReviewDemoOptions>();
   ReviewDemoOptions& o = *given;
   CLI::App* demo = add_command(

@@ -102,7 +102,7 @@ void add_surface_options(ImportArguments& c, CLI::App& import) {
 
 }  // namespace
 
-void add_organ_import(CLI::App& parent, Action& chosen) {
+void add_organ_import(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ImportArguments>();
   ImportArguments& c = *given;
   CLI::App* import =

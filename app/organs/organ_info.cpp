@@ -88,7 +88,7 @@ struct OrganInfoArguments {
 };
 }  // namespace
 
-void add_organ_info(CLI::App& parent, Action& chosen) {
+void add_organ_info(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<OrganInfoArguments>();
   OrganInfoOptions& o = given->options;
   CLI::App* info = add_command(parent, "info", "What an organ is and how good its surface", chosen, [given] {

@@ -196,7 +196,7 @@ int organ_inspect(const OrganInspectOptions& options, std::ostream& out, std::os
   return 0;
 }
 
-void add_organ_inspect(CLI::App& parent, Action& chosen) {
+void add_organ_inspect(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<OrganInspectOptions>();
   OrganInspectOptions& o = *given;
   CLI::App* inspect =

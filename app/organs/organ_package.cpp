@@ -103,7 +103,7 @@ int organ_package(const OrganPackageOptions& options, std::ostream& out, std::os
   return 0;
 }
 
-void add_organ_package(CLI::App& parent, Action& chosen) {
+void add_organ_package(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<OrganPackageOptions>();
   OrganPackageOptions& o = *given;
   CLI::App* package =

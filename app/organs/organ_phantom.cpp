@@ -158,7 +158,7 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
   return 0;
 }
 
-void add_organ_phantom(CLI::App& parent, Action& chosen) {
+void add_organ_phantom(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<OrganPhantomOptions>();
   OrganPhantomOptions& o = *given;
   CLI::App* phantom =

@@ -45,7 +45,7 @@ struct OrganRenderArguments {
 };
 }  // namespace
 
-void add_organ_render(CLI::App& parent, Action& chosen) {
+void add_organ_render(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<OrganRenderArguments>();
   OrganRenderOptions& o = given->options;
   CLI::App* render = add_command(parent, "render", "A picture of an organ or a scene", chosen, [given] {

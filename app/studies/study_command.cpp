@@ -97,7 +97,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   return met ? 0 : 1;
 }
 
-void add_study(CLI::App& parent, Action& chosen) {
+void add_study(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<StudyOptions>();
   StudyOptions& o = *given;
   std::string studies;

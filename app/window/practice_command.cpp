@@ -120,7 +120,7 @@ struct PracticeArguments {
 
 }  // namespace
 
-void add_practice(CLI::App& parent, Action& chosen) {
+void add_practice(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<PracticeArguments>();
   PracticeOptions& o = given->options;
   CLI::App* practice = parent.add_subcommand("practice", "The trainee's window: see, feel, be judged, try again");

@@ -185,7 +185,7 @@ int exercises_command(const ExercisesOptions& options, std::ostream& out, std::o
   return 0;
 }
 
-void add_exercises(CLI::App& parent, Action& chosen) {
+void add_exercises(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ExercisesOptions>();
   ExercisesOptions& o = *given;
   CLI::App* exercises = add_command(parent, "exercises", "The catalogue of exercises", chosen,

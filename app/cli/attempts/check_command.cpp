@@ -122,7 +122,7 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
   return sound ? 0 : 2;
 }
 
-void add_check(CLI::App& parent, Action& chosen) {
+void add_check(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<CheckOptions>();
   CheckOptions& o = *given;
   CLI::App* check = add_command(parent, "check", "Prove that the device can do what exercises ask for", chosen,

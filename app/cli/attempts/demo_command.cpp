@@ -33,8 +33,7 @@ bool telling_moment(const SessionView& view) {
 /// Takes the one picture of the demo as soon as the moment has come.
 class Photographer {
  public:
-  Photographer(const Scene& scene, const AssetRoots& assets, const std::string& trainee)
-      : painter_(scene, assets, trainee) {}
+  Photographer(const AssetRoots& assets, const std::string& trainee) : painter_(assets, trainee) {}
   void observe(const SessionView& view) {
     if (!picture_ && telling_moment(view)) picture_ = painter_.paint(view);
   }
@@ -87,7 +86,7 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
   run.database = options.output / "demo.db";
   const AttemptSetup setup = attempt_setup(run, assets);
   const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
-  Photographer photographer(scene, assets, run.trainee);
+  Photographer photographer(assets, run.trainee);
   const AttemptResult result =
       run_attempt(run, scene, assets, err, [&](const SessionView& view) { photographer.observe(view); });
 
@@ -115,7 +114,7 @@ struct DemoArguments {
 };
 }  // namespace
 
-void add_demo(CLI::App& parent, Action& chosen) {
+void add_demo(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<DemoArguments>();
   DemoOptions& o = given->demo;
   CLI::App* demo = add_command(parent, "demo", "The whole chain once: picture, score, report", chosen,

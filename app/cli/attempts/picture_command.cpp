@@ -91,7 +91,7 @@ int picture_command(const PictureOptions& options, const std::filesystem::path& 
   return 0;
 }
 
-void add_picture(CLI::App& parent, Action& chosen) {
+void add_picture(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<PictureOptions>();
   PictureOptions& o = *given;
   CLI::App* picture =

@@ -130,7 +130,7 @@ int run_score(const ScoreArguments& given) {
 
 }  // namespace
 
-void add_replay(CLI::App& parent, Action& chosen) {
+void add_replay(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<RecordingOptions>();
   RecordingOptions& o = *given;
   CLI::App* replay = add_command(parent, "replay", "Run the loop again from a recording", chosen,
@@ -159,7 +159,7 @@ void add_replay(CLI::App& parent, Action& chosen) {
   add_subject(*replay, o);
 }
 
-void add_score(CLI::App& parent, Action& chosen) {
+void add_score(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ScoreArguments>();
   RecordingOptions& o = given->recording;
   CLI::App* score =

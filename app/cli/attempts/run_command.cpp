@@ -263,7 +263,7 @@ int run_command(const RunOptions& given, std::ostream& out, std::ostream& err) {
   return exit_code(result);
 }
 
-void add_run(CLI::App& parent, Action& chosen) {
+void add_run(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<RunOptions>();
   RunOptions& o = *given;
   CLI::App* run = add_command(parent, "run", "One scripted, headless attempt (lockstep), recorded, graded and stored",

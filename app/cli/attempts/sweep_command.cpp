@@ -270,7 +270,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   return met ? 0 : 1;
 }
 
-void add_sweep(CLI::App& parent, Action& chosen) {
+void add_sweep(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<SweepOptions>();
   SweepOptions& o = *given;
   CLI::App* sweep = add_command(parent, "sweep", "Many scripted attempts: does the score tell skill apart?", chosen,

@@ -93,7 +93,7 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
   return error.maxCoeff() <= kRendered ? 0 : 1;
 }
 
-void add_device_calibrate(CLI::App& parent, Action& chosen) {
+void add_device_calibrate(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<CalibrateOptions>();
   CalibrateOptions& o = *given;
   CLI::App* calibrate = add_command(parent, "calibrate", "Gain and offset of the amplifiers, found on a bench rig",

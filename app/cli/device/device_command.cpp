@@ -149,7 +149,7 @@ void add_tables(CLI::App& command, TableArguments& o) {
 
 }  // namespace
 
-void add_device_eval(CLI::App& parent, Action& chosen) {
+void add_device_eval(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<TableArguments>();
   CLI::App* eval = add_command(parent, "eval", "Pose, twist, torques, gravity, conditioning of joint angles", chosen,
                                [given] { return device_eval(given->in, given->out, std::cerr, given->device); });
@@ -158,7 +158,7 @@ void add_device_eval(CLI::App& parent, Action& chosen) {
       ->check(file_name());
 }
 
-void add_device_ik(CLI::App& parent, Action& chosen) {
+void add_device_ik(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<TableArguments>();
   CLI::App* ik = add_command(parent, "ik", "Every inverse kinematic candidate of stylus poses", chosen,
                              [given] { return device_ik(given->in, given->out, std::cerr); });

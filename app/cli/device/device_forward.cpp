@@ -110,7 +110,7 @@ int device_forward(const ForwardOptions& options, std::ostream& out, std::ostrea
   return 0;
 }
 
-void add_device_forward(CLI::App& parent, Action& chosen) {
+void add_device_forward(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ForwardOptions>();
   ForwardOptions& o = *given;
   CLI::App* fk = add_command(parent, "fk", "All eight forward solutions of joint angles", chosen,

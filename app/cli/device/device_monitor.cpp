@@ -208,7 +208,7 @@ int device_monitor(const MonitorOptions& given, std::ostream& out, std::ostream&
   return monitor(options, out, err);
 }
 
-void add_device_monitor(CLI::App& parent, Action& chosen) {
+void add_device_monitor(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<MonitorOptions>();
   MonitorOptions& o = *given;
   CLI::App* monitor = add_command(parent, "monitor", "Live values of the device loop, ten times a second", chosen,

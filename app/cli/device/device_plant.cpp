@@ -114,7 +114,7 @@ int device_plant(const PlantOptionsGiven& options, std::ostream& out, std::ostre
   return 0;
 }
 
-void add_device_plant(CLI::App& parent, Action& chosen) {
+void add_device_plant(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<PlantOptionsGiven>();
   PlantOptionsGiven& o = *given;
   CLI::App* plant = add_command(

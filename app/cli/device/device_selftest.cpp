@@ -58,7 +58,7 @@ int device_selftest(const SelfTestOptions& options, std::ostream& out, std::ostr
   return failed == 0 ? 0 : kSelftestFault;
 }
 
-void add_device_selftest(CLI::App& parent, Action& chosen) {
+void add_device_selftest(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<SelfTestOptions>();
   SelfTestOptions& o = *given;
   CLI::App* selftest =

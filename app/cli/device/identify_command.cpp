@@ -135,7 +135,7 @@ int identify_command(const IdentifyOptions& options, std::ostream& out, std::ost
   return id.doubts.empty() ? 0 : 1;
 }
 
-void add_device_identify(CLI::App& parent, Action& chosen) {
+void add_device_identify(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<IdentifyOptions>();
   IdentifyOptions& o = *given;
   CLI::App* identify =

@@ -266,7 +266,7 @@ int bench_command(const BenchOptions& options, std::ostream& out, std::ostream& 
   return 0;
 }
 
-void add_bench(CLI::App& parent, Action& chosen) {
+void add_bench(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<BenchOptions>();
   BenchOptions& o = *given;
   CLI::App* bench = add_command(parent, "bench", "What one tick, one picture and the organ compiler cost", chosen,

@@ -148,7 +148,7 @@ int doctor_command(const DoctorOptions& options, std::ostream& out, std::ostream
   return sound ? 0 : 3;
 }
 
-void add_doctor(CLI::App& parent, Action& chosen) {
+void add_doctor(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<DoctorOptions>();
   DoctorOptions& o = *given;
   CLI::App* doctor = add_command(parent, "doctor", "What this machine offers, and what is missing", chosen,

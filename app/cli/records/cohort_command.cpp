@@ -68,7 +68,7 @@ int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream
   return 0;
 }
 
-void add_cohort(CLI::App& parent, Action& chosen) {
+void add_cohort(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<CohortOptions>();
   CohortOptions& o = *given;
   CLI::App* cohort = add_command(parent, "cohort", "Who tried what, how often, how well", chosen,

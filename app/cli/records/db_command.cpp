@@ -75,7 +75,7 @@ int db_migrate(const DbOptions& options, std::ostream& out, std::ostream& err) {
   return 0;
 }
 
-void add_db_upkeep(CLI::App& parent, Action& chosen) {
+void add_db_upkeep(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<DbOptions>();
   DbOptions& o = *given;
   CLI::App* check =

@@ -170,7 +170,7 @@ int kinematics_command(const KinematicsOptions& options, std::ostream& out) {
   return 0;
 }
 
-void add_export(CLI::App& parent, Action& chosen) {
+void add_export(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ExportOptions>();
   ExportOptions& o = *given;
   CLI::App* command =

@@ -126,7 +126,7 @@ int sync_command(const SyncOptions& options, std::ostream& out, std::ostream& er
 
 namespace {
 
-void add_links(CLI::App& sync, Action& chosen) {
+void add_links(CLI::App& sync, CommandAction& chosen) {
   const auto given = std::make_shared<SyncLinkOptions>();
   SyncLinkOptions& o = *given;
   CLI::App* link = add_command(sync, "link", "Two trainees are one person, who practises at two stations", chosen,
@@ -144,7 +144,7 @@ void add_links(CLI::App& sync, Action& chosen) {
 
 }  // namespace
 
-void add_sync(CLI::App& parent, Action& chosen) {
+void add_sync(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<SyncOptions>();
   SyncOptions& o = *given;
   CLI::App* sync = parent.add_subcommand(

@@ -133,7 +133,7 @@ int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream&
   return 0;
 }
 
-void add_trainee_people(CLI::App& parent, Action& chosen) {
+void add_trainee_people(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<TraineeOptions>();
   TraineeOptions& o = *given;
   CLI::App* add = add_command(parent, "add", "Add a trainee", chosen,

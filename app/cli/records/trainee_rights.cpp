@@ -192,7 +192,7 @@ int db_retention(const TraineeRightsOptions& options, std::ostream& out, std::os
   return 0;
 }
 
-void add_trainee_rights(CLI::App& parent, Action& chosen) {
+void add_trainee_rights(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<TraineeRightsOptions>();
   TraineeRightsOptions& o = *given;
   CLI::App* note = add_command(parent, "note", "A note that the trainee meets first next time", chosen,
@@ -222,7 +222,7 @@ void add_trainee_rights(CLI::App& parent, Action& chosen) {
   erase->add_flag("--yes", o.yes, "It cannot be undone");
 }
 
-void add_db_retention(CLI::App& parent, Action& chosen) {
+void add_db_retention(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<TraineeRightsOptions>();
   TraineeRightsOptions& o = *given;
   CLI::App* retention = add_command(parent, "retention", "Trainees who have not been here for long", chosen,
