@@ -8,8 +8,11 @@ namespace trocar::make_backend_test {
 namespace {
 
 TEST(MakeBackend, TheSimulatedOneHasAWorldASensorAndNoClockOfItsOwn) {
-  const Backend backend =
-      make_backend("simulated", {.simulated = {.rate_hz = 2000}, .sensor = {.rate_hz = 50, .lag_s = 0.1}});
+  BackendOptions options;
+  options.simulated.rate_hz = 2000;
+  options.sensor.rate_hz = 50;
+  options.sensor.lag_s = 0.1;
+  const Backend backend = make_backend("simulated", options);
   EXPECT_STREQ(backend.daq->capabilities().name, "simulated");
   EXPECT_EQ(backend.daq->capabilities().rate_hz, 2000);
   EXPECT_EQ(backend.sensor->config().rate_hz, 50);
