@@ -1,44 +1,33 @@
 // Holes found by their rims, filled with triangles of the size around them, smooth across the rim.
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <iterator>
 
 #include "haptics/input_error.h"
-#include "tissue/mesh/surface/plain_surface.h"
+#include "tissue/mesh/surface/cgal_mesh.h"
 #include "tissue/mesh/surface/rescue.h"
 
 namespace trocar {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
+using Mesh = SurfaceMesh;
 using Rim = Mesh::Halfedge_index;
 
 Mesh oriented_mesh(const TriangleSurface& surface, const std::string& file) {
-  std::vector<Point> points;
-  for (const Vec3& p : surface.vertices) points.emplace_back(p.x(), p.y(), p.z());
-  std::vector<std::vector<std::size_t>> soup;
-  for (const auto& [a, b, c] : surface.triangles)
-    soup.push_back({static_cast<std::size_t>(a), static_cast<std::size_t>(b), static_cast<std::size_t>(c)});
-  pmp::orient_polygon_soup(points, soup);  // vertices where rims touch become several
-  if (!pmp::is_polygon_soup_a_polygon_mesh(soup))
+  SurfaceSoup soup(surface);
+  pmp::orient_polygon_soup(soup.points, soup.faces);  // vertices where rims touch become several
+  if (!pmp::is_polygon_soup_a_polygon_mesh(soup.faces))
     throw InputError(file + ": its holes cannot be followed: wrap it instead");
   Mesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(points, soup, mesh);
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.faces, mesh);
   return mesh;
 }
 
-Vec3 point_of(const Mesh& mesh, Mesh::Vertex_index vertex) {
-  const Point& p = mesh.point(vertex);
-  return {p.x(), p.y(), p.z()};
-}
+Vec3 point_of(const Mesh& mesh, Mesh::Vertex_index vertex) { return to_vec(mesh.point(vertex)); }
 
 FilledHole measured(const Mesh& mesh, Rim rim) {
   FilledHole hole;

@@ -1,7 +1,5 @@
 #include "tissue/mesh/surface/remesh.h"
 
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
@@ -9,14 +7,13 @@
 #include <optional>
 #include <stdexcept>
 
+#include "tissue/mesh/surface/cgal_mesh.h"
 #include "tissue/mesh/surface/nearest_surface.h"
 
 namespace trocar {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point = Kernel::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
+using Mesh = SurfaceMesh;
 using Vertex = Mesh::Vertex_index;
 using Halfedge = Mesh::Halfedge_index;
 
@@ -24,35 +21,6 @@ constexpr int kCollapsePasses = 12;
 constexpr double kSplitAbove = 4.0 / 3, kCollapseBelow = 4.0 / 5;
 constexpr double kLeastAgreement = 0.5;  ///< cosine that a triangle's normal keeps with its old one
 constexpr double kSpikeCosine = 0.95;    ///< a new corner sharper than this (18 degrees) is not made by a collapse
-
-Vec3 to_vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
-Point to_point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
-Mesh to_cgal(const TriangleSurface& surface) {
-  Mesh mesh;
-  const auto count = static_cast<Mesh::size_type>(surface.triangles.size());
-  mesh.reserve(static_cast<Mesh::size_type>(surface.vertices.size()), count * 3 / 2, count);
-  for (const Vec3& p : surface.vertices) mesh.add_vertex(to_point(p));
-  const auto vertex = [](std::int32_t index) { return Vertex(static_cast<Mesh::size_type>(index)); };
-  for (const auto& [a, b, c] : surface.triangles)
-    if (mesh.add_face(vertex(a), vertex(b), vertex(c)) == Mesh::null_face())
-      throw std::invalid_argument("remeshed: the surface is not an oriented manifold");
-  return mesh;
-}
-
-TriangleSurface from_cgal(Mesh& mesh) {
-  mesh.collect_garbage();
-  TriangleSurface surface;
-  for (const auto vertex : mesh.vertices()) surface.vertices.push_back(to_vec(mesh.point(vertex)));
-  for (const auto face : mesh.faces()) {
-    std::array<std::int32_t, 3> triangle{};
-    std::size_t n = 0;
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
-      triangle.at(n++) = static_cast<std::int32_t>(vertex.idx());
-    surface.triangles.push_back(triangle);
-  }
-  return surface;
-}
 
 /// The surface that is projected onto, with its sizes.
 class Source {
@@ -92,7 +60,7 @@ class Remesher {
  public:
   Remesher(const TriangleSurface& surface, const std::vector<double>& sizes)
       : source_(surface, sizes),
-        mesh_(to_cgal(surface)),
+        mesh_(half_edge_mesh(surface)),
         size_(mesh_.add_property_map<Vertex, double>("v:size", 0).first),
         stamped_(mesh_.add_property_map<Vertex, std::uint32_t>("v:stamped", 0).first) {
     for (const auto v : mesh_.vertices()) size_[v] = sizes[v.idx()];
@@ -110,7 +78,10 @@ class Remesher {
     relax();
   }
   std::size_t triangles() const { return mesh_.number_of_faces(); }
-  TriangleSurface result() { return from_cgal(mesh_); }
+  TriangleSurface result() {
+    mesh_.collect_garbage();
+    return plain_surface(mesh_);
+  }
 
  private:
   Vec3 at(Vertex v) const { return to_vec(mesh_.point(v)); }

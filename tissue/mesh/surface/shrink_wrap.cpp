@@ -2,29 +2,22 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "haptics/input_error.h"
-#include "tissue/mesh/surface/plain_surface.h"
+#include "tissue/mesh/surface/cgal_mesh.h"
+#include "tissue/mesh/surface/distance_samples.h"
 #include "tissue/mesh/surface/rescue.h"
 
 namespace trocar {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Tree =
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
-
-Point to_point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-Vec3 to_vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
+using Triangles = std::vector<SurfaceKernel::Triangle_3>;
+using TriangleTree = CGAL::AABB_tree<
+    CGAL::AABB_traits<SurfaceKernel, CGAL::AABB_triangle_primitive<SurfaceKernel, Triangles::const_iterator>>>;
 
 const Vec3& corner(const TriangleSurface& surface, const std::array<std::int32_t, 3>& triangle, std::size_t n) {
   return surface.vertices[static_cast<std::size_t>(triangle[n])];
@@ -33,54 +26,37 @@ const Vec3& corner(const TriangleSurface& surface, const std::array<std::int32_t
 Triangles single_triangles(const TriangleSurface& surface) {
   Triangles result;
   for (const auto& triangle : surface.triangles) {
-    const Kernel::Triangle_3 single(to_point(corner(surface, triangle, 0)), to_point(corner(surface, triangle, 1)),
-                                    to_point(corner(surface, triangle, 2)));
+    const SurfaceKernel::Triangle_3 single(to_point(corner(surface, triangle, 0)),
+                                           to_point(corner(surface, triangle, 1)),
+                                           to_point(corner(surface, triangle, 2)));
     if (!single.is_degenerate()) result.push_back(single);
   }
   return result;
 }
 
-struct Sample {
-  double distance_m, area_m2;
-};
-
 /// Centroid and corners of each triangle, sharing its area.
-SurfaceDistance distances(const TriangleSurface& from, const Tree& to) {
-  std::vector<Sample> samples;
-  double area = 0, below = 0;
+SurfaceDistance distances(const TriangleSurface& from, const TriangleTree& to) {
+  std::vector<DistanceSample> samples;
   for (const auto& triangle : from.triangles) {
     std::array<Vec3, 4> p{corner(from, triangle, 0), corner(from, triangle, 1), corner(from, triangle, 2),
                           Vec3::Zero()};
     p[3] = (p[0] + p[1] + p[2]) / 3;
     const double share = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 8;
-    for (const Vec3& q : p) samples.push_back({std::sqrt(to.squared_distance(to_point(q))), share}), area += share;
+    for (const Vec3& q : p) samples.push_back({std::sqrt(to.squared_distance(to_point(q))), share});
   }
-  std::sort(samples.begin(), samples.end(),
-            [](const Sample& a, const Sample& b) { return a.distance_m < b.distance_m; });
-  SurfaceDistance result;
-  for (const Sample& sample : samples) {
-    result.mean_m += sample.distance_m * sample.area_m2 / area;
-    if (below < 0.99 * area) result.p99_m = sample.distance_m;
-    below += sample.area_m2;
-  }
-  result.max_m = samples.empty() ? 0 : samples.back().distance_m;
-  return result;
+  return weighted_by_area(std::move(samples));
 }
 
 TriangleSurface wrap(const TriangleSurface& soup, double alpha_m, double offset_m) {
-  std::vector<Point> points;
-  std::vector<std::vector<std::size_t>> faces;
-  for (const Vec3& p : soup.vertices) points.push_back(to_point(p));
-  for (const auto& [a, b, c] : soup.triangles)
-    faces.push_back({static_cast<std::size_t>(a), static_cast<std::size_t>(b), static_cast<std::size_t>(c)});
-  Mesh mesh;
-  CGAL::alpha_wrap_3(points, faces, alpha_m, offset_m, mesh);
+  const SurfaceSoup all(soup);
+  SurfaceMesh mesh;
+  CGAL::alpha_wrap_3(all.points, all.faces, alpha_m, offset_m, mesh);
   mesh.collect_garbage();
   return plain_surface(mesh);
 }
 
 /// Each vertex goes the same share of the way to the nearest point of the input, as far as nothing cuts itself.
-TriangleSurface pulled_back(const TriangleSurface& laid, const Tree& input, double& share) {
+TriangleSurface pulled_back(const TriangleSurface& laid, const TriangleTree& input, double& share) {
   std::vector<Vec3> nearest;
   for (const Vec3& vertex : laid.vertices) nearest.push_back(to_vec(input.closest_point(to_point(vertex))));
   for (const double trial : {0.98, 0.9, 0.75, 0.5, 0.25}) {
@@ -112,7 +88,7 @@ TriangleSurface shrink_wrapped(const TriangleSurface& soup, double alpha_m, doub
   check_settings(soup, alpha_m, offset_m, file);
   const Triangles triangles = single_triangles(soup);
   if (triangles.empty()) throw InputError(file + ": nothing to wrap: every triangle is without area");
-  Tree input(triangles.begin(), triangles.end());
+  TriangleTree input(triangles.begin(), triangles.end());
   input.build();
   const TriangleSurface laid = wrap(soup, alpha_m, offset_m);
   if (laid.triangles.empty()) throw InputError(file + ": the wrap encloses nothing: choose a smaller alpha");
@@ -121,7 +97,7 @@ TriangleSurface shrink_wrapped(const TriangleSurface& soup, double alpha_m, doub
   facts.volume_m3 = result.volume_m3();
   facts.to_input = distances(result, input);
   const Triangles wrapped_triangles = single_triangles(result);
-  Tree output(wrapped_triangles.begin(), wrapped_triangles.end());
+  TriangleTree output(wrapped_triangles.begin(), wrapped_triangles.end());
   output.build();
   facts.from_input = distances(soup, output);
   return result;
