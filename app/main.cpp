@@ -1,10 +1,11 @@
 // The program: which commands there are, in the order of the help, and what an error becomes.
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/command_texts.h"

@@ -1,7 +1,8 @@
 #include "app/cli/command.h"
 
-#include <CLI/CLI.hpp>
 #include <utility>
+
+#include <CLI/CLI.hpp>
 
 #include "app/session/setup/typed_path.h"
 

@@ -1,12 +1,13 @@
 #include "app/cli/command_texts.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <sstream>
+
+#include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
 #include "haptics/input_error.h"

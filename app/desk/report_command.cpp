@@ -1,15 +1,13 @@
 #include "app/desk/report_command.h"
 
+#include <chrono>
 #include <iostream>
 #include <memory>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-
-#include <chrono>
-#include <thread>
-
 #include "app/cli/records/open_database.h"
 #include "app/desk/demo_cohort.h"
 #include "app/desk/desk_sources.h"

@@ -1,23 +1,20 @@
 #include "app/desk/review_command.h"
 
-#include <iostream>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <chrono>
+#include <iostream>
+#include <memory>
 #include <mutex>
 #include <sstream>
 #include <thread>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/command.h"
 #include "app/cli/progress_display.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"

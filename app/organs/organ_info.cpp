@@ -1,16 +1,14 @@
 #include "app/organs/organ_info.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-#include "app/session/setup/scene.h"
-
-#include <algorithm>
-
 #include "app/organs/organ_report.h"
+#include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "tissue/organ/organ.h"
 #include "tissue/organ/organ_set.h"

@@ -1,20 +1,18 @@
 #include "app/organs/organ_inspect.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/progress_display.h"
 #include "app/organs/import_options.h"
-
-#include <algorithm>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <sstream>
-
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_reader.h"
 #include "tissue/imaging/dicom/dicom_segmentation.h"

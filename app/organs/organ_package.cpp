@@ -1,18 +1,16 @@
 #include "app/organs/organ_package.h"
 
+#include <algorithm>
+#include <cctype>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-#include "app/session/setup/scene.h"
-
-#include <algorithm>
-#include <cctype>
-#include <map>
-
 #include "app/organs/zip_writer.h"
+#include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "tissue/organ/organ.h"
 #include "tissue/organ/organ_set.h"

@@ -1,17 +1,15 @@
 #include "app/organs/organ_phantom.h"
 
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/progress_display.h"
-
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
 #include "app/organs/organ_import.h"
 #include "app/organs/organ_report.h"
 #include "haptics/input_error.h"

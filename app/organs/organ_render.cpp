@@ -1,21 +1,19 @@
 #include "app/organs/organ_render.h"
 
+#include <cstdint>
 #include <iostream>
 #include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-#include "app/session/setup/scene.h"
-
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
 #include "app/picture/gl/headless_context.h"
 #include "app/picture/models/organ_scene.h"
 #include "app/picture/scene/renderer.h"
+#include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "tissue/organ/organ.h"
 #include "tissue/organ/staged_file.h"

@@ -1,15 +1,13 @@
 #include "app/studies/study_command.h"
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-
-#include <algorithm>
-#include <array>
-
 #include "app/session/setup/true_plant.h"
 #include "app/studies/admittance/admittance_study.h"
 #include "app/studies/contact/contact_law_study.h"

@@ -1,20 +1,18 @@
 #include "app/window/practice_command.h"
 
-#include <iostream>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <iostream>
 #include <memory>
 #include <thread>
 #include <utility>
 
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
 #include "app/session/interrupt.h"
 #include "app/window/glfw/window.h"
 #include "app/window/practice/practice_loop.h"

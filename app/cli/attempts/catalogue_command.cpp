@@ -1,18 +1,15 @@
 #include "app/cli/attempts/catalogue_command.h"
 
-#include <iostream>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <algorithm>
 #include <iomanip>
+#include <iostream>
+#include <memory>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/command.h"
 #include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"

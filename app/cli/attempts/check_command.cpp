@@ -1,17 +1,14 @@
 #include "app/cli/attempts/check_command.h"
 
+#include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
-#include <fstream>
-#include <iomanip>
-
 #include <nlohmann/json.hpp>
 
+#include "app/cli/command.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 

@@ -2,16 +2,14 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
-#include <optional>
 
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/attempts/replay_film.h"
 #include "app/cli/attempts/run_command.h"
+#include "app/cli/command.h"
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/films/video_writer.h"
 #include "app/picture/kinds/kind_picture.h"

@@ -1,24 +1,22 @@
 #include "app/cli/attempts/picture_command.h"
 
-#include <iostream>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-#include "app/session/setup/scene.h"
-
 #include <algorithm>
 #include <cmath>
+#include <iostream>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string_view>
 
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
 #include "app/picture/gl/headless_context.h"
 #include "app/picture/models/show_scene.h"
 #include "app/picture/scene/marks_montage.h"
 #include "app/picture/scene/preset.h"
 #include "app/picture/scene/renderer.h"
+#include "app/session/setup/scene.h"
 #include "app/window/run/run_view.h"
 #include "haptics/input_error.h"
 #include "tissue/organ/staged_file.h"

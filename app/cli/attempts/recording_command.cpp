@@ -1,20 +1,18 @@
 #include "app/cli/attempts/recording_command.h"
 
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-#include "app/cli/records/export_command.h"
-
-#include <cmath>
-#include <optional>
 
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/attempts/recording_subject.h"
 #include "app/cli/attempts/replay_film.h"
 #include "app/cli/attempts/run_command.h"
+#include "app/cli/command.h"
+#include "app/cli/records/export_command.h"
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/films/video_writer.h"
 #include "app/session/grading/recorded_result.h"

@@ -1,19 +1,17 @@
 #include "app/cli/attempts/run_command.h"
 
+#include <charconv>
+#include <cmath>
+#include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
-#include "app/cli/command.h"
-
-#include <charconv>
-#include <cmath>
-#include <iomanip>
-#include <map>
-
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/attempts/replay_film.h"
+#include "app/cli/command.h"
 #include "app/cli/records/open_database.h"
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/films/video_writer.h"

@@ -1,24 +1,21 @@
 #include "app/cli/attempts/sweep_command.h"
 
-#include <iostream>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/attempts/run_command.h"
+#include "app/cli/command.h"
 #include "app/cli/text_table.h"
 #include "app/session/session.h"
 #include "haptics/fault.h"

@@ -1,16 +1,14 @@
 #include "app/cli/device/device_calibrate.h"
 
+#include <cmath>
+#include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-
-#include <cmath>
-#include <fstream>
-#include <sstream>
-
 #include "app/cli/text_table.h"
 #include "app/session/calibration/amplifier_calibration.h"
 #include "app/session/calibration/calibration_file.h"

@@ -1,15 +1,13 @@
 #include "app/cli/device/device_command.h"
 
+#include <array>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-
-#include <array>
-#include <optional>
-
 #include "app/cli/device/numeric_csv.h"
 #include "haptics/control/gravity.h"
 #include "haptics/input_error.h"

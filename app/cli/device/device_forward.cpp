@@ -1,17 +1,14 @@
 #include "app/cli/device/device_forward.h"
 
+#include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
-#include <cmath>
-#include <iomanip>
-
 #include <nlohmann/json.hpp>
 
+#include "app/cli/command.h"
 #include "app/cli/device/numeric_csv.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/forward_solutions.h"

@@ -1,24 +1,21 @@
 #include "app/cli/device/device_monitor.h"
 
-#include <iostream>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <unistd.h>
 
 #include <chrono>
 #include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <memory>
 #include <numbers>
 #include <sstream>
 #include <thread>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/attempts/run_command.h"
+#include "app/cli/command.h"
 #include "app/session/interrupt.h"
 #include "app/session/setup/device_files.h"
 #include "haptics/device/backends/make_backend.h"

@@ -1,19 +1,17 @@
 #include "app/cli/device/device_plant.h"
 
-#include <iostream>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iostream>
+#include <memory>
 #include <numbers>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+#include <Eigen/Eigenvalues>
+
+#include "app/cli/command.h"
 #include "app/session/setup/true_plant.h"
 #include "haptics/device/plant/device_plant.h"
 #include "haptics/input_error.h"

@@ -1,17 +1,14 @@
 #include "app/cli/device/device_selftest.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "app/cli/attempts/run_command.h"
+#include "app/cli/command.h"
 #include "app/cli/text_table.h"
 #include "app/device_bench/board_checks.h"
 #include "app/device_bench/simulated_bench.h"

@@ -1,18 +1,15 @@
 #include "app/cli/device/identify_command.h"
 
-#include <iostream>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <fstream>
 #include <iomanip>
+#include <iostream>
+#include <memory>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/command.h"
 #include "app/session/setup/device_files.h"
 #include "app/session/setup/true_plant.h"
 #include "app/studies/device/identified_device.h"

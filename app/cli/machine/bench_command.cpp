@@ -1,21 +1,18 @@
 #include "app/cli/machine/bench_command.h"
 
-#include <iostream>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <algorithm>
 #include <chrono>
 #include <functional>
 #include <iomanip>
+#include <iostream>
 #include <memory>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/attempts/run_command.h"
+#include "app/cli/command.h"
 #include "app/cli/machine/bench_compiler.h"
 #include "app/cli/machine/bench_contact.h"
 #include "app/cli/machine/bench_pictures.h"

@@ -1,23 +1,21 @@
 #include "app/cli/machine/doctor_command.h"
 
-#include <iostream>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <functional>
 #include <iomanip>
-#include <nlohmann/json.hpp>
+#include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/command.h"
 #include "app/picture/gl/headless_context.h"
 #include "app/session/setup/scene.h"
 #include "haptics/input_error.h"

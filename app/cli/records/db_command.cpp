@@ -1,14 +1,12 @@
 #include "app/cli/records/db_command.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-
-#include <algorithm>
-
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
 #include "trainees/records/attempt_identity.h"

@@ -1,18 +1,16 @@
 #include "app/cli/records/export_command.h"
 
+#include <cstdio>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
-#include <cstdio>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
 #include "app/session/recording/recording_reader.h"

@@ -1,15 +1,13 @@
 #include "app/cli/records/sync_command.h"
 
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
-
-#include "app/cli/command.h"
-
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/command.h"
 #include "app/cli/records/open_database.h"
 #include "haptics/input_error.h"
 #include "trainees/exchange/sync/synchronise.h"

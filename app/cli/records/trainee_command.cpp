@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
 #include "app/cli/text_table.h"

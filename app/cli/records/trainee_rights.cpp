@@ -1,16 +1,14 @@
 #include "app/cli/records/trainee_rights.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
-
-#include <algorithm>
-#include <cstdlib>
-#include <set>
-
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
 #include "haptics/input_error.h"
