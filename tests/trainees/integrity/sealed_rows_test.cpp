@@ -120,8 +120,13 @@ TEST_F(SealedRows, ARowThatCameInAnotherWayIsFound) {
 }
 
 TEST_F(SealedRows, ARowWithoutIdentifierIsFound) {
-  expect_found("INSERT INTO rating (attempt_id, rater, scale, item, value, utc) VALUES (1, 'x', 'GOALS', 'y', 5, '')",
-               "records: a row of rating has no identifier");
+  EXPECT_EQ(run_without_triggers(
+                file_,
+                "INSERT INTO rating (attempt_id, rater, scale, item, value, utc) VALUES (1, 'x', 'GOALS', 'y', 5, '')"),
+            "NOT NULL constraint failed: rating.uuid");
+  expect_found(
+      "INSERT INTO rating (uuid, attempt_id, rater, scale, item, value, utc) VALUES ('', 1, 'x', 'GOALS', 'y', 5, '')",
+      "records: a row of rating has no identifier");
 }
 
 TEST_F(SealedRows, AReorderedChainIsFound) {

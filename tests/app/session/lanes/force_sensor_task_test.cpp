@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "haptics/force_sensor/simulated_force_sensor.h"
+
 namespace trocar::force_sensor_task_test {
 namespace {
 
@@ -20,15 +22,17 @@ TEST(VectorSpread, KnowsRootMeanSquareAndLargest) {
 
 TEST(ForceSensorTask, RunsAtItsRateWhateverTheLoops) {
   DelayedChannel<StylusForces> forces(0);
-  EXPECT_EQ(ForceSensorTask(forces, {}, 1, 1000).period(), 25u);
-  EXPECT_EQ(ForceSensorTask(forces, {}, 1, 4000).period(), 100u);
+  SimulatedForceSensor sensor({}, 1);
+  EXPECT_EQ(ForceSensorTask(forces, sensor, 1000).period(), 25u);
+  EXPECT_EQ(ForceSensorTask(forces, sensor, 4000).period(), 100u);
 }
 
 TEST(ForceSensorTask, AForceThatArrivesAsDeliveredLeavesNoResidualHoweverLate) {
   ForceSensorConfig config;
   config.noise_n = config.drift_n_per_h = 0;
   DelayedChannel<StylusForces> forces(0);
-  ForceSensorTask task(forces, config, 1, 1000);
+  SimulatedForceSensor sensor(config, 1);
+  ForceSensorTask task(forces, sensor, 1000);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const Vec3 force(std::sin(0.3 * static_cast<double>(i)), 1, 0);
     forces.write(25 * i, {force, force});
@@ -43,7 +47,8 @@ TEST(ForceSensorTask, WhatIsMissingOnTheWayIsTheResidual) {
   ForceSensorConfig config;
   config.drift_n_per_h = 0;
   DelayedChannel<StylusForces> forces(0);
-  ForceSensorTask task(forces, config, 1, 1000);
+  SimulatedForceSensor sensor(config, 1);
+  ForceSensorTask task(forces, sensor, 1000);
   for (std::uint64_t i = 0; i < 4006; ++i) {
     const Vec3 delivered(0, 0, i % 2 == 0 ? 1 : 0);  // every other sample nothing is delivered: not compared
     forces.write(25 * i, {delivered + Vec3(0.03, 0, 0), delivered});
