@@ -119,8 +119,9 @@ void check_consistency(Identification& id, const DeviceModel& nominal) {
   id.least_inertia = std::numeric_limits<double>::infinity();
   for (const StaticPose& pose : draw_static_poses(id.request.seed ^ kUnseenSeed, kCheckedPoses, 1, nominal)) {
     const Mat6 M = inertia_matrix(pose.q, pi);
-    id.least_inertia =
-        std::min(id.least_inertia, Eigen::SelfAdjointEigenSolver<Mat6>(0.5 * (M + M.transpose())).eigenvalues()[0]);
+    const Eigen::MatrixXd symmetric = 0.5 * (M + M.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
+    id.least_inertia = std::min(id.least_inertia, solver.eigenvalues()[0]);
   }
   if (!(id.least_inertia > 0)) id.doubts.push_back("the inertia matrix is not positive definite everywhere");
   for (int j = 0; j < kArmJoints; ++j) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tests/structure/include_rules.h"
+#include "tests/structure/source_text.h"
 #include "tests/structure/source_tree.h"
 
 namespace trocar::include_direction_test {
@@ -16,6 +17,15 @@ struct Case {
   const char* path;
   std::string text;
 };
+
+TEST(BlankLiterals, LeavesStructureOnly) {
+  EXPECT_EQ(blank_literals("a(\"}\"); // }\nb"), "a(\" \");     \nb");
+  EXPECT_EQ(blank_literals("x = '{'; y = 1'000;"), "x = ' '; y = 1'000;");
+  EXPECT_EQ(blank_literals("/* {\n */ c"), "    \n    c");
+  EXPECT_EQ(blank_literals("\"\\\"{\" d"), "\"   \" d");
+  EXPECT_EQ(blank_literals("R\"x(\" { )\" )x\" e").find('{'), std::string::npos);
+  EXPECT_EQ(blank_literals("#if 1\n"), "#if 1\n");
+}
 
 TEST(IncludesOf, FindsIncludesAndNothingElse) {
   const auto found = includes_of(

@@ -132,7 +132,7 @@ std::string direction_violation(const std::string& path, const Include& include)
 std::vector<Include> includes_of(const std::string& text) {
   static const std::regex kInclude(R"(^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"])", std::regex::multiline);
   std::vector<Include> out;
-  const std::string code = blank_literals(text, false);  // an include inside a comment or a raw string is none
+  const std::string code = blank_literals(text);  // an include inside a comment or a raw string is none
   for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
     const auto at = static_cast<std::size_t>(it->position(1));
     const std::size_t hash = text.rfind('#', at);

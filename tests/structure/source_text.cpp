@@ -9,7 +9,7 @@ namespace {
 /// Walks the text once; everything between `from` and `to` that is not a newline becomes a space.
 class Blanker {
  public:
-  Blanker(const std::string& text, bool preprocessor) : text_(text), out_(text), preprocessor_(preprocessor) {}
+  explicit Blanker(const std::string& text) : text_(text), out_(text) {}
 
   std::string run() {
     while (at_ < text_.size()) step();
@@ -36,7 +36,6 @@ class Blanker {
     if (starts("R\"") && !word_before()) return raw_string();
     if (text_[at_] == '"') return quoted('"');
     if (text_[at_] == '\'' && !digit_separator()) return quoted('\'');
-    if (preprocessor_ && text_[at_] == '#' && first_on_line()) return directive();
     ++at_;
   }
 
@@ -44,12 +43,6 @@ class Blanker {
     return at_ > 0 && (std::isalnum(static_cast<unsigned char>(text_[at_ - 1])) || text_[at_ - 1] == '_');
   }
   bool digit_separator() const { return at_ > 0 && std::isxdigit(static_cast<unsigned char>(text_[at_ - 1])); }
-
-  bool first_on_line() const {
-    const std::size_t line = text_.rfind('\n', at_);
-    const std::size_t begin = line == std::string::npos ? 0 : line + 1;
-    return text_.find_first_not_of(" \t", begin) == at_;
-  }
 
   void quoted(char quote) {
     ++at_;  // the opening quote stays
@@ -66,28 +59,14 @@ class Blanker {
     out_[at_ - 1] = '"';
   }
 
-  void directive() {
-    std::size_t end = text_.find('\n', at_);
-    while (end != std::string::npos && text_[end - 1] == '\\') end = text_.find('\n', end + 1);
-    blank_to(end);
-  }
-
   const std::string& text_;
   std::string out_;
-  bool preprocessor_;
   std::size_t at_ = 0;
 };
 
 }  // namespace
 
-std::string blank_literals(const std::string& text, bool blank_preprocessor) {
-  return Blanker(text, blank_preprocessor).run();
-}
-
-std::size_t count_lines(const std::string& text) {
-  const auto newlines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-  return newlines + (!text.empty() && text.back() != '\n' ? 1 : 0);
-}
+std::string blank_literals(const std::string& text) { return Blanker(text).run(); }
 
 std::size_t line_of(const std::string& text, std::size_t position) {
   return 1 +

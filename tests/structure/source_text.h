@@ -6,12 +6,9 @@
 
 namespace trocar {
 
-/// The same text, line by line and column by column, with comments, string and character literals (raw ones too) and,
-/// when asked for, preprocessor lines replaced by spaces. Quotes stay, so that `""` remains visible.
-std::string blank_literals(const std::string& text, bool blank_preprocessor);
-
-/// Number of lines; a last line without newline counts.
-std::size_t count_lines(const std::string& text);
+/// The same text, line by line and column by column, with comments, string and character literals (raw ones too)
+/// replaced by spaces. Quotes stay, so that `""` remains visible.
+std::string blank_literals(const std::string& text);
 
 /// Line (from 1) of a position.
 std::size_t line_of(const std::string& text, std::size_t position);

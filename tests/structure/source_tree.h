@@ -12,7 +12,6 @@ struct SourceFile {
   std::string text;
   bool header() const { return path.ends_with(".h"); }
   bool cpp() const { return header() || path.ends_with(".cpp"); }
-  bool test() const { return path.starts_with("tests/"); }
 };
 
 /// C++, CMake and shader files of the project's own folders, sorted by path.

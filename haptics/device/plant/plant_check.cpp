@@ -1,5 +1,6 @@
 #include "haptics/device/plant/plant_check.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <sstream>
@@ -112,8 +113,7 @@ Refusal home_refusal(const PlantParameters& p) {
     return PlantRefusal{"jaw", "jig_opening_m", "lies beyond the pinch's stops"};
   }
   const Mat6 M = DevicePlant(p).mass_matrix();
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(M, Eigen::EigenvaluesOnly);
-  if (!M.allFinite() || !(eigen.eigenvalues().minCoeff() > 0)) {
+  if (!M.allFinite() || Eigen::LLT<Mat6>(M).info() != Eigen::Success) {
     return PlantRefusal{"stylus", "mass_kg", "the arm's mass matrix at home is not positive definite"};
   }
   return {};
