@@ -1,4 +1,5 @@
-// The hand of a person at mouse, keys, pad or puck: goes where the newest intent says, no faster than a person could.
+// The hand of a person at mouse, keys, pad or SpaceMouse: goes where the newest intent says, no faster than a person
+// could.
 //
 // It takes hold where the instrument is and rests there until the device is ready and a first intent has come. A leap
 // of the intent (the pointer has crossed the window at once) becomes a movement at kSpeed, so that it cannot throw the

@@ -10,7 +10,7 @@
 #include <GLFW/glfw3.h>
 
 #include "app/window/glfw/window_events.h"
-#include "app/window/input/puck.h"
+#include "app/window/input/space_mouse.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -95,7 +95,7 @@ struct Window::State {
   ResetStatus reset_status = nullptr;
   ContextInfo info;
   WindowEvents events;
-  Puck puck;
+  SpaceMouse space_mouse;
   int x = 0, y = 0, width = 0, height = 0;  // as it was before it filled the screen
 };
 
@@ -138,7 +138,7 @@ const ContextInfo& Window::info() const { return state_->info; }
 std::vector<InputEvent> Window::poll() {
   glfwPollEvents();
   state_->events.sample_pads();
-  if (const auto moved = state_->puck.newest()) state_->events.queue.push_back(*moved);
+  if (const auto moved = state_->space_mouse.newest()) state_->events.queue.push_back(*moved);
   return std::exchange(state_->events.queue, {});
 }
 

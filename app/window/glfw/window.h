@@ -28,7 +28,8 @@ class Window final : public GraphicsContext {
   void make_current() override;
   const ContextInfo& info() const override;
 
-  /// Events since the last call, in order; pads and pucks are sampled here. Also feeds the ImGui layer (ui_layer.h).
+  /// Events since the last call, in order; pads and SpaceMice are sampled here. Also feeds the ImGui layer
+  /// (ui_layer.h).
   std::vector<InputEvent> poll();
   bool close_asked() const;
   int width() const;  ///< px of the framebuffer

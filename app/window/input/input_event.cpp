@@ -10,7 +10,7 @@ const char* input_name(InputKind kind) {
       return "keyboard";
     case InputKind::kPad:
       return "gamepad";
-    case InputKind::kPuck:
+    case InputKind::kSpaceMouse:
       return "spacemouse";
     case InputKind::kDevice:
       return "device";

@@ -1,4 +1,5 @@
-// What a person's hands do to mouse, keys, pad or six-axis puck, as plain values: made by the window, or by a test.
+// What a person's hands do to mouse, keys, pad or six-axis SpaceMouse, as plain values: made by the window, or by a
+// test.
 //
 // Pixels of the window, y down; axes -1..1. Plain values, any thread.
 #pragma once
@@ -54,7 +55,7 @@ struct InputEvent {
     kButtonUp,
     kWheel,
     kPad,
-    kPuck,
+    kSpaceMouse,
     kFocusLost,
     kText
   } kind = Kind::kMouseMove;
@@ -62,12 +63,13 @@ struct InputEvent {
   bool repeat = false;  ///< a key that is held
   bool shift = false, control = false, alt = false;
   MouseButton button = MouseButton::kLeft;
-  double x = 0, y = 0;           ///< px: pointer
-  double wheel = 0;              ///< notches, away from the person is positive
-  std::array<double, 6> axis{};  ///< pad: left x y, right x y (y towards the person), left and right trigger (0..1);
-                                 ///< puck: translation x y z, rotation x y z (x right, y up, z towards the person)
-  std::uint32_t buttons = 0;     ///< pad (PadButton) or puck: bit n for button n, as held now
-  std::uint32_t character = 0;   ///< kText: Unicode code point as the keyboard's layout gives it
+  double x = 0, y = 0;  ///< px: pointer
+  double wheel = 0;     ///< notches, away from the person is positive
+  std::array<double, 6>
+      axis{};                   ///< pad: left x y, right x y (y towards the person), left and right trigger (0..1);
+                                ///< SpaceMouse: translation x y z, rotation x y z (x right, y up, z towards the person)
+  std::uint32_t buttons = 0;    ///< pad (PadButton) or SpaceMouse: bit n for button n, as held now
+  std::uint32_t character = 0;  ///< kText: Unicode code point as the keyboard's layout gives it
 };
 
 /// Bits of InputEvent::buttons for pads, as GLFW numbers a gamepad's buttons.
@@ -85,7 +87,7 @@ enum PadButton : std::uint32_t {
 };
 
 /// What moves the hand; stored with the attempt.
-enum class InputKind : std::uint8_t { kMouse, kKeyboard, kPad, kPuck, kDevice };
+enum class InputKind : std::uint8_t { kMouse, kKeyboard, kPad, kSpaceMouse, kDevice };
 const char* input_name(InputKind kind);  ///< "mouse", "keyboard", "gamepad", "spacemouse", "device"
 
 }  // namespace trocar

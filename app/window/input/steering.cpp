@@ -82,8 +82,8 @@ struct Steering::State {
   bool shift_key = false, control_key = false, shift = false, control = false;
   bool left = false, right = false, middle = false, alt = false, pointer_known = false;
   double x = 0, y = 0;  ///< px
-  std::array<double, 6> pad{}, puck{};
-  std::uint32_t pad_buttons = 0, puck_buttons = 0;
+  std::array<double, 6> pad{}, space_mouse{};
+  std::uint32_t pad_buttons = 0, space_mouse_buttons = 0;
   // since the last step
   Eigen::Vector2d moved_px = Eigen::Vector2d::Zero(), dragged_px = Eigen::Vector2d::Zero(),
                   scoped_px = Eigen::Vector2d::Zero();
@@ -99,8 +99,8 @@ struct Steering::State {
   void release_all() {
     held.clear();
     shift_key = control_key = shift = control = left = right = middle = alt = pointer_known = false;
-    pad = puck = {};
-    pad_buttons = puck_buttons = 0;
+    pad = space_mouse = {};
+    pad_buttons = space_mouse_buttons = 0;
     moved_px = dragged_px = scoped_px = Eigen::Vector2d::Zero();
     wheel_m = scope_wheel = 0;
   }
@@ -172,7 +172,7 @@ struct Steering::State {
     axes = event.axis;
     buttons = event.buttons;
     if (own == InputKind::kPad && (pressed & kPadA)) jaw.toggle_latch();
-    if (own == InputKind::kPuck && (pressed & 2u)) jaw.toggle_latch();
+    if (own == InputKind::kSpaceMouse && (pressed & 2u)) jaw.toggle_latch();
     for (const double axis : axes)
       if (shaped_axis(axis) != 0) kind = own;
   }
@@ -184,7 +184,7 @@ struct Steering::State {
       release_all();
       return false;
     }
-    if (event.kind != Kind::kPad && event.kind != Kind::kPuck) {
+    if (event.kind != Kind::kPad && event.kind != Kind::kSpaceMouse) {
       modifiers(event);
     }
     switch (event.kind) {
@@ -204,8 +204,8 @@ struct Steering::State {
       case Kind::kPad:
         sticks(event, pad, pad_buttons, InputKind::kPad);
         break;
-      case Kind::kPuck:
-        sticks(event, puck, puck_buttons, InputKind::kPuck);
+      case Kind::kSpaceMouse:
+        sticks(event, space_mouse, space_mouse_buttons, InputKind::kSpaceMouse);
         break;
       case Kind::kText:
         return false;
@@ -232,7 +232,8 @@ struct Steering::State {
     const double fine = shift ? kFine : 1;
     const Eigen::Vector2d stick = shaped_stick(pad[0], -pad[1]);
     const double bumpers = (pad_on(kPadRightBumper) ? 0.4 : 0) - (pad_on(kPadLeftBumper) ? 0.4 : 0);
-    const Vec3 rate(stick.x() + shaped_axis(puck[0]), stick.y() + shaped_axis(puck[1]), bumpers - shaped_axis(puck[2]));
+    const Vec3 rate(stick.x() + shaped_axis(space_mouse[0]), stick.y() + shaped_axis(space_mouse[1]),
+                    bumpers - shaped_axis(space_mouse[2]));
     return fine * (kStickSpeed * dt_s * rate + Vec3(key_way(Action::kRight, Action::kLeft, dt_s),
                                                     key_way(Action::kUp, Action::kDown, dt_s),
                                                     key_way(Action::kInsert, Action::kWithdraw, dt_s)));
@@ -247,12 +248,13 @@ struct Steering::State {
     const double fine = shift ? kFine : 1;
     const Eigen::Vector2d stick = shaped_stick(pad[2], -pad[3]), drag = dragged_px / std::max(1.0, height_px);
     const double cross = (pad_on(kPadRight) ? 1 : 0) - (pad_on(kPadLeft) ? 1 : 0);
-    const Eigen::Vector2d hand(side() * (stick.x() + shaped_axis(-puck[5])), stick.y() - shaped_axis(puck[3]));
+    const Eigen::Vector2d hand(side() * (stick.x() + shaped_axis(-space_mouse[5])),
+                               stick.y() - shaped_axis(space_mouse[3]));
     const Eigen::Vector2d by_key(pair(Action::kYawRight, Action::kYawLeft), pair(Action::kPitchUp, Action::kPitchDown));
     out.lean = fine * kKeyTurn * dt_s * (hand + by_key) +
                kDragTurn * Eigen::Vector2d(yaw_drag ? side() * drag.x() : 0, drag.y());
     out.roll = fine * kKeyRoll * dt_s *
-                   (pair(Action::kRollRight, Action::kRollLeft) + side() * (cross + shaped_axis(-puck[4]))) +
+                   (pair(Action::kRollRight, Action::kRollLeft) + side() * (cross + shaped_axis(-space_mouse[4]))) +
                (yaw_drag ? 0 : side() * kDragRoll * drag.x());
     return out;
   }
@@ -318,7 +320,7 @@ struct Steering::State {
     turn_wrist(now, view, dt);
     move_scope(dt, height_px);
     const double trigger = std::clamp(std::max(pad[4], pad[5]), 0.0, 1.0);
-    jaw.advance({left || on(Action::kClose) || (puck_buttons & 1u) != 0, on(Action::kOpen), shift,
+    jaw.advance({left || on(Action::kClose) || (space_mouse_buttons & 1u) != 0, on(Action::kOpen), shift,
                  trigger > 0.05 ? trigger : 0.0},
                 dt);
     intent.jaw_opening_m = jaw.opening_m();

@@ -1,4 +1,4 @@
-// Turns what hands do to mouse, keys, pad or puck into where a person's hand wants the instrument (HandIntent).
+// Turns what hands do to mouse, keys, pad or SpaceMouse into where a person's hand wants the instrument (HandIntent).
 //
 // The intent pulls the simulated device's stylus through the impedance of the hand: nothing here sets the stylus.
 // Movements are in the picture's plane about the view's own axes; depth is along the line of sight. Speeds are limited,
@@ -21,7 +21,7 @@
 namespace trocar {
 
 struct SteeringOptions {
-  bool left_handed = false;     ///< wrist of mouse, sticks and puck mirrored; left column for the panel
+  bool left_handed = false;     ///< wrist of mouse, sticks and SpaceMouse mirrored; left column for the panel
   bool like_a_fulcrum = false;  ///< a movement of the hand moves the tip the other way, as through a real port
   double sensitivity = 1;       ///< 0.25 to 4
 };

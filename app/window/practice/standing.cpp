@@ -40,7 +40,7 @@ std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bo
 
 bool by_scripted_hand(const AttemptSummary& attempt) {
   for (const InputKind kind :
-       {InputKind::kMouse, InputKind::kKeyboard, InputKind::kPad, InputKind::kPuck, InputKind::kDevice})
+       {InputKind::kMouse, InputKind::kKeyboard, InputKind::kPad, InputKind::kSpaceMouse, InputKind::kDevice})
     if (attempt.hand == input_name(kind)) return false;
   return !attempt.hand.empty();
 }

@@ -32,11 +32,11 @@ void Coach::saw(const InputEvent& event, const KeyMap& keys) {
     last_y_ = event.y;
     if (way_px_ > kEnough_px) done_[0] = true;
   }
-  if (event.kind == Kind::kPad || event.kind == Kind::kPuck) {
+  if (event.kind == Kind::kPad || event.kind == Kind::kSpaceMouse) {
     const auto& a = event.axis;
     if (std::hypot(a[0], a[1]) > kPushed) done_[0] = true;
-    if (event.kind == Kind::kPuck ? std::abs(a[2]) > kPushed : (event.buttons & 0x30U) != 0) done_[1] = true;
-    if (event.kind == Kind::kPuck ? (event.buttons & 1U) != 0 : std::max(a[4], a[5]) > kPushed) done_[2] = true;
+    if (event.kind == Kind::kSpaceMouse ? std::abs(a[2]) > kPushed : (event.buttons & 0x30U) != 0) done_[1] = true;
+    if (event.kind == Kind::kSpaceMouse ? (event.buttons & 1U) != 0 : std::max(a[4], a[5]) > kPushed) done_[2] = true;
   }
 }
 
@@ -47,7 +47,7 @@ std::vector<Coach::CoachMark> Coach::marks(const Words& words, const KeyMap& key
       return {{words("Left stick: move the tip"), done_[0]},
               {words("Shoulder buttons: deeper, back"), done_[1]},
               {words("Trigger: close the jaws"), done_[2]}};
-    case InputKind::kPuck:
+    case InputKind::kSpaceMouse:
       return {{words("Push the cap: move the tip"), done_[0]},
               {words("Press or lift it: deeper, back"), done_[1]},
               {words("First button: close the jaws"), done_[2]}};

@@ -167,7 +167,7 @@ void UiLayer::State::feed(const InputEvent& event, ImGuiIO& io) {
       buttons.fill(false);
       break;
     case Kind::kPad:
-    case Kind::kPuck:
+    case Kind::kSpaceMouse:
       break;
   }
 }

@@ -109,7 +109,7 @@ TEST(InputKinds, HaveTheNamesThatAttemptsKeep) {
   EXPECT_STREQ(input_name(InputKind::kMouse), "mouse");
   EXPECT_STREQ(input_name(InputKind::kKeyboard), "keyboard");
   EXPECT_STREQ(input_name(InputKind::kPad), "gamepad");
-  EXPECT_STREQ(input_name(InputKind::kPuck), "spacemouse");
+  EXPECT_STREQ(input_name(InputKind::kSpaceMouse), "spacemouse");
   EXPECT_STREQ(input_name(InputKind::kDevice), "device");
 }
 

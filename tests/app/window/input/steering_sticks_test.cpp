@@ -88,11 +88,11 @@ TEST(SteeringPad, LatchAndClutchAreButtons) {
   EXPECT_FALSE(s.run(kStep_s).clutch);
 }
 
-TEST(SteeringPuck, SixAxesAreRatesOfTheTarget) {
+TEST(SteeringSpaceMouse, SixAxesAreRatesOfTheTarget) {
   const Axes axes = axes_of(front_camera());
   const auto tip = [](const std::array<double, 6>& axis) {
     Steered s;
-    s.sticks(Kind::kPuck, axis);
+    s.sticks(Kind::kSpaceMouse, axis);
     s.run(0.2);
     return s.tip();
   };
@@ -101,26 +101,26 @@ TEST(SteeringPuck, SixAxesAreRatesOfTheTarget) {
   EXPECT_NEAR(tip({0, 0, -1, 0, 0, 0}).dot(axes.away), 0.020, 1e-9);
   Steered s;
   Vec3 before = s.far();
-  s.sticks(Kind::kPuck, {0, 0, 0, -1, 0, 0});  // tilted away
+  s.sticks(Kind::kSpaceMouse, {0, 0, 0, -1, 0, 0});  // tilted away
   s.run(0.3);
   EXPECT_GT((s.far() - before).dot(axes.up), 0.05);
   before = s.far();
-  s.sticks(Kind::kPuck, {0, 0, 0, 0, 0, -1});  // leant to the right
+  s.sticks(Kind::kSpaceMouse, {0, 0, 0, 0, 0, -1});  // leant to the right
   s.run(0.3);
   EXPECT_GT((s.far() - before).dot(axes.right), 0.05);
   const Mat3 R = s.steering.intent().X_TI.R;
-  s.sticks(Kind::kPuck, {0, 0, 0, 0, -1, 0});  // turned clockwise as seen from above
+  s.sticks(Kind::kSpaceMouse, {0, 0, 0, 0, -1, 0});  // turned clockwise as seen from above
   s.run(0.2);
   EXPECT_GT(Eigen::AngleAxisd(R.transpose() * s.steering.intent().X_TI.R).axis().z(), 0.99);
-  EXPECT_EQ(s.steering.kind(), InputKind::kPuck);
+  EXPECT_EQ(s.steering.kind(), InputKind::kSpaceMouse);
 }
 
-TEST(SteeringPuck, ButtonsPinchAndLatch) {
+TEST(SteeringSpaceMouse, ButtonsPinchAndLatch) {
   Steered s;
-  s.sticks(Kind::kPuck, {}, 1);
+  s.sticks(Kind::kSpaceMouse, {}, 1);
   EXPECT_NEAR(s.run(0.2).jaw_opening_m, 0.010, 1e-9);
-  s.sticks(Kind::kPuck, {}, 3);
-  s.sticks(Kind::kPuck, {}, 0);
+  s.sticks(Kind::kSpaceMouse, {}, 3);
+  s.sticks(Kind::kSpaceMouse, {}, 0);
   EXPECT_NEAR(s.run(1).jaw_opening_m, 0.010, 1e-9);
 }
 

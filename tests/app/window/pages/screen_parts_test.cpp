@@ -248,29 +248,30 @@ TEST_F(ScreenParts, DevicePanelStandsAtTheEdgeThatIsAskedForAndInTheWindow) {
   frame([&](Ui& ui) { EXPECT_LE(device_panel_area(ui, true).x + device_panel_area(ui, true).width, 480); });
 }
 
-TEST(CoachOfOtherInputs, PuckAndKeysTickOnlyWhatTheyDid) {
+TEST(CoachOfOtherInputs, SpaceMouseAndKeysTickOnlyWhatTheyDid) {
   Coach coach;
   coach.begin(true);
   const auto done = [&] {
     std::string out;
-    for (const Coach::CoachMark& mark : coach.marks(Words(), KeyMap(), InputKind::kPuck)) out += mark.done ? '1' : '0';
+    for (const Coach::CoachMark& mark : coach.marks(Words(), KeyMap(), InputKind::kSpaceMouse))
+      out += mark.done ? '1' : '0';
     return out;
   };
-  InputEvent puck;
-  puck.kind = InputEvent::Kind::kPuck;
-  puck.axis = {0.2, 0.2, 0.3, 1, 1, 1};
-  coach.saw(puck, KeyMap());
+  InputEvent space_mouse;
+  space_mouse.kind = InputEvent::Kind::kSpaceMouse;
+  space_mouse.axis = {0.2, 0.2, 0.3, 1, 1, 1};
+  coach.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "000") << "touched, turned, not pushed";
-  puck.axis[2] = -0.5;
-  coach.saw(puck, KeyMap());
+  space_mouse.axis[2] = -0.5;
+  coach.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "010");
-  puck.axis = {0.3, -0.3};
-  coach.saw(puck, KeyMap());
+  space_mouse.axis = {0.3, -0.3};
+  coach.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "110");
   coach.saw(testing_support::key(KeyMap().key_of(Action::kClose), InputEvent::Kind::kKeyUp), KeyMap());
   EXPECT_EQ(done(), "110") << "letting a key go does nothing";
-  puck.buttons = 1;
-  coach.saw(puck, KeyMap());
+  space_mouse.buttons = 1;
+  coach.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "111");
   coach.begin(true);
   EXPECT_EQ(done(), "000");

@@ -2,7 +2,7 @@
 
 #include <hidapi.h>
 
-#include "app/window/input/puck.h"
+#include "app/window/input/space_mouse.h"
 
 namespace trocar {
 namespace {
@@ -38,9 +38,9 @@ HidLibrary open_library() {
   return hid;
 }
 
-class UsbPucks final : public PuckSource {
+class UsbSpaceMice final : public SpaceMouseSource {
  public:
-  ~UsbPucks() override { close(); }  // the library stays loaded: unloading one that started threads is no gain
+  ~UsbSpaceMice() override { close(); }  // the library stays loaded: unloading one that started threads is no gain
 
   bool open() override {
     if (!tried_) hid_ = open_library();
@@ -50,7 +50,8 @@ class UsbPucks final : public PuckSource {
     for (const unsigned short vendor : {0x256f, 0x046d}) {
       hid_device_info* all = hid_.enumerate(vendor, 0);
       for (const hid_device_info* one = all; one && !device_; one = one->next)
-        if (is_puck(one->vendor_id, one->product_id, one->usage_page, one->usage)) device_ = hid_.open_path(one->path);
+        if (is_space_mouse(one->vendor_id, one->product_id, one->usage_page, one->usage))
+          device_ = hid_.open_path(one->path);
       hid_.free_enumeration(all);
     }
     return device_ != nullptr;
@@ -73,6 +74,6 @@ class UsbPucks final : public PuckSource {
 
 }  // namespace
 
-std::unique_ptr<PuckSource> usb_pucks() { return std::make_unique<UsbPucks>(); }
+std::unique_ptr<SpaceMouseSource> usb_space_mice() { return std::make_unique<UsbSpaceMice>(); }
 
 }  // namespace trocar

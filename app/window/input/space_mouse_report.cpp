@@ -1,4 +1,4 @@
-#include "app/window/input/puck_report.h"
+#include "app/window/input/space_mouse_report.h"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ void take_vector(std::span<const std::uint8_t> report, std::size_t at, double* x
 
 }  // namespace
 
-bool apply_puck_report(std::span<const std::uint8_t> report, PuckState& state) {
+bool apply_space_mouse_report(std::span<const std::uint8_t> report, SpaceMouseState& state) {
   if (report.size() < 2) return false;
   switch (report[0]) {
     case 1:
@@ -43,7 +43,7 @@ bool apply_puck_report(std::span<const std::uint8_t> report, PuckState& state) {
   }
 }
 
-bool is_puck(std::uint16_t vendor, std::uint16_t product, std::uint16_t usage_page, std::uint16_t usage) {
+bool is_space_mouse(std::uint16_t vendor, std::uint16_t product, std::uint16_t usage_page, std::uint16_t usage) {
   const bool told = usage_page != 0;
   if (told && (usage_page != 1 || usage != kMultiAxis)) return false;
   if (vendor == k3Dconnexion) return true;

@@ -1,4 +1,4 @@
-#include "app/window/input/puck.h"
+#include "app/window/input/space_mouse.h"
 
 #include <array>
 #include <chrono>
@@ -11,13 +11,13 @@ namespace {
 constexpr int kReadTimeout_ms = 50;
 }
 
-struct Puck::State {
-  std::unique_ptr<PuckSource> source;
+struct SpaceMouse::State {
+  std::unique_ptr<SpaceMouseSource> source;
   std::chrono::milliseconds look_again;
   mutable std::mutex mutex = {};
   std::condition_variable wake = {};
   bool stop = false, present = false;
-  PuckState now = {}, told = {};
+  SpaceMouseState now = {}, told = {};
   std::thread thread = {};
 
   bool stopping() const {
@@ -25,20 +25,20 @@ struct Puck::State {
     return stop;
   }
 
-  void show(bool is_present, const PuckState& state) {
+  void show(bool is_present, const SpaceMouseState& state) {
     const std::lock_guard lock(mutex);
     present = is_present;
     now = state;
   }
 
   void read_until_gone() {
-    PuckState state;
+    SpaceMouseState state;
     std::array<std::uint8_t, 64> report{};
     show(true, state);
     while (!stopping()) {
       const int got = source->read(report, kReadTimeout_ms);
       if (got < 0) break;
-      if (got > 0 && apply_puck_report(std::span(report).first(static_cast<std::size_t>(got)), state))
+      if (got > 0 && apply_space_mouse_report(std::span(report).first(static_cast<std::size_t>(got)), state))
         show(true, state);
     }
     source->close();
@@ -54,12 +54,12 @@ struct Puck::State {
   }
 };
 
-Puck::Puck(std::unique_ptr<PuckSource> source, int look_again_ms)
+SpaceMouse::SpaceMouse(std::unique_ptr<SpaceMouseSource> source, int look_again_ms)
     : state_(new State{std::move(source), std::chrono::milliseconds(look_again_ms)}) {
   state_->thread = std::thread([state = state_.get()] { state->run(); });
 }
 
-Puck::~Puck() {
+SpaceMouse::~SpaceMouse() {
   {
     const std::lock_guard lock(state_->mutex);
     state_->stop = true;
@@ -68,17 +68,17 @@ Puck::~Puck() {
   state_->thread.join();
 }
 
-bool Puck::present() const {
+bool SpaceMouse::present() const {
   const std::lock_guard lock(state_->mutex);
   return state_->present;
 }
 
-std::optional<InputEvent> Puck::newest() {
+std::optional<InputEvent> SpaceMouse::newest() {
   const std::lock_guard lock(state_->mutex);
-  if (state_->now == PuckState{} && state_->told == PuckState{}) return std::nullopt;
+  if (state_->now == SpaceMouseState{} && state_->told == SpaceMouseState{}) return std::nullopt;
   state_->told = state_->now;
   InputEvent event;
-  event.kind = InputEvent::Kind::kPuck;
+  event.kind = InputEvent::Kind::kSpaceMouse;
   event.axis = state_->now.axis;
   event.buttons = state_->now.buttons;
   return event;

@@ -12,17 +12,18 @@
 
 namespace trocar {
 
-struct PuckState {
+struct SpaceMouseState {
   std::array<double, 6> axis{};  ///< translation x y z, rotation x y z
   std::uint32_t buttons = 0;
-  bool operator==(const PuckState&) const = default;
+  bool operator==(const SpaceMouseState&) const = default;
 };
 
 /// @param report with its number as first byte. @return false: not understood, nothing is changed.
-bool apply_puck_report(std::span<const std::uint8_t> report, PuckState& state);
+bool apply_space_mouse_report(std::span<const std::uint8_t> report, SpaceMouseState& state);
 
-/// Is it a puck? Logitech's number covers mice and keyboards too, so there the product must be one of 3Dconnexion's.
+/// Is it a SpaceMouse? Logitech's number covers mice and keyboards too, so there the product must be one of
+/// 3Dconnexion's.
 /// @param usage of page 1; 0 when the library does not tell.
-bool is_puck(std::uint16_t vendor, std::uint16_t product, std::uint16_t usage_page, std::uint16_t usage);
+bool is_space_mouse(std::uint16_t vendor, std::uint16_t product, std::uint16_t usage_page, std::uint16_t usage);
 
 }  // namespace trocar

@@ -10,14 +10,14 @@
 #include <span>
 
 #include "app/window/input/input_event.h"
-#include "app/window/input/puck_report.h"
+#include "app/window/input/space_mouse_report.h"
 
 namespace trocar {
 
 /// Where reports come from. Called from the reader's thread only.
-class PuckSource {
+class SpaceMouseSource {
  public:
-  virtual ~PuckSource() = default;
+  virtual ~SpaceMouseSource() = default;
   /// Looks for a device. @return false: none.
   virtual bool open() = 0;
   /// Waits at most timeout_ms. @return bytes of a report, 0 none, negative: the device is gone.
@@ -26,12 +26,12 @@ class PuckSource {
 };
 
 /// hidapi, opened at run time; one that finds nothing when the library is missing.
-std::unique_ptr<PuckSource> usb_pucks();
+std::unique_ptr<SpaceMouseSource> usb_space_mice();
 
-class Puck {
+class SpaceMouse {
  public:
-  explicit Puck(std::unique_ptr<PuckSource> source = usb_pucks(), int look_again_ms = 2000);
-  ~Puck();
+  explicit SpaceMouse(std::unique_ptr<SpaceMouseSource> source = usb_space_mice(), int look_again_ms = 2000);
+  ~SpaceMouse();
   bool present() const;
   /// Where it is now, as an event; nothing when it has not moved since it rested and was last asked. A device that is
   /// pulled out comes to rest.
