@@ -44,8 +44,8 @@ std::unique_ptr<Window> opened_anew(std::unique_ptr<Window> lost, PracticeLoop& 
 class DebriefWait {
  public:
   /// After each frame.
-  void look(const PracticeLoop& loop, PracticeDesk& desk) {
-    AttemptRunner* run = desk.running();
+  void look(const PracticeLoop& loop, PracticeModel& model) {
+    AttemptRunner* run = model.running();
     const bool over = run && loop.here() == ScreenName::kRun && run->newest().status.phase >= Phase::kDone;
     if (over && !waiting_) since_ = Clock::now();
     const bool waited = std::exchange(waiting_, over) && !over;
@@ -61,11 +61,11 @@ class DebriefWait {
 
 /// Frames until the window is closed or a screen says quit. What a signal asks for is a quit too: an attempt ends as
 /// aborted.
-void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWatch& interrupt, Clock::time_point begin,
-                std::ostream& err) {
+void run_window(const PracticeOptions& options, PracticeModel& model, InterruptWatch& interrupt,
+                Clock::time_point begin, std::ostream& err) {
   auto window =
       std::make_unique<Window>(WindowOptions{"Trocar", options.width, options.height, options.fullscreen, true});
-  PracticeLoop loop(desk, *window, true);
+  PracticeLoop loop(model, *window, true);
   bool fullscreen = options.fullscreen, going = true;
   Clock::time_point last = Clock::now();
   double first_s = 0, first_cpu_s = 0;
@@ -78,7 +78,7 @@ void run_window(const PracticeOptions& options, PracticeDesk& desk, InterruptWat
     going = loop.frame(window->width(), window->height(), dt_s, events);
     if (window->width() == 0 || window->height() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     window->present();
-    debrief.look(loop, desk);
+    debrief.look(loop, model);
     if (window->lost()) window = opened_anew(std::move(window), loop);
     if (++frames == 1) {
       first_s = seconds_since(begin);
@@ -101,10 +101,10 @@ int practice_command(const PracticeOptions& options, std::ostream& out, std::ost
   const Clock::time_point begin = Clock::now();
   if (!options.screens.empty()) return picture_screens(options, out);
   InterruptWatch interrupt;  // before the desk starts a thread: it must inherit what is blocked
-  PracticeDesk desk(options.desk, find_assets());
+  PracticeModel model(options.model, find_assets());
   // Told now, not after the first exercise.
-  if (desk.database() != ":memory:") require_no_replica(Database(desk.database(), OpenMode::kExisting));
-  run_window(options, desk, interrupt, begin, err);
+  if (model.database() != ":memory:") require_no_replica(Database(model.database(), OpenMode::kExisting));
+  run_window(options, model, interrupt, begin, err);
   return 0;
 }
 
@@ -122,32 +122,32 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<PracticeArguments>();
   PracticeOptions& o = given->options;
   CLI::App* practice = parent.add_subcommand("practice", "The trainee's window: see, feel, be judged, try again");
-  practice->add_option("exercise", o.desk.exercise, "Exercise id, number or FILE.toml: straight to its briefing");
-  practice->add_option("--level", o.desk.level, "Level: L1, L2, L3 or exam")->capture_default_str();
-  practice->add_option("--trainee", o.desk.trainee,
+  practice->add_option("exercise", o.model.exercise, "Exercise id, number or FILE.toml: straight to its briefing");
+  practice->add_option("--level", o.model.level, "Level: L1, L2, L3 or exam")->capture_default_str();
+  practice->add_option("--trainee", o.model.trainee,
                        "Trainee code, created when new (default: a guest, until signed in)");
   practice
-      ->add_option("--input", o.desk.input,
+      ->add_option("--input", o.model.input,
                    "What steers: auto (the first that moves), mouse, keyboard, gamepad, spacemouse or device")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "mouse", "keyboard", "gamepad", "spacemouse", "device"}));
-  practice->add_option("--organ", o.desk.organ, kOrganForms)->capture_default_str();
-  practice->add_option("--db", o.desk.database, "Database file, or :memory:, which keeps nothing")
+  practice->add_option("--organ", o.model.organ, kOrganForms)->capture_default_str();
+  practice->add_option("--db", o.model.database, "Database file, or :memory:, which keeps nothing")
       ->check(writable_path());
   CLI::Option* scale =
       practice->add_option("--scale", given->scale, "Size of text and buttons, this time (default: as in the settings)")
           ->check(CLI::Range(1.0, 2.0));
-  practice->add_option("--language", o.desk.language,
+  practice->add_option("--language", o.model.language,
                        "en, fr or de, this time (default: as in the settings, else of LANG)");
   practice
       ->add_option(
-          "--scope", o.desk.scope,
+          "--scope", o.model.scope,
           "Tip of the scope, degrees, this time: 0 or 30, turned by its light post (default: as in the settings)")
       ->check(CLI::IsMember({"0", "30"}));
   practice
-      ->add_option("--settings", o.desk.settings, "Settings file (default: trocar/settings.toml in $XDG_CONFIG_HOME)")
+      ->add_option("--settings", o.model.settings, "Settings file (default: trocar/settings.toml in $XDG_CONFIG_HOME)")
       ->check(writable_path());
-  practice->add_option("--hand", o.desk.hand,
+  practice->add_option("--hand", o.model.hand,
                        "A scripted hand in place of a person: expert, novice, ... or SCRIPT.toml");
   CLI::Option* seed = practice->add_option("--seed", given->seed,
                                            "Every attempt draws its board from this (default: a fresh one each)");
@@ -159,8 +159,8 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
   practice->add_flag("--timing", o.timing,
                      "Say how soon the first frame and the debrief stood, and how many frames there were");
   practice->callback([given, scale, seed, &chosen] {
-    if (scale->count() > 0) given->options.desk.scale = given->scale;
-    if (seed->count() > 0) given->options.desk.seed = given->seed;
+    if (scale->count() > 0) given->options.model.scale = given->scale;
+    if (seed->count() > 0) given->options.model.seed = given->seed;
     chosen = [given] { return practice_command(given->options, std::cout, std::cerr); };
   });
 }

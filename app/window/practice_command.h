@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <iosfwd>
 
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 
 namespace trocar {
 
 struct PracticeOptions {
-  DeskOptions desk = {};
+  DeskOptions model = {};
   std::filesystem::path screens = {};  ///< folder for pictures of the screens; empty: the window
   int width = 1280, height = 720;      ///< px
   bool fullscreen = false;

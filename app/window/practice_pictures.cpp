@@ -34,10 +34,10 @@ void make_folder(const std::filesystem::path& folder) {
 class Photographer {
  public:
   Photographer(const PracticeOptions& options, std::ostream& out)
-      : options_(options), out_(out), desk_(options.desk, find_assets()), loop_(desk_, context_, false) {}
+      : options_(options), out_(out), model_(options.model, find_assets()), loop_(model_, context_, false) {}
 
   void all() {
-    desk_.show_scene(kMade_s);
+    model_.show_scene(kMade_s);
     for (const ScreenName name : {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kBriefing,
                                   ScreenName::kSettings, ScreenName::kNotch})
       page(name);
@@ -55,7 +55,7 @@ class Photographer {
     up.kind = InputEvent::Kind::kKeyUp;
     loop_.frame(options_.width, options_.height, kStill_s, {event, up});
   }
-  void press(Action action) { press(desk_.keys().key_of(action)); }
+  void press(Action action) { press(model_.keys().key_of(action)); }
 
   /// After some still frames.
   void take(const std::string& name) {
@@ -100,7 +100,7 @@ class Photographer {
 
   /// By the scripted hand, live: half way, what may lie over it, and on to its end.
   void attempt() {
-    const std::string hindered = desk_.begin_attempt();
+    const std::string hindered = model_.begin_attempt();
     if (!hindered.empty()) throw EnvironmentError("no attempt for the pictures: " + hindered);
     loop_.go(ScreenName::kRun);
     play(kHalfWay_s);
@@ -116,7 +116,7 @@ class Photographer {
 
   const PracticeOptions& options_;
   std::ostream& out_;
-  PracticeDesk desk_;
+  PracticeModel model_;
   HeadlessContext context_;
   PracticeLoop loop_;
 };
@@ -125,7 +125,7 @@ class Photographer {
 
 int picture_screens(const PracticeOptions& given, std::ostream& out) {
   PracticeOptions options = given;
-  if (options.desk.hand.empty()) options.desk.hand = "expert";
+  if (options.model.hand.empty()) options.model.hand = "expert";
   make_folder(options.screens);
   Photographer(options, out).all();
   return 0;

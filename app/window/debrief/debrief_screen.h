@@ -8,24 +8,24 @@
 #include <map>
 
 #include "app/window/debrief/debrief_page.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/practice/screen.h"
 
 namespace trocar {
 
 class DebriefScreen : public Screen {
  public:
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  void settle(PracticeDesk& desk, double wait_s) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  void settle(PracticeModel& model, double wait_s) override;
   bool takes_escape() const override { return true; }
 
  private:
-  void look_at(PracticeDesk& desk);
-  void say(PracticeDesk& desk);
-  void take_trace(PracticeDesk& desk);
-  void take_expert(PracticeDesk& desk);
-  std::optional<ScreenName> follow(DebriefChoice choice, PracticeDesk& desk);
-  std::optional<ScreenName> retry(PracticeDesk& desk) const;
+  void look_at(PracticeModel& model);
+  void say(PracticeModel& model);
+  void take_trace(PracticeModel& model);
+  void take_expert(PracticeModel& model);
+  std::optional<ScreenName> follow(DebriefChoice choice, PracticeModel& model);
+  std::optional<ScreenName> retry(PracticeModel& model) const;
 
   struct Loaded {
     std::optional<ForceTrace> trace;

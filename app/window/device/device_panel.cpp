@@ -70,8 +70,8 @@ Area device_panel_area(const Ui& ui, bool right) {
   return {right ? ui.width() - m - wide : m, m, wide, ui.height() - 2 * m};
 }
 
-void DevicePanel::draw(Ui& ui, const PracticeDesk& desk) const {
-  const Words& w = desk.words();
+void DevicePanel::draw(Ui& ui, const PracticeModel& model) const {
+  const Words& w = model.words();
   const DeviceReading& r = reading_;
   const double all = ui.room();
   auto joints = joint_rows(r);
@@ -104,34 +104,34 @@ void DevicePanel::draw(Ui& ui, const PracticeDesk& desk) const {
   figure(ui, q, {place.x + half + ui.px(8), place.y, half, place.height}, M_PI / 2, 0, w("from the side"));
 }
 
-void DevicePanel::frame(Ui& ui, PracticeDesk& desk, const TickRecord& record, const HapticLoopConfig& loop, double dt_s,
-                        const Area& area) {
+void DevicePanel::frame(Ui& ui, PracticeModel& model, const TickRecord& record, const HapticLoopConfig& loop,
+                        double dt_s, const Area& area) {
   if (!open) return;
   age_s_ += dt_s;
   if (age_s_ >= kEvery_s) {
     reading_ = device_reading(record, loop);
     age_s_ = 0;
   }
-  if (ui.pressed(kCopyKey)) copy(desk);
+  if (ui.pressed(kCopyKey)) copy(model);
   ui.begin_panel("device", area);
   ui.in_front();
   ui.scroll_by_keys();
-  const Words& w = desk.words();
-  const std::string closes = w.name(key_name(desk.keys().key_of(Action::kDevicePanel)));
+  const Words& w = model.words();
+  const std::string closes = w.name(key_name(model.keys().key_of(Action::kDevicePanel)));
   ui.line(w("Device, {0} s.  {1} closes, {2} copies", {w.number(reading_.t_s, 1), closes, w.name(kCopyKey)}),
           Ink::kHeading);
-  draw(ui, desk);
+  draw(ui, model);
   ui.end_panel();
 }
 
-void DevicePanel::copy(PracticeDesk& desk) const {
-  const Words& w = desk.words();
-  const bool kept = desk.database() != ":memory:";
+void DevicePanel::copy(PracticeModel& model) const {
+  const Words& w = model.words();
+  const bool kept = model.database() != ":memory:";
   try {
-    const auto folder = kept ? desk.database().parent_path() : default_database_path().parent_path();
-    desk.notice = w("Device numbers written to {0}", {save_device_csv(reading_, folder).string()});
+    const auto folder = kept ? model.database().parent_path() : default_database_path().parent_path();
+    model.notice = w("Device numbers written to {0}", {save_device_csv(reading_, folder).string()});
   } catch (const EnvironmentError& error) {
-    desk.notice = error.what();
+    model.notice = error.what();
   }
 }
 

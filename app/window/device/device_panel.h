@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "app/window/device/device_numbers.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/ui/ui.h"
 
 namespace trocar {
@@ -22,14 +22,14 @@ class DevicePanel {
 
   bool open = false;
   /// Draws when open. @param record newest of the run.
-  void frame(Ui& ui, PracticeDesk& desk, const TickRecord& record, const HapticLoopConfig& loop, double dt_s,
+  void frame(Ui& ui, PracticeModel& model, const TickRecord& record, const HapticLoopConfig& loop, double dt_s,
              const Area& area);
   /// What is shown now.
   const DeviceReading& reading() const { return reading_; }
 
  private:
-  void draw(Ui& ui, const PracticeDesk& desk) const;
-  void copy(PracticeDesk& desk) const;
+  void draw(Ui& ui, const PracticeModel& model) const;
+  void copy(PracticeModel& model) const;
 
   DeviceReading reading_;
   double age_s_ = kEvery_s;

@@ -57,13 +57,13 @@ struct LessonPicture::State {
   std::string filming_key;
   std::shared_ptr<const RecordedRun> film;
 
-  void take_up(PracticeDesk& desk);
-  void ask_film(PracticeDesk& desk);
-  void advance_scene(PracticeDesk& desk, double wait_s);
+  void take_up(PracticeModel& model);
+  void ask_film(PracticeModel& model);
+  void advance_scene(PracticeModel& model, double wait_s);
 };
 
-void LessonPicture::State::take_up(PracticeDesk& desk) {
-  const std::string now = desk.exercise_id + "/" + desk.level + "/" + desk.organ;
+void LessonPicture::State::take_up(PracticeModel& model) {
+  const std::string now = model.exercise_id + "/" + model.level + "/" + model.organ;
   if (now == key) return;
   key = now;
   rested_s = t_s = 0;
@@ -72,7 +72,7 @@ void LessonPicture::State::take_up(PracticeDesk& desk) {
   if (!filming.valid()) filming_key.clear();  // a choice that comes back gets its film again
 }
 
-void LessonPicture::State::advance_scene(PracticeDesk& desk, double wait_s) {
+void LessonPicture::State::advance_scene(PracticeModel& model, double wait_s) {
   if (scene) return;
   if (lesson_ready(making, making_key == key ? wait_s : 0)) {
     auto made = making.get();
@@ -84,15 +84,15 @@ void LessonPicture::State::advance_scene(PracticeDesk& desk, double wait_s) {
   }
   if (making.valid() || making_key == key) return;  // one at a time; one that failed is not tried again
   AttemptSetup setup;
-  setup.exercise = desk.exercise();
-  setup.level = desk.level;
-  setup.organ = desk.organ;
+  setup.exercise = model.exercise();
+  setup.level = model.level;
+  setup.organ = model.organ;
   setup.board = drawn_board(setup.seed, false);
   making_key = key;
-  making = std::async(std::launch::async, load, setup, desk.assets());
+  making = std::async(std::launch::async, load, setup, model.assets());
 }
 
-void LessonPicture::State::ask_film(PracticeDesk& desk) {
+void LessonPicture::State::ask_film(PracticeModel& model) {
   if (film || !scene || rested_s < kRest_s) return;
   if (lesson_ready(filming)) {
     auto made = filming.get();
@@ -101,22 +101,22 @@ void LessonPicture::State::ask_film(PracticeDesk& desk) {
     return;
   }
   if (filming.valid() || filming_key == key) return;
-  const std::filesystem::path file = desk.expert_recording();
+  const std::filesystem::path file = model.expert_recording();
   if (file.empty()) return;
   filming_key = key;
-  filming = std::async(std::launch::async, load_film, file, desk.assets(), std::cref(stop));
+  filming = std::async(std::launch::async, load_film, file, model.assets(), std::cref(stop));
 }
 
 LessonPicture::LessonPicture() : state_(std::make_unique<State>()) {}
 LessonPicture::~LessonPicture() { state_->stop = true; }
 
-std::optional<SceneView> LessonPicture::view(PracticeDesk& desk, double dt_s) {
+std::optional<SceneView> LessonPicture::view(PracticeModel& model, double dt_s) {
   State& s = *state_;
-  s.take_up(desk);
+  s.take_up(model);
   s.rested_s += dt_s;
   s.t_s += dt_s;
-  s.advance_scene(desk, 0);
-  s.ask_film(desk);
+  s.advance_scene(model, 0);
+  s.ask_film(model);
   if (!s.scene) return std::nullopt;
   if (s.film) {
     const double length = std::max(1.0, s.film->end_s() - s.film->begin_s());
@@ -132,10 +132,10 @@ std::string LessonPicture::caption(const Words& w) const {
   return state_->film ? w("Replay of the scripted expert") : w("Still scene");
 }
 
-void LessonPicture::settle(PracticeDesk& desk, double wait_s) {
-  state_->take_up(desk);
-  state_->advance_scene(desk, 0);
-  state_->advance_scene(desk, wait_s);
+void LessonPicture::settle(PracticeModel& model, double wait_s) {
+  state_->take_up(model);
+  state_->advance_scene(model, 0);
+  state_->advance_scene(model, wait_s);
 }
 
 SceneView lesson_view(const Scene& scene, double t_s) {

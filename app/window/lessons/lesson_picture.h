@@ -11,7 +11,7 @@
 
 #include "app/picture/scene/scene_view.h"
 #include "app/session/setup/scene.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 
 namespace trocar {
 
@@ -29,11 +29,11 @@ class LessonPicture {
 
   /// What the desk has chosen. Films are asked for when the choice has rested for a second.
   /// @return nothing while there is none.
-  std::optional<SceneView> view(PracticeDesk& desk, double dt_s);
+  std::optional<SceneView> view(PracticeModel& model, double dt_s);
   /// "Expert, 12 s" or "Still scene"; empty without a picture.
   std::string caption(const Words& words) const;
   /// Waits for the scene of the choice: pictures and tests.
-  void settle(PracticeDesk& desk, double wait_s);
+  void settle(PracticeModel& model, double wait_s);
 
  private:
   struct State;

@@ -105,40 +105,40 @@ SceneView notch_view(const Scene& scene, const Notch& notch, const RunMoment& mo
   return view;
 }
 
-void NotchScreen::begin(PracticeDesk& desk) {
+void NotchScreen::begin(PracticeModel& model) {
   if (run_ || !wrong_.empty()) return;
   try {
-    run_ = std::make_unique<NotchRun>(desk.assets(), 1);
+    run_ = std::make_unique<NotchRun>(model.assets(), 1);
   } catch (const std::exception& error) {
     wrong_ = error.what();
   }
 }
 
-void NotchScreen::steer(PracticeDesk& desk, double dt_s) {
+void NotchScreen::steer(PracticeModel& model, double dt_s) {
   if (!run_ || !run_->ready() || run_->finished()) return;
   if (!steering_) {
     const Mat3 rest = run_->newest().record.stylus.X_TI.R;
     SteeringReach reach;
     reach.radius_m = run_->notch().reach_m;
-    desk.steering().begin({rest, Vec3::Zero()}, run_->newest().record.stylus.jaw_opening_m, Vec3::Zero(), reach);
+    model.steering().begin({rest, Vec3::Zero()}, run_->newest().record.stylus.jaw_opening_m, Vec3::Zero(), reach);
     steering_ = true;
   }
-  run_->steer(desk.steering().advance(dt_s, camera_, std::max(1.0, picture_.height)));
+  run_->steer(model.steering().advance(dt_s, camera_, std::max(1.0, picture_.height)));
 }
 
-void NotchScreen::settle(PracticeDesk& desk, double wait_s) {
-  begin(desk);
+void NotchScreen::settle(PracticeModel& model, double wait_s) {
+  begin(model);
   for (double waited = 0; run_ && !run_->ready() && !run_->finished() && waited < wait_s; waited += 0.01)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
-std::optional<ScreenName> NotchScreen::handle(const InputEvent& event, PracticeDesk& desk) {
-  desk.steering().handle(event);
+std::optional<ScreenName> NotchScreen::handle(const InputEvent& event, PracticeModel& model) {
+  model.steering().handle(event);
   return {};
 }
 
-std::string NotchScreen::side(Ui& ui, PracticeDesk& desk, const Area& area) {
-  const Words& w = desk.words();
+std::string NotchScreen::side(Ui& ui, PracticeModel& model, const Area& area) {
+  const Words& w = model.words();
   ui.begin_panel("notch", area);
   ui.scroll_by_keys();
   ui.heading(w("The notch"));
@@ -155,7 +155,7 @@ std::string NotchScreen::side(Ui& ui, PracticeDesk& desk, const Area& area) {
     if (run_->finished()) ui.marked(Mark::kWarning, w("The device has stopped: {0}", {run_->fault()}), Ink::kAlarm);
   }
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
-  const std::string panel_key = key_name(desk.keys().key_of(Action::kDevicePanel));
+  const std::string panel_key = key_name(model.keys().key_of(Action::kDevicePanel));
   const std::string chosen = button_rows(ui, {{"soft", w("20 N/m"), "1"},
                                               {"firm", w("150 N/m"), "2"},
                                               {"panel", w("Device"), panel_key},
@@ -166,10 +166,10 @@ std::string NotchScreen::side(Ui& ui, PracticeDesk& desk, const Area& area) {
   return chosen;
 }
 
-std::optional<ScreenName> NotchScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
+std::optional<ScreenName> NotchScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
   ui.keys_to_screen();
-  begin(desk);
-  steer(desk, dt_s);
+  begin(model);
+  steer(model, dt_s);
   const double m = ui.px(kNotchMargin);
   const Area panel = device_panel_area(ui, true);
   const bool beside = panel.x > ui.px(kSide) + 3 * m;  // else the panel lies over all
@@ -190,17 +190,17 @@ std::optional<ScreenName> NotchScreen::frame(Ui& ui, PracticeDesk& desk, double 
     const double used = left + 2 * m;
     if (ui.width() - used >= 0.4 * ui.width()) picture_ = {used, 0, ui.width() - used, ui.height()};
   }
-  if (side_shown_) chosen = side(ui, desk, {m, m, stacked ? picture_right - m : left, top_high});
-  if (run_) panel_.frame(ui, desk, run_->newest().record, run_->scene().loop, dt_s, panel);
+  if (side_shown_) chosen = side(ui, model, {m, m, stacked ? picture_right - m : left, top_high});
+  if (run_) panel_.frame(ui, model, run_->newest().record, run_->scene().loop, dt_s, panel);
   if (run_ && chosen == "soft") run_->set_stiffness(kThesisWall_n_per_m);
   if (run_ && chosen == "firm") run_->set_stiffness(kFirmWall_n_per_m);
-  const bool hidden_key = !side_shown_ && ui.pressed(key_name(desk.keys().key_of(Action::kDevicePanel)));
+  const bool hidden_key = !side_shown_ && ui.pressed(key_name(model.keys().key_of(Action::kDevicePanel)));
   if (chosen == "panel" || hidden_key) panel_.open = !panel_.open;
   if (chosen == "back" || (!side_shown_ && ui.pressed("Esc"))) return ScreenName::kCurriculum;
   return std::nullopt;
 }
 
-std::optional<Screen::Stage> NotchScreen::stage(PracticeDesk& /*desk*/, int /*width*/, int /*height*/) {
+std::optional<Screen::Stage> NotchScreen::stage(PracticeModel& /*model*/, int /*width*/, int /*height*/) {
   if (!run_ || picture_.width <= 0) return std::nullopt;
   SceneView view = notch_view(run_->scene(), run_->notch(), run_->newest());
   camera_ = view.camera;

@@ -20,19 +20,19 @@ SceneView notch_view(const Scene& scene, const Notch& notch, const RunMoment& mo
 
 class NotchScreen final : public Screen {
  public:
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  std::optional<ScreenName> handle(const InputEvent& event, PracticeDesk& desk) override;
-  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
-  void settle(PracticeDesk& desk, double wait_s) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  std::optional<ScreenName> handle(const InputEvent& event, PracticeModel& model) override;
+  std::optional<Stage> stage(PracticeModel& model, int width, int height) override;
+  void settle(PracticeModel& model, double wait_s) override;
   bool takes_escape() const override { return true; }
 
   /// Null: it has not begun, or could not.
   const NotchRun* run() const { return run_.get(); }
 
  private:
-  void begin(PracticeDesk& desk);
-  void steer(PracticeDesk& desk, double dt_s);
-  std::string side(Ui& ui, PracticeDesk& desk, const Area& area);
+  void begin(PracticeModel& model);
+  void steer(PracticeModel& model, double dt_s);
+  std::string side(Ui& ui, PracticeModel& model, const Area& area);
 
   std::unique_ptr<NotchRun> run_;
   std::string wrong_;

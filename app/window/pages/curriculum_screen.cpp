@@ -40,37 +40,37 @@ std::string standing_words(const Words& w, const Exercise& exercise, const std::
   return s.attempts > 0 ? w("{0}: tried", {w(level)}) : w("{0}: open", {w(level)});
 }
 
-void CurriculumScreen::load(PracticeDesk& desk) {
+void CurriculumScreen::load(PracticeModel& model) {
   rows_.clear();
   last_.reset();
-  for (const Exercise& exercise : desk.exercises()) {
+  for (const Exercise& exercise : model.exercises()) {
     for (const ExerciseLevel& level : exercise.levels) {
-      rows_.push_back({&exercise, level.name, desk.standing(exercise.id, level.name)});
+      rows_.push_back({&exercise, level.name, model.standing(exercise.id, level.name)});
       const auto& newest = rows_.back().standing.newest_first;
       if (!newest.empty() && (!last_ || newest.front().started_utc > last_->started_utc))
         last_ = {exercise.id, level.name, newest.front().started_utc};
-      if (exercise.id == desk.exercise_id && level.name == desk.level) chosen_ = rows_.size() - 1;
+      if (exercise.id == model.exercise_id && level.name == model.level) chosen_ = rows_.size() - 1;
     }
   }
-  next_ = desk.next();
+  next_ = model.next();
 }
 
-void CurriculumScreen::choose(PracticeDesk& desk, std::size_t row) {
+void CurriculumScreen::choose(PracticeModel& model, std::size_t row) {
   chosen_ = std::min(row, rows_.size() - 1);
-  desk.exercise_id = rows_[chosen_].exercise->id;
-  desk.level = rows_[chosen_].level;
+  model.exercise_id = rows_[chosen_].exercise->id;
+  model.level = rows_[chosen_].level;
   wrong_.clear();
 }
 
-void CurriculumScreen::keys(const Ui& ui, PracticeDesk& desk) {
-  if (ui.pressed("Down") && chosen_ + 1 < rows_.size()) choose(desk, chosen_ + 1);
-  if (ui.pressed("Up") && chosen_ > 0) choose(desk, chosen_ - 1);
-  if (ui.pressed("Home")) choose(desk, 0);
-  if (ui.pressed("End")) choose(desk, rows_.size() - 1);
+void CurriculumScreen::keys(const Ui& ui, PracticeModel& model) {
+  if (ui.pressed("Down") && chosen_ + 1 < rows_.size()) choose(model, chosen_ + 1);
+  if (ui.pressed("Up") && chosen_ > 0) choose(model, chosen_ - 1);
+  if (ui.pressed("Home")) choose(model, 0);
+  if (ui.pressed("End")) choose(model, rows_.size() - 1);
 }
 
-void CurriculumScreen::tree(Ui& ui, PracticeDesk& desk, const Area& area) {
-  const Words& w = desk.words();
+void CurriculumScreen::tree(Ui& ui, PracticeModel& model, const Area& area) {
+  const Words& w = model.words();
   ui.begin_panel("course", area);
   if (!compact_list(ui)) ui.title(w("Course"));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -80,22 +80,22 @@ void CurriculumScreen::tree(Ui& ui, PracticeDesk& desk, const Area& area) {
     const std::string id = row.exercise->id + row.level,
                       best = row.standing.best ? w.number(*row.standing.best, 0) : "";
     const std::string said = standing_words(w, *row.exercise, row.level, row.standing);
-    if (ui.selectable(id.c_str(), standing_mark(row.standing), said, i == chosen_, best)) choose(desk, i);
+    if (ui.selectable(id.c_str(), standing_mark(row.standing), said, i == chosen_, best)) choose(model, i);
     if (i == chosen_ && revealed_ != chosen_) ui.reveal();
   }
   revealed_ = chosen_;
   ui.end_panel();
 }
 
-void CurriculumScreen::head(Ui& ui, PracticeDesk& desk) const {
-  const Words& w = desk.words();
-  ui.title(lesson_title(w, desk.exercise(), desk.level), desk.who());
-  ui.text(w(desk.exercise().goal));
-  ui.text(lesson_skill(w, desk.exercise()), Ink::kDim);
+void CurriculumScreen::head(Ui& ui, PracticeModel& model) const {
+  const Words& w = model.words();
+  ui.title(lesson_title(w, model.exercise(), model.level), model.who());
+  ui.text(w(model.exercise().goal));
+  ui.text(lesson_skill(w, model.exercise()), Ink::kDim);
 }
 
-void CurriculumScreen::facts(Ui& ui, PracticeDesk& desk, double sparkline_at_720) const {
-  const Words& w = desk.words();
+void CurriculumScreen::facts(Ui& ui, PracticeModel& model, double sparkline_at_720) const {
+  const Words& w = model.words();
   const Row& row = rows_[chosen_];
   const Standing& s = row.standing;
   const double pass = find_level(*row.exercise, row.level).rubric.pass_at;
@@ -115,82 +115,82 @@ void CurriculumScreen::facts(Ui& ui, PracticeDesk& desk, double sparkline_at_720
     paint_sparkline(ui, w, ui.drawing("scores", sparkline_at_720), scores, pass);
 }
 
-void CurriculumScreen::advice(Ui& ui, PracticeDesk& desk) const {
-  const Words& w = desk.words();
-  if (const auto note = desk.teacher_note()) {
+void CurriculumScreen::advice(Ui& ui, PracticeModel& model) const {
+  const Words& w = model.words();
+  if (const auto note = model.teacher_note()) {
     ui.heading(w("Your teacher"));
     ui.marked(Mark::kInfo, *note);
   }
-  const auto& all = desk.exercises();
+  const auto& all = model.exercises();
   const auto at = std::find_if(all.begin(), all.end(), [this](const Exercise& e) { return e.id == next_.exercise_id; });
   ui.heading(w("Next for you"));
   if (at != all.end()) ui.marked(Mark::kPlay, lesson_title(w, *at, next_.level) + ": " + next_.why);
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
 }
 
-void CurriculumScreen::caption(Ui& ui, const PracticeDesk& desk) const {
+void CurriculumScreen::caption(Ui& ui, const PracticeModel& model) const {
   const Area& a = picture_area_;
-  const std::string said = picture_.caption(desk.words());
+  const std::string said = picture_.caption(model.words());
   ui.paint_frame(a, Ink::kDim, 1);
   const double middle = a.y + a.height / 2 - ui.line_height() / 2;
   if (said.empty())
-    return ui.text_at(a.x + a.width / 2, middle, desk.words()("Picture is being made"), Ink::kDim, a.width, 0.5);
+    return ui.text_at(a.x + a.width / 2, middle, model.words()("Picture is being made"), Ink::kDim, a.width, 0.5);
   const double wide = std::min(a.width, ui.text_width(said) + ui.px(16)), high = ui.line_height() + ui.px(8);
   ui.paint_ground({a.x, a.y + a.height - high, wide, high}, 0.85);
   ui.text_at(a.x + ui.px(8), a.y + a.height - high + ui.px(4), said, Ink::kDim, wide);
 }
 
-void CurriculumScreen::wide_card(Ui& ui, PracticeDesk& desk, const Area& area) {
+void CurriculumScreen::wide_card(Ui& ui, PracticeModel& model, const Area& area) {
   const double gap = ui.px(kListGap), head_high = ui.px(kListHead), middle = ui.px(kMiddle);
   const double picture = std::min(ui.px(kPicture), 0.55 * area.width);
   ui.begin_panel("card.head", {area.x, area.y, area.width, head_high});
-  head(ui, desk);
+  head(ui, model);
   ui.end_panel();
   const double y = area.y + head_high + gap;
   picture_area_ = {area.x, y, picture, middle};
-  caption(ui, desk);
+  caption(ui, model);
   ui.begin_panel("card.facts", {area.x + picture + gap, y, area.width - picture - gap, middle});
-  facts(ui, desk, 130);
+  facts(ui, model, 130);
   ui.end_panel();
   const double below = y + middle + gap;
   ui.begin_panel("card.next", {area.x, below, area.width, area.y + area.height - below});
-  advice(ui, desk);
+  advice(ui, model);
   ui.end_panel();
 }
 
-void CurriculumScreen::card(Ui& ui, PracticeDesk& desk, const Area& area) {
-  if (!compact_list(ui)) return wide_card(ui, desk, area);
+void CurriculumScreen::card(Ui& ui, PracticeModel& model, const Area& area) {
+  if (!compact_list(ui)) return wide_card(ui, model, area);
   picture_area_ = {};
   ui.begin_panel("card", area);
   ui.scroll_by_keys();
-  head(ui, desk);
+  head(ui, model);
   ui.gap(4);
-  facts(ui, desk, 90);
+  facts(ui, model, 90);
   ui.gap(4);
-  advice(ui, desk);
+  advice(ui, model);
   ui.end_panel();
 }
 
-std::optional<ScreenName> CurriculumScreen::act(const std::string& chosen, PracticeDesk& desk) {
+std::optional<ScreenName> CurriculumScreen::act(const std::string& chosen, PracticeModel& model) {
   if (chosen == "brief") return ScreenName::kBriefing;
   if (chosen == "progress") return ScreenName::kProgress;
   if (chosen == "notch") return ScreenName::kNotch;
   if (chosen == "back") return ScreenName::kStart;
   if (chosen != "repeat" || !last_) return std::nullopt;
-  desk.exercise_id = last_->exercise_id;
-  desk.level = last_->level;
-  load(desk);
-  if (find_level(desk.exercise(), desk.level).exam) return ScreenName::kBriefing;  // where the device is checked
-  wrong_ = desk.begin_attempt();
+  model.exercise_id = last_->exercise_id;
+  model.level = last_->level;
+  load(model);
+  if (find_level(model.exercise(), model.level).exam) return ScreenName::kBriefing;  // where the device is checked
+  wrong_ = model.begin_attempt();
   return wrong_.empty() ? std::optional(ScreenName::kRun) : std::nullopt;
 }
 
-std::optional<ScreenName> CurriculumScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
-  if (rows_.empty()) load(desk);
+std::optional<ScreenName> CurriculumScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
+  if (rows_.empty()) load(model);
   dt_s_ = dt_s;
   ui.keys_to_screen();
-  keys(ui, desk);
-  const Words& w = desk.words();
+  keys(ui, model);
+  const Words& w = model.words();
   const double margin = ui.px(kListMargin), gap = ui.px(kListGap), wide = ui.width() - 2 * margin;
   std::vector<RowButton> buttons{{"brief", w("Briefing"), "Enter", true}};
   if (last_) buttons.push_back({"repeat", w("Repeat last"), "R"});
@@ -199,17 +199,17 @@ std::optional<ScreenName> CurriculumScreen::frame(Ui& ui, PracticeDesk& desk, do
   buttons.push_back({"back", w("Start page"), "Esc"});
   const double foot = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * margin - foot - gap;
   const double tree_wide = std::min(ui.px(kTree), 0.5 * wide);
-  tree(ui, desk, {margin, margin, tree_wide, high});
-  card(ui, desk, {margin + tree_wide + gap, margin, wide - tree_wide - gap, high});
+  tree(ui, model, {margin, margin, tree_wide, high});
+  card(ui, model, {margin + tree_wide + gap, margin, wide - tree_wide - gap, high});
   ui.begin_strip("course.foot", {margin, margin + high + gap, wide, foot});
   const std::string chosen = button_rows(ui, buttons);
   ui.end_panel();
-  return act(chosen, desk);
+  return act(chosen, model);
 }
 
-std::optional<Screen::Stage> CurriculumScreen::stage(PracticeDesk& desk, int /*width*/, int /*height*/) {
+std::optional<Screen::Stage> CurriculumScreen::stage(PracticeModel& model, int /*width*/, int /*height*/) {
   if (rows_.empty() || picture_area_.width <= 0) return std::nullopt;
-  std::optional<SceneView> view = picture_.view(desk, dt_s_);
+  std::optional<SceneView> view = picture_.view(model, dt_s_);
   if (!view) return std::nullopt;
   return Stage{*view, picture_area_.x, picture_area_.y, picture_area_.width, picture_area_.height, 0};
 }

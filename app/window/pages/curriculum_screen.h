@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/window/lessons/lesson_picture.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/practice/screen.h"
 #include "app/window/ui/ui.h"
 
@@ -26,9 +26,9 @@ struct LastTried {
 
 class CurriculumScreen final : public Screen {
  public:
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
-  void settle(PracticeDesk& desk, double wait_s) override { picture_.settle(desk, wait_s); }
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  std::optional<Stage> stage(PracticeModel& model, int width, int height) override;
+  void settle(PracticeModel& model, double wait_s) override { picture_.settle(model, wait_s); }
   bool takes_escape() const override { return true; }
 
  private:
@@ -37,22 +37,22 @@ class CurriculumScreen final : public Screen {
     std::string level;
     Standing standing;
   };
-  void load(PracticeDesk& desk);
-  void keys(const Ui& ui, PracticeDesk& desk);
-  void choose(PracticeDesk& desk, std::size_t row);
-  void tree(Ui& ui, PracticeDesk& desk, const Area& area);
-  void card(Ui& ui, PracticeDesk& desk, const Area& area);
-  void wide_card(Ui& ui, PracticeDesk& desk, const Area& area);
-  void head(Ui& ui, PracticeDesk& desk) const;
-  void facts(Ui& ui, PracticeDesk& desk, double sparkline_at_720) const;
-  void advice(Ui& ui, PracticeDesk& desk) const;
-  void caption(Ui& ui, const PracticeDesk& desk) const;
-  std::optional<ScreenName> act(const std::string& chosen, PracticeDesk& desk);
+  void load(PracticeModel& model);
+  void keys(const Ui& ui, PracticeModel& model);
+  void choose(PracticeModel& model, std::size_t row);
+  void tree(Ui& ui, PracticeModel& model, const Area& area);
+  void card(Ui& ui, PracticeModel& model, const Area& area);
+  void wide_card(Ui& ui, PracticeModel& model, const Area& area);
+  void head(Ui& ui, PracticeModel& model) const;
+  void facts(Ui& ui, PracticeModel& model, double sparkline_at_720) const;
+  void advice(Ui& ui, PracticeModel& model) const;
+  void caption(Ui& ui, const PracticeModel& model) const;
+  std::optional<ScreenName> act(const std::string& chosen, PracticeModel& model);
 
   std::vector<Row> rows_;
   std::size_t chosen_ = 0;
   std::optional<std::size_t> revealed_;  // the chosen row that the list has been scrolled to
-  PracticeDesk::Advice next_;
+  PracticeModel::Advice next_;
   std::optional<LastTried> last_;
   std::string wrong_;
   LessonPicture picture_;

@@ -12,8 +12,8 @@
 namespace trocar {
 namespace {
 
-std::filesystem::path exports_folder(const PracticeDesk& desk) {
-  const std::filesystem::path database = desk.database();
+std::filesystem::path exports_folder(const PracticeModel& model) {
+  const std::filesystem::path database = model.database();
   return (database == ":memory:" ? default_database_path() : database).parent_path() / "exports";
 }
 
@@ -23,11 +23,11 @@ std::vector<AttemptSummary> newest_first(const LearningCurve& curve) {
   return out;
 }
 
-ProgressEntry entry_of(const PracticeDesk& desk, LearningCurve curve) {
-  const Words& w = desk.words();
+ProgressEntry entry_of(const PracticeModel& model, LearningCurve curve) {
+  const Words& w = model.words();
   ProgressEntry out;
   const CurveKey key = curve.key;
-  const auto& all = desk.exercises();
+  const auto& all = model.exercises();
   const auto exercise =
       std::find_if(all.begin(), all.end(), [&](const Exercise& e) { return e.id == key.exercise_id; });
   out.name = key.exercise_id + " " + key.level;
@@ -52,46 +52,46 @@ ProgressEntry entry_of(const PracticeDesk& desk, LearningCurve curve) {
 
 }  // namespace
 
-std::vector<ProgressEntry> progress_of(const PracticeDesk& desk) {
+std::vector<ProgressEntry> progress_of(const PracticeModel& model) {
   std::vector<ProgressEntry> out;
-  for (LearningCurve& curve : learning_curves(desk.past())) out.push_back(entry_of(desk, std::move(curve)));
+  for (LearningCurve& curve : learning_curves(model.past())) out.push_back(entry_of(model, std::move(curve)));
   return out;
 }
 
-std::filesystem::path export_attempts(const PracticeDesk& desk) {
-  const std::filesystem::path folder = exports_folder(desk);
+std::filesystem::path export_attempts(const PracticeModel& model) {
+  const std::filesystem::path folder = exports_folder(model);
   make_owner_folders(folder);
-  const std::string name = "trocar-" + desk.trainee() + "-" + file_stamp();
+  const std::string name = "trocar-" + model.trainee() + "-" + file_stamp();
   std::filesystem::path file = folder / (name + ".csv");
   for (int n = 2; std::filesystem::exists(file); ++n) file = folder / (name + "-" + std::to_string(n) + ".csv");
   std::ofstream out = open_owner_file(file);
-  out << attempts_csv(desk.past());
+  out << attempts_csv(model.past());
   out.close();
   if (!out) throw EnvironmentError(file.string() + ": cannot be written; is there room, and may you write there?");
   return file;
 }
 
-std::optional<ScreenName> ProgressScreen::frame(Ui& ui, PracticeDesk& desk, double /*dt_s*/) {
+std::optional<ScreenName> ProgressScreen::frame(Ui& ui, PracticeModel& model, double /*dt_s*/) {
   using Kind = ProgressChoice::Kind;
-  const Words& w = desk.words();
-  if (!entries_ || language_ != w.language() || trainee_ != desk.trainee()) {
-    entries_ = progress_of(desk);
+  const Words& w = model.words();
+  if (!entries_ || language_ != w.language() || trainee_ != model.trainee()) {
+    entries_ = progress_of(model);
     language_ = w.language();
-    trainee_ = desk.trainee();
+    trainee_ = model.trainee();
   }
-  const ProgressChoice choice = page_.draw(ui, *entries_, desk.is_guest() ? desk.who() : desk.trainee());
+  const ProgressChoice choice = page_.draw(ui, *entries_, model.is_guest() ? model.who() : model.trainee());
   switch (choice.kind) {
     case Kind::kNone:
       break;
     case Kind::kBack:
       return ScreenName::kBack;
     case Kind::kOpen:
-      return desk.open_result(choice.uuid) ? std::optional(ScreenName::kDebrief) : std::nullopt;
+      return model.open_result(choice.uuid) ? std::optional(ScreenName::kDebrief) : std::nullopt;
     case Kind::kExport:
       try {
-        desk.notice = w("Your attempts were written to {0}", {export_attempts(desk).string()});
+        model.notice = w("Your attempts were written to {0}", {export_attempts(model).string()});
       } catch (const EnvironmentError& error) {
-        desk.notice = w("The export failed: {0}", {error.what()});
+        model.notice = w("The export failed: {0}", {error.what()});
       }
       break;
   }

@@ -5,14 +5,14 @@
 #pragma once
 
 #include "app/window/pages/progress_page.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/practice/screen.h"
 
 namespace trocar {
 
 class ProgressScreen : public Screen {
  public:
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
   bool takes_escape() const override { return true; }
 
  private:
@@ -22,9 +22,9 @@ class ProgressScreen : public Screen {
 };
 
 /// What there is to show of whoever is here, newest curve first.
-std::vector<ProgressEntry> progress_of(const PracticeDesk& desk);
+std::vector<ProgressEntry> progress_of(const PracticeModel& model);
 /// All attempts of whoever is here into the exports folder beside the database. @return the file. @throws
 /// EnvironmentError.
-std::filesystem::path export_attempts(const PracticeDesk& desk);
+std::filesystem::path export_attempts(const PracticeModel& model);
 
 }  // namespace trocar

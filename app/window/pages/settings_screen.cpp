@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/ui/ui.h"
 #include "haptics/input_error.h"
 
@@ -25,11 +25,11 @@ bool name_choice(Ui& ui, const char* id, const std::string& text, const std::vec
 
 }  // namespace
 
-void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
-  Settings& s = desk.settings();
+void SettingsScreen::general(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
+  Settings& s = model.settings();
   bool changed = false;
-  if (languages_.empty()) languages_ = languages(desk.assets().assets / "languages");
+  if (languages_.empty()) languages_ = languages(model.assets().assets / "languages");
   std::vector<std::string> shown, codes;
   for (const Language& language : languages_) {
     shown.push_back(language.name);
@@ -37,27 +37,27 @@ void SettingsScreen::general(Ui& ui, PracticeDesk& desk) {
   }
   std::string code = w.language();
   if (!shown.empty() && name_choice(ui, "language", w("Language"), shown, codes, code)) {
-    desk.choose_language(code);
+    model.choose_language(code);
   }
-  std::string percent = std::to_string(static_cast<int>(100 * desk.scale() + 0.5));
+  std::string percent = std::to_string(static_cast<int>(100 * model.scale() + 0.5));
   const std::vector<std::string> percents{"100", "125", "150", "175", "200"};
   if (name_choice(ui, "scale", w("Size of text"), {"100 %", "125 %", "150 %", "175 %", "200 %"}, percents, percent)) {
-    desk.choose_scale(std::stod(percent) / 100);
+    model.choose_scale(std::stod(percent) / 100);
   }
-  std::string scope = desk.scope();
+  std::string scope = model.scope();
   if (name_choice(ui, "scope", w("Scope"), {w("0 degrees"), w("30 degrees")}, {"0", "30"}, scope))
-    desk.choose_scope(scope);
+    model.choose_scope(scope);
   ui.explain(w("The light post of a 30 degree scope turns where it looks; the camera head keeps the horizon."));
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
                          {"auto", "potato", "soft", "full"}, s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);
-  if (!desk.sound().refusal().empty()) ui.text(w.made(desk.sound().refusal()), Ink::kDim);
-  if (changed) desk.settings_changed();
+  if (!model.sound().refusal().empty()) ui.text(w.made(model.sound().refusal()), Ink::kDim);
+  if (changed) model.settings_changed();
 }
 
-void SettingsScreen::hand(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
-  Settings& s = desk.settings();
+void SettingsScreen::hand(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
+  Settings& s = model.settings();
   bool changed = name_choice(ui, "input", w("Steered by"),
                              {w("What moves first"), w("Mouse"), w("Gamepad"), w("SpaceMouse"), w("Device")},
                              {"auto", "mouse", "gamepad", "spacemouse", "device"}, s.input);
@@ -66,16 +66,16 @@ void SettingsScreen::hand(Ui& ui, PracticeDesk& desk) {
   ui.explain(w("Mirrors wrist and panels."));
   changed |= ui.toggle("fulcrum", w("Inverted, as through a port"), s.like_a_fulcrum);
   ui.explain(w("The tip moves against the hand, as an instrument in a real port does."));
-  if (changed) desk.settings_changed();
+  if (changed) model.settings_changed();
 }
 
-void SettingsScreen::keys(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
+void SettingsScreen::keys(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
   ui.heading(w("Keys"));
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
   for (const ActionName& action : action_names()) {
     const bool waits = waiting_for_ == action.action;
-    const std::string right = waits ? w("press a key") : w.name(key_name(desk.keys().key_of(action.action)));
+    const std::string right = waits ? w("press a key") : w.name(key_name(model.keys().key_of(action.action)));
     if (ui.selectable(action.name, waits ? Mark::kPlay : Mark::kNone, w(action.words), waits, right)) {
       waiting_for_ = action.action;
       wrong_.clear();
@@ -83,30 +83,30 @@ void SettingsScreen::keys(Ui& ui, PracticeDesk& desk) {
   }
   ui.gap(4);
   if (ui.button("defaults", w("Usual keys"))) {
-    desk.settings().keys.clear();
-    desk.settings_changed();
+    model.settings().keys.clear();
+    model.settings_changed();
   }
 }
 
-std::optional<ScreenName> SettingsScreen::handle(const InputEvent& event, PracticeDesk& desk) {
+std::optional<ScreenName> SettingsScreen::handle(const InputEvent& event, PracticeModel& model) {
   if (!waiting_for_ || event.kind != InputEvent::Kind::kKeyDown || event.repeat) return {};
   const Action action = *waiting_for_;
   took_key_ = true;
   waiting_for_.reset();
   if (event.key == kKeyEscape) return {};
   try {
-    KeyMap map = desk.keys();
+    KeyMap map = model.keys();
     map.assign(action, event.key);
-    desk.settings().keys = map.changes();
-    desk.settings_changed();
+    model.settings().keys = map.changes();
+    model.settings_changed();
   } catch (const InputError& error) {
     wrong_ = error.what();
   }
   return {};
 }
 
-std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeDesk& desk, double /*dt_s*/) {
-  const Words& w = desk.words();
+std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeModel& model, double /*dt_s*/) {
+  const Words& w = model.words();
   if (waiting_for_) ui.keys_to_screen();
   std::optional<ScreenName> to;
   const double margin = std::min(ui.px(24), 0.02 * ui.width()), gap = ui.px(12);
@@ -115,17 +115,17 @@ std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeDesk& desk, doub
   const double left = beside ? 0.5 * (wide - gap) : wide, upper = high - foot - gap;
   ui.begin_panel("settings", {margin, margin, left, upper});
   ui.title(w("Settings"));
-  general(ui, desk);
+  general(ui, model);
   ui.gap(6);
   ui.heading(w("Hand"));
-  hand(ui, desk);
+  hand(ui, model);
   if (beside) {
     ui.end_panel();
     ui.begin_panel("settings.keys", {margin + left + gap, margin, left, upper});
   } else {
     ui.gap(6);
   }
-  keys(ui, desk);
+  keys(ui, model);
   ui.end_panel();
   ui.begin_strip("settings.foot", {margin, margin + high - foot, wide, foot});
   if (ui.button("done", w("Done"), "Esc", true) && !took_key_) to = ScreenName::kBack;

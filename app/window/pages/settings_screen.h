@@ -13,15 +13,15 @@ namespace trocar {
 
 class SettingsScreen final : public Screen {
  public:
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  std::optional<ScreenName> handle(const InputEvent& event, PracticeDesk& desk) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  std::optional<ScreenName> handle(const InputEvent& event, PracticeModel& model) override;
   bool takes_escape() const override { return true; }
   bool takes_all() const override { return waiting_for_.has_value(); }
 
  private:
-  void general(Ui& ui, PracticeDesk& desk);
-  void hand(Ui& ui, PracticeDesk& desk);
-  void keys(Ui& ui, PracticeDesk& desk);
+  void general(Ui& ui, PracticeModel& model);
+  void hand(Ui& ui, PracticeModel& model);
+  void keys(Ui& ui, PracticeModel& model);
 
   std::optional<Action> waiting_for_;  ///< the next key is this action's
   bool took_key_ = false;              ///< the key of this frame was chosen for an action: it means nothing else

@@ -38,18 +38,18 @@ void hold(Sound& sound, HeldTone tone, double level) {
 
 }  // namespace
 
-void SoundPage::frame(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
+void SoundPage::frame(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
   ui.text(w("Nothing is heard that is not seen too. Choose a sound to hear it."), Ink::kDim);
-  if (!desk.sound().refusal().empty()) ui.marked(Mark::kInfo, w.made(desk.sound().refusal()));
+  if (!model.sound().refusal().empty()) ui.marked(Mark::kInfo, w.made(model.sound().refusal()));
   for (const Row& row : rows(w)) {
     const bool chosen = ui.selectable(row.id, Mark::kPlay, row.sound, false);
     ui.text(row.when, Ink::kDim);
     if (!chosen) continue;
     if (const Tone* once = std::get_if<Tone>(&row.tone)) {
-      desk.sound().play(*once);
+      model.sound().play(*once);
     } else {
-      if (held_) hold(desk.sound(), *held_, 0);
+      if (held_) hold(model.sound(), *held_, 0);
       held_ = std::get<HeldTone>(row.tone);
       left_s_ = kHeld_s;
     }

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/ui/ui.h"
 
 namespace trocar {
@@ -12,7 +12,7 @@ class SoundPage {
  public:
   static constexpr double kHeld_s = 1.5;  ///< that a tone which lasts is let sound
 
-  void frame(Ui& ui, PracticeDesk& desk);
+  void frame(Ui& ui, PracticeModel& model);
   /// With every picture, whether the page is up or not: what lasts comes to its end. @param up the page is seen.
   void pass(Sound& sound, bool up, double dt_s);
 

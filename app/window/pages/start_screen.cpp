@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/window/pages/show_scene.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/ui/theme.h"
 #include "app/window/ui/ui.h"
 
@@ -27,21 +27,21 @@ double free_width(const Area& panel, double width) {
   return left >= 0.4 * width ? left : 0;
 }
 
-std::string title_of(const PracticeDesk& desk, const std::string& id) {
-  for (const Exercise& exercise : desk.exercises())
-    if (exercise.id == id) return exercise.number + " " + desk.words()(exercise.title);
+std::string title_of(const PracticeModel& model, const std::string& id) {
+  for (const Exercise& exercise : model.exercises())
+    if (exercise.id == id) return exercise.number + " " + model.words()(exercise.title);
   return id;
 }
 
 }  // namespace
 
-std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, int height) {
-  if (!scene_) scene_ = desk.show_scene(t_s_ == 0 ? kFirstWait_s : 0);
+std::optional<Screen::Stage> StartScreen::stage(PracticeModel& model, int width, int height) {
+  if (!scene_) scene_ = model.show_scene(t_s_ == 0 ? kFirstWait_s : 0);
   if (!scene_) return {};
-  if (!film_) film_ = std::make_unique<FilmLoop>(desk.show_setup(), desk.assets());
+  if (!film_) film_ = std::make_unique<FilmLoop>(model.show_setup(), model.assets());
   Stage stage;
   stage.view = film_->ready() ? film_->view() : show_view(*scene_, t_s_);
-  const double beside = free_width(panel_area(desk.scale(), width, height), width);
+  const double beside = free_width(panel_area(model.scale(), width, height), width);
   stage.x = beside > 0 ? width - beside : 0;
   stage.width = beside > 0 ? beside : width;
   stage.height = height;
@@ -49,14 +49,14 @@ std::optional<Screen::Stage> StartScreen::stage(PracticeDesk& desk, int width, i
   return stage;
 }
 
-std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
+std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
   std::optional<ScreenName> to;
   const bool coded = !code_.empty();  // what Enter means is blue
   if (ui.button("try", w("Try now as a guest"), coded ? "" : "Enter", !coded, kPanelWidth - 36)) {
-    const PracticeDesk::Advice advice = desk.next();
-    desk.exercise_id = advice.exercise_id;
-    desk.level = advice.level;
+    const PracticeModel::Advice advice = model.next();
+    model.exercise_id = advice.exercise_id;
+    model.level = advice.level;
     to = ScreenName::kBriefing;
   }
   ui.text(w("No account, mouse and keyboard are enough."), Ink::kDim);
@@ -64,22 +64,22 @@ std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeDesk& desk) {
   ui.heading(w("Sign in"));
   const bool entered = ui.field("code", w("Your code"), code_);
   if (ui.button("signin", w("Sign in"), coded ? "Enter" : "", coded) || entered) {
-    wrong_ = desk.sign_in(code_);
+    wrong_ = model.sign_in(code_);
     if (wrong_.empty()) to = ScreenName::kCurriculum;
   }
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
   return to;
 }
 
-std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
-  const PracticeDesk::Advice advice = desk.next();
+std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
+  const PracticeModel::Advice advice = model.next();
   std::optional<ScreenName> to;
-  ui.marked(Mark::kTick, w("Signed in as {0}", {desk.trainee()}));
-  if (ui.button("next", w("Next: {0}, {1}", {title_of(desk, advice.exercise_id), advice.level}), "Enter", true,
+  ui.marked(Mark::kTick, w("Signed in as {0}", {model.trainee()}));
+  if (ui.button("next", w("Next: {0}, {1}", {title_of(model, advice.exercise_id), advice.level}), "Enter", true,
                 kPanelWidth - 36)) {
-    desk.exercise_id = advice.exercise_id;
-    desk.level = advice.level;
+    model.exercise_id = advice.exercise_id;
+    model.level = advice.level;
     to = ScreenName::kBriefing;
   }
   ui.text(advice.why, Ink::kDim);
@@ -87,24 +87,24 @@ std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeDesk& desk) 
   ui.same_line();
   if (ui.button("progress", w("My progress"))) to = ScreenName::kProgress;
   ui.same_line();
-  if (ui.button("signout", w("Sign out"))) desk.sign_out();
+  if (ui.button("signout", w("Sign out"))) model.sign_out();
   return to;
 }
 
-std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
+std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
   std::optional<ScreenName> to;
-  if (languages_.empty()) languages_ = languages(desk.assets().assets / "languages");
+  if (languages_.empty()) languages_ = languages(model.assets().assets / "languages");
   std::vector<std::string> names;
   int chosen = 0;
   for (const Language& language : languages_) {
-    if (language.code == desk.words().language()) chosen = static_cast<int>(names.size());
+    if (language.code == model.words().language()) chosen = static_cast<int>(names.size());
     names.push_back(language.name);
   }
   if (names.size() > 1 && ui.choice("language", w("Language"), names, chosen)) {
-    desk.choose_language(languages_[static_cast<std::size_t>(chosen)].code);
+    model.choose_language(languages_[static_cast<std::size_t>(chosen)].code);
   }
-  const auto resize = [&](double by) { desk.choose_scale(desk.scale() + by); };
+  const auto resize = [&](double by) { model.choose_scale(model.scale() + by); };
   if (ui.button("smaller", w("Smaller"), "-")) resize(-0.25);
   ui.same_line();
   if (ui.button("larger", w("Larger"), "=")) resize(0.25);
@@ -114,11 +114,11 @@ std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeDesk& desk) {
 }
 
 /// What is seen, and that it is nobody.
-void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
-  const Area panel = panel_area(desk.scale(), ui.width(), ui.height());
+void StartScreen::caption(Ui& ui, const PracticeModel& model) const {
+  const Area panel = panel_area(model.scale(), ui.width(), ui.height());
   const double free = free_width(panel, ui.width());
   if (!scene_ || free <= 0) return;
-  const Words& w = desk.words();
+  const Words& w = model.words();
   const std::string said = film_ && film_->ready() ? w("Replay of the expert: {0}", {w.name(film_->scene().organ.name)})
                                                    : w("Still scene, synthetic: no patient.");
   const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), high = ui.line_height(),
@@ -128,18 +128,18 @@ void StartScreen::caption(Ui& ui, const PracticeDesk& desk) const {
   ui.text_at(x, y, said, Ink::kDim, room);
 }
 
-std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
+std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
   t_s_ += dt_s;
   if (film_) film_->advance(dt_s);
-  const Words& w = desk.words();
-  caption(ui, desk);
-  ui.begin_panel("start", panel_area(desk.scale(), ui.width(), ui.height()));
+  const Words& w = model.words();
+  caption(ui, model);
+  ui.begin_panel("start", panel_area(model.scale(), ui.width(), ui.height()));
   ui.title("Trocar");
   ui.text(w("Practise laparoscopy and feel what you touch."), Ink::kDim);
   ui.gap(10);
-  std::optional<ScreenName> to = desk.is_guest() ? guest_part(ui, desk) : trainee_part(ui, desk);
+  std::optional<ScreenName> to = model.is_guest() ? guest_part(ui, model) : trainee_part(ui, model);
   ui.to_bottom(236);
-  if (const auto chosen = foot(ui, desk)) to = chosen;
+  if (const auto chosen = foot(ui, model)) to = chosen;
   ui.gap(4);
   ui.marked(Mark::kInfo, w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."), Ink::kDim);
   ui.gap(4);

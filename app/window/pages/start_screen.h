@@ -13,14 +13,14 @@ namespace trocar {
 
 class StartScreen final : public Screen {
  public:
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  std::optional<Stage> stage(PracticeModel& model, int width, int height) override;
 
  private:
-  std::optional<ScreenName> guest_part(Ui& ui, PracticeDesk& desk);
-  std::optional<ScreenName> trainee_part(Ui& ui, PracticeDesk& desk);
-  std::optional<ScreenName> foot(Ui& ui, PracticeDesk& desk);
-  void caption(Ui& ui, const PracticeDesk& desk) const;
+  std::optional<ScreenName> guest_part(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> trainee_part(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> foot(Ui& ui, PracticeModel& model);
+  void caption(Ui& ui, const PracticeModel& model) const;
 
   double t_s_ = 0;
   std::shared_ptr<const SceneView> scene_;

@@ -46,10 +46,10 @@ DeskOptions nobody() {
 }  // namespace
 
 PictureLatency measure_picture_latency(const AssetRoots& assets, double seconds, int width, int height) {
-  PracticeDesk desk(nobody(), assets);
+  PracticeModel model(nobody(), assets);
   HeadlessContext context;
-  PracticeLoop loop(desk, context, false);
-  if (const std::string hindered = desk.begin_attempt(); !hindered.empty())
+  PracticeLoop loop(model, context, false);
+  if (const std::string hindered = model.begin_attempt(); !hindered.empty())
     throw EnvironmentError("no attempt to measure: " + hindered);
   loop.go(ScreenName::kRun);
   PictureLatency out;
@@ -62,8 +62,8 @@ PictureLatency measure_picture_latency(const AssetRoots& assets, double seconds,
   while (!begin || seconds_since(*begin) < seconds) {
     const double dt_s = seconds_since(last);
     last = Clock::now();
-    if (!begin && desk.running() && desk.running()->ready()) begin = last;
-    if (!desk.running()) throw EnvironmentError("the attempt to measure has ended: " + desk.notice);
+    if (!begin && model.running() && model.running()->ready()) begin = last;
+    if (!model.running()) throw EnvironmentError("the attempt to measure has ended: " + model.notice);
     if (begin) frames.push_back(dt_s);
     loop.frame(width, height, dt_s, {circling(static_cast<int>(frames.size()), width, height)});
     loop.picture();  // reading it back waits until it is complete, as showing it would

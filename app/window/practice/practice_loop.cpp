@@ -30,11 +30,11 @@ struct Drawn {
   Renderer renderer;
   std::unique_ptr<Renderer> second = {};  // keeps its own organ on the GPU; while two runs are compared
 
-  Drawn(PracticeDesk& desk, GraphicsContext& given, bool to_window, Preset preset)
+  Drawn(PracticeModel& model, GraphicsContext& given, bool to_window, Preset preset)
       : context(given),
         target(context, to_window),
-        layer(context, desk.scale()),
-        renderer(context, desk.assets().assets, {.preset = preset}) {}
+        layer(context, model.scale()),
+        renderer(context, model.assets().assets, {.preset = preset}) {}
 };
 
 }  // namespace
@@ -45,7 +45,7 @@ std::filesystem::path pictures_folder() {
 }
 
 struct PracticeLoop::State {
-  PracticeDesk& desk;
+  PracticeModel& model;
   bool to_window, software;
   std::optional<Drawn> drawn;  // empty: the context was lost
   ScreenName name = ScreenName::kStart;
@@ -66,9 +66,9 @@ struct PracticeLoop::State {
   std::string preset = "auto";  // as the settings had it when it was last followed
   long frames = 0;
 
-  State(PracticeDesk& given, GraphicsContext& context, bool window)
-      : desk(given), to_window(window), software(context.info().software) {
-    drawn.emplace(desk, context, to_window, guessed_preset(software));
+  State(PracticeModel& given, GraphicsContext& context, bool window)
+      : model(given), to_window(window), software(context.info().software) {
+    drawn.emplace(model, context, to_window, guessed_preset(software));
   }
 
   void show(ScreenName to);
@@ -85,14 +85,14 @@ struct PracticeLoop::State {
   void save_picture();
 };
 
-PracticeLoop::PracticeLoop(PracticeDesk& desk, GraphicsContext& context, bool to_window)
-    : state_(std::make_unique<State>(desk, context, to_window)) {
-  const bool briefing = desk.exercise_given() && make_screen(ScreenName::kBriefing);
+PracticeLoop::PracticeLoop(PracticeModel& model, GraphicsContext& context, bool to_window)
+    : state_(std::make_unique<State>(model, context, to_window)) {
+  const bool briefing = model.exercise_given() && make_screen(ScreenName::kBriefing);
   state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
 }
 
 PracticeLoop::~PracticeLoop() {
-  if (state_->desk.running()) state_->desk.end_attempt();
+  if (state_->model.running()) state_->model.end_attempt();
 }
 
 /// The way back from `to`: a page that is gone to again is no step of it any more, the start page has none.
@@ -118,7 +118,7 @@ void PracticeLoop::State::show(ScreenName to) {
   }
   std::unique_ptr<Screen> made = make_screen(to);
   if (!made) {
-    desk.notice = desk.words()("This page does not exist yet.");
+    model.notice = model.words()("This page does not exist yet.");
     return;
   }
   screen = std::move(made);
@@ -127,7 +127,7 @@ void PracticeLoop::State::show(ScreenName to) {
 
 /// An attempt stands still while the menu or the help is over it; an exam goes on.
 void PracticeLoop::State::open_menu(bool open) {
-  AttemptRunner* run = desk.running();
+  AttemptRunner* run = model.running();
   menu = open;
   const bool covered = menu || help;
   if (run && covered && !run->paused()) {
@@ -143,7 +143,7 @@ void PracticeLoop::State::choose(MenuChoice choice) {
   if (choice == MenuChoice::kNone) return;
   open_menu(false);
   const auto leave = [this](ScreenName to) {
-    if (desk.running()) desk.end_attempt();
+    if (model.running()) model.end_attempt();
     show(to);
   };
   switch (choice) {
@@ -171,13 +171,13 @@ bool PracticeLoop::State::command(const InputEvent& event) {
     fullscreen = !fullscreen;
     return true;
   }
-  const std::optional<Action> action = desk.keys().action_of(event.key);
+  const std::optional<Action> action = model.keys().action_of(event.key);
   if (action == Action::kPicture) {
     picture_wanted = true;
   } else if (action == Action::kHelp) {
     help = !help;
     open_menu(false);
-  } else if (action == Action::kDevicePanel && desk.running()) {
+  } else if (action == Action::kDevicePanel && model.running()) {
     device.open = !device.open;
   } else if (action == Action::kMenu && !menu && !help && screen && screen->takes_escape()) {
     return true;  // its button hears it
@@ -195,7 +195,7 @@ void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
   const bool covered = menu || help;
   for (const InputEvent& event : events) {
     if (screen && !covered && screen->takes_all()) {
-      if (const auto to = screen->handle(event, desk)) show(*to);
+      if (const auto to = screen->handle(event, model)) show(*to);
       continue;
     }
     if (command(event) || covered || !screen) continue;
@@ -203,14 +203,14 @@ void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
     const bool press = event.kind == Kind::kButtonDown || event.kind == Kind::kWheel;
     // What was let go is told to the screen always: nothing stays held because a panel lay under the pointer.
     if ((key && drawn->layer.wants_keys()) || (press && drawn->layer.wants_pointer())) continue;
-    if (const auto to = screen->handle(event, desk)) show(*to);
+    if (const auto to = screen->handle(event, model)) show(*to);
   }
 }
 
 /// What the settings say. "auto" in a window: timed once, after the first frame stands and as soon as the show scene is
 /// made; in memory: a guess, so that pictures do not depend on how busy the machine is.
 void PracticeLoop::State::follow_preset(int width, int height) {
-  const std::string& wanted = desk.settings().preset;
+  const std::string& wanted = model.settings().preset;
   if (preset != wanted) {
     preset = wanted;
     timed = false;
@@ -218,7 +218,7 @@ void PracticeLoop::State::follow_preset(int width, int height) {
     use_preset(preset_named(wanted).value_or(guessed_preset(software)));
   }
   if (wanted != "auto" || timed || !to_window || frames == 0) return;
-  const std::shared_ptr<const SceneView> scene = desk.show_scene(0);
+  const std::shared_ptr<const SceneView> scene = model.show_scene(0);
   if (!scene) return;
   timed = true;
   use_preset(measure_preset(drawn->renderer, guessed_preset(software), *scene, width, height));
@@ -234,12 +234,12 @@ void PracticeLoop::State::use_preset(Preset wanted) {
 /// A picture that was chosen by speed and has become too slow gives way to a plainer one, and says so; a chosen one
 /// stays.
 void PracticeLoop::State::watch_preset(double dt_s) {
-  if (!to_window || desk.settings().preset != "auto" || frames < 3) return;
+  if (!to_window || model.settings().preset != "auto" || frames < 3) return;
   const std::optional<Preset> plainer = watch.picture(dt_s, drawn->renderer.options().preset);
   if (!plainer) return;
   use_preset(*plainer);
-  desk.notice =
-      desk.words()("The picture had become slow and is drawn more plainly now. The settings can change that.");
+  model.notice =
+      model.words()("The picture had become slow and is drawn more plainly now. The settings can change that.");
 }
 
 /// Both pictures first, then both into the frame: drawing a picture binds framebuffers of its own.
@@ -261,11 +261,11 @@ void PracticeLoop::State::draw_stage(int width, int height) {
     placed.push_back(
         {with.draw_scope(stage->view, part.width, part.height), part, std::max(stage->dim, menu || help ? 0.6 : 0.0)});
   };
-  if (const auto stage = screen && room ? screen->stage(desk, width, height) : std::nullopt)
+  if (const auto stage = screen && room ? screen->stage(model, width, height) : std::nullopt)
     draw(stage, drawn->renderer);
-  if (const auto beside = screen && room ? screen->second_stage(desk, width, height) : std::nullopt) {
+  if (const auto beside = screen && room ? screen->second_stage(model, width, height) : std::nullopt) {
     if (!drawn->second)
-      drawn->second = std::make_unique<Renderer>(drawn->context, desk.assets().assets, drawn->renderer.options());
+      drawn->second = std::make_unique<Renderer>(drawn->context, model.assets().assets, drawn->renderer.options());
     draw(beside, *drawn->second);
   } else {
     drawn->second.reset();
@@ -275,25 +275,25 @@ void PracticeLoop::State::draw_stage(int width, int height) {
 }
 
 void PracticeLoop::State::draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events) {
-  drawn->layer.set_scale(desk.scale());
+  drawn->layer.set_scale(model.scale());
   drawn->layer.begin(width, height, dt_s, events);
-  Ui ui(desk.words(), desk.scale(), width, height);
+  Ui ui(model.words(), model.scale(), width, height);
   std::optional<ScreenName> to;
   if (too_small(width, height))
     small_window(ui);
   else if (menu)
-    choose(menu_overlay(ui, desk, desk.running() != nullptr));
-  else if (help && help_overlay(ui, desk, help_page, sounds)) {
+    choose(menu_overlay(ui, model, model.running() != nullptr));
+  else if (help && help_overlay(ui, model, help_page, sounds)) {
     help = false;
     open_menu(false);
   } else if (!help && screen)
-    to = screen->frame(ui, desk, dt_s);
-  sounds.pass(desk.sound(), help && help_page == HelpPage::kSounds, dt_s);
-  if (AttemptRunner* run = desk.running();
+    to = screen->frame(ui, model, dt_s);
+  sounds.pass(model.sound(), help && help_page == HelpPage::kSounds, dt_s);
+  if (AttemptRunner* run = model.running();
       run && !too_small(width, height) && !menu && !help && !(screen && screen->asks()))
-    device.frame(ui, desk, run->newest().record, run->scene().loop, dt_s,
-                 device_panel_area(ui, desk.settings().left_handed));
-  if (!too_small(width, height)) notice_overlay(ui, desk, dt_s, notice_age_s, notice);
+    device.frame(ui, model, run->newest().record, run->scene().loop, dt_s,
+                 device_panel_area(ui, model.settings().left_handed));
+  if (!too_small(width, height)) notice_overlay(ui, model, dt_s, notice_age_s, notice);
   texts = ui.text_audit();
   scrolling = ui.scrolling();
   drawn->layer.end();
@@ -309,9 +309,9 @@ void PracticeLoop::State::save_picture() {
     for (int n = 2; std::filesystem::exists(file); ++n)
       file = folder / ("trocar-" + file_stamp() + "-" + std::to_string(n) + ".png");
     write_png(file, drawn->target.read());
-    desk.notice = desk.words()("Picture saved: {0}", {file.string()});
+    model.notice = model.words()("Picture saved: {0}", {file.string()});
   } catch (const std::exception& error) {
-    desk.notice = desk.words()("No picture could be saved: {0}", {error.what()});
+    model.notice = model.words()("No picture could be saved: {0}", {error.what()});
   }
 }
 
@@ -326,7 +326,7 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
     ++s.frames;
     if (s.picture_wanted) s.save_picture();
   }
-  s.desk.pass(dt_s);
+  s.model.pass(dt_s);
   return s.name != ScreenName::kQuit;
 }
 
@@ -335,21 +335,21 @@ void PracticeLoop::lose_pictures() {
   InputEvent looks_away;
   looks_away.kind = InputEvent::Kind::kFocusLost;  // an attempt stands still, nothing stays held
   s.dispatch({looks_away});
-  if (s.desk.running()) s.desk.running()->pause(true);
+  if (s.model.running()) s.model.running()->pause(true);
   s.drawn.reset();
 }
 
 void PracticeLoop::take_up(GraphicsContext& context) {
   State& s = *state_;
   s.software = context.info().software;
-  s.drawn.emplace(s.desk, context, s.to_window, preset_named(s.preset).value_or(guessed_preset(s.software)));
+  s.drawn.emplace(s.model, context, s.to_window, preset_named(s.preset).value_or(guessed_preset(s.software)));
   s.timed = false;
   s.watch = PresetWatch();
-  s.desk.notice = s.desk.words()("The graphics driver was started anew; nothing of the attempt is lost.");
+  s.model.notice = s.model.words()("The graphics driver was started anew; nothing of the attempt is lost.");
 }
 
 void PracticeLoop::settle(double wait_s) {
-  if (state_->screen) state_->screen->settle(state_->desk, wait_s);
+  if (state_->screen) state_->screen->settle(state_->model, wait_s);
 }
 
 void PracticeLoop::go(ScreenName name) { state_->show(name); }

@@ -16,7 +16,7 @@
 #include "app/picture/gl/image.h"
 #include "app/picture/scene/preset.h"
 #include "app/window/input/input_event.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/practice/screen.h"
 #include "app/window/ui/ui.h"
 
@@ -26,7 +26,7 @@ class PracticeLoop {
  public:
   /// Start page, or the briefing when the desk was given an exercise.
   /// @param to_window frames go to the window's framebuffer. @throws EnvironmentError: font or shaders missing.
-  PracticeLoop(PracticeDesk& desk, GraphicsContext& context, bool to_window);
+  PracticeLoop(PracticeModel& model, GraphicsContext& context, bool to_window);
   /// Ends an attempt that runs: aborted, and stored so.
   ~PracticeLoop();
 

@@ -8,7 +8,7 @@
 #include "app/picture/attempt/attempt_hud.h"
 #include "app/picture/attempt/attempt_scene.h"
 #include "app/picture/films/film.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/replay/replay_plot.h"
 #include "app/window/ui/ui.h"
 #include "scenarios/kinds/kind.h"
@@ -31,47 +31,47 @@ std::string speed_words(const Words& w, double speed) { return w("speed {0}", {w
 
 void ReplayScreen::Side::look_after() { seen = seen || (run && run->has_pictures()); }
 
-void ReplayScreen::open(PracticeDesk& desk) {
+void ReplayScreen::open(PracticeModel& model) {
   opened_ = true;
-  const Words& w = desk.words();
-  const std::filesystem::path file = desk.replay_file.empty() ? desk.recording() : desk.replay_file;
-  begin_at_s_ = std::exchange(desk.replay_at_s, {});
-  beside_file_ = desk.replay_beside;
+  const Words& w = model.words();
+  const std::filesystem::path file = model.replay_file.empty() ? model.recording() : model.replay_file;
+  begin_at_s_ = std::exchange(model.replay_at_s, {});
+  beside_file_ = model.replay_beside;
   beside_wanted_ = !beside_file_.empty();
   if (file.empty()) {
-    nothing_ = desk.result() && desk.database() == ":memory:"
+    nothing_ = model.result() && model.database() == ":memory:"
                    ? w("Nothing is kept in this session, so there is no recording of the attempt.")
-               : desk.result() ? w("This attempt has no recording.")
-                               : w("There is no recording to show yet: it is made with every attempt.");
+               : model.result() ? w("This attempt has no recording.")
+                                : w("There is no recording to show yet: it is made with every attempt.");
     return;
   }
-  own_.name = desk.replay_file.empty() ? w("You") : file.stem().string();
-  own_.run = RecordedRun::in_background(file, desk.assets());
+  own_.name = model.replay_file.empty() ? w("You") : file.stem().string();
+  own_.run = RecordedRun::in_background(file, model.assets());
 }
 
-void ReplayScreen::ask_beside(PracticeDesk& desk) {
+void ReplayScreen::ask_beside(PracticeModel& model) {
   if (!beside_wanted_ || beside_.run || !own_.shown()) return;
   const bool expert = beside_file_.empty();
   const std::filesystem::path file =
-      expert ? expert_.ask(expert_setup(own_.run->scene().setup), desk.assets()) : beside_file_;
+      expert ? expert_.ask(expert_setup(own_.run->scene().setup), model.assets()) : beside_file_;
   if (file.empty()) return;
-  beside_.name = expert ? desk.words()("Expert") : beside_file_.stem().string();
-  beside_.run = RecordedRun::in_background(file, desk.assets());
+  beside_.name = expert ? model.words()("Expert") : beside_file_.stem().string();
+  beside_.run = RecordedRun::in_background(file, model.assets());
 }
 
-void ReplayScreen::look_after(PracticeDesk& desk, double dt_s) {
-  if (!opened_) open(desk);
+void ReplayScreen::look_after(PracticeModel& model, double dt_s) {
+  if (!opened_) open(model);
   if (!own_.run) return;
   if (own_.run->stage() == RecordedRun::Stage::kFailed && !own_.shown()) nothing_ = own_.run->failure();
   const bool before = own_.shown();
   own_.look_after();
   beside_.look_after();
-  ask_beside(desk);
+  ask_beside(model);
   if (!own_.shown()) return;
   const RecordedRun& run = *own_.run;
   const double length = two() ? std::max(film_length(run), film_length(*beside_.run)) : film_length(run);
   clock_.set_range(-std::min(kLead_s, run.begin_s()), length);
-  if (!before) events_ = replay_events(run.events(), run.begin_s(), desk.words());
+  if (!before) events_ = replay_events(run.events(), run.begin_s(), model.words());
   if (begin_at_s_) clock_.go(*std::exchange(begin_at_s_, {}) - run.begin_s());
   double known_s = run.stage() == RecordedRun::Stage::kReplaying ? run.available_until() - run.begin_s() : length;
   if (two() && beside_.run->stage() == RecordedRun::Stage::kReplaying)
@@ -79,14 +79,14 @@ void ReplayScreen::look_after(PracticeDesk& desk, double dt_s) {
   clock_.advance(dt_s, known_s);
 }
 
-void ReplayScreen::settle(PracticeDesk& desk, double wait_s) {
+void ReplayScreen::settle(PracticeModel& model, double wait_s) {
   using Run = RecordedRun::Stage;
   const auto begin = std::chrono::steady_clock::now();
   const auto working = [](const Side& side) {
     return side.run && (side.run->stage() == Run::kLoading || side.run->stage() == Run::kReplaying);
   };
   do {
-    look_after(desk, 0);
+    look_after(model, 0);
     if (!working(own_) && !working(beside_)) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   } while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(wait_s));
@@ -102,12 +102,12 @@ Screen::Stage ReplayScreen::stage_of(const Side& side, double x, double width) c
   return stage;
 }
 
-std::optional<Screen::Stage> ReplayScreen::stage(PracticeDesk&, int width, int) {
+std::optional<Screen::Stage> ReplayScreen::stage(PracticeModel&, int width, int) {
   if (!own_.shown() || picture_height_ <= 0) return {};
   return stage_of(own_, 0, two() ? width / 2 - 1 : width);
 }
 
-std::optional<Screen::Stage> ReplayScreen::second_stage(PracticeDesk&, int width, int) {
+std::optional<Screen::Stage> ReplayScreen::second_stage(PracticeModel&, int width, int) {
   if (!two() || picture_height_ <= 0) return {};
   return stage_of(beside_, width / 2 + 1, width - width / 2 - 1);
 }
@@ -253,9 +253,9 @@ std::optional<ScreenName> ReplayScreen::panel(Ui& ui) {
   return to;
 }
 
-std::optional<ScreenName> ReplayScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
-  look_after(desk, dt_s);
-  const Words& w = desk.words();
+std::optional<ScreenName> ReplayScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
+  look_after(model, dt_s);
+  const Words& w = model.words();
   if (own_.shown()) {
     keys(ui);
     return panel(ui);

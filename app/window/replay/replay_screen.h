@@ -20,10 +20,10 @@ namespace trocar {
 
 class ReplayScreen final : public Screen {
  public:
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
-  std::optional<Stage> second_stage(PracticeDesk& desk, int width, int height) override;
-  void settle(PracticeDesk& desk, double wait_s) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  std::optional<Stage> stage(PracticeModel& model, int width, int height) override;
+  std::optional<Stage> second_stage(PracticeModel& model, int width, int height) override;
+  void settle(PracticeModel& model, double wait_s) override;
   bool takes_escape() const override { return true; }
 
   const ReplayClock& clock() const { return clock_; }
@@ -38,9 +38,9 @@ class ReplayScreen final : public Screen {
     void look_after();
     bool seen = false;  ///< there has been something to show
   };
-  void open(PracticeDesk& desk);
-  void look_after(PracticeDesk& desk, double dt_s);
-  void ask_beside(PracticeDesk& desk);
+  void open(PracticeModel& model);
+  void look_after(PracticeModel& model, double dt_s);
+  void ask_beside(PracticeModel& model);
   Stage stage_of(const Side& side, double x, double width) const;
   void keys(Ui& ui);
   std::optional<ScreenName> panel(Ui& ui);

@@ -27,11 +27,11 @@ std::string credit_of(const std::string& name, const AssetRoots& assets) {
 }
 
 /// The level that opens the chosen one.
-std::string level_before(const PracticeDesk& desk) {
-  const std::vector<ExerciseLevel>& levels = desk.exercise().levels;
+std::string level_before(const PracticeModel& model) {
+  const std::vector<ExerciseLevel>& levels = model.exercise().levels;
   const auto at =
-      std::find_if(levels.begin(), levels.end(), [&](const ExerciseLevel& one) { return one.name == desk.level; });
-  return at == levels.begin() || at == levels.end() ? desk.level : std::prev(at)->name;
+      std::find_if(levels.begin(), levels.end(), [&](const ExerciseLevel& one) { return one.name == model.level; });
+  return at == levels.begin() || at == levels.end() ? model.level : std::prev(at)->name;
 }
 
 Mark check_mark(DeviceCheck::State state) {
@@ -83,22 +83,22 @@ std::string check_words(const Words& w, const DeviceCheck::Line& line) {
   return w("{0}: {1} N (limit {2})", {name, w.number(line.value, 2), w.number(line.limit, 2)});
 }
 
-void BriefingScreen::load(PracticeDesk& desk) {
+void BriefingScreen::load(PracticeModel& model) {
   if (!check_) {
     SimulatedDaqConfig device;
     check_ = std::make_unique<DeviceCheck>(device, limits_);
   }
-  if (!organ_.valid()) organ_ = std::async(std::launch::async, credit_of, desk.organ, desk.assets());
+  if (!organ_.valid()) organ_ = std::async(std::launch::async, credit_of, model.organ, model.assets());
   if (credit_.empty() && organ_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) credit_ = organ_.get();
-  const std::string now = desk.exercise_id + "/" + desk.level + "/" + desk.words().language();
+  const std::string now = model.exercise_id + "/" + model.level + "/" + model.words().language();
   if (now == shown_) return;
   shown_ = now;
-  locked_ = desk.locked();
-  const Exercise& exercise = desk.exercise();
-  const ExerciseLevel& level = find_level(exercise, desk.level);
-  steps_ = lesson_steps(desk.words(), exercise, level);
-  rows_ = lesson_limits(desk.words(), exercise, level);
-  measures_ = lesson_measures(desk.words(), level);
+  locked_ = model.locked();
+  const Exercise& exercise = model.exercise();
+  const ExerciseLevel& level = find_level(exercise, model.level);
+  steps_ = lesson_steps(model.words(), exercise, level);
+  rows_ = lesson_limits(model.words(), exercise, level);
+  measures_ = lesson_measures(model.words(), level);
 }
 
 void BriefingScreen::steps(Ui& ui) const {
@@ -113,74 +113,74 @@ void BriefingScreen::steps(Ui& ui) const {
   }
 }
 
-void BriefingScreen::stage_words(Ui& ui, PracticeDesk& desk) const {
-  const Words& w = desk.words();
-  const Exercise& exercise = desk.exercise();
-  const ExerciseLevel& level = find_level(exercise, desk.level);
+void BriefingScreen::stage_words(Ui& ui, PracticeModel& model) const {
+  const Words& w = model.words();
+  const Exercise& exercise = model.exercise();
+  const ExerciseLevel& level = find_level(exercise, model.level);
   ui.text(lesson_tool(w, exercise, level));
-  const auto key = [&](Action action) { return w.name(key_name(desk.keys().key_of(action))); };
-  ui.text(lesson_scope(w, desk.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
+  const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
+  ui.text(lesson_scope(w, model.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
   if (kind_of(exercise).on_organ)
-    ui.text(credit_.empty() ? w("On the organ {0}.", {desk.organ}) : w.made(credit_), Ink::kDim);
+    ui.text(credit_.empty() ? w("On the organ {0}.", {model.organ}) : w.made(credit_), Ink::kDim);
   else
     ui.text(w("On a training board; each attempt has another layout."), Ink::kDim);
   ui.text(lesson_display(w, level), Ink::kAccent);
 }
 
-void BriefingScreen::limits(Ui& ui, PracticeDesk& desk) const {
-  ui.heading(desk.words()("Limits"));
+void BriefingScreen::limits(Ui& ui, PracticeModel& model) const {
+  ui.heading(model.words()("Limits"));
   for (const LessonLimit& row : rows_) ui.pair(row.what, row.value);
 }
 
-void BriefingScreen::measures(Ui& ui, PracticeDesk& desk) const {
-  const Words& w = desk.words();
+void BriefingScreen::measures(Ui& ui, PracticeModel& model) const {
+  const Words& w = model.words();
   ui.heading(w("What is measured"));
   for (const LessonMeasure& m : measures_) ui.pair(m.gate.empty() ? m.name : w("{0} (safety)", {m.name}), m.weight);
-  const double pass = find_level(desk.exercise(), desk.level).rubric.pass_at;
+  const double pass = find_level(model.exercise(), model.level).rubric.pass_at;
   ui.text(w("Pass from {0} of 100. M explains each measure.", {w.number(pass, 0)}), Ink::kDim);
 }
 
-void BriefingScreen::device(Ui& ui, PracticeDesk& desk) const {
-  const Words& w = desk.words();
+void BriefingScreen::device(Ui& ui, PracticeModel& model) const {
+  const Words& w = model.words();
   ui.heading(w("Device check: simulated device"));
   for (const DeviceCheck::Line& line : check_->lines())
     ui.marked(check_mark(line.state), check_words(w, line),
               line.state == DeviceCheck::State::kFailed ? Ink::kAlarm : Ink::kText);
 }
 
-std::optional<ScreenName> BriefingScreen::start(PracticeDesk& desk) {
-  const Words& w = desk.words();
-  if (find_level(desk.exercise(), desk.level).exam && !check_->sound()) {
+std::optional<ScreenName> BriefingScreen::start(PracticeModel& model) {
+  const Words& w = model.words();
+  if (find_level(model.exercise(), model.level).exam && !check_->sound()) {
     wrong_ = check_->finished() ? w("No exam on a device that fails its check. Other levels may be practised.")
                                 : w("An exam waits for the device check: try again in a moment.");
     return std::nullopt;
   }
-  wrong_ = desk.begin_attempt();
+  wrong_ = model.begin_attempt();
   return wrong_.empty() ? std::optional(ScreenName::kRun) : std::nullopt;
 }
 
-void BriefingScreen::head(Ui& ui, PracticeDesk& desk) const {
-  const Words& w = desk.words();
-  ui.title(lesson_title(w, desk.exercise(), desk.level), desk.who());
-  ui.text(w(desk.exercise().goal));
+void BriefingScreen::head(Ui& ui, PracticeModel& model) const {
+  const Words& w = model.words();
+  ui.title(lesson_title(w, model.exercise(), model.level), model.who());
+  ui.text(w(model.exercise().goal));
   if (!locked_.empty()) ui.marked(Mark::kLock, locked_, Ink::kCaution);
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
 }
 
 /// Large text or a small window: one column.
-void BriefingScreen::column(Ui& ui, PracticeDesk& desk, const Area& area) {
+void BriefingScreen::column(Ui& ui, PracticeModel& model, const Area& area) {
   ui.begin_panel("briefing", area);
   ui.scroll_by_keys();
-  head(ui, desk);
+  head(ui, model);
   steps(ui);
-  limits(ui, desk);
-  measures(ui, desk);
-  stage_words(ui, desk);
-  device(ui, desk);
+  limits(ui, model);
+  measures(ui, model);
+  stage_words(ui, model);
+  device(ui, model);
   ui.end_panel();
 }
 
-void BriefingScreen::sheet(Ui& ui, PracticeDesk& desk, const Area& area) {
+void BriefingScreen::sheet(Ui& ui, PracticeModel& model, const Area& area) {
   const double gap = ui.px(kBriefingGap),
                head_high = ui.px(kBriefingHead + (wrong_.empty() ? 0 : 26) + (locked_.empty() ? 0 : 26)),
                left = 0.5 * (area.width - gap);
@@ -192,36 +192,37 @@ void BriefingScreen::sheet(Ui& ui, PracticeDesk& desk, const Area& area) {
     inside();
     ui.end_panel();
   };
-  panel("briefing.head", {area.x, area.y, area.width, head_high}, [&] { head(ui, desk); });
+  panel("briefing.head", {area.x, area.y, area.width, head_high}, [&] { head(ui, model); });
   panel("briefing.steps", {area.x, top, left, below - stage_high - gap}, [&] { steps(ui); });
-  panel("briefing.stage", {area.x, top + below - stage_high, left, stage_high}, [&] { stage_words(ui, desk); });
-  panel("briefing.limits", {x, top, half, limits_high}, [&] { limits(ui, desk); });
-  panel("briefing.measures", {x + half + gap, top, left - half - gap, limits_high}, [&] { measures(ui, desk); });
-  panel("briefing.device", {x, top + limits_high + gap, left, below - limits_high - gap}, [&] { device(ui, desk); });
+  panel("briefing.stage", {area.x, top + below - stage_high, left, stage_high}, [&] { stage_words(ui, model); });
+  panel("briefing.limits", {x, top, half, limits_high}, [&] { limits(ui, model); });
+  panel("briefing.measures", {x + half + gap, top, left - half - gap, limits_high}, [&] { measures(ui, model); });
+  panel("briefing.device", {x, top + limits_high + gap, left, below - limits_high - gap}, [&] { device(ui, model); });
 }
 
-std::string BriefingScreen::page(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
+std::string BriefingScreen::page(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
   const double m = ui.px(kMargin), gap = ui.px(kBriefingGap), wide = ui.width() - 2 * m;
-  const RowButton first = locked_.empty() ? RowButton{"start", w("Start"), "Enter", true}
-                                          : RowButton{"before", w("Go to {0}", {w(level_before(desk))}), "Enter", true};
+  const RowButton first = locked_.empty()
+                              ? RowButton{"start", w("Start"), "Enter", true}
+                              : RowButton{"before", w("Go to {0}", {w(level_before(model))}), "Enter", true};
   const std::vector<RowButton> buttons{first,
                                        {"explain", w("Measures explained"), "M"},
                                        {"watch", w("Watch the expert"), "V"},
                                        {"back", w("Course"), "Esc"}};
   const double foot = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * m - foot - gap;
   if (compact(ui))
-    column(ui, desk, {m, m, wide, high});
+    column(ui, model, {m, m, wide, high});
   else
-    sheet(ui, desk, {m, m, wide, high});
+    sheet(ui, model, {m, m, wide, high});
   ui.begin_strip("briefing.foot", {m, m + high + gap, wide, foot});
   const std::string chosen = button_rows(ui, buttons);
   ui.end_panel();
   return chosen;
 }
 
-std::string BriefingScreen::explanation(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
+std::string BriefingScreen::explanation(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
   const double m = ui.px(kMargin), gap = ui.px(kBriefingGap), wide = ui.width() - 2 * m;
   const std::vector<RowButton> buttons{{"close", w("Back to the briefing"), "M", true}};
   const double foot = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * m - foot - gap;
@@ -245,7 +246,7 @@ std::string BriefingScreen::explanation(Ui& ui, PracticeDesk& desk) {
   ui.pair(w("Name in tables"), chosen.metric);
   if (!chosen.gate.empty()) ui.marked(Mark::kWarning, chosen.gate, Ink::kCaution);
   ui.gap();
-  ui.text(lesson_rule(w, find_level(desk.exercise(), desk.level).rubric), Ink::kDim);
+  ui.text(lesson_rule(w, find_level(model.exercise(), model.level).rubric), Ink::kDim);
   ui.end_panel();
   ui.begin_strip("measures.foot", {m, m + high + gap, wide, foot});
   const std::string button = button_rows(ui, buttons);
@@ -253,27 +254,27 @@ std::string BriefingScreen::explanation(Ui& ui, PracticeDesk& desk) {
   return button;
 }
 
-void BriefingScreen::settle(PracticeDesk& desk, double wait_s) {
-  load(desk);
+void BriefingScreen::settle(PracticeModel& model, double wait_s) {
+  load(model);
   check_->wait(wait_s);
   organ_.wait_for(std::chrono::duration<double>(wait_s));
 }
 
-std::optional<ScreenName> BriefingScreen::frame(Ui& ui, PracticeDesk& desk, double /*dt_s*/) {
+std::optional<ScreenName> BriefingScreen::frame(Ui& ui, PracticeModel& model, double /*dt_s*/) {
   ui.keys_to_screen();
-  load(desk);
-  const std::string chosen = explaining_ ? explanation(ui, desk) : page(ui, desk);
+  load(model);
+  const std::string chosen = explaining_ ? explanation(ui, model) : page(ui, model);
   if (chosen == "explain" || chosen == "close") {
     explaining_ = !explaining_;
     measure_ = std::min(measure_, measures_.size() - 1);
   }
-  if (chosen == "start") return start(desk);
-  if (chosen == "before") desk.level = level_before(desk);
+  if (chosen == "start") return start(model);
+  if (chosen == "before") model.level = level_before(model);
   if (chosen == "back") return ScreenName::kCurriculum;
   if (chosen == "watch") {
-    desk.replay_file = desk.expert_recording();
-    if (!desk.replay_file.empty()) return ScreenName::kReplay;
-    wrong_ = desk.words()("The expert's run is being made: try again in a moment.");
+    model.replay_file = model.expert_recording();
+    if (!model.replay_file.empty()) return ScreenName::kReplay;
+    wrong_ = model.words()("The expert's run is being made: try again in a moment.");
   }
   return std::nullopt;
 }

@@ -11,7 +11,7 @@
 
 #include "app/window/device/device_check.h"
 #include "app/window/lessons/lesson_words.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/practice/screen.h"
 #include "app/window/ui/ui.h"
 
@@ -24,23 +24,23 @@ class BriefingScreen final : public Screen {
  public:
   /// @param limits of the device check; tests make them fail.
   explicit BriefingScreen(const CheckLimits& limits = {}) : limits_(limits) {}
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  void settle(PracticeDesk& desk, double wait_s) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  void settle(PracticeModel& model, double wait_s) override;
   bool takes_escape() const override { return true; }
 
  private:
-  void load(PracticeDesk& desk);
-  void head(Ui& ui, PracticeDesk& desk) const;
-  void column(Ui& ui, PracticeDesk& desk, const Area& area);
-  void sheet(Ui& ui, PracticeDesk& desk, const Area& area);
-  std::string page(Ui& ui, PracticeDesk& desk);
-  std::string explanation(Ui& ui, PracticeDesk& desk);
+  void load(PracticeModel& model);
+  void head(Ui& ui, PracticeModel& model) const;
+  void column(Ui& ui, PracticeModel& model, const Area& area);
+  void sheet(Ui& ui, PracticeModel& model, const Area& area);
+  std::string page(Ui& ui, PracticeModel& model);
+  std::string explanation(Ui& ui, PracticeModel& model);
   void steps(Ui& ui) const;
-  void stage_words(Ui& ui, PracticeDesk& desk) const;
-  void limits(Ui& ui, PracticeDesk& desk) const;
-  void measures(Ui& ui, PracticeDesk& desk) const;
-  void device(Ui& ui, PracticeDesk& desk) const;
-  std::optional<ScreenName> start(PracticeDesk& desk);
+  void stage_words(Ui& ui, PracticeModel& model) const;
+  void limits(Ui& ui, PracticeModel& model) const;
+  void measures(Ui& ui, PracticeModel& model) const;
+  void device(Ui& ui, PracticeModel& model) const;
+  std::optional<ScreenName> start(PracticeModel& model);
 
   CheckLimits limits_;
   std::unique_ptr<DeviceCheck> check_;

@@ -21,17 +21,18 @@ Area middle(const Ui& ui, double width_at_720, double height_at_720) {
   return {(ui.width() - w) / 2, (ui.height() - h) / 2, w, h};
 }
 
-std::vector<Ui::Cell> key_row(const PracticeDesk& desk, const ActionName& action) {
-  return {{desk.words().name(key_name(desk.keys().key_of(action.action))), Ink::kAccent}, {desk.words()(action.words)}};
+std::vector<Ui::Cell> key_row(const PracticeModel& model, const ActionName& action) {
+  return {{model.words().name(key_name(model.keys().key_of(action.action))), Ink::kAccent},
+          {model.words()(action.words)}};
 }
 
-void key_tables(Ui& ui, const PracticeDesk& desk) {
-  const Words& w = desk.words();
+void key_tables(Ui& ui, const PracticeModel& model) {
+  const Words& w = model.words();
   for (const bool steering : {true, false}) {
     ui.heading(steering ? w("Steering with keys") : w("Commands"));
     std::vector<std::vector<Ui::Cell>> rows;
     for (const ActionName& action : action_names())
-      if (action.steering == steering) rows.push_back(key_row(desk, action));
+      if (action.steering == steering) rows.push_back(key_row(model, action));
     if (!steering) rows.push_back({{"F11", Ink::kAccent}, {w("Fill the screen")}});
     ui.table(steering ? "keys.steering" : "keys.commands", {w("Key"), w("What it does")}, {0.3, 0.7}, rows);
     ui.gap();
@@ -42,8 +43,8 @@ void key_tables(Ui& ui, const PracticeDesk& desk) {
         "roll and turn the shaft."));
 }
 
-void metric_table(Ui& ui, const PracticeDesk& desk) {
-  const Words& w = desk.words();
+void metric_table(Ui& ui, const PracticeModel& model) {
+  const Words& w = model.words();
   for (const MetricDefinition& metric : metric_catalogue()) {
     ui.heading(metric.unit.empty() ? std::string(metric.name)
                                    : std::string(metric.name) + "  [" + std::string(metric.unit) + "]");
@@ -54,8 +55,8 @@ void metric_table(Ui& ui, const PracticeDesk& desk) {
 
 }  // namespace
 
-MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs) {
-  const Words& w = desk.words();
+MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs) {
+  const Words& w = model.words();
   MenuChoice choice = MenuChoice::kNone;
   ui.begin_panel("menu", middle(ui, 460, attempt_runs ? 308 : 269), 0.97);
   ui.in_front();
@@ -73,19 +74,19 @@ MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs) {
   return choice;
 }
 
-bool help_overlay(Ui& ui, PracticeDesk& desk, HelpPage& page, SoundPage& sounds) {
-  const Words& w = desk.words();
+bool help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds) {
+  const Words& w = model.words();
   const Area all = middle(ui, 900, 680);
   const double foot = ui.strip_height(1), gap = ui.px(8);
   ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot - gap}, 0.97);
   ui.in_front();
   ui.title(page == HelpPage::kKeys ? w("Keys") : page == HelpPage::kMetrics ? w("What is measured") : w("Sounds"));
   if (page == HelpPage::kKeys)
-    key_tables(ui, desk);
+    key_tables(ui, model);
   else if (page == HelpPage::kMetrics)
-    metric_table(ui, desk);
+    metric_table(ui, model);
   else
-    sounds.frame(ui, desk);
+    sounds.frame(ui, model);
   ui.end_panel();
   ui.begin_strip("help.foot", {all.x, all.y + all.height - foot, all.width, foot}, 0.97);
   ui.in_front();
@@ -106,9 +107,9 @@ void small_window(Ui& ui) {
   ui.end_panel();
 }
 
-void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std::string& shown) {
-  if (!desk.notice.empty()) {
-    shown = std::exchange(desk.notice, "");
+void notice_overlay(Ui& ui, PracticeModel& model, double dt_s, double& age_s, std::string& shown) {
+  if (!model.notice.empty()) {
+    shown = std::exchange(model.notice, "");
     age_s = 0;
   }
   if (shown.empty()) return;

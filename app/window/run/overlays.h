@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/window/pages/sound_page.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/practice/screen.h"
 #include "app/window/ui/ui.h"
 
@@ -15,18 +15,18 @@ namespace trocar {
 
 /// What a person chose in the menu.
 enum class MenuChoice : std::uint8_t { kNone, kBack, kLeaveAttempt, kStart, kSettings, kFullscreen, kQuit };
-MenuChoice menu_overlay(Ui& ui, const PracticeDesk& desk, bool attempt_runs);
+MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs);
 
 /// Keys as they are now, what every metric means, and every sound; page and sounds are kept by the caller. @return true
 /// to close.
 enum class HelpPage : std::uint8_t { kKeys, kMetrics, kSounds };
-bool help_overlay(Ui& ui, PracticeDesk& desk, HelpPage& page, SoundPage& sounds);
+bool help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds);
 
 /// In place of a page that has no room.
 void small_window(Ui& ui);
 
 /// A notice near the upper edge for some seconds; empties desk.notice. @param age_s how long this one has been seen,
 /// kept by the caller.
-void notice_overlay(Ui& ui, PracticeDesk& desk, double dt_s, double& age_s, std::string& shown);
+void notice_overlay(Ui& ui, PracticeModel& model, double dt_s, double& age_s, std::string& shown);
 
 }  // namespace trocar

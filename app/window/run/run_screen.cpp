@@ -4,7 +4,7 @@
 
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/attempt/attempt_scene.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/run/coach.h"
 #include "app/window/run/hud_words.h"
 #include "app/window/run/run_sounds.h"
@@ -49,20 +49,20 @@ struct RunScreen::State {
   RunSounds sounds;
   LatencyMeter latency;
 
-  void begin(PracticeDesk& desk);
-  void steer(PracticeDesk& desk);
-  void command(Action action, PracticeDesk& desk);
-  Camera seen_by(PracticeDesk& desk) const;
-  SceneView view(PracticeDesk& desk);
-  void lay_out(const Hud& hud, PracticeDesk& desk, int width, int height);
-  void pause(PracticeDesk& desk, bool paused);
-  void mark(PracticeDesk& desk) const;
+  void begin(PracticeModel& model);
+  void steer(PracticeModel& model);
+  void command(Action action, PracticeModel& model);
+  Camera seen_by(PracticeModel& model) const;
+  SceneView view(PracticeModel& model);
+  void lay_out(const Hud& hud, PracticeModel& model, int width, int height);
+  void pause(PracticeModel& model, bool paused);
+  void mark(PracticeModel& model) const;
   void rim_arrow(double angle_rad, double size) const;
-  std::optional<ScreenName> pause_panel(Ui& ui, PracticeDesk& desk);
-  std::optional<ScreenName> restart(PracticeDesk& desk);
-  std::optional<ScreenName> ended(PracticeDesk& desk);
-  void coach_panel(Ui& ui, PracticeDesk& desk) const;
-  void key_hints(Ui& ui, const PracticeDesk& desk) const;
+  std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> restart(PracticeModel& model);
+  std::optional<ScreenName> ended(PracticeModel& model);
+  void coach_panel(Ui& ui, PracticeModel& model) const;
+  void key_hints(Ui& ui, const PracticeModel& model) const;
 };
 
 RunScreen::RunScreen() : state_(std::make_unique<State>()) {}
@@ -73,8 +73,8 @@ bool RunScreen::takes_escape() const { return state_->overlay; }
 const LatencyMeter& RunScreen::latency() const { return state_->latency; }
 
 /// An attempt that has just begun.
-void RunScreen::State::begin(PracticeDesk& desk) {
-  const Scene& scene = desk.running()->scene();
+void RunScreen::State::begin(PracticeModel& model) {
+  const Scene& scene = model.running()->scene();
   before = first_moment(scene);
   camera = attempt_camera(scene);
   steering = was_paused = overlay = again = false;
@@ -84,20 +84,20 @@ void RunScreen::State::begin(PracticeDesk& desk) {
   over_s = 0;
   latency.forget();
   sounds = RunSounds();
-  const Standing standing = desk.standing(desk.exercise_id, desk.level);
-  coach.begin(desk.is_guest() && standing.passed == 0 && standing.attempts <= 1);
+  const Standing standing = model.standing(model.exercise_id, model.level);
+  coach.begin(model.is_guest() && standing.passed == 0 && standing.attempts <= 1);
   begun = true;
 }
 
 /// Where the scope is now; until the person has taken hold, where the exercise has it.
-Camera RunScreen::State::seen_by(PracticeDesk& desk) const {
-  return moved_camera(camera, steering ? desk.steering().scope() : ScopeMove{}, desk.scope_tilt_rad());
+Camera RunScreen::State::seen_by(PracticeModel& model) const {
+  return moved_camera(camera, steering ? model.steering().scope() : ScopeMove{}, model.scope_tilt_rad());
 }
 
 /// Hands the newest intent to the attempt; from where the instrument is, once the device is ready.
-void RunScreen::State::steer(PracticeDesk& desk) {
-  AttemptRunner& run = *desk.running();
-  Steering& hand = desk.steering();
+void RunScreen::State::steer(PracticeModel& model) {
+  AttemptRunner& run = *model.running();
+  Steering& hand = model.steering();
   if (run.paused() != was_paused) hand.handle({.kind = InputEvent::Kind::kFocusLost});  // what was held is let go
   was_paused = run.paused();
   if (was_paused || !run.ready()) return;
@@ -107,51 +107,51 @@ void RunScreen::State::steer(PracticeDesk& desk) {
     hand.begin(from.X_TI, from.jaw_opening_m, scene.board.centre_T, steering_reach(scene.setup.exercise, scene.level));
     steering = true;
   }
-  const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(desk), picture.height));
+  const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(model), picture.height));
   if (event_s > 0) latency.steered(number, event_s);
   event_s = 0;
 }
 
-SceneView RunScreen::State::view(PracticeDesk& desk) {
-  AttemptRunner& run = *desk.running();
+SceneView RunScreen::State::view(PracticeModel& model) {
+  AttemptRunner& run = *model.running();
   const RunMoment& newest = run.newest();
   const RunMoment& moment = newest.seen ? newest : before;
   if (newest.seen) latency.drawn(newest.steered);
-  sounds.hear(run.scene(), moment, desk.sound());
+  sounds.hear(run.scene(), moment, model.sound());
   SceneView out = attempt_view(view_of(run.scene(), moment),
-                               desk.is_demonstration() ? desk.who()
-                               : desk.is_guest()       ? ""
-                                                       : desk.trainee(),
-                               seen_by(desk));
+                               model.is_demonstration() ? model.who()
+                               : model.is_guest()       ? ""
+                                                        : model.trainee(),
+                               seen_by(model));
   if (!guides) hide_guides(out);
   if (steering) add_ghost(out, run.target());
   return out;
 }
 
-void RunScreen::State::lay_out(const Hud& hud, PracticeDesk& desk, int width, int height) {
-  Hud shown = in_words(hud, desk.words());
+void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, int height) {
+  Hud shown = in_words(hud, model.words());
   for (ForceBar& bar : shown.bars) {
     if (bars || bar.hidden) continue;
     bar.hidden = true;
     bar.hidden_note =
-        desk.words()("hidden ({0} shows it)", {desk.words().name(key_name(desk.keys().key_of(Action::kForceBars)))});
+        model.words()("hidden ({0} shows it)", {model.words().name(key_name(model.keys().key_of(Action::kForceBars)))});
   }
-  picture = hud_scene_window(shown, width, height, desk.scale());
-  layout = layout_hud(shown, width, height, desk.scale(), fonts);
-  if (!desk.settings().left_handed) return;
+  picture = hud_scene_window(shown, width, height, model.scale());
+  layout = layout_hud(shown, width, height, model.scale(), fonts);
+  if (!model.settings().left_handed) return;
   picture = picture_right(picture, width);
   layout = column_left(std::move(layout));
 }
 
-std::optional<Screen::Stage> RunScreen::stage(PracticeDesk& desk, int width, int height) {
+std::optional<Screen::Stage> RunScreen::stage(PracticeModel& model, int width, int height) {
   State& s = *state_;
-  if (!desk.running()) return std::nullopt;
-  if (!s.begun) s.begin(desk);
+  if (!model.running()) return std::nullopt;
+  if (!s.begun) s.begin(model);
   s.latency.shown(now_s());  // the picture before this one is complete
-  s.steer(desk);
+  s.steer(model);
   Stage out;
-  out.view = s.view(desk);
-  s.lay_out(out.view.hud, desk, width, height);
+  out.view = s.view(model);
+  s.lay_out(out.view.hud, model, width, height);
   s.rim = rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
   out.x = s.picture.x;
   out.y = s.picture.y;
@@ -161,25 +161,25 @@ std::optional<Screen::Stage> RunScreen::stage(PracticeDesk& desk, int width, int
   return out;
 }
 
-void RunScreen::State::pause(PracticeDesk& desk, bool paused) {
-  if (!desk.running()->pause(paused)) desk.notice = desk.words()("An exam has no pause: the clock runs on.");
+void RunScreen::State::pause(PracticeModel& model, bool paused) {
+  if (!model.running()->pause(paused)) model.notice = model.words()("An exam has no pause: the clock runs on.");
   overlay = paused;
   again = paused && again;
-  RunSounds::hush(desk.sound());
+  RunSounds::hush(model.sound());
 }
 
 /// A moment to come back to: the debrief's plots and the replay show it.
-void RunScreen::State::mark(PracticeDesk& desk) const {
-  AttemptRunner& run = *desk.running();
+void RunScreen::State::mark(PracticeModel& model) const {
+  AttemptRunner& run = *model.running();
   if (run.newest().status.phase != Phase::kRun) {
-    desk.notice = desk.words()("Nothing is marked before the clock begins.");
+    model.notice = model.words()("Nothing is marked before the clock begins.");
     return;
   }
   run.mark();
-  desk.notice = desk.words()("Moment marked, at {0} s.", {desk.words().number(run.newest().status.run_time_s, 1)});
+  model.notice = model.words()("Moment marked, at {0} s.", {model.words().number(run.newest().status.run_time_s, 1)});
 }
 
-void RunScreen::State::command(Action action, PracticeDesk& desk) {
+void RunScreen::State::command(Action action, PracticeModel& model) {
   switch (action) {
     case Action::kPause:
       asked = Asked::kPause;
@@ -189,64 +189,64 @@ void RunScreen::State::command(Action action, PracticeDesk& desk) {
       again = true;
       break;
     case Action::kMark:
-      mark(desk);
+      mark(model);
       break;
     case Action::kForceBars:
       bars = !bars;
       break;
     case Action::kGuidance:
-      if (desk.running()->scene().level.guides)
+      if (model.running()->scene().level.guides)
         guides = !guides;
       else
-        desk.notice = desk.words()("This level has no guidance.");
+        model.notice = model.words()("This level has no guidance.");
       break;
     default:
       break;
   }
 }
 
-std::optional<ScreenName> RunScreen::handle(const InputEvent& event, PracticeDesk& desk) {
+std::optional<ScreenName> RunScreen::handle(const InputEvent& event, PracticeModel& model) {
   State& s = *state_;
-  if (!desk.running() || !s.begun) return {};
+  if (!model.running() || !s.begun) return {};
   if (event.kind == InputEvent::Kind::kFocusLost) {
-    desk.steering().handle(event);
+    model.steering().handle(event);
     if (!s.overlay) s.asked = State::Asked::kPause;  // nobody looks: nothing is missed, nothing counted
     return {};
   }
   if (s.overlay) return {};
-  s.coach.saw(event, desk.keys());
-  if (s.steering && desk.steering().handle(event)) {
+  s.coach.saw(event, model.keys());
+  if (s.steering && model.steering().handle(event)) {
     if (s.event_s <= 0) s.event_s = now_s();
     return {};
   }
   const bool pressed = event.kind == InputEvent::Kind::kKeyDown && !event.repeat;
-  if (const auto action = desk.keys().action_of(event.key); pressed && action) s.command(*action, desk);
+  if (const auto action = model.keys().action_of(event.key); pressed && action) s.command(*action, model);
   return {};
 }
 
 /// Aborts this one and begins anew with a fresh board.
-std::optional<ScreenName> RunScreen::State::restart(PracticeDesk& desk) {
-  RunSounds::hush(desk.sound());
-  desk.end_attempt();
+std::optional<ScreenName> RunScreen::State::restart(PracticeModel& model) {
+  RunSounds::hush(model.sound());
+  model.end_attempt();
   begun = overlay = false;
-  if (const std::string hindered = desk.begin_attempt(); !hindered.empty()) {
-    desk.notice = hindered;
+  if (const std::string hindered = model.begin_attempt(); !hindered.empty()) {
+    model.notice = hindered;
     return ScreenName::kBriefing;
   }
   return {};
 }
 
-std::optional<ScreenName> RunScreen::State::ended(PracticeDesk& desk) {
-  RunSounds::hush(desk.sound());
+std::optional<ScreenName> RunScreen::State::ended(PracticeModel& model) {
+  RunSounds::hush(model.sound());
   begun = overlay = false;
-  return desk.end_attempt() ? ScreenName::kDebrief : ScreenName::kBriefing;
+  return model.end_attempt() ? ScreenName::kDebrief : ScreenName::kBriefing;
 }
 
-std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& desk) {
-  const Words& w = desk.words();
-  const bool stands = desk.running()->paused();
-  const auto key = [&](Action action) { return key_name(desk.keys().key_of(action)); };
-  const bool silent = !desk.running()->board_answers();
+std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& model) {
+  const Words& w = model.words();
+  const bool stands = model.running()->paused();
+  const auto key = [&](Action action) { return key_name(model.keys().key_of(action)); };
+  const bool silent = !model.running()->board_answers();
   const std::string said =
       silent   ? w("Instrument and clock stand still, nothing is lost. Plug it in again, then continue.")
       : again  ? w("This attempt then ends, and counts as not passed.")
@@ -272,11 +272,11 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
   const bool left = ui.button("leave", w("Leave this attempt"), "", false, 390);
   std::optional<ScreenName> to;
   if (again ? first : second) {
-    to = restart(desk);
+    to = restart(model);
   } else if (again ? second : first) {
-    pause(desk, false);
+    pause(model, false);
   } else if (left) {
-    desk.end_attempt();
+    model.end_attempt();
     begun = overlay = false;
     to = ScreenName::kBriefing;
   }
@@ -285,9 +285,9 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeDesk& de
 }
 
 /// Painted, not a panel: the pointer over it still steers.
-void RunScreen::State::coach_panel(Ui& ui, PracticeDesk& desk) const {
+void RunScreen::State::coach_panel(Ui& ui, PracticeModel& model) const {
   if (!coach.speaks() || !steering) return;
-  const auto marks = coach.marks(desk.words(), desk.keys(), desk.steering().kind());
+  const auto marks = coach.marks(model.words(), model.keys(), model.steering().kind());
   const double line = 1.25 * ui.line_height(), pad = ui.px(12), side = 0.8 * ui.line_height();
   double wide = 0;
   for (const Coach::CoachMark& mark : marks) wide = std::max(wide, ui.text_width(mark.text));
@@ -304,11 +304,11 @@ void RunScreen::State::coach_panel(Ui& ui, PracticeDesk& desk) const {
 }
 
 /// In the black corner below the round field.
-void RunScreen::State::key_hints(Ui& ui, const PracticeDesk& desk) const {
-  const Words& w = desk.words();
-  const auto key = [&](Action action) { return w.name(key_name(desk.keys().key_of(action))); };
+void RunScreen::State::key_hints(Ui& ui, const PracticeModel& model) const {
+  const Words& w = model.words();
+  const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
   std::vector<std::string> lines{key(Action::kPause) + "  " + w("Pause"), key(Action::kHelp) + "  " + w("Help")};
-  if (desk.scope() != "0")
+  if (model.scope() != "0")
     lines.insert(lines.begin(), key(Action::kPostLeft) + " " + key(Action::kPostRight) + "  " + w("Light post"));
   const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
   double y = picture.y + picture.height - static_cast<double>(lines.size()) * ui.line_height() - ui.px(6);
@@ -331,22 +331,22 @@ void RunScreen::State::rim_arrow(double angle_rad, double size) const {
                  rim_reach(picture, angle_rad, size, messages), angle_rad, size);
 }
 
-std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeDesk& desk, double dt_s) {
+std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
   State& s = *state_;
   s.dt_s = dt_s;
-  if (!desk.running()) return ScreenName::kBriefing;
-  if (desk.running()->finished()) s.over_s += dt_s;
-  if (desk.running()->stored() || s.over_s > kStoring_s) return s.ended(desk);
+  if (!model.running()) return ScreenName::kBriefing;
+  if (model.running()->finished()) s.over_s += dt_s;
+  if (model.running()->stored() || s.over_s > kStoring_s) return s.ended(model);
   if (!s.begun) return {};
-  if (!s.overlay && !desk.running()->board_answers()) s.asked = State::Asked::kPause;
+  if (!s.overlay && !model.running()->board_answers()) s.asked = State::Asked::kPause;
   if (!s.overlay) ui.keys_to_screen();
   s.coach.pass(dt_s);
   draw_hud(s.layout);
   if (s.rim && s.steering) s.rim_arrow(*s.rim, ui.px(26));
-  s.key_hints(ui, desk);
-  if (s.overlay) return s.pause_panel(ui, desk);
-  s.coach_panel(ui, desk);
-  if (std::exchange(s.asked, State::Asked::kNothing) != State::Asked::kNothing) s.pause(desk, true);
+  s.key_hints(ui, model);
+  if (s.overlay) return s.pause_panel(ui, model);
+  s.coach_panel(ui, model);
+  if (std::exchange(s.asked, State::Asked::kNothing) != State::Asked::kNothing) s.pause(model, true);
   return {};
 }
 

@@ -16,11 +16,11 @@ class RunScreen final : public Screen {
  public:
   RunScreen();
   ~RunScreen() override;
-  std::optional<ScreenName> frame(Ui& ui, PracticeDesk& desk, double dt_s) override;
-  std::optional<ScreenName> handle(const InputEvent& event, PracticeDesk& desk) override;
+  std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
+  std::optional<ScreenName> handle(const InputEvent& event, PracticeModel& model) override;
   bool asks() const override;
   bool takes_escape() const override;  ///< while its box is up, which Esc closes
-  std::optional<Stage> stage(PracticeDesk& desk, int width, int height) override;
+  std::optional<Stage> stage(PracticeModel& model, int width, int height) override;
 
   /// From events to the frames that show them, of the attempt that runs.
   const LatencyMeter& latency() const;

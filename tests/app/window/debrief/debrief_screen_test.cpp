@@ -20,7 +20,7 @@ class DeskPagesTest : public testing_support::PageBench {
  protected:
   void SetUp() override {
     PageBench::SetUp();
-    if (!IsSkipped()) desk_ = bench_.desk();
+    if (!IsSkipped()) model_ = bench_.model();
   }
   /// Stored as if it had been done now. @return its uuid.
   std::string store(AttemptResult result, const std::string& trainee, bool recorded = true) {
@@ -47,7 +47,7 @@ class DeskPagesTest : public testing_support::PageBench {
   }
   std::optional<ScreenName> show(Screen& screen, const std::vector<InputEvent>& events = {}) {
     std::optional<ScreenName> to;
-    frame([&](Ui& ui) { to = screen.frame(ui, *desk_, 0.02); }, events);
+    frame([&](Ui& ui) { to = screen.frame(ui, *model_, 0.02); }, events);
     return to;
   }
   void show_until(Screen& screen, const std::string& said) {
@@ -59,7 +59,7 @@ class DeskPagesTest : public testing_support::PageBench {
 
   testing_support::DeskBench bench_;
   const Exercise touch_ = testing_support::shipped_exercise("surface-touch");
-  std::unique_ptr<PracticeDesk> desk_;
+  std::unique_ptr<PracticeModel> model_;
   int boards_ = 0;
 };
 
@@ -69,8 +69,8 @@ TEST_F(DeskPagesTest, WithoutAResultItGoesToTheStart) {
 }
 
 TEST_F(DeskPagesTest, AStoredAttemptIsShownWithItsForcesAndWatchedFromTheChosenMoment) {
-  ASSERT_EQ(desk_->sign_in("T-1"), "");
-  ASSERT_TRUE(desk_->open_result(store(heavy_run(touch_), "T-1")));
+  ASSERT_EQ(model_->sign_in("T-1"), "");
+  ASSERT_TRUE(model_->open_result(store(heavy_run(touch_), "T-1")));
   DebriefScreen screen;
   show(screen);
   EXPECT_TRUE(text("NOT YET")) << "at once, before the forces have been read";
@@ -78,20 +78,20 @@ TEST_F(DeskPagesTest, AStoredAttemptIsShownWithItsForcesAndWatchedFromTheChosenM
   EXPECT_TRUE(text("Force at the tip, N"));
   expect_clear("a stored attempt");
   EXPECT_EQ(show(screen, press('W')), ScreenName::kReplay);
-  EXPECT_EQ(desk_->replay_file, desk_->recording());
-  EXPECT_TRUE(desk_->replay_beside.empty());
+  EXPECT_EQ(model_->replay_file, model_->recording());
+  EXPECT_TRUE(model_->replay_beside.empty());
   EXPECT_EQ(show(screen, press('M')), ScreenName::kProgress);
   EXPECT_EQ(show(screen, press('N')), ScreenName::kBriefing);
 }
 
 TEST_F(DeskPagesTest, OnlyOnesOwnAttemptsByTheSameInputAreCompared) {
-  ASSERT_EQ(desk_->sign_in("T-1"), "");
+  ASSERT_EQ(model_->sign_in("T-1"), "");
   AttemptResult by_device = graded(touch_, "L1", {{"time_s", 33}});
   by_device.hand = "device";
   store(by_device, "T-1");
   store(graded(touch_, "L1", {{"time_s", 31}}), "T-2");
   store(graded(touch_, "L1", {{"time_s", 71.25}}), "T-1");
-  ASSERT_TRUE(desk_->open_result(store(heavy_run(touch_), "T-1")));
+  ASSERT_TRUE(model_->open_result(store(heavy_run(touch_), "T-1")));
   DebriefScreen screen;
   show(screen);
   show(screen);
@@ -101,7 +101,7 @@ TEST_F(DeskPagesTest, OnlyOnesOwnAttemptsByTheSameInputAreCompared) {
 }
 
 TEST_F(DeskPagesTest, WithoutARecordingItSaysSoAndOffersNoReplay) {
-  ASSERT_TRUE(desk_->open_result(store(heavy_run(touch_), "guest", false)));
+  ASSERT_TRUE(model_->open_result(store(heavy_run(touch_), "guest", false)));
   DebriefScreen screen;
   show(screen);
   show(screen);
@@ -115,14 +115,14 @@ TEST_F(DeskPagesTest, WithoutARecordingItSaysSoAndOffersNoReplay) {
 TEST_F(DeskPagesTest, ADamagedRecordingIsNamedNotDrawn) {
   const std::string uuid = store(heavy_run(touch_), "guest");
   bench_.folder.write("run1.trec", "not a recording");
-  ASSERT_TRUE(desk_->open_result(uuid));
+  ASSERT_TRUE(model_->open_result(uuid));
   DebriefScreen screen;
   show_until(screen, "The recording cannot be read");
   EXPECT_TRUE(says("The recording cannot be read"));
 }
 
 TEST_F(DeskPagesTest, ProgressShowsOpensAndExports) {
-  ASSERT_EQ(desk_->sign_in("T-1"), "");
+  ASSERT_EQ(model_->sign_in("T-1"), "");
   store(graded(touch_, "L1"), "T-1");
   store(heavy_run(touch_), "T-1");
   store(graded(touch_, "L1"), "T-2");
@@ -134,7 +134,7 @@ TEST_F(DeskPagesTest, ProgressShowsOpensAndExports) {
   const auto folder = bench_.folder / "exports";
   ASSERT_TRUE(std::filesystem::is_directory(folder));
   const auto file = std::filesystem::directory_iterator(folder)->path();
-  EXPECT_NE(desk_->notice.find(file.string()), std::string::npos) << desk_->notice;
+  EXPECT_NE(model_->notice.find(file.string()), std::string::npos) << model_->notice;
   std::ifstream in(file);
   int lines = 0;
   for (std::string line; std::getline(in, line);) ++lines;
@@ -145,7 +145,7 @@ TEST_F(DeskPagesTest, ProgressShowsOpensAndExports) {
     show(screen);
   }
   EXPECT_EQ(show(screen, press('O')), ScreenName::kDebrief);
-  ASSERT_TRUE(desk_->result());
+  ASSERT_TRUE(model_->result());
   ProgressScreen fresh;
   layer_ = std::make_unique<UiLayer>(*context_, 1);  // nothing has the focus
   show(fresh);
@@ -155,9 +155,9 @@ TEST_F(DeskPagesTest, ProgressShowsOpensAndExports) {
 }
 
 TEST_F(DeskPagesTest, AnUnknownAttemptIsANotice) {
-  EXPECT_FALSE(desk_->open_result("no-such"));
-  EXPECT_FALSE(desk_->notice.empty());
-  EXPECT_FALSE(desk_->result());
+  EXPECT_FALSE(model_->open_result("no-such"));
+  EXPECT_FALSE(model_->notice.empty());
+  EXPECT_FALSE(model_->result());
 }
 
 }  // namespace

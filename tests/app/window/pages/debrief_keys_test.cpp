@@ -25,7 +25,7 @@ class DebriefKeys : public testing_support::LoopBench {
     height_ = 720;
     LoopBench::SetUp();
     if (IsSkipped()) return;
-    ASSERT_EQ(desk_->sign_in("T-1"), "");
+    ASSERT_EQ(model_->sign_in("T-1"), "");
   }
   /// Keeps the result as an attempt of T-1 and opens its debrief.
   void debrief(AttemptResult result, bool recorded = true) {
@@ -47,9 +47,9 @@ class DebriefKeys : public testing_support::LoopBench {
     const AttemptId id = AttemptStore(database).begin_attempt(start);
     result.recording_path = start.recording->string();
     AttemptStore(database).finish_attempt(id, result);
-    ASSERT_TRUE(desk_->open_result(id.uuid));
-    desk_->exercise_id = desk_->exercises().front().id;  // something else was chosen meanwhile
-    desk_->level = "L1";
+    ASSERT_TRUE(model_->open_result(id.uuid));
+    model_->exercise_id = model_->exercises().front().id;  // something else was chosen meanwhile
+    model_->level = "L1";
     loop_->go(ScreenName::kDebrief);
     frame();
     frame();
@@ -83,32 +83,32 @@ TEST_F(DebriefKeys, RBeginsTheSameExerciseAtTheSameLevelAgain) {
   debrief(failed());
   tap('R');
   EXPECT_EQ(loop_->here(), ScreenName::kRun);
-  ASSERT_TRUE(desk_->running());
-  const AttemptSetup& setup = desk_->running()->scene().setup;
+  ASSERT_TRUE(model_->running());
+  const AttemptSetup& setup = model_->running()->scene().setup;
   EXPECT_EQ(setup.exercise.id, "surface-touch");
   EXPECT_EQ(setup.level, "L1");
   EXPECT_EQ(setup.seed, 7) << "a board of its own, not that of the attempt before";
-  EXPECT_EQ(desk_->exercise_id, "surface-touch");
+  EXPECT_EQ(model_->exercise_id, "surface-touch");
 }
 
 TEST_F(DebriefKeys, RAtALockedLevelSaysWhyAndStays) {
   debrief(failed("L2"));
   tap('R');
   EXPECT_EQ(loop_->here(), ScreenName::kDebrief);
-  EXPECT_FALSE(desk_->running());
+  EXPECT_FALSE(model_->running());
   EXPECT_TRUE(says("L2 is locked"));
 }
 
 TEST_F(DebriefKeys, NGoesToTheBriefingOfWhatTheDeskAdvises) {
   debrief(failed());
-  const PracticeDesk::Advice next = desk_->next();
+  const PracticeModel::Advice next = model_->next();
   ASSERT_NE(next.exercise_id, "surface-touch") << "nothing has been passed: the first one";
-  desk_->exercise_id = "surface-touch";
+  model_->exercise_id = "surface-touch";
   tap('N');
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
-  EXPECT_EQ(desk_->exercise_id, next.exercise_id);
-  EXPECT_EQ(desk_->level, next.level);
-  EXPECT_FALSE(desk_->running()) << "a briefing begins nothing";
+  EXPECT_EQ(model_->exercise_id, next.exercise_id);
+  EXPECT_EQ(model_->level, next.level);
+  EXPECT_FALSE(model_->running()) << "a briefing begins nothing";
 }
 
 TEST_F(DebriefKeys, EnterTriesAgainAfterAFailureAndGoesOnAfterAPass) {
@@ -116,24 +116,24 @@ TEST_F(DebriefKeys, EnterTriesAgainAfterAFailureAndGoesOnAfterAPass) {
   ASSERT_TRUE(says("PASS"));
   tap(kKeyEnter);
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
-  EXPECT_FALSE(desk_->running());
+  EXPECT_FALSE(model_->running());
   debrief(failed());
   tap(kKeyEnter);
   EXPECT_EQ(loop_->here(), ScreenName::kRun);
-  EXPECT_TRUE(desk_->running());
+  EXPECT_TRUE(model_->running());
 }
 
 TEST_F(DebriefKeys, WWatchesFromThreeSecondsBeforeTheWorstMoment) {
   debrief(failed());
   ASSERT_TRUE(wait_until([&] { return says("Force at the tip, N"); }));
   frame(press('W'));
-  EXPECT_EQ(desk_->replay_file, desk_->recording());
-  EXPECT_TRUE(desk_->replay_beside.empty());
-  ASSERT_TRUE(desk_->replay_at_s);
+  EXPECT_EQ(model_->replay_file, model_->recording());
+  EXPECT_TRUE(model_->replay_beside.empty());
+  ASSERT_TRUE(model_->replay_at_s);
   double hardest_s = 0;
   for (const Event& e : testing_support::pressing_events())
     if (e.type == "EXCESS_FORCE") hardest_s = e.t_s;
-  EXPECT_NEAR(*desk_->replay_at_s, hardest_s - 3, 1e-6);
+  EXPECT_NEAR(*model_->replay_at_s, hardest_s - 3, 1e-6);
   frame();
   EXPECT_EQ(loop_->here(), ScreenName::kReplay);
 }
@@ -149,19 +149,19 @@ TEST_F(DebriefKeys, WithoutARecordingWAndSDoNothing) {
 
 TEST_F(DebriefKeys, SWaitsForTheExpertOnTheSameBoardAndShowsBoth) {
   debrief(failed());
-  desk_->exercise_id = "surface-touch";
+  model_->exercise_id = "surface-touch";
   tap('S');
   EXPECT_EQ(loop_->here(), ScreenName::kDebrief);
   EXPECT_TRUE(says("The expert is doing the same board"));
   ASSERT_TRUE(wait_until([&] { return loop_->here() == ScreenName::kReplay; }));
-  EXPECT_EQ(desk_->replay_file, desk_->recording());
-  ASSERT_TRUE(std::filesystem::is_regular_file(desk_->replay_beside)) << desk_->replay_beside;
-  const RecordedSetup beside = parse_scene_json(read_recording(desk_->replay_beside).session, "expert");
+  EXPECT_EQ(model_->replay_file, model_->recording());
+  ASSERT_TRUE(std::filesystem::is_regular_file(model_->replay_beside)) << model_->replay_beside;
+  const RecordedSetup beside = parse_scene_json(read_recording(model_->replay_beside).session, "expert");
   EXPECT_EQ(beside.setup.hand, "expert");
   EXPECT_EQ(beside.setup.exercise.id, "surface-touch");
   EXPECT_EQ(beside.setup.level, "L1");
   EXPECT_EQ(beside.setup.board, failed().board);
-  EXPECT_EQ(beside.setup.seed, desk_->result()->seed);
+  EXPECT_EQ(beside.setup.seed, model_->result()->seed);
 }
 
 TEST_F(DebriefKeys, AnExpertThatCannotBeMadeIsSaidAndMayBeAskedAgain) {
@@ -173,7 +173,7 @@ TEST_F(DebriefKeys, AnExpertThatCannotBeMadeIsSaidAndMayBeAskedAgain) {
     ASSERT_TRUE(wait_until([&] { return says("The expert's run cannot be made"); })) << asked;
     EXPECT_TRUE(says("cannot be made: Not a directory"));
     EXPECT_EQ(loop_->here(), ScreenName::kDebrief);
-    EXPECT_TRUE(desk_->replay_beside.empty());
+    EXPECT_TRUE(model_->replay_beside.empty());
   }
 }
 

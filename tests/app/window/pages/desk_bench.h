@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar::testing_support {
@@ -32,10 +32,10 @@ struct DeskBench {
     o.seed = 7;
     return o;
   }
-  std::unique_ptr<PracticeDesk> desk(const DeskOptions& given) const {
-    return std::make_unique<PracticeDesk>(given, source_assets());
+  std::unique_ptr<PracticeModel> model(const DeskOptions& given) const {
+    return std::make_unique<PracticeModel>(given, source_assets());
   }
-  std::unique_ptr<PracticeDesk> desk() const { return desk(options()); }
+  std::unique_ptr<PracticeModel> model() const { return model(options()); }
 };
 
 }  // namespace trocar::testing_support

@@ -52,7 +52,7 @@ class LanguageLayout : public testing_support::HeadlessFixture, public ::testing
     DeskOptions options = bench_.options();
     options.language = GetParam().language;
     options.scale = GetParam().scale;
-    desk_ = bench_.desk(options);
+    model_ = bench_.model(options);
     target_ = std::make_unique<FrameTarget>(*context_, false);
     layer_ = std::make_unique<UiLayer>(*context_, GetParam().scale);
   }
@@ -67,7 +67,7 @@ class LanguageLayout : public testing_support::HeadlessFixture, public ::testing
       target_->begin(width, height);
       layer_->set_scale(scale);
       layer_->begin(width, height, 0.02, {});
-      Ui ui(desk_->words(), scale, width, height);
+      Ui ui(model_->words(), scale, width, height);
       what(ui);
       texts_ = ui.text_audit();
       scrolling_ = ui.scrolling();
@@ -79,14 +79,14 @@ class LanguageLayout : public testing_support::HeadlessFixture, public ::testing
   }
   void page(ScreenName name) {
     const std::unique_ptr<Screen> screen = make_screen(name);
-    draw([&](Ui& ui) { screen->frame(ui, *desk_, 0.02); });
+    draw([&](Ui& ui) { screen->frame(ui, *model_, 0.02); });
     look_at(screen_name(name));
     for (const std::string& panel : scrolling_)
       EXPECT_EQ(panel.find("foot"), std::string::npos) << panel << ": buttons are hidden";
   }
 
   testing_support::DeskBench bench_;
-  std::unique_ptr<PracticeDesk> desk_;
+  std::unique_ptr<PracticeModel> model_;
   std::unique_ptr<FrameTarget> target_;
   std::unique_ptr<UiLayer> layer_;
   std::vector<DrawnText> texts_;
@@ -95,12 +95,12 @@ class LanguageLayout : public testing_support::HeadlessFixture, public ::testing
 
 TEST_P(LanguageLayout, PagesAreClear) {
   page(ScreenName::kStart);
-  ASSERT_EQ(desk_->sign_in(kLongCode), "");
+  ASSERT_EQ(model_->sign_in(kLongCode), "");
   for (const ScreenName name :
        {ScreenName::kStart, ScreenName::kCurriculum, ScreenName::kSettings, ScreenName::kProgress})
     page(name);
-  for (const Exercise& exercise : desk_->exercises()) {
-    desk_->exercise_id = exercise.id;
+  for (const Exercise& exercise : model_->exercises()) {
+    model_->exercise_id = exercise.id;
     page(ScreenName::kBriefing);
   }
 }
@@ -108,26 +108,26 @@ TEST_P(LanguageLayout, PagesAreClear) {
 TEST_P(LanguageLayout, WhatLiesOverPagesIsClear) {
   SoundPage sounds;
   for (HelpPage help : {HelpPage::kKeys, HelpPage::kMetrics, HelpPage::kSounds}) {
-    draw([&](Ui& ui) { help_overlay(ui, *desk_, help, sounds); });
+    draw([&](Ui& ui) { help_overlay(ui, *model_, help, sounds); });
     look_at("help");
   }
   for (const bool runs : {false, true}) {
-    draw([&](Ui& ui) { menu_overlay(ui, *desk_, runs); });
+    draw([&](Ui& ui) { menu_overlay(ui, *model_, runs); });
     look_at("menu");
     EXPECT_TRUE(scrolling_.empty()) << "the menu has no room";
   }
   DevicePanel device;
   device.open = true;
-  draw([&](Ui& ui) { device.frame(ui, *desk_, TickRecord{}, HapticLoopConfig{}, 1, device_panel_area(ui, false)); });
+  draw([&](Ui& ui) { device.frame(ui, *model_, TickRecord{}, HapticLoopConfig{}, 1, device_panel_area(ui, false)); });
   look_at("device panel");
 }
 
 TEST_P(LanguageLayout, NotchStandsBesideItsWords) {
   const Window& w = GetParam();
   const std::unique_ptr<Screen> screen = make_screen(ScreenName::kNotch);
-  draw([&](Ui& ui) { screen->frame(ui, *desk_, 0.02); });
+  draw([&](Ui& ui) { screen->frame(ui, *model_, 0.02); });
   look_at("notch");
-  const auto stage = screen->stage(*desk_, w.width, w.height);
+  const auto stage = screen->stage(*model_, w.width, w.height);
   ASSERT_TRUE(stage);
   const double stage_right = stage->x + stage->width, stage_bottom = stage->y + stage->height;
   if (w.width < w.height) return;  // a tall window: below, or behind
@@ -139,11 +139,11 @@ TEST_P(LanguageLayout, NotchStandsBesideItsWords) {
 /// A notice stands near the upper edge, as tall as its words, whatever they are.
 TEST_P(LanguageLayout, NoticesLeaveTheButtonsFree) {
   for (const std::string& said :
-       {desk_->words()("An exam has no pause: the clock runs on."),
-        desk_->words()("Results cannot be kept: {0}", {std::string(180, 'x') + " " + std::string(40, 'y')})}) {
+       {model_->words()("An exam has no pause: the clock runs on."),
+        model_->words()("Results cannot be kept: {0}", {std::string(180, 'x') + " " + std::string(40, 'y')})}) {
     double age_s = 0;
     std::string shown = said;
-    draw([&](Ui& ui) { notice_overlay(ui, *desk_, 0.01, age_s, shown); });
+    draw([&](Ui& ui) { notice_overlay(ui, *model_, 0.01, age_s, shown); });
     ASSERT_EQ(texts_.size(), 1U);
     EXPECT_TRUE(texts_[0].in_front);
     EXPECT_LT(texts_[0].y, 0.3 * GetParam().height);
@@ -155,7 +155,7 @@ TEST_P(LanguageLayout, NoticesLeaveTheButtonsFree) {
 TEST_P(LanguageLayout, DisplayOfARunIsUncut) {
   const auto [language, width, height, scale] = GetParam();
   FontSet fonts;
-  for (const Exercise& exercise : desk_->exercises()) {
+  for (const Exercise& exercise : model_->exercises()) {
     Hud hud;
     hud.trainee = std::string("Trainee: ") + kLongCode;
     hud.title = exercise.number + " " + exercise.title + " · exam · direct";
@@ -170,11 +170,11 @@ TEST_P(LanguageLayout, DisplayOfARunIsUncut) {
     hud.credit = kind_of(exercise).on_organ ? "Organ: liver (synthetic) · synthetic CT phantom made by Trocar"
                                             : "No organ, no patient data · board exercise in a box trainer";
     hud.limit_s = 120;
-    const HudLayout layout = layout_hud(in_words(hud, desk_->words()), width, height, scale, fonts);
+    const HudLayout layout = layout_hud(in_words(hud, model_->words()), width, height, scale, fonts);
     bool level = false;
     for (const HudText& text : layout.texts) {
       EXPECT_FALSE(text.text.ends_with("\u2026")) << name_of(GetParam()) << ": " << text.text;
-      level = level || text.text.find(desk_->words()("exam")) != std::string::npos;
+      level = level || text.text.find(model_->words()("exam")) != std::string::npos;
     }
     EXPECT_TRUE(level) << name_of(GetParam()) << ": the level is not said";
   }

@@ -15,12 +15,12 @@ class LoopBench : public HeadlessFixture {
   }
   void TearDown() override {
     loop_.reset();
-    desk_.reset();
+    model_.reset();
   }
   void open(const DeskOptions& options) {
     loop_.reset();
-    desk_ = bench_.desk(options);
-    loop_ = std::make_unique<PracticeLoop>(*desk_, *context_, false);
+    model_ = bench_.model(options);
+    loop_ = std::make_unique<PracticeLoop>(*model_, *context_, false);
   }
   bool frame(const std::vector<InputEvent>& events = {}) { return loop_->frame(width_, height_, 0.05, events); }
   bool tap(std::int32_t code) {
@@ -39,7 +39,7 @@ class LoopBench : public HeadlessFixture {
 
   DeskBench bench_;
   int width_ = 640, height_ = 360;  // small: a software rasteriser draws every frame
-  std::unique_ptr<PracticeDesk> desk_;
+  std::unique_ptr<PracticeModel> model_;
   std::unique_ptr<PracticeLoop> loop_;
 };
 

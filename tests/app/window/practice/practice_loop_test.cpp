@@ -14,7 +14,7 @@ using testing_support::typed;
 class PracticeLoopTest : public testing_support::LoopBench {};
 
 TEST_F(PracticeLoopTest, BeginsAtTheStartWithALitScene) {
-  ASSERT_TRUE(desk_->show_scene(60));
+  ASSERT_TRUE(model_->show_scene(60));
   frame();
   frame();
   EXPECT_EQ(loop_->here(), ScreenName::kStart);
@@ -56,7 +56,7 @@ TEST_F(PracticeLoopTest, KeyboardAloneSignsIn) {
   frame();
   tap(kKeyEnter);
   frame();
-  EXPECT_EQ(desk_->trainee(), "T-7");
+  EXPECT_EQ(model_->trainee(), "T-7");
 }
 
 TEST_F(PracticeLoopTest, KeyboardAloneGoesToTheSettingsAndBack) {
@@ -75,15 +75,15 @@ TEST_F(PracticeLoopTest, KeyboardAloneGoesToTheSettingsAndBack) {
 TEST_F(PracticeLoopTest, PlusAndMinusChangeTheSize) {
   frame();
   tap('=');
-  EXPECT_EQ(desk_->scale(), 1.25);
+  EXPECT_EQ(model_->scale(), 1.25);
   tap('-');
   tap('-');
-  EXPECT_EQ(desk_->scale(), 1);
+  EXPECT_EQ(model_->scale(), 1);
 }
 
 TEST_F(PracticeLoopTest, HelpListsTheKeysAsTheyAreAndTheMetrics) {
-  desk_->settings().keys = {{"roll-left", "I"}};
-  desk_->settings_changed();
+  model_->settings().keys = {{"roll-left", "I"}};
+  model_->settings_changed();
   width_ = 1280;
   height_ = 2400;  // all of it at once
   frame();
@@ -154,21 +154,21 @@ TEST_F(PracticeLoopTest, AKeyIsChosenInTheSettings) {
   ASSERT_TRUE(sees("press a key"));
   frame(press('U'));
   frame();
-  EXPECT_EQ(desk_->keys().key_of(Action::kLeft), 'U');
+  EXPECT_EQ(model_->keys().key_of(Action::kLeft), 'U');
   EXPECT_FALSE(sees("press a key"));
 }
 
 TEST_F(PracticeLoopTest, QuittingDuringAnAttemptStoresItAsAborted) {
   frame();
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  ASSERT_EQ(model_->begin_attempt(), "");
   tap(kKeyEscape);
-  EXPECT_TRUE(desk_->running()->paused());
+  EXPECT_TRUE(model_->running()->paused());
   tap(kKeyEscape);
-  EXPECT_FALSE(desk_->running()->paused());
+  EXPECT_FALSE(model_->running()->paused());
   loop_.reset();
-  EXPECT_FALSE(desk_->running());
-  ASSERT_TRUE(desk_->result());
-  EXPECT_EQ(desk_->result()->grade.status, AttemptStatus::kAborted);
+  EXPECT_FALSE(model_->running());
+  ASSERT_TRUE(model_->result());
+  EXPECT_EQ(model_->result()->grade.status, AttemptStatus::kAborted);
 }
 
 TEST(ScreenTable, EveryNameHasAName) {
@@ -216,8 +216,8 @@ TEST_F(PracticeLoopTest, BackGoesThePathThatOneCame) {
 }
 
 TEST_F(PracticeLoopTest, ProgressGoesBackToTheDebriefItWasOpenedFrom) {
-  ASSERT_EQ(desk_->begin_attempt(), "");
-  desk_->end_attempt();
+  ASSERT_EQ(model_->begin_attempt(), "");
+  model_->end_attempt();
   loop_->go(ScreenName::kRun);
   loop_->go(ScreenName::kDebrief);
   frame();
@@ -249,14 +249,14 @@ TEST_F(PracticeLoopTest, AKeyThatIsChosenDoesNotLeaveTheSettings) {
 }
 
 TEST_F(PracticeLoopTest, AGuestIsLedWhereTheCourseLeads) {
-  const PracticeDesk::Advice next = desk_->next();
+  const PracticeModel::Advice next = model_->next();
   EXPECT_EQ(next.exercise_id, "surface-touch") << "guests begin with what is felt";
   frame();
   frame();
   tap(kKeyEnter);
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
-  EXPECT_EQ(desk_->exercise_id, next.exercise_id);
-  EXPECT_EQ(desk_->level, next.level);
+  EXPECT_EQ(model_->exercise_id, next.exercise_id);
+  EXPECT_EQ(model_->level, next.level);
 }
 
 }  // namespace

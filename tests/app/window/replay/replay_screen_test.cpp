@@ -18,8 +18,8 @@ class ReplayScreens : public HeadlessFixture {
   void SetUp() override {
     HeadlessFixture::SetUp();
     if (IsSkipped()) return;
-    desk_ = bench_.desk();
-    desk_->replay_file = record_short(bench_.folder / "own.trec", "novice");
+    model_ = bench_.model();
+    model_->replay_file = record_short(bench_.folder / "own.trec", "novice");
     screen_ = std::make_unique<ReplayScreen>();
     target_ = std::make_unique<FrameTarget>(*context_, false);
     layer_ = std::make_unique<UiLayer>(*context_, 1);
@@ -30,12 +30,12 @@ class ReplayScreens : public HeadlessFixture {
   }
   /// One frame without the scope's pictures, which cost most.
   std::optional<ScreenName> draw(const std::vector<InputEvent>& events = {}, double dt_s = 0) {
-    screen_->stage(*desk_, wide_, high_);
+    screen_->stage(*model_, wide_, high_);
     target_->begin(wide_, high_);
     layer_->set_scale(scale_);
     layer_->begin(wide_, high_, std::max(dt_s, 0.001), events);
-    Ui ui(desk_->words(), scale_, wide_, high_);
-    const auto to = screen_->frame(ui, *desk_, dt_s);
+    Ui ui(model_->words(), scale_, wide_, high_);
+    const auto to = screen_->frame(ui, *model_, dt_s);
     texts_ = ui.text_audit();
     scrolling_ = ui.scrolling();
     layer_->end();
@@ -60,7 +60,7 @@ class ReplayScreens : public HeadlessFixture {
   const ReplayClock& clock() const { return screen_->clock(); }
 
   DeskBench bench_;
-  std::unique_ptr<PracticeDesk> desk_;
+  std::unique_ptr<PracticeModel> model_;
   int wide_ = 1280, high_ = 720;
   double scale_ = 1;
   std::unique_ptr<ReplayScreen> screen_;
@@ -143,43 +143,43 @@ TEST_F(ReplayScreens, TheExpertComesBesideAndBothRunOnOneClock) {
   ASSERT_TRUE(opened());
   draw(press('S'));
   EXPECT_TRUE(screen_->beside());
-  ASSERT_TRUE(wait_until([&] { return screen_->second_stage(*desk_, wide_, high_).has_value(); }));
+  ASSERT_TRUE(wait_until([&] { return screen_->second_stage(*model_, wide_, high_).has_value(); }));
   draw();
   EXPECT_TRUE(says("Expert"));
-  const auto left = screen_->stage(*desk_, wide_, high_), right = screen_->second_stage(*desk_, wide_, high_);
+  const auto left = screen_->stage(*model_, wide_, high_), right = screen_->second_stage(*model_, wide_, high_);
   ASSERT_TRUE(left && right);
   EXPECT_LT(left->x + left->width, right->x + 1);
   EXPECT_EQ(left->height, right->height);
   EXPECT_NE(left->view.X_TI.p, right->view.X_TI.p);
   draw(press('S'));
-  EXPECT_FALSE(screen_->second_stage(*desk_, wide_, high_));
+  EXPECT_FALSE(screen_->second_stage(*model_, wide_, high_));
 }
 
 TEST_F(ReplayScreens, BeginsWhereTheDebriefSays) {
-  desk_->replay_at_s = 6.0;
+  model_->replay_at_s = 6.0;
   ASSERT_TRUE(opened());
-  EXPECT_FALSE(desk_->replay_at_s) << "once";
+  EXPECT_FALSE(model_->replay_at_s) << "once";
   EXPECT_GT(clock().now_s(), 0.5);
   EXPECT_LT(clock().now_s(), 6);
 }
 
 TEST_F(ReplayScreens, WithoutARecordingItSaysSo) {
-  desk_->replay_file.clear();
+  model_->replay_file.clear();
   draw();
   EXPECT_TRUE(says("There is no recording"));
-  EXPECT_FALSE(screen_->stage(*desk_, wide_, high_));
+  EXPECT_FALSE(screen_->stage(*model_, wide_, high_));
   EXPECT_EQ(draw(press(kKeyEscape)), ScreenName::kBack);
 }
 
 TEST_F(ReplayScreens, SettledItIsReadyForAPicture) {
-  screen_->settle(*desk_, 60);
+  screen_->settle(*model_, 60);
   draw();
   EXPECT_TRUE(says("Pause")) << "still being opened";
   EXPECT_GT(clock().to_s(), 3);
 }
 
 TEST_F(ReplayScreens, WhatIsNoRecordingIsSaid) {
-  desk_->replay_file = bench_.folder.write("text.trec", "nothing of the kind");
+  model_->replay_file = bench_.folder.write("text.trec", "nothing of the kind");
   EXPECT_TRUE(wait_until([&] { return says("text.trec"); }));
 }
 
@@ -188,7 +188,7 @@ TEST_F(ReplayScreens, NothingClipsOrScrollsAtAnyScale) {
     scale_ = scale;
     ASSERT_TRUE(wait_until([&] { return clock().to_s() > 3 && says("Pause"); }));
     if (scale == 1.0) draw(press('S'));
-    ASSERT_TRUE(wait_until([&] { return screen_->second_stage(*desk_, wide_, high_).has_value(); }));
+    ASSERT_TRUE(wait_until([&] { return screen_->second_stage(*model_, wide_, high_).has_value(); }));
     draw();
     EXPECT_TRUE(scrolling_.empty()) << "scale " << scale;
     for (const DrawnText& t : texts_) {
@@ -204,9 +204,9 @@ using ReplayInLoop = LoopBench;
 TEST_F(ReplayInLoop, DrawsBothPictures) {
   width_ = 800;
   height_ = 450;
-  desk_->replay_file = record_short(bench_.folder / "own.trec", "novice");
-  desk_->replay_beside = desk_->replay_file;
-  desk_->replay_at_s = 8;
+  model_->replay_file = record_short(bench_.folder / "own.trec", "novice");
+  model_->replay_beside = model_->replay_file;
+  model_->replay_at_s = 8;
   loop_->go(ScreenName::kReplay);
   for (int i = 0; i < 300 && !sees("Pause"); ++i) {
     frame();

@@ -204,15 +204,15 @@ class SoundPageTest : public testing_support::UiBench {
   void SetUp() override {
     UiBench::SetUp();
     heard = {};
-    desk_ = bench_.desk();
+    model_ = bench_.model();
   }
   void page(const std::vector<InputEvent>& events = {}, bool up = true) {
     frame(
         [&](Ui& ui) {
           ui.begin_panel("help", {0, 0, 1280, 720});
-          if (up) page_.frame(ui, *desk_);
+          if (up) page_.frame(ui, *model_);
           ui.end_panel();
-          page_.pass(desk_->sound(), up, 0.1);
+          page_.pass(model_->sound(), up, 0.1);
         },
         events);
   }
@@ -223,7 +223,7 @@ class SoundPageTest : public testing_support::UiBench {
     page();
   }
   testing_support::DeskBench bench_;
-  std::unique_ptr<PracticeDesk> desk_;
+  std::unique_ptr<PracticeModel> model_;
   SoundPage page_;
 };
 

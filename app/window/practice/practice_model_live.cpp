@@ -1,7 +1,7 @@
 // What the instructor's desk is told of this window, and what it says in return.
 #include <algorithm>
 
-#include "app/window/practice/practice_desk_state.h"
+#include "app/window/practice/practice_model_state.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -13,7 +13,7 @@ constexpr const char* kProgram = "practice window";
 }  // namespace
 
 /// News at once, the rest when the desk wants it.
-void PracticeDesk::State::tell_desk(bool guest) {
+void PracticeModel::State::tell_desk(bool guest) {
   const std::string who = guest ? "" : trainee;
   if (!runner) {
     if (told || told_phase.empty() || told_trainee != who) {
@@ -40,7 +40,7 @@ void PracticeDesk::State::tell_desk(bool guest) {
 }
 
 /// A database that does not answer is asked again.
-void PracticeDesk::State::look_for_message() {
+void PracticeModel::State::look_for_message() {
   if (message) return;
   try {
     message = AssessmentStore(*database).unseen_message(trainee);
@@ -49,7 +49,7 @@ void PracticeDesk::State::look_for_message() {
 }
 
 /// @return whether it was shown: it has then been met.
-bool PracticeDesk::State::show_message(std::string& notice) {
+bool PracticeModel::State::show_message(std::string& notice) {
   const bool runs = runner && !runner->finished();
   if (!message || !notice.empty() || (runs && runner->scene().level.name == kExamLevel)) return false;
   const Note shown = *std::exchange(message, std::nullopt);
@@ -65,7 +65,7 @@ bool PracticeDesk::State::show_message(std::string& notice) {
   return true;
 }
 
-void PracticeDesk::pass(double dt_s) {
+void PracticeModel::pass(double dt_s) {
   State& s = *state_;
   if (s.database->in_memory()) return;
   if (!s.live) s.live = std::make_unique<LivePublisher>(s.database->file());

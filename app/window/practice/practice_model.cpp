@@ -1,4 +1,4 @@
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 
 #include "app/picture/models/show_scene.h"
 #include "app/session/setup/recorded_scene.h"
-#include "app/window/practice/practice_desk_state.h"
+#include "app/window/practice/practice_model_state.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/kind.h"
@@ -33,7 +33,7 @@ std::string unread_words(const Words& w, const Settings& settings, const std::fi
 
 }  // namespace
 
-PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets) : state_(std::make_unique<State>()) {
+PracticeModel::PracticeModel(const DeskOptions& options, const AssetRoots& assets) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.options = options;
   s.assets = assets;
@@ -67,45 +67,45 @@ PracticeDesk::PracticeDesk(const DeskOptions& options, const AssetRoots& assets)
     throw InputError("--trainee " + options.trainee + ": " + wrong);
 }
 
-PracticeDesk::~PracticeDesk() = default;
+PracticeModel::~PracticeModel() = default;
 
-const AssetRoots& PracticeDesk::assets() const { return state_->assets; }
-const std::vector<Exercise>& PracticeDesk::exercises() const { return state_->exercises; }
-const Words& PracticeDesk::words() const { return state_->words; }
-double PracticeDesk::scale() const {
+const AssetRoots& PracticeModel::assets() const { return state_->assets; }
+const std::vector<Exercise>& PracticeModel::exercises() const { return state_->exercises; }
+const Words& PracticeModel::words() const { return state_->words; }
+double PracticeModel::scale() const {
   return std::clamp(state_->options.scale.value_or(state_->settings.scale), 1.0, 2.0);
 }
-const std::string& PracticeDesk::scope() const {
+const std::string& PracticeModel::scope() const {
   return state_->options.scope.empty() ? state_->settings.scope : state_->options.scope;
 }
-double PracticeDesk::scope_tilt_rad() const { return std::stod(scope()) * std::numbers::pi / 180; }
-Settings& PracticeDesk::settings() { return state_->settings; }
-const KeyMap& PracticeDesk::keys() const { return state_->keys; }
-Steering& PracticeDesk::steering() { return *state_->steering; }
-Sound& PracticeDesk::sound() { return *state_->sound; }
-std::filesystem::path PracticeDesk::database() const {
+double PracticeModel::scope_tilt_rad() const { return std::stod(scope()) * std::numbers::pi / 180; }
+Settings& PracticeModel::settings() { return state_->settings; }
+const KeyMap& PracticeModel::keys() const { return state_->keys; }
+Steering& PracticeModel::steering() { return *state_->steering; }
+Sound& PracticeModel::sound() { return *state_->sound; }
+std::filesystem::path PracticeModel::database() const {
   return state_->database->in_memory() ? std::filesystem::path(":memory:") : state_->database->file();
 }
 
-void PracticeDesk::choose_language(const std::string& code) {
+void PracticeModel::choose_language(const std::string& code) {
   state_->options.language.clear();
   state_->settings.language = code;
   settings_changed();
 }
 
-void PracticeDesk::choose_scale(double scale) {
+void PracticeModel::choose_scale(double scale) {
   state_->options.scale.reset();
   state_->settings.scale = std::clamp(scale, 1.0, 2.0);
   settings_changed();
 }
 
-void PracticeDesk::choose_scope(const std::string& degrees) {
+void PracticeModel::choose_scope(const std::string& degrees) {
   state_->options.scope.clear();
   state_->settings.scope = degrees;
   settings_changed();
 }
 
-void PracticeDesk::settings_changed() {
+void PracticeModel::settings_changed() {
   State& s = *state_;
   // What was chosen here holds over what the command line said; what was not touched stays as it said.
   if (s.settings.scale != s.followed.scale) s.options.scale.reset();
@@ -118,14 +118,14 @@ void PracticeDesk::settings_changed() {
   }
 }
 
-std::shared_ptr<const SceneView> PracticeDesk::show_scene(double wait_s) const {
+std::shared_ptr<const SceneView> PracticeModel::show_scene(double wait_s) const {
   const auto& scene = state_->show_scene;
   if (!scene.valid() || scene.wait_for(std::chrono::duration<double>(wait_s)) != std::future_status::ready)
     return nullptr;
   return scene.get();
 }
 
-AttemptSetup PracticeDesk::show_setup() const {
+AttemptSetup PracticeModel::show_setup() const {
   const std::vector<Exercise>& all = state_->exercises;
   const auto touch = std::find_if(all.begin(), all.end(), [](const Exercise& e) { return kind_of(e).on_organ; });
   AttemptSetup setup;
@@ -135,10 +135,10 @@ AttemptSetup PracticeDesk::show_setup() const {
   return setup;
 }
 
-const std::string& PracticeDesk::trainee() const { return state_->trainee; }
-bool PracticeDesk::is_guest() const { return state_->trainee == kGuest || state_->trainee == kDemonstration; }
+const std::string& PracticeModel::trainee() const { return state_->trainee; }
+bool PracticeModel::is_guest() const { return state_->trainee == kGuest || state_->trainee == kDemonstration; }
 
-std::string PracticeDesk::sign_in(const std::string& code) {
+std::string PracticeModel::sign_in(const std::string& code) {
   State& s = *state_;
   if (code.empty()) return s.words("Type your code first.");
   if (code == kDemonstration || code == kGuest)
@@ -157,36 +157,36 @@ std::string PracticeDesk::sign_in(const std::string& code) {
   }
 }
 
-void PracticeDesk::sign_out() {
+void PracticeModel::sign_out() {
   state_->trainee = state_->scripted() ? kDemonstration : kGuest;
   state_->note.reset();
   state_->message.reset();
   state_->session = make_uuid();
 }
 
-bool PracticeDesk::is_demonstration() const { return state_->scripted(); }
+bool PracticeModel::is_demonstration() const { return state_->scripted(); }
 
-std::string PracticeDesk::who() const {
+std::string PracticeModel::who() const {
   const Words& w = state_->words;
   if (state_->scripted()) return w("Demonstration");
   return is_guest() ? w("Guest") : w("Signed in as {0}", {trainee()});
 }
 
-const Exercise& PracticeDesk::exercise() const {
+const Exercise& PracticeModel::exercise() const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [this](const Exercise& e) { return e.id == exercise_id; });
   return at == all.end() ? all.front() : *at;
 }
 
-bool PracticeDesk::exercise_given() const { return !state_->options.exercise.empty(); }
+bool PracticeModel::exercise_given() const { return !state_->options.exercise.empty(); }
 
-Standing PracticeDesk::standing(const std::string& id, const std::string& of_level) const {
+Standing PracticeModel::standing(const std::string& id, const std::string& of_level) const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [&id](const Exercise& e) { return e.id == id; });
   return at == all.end() ? Standing{} : standing_of(*at, of_level, state_->attempts(id));
 }
 
-PracticeDesk::Advice PracticeDesk::next() const {
+PracticeModel::Advice PracticeModel::next() const {
   const Words& w = state_->words;
   const auto found = next_step(practice_order(state_->exercises, is_guest()),
                                [this](const Exercise& e, const std::string& name) { return standing(e.id, name); });
@@ -204,7 +204,7 @@ PracticeDesk::Advice PracticeDesk::next() const {
   return {found->exercise->id, found->level, why};
 }
 
-std::string PracticeDesk::locked() const {
+std::string PracticeModel::locked() const {
   const std::vector<ExerciseLevel>& levels = exercise().levels;
   const auto at =
       std::find_if(levels.begin(), levels.end(), [this](const ExerciseLevel& one) { return one.name == level; });
@@ -216,13 +216,13 @@ std::string PracticeDesk::locked() const {
            {w(level), w(before), std::to_string(std::min(3, standing(exercise_id, before).passed_in_a_row))});
 }
 
-std::optional<std::string> PracticeDesk::teacher_note() const {
+std::optional<std::string> PracticeModel::teacher_note() const {
   const std::optional<Note>& note = state_->note;
   return note ? std::optional(note->printed.empty() ? note->text : note->text + " (" + note->printed + ")")
               : std::nullopt;
 }
 
-std::vector<PastAttempt> PracticeDesk::past(const std::string& id) const {
+std::vector<PastAttempt> PracticeModel::past(const std::string& id) const {
   const State& s = *state_;
   std::vector<PastAttempt> out;
   if (s.database->in_memory()) {
@@ -240,7 +240,7 @@ std::vector<PastAttempt> PracticeDesk::past(const std::string& id) const {
   }
 }
 
-std::string PracticeDesk::begin_attempt() {
+std::string PracticeModel::begin_attempt() {
   State& s = *state_;
   if (s.runner) return s.words("An attempt is running.");
   const bool scripted = s.scripted();
@@ -273,7 +273,7 @@ std::string PracticeDesk::begin_attempt() {
   }
 }
 
-void PracticeDesk::begin_steering() {
+void PracticeModel::begin_steering() {
   State& s = *state_;
   if (!s.runner) return;
   const Scene& scene = s.runner->scene();
@@ -282,9 +282,9 @@ void PracticeDesk::begin_steering() {
                     steering_reach(scene.setup.exercise, scene.level));
 }
 
-AttemptRunner* PracticeDesk::running() { return state_->runner.get(); }
+AttemptRunner* PracticeModel::running() { return state_->runner.get(); }
 
-bool PracticeDesk::end_attempt() {
+bool PracticeModel::end_attempt() {
   State& s = *state_;
   if (!s.runner) return false;
   std::erase_if(s.unstored, [](const std::unique_ptr<AttemptRunner>& old) { return old->stored(); });
@@ -320,7 +320,7 @@ bool PracticeDesk::end_attempt() {
   return true;
 }
 
-bool PracticeDesk::open_result(const std::string& uuid) {
+bool PracticeModel::open_result(const std::string& uuid) {
   State& s = *state_;
   try {
     AttemptResult found = AttemptStore(*s.database).load(uuid);
@@ -338,11 +338,11 @@ bool PracticeDesk::open_result(const std::string& uuid) {
   }
 }
 
-const std::optional<AttemptResult>& PracticeDesk::result() const { return state_->result; }
-std::shared_ptr<const Scene> PracticeDesk::last_scene() const { return state_->last_scene; }
-std::filesystem::path PracticeDesk::recording() const { return state_->result ? state_->result->recording_path : ""; }
+const std::optional<AttemptResult>& PracticeModel::result() const { return state_->result; }
+std::shared_ptr<const Scene> PracticeModel::last_scene() const { return state_->last_scene; }
+std::filesystem::path PracticeModel::recording() const { return state_->result ? state_->result->recording_path : ""; }
 
-std::filesystem::path PracticeDesk::expert_recording() {
+std::filesystem::path PracticeModel::expert_recording() {
   State& s = *state_;
   AttemptSetup setup;
   setup.exercise = exercise();
@@ -365,6 +365,6 @@ std::filesystem::path PracticeDesk::expert_recording() {
   return s.expert.ask(expert_setup(setup), s.assets);
 }
 
-const std::string& PracticeDesk::expert_refusal() const { return state_->expert.refusal(); }
+const std::string& PracticeModel::expert_refusal() const { return state_->expert.refusal(); }
 
 }  // namespace trocar

@@ -38,10 +38,10 @@ struct DeskOptions {
   std::string scope = {};                 ///< "0" or "30" degrees of the tip; given: this time only
 };
 
-class PracticeDesk {
+class PracticeModel {
  public:
-  PracticeDesk(const DeskOptions& options, const AssetRoots& assets);
-  ~PracticeDesk();
+  PracticeModel(const DeskOptions& options, const AssetRoots& assets);
+  ~PracticeModel();
 
   const AssetRoots& assets() const;
   const std::vector<Exercise>& exercises() const;

@@ -1,4 +1,4 @@
-#include "app/window/practice/practice_desk_state.h"
+#include "app/window/practice/practice_model_state.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -31,7 +31,7 @@ std::string language_of_machine(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void PracticeDesk::State::take_up(std::string& notice) {
+void PracticeModel::State::take_up(std::string& notice) {
   followed = settings;
   const std::filesystem::path folder = assets.assets / "languages";
   std::string language = options.language.empty() ? settings.language : options.language;
@@ -59,7 +59,7 @@ void PracticeDesk::State::take_up(std::string& notice) {
   sound_wanted = settings.sound;
 }
 
-void PracticeDesk::State::open_database(std::string& notice) {
+void PracticeModel::State::open_database(std::string& notice) {
   const bool named = !options.database.empty();
   try {
     const std::filesystem::path file = named ? options.database : default_database_path();
@@ -75,7 +75,7 @@ void PracticeDesk::State::open_database(std::string& notice) {
 }
 
 /// Of the newest one. @param of one trainee; empty: anybody, who is then named.
-std::string PracticeDesk::State::recovered_words(const std::string& of) const {
+std::string PracticeModel::State::recovered_words(const std::string& of) const {
   for (auto found = recovered.rbegin(); found != recovered.rend(); ++found) {
     if (!of.empty() && found->trainee != of) continue;
     const AttemptSummary attempt = AttemptStore(*database).find(found->uuid);
@@ -89,7 +89,7 @@ std::string PracticeDesk::State::recovered_words(const std::string& of) const {
 }
 
 /// What the first attempt would stumble over. @throws InputError that names what there is.
-void PracticeDesk::State::check_names() const {
+void PracticeModel::State::check_names() const {
   find_organ(options.organ, assets.assets);
   if (scripted()) make_hand(options.hand, 0, assets.hands);
   if (scripted() && !options.trainee.empty())
@@ -97,7 +97,7 @@ void PracticeDesk::State::check_names() const {
                      ": what --hand does is a demonstration and nobody's attempt; leave one of the two out");
 }
 
-std::vector<AttemptSummary> PracticeDesk::State::attempts(const std::string& exercise) const {
+std::vector<AttemptSummary> PracticeModel::State::attempts(const std::string& exercise) const {
   std::vector<AttemptSummary> out = database->in_memory() ? unkept : AttemptStore(*database).list({trainee, exercise});
   std::erase_if(
       out, [&](const AttemptSummary& a) { return a.exercise_id != exercise || a.trainee != trainee || !counts(a); });
@@ -106,7 +106,7 @@ std::vector<AttemptSummary> PracticeDesk::State::attempts(const std::string& exe
 
 /// The scene of an attempt. Where the organ lies is the same for every board of a level, and the search for it takes
 /// seconds on a small organ: it is done once for attempts that follow each other on the same organ.
-std::shared_ptr<const Scene> PracticeDesk::State::built(AttemptSetup setup) const {
+std::shared_ptr<const Scene> PracticeModel::State::built(AttemptSetup setup) const {
   find_level(setup.exercise, setup.level);
   Organ made = organ_of(setup, assets);
   const Scene* last = last_scene.get();
@@ -117,7 +117,7 @@ std::shared_ptr<const Scene> PracticeDesk::State::built(AttemptSetup setup) cons
 }
 
 /// At sign-in. A database that does not answer has none to show now.
-void PracticeDesk::State::look_for_note() {
+void PracticeModel::State::look_for_note() {
   note.reset();
   if (database->in_memory()) return;
   try {
@@ -127,7 +127,7 @@ void PracticeDesk::State::look_for_note() {
 }
 
 /// It stood on the course's page, and the next attempt has begun. What cannot be written now is shown once more.
-void PracticeDesk::State::note_was_met() {
+void PracticeModel::State::note_was_met() {
   if (!note) return;
   try {
     AssessmentStore(*database).mark_seen(note->uuid);
@@ -136,7 +136,7 @@ void PracticeDesk::State::note_was_met() {
   note.reset();
 }
 
-std::int64_t PracticeDesk::State::seed() const {
+std::int64_t PracticeModel::State::seed() const {
   if (options.seed) return *options.seed;
   std::random_device device;
   return static_cast<std::int64_t>(device() & 0x7fffffffU);

@@ -1,4 +1,4 @@
-// What a PracticeDesk keeps. Only app/window/practice/practice_desk*.cpp includes this.
+// What a PracticeModel keeps. Only app/window/practice/practice_model*.cpp includes this.
 //
 // Thread: the window's.
 #pragma once
@@ -8,7 +8,7 @@
 
 #include "app/session/keeping/live_attempt.h"
 #include "app/session/playback/expert_run.h"
-#include "app/window/practice/practice_desk.h"
+#include "app/window/practice/practice_model.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/attempt_identity.h"
 
@@ -17,7 +17,7 @@ namespace trocar {
 inline constexpr const char* kGuest = "guest";
 inline constexpr const char* kDemonstration = "demonstration";  // whose the runs of scripted hands are
 
-struct PracticeDesk::State {
+struct PracticeModel::State {
   DeskOptions options;
   AssetRoots assets;
   std::vector<Exercise> exercises;

@@ -1,0 +1,380 @@
+#include "app/window/practice/practice_model.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "app/session/setup/recorded_scene.h"
+#include "app/window/pages/progress_screen.h"
+#include "haptics/input_error.h"
+#include "scenarios/layout/board_numbers.h"
+#include "tests/app/window/pages/desk_bench.h"
+#include "trainees/records/assessments.h"
+
+namespace trocar::practice_model_test {
+namespace {
+
+using testing_support::DeskBench;
+
+/// Stores a graded attempt, as the runner does.
+void store(const std::filesystem::path& database, const Exercise& exercise, const std::string& level, int board,
+           bool passed, const std::string& trainee = "T-1", const std::string& hand = "mouse") {
+  Database db(database);
+  AttemptStore attempts(db);
+  AttemptStart start;
+  start.trainee = trainee;
+  start.exercise_id = exercise.id;
+  start.exercise_version = exercise.version;
+  start.exercise_number = exercise.number;
+  start.exercise_title = exercise.title;
+  start.exercise_text = exercise.text;
+  start.level = level;
+  start.board = board;
+  start.hand = hand;
+  start.program = "test";
+  start.recording = std::filesystem::path();
+  const AttemptId id = attempts.begin_attempt(start);
+  AttemptResult result;
+  result.grade.status = AttemptStatus::kCompleted;
+  result.grade.score = passed ? 85 : 30;
+  result.grade.passed = passed;
+  result.grade.grade = passed ? "proficient" : "below pass";
+  attempts.finish_attempt(id, result);
+}
+
+TEST(PracticeModel, BeginsAsAGuestAtTheFirstExercise) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  EXPECT_TRUE(model->is_guest());
+  EXPECT_EQ(model->exercise_id, model->exercises().front().id);
+  EXPECT_EQ(model->level, "L1");
+  EXPECT_FALSE(model->running());
+  EXPECT_FALSE(model->result());
+  EXPECT_TRUE(model->recording().empty());
+  EXPECT_TRUE(model->notice.empty()) << model->notice;
+}
+
+TEST(PracticeModel, SignsInByCodeAndSaysWhatIsWrongWithOne) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  EXPECT_NE(model->sign_in(""), "");
+  EXPECT_NE(model->sign_in("no spaces"), "");
+  EXPECT_TRUE(model->is_guest());
+  EXPECT_EQ(model->sign_in("T-1"), "");
+  EXPECT_EQ(model->trainee(), "T-1");
+  model->sign_out();
+  EXPECT_TRUE(model->is_guest());
+}
+
+TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.trainee = "T-9";
+  options.exercise = "E02";
+  options.level = "L2";
+  const auto model = bench.model(options);
+  EXPECT_EQ(model->trainee(), "T-9");
+  EXPECT_EQ(model->exercise().id, "surface-touch");
+  EXPECT_EQ(model->level, "L2");
+}
+
+TEST(PracticeModel, WrongOptionsAreRefusedBeforeAWindowOpens) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.exercise = "E99";
+  EXPECT_THROW(bench.model(options), InputError);
+  options = bench.options();
+  options.level = "L9";
+  EXPECT_THROW(bench.model(options), InputError);
+  options = bench.options();
+  options.trainee = "a b";
+  EXPECT_THROW(bench.model(options), InputError);
+  options = bench.options();
+  options.organ = "nosuch";
+  try {
+    bench.model(options);
+    FAIL() << "only the first attempt would find out";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("phantom-liver"), std::string::npos) << "what there is";
+  }
+  options = bench.options();
+  options.hand = "nosuch";
+  try {
+    bench.model(options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("novice"), std::string::npos);
+  }
+  options.hand = "expert";
+  options.trainee = "T-9";
+  EXPECT_THROW(bench.model(options), InputError) << "a demonstration is nobody's attempt";
+  options = bench.options();
+  options.language = "xx";
+  EXPECT_THROW(bench.model(options), InputError);
+}
+
+TEST(PracticeModel, StandingsComeFromTheStoreOfThisTraineeAlone) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  const Exercise& first = model->exercises().front();
+  store(bench.options().database, first, "L1", 1, true);
+  EXPECT_EQ(model->standing(first.id, "L1").attempts, 0) << "that was not the guest";
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  EXPECT_EQ(model->standing(first.id, "L1").attempts, 1);
+  EXPECT_EQ(model->standing(first.id, "L1").best, 85);
+  EXPECT_EQ(model->standing("unknown", "L1").attempts, 0);
+}
+
+TEST(PracticeModel, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  const Exercise& first = model->exercises().front();
+  EXPECT_EQ(model->next().exercise_id, first.id);
+  EXPECT_EQ(model->next().level, "L1");
+  EXPECT_FALSE(model->standing(first.id, "L2").unlocked);
+  for (const int board : {1001, 1002, 1003}) {
+    EXPECT_EQ(model->next().exercise_id, first.id);
+    store(bench.options().database, first, "L1", board, true);
+  }
+  EXPECT_TRUE(model->standing(first.id, "L2").unlocked);
+  EXPECT_EQ(model->next().exercise_id, model->exercises()[1].id) << "all exercises at a level before the next level";
+  EXPECT_EQ(model->next().level, "L1");
+}
+
+TEST(PracticeModel, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsOpened) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  const Exercise& first = model->exercises().front();
+  for (const int board : {1001, 1002, 1003}) store(bench.options().database, first, "L1", board, board != 1002);
+  EXPECT_FALSE(model->standing(first.id, "L2").unlocked);
+  EXPECT_EQ(model->standing(first.id, "L1").passed, 2);
+  const std::string uuid = model->past(first.id)[1].summary.uuid;
+  {
+    Database db(bench.options().database);
+    AssessmentStore(db).override_verdict(uuid, true, "The stand slipped twice", {"", "Dr B"});
+  }
+  EXPECT_TRUE(model->standing(first.id, "L2").unlocked);
+  EXPECT_EQ(model->standing(first.id, "L1").passed, 3);
+  EXPECT_TRUE(model->past(first.id)[1].summary.passed);
+  model->notice.clear();
+  ASSERT_TRUE(model->open_result(uuid));
+  EXPECT_EQ(model->notice.find("Dr B decided on 20"), 0u) << model->notice;
+  EXPECT_NE(model->notice.find("that this attempt is passed: The stand slipped twice"), std::string::npos)
+      << model->notice;
+  model->notice.clear();
+  ASSERT_TRUE(model->open_result(model->past(first.id)[0].summary.uuid));
+  EXPECT_EQ(model->notice, "");
+}
+
+TEST(PracticeModel, ALockedLevelIsRefusedInWords) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  model->level = "L2";
+  EXPECT_NE(model->begin_attempt().find("L2"), std::string::npos);
+  EXPECT_NE(model->locked().find("L1"), std::string::npos) << "what opens it";
+  model->level = "L1";
+  EXPECT_EQ(model->locked(), "");
+  EXPECT_FALSE(model->running());
+}
+
+TEST(PracticeModel, AnAttemptThatIsLeftIsStoredAsAborted) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  ASSERT_EQ(model->begin_attempt(), "");
+  ASSERT_TRUE(model->running());
+  EXPECT_NE(model->begin_attempt(), "") << "one at a time";
+  while (!model->running()->ready()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(model->end_attempt()) << model->notice;
+  EXPECT_FALSE(model->running());
+  ASSERT_TRUE(model->result());
+  EXPECT_EQ(model->result()->grade.status, AttemptStatus::kAborted);
+  EXPECT_EQ(model->result()->hand, "mouse");
+  EXPECT_EQ(model->result()->board, drawn_board(7, false));
+  ASSERT_TRUE(model->last_scene());
+  const Standing s = model->standing(model->exercise_id, "L1");
+  ASSERT_EQ(s.attempts, 1);
+  EXPECT_EQ(s.newest_first.front().status, "aborted");
+}
+
+TEST(PracticeModel, AnOrganIsPlacedOnceForAttemptsThatFollowEachOther) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.exercise = "surface-touch";
+  const auto model = bench.model(options);
+  const auto attempt = [&] {
+    EXPECT_EQ(model->begin_attempt(), "");
+    EXPECT_TRUE(model->end_attempt()) << model->notice;
+    return model->last_scene();
+  };
+  const std::shared_ptr<const Scene> first = attempt(), second = attempt();
+  EXPECT_FALSE(first->setup.placement.has_value()) << "searched";
+  ASSERT_TRUE(second->setup.placement.has_value()) << "known";
+  EXPECT_EQ(second->placement.X_TO.p, first->placement.X_TO.p);
+  EXPECT_EQ(second->placement.X_TO.R, first->placement.X_TO.R);
+  model->organ = "phantom-gallbladder";
+  EXPECT_FALSE(attempt()->setup.placement.has_value()) << "another organ is searched";
+}
+
+TEST(PracticeModel, InMemoryTheSittingIsKeptInMind) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.database = ":memory:";
+  const auto model = bench.model(options);
+  ASSERT_EQ(model->begin_attempt(), "");
+  ASSERT_TRUE(model->end_attempt()) << model->notice;
+  EXPECT_EQ(model->standing(model->exercise_id, "L1").attempts, 1);
+  EXPECT_EQ(model->database(), ":memory:");
+}
+
+TEST(PracticeModel, SettingsAreKeptForTheNextTime) {
+  const DeskBench bench;
+  {
+    const auto model = bench.model();
+    model->settings().scale = 1.5;
+    model->settings().keys = {{"roll-left", "I"}};
+    model->settings_changed();
+    EXPECT_EQ(model->scale(), 1.5);
+    EXPECT_EQ(model->keys().action_of('I'), Action::kRollLeft);
+  }
+  const auto again = bench.model();
+  EXPECT_EQ(again->scale(), 1.5);
+  EXPECT_EQ(again->keys().key_of(Action::kRollLeft), 'I');
+}
+
+TEST(PracticeModel, ScaleOfTheCommandLineHoldsThisTimeOnly) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.scale = 2;
+  const auto model = bench.model(options);
+  EXPECT_EQ(model->scale(), 2);
+  EXPECT_EQ(model->settings().scale, 1);
+}
+
+TEST(PracticeModel, AChoiceOfSizeLeavesTheLanguageOfTheCommandLine) {
+  const DeskBench bench;
+  DeskOptions options = bench.options();
+  options.language = "fr";
+  options.scale = 1.25;
+  const auto model = bench.model(options);
+  model->choose_scale(1);
+  EXPECT_EQ(model->scale(), 1) << "though the settings said so before";
+  EXPECT_EQ(model->words().language(), "fr");
+  model->choose_language("en");
+  EXPECT_EQ(model->words().language(), "en");
+  EXPECT_EQ(model->settings().language, "en");
+}
+
+TEST(PracticeModel, KeysThatContradictEachOtherAreANoticeNotAnEnd) {
+  const DeskBench bench;
+  std::ofstream(bench.options().settings) << "version = 1\n[keys]\nroll-left = \"Esc\"\n";
+  const auto model = bench.model();
+  EXPECT_FALSE(model->notice.empty());
+  EXPECT_EQ(model->keys().key_of(Action::kRollLeft), KeyMap().key_of(Action::kRollLeft));
+}
+
+TEST(PracticeModel, ADatabaseThatIsNoneIsRefused) {
+  const DeskBench bench;
+  std::ofstream(bench.options().database)
+      << "this is no database, but long enough to look at: " << std::string(200, 'x');
+  EXPECT_THROW(bench.model(), InputError);
+}
+
+TEST(PracticeModel, TheShowSceneLoadsBehindTheDesk) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  const auto scene = model->show_scene(60);
+  ASSERT_TRUE(scene);
+  ASSERT_TRUE(scene->organ);
+  EXPECT_FALSE(scene->organ->triangles.empty());
+  EXPECT_EQ(model->show_scene(0), scene) << "loaded once";
+}
+
+TEST(PracticeModelNotice, UnreadableSettingsAreSaidInTheLanguageWithoutTheParsersWords) {
+  testing_support::DeskBench bench;
+  DeskOptions options = bench.options();
+  bench.folder.write("settings.toml", "version = 1\nscale = = 2\n");
+  options.language = "de";
+  const auto model = bench.model(options);
+  EXPECT_NE(model->notice.find("Zeile 2"), std::string::npos) << model->notice;
+  EXPECT_NE(model->notice.find("settings.toml.unread"), std::string::npos) << model->notice;
+  EXPECT_EQ(model->notice.find("Error"), std::string::npos) << model->notice;
+  model->settings_changed();
+  EXPECT_TRUE(std::filesystem::exists(unread_settings(options.settings)));
+}
+
+TEST(PracticeModel, WhatAScriptedHandDidIsNobodysPass) {
+  const DeskBench bench;
+  {
+    const auto model = bench.model();
+    const Exercise& first = model->exercises().front();
+    for (const int board : {1001, 1002, 1003})
+      store(bench.options().database, first, "L1", board, true, "guest", "expert");
+    EXPECT_EQ(model->standing(first.id, "L1").attempts, 0) << "an older database holds such runs as a guest's";
+    EXPECT_FALSE(model->standing(first.id, "L2").unlocked);
+    EXPECT_TRUE(model->past().empty());
+    EXPECT_NE(model->sign_in("demonstration"), "") << "kept for them";
+  }
+  DeskOptions options = bench.options();
+  options.hand = "expert";
+  const auto model = bench.model(options);
+  EXPECT_EQ(model->who(), "Demonstration");
+  ASSERT_EQ(model->begin_attempt(), "");
+  ASSERT_TRUE(model->end_attempt());
+  EXPECT_EQ(model->result()->trainee, "demonstration");
+  EXPECT_EQ(model->standing(model->exercise_id, "L1").attempts, 1) << "shown to those who watch";
+  EXPECT_EQ(bench.model()->standing(model->exercise_id, "L1").attempts, 0);
+}
+
+TEST(PracticeModel, AnAttemptThatWasCutOffIsNamedAtTheNextStart) {
+  const DeskBench bench;
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    Database db(bench.options().database);
+    AttemptStart start;
+    start.trainee = "T-5";
+    start.exercise_id = "surface-touch";
+    start.exercise_text = "text";
+    start.level = "L1";
+    start.hand = "mouse";
+    start.recording = std::filesystem::path();
+    AttemptStore(db).begin_attempt(start);
+    ::_exit(0);  // as kill -9 leaves it
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  const auto model = bench.model();
+  EXPECT_NE(model->notice.find("The attempt of E02 (T-5) at "), std::string::npos) << model->notice;
+  EXPECT_NE(model->notice.find("was cut off"), std::string::npos);
+  model->notice.clear();
+  ASSERT_EQ(model->sign_in("T-5"), "");
+  EXPECT_NE(model->notice.find("The attempt of E02 at "), std::string::npos) << "and to whoever it was";
+  ASSERT_EQ(progress_of(*model).size(), 1u);
+  EXPECT_NE(progress_of(*model).front().note.find("was cut off"), std::string::npos) << "it stays in the progress";
+  ASSERT_EQ(bench.model()->notice, "") << "said once";
+}
+
+TEST(PracticeModel, TheExpertDoesWhatTheAttemptDidNotWhatTheDeskWouldDoNow) {
+  const DeskBench bench;
+  const auto model = bench.model();
+  model->exercise_id = "surface-touch";
+  ASSERT_EQ(model->begin_attempt(), "");
+  ASSERT_TRUE(model->end_attempt());
+  model->organ = "phantom-abdomen";  // chosen since
+  for (int i = 0; i < 3000 && model->expert_recording().empty() && model->expert_refusal().empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_FALSE(model->expert_recording().empty()) << model->expert_refusal();
+  const AttemptSetup own = recorded_setup(model->recording()), beside = recorded_setup(model->expert_recording());
+  EXPECT_EQ(beside.organ, own.organ);
+  EXPECT_EQ(beside.board, own.board);
+  EXPECT_EQ(beside.seed, own.seed);
+  EXPECT_EQ(beside.hand, "expert");
+}
+
+}  // namespace
+}  // namespace trocar::practice_model_test
