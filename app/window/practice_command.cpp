@@ -100,7 +100,7 @@ int practice_command(const PracticeOptions& options, std::ostream& out, std::ost
   ::mallopt(M_ARENA_MAX, kHeaps);
   const Clock::time_point begin = Clock::now();
   if (!options.screens.empty()) return picture_screens(options, out);
-  InterruptWatch interrupt;  // before the desk starts a thread: it must inherit what is blocked
+  InterruptWatch interrupt;  // before the model starts a thread: it must inherit what is blocked
   PracticeModel model(options.model, find_assets());
   // Told now, not after the first exercise.
   if (model.database() != ":memory:") require_no_replica(Database(model.database(), OpenMode::kExisting));

@@ -1,5 +1,5 @@
-// The page of the debrief as it is drawn: verdict, table, plots, one advice, what to do next. Knows no desk: tests give
-// it any result.
+// The page of the debrief as it is drawn: verdict, table, plots, one advice, what to do next. Knows no model: tests
+// give it any result.
 //
 // Wide windows: table, and what a part means, on the left, plots on the right. Narrow ones: below each other,
 // scrolling. Thread: the window's, within a frame.

@@ -27,7 +27,7 @@ class LessonPicture {
   LessonPicture(const LessonPicture&) = delete;
   LessonPicture& operator=(const LessonPicture&) = delete;
 
-  /// What the desk has chosen. Films are asked for when the choice has rested for a second.
+  /// What the model has chosen. Films are asked for when the choice has rested for a second.
   /// @return nothing while there is none.
   std::optional<SceneView> view(PracticeModel& model, double dt_s);
   /// "Expert, 12 s" or "Still scene"; empty without a picture.

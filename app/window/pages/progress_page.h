@@ -1,5 +1,5 @@
 // The page of one's own progress as it is drawn: a list of curves, one of them with pass line, own band and CUSUM.
-// Knows no desk.
+// Knows no model.
 //
 // One curve an exercise, level, input and rubric: attempts by mouse and by device never share one. Thread: the
 // window's, within a frame.

@@ -1,7 +1,7 @@
 // The frames of the trainee's program: events to the screen that is up, its scene by the renderer, the interface over
 // it.
 //
-//   PracticeLoop loop(desk, context, true);
+//   PracticeLoop loop(model, context, true);
 //   while (loop.frame(width, height, dt_s, events)) present();
 //
 // The same in a window and headless. Menu, help, notices, pictures and the screen's size are dealt with here, so no
@@ -24,7 +24,7 @@ namespace trocar {
 
 class PracticeLoop {
  public:
-  /// Start page, or the briefing when the desk was given an exercise.
+  /// Start page, or the briefing when the model was given an exercise.
   /// @param to_window frames go to the window's framebuffer. @throws EnvironmentError: font or shaders missing.
   PracticeLoop(PracticeModel& model, GraphicsContext& context, bool to_window);
   /// Ends an attempt that runs: aborted, and stored so.

@@ -33,7 +33,8 @@ std::string unread_words(const Words& w, const Settings& settings, const std::fi
 
 }  // namespace
 
-PracticeModel::PracticeModel(const DeskOptions& options, const AssetRoots& assets) : state_(std::make_unique<State>()) {
+PracticeModel::PracticeModel(const PracticeOptions& options, const AssetRoots& assets)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.options = options;
   s.assets = assets;

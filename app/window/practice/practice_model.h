@@ -23,7 +23,7 @@
 
 namespace trocar {
 
-struct DeskOptions {
+struct PracticeOptions {
   std::filesystem::path database = {};  ///< empty: the default; ":memory:" keeps nothing
   std::string trainee = {};             ///< code, empty: guest
   std::string exercise = {};            ///< straight to its briefing
@@ -40,7 +40,7 @@ struct DeskOptions {
 
 class PracticeModel {
  public:
-  PracticeModel(const DeskOptions& options, const AssetRoots& assets);
+  PracticeModel(const PracticeOptions& options, const AssetRoots& assets);
   ~PracticeModel();
 
   const AssetRoots& assets() const;
@@ -119,7 +119,7 @@ class PracticeModel {
   /// dt_s since the last one.
   void pass(double dt_s);
 
-  /// Where this desk keeps attempts: ":memory:" when nothing is kept.
+  /// Where this model keeps attempts: ":memory:" when nothing is kept.
   std::filesystem::path database() const;
 
   /// At most one thing that the trainee should know now (database busy, disk full); shown by every screen.

@@ -1,6 +1,6 @@
 // A screen of the trainee's window: draws one frame with ImGui over the scene's picture and says where to go next.
 //
-// Screens know the desk (practice_model.h: what is chosen, what was done) and the words; they know neither window nor
+// Screens know the model (practice_model.h: what is chosen, what was done) and the words; they know neither window nor
 // OpenGL. The same code draws in a window and headless, for pictures and layout tests. Thread: the window's.
 #pragma once
 

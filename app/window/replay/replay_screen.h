@@ -1,7 +1,8 @@
 // The film of a run: scope's picture, forces, and a time line to scrub; the expert beside it when wanted.
 //
-// Shows desk.replay_file (empty: the last attempt's recording) from desk.replay_at_s on; beside it desk.replay_beside
-// (empty: the expert on the same board, made when first asked for). Thread: the window's; the runs have their own.
+// Shows model.replay_file (empty: the last attempt's recording) from model.replay_at_s on; beside it
+// model.replay_beside (empty: the expert on the same board, made when first asked for). Thread: the window's; the runs
+// have their own.
 #pragma once
 
 #include <memory>

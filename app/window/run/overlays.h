@@ -25,7 +25,7 @@ bool help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sound
 /// In place of a page that has no room.
 void small_window(Ui& ui);
 
-/// A notice near the upper edge for some seconds; empties desk.notice. @param age_s how long this one has been seen,
+/// A notice near the upper edge for some seconds; empties model.notice. @param age_s how long this one has been seen,
 /// kept by the caller.
 void notice_overlay(Ui& ui, PracticeModel& model, double dt_s, double& age_s, std::string& shown);
 

@@ -1,7 +1,7 @@
 // T4, the run: scope's picture, head-up display, what the person's hand does to both, and the pause.
 //
 // Steering begins when the device is ready and goes on from where the instrument is. Events move the intent at once,
-// held keys with the time between two frames; the moment is taken last before it is drawn. On the end the desk takes
+// held keys with the time between two frames; the moment is taken last before it is drawn. On the end the model takes
 // the result and the debrief follows. Thread: the window's.
 #pragma once
 

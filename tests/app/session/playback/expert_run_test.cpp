@@ -6,7 +6,7 @@
 
 #include "app/session/recording/recording_reader.h"
 #include "scenarios/files/exercise_loader.h"
-#include "tests/app/window/pages/desk_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 
 namespace trocar::expert_run_test {
 namespace {

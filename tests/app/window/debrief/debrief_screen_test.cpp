@@ -1,4 +1,4 @@
-// T5 and T6 with a desk behind them: a stored attempt is shown, watched, compared with one's past, exported.
+// T5 and T6 with a model behind them: a stored attempt is shown, watched, compared with one's past, exported.
 #include "app/window/debrief/debrief_screen.h"
 
 #include <fstream>
@@ -6,8 +6,8 @@
 
 #include "app/window/pages/progress_screen.h"
 #include "tests/app/session/recording/recording_samples.h"
-#include "tests/app/window/pages/desk_bench.h"
 #include "tests/app/window/pages/page_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 
 namespace trocar::debrief_screen_test {
 namespace {
@@ -57,7 +57,7 @@ class DeskPagesTest : public testing_support::PageBench {
     }
   }
 
-  testing_support::DeskBench bench_;
+  testing_support::PracticeBench bench_;
   const Exercise touch_ = testing_support::shipped_exercise("surface-touch");
   std::unique_ptr<PracticeModel> model_;
   int boards_ = 0;

@@ -8,7 +8,7 @@
 #include "app/window/lessons/lesson_words.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/scoring/metrics.h"
-#include "tests/app/window/pages/desk_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 
 namespace trocar::lesson_words_test {
 namespace {

@@ -123,24 +123,24 @@ class GoldenScreens : public LoopBench {
 };
 
 TEST_F(GoldenScreens, StartAndBriefing) {
-  ASSERT_TRUE(desk_->show_scene(60));
+  ASSERT_TRUE(model_->show_scene(60));
   expect_golden(screen(ScreenName::kStart), "screen-start");
   expect_golden(screen(ScreenName::kBriefing), "screen-briefing");
 }
 
 TEST_F(GoldenScreens, RunAsAPersonTakesHold) {
-  DeskOptions touch = bench_.options();
+  PracticeOptions touch = bench_.options();
   touch.exercise = "surface-touch";
   open(touch);
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  ASSERT_EQ(model_->begin_attempt(), "");
   loop_->go(ScreenName::kRun);
   width_ = 320, height_ = 180;  // quick frames while the device homes
-  for (int i = 0; i < 4000 && !(desk_->running()->ready() && desk_->running()->newest().seen); ++i) {
+  for (int i = 0; i < 4000 && !(model_->running()->ready() && model_->running()->newest().seen); ++i) {
     frame();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  ASSERT_TRUE(desk_->running()->ready());
-  desk_->running()->pause(true);  // it looks the same however long the picture takes
+  ASSERT_TRUE(model_->running()->ready());
+  model_->running()->pause(true);  // it looks the same however long the picture takes
   width_ = 1280, height_ = 720;
   for (int i = 0; i < 3; ++i) frame();
   expect_golden(loop_->picture(), "screen-run");

@@ -10,8 +10,8 @@
 #include "app/window/run/overlays.h"
 #include "app/window/ui/theme.h"
 #include "scenarios/kinds/kind.h"
-#include "tests/app/window/pages/desk_bench.h"
 #include "tests/app/window/pages/layout_check.h"
+#include "tests/app/window/pages/practice_bench.h"
 #include "tests/app/window/pages/ui_bench.h"
 
 namespace trocar::layout_languages_test {
@@ -49,7 +49,7 @@ class LanguageLayout : public testing_support::HeadlessFixture, public ::testing
   void SetUp() override {
     HeadlessFixture::SetUp();
     if (IsSkipped()) return;
-    DeskOptions options = bench_.options();
+    PracticeOptions options = bench_.options();
     options.language = GetParam().language;
     options.scale = GetParam().scale;
     model_ = bench_.model(options);
@@ -85,7 +85,7 @@ class LanguageLayout : public testing_support::HeadlessFixture, public ::testing
       EXPECT_EQ(panel.find("foot"), std::string::npos) << panel << ": buttons are hidden";
   }
 
-  testing_support::DeskBench bench_;
+  testing_support::PracticeBench bench_;
   std::unique_ptr<PracticeModel> model_;
   std::unique_ptr<FrameTarget> target_;
   std::unique_ptr<UiLayer> layer_;

@@ -30,7 +30,7 @@ class LessonScreens : public testing_support::LoopBench {
   void window(int width, int height, double scale) {
     width_ = width;
     height_ = height;
-    DeskOptions options = bench_.options();
+    PracticeOptions options = bench_.options();
     options.scale = scale;
     open(options);
   }
@@ -76,16 +76,16 @@ TEST(StandingShown, CurveRunsFromTheOldestAndLeavesOutWhatHasNoScore) {
 
 TEST_F(LessonScreens, CourseIsWalkedByArrowsAndEnterOpensTheBriefing) {
   go(ScreenName::kCurriculum);
-  EXPECT_EQ(desk_->exercise_id, "reach-and-orient");
+  EXPECT_EQ(model_->exercise_id, "reach-and-orient");
   for (int i = 0; i < 4; ++i) tap(kKeyDown);
-  EXPECT_EQ(desk_->exercise_id, "surface-touch");
-  EXPECT_EQ(desk_->level, "L1");
+  EXPECT_EQ(model_->exercise_id, "surface-touch");
+  EXPECT_EQ(model_->level, "L1");
   tap(kKeyUp);
-  EXPECT_EQ(desk_->exercise_id + desk_->level, "reach-and-orientexam");
+  EXPECT_EQ(model_->exercise_id + model_->level, "reach-and-orientexam");
   tap(kKeyEnd);
-  EXPECT_EQ(desk_->exercise_id + desk_->level, "limited-graspexam");
+  EXPECT_EQ(model_->exercise_id + model_->level, "limited-graspexam");
   tap(kKeyDown);
-  EXPECT_EQ(desk_->exercise_id + desk_->level, "limited-graspexam") << "nothing below the last";
+  EXPECT_EQ(model_->exercise_id + model_->level, "limited-graspexam") << "nothing below the last";
   tap(kKeyHome);
   tap(kKeyEnter);
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
@@ -100,9 +100,9 @@ TEST_F(LessonScreens, ChosenRowIsAlwaysSeenHoweverSmallTheWindow) {
   window(640, 360, 2);
   go(ScreenName::kCurriculum);
   for (int i = 0; i < 12; ++i) {
-    EXPECT_TRUE(sees_part(desk_->level + ":")) << desk_->exercise_id << " " << desk_->level;
+    EXPECT_TRUE(sees_part(model_->level + ":")) << model_->exercise_id << " " << model_->level;
     if (i % 4 == 0) {
-      EXPECT_TRUE(sees(desk_->exercise().number + " " + desk_->exercise().title)) << i;
+      EXPECT_TRUE(sees(model_->exercise().number + " " + model_->exercise().title)) << i;
     }
     tap(kKeyDown);
   }
@@ -119,19 +119,19 @@ TEST_F(LessonScreens, LockedLevelSaysWhatItNeedsAndIsRefusedInPlace) {
   EXPECT_FALSE(sees("Start")) << "nothing bright that does nothing";
   tap(kKeyEnter);
   frame();
-  EXPECT_EQ(desk_->level, "L1") << "where it is opened";
+  EXPECT_EQ(model_->level, "L1") << "where it is opened";
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);
   EXPECT_TRUE(sees("Start"));
   EXPECT_FALSE(sees_part("is locked"));
-  EXPECT_EQ(desk_->running(), nullptr);
+  EXPECT_EQ(model_->running(), nullptr);
 }
 
 TEST_F(LessonScreens, ExamWaitsForTheDeviceCheck) {
   go(ScreenName::kBriefing, 1);
-  desk_->level = "exam";
+  model_->level = "exam";
   frame();
   tap(kKeyEnter);
-  EXPECT_EQ(desk_->running(), nullptr);
+  EXPECT_EQ(model_->running(), nullptr);
   EXPECT_TRUE(sees_part("is locked"));
 }
 
@@ -147,11 +147,11 @@ TEST_F(LessonScreens, ResultsOfTheDeviceCheckStandInTheBriefing) {
 
 TEST_F(LessonScreens, EveryMeasureIsExplainedOneKeyAway) {
   window(1280, 720, 1);
-  desk_->exercise_id = "surface-touch";
+  model_->exercise_id = "surface-touch";
   go(ScreenName::kBriefing);
   tap('M');
   frame();
-  const auto measures = lesson_measures(desk_->words(), find_level(desk_->exercise(), "L1"));
+  const auto measures = lesson_measures(model_->words(), find_level(model_->exercise(), "L1"));
   for (const LessonMeasure& m : measures) {
     EXPECT_TRUE(sees(m.meaning)) << m.name;
     EXPECT_TRUE(sees(m.full)) << m.name;
@@ -167,10 +167,10 @@ TEST_F(LessonScreens, BriefingFitsItsPageForEveryExerciseAndLevel) {
   window(1280, 720, 1);
   loop_->go(ScreenName::kBriefing);
   loop_->settle(120);
-  for (const Exercise& exercise : desk_->exercises()) {
+  for (const Exercise& exercise : model_->exercises()) {
     for (const ExerciseLevel& level : exercise.levels) {
-      desk_->exercise_id = exercise.id;
-      desk_->level = level.name;
+      model_->exercise_id = exercise.id;
+      model_->level = level.name;
       for (int i = 0; i < 3; ++i) frame();
       const std::string where = exercise.id + " " + level.name;
       EXPECT_TRUE(loop_->scrolling().empty())
@@ -193,7 +193,7 @@ class LessonLayout : public LessonScreens, public ::testing::WithParamInterface<
 TEST_P(LessonLayout, NothingIsCutAndNothingCollides) {
   window(GetParam().width, GetParam().height, GetParam().scale);
   for (const char* id : {"reach-and-orient", "surface-touch", "limited-grasp"}) {
-    desk_->exercise_id = id;
+    model_->exercise_id = id;
     for (const ScreenName name : {ScreenName::kCurriculum, ScreenName::kBriefing}) {
       go(name);
       expect_laid_out(loop_->texts(), width_, height_,
@@ -293,7 +293,7 @@ TEST_F(LessonScreens, DevicePanelKeepsItsColumnsFromFrameToFrame) {
 
 TEST_F(LessonScreens, DevicePanelLiesOverARunAndGoesAgain) {
   window(1280, 720, 1);
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  ASSERT_EQ(model_->begin_attempt(), "");
   go(ScreenName::kRun);
   EXPECT_FALSE(sees("q6"));
   tap(kKeyF3);
@@ -310,8 +310,8 @@ TEST_F(LessonScreens, DevicePanelLiesOverARunAndGoesAgain) {
   EXPECT_FALSE(sees("q6")) << "the panel lies over the dialog";
   EXPECT_TRUE(loop_->scrolling().empty()) << "the dialog has no room for its buttons";
   tap('P');
-  desk_->settings().keys = {{"device-panel", "F6"}};
-  desk_->settings_changed();
+  model_->settings().keys = {{"device-panel", "F6"}};
+  model_->settings_changed();
   frame();
   EXPECT_TRUE(sees_part("F6 closes, F4 copies"));
   tap(kKeyF6);
@@ -338,7 +338,7 @@ TEST_F(LessonScreens, CourseAndBriefingSayAtOnePlaceWhoIsHere) {
   };
   for (const std::string said : {"Guest", "Signed in as T-7"}) {
     if (said != "Guest") {
-      ASSERT_EQ(desk_->sign_in("T-7"), "");
+      ASSERT_EQ(model_->sign_in("T-7"), "");
     }
     go(ScreenName::kCurriculum);
     const auto course = place(said);

@@ -1,8 +1,8 @@
-// The whole loop in memory for tests: a desk, a context, keys as a person presses them.
+// The whole loop in memory for tests: a model, a context, keys as a person presses them.
 #pragma once
 
 #include "app/window/practice/practice_loop.h"
-#include "tests/app/window/pages/desk_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 #include "tests/app/window/pages/ui_bench.h"
 
 namespace trocar::testing_support {
@@ -17,7 +17,7 @@ class LoopBench : public HeadlessFixture {
     loop_.reset();
     model_.reset();
   }
-  void open(const DeskOptions& options) {
+  void open(const PracticeOptions& options) {
     loop_.reset();
     model_ = bench_.model(options);
     loop_ = std::make_unique<PracticeLoop>(*model_, *context_, false);
@@ -37,7 +37,7 @@ class LoopBench : public HeadlessFixture {
     return false;
   }
 
-  DeskBench bench_;
+  PracticeBench bench_;
   int width_ = 640, height_ = 360;  // small: a software rasteriser draws every frame
   std::unique_ptr<PracticeModel> model_;
   std::unique_ptr<PracticeLoop> loop_;

@@ -11,12 +11,12 @@ class RunKeys : public LoopBench {
  protected:
   int pens() {
     int count = 0;
-    const auto stage = screen_.stage(*desk_, width_, height_);
+    const auto stage = screen_.stage(*model_, width_, height_);
     if (!stage) return -1;
     for (const SceneObject& object : stage->view.objects) count += object.shape == SceneObject::Shape::kPen ? 1 : 0;
     return count;
   }
-  int all_pens() const { return desk_->exercise().layout.count; }
+  int all_pens() const { return model_->exercise().layout.count; }
   /// px of the limits' marks in the column; warnings stand over the picture.
   int limit_px() {
     frame();
@@ -34,48 +34,48 @@ class RunKeys : public LoopBench {
 
 TEST_F(RunKeys, F5TakesTheWaitingPensAwayAndBringsThemBack) {
   EXPECT_EQ(pens(), -1) << "no attempt, no picture";
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  ASSERT_EQ(model_->begin_attempt(), "");
   EXPECT_EQ(pens(), all_pens());
-  screen_.handle(key(kKeyF5), *desk_);
+  screen_.handle(key(kKeyF5), *model_);
   EXPECT_LE(pens(), 1) << "only the lit one";
   InputEvent held = key(kKeyF5);
   held.repeat = true;
-  screen_.handle(held, *desk_);
-  screen_.handle(key(kKeyF5, InputEvent::Kind::kKeyUp), *desk_);
+  screen_.handle(held, *model_);
+  screen_.handle(key(kKeyF5, InputEvent::Kind::kKeyUp), *model_);
   EXPECT_LE(pens(), 1) << "a key that is held counts once";
-  screen_.handle(key(kKeyF5), *desk_);
+  screen_.handle(key(kKeyF5), *model_);
   EXPECT_EQ(pens(), all_pens());
-  EXPECT_EQ(desk_->notice, "");
+  EXPECT_EQ(model_->notice, "");
 }
 
 TEST_F(RunKeys, GuidanceThatTheLevelLacksIsRefusedInWords) {
-  DeskOptions options = bench_.options();
+  PracticeOptions options = bench_.options();
   options.hand = "expert";  // a level that is locked for guests
   options.level = "L2";
   open(options);
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  ASSERT_EQ(model_->begin_attempt(), "");
   EXPECT_LE(pens(), 1);
-  screen_.handle(key(kKeyF5), *desk_);
-  EXPECT_EQ(desk_->notice, "This level has no guidance.");
+  screen_.handle(key(kKeyF5), *model_);
+  EXPECT_EQ(model_->notice, "This level has no guidance.");
   EXPECT_LE(pens(), 1);
 }
 
 TEST_F(RunKeys, AKeyOfOnesOwnTakesItsPlace) {
-  desk_->settings().keys = {{"guidance", "G"}};
-  desk_->settings_changed();
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  model_->settings().keys = {{"guidance", "G"}};
+  model_->settings_changed();
+  ASSERT_EQ(model_->begin_attempt(), "");
   ASSERT_EQ(pens(), all_pens());
-  screen_.handle(key(kKeyF5), *desk_);
+  screen_.handle(key(kKeyF5), *model_);
   EXPECT_EQ(pens(), all_pens());
-  screen_.handle(key('G'), *desk_);
+  screen_.handle(key('G'), *model_);
   EXPECT_LE(pens(), 1);
 }
 
 TEST_F(RunKeys, F2HidesTheForceBarsAndShowsThemAgain) {
   width_ = 1280;
   height_ = 720;
-  desk_->exercise_id = "surface-touch";
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  model_->exercise_id = "surface-touch";
+  ASSERT_EQ(model_->begin_attempt(), "");
   loop_->go(ScreenName::kRun);
   frame();
   const int shown = limit_px();

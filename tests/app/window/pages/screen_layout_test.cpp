@@ -24,16 +24,16 @@ class ScreenLayout : public testing_support::LoopBench, public ::testing::WithPa
 TEST_P(ScreenLayout, NothingIsCutAndNothingCollides) {
   width_ = GetParam().width;
   height_ = GetParam().height;
-  DeskOptions options = bench_.options();
+  PracticeOptions options = bench_.options();
   options.scale = GetParam().scale;
   open(options);
-  desk_->show_scene(60);
+  model_->show_scene(60);
   for (const ScreenName name : {ScreenName::kStart, ScreenName::kSettings}) {
     loop_->go(name);
     for (int i = 0; i < 3; ++i) frame();
     look_at(screen_name(name));
   }
-  ASSERT_EQ(desk_->sign_in("T-1"), "");
+  ASSERT_EQ(model_->sign_in("T-1"), "");
   loop_->go(ScreenName::kStart);
   for (int i = 0; i < 3; ++i) frame();
   look_at("start, signed in");

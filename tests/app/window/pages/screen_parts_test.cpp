@@ -11,7 +11,7 @@
 #include "app/window/ui/sparkline.h"
 #include "app/window/ui/theme.h"
 #include "scenarios/files/exercise_loader.h"
-#include "tests/app/window/pages/desk_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 #include "tests/app/window/pages/ui_bench.h"
 
 namespace trocar::screen_parts_test {
@@ -40,7 +40,7 @@ class ScreenParts : public testing_support::UiBench {
   }
   const std::vector<RowButton> kButtons{
       {"go", "Start the attempt", "Enter", true}, {"all", "Measures", "M"}, {"back", "Course", "Esc"}};
-  testing_support::DeskBench bench_;
+  testing_support::PracticeBench bench_;
 };
 
 TEST_F(ScreenParts, HeightOfButtonRowsIsWhatTheyNeed) {
@@ -120,23 +120,23 @@ TEST(LessonView, LightsOneTargetAfterTheOtherOverTheBoard) {
 }
 
 TEST(LessonPictureMade, FollowsTheChoiceAndDoesWithoutWhatCannotBeMade) {
-  const testing_support::DeskBench bench;
-  const auto desk = bench.desk();
+  const testing_support::PracticeBench bench;
+  const auto model = bench.model();
   LessonPicture picture;
-  EXPECT_EQ(picture.caption(desk->words()), "");
-  EXPECT_FALSE(picture.view(*desk, 0));
-  picture.settle(*desk, 120);
-  EXPECT_TRUE(picture.view(*desk, 0));
-  EXPECT_EQ(picture.caption(desk->words()), "Still scene");
-  desk->exercise_id = "surface-touch";
-  desk->organ = "no-such-organ";
-  EXPECT_FALSE(picture.view(*desk, 0)) << "never the picture of another exercise";
-  picture.settle(*desk, 120);
-  EXPECT_FALSE(picture.view(*desk, 0));
-  EXPECT_EQ(picture.caption(desk->words()), "");
-  desk->exercise_id = "limited-grasp";
-  picture.settle(*desk, 120);
-  const auto view = picture.view(*desk, 0);
+  EXPECT_EQ(picture.caption(model->words()), "");
+  EXPECT_FALSE(picture.view(*model, 0));
+  picture.settle(*model, 120);
+  EXPECT_TRUE(picture.view(*model, 0));
+  EXPECT_EQ(picture.caption(model->words()), "Still scene");
+  model->exercise_id = "surface-touch";
+  model->organ = "no-such-organ";
+  EXPECT_FALSE(picture.view(*model, 0)) << "never the picture of another exercise";
+  picture.settle(*model, 120);
+  EXPECT_FALSE(picture.view(*model, 0));
+  EXPECT_EQ(picture.caption(model->words()), "");
+  model->exercise_id = "limited-grasp";
+  picture.settle(*model, 120);
+  const auto view = picture.view(*model, 0);
   ASSERT_TRUE(view);
   EXPECT_GT(view->jaw_opening_m, 0) << "a grasper";
 }
@@ -213,12 +213,12 @@ TEST(NotchPicture, ArrowIsTheForceOnTheTip) {
 }
 
 TEST_F(ScreenParts, DevicePanelIsRefreshedTenTimesASecondAndF4WritesWhatItShows) {
-  const auto desk = bench_.desk();
+  const auto model = bench_.model();
   DevicePanel panel;
   TickRecord record;
   record.det_a = 0.5;
   const auto pass = [&](double dt_s, const std::vector<InputEvent>& events = {}) {
-    frame([&](Ui& ui) { panel.frame(ui, *desk, record, {}, dt_s, device_panel_area(ui, false)); }, events);
+    frame([&](Ui& ui) { panel.frame(ui, *model, record, {}, dt_s, device_panel_area(ui, false)); }, events);
     return panel.reading().det_a;
   };
   pass(1);

@@ -68,7 +68,7 @@ class SoakBench : public LoopBench {
     std::string text = find_exercise("surface-touch", source_assets().exercises).text;
     text.replace(text.find("count = 12"), 10, "count = 2");
     text.replace(text.find("time_limit_s = 120"), 18, kAttempts > 0 ? "time_limit_s = 3" : "time_limit_s = 30");
-    DeskOptions options = bench_.options();
+    PracticeOptions options = bench_.options();
     options.exercise = bench_.folder.write("short.toml", text).string();
     options.hand = "expert";
     open(options);
@@ -100,9 +100,9 @@ class SoakBench : public LoopBench {
       tap('R');
     }
     ASSERT_TRUE(until(ScreenName::kRun)) << "attempt " << number << " stands at " << screen_name(loop_->here()) << ": "
-                                         << desk_->notice;
+                                         << model_->notice;
     ASSERT_TRUE(until(ScreenName::kDebrief))
-        << "attempt " << number << " stands at " << screen_name(loop_->here()) << ": " << desk_->notice;
+        << "attempt " << number << " stands at " << screen_name(loop_->here()) << ": " << model_->notice;
     look_for(0.3);
     if (number % 3 == 2) {
       tap('W');
@@ -150,7 +150,7 @@ TEST_F(SoakBench, AttemptsLeaveNothingBehind) {
     std::cout << "attempt " << done + 1 << ": " << last.resident_mib << " MiB, held " << last.held_mib << " MiB, "
               << last.threads << " threads, " << last.files << " files" << std::endl;
   }
-  EXPECT_EQ(desk_->past().size(), static_cast<std::size_t>(done)) << "every attempt is kept";
+  EXPECT_EQ(model_->past().size(), static_cast<std::size_t>(done)) << "every attempt is kept";
   EXPECT_LT(last.held_mib - warm.held_mib, kMostHeld_mib);
   EXPECT_LT(last.resident_mib - warm.resident_mib, kMostResident_mib);
   EXPECT_LE(last.threads, warm.threads);

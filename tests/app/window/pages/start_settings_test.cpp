@@ -36,11 +36,11 @@ class PageTest : public testing_support::LoopBench {
 };
 
 TEST_F(PageTest, TryNowChoosesTheExerciseThatIsFelt) {
-  desk_->exercise_id = "limited-grasp";
-  desk_->level = "L2";
+  model_->exercise_id = "limited-grasp";
+  model_->level = "L2";
   click("Try now as a guest");
-  EXPECT_EQ(desk_->exercise_id, "surface-touch");
-  EXPECT_EQ(desk_->level, "L1");
+  EXPECT_EQ(model_->exercise_id, "surface-touch");
+  EXPECT_EQ(model_->level, "L1");
 }
 
 TEST_F(PageTest, SigningInWithoutACodeSaysWhatIsMissing) {
@@ -56,22 +56,22 @@ TEST_F(PageTest, SigningInWithoutACodeSaysWhatIsMissing) {
   frame({pointer(Kind::kButtonUp, x, y)});
   frame();
   EXPECT_TRUE(sees("Type your code first."));
-  EXPECT_TRUE(desk_->is_guest());
+  EXPECT_TRUE(model_->is_guest());
 }
 
 TEST_F(PageTest, ATraineeSeesWhatComesNextAndCanSignOut) {
-  ASSERT_EQ(desk_->sign_in("T-4"), "");
+  ASSERT_EQ(model_->sign_in("T-4"), "");
   frame();
   EXPECT_TRUE(sees("Signed in as T-4"));
   EXPECT_TRUE(sees("Not tried yet."));
   click("Sign out");
-  EXPECT_TRUE(desk_->is_guest());
+  EXPECT_TRUE(model_->is_guest());
   frame();
   EXPECT_TRUE(sees("Try now as a guest"));
 }
 
 TEST_F(PageTest, TheScenesOriginIsSaid) {
-  ASSERT_TRUE(desk_->show_scene(60));
+  ASSERT_TRUE(model_->show_scene(60));
   frame();
   frame();
   bool said = false;
@@ -80,7 +80,7 @@ TEST_F(PageTest, TheScenesOriginIsSaid) {
 }
 
 TEST_F(PageTest, TheSceneBreathes) {
-  ASSERT_TRUE(desk_->show_scene(60));
+  ASSERT_TRUE(model_->show_scene(60));
   for (int i = 0; i < 3; ++i) frame();
   const Image before = loop_->picture();
   for (int i = 0; i < 20; ++i) loop_->frame(64, 48, 0.05, {});
@@ -101,7 +101,7 @@ TEST_F(PageTest, SwitchesOfTheSettingsAreKept) {
   frame({pointer(Kind::kButtonDown, x, y)});
   frame({pointer(Kind::kButtonUp, x, y)});
   frame();
-  EXPECT_TRUE(desk_->settings().left_handed);
+  EXPECT_TRUE(model_->settings().left_handed);
   EXPECT_TRUE(load_settings(bench_.options().settings).left_handed) << "on the disk";
 }
 
@@ -113,7 +113,7 @@ TEST_F(PageTest, ARowOfTheKeysWaitsForAKeyAndEscapeLeavesIt) {
   frame();
   EXPECT_FALSE(sees("press a key"));
   EXPECT_FALSE(loop_->menu_open()) << "the key was asked for, not the menu";
-  EXPECT_EQ(desk_->keys().key_of(Action::kUp), KeyMap().key_of(Action::kUp));
+  EXPECT_EQ(model_->keys().key_of(Action::kUp), KeyMap().key_of(Action::kUp));
 }
 
 TEST_F(PageTest, AKeyThatMustStayIsRefusedInWords) {
@@ -129,23 +129,23 @@ TEST_F(PageTest, AKeyThatMustStayIsRefusedInWords) {
 
 TEST_F(PageTest, ANoticeStaysForAWhileAndGoes) {
   frame();
-  desk_->notice = "The disk is nearly full.";
+  model_->notice = "The disk is nearly full.";
   frame();
   EXPECT_TRUE(sees("The disk is nearly full."));
-  EXPECT_TRUE(desk_->notice.empty()) << "taken over";
+  EXPECT_TRUE(model_->notice.empty()) << "taken over";
   for (int i = 0; i < 62; ++i) loop_->frame(640, 360, 0.1, {});
   EXPECT_FALSE(sees("The disk is nearly full."));
 }
 
 TEST_F(PageTest, MenuLeavesAnAttemptAsAborted) {
   frame();
-  ASSERT_EQ(desk_->begin_attempt(), "");
+  ASSERT_EQ(model_->begin_attempt(), "");
   tap(kKeyEscape);
   ASSERT_TRUE(sees("Leave this attempt"));
   click("Leave this attempt");
-  EXPECT_FALSE(desk_->running());
-  ASSERT_TRUE(desk_->result());
-  EXPECT_EQ(desk_->result()->grade.status, AttemptStatus::kAborted);
+  EXPECT_FALSE(model_->running());
+  ASSERT_TRUE(model_->result());
+  EXPECT_EQ(model_->result()->grade.status, AttemptStatus::kAborted);
 }
 
 }  // namespace

@@ -5,14 +5,14 @@
 #include <thread>
 
 #include "app/window/practice/practice_model.h"
-#include "tests/app/window/pages/desk_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 #include "trainees/live/live_stations.h"
 #include "trainees/records/assessments.h"
 
 namespace trocar::practice_model_live_test {
 namespace {
 
-using testing_support::DeskBench;
+using testing_support::PracticeBench;
 
 class PracticeModelLive : public testing::Test {
  protected:
@@ -26,7 +26,7 @@ class PracticeModelLive : public testing::Test {
     return AssessmentStore(database).unseen_message("T-7").has_value();
   }
   std::filesystem::path file() const { return bench_.folder.path() / "trocar.db"; }
-  /// Frames until something has been said to the trainee, or for two seconds of the desk's time.
+  /// Frames until something has been said to the trainee, or for two seconds of the model's time.
   std::string notice() {
     model_->notice.clear();
     for (int i = 0; i < 40 && model_->notice.empty(); ++i) model_->pass(0.05);
@@ -65,7 +65,7 @@ class PracticeModelLive : public testing::Test {
       attempts.finish_attempt(id, result);
     }
   }
-  DeskBench bench_;
+  PracticeBench bench_;
   std::unique_ptr<PracticeModel> model_;
 };
 
@@ -148,7 +148,7 @@ TEST_F(PracticeModelLive, NobodyElseMeetsIt) {
 }
 
 TEST_F(PracticeModelLive, WhereNothingIsKeptNothingIsTold) {
-  DeskOptions options = bench_.options();
+  PracticeOptions options = bench_.options();
   options.database = ":memory:";
   const auto model = bench_.model(options);
   model->pass(2);

@@ -11,13 +11,13 @@
 #include "app/window/pages/progress_screen.h"
 #include "haptics/input_error.h"
 #include "scenarios/layout/board_numbers.h"
-#include "tests/app/window/pages/desk_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 #include "trainees/records/assessments.h"
 
 namespace trocar::practice_model_test {
 namespace {
 
-using testing_support::DeskBench;
+using testing_support::PracticeBench;
 
 /// Stores a graded attempt, as the runner does.
 void store(const std::filesystem::path& database, const Exercise& exercise, const std::string& level, int board,
@@ -46,7 +46,7 @@ void store(const std::filesystem::path& database, const Exercise& exercise, cons
 }
 
 TEST(PracticeModel, BeginsAsAGuestAtTheFirstExercise) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   EXPECT_TRUE(model->is_guest());
   EXPECT_EQ(model->exercise_id, model->exercises().front().id);
@@ -58,7 +58,7 @@ TEST(PracticeModel, BeginsAsAGuestAtTheFirstExercise) {
 }
 
 TEST(PracticeModel, SignsInByCodeAndSaysWhatIsWrongWithOne) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   EXPECT_NE(model->sign_in(""), "");
   EXPECT_NE(model->sign_in("no spaces"), "");
@@ -70,8 +70,8 @@ TEST(PracticeModel, SignsInByCodeAndSaysWhatIsWrongWithOne) {
 }
 
 TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {
-  const DeskBench bench;
-  DeskOptions options = bench.options();
+  const PracticeBench bench;
+  PracticeOptions options = bench.options();
   options.trainee = "T-9";
   options.exercise = "E02";
   options.level = "L2";
@@ -82,8 +82,8 @@ TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {
 }
 
 TEST(PracticeModel, WrongOptionsAreRefusedBeforeAWindowOpens) {
-  const DeskBench bench;
-  DeskOptions options = bench.options();
+  const PracticeBench bench;
+  PracticeOptions options = bench.options();
   options.exercise = "E99";
   EXPECT_THROW(bench.model(options), InputError);
   options = bench.options();
@@ -117,7 +117,7 @@ TEST(PracticeModel, WrongOptionsAreRefusedBeforeAWindowOpens) {
 }
 
 TEST(PracticeModel, StandingsComeFromTheStoreOfThisTraineeAlone) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   const Exercise& first = model->exercises().front();
   store(bench.options().database, first, "L1", 1, true);
@@ -129,7 +129,7 @@ TEST(PracticeModel, StandingsComeFromTheStoreOfThisTraineeAlone) {
 }
 
 TEST(PracticeModel, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   ASSERT_EQ(model->sign_in("T-1"), "");
   const Exercise& first = model->exercises().front();
@@ -146,7 +146,7 @@ TEST(PracticeModel, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) 
 }
 
 TEST(PracticeModel, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsOpened) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   ASSERT_EQ(model->sign_in("T-1"), "");
   const Exercise& first = model->exercises().front();
@@ -172,7 +172,7 @@ TEST(PracticeModel, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsO
 }
 
 TEST(PracticeModel, ALockedLevelIsRefusedInWords) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   model->level = "L2";
   EXPECT_NE(model->begin_attempt().find("L2"), std::string::npos);
@@ -183,7 +183,7 @@ TEST(PracticeModel, ALockedLevelIsRefusedInWords) {
 }
 
 TEST(PracticeModel, AnAttemptThatIsLeftIsStoredAsAborted) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   ASSERT_EQ(model->sign_in("T-1"), "");
   ASSERT_EQ(model->begin_attempt(), "");
@@ -203,8 +203,8 @@ TEST(PracticeModel, AnAttemptThatIsLeftIsStoredAsAborted) {
 }
 
 TEST(PracticeModel, AnOrganIsPlacedOnceForAttemptsThatFollowEachOther) {
-  const DeskBench bench;
-  DeskOptions options = bench.options();
+  const PracticeBench bench;
+  PracticeOptions options = bench.options();
   options.exercise = "surface-touch";
   const auto model = bench.model(options);
   const auto attempt = [&] {
@@ -222,8 +222,8 @@ TEST(PracticeModel, AnOrganIsPlacedOnceForAttemptsThatFollowEachOther) {
 }
 
 TEST(PracticeModel, InMemoryTheSittingIsKeptInMind) {
-  const DeskBench bench;
-  DeskOptions options = bench.options();
+  const PracticeBench bench;
+  PracticeOptions options = bench.options();
   options.database = ":memory:";
   const auto model = bench.model(options);
   ASSERT_EQ(model->begin_attempt(), "");
@@ -233,7 +233,7 @@ TEST(PracticeModel, InMemoryTheSittingIsKeptInMind) {
 }
 
 TEST(PracticeModel, SettingsAreKeptForTheNextTime) {
-  const DeskBench bench;
+  const PracticeBench bench;
   {
     const auto model = bench.model();
     model->settings().scale = 1.5;
@@ -248,8 +248,8 @@ TEST(PracticeModel, SettingsAreKeptForTheNextTime) {
 }
 
 TEST(PracticeModel, ScaleOfTheCommandLineHoldsThisTimeOnly) {
-  const DeskBench bench;
-  DeskOptions options = bench.options();
+  const PracticeBench bench;
+  PracticeOptions options = bench.options();
   options.scale = 2;
   const auto model = bench.model(options);
   EXPECT_EQ(model->scale(), 2);
@@ -257,8 +257,8 @@ TEST(PracticeModel, ScaleOfTheCommandLineHoldsThisTimeOnly) {
 }
 
 TEST(PracticeModel, AChoiceOfSizeLeavesTheLanguageOfTheCommandLine) {
-  const DeskBench bench;
-  DeskOptions options = bench.options();
+  const PracticeBench bench;
+  PracticeOptions options = bench.options();
   options.language = "fr";
   options.scale = 1.25;
   const auto model = bench.model(options);
@@ -271,7 +271,7 @@ TEST(PracticeModel, AChoiceOfSizeLeavesTheLanguageOfTheCommandLine) {
 }
 
 TEST(PracticeModel, KeysThatContradictEachOtherAreANoticeNotAnEnd) {
-  const DeskBench bench;
+  const PracticeBench bench;
   std::ofstream(bench.options().settings) << "version = 1\n[keys]\nroll-left = \"Esc\"\n";
   const auto model = bench.model();
   EXPECT_FALSE(model->notice.empty());
@@ -279,14 +279,14 @@ TEST(PracticeModel, KeysThatContradictEachOtherAreANoticeNotAnEnd) {
 }
 
 TEST(PracticeModel, ADatabaseThatIsNoneIsRefused) {
-  const DeskBench bench;
+  const PracticeBench bench;
   std::ofstream(bench.options().database)
       << "this is no database, but long enough to look at: " << std::string(200, 'x');
   EXPECT_THROW(bench.model(), InputError);
 }
 
 TEST(PracticeModel, TheShowSceneLoadsBehindTheDesk) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   const auto scene = model->show_scene(60);
   ASSERT_TRUE(scene);
@@ -296,8 +296,8 @@ TEST(PracticeModel, TheShowSceneLoadsBehindTheDesk) {
 }
 
 TEST(PracticeModelNotice, UnreadableSettingsAreSaidInTheLanguageWithoutTheParsersWords) {
-  testing_support::DeskBench bench;
-  DeskOptions options = bench.options();
+  testing_support::PracticeBench bench;
+  PracticeOptions options = bench.options();
   bench.folder.write("settings.toml", "version = 1\nscale = = 2\n");
   options.language = "de";
   const auto model = bench.model(options);
@@ -309,7 +309,7 @@ TEST(PracticeModelNotice, UnreadableSettingsAreSaidInTheLanguageWithoutTheParser
 }
 
 TEST(PracticeModel, WhatAScriptedHandDidIsNobodysPass) {
-  const DeskBench bench;
+  const PracticeBench bench;
   {
     const auto model = bench.model();
     const Exercise& first = model->exercises().front();
@@ -320,7 +320,7 @@ TEST(PracticeModel, WhatAScriptedHandDidIsNobodysPass) {
     EXPECT_TRUE(model->past().empty());
     EXPECT_NE(model->sign_in("demonstration"), "") << "kept for them";
   }
-  DeskOptions options = bench.options();
+  PracticeOptions options = bench.options();
   options.hand = "expert";
   const auto model = bench.model(options);
   EXPECT_EQ(model->who(), "Demonstration");
@@ -332,7 +332,7 @@ TEST(PracticeModel, WhatAScriptedHandDidIsNobodysPass) {
 }
 
 TEST(PracticeModel, AnAttemptThatWasCutOffIsNamedAtTheNextStart) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const ::pid_t child = ::fork();
   if (child == 0) {
     Database db(bench.options().database);
@@ -360,7 +360,7 @@ TEST(PracticeModel, AnAttemptThatWasCutOffIsNamedAtTheNextStart) {
 }
 
 TEST(PracticeModel, TheExpertDoesWhatTheAttemptDidNotWhatTheDeskWouldDoNow) {
-  const DeskBench bench;
+  const PracticeBench bench;
   const auto model = bench.model();
   model->exercise_id = "surface-touch";
   ASSERT_EQ(model->begin_attempt(), "");

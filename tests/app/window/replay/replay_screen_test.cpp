@@ -59,7 +59,7 @@ class ReplayScreens : public HeadlessFixture {
   }
   const ReplayClock& clock() const { return screen_->clock(); }
 
-  DeskBench bench_;
+  PracticeBench bench_;
   std::unique_ptr<PracticeModel> model_;
   int wide_ = 1280, high_ = 720;
   double scale_ = 1;

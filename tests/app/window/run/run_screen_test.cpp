@@ -17,7 +17,7 @@ namespace {
 class RunScreenBench : public LoopBench {
  protected:
   void begin() {
-    ASSERT_EQ(desk_->begin_attempt(), "");
+    ASSERT_EQ(model_->begin_attempt(), "");
     loop_->go(ScreenName::kRun);
   }
   /// Frames until it is so. @return whether it came.
@@ -30,7 +30,8 @@ class RunScreenBench : public LoopBench {
     return false;
   }
   bool ready() {
-    return until([this] { return desk_->running() && desk_->running()->ready() && desk_->running()->newest().seen; });
+    return until(
+        [this] { return model_->running() && model_->running()->ready() && model_->running()->newest().seen; });
   }
   void keep_picture(const std::string& name) {
     if (const char* folder = std::getenv("TROCAR_PICTURES"))
@@ -38,7 +39,7 @@ class RunScreenBench : public LoopBench {
   }
   /// Into the organ until it is felt: the ring stands off the tip.
   void press_picture() {
-    DeskOptions touch = bench_.options();
+    PracticeOptions touch = bench_.options();
     touch.exercise = "surface-touch";
     width_ = 640;
     height_ = 360;
@@ -49,13 +50,13 @@ class RunScreenBench : public LoopBench {
     ASSERT_TRUE(ready());
     frame({pointer(InputEvent::Kind::kMouseMove, 400, 600)});
     for (int i = 0; i < 25; ++i) frame({pointer(InputEvent::Kind::kMouseMove, 400, 600 - 16.0 * i)});
-    for (int i = 0; i < 30 && desk_->running()->newest().record.stylus.F_I_T.force.norm() < 0.4; ++i) {
+    for (int i = 0; i < 30 && model_->running()->newest().record.stylus.F_I_T.force.norm() < 0.4; ++i) {
       frame({wheel});
       for (int wait = 0; wait < 3; ++wait) frame();
     }
     keep_picture("run_press");
   }
-  Vec3 tip() { return desk_->running()->newest().record.stylus.X_TI.p; }
+  Vec3 tip() { return model_->running()->newest().record.stylus.X_TI.p; }
 };
 
 TEST_F(RunScreenBench, TheMouseMovesTheInstrumentAndTheCoachTicksIt) {
@@ -82,11 +83,11 @@ TEST_F(RunScreenBench, PStandsStillAndGoesOn) {
   begin();
   ASSERT_TRUE(ready());
   tap('P');
-  EXPECT_TRUE(desk_->running()->paused());
+  EXPECT_TRUE(model_->running()->paused());
   frame();
   EXPECT_TRUE(sees("Paused"));
   tap('P');
-  EXPECT_FALSE(desk_->running()->paused());
+  EXPECT_FALSE(model_->running()->paused());
   frame();
   EXPECT_FALSE(sees("Paused"));
 }
@@ -96,11 +97,11 @@ TEST_F(RunScreenBench, AWindowThatNobodyLooksAtPauses) {
   ASSERT_TRUE(ready());
   frame({key(0, InputEvent::Kind::kFocusLost)});
   frame();
-  EXPECT_TRUE(desk_->running()->paused());
+  EXPECT_TRUE(model_->running()->paused());
   frame({key(0, InputEvent::Kind::kFocusLost)});
   tap('P');
   frame();
-  EXPECT_FALSE(desk_->running()->paused()) << "continuing holds";
+  EXPECT_FALSE(model_->running()->paused()) << "continuing holds";
 }
 
 TEST_F(RunScreenBench, EnterAndEscGoOnFromThePauseWithoutTabbing) {
@@ -112,7 +113,7 @@ TEST_F(RunScreenBench, EnterAndEscGoOnFromThePauseWithoutTabbing) {
     ASSERT_TRUE(sees("Paused"));
     tap(go_on);
     frame();
-    EXPECT_FALSE(desk_->running()->paused());
+    EXPECT_FALSE(model_->running()->paused());
     EXPECT_FALSE(loop_->menu_open());
     EXPECT_FALSE(sees("Paused"));
   }
@@ -122,20 +123,20 @@ TEST_F(RunScreenBench, EnterAndEscGoOnFromThePauseWithoutTabbing) {
   tap(kKeyEnter);
   frame();
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing) << "all of the box by keys alone";
-  EXPECT_EQ(desk_->running(), nullptr);
+  EXPECT_EQ(model_->running(), nullptr);
 }
 
 TEST_F(RunScreenBench, RAsksAndEscTakesItBack) {
   begin();
   ASSERT_TRUE(ready());
-  AttemptRunner* first = desk_->running();
+  AttemptRunner* first = model_->running();
   tap('R');
   frame();
   EXPECT_TRUE(sees("Start again?"));
   EXPECT_FALSE(sees("Paused"));
   tap(kKeyEscape);
   frame();
-  EXPECT_EQ(desk_->running(), first);
+  EXPECT_EQ(model_->running(), first);
   EXPECT_FALSE(first->paused());
   tap('P');
   frame();
@@ -154,12 +155,12 @@ TEST_F(RunScreenBench, RThenEnterBeginsAnewAndTheOldOneIsKeptAsAborted) {
   begin();
   ASSERT_TRUE(ready());
   tap('R');
-  EXPECT_TRUE(desk_->running()->paused()) << "not without asking";
+  EXPECT_TRUE(model_->running()->paused()) << "not without asking";
   frame();
   tap(kKeyEnter);
-  ASSERT_NE(desk_->running(), nullptr);
+  ASSERT_NE(model_->running(), nullptr);
   ASSERT_TRUE(ready()) << "a fresh one runs";
-  EXPECT_FALSE(desk_->running()->paused());
+  EXPECT_FALSE(model_->running()->paused());
   Database database(bench_.options().database, OpenMode::kExisting);
   const auto attempts = AttemptStore(database).list();
   ASSERT_EQ(attempts.size(), 2u);
@@ -170,10 +171,10 @@ TEST_F(RunScreenBench, RThenEnterBeginsAnewAndTheOldOneIsKeptAsAborted) {
 TEST_F(RunScreenBench, TheEndGivesItsResultToTheDesk) {
   begin();
   ASSERT_TRUE(ready());
-  desk_->running()->abort();
-  ASSERT_TRUE(until([this] { return desk_->running() == nullptr; }));
-  ASSERT_TRUE(desk_->result());
-  EXPECT_EQ(desk_->result()->grade.status, AttemptStatus::kAborted);
+  model_->running()->abort();
+  ASSERT_TRUE(until([this] { return model_->running() == nullptr; }));
+  ASSERT_TRUE(model_->result());
+  EXPECT_EQ(model_->result()->grade.status, AttemptStatus::kAborted);
 }
 
 TEST_F(RunScreenBench, ALostContextOfAttemptsLeadsAway) {
@@ -182,13 +183,13 @@ TEST_F(RunScreenBench, ALostContextOfAttemptsLeadsAway) {
 }
 
 TEST_F(RunScreenBench, TheLightPostTurnsAThirtyDegreeViewAndTheDialFollowsThePicture) {
-  DeskOptions thirty = bench_.options();
+  PracticeOptions thirty = bench_.options();
   thirty.exercise = "reach-and-orient";
   thirty.scope = "30";
   open(thirty);
   begin();
   ASSERT_TRUE(ready());
-  const auto seen = [this] { return const_cast<Screen*>(loop_->screen())->stage(*desk_, width_, height_)->view; };
+  const auto seen = [this] { return const_cast<Screen*>(loop_->screen())->stage(*model_, width_, height_)->view; };
   const Camera before = seen().camera;
   EXPECT_TRUE(before.level_rad);
   frame({key('D')});
@@ -211,7 +212,7 @@ TEST_F(RunScreenBench, ALostContextPausesTheAttemptAndANewOneShowsItAgain) {
   begin();
   ASSERT_TRUE(ready());
   frame();
-  AttemptRunner* const attempt = desk_->running();
+  AttemptRunner* const attempt = model_->running();
   const Vec3 before = tip();
   loop_->lose_pictures();
   context_ = std::make_unique<HeadlessContext>();
@@ -219,7 +220,7 @@ TEST_F(RunScreenBench, ALostContextPausesTheAttemptAndANewOneShowsItAgain) {
   loop_->take_up(*context_);
   frame();
   frame();
-  EXPECT_EQ(desk_->running(), attempt) << "the same attempt";
+  EXPECT_EQ(model_->running(), attempt) << "the same attempt";
   EXPECT_TRUE(attempt->paused());
   EXPECT_TRUE(sees("Paused"));
   EXPECT_NEAR((tip() - before).norm(), 0, 0.002);
@@ -232,7 +233,7 @@ TEST_F(RunScreenBench, ALostContextPausesTheAttemptAndANewOneShowsItAgain) {
 
 TEST_F(RunScreenBench, LatencyIsMeasuredOnTheWholePath) {
   loop_.reset();
-  desk_.reset();
+  model_.reset();
   const PictureLatency l = measure_picture_latency(source_assets(), 3, 640, 360);
   EXPECT_GT(l.frames, 2);
   EXPECT_GT(l.events, 0);
@@ -265,13 +266,13 @@ TEST_F(RunScreenBench, PicturesOfIt) {
   frame();
   keep_picture("run_paused");
   tap('P');
-  desk_->settings().left_handed = true;
+  model_->settings().left_handed = true;
   for (int i = 0; i < 3; ++i) frame();
   keep_picture("run_left");
-  desk_->settings().scale = 2;
+  model_->settings().scale = 2;
   for (int i = 0; i < 3; ++i) frame();
   keep_picture("run_double");
-  desk_->settings().scale = 1;
+  model_->settings().scale = 1;
   for (int i = 0; i < 12; ++i) frame({pointer(InputEvent::Kind::kMouseMove, 600 + 60.0 * i, 100)});
   for (int i = 0; i < 12; ++i) frame();
   keep_picture("run_rim");
@@ -280,7 +281,7 @@ TEST_F(RunScreenBench, PicturesOfIt) {
 TEST_F(RunScreenBench, ABoardThatStopsAnsweringPausesTheAttemptAndItGoesOnWhenItAnswersAgain) {
   begin();
   ASSERT_TRUE(ready());
-  AttemptRunner* run = desk_->running();
+  AttemptRunner* run = model_->running();
   ASSERT_TRUE(run->plug(false));
   ASSERT_TRUE(until([&] { return sees("The device does not answer"); }));
   EXPECT_TRUE(run->paused());
@@ -299,22 +300,22 @@ TEST_F(RunScreenBench, ABoardThatStopsAnsweringPausesTheAttemptAndItGoesOnWhenIt
   EXPECT_EQ(run->newest().t_s, stands_at);
   tap('P');
   ASSERT_TRUE(until([&] { return run->newest().t_s > stands_at + 0.3; }));
-  EXPECT_EQ(desk_->running(), run) << "the same attempt";
+  EXPECT_EQ(model_->running(), run) << "the same attempt";
   EXPECT_FALSE(run->finished());
   EXPECT_LT((tip() - held).norm(), 0.01) << "state kept";
-  ASSERT_TRUE(desk_->end_attempt());
-  EXPECT_EQ(desk_->result()->grade.status, AttemptStatus::kAborted) << "no fault: " << desk_->result()->device.fault;
-  EXPECT_EQ(pauses_of(desk_->result()->device.realtime).size(), 1u) << "noted";
+  ASSERT_TRUE(model_->end_attempt());
+  EXPECT_EQ(model_->result()->grade.status, AttemptStatus::kAborted) << "no fault: " << model_->result()->device.fault;
+  EXPECT_EQ(pauses_of(model_->result()->device.realtime).size(), 1u) << "noted";
 }
 
 TEST_F(RunScreenBench, AnExamHasNoPauseForACableEither) {
-  DeskOptions exam = bench_.options();
+  PracticeOptions exam = bench_.options();
   exam.hand = "expert";
   exam.level = "exam";
   open(exam);
-  ASSERT_EQ(desk_->begin_attempt(), "");
-  EXPECT_FALSE(desk_->running()->plug(false));
-  EXPECT_TRUE(desk_->running()->board_answers());
+  ASSERT_EQ(model_->begin_attempt(), "");
+  EXPECT_FALSE(model_->running()->plug(false));
+  EXPECT_TRUE(model_->running()->board_answers());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/window/pages/sound_page.h"
-#include "tests/app/window/pages/desk_bench.h"
+#include "tests/app/window/pages/practice_bench.h"
 #include "tests/app/window/pages/ui_bench.h"
 
 namespace trocar {
@@ -222,7 +222,7 @@ class SoundPageTest : public testing_support::UiBench {
     page(testing_support::press(kKeyEnter));
     page();
   }
-  testing_support::DeskBench bench_;
+  testing_support::PracticeBench bench_;
   std::unique_ptr<PracticeModel> model_;
   SoundPage page_;
 };

@@ -1,4 +1,4 @@
-// A practice desk of its own folder for tests: nothing of the person who runs them is read or written.
+// A practice model of its own folder for tests: nothing of the person who runs them is read or written.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,23 +16,23 @@ inline AssetRoots source_assets() {
   return {root / "scenarios" / "exercises", root / "scenarios" / "hands", root / "assets"};
 }
 
-struct DeskBench {
+struct PracticeBench {
   test::TemporaryFolder folder;
 
-  DeskBench() { ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); }
+  PracticeBench() { ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); }
 
   /// Without sound: a machine that tests has none, and its library says so at length.
-  DeskOptions options() const {
+  PracticeOptions options() const {
     if (!std::filesystem::exists(folder / "settings.toml"))
       folder.write("settings.toml", "version = 1\nsound = false\n");
-    DeskOptions o;
+    PracticeOptions o;
     o.database = folder.path() / "trocar.db";
     o.settings = folder.path() / "settings.toml";
     o.language = "en";
     o.seed = 7;
     return o;
   }
-  std::unique_ptr<PracticeModel> model(const DeskOptions& given) const {
+  std::unique_ptr<PracticeModel> model(const PracticeOptions& given) const {
     return std::make_unique<PracticeModel>(given, source_assets());
   }
   std::unique_ptr<PracticeModel> model() const { return model(options()); }
