@@ -14,7 +14,7 @@ class Crash : public SystemTest {
   /// Starts a long attempt and kills it as soon as its recording holds some chunks. @return the recording.
   fs::path kill_during_attempt() const {
     const fs::path recording = folder_ / "cut.trec";
-    Words words{"run", exercise_of(3600, 12), "--hand", "idle", "--db", "t.db", "--record", "cut.trec"};
+    Translator words{"run", exercise_of(3600, 12), "--hand", "idle", "--db", "t.db", "--record", "cut.trec"};
     RunningProgram program(launch(words));
     std::error_code missing;
     while (program.running() && (!fs::exists(recording) || fs::file_size(recording, missing) < kEnough)) {

@@ -57,7 +57,7 @@ TEST_F(DeviceTable, EvaluationThenInversionFindsTheAnglesAgain) {
   ASSERT_EQ(inverted.exit_code, 0) << inverted.err;
   const Table asked = read_table(folder_ / "q.csv"), found = read_table(folder_ / "all.csv");
   EXPECT_EQ(found.columns,
-            (Words{"row", "solution", "in_limits", "q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"}));
+            (Translator{"row", "solution", "in_limits", "q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"}));
   for (std::size_t row = 0; row < asked.rows.size(); ++row) {
     double nearest = 1e9;
     for (const auto& candidate : found.rows) {

@@ -88,7 +88,7 @@ TEST_F(Faults, AnAbortedAttemptSaysWhy) {
 }
 
 TEST_F(Faults, AFaultAlsoShowsInTheTextForPeople) {
-  Words words = short_run({"--db", ":memory:", "--inject", "encoder-jump:2@3"});
+  Translator words = short_run({"--db", ":memory:", "--inject", "encoder-jump:2@3"});
   std::erase(words, "--json");
   const Outcome outcome = trocar(words);
   EXPECT_EQ(outcome.exit_code, 4);
@@ -130,7 +130,7 @@ TEST_F(Machine, AFileThatIsNoDatabaseIsBadInputAndStaysAsItWas) {
 }
 
 TEST_F(Machine, ReadingWithoutADatabaseSaysThatThereIsNoneAndMakesNone) {
-  for (const Words& words : {Words{"trainee", "list"}, {"cohort"}, {"db", "check"}, {"score", "latest"}}) {
+  for (const Translator& words : {Translator{"trainee", "list"}, {"cohort"}, {"db", "check"}, {"score", "latest"}}) {
     expect_refusal(words, 3, "there is no database yet");
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "data" / "trocar" / "trocar.db"));

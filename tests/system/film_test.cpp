@@ -20,7 +20,7 @@ class FilmsFromOutside : public SystemTest {
     ASSERT_EQ(trocar(short_run({"--db", ":memory:", "--record", "a.trec"})).exit_code, 1);
   }
   /// So slow a motion that nobody waits for its end.
-  static Words endless(const std::string& flag, const std::string& target) {
+  static Translator endless(const std::string& flag, const std::string& target) {
     return {"replay", "a.trec",   flag,     target,  "--width", "320",     "--height",
             "240",    "--preset", "potato", "--fps", "60",      "--speed", "0.05"};
   }

@@ -20,7 +20,7 @@ class FullDisk : public SystemTest {
   }
   void TearDown() override { std::signal(SIGXFSZ, SIG_DFL); }
 
-  Outcome with_room(rlim_t bytes, const Words& words) const {
+  Outcome with_room(rlim_t bytes, const Translator& words) const {
     const rlimit small{bytes, before_.rlim_max};
     setrlimit(RLIMIT_FSIZE, &small);
     RunningProgram program(launch(words));
@@ -70,7 +70,7 @@ TEST_F(FullDisk, WhereverItFillsUpAFinishedAttemptIsNotLost) {
 
 TEST_F(FullDisk, ARecordingThatCannotBeWrittenAbortsTheAttemptWithTheReason) {
   EXPECT_EQ(trocar({"trainee", "add", "guest", "--db", "t.db"}).exit_code, 0);
-  const Words words = short_run({"--db", "t.db", "--record", "/dev/full"});
+  const Translator words = short_run({"--db", "t.db", "--record", "/dev/full"});
   const Outcome run = trocar(words);
   EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_NE(run.err.find("/dev/full: the recording cannot be written: No space left on device"), std::string::npos)

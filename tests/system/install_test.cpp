@@ -17,14 +17,14 @@ class Installed : public SystemTest {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   }
 
-  Outcome installed(Words arguments) const {
+  Outcome installed(Translator arguments) const {
     Launch with = launch(std::move(arguments));
     with.program = folder_ / "prefix/bin/trocar";
     return run_program(with);
   }
   /// First words of the lines that list subcommands in a help text.
-  static Words commands_of(const std::string& help) {
-    Words commands;
+  static Translator commands_of(const std::string& help) {
+    Translator commands;
     std::istringstream lines(help.substr(help.find("Subcommands:")));
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
@@ -65,8 +65,8 @@ TEST_F(Installed, TheInstalledCopiesAreTheOnesInUse) {
       file_bytes(share("assets/organs/phantom-liver.organ.toml")), "'phantom-liver.ply'", "'only-here.ply'");
   EXPECT_NE(installed({"exercises"}).out.find("Only here"), std::string::npos);
   EXPECT_EQ(trocar({"exercises"}).out.find("Only here"), std::string::npos);
-  const Words run{"run",  exercise_of(3, 12), "--hand", "only-here", "--organ", "only-here",
-                  "--db", ":memory:",         "--json"};
+  const Translator run{"run",  exercise_of(3, 12), "--hand", "only-here", "--organ", "only-here",
+                       "--db", ":memory:",         "--json"};
   const Outcome there = installed(run);
   EXPECT_EQ(there.exit_code, 1) << there.err;
   EXPECT_EQ(trocar(run).exit_code, 2) << "the build's own program does not know that hand";

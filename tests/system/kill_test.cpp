@@ -28,7 +28,7 @@ class Kill : public SystemTest, public ::testing::WithParamInterface<int> {
     EXPECT_EQ(RunningProgram(launch(words())).wait().exit_code, 1);
     whole_ = Clock::now() - begin;
   }
-  static Words words() { return {"run", "short.toml", "--hand", "dip.toml", "--db", "t.db"}; }
+  static Translator words() { return {"run", "short.toml", "--hand", "dip.toml", "--db", "t.db"}; }
 
   /// Kills programs that were started together somewhere between the start of the process and beyond its end.
   void kill_at_random(int programs) {

@@ -14,8 +14,8 @@ class Repeat : public SystemTest {
 /// Two discs and the squeeze by the expert hand: short, complete and graded.
 class Graded : public SystemTest {
  protected:
-  Words expert(const Words& more) const {
-    Words words{"run", exercise_of(60, 2), "--hand", "expert", "--json"};
+  Translator expert(const Translator& more) const {
+    Translator words{"run", exercise_of(60, 2), "--hand", "expert", "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
@@ -48,7 +48,8 @@ TEST_F(Repeat, TheDatabaseDoesNotReachTheResult) {
 
 TEST_F(Repeat, ReplayOfAnAttemptAndOfItsRecordingVerify) {
   const Json run = recorded_run();
-  for (const Words& words : {Words{"replay", "a.trec", "--verify"}, {"replay", "latest", "--db", "t.db", "--verify"}}) {
+  for (const Translator& words :
+       {Translator{"replay", "a.trec", "--verify"}, {"replay", "latest", "--db", "t.db", "--verify"}}) {
     const Outcome outcome = trocar(words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
     EXPECT_NE(outcome.out.find("verified: every tick"), std::string::npos) << outcome.out;

@@ -9,8 +9,8 @@ namespace {
 class ReviewReport : public SystemTest {
  protected:
   void SetUp() override { ASSERT_EQ(trocar({"trainee", "add", "T01", "--db", "desk.db"}).exit_code, 0); }
-  Outcome report(Words more) const {
-    Words all{"review", "report", "--db", "desk.db"};
+  Outcome report(Translator more) const {
+    Translator all{"review", "report", "--db", "desk.db"};
     all.insert(all.end(), more.begin(), more.end());
     return trocar(all);
   }
@@ -48,7 +48,7 @@ TEST_F(ReviewReport, ReplacesAFileOnlyWhenTold) {
 }
 
 TEST_F(ReviewReport, SaysWhatItCannotDo) {
-  const std::vector<std::pair<Words, std::string>> wrong = {
+  const std::vector<std::pair<Translator, std::string>> wrong = {
       {{"-o", "t.pdf"}, "of what?"},
       {{"--trainee", "T01", "--cohort", "-o", "t.pdf"}, "of what?"},
       {{"--trainee", "T01", "--group", "A", "-o", "t.pdf"}, "--group goes with --cohort"},

@@ -31,7 +31,7 @@ std::string answer_of(int port, const std::string& bytes) {
 
 class Review : public SystemTest {
  protected:
-  Launch with_input(Words arguments, const std::string& input) const {
+  Launch with_input(Translator arguments, const std::string& input) const {
     folder_.write("input.txt", input);
     Launch out = launch(std::move(arguments));
     out.input = folder_ / "input.txt";

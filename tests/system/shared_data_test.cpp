@@ -60,8 +60,8 @@ TEST_F(SharedFolder, ASpleenFromCtHasRoomForTheWholeInstrument) {
     EXPECT_GE(proof["worst"]["shaft_gap_m"].get<double>(), 0.0015) << proof["level"];
   }
   for (const char* level : {"L1", "L3"}) {
-    const Words words{"run",  "E02",      "--hand", "expert", "--level", level, "--organ", "spleen.organ.toml",
-                      "--db", ":memory:", "--json"};
+    const Translator words{"run",  "E02",      "--hand", "expert", "--level", level, "--organ", "spleen.organ.toml",
+                           "--db", ":memory:", "--json"};
     const Json run = json_of(words, 0);
     EXPECT_EQ(run["status"], "completed") << level;
     EXPECT_EQ(run["passed"], true) << level << ": " << run["score"];

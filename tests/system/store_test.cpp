@@ -12,8 +12,8 @@ TEST_F(Store, TwoRunsAtOnceBothEndInTheDatabase) {
   exercise_of(3, 12);
   dip();
   const auto words = [](const char* trainee, const char* recording) {
-    return Words{"run",  "short.toml", "--hand", "dip.toml", "--json", "--db",
-                 "t.db", "--trainee",  trainee,  "--record", recording};
+    return Translator{"run",  "short.toml", "--hand", "dip.toml", "--json", "--db",
+                      "t.db", "--trainee",  trainee,  "--record", recording};
   };
   RunningProgram first(launch(words("T-1", "1.trec"))), second(launch(words("T-2", "2.trec"))),
       third(launch(words("T-1", "3.trec")));

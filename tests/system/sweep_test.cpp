@@ -7,9 +7,9 @@ namespace {
 using Sweep = SystemTest;
 
 TEST_F(Sweep, TheNumberOfJobsDoesNotShow) {
-  const Words words{"sweep", exercise_of(3, 12), "--hand", "idle," + dip(), "--level",
-                    "L1",    "--seeds",          "3..5",   "--json"};
-  Words one = words, three = words;
+  const Translator words{"sweep", exercise_of(3, 12), "--hand", "idle," + dip(), "--level",
+                         "L1",    "--seeds",          "3..5",   "--json"};
+  Translator one = words, three = words;
   one.insert(one.end(), {"--jobs", "1"});
   three.insert(three.end(), {"--jobs", "3"});
   const Json json = json_of(one, 0);
@@ -29,12 +29,12 @@ TEST_F(Sweep, AFailedCheckIsExitCodeOne) {
 }
 
 TEST_F(Sweep, ALineThatDoesNotApplySaysSo) {
-  const Words words{"sweep", "reach-and-orient", "--hand", "heavy-handed", "--level", "L1", "--seeds", "1"};
+  const Translator words{"sweep", "reach-and-orient", "--hand", "heavy-handed", "--level", "L1", "--seeds", "1"};
   const Outcome text = trocar(words);
   EXPECT_EQ(text.exit_code, 0) << text.out << text.err;
   EXPECT_NE(text.out.find("  n/a      heavy-handed passes: the exercise judges no force\n"), std::string::npos)
       << text.out;
-  Words json = words;
+  Translator json = words;
   json.push_back("--json");
   const Json cell = json_of(json, 0)["cells"][0];
   EXPECT_EQ(cell["checks"][1]["not_asked"], "the exercise judges no force");

@@ -17,7 +17,7 @@
 namespace trocar::test {
 
 using Json = nlohmann::json;
-using Words = std::vector<std::string>;
+using Translator = std::vector<std::string>;
 
 inline std::string file_bytes(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -43,14 +43,14 @@ inline constexpr const char* kDip =
 class SystemTest : public ::testing::Test {
  protected:
   /// The program run in the test's folder; data of the user's home stay untouched.
-  Launch launch(Words arguments) const {
+  Launch launch(Translator arguments) const {
     return {
         std::move(arguments), folder_.path(), {{"XDG_DATA_HOME", (folder_ / "data").string()}, {"TROCAR_ASSETS", ""}}};
   }
-  Outcome trocar(Words arguments) const { return run_program(launch(std::move(arguments))); }
+  Outcome trocar(Translator arguments) const { return run_program(launch(std::move(arguments))); }
 
   /// Standard output read as JSON; a failure with both streams when the exit code is another.
-  Json json_of(const Words& arguments, int exit_code) const {
+  Json json_of(const Translator& arguments, int exit_code) const {
     const Outcome outcome = trocar(arguments);
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err << outcome.out;
     const Json json = Json::parse(outcome.out, nullptr, false);
@@ -59,7 +59,7 @@ class SystemTest : public ::testing::Test {
   }
 
   /// Fails with one message on stderr that holds `part`, says nothing on stdout.
-  void expect_refusal(const Words& arguments, int exit_code, const std::string& part) const {
+  void expect_refusal(const Translator& arguments, int exit_code, const std::string& part) const {
     const Outcome outcome = trocar(arguments);
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_NE(outcome.err.find(part), std::string::npos) << "no \"" << part << "\" in: " << outcome.err;
@@ -80,8 +80,8 @@ class SystemTest : public ::testing::Test {
     return "dip.toml";
   }
   /// A run of three seconds that touches nothing: status timeout, exit code 1.
-  Words short_run(const Words& more = {}) const {
-    Words words{"run", exercise_of(3, 12), "--hand", dip(), "--json"};
+  Translator short_run(const Translator& more = {}) const {
+    Translator words{"run", exercise_of(3, 12), "--hand", dip(), "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }

@@ -11,7 +11,7 @@
 namespace trocar::test {
 
 struct Table {
-  Words columns;
+  Translator columns;
   std::vector<std::vector<double>> rows;
 
   std::size_t at(const std::string& name) const {

@@ -8,8 +8,8 @@ namespace {
 
 using Usage = SystemTest;
 
-const std::map<std::string, Words>& other_commands_and_flags() {
-  static const std::map<std::string, Words> table{
+const std::map<std::string, Translator>& other_commands_and_flags() {
+  static const std::map<std::string, Translator> table{
       {"run",
        {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--video",
         "--fps", "--rate", "--contact", "--passivity", "--clamp", "--calibration", "--device", "--inject", "--json"}},
@@ -52,8 +52,8 @@ const std::map<std::string, Words>& other_commands_and_flags() {
 }
 
 /// Those about people and what is kept of them.
-const std::map<std::string, Words>& commands_about_people() {
-  static const std::map<std::string, Words> table{
+const std::map<std::string, Translator>& commands_about_people() {
+  static const std::map<std::string, Translator> table{
       {"trainee", {"add", "list", "show", "edit", "note", "export", "consent", "erase"}},
       {"trainee edit", {"--db", "--name", "--email", "--json"}},
       {"trainee note", {"--db", "--attempt", "--author"}},
@@ -88,20 +88,20 @@ const std::map<std::string, Words>& commands_about_people() {
   return table;
 }
 
-std::map<std::string, Words> commands_and_flags() {
-  std::map<std::string, Words> all = commands_about_people();
+std::map<std::string, Translator> commands_and_flags() {
+  std::map<std::string, Translator> all = commands_about_people();
   all.insert(other_commands_and_flags().begin(), other_commands_and_flags().end());
   return all;
 }
 
-Words split(const std::string& text) {
+Translator split(const std::string& text) {
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
 }
 
 TEST_F(Usage, HelpOfEverySubcommandNamesItsFlags) {
   for (const auto& [command, flags] : commands_and_flags()) {
-    Words words = split(command);
+    Translator words = split(command);
     words.push_back("--help");
     const Outcome outcome = trocar(words);
     EXPECT_EQ(outcome.exit_code, 0) << command;
@@ -147,15 +147,15 @@ TEST_F(Usage, AMisspeltWordIsNamedWithTheOneThatWasMeant) {
 
 TEST_F(Usage, ATypedPathNeedsItsFolder) {
   const std::string said = "there is no folder typo; make it first";
-  for (const Words& words :
-       {Words{"run", "surface-touch", "--hand", "idle", "--db", "typo/a.db"},
-        Words{"run", "E02", "--hand", "idle", "--record", "typo/a.trec"},
-        Words{"run", "E02", "--hand", "idle", "--frames", "typo/f"}, Words{"demo", "--out", "typo/demo"},
-        Words{"picture", "--out", "typo/a.png"}, Words{"practice", "--db", "typo/a.db"},
-        Words{"practice", "--screens", "typo/s"}, Words{"replay", "a.trec", "--video", "typo/a.mp4"},
-        Words{"trainee", "add", "T-1", "--db", "typo/a.db"}, Words{"organ", "phantom", "--out", "typo/p"},
-        Words{"study", "kinematics", "--out", "typo/k"}, Words{"device", "plant", "--out", "typo/p.toml"},
-        Words{"db", "backup", "--out", "typo/b.db"}}) {
+  for (const Translator& words :
+       {Translator{"run", "surface-touch", "--hand", "idle", "--db", "typo/a.db"},
+        Translator{"run", "E02", "--hand", "idle", "--record", "typo/a.trec"},
+        Translator{"run", "E02", "--hand", "idle", "--frames", "typo/f"}, Translator{"demo", "--out", "typo/demo"},
+        Translator{"picture", "--out", "typo/a.png"}, Translator{"practice", "--db", "typo/a.db"},
+        Translator{"practice", "--screens", "typo/s"}, Translator{"replay", "a.trec", "--video", "typo/a.mp4"},
+        Translator{"trainee", "add", "T-1", "--db", "typo/a.db"}, Translator{"organ", "phantom", "--out", "typo/p"},
+        Translator{"study", "kinematics", "--out", "typo/k"}, Translator{"device", "plant", "--out", "typo/p.toml"},
+        Translator{"db", "backup", "--out", "typo/b.db"}}) {
     expect_refusal(words, 2, said);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "typo")) << words[0];
   }
@@ -169,9 +169,10 @@ TEST_F(Usage, AnExerciseIsNamedByIdNumberOrFile) {
     EXPECT_EQ(outcome.exit_code, 0) << word;
     EXPECT_EQ(outcome.out.find("E02  surface-touch"), 0u) << word;
   }
-  for (const Words& words : {Words{"run", "9", "--hand", "idle", "--db", ":memory:"}, Words{"check", "9"},
-                             Words{"practice", "9", "--db", ":memory:", "--screens", "s"}, Words{"sweep", "9"},
-                             Words{"demo", "--exercise", "9"}}) {
+  for (const Translator& words :
+       {Translator{"run", "9", "--hand", "idle", "--db", ":memory:"}, Translator{"check", "9"},
+        Translator{"practice", "9", "--db", ":memory:", "--screens", "s"}, Translator{"sweep", "9"},
+        Translator{"demo", "--exercise", "9"}}) {
     expect_refusal(words, 2, "unknown exercise '9': known are E01 reach-and-orient, E02 surface-touch, E03");
   }
 }
@@ -196,7 +197,7 @@ TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
   expect_refusal({"fly"}, 2, "fly");
   expect_refusal({"organ", "fly"}, 2, "fly");
   for (const auto& [command, flags] : commands_and_flags()) {
-    Words words = split(command);
+    Translator words = split(command);
     words.push_back("--frobnicate");
     const Outcome outcome = trocar(words);
     EXPECT_EQ(outcome.exit_code, 2) << command;

@@ -111,9 +111,10 @@ TEST_F(Practice, WritesPicturesOfItsScreensWithoutADisplay) {
 }
 
 TEST_F(Practice, RefusesWhatIsNoneBeforeAWindowOpens) {
-  for (const Words& wrong : {Words{"E99"}, Words{"--level", "L9"}, Words{"--trainee", "a b"}, Words{"--language", "xx"},
-                             Words{"--scale", "3"}, Words{"--input", "joystick"}}) {
-    Words arguments{"practice", "--db", ":memory:"};
+  for (const Translator& wrong :
+       {Translator{"E99"}, Translator{"--level", "L9"}, Translator{"--trainee", "a b"}, Translator{"--language", "xx"},
+        Translator{"--scale", "3"}, Translator{"--input", "joystick"}}) {
+    Translator arguments{"practice", "--db", ":memory:"};
     arguments.insert(arguments.end(), wrong.begin(), wrong.end());
     const Outcome outcome =
         run_program({arguments, folder_.path(), {{"DISPLAY", ""}, {"XDG_CONFIG_HOME", (folder_ / "config").string()}}});

@@ -6,12 +6,12 @@ namespace trocar {
 namespace {
 
 /// The force that one level asks for, "" when there are several.
-std::string band_text(const Words& words, const ExerciseLevel* level) {
+std::string band_text(const Translator& words, const ExerciseLevel* level) {
   if (!level || level->bands.size() != 1) return "";
   return words("{0} to {1} N", {words.number(level->bands[0].low_n, 1), words.number(level->bands[0].high_n, 1)});
 }
 
-std::string critical_advice(const Words& words, const std::string& event, const Exercise& exercise) {
+std::string critical_advice(const Translator& words, const std::string& event, const Exercise& exercise) {
   if (event == "CRITICAL_FORCE")
     return words("Try next: stop as soon as you feel contact, then press; never above {0} N.",
                  {words.number(exercise.hard_force_n, 1)});
@@ -21,7 +21,7 @@ std::string critical_advice(const Words& words, const std::string& event, const 
   return words("Try next: the same again, slower.");
 }
 
-std::string force_advice(const Words& words, const std::string& metric, const Exercise& exercise,
+std::string force_advice(const Translator& words, const std::string& metric, const Exercise& exercise,
                          const ExerciseLevel* level) {
   if (metric == "excess_events")
     return words("Try next: come down slowly over the last 5 mm and stay below {0} N.",
@@ -38,7 +38,7 @@ std::string force_advice(const Words& words, const std::string& metric, const Ex
   return "";
 }
 
-std::string motion_advice(const Words& words, const std::string& metric, const ExerciseLevel* level) {
+std::string motion_advice(const Translator& words, const std::string& metric, const ExerciseLevel* level) {
   if (metric == "block_regrasps")
     return words("Try next: take each block in its middle, firmly enough to carry it at one go.");
   if (metric == "wrong_places") return words("Try next: stop just over the lit disc, look, then go straight down.");
@@ -64,7 +64,7 @@ const DebriefRow* row_named(const DebriefFacts& facts, const std::string& subsco
   return nullptr;
 }
 
-std::string row_advice(const Words& words, const DebriefRow& row, const Exercise& exercise,
+std::string row_advice(const Translator& words, const DebriefRow& row, const Exercise& exercise,
                        const ExerciseLevel* level) {
   std::string text = force_advice(words, row.metric, exercise, level);
   if (text.empty()) text = motion_advice(words, row.metric, level);
@@ -83,7 +83,7 @@ AdviceTopic advice_topic(const AttemptResult& result, const DebriefFacts& facts)
   return {Kind::kOnward, "", "", ""};
 }
 
-std::string advice(const Words& words, const AttemptResult& result, const DebriefFacts& facts,
+std::string advice(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                    const Exercise& exercise) {
   using Kind = AdviceTopic::Kind;
   const AdviceTopic topic = advice_topic(result, facts);

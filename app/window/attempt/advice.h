@@ -15,7 +15,7 @@ struct AdviceTopic {
 AdviceTopic advice_topic(const AttemptResult& result, const DebriefFacts& facts);
 
 /// "Try next: ..."
-std::string advice(const Words& words, const AttemptResult& result, const DebriefFacts& facts,
+std::string advice(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                    const Exercise& exercise);
 
 }  // namespace trocar

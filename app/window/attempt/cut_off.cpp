@@ -20,7 +20,8 @@ std::string local_time(const std::string& utc, long long now) {
   return text.data();
 }
 
-std::string cut_off_words(const Words& words, const std::string& name, const AttemptSummary& attempt, long long now) {
+std::string cut_off_words(const Translator& words, const std::string& name, const AttemptSummary& attempt,
+                          long long now) {
   const std::string at = local_time(attempt.started_utc, now);
   if (was_cut_off(attempt.integrity))
     return words("The attempt of {0} at {1} was cut off; it is kept as aborted and its recording can be seen.",

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 #include "trainees/records/attempt_store.h"
 
 namespace trocar {
@@ -19,6 +19,7 @@ std::string local_time(const std::string& utc, long long now);
 
 /// "The attempt of E01 at 14:32 was cut off; ..." @param name of the exercise, and of whoever it was where that is
 /// somebody else. What was whole when it was found is said to be stored.
-std::string cut_off_words(const Words& words, const std::string& name, const AttemptSummary& attempt, long long now);
+std::string cut_off_words(const Translator& words, const std::string& name, const AttemptSummary& attempt,
+                          long long now);
 
 }  // namespace trocar

@@ -11,12 +11,12 @@
 namespace trocar {
 namespace {
 
-std::string own_text(const Words& words, const DebriefRow& row, const std::optional<double>& value) {
+std::string own_text(const Translator& words, const DebriefRow& row, const std::optional<double>& value) {
   return value ? metric_text(words, row.metric, value, row.unit) : "";
 }
 
 /// The metric at which the gate opens, as a sentence part.
-std::string needed_text(const Words& words, const DebriefRow& row, const Subscore& s, double floor) {
+std::string needed_text(const Translator& words, const DebriefRow& row, const Subscore& s, double floor) {
   double x = s.zero_at + floor * (s.full_at - s.zero_at);
   const bool less = s.full_at < s.zero_at;
   if (is_count(row.metric, row.unit)) x = less ? std::floor(x + 1e-9) : std::ceil(x - 1e-9);
@@ -24,7 +24,7 @@ std::string needed_text(const Words& words, const DebriefRow& row, const Subscor
   return less ? words("at most {0}", {text}) : words("at least {0}", {text});
 }
 
-void compare(const Words& words, DebriefRow& row, const Subscore& s, const DebriefPast& past) {
+void compare(const Translator& words, DebriefRow& row, const Subscore& s, const DebriefPast& past) {
   const bool less = s.full_at < s.zero_at;
   const OwnValues own = own_values(past.own, row.metric, less);
   row.best = own_text(words, row, own.best);
@@ -35,7 +35,7 @@ void compare(const Words& words, DebriefRow& row, const Subscore& s, const Debri
   row.against_median = (*s.raw < *own.median) == less ? 1 : -1;
 }
 
-DebriefRow row_of(const Words& words, const Subscore& s, const ExerciseLevel* level, const DebriefPast& past) {
+DebriefRow row_of(const Translator& words, const Subscore& s, const ExerciseLevel* level, const DebriefPast& past) {
   const SubscoreRule* rule = rule_named(level, s.name);
   SubscoreRule stand_in;
   stand_in.gate = s.gate;
@@ -60,7 +60,7 @@ DebriefRow row_of(const Words& words, const Subscore& s, const ExerciseLevel* le
   return row;
 }
 
-void add_rows(const Words& words, DebriefFacts& facts, const AttemptResult& result, const ExerciseLevel* level,
+void add_rows(const Translator& words, DebriefFacts& facts, const AttemptResult& result, const ExerciseLevel* level,
               const DebriefPast& past) {
   double lost = 0;
   for (const Subscore& s : result.grade.subscores) {
@@ -75,7 +75,7 @@ void add_rows(const Words& words, DebriefFacts& facts, const AttemptResult& resu
 
 }  // namespace
 
-DebriefFacts debrief_facts(const Words& words, const AttemptResult& result, const Exercise& exercise,
+DebriefFacts debrief_facts(const Translator& words, const AttemptResult& result, const Exercise& exercise,
                            const DebriefPast& past) {
   const ExerciseLevel* level = level_named(exercise, result.level);
   DebriefFacts facts;
@@ -89,7 +89,7 @@ DebriefFacts debrief_facts(const Words& words, const AttemptResult& result, cons
   return facts;
 }
 
-std::vector<std::string> explained(const Words& words, const DebriefRow& row, const AttemptResult& result,
+std::vector<std::string> explained(const Translator& words, const DebriefRow& row, const AttemptResult& result,
                                    const Exercise& exercise) {
   const ExerciseLevel* level = level_named(exercise, result.level);
   const SubscoreRule* rule = rule_named(level, row.subscore);
@@ -109,7 +109,7 @@ std::vector<std::string> explained(const Words& words, const DebriefRow& row, co
   return out;
 }
 
-std::string event_words(const Words& words, const Event& event) {
+std::string event_words(const Translator& words, const Event& event) {
   const std::string& type = event.type;
   if (type == "EXCESS_FORCE") return words("Too much force");
   if (type == "CRITICAL_FORCE") return words("Critical force");

@@ -43,14 +43,14 @@ struct DebriefPast {
   std::map<std::string, double> expert = {};  ///< the expert's metrics on the same board
 };
 
-DebriefFacts debrief_facts(const Words& words, const AttemptResult& result, const Exercise& exercise,
+DebriefFacts debrief_facts(const Translator& words, const AttemptResult& result, const Exercise& exercise,
                            const DebriefPast& past = {});
 
 /// One row explained: what is measured, formula with its anchors, weight, gate; a sentence each.
-std::vector<std::string> explained(const Words& words, const DebriefRow& row, const AttemptResult& result,
+std::vector<std::string> explained(const Translator& words, const DebriefRow& row, const AttemptResult& result,
                                    const Exercise& exercise);
 
 /// "Excess force" of EXCESS_FORCE; "" for what a trainee need not see in a plot (a target was lit).
-std::string event_words(const Words& words, const Event& event);
+std::string event_words(const Translator& words, const Event& event);
 
 }  // namespace trocar

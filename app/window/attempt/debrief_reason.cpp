@@ -27,7 +27,7 @@ std::optional<Undone> undone(const Grade& grade) {
   return std::nullopt;
 }
 
-std::string critical_words(const Words& words, const AttemptResult& result, const Event& event,
+std::string critical_words(const Translator& words, const AttemptResult& result, const Event& event,
                            const Exercise& exercise) {
   const std::string t = words.number(clock_s(result, event.t_s), 1);
   if (event.type == "CRITICAL_FORCE")
@@ -39,24 +39,24 @@ std::string critical_words(const Words& words, const AttemptResult& result, cons
                {t, event_words(words, event).empty() ? event.type : event_words(words, event)});
 }
 
-std::string undone_words(const Words& words, const AttemptResult& result, const Undone& left) {
+std::string undone_words(const Translator& words, const AttemptResult& result, const Undone& left) {
   return result.grade.status == AttemptStatus::kTimeout
              ? words("Time ran out: {0} of {1} done.", {left.done, left.all})
              : words("Not finished: {0} of {1} done.", {left.done, left.all});
 }
 
-std::string gate_words(const Words& words, const DebriefRow& row) {
+std::string gate_words(const Translator& words, const DebriefRow& row) {
   return words("{0}: {1}; a pass needs {2}.", {row.name, row.value, row.needed});
 }
 
-std::string score_words(const Words& words, const DebriefFacts& facts) {
+std::string score_words(const Translator& words, const DebriefFacts& facts) {
   const std::string score = words.number(*facts.score, 1), pass = words.number(facts.pass_at, 0);
   const DebriefRow* worst = largest_loss(facts.rows);
   if (!worst) return words("{0} of 100 points, a pass needs {1}.", {score, pass});
   return words("{0} of 100 points, a pass needs {1}. Most points were lost on: {2}.", {score, pass, worst->name});
 }
 
-std::string ungraded_words(const Words& words, const AttemptResult& result, Outcome outcome) {
+std::string ungraded_words(const Translator& words, const AttemptResult& result, Outcome outcome) {
   const double t = result.events.empty() ? 0 : clock_s(result, result.events.back().t_s);
   switch (outcome) {
     case Outcome::kStopped:
@@ -72,7 +72,7 @@ std::string ungraded_words(const Words& words, const AttemptResult& result, Outc
 }
 
 /// That it stood still: no point is lost by it, but it belongs to the attempt.
-void add_pauses(const Words& words, const AttemptResult& result, std::vector<std::string>& out) {
+void add_pauses(const Translator& words, const AttemptResult& result, std::vector<std::string>& out) {
   const std::vector<StoodStill> pauses = pauses_of(result.device.realtime);
   if (pauses.empty()) return;
   double all_s = 0;
@@ -128,7 +128,7 @@ Outcome outcome_of(const AttemptResult& result) {
   return Outcome::kVoid;
 }
 
-std::string verdict_words(const Words& words, Outcome outcome) {
+std::string verdict_words(const Translator& words, Outcome outcome) {
   switch (outcome) {
     case Outcome::kPass:
       return words("PASS");
@@ -144,7 +144,7 @@ std::string verdict_words(const Words& words, Outcome outcome) {
   return "";
 }
 
-std::string reason_words(const Words& words, const AttemptResult& result, const DebriefFacts& facts,
+std::string reason_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                          const Exercise& exercise) {
   if (!facts.score) return ungraded_words(words, result, facts.outcome);
   if (facts.outcome == Outcome::kPass) return score_words(words, facts);
@@ -155,7 +155,8 @@ std::string reason_words(const Words& words, const AttemptResult& result, const 
   return score_words(words, facts);
 }
 
-std::vector<std::string> further_words(const Words& words, const AttemptResult& result, const DebriefFacts& facts) {
+std::vector<std::string> further_words(const Translator& words, const AttemptResult& result,
+                                       const DebriefFacts& facts) {
   std::vector<std::string> out;
   if (!facts.score) {
     const std::string fault = fault_words(result.device);

@@ -7,13 +7,13 @@
 namespace trocar {
 
 Outcome outcome_of(const AttemptResult& result);
-std::string verdict_words(const Words& words, Outcome outcome);
+std::string verdict_words(const Translator& words, Outcome outcome);
 /// One sentence. @param facts with score and rows.
-std::string reason_words(const Words& words, const AttemptResult& result, const DebriefFacts& facts,
+std::string reason_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                          const Exercise& exercise);
 /// What the reason left out: failed gates, what was undone, forces that the device could not give; why there is no
 /// score.
-std::vector<std::string> further_words(const Words& words, const AttemptResult& result, const DebriefFacts& facts);
+std::vector<std::string> further_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts);
 
 /// Seconds of the exercise's clock at loop time t: from START, 0 before it.
 double clock_s(const AttemptResult& result, double t_s);

@@ -28,7 +28,7 @@ ScoreGroup group_of(const SubscoreRule& rule) {
   return ScoreGroup::kAccuracy;
 }
 
-std::string group_name(const Words& words, ScoreGroup group) {
+std::string group_name(const Translator& words, ScoreGroup group) {
   switch (group) {
     case ScoreGroup::kSafety:
       return words("Safety");
@@ -47,7 +47,7 @@ bool is_count(const std::string& metric, const std::string& unit) {
          !among(metric, {"", "economy", "path_ratio", "sparc", "ldlj", "normalised_jerk"});
 }
 
-std::string metric_text(const Words& words, const std::string& metric, const std::optional<double>& value,
+std::string metric_text(const Translator& words, const std::string& metric, const std::optional<double>& value,
                         const std::string& unit) {
   if (!value || !std::isfinite(*value)) return words("n/a");
   const double x = *value;
@@ -61,7 +61,7 @@ std::string metric_text(const Words& words, const std::string& metric, const std
   return words.number(x, 2) + " " + unit;
 }
 
-std::string hand_words(const Words& words, const std::string& hand) {
+std::string hand_words(const Translator& words, const std::string& hand) {
   if (hand == "mouse") return words("mouse");
   if (hand == "keyboard") return words("keyboard");
   if (hand == "gamepad") return words("gamepad");
@@ -78,7 +78,7 @@ std::string hand_words(const Words& words, const std::string& hand) {
   return hand;
 }
 
-std::string subscore_words(const Words& words, const std::string& name) {
+std::string subscore_words(const Translator& words, const std::string& name) {
   std::string heading = name;  // the English one: the first letter of "économie" is no byte
   if (!heading.empty()) heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
   return words.made(heading);

@@ -38,7 +38,7 @@ Mark row_mark(const DebriefRow& row) {
 void score_bar(Ui& ui, const DebriefFacts& facts, const Area& area) {
   const double bar = ui.px(14), y = area.y + ui.line_height() + ui.px(6),
                pass_x = area.x + area.width * facts.pass_at / 100;
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   ui.text_at(area.x, area.y, w("{0} of 100 points", {w.number(*facts.score, 1)}), Ink::kText, area.width, 0, true);
   ui.paint_frame({area.x, y, area.width, bar}, Ink::kDim, 1, ui.px(3));
   const bool pass = facts.outcome == Outcome::kPass;
@@ -63,7 +63,7 @@ void add_column(std::vector<PageColumn>& all, const std::string& head, int spare
   if (!empty) all.push_back(std::move(column));
 }
 
-std::vector<PageColumn> columns_of(const Words& w, const std::vector<DebriefRow>& rows) {
+std::vector<PageColumn> columns_of(const Translator& w, const std::vector<DebriefRow>& rows) {
   using Row = DebriefRow;
   const auto dim = [](const std::string Row::*text) {
     return [text](const Row& row) { return Ui::Cell{row.*text, Ink::kDim}; };
@@ -113,7 +113,7 @@ std::vector<PageColumn> fitting(const Ui& ui, std::vector<PageColumn> all, doubl
 }
 
 /// What stands at the foot; the blue one first.
-std::vector<RowButton> foot_buttons(const Words& w, const DebriefContent& content,
+std::vector<RowButton> foot_buttons(const Translator& w, const DebriefContent& content,
                                     const std::optional<double>& cursor_s) {
   const bool onward = content.facts.outcome == Outcome::kPass;
   const std::string next = content.next_name.empty() ? w("Next") : w("Next: {0}", {content.next_name});
@@ -145,7 +145,7 @@ DebriefChoice meant(const std::string& id) {
   return id == "signin" ? DebriefChoice::kSignIn : DebriefChoice::kNone;
 }
 
-std::string foot_note(const Words& w, const DebriefContent& content) {
+std::string foot_note(const Translator& w, const DebriefContent& content) {
   if (!content.compare_note.empty()) return content.compare_note;
   return content.guest ? w("Sign in to keep your runs under your own code; this one is kept as a guest's.") : "";
 }
@@ -166,7 +166,7 @@ void DebriefPage::verdict(Ui& ui, const DebriefContent& content) const {
 }
 
 void DebriefPage::rows(Ui& ui, const DebriefContent& content) {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const DebriefFacts& facts = content.facts;
   for (const std::string& sentence : facts.more) ui.marked(Mark::kInfo, sentence, Ink::kText);
   if (facts.rows.empty()) return;

@@ -46,7 +46,7 @@ struct Pane {
   Ink ink;
 };
 
-std::vector<Pane> panes(const Words& w, const DebriefPlots& plots) {
+std::vector<Pane> panes(const Translator& w, const DebriefPlots& plots) {
   static const std::vector<WantedForce> kNone;
   if (plots.lines.speed) return {{&plots.trace->speed_mps, 1e3, w("Speed of the tip, mm/s"), &kNone, 0, Ink::kHeading}};
   std::vector<Pane> out{
@@ -68,7 +68,7 @@ Axis x_axis(const Ui& ui, const ForceTrace& trace, double width_px) {
 }
 
 void draw_pane(Ui& ui, Plot& plot, const DebriefPlots& plots, const Pane& pane) {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   for (const WantedForce& band : *pane.bands)
     plot.band(band.low_n, band.high_n, w("wanted {0} to {1} N", {w.number(band.low_n, 2), w.number(band.high_n, 2)}));
   if (pane.hard > 0) plot.limit(pane.hard, w("limit {0} N", {w.number(pane.hard, 1)}));
@@ -133,7 +133,7 @@ void draw_events(Ui& ui, const Plot& first, const DebriefPlots& plots, double y)
 
 /// "12.4 s  0.62 N  Too much force"
 std::string cursor_text(const Ui& ui, const DebriefPlots& plots, const Pane& pane, double t_s, const PlotEvent* event) {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const double value = pane.factor * plots.trace->at(*pane.values, t_s);
   std::string text = w.number(t_s - plots.trace->begin_s, 1) + " s  " +
                      (plots.lines.speed ? w.number(value, 0) + " mm/s" : w.number(value, 2) + " N");
@@ -160,7 +160,7 @@ ForceLines force_lines(const Exercise& exercise, const std::string& level_name) 
   return out;
 }
 
-std::vector<PlotEvent> plot_events(const Words& words, const std::vector<Event>& events, const ForceTrace& trace) {
+std::vector<PlotEvent> plot_events(const Translator& words, const std::vector<Event>& events, const ForceTrace& trace) {
   std::vector<PlotEvent> out;
   for (const Event& event : events) {
     const std::string text = event_words(words, event);

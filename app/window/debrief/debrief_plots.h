@@ -30,7 +30,7 @@ struct PlotEvent {
   bool own = false;  ///< the trainee marked it
 };
 /// Those within the trace that a trainee should see (event_words).
-std::vector<PlotEvent> plot_events(const Words& words, const std::vector<Event>& events, const ForceTrace& trace);
+std::vector<PlotEvent> plot_events(const Translator& words, const std::vector<Event>& events, const ForceTrace& trace);
 /// The first of the worst: where to look first. Nothing without an event worth it.
 std::optional<double> worst_moment(const std::vector<PlotEvent>& events);
 

@@ -69,7 +69,7 @@ void DebriefScreen::look_at(PracticeModel& model) {
 
 /// All texts, in the language of now.
 void DebriefScreen::say(PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const Exercise& exercise = exercise_of(model, *result_);
   language_ = w.language();
   content_.facts = debrief_facts(w, *result_, exercise, past_);

@@ -71,7 +71,7 @@ Area device_panel_area(const Ui& ui, bool right) {
 }
 
 void DevicePanel::draw(Ui& ui, const PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const DeviceReading& r = reading_;
   const double all = ui.room();
   auto joints = joint_rows(r);
@@ -116,7 +116,7 @@ void DevicePanel::frame(Ui& ui, PracticeModel& model, const TickRecord& record, 
   ui.begin_panel("device", area);
   ui.in_front();
   ui.scroll_by_keys();
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const std::string closes = w.name(key_name(model.keys().key_of(Action::kDevicePanel)));
   ui.line(w("Device, {0} s.  {1} closes, {2} copies", {w.number(reading_.t_s, 1), closes, w.name(kCopyKey)}),
           Ink::kHeading);
@@ -125,7 +125,7 @@ void DevicePanel::frame(Ui& ui, PracticeModel& model, const TickRecord& record, 
 }
 
 void DevicePanel::copy(PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const bool kept = model.database() != ":memory:";
   try {
     const auto folder = kept ? model.database().parent_path() : default_database_path().parent_path();

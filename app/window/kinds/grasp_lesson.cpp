@@ -4,7 +4,7 @@
 namespace trocar {
 namespace {
 
-std::vector<LessonStep> grasp_steps(const Words& w, const Exercise& e, const ExerciseLevel& level) {
+std::vector<LessonStep> grasp_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level) {
   const std::string grip = level.grasp.colour_cue
                                ? w("Grip it: bands round a block tell its foam, one the softest, three the hardest.")
                                : w("Grip it: no colour tells the foam, feel how hard it is.");
@@ -15,7 +15,8 @@ std::vector<LessonStep> grasp_steps(const Words& w, const Exercise& e, const Exe
            w("Set it down, its middle {0} or less from the ring's.", {millimetres(w, level.grasp.place_tolerance_m)})}};
 }
 
-void add_grasp_limits(const Words& w, const Exercise& e, const ExerciseLevel& level, std::vector<LessonLimit>& out) {
+void add_grasp_limits(const Translator& w, const Exercise& e, const ExerciseLevel& level,
+                      std::vector<LessonLimit>& out) {
   out.push_back({w("Blocks"), std::to_string(e.layout.count)});
   if (level.grasp.colour_cue) {
     int bands = 0;
@@ -34,7 +35,9 @@ KindLesson grasp_lesson() {
   return {
       .kind = ExerciseKind::kGrasp,
       .skill =
-          [](const Words& w) { return w("Skill: a grip that holds and does not hurt, lifted and set down gently."); },
+          [](const Translator& w) {
+            return w("Skill: a grip that holds and does not hurt, lifted and set down gently.");
+          },
       .steps = grasp_steps,
       .add_limits = add_grasp_limits,
       .display = {words("Block {0}."), words("Hold it with {0}."), words("A little tighter"),

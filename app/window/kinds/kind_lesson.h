@@ -10,11 +10,11 @@ namespace trocar {
 
 struct KindLesson {
   ExerciseKind kind;
-  std::string (*skill)(const Words&);
+  std::string (*skill)(const Translator&);
   /// After the rest at the start.
-  std::vector<LessonStep> (*steps)(const Words&, const Exercise&, const ExerciseLevel&);
+  std::vector<LessonStep> (*steps)(const Translator&, const Exercise&, const ExerciseLevel&);
   /// What only this kind limits.
-  void (*add_limits)(const Words&, const Exercise&, const ExerciseLevel&, std::vector<LessonLimit>&);
+  void (*add_limits)(const Translator&, const Exercise&, const ExerciseLevel&, std::vector<LessonLimit>&);
   /// What director and display say in it: for the check of the catalogues, which finds sentences by "words".
   std::vector<const char*> display;
 };

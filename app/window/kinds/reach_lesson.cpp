@@ -4,7 +4,7 @@
 namespace trocar {
 namespace {
 
-std::vector<LessonStep> reach_steps(const Words& w, const Exercise& e, const ExerciseLevel& level) {
+std::vector<LessonStep> reach_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level) {
   return {{StepIcon::kReach,
            w("Bring the tip to the lit pen, to {0} or nearer.", {millimetres(w, level.position_tolerance_m)})},
           {StepIcon::kTurn,
@@ -12,7 +12,7 @@ std::vector<LessonStep> reach_steps(const Words& w, const Exercise& e, const Exe
           {StepIcon::kHold, w("Hold still for {0} s; the next pen lights.", {brief(w, e.hold_s)})}};
 }
 
-void add_reach_limits(const Words& w, const Exercise& e, const ExerciseLevel&, std::vector<LessonLimit>& out) {
+void add_reach_limits(const Translator& w, const Exercise& e, const ExerciseLevel&, std::vector<LessonLimit>& out) {
   out.push_back({w("Pens"), std::to_string(e.layout.count)});
   out.push_back({w("A pen's time"), w("{0} s, then it comes back at the end", {brief(w, e.pens.timeout_s)})});
 }
@@ -22,7 +22,7 @@ void add_reach_limits(const Words& w, const Exercise& e, const ExerciseLevel&, s
 KindLesson reach_lesson() {
   return {.kind = ExerciseKind::kReach,
           .skill =
-              [](const Words& w) {
+              [](const Translator& w) {
                 return w("Skill: depth from a flat picture, and turning the instrument where you want it.");
               },
           .steps = reach_steps,

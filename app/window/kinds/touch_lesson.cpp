@@ -4,7 +4,7 @@
 namespace trocar {
 namespace {
 
-std::vector<LessonStep> touch_steps(const Words& w, const Exercise& e, const ExerciseLevel& level) {
+std::vector<LessonStep> touch_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level) {
   const std::string force = level.bands.size() == 1
                                 ? newtons_between(w, level.bands.front().low_n, level.bands.front().high_n)
                                 : w("the force that the bar asks for");
@@ -16,7 +16,8 @@ std::vector<LessonStep> touch_steps(const Words& w, const Exercise& e, const Exe
                                  {newtons_between(w, e.grip.low_n, e.grip.high_n), brief(w, e.grip.hold_s)})}};
 }
 
-void add_touch_limits(const Words& w, const Exercise& e, const ExerciseLevel& level, std::vector<LessonLimit>& out) {
+void add_touch_limits(const Translator& w, const Exercise& e, const ExerciseLevel& level,
+                      std::vector<LessonLimit>& out) {
   std::string wanted;
   for (const WantedForce& one : level.bands) {
     const std::string said = newtons_between(w, one.low_n, one.high_n);
@@ -35,7 +36,8 @@ void add_touch_limits(const Words& w, const Exercise& e, const ExerciseLevel& le
 
 KindLesson touch_lesson() {
   return {.kind = ExerciseKind::kTouch,
-          .skill = [](const Words& w) { return w("Skill: touching where you mean to, with a force that you choose."); },
+          .skill =
+              [](const Translator& w) { return w("Skill: touching where you mean to, with a force that you choose."); },
           .steps = touch_steps,
           .add_limits = add_touch_limits,
           .display = {words("Too hard - ease off"),

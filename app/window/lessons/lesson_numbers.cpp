@@ -5,7 +5,7 @@
 
 namespace trocar {
 
-std::string brief(const Words& w, double value) {
+std::string brief(const Translator& w, double value) {
   for (const int decimals : {0, 1, 2}) {
     const double scale = std::pow(10, decimals);
     if (std::abs(std::round(value * scale) / scale - value) < 1e-9) return w.number(value, decimals);
@@ -13,12 +13,12 @@ std::string brief(const Words& w, double value) {
   return w.number(value, 2);
 }
 
-std::string newtons(const Words& w, double n) { return w("{0} N", {brief(w, n)}); }
-std::string newtons_between(const Words& w, double low, double high) {
+std::string newtons(const Translator& w, double n) { return w("{0} N", {brief(w, n)}); }
+std::string newtons_between(const Translator& w, double low, double high) {
   return w("{0} to {1} N", {brief(w, low), brief(w, high)});
 }
-std::string millimetres(const Words& w, double m) { return w("{0} mm", {brief(w, 1e3 * m)}); }
-std::string degrees(const Words& w, double rad) {
+std::string millimetres(const Translator& w, double m) { return w("{0} mm", {brief(w, 1e3 * m)}); }
+std::string degrees(const Translator& w, double rad) {
   return w("{0} degrees", {brief(w, std::round(rad * 1800 / std::numbers::pi) / 10)});
 }
 

@@ -3,16 +3,16 @@
 
 #include <string>
 
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 namespace trocar {
 
 /// Two decimals at most, no zeros at the end.
-std::string brief(const Words& words, double value);
-std::string newtons(const Words& words, double n);
+std::string brief(const Translator& words, double value);
+std::string newtons(const Translator& words, double n);
 /// "0.4 to 0.8 N".
-std::string newtons_between(const Words& words, double low, double high);
-std::string millimetres(const Words& words, double m);
-std::string degrees(const Words& words, double rad);
+std::string newtons_between(const Translator& words, double low, double high);
+std::string millimetres(const Translator& words, double m);
+std::string degrees(const Translator& words, double rad);
 
 }  // namespace trocar

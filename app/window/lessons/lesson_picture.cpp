@@ -127,7 +127,7 @@ std::optional<SceneView> LessonPicture::view(PracticeModel& model, double dt_s) 
   return lesson_view(*s.scene, s.t_s);
 }
 
-std::string LessonPicture::caption(const Words& w) const {
+std::string LessonPicture::caption(const Translator& w) const {
   if (!state_->scene) return "";
   return state_->film ? w("Replay of the scripted expert") : w("Still scene");
 }

@@ -31,7 +31,7 @@ class LessonPicture {
   /// @return nothing while there is none.
   std::optional<SceneView> view(PracticeModel& model, double dt_s);
   /// "Expert, 12 s" or "Still scene"; empty without a picture.
-  std::string caption(const Words& words) const;
+  std::string caption(const Translator& words) const;
   /// Waits for the scene of the choice: pictures and tests.
   void settle(PracticeModel& model, double wait_s);
 

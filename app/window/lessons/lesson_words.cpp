@@ -18,7 +18,7 @@ std::string clock(double seconds) {
 }
 
 /// A metric's value in the unit that people read: mm for m.
-std::string metric_value(const Words& w, const MetricDefinition* metric, double value) {
+std::string metric_value(const Translator& w, const MetricDefinition* metric, double value) {
   const std::string unit = metric ? std::string(metric->unit) : "";
   if (unit == "m") return w("{0} mm", {brief(w, 1e3 * value)});
   if (unit == "1" || unit.empty()) return brief(w, value);
@@ -27,13 +27,13 @@ std::string metric_value(const Words& w, const MetricDefinition* metric, double 
 
 }  // namespace
 
-std::string lesson_title(const Words& w, const Exercise& exercise, const std::string& level) {
+std::string lesson_title(const Translator& w, const Exercise& exercise, const std::string& level) {
   return exercise.number + " " + w(exercise.title) + " - " + w(level);
 }
 
-std::string lesson_skill(const Words& w, const Exercise& exercise) { return lesson_of(exercise).skill(w); }
+std::string lesson_skill(const Translator& w, const Exercise& exercise) { return lesson_of(exercise).skill(w); }
 
-std::vector<LessonStep> lesson_steps(const Words& w, const Exercise& exercise, const ExerciseLevel& level) {
+std::vector<LessonStep> lesson_steps(const Translator& w, const Exercise& exercise, const ExerciseLevel& level) {
   std::vector<LessonStep> out{
       {StepIcon::kRest, w("Rest the tip in the ball at the start for {0} s: the clock then begins.",
                           {brief(w, exercise.start_hold_s)})}};
@@ -41,7 +41,7 @@ std::vector<LessonStep> lesson_steps(const Words& w, const Exercise& exercise, c
   return out;
 }
 
-std::vector<LessonLimit> lesson_limits(const Words& w, const Exercise& exercise, const ExerciseLevel& level) {
+std::vector<LessonLimit> lesson_limits(const Translator& w, const Exercise& exercise, const ExerciseLevel& level) {
   std::vector<LessonLimit> out{{w("Time"), w("{0} min at most", {clock(level.time_limit_s)})}};
   lesson_of(exercise).add_limits(w, exercise, level, out);
   if (kind_of(exercise).watched != WatchedForce::kNone) {
@@ -51,7 +51,7 @@ std::vector<LessonLimit> lesson_limits(const Words& w, const Exercise& exercise,
   return out;
 }
 
-std::vector<LessonMeasure> lesson_measures(const Words& w, const ExerciseLevel& level) {
+std::vector<LessonMeasure> lesson_measures(const Translator& w, const ExerciseLevel& level) {
   std::vector<LessonMeasure> out;
   for (const SubscoreRule& rule : level.rubric.subscores) {
     const MetricDefinition* metric = find_metric(rule.metric);
@@ -70,27 +70,27 @@ std::vector<LessonMeasure> lesson_measures(const Words& w, const ExerciseLevel& 
   return out;
 }
 
-std::string lesson_rule(const Words& w, const Rubric& rubric) {
+std::string lesson_rule(const Translator& w, const Rubric& rubric) {
   return w(
       "Each measure earns its weight in full at one value and nothing at the other, in a straight line between. Pass "
       "from {0} of 100.",
       {brief(w, rubric.pass_at)});
 }
 
-std::string lesson_display(const Words& w, const ExerciseLevel& level) {
+std::string lesson_display(const Translator& w, const ExerciseLevel& level) {
   if (level.force_display == "band")
     return w("Force bar: only outside the limits. You see it when something is wrong.");
   if (level.force_display == "after") return w("Force bar: after the run. Feel the force; you see it in the debrief.");
   return w("Force bar: always. You see the force all the time.");
 }
 
-std::string lesson_tool(const Words& w, const Exercise& exercise, const ExerciseLevel& level) {
+std::string lesson_tool(const Translator& w, const Exercise& exercise, const ExerciseLevel& level) {
   const std::string tool = kind_of(exercise).tool == ToolKind::kProbe ? w("Probe, 5 mm") : w("Grasper, 5 mm");
   if (level.mapping == Mapping::kFulcrum) return w("{0}, through a port: the tip moves against the hand.", {tool});
   return w("{0}, one hand, no port: the tip moves with the hand.", {tool});
 }
 
-std::string lesson_scope(const Words& w, const std::string& degrees, const std::string& post_left,
+std::string lesson_scope(const Translator& w, const std::string& degrees, const std::string& post_left,
                          const std::string& post_right) {
   if (degrees == "0") return w("Scope 0 degrees, held by an assistant.");
   return w("Scope 30 degrees, held by an assistant; {0} and {1} turn its light post.", {post_left, post_right});

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 #include "scenarios/exercise.h"
 
 namespace trocar {
@@ -36,21 +36,21 @@ struct LessonMeasure {
   std::string gate;        ///< what a bad value does to the whole score; empty: nothing
 };
 
-std::string lesson_skill(const Words& words, const Exercise& exercise);
+std::string lesson_skill(const Translator& words, const Exercise& exercise);
 /// 3 to 6 steps.
-std::vector<LessonStep> lesson_steps(const Words& words, const Exercise& exercise, const ExerciseLevel& level);
-std::vector<LessonLimit> lesson_limits(const Words& words, const Exercise& exercise, const ExerciseLevel& level);
-std::vector<LessonMeasure> lesson_measures(const Words& words, const ExerciseLevel& level);
+std::vector<LessonStep> lesson_steps(const Translator& words, const Exercise& exercise, const ExerciseLevel& level);
+std::vector<LessonLimit> lesson_limits(const Translator& words, const Exercise& exercise, const ExerciseLevel& level);
+std::vector<LessonMeasure> lesson_measures(const Translator& words, const ExerciseLevel& level);
 /// "Score = 100 x sum of weight x ...; pass from 75": the rule beneath the table.
-std::string lesson_rule(const Words& words, const Rubric& rubric);
+std::string lesson_rule(const Translator& words, const Rubric& rubric);
 /// The display mode and what it means.
-std::string lesson_display(const Words& words, const ExerciseLevel& level);
-std::string lesson_tool(const Words& words, const Exercise& exercise, const ExerciseLevel& level);
+std::string lesson_display(const Translator& words, const ExerciseLevel& level);
+std::string lesson_tool(const Translator& words, const Exercise& exercise, const ExerciseLevel& level);
 /// @param degrees of its tip, "0" or "30". @param post_left,post_right names of the keys that turn its light post.
-std::string lesson_scope(const Words& words, const std::string& degrees, const std::string& post_left,
+std::string lesson_scope(const Translator& words, const std::string& degrees, const std::string& post_left,
                          const std::string& post_right);
 
 /// "E02 Surface touch - L1".
-std::string lesson_title(const Words& words, const Exercise& exercise, const std::string& level);
+std::string lesson_title(const Translator& words, const Exercise& exercise, const std::string& level);
 
 }  // namespace trocar

@@ -68,7 +68,7 @@ void add_arrow(const Vec3& tip_T, const Vec3& force_T, std::vector<SceneObject>&
   }
 }
 
-std::string wall_words(const Words& w, NotchWall wall) {
+std::string wall_words(const Translator& w, NotchWall wall) {
   switch (wall) {
     case NotchWall::kNone:
       return w("nothing");
@@ -138,7 +138,7 @@ std::optional<ScreenName> NotchScreen::handle(const InputEvent& event, PracticeM
 }
 
 std::string NotchScreen::side(Ui& ui, PracticeModel& model, const Area& area) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.begin_panel("notch", area);
   ui.scroll_by_keys();
   ui.heading(w("The notch"));

@@ -16,7 +16,7 @@ constexpr double kListMargin = 16, kListGap = 10, kTree = 410, kListHead = 140, 
 /// Too little room beside the tree for a card in parts: large text, or a small window.
 bool compact_list(const Ui& ui) { return ui.width() < ui.px(1150) || ui.height() < ui.px(650); }
 
-std::string score_words(const Words& w, const std::optional<double>& score) {
+std::string score_words(const Translator& w, const std::optional<double>& score) {
   return score ? w.number(*score, 0) : w("none");
 }
 
@@ -28,7 +28,7 @@ Mark standing_mark(const Standing& s) {
   return s.passed == 1 ? Mark::kHalf : Mark::kOpen;
 }
 
-std::string standing_words(const Words& w, const Exercise& exercise, const std::string& level, const Standing& s) {
+std::string standing_words(const Translator& w, const Exercise& exercise, const std::string& level, const Standing& s) {
   if (!s.unlocked) {
     const auto at = std::find_if(exercise.levels.begin(), exercise.levels.end(),
                                  [&](const ExerciseLevel& l) { return l.name == level; });
@@ -70,7 +70,7 @@ void CurriculumScreen::keys(const Ui& ui, PracticeModel& model) {
 }
 
 void CurriculumScreen::tree(Ui& ui, PracticeModel& model, const Area& area) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.begin_panel("course", area);
   if (!compact_list(ui)) ui.title(w("Course"));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -88,14 +88,14 @@ void CurriculumScreen::tree(Ui& ui, PracticeModel& model, const Area& area) {
 }
 
 void CurriculumScreen::head(Ui& ui, PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.title(lesson_title(w, model.exercise(), model.level), model.who());
   ui.text(w(model.exercise().goal));
   ui.text(lesson_skill(w, model.exercise()), Ink::kDim);
 }
 
 void CurriculumScreen::facts(Ui& ui, PracticeModel& model, double sparkline_at_720) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const Row& row = rows_[chosen_];
   const Standing& s = row.standing;
   const double pass = find_level(*row.exercise, row.level).rubric.pass_at;
@@ -116,7 +116,7 @@ void CurriculumScreen::facts(Ui& ui, PracticeModel& model, double sparkline_at_7
 }
 
 void CurriculumScreen::advice(Ui& ui, PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   if (const auto note = model.teacher_note()) {
     ui.heading(w("Your teacher"));
     ui.marked(Mark::kInfo, *note);
@@ -190,7 +190,7 @@ std::optional<ScreenName> CurriculumScreen::frame(Ui& ui, PracticeModel& model, 
   dt_s_ = dt_s;
   ui.keys_to_screen();
   keys(ui, model);
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const double margin = ui.px(kListMargin), gap = ui.px(kListGap), wide = ui.width() - 2 * margin;
   std::vector<RowButton> buttons{{"brief", w("Briefing"), "Enter", true}};
   if (last_) buttons.push_back({"repeat", w("Repeat last"), "R"});

@@ -17,7 +17,7 @@ namespace trocar {
 /// How a standing is shown: a shape with words, colour only beside them.
 Mark standing_mark(const Standing& standing);
 /// "L1: passed 2 x", "L2: needs L1 passed 3 x in a row".
-std::string standing_words(const Words& words, const Exercise& exercise, const std::string& level,
+std::string standing_words(const Translator& words, const Exercise& exercise, const std::string& level,
                            const Standing& standing);
 /// What the newest attempt of all was of; none before the first.
 struct LastTried {

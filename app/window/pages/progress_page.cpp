@@ -15,14 +15,14 @@ Mark standing_mark(const ProgressEntry& entry) {
   return entry.curve.passed > 0 ? Mark::kHalf : Mark::kOpen;
 }
 
-std::string curve_legend(const Words& w) {
+std::string curve_legend(const Translator& w) {
   return w("Score by attempt; full disc: passed, ring: not yet, triangle: left, diamond: decided by a person");
 }
-std::string cusum_legend(const Words& w) {
+std::string cusum_legend(const Translator& w) {
   return w("CUSUM by attempt; disc: showing competence, diamond: keeping it");
 }
 
-std::string minutes(const Words& w, double seconds) {
+std::string minutes(const Translator& w, double seconds) {
   return seconds < 60 ? w("{0} s", {w.number(seconds, 0)})
                       : w("{0} min", {w.number(seconds / 60, seconds < 600 ? 1 : 0)});
 }
@@ -44,7 +44,7 @@ void attempt_mark(Plot& plot, const PastAttempt& attempt, double n) {
 
 }  // namespace
 
-std::string competence_words(const Words& w, const std::vector<CusumPoint>& points, const CusumRule& rule) {
+std::string competence_words(const Translator& w, const std::vector<CusumPoint>& points, const CusumRule& rule) {
   const Competence c = competence_of(points);
   const std::string value = w.number(c.value, 1);
   if (c.shown && c.relapses == 0)
@@ -60,7 +60,7 @@ std::string competence_words(const Words& w, const std::vector<CusumPoint>& poin
 }
 
 void ProgressPage::list(Ui& ui, const std::vector<ProgressEntry>& entries, const std::string& who) {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   ui.title(w("My progress"));
   double trained = 0;
   int attempts = 0;
@@ -83,7 +83,7 @@ void ProgressPage::list(Ui& ui, const std::vector<ProgressEntry>& entries, const
 }
 
 void ProgressPage::curve_plot(Ui& ui, const ProgressEntry& entry, double height_at_720) {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const auto& attempts = entry.curve.attempts;
   const int count = static_cast<int>(attempts.size());
   ui.text(curve_legend(w), Ink::kDim);
@@ -120,7 +120,7 @@ void ProgressPage::curve_plot(Ui& ui, const ProgressEntry& entry, double height_
 
 void ProgressPage::cusum_plot(Ui& ui, const ProgressEntry& entry, double height_at_720) const {
   using Test = CusumPoint::Test;
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const CusumRule rule;
   ui.text(cusum_legend(w), Ink::kDim);
   const Area area = ui.drawing("cusum", height_at_720);
@@ -151,7 +151,7 @@ void ProgressPage::cusum_plot(Ui& ui, const ProgressEntry& entry, double height_
 }
 
 void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const LearningCurve& c = entry.curve;
   ui.heading(w("{0}, by {1}", {entry.name, entry.input}));
   const auto count = static_cast<int>(c.attempts.size());
@@ -178,7 +178,8 @@ void ProgressPage::details(Ui& ui, const ProgressEntry& entry) {
   ui.text(said, Ink::kDim);
 }
 
-std::vector<RowButton> ProgressPage::foot_buttons(const Words& w, const std::vector<ProgressEntry>& entries) const {
+std::vector<RowButton> ProgressPage::foot_buttons(const Translator& w,
+                                                  const std::vector<ProgressEntry>& entries) const {
   std::vector<RowButton> out{{"back", w("Back"), "Esc", true}};
   if (!entries.empty()) out.push_back({"csv", w("Export as CSV"), "X"});
   if (!entries.empty() && attempt_ >= 0)
@@ -196,7 +197,7 @@ ProgressChoice ProgressPage::meant(const std::string& id, const std::vector<Prog
 }
 
 ProgressChoice ProgressPage::draw(Ui& ui, const std::vector<ProgressEntry>& entries, const std::string& who) {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const double margin = std::min(ui.px(kProgressMargin), 0.02 * ui.width()), gap = ui.px(8),
                wide = ui.width() - 2 * margin;
   const std::vector<RowButton> buttons = foot_buttons(w, entries);

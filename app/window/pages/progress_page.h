@@ -45,13 +45,14 @@ class ProgressPage {
   void details(Ui& ui, const ProgressEntry& entry);
   void curve_plot(Ui& ui, const ProgressEntry& entry, double height_at_720);
   void cusum_plot(Ui& ui, const ProgressEntry& entry, double height_at_720) const;
-  std::vector<RowButton> foot_buttons(const Words& w, const std::vector<ProgressEntry>& entries) const;
+  std::vector<RowButton> foot_buttons(const Translator& w, const std::vector<ProgressEntry>& entries) const;
   ProgressChoice meant(const std::string& id, const std::vector<ProgressEntry>& entries) const;
 
   int chosen_ = 0, attempt_ = -1;
 };
 
 /// "Competence is shown ..." in one sentence.
-std::string competence_words(const Words& words, const std::vector<CusumPoint>& points, const CusumRule& rule = {});
+std::string competence_words(const Translator& words, const std::vector<CusumPoint>& points,
+                             const CusumRule& rule = {});
 
 }  // namespace trocar

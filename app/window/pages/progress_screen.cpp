@@ -24,7 +24,7 @@ std::vector<AttemptSummary> newest_first(const LearningCurve& curve) {
 }
 
 ProgressEntry entry_of(const PracticeModel& model, LearningCurve curve) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ProgressEntry out;
   const CurveKey key = curve.key;
   const auto& all = model.exercises();
@@ -73,7 +73,7 @@ std::filesystem::path export_attempts(const PracticeModel& model) {
 
 std::optional<ScreenName> ProgressScreen::frame(Ui& ui, PracticeModel& model, double /*dt_s*/) {
   using Kind = ProgressChoice::Kind;
-  const Words& w = model.words();
+  const Translator& w = model.words();
   if (!entries_ || language_ != w.language() || trainee_ != model.trainee()) {
     entries_ = progress_of(model);
     language_ = w.language();

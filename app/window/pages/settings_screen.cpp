@@ -26,7 +26,7 @@ bool name_choice(Ui& ui, const char* id, const std::string& text, const std::vec
 }  // namespace
 
 void SettingsScreen::general(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   Settings& s = model.settings();
   bool changed = false;
   if (languages_.empty()) languages_ = languages(model.assets().assets / "languages");
@@ -56,7 +56,7 @@ void SettingsScreen::general(Ui& ui, PracticeModel& model) {
 }
 
 void SettingsScreen::hand(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   Settings& s = model.settings();
   bool changed = name_choice(ui, "input", w("Steered by"),
                              {w("What moves first"), w("Mouse"), w("Gamepad"), w("SpaceMouse"), w("Device")},
@@ -70,7 +70,7 @@ void SettingsScreen::hand(Ui& ui, PracticeModel& model) {
 }
 
 void SettingsScreen::keys(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.heading(w("Keys"));
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
   for (const ActionName& action : action_names()) {
@@ -106,7 +106,7 @@ std::optional<ScreenName> SettingsScreen::handle(const InputEvent& event, Practi
 }
 
 std::optional<ScreenName> SettingsScreen::frame(Ui& ui, PracticeModel& model, double /*dt_s*/) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   if (waiting_for_) ui.keys_to_screen();
   std::optional<ScreenName> to;
   const double margin = std::min(ui.px(24), 0.02 * ui.width()), gap = ui.px(12);

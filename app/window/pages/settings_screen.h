@@ -7,7 +7,7 @@
 
 #include "app/window/input/key_map.h"
 #include "app/window/practice/screen.h"
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 namespace trocar {
 

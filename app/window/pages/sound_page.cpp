@@ -16,7 +16,7 @@ struct Row {
   std::string sound, when;
 };
 
-std::vector<Row> rows(const Words& w) {
+std::vector<Row> rows(const Translator& w) {
   return {{"touch", Tone::kTouch, w("Short high note"), w("The tip touches.")},
           {"release", Tone::kRelease, w("Short low note"), w("The tip lets go.")},
           {"good", Tone::kGood, w("Two rising notes"), w("A disc, pen or block is done.")},
@@ -39,7 +39,7 @@ void hold(Sound& sound, HeldTone tone, double level) {
 }  // namespace
 
 void SoundPage::frame(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.text(w("Nothing is heard that is not seen too. Choose a sound to hear it."), Ink::kDim);
   if (!model.sound().refusal().empty()) ui.marked(Mark::kInfo, w.made(model.sound().refusal()));
   for (const Row& row : rows(w)) {

@@ -50,7 +50,7 @@ std::optional<Screen::Stage> StartScreen::stage(PracticeModel& model, int width,
 }
 
 std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   std::optional<ScreenName> to;
   const bool coded = !code_.empty();  // what Enter means is blue
   if (ui.button("try", w("Try now as a guest"), coded ? "" : "Enter", !coded, kPanelWidth - 36)) {
@@ -72,7 +72,7 @@ std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeModel& model) 
 }
 
 std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const PracticeModel::Advice advice = model.next();
   std::optional<ScreenName> to;
   ui.marked(Mark::kTick, w("Signed in as {0}", {model.trainee()}));
@@ -92,7 +92,7 @@ std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeModel& model
 }
 
 std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   std::optional<ScreenName> to;
   if (languages_.empty()) languages_ = languages(model.assets().assets / "languages");
   std::vector<std::string> names;
@@ -118,7 +118,7 @@ void StartScreen::caption(Ui& ui, const PracticeModel& model) const {
   const Area panel = panel_area(model.scale(), ui.width(), ui.height());
   const double free = free_width(panel, ui.width());
   if (!scene_ || free <= 0) return;
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const std::string said = film_ && film_->ready() ? w("Replay of the expert: {0}", {w.name(film_->scene().organ.name)})
                                                    : w("Still scene, synthetic: no patient.");
   const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), high = ui.line_height(),
@@ -131,7 +131,7 @@ void StartScreen::caption(Ui& ui, const PracticeModel& model) const {
 std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
   t_s_ += dt_s;
   if (film_) film_->advance(dt_s);
-  const Words& w = model.words();
+  const Translator& w = model.words();
   caption(ui, model);
   ui.begin_panel("start", panel_area(model.scale(), ui.width(), ui.height()));
   ui.title("Trocar");

@@ -7,7 +7,7 @@
 
 #include "app/picture/films/film_loop.h"
 #include "app/window/practice/screen.h"
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 namespace trocar {
 

@@ -22,7 +22,7 @@ namespace {
 constexpr int kStoring_ms = 500;  // that a result may take to the database before the person is told
 
 /// The parser's own words are English and for who writes programs: the line says enough.
-std::string unread_words(const Words& w, const Settings& settings, const std::filesystem::path& file) {
+std::string unread_words(const Translator& w, const Settings& settings, const std::filesystem::path& file) {
   const std::string kept = unread_settings(file).filename().string();
   if (settings.note_line > 0)
     return w("{0}, line {1}, cannot be read: the usual settings hold. With your next change it is kept as {2}.",
@@ -72,7 +72,7 @@ PracticeModel::~PracticeModel() = default;
 
 const AssetRoots& PracticeModel::assets() const { return state_->assets; }
 const std::vector<Exercise>& PracticeModel::exercises() const { return state_->exercises; }
-const Words& PracticeModel::words() const { return state_->words; }
+const Translator& PracticeModel::words() const { return state_->words; }
 double PracticeModel::scale() const {
   return std::clamp(state_->options.scale.value_or(state_->settings.scale), 1.0, 2.0);
 }
@@ -168,7 +168,7 @@ void PracticeModel::sign_out() {
 bool PracticeModel::is_demonstration() const { return state_->scripted(); }
 
 std::string PracticeModel::who() const {
-  const Words& w = state_->words;
+  const Translator& w = state_->words;
   if (state_->scripted()) return w("Demonstration");
   return is_guest() ? w("Guest") : w("Signed in as {0}", {trainee()});
 }
@@ -188,7 +188,7 @@ Standing PracticeModel::standing(const std::string& id, const std::string& of_le
 }
 
 PracticeModel::Advice PracticeModel::next() const {
-  const Words& w = state_->words;
+  const Translator& w = state_->words;
   const auto found = next_step(practice_order(state_->exercises, is_guest()),
                                [this](const Exercise& e, const std::string& name) { return standing(e.id, name); });
   if (!found) {
@@ -211,7 +211,7 @@ std::string PracticeModel::locked() const {
       std::find_if(levels.begin(), levels.end(), [this](const ExerciseLevel& one) { return one.name == level; });
   if (state_->scripted() || at == levels.begin() || at == levels.end() || standing(exercise_id, level).unlocked)
     return "";
-  const Words& w = state_->words;
+  const Translator& w = state_->words;
   const std::string& before = std::prev(at)->name;
   return w("{0} is locked: three passes in a row on three boards at {1} open it. So far: {2} of 3.",
            {w(level), w(before), std::to_string(std::min(3, standing(exercise_id, before).passed_in_a_row))});

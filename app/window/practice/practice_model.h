@@ -16,7 +16,7 @@
 #include "app/window/input/steering.h"
 #include "app/window/practice/standing.h"
 #include "app/window/sound/sound.h"
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 #include "scenarios/exercise.h"
 #include "trainees/progress/past_attempts.h"
 #include "trainees/records/attempt_store.h"
@@ -45,7 +45,7 @@ class PracticeModel {
 
   const AssetRoots& assets() const;
   const std::vector<Exercise>& exercises() const;
-  const Words& words() const;
+  const Translator& words() const;
   double scale() const;  ///< of text and buttons, 1 to 2
   Settings& settings();
   /// Saves the settings and takes up what they say (language, keys, sound). A full disk is a notice, not an end.

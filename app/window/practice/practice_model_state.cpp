@@ -37,10 +37,10 @@ void PracticeModel::State::take_up(std::string& notice) {
   std::string language = options.language.empty() ? settings.language : options.language;
   if (language.empty()) language = language_of_machine(folder);
   try {
-    if (language != words.language()) words = language == "en" ? Words() : Words(folder, language);
+    if (language != words.language()) words = language == "en" ? Translator() : Translator(folder, language);
   } catch (const InputError& error) {
     if (!options.language.empty()) throw;
-    words = Words();
+    words = Translator();
     notice = words("The language that was chosen cannot be used: {0}", {error.what()});
   }
   keys = KeyMap();

@@ -22,7 +22,7 @@ struct PracticeModel::State {
   AssetRoots assets;
   std::vector<Exercise> exercises;
   Settings settings, followed;  // as they are; as they were when they were last taken up
-  Words words;
+  Translator words;
   KeyMap keys;
   std::unique_ptr<Steering> steering;
   std::unique_ptr<Sound> sound;

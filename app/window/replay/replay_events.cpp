@@ -4,7 +4,7 @@
 #include "app/window/attempt/debrief_facts.h"
 
 namespace trocar {
-std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Words& words) {
+std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Translator& words) {
   std::vector<ReplayEvent> out;
   for (const Event& event : events) {
     const std::string said = event_words(words, event);

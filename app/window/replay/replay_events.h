@@ -18,7 +18,7 @@ struct ReplayEvent {
 };
 
 /// Those that a person saw happen; what only the grade reads is left out. @param begin_s loop time of RUN's beginning.
-std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Words& words);
+std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Translator& words);
 
 /// By shape and colour: a disc, a diamond, a warning triangle; a ring for one's own mark.
 void paint_event(Ui& ui, const ReplayEvent& event, double x, double y, double radius);

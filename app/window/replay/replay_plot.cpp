@@ -8,7 +8,7 @@
 namespace trocar {
 namespace {
 
-std::string one_decimal(const Words& w, double value) { return w.number(value, 1); }
+std::string one_decimal(const Translator& w, double value) { return w.number(value, 1); }
 
 /// A step of 1, 2 or 5 times a power of ten, at most `most` of them over the span.
 double tick_step(double span, double most) {

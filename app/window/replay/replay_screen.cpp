@@ -25,7 +25,9 @@ std::optional<ForceBar> telling_bar(const Scene& scene, const RunMoment& moment)
   return moment.status.cue == Cue::kGrip ? bars.back() : bars.front();
 }
 
-std::string speed_words(const Words& w, double speed) { return w("speed {0}", {w.number(speed, speed < 1 ? 2 : 0)}); }
+std::string speed_words(const Translator& w, double speed) {
+  return w("speed {0}", {w.number(speed, speed < 1 ? 2 : 0)});
+}
 
 }  // namespace
 
@@ -33,7 +35,7 @@ void ReplayScreen::Side::look_after() { seen = seen || (run && run->has_pictures
 
 void ReplayScreen::open(PracticeModel& model) {
   opened_ = true;
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const std::filesystem::path file = model.replay_file.empty() ? model.recording() : model.replay_file;
   begin_at_s_ = std::exchange(model.replay_at_s, {});
   beside_file_ = model.replay_beside;
@@ -126,7 +128,7 @@ void ReplayScreen::keys(Ui& ui) {
   if (ui.pressed("]")) clock_.jump(marks, 1);
 }
 
-std::string ReplayScreen::state_words(const Words& w) const {
+std::string ReplayScreen::state_words(const Translator& w) const {
   if (own_.run->stage() == RecordedRun::Stage::kFailed) return w("The replay stops here: {0}", {own_.run->failure()});
   if (!own_.run->torn().empty() && clock_.now_s() >= film_length(*own_.run))
     return w("The recording was cut off here.");
@@ -141,7 +143,7 @@ std::string ReplayScreen::state_words(const Words& w) const {
 }
 
 void ReplayScreen::heading(Ui& ui) const {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const Area area = ui.drawing("heading", ui.line_height() / ui.px(1));
   const std::string place = w("{0} s of {1} s", {w.number(clock_.now_s(), 2), w.number(clock_.to_s(), 1)});
   const std::string time = place + ", " + speed_words(w, clock_.speed());
@@ -157,7 +159,7 @@ void ReplayScreen::heading(Ui& ui) const {
 }
 
 void ReplayScreen::force_of(Ui& ui, const Side& side, const Area& area) const {
-  const Words& w = ui.words();
+  const Translator& w = ui.words();
   const RunMoment moment = side.run->at(loop_time(*side.run, clock_.now_s()));
   const bool over = clock_.now_s() > film_length(*side.run);
   const std::optional<ForceBar> bar = telling_bar(side.run->scene(), moment);
@@ -214,7 +216,7 @@ void ReplayScreen::time_line(Ui& ui, double height_px) {
   replay_plot(ui, area, content, clock_);
 }
 
-std::vector<RowButton> ReplayScreen::buttons(const Words& w) const {
+std::vector<RowButton> ReplayScreen::buttons(const Translator& w) const {
   const std::string loop = clock_.loop_b_s()   ? w("End the loop")
                            : clock_.loop_a_s() ? w("Loop to here")
                                                : w("Loop from here");
@@ -255,7 +257,7 @@ std::optional<ScreenName> ReplayScreen::panel(Ui& ui) {
 
 std::optional<ScreenName> ReplayScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
   look_after(model, dt_s);
-  const Words& w = model.words();
+  const Translator& w = model.words();
   if (own_.shown()) {
     keys(ui);
     return panel(ui);

@@ -49,9 +49,9 @@ class ReplayScreen final : public Screen {
   void forces(Ui& ui) const;
   void force_of(Ui& ui, const Side& side, const Area& area) const;
   void time_line(Ui& ui, double height_px);
-  std::vector<RowButton> buttons(const Words& w) const;
+  std::vector<RowButton> buttons(const Translator& w) const;
   std::optional<ScreenName> act(const std::string& chosen);
-  std::string state_words(const Words& w) const;
+  std::string state_words(const Translator& w) const;
   bool two() const { return beside_wanted_ && beside_.shown(); }
 
   bool opened_ = false, beside_wanted_ = false;

@@ -48,7 +48,7 @@ Mark check_mark(DeviceCheck::State state) {
   return Mark::kOpen;
 }
 
-std::string check_name(const Words& w, DeviceCheck::What what) {
+std::string check_name(const Translator& w, DeviceCheck::What what) {
   switch (what) {
     case DeviceCheck::What::kBoard:
       return w("Board and inputs");
@@ -64,7 +64,7 @@ std::string check_name(const Words& w, DeviceCheck::What what) {
 
 }  // namespace
 
-std::string check_words(const Words& w, const DeviceCheck::Line& line) {
+std::string check_words(const Translator& w, const DeviceCheck::Line& line) {
   const std::string name = check_name(w, line.what);
   if (line.state == DeviceCheck::State::kWaiting) return w("{0}: waits", {name});
   if (line.state == DeviceCheck::State::kRunning) return w("{0}: being measured", {name});
@@ -114,7 +114,7 @@ void BriefingScreen::steps(Ui& ui) const {
 }
 
 void BriefingScreen::stage_words(Ui& ui, PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const Exercise& exercise = model.exercise();
   const ExerciseLevel& level = find_level(exercise, model.level);
   ui.text(lesson_tool(w, exercise, level));
@@ -133,7 +133,7 @@ void BriefingScreen::limits(Ui& ui, PracticeModel& model) const {
 }
 
 void BriefingScreen::measures(Ui& ui, PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.heading(w("What is measured"));
   for (const LessonMeasure& m : measures_) ui.pair(m.gate.empty() ? m.name : w("{0} (safety)", {m.name}), m.weight);
   const double pass = find_level(model.exercise(), model.level).rubric.pass_at;
@@ -141,7 +141,7 @@ void BriefingScreen::measures(Ui& ui, PracticeModel& model) const {
 }
 
 void BriefingScreen::device(Ui& ui, PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.heading(w("Device check: simulated device"));
   for (const DeviceCheck::Line& line : check_->lines())
     ui.marked(check_mark(line.state), check_words(w, line),
@@ -149,7 +149,7 @@ void BriefingScreen::device(Ui& ui, PracticeModel& model) const {
 }
 
 std::optional<ScreenName> BriefingScreen::start(PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   if (find_level(model.exercise(), model.level).exam && !check_->sound()) {
     wrong_ = check_->finished() ? w("No exam on a device that fails its check. Other levels may be practised.")
                                 : w("An exam waits for the device check: try again in a moment.");
@@ -160,7 +160,7 @@ std::optional<ScreenName> BriefingScreen::start(PracticeModel& model) {
 }
 
 void BriefingScreen::head(Ui& ui, PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   ui.title(lesson_title(w, model.exercise(), model.level), model.who());
   ui.text(w(model.exercise().goal));
   if (!locked_.empty()) ui.marked(Mark::kLock, locked_, Ink::kCaution);
@@ -201,7 +201,7 @@ void BriefingScreen::sheet(Ui& ui, PracticeModel& model, const Area& area) {
 }
 
 std::string BriefingScreen::page(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const double m = ui.px(kMargin), gap = ui.px(kBriefingGap), wide = ui.width() - 2 * m;
   const RowButton first = locked_.empty()
                               ? RowButton{"start", w("Start"), "Enter", true}
@@ -222,7 +222,7 @@ std::string BriefingScreen::page(Ui& ui, PracticeModel& model) {
 }
 
 std::string BriefingScreen::explanation(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const double m = ui.px(kMargin), gap = ui.px(kBriefingGap), wide = ui.width() - 2 * m;
   const std::vector<RowButton> buttons{{"close", w("Back to the briefing"), "M", true}};
   const double foot = button_rows_height(ui, buttons, wide), high = ui.height() - 2 * m - foot - gap;

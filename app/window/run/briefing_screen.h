@@ -18,7 +18,7 @@
 namespace trocar {
 
 /// A line of the device check as a trainee reads it: "Weight left over 0.04 N (limit 0.20 N)".
-std::string check_words(const Words& words, const DeviceCheck::Line& line);
+std::string check_words(const Translator& words, const DeviceCheck::Line& line);
 
 class BriefingScreen final : public Screen {
  public:

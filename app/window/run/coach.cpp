@@ -40,7 +40,7 @@ void Coach::saw(const InputEvent& event, const KeyMap& keys) {
   }
 }
 
-std::vector<Coach::CoachMark> Coach::marks(const Words& words, const KeyMap& keys, InputKind kind) const {
+std::vector<Coach::CoachMark> Coach::marks(const Translator& words, const KeyMap& keys, InputKind kind) const {
   const auto name = [&](Action action) { return words.name(key_name(keys.key_of(action))); };
   switch (kind) {
     case InputKind::kPad:

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/window/input/key_map.h"
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 namespace trocar {
 
@@ -25,7 +25,7 @@ class Coach {
   /// While something is still to be tried, and a little longer.
   bool speaks() const { return wanted_ && over_s_ < kLinger_s; }
   void pass(double dt_s);
-  std::vector<CoachMark> marks(const Words& words, const KeyMap& keys, InputKind kind) const;
+  std::vector<CoachMark> marks(const Translator& words, const KeyMap& keys, InputKind kind) const;
 
  private:
   static constexpr double kLinger_s = 2;

@@ -5,11 +5,11 @@
 namespace trocar {
 namespace {
 
-void put(std::string& text, const Words& in) {
+void put(std::string& text, const Translator& in) {
   if (!text.empty()) text = in.made(text);
 }
 
-void put_labels(HudLabels& labels, const Words& in) {
+void put_labels(HudLabels& labels, const Translator& in) {
   for (std::string* text : {&labels.match, &labels.force, &labels.steps, &labels.so_far, &labels.device, &labels.tip,
                             &labels.angle, &labels.error, &labels.limit, &labels.peak, &labels.band, &labels.more})
     *text = in(*text);
@@ -18,7 +18,7 @@ void put_labels(HudLabels& labels, const Words& in) {
 
 }  // namespace
 
-Hud in_words(Hud hud, const Words& in) {
+Hud in_words(Hud hud, const Translator& in) {
   put_labels(hud.labels, in);
   put(hud.trainee, in);
   put(hud.title, in);

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "app/picture/scene/scene_view.h"
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 namespace trocar {
 
-Hud in_words(Hud hud, const Words& words);
+Hud in_words(Hud hud, const Translator& words);
 
 /// Every sentence that director and display make, with places for its values: what a catalogue must hold.
 const std::vector<std::string>& hud_sentences();

@@ -27,7 +27,7 @@ std::vector<Ui::Cell> key_row(const PracticeModel& model, const ActionName& acti
 }
 
 void key_tables(Ui& ui, const PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   for (const bool steering : {true, false}) {
     ui.heading(steering ? w("Steering with keys") : w("Commands"));
     std::vector<std::vector<Ui::Cell>> rows;
@@ -44,7 +44,7 @@ void key_tables(Ui& ui, const PracticeModel& model) {
 }
 
 void metric_table(Ui& ui, const PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   for (const MetricDefinition& metric : metric_catalogue()) {
     ui.heading(metric.unit.empty() ? std::string(metric.name)
                                    : std::string(metric.name) + "  [" + std::string(metric.unit) + "]");
@@ -56,7 +56,7 @@ void metric_table(Ui& ui, const PracticeModel& model) {
 }  // namespace
 
 MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   MenuChoice choice = MenuChoice::kNone;
   ui.begin_panel("menu", middle(ui, 460, attempt_runs ? 308 : 269), 0.97);
   ui.in_front();
@@ -75,7 +75,7 @@ MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs) {
 }
 
 bool help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const Area all = middle(ui, 900, 680);
   const double foot = ui.strip_height(1), gap = ui.px(8);
   ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot - gap}, 0.97);

@@ -243,7 +243,7 @@ std::optional<ScreenName> RunScreen::State::ended(PracticeModel& model) {
 }
 
 std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& model) {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const bool stands = model.running()->paused();
   const auto key = [&](Action action) { return key_name(model.keys().key_of(action)); };
   const bool silent = !model.running()->board_answers();
@@ -305,7 +305,7 @@ void RunScreen::State::coach_panel(Ui& ui, PracticeModel& model) const {
 
 /// In the black corner below the round field.
 void RunScreen::State::key_hints(Ui& ui, const PracticeModel& model) const {
-  const Words& w = model.words();
+  const Translator& w = model.words();
   const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
   std::vector<std::string> lines{key(Action::kPause) + "  " + w("Pause"), key(Action::kHelp) + "  " + w("Help")};
   if (model.scope() != "0")

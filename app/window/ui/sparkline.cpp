@@ -13,7 +13,8 @@ std::vector<double> scores_oldest_first(const Standing& standing) {
   return out;
 }
 
-void paint_sparkline(Ui& ui, const Words& words, const Area& area, const std::vector<double>& scores, double pass_at) {
+void paint_sparkline(Ui& ui, const Translator& words, const Area& area, const std::vector<double>& scores,
+                     double pass_at) {
   const double pad = ui.px(8), label = ui.text_width("100") + ui.px(8), left = area.x + label,
                right = area.x + area.width - pad;
   const double line = ui.line_height();

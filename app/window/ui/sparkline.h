@@ -12,6 +12,7 @@ namespace trocar {
 std::vector<double> scores_oldest_first(const Standing& standing);
 
 /// Dots joined by a line, a passed one full, others open; the pass line dashed with its number. 0 to 100 upwards.
-void paint_sparkline(Ui& ui, const Words& words, const Area& area, const std::vector<double>& scores, double pass_at);
+void paint_sparkline(Ui& ui, const Translator& words, const Area& area, const std::vector<double>& scores,
+                     double pass_at);
 
 }  // namespace trocar

@@ -69,7 +69,7 @@ double UiParts::draw(Ui& ui, double x, double y, const std::string& text, Ink in
   return w;
 }
 
-Ui::Ui(const Words& words, double scale, int width_px, int height_px)
+Ui::Ui(const Translator& words, double scale, int width_px, int height_px)
     : words_(words), scale_(ui_unit(scale, width_px, height_px)), width_(width_px), height_(height_px) {}
 
 double Ui::px(double at_720) const { return at_720 * scale_; }

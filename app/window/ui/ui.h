@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 namespace trocar {
 
@@ -32,9 +32,9 @@ struct Area {
 
 class Ui {
  public:
-  Ui(const Words& words, double scale, int width_px, int height_px);
+  Ui(const Translator& words, double scale, int width_px, int height_px);
 
-  const Words& words() const { return words_; }
+  const Translator& words() const { return words_; }
   double px(double at_720) const;  ///< length at this scale
   double width() const { return width_; }
   double height() const { return height_; }
@@ -137,7 +137,7 @@ class Ui {
 
  private:
   friend class UiParts;
-  const Words& words_;
+  const Translator& words_;
   double scale_, width_, height_;
   std::vector<DrawnText> drawn_;
   std::vector<std::string> scrolling_;

@@ -27,7 +27,7 @@ class AdviceTest : public ::testing::Test {
   std::string said(const AttemptResult& result, const Exercise& exercise) const {
     return advice(words_, result, debrief_facts(words_, result, exercise), exercise);
   }
-  const Words words_;
+  const Translator words_;
   const Exercise touch_ = shipped_exercise("surface-touch");
 };
 

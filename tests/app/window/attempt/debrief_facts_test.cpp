@@ -36,7 +36,7 @@ class DebriefFactsTest : public ::testing::Test {
     return debrief_facts(words_, result, touch_, past);
   }
 
-  const Words words_;
+  const Translator words_;
   const Exercise touch_ = shipped_exercise("surface-touch"), grasp_ = shipped_exercise("limited-grasp"),
                  reach_ = shipped_exercise("reach-and-orient");
 };
@@ -236,7 +236,7 @@ TEST_F(DebriefFactsTest, EventsThatOnlyDirectTheTaskAreNotShown) {
 }
 
 TEST(MetricText, ReadsInTheUnitsOfPeople) {
-  const Words w;
+  const Translator w;
   const auto text = [&](const char* metric, double value, const char* unit) {
     return metric_text(w, metric, value, unit);
   };
@@ -260,7 +260,7 @@ TEST(DebriefPauses, AreSaidWithTimeCountAndLength) {
   result.events = {event(3.0, "START")};
   const auto said = [&](const std::string& realtime) {
     result.device.realtime = realtime;
-    const DebriefFacts f = debrief_facts(Words(), result, touch);
+    const DebriefFacts f = debrief_facts(Translator(), result, touch);
     return f.more.empty() ? "" : f.more.back();
   };
   EXPECT_EQ(said(R"({"lanes":{}})"), "");
@@ -277,7 +277,7 @@ TEST(DebriefCutOff, SaysThatTheProgramEndedNotThatThePersonLeft) {
   result.level = "L1";
   result.grade.status = AttemptStatus::kAborted;
   result.integrity = "its program ended before the attempt did";
-  EXPECT_EQ(debrief_facts(Words(), result, touch).reason,
+  EXPECT_EQ(debrief_facts(Translator(), result, touch).reason,
             "The attempt was cut off with its program, so there is no score. It counts as not passed.");
 }
 

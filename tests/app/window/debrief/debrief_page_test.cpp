@@ -97,7 +97,7 @@ TEST(ForceLinesOf, AreThoseOfTheExercise) {
 }
 
 TEST(PlotEvents, LieWithinTheTraceAndTheWorstIsTheFirstOfItsKind) {
-  const Words w;
+  const Translator w;
   ForceTrace trace;
   trace.begin_s = 2;
   trace.end_s = 20;
@@ -220,7 +220,7 @@ TEST_F(DebriefPageTest, DeviceStopStandsForItselfWithoutAnyScore) {
 class DebriefLanguages : public DebriefPageTest, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(DebriefLanguages, NothingIsCutNothingCollidesNothingScrolls) {
-  words_ = Words(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", GetParam());
+  words_ = Translator(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", GetParam());
   for (const double scale : {1.0, 1.5, 2.0}) {
     scale_ = scale;
     height_ = scale > 1 ? 3000 : 720;  // so that nothing is below the edge, where it would not be looked at

@@ -28,7 +28,7 @@ std::string limit(const std::vector<LessonLimit>& rows, const std::string& what)
 }
 
 TEST(LessonWords, EveryLevelHasThreeToSixStepsALimitOfTimeAndMeasuresWhoseWeightsAreAll) {
-  const Words w;
+  const Translator w;
   for (const Exercise& exercise : shipped()) {
     for (const ExerciseLevel& level : exercise.levels) {
       const std::string where = exercise.id + " " + level.name;
@@ -54,7 +54,7 @@ TEST(LessonWords, EveryLevelHasThreeToSixStepsALimitOfTimeAndMeasuresWhoseWeight
 }
 
 TEST(LessonWords, NumbersAreThoseOfTheExercise) {
-  const Words w;
+  const Translator w;
   const auto all = shipped();
   const Exercise& touch = of(all, "surface-touch");
   const auto limits = lesson_limits(w, touch, find_level(touch, "L1"));
@@ -79,7 +79,7 @@ TEST(LessonWords, NumbersAreThoseOfTheExercise) {
 }
 
 TEST(LessonWords, GripOfEachFoamIsToldOnlyWhereColourTellsIt) {
-  const Words w;
+  const Translator w;
   const auto all = shipped();
   const Exercise& grasp = of(all, "limited-grasp");
   const auto l1 = lesson_limits(w, grasp, find_level(grasp, "L1"));
@@ -90,7 +90,7 @@ TEST(LessonWords, GripOfEachFoamIsToldOnlyWhereColourTellsIt) {
 }
 
 TEST(LessonWords, GatesSayWhatTheyDo) {
-  const Words w;
+  const Translator w;
   const auto all = shipped();
   const auto measures = lesson_measures(w, find_level(of(all, "surface-touch"), "L1"));
   int gates = 0;
@@ -103,7 +103,7 @@ TEST(LessonWords, GatesSayWhatTheyDo) {
 }
 
 TEST(LessonWords, LengthsAreInMillimetres) {
-  const Words w;
+  const Translator w;
   const auto all = shipped();
   for (const LessonMeasure& m : lesson_measures(w, find_level(of(all, "reach-and-orient"), "L1"))) {
     if (m.metric != "position_error_m") continue;
@@ -114,7 +114,7 @@ TEST(LessonWords, LengthsAreInMillimetres) {
 }
 
 TEST(LessonWords, EachDisplayModeSaysWhatItMeans) {
-  const Words w;
+  const Translator w;
   std::set<std::string> said;
   for (const char* mode : {"always", "band", "after"}) {
     ExerciseLevel level;
@@ -125,7 +125,7 @@ TEST(LessonWords, EachDisplayModeSaysWhatItMeans) {
 }
 
 TEST(LessonWords, PortTurnsTheSentenceAboutTheTip) {
-  const Words w;
+  const Translator w;
   const auto all = shipped();
   const Exercise& reach = of(all, "reach-and-orient");
   EXPECT_NE(lesson_tool(w, reach, find_level(reach, "L3")).find("against the hand"), std::string::npos);

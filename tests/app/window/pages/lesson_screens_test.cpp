@@ -46,7 +46,7 @@ class LessonScreens : public testing_support::LoopBench {
 };
 
 TEST(StandingShown, EachStandingHasAShapeAndWordsOfItsOwn) {
-  const Words w;
+  const Translator w;
   const auto all = list_exercises(testing_support::source_assets().exercises);
   const Exercise& e = all.front();
   Standing open, once, often, locked;

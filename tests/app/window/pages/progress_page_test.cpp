@@ -136,7 +136,7 @@ TEST_F(ProgressPageTest, NothingIsCutAndNothingCollidesAtAnyScale) {
 TEST_F(ProgressPageTest, NothingIsCutInAnyLanguage) {
   who_ = "Krankenschwester-Muster-2026-014";  // as long as a code may be
   for (const char* language : {"fr", "de"}) {
-    words_ = Words(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", language);
+    words_ = Translator(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets" / "languages", language);
     for (const double scale : {1.0, 1.5, 2.0}) {
       scale_ = scale;
       height_ = scale > 1 ? 3000 : 720;  // so that nothing is below the edge, where it would not be looked at
@@ -150,7 +150,7 @@ TEST_F(ProgressPageTest, NothingIsCutInAnyLanguage) {
 }
 
 TEST(CompetenceWords, SayWhatThePointsComeTo) {
-  const Words w;
+  const Translator w;
   std::vector<bool> runs(13, true);
   EXPECT_EQ(competence_words(w, cusum(runs)),
             "Competence not shown yet: 2.4 of 2.5. The shortest way is 14 passes in a row.");

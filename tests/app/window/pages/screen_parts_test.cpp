@@ -142,7 +142,7 @@ TEST(LessonPictureMade, FollowsTheChoiceAndDoesWithoutWhatCannotBeMade) {
 }
 
 TEST(LessonSaid, TimesBandsAndSharesAreWrittenAsPeopleReadThem) {
-  const Words w;
+  const Translator w;
   const Exercise touch = find_exercise("surface-touch", source_assets().exercises);
   ExerciseLevel level = find_level(touch, "L1");
   for (const auto& [seconds, said] : {std::pair{65.0, "1:05"}, std::pair{59.6, "1:00"}, std::pair{600.0, "10:00"}}) {
@@ -161,7 +161,7 @@ TEST(LessonSaid, TimesBandsAndSharesAreWrittenAsPeopleReadThem) {
   EXPECT_EQ(measures[0].full, "1.5 mm");
   EXPECT_EQ(measures[1].full, "1");
   EXPECT_EQ(measures[1].meaning, "");
-  const Words german(source_assets().assets / "languages", "de");
+  const Translator german(source_assets().assets / "languages", "de");
   EXPECT_NE(lesson_limits(german, touch, level)[1].value.find("1,2 N"), std::string::npos);
 }
 
@@ -253,7 +253,7 @@ TEST(CoachOfOtherInputs, SpaceMouseAndKeysTickOnlyWhatTheyDid) {
   coach.begin(true);
   const auto done = [&] {
     std::string out;
-    for (const Coach::CoachMark& mark : coach.marks(Words(), KeyMap(), InputKind::kSpaceMouse))
+    for (const Coach::CoachMark& mark : coach.marks(Translator(), KeyMap(), InputKind::kSpaceMouse))
       out += mark.done ? '1' : '0';
     return out;
   };

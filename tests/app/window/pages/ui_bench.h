@@ -78,7 +78,7 @@ class UiBench : public HeadlessFixture {
     return nullptr;
   }
 
-  Words words_;
+  Translator words_;
   double scale_ = 1;
   int width_ = 1280, height_ = 720;
   std::unique_ptr<FrameTarget> target_;

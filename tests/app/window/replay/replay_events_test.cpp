@@ -16,7 +16,7 @@ Event event(double t_s, const char* type, Severity severity = Severity::kInfo) {
 
 TEST(ReplayEvents, AreToldOnTheClockOfTheFilm) {
   const auto told =
-      replay_events({event(7.5, "TARGET_HELD"), event(9, "CRITICAL_FORCE", Severity::kCritical)}, 5.5, Words());
+      replay_events({event(7.5, "TARGET_HELD"), event(9, "CRITICAL_FORCE", Severity::kCritical)}, 5.5, Translator());
   ASSERT_EQ(told.size(), 2u);
   EXPECT_DOUBLE_EQ(told[0].clock_s, 2);
   EXPECT_EQ(told[0].severity, Severity::kInfo);
@@ -26,9 +26,10 @@ TEST(ReplayEvents, AreToldOnTheClockOfTheFilm) {
 }
 
 TEST(ReplayEvents, WhatOnlyTheGradeReadsIsLeftOut) {
-  EXPECT_TRUE(replay_events({event(1, "TARGET_LIT"), event(2, "POSITION_ERROR"), event(2, "NO_SUCH_TYPE")}, 0, Words())
-                  .empty());
-  EXPECT_TRUE(replay_events({}, 0, Words()).empty());
+  EXPECT_TRUE(
+      replay_events({event(1, "TARGET_LIT"), event(2, "POSITION_ERROR"), event(2, "NO_SUCH_TYPE")}, 0, Translator())
+          .empty());
+  EXPECT_TRUE(replay_events({}, 0, Translator()).empty());
 }
 
 }  // namespace

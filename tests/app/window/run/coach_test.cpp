@@ -15,7 +15,7 @@ InputEvent event(Kind kind) {
 
 std::vector<bool> done(const Coach& coach, InputKind kind = InputKind::kMouse) {
   std::vector<bool> out;
-  for (const Coach::CoachMark& mark : coach.marks(Words(), KeyMap(), kind)) out.push_back(mark.done);
+  for (const Coach::CoachMark& mark : coach.marks(Translator(), KeyMap(), kind)) out.push_back(mark.done);
   return out;
 }
 
@@ -65,8 +65,8 @@ TEST(Coach, KeysDoAsWellAndTheRightButtonDoesNot) {
 TEST(Coach, ItsWordsFitTheInput) {
   Coach coach;
   coach.begin(true);
-  EXPECT_NE(coach.marks(Words(), KeyMap(), InputKind::kKeyboard)[1].text.find("Page up"), std::string::npos);
-  EXPECT_NE(coach.marks(Words(), KeyMap(), InputKind::kPad)[0].text.find("stick"), std::string::npos);
+  EXPECT_NE(coach.marks(Translator(), KeyMap(), InputKind::kKeyboard)[1].text.find("Page up"), std::string::npos);
+  EXPECT_NE(coach.marks(Translator(), KeyMap(), InputKind::kPad)[0].text.find("stick"), std::string::npos);
   InputEvent pad = event(Kind::kPad);
   pad.axis[0] = 1;
   pad.axis[5] = 1;

@@ -67,7 +67,7 @@ TEST(HudWords, EveryTextOfADisplayIsAsked) {
          "N\"\n"
          "\"Tip force\" = \"KRAFT\"\n\"Discs held\" = \"SCHEIBEN\"\n\"simulated\" = \"SIMULIERT\"\n"
          "\"Rest at the start\" = \"RUHE\"\n\"Trainee: {0}\" = \"WER: {0}\"\n";
-  const Words words(folder, "xx");
+  const Translator words(folder, "xx");
   Hud hud;
   hud.trainee = "Trainee: T-1";
   hud.toast = "Press gently";

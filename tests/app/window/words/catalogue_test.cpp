@@ -8,7 +8,7 @@
 
 #include "app/picture/scene/scene_view.h"
 #include "app/window/input/key_map.h"
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/scoring/metrics.h"
 #include "tests/app/window/words/sentence_scan.h"
@@ -21,8 +21,8 @@ const std::filesystem::path kTree = TROCAR_SOURCE_DIR, kFolder = kTree / "assets
 /// Room on the screen: a translation may be longer than the English by a third and a word.
 constexpr double kLonger = 1.35, kWord = 10;
 
-std::vector<Words> translated() {
-  std::vector<Words> out;
+std::vector<Translator> translated() {
+  std::vector<Translator> out;
   for (const Language& language : languages(kFolder))
     if (language.code != "en") out.emplace_back(kFolder, language.code);
   return out;
@@ -104,7 +104,7 @@ std::size_t letters(const std::string& text) {
 }
 
 /// Does some key say this piece between its places?
-bool says(const Words& words, const std::string& text) {
+bool says(const Translator& words, const std::string& text) {
   for (const auto& [key, value] : words.catalogue()) {
     const auto pieces = own_pieces(key), asked = own_pieces(text);
     const auto in_key = [&](const std::string& piece) {
@@ -118,14 +118,14 @@ bool says(const Words& words, const std::string& text) {
 TEST(Catalogues, HaveEverySentenceOfTheScreens) {
   const std::set<std::string> all = wanted();
   ASSERT_GT(all.size(), 150u);
-  for (const Words& words : translated()) {
+  for (const Translator& words : translated()) {
     for (const std::string& text : all)
       EXPECT_TRUE(words.catalogue().contains(text)) << words.language() << ".toml lacks \"" << text << '"';
   }
 }
 
 TEST(Catalogues, HaveWhatExercisesSayDuringTheRun) {
-  for (const Words& words : translated()) {
+  for (const Translator& words : translated()) {
     for (const auto& file : files_below(kTree / "scenarios", {".cpp"}))
       for (const std::string& text : sentences_said(file_text(file)))
         EXPECT_TRUE(says(words, text)) << words.language() << ".toml lacks \"" << text << "\" of " << file.filename();
@@ -141,7 +141,7 @@ TEST(Catalogues, HaveWhatExercisesSayDuringTheRun) {
 TEST(Catalogues, HaveNothingThatNobodySays) {
   const std::string said = all_said();
   const std::set<std::string> all = wanted();
-  for (const Words& words : translated()) {
+  for (const Translator& words : translated()) {
     for (const auto& [key, value] : words.catalogue()) {
       if (all.contains(key)) continue;
       for (const std::string& piece : fragments(key))
@@ -153,14 +153,14 @@ TEST(Catalogues, HaveNothingThatNobodySays) {
 
 TEST(Catalogues, HaveTheSameSentences) {
   const auto all = translated();
-  for (const Words& words : all)
+  for (const Translator& words : all)
     for (const auto& [key, value] : all.front().catalogue())
       EXPECT_TRUE(words.catalogue().contains(key)) << words.language() << ": " << key;
-  for (const Words& words : all) EXPECT_EQ(words.catalogue().size(), all.front().catalogue().size());
+  for (const Translator& words : all) EXPECT_EQ(words.catalogue().size(), all.front().catalogue().size());
 }
 
 TEST(Catalogues, FitOnTheScreen) {
-  for (const Words& words : translated())
+  for (const Translator& words : translated())
     for (const auto& [key, value] : words.catalogue())
       EXPECT_LE(static_cast<double>(letters(value)), kLonger * static_cast<double>(letters(key)) + kWord)
           << words.language() << ": " << value;
@@ -168,7 +168,7 @@ TEST(Catalogues, FitOnTheScreen) {
 
 /// The program's font has Latin-1, Latin Extended-A, general punctuation and the mathematical signs that English uses.
 TEST(Catalogues, HaveLettersOfTheFontOnly) {
-  for (const Words& words : translated()) {
+  for (const Translator& words : translated()) {
     for (const auto& [key, value] : words.catalogue()) {
       for (std::size_t i = 0; i < value.size(); ++i) {
         const auto c = static_cast<unsigned char>(value[i]);
@@ -182,7 +182,7 @@ TEST(Catalogues, HaveLettersOfTheFontOnly) {
 }
 
 TEST(Catalogues, HaveWhatCapsAScore) {
-  for (const Words& words : translated()) {
+  for (const Translator& words : translated()) {
     for (const char* cap : {"safety: force in band below 0.5: at most 59", "critical event: at most 49",
                             "not finished: 7 of 12: at most 28.6"})
       EXPECT_NE(words.made(cap), cap);

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <regex>
 
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 namespace trocar {
 namespace {

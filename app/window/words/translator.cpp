@@ -1,4 +1,4 @@
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 #include <algorithm>
 #include <cctype>
@@ -136,7 +136,7 @@ std::vector<int> places(std::string_view sentence) {
   return out;
 }
 
-Words::Words(const std::filesystem::path& folder, const std::string& language) : language_(language) {
+Translator::Translator(const std::filesystem::path& folder, const std::string& language) : language_(language) {
   if (language == "en") return;
   if (!plain_code(language)) throw InputError("language '" + language + "': give a code such as en, fr or de");
   const std::filesystem::path path = folder / (language + ".toml");
@@ -167,11 +167,11 @@ Words::Words(const std::filesystem::path& folder, const std::string& language) :
                    [](const auto& a, const auto& b) { return own_text(a) > own_text(b); });
 }
 
-void Words::note_missing(std::string_view english) const {
+void Translator::note_missing(std::string_view english) const {
   if (missing_.size() < kMostMissing) missing_.emplace(english);
 }
 
-std::string Words::operator()(std::string_view english) const {
+std::string Translator::operator()(std::string_view english) const {
   if (language_ == "en") return std::string(english);
   const auto found = translations_.find(english);
   if (found != translations_.end()) return found->second;
@@ -179,16 +179,16 @@ std::string Words::operator()(std::string_view english) const {
   return std::string(english);
 }
 
-std::string Words::name(std::string_view english) const {
+std::string Translator::name(std::string_view english) const {
   const auto found = translations_.find(english);
   return found != translations_.end() ? found->second : std::string(english);
 }
 
-std::string Words::operator()(std::string_view english, const std::vector<std::string>& values) const {
+std::string Translator::operator()(std::string_view english, const std::vector<std::string>& values) const {
   return put_in((*this)(english), values);
 }
 
-std::optional<std::string> Words::filled(std::string_view english, int depth) const {
+std::optional<std::string> Translator::filled(std::string_view english, int depth) const {
   for (const std::string& form : forms_) {
     auto values = values_in(form, english);
     if (!values || (bare(form) && !std::all_of(values->begin(), values->end(), numeric))) continue;
@@ -198,25 +198,25 @@ std::optional<std::string> Words::filled(std::string_view english, int depth) co
   return std::nullopt;
 }
 
-std::optional<std::string> Words::found(std::string_view english, int depth) const {
+std::optional<std::string> Translator::found(std::string_view english, int depth) const {
   if (const auto whole = translations_.find(english); whole != translations_.end()) return whole->second;
   if (depth < kDeepest)
     if (auto sentence = filled(english, depth)) return sentence;
   return numeric(english) ? std::optional(with_decimals(std::string(english), decimal_)) : std::nullopt;
 }
 
-std::string Words::made(std::string_view english) const {
+std::string Translator::made(std::string_view english) const {
   if (language_ == "en" || english.empty()) return std::string(english);
   if (auto sentence = found(english, 0)) return *sentence;
   note_missing(english);
   return std::string(english);
 }
 
-std::string Words::made_number(std::string_view english) const {
+std::string Translator::made_number(std::string_view english) const {
   return numeric(english) ? with_decimals(std::string(english), decimal_) : std::string(english);
 }
 
-std::string Words::number(double value, int decimals) const {
+std::string Translator::number(double value, int decimals) const {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
   return with_decimals(text, decimal_);

@@ -1,4 +1,4 @@
-#include "app/window/words/words.h"
+#include "app/window/words/translator.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,7 +8,7 @@
 
 #include "haptics/input_error.h"
 
-namespace trocar::words_test {
+namespace trocar::translator_test {
 namespace {
 
 /// Catalogues in a folder of the test's own.
@@ -20,7 +20,7 @@ class Catalogue : public ::testing::Test {
   std::string refusal(const std::string& text) {
     write("fr", text);
     try {
-      Words(folder_, "fr");
+      Translator(folder_, "fr");
     } catch (const InputError& error) {
       return error.what();
     }
@@ -44,18 +44,18 @@ decimal = ","
 )";
 
 TEST_F(Catalogue, EnglishNeedsNoFile) {
-  const Words english;
+  const Translator english;
   EXPECT_EQ(english("Start"), "Start");
   EXPECT_EQ(english("Attempt {0}", {"3"}), "Attempt 3");
   EXPECT_EQ(english.number(0.48, 2), "0.48");
   EXPECT_EQ(english.made("Reach 0.4 N."), "Reach 0.4 N.");
   EXPECT_TRUE(english.missing().empty());
-  EXPECT_EQ(Words("/nowhere", "en").language(), "en");
+  EXPECT_EQ(Translator("/nowhere", "en").language(), "en");
 }
 
 TEST_F(Catalogue, SentencesAndValues) {
   write("fr", kSmall);
-  const Words french(folder_, "fr");
+  const Translator french(folder_, "fr");
   EXPECT_EQ(french("Start"), "Commencer");
   EXPECT_EQ(french("Attempt {0}", {"3"}), "Essai 3");
   EXPECT_EQ(french("{1} after {0}", {"A", "B"}), "après A, B");
@@ -68,20 +68,20 @@ TEST_F(Catalogue, SentencesAndValues) {
 
 TEST_F(Catalogue, WhatIsMissingComesBackInEnglishAndIsListed) {
   write("fr", kSmall);
-  const Words french(folder_, "fr");
+  const Translator french(folder_, "fr");
   EXPECT_EQ(french("Stop"), "Stop");
   EXPECT_EQ(french("{0} more", {"2"}), "2 more");
   EXPECT_EQ(french.missing(), (std::set<std::string>{"Stop", "{0} more"}));
 }
 
 TEST_F(Catalogue, ValuesAreNeverReadAsPlaces) {
-  EXPECT_EQ(Words()("{0} and {1}", {"{1}", "b"}), "{1} and b");
-  EXPECT_EQ(Words()("{0} of {5} {x} {", {"a"}), "a of {5} {x} {");
+  EXPECT_EQ(Translator()("{0} and {1}", {"{1}", "b"}), "{1} and b");
+  EXPECT_EQ(Translator()("{0} of {5} {x} {", {"a"}), "a of {5} {x} {");
 }
 
 TEST_F(Catalogue, SentencesMadeElsewhereAreFoundByTheirForm) {
   write("fr", kSmall);
-  const Words french(folder_, "fr");
+  const Translator french(folder_, "fr");
   EXPECT_EQ(french.made("Disc 3 of 12: 0.4 to 0.8 N."), "Disque 3 sur 12 : de 0,4 à 0,8 N.");
   EXPECT_EQ(french.made("Attempt 12"), "Essai 12");
   EXPECT_EQ(french.made("Start after 3.5 s"), "après 3,5 s, Commencer");  // values are translated too
@@ -94,7 +94,7 @@ TEST_F(Catalogue, SentencesMadeElsewhereAreFoundByTheirForm) {
 
 TEST_F(Catalogue, SentencesInSentences) {
   write("fr", kSmall);
-  const Words french(folder_, "fr");
+  const Translator french(folder_, "fr");
   EXPECT_EQ(french.made("Reach 0.4 to 0.8 N and hold."), "Atteignez 0,4 à 0,8 N et tenez.");
   EXPECT_EQ(french.made("Pen 3 of 8."), "Stylo 3 sur 8.");
   EXPECT_EQ(french.made("0.82"), "0,82");
@@ -107,26 +107,26 @@ TEST_F(Catalogue, SentencesInSentences) {
 
 TEST_F(Catalogue, TheListOfWhatIsMissingStaysShort) {
   write("fr", kSmall);
-  const Words french(folder_, "fr");
+  const Translator french(folder_, "fr");
   for (int i = 0; i < 5000; ++i) french.made("no such sentence " + std::to_string(i));
   EXPECT_EQ(french.missing().size(), 1000u);
 }
 
 TEST_F(Catalogue, CountsTakeTheSingularOfTheLanguage) {
-  EXPECT_TRUE(Words().one(1));
-  EXPECT_FALSE(Words().one(0));
-  const Words french(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets/languages", "fr");
+  EXPECT_TRUE(Translator().one(1));
+  EXPECT_FALSE(Translator().one(0));
+  const Translator french(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets/languages", "fr");
   EXPECT_TRUE(french.one(0));
   EXPECT_TRUE(french.one(1));
   EXPECT_FALSE(french.one(2));
   for (const char* wrong : {"singular = 1\n", "singular = []\n", "singular = [\"one\"]\n", "singular = [-1]\n"}) {
     write("xx", std::string("name = \"X\"\n") + wrong + "[words]\n");
-    EXPECT_THROW(Words(folder_, "xx"), InputError) << wrong;
+    EXPECT_THROW(Translator(folder_, "xx"), InputError) << wrong;
   }
 }
 
 TEST_F(Catalogue, OnlyNumbersTakeTheDecimalSign) {
-  const Words german(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets/languages", "de");
+  const Translator german(std::filesystem::path(TROCAR_SOURCE_DIR) / "assets/languages", "de");
   EXPECT_EQ(german.made_number("+29.29"), "+29,29");
   EXPECT_EQ(german.made_number("inf"), "inf");
   EXPECT_EQ(german.made_number("q1"), "q1");
@@ -147,8 +147,8 @@ TEST_F(Catalogue, RefusalsNameFileLineAndColumn) {
 }
 
 TEST_F(Catalogue, CodesAreNoPaths) {
-  for (const char* code : {"", "../fr", "fr.toml", "f r"}) EXPECT_THROW(Words(folder_, code), InputError) << code;
-  EXPECT_THROW(Words(folder_, "it"), InputError);
+  for (const char* code : {"", "../fr", "fr.toml", "f r"}) EXPECT_THROW(Translator(folder_, code), InputError) << code;
+  EXPECT_THROW(Translator(folder_, "it"), InputError);
 }
 
 TEST_F(Catalogue, LanguagesOfAFolder) {
@@ -170,8 +170,8 @@ TEST(ShippedLanguages, AreThere) {
   const auto all = languages(TROCAR_SOURCE_DIR "/assets/languages");
   ASSERT_EQ(all.size(), 3u);
   for (const Language& language : all)
-    EXPECT_EQ(Words(TROCAR_SOURCE_DIR "/assets/languages", language.code).language(), language.code);
+    EXPECT_EQ(Translator(TROCAR_SOURCE_DIR "/assets/languages", language.code).language(), language.code);
 }
 
 }  // namespace
-}  // namespace trocar::words_test
+}  // namespace trocar::translator_test

@@ -18,12 +18,12 @@
 
 namespace trocar {
 
-class Words {
+class Translator {
  public:
   /// English.
-  Words() = default;
+  Translator() = default;
   /// @param language "en", "fr", "de": FOLDER/LANGUAGE.toml. @throws InputError naming file, line and column.
-  Words(const std::filesystem::path& folder, const std::string& language);
+  Translator(const std::filesystem::path& folder, const std::string& language);
 
   std::string operator()(std::string_view english) const;
   /// A name that may or may not have a translation (a key, an organ): as it is when it has none.
