@@ -5,7 +5,7 @@
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/attempt/attempt_scene.h"
 #include "app/window/practice/practice_model.h"
-#include "app/window/run/coach.h"
+#include "app/window/run/first_run_hints.h"
 #include "app/window/run/hud_words.h"
 #include "app/window/run/run_sounds.h"
 #include "app/window/run/run_view.h"
@@ -45,7 +45,7 @@ struct RunScreen::State {
   Asked asked = Asked::kNothing;
   double dt_s = 0, event_s = 0;  // last frame's step; when the first event since the last intent was handed over
   double over_s = 0;             // since the result is there
-  Coach coach;
+  FirstRunHints hints;
   RunSounds sounds;
   LatencyMeter latency;
 
@@ -61,7 +61,7 @@ struct RunScreen::State {
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
   std::optional<ScreenName> restart(PracticeModel& model);
   std::optional<ScreenName> ended(PracticeModel& model);
-  void coach_panel(Ui& ui, PracticeModel& model) const;
+  void hint_panel(Ui& ui, PracticeModel& model) const;
   void key_hints(Ui& ui, const PracticeModel& model) const;
 };
 
@@ -85,7 +85,7 @@ void RunScreen::State::begin(PracticeModel& model) {
   latency.forget();
   sounds = RunSounds();
   const Standing standing = model.standing(model.exercise_id, model.level);
-  coach.begin(model.is_guest() && standing.passed == 0 && standing.attempts <= 1);
+  hints.begin(model.is_guest() && standing.passed == 0 && standing.attempts <= 1);
   begun = true;
 }
 
@@ -214,7 +214,7 @@ std::optional<ScreenName> RunScreen::handle(const InputEvent& event, PracticeMod
     return {};
   }
   if (s.overlay) return {};
-  s.coach.saw(event, model.keys());
+  s.hints.saw(event, model.keys());
   if (s.steering && model.steering().handle(event)) {
     if (s.event_s <= 0) s.event_s = now_s();
     return {};
@@ -285,18 +285,18 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& m
 }
 
 /// Painted, not a panel: the pointer over it still steers.
-void RunScreen::State::coach_panel(Ui& ui, PracticeModel& model) const {
-  if (!coach.speaks() || !steering) return;
-  const auto marks = coach.marks(model.words(), model.keys(), model.steering().kind());
+void RunScreen::State::hint_panel(Ui& ui, PracticeModel& model) const {
+  if (!hints.speaks() || !steering) return;
+  const auto marks = hints.marks(model.words(), model.keys(), model.steering().kind());
   const double line = 1.25 * ui.line_height(), pad = ui.px(12), side = 0.8 * ui.line_height();
   double wide = 0;
-  for (const Coach::CoachMark& mark : marks) wide = std::max(wide, ui.text_width(mark.text));
+  for (const FirstRunHints::Hint& mark : marks) wide = std::max(wide, ui.text_width(mark.text));
   const double width = std::min(wide + side + 3 * pad, picture.width - 2 * pad), room = width - side - 3 * pad;
   const double x = picture.x + pad;
   double y = picture.y + pad;
   ui.paint_ground({x, y, width, line * static_cast<double>(marks.size()) + pad}, 0.85, ui.px(8));
   y += 0.5 * pad + 0.5 * (line - ui.line_height());
-  for (const Coach::CoachMark& mark : marks) {
+  for (const FirstRunHints::Hint& mark : marks) {
     ui.paint_mark(mark.done ? Mark::kTick : Mark::kOpen, x + pad, y + 0.5 * (ui.line_height() - side), side);
     ui.text_at(x + 2 * pad + side, y, mark.text, mark.done ? Ink::kDim : Ink::kText, room);
     y += line;
@@ -340,12 +340,12 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double 
   if (!s.begun) return {};
   if (!s.overlay && !model.running()->board_answers()) s.asked = State::Asked::kPause;
   if (!s.overlay) ui.keys_to_screen();
-  s.coach.pass(dt_s);
+  s.hints.pass(dt_s);
   draw_hud(s.layout);
   if (s.rim && s.steering) s.rim_arrow(*s.rim, ui.px(26));
   s.key_hints(ui, model);
   if (s.overlay) return s.pause_panel(ui, model);
-  s.coach_panel(ui, model);
+  s.hint_panel(ui, model);
   if (std::exchange(s.asked, State::Asked::kNothing) != State::Asked::kNothing) s.pause(model, true);
   return {};
 }

@@ -75,7 +75,7 @@ void DiscTask::update(const TaskInput& input, EventLog& log) {
   light(log);
 }
 
-void DiscTask::coach(const TaskInput& input, const WantedForce& band, DirectorStatus& status) const {
+void DiscTask::hints(const TaskInput& input, const WantedForce& band, DirectorStatus& status) const {
   const double force = input.stylus.F_I_T.force.norm();
   const std::string wanted = band_text(band);
   if (input.too_hard && display_ != "after") {
@@ -107,7 +107,7 @@ void DiscTask::describe(const TaskInput& input, DirectorStatus& status) const {
   status.demand = {target.centre_T, target.normal_T, target.radius_m, false, Mat3::Identity(), 0, target.band};
   const double force = input.stylus.F_I_T.force.norm();
   status.force_shown = force_shown(display_, touching_ && (force < target.band.low_n || force > target.band.high_n));
-  coach(input, target.band, status);
+  hints(input, target.band, status);
 }
 
 }  // namespace trocar

@@ -23,7 +23,7 @@ class DiscTask final : public ExerciseTask {
 
  private:
   void light(EventLog& log);
-  void coach(const TaskInput& input, const WantedForce& band, DirectorStatus& status) const;
+  void hints(const TaskInput& input, const WantedForce& band, DirectorStatus& status) const;
   bool leaving_last_disc(const Vec3& point_T) const;
   void judge_contact(const StylusState& state, bool new_contact, double dt_s, EventLog& log);
 

@@ -6,7 +6,7 @@
 #include "app/window/lessons/lesson_picture.h"
 #include "app/window/lessons/lesson_words.h"
 #include "app/window/lessons/notch_screen.h"
-#include "app/window/run/coach.h"
+#include "app/window/run/first_run_hints.h"
 #include "app/window/ui/button_row.h"
 #include "app/window/ui/sparkline.h"
 #include "app/window/ui/theme.h"
@@ -248,34 +248,34 @@ TEST_F(ScreenParts, DevicePanelStandsAtTheEdgeThatIsAskedForAndInTheWindow) {
   frame([&](Ui& ui) { EXPECT_LE(device_panel_area(ui, true).x + device_panel_area(ui, true).width, 480); });
 }
 
-TEST(CoachOfOtherInputs, SpaceMouseAndKeysTickOnlyWhatTheyDid) {
-  Coach coach;
-  coach.begin(true);
+TEST(FirstRunHintsOfOtherInputs, SpaceMouseAndKeysTickOnlyWhatTheyDid) {
+  FirstRunHints hints;
+  hints.begin(true);
   const auto done = [&] {
     std::string out;
-    for (const Coach::CoachMark& mark : coach.marks(Translator(), KeyMap(), InputKind::kSpaceMouse))
+    for (const FirstRunHints::Hint& mark : hints.marks(Translator(), KeyMap(), InputKind::kSpaceMouse))
       out += mark.done ? '1' : '0';
     return out;
   };
   InputEvent space_mouse;
   space_mouse.kind = InputEvent::Kind::kSpaceMouse;
   space_mouse.axis = {0.2, 0.2, 0.3, 1, 1, 1};
-  coach.saw(space_mouse, KeyMap());
+  hints.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "000") << "touched, turned, not pushed";
   space_mouse.axis[2] = -0.5;
-  coach.saw(space_mouse, KeyMap());
+  hints.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "010");
   space_mouse.axis = {0.3, -0.3};
-  coach.saw(space_mouse, KeyMap());
+  hints.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "110");
-  coach.saw(testing_support::key(KeyMap().key_of(Action::kClose), InputEvent::Kind::kKeyUp), KeyMap());
+  hints.saw(testing_support::key(KeyMap().key_of(Action::kClose), InputEvent::Kind::kKeyUp), KeyMap());
   EXPECT_EQ(done(), "110") << "letting a key go does nothing";
   space_mouse.buttons = 1;
-  coach.saw(space_mouse, KeyMap());
+  hints.saw(space_mouse, KeyMap());
   EXPECT_EQ(done(), "111");
-  coach.begin(true);
+  hints.begin(true);
   EXPECT_EQ(done(), "000");
-  EXPECT_TRUE(coach.speaks());
+  EXPECT_TRUE(hints.speaks());
 }
 
 }  // namespace

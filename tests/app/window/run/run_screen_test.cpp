@@ -59,7 +59,7 @@ class RunScreenBench : public LoopBench {
   Vec3 tip() { return model_->running()->newest().record.stylus.X_TI.p; }
 };
 
-TEST_F(RunScreenBench, TheMouseMovesTheInstrumentAndTheCoachTicksIt) {
+TEST_F(RunScreenBench, TheMouseMovesTheInstrumentAndTheHintIsTicked) {
   begin();
   ASSERT_TRUE(ready());
   frame();

@@ -1,4 +1,4 @@
-#include "app/window/run/coach.h"
+#include "app/window/run/first_run_hints.h"
 
 #include <cmath>
 
@@ -10,16 +10,16 @@ constexpr double kPushed = 0.4;     // of a stick
 
 }  // namespace
 
-void Coach::begin(bool wanted) {
-  *this = Coach();
+void FirstRunHints::begin(bool wanted) {
+  *this = FirstRunHints();
   wanted_ = wanted;
 }
 
-void Coach::pass(double dt_s) {
+void FirstRunHints::pass(double dt_s) {
   if (all()) over_s_ += dt_s;
 }
 
-void Coach::saw(const InputEvent& event, const KeyMap& keys) {
+void FirstRunHints::saw(const InputEvent& event, const KeyMap& keys) {
   using Kind = InputEvent::Kind;
   const auto action = event.kind == Kind::kKeyDown ? keys.action_of(event.key) : std::nullopt;
   if (action && *action <= Action::kDown) done_[0] = true;
@@ -40,7 +40,8 @@ void Coach::saw(const InputEvent& event, const KeyMap& keys) {
   }
 }
 
-std::vector<Coach::CoachMark> Coach::marks(const Translator& words, const KeyMap& keys, InputKind kind) const {
+std::vector<FirstRunHints::Hint> FirstRunHints::marks(const Translator& words, const KeyMap& keys,
+                                                      InputKind kind) const {
   const auto name = [&](Action action) { return words.name(key_name(keys.key_of(action))); };
   switch (kind) {
     case InputKind::kPad:

@@ -12,9 +12,9 @@
 
 namespace trocar {
 
-class Coach {
+class FirstRunHints {
  public:
-  struct CoachMark {
+  struct Hint {
     std::string text;
     bool done = false;
   };
@@ -25,7 +25,7 @@ class Coach {
   /// While something is still to be tried, and a little longer.
   bool speaks() const { return wanted_ && over_s_ < kLinger_s; }
   void pass(double dt_s);
-  std::vector<CoachMark> marks(const Translator& words, const KeyMap& keys, InputKind kind) const;
+  std::vector<Hint> marks(const Translator& words, const KeyMap& keys, InputKind kind) const;
 
  private:
   static constexpr double kLinger_s = 2;

@@ -1,0 +1,79 @@
+#include "app/window/run/first_run_hints.h"
+
+#include <gtest/gtest.h>
+
+namespace trocar::first_run_hints_test {
+namespace {
+
+using Kind = InputEvent::Kind;
+
+InputEvent event(Kind kind) {
+  InputEvent out;
+  out.kind = kind;
+  return out;
+}
+
+std::vector<bool> done(const FirstRunHints& hints, InputKind kind = InputKind::kMouse) {
+  std::vector<bool> out;
+  for (const FirstRunHints::Hint& mark : hints.marks(Translator(), KeyMap(), kind)) out.push_back(mark.done);
+  return out;
+}
+
+TEST(FirstRunHints, SaysNothingUnlessItIsWanted) {
+  FirstRunHints hints;
+  EXPECT_FALSE(hints.speaks());
+  hints.begin(false);
+  EXPECT_FALSE(hints.speaks());
+  hints.begin(true);
+  EXPECT_TRUE(hints.speaks());
+}
+
+TEST(FirstRunHints, TicksWhatTheMouseHasDoneAndThenFallsSilent) {
+  FirstRunHints hints;
+  hints.begin(true);
+  InputEvent at = event(Kind::kMouseMove);
+  for (int i = 0; i < 5; ++i, at.x += 10) hints.saw(at, KeyMap());
+  EXPECT_EQ(done(hints), (std::vector<bool>{false, false, false})) << "a twitch is no movement";
+  for (int i = 0; i < 20; ++i, at.x += 10) hints.saw(at, KeyMap());
+  EXPECT_EQ(done(hints), (std::vector<bool>{true, false, false}));
+  hints.saw(event(Kind::kWheel), KeyMap());
+  EXPECT_EQ(done(hints), (std::vector<bool>{true, true, false}));
+  hints.pass(100);
+  EXPECT_TRUE(hints.speaks()) << "it waits for the last";
+  hints.saw(event(Kind::kButtonDown), KeyMap());
+  EXPECT_EQ(done(hints), (std::vector<bool>{true, true, true}));
+  EXPECT_TRUE(hints.speaks()) << "the ticks are seen for a moment";
+  hints.pass(2.5);
+  EXPECT_FALSE(hints.speaks());
+}
+
+TEST(FirstRunHints, KeysDoAsWellAndTheRightButtonDoesNot) {
+  FirstRunHints hints;
+  hints.begin(true);
+  InputEvent press = event(Kind::kButtonDown);
+  press.button = MouseButton::kRight;
+  hints.saw(press, KeyMap());
+  EXPECT_FALSE(done(hints)[2]);
+  for (const std::int32_t key : {std::int32_t{kKeyLeft}, std::int32_t{kKeyPageUp}, KeyMap().key_of(Action::kClose)}) {
+    InputEvent down = event(Kind::kKeyDown);
+    down.key = key;
+    hints.saw(down, KeyMap());
+  }
+  EXPECT_EQ(done(hints), (std::vector<bool>{true, true, true}));
+}
+
+TEST(FirstRunHints, ItsWordsFitTheInput) {
+  FirstRunHints hints;
+  hints.begin(true);
+  EXPECT_NE(hints.marks(Translator(), KeyMap(), InputKind::kKeyboard)[1].text.find("Page up"), std::string::npos);
+  EXPECT_NE(hints.marks(Translator(), KeyMap(), InputKind::kPad)[0].text.find("stick"), std::string::npos);
+  InputEvent pad = event(Kind::kPad);
+  pad.axis[0] = 1;
+  pad.axis[5] = 1;
+  pad.buttons = kPadRightBumper;
+  hints.saw(pad, KeyMap());
+  EXPECT_EQ(done(hints, InputKind::kPad), (std::vector<bool>{true, true, true}));
+}
+
+}  // namespace
+}  // namespace trocar::first_run_hints_test
