@@ -217,7 +217,7 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   std::vector<Task*> tissue{&rig.tissue};
   if (each_step) tissue.push_back(&observer);
   std::optional<MarkTask> marks, messages;
-  if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks, kMomentMark));
+  if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks, kBookmark));
   if (hooks.messages) tissue.push_back(&messages.emplace(rig, attempt.rings->events, *hooks.messages, kMessageMark));
   executor.add_lane("haptic", attempt.haptic_lane(), kHapticPriority);
   if (hooks.board_answers) executor.await(hooks.board_answers);

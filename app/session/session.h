@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/session/bookmark.h"
 #include "app/session/lanes/pause_switch.h"
-#include "app/session/moment_mark.h"
 #include "app/session/recording/recording_reader.h"
 #include "app/session/recording/recording_writer.h"
 #include "app/session/setup/scene.h"
@@ -56,8 +56,8 @@ struct SessionHooks {
   bool observe_each_step = false;
   std::function<bool()> interrupted = {};            ///< asked now and then: true ends the attempt as aborted
   std::function<std::unique_ptr<Hand>()> hand = {};  ///< in place of the one that the setup names
-  const MarkCount* marks = nullptr;     ///< live: each step up is an event of the recording (moment_mark.h)
-  const MarkCount* messages = nullptr;  ///< likewise, of messages that were shown
+  const MarkCount* marks = nullptr;                  ///< live: each step up is an event of the recording (bookmark.h)
+  const MarkCount* messages = nullptr;               ///< likewise, of messages that were shown
   std::function<bool()> board_answers =
       {};                        ///< live: while it says no, everything stands still; needs `pause`, and no exam
   PauseSwitch* pause = nullptr;  ///< live: lets everything stand still, the simulated device too

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/studies/contact/law_loop.h"
+#include "app/studies/contact/bare_control_loop.h"
 #include "haptics/control/gravity.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/identification/joint_servo.h"
@@ -34,7 +34,7 @@ Release release(const PlantParameters& truth, const JointVector& q, const Gravit
   const JointVector arrived = bring(daq, q);
   const HandSense held = daq.sense();
   daq.set_hand_intent(held.X_BS, held.jaw_opening_m);
-  LawLoop loop(daq, law.torque, arrived);
+  BareControlLoop loop(daq, law.torque, arrived);
   for (long n = std::lround(kHold_s * config.rate_hz); n > 0; --n) {
     daq.set_hand_intent(held.X_BS, held.jaw_opening_m);
     loop.tick();

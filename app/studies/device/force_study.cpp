@@ -7,7 +7,7 @@
 
 #include "app/device_bench/plant_bench.h"
 #include "app/session/calibration/amplifier_calibration.h"
-#include "app/studies/contact/law_loop.h"
+#include "app/studies/contact/bare_control_loop.h"
 #include "app/studies/device/bar_drawing.h"
 #include "app/studies/study_files.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
@@ -129,7 +129,7 @@ class ForceBench {
   HandSense home_;
   const Case* wanted_ = nullptr;
   bool on_ = false;
-  LawLoop loop_;
+  BareControlLoop loop_;
 };
 
 struct Error {

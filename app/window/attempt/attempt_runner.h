@@ -55,7 +55,7 @@ class AttemptRunner {
   /// when and how long. An exam has no pause. @return whether it is as asked.
   bool pause(bool paused);
   bool paused() const;
-  /// The newest moment becomes an event of the recording, to find it again (app/session/moment_mark.h).
+  /// The newest moment becomes an event of the recording, to find it again (app/session/bookmark.h).
   void mark();
   /// The newest moment becomes an event too: a teacher's message was shown then.
   void mark_message();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/moment_mark.h"
+#include "app/session/bookmark.h"
 #include "app/window/attempt/debrief_reason.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/progress/learning_curve.h"
@@ -130,7 +130,7 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == "REMOVED") return words("Placed block taken away");
   if (type == "PORT_HOLD") return words("Too close to the port");
   if (type == "DEADMAN_OPEN") return words("Deadman opened");
-  if (type == kMomentMark) return words("Marked by you");
+  if (type == kBookmark) return words("Marked by you");
   if (type == kMessageMark) return words("Message from your teacher");
   if (type == "DEVICE_FAULT") return words("Device stopped");
   if (type == "TIMEOUT") return words("Time over");

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/moment_mark.h"
+#include "app/session/bookmark.h"
 #include "app/window/attempt/debrief_facts.h"
 #include "app/window/ui/plot.h"
 #include "scenarios/kinds/kind.h"
@@ -165,7 +165,7 @@ std::vector<PlotEvent> plot_events(const Translator& words, const std::vector<Ev
   for (const Event& event : events) {
     const std::string text = event_words(words, event);
     if (!text.empty() && event.t_s >= trace.begin_s && event.t_s <= trace.end_s)
-      out.push_back({event.t_s, event.severity, text, event.type == kMomentMark});
+      out.push_back({event.t_s, event.severity, text, event.type == kBookmark});
   }
   return out;
 }

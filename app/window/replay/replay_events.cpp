@@ -1,6 +1,6 @@
 #include "app/window/replay/replay_events.h"
 
-#include "app/session/moment_mark.h"
+#include "app/session/bookmark.h"
 #include "app/window/attempt/debrief_facts.h"
 
 namespace trocar {
@@ -8,7 +8,7 @@ std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double 
   std::vector<ReplayEvent> out;
   for (const Event& event : events) {
     const std::string said = event_words(words, event);
-    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said, event.type == kMomentMark});
+    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said, event.type == kBookmark});
   }
   return out;
 }

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "app/studies/contact/law_loop.h"
+#include "app/studies/contact/bare_control_loop.h"
 #include "app/studies/contact/release_bench.h"
 #include "app/studies/device/identified_device.h"
 #include "haptics/control/gravity.h"
@@ -53,13 +53,13 @@ TEST(ThesisGravity, DoublesThePlatformsLeverAtHome) {
   EXPECT_LT((thesis_gravity_torque(home) - expected).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(LawLoop, AsksForTheLawsTorqueAtTheAnglesOfTheCounts) {
+TEST(BareControlLoop, AsksForTheLawsTorqueAtTheAnglesOfTheCounts) {
   SimulatedDaqConfig config;
   config.plant = nominal_parameters();
   SimulatedDaq daq(config);
   JointVector seen = JointVector::Zero();
   const JointVector wanted = (JointVector() << 0.1, -0.1, 0.05, 0.02, -0.01, 0.005).finished();
-  LawLoop loop(
+  BareControlLoop loop(
       daq, [&](const ArmState& arm) { return seen = arm.q, wanted; }, home_angles());
   for (int k = 0; k < 10; ++k) loop.tick();  // still in the jig
   EXPECT_LT((seen - home_angles()).cwiseAbs().maxCoeff(), 1e-12);
@@ -78,7 +78,7 @@ TEST(HandSense, FeelsForceAndMomentThatHoldTheStylus) {
   // The loop renders 0.5 N up and 20 mN m about z beside the weight: the hand feels those.
   Vec6 w = Vec6::Zero();
   w[2] = 0.5, w[5] = 0.02;
-  LawLoop loop(
+  BareControlLoop loop(
       daq, [&](const ArmState& arm) -> JointVector { return gravity_torque({}, arm) + arm.J_WS.transpose() * w; },
       home_angles());
   for (int k = 0; k < 3000; ++k) {

@@ -1,6 +1,6 @@
 // Attempts in threads of their own. Nothing judges how punctual the machine is: only what must hold whatever it does.
 #include "app/window/attempt/attempt_runner.h"
-#include "app/session/moment_mark.h"
+#include "app/session/bookmark.h"
 
 #include <gtest/gtest.h>
 
@@ -160,7 +160,7 @@ TEST(AttemptRunner, AMarkedMomentIsAnEventOfTheRecordingAndChangesNothingElse) {
   const AttemptResult kept = stored_attempt(folder.database());
   std::vector<double> marked, messages;
   for (const Event& event : kept.events)
-    if (event.type == kMomentMark) marked.push_back(event.t_s);
+    if (event.type == kBookmark) marked.push_back(event.t_s);
   for (const Event& event : kept.events)
     if (event.type == kMessageMark) messages.push_back(event.t_s);
   ASSERT_EQ(messages.size(), 1u);

@@ -1,10 +1,10 @@
-#include "app/studies/contact/law_loop.h"
+#include "app/studies/contact/bare_control_loop.h"
 
 #include <utility>
 
 namespace trocar {
 
-LawLoop::LawLoop(SimulatedDaq& daq, TorqueLaw law, const JointVector& q, const DeviceModel& model)
+BareControlLoop::BareControlLoop(SimulatedDaq& daq, TorqueLaw law, const JointVector& q, const DeviceModel& model)
     : daq_(daq), law_(std::move(law)), model_(model) {
   counts_.reset(daq.read().counts);
   start_.head<kArmJoints>() = q;
@@ -12,7 +12,7 @@ LawLoop::LawLoop(SimulatedDaq& daq, TorqueLaw law, const JointVector& q, const D
   daq_.arm(true);
 }
 
-void LawLoop::tick() {
+void BareControlLoop::tick() {
   counts_.advance(daq_.read().counts);
   arm_ = arm_state(joint_positions(model_, counts_.total(), start_).head<kArmJoints>());
   ChannelVector torque = ChannelVector::Zero();

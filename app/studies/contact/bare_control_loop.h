@@ -14,11 +14,11 @@ namespace trocar {
 
 using TorqueLaw = std::function<JointVector(const ArmState&)>;
 
-class LawLoop {
+class BareControlLoop {
  public:
   /// Turns the amplifiers on. @param q where the joints are now. @param model its transmissions count, calibrated or
   /// not.
-  LawLoop(SimulatedDaq& daq, TorqueLaw law, const JointVector& q, const DeviceModel& model = {});
+  BareControlLoop(SimulatedDaq& daq, TorqueLaw law, const JointVector& q, const DeviceModel& model = {});
   /// One SYNC.
   void tick();
   const ArmState& arm() const { return arm_; }
