@@ -7,7 +7,7 @@ out vec4 colour;
 uniform sampler3D u_noise;
 uniform sampler2DShadow u_shadow;
 
-#ifdef PRESET_POTATO
+#ifdef PRESET_LOW
 void main() {
   vec3 to_lamp = lamp.xyz - v_position;
   float diffuse = max(dot(normalize(v_normal), normalize(to_lamp)), 0.0);

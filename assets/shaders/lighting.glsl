@@ -40,7 +40,7 @@ vec3 hazed(vec3 light, vec3 at) {
   return mix(light, vec3(0.070, 0.036, 0.029), thick);
 }
 
-#ifdef PRESET_POTATO
+#ifdef PRESET_LOW
 float lamp_shadow(sampler2DShadow map, vec3 at) { return 1.0; }
 #else
 // Share of the lamp's light that reaches a point; the floor is light scattered inside the tissue and thrown back by the walls.

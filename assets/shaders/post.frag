@@ -94,7 +94,7 @@ vec3 camera(vec2 d, float r) {
   float stretch = (1.0 + u_barrel * r * r) / (1.0 + u_barrel);
   vec2 uv = (u_circle.xy + d * stretch * u_circle.z) / u_size;
   vec3 c = texture(u_scene, uv).rgb;
-#ifndef PRESET_POTATO
+#ifndef PRESET_LOW
   vec3 e = texture(u_scene, uv + vec2(u_texel.x, 0.0)).rgb;
   vec3 w = texture(u_scene, uv - vec2(u_texel.x, 0.0)).rgb;
   vec3 n = texture(u_scene, uv + vec2(0.0, u_texel.y)).rgb;
@@ -116,7 +116,7 @@ vec3 camera(vec2 d, float r) {
 #if defined(WITH_FOG) || defined(WITH_LENS_BLOOD)
   c = through_lens(c, uv, d, r);
 #endif
-#ifndef PRESET_POTATO
+#ifndef PRESET_LOW
   c *= 1.0 - 0.44 * smoothstep(0.40, 1.0, r);
 #endif
   return pow(tone(1.05 * c), vec3(1.0 / 2.2));

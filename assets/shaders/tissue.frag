@@ -1,7 +1,7 @@
 // Wet tissue under a scope's own light (recipe: solid noise at the rest position, wrapped diffuse per channel, two-lobe wet film).
 // One of LOOK_LIVER, LOOK_GALLBLADDER, LOOK_WALL, LOOK_FAT, LOOK_SPLEEN, LOOK_KIDNEY, LOOK_PANCREAS, LOOK_DUCT, LOOK_ARTERY,
 // LOOK_VEIN, LOOK_BONE is defined, else plain flesh (stomach, bowel). DIMPLED: dented by the tip. MARKED: bears blood, char,
-// whitening, wet. PRESET_POTATO: plain Phong of the same colours; PRESET_SOFT: without the finest octave.
+// whitening, wet. PRESET_LOW: plain Phong of the same colours; PRESET_SOFT: without the finest octave.
 in vec3 v_position;
 in vec3 v_rest;
 in vec3 v_normal;
@@ -190,7 +190,7 @@ vec3 press(inout Surface s, vec3 n) {
 
 vec3 across(vec3 g, vec3 n) { return g - n * dot(g, n); }
 
-#ifdef PRESET_POTATO
+#ifdef PRESET_LOW
 vec3 lit_by_lamp(Surface s, vec3 n, vec3 l, vec3 v, vec4 coarse, vec4 middle, vec4 fine) {
   float gloss = pow(max(dot(reflect(-l, n), v), 0.0), 24.0);
   return s.base * (0.12 + max(dot(n, l), 0.0)) * (0.35 + 0.65 * v_open) + vec3(0.10 * s.film * gloss);
@@ -227,7 +227,7 @@ void main() {
   vec4 broad = textureLod(u_noise, rest_mm * 0.0083 + 0.57, 1.0);
   vec4 coarse = textureLod(u_noise, rest_mm * 0.021, 0.0);
   vec4 middle = vec4(0.5), fine = vec4(0.5);
-#ifndef PRESET_POTATO
+#ifndef PRESET_LOW
   middle = textureLod(u_noise, rest_mm * 0.083 + 0.37, 0.0);
 #endif
 #ifdef PRESET_FULL

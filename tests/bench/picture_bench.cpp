@@ -42,7 +42,7 @@ void draw(benchmark::State& state, const std::string& name, trocar::Preset prese
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const trocar::Preset preset : {trocar::Preset::kPotato, trocar::Preset::kSoft, trocar::Preset::kFull})
+  for (const trocar::Preset preset : {trocar::Preset::kLow, trocar::Preset::kSoft, trocar::Preset::kFull})
     for (const std::string name : {"pens", "blocks", "organ", "abdomen", "blood", "smoke", "fog"})
       benchmark::RegisterBenchmark((name + "/" + trocar::preset_name(preset)).c_str(), draw, name, preset)
           ->Unit(benchmark::kMillisecond)

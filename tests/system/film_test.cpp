@@ -21,8 +21,8 @@ class FilmsFromOutside : public SystemTest {
   }
   /// So slow a motion that nobody waits for its end.
   static Translator endless(const std::string& flag, const std::string& target) {
-    return {"replay", "a.trec",   flag,     target,  "--width", "320",     "--height",
-            "240",    "--preset", "potato", "--fps", "60",      "--speed", "0.05"};
+    return {"replay", "a.trec",   flag,  target,  "--width", "320",     "--height",
+            "240",    "--preset", "low", "--fps", "60",      "--speed", "0.05"};
   }
   static bool wait_for(const std::function<bool()>& what) {
     for (int i = 0; i < 3000 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -54,7 +54,7 @@ TEST_F(FilmsFromOutside, ARecordingThatWasCutOffIsFilmedToWhereItEnds) {
   const std::string whole = file_bytes(folder_ / "a.trec");
   folder_.write("half.trec", whole.substr(0, whole.size() - 2000));
   const Outcome film = trocar({"replay", "half.trec", "--video", "half.mkv", "--width", "320", "--height", "240",
-                               "--fps", "1", "--preset", "potato"});
+                               "--fps", "1", "--preset", "low"});
   EXPECT_EQ(film.exit_code, 0) << film.err;
   EXPECT_NE(film.err.find("cut off"), std::string::npos) << film.err;
   EXPECT_TRUE(fs::exists(folder_ / "half.mkv"));
@@ -69,8 +69,8 @@ TEST_F(FilmsFromOutside, TheProgramSaysThatItTakesTheQuickerPreset) {
   EXPECT_EQ(automatic.exit_code, 0) << automatic.err;
   const bool software = trocar({"doctor", "--db", "d.db"}).out.find("drawn by the processor") != std::string::npos;
   EXPECT_EQ(automatic.err.find("preset soft") != std::string::npos, software) << automatic.err;
-  const Outcome asked = trocar({"replay", "a.trec", "--video", "b.mkv", "--width", "320", "--height", "240", "--fps",
-                                "0.5", "--preset", "potato"});
+  const Outcome asked = trocar(
+      {"replay", "a.trec", "--video", "b.mkv", "--width", "320", "--height", "240", "--fps", "0.5", "--preset", "low"});
   EXPECT_EQ(asked.exit_code, 0) << asked.err;
   EXPECT_EQ(asked.err.find("preset"), std::string::npos) << asked.err;
 }

@@ -37,7 +37,7 @@ void check(const PictureOptions& options) {
   if (std::find(scenes.begin(), scenes.end(), options.scene) == scenes.end())
     throw InputError("picture: no scene is called '" + options.scene + "'; there are " + listed(scenes));
   if (options.preset != "auto" && !preset_named(options.preset))
-    throw InputError("picture: no preset is called '" + options.preset + "'; there are potato, soft, full and auto");
+    throw InputError("picture: no preset is called '" + options.preset + "'; there are low, soft, full and auto");
   if (options.scope != "0" && options.scope != "30")
     throw InputError("picture: a scope has a tip of 0 or 30 degrees, not '" + options.scope + "'");
   if (!(std::abs(options.post_deg) <= 360))
@@ -97,7 +97,7 @@ void add_picture(CLI::App& parent, CommandAction& chosen) {
                   [given] { return picture_command(*given, find_assets().assets, std::cout, std::cerr); });
   picture->add_option("--out", o.output, "PNG file")->required()->check(writable_path());
   picture->add_option("--scene", o.scene, "One of: " + listed(picture_scenes()))->capture_default_str();
-  picture->add_option("--preset", o.preset, "potato, soft, full, or auto: chosen by timing")->capture_default_str();
+  picture->add_option("--preset", o.preset, "low, soft, full, or auto: chosen by timing")->capture_default_str();
   picture->add_option("--scope", o.scope, "Tip of the scope: 0 or 30 degrees")->capture_default_str();
   picture->add_option("--post", o.post_deg, "Degrees by which the light post is turned")->capture_default_str();
   picture->add_option("--width", o.width, "Pixels")->capture_default_str();

@@ -14,7 +14,7 @@ namespace trocar {
 struct PictureOptions {
   std::filesystem::path output;    ///< PNG
   std::string scene = "abdomen";   ///< of show_scene(), or "marks": the twelve marks of a laparoscopic view, pointed at
-  std::string preset = "full";     ///< "potato", "soft", "full", or "auto": chosen by timing
+  std::string preset = "full";     ///< "low", "soft", "full", or "auto": chosen by timing
   int width = 1280, height = 720;  ///< px, 320 x 240 to 7680 x 4320
   std::uint64_t seed = 1;          ///< of lumps and lobes
   std::string scope = "0";         ///< tilt of the scope's tip, degrees: "0" or "30"

@@ -148,9 +148,9 @@ void add_replay(CLI::App& parent, CommandAction& chosen) {
       ->check(CLI::Range(240, 4320));
   replay
       ->add_option("--preset", o.preset,
-                   "Of a film's pictures: potato, soft, full, or auto: full, and soft where no GPU draws")
+                   "Of a film's pictures: low, soft, full, or auto: full, and soft where no GPU draws")
       ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "potato", "soft", "full"}));
+      ->check(CLI::IsMember({"auto", "low", "soft", "full"}));
   replay->add_option("--beside", o.beside, "Second run in the same film: recording, attempt, or 'expert'")
       ->check(file_name());
   replay->add_option("--organ", o.organ, "Where the recorded organ lies now");

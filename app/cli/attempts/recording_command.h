@@ -16,7 +16,7 @@ struct RecordingOptions {
   std::filesystem::path video = {};  ///< replay: film
   std::string beside = {};           ///< replay: second run of the film: recording, attempt, or "expert"
   std::optional<double> fps;         ///< none: 10 of pictures, 25 of a film
-  std::string preset = "auto";       ///< replay: of a film's pictures: potato, soft, full; auto: as the machine draws
+  std::string preset = "auto";       ///< replay: of a film's pictures: low, soft, full; auto: as the machine draws
   double speed = 1;                  ///< replay: loop seconds a second of film
   int width = 1280, height = 720;    ///< replay: px
   std::string organ;                 ///< replay: where the organ lies now, when it has moved

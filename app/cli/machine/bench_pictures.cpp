@@ -49,7 +49,7 @@ std::vector<PictureCost> picture_costs(const std::filesystem::path& asset_root, 
     Renderer renderer(context, asset_root);
     for (const char* scene : {"board", "abdomen"}) {
       const SceneView view = show_scene(scene);
-      for (const Preset preset : {Preset::kPotato, Preset::kSoft, Preset::kFull})
+      for (const Preset preset : {Preset::kLow, Preset::kSoft, Preset::kFull})
         out.push_back(cost_of(renderer, scene, view, preset));
     }
   } catch (const EnvironmentError& error) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWanted_s = 1.0 / 12;  // of the show scene, 18 organs: the exercises cost half of it
 constexpr int kFrames = 10;
-constexpr std::array<Preset, 3> kAll = {Preset::kPotato, Preset::kSoft, Preset::kFull};
+constexpr std::array<Preset, 3> kAll = {Preset::kLow, Preset::kSoft, Preset::kFull};
 
 /// Mean time of a picture; stops early when `enough_s` have gone.
 double mean_frame_s(Renderer& renderer, SceneView view, int width, int height, double enough_s) {
@@ -32,14 +32,14 @@ double mean_frame_s(Renderer& renderer, SceneView view, int width, int height, d
 }  // namespace
 
 const PresetTraits& traits_of(Preset preset) {
-  static const std::array<PresetTraits, 3> kTraits = {{{"PRESET_POTATO", 0.5, 0, false, 12000, 4000},
+  static const std::array<PresetTraits, 3> kTraits = {{{"PRESET_LOW", 0.5, 0, false, 12000, 4000},
                                                        {"PRESET_SOFT", 0.5, 512, true, 20000, 6000},
                                                        {"PRESET_FULL", 1.0, 1024, true, 60000, 16000}}};
   return kTraits[static_cast<std::size_t>(preset)];
 }
 
 std::string preset_name(Preset preset) {
-  static const std::array<std::string, 3> kNames = {"potato", "soft", "full"};
+  static const std::array<std::string, 3> kNames = {"low", "soft", "full"};
   return kNames[static_cast<std::size_t>(preset)];
 }
 
@@ -52,12 +52,12 @@ std::optional<Preset> preset_named(const std::string& name) {
 Preset choose_preset(Preset first, double wanted_s, const std::function<double(Preset)>& frame_s) {
   for (auto i = static_cast<std::size_t>(first); i > 0; --i)
     if (frame_s(kAll[i]) <= wanted_s) return kAll[i];
-  return Preset::kPotato;
+  return Preset::kLow;
 }
 
 std::optional<Preset> PresetWatch::picture(double dt_s, Preset now) {
   if (dt_s > kStandstill_s) return std::nullopt;
-  slow_ = dt_s > kTooSlow_s && now != Preset::kPotato ? slow_ + 1 : 0;
+  slow_ = dt_s > kTooSlow_s && now != Preset::kLow ? slow_ + 1 : 0;
   if (slow_ < kInARow) return std::nullopt;
   slow_ = 0;
   return kAll[static_cast<std::size_t>(now) - 1];

@@ -1,6 +1,6 @@
 // How much of the picture a machine can afford: three presets, and the choice among them by timing.
 //
-//   potato  half size, plain Phong, round field; no shadow, no glow
+//   low  half size, plain Phong, round field; no shadow, no glow
 //   soft    half size, thinner meshes, shadow map of 512; the camera's work at the small size
 //   full    full size, shadow map of 1024, finest meshes, more taps
 // Each is a set of program variants (#define), never a branch at run time: software rasterisers run both sides of a
@@ -21,7 +21,7 @@ namespace trocar {
 class Renderer;
 struct SceneView;
 
-enum class Preset : std::uint8_t { kPotato, kSoft, kFull };
+enum class Preset : std::uint8_t { kLow, kSoft, kFull };
 
 struct PresetTraits {
   std::string define;  ///< of the shaders: "PRESET_FULL"
@@ -36,7 +36,7 @@ std::string preset_name(Preset preset);
 /// Empty for a name that is none.
 std::optional<Preset> preset_named(const std::string& name);
 
-/// The richest preset that is quick enough; potato when none is. Tries from `first` downwards and times each once.
+/// The richest preset that is quick enough; low when none is. Tries from `first` downwards and times each once.
 /// @param frame_s seconds of one picture. @param wanted_s at most.
 Preset choose_preset(Preset first, double wanted_s, const std::function<double(Preset)>& frame_s);
 

@@ -6,14 +6,14 @@
 namespace trocar {
 namespace {
 
-struct Words {
+struct FaultWords {
   const char* what;
   const char* advice;
 };
 
 /// By fault_name(). "%" stands for the fault's value.
-const std::map<std::string, Words>& table() {
-  static const std::map<std::string, Words> words{
+const std::map<std::string, FaultWords>& table() {
+  static const std::map<std::string, FaultWords> words{
       {"encoder-jump",
        {"the counter moved by % counts in one period, more than a motor can turn",
         "Check the encoder's plug and cable"}},

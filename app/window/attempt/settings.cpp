@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kVersion = 1;
-const std::vector<std::string> kPresets{"auto", "potato", "soft", "full"};
+const std::vector<std::string> kPresets{"auto", "low", "soft", "full"};
 const std::vector<std::string> kScopes{"0", "30"};
 const std::vector<std::string> kInputs{"auto", "mouse", "gamepad", "spacemouse", "device"};
 

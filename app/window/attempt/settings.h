@@ -18,7 +18,7 @@ struct Settings {
   double sensitivity = 1;
   bool sound = true;
   std::string scope = "0";                       ///< tilt of the scope's tip, degrees: "0", "30"
-  std::string preset = "auto";                   ///< "auto", "potato", "soft", "full"
+  std::string preset = "auto";                   ///< "auto", "low", "soft", "full"
   std::string input = "auto";                    ///< "auto", "mouse", "gamepad", "spacemouse", "device"
   std::map<std::string, std::string> keys = {};  ///< changes of KeyMap
   std::string note = {};                         ///< what went wrong while loading, for who mends the file; not saved

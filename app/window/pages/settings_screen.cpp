@@ -49,7 +49,7 @@ void SettingsScreen::general(Ui& ui, PracticeModel& model) {
     model.choose_scope(scope);
   ui.explain(w("The light post of a 30 degree scope turns where it looks; the camera head keeps the horizon."));
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
-                         {"auto", "potato", "soft", "full"}, s.preset);
+                         {"auto", "low", "soft", "full"}, s.preset);
   changed |= ui.toggle("sound", w("Sound"), s.sound);
   if (!model.sound().refusal().empty()) ui.text(w.made(model.sound().refusal()), Ink::kDim);
   if (changed) model.settings_changed();

@@ -1,7 +1,7 @@
 // The head-up display in the language that was chosen.
 //
 // Director and display make their sentences in English with the numbers in them, so that neither they nor a recording
-// know of languages; here they are found by their form (Words::made). Thread: the window's.
+// know of languages; here they are found by their form (Translator::made). Thread: the window's.
 #pragma once
 
 #include <string>

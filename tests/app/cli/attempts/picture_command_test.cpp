@@ -68,7 +68,7 @@ TEST_F(PictureCommand, RefusesUnknownScenesAndNamesTheKnown) {
 
 TEST_F(PictureCommand, RefusesUnknownPresets) {
   options_.preset = "ultra";
-  EXPECT_NE(refusal().find("potato, soft, full and auto"), std::string::npos);
+  EXPECT_NE(refusal().find("low, soft, full and auto"), std::string::npos);
 }
 
 TEST_F(PictureCommand, RefusesSizesThatNobodyCanSee) {
@@ -99,7 +99,7 @@ TEST(PictureCosts, EveryPresetOfBothScenesIsTimedAndPrinted) {
   }
   EXPECT_LT(costs[4].cpu_ms, costs[5].cpu_ms);  // soft against full, by a factor of three
   print_pictures(costs, out);
-  for (const char* word : {"board", "abdomen", "potato", "soft", "full"})
+  for (const char* word : {"board", "abdomen", "low", "soft", "full"})
     EXPECT_NE(out.str().find(word), std::string::npos) << word;
 }
 

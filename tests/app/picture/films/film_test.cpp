@@ -86,7 +86,7 @@ TEST_F(Films, AnExerciseWithoutForceBarsLeavesTheirRoomToThePicture) {
   AttemptSetup setup = short_setup();
   setup.exercise = find_exercise("reach-and-orient", find_assets().exercises);
   const Scene scene = build_scene(setup, find_assets(), {"simulated", 1000, 16});
-  SideBySidePainter painter(find_assets(), 720, 400, Preset::kPotato);
+  SideBySidePainter painter(find_assets(), 720, 400, Preset::kLow);
   RunMoment moment;
   moment.record.stylus.X_TI.p = scene.board.start_T;
   const Image image = painter.paint({scene, moment, "T-1"}, {scene, moment, "expert"}, 1);

@@ -124,10 +124,10 @@ TEST_F(MarksOfTheView, ACreviceIsTintedRedWhereAPlainShadeWouldBeGrey) {
     }
     return Seen{brightness(crevice) / brightness(free), redness(crevice) / redness(free)};
   };
-  const Seen full = seen(Preset::kFull), soft = seen(Preset::kSoft), potato = seen(Preset::kPotato);
-  for (const Seen& one : {full, soft, potato}) EXPECT_LT(one.dimmer, 0.88);
-  EXPECT_GT(full.redder, potato.redder + 0.05);  // the least preset shades in grey
-  EXPECT_GT(soft.redder, potato.redder + 0.05);
+  const Seen full = seen(Preset::kFull), soft = seen(Preset::kSoft), low = seen(Preset::kLow);
+  for (const Seen& one : {full, soft, low}) EXPECT_LT(one.dimmer, 0.88);
+  EXPECT_GT(full.redder, low.redder + 0.05);  // the least preset shades in grey
+  EXPECT_GT(soft.redder, low.redder + 0.05);
 }
 
 // ---- vessels
@@ -177,7 +177,7 @@ TEST_F(VesselsOfTheView, TrunksRunOverStomachAndGallbladderButNotOverBone) {
     look_at(material);
     return clear(lines(grid));
   };
-  for (const Preset one : {Preset::kFull, Preset::kSoft, Preset::kPotato}) {
+  for (const Preset one : {Preset::kFull, Preset::kSoft, Preset::kLow}) {
     EXPECT_GT(lines_on("stomach", one), 40) << preset_name(one);
     EXPECT_GT(lines_on("gallbladder", one), 15) << preset_name(one);
     EXPECT_LT(lines_on("bone", one), 5) << preset_name(one);

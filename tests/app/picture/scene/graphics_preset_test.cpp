@@ -15,21 +15,21 @@ namespace {
 using testing_support::changed;
 using testing_support::procedural_scene;
 
-std::function<double(Preset)> machine(double potato, double soft, double full, std::vector<Preset>* tried = nullptr) {
+std::function<double(Preset)> machine(double low, double soft, double full, std::vector<Preset>* tried = nullptr) {
   return [=](Preset preset) {
     if (tried) tried->push_back(preset);
-    return std::map<Preset, double>{{Preset::kPotato, potato}, {Preset::kSoft, soft}, {Preset::kFull, full}}.at(preset);
+    return std::map<Preset, double>{{Preset::kLow, low}, {Preset::kSoft, soft}, {Preset::kFull, full}}.at(preset);
   };
 }
 
 TEST(ChoosePreset, TakesTheRichestThatIsQuickEnough) {
   EXPECT_EQ(choose_preset(Preset::kFull, 0.04, machine(0.001, 0.002, 0.01)), Preset::kFull);
   EXPECT_EQ(choose_preset(Preset::kFull, 0.04, machine(0.01, 0.03, 0.2)), Preset::kSoft);
-  EXPECT_EQ(choose_preset(Preset::kFull, 0.04, machine(0.03, 0.09, 0.2)), Preset::kPotato);
+  EXPECT_EQ(choose_preset(Preset::kFull, 0.04, machine(0.03, 0.09, 0.2)), Preset::kLow);
 }
 
-TEST(ChoosePreset, PotatoIsTheLastResortHoweverSlow) {
-  EXPECT_EQ(choose_preset(Preset::kFull, 0.04, machine(5, 6, 7)), Preset::kPotato);
+TEST(ChoosePreset, LowIsTheLastResortHoweverSlow) {
+  EXPECT_EQ(choose_preset(Preset::kFull, 0.04, machine(5, 6, 7)), Preset::kLow);
 }
 
 TEST(ChoosePreset, NeverTriesRicherThanItMayAndStopsAtTheFirstThatFits) {
@@ -47,7 +47,7 @@ TEST(PresetWatch, StepsDownAfterTwentySlowPicturesInARow) {
   EXPECT_EQ(watch.picture(0.15, Preset::kFull), Preset::kSoft);
   for (int i = 1; i < PresetWatch::kInARow; ++i)
     ASSERT_FALSE(watch.picture(0.15, Preset::kSoft)) << "it counts anew: " << i;
-  EXPECT_EQ(watch.picture(0.15, Preset::kSoft), Preset::kPotato);
+  EXPECT_EQ(watch.picture(0.15, Preset::kSoft), Preset::kLow);
 }
 
 TEST(PresetWatch, AQuickPictureInBetweenAndAStandstillKeepThePreset) {
@@ -57,23 +57,22 @@ TEST(PresetWatch, AQuickPictureInBetweenAndAStandstillKeepThePreset) {
   for (int i = 0; i < 100; ++i) ASSERT_FALSE(slept.picture(3, Preset::kSoft)) << "a hidden window";
 }
 
-TEST(PresetWatch, BelowPotatoThereIsNothing) {
+TEST(PresetWatch, BelowLowThereIsNothing) {
   PresetWatch watch;
-  for (int i = 0; i < 100; ++i) ASSERT_FALSE(watch.picture(0.5, Preset::kPotato));
+  for (int i = 0; i < 100; ++i) ASSERT_FALSE(watch.picture(0.5, Preset::kLow));
 }
 
 TEST(PresetNames, GoBothWays) {
-  for (const Preset preset : {Preset::kPotato, Preset::kSoft, Preset::kFull})
+  for (const Preset preset : {Preset::kLow, Preset::kSoft, Preset::kFull})
     EXPECT_EQ(preset_named(preset_name(preset)), preset);
   EXPECT_FALSE(preset_named("ultra"));
   EXPECT_FALSE(preset_named(""));
 }
 
 TEST(PresetTraits, RicherCostsMore) {
-  const PresetTraits &potato = traits_of(Preset::kPotato), &soft = traits_of(Preset::kSoft),
-                     &full = traits_of(Preset::kFull);
-  EXPECT_EQ(potato.shadow_px, 0);
-  EXPECT_FALSE(potato.glow);
+  const PresetTraits &low = traits_of(Preset::kLow), &soft = traits_of(Preset::kSoft), &full = traits_of(Preset::kFull);
+  EXPECT_EQ(low.shadow_px, 0);
+  EXPECT_FALSE(low.glow);
   EXPECT_EQ(soft.shadow_px, 512);
   EXPECT_LT(soft.scale, full.scale);
   EXPECT_LT(soft.organ_triangles, full.organ_triangles);
@@ -112,7 +111,7 @@ TEST_F(PresetPicture, AllShowTheSameSceneInTheSameRoundField) {
   const SceneView view = scene();
   Renderer renderer = make_renderer(with(Preset::kFull));
   const Image full = renderer.render(view, kWidth, kHeight);
-  for (const Preset preset : {Preset::kSoft, Preset::kPotato}) {
+  for (const Preset preset : {Preset::kSoft, Preset::kLow}) {
     renderer.set_options(with(preset));
     const Image other = renderer.render(view, kWidth, kHeight);
     EXPECT_LT(mean_difference(full, other), preset == Preset::kSoft ? 9 : 30) << preset_name(preset);
@@ -132,7 +131,7 @@ TEST_F(PresetPicture, ChangedAtRunTimeEqualsChosenAtTheStart) {
   EXPECT_EQ(after.rgb, make_renderer(with(Preset::kSoft)).render(view, kWidth, kHeight).rgb);
 }
 
-TEST_F(PresetPicture, PotatoThrowsNoShadow) {
+TEST_F(PresetPicture, LowThrowsNoShadow) {
   SceneView view = scene();
   view.targets.clear();
   view.dimple_T.reset();
@@ -144,7 +143,7 @@ TEST_F(PresetPicture, PotatoThrowsNoShadow) {
     return changed(renderer.render(near, kWidth, kHeight), renderer.render(away, kWidth, kHeight), 12);
   };
   EXPECT_GT(share(Preset::kSoft),
-            1.15 * share(Preset::kPotato));  // the instrument's own pixels, and those of its shadow
+            1.15 * share(Preset::kLow));  // the instrument's own pixels, and those of its shadow
 }
 
 TEST_F(PresetPicture, EachDrawsEveryField) {
@@ -152,7 +151,7 @@ TEST_F(PresetPicture, EachDrawsEveryField) {
   view.smoke_per_m = 6;
   view.lens = {.fog = 0.4, .blood = 0.4, .wipe = 0.3};
   view.marks.push_back({TissueMarkKind::kBlood, view.targets[3].centre_T, 0.006, 1});
-  for (const Preset preset : {Preset::kPotato, Preset::kSoft, Preset::kFull})
+  for (const Preset preset : {Preset::kLow, Preset::kSoft, Preset::kFull})
     EXPECT_NO_THROW(make_renderer(with(preset)).render(view, kWidth, kHeight)) << preset_name(preset);
 }
 

@@ -31,13 +31,13 @@ class GoldenScope : public HeadlessFixture {
 };
 
 TEST_F(GoldenScope, Board) {
-  for (const Preset preset : {Preset::kPotato, Preset::kSoft, Preset::kFull})
+  for (const Preset preset : {Preset::kLow, Preset::kSoft, Preset::kFull})
     expect_golden(picture(show_scene("board"), preset), "board-" + preset_name(preset));
 }
 
 TEST_F(GoldenScope, Abdomen) {
   const SceneView abdomen = show_scene("abdomen");
-  for (const Preset preset : {Preset::kPotato, Preset::kSoft, Preset::kFull})
+  for (const Preset preset : {Preset::kLow, Preset::kSoft, Preset::kFull})
     expect_golden(picture(abdomen, preset), "abdomen-" + preset_name(preset));
   expect_golden(picture(with_fields(abdomen, "blood"), Preset::kSoft), "abdomen-blood");
   expect_golden(picture(with_fields(abdomen, "smoke"), Preset::kSoft), "abdomen-smoke");
