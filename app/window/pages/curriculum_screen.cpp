@@ -22,13 +22,14 @@ std::string score_words(const Translator& w, const std::optional<double>& score)
 
 }  // namespace
 
-Mark standing_mark(const Standing& s) {
+Mark progress_mark(const LevelProgress& s) {
   if (!s.unlocked) return Mark::kLock;
   if (s.passed >= 2) return Mark::kTick;
   return s.passed == 1 ? Mark::kHalf : Mark::kOpen;
 }
 
-std::string standing_words(const Translator& w, const Exercise& exercise, const std::string& level, const Standing& s) {
+std::string progress_words(const Translator& w, const Exercise& exercise, const std::string& level,
+                           const LevelProgress& s) {
   if (!s.unlocked) {
     const auto at = std::find_if(exercise.levels.begin(), exercise.levels.end(),
                                  [&](const ExerciseLevel& l) { return l.name == level; });
@@ -45,8 +46,8 @@ void CurriculumScreen::load(PracticeModel& model) {
   last_.reset();
   for (const Exercise& exercise : model.exercises()) {
     for (const ExerciseLevel& level : exercise.levels) {
-      rows_.push_back({&exercise, level.name, model.standing(exercise.id, level.name)});
-      const auto& newest = rows_.back().standing.newest_first;
+      rows_.push_back({&exercise, level.name, model.progress(exercise.id, level.name)});
+      const auto& newest = rows_.back().progress.newest_first;
       if (!newest.empty() && (!last_ || newest.front().started_utc > last_->started_utc))
         last_ = {exercise.id, level.name, newest.front().started_utc};
       if (exercise.id == model.exercise_id && level.name == model.level) chosen_ = rows_.size() - 1;
@@ -78,9 +79,9 @@ void CurriculumScreen::tree(Ui& ui, PracticeModel& model, const Area& area) {
     if (i == 0 || row.exercise != rows_[i - 1].exercise)
       ui.heading(row.exercise->number + " " + w(row.exercise->title));
     const std::string id = row.exercise->id + row.level,
-                      best = row.standing.best ? w.number(*row.standing.best, 0) : "";
-    const std::string said = standing_words(w, *row.exercise, row.level, row.standing);
-    if (ui.selectable(id.c_str(), standing_mark(row.standing), said, i == chosen_, best)) choose(model, i);
+                      best = row.progress.best ? w.number(*row.progress.best, 0) : "";
+    const std::string said = progress_words(w, *row.exercise, row.level, row.progress);
+    if (ui.selectable(id.c_str(), progress_mark(row.progress), said, i == chosen_, best)) choose(model, i);
     if (i == chosen_ && revealed_ != chosen_) ui.reveal();
   }
   revealed_ = chosen_;
@@ -97,9 +98,9 @@ void CurriculumScreen::head(Ui& ui, PracticeModel& model) const {
 void CurriculumScreen::facts(Ui& ui, PracticeModel& model, double sparkline_at_720) const {
   const Translator& w = model.words();
   const Row& row = rows_[chosen_];
-  const Standing& s = row.standing;
+  const LevelProgress& s = row.progress;
   const double pass = find_level(*row.exercise, row.level).rubric.pass_at;
-  ui.marked(standing_mark(s), standing_words(w, *row.exercise, row.level, s));
+  ui.marked(progress_mark(s), progress_words(w, *row.exercise, row.level, s));
   const std::string best = score_words(w, s.best), last = score_words(w, s.last);
   if (s.best || s.last)
     ui.text(w("Best {0}, last {1}, pass line {2}.", {best, last, w.number(pass, 0)}));

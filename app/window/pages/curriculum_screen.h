@@ -14,11 +14,11 @@
 
 namespace trocar {
 
-/// How a standing is shown: a shape with words, colour only beside them.
-Mark standing_mark(const Standing& standing);
+/// How progress at a level is shown: a shape with words, colour only beside them.
+Mark progress_mark(const LevelProgress& progress);
 /// "L1: passed 2 x", "L2: needs L1 passed 3 x in a row".
-std::string standing_words(const Translator& words, const Exercise& exercise, const std::string& level,
-                           const Standing& standing);
+std::string progress_words(const Translator& words, const Exercise& exercise, const std::string& level,
+                           const LevelProgress& progress);
 /// What the newest attempt of all was of; none before the first.
 struct LastTried {
   std::string exercise_id, level, started_utc;
@@ -35,7 +35,7 @@ class CurriculumScreen final : public Screen {
   struct Row {
     const Exercise* exercise;
     std::string level;
-    Standing standing;
+    LevelProgress progress;
   };
   void load(PracticeModel& model);
   void keys(const Ui& ui, PracticeModel& model);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTwoColumns = 900, kProgressMargin = 20, kList = 400;  // px at 720 lines and scale 1
 
-Mark standing_mark(const ProgressEntry& entry) {
+Mark progress_mark(const ProgressEntry& entry) {
   if (entry.open) return Mark::kTick;
   return entry.curve.passed > 0 ? Mark::kHalf : Mark::kOpen;
 }
@@ -76,7 +76,7 @@ void ProgressPage::list(Ui& ui, const std::vector<ProgressEntry>& entries, const
     const ProgressEntry& entry = entries[i];
     const std::string id = "curve" + std::to_string(i);
     const std::string right = entry.input + "  " + std::to_string(entry.curve.attempts.size());
-    if (!ui.selectable(id.c_str(), standing_mark(entry), entry.name, static_cast<int>(i) == chosen_, right)) continue;
+    if (!ui.selectable(id.c_str(), progress_mark(entry), entry.name, static_cast<int>(i) == chosen_, right)) continue;
     chosen_ = static_cast<int>(i);
     attempt_ = -1;
   }

@@ -181,21 +181,21 @@ const Exercise& PracticeModel::exercise() const {
 
 bool PracticeModel::exercise_given() const { return !state_->options.exercise.empty(); }
 
-Standing PracticeModel::standing(const std::string& id, const std::string& of_level) const {
+LevelProgress PracticeModel::progress(const std::string& id, const std::string& of_level) const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [&id](const Exercise& e) { return e.id == id; });
-  return at == all.end() ? Standing{} : standing_of(*at, of_level, state_->attempts(id));
+  return at == all.end() ? LevelProgress{} : level_progress(*at, of_level, state_->attempts(id));
 }
 
 PracticeModel::Advice PracticeModel::next() const {
   const Translator& w = state_->words;
   const auto found = next_step(practice_order(state_->exercises, is_guest()),
-                               [this](const Exercise& e, const std::string& name) { return standing(e.id, name); });
+                               [this](const Exercise& e, const std::string& name) { return progress(e.id, name); });
   if (!found) {
     const Exercise& first = state_->exercises.front();
     return {first.id, first.levels.back().name, w("Everything is passed: stay in practice.")};
   }
-  const Standing& s = found->standing;
+  const LevelProgress& s = found->progress;
   const std::string why = s.attempts == 0 ? w("Not tried yet.")
                           : s.passed_in_a_row == 0
                               ? w(s.attempts == 1 ? "Tried once, the row of passes is still to come."
@@ -209,12 +209,12 @@ std::string PracticeModel::locked() const {
   const std::vector<ExerciseLevel>& levels = exercise().levels;
   const auto at =
       std::find_if(levels.begin(), levels.end(), [this](const ExerciseLevel& one) { return one.name == level; });
-  if (state_->scripted() || at == levels.begin() || at == levels.end() || standing(exercise_id, level).unlocked)
+  if (state_->scripted() || at == levels.begin() || at == levels.end() || progress(exercise_id, level).unlocked)
     return "";
   const Translator& w = state_->words;
   const std::string& before = std::prev(at)->name;
   return w("{0} is locked: three passes in a row on three boards at {1} open it. So far: {2} of 3.",
-           {w(level), w(before), std::to_string(std::min(3, standing(exercise_id, before).passed_in_a_row))});
+           {w(level), w(before), std::to_string(std::min(3, progress(exercise_id, before).passed_in_a_row))});
 }
 
 std::optional<std::string> PracticeModel::teacher_note() const {

@@ -14,7 +14,7 @@
 #include "app/window/attempt/settings.h"
 #include "app/window/input/key_map.h"
 #include "app/window/input/steering.h"
-#include "app/window/practice/standing.h"
+#include "app/window/practice/level_progress.h"
 #include "app/window/sound/sound.h"
 #include "app/window/words/translator.h"
 #include "scenarios/exercise.h"
@@ -80,7 +80,7 @@ class PracticeModel {
   std::string exercise_id, level = "L1", organ = "phantom-liver";
   const Exercise& exercise() const;  ///< the chosen one
   bool exercise_given() const;       ///< by the options: straight to its briefing
-  Standing standing(const std::string& exercise_id, const std::string& level) const;
+  LevelProgress progress(const std::string& exercise_id, const std::string& level) const;
   /// What to do next, and why: exercise id, level, one sentence.
   struct Advice {
     std::string exercise_id, level, why;

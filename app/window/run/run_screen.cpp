@@ -84,8 +84,8 @@ void RunScreen::State::begin(PracticeModel& model) {
   over_s = 0;
   latency.forget();
   sounds = RunSounds();
-  const Standing standing = model.standing(model.exercise_id, model.level);
-  hints.begin(model.is_guest() && standing.passed == 0 && standing.attempts <= 1);
+  const LevelProgress progress = model.progress(model.exercise_id, model.level);
+  hints.begin(model.is_guest() && progress.passed == 0 && progress.attempts <= 1);
   begun = true;
 }
 

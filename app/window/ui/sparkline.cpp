@@ -4,10 +4,10 @@
 
 namespace trocar {
 
-std::vector<double> scores_oldest_first(const Standing& standing) {
+std::vector<double> scores_oldest_first(const LevelProgress& progress) {
   constexpr std::size_t kMost = 30;
   std::vector<double> out;
-  for (const AttemptSummary& attempt : standing.newest_first)
+  for (const AttemptSummary& attempt : progress.newest_first)
     if (attempt.score && out.size() < kMost) out.push_back(*attempt.score);
   std::reverse(out.begin(), out.end());
   return out;

@@ -45,27 +45,27 @@ class LessonScreens : public testing_support::LoopBench {
   }
 };
 
-TEST(StandingShown, EachStandingHasAShapeAndWordsOfItsOwn) {
+TEST(ProgressShown, EachProgressHasAShapeAndWordsOfItsOwn) {
   const Translator w;
   const auto all = list_exercises(testing_support::source_assets().exercises);
   const Exercise& e = all.front();
-  Standing open, once, often, locked;
+  LevelProgress open, once, often, locked;
   once.attempts = once.passed = 1;
   often.attempts = 4;
   often.passed = 3;
   locked.unlocked = false;
-  EXPECT_EQ(standing_mark(open), Mark::kOpen);
-  EXPECT_EQ(standing_mark(once), Mark::kHalf);
-  EXPECT_EQ(standing_mark(often), Mark::kTick);
-  EXPECT_EQ(standing_mark(locked), Mark::kLock);
-  EXPECT_EQ(standing_words(w, e, "L1", open), "L1: open");
-  EXPECT_EQ(standing_words(w, e, "L1", once), "L1: passed once");
-  EXPECT_EQ(standing_words(w, e, "L1", often), "L1: passed 3 x");
-  EXPECT_EQ(standing_words(w, e, "L2", locked), "L2: needs L1 3 x");
+  EXPECT_EQ(progress_mark(open), Mark::kOpen);
+  EXPECT_EQ(progress_mark(once), Mark::kHalf);
+  EXPECT_EQ(progress_mark(often), Mark::kTick);
+  EXPECT_EQ(progress_mark(locked), Mark::kLock);
+  EXPECT_EQ(progress_words(w, e, "L1", open), "L1: open");
+  EXPECT_EQ(progress_words(w, e, "L1", once), "L1: passed once");
+  EXPECT_EQ(progress_words(w, e, "L1", often), "L1: passed 3 x");
+  EXPECT_EQ(progress_words(w, e, "L2", locked), "L2: needs L1 3 x");
 }
 
-TEST(StandingShown, CurveRunsFromTheOldestAndLeavesOutWhatHasNoScore) {
-  Standing s;
+TEST(ProgressShown, CurveRunsFromTheOldestAndLeavesOutWhatHasNoScore) {
+  LevelProgress s;
   s.newest_first = {attempt("L1", 3, true, 90), attempt("L1", 2, false, 60), attempt("L1", 1, false, 40)};
   s.newest_first[1].score.reset();
   EXPECT_EQ(scores_oldest_first(s), (std::vector<double>{40, 90}));

@@ -116,16 +116,16 @@ TEST(PracticeModel, WrongOptionsAreRefusedBeforeAWindowOpens) {
   EXPECT_THROW(bench.model(options), InputError);
 }
 
-TEST(PracticeModel, StandingsComeFromTheStoreOfThisTraineeAlone) {
+TEST(PracticeModel, ProgressComesFromTheStoreOfThisTraineeAlone) {
   const PracticeBench bench;
   const auto model = bench.model();
   const Exercise& first = model->exercises().front();
   store(bench.options().database, first, "L1", 1, true);
-  EXPECT_EQ(model->standing(first.id, "L1").attempts, 0) << "that was not the guest";
+  EXPECT_EQ(model->progress(first.id, "L1").attempts, 0) << "that was not the guest";
   ASSERT_EQ(model->sign_in("T-1"), "");
-  EXPECT_EQ(model->standing(first.id, "L1").attempts, 1);
-  EXPECT_EQ(model->standing(first.id, "L1").best, 85);
-  EXPECT_EQ(model->standing("unknown", "L1").attempts, 0);
+  EXPECT_EQ(model->progress(first.id, "L1").attempts, 1);
+  EXPECT_EQ(model->progress(first.id, "L1").best, 85);
+  EXPECT_EQ(model->progress("unknown", "L1").attempts, 0);
 }
 
 TEST(PracticeModel, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) {
@@ -135,12 +135,12 @@ TEST(PracticeModel, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) 
   const Exercise& first = model->exercises().front();
   EXPECT_EQ(model->next().exercise_id, first.id);
   EXPECT_EQ(model->next().level, "L1");
-  EXPECT_FALSE(model->standing(first.id, "L2").unlocked);
+  EXPECT_FALSE(model->progress(first.id, "L2").unlocked);
   for (const int board : {1001, 1002, 1003}) {
     EXPECT_EQ(model->next().exercise_id, first.id);
     store(bench.options().database, first, "L1", board, true);
   }
-  EXPECT_TRUE(model->standing(first.id, "L2").unlocked);
+  EXPECT_TRUE(model->progress(first.id, "L2").unlocked);
   EXPECT_EQ(model->next().exercise_id, model->exercises()[1].id) << "all exercises at a level before the next level";
   EXPECT_EQ(model->next().level, "L1");
 }
@@ -151,15 +151,15 @@ TEST(PracticeModel, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsO
   ASSERT_EQ(model->sign_in("T-1"), "");
   const Exercise& first = model->exercises().front();
   for (const int board : {1001, 1002, 1003}) store(bench.options().database, first, "L1", board, board != 1002);
-  EXPECT_FALSE(model->standing(first.id, "L2").unlocked);
-  EXPECT_EQ(model->standing(first.id, "L1").passed, 2);
+  EXPECT_FALSE(model->progress(first.id, "L2").unlocked);
+  EXPECT_EQ(model->progress(first.id, "L1").passed, 2);
   const std::string uuid = model->past(first.id)[1].summary.uuid;
   {
     Database db(bench.options().database);
     AssessmentStore(db).override_verdict(uuid, true, "The stand slipped twice", {"", "Dr B"});
   }
-  EXPECT_TRUE(model->standing(first.id, "L2").unlocked);
-  EXPECT_EQ(model->standing(first.id, "L1").passed, 3);
+  EXPECT_TRUE(model->progress(first.id, "L2").unlocked);
+  EXPECT_EQ(model->progress(first.id, "L1").passed, 3);
   EXPECT_TRUE(model->past(first.id)[1].summary.passed);
   model->notice.clear();
   ASSERT_TRUE(model->open_result(uuid));
@@ -197,7 +197,7 @@ TEST(PracticeModel, AnAttemptThatIsLeftIsStoredAsAborted) {
   EXPECT_EQ(model->result()->hand, "mouse");
   EXPECT_EQ(model->result()->board, drawn_board(7, false));
   ASSERT_TRUE(model->last_scene());
-  const Standing s = model->standing(model->exercise_id, "L1");
+  const LevelProgress s = model->progress(model->exercise_id, "L1");
   ASSERT_EQ(s.attempts, 1);
   EXPECT_EQ(s.newest_first.front().status, "aborted");
 }
@@ -228,7 +228,7 @@ TEST(PracticeModel, InMemoryTheSittingIsKeptInMind) {
   const auto model = bench.model(options);
   ASSERT_EQ(model->begin_attempt(), "");
   ASSERT_TRUE(model->end_attempt()) << model->notice;
-  EXPECT_EQ(model->standing(model->exercise_id, "L1").attempts, 1);
+  EXPECT_EQ(model->progress(model->exercise_id, "L1").attempts, 1);
   EXPECT_EQ(model->database(), ":memory:");
 }
 
@@ -315,8 +315,8 @@ TEST(PracticeModel, WhatAScriptedHandDidIsNobodysPass) {
     const Exercise& first = model->exercises().front();
     for (const int board : {1001, 1002, 1003})
       store(bench.options().database, first, "L1", board, true, "guest", "expert");
-    EXPECT_EQ(model->standing(first.id, "L1").attempts, 0) << "an older database holds such runs as a guest's";
-    EXPECT_FALSE(model->standing(first.id, "L2").unlocked);
+    EXPECT_EQ(model->progress(first.id, "L1").attempts, 0) << "an older database holds such runs as a guest's";
+    EXPECT_FALSE(model->progress(first.id, "L2").unlocked);
     EXPECT_TRUE(model->past().empty());
     EXPECT_NE(model->sign_in("demonstration"), "") << "kept for them";
   }
@@ -327,8 +327,8 @@ TEST(PracticeModel, WhatAScriptedHandDidIsNobodysPass) {
   ASSERT_EQ(model->begin_attempt(), "");
   ASSERT_TRUE(model->end_attempt());
   EXPECT_EQ(model->result()->trainee, "demonstration");
-  EXPECT_EQ(model->standing(model->exercise_id, "L1").attempts, 1) << "shown to those who watch";
-  EXPECT_EQ(bench.model()->standing(model->exercise_id, "L1").attempts, 0);
+  EXPECT_EQ(model->progress(model->exercise_id, "L1").attempts, 1) << "shown to those who watch";
+  EXPECT_EQ(bench.model()->progress(model->exercise_id, "L1").attempts, 0);
 }
 
 TEST(PracticeModel, AnAttemptThatWasCutOffIsNamedAtTheNextStart) {

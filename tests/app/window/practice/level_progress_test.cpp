@@ -1,10 +1,10 @@
-#include "app/window/practice/standing.h"
+#include "app/window/practice/level_progress.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-namespace trocar::standing_test {
+namespace trocar::level_progress_test {
 namespace {
 
 AttemptSummary attempt(int board, bool passed, const std::string& status = "completed",
@@ -55,20 +55,20 @@ TEST(OpensNext, StaysOpenAfterALaterFailure) {
   EXPECT_FALSE(opens_next({attempt(1, true), attempt(2, true), attempt(9, false), attempt(3, true)}));
 }
 
-TEST(StandingOf, FirstLevelIsOpenTheNextWaitsForThreePasses) {
+TEST(LevelProgressOf, FirstLevelIsOpenTheNextWaitsForThreePasses) {
   const Exercise e = with_levels();
-  EXPECT_TRUE(standing_of(e, "L1", {}).unlocked);
-  EXPECT_FALSE(standing_of(e, "L2", {}).unlocked);
+  EXPECT_TRUE(level_progress(e, "L1", {}).unlocked);
+  EXPECT_FALSE(level_progress(e, "L2", {}).unlocked);
   const std::vector<AttemptSummary> three{attempt(1, true), attempt(2, true), attempt(3, true)};
-  EXPECT_TRUE(standing_of(e, "L2", three).unlocked);
-  EXPECT_FALSE(standing_of(e, "L3", three).unlocked) << "passes at L1 open L2, not L3";
+  EXPECT_TRUE(level_progress(e, "L2", three).unlocked);
+  EXPECT_FALSE(level_progress(e, "L3", three).unlocked) << "passes at L1 open L2, not L3";
 }
 
-TEST(StandingOf, KeepsLevelsApartAndKnowsBestAndLast) {
+TEST(LevelProgressOf, KeepsLevelsApartAndKnowsBestAndLast) {
   std::vector<AttemptSummary> all{attempt(1, false), attempt(2, true), attempt(3, true, "completed", "L2"),
                                   attempt(4, false, "aborted")};
   all[1].score = 91;
-  const Standing s = standing_of(with_levels(), "L1", all);
+  const LevelProgress s = level_progress(with_levels(), "L1", all);
   EXPECT_EQ(s.attempts, 3);
   EXPECT_EQ(s.passed, 1);
   EXPECT_EQ(s.best, 91);
@@ -76,8 +76,8 @@ TEST(StandingOf, KeepsLevelsApartAndKnowsBestAndLast) {
   EXPECT_EQ(s.newest_first.size(), 3U);
 }
 
-TEST(StandingOf, WithoutAGradeThereIsNoScore) {
-  const Standing s = standing_of(with_levels(), "L1", {attempt(1, false, "aborted")});
+TEST(LevelProgressOf, WithoutAGradeThereIsNoScore) {
+  const LevelProgress s = level_progress(with_levels(), "L1", {attempt(1, false, "aborted")});
   EXPECT_FALSE(s.best || s.last);
   EXPECT_EQ(s.attempts, 1);
 }
@@ -94,8 +94,8 @@ TEST(NextStep, AllExercisesAtALevelComeBeforeTheNextLevelAndGuestsBeginWithTouch
     e.levels[1].name = "L2";
   }
   std::set<std::string> passed;
-  const auto standing = [&](const Exercise& e, const std::string& level) {
-    Standing s;
+  const auto progress = [&](const Exercise& e, const std::string& level) {
+    LevelProgress s;
     s.unlocked = level == "L1" || passed.count(e.id + "L1") > 0;
     for (int board = 0; board < 3 && passed.count(e.id + level) > 0; ++board) {
       AttemptSummary one;
@@ -108,7 +108,7 @@ TEST(NextStep, AllExercisesAtALevelComeBeforeTheNextLevelAndGuestsBeginWithTouch
     return s;
   };
   const auto next = [&](bool guest) {
-    const auto found = next_step(practice_order(all, guest), standing);
+    const auto found = next_step(practice_order(all, guest), progress);
     return found ? found->exercise->id + found->level : "all passed";
   };
   EXPECT_EQ(next(false), "reachL1");
@@ -135,4 +135,4 @@ TEST(ScriptedHands, AreTheOnesThatNoInputIs) {
 }
 
 }  // namespace
-}  // namespace trocar::standing_test
+}  // namespace trocar::level_progress_test

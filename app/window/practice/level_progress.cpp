@@ -1,4 +1,4 @@
-#include "app/window/practice/standing.h"
+#include "app/window/practice/level_progress.h"
 
 #include <algorithm>
 
@@ -18,13 +18,13 @@ std::vector<AttemptSummary> at_level(const std::vector<AttemptSummary>& attempts
 }  // namespace
 
 std::optional<NextStep> next_step(const std::vector<const Exercise*>& order,
-                                  const std::function<Standing(const Exercise&, const std::string&)>& standing) {
+                                  const std::function<LevelProgress(const Exercise&, const std::string&)>& progress) {
   std::size_t most = 0;
   for (const Exercise* e : order) most = std::max(most, e->levels.size());
   for (std::size_t i = 0; i < most; ++i) {
     for (const Exercise* e : order) {
       if (i >= e->levels.size()) continue;
-      Standing s = standing(*e, e->levels[i].name);
+      LevelProgress s = progress(*e, e->levels[i].name);
       if (s.unlocked && !opens_next(s.newest_first)) return NextStep{e, e->levels[i].name, std::move(s)};
     }
   }
@@ -45,8 +45,9 @@ bool by_scripted_hand(const AttemptSummary& attempt) {
   return !attempt.hand.empty();
 }
 
-Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts) {
-  Standing out;
+LevelProgress level_progress(const Exercise& exercise, const std::string& level,
+                             const std::vector<AttemptSummary>& attempts) {
+  LevelProgress out;
   out.newest_first = at_level(attempts, level);
   for (const AttemptSummary& attempt : out.newest_first) {
     if (attempt.status == "running") continue;

@@ -1,4 +1,4 @@
-// How a trainee stands to an exercise at a level, from the attempts alone: what opens levels, and what to do next.
+// What a trainee has done at a level of an exercise, from the attempts alone: what opens levels, and what to do next.
 //
 // A level opens after three passes in a row, on three boards, at the level before it; once open it stays so. An attempt
 // that was left (aborted) counts as not passed; one that the device ended (fault, void) does not count. Pure. Thread:
@@ -15,8 +15,8 @@
 
 namespace trocar {
 
-/// One exercise of the catalogue at one level, as the trainee stands to it.
-struct Standing {
+/// One level of an exercise, as the trainee has passed it.
+struct LevelProgress {
   int attempts = 0, passed = 0;
   int passed_in_a_row = 0;           ///< on different boards, newest attempts first
   std::optional<double> best, last;  ///< scores
@@ -25,15 +25,15 @@ struct Standing {
 };
 
 /// What to practise next: the first exercise in the order given, all of them at a level before the next level, that is
-/// open and has not had its three passes. One rule for every page. @param standing of an exercise at a level. @return
+/// open and has not had its three passes. One rule for every page. @param progress at a level of an exercise. @return
 /// nothing when all is passed.
 struct NextStep {
   const Exercise* exercise = nullptr;
   std::string level = {};
-  Standing standing = {};
+  LevelProgress progress = {};
 };
 std::optional<NextStep> next_step(const std::vector<const Exercise*>& order,
-                                  const std::function<Standing(const Exercise&, const std::string&)>& standing);
+                                  const std::function<LevelProgress(const Exercise&, const std::string&)>& progress);
 
 /// The catalogue's order; a guest begins with what is felt (touch).
 std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bool guest);
@@ -42,6 +42,7 @@ std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bo
 bool by_scripted_hand(const AttemptSummary& attempt);
 
 /// @param attempts of one trainee at one exercise, all levels, newest first.
-Standing standing_of(const Exercise& exercise, const std::string& level, const std::vector<AttemptSummary>& attempts);
+LevelProgress level_progress(const Exercise& exercise, const std::string& level,
+                             const std::vector<AttemptSummary>& attempts);
 
 }  // namespace trocar
