@@ -140,11 +140,6 @@ std::unique_ptr<ReplicaKeeper> keeper_of(const ReviewServeOptions& options, cons
   return keeper;
 }
 
-review::CentralStanding standing_of(const ReplicaKeeper& keeper, const std::string& host) {
-  const KeeperStanding now = keeper.standing();
-  return {host, now.as_of_utc, now.lost_since_utc, now.why, now.waiting};
-}
-
 /// The database that is served; the demo's is made when it is not there yet.
 std::filesystem::path served_database(const ReviewServeOptions& options, std::ostream& err) {
   if (!options.from.empty()) return copy_of_centre(options, err);
@@ -191,7 +186,7 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
     remove_demo_cohort(file);
     gone = true;
   };
-  if (keeper) served.sources.central = [&, host = central_name({options.from})] { return standing_of(*keeper, host); };
+  if (keeper) served.sources.central = [&] { return keeper->status(); };
   served.sources.stations = [file] { return look_at_stations(file); };
   if (pictures) add_pictures(served.sources, *pictures);
   const auto films = desk_films(file, served.sources.no_film);

@@ -99,7 +99,7 @@ std::string clock_html(const std::string& utc, const std::string& now_utc) {
 }
 
 /// What a reader must know before relying on the page.
-std::string central_banner(const CentralStanding& central, const std::string& now_utc) {
+std::string central_banner(const ReplicaStatus& central, const std::string& now_utc) {
   if (central.host.empty() || (central.lost_since_utc.empty() && central.waiting == 0)) return "";
   std::string out = "<p class=\"central\" role=\"status\">";
   if (!central.lost_since_utc.empty()) {
@@ -114,7 +114,7 @@ std::string central_banner(const CentralStanding& central, const std::string& no
   return out + "</p>";
 }
 
-std::string central_footer(const CentralStanding& central, const std::string& now_utc) {
+std::string central_footer(const ReplicaStatus& central, const std::string& now_utc) {
   if (central.host.empty()) return "";
   return " Central record as of " + clock_html(central.as_of_utc, now_utc) + " from " + escape_html(central.host) + ".";
 }

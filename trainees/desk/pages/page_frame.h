@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "trainees/desk/queries/central_standing.h"
+#include "trainees/exchange/sync/replica_status.h"
 #include "trainees/progress/judgement.h"
 
 namespace trocar::review {
@@ -32,12 +32,12 @@ struct Frame {
   bool demo = false;
   bool may_write = true;  ///< instructors and administrators
   bool administrator = false;
-  bool demo_goes = false;        ///< the demo cohort can be removed from here
-  bool ended = false;            ///< the desk closes: there is nowhere to go from this page
-  bool pdf = false;              ///< PDF of this page can be had
-  int refresh_s = 0;             ///< page asks for itself again
-  std::string notice = {};       ///< what has just been done
-  CentralStanding central = {};  ///< of a desk that serves a central record
+  bool demo_goes = false;      ///< the demo cohort can be removed from here
+  bool ended = false;          ///< the desk closes: there is nowhere to go from this page
+  bool pdf = false;            ///< PDF of this page can be had
+  int refresh_s = 0;           ///< page asks for itself again
+  std::string notice = {};     ///< what has just been done
+  ReplicaStatus central = {};  ///< of a desk that serves a central record
   RefusedForm refused = {};
 };
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "scenarios/scoring/trace.h"
-#include "trainees/desk/queries/central_standing.h"
 #include "trainees/desk/queries/film_state.h"
+#include "trainees/exchange/sync/replica_status.h"
 #include "trainees/live/live_stations.h"
 #include "trainees/markup/plots.h"
 #include "trainees/records/accounts.h"
@@ -86,7 +86,7 @@ struct DeskSources {
       {};                          ///< names that benchmarks may be of; empty: those that the exercise's attempts have
   std::string shipped_rules = {};  ///< text of the progress rules that came with the program, where the editor begins
   /// How the desk stands with the centre whose record it serves. Called by several threads at once.
-  std::function<CentralStanding()> central = {};
+  std::function<ReplicaStatus()> central = {};
   /// Programs that share this database and run now.
   std::function<LiveStations()> stations = {};
   /// Removes the invented cohort that is served, files and all, and lets the desk end. @throws InputError: it holds no

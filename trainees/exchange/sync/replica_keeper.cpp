@@ -94,7 +94,7 @@ struct ReplicaKeeper::State {
   mutable std::mutex mutex;
   std::condition_variable come;
   bool ends = false;
-  KeeperStanding standing;
+  ReplicaStatus status;
   std::thread thread;
 };
 
@@ -109,10 +109,10 @@ void ReplicaKeeper::State::lost(const std::string& why) {
   tried = Clock::now();
   const int waiting = waiting_here(database, central);
   const std::scoped_lock lock(mutex);
-  standing.waiting = waiting;
-  standing.why = why;
-  if (!standing.lost_since_utc.empty()) return;
-  standing.lost_since_utc = utc_now();
+  status.waiting = waiting;
+  status.why = why;
+  if (!status.lost_since_utc.empty()) return;
+  status.lost_since_utc = utc_now();
   if (options.log) options.log(why);
 }
 
@@ -125,8 +125,8 @@ void ReplicaKeeper::State::found(bool changed) {
     noted = Clock::now();
   }
   const std::scoped_lock lock(mutex);
-  if (!standing.lost_since_utc.empty() && options.log) options.log("the central database is reached again");
-  standing = {now, "", "", waiting};
+  if (!status.lost_since_utc.empty() && options.log) options.log("the central database is reached again");
+  status = {status.host, now, "", "", waiting};
 }
 
 /// What was written here first: then whatever comes back knows of it.
@@ -158,7 +158,7 @@ void ReplicaKeeper::State::count_waiting() {
   counted_head = head;
   const int waiting = waiting_here(database, central);
   const std::scoped_lock lock(mutex);
-  standing.waiting = waiting;
+  status.waiting = waiting;
 }
 
 void ReplicaKeeper::State::round() {
@@ -202,7 +202,8 @@ ReplicaKeeper::ReplicaKeeper(KeeperOptions options) : state_(std::make_unique<St
   State& state = *state_;
   const Before before = filled_before(state.database);
   state.central = before.central;
-  state.standing.as_of_utc = before.utc;
+  state.status.host = central_name(state.options.central);
+  state.status.as_of_utc = before.utc;
   try {
     state.link = std::make_unique<CentralLink>(state.options.central);
     state.central = state.link->uuid();
@@ -232,9 +233,9 @@ void ReplicaKeeper::start() {
   if (!state_->thread.joinable()) state_->thread = std::thread([this] { state_->run(); });
 }
 
-KeeperStanding ReplicaKeeper::standing() const {
+ReplicaStatus ReplicaKeeper::status() const {
   const std::scoped_lock lock(state_->mutex);
-  return state_->standing;
+  return state_->status;
 }
 
 }  // namespace trocar

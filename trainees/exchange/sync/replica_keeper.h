@@ -5,7 +5,7 @@
 // seconds, and the copy for the head of its audit trail four times a second: nobody has to call it, and nothing is lost
 // when the program ends, because what has not been pushed stands in the trail. While the centre cannot be reached it
 // tries again every five seconds. Why a copy and not the centre itself: docs/decisions/0011-central-desk.md. Thread:
-// standing() any, the rest that which made it.
+// status() any, the rest that which made it.
 #pragma once
 
 #include <chrono>
@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "trainees/exchange/sync/replica_status.h"
 #include "trainees/exchange/sync/synchronise.h"
 
 namespace trocar {
@@ -35,11 +36,6 @@ struct KeeperOptions {
   std::function<void(std::size_t attempts, std::size_t of)> going = {};  ///< of the first exchange
 };
 
-struct KeeperStanding {
-  std::string as_of_utc = {}, lost_since_utc = {}, why = {};
-  int waiting = 0;  ///< things written here that the centre does not have yet
-};
-
 class ReplicaKeeper {
  public:
   /// The first exchange. A centre that is not reached is no fault when the copy has been filled before.
@@ -51,7 +47,7 @@ class ReplicaKeeper {
   ReplicaKeeper& operator=(const ReplicaKeeper&) = delete;
 
   void start();
-  KeeperStanding standing() const;
+  ReplicaStatus status() const;
 
  private:
   struct State;

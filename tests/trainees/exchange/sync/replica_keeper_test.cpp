@@ -56,8 +56,8 @@ TEST_F(Keeper, BringsWhatStationsPushWithoutBeingAsked) {
   const auto kept = keeper();
   Database copy = station("desk"), north = station("north");
   EXPECT_EQ(AttemptStore(copy).list().size(), 2u) << "it is filled when it is made";
-  EXPECT_NE(kept->standing().as_of_utc, "");
-  EXPECT_EQ(kept->standing().lost_since_utc, "");
+  EXPECT_NE(kept->status().as_of_utc, "");
+  EXPECT_EQ(kept->status().lost_since_utc, "");
   practise(north, "T-north", 1);
   push(north);
   until([&] { return AttemptStore(copy).list().size() == 3; });
@@ -71,7 +71,7 @@ TEST_F(Keeper, PushesWhatIsWrittenAtTheDeskAndTheTraineeMeetsItAtTheStation) {
   CurriculumStore(copy).add("standard", "version = \"2\"\n", kTeacher);
   CurriculumStore(copy).join("T-north", "monday", kTeacher);
   until([&] { return one("SELECT count(*) FROM note WHERE text LIKE 'Slower%'") == "1"; });
-  until([&] { return kept->standing().waiting == 0; });
+  until([&] { return kept->status().waiting == 0; });
   pull_from_central(north, central_, false);
   EXPECT_EQ(AssessmentStore(north).newest_unseen("T-north")->text, "Slower on the way out.");
   EXPECT_TRUE(CurriculumStore(north).newest("standard"));
@@ -82,17 +82,17 @@ TEST_F(Keeper, SaysSinceWhenTheCentreIsLostAndWhatWaitsAndSendsItWhenItIsBack) {
   const auto kept = keeper();
   Database copy = station("desk");
   proxy_->cut_after(0);
-  until([&] { return !kept->standing().lost_since_utc.empty(); });
-  const KeeperStanding lost = kept->standing();
+  until([&] { return !kept->status().lost_since_utc.empty(); });
+  const ReplicaStatus lost = kept->status();
   EXPECT_NE(lost.why.find("central database"), std::string::npos) << lost.why;
   EXPECT_NE(lost.as_of_utc, "") << "what is there is as of then";
   EXPECT_LE(lost.as_of_utc, lost.lost_since_utc);
   AssessmentStore(copy).add_note("T-north", "", "Written in a dark hour.", kTeacher);
   AssessmentStore(copy).add_note("T-north", "", "And another.", kTeacher);
-  until([&] { return kept->standing().waiting == 2; });
-  EXPECT_EQ(kept->standing().lost_since_utc, lost.lost_since_utc) << "the first moment, not the newest try";
+  until([&] { return kept->status().waiting == 2; });
+  EXPECT_EQ(kept->status().lost_since_utc, lost.lost_since_utc) << "the first moment, not the newest try";
   proxy_->mend();
-  until([&] { return kept->standing().lost_since_utc.empty() && kept->standing().waiting == 0; });
+  until([&] { return kept->status().lost_since_utc.empty() && kept->status().waiting == 0; });
   EXPECT_EQ(one("SELECT count(*) FROM note"), "3");
   const std::scoped_lock lock(mutex_);
   EXPECT_EQ(std::count(log_.begin(), log_.end(), "the central database is reached again"), 1);
@@ -102,19 +102,19 @@ TEST_F(Keeper, KeepsWhatWaitsWhenTheDeskIsClosed) {
   {
     const auto kept = keeper();
     proxy_->cut_after(0);
-    until([&] { return !kept->standing().lost_since_utc.empty(); });
+    until([&] { return !kept->status().lost_since_utc.empty(); });
     Database copy = station("desk");
     AssessmentStore(copy).add_note("T-north", "", "Written in a dark hour.", kTeacher);
   }
   {
     const auto kept = keeper();  // begins without a centre, from what it had
-    EXPECT_NE(kept->standing().lost_since_utc, "");
-    EXPECT_NE(kept->standing().as_of_utc, "");
-    EXPECT_EQ(kept->standing().waiting, 1);
+    EXPECT_NE(kept->status().lost_since_utc, "");
+    EXPECT_NE(kept->status().as_of_utc, "");
+    EXPECT_EQ(kept->status().waiting, 1);
   }
   proxy_->mend();
   const auto kept = keeper();
-  EXPECT_EQ(kept->standing().waiting, 0);
+  EXPECT_EQ(kept->status().waiting, 0);
   EXPECT_EQ(one("SELECT count(*) FROM note WHERE text LIKE 'Written%'"), "1");
 }
 
@@ -141,7 +141,7 @@ TEST_F(Keeper, TwoDesksThatWriteAtOnceEndWithTheSame) {
   const auto all = [&](Database& database) { return AssessmentStore(database).overrides_of(attempt); };
   until([&] { return all(one_desk).size() == 10 && all(other_desk).size() == all(one_desk).size(); });
   EXPECT_EQ(all(one_desk).front().uuid, all(other_desk).front().uuid);
-  until([&] { return first->standing().waiting == 0 && second->standing().waiting == 0; });
+  until([&] { return first->status().waiting == 0 && second->status().waiting == 0; });
   EXPECT_EQ(problems_of(one_desk), "");
   EXPECT_EQ(problems_of(other_desk), "");
 }

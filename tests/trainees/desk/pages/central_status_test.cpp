@@ -7,19 +7,19 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/records/replica_facts.h"
 
-namespace trocar::review::central_standing_test {
+namespace trocar::review::central_status_test {
 namespace {
 
 bool holds(const std::string& page, const std::string& part) { return page.find(part) != std::string::npos; }
 
-Frame frame_with(const CentralStanding& central) {
+Frame frame_with(const ReplicaStatus& central) {
   Frame frame = sample_frame();
   frame.now_utc = "2026-11-22T13:05:20.000Z";
   frame.central = central;
   return frame;
 }
 
-TEST(CentralStanding, IsAtTheFootOfThePage) {
+TEST(ReplicaStatus, IsAtTheFootOfThePage) {
   const std::string page = document(frame_with({"central.example/trocar", "2026-11-22T13:05:09.123Z"}), "<h1>x</h1>");
   EXPECT_TRUE(holds(page,
                     "Central record as of <time datetime=\"2026-11-22T13:05:09.123Z\">13:05:09</time> UTC"
@@ -29,12 +29,12 @@ TEST(CentralStanding, IsAtTheFootOfThePage) {
   EXPECT_EQ(check_page(page).problems, std::vector<std::string>{});
 }
 
-TEST(CentralStanding, IsNotOnThePagesOfAStationsOwnDesk) {
+TEST(ReplicaStatus, IsNotOnThePagesOfAStationsOwnDesk) {
   EXPECT_FALSE(holds(document(frame_with({}), "<h1>x</h1>"), "Central record"));
 }
 
-TEST(CentralStanding, ALostCentreIsToldBeforeAnythingElse) {
-  CentralStanding lost{"central.example/trocar", "2026-11-21T23:59:58.000Z", "2026-11-22T00:00:03.000Z", "no route", 2};
+TEST(ReplicaStatus, ALostCentreIsToldBeforeAnythingElse) {
+  ReplicaStatus lost{"central.example/trocar", "2026-11-21T23:59:58.000Z", "2026-11-22T00:00:03.000Z", "no route", 2};
   const std::string page = document(frame_with(lost), "<h1>x</h1>");
   EXPECT_TRUE(holds(page, "<strong>The centre central.example/trocar cannot be reached</strong> since"));
   EXPECT_TRUE(holds(page, ">00:00:03</time> UTC.")) << "today: the clock alone";
@@ -47,13 +47,13 @@ TEST(CentralStanding, ALostCentreIsToldBeforeAnythingElse) {
       holds(document(frame_with(lost), ""), "1 thing written at this desk is kept here and not at the centre yet."));
 }
 
-TEST(CentralStanding, WhatWaitsIsToldAlsoWhileTheCentreIsThere) {
+TEST(ReplicaStatus, WhatWaitsIsToldAlsoWhileTheCentreIsThere) {
   const std::string page = document(frame_with({"central.example/trocar", "2026-11-22T13:05:09.123Z", "", "", 1}), "");
   EXPECT_TRUE(holds(page, "1 thing written at this desk"));
   EXPECT_FALSE(holds(page, "cannot be reached"));
 }
 
-TEST(CentralStanding, AHostIsTextAndNothingElse) {
+TEST(ReplicaStatus, AHostIsTextAndNothingElse) {
   const std::string utc = "2026-11-22T13:05:09.123Z";
   const std::string page = document(frame_with({"<script>x</script>", utc, utc, "<b>", 0}), "");
   EXPECT_FALSE(holds(page, "<script>x"));
@@ -80,9 +80,9 @@ TEST_F(ElsewhereRecorded, TheFrameAsksHowTheCentreStands) {
   Database database(folder_ / "desk.db");
   Desk desk{database};
   EXPECT_EQ(frame_of({}, desk).central.host, "");
-  desk.sources.central = [] { return CentralStanding{"central.example/trocar", "2026-11-22T13:05:09.123Z"}; };
+  desk.sources.central = [] { return ReplicaStatus{"central.example/trocar", "2026-11-22T13:05:09.123Z"}; };
   EXPECT_EQ(frame_of({}, desk).central.host, "central.example/trocar");
 }
 
 }  // namespace
-}  // namespace trocar::review::central_standing_test
+}  // namespace trocar::review::central_status_test
