@@ -12,8 +12,8 @@ constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as
 }  // namespace
 
 TissueWorld::TissueWorld(const TissueSetup& setup)
-    : organ_(setup.organ), neighbours_(setup.neighbours), tool_(setup.tool), seen_(setup.seen_T) {
-  assert(neighbours_.size() < kMaxPatchMaterials && (neighbours_.empty() || setup.rigid.empty()));
+    : organ_(setup.organ), adjacent_(setup.adjacent), tool_(setup.tool), seen_(setup.seen_T) {
+  assert(adjacent_.size() < kMaxPatchMaterials && (adjacent_.empty() || setup.rigid.empty()));
   if (setup.organ_T && !setup.organ_T->triangles.empty()) extraction_.emplace(*setup.organ_T, setup.triangle_material);
   if (!setup.rigid.empty()) rigid_.emplace(setup.rigid, setup.tool);
 }
@@ -26,7 +26,7 @@ void TissueWorld::step(const StylusState& state, bool present, ContactPatch& pat
   patch.count = patch.dropped = 0;
   patch.reach_m = kPatchRadius;
   patch.material[0] = organ_;
-  std::copy(neighbours_.begin(), neighbours_.end(), patch.material.begin() + 1);
+  std::copy(adjacent_.begin(), adjacent_.end(), patch.material.begin() + 1);
   patch.grip = {};
   patch.held = {};
   const JawReading jaws{state.X_TI, state.V_TI_T, state.jaw_opening_m, state.grip_force_n};

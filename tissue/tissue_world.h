@@ -17,12 +17,12 @@
 namespace trocar {
 
 struct TissueSetup {
-  const TriangleSurface* organ_T = nullptr;  ///< with its neighbours; must outlive the world; nullptr: none
+  const TriangleSurface* organ_T = nullptr;  ///< with the adjacent organs; must outlive the world; nullptr: none
   SurfacePtr seen_T = nullptr;               ///< what pictures show of it: the organ alone
   ContactMaterial organ;
-  /// Of each triangle: 0 the organ, n the n-th of `neighbours`; empty: all the organ. Must outlive the world.
+  /// Of each triangle: 0 the organ, n the n-th of `adjacent`; empty: all the organ. Must outlive the world.
   std::span<const std::int32_t> triangle_material = {};
-  std::vector<ContactMaterial> neighbours = {};  ///< at most kMaxPatchMaterials - 1, and only without rigid things
+  std::vector<ContactMaterial> adjacent = {};  ///< at most kMaxPatchMaterials - 1, and only without rigid things
   RigidScene rigid;
   ToolShape tool;
 };
@@ -38,7 +38,7 @@ class TissueWorld final : public World {
 
  private:
   ContactMaterial organ_;
-  std::vector<ContactMaterial> neighbours_;
+  std::vector<ContactMaterial> adjacent_;
   ToolShape tool_;
   SurfacePtr seen_;
   std::optional<PatchExtraction> extraction_;

@@ -71,7 +71,7 @@ Organ loaded(const OrganPageContent& content) {
   const CompiledMember& subject = pictured_subject(content);
   Organ organ = plain(subject);
   for (const CompiledMember& member : content.organs)
-    if (&member != &subject) organ.neighbours.push_back(plain(member));
+    if (&member != &subject) organ.adjacent.push_back(plain(member));
   return organ;
 }
 

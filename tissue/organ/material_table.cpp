@@ -75,9 +75,9 @@ const TissueMaterial& MaterialTable::find(const std::string& name) const {
 bool MaterialTable::knows(const std::string& name) const { return look_up(name) != nullptr; }
 
 ContactMaterial MaterialTable::beside(const ContactMaterial& subject, const std::string& subject_material,
-                                      const std::string& neighbour) const {
+                                      const std::string& adjacent) const {
   const TissueMaterial& mine = find(subject_material);
-  const TissueMaterial& other = find(neighbour);
+  const TissueMaterial& other = find(adjacent);
   ContactMaterial result = subject;
   const double ratio = other.stiffness_n_per_m / mine.stiffness_n_per_m;
   result.stiffness_n_per_m = subject.stiffness_n_per_m * std::clamp(ratio, kSoftest, kStiffest);

@@ -34,10 +34,10 @@ class MaterialTable {
   bool knows(const std::string& name) const;
   const std::vector<TissueMaterial>& all() const { return materials_; }
 
-  /// How a neighbour feels beside a subject whose surface an exercise has set: stiffer or softer by the ratio of their
-  /// materials, within a quarter and twice the subject's.
+  /// How an adjacent organ feels beside a subject whose surface an exercise has set: stiffer or softer by the ratio of
+  /// their materials, within a quarter and twice the subject's.
   ContactMaterial beside(const ContactMaterial& subject, const std::string& subject_material,
-                         const std::string& neighbour) const;
+                         const std::string& adjacent) const;
 
  private:
   const TissueMaterial* look_up(const std::string& name) const;

@@ -24,7 +24,8 @@ struct Organ {
   std::string credit;          ///< one line to show with the organ
   std::string sha256;          ///< of the surface file's bytes: identifies the organ in records
   std::filesystem::path manifest;
-  std::vector<Organ> neighbours;  ///< the other organs of its scene, in the same frame; without neighbours of their own
+  std::vector<Organ>
+      adjacent;  ///< the other organs of its scene, in the same frame; without adjacent ones of their own
 };
 
 /// Reads NAME.organ.toml and the surface it names; or NAME.scene.toml, whose subject it is (NAME.scene.toml#spleen:

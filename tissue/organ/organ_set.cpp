@@ -47,7 +47,7 @@ std::string listed_organs(const std::vector<Organ>& organs) {
 /// Credits, licences and flags of the whole scene, shown wherever it is shown.
 void speak_for_all(Organ& subject) {
   std::vector<std::string> credits{subject.credit}, licences{subject.licence};
-  for (const Organ& organ : subject.neighbours) {
+  for (const Organ& organ : subject.adjacent) {
     credits.push_back(organ.credit);
     licences.push_back(organ.licence);
     subject.synthetic = subject.synthetic || organ.synthetic;
@@ -145,7 +145,7 @@ Organ load_organ_set(const std::filesystem::path& path, const std::string& subje
                      listed_organs(organs));
   Organ result = std::move(*found);
   organs.erase(found);
-  result.neighbours = std::move(organs);
+  result.adjacent = std::move(organs);
   result.sha256 = digest::of_bytes(result.sha256 + digest::of_bytes(bytes));
   result.manifest = path;
   speak_for_all(result);

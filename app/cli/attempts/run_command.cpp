@@ -94,7 +94,7 @@ void say_beginning(const Scene& scene, std::ostream& err) {
         << spacing_m * 1e3 << " mm\n";
   const std::string turned = turned_words(scene.placement);
   if (!turned.empty()) err << "trocar: " << turned << '\n';
-  for (const std::string& name : scene.neighbours.set_aside)
+  for (const std::string& name : scene.adjacent.set_aside)
     err << "trocar: " << name << " lies over the region and is set aside: neither seen nor felt\n";
   for (const std::string& doubt : device_doubts(scene.setup.device, plant)) err << "trocar: " << doubt << '\n';
 }

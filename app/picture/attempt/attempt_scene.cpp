@@ -152,8 +152,8 @@ SceneView attempt_scene(const SessionView& view) {
     out.organ = view.organ_T ? view.organ_T : view.scene.organ_T;
     out.material = view.scene.organ.material;
     out.targets = marks(view.director);
-    for (const NeighbourOrgan& organ : view.scene.neighbours.organs)
-      out.neighbours.push_back({organ.surface_T, organ.material});
+    for (const AdjacentOrgan& organ : view.scene.adjacent.organs)
+      out.adjacent.push_back({organ.surface_T, organ.material});
   }
   picture_of(view.scene.setup.exercise).add_objects(view, out.objects);
   auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);

@@ -57,8 +57,8 @@ void SeenPlaces::add(const TriangleSurface& surface, What what) {
 
 void SeenPlaces::add(const SceneView& view) {
   if (view.organ) add(*view.organ, What::kOrgan);
-  for (const NeighbourView& neighbour : view.neighbours)
-    if (neighbour.surface) add(*neighbour.surface, What::kOther);
+  for (const AdjacentOrganView& other : view.adjacent)
+    if (other.surface) add(*other.surface, What::kOther);
   for (const SceneObject& object : view.objects)
     if (object.shape == SceneObject::Shape::kBoard) add(board_face(object), What::kBoard);
 }

@@ -18,14 +18,14 @@ std::string credit_line(const Organ& organ) {
 }
 
 /// The abdominal wall round everything would hide what the picture is about.
-bool surrounds(const Organ& neighbour, const Organ& organ) {
-  return neighbour.surface.bounds().contains(organ.surface.bounds());
+bool surrounds(const Organ& other, const Organ& organ) {
+  return other.surface.bounds().contains(organ.surface.bounds());
 }
 
 Eigen::AlignedBox3d whole_box(const Organ& organ) {
   Eigen::AlignedBox3d box = organ.surface.bounds();
-  for (const Organ& neighbour : organ.neighbours)
-    if (!surrounds(neighbour, organ)) box.extend(neighbour.surface.bounds());
+  for (const Organ& other : organ.adjacent)
+    if (!surrounds(other, organ)) box.extend(other.surface.bounds());
   return box;
 }
 
@@ -46,11 +46,11 @@ SceneView organ_scene(const Organ& organ) {
   SceneView view;
   view.organ = still_surface(organ.surface.transformed(to_centre));
   view.material = organ.material;
-  for (const Organ& neighbour : organ.neighbours)
-    if (!surrounds(neighbour, organ))
-      view.neighbours.push_back({still_surface(neighbour.surface.transformed(to_centre)), neighbour.material});
+  for (const Organ& other : organ.adjacent)
+    if (!surrounds(other, organ))
+      view.adjacent.push_back({still_surface(other.surface.transformed(to_centre)), other.material});
   Eigen::AlignedBox3d box = view.organ->bounds();
-  for (const NeighbourView& neighbour : view.neighbours) box.extend(neighbour.surface->bounds());
+  for (const AdjacentOrganView& other : view.adjacent) box.extend(other.surface->bounds());
   const Vec3 size = box.sizes();
   const double reach = size.maxCoeff();
   view.camera.look_at_T = Vec3(0, 0, 0.1 * size.z());

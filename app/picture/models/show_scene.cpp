@@ -66,7 +66,7 @@ SceneView abdomen(std::uint64_t seed) {
   for (const ShowOrgan& organ : show_anatomy(seed)) {
     SurfacePtr surface = still_surface(implicit_surface(organ.distance, organ.box, organ.cell_m));
     if (view.organ)
-      view.neighbours.push_back({std::move(surface), organ.material});
+      view.adjacent.push_back({std::move(surface), organ.material});
     else
       view.organ = std::move(surface), view.material = organ.material;
   }

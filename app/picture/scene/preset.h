@@ -28,7 +28,7 @@ struct PresetTraits {
   double scale = 1;    ///< of the 3-D picture relative to its window
   int shadow_px = 0;   ///< edge of the shadow map; 0: no shadow
   bool glow = false;
-  std::size_t organ_triangles = 0, neighbour_triangles = 0;  ///< at most, each
+  std::size_t organ_triangles = 0, adjacent_triangles = 0;  ///< at most, each
 };
 const PresetTraits& traits_of(Preset preset);
 

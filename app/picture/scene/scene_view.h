@@ -109,7 +109,7 @@ struct InstrumentView {
 };
 
 /// An organ beside the one in the middle.
-struct NeighbourView {
+struct AdjacentOrganView {
   SurfacePtr surface;    ///< in T; shared between frames
   std::string material;  ///< selects the look
 };
@@ -117,7 +117,7 @@ struct NeighbourView {
 struct SceneView {
   SurfacePtr organ;      ///< already in T; shared between frames
   std::string material;  ///< selects the tissue look: "liver", "gallbladder", ...
-  std::vector<NeighbourView> neighbours;
+  std::vector<AdjacentOrganView> adjacent;
   std::vector<TargetMark> targets;
   std::vector<SceneObject> objects;  ///< board, blocks, rings, ghost pens, port
   Eigen::AlignedBox3d stage_T;       ///< without an organ: work space that the box trainer surrounds

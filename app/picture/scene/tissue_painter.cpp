@@ -31,13 +31,13 @@ constexpr std::pair<std::string_view, std::string_view> kLooks[] = {
 
 /// A gallbladder alone lies on the liver; everything else on fat.
 std::string bed_look(const SceneView& view) {
-  return view.material == "gallbladder" && view.neighbours.empty() ? "LOOK_LIVER" : "LOOK_FAT";
+  return view.material == "gallbladder" && view.adjacent.empty() ? "LOOK_LIVER" : "LOOK_FAT";
 }
 
 /// A scene with fat of its own needs no bed of it.
 bool brings_fat(const SceneView& view) {
-  return std::any_of(view.neighbours.begin(), view.neighbours.end(),
-                     [](const NeighbourView& one) { return tissue_look(one.material) == "LOOK_FAT"; });
+  return std::any_of(view.adjacent.begin(), view.adjacent.end(),
+                     [](const AdjacentOrganView& one) { return tissue_look(one.material) == "LOOK_FAT"; });
 }
 
 std::string mark_look(TargetMark::State state) {
@@ -110,19 +110,19 @@ std::vector<TissuePainter::Part*> TissuePainter::parts() {
   std::vector<Part*> all;
   for (auto* one : {&organ_, &fat_, &wall_})
     if (*one) all.push_back(&**one);
-  for (Part& one : neighbours_) all.push_back(&one);
+  for (Part& one : adjacent_) all.push_back(&one);
   return all;
 }
 
 bool TissuePainter::built_for(const SceneView& view, const PresetTraits& traits) const {
   if (built_preset_ != traits.define || !organ_ || organ_->source.lock() != view.organ) return false;
   std::size_t i = 0;
-  for (const NeighbourView& neighbour : view.neighbours) {
-    if (!neighbour.surface || neighbour.surface->triangles.empty()) continue;
-    if (i >= neighbours_.size() || neighbours_[i].source.lock() != neighbour.surface) return false;
+  for (const AdjacentOrganView& other : view.adjacent) {
+    if (!other.surface || other.surface->triangles.empty()) continue;
+    if (i >= adjacent_.size() || adjacent_[i].source.lock() != other.surface) return false;
     ++i;
   }
-  return i == neighbours_.size();
+  return i == adjacent_.size();
 }
 
 void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
@@ -134,13 +134,13 @@ void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
     out.solid = std::make_shared<SolidGrid>(*surface);
     return out;
   };
-  neighbours_.clear();
+  adjacent_.clear();
   organ_ = part(view.organ, traits.organ_triangles);
   Eigen::AlignedBox3d bounds = organ_->box;
-  for (const NeighbourView& neighbour : view.neighbours) {
-    if (!neighbour.surface || neighbour.surface->triangles.empty()) continue;
-    neighbours_.push_back(part(neighbour.surface, traits.neighbour_triangles));
-    bounds.extend(neighbours_.back().box);
+  for (const AdjacentOrganView& other : view.adjacent) {
+    if (!other.surface || other.surface->triangles.empty()) continue;
+    adjacent_.push_back(part(other.surface, traits.adjacent_triangles));
+    bounds.extend(adjacent_.back().box);
   }
   wall_.emplace();
   wall_->mesh = build_cavity(bounds);
@@ -186,9 +186,8 @@ void TissuePainter::prepare(const SceneView& view, const PresetTraits& traits) {
   if (fat_) fat_->look = bed_look(view);
   wall_->look = "LOOK_WALL";
   std::size_t i = 0;
-  for (const NeighbourView& neighbour : view.neighbours)
-    if (neighbour.surface && !neighbour.surface->triangles.empty())
-      neighbours_[i++].look = tissue_look(neighbour.material);
+  for (const AdjacentOrganView& other : view.adjacent)
+    if (other.surface && !other.surface->triangles.empty()) adjacent_[i++].look = tissue_look(other.material);
   prepare_marks(view);
   prepare_decals(view);
 }
@@ -223,7 +222,7 @@ void TissuePainter::prepare_decals(const SceneView& view) {
 
 void TissuePainter::draw_shadows() {
   if (organ_) organ_->gpu.draw();
-  for (Part& one : neighbours_) one.gpu.draw();
+  for (Part& one : adjacent_) one.gpu.draw();
 }
 
 void TissuePainter::draw_part(Part& part, const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
@@ -249,7 +248,7 @@ void TissuePainter::draw_part(Part& part, const ProgramBinder& bind, const Scene
 }
 
 void TissuePainter::draw(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
-  for (Part& one : neighbours_) draw_part(one, bind, view, optics);
+  for (Part& one : adjacent_) draw_part(one, bind, view, optics);
   for (auto* one : {&organ_, &fat_, &wall_})
     if (*one) draw_part(**one, bind, view, optics);
   if (organ_) draw_decals(bind, view, optics);

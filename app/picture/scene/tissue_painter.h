@@ -61,7 +61,7 @@ class TissuePainter {
   void draw_decals(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics);
 
   std::optional<Part> organ_, fat_, wall_;
-  std::vector<Part> neighbours_;
+  std::vector<Part> adjacent_;
   std::vector<Decal> decals_;
   std::vector<TissueMark> marks_;
   GlObject mark_block_;

@@ -66,8 +66,8 @@ class TissueTask final : public Task {
     return std::make_unique<TissueWorld>(TissueSetup{.organ_T = &felt_surface(scene),
                                                      .seen_T = scene.organ_T,
                                                      .organ = scene.setup.exercise.surface,
-                                                     .triangle_material = scene.neighbours.triangle_material,
-                                                     .neighbours = scene.neighbours.materials,
+                                                     .triangle_material = scene.adjacent.triangle_material,
+                                                     .adjacent = scene.adjacent.materials,
                                                      .rigid = scene.board.rigid,
                                                      .tool = scene.loop.tool});
   }

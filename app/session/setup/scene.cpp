@@ -18,7 +18,7 @@
 
 namespace trocar {
 const TriangleSurface& felt_surface(const Scene& scene) {
-  return scene.neighbours.felt_T.triangles.empty() ? *scene.organ_T : scene.neighbours.felt_T;
+  return scene.adjacent.felt_T.triangles.empty() ? *scene.organ_T : scene.adjacent.felt_T;
 }
 
 namespace {
@@ -135,9 +135,9 @@ void place(Scene& scene) {
                         ? *scene.setup.placement
                         : place_organ(scene.organ.surface, exercise, scene.level, {scene.loop.tool, scene.loop.map});
   scene.organ_T = still_surface(scene.organ.surface.transformed(scene.placement.X_TO));
-  if (scene.organ.neighbours.empty()) return;
+  if (scene.organ.adjacent.empty()) return;
   const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
-  scene.neighbours = place_neighbours(scene.organ, *scene.organ_T, scene.placement.X_TO, exercise, materials);
+  scene.adjacent = place_adjacent_organs(scene.organ, *scene.organ_T, scene.placement.X_TO, exercise, materials);
 }
 
 /// Organ, board, force scale, and the instrument that the exercise takes.

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "app/session/setup/adjacent_organs.h"
 #include "app/session/setup/device_files.h"
-#include "app/session/setup/neighbours.h"
 #include "haptics/contact/contact_renderer.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/haptic_loop.h"
@@ -72,7 +72,7 @@ struct Scene {
   Organ organ;
   OrganPlacement placement;
   SurfacePtr organ_T = still_surface({});  ///< shared by all who show it
-  Neighbours neighbours;                   ///< what lies round the organ, when it is one of several
+  AdjacentOrgans adjacent;                 ///< what lies round the organ, when it is one of several
   Board board;
   HapticLoopConfig loop;
   double room_share = 1;  ///< of the region, where the device can give the soft force limit

@@ -254,7 +254,7 @@ TEST(OrganSetFiles, EveryMemberCanBeTheSubjectWithAllOthersRoundIt) {
     EXPECT_NEAR(organ.surface.bounds().center().x(), 0.1 * static_cast<double>(n), 1e-6);
     std::set<std::string> others{names.begin(), names.end()};
     others.erase(names[n]);
-    for (const Organ& neighbour : organ.neighbours) EXPECT_EQ(others.erase(neighbour.name), 1U) << neighbour.name;
+    for (const Organ& other : organ.adjacent) EXPECT_EQ(others.erase(other.name), 1U) << other.name;
     EXPECT_TRUE(others.empty());
     EXPECT_EQ(organ.credit.find(names[n]), 0U) << "the subject's credit goes first: " << organ.credit;
     EXPECT_EQ(organ.licence, "CC0-1.0") << "one licence is said once";

@@ -88,7 +88,7 @@ TEST(SceneImport, TwoLabelsBecomeASceneThatLoads) {
   EXPECT_NEAR(report["contacts"][0]["area_cm2"].get<double>(), M_PI * 3.4 * 3.4, 6);
   const Organ organ = load_organ(files.folder / "abdomen.scene.toml");
   EXPECT_EQ(organ.name, "liver");
-  EXPECT_EQ(organ.neighbours.at(0).name, "spleen");
+  EXPECT_EQ(organ.adjacent.at(0).name, "spleen");
   std::ostringstream out, err;
   organ_info({files.folder / "abdomen.scene.toml", true}, out, err);
   EXPECT_EQ(Json::parse(out.str())["organs"].size(), 2U);

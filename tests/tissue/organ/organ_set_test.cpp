@@ -48,15 +48,15 @@ std::string refusal(const std::filesystem::path& path, const std::string& subjec
   return test::message_of<InputError>([&] { load_organ_set(path, subject); });
 }
 
-TEST(OrganSet, ComesBackWithSubjectAndNeighboursInOneFrame) {
+TEST(OrganSet, ComesBackWithSubjectAndAdjacentOrgansInOneFrame) {
   test::TemporaryFolder folder;
   const Written written = write(folder);
   EXPECT_EQ(written.path, folder / "abdomen.scene.toml");
   const Organ organ = load_organ(written.path);
   EXPECT_EQ(organ.name, "liver");
-  ASSERT_EQ(organ.neighbours.size(), 1U);
-  EXPECT_EQ(organ.neighbours[0].name, "spleen");
-  EXPECT_NEAR((organ.neighbours[0].surface.bounds().center() - Vec3(0.1, 0, 0)).norm(), 0, 1e-6);
+  ASSERT_EQ(organ.adjacent.size(), 1U);
+  EXPECT_EQ(organ.adjacent[0].name, "spleen");
+  EXPECT_NEAR((organ.adjacent[0].surface.bounds().center() - Vec3(0.1, 0, 0)).norm(), 0, 1e-6);
   EXPECT_EQ(organ.manifest, written.path);
 }
 
@@ -73,7 +73,7 @@ TEST(OrganSet, AnotherSubjectIsAnotherOrganWithAnotherHash) {
   const auto path = write(folder).path;
   const Organ liver = load_organ(path), spleen = load_organ(path.string() + "#spleen");
   EXPECT_EQ(spleen.name, "spleen");
-  EXPECT_EQ(spleen.neighbours.at(0).name, "liver");
+  EXPECT_EQ(spleen.adjacent.at(0).name, "liver");
   EXPECT_NE(liver.sha256, spleen.sha256);
   EXPECT_EQ(find_organ(path.string() + "#spleen", folder.path()), path.string() + "#spleen");
   EXPECT_CONTAINS(refusal(path, "kidney"), "no organ \"kidney\" to be the subject; there are liver, spleen");

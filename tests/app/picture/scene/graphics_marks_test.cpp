@@ -97,7 +97,7 @@ SceneView two_balls(bool away) {
   };
   view.organ = ball({0.02, 0, 0});
   view.material = "liver";
-  view.neighbours = {{ball({away ? -0.2 : -0.0205, 0, 0}), "liver"}};
+  view.adjacent = {{ball({away ? -0.2 : -0.0205, 0, 0}), "liver"}};
   view.X_TI = testing_support::instrument_pose({0.3, 0, 0.3}, Vec3(0.62, -0.28, 0.75));
   view.camera.eye_T = Vec3(-0.012, 0, 0.085);
   view.camera.look_at_T = Vec3(0.004, 0, 0);

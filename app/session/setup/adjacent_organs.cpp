@@ -1,4 +1,4 @@
-#include "app/session/setup/neighbours.h"
+#include "app/session/setup/adjacent_organs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 constexpr double kStep = 0.004;    // m, raster of the look from above
 constexpr double kMargin = 0.010;  // m round the region that has to stay free
 
-bool covers_region(const TriangleSurface& neighbour_T, const HeightField& organ, const TargetLayout& layout) {
-  const HeightField field(neighbour_T);
+bool covers_region(const TriangleSurface& adjacent_T, const HeightField& organ, const TargetLayout& layout) {
+  const HeightField field(adjacent_T);
   const double half_x = layout.region_x_m / 2 + kMargin, half_y = layout.region_y_m / 2 + kMargin;
   for (double x = -half_x; x <= half_x; x += kStep)
     for (double y = -half_y; y <= half_y; y += kStep) {
@@ -42,7 +42,7 @@ std::int32_t material_index(const ContactMaterial& wanted, std::vector<ContactMa
   return static_cast<std::int32_t>(materials.size());
 }
 
-void append(const TriangleSurface& surface, std::int32_t material, Neighbours& all) {
+void append(const TriangleSurface& surface, std::int32_t material, AdjacentOrgans& all) {
   const auto first = static_cast<std::int32_t>(all.felt_T.vertices.size());
   all.felt_T.vertices.insert(all.felt_T.vertices.end(), surface.vertices.begin(), surface.vertices.end());
   for (const auto& [a, b, c] : surface.triangles) all.felt_T.triangles.push_back({first + a, first + b, first + c});
@@ -51,20 +51,20 @@ void append(const TriangleSurface& surface, std::int32_t material, Neighbours& a
 
 }  // namespace
 
-Neighbours place_neighbours(const Organ& organ, const TriangleSurface& organ_T, const Pose& X_TO,
-                            const Exercise& exercise, const MaterialTable& materials) {
-  Neighbours all;
+AdjacentOrgans place_adjacent_organs(const Organ& organ, const TriangleSurface& organ_T, const Pose& X_TO,
+                                     const Exercise& exercise, const MaterialTable& materials) {
+  AdjacentOrgans all;
   append(organ_T, 0, all);
   const HeightField field(organ_T);
-  for (const Organ& neighbour : organ.neighbours) {
-    SurfacePtr surface_T = still_surface(neighbour.surface.transformed(X_TO));
+  for (const Organ& other : organ.adjacent) {
+    SurfacePtr surface_T = still_surface(other.surface.transformed(X_TO));
     if (covers_region(*surface_T, field, exercise.layout)) {
-      all.set_aside.push_back(neighbour.name);
+      all.set_aside.push_back(other.name);
       continue;
     }
     append(*surface_T,
-           material_index(materials.beside(exercise.surface, organ.material, neighbour.material), all.materials), all);
-    all.organs.push_back({neighbour.name, neighbour.material, std::move(surface_T)});
+           material_index(materials.beside(exercise.surface, organ.material, other.material), all.materials), all);
+    all.organs.push_back({other.name, other.material, std::move(surface_T)});
   }
   if (all.organs.empty()) all.felt_T = {}, all.triangle_material.clear();
   return all;

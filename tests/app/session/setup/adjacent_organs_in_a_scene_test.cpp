@@ -8,11 +8,11 @@
 
 #include "app/picture/models/organ_scene.h"
 #include "app/picture/scene/tissue_painter.h"
-#include "app/session/setup/neighbours.h"
+#include "app/session/setup/adjacent_organs.h"
 #include "tests/tissue/support/shapes.h"
 #include "tissue/organ/organ_manifest.h"
 
-namespace trocar::neighbours_more_test {
+namespace trocar::adjacent_organs_in_a_scene_test {
 namespace {
 
 const std::filesystem::path kAssets = std::filesystem::path(TROCAR_SOURCE_DIR) / "assets";
@@ -35,10 +35,10 @@ struct Abdomen {
     exercise.surface = {.stiffness_n_per_m = 100, .damping_s_per_m = 0.4, .mu_static = 0, .mu_dynamic = 0};
   }
   void add(const std::string& name, const Vec3& low, const Vec3& high) {
-    organ.neighbours.push_back(organ_of(name, test::box(low, high)));
+    organ.adjacent.push_back(organ_of(name, test::box(low, high)));
   }
-  Neighbours placed() const {
-    return place_neighbours(organ, organ.surface.transformed(X_TO), X_TO, exercise, materials);
+  AdjacentOrgans placed() const {
+    return place_adjacent_organs(organ, organ.surface.transformed(X_TO), X_TO, exercise, materials);
   }
 };
 
@@ -46,14 +46,14 @@ struct Abdomen {
 Abdomen row_of(const std::vector<std::string>& names) {
   Abdomen abdomen;
   for (const std::string& name : names) {
-    const double x = 0.1 + 0.05 * static_cast<double>(abdomen.organ.neighbours.size());
+    const double x = 0.1 + 0.05 * static_cast<double>(abdomen.organ.adjacent.size());
     abdomen.add(name, Vec3(x, 0, 0), Vec3(x + 0.03, 0.03, 0.03));
   }
   return abdomen;
 }
 
-TEST(NeighbourSurfaces, FeltIsTheSubjectThenEachNeighbourInOrder) {
-  const Neighbours all = row_of({"spleen", "colon", "aorta"}).placed();
+TEST(AdjacentOrgansInAScene, FeltIsTheSubjectThenEachOtherInOrder) {
+  const AdjacentOrgans all = row_of({"spleen", "colon", "aorta"}).placed();
   ASSERT_EQ(all.organs.size(), 3U);
   ASSERT_EQ(all.felt_T.triangles.size(), 48U);
   ASSERT_EQ(all.triangle_material.size(), 48U);
@@ -62,12 +62,12 @@ TEST(NeighbourSurfaces, FeltIsTheSubjectThenEachNeighbourInOrder) {
     for (const std::int32_t corner : all.felt_T.triangles[n])
       EXPECT_EQ(static_cast<std::size_t>(corner) / 8, n / 12) << "of the organ's own vertices";
   double volume = 0.16 * 0.16 * 0.05;
-  for (const NeighbourOrgan& neighbour : all.organs) volume += neighbour.surface_T->volume_m3();
+  for (const AdjacentOrgan& other : all.organs) volume += other.surface_T->volume_m3();
   EXPECT_NEAR(all.felt_T.volume_m3(), volume, 1e-12);
 }
 
-TEST(NeighbourSurfaces, OfOneMaterialShareOneEntry) {
-  const Neighbours all = row_of({"colon", "duodenum", "colon", "aorta", "cystic_artery"}).placed();
+TEST(AdjacentOrgansInAScene, OfOneMaterialShareOneEntry) {
+  const AdjacentOrgans all = row_of({"colon", "duodenum", "colon", "aorta", "cystic_artery"}).placed();
   std::set<std::int32_t> used(all.triangle_material.begin(), all.triangle_material.end());
   EXPECT_EQ(used.size(), all.materials.size() + 1) << "every entry is used, and 0 by the subject";
   EXPECT_EQ(all.triangle_material[12], all.triangle_material[36]) << "both colons";
@@ -82,12 +82,12 @@ TEST(NeighbourSurfaces, OfOneMaterialShareOneEntry) {
   }
 }
 
-TEST(NeighbourSurfaces, AnotherOrderOfTheFileIsTheSameAbdomen) {
+TEST(AdjacentOrgansInAScene, AnotherOrderOfTheFileIsTheSameAbdomen) {
   std::vector<std::string> names{"spleen", "colon", "aorta", "pancreas"};
-  const Neighbours before = row_of(names).placed();
+  const AdjacentOrgans before = row_of(names).placed();
   Abdomen abdomen = row_of(names);
-  std::reverse(abdomen.organ.neighbours.begin(), abdomen.organ.neighbours.end());
-  const Neighbours after = abdomen.placed();
+  std::reverse(abdomen.organ.adjacent.begin(), abdomen.organ.adjacent.end());
+  const AdjacentOrgans after = abdomen.placed();
   for (std::size_t n = 0; n < names.size(); ++n) {
     const std::size_t m = names.size() - 1 - n;
     EXPECT_EQ(before.organs[n].name, after.organs[m].name);
@@ -98,13 +98,13 @@ TEST(NeighbourSurfaces, AnotherOrderOfTheFileIsTheSameAbdomen) {
   }
 }
 
-TEST(NeighbourSurfaces, MoveRigidlyWithTheSubject) {
+TEST(AdjacentOrgansInAScene, MoveRigidlyWithTheSubject) {
   Abdomen abdomen = row_of({"spleen", "colon"});
   abdomen.X_TO = Pose{Eigen::AngleAxisd(0.3, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.002, -0.001, 0)};
-  const Neighbours all = abdomen.placed();
+  const AdjacentOrgans all = abdomen.placed();
   ASSERT_EQ(all.organs.size(), 2U);
   for (std::size_t n = 0; n < 2; ++n) {
-    const TriangleSurface& before = abdomen.organ.neighbours[n].surface;
+    const TriangleSurface& before = abdomen.organ.adjacent[n].surface;
     for (std::size_t v = 0; v < before.vertices.size(); ++v)
       EXPECT_NEAR(
           (all.organs[n].surface_T->vertices[v] - (abdomen.X_TO.R * before.vertices[v] + abdomen.X_TO.p)).norm(), 0,
@@ -112,11 +112,11 @@ TEST(NeighbourSurfaces, MoveRigidlyWithTheSubject) {
   }
 }
 
-TEST(NeighbourSurfaces, WhatIsSetAsideIsNeitherFeltNorSeen) {
+TEST(AdjacentOrgansInAScene, WhatIsSetAsideIsNeitherFeltNorSeen) {
   Abdomen abdomen = row_of({"spleen", "colon"});
-  const Neighbours before = abdomen.placed();
+  const AdjacentOrgans before = abdomen.placed();
   abdomen.add("stomach", Vec3(0.0, 0.0, 0.01), Vec3(0.02, 0.02, 0.03));
-  const Neighbours after = abdomen.placed();
+  const AdjacentOrgans after = abdomen.placed();
   EXPECT_EQ(after.set_aside, std::vector<std::string>{"stomach"});
   EXPECT_EQ(after.organs.size(), 2U);
   EXPECT_EQ(before.felt_T.vertices, after.felt_T.vertices);
@@ -124,32 +124,32 @@ TEST(NeighbourSurfaces, WhatIsSetAsideIsNeitherFeltNorSeen) {
   EXPECT_EQ(before.triangle_material, after.triangle_material);
 }
 
-TEST(NeighbourSurfaces, CoverCountsOnlyOverTheRegionAndItsRim) {
+TEST(AdjacentOrgansInAScene, CoverCountsOnlyOverTheRegionAndItsRim) {
   for (const double gap : {-0.02, 0.03}) {
     Abdomen abdomen;
     const double x = abdomen.exercise.layout.region_x_m / 2 + gap;
     abdomen.add("stomach", Vec3(x, -0.01, 0.005), Vec3(x + 0.1, 0.01, 0.02));
-    const Neighbours all = abdomen.placed();
+    const AdjacentOrgans all = abdomen.placed();
     EXPECT_EQ(all.set_aside.size(), gap < 0 ? 1U : 0U) << gap;
     EXPECT_EQ(all.organs.size(), gap < 0 ? 0U : 1U) << gap;
   }
 }
 
-TEST(NeighbourSurfaces, AboveButLowerThanTheSubjectIsNoCover) {
+TEST(AdjacentOrgansInAScene, AboveButLowerThanTheSubjectIsNoCover) {
   Abdomen abdomen;
   abdomen.add("gallbladder", Vec3(-0.03, -0.03, -0.04), Vec3(0.03, 0.03, -0.001));
   abdomen.add("stomach", Vec3(-0.03, -0.03, -0.04), Vec3(0.03, 0.03, 0.001));
   EXPECT_EQ(abdomen.placed().set_aside, std::vector<std::string>{"stomach"});
 }
 
-TEST(NeighbourMaterials, NoTriangleEverPointsBeyondThePatch) {
+TEST(AdjacentMaterials, NoTriangleEverPointsBeyondThePatch) {
   std::mt19937 generator(4);
   const MaterialTable table = MaterialTable::load(kAssets / "materials.toml");
   for (int n = 0; n < 20; ++n) {
     std::vector<std::string> names;
     for (int m = static_cast<int>(generator() % 14); m >= 0; --m)
       names.push_back(table.all()[generator() % table.all().size()].name);
-    const Neighbours all = row_of(names).placed();
+    const AdjacentOrgans all = row_of(names).placed();
     ASSERT_EQ(all.organs.size(), names.size());
     ASSERT_LT(all.materials.size(), static_cast<std::size_t>(kMaxPatchMaterials));
     for (std::size_t t = 0; t < all.triangle_material.size(); ++t) {
@@ -186,15 +186,15 @@ TEST(TissueLook, EveryLookOfAMaterialIsKnownToTheShader) {
 
 TEST(OrganPortrait, KeepsShapesAndDistancesOfTheWholeScene) {
   Organ organ = organ_of("liver", test::sphere(Vec3(0.4, -0.2, 0.9), 0.05, 2));
-  organ.neighbours.push_back(organ_of("spleen", test::sphere(Vec3(0.5, -0.2, 0.9), 0.03, 2)));
+  organ.adjacent.push_back(organ_of("spleen", test::sphere(Vec3(0.5, -0.2, 0.9), 0.03, 2)));
   const SceneView view = organ_scene(organ);
-  ASSERT_EQ(view.neighbours.size(), 1U);
-  EXPECT_EQ(view.neighbours[0].material, "spleen");
+  ASSERT_EQ(view.adjacent.size(), 1U);
+  EXPECT_EQ(view.adjacent[0].material, "spleen");
   EXPECT_NEAR(view.organ->volume_m3(), organ.surface.volume_m3(), 1e-12) << "turned, never mirrored";
-  const Vec3 between = view.neighbours[0].surface->bounds().center() - view.organ->bounds().center();
+  const Vec3 between = view.adjacent[0].surface->bounds().center() - view.organ->bounds().center();
   EXPECT_NEAR((between - Vec3(-0.1, 0, 0)).norm(), 0, 1e-9) << "the patient's right is on the left";
   Eigen::AlignedBox3d box = view.organ->bounds();
-  box.extend(view.neighbours[0].surface->bounds());
+  box.extend(view.adjacent[0].surface->bounds());
   EXPECT_NEAR(box.center().norm(), 0, 1e-9);
   EXPECT_FALSE(box.contains(view.camera.eye_T));
 }
@@ -202,9 +202,9 @@ TEST(OrganPortrait, KeepsShapesAndDistancesOfTheWholeScene) {
 TEST(OrganPortrait, LeavesOutWhatSurroundsTheSubject) {
   Organ organ = organ_of("liver", test::sphere(Vec3::Zero(), 0.05, 2));
   const SceneView alone = organ_scene(organ);
-  organ.neighbours.push_back(organ_of("abdominal_wall", test::box(Vec3::Constant(-0.3), Vec3::Constant(0.4))));
+  organ.adjacent.push_back(organ_of("abdominal_wall", test::box(Vec3::Constant(-0.3), Vec3::Constant(0.4))));
   const SceneView walled = organ_scene(organ);
-  EXPECT_TRUE(walled.neighbours.empty());
+  EXPECT_TRUE(walled.adjacent.empty());
   EXPECT_EQ(alone.organ->vertices, walled.organ->vertices);
   EXPECT_EQ(alone.camera.eye_T, walled.camera.eye_T);
 }
@@ -239,4 +239,4 @@ TEST(OrganPortrait, TheCreditSaysWhatMustBeSaidOnce) {
 }
 
 }  // namespace
-}  // namespace trocar::neighbours_more_test
+}  // namespace trocar::adjacent_organs_in_a_scene_test

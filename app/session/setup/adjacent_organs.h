@@ -16,22 +16,22 @@
 
 namespace trocar {
 
-struct NeighbourOrgan {
+struct AdjacentOrgan {
   std::string name, material;
   SurfacePtr surface_T;
 };
 
-struct Neighbours {
-  std::vector<NeighbourOrgan> organs;
+struct AdjacentOrgans {
+  std::vector<AdjacentOrgan> organs;
   std::vector<std::string> set_aside;  ///< names of those that would cover the region
-  TriangleSurface felt_T;  ///< the organ's triangles, then those of the neighbours; empty without neighbours
+  TriangleSurface felt_T;              ///< the organ's triangles, then those of the adjacent organs; empty without them
   std::vector<std::int32_t> triangle_material;  ///< of felt_T: 0 the organ, n materials[n - 1]
-  std::vector<ContactMaterial> materials;       ///< of the neighbours; at most kMaxPatchMaterials - 1 different ones
+  std::vector<ContactMaterial> materials;  ///< of the adjacent organs; at most kMaxPatchMaterials - 1 different ones
 };
 
-/// @param organ with neighbours. @param organ_T placed. @param X_TO its pose
+/// @param organ with adjacent organs. @param organ_T placed. @param X_TO its pose
 /// @param exercise its region and the surface that it sets for the organ
-Neighbours place_neighbours(const Organ& organ, const TriangleSurface& organ_T, const Pose& X_TO,
-                            const Exercise& exercise, const MaterialTable& materials);
+AdjacentOrgans place_adjacent_organs(const Organ& organ, const TriangleSurface& organ_T, const Pose& X_TO,
+                                     const Exercise& exercise, const MaterialTable& materials);
 
 }  // namespace trocar
