@@ -115,7 +115,8 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
   note_mask(mask, voxel_ml, facts);
   const LabelSurface source = label_surface(volume, label, mask, options.triangles, options.progress);
   for (const double lost : source.fallen_off_m3)
-    facts.lost.push_back({"neck", static_cast<std::size_t>(std::llround(lost * kMlPerM3 / voxel_ml)), lost * kMlPerM3});
+    facts.lost.push_back(
+        {"detached", static_cast<std::size_t>(std::llround(lost * kMlPerM3 / voxel_ml)), lost * kMlPerM3});
   facts.repairs.push_back("smoothed, iso level " + fixed_text(source.level, 4) + sampling_text(source.sampling));
   facts.voxel_m = std::cbrt(voxel_ml / kMlPerM3);
   Remeshed mesh =

@@ -194,7 +194,7 @@ class GroupCompiler {
       LabelComplex result = remeshed(dense, remesh);
       correct_volumes(result);
       for (Vec3& vertex : result.vertices) vertex = vertex.cast<float>().cast<double>();
-      const std::size_t cuts = untangled(result);
+      const std::size_t cuts = smooth_cuts(result);
       if (!best || cuts < fewest) best = std::move(result), fewest = cuts, sweeps_ = sweeps;
       if (cuts == 0) break;
       notes.push_back("a common remeshing with " + std::to_string(sweeps) + " fit sweeps left " + std::to_string(cuts) +
@@ -214,14 +214,14 @@ class GroupCompiler {
   }
 
   /// Smooths where organs cut themselves, a few times. @return triangles that still do
-  std::size_t untangled(LabelComplex& complex) const {
+  std::size_t smooth_cuts(LabelComplex& complex) const {
     constexpr int kRounds = 12;
     std::size_t cuts = 0;
     for (int round = 0; round <= kRounds; ++round) {
       const auto triangles = cut_triangles(complex);
       cuts = triangles.size();
       if (cuts == 0 || round == kRounds) break;
-      untangle(complex, triangles);
+      smooth_locally(complex, triangles);
       for (Vec3& vertex : complex.vertices) vertex = vertex.cast<float>().cast<double>();
     }
     return cuts;

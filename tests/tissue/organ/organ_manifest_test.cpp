@@ -28,7 +28,7 @@ OrganManifest full_manifest() {
   manifest.mesh.distance = {1e-4, 2e-4, 3e-4};
   manifest.mesh.distance_back = {2e-4, 3e-4, 4e-4};
   manifest.mesh.border_voxels = 12;
-  manifest.mesh.lost = {{"part", 7, 0.2}, {"neck", 1, 0.03}};
+  manifest.mesh.lost = {{"part", 7, 0.2}, {"detached", 1, 0.03}};
   manifest.mesh.repairs = {"filled a cavity", "it's done"};
   return manifest;
 }
@@ -62,7 +62,7 @@ TEST(OrganManifest, ReadsBackEveryField) {
   EXPECT_NEAR(read.mesh.distance_back.max_m, 4e-4, 1e-12);
   EXPECT_TRUE(read.mesh.cut_at_border());
   ASSERT_EQ(read.mesh.lost.size(), 2U);
-  EXPECT_EQ(read.mesh.lost[1].kind, "neck");
+  EXPECT_EQ(read.mesh.lost[1].kind, "detached");
   EXPECT_EQ(read.mesh.repairs, wanted.mesh.repairs);
   EXPECT_EQ(manifest_text(read), manifest_text(wanted));
 }

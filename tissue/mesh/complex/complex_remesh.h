@@ -20,8 +20,8 @@ struct ComplexRemeshOptions {
 };
 
 /// Moves the vertices of the named triangles, and their neighbours, half-way to the middle of those round them: what
-/// cut itself is untangled. Curves are smoothed along themselves, corners stay.
-void untangle(LabelComplex& complex, const std::vector<std::int32_t>& triangles);
+/// cut itself is smoothed apart. Curves are smoothed along themselves, corners stay.
+void smooth_locally(LabelComplex& complex, const std::vector<std::int32_t>& triangles);
 
 LabelComplex remeshed(const LabelComplex& dense, const ComplexRemeshOptions& options);
 

@@ -15,7 +15,7 @@ namespace trocar {
 
 /// A piece of the source that is not in the surface.
 struct LostPart {
-  std::string kind;        ///< "part" (apart from the largest) or "neck" (fell off when the mask was smoothed)
+  std::string kind;        ///< "part" (apart from the largest) or "detached" (fell off when the mask was smoothed)
   std::size_t voxels = 0;  ///< 0 when the source had none
   double volume_ml = 0;
 };

@@ -279,7 +279,7 @@ TEST(ComplexMeshEdits, CompactDropsWhatNothingUses) {
   EXPECT_NEAR(compact.border(2).volume_m3(), two_tents().border(2).volume_m3(), 1e-15);
 }
 
-TEST(Untangle, DrawsASpikeInAndMovesNothingFarAway) {
+TEST(LocalSmoothing, DrawsASpikeInAndMovesNothingFarAway) {
   LabelComplex complex = halved_ball();
   const ComplexMesh mesh(complex);
   ComplexMesh::Index spike = 0;
@@ -287,7 +287,7 @@ TEST(Untangle, DrawsASpikeInAndMovesNothingFarAway) {
   const auto v = static_cast<std::size_t>(spike);
   complex.vertices[v] += Vec3(0, 0, 0.05);
   const LabelComplex before = complex;
-  untangle(complex, {mesh.fan(spike)[0]});
+  smooth_locally(complex, {mesh.fan(spike)[0]});
   Vec3 middle = Vec3::Zero();
   const auto round = mesh.neighbours(spike);
   for (const auto n : round) middle += before.vertices[static_cast<std::size_t>(n)] / static_cast<double>(round.size());

@@ -5,7 +5,7 @@
 
 namespace trocar {
 
-void untangle(LabelComplex& complex, const std::vector<std::int32_t>& triangles) {
+void smooth_locally(LabelComplex& complex, const std::vector<std::int32_t>& triangles) {
   const ComplexMesh mesh(complex);
   std::vector<ComplexMesh::Index> near;
   for (const ComplexMesh::Index t : triangles)
