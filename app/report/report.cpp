@@ -11,7 +11,7 @@
 #include "app/report/stiffness_plot.h"
 #include "app/report/verdict.h"
 #include "haptics/input_error.h"
-#include "trainees/files/owner_file.h"
+#include "trainees/files/write_file.h"
 #include "trainees/markup/html.h"
 
 namespace trocar {
@@ -242,12 +242,7 @@ std::string report_page(const AttemptResult& result, const Trace& trace, const R
 
 void write_report(const std::filesystem::path& path_html, const AttemptResult& result, const Trace& trace,
                   const ReportContext& context) {
-  const std::string page = report_page(result, trace, context);
-  std::ofstream file = open_owner_file(path_html);
-  if (!file) throw EnvironmentError("cannot write report " + path_html.string() + ": " + std::strerror(errno));
-  file << page;
-  file.close();
-  if (!file) throw EnvironmentError("cannot write report " + path_html.string() + ": disk full or device error");
+  write_owner_file(path_html, report_page(result, trace, context));
 }
 
 }  // namespace trocar

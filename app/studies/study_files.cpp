@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "haptics/input_error.h"
+#include "trainees/files/write_file.h"
 #include "trainees/markup/html.h"
 
 namespace trocar {
@@ -104,13 +104,6 @@ void draw_series(std::ostream& out, const Frame& f, const StudyCurves& curves, s
       << "\" y2=\"" << kPlotTop + 10 << "\" stroke=\"" << colour << "\" stroke-width=\"2.5\" stroke-dasharray=\""
       << dash << "\"/>\n";
   draw_text(out, x + 34, kPlotTop + 14, curves.series[which].name, "");
-}
-
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw EnvironmentError(path.string() + ": cannot be written");
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "app/cli/attempts/check_command.h"
 
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "app/cli/command.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
@@ -68,12 +68,6 @@ void print(const LevelProof& proof, std::ostream& out) {
       << " N at its 5th percentile\n";
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw EnvironmentError(file.string() + ": cannot be written");
-}
-
 struct Checked {
   std::vector<LevelProof> proofs;
   std::vector<Scene> scenes;  ///< one a proof, of its first board
@@ -115,7 +109,7 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
       print(proof, out);
   }
   if (options.json) out << json.dump(2) << '\n';
-  if (!options.map.empty()) write_text(options.map, room_map_svg(checked.proofs, checked.scenes));
+  if (!options.map.empty()) write_file(options.map, room_map_svg(checked.proofs, checked.scenes));
   return sound ? 0 : 2;
 }
 

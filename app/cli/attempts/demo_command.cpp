@@ -16,7 +16,7 @@
 #include "app/report/report.h"
 #include "haptics/input_error.h"
 #include "tissue/tissue_frame.h"
-#include "trainees/files/owner_file.h"
+#include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
@@ -41,13 +41,6 @@ class Photographer {
   AttemptPainter painter_;
   std::optional<Image> picture_;
 };
-
-void write_demo_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out = open_owner_file(file);
-  out << text;
-  out.flush();
-  if (!out) throw EnvironmentError(file.string() + ": cannot be written");
-}
 
 ReportContext report_context(const Scene& scene, const std::filesystem::path& picture) {
   const Exercise& exercise = scene.setup.exercise;
@@ -91,7 +84,7 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
   const auto picture = options.output / "picture.png", score = options.output / "score.json",
              report = options.output / "report.html";
   if (photographer.picture()) write_png(picture, *photographer.picture());
-  write_demo_text(score, attempt_json(result));
+  write_owner_file(score, attempt_json(result));
   const Recording recording = read_recording(result.recording_path);
   write_report(report, result, rebuild_trace(recording.ticks, recording.rate_hz),
                report_context(scene, photographer.picture() ? picture : std::filesystem::path{}));

@@ -1,7 +1,6 @@
 #include "app/cli/device/device_calibrate.h"
 
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -16,6 +15,7 @@
 #include "app/session/setup/true_plant.h"
 #include "haptics/device/plant/plant_parameters.h"
 #include "haptics/input_error.h"
+#include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
@@ -61,13 +61,6 @@ void print_amplifiers(const AmplifierCalibration& found, const DeviceModel& nomi
   table.print(out);
 }
 
-void write_calibration(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw EnvironmentError(path.string() + ": cannot be written");
-}
-
 }  // namespace
 
 int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::ostream& err) {
@@ -79,7 +72,7 @@ int device_calibrate(const CalibrateOptions& options, std::ostream& out, std::os
   const ChannelVector error = rendering_error(rig, calibrated(nominal, found));
   const std::string json = calibration_json(found, nominal, plant_of(options));
   if (!options.out.empty()) {
-    write_calibration(options.out, json);
+    write_file(options.out, json);
     err << "trocar: calibration in " << options.out.string() << '\n';
   }
   if (options.json)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -15,6 +14,7 @@
 #include "app/session/setup/true_plant.h"
 #include "haptics/device/plant/device_plant.h"
 #include "haptics/input_error.h"
+#include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
@@ -102,10 +102,7 @@ int device_plant(const PlantOptionsGiven& options, std::ostream& out, std::ostre
   if (options.out.empty()) {
     out << text;
   } else {
-    std::ofstream file(options.out, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw EnvironmentError(options.out.string() + ": cannot be written");
+    write_file(options.out, text);
     err << "trocar: plant file " << options.out.string() << '\n';
   }
   report(plant, what, err);

@@ -16,6 +16,7 @@
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/files/device_file.h"
+#include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
@@ -98,12 +99,10 @@ void write_device(const std::filesystem::path& file, const Identification& id, c
   for (int i = 0; i < kArmJoints; ++i)
     comment << ' ' << std::fixed << std::setprecision(1) << 100 * id.prediction_error[i];
   comment << " % rms (joints 1 to 6).";
-  std::ofstream stream(file, std::ios::binary);
   std::ostringstream plant;
   plant << simulated_plant_words(true_plant(options.plant, options.seed).words);
   if (options.payload_kg > 0) plant << ", payload " << options.payload_kg << " kg";
-  stream << device_toml(id.device, comment.str(), plant.str());
-  if (!stream.flush()) throw EnvironmentError(file.string() + ": cannot be written");
+  write_file(file, device_toml(id.device, comment.str(), plant.str()));
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "haptics/input_error.h"
+#include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
@@ -58,11 +56,7 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
-  std::ofstream file(path, std::ios::binary);
-  if (!file) throw EnvironmentError("cannot write picture " + path.string() + ": " + std::strerror(errno));
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw EnvironmentError("cannot write picture " + path.string() + ": disk full or device error");
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace trocar

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "app/device_bench/device_drawing.h"
 #include "haptics/input_error.h"
+#include "trainees/files/write_file.h"
 #include "trainees/store/database.h"
 
 namespace trocar {
@@ -140,10 +140,7 @@ std::filesystem::path save_device_csv(const DeviceReading& reading, const std::f
   std::filesystem::create_directories(folder, error);
   std::filesystem::path file = folder / "device-1.csv";
   for (int n = 2; std::filesystem::exists(file, error); ++n) file = folder / ("device-" + std::to_string(n) + ".csv");
-  std::ofstream out(file, std::ios::binary);
-  out << device_csv(reading);
-  out.close();
-  if (!out) throw EnvironmentError(file.string() + ": cannot be written; is the disk full, or the folder not yours?");
+  write_file(file, device_csv(reading));
   return file;
 }
 

@@ -8,6 +8,7 @@
 #include "app/window/attempt/metric_words.h"
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
+#include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
@@ -64,10 +65,7 @@ std::filesystem::path export_attempts(const PracticeModel& model) {
   const std::string name = "trocar-" + model.trainee() + "-" + file_stamp();
   std::filesystem::path file = folder / (name + ".csv");
   for (int n = 2; std::filesystem::exists(file); ++n) file = folder / (name + "-" + std::to_string(n) + ".csv");
-  std::ofstream out = open_owner_file(file);
-  out << attempts_csv(model.past());
-  out.close();
-  if (!out) throw EnvironmentError(file.string() + ": cannot be written; is there room, and may you write there?");
+  write_owner_file(file, attempts_csv(model.past()));
   return file;
 }
 
