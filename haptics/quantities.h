@@ -14,6 +14,8 @@ inline constexpr int kArmJoints = 6;              ///< th1..th3 shoulder, th4 el
 inline constexpr int kPinchChannel = kArmJoints;  ///< index of the pinch among the channels
 inline constexpr int kChannels = kArmJoints + 1;  ///< arm joints, then the pinch
 
+inline constexpr double kGravity = 9.81;  ///< m/s2, as the weights of the thesis' table 4.1 were divided
+
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Vec6 = Eigen::Matrix<double, 6, 1>;

@@ -18,7 +18,6 @@
 
 namespace trocar {
 
-inline constexpr double kGravity = 9.81;  ///< m/s2, as the weights of the thesis' table 4.1 were divided
 inline constexpr int kBodies = 4;
 inline constexpr int kBodyParameters = 10;                                      ///< m, mr (3), I (6)
 inline constexpr int kMassParameters = kBodies * kBodyParameters + kArmJoints;  ///< bodies, then rotors

@@ -8,8 +8,6 @@
 
 namespace trocar {
 
-inline constexpr double kGravity = 9.81;  ///< m/s^2, along -z of T
-
 struct RigidBody {
   Vec3 half = Vec3::Zero();  ///< half extents, m
   double mass_kg = 1;

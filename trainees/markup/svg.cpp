@@ -27,7 +27,7 @@ std::string label(double x, double y, const std::string& words, const char* anch
          ">" + escape_html(words) + "</text>";
 }
 
-double nice_step(double range, int count) {
+double nice_step(double range, double count) {
   const double raw = range / count, power = std::pow(10, std::floor(std::log10(raw)));
   for (const double m : {1.0, 2.0, 5.0})
     if (raw <= m * power * 1.0001) return m * power;

@@ -14,6 +14,6 @@ std::string rect(double x, double y, double w, double h, const std::string& styl
 std::string label(double x, double y, const std::string& words, const char* anchor = "start", const char* extra = "");
 
 /// 1, 2 or 5 times a power of ten, giving about `count` steps.
-double nice_step(double range, int count);
+double nice_step(double range, double count);
 
 }  // namespace trocar::svg

@@ -3,11 +3,13 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 
 namespace trocar {
 namespace {
@@ -27,50 +29,17 @@ std::filesystem::path find_font(const std::string& file) {
   throw EnvironmentError("font " + file + " not found in" + searched + "; install fonts-dejavu-core");
 }
 
-int continuation_bytes(unsigned char lead) {
-  if (lead < 0x80) return 0;
-  if (lead >= 0xC2 && lead < 0xE0) return 1;
-  if (lead >= 0xE0 && lead < 0xF0) return 2;
-  if (lead >= 0xF0 && lead < 0xF5) return 3;
-  return -1;
-}
-
-std::string encode_utf8(char32_t c) {
-  std::string out;
-  const auto add = [&](unsigned byte) { out.push_back(static_cast<char>(byte)); };
-  if (c < 0x80)
-    add(c);
-  else if (c < 0x800) {
-    add(0xC0U | (c >> 6));
-    add(0x80U | (c & 0x3FU));
-  } else if (c < 0x10000) {
-    add(0xE0U | (c >> 12));
-    add(0x80U | ((c >> 6) & 0x3FU));
-    add(0x80U | (c & 0x3FU));
-  } else {
-    add(0xF0U | (c >> 18));
-    add(0x80U | ((c >> 12) & 0x3FU));
-    add(0x80U | ((c >> 6) & 0x3FU));
-    add(0x80U | (c & 0x3FU));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::u32string decode_utf8(const std::string& text) {
   std::u32string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const int more = continuation_bytes(lead);
-    char32_t code = more <= 0 ? lead : lead & (0x3FU >> more);
-    std::size_t used = 1;
-    while (more > 0 && used <= static_cast<std::size_t>(more) && i + used < text.size() &&
-           (static_cast<unsigned char>(text[i + used]) & 0xC0U) == 0x80U)
-      code = code << 6 | (static_cast<unsigned char>(text[i + used++]) & 0x3FU);
-    const bool whole = more >= 0 && used == static_cast<std::size_t>(more) + 1;
-    out.push_back(whole && code <= 0x10FFFF ? code : U'\xFFFD');
-    i += whole ? used : 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text, at);
+    const auto lead = static_cast<unsigned char>(text[at]);
+    char32_t code = length == 0 ? U'\xFFFD' : length == 1 ? lead : lead & (0x7FU >> length);
+    for (std::size_t n = 1; n < length; ++n) code = code << 6 | (static_cast<unsigned char>(text[at + n]) & 0x3FU);
+    out.push_back(code);
+    at += std::max<std::size_t>(1, length);
   }
   return out;
 }
@@ -124,15 +93,15 @@ double FontSet::width(const std::string& text, int size, bool bold) {
 std::string FontSet::fitted(const std::string& text, int size, bool bold, double room) {
   if (width(text, size, bold) <= room) return text;
   const double left = room - width("\u2026", size, bold);
-  std::string out;
-  double used = 0;
-  for (const char32_t code : decode_utf8(text)) {
-    used += glyph(code, size, bold).advance;
+  std::size_t end = 0;
+  for (double used = 0; end < text.size();) {
+    const std::size_t length = std::max<std::size_t>(1, utf8_length(text, end));
+    used += width(text.substr(end, length), size, bold);
     if (used > left) break;
-    out += encode_utf8(code);
+    end += length;
   }
-  while (!out.empty() && out.back() == ' ') out.pop_back();
-  return left < 0 ? std::string() : out + "\u2026";
+  while (end > 0 && text[end - 1] == ' ') --end;
+  return left < 0 ? std::string() : text.substr(0, end) + "\u2026";
 }
 
 std::vector<std::string> FontSet::wrapped(const std::string& text, int size, bool bold, double room, int max_lines) {

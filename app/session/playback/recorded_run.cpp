@@ -19,7 +19,7 @@ namespace {
 struct Stopped {};
 
 /// Rows of the loop as two numbers each.
-struct ForceTrace {
+struct LoopForces {
   std::vector<double> t_s;
   std::vector<float> force_n, grip_n;
 };
@@ -29,8 +29,8 @@ double norm_n(const std::array<std::int32_t, 3>& quanta) {
   return kForceQuantum * std::hypot(double(quanta[0]), double(quanta[1]), double(quanta[2]));
 }
 
-ForceTrace force_trace(const Recording& recording) {
-  ForceTrace trace;
+LoopForces loop_forces(const Recording& recording) {
+  LoopForces trace;
   for (const RecordedTick& row : recording.ticks) {
     trace.t_s.push_back(static_cast<double>(row.tick) / recording.rate_hz);
     trace.force_n.push_back(static_cast<float>(norm_n(row.force)));
@@ -39,7 +39,7 @@ ForceTrace force_trace(const Recording& recording) {
   return trace;
 }
 
-std::vector<RecordedRun::Column> columns_of(const ForceTrace& trace, const std::vector<float>& value, int columns,
+std::vector<RecordedRun::Column> columns_of(const LoopForces& trace, const std::vector<float>& value, int columns,
                                             double from_s, double to_s) {
   std::vector<RecordedRun::Column> out(static_cast<std::size_t>(std::max(0, columns)));
   const auto row_at = [&trace](double t) {
@@ -73,7 +73,7 @@ struct RecordedRun::State {
   std::string failure, torn;
 
   std::optional<Scene> scene;  // from here on: written before kReplaying, read after it
-  ForceTrace trace;
+  LoopForces trace;
   std::vector<Event> events;
   Grade grade;
   double begin_s = 0, end_s = 0;
@@ -91,7 +91,7 @@ void RecordedRun::State::load(const Recording& recording) {
     torn = recording.torn;
   }
   scene.emplace(recorded_scene(recording, file, assets, organ));
-  trace = force_trace(recording);
+  trace = loop_forces(recording);
   events = recording.events;
   grade = grade_recording(recording, file.string());
   const auto run = std::find_if(recording.ticks.begin(), recording.ticks.end(), [](const RecordedTick& row) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/device_bench/device_drawing.h"
+#include "app/picture/maps/colour_scale.h"
 #include "trainees/markup/html.h"
 #include "trainees/markup/svg.h"
 
@@ -26,14 +27,9 @@ constexpr std::array kPlanes{Plane{1, 2, 0, 0, -kHalf, 0.20, "x' = 0"}, Plane{0,
                              Plane{0, 1, 2, -0.2, -kHalf, kHalf, "z' = -200 mm"}};
 constexpr const char* kAxisNames[] = {"x', mm", "y', mm", "z', mm"};
 
-/// Dark blue over green to yellow; brightness grows all the way.
-std::string ramp(double share) {
-  const double t = std::clamp(share, 0.0, 1.0);
-  const auto mix = [&](double low, double middle, double high) {
-    return static_cast<int>(t < 0.5 ? low + 2 * t * (middle - low) : middle + (2 * t - 1) * (high - middle));
-  };
-  return "rgb(" + std::to_string(mix(38, 33, 253)) + ',' + std::to_string(mix(24, 145, 231)) + ',' +
-         std::to_string(mix(74, 140, 37)) + ')';
+std::string colour_of(double share) {
+  const auto [red, green, blue] = viridis(share);
+  return "rgb(" + std::to_string(red) + ',' + std::to_string(green) + ',' + std::to_string(blue) + ')';
 }
 
 /// One panel: where its cells lie on the page.
@@ -165,7 +161,7 @@ std::string set_sections(const WorkspaceGrid& grid) {
 std::string value_sections(const WorkspaceGrid& grid, const MapScale& scale,
                            const std::function<double(const ReachCell&)>& value) {
   std::vector<std::string> colours;
-  for (int n = 0; n < kLevels; ++n) colours.push_back(ramp((n + 0.5) / kLevels));
+  for (int n = 0; n < kLevels; ++n) colours.push_back(colour_of((n + 0.5) / kLevels));
   const Level level = [&](const ReachCell& c) {
     if (!c.in(ReachSet::kLimitsClear)) return -1;
     const double share = (value(c) - scale.low) / (scale.high - scale.low);

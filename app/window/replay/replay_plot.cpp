@@ -4,21 +4,12 @@
 #include <cmath>
 
 #include "app/picture/films/film.h"
+#include "trainees/markup/svg.h"
 
 namespace trocar {
 namespace {
 
 std::string one_decimal(const Translator& w, double value) { return w.number(value, 1); }
-
-/// A step of 1, 2 or 5 times a power of ten, at most `most` of them over the span.
-double tick_step(double span, double most) {
-  double step = std::pow(10, std::floor(std::log10(std::max(span, 1e-6) / std::max(1.0, most))));
-  for (const double factor : {2.0, 2.5, 2.0}) {
-    if (span / step <= most) break;
-    step *= factor;
-  }
-  return step;
-}
 
 class TimeLine {
  public:
@@ -82,12 +73,12 @@ class TimeLine {
   }
 
   void axes() {
-    const double high = ui_.line_height(), step_n = tick_step(top_n_, std::max(1.0, inner_.height / (1.6 * high)));
+    const double high = ui_.line_height(), step_n = svg::nice_step(top_n_, std::max(1.0, inner_.height / (1.6 * high)));
     for (double n = 0; n <= top_n_; n += step_n) {
       ui_.paint_line(inner_.x - ui_.px(4), y_of(n), inner_.x, y_of(n), Ink::kDim, 1);
       ui_.text_at(inner_.x - ui_.px(6), y_of(n) - 0.55 * high, one_decimal(ui_.words(), n) + " N", Ink::kDim, 0, 1);
     }
-    const double step_s = std::max(1.0, tick_step(clock_.to_s() - clock_.from_s(), inner_.width / ui_.px(90)));
+    const double step_s = std::max(1.0, svg::nice_step(clock_.to_s() - clock_.from_s(), inner_.width / ui_.px(90)));
     for (double s = std::ceil(clock_.from_s() / step_s) * step_s; s <= clock_.to_s(); s += step_s) {
       s = std::abs(s) < 1e-9 ? 0 : s;  // no "-0 s"
       const double x = x_of(s);

@@ -1,18 +1,11 @@
 #include "app/window/ui/plot_layout.h"
+#include "trainees/markup/svg.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace trocar {
 namespace {
-
-/// 1, 2 or 5 times a power of ten, not below `rough`.
-double round_step(double rough) {
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (step * power >= rough * (1 - 1e-9)) return step * power;
-  return 10 * power;
-}
 
 bool inside(const Area& a, const Area& all) {
   return a.x >= all.x - 0.01 && a.y >= all.y - 0.01 && a.x + a.width <= all.x + all.width + 0.01 &&
@@ -33,10 +26,10 @@ Axis nice_axis(double low, double high, int most, bool widen) {
   if (!std::isfinite(low) || !std::isfinite(high)) low = high = 0;
   if (high - low < 1e-9) high = low + 1;
   const int intervals = std::max(2, most) - 1;
-  double step = round_step((high - low) / intervals);
+  double step = svg::nice_step(high - low, intervals);
   // Widening can add a tick at either end: then the next round step.
   while (widen && std::ceil(high / step - 1e-6) - std::floor(low / step + 1e-6) > intervals)
-    step = round_step(step * 1.01);
+    step = svg::nice_step(step * 1.01, 1);
   axis.low = widen ? std::floor(low / step + 1e-6) * step : low;
   axis.high = widen ? std::ceil(high / step - 1e-6) * step : high;
   fill_ticks(axis, step);

@@ -10,6 +10,7 @@
 #include "app/window/ui/theme.h"
 #include "app/window/ui/ui_parts.h"
 #include "app/window/ui/ui_style.h"
+#include "haptics/utf8.h"
 
 namespace trocar {
 namespace {
@@ -19,12 +20,6 @@ ImFont* font_of(UiFont font) { return ui_memory().fonts[static_cast<std::size_t>
 ImVec2 size_of(const std::string& text, UiFont font, float wrap = 0) {
   const ImFont* f = font_of(font);
   return f->CalcTextSizeA(f->FontSize, FLT_MAX, wrap, text.data(), text.data() + text.size());
-}
-
-std::size_t character_end(const std::string& text, std::size_t from) {
-  std::size_t end = from + 1;
-  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
-  return end;
 }
 
 constexpr double kStripAir = 9;  // px at 720 lines above and below a strip's buttons
@@ -41,7 +36,7 @@ std::string UiParts::fitted(const std::string& text, double room, UiFont font) {
   const double left = room - width("\u2026", font);
   std::size_t end = 0;
   while (end < text.size()) {
-    const std::size_t next = character_end(text, end);
+    const std::size_t next = end + std::max<std::size_t>(1, utf8_length(text, end));
     if (width(text.substr(0, next), font) > left) break;
     end = next;
   }

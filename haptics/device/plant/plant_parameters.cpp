@@ -9,7 +9,6 @@ namespace trocar {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kGravity = 9.81;  // m/s2: weights below are given in newtons
 
 // Motor RE25 118752, 24 V 20 W graphite.
 constexpr double kTorqueConstant = 0.0232;  // N m/A [T]; the public table has 0.0234 [F]

@@ -1,4 +1,5 @@
 #include "tissue/mesh/complex/label_complex.h"
+#include "tissue/mesh/surface/isosurface.h"
 
 #include <algorithm>
 #include <map>
@@ -10,8 +11,6 @@ using Index = std::int32_t;
 using Region = std::int16_t;
 
 constexpr double kComplexEdgeMargin = 0.08;  ///< share of an edge that a point keeps from its ends
-constexpr std::array<std::array<int, 4>, 6> kCubeTetrahedra{
-    {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 1, 7, 5}, {0, 2, 7, 3}, {0, 4, 7, 6}}};
 
 /// The winning region of every sample, and how two regions compare there.
 class Regions {
@@ -140,7 +139,7 @@ class ComplexMarcher {
       mixed = mixed || corners[n].region != corners[0].region;
     }
     if (!mixed) return;
-    for (const auto& t : kCubeTetrahedra) {
+    for (const auto& t : kKuhnTetrahedra) {
       std::array<Corner, 4> four;
       for (std::size_t n = 0; n < 4; ++n) four[n] = corners[static_cast<std::size_t>(t[n])];
       std::stable_sort(four.begin(), four.end(), [](const Corner& a, const Corner& b) { return a.region < b.region; });

@@ -10,11 +10,6 @@ namespace {
 // A vertex keeps this share of the edge away from its ends: no triangle degenerates when a sample equals the level.
 constexpr double kEdgeMargin = 0.02;
 
-/// Corners of a cube are numbered by bits (1 = +i, 2 = +j, 4 = +k). Positively oriented tetrahedra of Kuhn's
-/// subdivision.
-constexpr std::array<std::array<int, 4>, 6> kTetrahedra{
-    {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 1, 7, 5}, {0, 2, 7, 3}, {0, 4, 7, 6}}};
-
 /// Even permutations that bring the inside corners to the front, by the bit pattern of inside corners.
 constexpr std::array<std::array<int, 4>, 16> kFront{{{0, 1, 2, 3},
                                                      {0, 1, 2, 3},
@@ -78,7 +73,7 @@ class Marcher {
   void cube(std::size_t base, int inside) {
     for (std::size_t corner = 0; corner < 8; ++corner)
       value_[corner] = field_.values[base + static_cast<std::size_t>(step_[corner])];
-    for (const auto& corners : kTetrahedra) tetrahedron(corners, inside);
+    for (const auto& corners : kKuhnTetrahedra) tetrahedron(corners, inside);
   }
 
   void tetrahedron(const std::array<int, 4>& corners, int inside) {
@@ -151,7 +146,7 @@ double positive_share(std::array<double, 4> v) {
 
 double cube_share(const std::array<double, 8>& corners) {
   double sum = 0;
-  for (const auto& t : kTetrahedra)
+  for (const auto& t : kKuhnTetrahedra)
     sum += positive_share({corners[static_cast<std::size_t>(t[0])], corners[static_cast<std::size_t>(t[1])],
                            corners[static_cast<std::size_t>(t[2])], corners[static_cast<std::size_t>(t[3])]});
   return sum / 6;
