@@ -52,10 +52,6 @@ class PlantBench {
   /// Any surface instead: triangles counter-clockwise from outside, in T. @throws std::invalid_argument when they do
   /// not fit into a patch.
   void put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material);
-  void take_wall_away() {
-    patch_->count = 0;
-    ++patch_->stamp;
-  }
 
   const TickRecord& record() const { return record_; }
   const SimulatedDaq& daq() const { return daq_; }

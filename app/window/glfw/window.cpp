@@ -172,11 +172,6 @@ void Window::set_fullscreen(bool fullscreen) {
   if (mode != nullptr) glfwSetWindowMonitor(s.window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-std::string Window::clipboard() const {
-  const char* text = glfwGetClipboardString(state_->window);
-  return text ? text : "";
-}
-
 void* Window::native() const { return state_->window; }
 
 }  // namespace trocar

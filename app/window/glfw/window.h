@@ -39,7 +39,6 @@ class Window final : public GraphicsContext {
   void present();  ///< swaps buffers, waits for the screen when it gives a beat
   void set_title(const std::string& title);
   void set_fullscreen(bool fullscreen);
-  std::string clipboard() const;
   void* native() const;  ///< GLFWwindow*
 
  private:

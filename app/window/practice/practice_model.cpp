@@ -274,15 +274,6 @@ std::string PracticeModel::begin_attempt() {
   }
 }
 
-void PracticeModel::begin_steering() {
-  State& s = *state_;
-  if (!s.runner) return;
-  const Scene& scene = s.runner->scene();
-  const StylusState& stylus = s.runner->newest().record.stylus;
-  s.steering->begin(stylus.X_TI, stylus.jaw_opening_m, scene.board.centre_T,
-                    steering_reach(scene.setup.exercise, scene.level));
-}
-
 AttemptRunner* PracticeModel::running() { return state_->runner.get(); }
 
 bool PracticeModel::end_attempt() {

@@ -96,8 +96,6 @@ class PracticeModel {
   /// it runs.
   std::string begin_attempt();
   AttemptRunner* running();  ///< null: none
-  /// The trainee's hand takes hold where the instrument is. Once an attempt, when running()->ready().
-  void begin_steering();
   /// Takes over the result of a finished or aborted attempt. @return false: it had none, notice() says why.
   bool end_attempt();
   const std::optional<AttemptResult>& result() const;

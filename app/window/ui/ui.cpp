@@ -121,7 +121,6 @@ void Ui::scroll_by_keys() {
   if (pressed("Page up")) ImGui::SetScrollY(std::max(ImGui::GetScrollY() - page, 0.0F));
 }
 
-double Ui::used_height() const { return ImGui::GetCursorPosY(); }
 double Ui::room_below() const { return std::max(1.0F, ImGui::GetContentRegionAvail().y); }
 
 void Ui::to_bottom(double height_at_720) {

@@ -126,8 +126,6 @@ class Ui {
   bool pressed(const std::string& key) const;
   /// Arrows and Tab are the screen's in the next frame (steering), not the focus'.
   void keys_to_screen();
-  /// Where what follows stands in the panel, px from its top; and how tall the panel is.
-  double used_height() const;
   double room_below() const;             ///< px to the panel's lower edge
   void to_bottom(double height_at_720);  ///< what follows stands at the panel's foot, when there is room
 
