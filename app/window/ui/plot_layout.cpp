@@ -1,8 +1,9 @@
 #include "app/window/ui/plot_layout.h"
-#include "trainees/markup/svg.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "trainees/markup/svg.h"
 
 namespace trocar {
 namespace {

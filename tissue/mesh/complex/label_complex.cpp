@@ -1,8 +1,9 @@
 #include "tissue/mesh/complex/label_complex.h"
-#include "tissue/mesh/surface/isosurface.h"
 
 #include <algorithm>
 #include <map>
+
+#include "tissue/mesh/surface/isosurface.h"
 
 namespace trocar {
 namespace {
