@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/grasp/grasp_layout.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 
@@ -17,10 +19,20 @@ review::LevelFacts desk_level_facts(const std::string& exercise_text, const std:
     facts.limits.high_n = found.band_high_n;
   }
   facts.limits.hard_n = exercise.hard_force_n;
+  if (kind_of(exercise).oriented) facts.pose = {found.position_tolerance_m, found.angle_tolerance_rad};
   facts.pass_at = found.rubric.pass_at;
   for (const SubscoreRule& rule : found.rubric.subscores)
     facts.less_is_better[rule.metric] = rule.full_at < rule.zero_at;
   return facts;
+}
+
+std::vector<GripLimits> desk_grip_limits(const std::string& exercise_text, const std::string& level, int board) {
+  const Exercise exercise = parse_exercise(exercise_text, "exercise of the attempt");
+  std::vector<GripLimits> limits;
+  if (exercise.grasp.kinds.empty()) return limits;
+  for (const FoamBlock& block : lay_out_blocks(exercise, find_level(exercise, level), board).rigid.blocks)
+    limits.push_back({block.slip_below_n, block.crush_above_n});
+  return limits;
 }
 
 std::string shipped_progress_rules(const std::string& assets_folder) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "trainees/desk/routes/route.h"
 
@@ -12,6 +13,9 @@ namespace trocar {
 /// alone.
 /// @throws InputError: a text that cannot be read, a level that it does not have.
 review::LevelFacts desk_level_facts(const std::string& exercise_text, const std::string& level);
+
+/// @throws as desk_level_facts.
+std::vector<GripLimits> desk_grip_limits(const std::string& exercise_text, const std::string& level, int board);
 
 /// Text of the progress rules beside the program's assets; "" when it cannot be read.
 std::string shipped_progress_rules(const std::string& assets_folder);

@@ -52,6 +52,7 @@ review::DeskSources desk_sources() {
   out.trace = trace_of;
   out.metric_words = words_of_metric;
   out.level_facts = desk_level_facts;
+  out.grip_limits = desk_grip_limits;
   for (const MetricDefinition& metric : metric_catalogue()) out.metrics.emplace_back(metric.name);
   return out;
 }

@@ -2,7 +2,7 @@
 //
 // Whether a command acts is told by comparison: two boards are treated alike but for the sign of one command, and what
 // differs in their counts is due to it, weight and friction not. The commands last 40 ms at 15 % of full scale but for
-// the pinch, whose light slide shows the delay at full scale. Arm clear of obstacles, nobody's hand on it unless a
+// the pinch, whose light slide shows the delay at full scale. Arm clear of obstacles, no hand on it unless a
 // bench act says so. Thread: the caller's.
 #pragma once
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "app/organs/organ_page_style.h"
 #include "app/organs/organ_pictures.h"
-#include "app/report/report_style.h"
 #include "tissue/library_versions.h"
 #include "tissue/mesh/surface/mesh_quality.h"
 #include "trainees/markup/html.h"

@@ -48,8 +48,8 @@ const std::vector<Direction>& directions() {
        "^(trainees/(store|records|integrity|progress|files)|scenarios/scoring|haptics)/", "the record knows no desk"},
       {"^trainees/desk/(pages|reports|print)/", "^(?!trainees/desk/(server/desk_server|server/connection))",
        "pages are made without a server"},
-      {"^app/(session/(recording|lanes)|picture/(display|gl|models|scene)|report)/",
-       "^(app/(session/(recording|lanes|setup/scene\\.h)|picture/(display|gl|models|scene)|report)|"
+      {"^app/(session/(recording|lanes)|picture/(display|gl|models|scene))/",
+       "^(app/(session/(recording|lanes|setup/scene\\.h)|picture/(display|gl|models|scene))|"
        "trainees/(files|markup)/|haptics/|tissue/|scenarios/)",
        "parts of the program do not know its commands or the store"},
       {"^app/(session|picture)/", "^(?!app/(cli|window|studies|desk|organs)/)",

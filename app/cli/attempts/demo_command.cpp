@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -10,10 +11,10 @@
 #include "app/cli/attempts/replay_film.h"
 #include "app/cli/attempts/run_command.h"
 #include "app/cli/command.h"
+#include "app/desk/report_command.h"
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/films/video_writer.h"
 #include "app/picture/kinds/kind_picture.h"
-#include "app/report/report.h"
 #include "haptics/input_error.h"
 #include "tissue/tissue_frame.h"
 #include "trainees/files/write_file.h"
@@ -42,23 +43,6 @@ class Photographer {
   std::optional<Image> picture_;
 };
 
-ReportContext report_context(const Scene& scene, const std::filesystem::path& picture) {
-  const Exercise& exercise = scene.setup.exercise;
-  ReportContext context;
-  context.exercise_number = exercise.number;
-  context.exercise_title = exercise.title;
-  context.goal = exercise.goal;
-  context.band = {scene.level.band_low_n, scene.level.band_high_n, exercise.hard_force_n};
-  if (kind_of(exercise).oriented) context.pose = {scene.level.position_tolerance_m, scene.level.angle_tolerance_rad};
-  for (const FoamBlock& block : scene.board.rigid.blocks)
-    context.blocks.push_back({block.slip_below_n, block.crush_above_n});
-  context.pass_mark = scene.level.rubric.pass_at;
-  context.time_limit_s = scene.level.time_limit_s;
-  context.picture = picture;
-  context.program_version = TROCAR_VERSION;
-  return context;
-}
-
 }  // namespace
 
 int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& err) {
@@ -85,9 +69,8 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
              report = options.output / "report.html";
   if (photographer.picture()) write_png(picture, *photographer.picture());
   write_owner_file(score, attempt_json(result));
-  const Recording recording = read_recording(result.recording_path);
-  write_report(report, result, rebuild_trace(recording.ticks, recording.rate_hz),
-               report_context(scene, photographer.picture() ? picture : std::filesystem::path{}));
+  std::ostringstream named;
+  review_report({.database = run.database, .out = report, .attempt = result.uuid, .force = true}, named, err);
   if (!options.video.empty()) {
     RecordingOptions film;
     film.video = options.video;

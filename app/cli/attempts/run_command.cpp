@@ -31,7 +31,7 @@
 namespace trocar {
 namespace {
 
-constexpr const char* kGuestCode = "guest";  // nobody's
+constexpr const char* kGuestCode = "guest";  // runs that belong to no trainee
 
 const std::map<std::string, InjectedFaultKind>& injection_kinds() {
   using Kind = InjectedFaultKind;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "haptics/input_error.h"
@@ -40,6 +41,18 @@ TEST(DeskFacts, TheRubricSaysWhichWayIsBetter) {
   EXPECT_EQ(facts.less_is_better.at("in_band_share"), false);
   EXPECT_EQ(facts.less_is_better.at("time_s"), true);
   EXPECT_EQ(facts.less_is_better.count("force_max_n"), 0U);
+}
+
+TEST(DeskFacts, PensHaveTolerancesAndBlocksTheirLimitsByBoard) {
+  const std::string pens = file_text("scenarios/exercises/reach-and-orient.toml"),
+                    blocks = file_text("scenarios/exercises/limited-grasp.toml");
+  EXPECT_GT(desk_level_facts(pens, "L1").pose.position_m, 0);
+  EXPECT_EQ(desk_level_facts(blocks, "L1").pose.position_m, 0);
+  EXPECT_TRUE(desk_grip_limits(pens, "L1", 3).empty());
+  std::multiset<double> slips;
+  for (const GripLimits& limits : desk_grip_limits(blocks, "L1", 3)) slips.insert(limits.slip_n);
+  EXPECT_EQ(slips.count(0.5), 2U);
+  EXPECT_EQ(slips.count(1.2), 2U);
 }
 
 TEST(DeskFacts, AllShippedExercisesCanBeShown) {

@@ -1,4 +1,4 @@
-// A synthetic abdominal CT with its label map, drawn from analytic shapes: shippable, and made by nobody's patient.
+// A synthetic abdominal CT with its label map, drawn from analytic shapes: free to ship, of no patient.
 //
 // Shapes are implicit functions in the patient frame (RAS, mm, origin in front of the spine at the level of the porta
 // hepatis); sizes follow common textbook proportions of an adult. Portal venous phase. Labels are numbered as in the

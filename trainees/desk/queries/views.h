@@ -13,6 +13,7 @@
 
 #include "scenarios/scoring/attempt_result.h"
 #include "trainees/desk/queries/film_state.h"
+#include "trainees/markup/board_plots.h"
 #include "trainees/markup/plots.h"
 #include "trainees/progress/judgement.h"
 #include "trainees/records/assessments.h"
@@ -163,6 +164,8 @@ struct AttemptView {
   std::int64_t chain_position = 0;
   double pass_at = 75;
   ForceLimits limits = {};
+  PoseLimits pose = {};                             ///< of pens
+  std::vector<GripLimits> grips = {};               ///< of the board's blocks
   std::map<std::string, bool> less_is_better = {};  ///< of the metrics that the rubric judges
   std::optional<Trace> trace = {};
   std::string no_trace = {};   ///< why there is none

@@ -5,7 +5,9 @@
 #include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/desk/pages/charts.h"
 #include "trainees/desk/reports/report_words.h"
+#include "trainees/markup/board_plots.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/stiffness_plot.h"
 
 namespace trocar::review {
 namespace {
@@ -59,8 +61,50 @@ Table point_table(const AttemptView& view) {
   return table;
 }
 
+/// A safety gate that is not full is the next thing to practise, whatever it cost; else what cost most.
+const Subscore* next_to_practise(const Grade& grade) {
+  const Subscore* next = nullptr;
+  const auto before = [](const Subscore& a, const Subscore& b) {
+    return a.gate != b.gate ? a.gate : points_lost(a) > points_lost(b);
+  };
+  for (const Subscore& part : grade.subscores)
+    if (points_lost(part) > 0.05 && (next == nullptr || before(part, *next))) next = &part;
+  return next;
+}
+
+void add_advice(std::vector<Block>& out, const Grade& grade) {
+  const Subscore* next = grade.score ? next_to_practise(grade) : nullptr;
+  if (next == nullptr) return;
+  out.emplace_back(Paragraph{"Try next: " + words_of(next->name) +
+                             (next->full_at < next->zero_at ? " down to " : " up to ") +
+                             quantity_text(next->full_at, next->unit) +
+                             (next->raw ? " (now " + quantity_text(next->raw, next->unit) + ")" : "") + "."});
+}
+
+/// Errors of the pens, grip on the blocks: what says most of those exercises.
+void add_board(std::vector<Block>& out, const AttemptView& view) {
+  if (view.pose.position_m > 0)
+    out.emplace_back(
+        printed::Figures{{{pose_plot_svg(view.result.events, view.pose), "Place and turn of each pen.", 0.8}}});
+  if (!view.grips.empty() && view.trace)
+    out.emplace_back(printed::Figures{{{grip_plot_svg(*view.trace, view.result.events, view.grips),
+                                        "Grip force on each block in newtons over time in seconds.", 0.8}}});
+}
+
+/// Recordings before format 3 have nothing to show here.
+void add_stiffness(std::vector<Block>& out, const AttemptView& view) {
+  const StiffnessReceipt& stiffness = view.result.device.stiffness;
+  if (!stiffness.recorded) return;
+  out.emplace_back(Heading{"Stiffness that the device could display", 1});
+  out.emplace_back(Paragraph{stiffness_words(stiffness)});
+  if (view.trace && stiffness.contact_ticks > 0)
+    out.emplace_back(
+        printed::Figures{{{stiffness_plot_svg(*view.trace), "Stiffness in newtons a metre over time.", 0.8}}});
+}
+
 void add_traces(std::vector<Block>& out, const AttemptView& view) {
   out.emplace_back(Heading{"Force and path", 1});
+  add_board(out, view);
   if (!view.trace) {
     out.emplace_back(Paragraph{view.no_trace.empty() ? "No recording." : view.no_trace});
     return;
@@ -134,7 +178,9 @@ std::string undefined_metrics(const AttemptView& view) {
 void add_device(std::vector<Block>& out, const AttemptView& view) {
   const DeviceReceipt& d = view.result.device;
   out.emplace_back(Heading{"Device receipt", 1});
-  Facts facts{{{"Device", or_none(d.backend)},
+  const bool simulated =
+      d.backend.find("simulated") != std::string::npos || d.backend.find("emulated") != std::string::npos;
+  Facts facts{{{"Device", or_none(d.backend) + (simulated ? ", no hardware moved" : "")},
                {"Loop", d.rate_hz > 0 ? number_text(d.rate_hz) + " Hz" : "not recorded"},
                {"Ticks", std::to_string(d.ticks)},
                {"Ticks missed", std::to_string(d.overruns)},
@@ -167,6 +213,7 @@ void add_origin(std::vector<Block>& out, const AttemptView& view) {
              {"Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)},
              {"Program", or_none(view.program)},
              {"Organ", or_none(r.organ_name + (r.organ_synthetic ? ", synthetic" : ""))},
+             {"Organ made from", or_none(r.organ_source)},
              {"Organ's origin", or_none(r.organ_credit)},
              {"Place in the chain", view.chain_position > 0 ? std::to_string(view.chain_position) : "none"}},
             2,
@@ -175,6 +222,7 @@ void add_origin(std::vector<Block>& out, const AttemptView& view) {
                           {"Row hash (sha256)", or_none(view.row_hash)},
                           {"Exercise's rules (sha256)", or_none(r.rubric_sha256)},
                           {"Recording (sha256)", or_none(r.recording_sha256)},
+                          {"Organ (sha256)", or_none(r.organ_sha256)},
                           {"State hash", or_none(r.state_hash)}},
                          1,
                          true});
@@ -226,10 +274,12 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
             ": " + o.reason +
             (&o == &view.overrides.front() ? " The score above stays as it was." : " (followed by the decision above)"),
         o.passed ? Tone::kGood : Tone::kBad, true});
+  add_advice(out.blocks, view.result.grade);
   out.blocks.emplace_back(point_table(view));
   for (const std::string& cap : view.result.grade.caps)
     out.blocks.emplace_back(Paragraph{"The score is capped: " + cap, Tone::kBad, true});
   add_traces(out.blocks, view);
+  add_stiffness(out.blocks, view);
   if (!report.picture_png.empty())
     out.blocks.emplace_back(printed::Picture{
         report.picture_png, "At the largest force, " + fixed_text(peak_moment_s(view), 1) + " s.", 0.6});

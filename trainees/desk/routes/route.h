@@ -17,6 +17,7 @@
 #include "trainees/desk/queries/film_state.h"
 #include "trainees/exchange/sync/replica_status.h"
 #include "trainees/live/live_stations.h"
+#include "trainees/markup/board_plots.h"
 #include "trainees/markup/plots.h"
 #include "trainees/records/accounts.h"
 #include "trainees/store/database.h"
@@ -47,6 +48,7 @@ struct Response {
 /// Of an exercise at a level, as its file says.
 struct LevelFacts {
   ForceLimits limits = {};
+  PoseLimits pose = {};
   double pass_at = 75;
   std::map<std::string, bool> less_is_better = {};  ///< of the metrics that the rubric judges
 };
@@ -82,6 +84,9 @@ struct DeskSources {
   std::function<std::string(const std::string& metric)> metric_words = {};
   /// What an exercise's file says of a level. @throws InputError: a text or level that cannot be read.
   std::function<LevelFacts(const std::string& exercise_text, const std::string& level)> level_facts = {};
+  /// Of the foam blocks of a board, in their order; none where there are none. @throws as `level_facts`.
+  std::function<std::vector<GripLimits>(const std::string& exercise_text, const std::string& level, int board)>
+      grip_limits = {};
   std::vector<std::string> metrics =
       {};                          ///< names that benchmarks may be of; empty: those that the exercise's attempts have
   std::string shipped_rules = {};  ///< text of the progress rules that came with the program, where the editor begins

@@ -215,6 +215,80 @@ TEST(AttemptReport, AnOverrideIsSaidBesideTheScore) {
   EXPECT_TRUE(pdf.holds("Record to 20 Mar 2026"));
 }
 
+TEST(AttemptReport, SaysWhatToTryNextSafetyFirst) {
+  AttemptReportView view = sample_run();
+  view.attempt.result.grade.subscores = {
+      {.name = "path_ratio", .value = 0.2, .weight = 0.5, .raw = 2.4, .unit = "", .full_at = 1, .zero_at = 3},
+      {.name = "peak_force",
+       .value = 0.9,
+       .weight = 0.2,
+       .raw = 2.4,
+       .unit = "N",
+       .full_at = 2,
+       .zero_at = 6,
+       .gate = true}};
+  EXPECT_TRUE(
+      read_pdf(printed::pdf_of(attempt_report(view, {}))).holds("Try next: Peak force down to 2 N (now 2.4 N)."));
+  view.attempt.result.grade.subscores[1].value = 1;
+  EXPECT_TRUE(read_pdf(printed::pdf_of(attempt_report(view, {}))).holds("Try next: Path ratio down to 1 (now 2.4)."));
+  for (Subscore& part : view.attempt.result.grade.subscores) part.value = 1;
+  EXPECT_FALSE(read_pdf(printed::pdf_of(attempt_report(view, {}))).holds("Try next"));
+}
+
+TEST(AttemptReport, HasThePlotsOfPensBlocksAndStiffnessWhereTheyAre) {
+  AttemptReportView view = sample_run();
+  const auto holds = [&](const char* words) {
+    return read_pdf(printed::pdf_of(attempt_report(view, {}))).holds(words);
+  };
+  for (const char* words : {"Place and turn of each pen", "Grip force on each block", "could display"})
+    EXPECT_FALSE(holds(words)) << words;
+  view.attempt.pose = {0.003, 0.14};
+  EXPECT_TRUE(holds("Place and turn of each pen"));
+  view.attempt.grips = {{0.5, 1.5}, {0.8, 2.0}};
+  EXPECT_TRUE(holds("Grip force on each block"));
+  view.attempt.result.device.stiffness.recorded = true;
+  EXPECT_TRUE(holds("Stiffness that the device could display"));
+}
+
+TEST(AttemptReport, SaysThatNoHardwareMovedOnTheSimulatedPlantAlone) {
+  AttemptReportView view = sample_run();
+  view.attempt.result.device.backend = "simulated";
+  EXPECT_NE(printed::html_of(attempt_report(view, {})).find("no hardware moved"), std::string::npos);
+  view.attempt.result.device.backend = "mc4000";
+  EXPECT_EQ(printed::html_of(attempt_report(view, {})).find("no hardware moved"), std::string::npos);
+}
+
+TEST(AttemptReport, EscapesWhateverComesFromOutside) {
+  const std::string evil = "<script>alert('x')</script>\"&";
+  AttemptReportView view = sample_run();
+  AttemptResult& r = view.attempt.result;
+  for (std::string* field : {&r.trainee,
+                             &r.hand,
+                             &r.level,
+                             &r.uuid,
+                             &r.exercise_id,
+                             &r.exercise_version,
+                             &r.organ_name,
+                             &r.organ_source,
+                             &r.organ_credit,
+                             &r.organ_sha256,
+                             &r.rubric_sha256,
+                             &r.recording_sha256,
+                             &r.state_hash,
+                             &r.device.backend,
+                             &r.device.fault,
+                             &r.grade.grade,
+                             &r.grade.subscores[0].name,
+                             &r.grade.subscores[0].unit,
+                             &r.grade.metrics[0].name,
+                             &r.grade.metrics[0].unit,
+                             &view.attempt.exercise,
+                             &view.attempt.program})
+    *field = evil;
+  const std::string html = printed::html_of(attempt_report(view, {}));
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+}
+
 TEST(AttemptReport, WithoutTraceScoreOrEvents) {
   AttemptReportView view = sample_run();
   view.attempt.trace.reset();

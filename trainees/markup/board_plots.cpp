@@ -1,4 +1,4 @@
-#include "app/report/board_plots.h"
+#include "trainees/markup/board_plots.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include "trainees/markup/html.h"
 
-namespace trocar::report_html_test {
+namespace trocar::html_test {
 namespace {
 
 TEST(EscapeHtml, ReplacesEveryActiveCharacter) {
@@ -64,4 +64,4 @@ TEST(WordsOf, TurnsIdentifiersIntoWords) {
 }
 
 }  // namespace
-}  // namespace trocar::report_html_test
+}  // namespace trocar::html_test

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "app/report/board_plots.h"
-#include "app/report/report.h"
 #include "tests/support/sample_attempt.h"
+#include "trainees/markup/board_plots.h"
 
-namespace trocar::report_boards_test {
+namespace trocar::board_plots_test {
 namespace {
 
 bool has(const std::string& page, const std::string& words) { return page.find(words) != std::string::npos; }
@@ -113,36 +112,5 @@ TEST(GripPlot, SurvivesNonsense) {
   EXPECT_FALSE(has(grip_plot_svg({}, {}, kBlocks), "nan"));
 }
 
-ReportContext board_context() {
-  ReportContext context;
-  context.exercise_number = "E01";
-  context.exercise_title = "Reach and orient";
-  return context;
-}
-
-TEST(BoardReport, PutsThePlotOfItsKindInThePlaceOfTheForcePlot) {
-  AttemptResult result = testing_support::sample_attempt();
-  result.events = pen_events();
-  ReportContext pens = board_context(), grasp = board_context();
-  pens.pose = {0.003, 0.14};
-  grasp.blocks = kBlocks;
-  const std::string pen_page = report_page(result, grip_trace(), pens);
-  EXPECT_TRUE(has(pen_page, "Place and turn of each pen"));
-  EXPECT_TRUE(has(pen_page, "3 mm and 8.021 degrees"));
-  EXPECT_FALSE(has(pen_page, "Force against time"));
-  EXPECT_TRUE(has(report_page(result, grip_trace(), grasp), "Grip force against time"));
-  EXPECT_TRUE(has(report_page(result, grip_trace(), board_context()), "Force against time"));
-}
-
-TEST(BoardReport, NamesNoOrganWhereThereIsNone) {
-  AttemptResult result = testing_support::sample_attempt();
-  result.organ_name.clear();
-  result.organ_source.clear();
-  result.organ_sha256.clear();
-  const std::string page = report_page(result, grip_trace(), board_context());
-  EXPECT_TRUE(has(page, "No organ: a board exercise."));
-  EXPECT_FALSE(has(page, "Made from"));
-}
-
 }  // namespace
-}  // namespace trocar::report_boards_test
+}  // namespace trocar::board_plots_test

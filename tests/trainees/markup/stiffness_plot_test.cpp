@@ -1,15 +1,14 @@
 // The report's part on stiffness: means of what touched, gaps where nothing did, words that agree with the numbers.
-#include "app/report/stiffness_plot.h"
+#include "trainees/markup/stiffness_plot.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "app/report/report.h"
 #include "tests/support/sample_attempt.h"
 
-namespace trocar::report_stiffness_test {
+namespace trocar::stiffness_plot_test {
 namespace {
 
 /// Ten seconds at 1 kHz: a touch from 2 to 4 s and one from 6 to 7 s.
@@ -94,15 +93,5 @@ TEST(StiffnessWords, FollowTheNumbers) {
   EXPECT_TRUE(has(stiffness_words(free), "nothing was touched"));
 }
 
-TEST(ReportPage, HasTheStiffnessOnlyWhereItWasRecorded) {
-  AttemptResult attempt = testing_support::sample_attempt();
-  EXPECT_FALSE(has(report_page(attempt, two_touches(), {}), "could display"));
-  attempt.device.stiffness = receipt(true, 0.34);
-  const std::string page = report_page(attempt, two_touches(), {});
-  EXPECT_TRUE(has(page, "Stiffness that the device could display"));
-  EXPECT_TRUE(has(page, "Stiffness against time"));
-  EXPECT_TRUE(has(page, "<td>on</td>"));
-}
-
 }  // namespace
-}  // namespace trocar::report_stiffness_test
+}  // namespace trocar::stiffness_plot_test

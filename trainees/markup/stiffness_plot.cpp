@@ -1,4 +1,4 @@
-#include "app/report/stiffness_plot.h"
+#include "trainees/markup/stiffness_plot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "tests/support/sample_attempt.h"
 #include "trainees/markup/plots.h"
 
-namespace trocar::report_plots_test {
+namespace trocar::plots_test {
 namespace {
 
 using testing_support::sample_attempt;
@@ -121,4 +121,4 @@ TEST(PathPlot, HoldsForAStillOrBrokenTip) {
 }
 
 }  // namespace
-}  // namespace trocar::report_plots_test
+}  // namespace trocar::plots_test
