@@ -249,7 +249,7 @@ std::string organ_page(const OrganPageContent& content) {
           ". Distances are between surfaces: the mesh and the border of the label's voxels. A trainer's organ, not a "
           "diagnosis.</footer>";
   return "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Organ import: " + escape_html(name) +
-         "</title><style>" + std::string(kReportStyle) + kMoreStyle + "</style></head><body>" + body +
+         "</title><style>" + std::string(kOrganPageStyle) + kMoreStyle + "</style></head><body>" + body +
          "</body></html>\n";
 }
 

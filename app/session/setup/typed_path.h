@@ -1,6 +1,6 @@
 // One rule for every path that a person types and the program writes: its folder has to be there already.
 //
-// A folder made on the way hides a slip of the pen, and the record of an attempt lies where nobody looks for it. What
+// A folder made on the way would hide a typing error, and the record of an attempt would lie where nobody looks. What
 // the program chooses itself (the data folder, the folder of recordings beside a database) it makes. Thread: any.
 #pragma once
 
