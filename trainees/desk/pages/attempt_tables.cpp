@@ -21,9 +21,8 @@ std::string anchors(const Subscore& part) {
   return "full at " + value(part.full_at) + ", none at " + value(part.zero_at);
 }
 
-std::string fact(const std::string& name, const std::string& words, bool mono = false) {
-  return "<div><dt>" + escape_html(name) + "</dt><dd" + (mono ? " class=\"mono\"" : "") + ">" +
-         (words.empty() ? "not recorded" : escape_html(words)) + "</dd></div>";
+std::string recorded(const std::string& name, const std::string& words, bool mono = false) {
+  return fact(name, words.empty() ? "not recorded" : words, mono);
 }
 
 /// The scorer names a failed gate in its cap: "safety: NAME below 0.5: at most 59".
@@ -183,14 +182,14 @@ std::string metric_table(const AttemptView& view) {
 
 std::string device_facts(const AttemptView& view) {
   const DeviceReceipt& d = view.result.device;
-  std::string out = "<dl class=\"facts\">" + fact("Device", d.backend) +
-                    fact("Loop", d.rate_hz > 0 ? number_text(d.rate_hz) + " Hz" : "") +
-                    fact("Ticks", std::to_string(d.ticks)) + fact("Ticks missed", std::to_string(d.overruns)) +
-                    fact("At its limit", share_text(d.saturated_contact_share) + " of contact") +
-                    fact("Passivity at work", share_text(d.passivity_active_share) + " of contact") +
-                    fact("Least energy", number_text(d.min_energy_j) + " J") +
-                    fact("Force scale", number_text(d.kappa));
-  if (!d.fault.empty()) out += fact("Fault", d.fault);
+  std::string out = "<dl class=\"facts\">" + recorded("Device", d.backend) +
+                    recorded("Loop", d.rate_hz > 0 ? number_text(d.rate_hz) + " Hz" : "") +
+                    recorded("Ticks", std::to_string(d.ticks)) + recorded("Ticks missed", std::to_string(d.overruns)) +
+                    recorded("At its limit", share_text(d.saturated_contact_share) + " of contact") +
+                    recorded("Passivity at work", share_text(d.passivity_active_share) + " of contact") +
+                    recorded("Least energy", number_text(d.min_energy_j) + " J") +
+                    recorded("Force scale", number_text(d.kappa));
+  if (!d.fault.empty()) out += recorded("Fault", d.fault);
   out += "</dl>";
   if (d.force_not_rendered())
     out += "<p class=\"warning\">" + shape("integrity") +
@@ -209,15 +208,15 @@ std::string device_facts(const AttemptView& view) {
 std::string origin_facts(const AttemptView& view) {
   const AttemptResult& r = view.result;
   std::string out =
-      "<dl class=\"facts wide\">" + fact("Number here", view.number > 0 ? std::to_string(view.number) : "") +
-      fact("Exercise", r.exercise_id + " " + r.exercise_version + ", level " + r.level) +
-      fact("Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)) + fact("Input", r.hand) +
-      fact("Program", view.program) + fact("Organ", r.organ_name + (r.organ_synthetic ? ", synthetic" : "")) +
-      fact("Organ's origin", r.organ_credit);
-  out += fact("Attempt", r.uuid, true) + fact("Rules (sha256)", r.rubric_sha256, true) +
-         fact("Recording (sha256)", r.recording_sha256, true) + fact("State hash", r.state_hash, true) +
-         fact("Place in the chain", view.chain_position > 0 ? std::to_string(view.chain_position) : "") +
-         fact("Row hash", view.row_hash, true) + "</dl>";
+      "<dl class=\"facts wide\">" + recorded("Number here", view.number > 0 ? std::to_string(view.number) : "") +
+      recorded("Exercise", r.exercise_id + " " + r.exercise_version + ", level " + r.level) +
+      recorded("Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)) + recorded("Input", r.hand) +
+      recorded("Program", view.program) + recorded("Organ", r.organ_name + (r.organ_synthetic ? ", synthetic" : "")) +
+      recorded("Organ's origin", r.organ_credit);
+  out += recorded("Attempt", r.uuid, true) + recorded("Rules (sha256)", r.rubric_sha256, true) +
+         recorded("Recording (sha256)", r.recording_sha256, true) + recorded("State hash", r.state_hash, true) +
+         recorded("Place in the chain", view.chain_position > 0 ? std::to_string(view.chain_position) : "") +
+         recorded("Row hash", view.row_hash, true) + "</dl>";
   return section("origin", "Seed, versions, hashes", out);
 }
 

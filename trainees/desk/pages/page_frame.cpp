@@ -302,6 +302,11 @@ std::string select_field(const std::string& id, const std::string& name, const s
   return out + "</select></p>";
 }
 
+std::string fact(const std::string& name, const std::string& words, bool mono) {
+  return "<div><dt>" + escape_html(name) + "</dt><dd" + (mono ? " class=\"mono\"" : "") + ">" + escape_html(words) +
+         "</dd></div>";
+}
+
 std::string section(const std::string& id, const std::string& title, const std::string& inner_html,
                     const std::string& classes) {
   return "<section id=\"" + id + "\" class=\"" + classes + "\" aria-labelledby=\"" + id + "-h\"><h2 id=\"" + id +

@@ -95,6 +95,8 @@ std::string area_field(const std::string& id, const std::string& name, const std
 std::string select_field(const std::string& id, const std::string& name, const std::string& label,
                          const std::vector<std::pair<std::string, std::string>>& choices, const std::string& chosen);
 
+/// One line of a list of facts (<dl class="facts">). @param mono the words are a hash or the like
+std::string fact(const std::string& name, const std::string& words, bool mono = false);
 /// <section> with a heading that names it.
 std::string section(const std::string& id, const std::string& title, const std::string& inner_html,
                     const std::string& classes = "card");

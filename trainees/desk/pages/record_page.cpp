@@ -24,11 +24,6 @@ std::string parts(const char* here) {
   return out + "</nav>";
 }
 
-std::string record_fact(const std::string& name, const std::string& words, bool mono = false) {
-  return "<div><dt>" + escape_html(name) + "</dt><dd" + (mono ? " class=\"mono\"" : "") + ">" + escape_html(words) +
-         "</dd></div>";
-}
-
 std::string check_section(const RecordView& view, const Frame& frame) {
   std::string out;
   if (view.problems && view.problems->empty())
@@ -100,18 +95,16 @@ std::string audit_pages(const AuditView& view) {
 std::string record_page(const RecordView& view, Frame frame) {
   frame.title = "Record";
   std::string out =
-      "<dl class=\"facts\">" + record_fact("Database", view.file.empty() ? "in memory" : view.file) +
-      record_fact("Schema", std::to_string(view.schema)) +
-      record_fact("Program", view.program.empty() ? "unknown" : view.program) +
-      record_fact("Size", size_text(view.database_bytes)) +
-      record_fact("Recordings", size_text(view.recordings_bytes)) +
-      record_fact("Last backup", view.backups.empty() ? "none here"
-                                                      : view.backups.front().utc.substr(0, 10) + ", " +
-                                                            view.backups.front().utc.substr(11, 5) + " UTC") +
+      "<dl class=\"facts\">" + fact("Database", view.file.empty() ? "in memory" : view.file) +
+      fact("Schema", std::to_string(view.schema)) + fact("Program", view.program.empty() ? "unknown" : view.program) +
+      fact("Size", size_text(view.database_bytes)) + fact("Recordings", size_text(view.recordings_bytes)) +
+      fact("Last backup", view.backups.empty() ? "none here"
+                                               : view.backups.front().utc.substr(0, 10) + ", " +
+                                                     view.backups.front().utc.substr(11, 5) + " UTC") +
       "</dl>" + "<dl class=\"facts\">";
-  for (const auto& [what, count] : view.counts) out += record_fact(what, std::to_string(count));
+  for (const auto& [what, count] : view.counts) out += fact(what, std::to_string(count));
   out += "</dl><dl class=\"facts\">" +
-         record_fact("Head of the audit trail: noted elsewhere, it shows any later change", view.head, true) + "</dl>";
+         fact("Head of the audit trail: noted elsewhere, it shows any later change", view.head, true) + "</dl>";
   return document(frame, "<div class=\"title\"><h1>Record</h1></div>" + parts("/record") +
                              section("facts", "What is kept", out) + "<div class=\"two even\"><div>" +
                              check_section(view, frame) + "</div><div>" + backup_section(view, frame) + "</div></div>");

@@ -14,8 +14,7 @@ constexpr double kOld_s = 4;  ///< from here on the age of what is shown is said
 using State = LiveStation::State;
 
 std::string station_fact(const std::string& name, const std::string& words) {
-  return "<div><dt>" + escape_html(name) + "</dt><dd>" + (words.empty() ? "\xE2\x80\x93" : escape_html(words)) +
-         "</dd></div>";
+  return fact(name, words.empty() ? "\xE2\x80\x93" : words);
 }
 
 std::string newton(const std::optional<double>& value) { return value ? fixed_text(*value, 1) + " N" : ""; }
