@@ -1,17 +1,13 @@
-// The report's two pictures as inline SVG: force against time, and the tip's path from above coloured by force.
-//
-// Force is the magnitude of the scene's force on the instrument (TraceSample::force_T), virtual newtons. At 1 kHz the
-// plot keeps the lowest and highest value of every pixel column, so no peak is lost. Thread: any.
+// What plots of forces share: limits, classes of force, and the range of every pixel column, so that no peak is lost at
+// 1 kHz. Force is the magnitude of the scene's force on the instrument (TraceSample::force_T), virtual newtons. Thread:
+// any.
 #pragma once
 
-#include <string>
 #include <vector>
-
-#include "scenarios/scoring/trace.h"
 
 namespace trocar {
 
-/// Force limits drawn into both plots, N; 0 where there is none.
+/// Force limits of an exercise at a level, N; 0 where there is none.
 struct ForceLimits {
   double low_n = 0, high_n = 0, hard_n = 0;
 };
@@ -28,9 +24,5 @@ std::vector<ColumnRange> column_ranges(const std::vector<double>& t_s, const std
 
 /// How a force stands to the band: 0 none or below, 1 in band, 2 above, 3 at or above the hard limit.
 int force_class(double force_n, const ForceLimits& band);
-
-/// Whole <svg> elements; text inside is escaped.
-std::string force_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceLimits& band);
-std::string path_plot_svg(const Trace& trace, const std::vector<Event>& events, const ForceLimits& band);
 
 }  // namespace trocar
