@@ -6,24 +6,24 @@
 namespace trocar {
 namespace {
 
-HandErrand task_of(const Percept& percept) {
+HandJob task_of(const Percept& percept) {
   switch (percept.cue) {
     case Cue::kWait:
-      return {HandErrand::Kind::kStart, -1};
+      return {HandJob::Kind::kStart, -1};
     case Cue::kReach:
     case Cue::kPress:
     case Cue::kRelease:
-      return {HandErrand::Kind::kDisc, percept.target_index};
+      return {HandJob::Kind::kDisc, percept.target_index};
     case Cue::kGrip:
-      return {HandErrand::Kind::kGrip, -1};
+      return {HandJob::Kind::kGrip, -1};
     case Cue::kFinished:
-      return {HandErrand::Kind::kFinished, -1};
+      return {HandJob::Kind::kFinished, -1};
     case Cue::kOrient:
-      return {HandErrand::Kind::kPen, percept.target_index};
+      return {HandJob::Kind::kPen, percept.target_index};
     case Cue::kPick:
     case Cue::kCarry:
     case Cue::kPlace:
-      return {HandErrand::Kind::kBlock, percept.target_index};
+      return {HandJob::Kind::kBlock, percept.target_index};
     case Cue::kNone:
       break;
   }
@@ -46,7 +46,7 @@ void HandSenses::update(const Percept& percept, double pause_s, double dt_s) {
   const bool bar = percept.foam_count > 0 && std::isfinite(percept.shown_grip_n);
   grip_.update(bar ? percept.shown_grip_n : percept.felt_grip_n, dt_s);
   force_.update(std::isfinite(percept.shown_force_n) ? percept.shown_force_n : percept.felt_force_n, dt_s);
-  const HandErrand now = task_of(percept);
+  const HandJob now = task_of(percept);
   noticed_for_s_ = now == seen_ ? noticed_for_s_ + dt_s : 0;
   seen_ = now;
   if (noticed_for_s_ >= reaction_s_ + pause_s) task_ = seen_;

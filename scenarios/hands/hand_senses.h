@@ -23,10 +23,10 @@ class LateSignal {
 };
 
 /// What the person is busy with; reaching, pressing and easing off one disc are one task.
-struct HandErrand {
+struct HandJob {
   enum class Kind : std::uint8_t { kNothing, kStart, kDisc, kPen, kGrip, kBlock, kFinished } kind = Kind::kNothing;
   std::int32_t target = -1;
-  bool operator==(const HandErrand&) const = default;
+  bool operator==(const HandJob&) const = default;
 };
 
 class HandSenses {
@@ -34,16 +34,16 @@ class HandSenses {
   explicit HandSenses(double reaction_s) : reaction_s_(reaction_s) {}
   void update(const Percept& percept, double pause_s, double dt_s);
   /// The task that has been noticed and thought over.
-  const HandErrand& task() const { return task_; }
+  const HandJob& task() const { return task_; }
   /// What the screen asks for now, perhaps not noticed yet.
-  const HandErrand& seen() const { return seen_; }
+  const HandJob& seen() const { return seen_; }
   double force_n() const { return force_.value(); }  ///< contact force as judged for control (bar, else fingers)
   double touch_n() const { return touch_.value(); }  ///< contact force as felt, quick, for noticing contact
   double grip_n() const { return grip_.value(); }
 
  private:
   double reaction_s_, noticed_for_s_ = 0;
-  HandErrand task_, seen_;
+  HandJob task_, seen_;
   LateSignal force_{0.12, 0.05}, touch_{0.06, 0.02}, grip_{0.08, 0.04};
 };
 

@@ -20,16 +20,16 @@ constexpr double kLongestDescent = 0.030;  // m below the hover point before loo
 constexpr double kForesight =
     0.08;                          // s: a force that rises is judged by what it will be when the eyes and fingers tell
 constexpr double kSideGain = 1.2;  // 1/s, sideways correction while pressing
-constexpr double kSideDeadBand = 0.0010;                     // m
-constexpr double kAsideTime = 0.5;                           // s beside the target before lifting off to try again
-constexpr double kOpenJaw = 0.020;                           // m, as taken from the jig and before squeezing
-constexpr double kClosedJaw = 0.002;                         // m, while touching
-constexpr double kJawSpeed = 0.030;                          // m/s of free opening and closing
-constexpr double kOpenEnough = 0.004;                        // m short of open at which the fingers turn round
-constexpr double kTightestJaw = -0.010;                      // m of intent: the fingers press beyond what they hold
-constexpr double kClosingSpeed = 0.012;                      // m/s until the block is felt
-constexpr double kDiscGripTouch = 0.08;                      // N
-constexpr std::uint64_t kErrandStride = 0x9e3779b97f4a7c15;  // keeps the streams of the errands apart
+constexpr double kSideDeadBand = 0.0010;                  // m
+constexpr double kAsideTime = 0.5;                        // s beside the target before lifting off to try again
+constexpr double kOpenJaw = 0.020;                        // m, as taken from the jig and before squeezing
+constexpr double kClosedJaw = 0.002;                      // m, while touching
+constexpr double kJawSpeed = 0.030;                       // m/s of free opening and closing
+constexpr double kOpenEnough = 0.004;                     // m short of open at which the fingers turn round
+constexpr double kTightestJaw = -0.010;                   // m of intent: the fingers press beyond what they hold
+constexpr double kClosingSpeed = 0.012;                   // m/s until the block is felt
+constexpr double kDiscGripTouch = 0.08;                   // N
+constexpr std::uint64_t kJobStride = 0x9e3779b97f4a7c15;  // keeps the streams of the jobs apart
 
 }  // namespace
 
@@ -103,38 +103,38 @@ void SkilledHand::turn(const Percept& percept) {
 }
 
 void SkilledHand::reach_target(const Percept& percept, bool lift) {
-  const double hover = task_.kind == HandErrand::Kind::kDisc ? skill_.hover_m : 0;
+  const double hover = task_.kind == HandJob::Kind::kDisc ? skill_.hover_m : 0;
   reach(percept, percept.target_T + percept.target_normal_T * hover, lift);
-  if (task_.kind == HandErrand::Kind::kPen && percept.target_oriented) turn(percept);
+  if (task_.kind == HandJob::Kind::kPen && percept.target_oriented) turn(percept);
 }
 
-/// Every errand, and every press in it, has luck of its own: what an earlier one took, or when it ended, does not reach
+/// Every job, and every press in it, has luck of its own: what an earlier one took, or when it ended, does not reach
 /// it. So an attempt that is shifted by some milliseconds stays the same attempt.
-void SkilledHand::draw_anew(std::uint64_t part) { random_ = HandRandom(seed_ + kErrandStride * (2 * errands_ + part)); }
+void SkilledHand::draw_anew(std::uint64_t part) { random_ = HandRandom(seed_ + kJobStride * (2 * jobs_ + part)); }
 
 void SkilledHand::begin_task(const Percept& percept) {
-  ++errands_;
+  ++jobs_;
   draw_anew(0);
   corrections_ = 0;
   in_step_s_ = 0;
   switch (task_.kind) {
-    case HandErrand::Kind::kStart:
-    case HandErrand::Kind::kPen:
+    case HandJob::Kind::kStart:
+    case HandJob::Kind::kPen:
       return reach_target(percept, false);
-    case HandErrand::Kind::kDisc:
+    case HandJob::Kind::kDisc:
       return reach_target(percept, true);
-    case HandErrand::Kind::kBlock:
+    case HandJob::Kind::kBlock:
       block_intent_ = {{intent_R_, intent_T_}, jaw_m_};
       return blocks_.begin(percept, block_intent_, random_);
-    case HandErrand::Kind::kGrip:
+    case HandJob::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
       opened_ = false;
       [[fallthrough]];
-    case HandErrand::Kind::kFinished:
+    case HandJob::Kind::kFinished:
       plan_ = ReachPlan(intent_T_, intent_T_ + Vec3(0, 0, 2 * kLift), {0, Vec3::Zero(), 0, 0.5 * skill_.speed_factor});
-      step_ = task_.kind == HandErrand::Kind::kGrip ? Step::kSqueeze : Step::kReach;
+      step_ = task_.kind == HandJob::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
-    case HandErrand::Kind::kNothing:
+    case HandJob::Kind::kNothing:
       step_ = Step::kStill;
   }
 }
@@ -149,14 +149,14 @@ void SkilledHand::start_pressing(const Percept& percept) {
 
 /// Felt the tissue before it was meant to: press when about on target, else withdraw and try again.
 void SkilledHand::on_unexpected_touch(const Percept& percept) {
-  if (task_.kind != HandErrand::Kind::kDisc) return;
+  if (task_.kind != HandJob::Kind::kDisc) return;
   if (sideways_error(percept).norm() <= percept.target_radius_m) return start_pressing(percept);
   reach_target(percept, true);
 }
 
 bool SkilledHand::off_target(const Percept& percept) const {
-  if (task_.kind == HandErrand::Kind::kDisc) return sideways_error(percept).norm() > percept.target_radius_m;
-  const bool pen = task_.kind == HandErrand::Kind::kPen && percept.target_oriented;
+  if (task_.kind == HandJob::Kind::kDisc) return sideways_error(percept).norm() > percept.target_radius_m;
+  const bool pen = task_.kind == HandJob::Kind::kPen && percept.target_oriented;
   const double share = pen ? skill_.settle_share : kNearEnough;
   const bool beside = (percept.target_T - percept.tip_T).norm() > share * percept.target_radius_m;
   if (!pen) return beside;
@@ -165,9 +165,9 @@ bool SkilledHand::off_target(const Percept& percept) const {
 }
 
 void SkilledHand::look(const Percept& percept) {
-  const double settling = task_.kind == HandErrand::Kind::kPen ? kPenSettling : 0;
+  const double settling = task_.kind == HandJob::Kind::kPen ? kPenSettling : 0;
   if (in_step_s_ < kLookTime + settling + 0.05 * skill_.speed_factor) return;
-  const bool disc = task_.kind == HandErrand::Kind::kDisc;
+  const bool disc = task_.kind == HandJob::Kind::kDisc;
   if (off_target(percept) && (corrections_ < skill_.max_corrections || !disc)) {
     ++corrections_;
     return reach_target(percept, false);
@@ -241,7 +241,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     task_ = senses_.task();
     begin_task(attend(percept));
   }
-  if (task_.kind == HandErrand::Kind::kBlock) return move_block(attend(percept), dt_s);
+  if (task_.kind == HandJob::Kind::kBlock) return move_block(attend(percept), dt_s);
   if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
   return {{intent_R_, intent_T_ + tremor(time_s_)}, jaw_m_};
@@ -253,10 +253,10 @@ void SkilledHand::act(const Percept& percept, double dt_s) {
       break;
     case Step::kReach:
       intent_T_ = plan_.at(in_step_s_);
-      if (task_.kind == HandErrand::Kind::kPen) intent_R_ = turn_.at(in_step_s_);
-      if (in_step_s_ > std::max(plan_.duration_s(), task_.kind == HandErrand::Kind::kPen ? turn_.duration_s() : 0)) {
+      if (task_.kind == HandJob::Kind::kPen) intent_R_ = turn_.at(in_step_s_);
+      if (in_step_s_ > std::max(plan_.duration_s(), task_.kind == HandJob::Kind::kPen ? turn_.duration_s() : 0)) {
         in_step_s_ = 0;
-        step_ = task_.kind == HandErrand::Kind::kFinished ? Step::kStill : Step::kLook;
+        step_ = task_.kind == HandJob::Kind::kFinished ? Step::kStill : Step::kLook;
       } else if (in_step_s_ > 0.5 * plan_.duration_s() && senses_.touch_n() > kTouchForce) {
         on_unexpected_touch(percept);
       }

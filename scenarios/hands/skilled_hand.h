@@ -13,7 +13,7 @@
 #include "scenarios/hands/hand_senses.h"
 #include "scenarios/hands/minimum_jerk.h"
 #include "scenarios/hands/turn_plan.h"
-#include "scenarios/kinds/grasp/grasp_errand.h"
+#include "scenarios/kinds/grasp/grasp_job.h"
 
 namespace trocar {
 
@@ -44,16 +44,16 @@ class SkilledHand : public Hand {
   Vec3 sideways_error(const Percept& percept) const;
   Vec3 tremor(double t_s) const;
 
-  std::uint64_t seed_, errands_ = 0;
-  HandRandom random_;  ///< of the present errand
+  std::uint64_t seed_, jobs_ = 0;
+  HandRandom random_;  ///< of the present job
   HandSkill skill_;
   HandSenses senses_;
   ForceGrip press_, squeeze_;
-  GraspErrand blocks_;
-  HandIntent block_intent_;  ///< of the errand with blocks, without tremor
+  GraspJob blocks_;
+  HandIntent block_intent_;  ///< of the job with blocks, without tremor
   ReachPlan plan_;
   TurnPlan turn_;
-  HandErrand task_;
+  HandJob task_;
   Percept attended_;  ///< target and band that the person works on
   Step step_ = Step::kStill;
   Pose ready_;  ///< pose seen when the device became ready

@@ -86,7 +86,7 @@ TEST(HandSenses, NoticeACueAfterReactionAndPause) {
   percept.cue = Cue::kReach;
   percept.target_index = 3;
   int ticks = 0;
-  while (senses.task().kind == HandErrand::Kind::kNothing && ticks < 1000) {
+  while (senses.task().kind == HandJob::Kind::kNothing && ticks < 1000) {
     senses.update(percept, 0.15, kDt);
     ++ticks;
   }

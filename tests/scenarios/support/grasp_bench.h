@@ -94,7 +94,7 @@ class GraspBench {
     block(index).motion = ObjectMotion::kResting;
     feed(0.05);
   }
-  /// One faultless errand.
+  /// One faultless job.
   void place(int index) {
     take(index);
     carry(ring(index).centre_T);

@@ -1,5 +1,5 @@
-// The errand with a block in a small world of its own: the tip follows the intent, foam springs between the pads.
-#include "scenarios/kinds/grasp/grasp_errand.h"
+// The job with a block in a small world of its own: the tip follows the intent, foam springs between the pads.
+#include "scenarios/kinds/grasp/grasp_job.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trocar::grasp_errand_test {
+namespace trocar::grasp_job_test {
 namespace {
 
 constexpr double kDt = 1e-3, kFinger = 400, kFingerLag = 0.04;
@@ -24,7 +24,7 @@ HandSkill steady() {
 /// One block at the left, its ring at the right.
 struct ErrandWorld {
   explicit ErrandWorld(const HandSkill& skill, int foam_index = 0, bool told_in = true, std::uint64_t seed = 1)
-      : foam(kFoams[foam_index]), told(told_in), errand(skill), senses(skill.reaction_s), random(seed) {
+      : foam(kFoams[foam_index]), told(told_in), job(skill), senses(skill.reaction_s), random(seed) {
     block.p = Vec3(-0.03, 0, kHalfHeight);
     intent.X_TI.p = tip = Vec3(0, 0, 0.06);
     intent.X_TI.R = Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix();
@@ -48,12 +48,12 @@ struct ErrandWorld {
   }
 
   bool near(const Vec3& off) const { return held || (off.head<2>().norm() < 0.006 && std::abs(off.z()) < 0.009); }
-  void begin() { errand.begin(look(), intent, random); }
+  void begin() { job.begin(look(), intent, random); }
 
   void step() {
     const Percept seen = look();
     senses.update(seen, 0, kDt);
-    errand.update(seen, senses, kDt, intent, random);
+    job.update(seen, senses, kDt, intent, random);
     fastest_step = std::max(fastest_step, (intent.X_TI.p - tip).norm());
     tip = intent.X_TI.p + drift;
     const bool between = !vanished && near(tip - block.p);
@@ -102,7 +102,7 @@ struct ErrandWorld {
 
   FoamLore foam;
   bool told, held = false, slipping = false, vanished = false;
-  GraspErrand errand;
+  GraspJob job;
   HandSenses senses;
   HandRandom random;
   HandIntent intent;
@@ -114,7 +114,7 @@ struct ErrandWorld {
   int grasps = 0;
 };
 
-TEST(GraspErrand, BringsTheBlockAndWithdraws) {
+TEST(GraspJob, BringsTheBlockAndWithdraws) {
   ErrandWorld world(steady());
   world.begin();
   ASSERT_TRUE(world.run(15, [&] { return world.brought(); }));
@@ -130,7 +130,7 @@ TEST(GraspErrand, BringsTheBlockAndWithdraws) {
   EXPECT_LT(world.fastest_step, 0.6 * kDt) << "no jumps";
 }
 
-TEST(GraspErrand, TellsTheFoamByFeelWhenNoColourDoes) {
+TEST(GraspJob, TellsTheFoamByFeelWhenNoColourDoes) {
   for (int foam = 0; foam < 3; ++foam) {
     ErrandWorld world(steady(), foam, false);
     world.begin();
@@ -146,7 +146,7 @@ TEST(GraspErrand, TellsTheFoamByFeelWhenNoColourDoes) {
   }
 }
 
-TEST(GraspErrand, FeelingTakesTime) {
+TEST(GraspJob, FeelingTakesTime) {
   double took[2];
   for (const bool told : {false, true}) {
     ErrandWorld world(steady(), 0, told);
@@ -157,7 +157,7 @@ TEST(GraspErrand, FeelingTakesTime) {
   EXPECT_GT(took[0], took[1] + 0.4);
 }
 
-TEST(GraspErrand, HoldsTighterWhatIsSeenToSlip) {
+TEST(GraspJob, HoldsTighterWhatIsSeenToSlip) {
   double grip[2];
   for (const bool slips : {false, true}) {
     ErrandWorld world(steady());
@@ -172,7 +172,7 @@ TEST(GraspErrand, HoldsTighterWhatIsSeenToSlip) {
   EXPECT_GT(grip[1], grip[0] * 1.1);
 }
 
-TEST(GraspErrand, FetchesAgainWhatIsLostOnTheWay) {
+TEST(GraspJob, FetchesAgainWhatIsLostOnTheWay) {
   ErrandWorld world(steady());
   world.begin();
   ASSERT_TRUE(world.run(15, [&] { return world.held && world.tip.x() > 0; }));
@@ -187,7 +187,7 @@ TEST(GraspErrand, FetchesAgainWhatIsLostOnTheWay) {
   EXPECT_EQ(world.grasps, 2);
 }
 
-TEST(GraspErrand, TriesAgainAfterClosingOnNothing) {
+TEST(GraspJob, TriesAgainAfterClosingOnNothing) {
   ErrandWorld world(steady());
   world.vanished = true;
   world.block.p = Vec3(-0.03, 0, kHalfHeight);
@@ -198,7 +198,7 @@ TEST(GraspErrand, TriesAgainAfterClosingOnNothing) {
   EXPECT_TRUE(world.run(20, [&] { return world.brought(); }));
 }
 
-TEST(GraspErrand, LooksAgainWhenTheJawsMeetSomethingOnTheWayDown) {
+TEST(GraspJob, LooksAgainWhenTheJawsMeetSomethingOnTheWayDown) {
   for (const bool strikes : {false, true}) {
     ErrandWorld world(steady());
     world.begin();
@@ -215,7 +215,7 @@ TEST(GraspErrand, LooksAgainWhenTheJawsMeetSomethingOnTheWayDown) {
   }
 }
 
-TEST(GraspErrand, TurnsThePadsToTheSidesOfTheBlock) {
+TEST(GraspJob, TurnsThePadsToTheSidesOfTheBlock) {
   for (const double degrees : {-30.0, 10.0, 40.0}) {
     ErrandWorld world(steady());
     world.block.R = Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitZ()).toRotationMatrix();
@@ -226,7 +226,7 @@ TEST(GraspErrand, TurnsThePadsToTheSidesOfTheBlock) {
   }
 }
 
-TEST(GraspErrand, TakesALyingBlockAcrossTheSideThatThePadsReachRound) {
+TEST(GraspJob, TakesALyingBlockAcrossTheSideThatThePadsReachRound) {
   ErrandWorld world(steady());
   world.block.R =
       Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix();  // 20 mm long along y of T, as are the pads
@@ -235,7 +235,7 @@ TEST(GraspErrand, TakesALyingBlockAcrossTheSideThatThePadsReachRound) {
   EXPECT_GT(std::abs(world.intent.X_TI.R.col(1).x()), std::cos(0.10)) << "across its 14 mm";
 }
 
-TEST(GraspErrand, GuidesTheBlockWhileItIsLowered) {
+TEST(GraspJob, GuidesTheBlockWhileItIsLowered) {
   ErrandWorld world(steady());
   world.begin();
   ASSERT_TRUE(world.run(15, [&] { return world.held && world.tip.x() > 0.029 && world.tip.z() < 0.036; }));
@@ -247,7 +247,7 @@ TEST(GraspErrand, GuidesTheBlockWhileItIsLowered) {
   EXPECT_LT((world.let_go_at - world.ring).head<2>().norm(), 0.0015) << "half of it, and more, is made good on the way";
 }
 
-TEST(GraspErrand, AHeavyHandSqueezesHarder) {
+TEST(GraspJob, AHeavyHandSqueezesHarder) {
   HandSkill heavy = steady();
   heavy.force_bias = 1.8;
   double hardest[2] = {0, 0};
@@ -263,7 +263,7 @@ TEST(GraspErrand, AHeavyHandSqueezesHarder) {
   EXPECT_GT(hardest[1], 1.3);
 }
 
-TEST(GraspErrand, TheSeedAloneDrawsTheMovement) {
+TEST(GraspJob, TheSeedAloneDrawsTheMovement) {
   HandSkill unsteady = steady();
   unsteady.aim_lateral_m = unsteady.aim_depth_m = 0.001;
   unsteady.force_cv = 0.2;
@@ -279,4 +279,4 @@ TEST(GraspErrand, TheSeedAloneDrawsTheMovement) {
 }
 
 }  // namespace
-}  // namespace trocar::grasp_errand_test
+}  // namespace trocar::grasp_job_test

@@ -1,4 +1,4 @@
-#include "scenarios/kinds/grasp/grasp_errand.h"
+#include "scenarios/kinds/grasp/grasp_job.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,21 +47,20 @@ bool between_pads(const SeenObject& object, int axis) {
 
 }  // namespace
 
-GraspErrand::GraspErrand(const HandSkill& skill)
-    : skill_(skill), grip_({200, 3, 0.02, skill.force_bias, skill.force_cv}) {}
+GraspJob::GraspJob(const HandSkill& skill) : skill_(skill), grip_({200, 3, 0.02, skill.force_bias, skill.force_cv}) {}
 
-void GraspErrand::enter(Step step) {
+void GraspJob::enter(Step step) {
   step_ = step;
   in_step_s_ = 0;
 }
 
 /// Lowest point under the middle: the board turns a block flat about its middle when it is set down.
-Vec3 GraspErrand::base_of(const SeenObject& object) {
+Vec3 GraspJob::base_of(const SeenObject& object) {
   return object.X_TO.p - Vec3(0, 0, object.X_TO.R.row(2).cwiseAbs().dot(object.size_m.transpose()) / 2);
 }
 
 /// Across the pads the block is as thick as its thinner level side.
-double GraspErrand::thickness(const Percept& percept) {
+double GraspJob::thickness(const Percept& percept) {
   double thinnest = kBlockOpenJaw;
   for (int axis = 0; axis < 3; ++axis) {
     if (between_pads(percept.object, axis)) thinnest = std::min(thinnest, percept.object.size_m[axis]);
@@ -69,18 +68,18 @@ double GraspErrand::thickness(const Percept& percept) {
   return thinnest;
 }
 
-Vec3 GraspErrand::grip_point(const Percept& percept) const {
+Vec3 GraspJob::grip_point(const Percept& percept) const {
   return percept.object.X_TO.p + kBeyondMiddle * percept.R_TI.col(2);
 }
 
 /// From a block to where the jaws may turn aside: back along the shaft, so that the pads pass by its sides.
-Vec3 GraspErrand::way_out(const Percept& percept) {
+Vec3 GraspJob::way_out(const Percept& percept) {
   return kHover * (kRaised * Vec3::UnitZ() - percept.R_TI.col(2)).normalized();
 }
 
 /// Roll about the shaft after which the pads, as they are seen, would face the nearest pair of the block's sides that
 /// they can take; the other pair where the nearest was barred; 0 where they can take none.
-double GraspErrand::roll_off(const Percept& percept) const {
+double GraspJob::roll_off(const Percept& percept) const {
   constexpr double kNone = 10;  // rad, more than any roll
   double best = kNone, other = kNone;
   for (int axis = 0; axis < 3; ++axis) {
@@ -99,13 +98,13 @@ double GraspErrand::roll_off(const Percept& percept) const {
   return turn_aside ? other : best;
 }
 
-void GraspErrand::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
+void GraspJob::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
   plan_ = ReachPlan(from_T, to_T, {0, Vec3::Zero(), 0, std::max(0.05, seconds)});
 }
 
 /// Plans a movement of the intent such that the seen tip would arrive at the goal.
-void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
-                        HandRandom& random) {
+void GraspJob::reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
+                     HandRandom& random) {
   const Vec3 way = goal_T - percept.tip_T;
   const double distance = way.norm();
   ReachPlan::Shape shape;
@@ -119,32 +118,32 @@ void GraspErrand::reach(const Percept& percept, const Vec3& goal_T, double width
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way + error, shape);
 }
 
-void GraspErrand::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+void GraspJob::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   reach(percept, grip_point(percept) + way_out(percept), 2 * kGoodAim, intent, random);
   turn_ = Eigen::AngleAxisd(roll_off(percept), Vec3::UnitZ());
   R_from_ = intent.X_TI.R;
   enter(Step::kReach);
 }
 
-void GraspErrand::reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+void GraspJob::reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   const Vec3 wanted = percept.goal_T + Vec3(0, 0, kOverRing);
   reach(percept, percept.tip_T + (wanted - base_of(percept.object)), 2 * percept.target_radius_m, intent, random);
   enter(Step::kCarry);
 }
 
-void GraspErrand::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+void GraspJob::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   corrections_ = hits_ = 0;
   reach_block(percept, intent, random);
 }
 
-void GraspErrand::squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                          HandRandom& random) {
+void GraspJob::squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                       HandRandom& random) {
   const double closing = grip_.speed(senses.grip_n(), dt_s, random);
   intent.jaw_opening_m = std::clamp(intent.jaw_opening_m - closing * dt_s,
                                     std::min(kBlockTightestJaw, percept.jaw_opening_m), kBlockOpenJaw);
 }
 
-void GraspErrand::judge_foam(const Percept& percept, HandRandom& random) {
+void GraspJob::judge_foam(const Percept& percept, HandRandom& random) {
   const double force = felt_sum_n_ / std::max(1, felt_count_), opening = opening_sum_m_ / std::max(1, felt_count_);
   const double felt = force / std::max(1e-4, thickness(percept) - opening);
   const double judged = felt * random.log_normal(kJudgement * skill_.force_cv);
@@ -159,8 +158,8 @@ void GraspErrand::judge_foam(const Percept& percept, HandRandom& random) {
   }
 }
 
-void GraspErrand::approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                           HandRandom& random) {
+void GraspJob::approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                        HandRandom& random) {
   intent.jaw_opening_m = std::min(kBlockOpenJaw, intent.jaw_opening_m + kBlockJawSpeed * dt_s);
   const bool there = in_step_s_ > plan_.duration_s();
   if (step_ != Step::kLook) intent.X_TI.p = plan_.at(in_step_s_);
@@ -184,8 +183,8 @@ void GraspErrand::approach(const Percept& percept, const HandSenses& senses, dou
   if (there) enter(Step::kClose);
 }
 
-void GraspErrand::take(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                       HandRandom& random) {
+void GraspJob::take(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                    HandRandom& random) {
   const bool told = percept.band_high_n > 0;
   switch (step_) {
     case Step::kClose:
@@ -225,8 +224,8 @@ void GraspErrand::take(const Percept& percept, const HandSenses& senses, double 
 }
 
 /// While a block is carried: lost, slipping, or well held?
-void GraspErrand::watch_grip(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                             HandRandom& random) {
+void GraspJob::watch_grip(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                          HandRandom& random) {
   squeeze(percept, senses, dt_s, intent, random);
   lost_s_ = senses.grip_n() < kGripFelt / 2 ? lost_s_ + dt_s : 0;
   slip_s_ = percept.object.slipping ? slip_s_ + dt_s : 0;
@@ -241,8 +240,8 @@ void GraspErrand::watch_grip(const Percept& percept, const HandSenses& senses, d
   withdraw(percept, intent);
 }
 
-void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                        HandRandom& random) {
+void GraspJob::bring(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                     HandRandom& random) {
   watch_grip(percept, senses, dt_s, intent, random);
   const bool there = in_step_s_ > plan_.duration_s();
   const double speed = skill_.approach_speed_mps / skill_.speed_factor;
@@ -281,7 +280,7 @@ void GraspErrand::bring(const Percept& percept, const HandSenses& senses, double
   }
 }
 
-void GraspErrand::withdraw(const Percept& percept, const HandIntent& intent) {
+void GraspJob::withdraw(const Percept& percept, const HandIntent& intent) {
   const Vec3 out = way_out(percept);
   const double room = percept.goal_T.z() + kHighest - percept.tip_T.z();  // what is left of the height
   const double share = std::clamp(room / std::max(1e-3, out.z()), 0.0, 1.0);
@@ -289,7 +288,7 @@ void GraspErrand::withdraw(const Percept& percept, const HandIntent& intent) {
   enter(Step::kRetreat);
 }
 
-void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
+void GraspJob::leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
   intent.jaw_opening_m =
       std::min(kBlockOpenJaw, std::max(intent.jaw_opening_m, percept.jaw_opening_m) + kBlockJawSpeed * dt_s);
   switch (step_) {
@@ -308,8 +307,8 @@ void GraspErrand::leave(const Percept& percept, double dt_s, HandIntent& intent,
   }
 }
 
-void GraspErrand::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                         HandRandom& random) {
+void GraspJob::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                      HandRandom& random) {
   in_step_s_ += dt_s;
   switch (step_) {
     case Step::kReach:

@@ -14,9 +14,9 @@
 
 namespace trocar {
 
-class GraspErrand {
+class GraspJob {
  public:
-  explicit GraspErrand(const HandSkill& skill);
+  explicit GraspJob(const HandSkill& skill);
 
   /// A block is lit. @param intent what the hand wants at this moment.
   void begin(const Percept& percept, const HandIntent& intent, HandRandom& random);
