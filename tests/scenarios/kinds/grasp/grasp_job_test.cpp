@@ -22,8 +22,8 @@ HandSkill steady() {
 }
 
 /// One block at the left, its ring at the right.
-struct ErrandWorld {
-  explicit ErrandWorld(const HandSkill& skill, int foam_index = 0, bool told_in = true, std::uint64_t seed = 1)
+struct JobWorld {
+  explicit JobWorld(const HandSkill& skill, int foam_index = 0, bool told_in = true, std::uint64_t seed = 1)
       : foam(kFoams[foam_index]), told(told_in), job(skill), senses(skill.reaction_s), random(seed) {
     block.p = Vec3(-0.03, 0, kHalfHeight);
     intent.X_TI.p = tip = Vec3(0, 0, 0.06);
@@ -115,7 +115,7 @@ struct ErrandWorld {
 };
 
 TEST(GraspJob, BringsTheBlockAndWithdraws) {
-  ErrandWorld world(steady());
+  JobWorld world(steady());
   world.begin();
   ASSERT_TRUE(world.run(15, [&] { return world.brought(); }));
   EXPECT_EQ(world.grasps, 1);
@@ -132,7 +132,7 @@ TEST(GraspJob, BringsTheBlockAndWithdraws) {
 
 TEST(GraspJob, TellsTheFoamByFeelWhenNoColourDoes) {
   for (int foam = 0; foam < 3; ++foam) {
-    ErrandWorld world(steady(), foam, false);
+    JobWorld world(steady(), foam, false);
     world.begin();
     double held_s = 0, at_first = 0;
     ASSERT_TRUE(world.run(15, [&] {
@@ -149,7 +149,7 @@ TEST(GraspJob, TellsTheFoamByFeelWhenNoColourDoes) {
 TEST(GraspJob, FeelingTakesTime) {
   double took[2];
   for (const bool told : {false, true}) {
-    ErrandWorld world(steady(), 0, told);
+    JobWorld world(steady(), 0, told);
     world.begin();
     ASSERT_TRUE(world.run(15, [&] { return world.brought(); }));
     took[told] = world.t_s;
@@ -160,7 +160,7 @@ TEST(GraspJob, FeelingTakesTime) {
 TEST(GraspJob, HoldsTighterWhatIsSeenToSlip) {
   double grip[2];
   for (const bool slips : {false, true}) {
-    ErrandWorld world(steady());
+    JobWorld world(steady());
     world.begin();
     ASSERT_TRUE(world.run(15, [&] { return world.held && world.highest > 0.005; }));
     world.slipping = slips;
@@ -173,7 +173,7 @@ TEST(GraspJob, HoldsTighterWhatIsSeenToSlip) {
 }
 
 TEST(GraspJob, FetchesAgainWhatIsLostOnTheWay) {
-  ErrandWorld world(steady());
+  JobWorld world(steady());
   world.begin();
   ASSERT_TRUE(world.run(15, [&] { return world.held && world.tip.x() > 0; }));
   world.vanished = true;
@@ -188,7 +188,7 @@ TEST(GraspJob, FetchesAgainWhatIsLostOnTheWay) {
 }
 
 TEST(GraspJob, TriesAgainAfterClosingOnNothing) {
-  ErrandWorld world(steady());
+  JobWorld world(steady());
   world.vanished = true;
   world.block.p = Vec3(-0.03, 0, kHalfHeight);
   world.begin();
@@ -200,7 +200,7 @@ TEST(GraspJob, TriesAgainAfterClosingOnNothing) {
 
 TEST(GraspJob, LooksAgainWhenTheJawsMeetSomethingOnTheWayDown) {
   for (const bool strikes : {false, true}) {
-    ErrandWorld world(steady());
+    JobWorld world(steady());
     world.begin();
     ASSERT_TRUE(world.run(15, [&] { return world.t_s > 0.3 && world.tip.z() < 0.035; }));
     double lowest = world.tip.z(), rise = 0;
@@ -217,7 +217,7 @@ TEST(GraspJob, LooksAgainWhenTheJawsMeetSomethingOnTheWayDown) {
 
 TEST(GraspJob, TurnsThePadsToTheSidesOfTheBlock) {
   for (const double degrees : {-30.0, 10.0, 40.0}) {
-    ErrandWorld world(steady());
+    JobWorld world(steady());
     world.block.R = Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitZ()).toRotationMatrix();
     world.begin();
     ASSERT_TRUE(world.run(15, [&] { return world.held; })) << degrees;
@@ -227,7 +227,7 @@ TEST(GraspJob, TurnsThePadsToTheSidesOfTheBlock) {
 }
 
 TEST(GraspJob, TakesALyingBlockAcrossTheSideThatThePadsReachRound) {
-  ErrandWorld world(steady());
+  JobWorld world(steady());
   world.block.R =
       Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix();  // 20 mm long along y of T, as are the pads
   world.begin();
@@ -236,7 +236,7 @@ TEST(GraspJob, TakesALyingBlockAcrossTheSideThatThePadsReachRound) {
 }
 
 TEST(GraspJob, GuidesTheBlockWhileItIsLowered) {
-  ErrandWorld world(steady());
+  JobWorld world(steady());
   world.begin();
   ASSERT_TRUE(world.run(15, [&] { return world.held && world.tip.x() > 0.029 && world.tip.z() < 0.036; }));
   for (int i = 0; i < 200; ++i) {  // the instrument bends away as it goes down
@@ -252,7 +252,7 @@ TEST(GraspJob, AHeavyHandSqueezesHarder) {
   heavy.force_bias = 1.8;
   double hardest[2] = {0, 0};
   for (const bool is_heavy : {false, true}) {
-    ErrandWorld world(is_heavy ? heavy : steady());
+    JobWorld world(is_heavy ? heavy : steady());
     world.begin();
     world.run(15, [&] {
       hardest[is_heavy] = std::max(hardest[is_heavy], world.grip_n);
@@ -267,11 +267,11 @@ TEST(GraspJob, TheSeedAloneDrawsTheMovement) {
   HandSkill unsteady = steady();
   unsteady.aim_lateral_m = unsteady.aim_depth_m = 0.001;
   unsteady.force_cv = 0.2;
-  ErrandWorld one(unsteady, 0, true, 5), same(unsteady, 0, true, 5), other(unsteady, 0, true, 6);
+  JobWorld one(unsteady, 0, true, 5), same(unsteady, 0, true, 5), other(unsteady, 0, true, 6);
   double off = 0;
-  for (ErrandWorld* world : {&one, &same, &other}) world->begin();
+  for (JobWorld* world : {&one, &same, &other}) world->begin();
   for (int i = 0; i < 4000; ++i) {
-    for (ErrandWorld* world : {&one, &same, &other}) world->step();
+    for (JobWorld* world : {&one, &same, &other}) world->step();
     ASSERT_EQ(one.tip, same.tip) << i;
     off = std::max(off, (one.tip - other.tip).norm());
   }
