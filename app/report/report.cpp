@@ -67,8 +67,8 @@ std::string subscores_html(const Grade& grade) {
   for (const Subscore& s : in_report_order(grade.subscores)) out += subscore_row(s);
   if (grade.subscores.empty()) out += "<tr><td colspan=\"8\">No sub-scores: the attempt was not graded.</td></tr>";
   out += "</tbody></table>";
-  for (const std::string& cap : grade.caps)
-    out += "<p><span class=\"tag\">score capped</span> " + escape_html(cap) + "</p>";
+  for (const Cap& cap : grade.caps)
+    out += "<p><span class=\"tag\">score capped</span> " + escape_html(cap_sentence(cap)) + "</p>";
   return out + "</section>\n";
 }
 

@@ -58,7 +58,7 @@ std::string reason_of(const AttemptResult& result, double pass_mark, const std::
     return words_of(event->type) + " at " + fixed_text(event->t_s, 1) + " s" +
            (event->unit.empty() ? "" : " (" + quantity_text(event->value, event->unit) + ")") +
            ": a critical event caps the score.";
-  if (!grade.caps.empty()) return grade.caps.front() + ".";
+  if (!grade.caps.empty()) return cap_sentence(grade.caps.front()) + ".";
   if (grade.status == AttemptStatus::kTimeout) return "The time limit was reached before the task was complete.";
   const std::string gap = fixed_text(*grade.score, 1) + " of 100, pass mark " + number_text(pass_mark) + ". ";
   return worst ? gap + "The largest loss: " + short_of(*worst) + " (\u2212" + fixed_text(points_lost(*worst), 1) +

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/scoring/cap.h"
 #include "scenarios/scoring/trace.h"
 
 namespace trocar {
@@ -32,7 +33,7 @@ struct Grade {
   bool passed = false;
   std::string grade;  ///< "expert", "proficient", "pass", "below pass", "not graded"
   std::vector<Subscore> subscores;
-  std::vector<std::string> caps;  ///< each cap applied, with its reason
+  std::vector<Cap> caps;  ///< each that was applied
   std::vector<Metric> metrics;
 };
 

@@ -32,7 +32,7 @@ constexpr const char* kRows[] = {
     " CROSS JOIN subscore_row r ON r.id BETWEEN s.id << 10 AND s.id << 10 | 1023 CROSS JOIN subscore_kind k ON k.id = "
     "r.kind_id"
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY r.id",
-    "SELECT position, reason FROM score_cap m JOIN score s ON s.id = m.score_id"
+    "SELECT position, kind, subject, below, done, total, at_most FROM score_cap m JOIN score s ON s.id = m.score_id"
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
     "SELECT position, name, first_s, ticks FROM device_warning WHERE attempt_id = ? ORDER BY position",
     "SELECT r.id & 1048575, t_s, from_state, to_state FROM device_transition_row r CROSS JOIN device_change c ON c.id "

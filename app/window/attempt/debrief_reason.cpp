@@ -11,20 +11,11 @@ namespace {
 
 constexpr double kWorthSaying = 0.5;  // points
 
-struct Undone {
-  std::string done, all;
-};
-
-/// "not finished: 7 of 12: at most 28.6" of the caps.
-std::optional<Undone> undone(const Grade& grade) {
-  const std::string begin = "not finished: ";
-  for (const std::string& cap : grade.caps) {
-    if (!cap.starts_with(begin)) continue;
-    const std::size_t of = cap.find(" of ", begin.size()), end = cap.find(':', begin.size());
-    if (of == std::string::npos || end == std::string::npos || of > end) continue;
-    return Undone{cap.substr(begin.size(), of - begin.size()), cap.substr(of + 4, end - of - 4)};
-  }
-  return std::nullopt;
+/// The cap of what was left undone; null without one.
+const Cap* undone(const Grade& grade) {
+  const auto at = std::find_if(grade.caps.begin(), grade.caps.end(),
+                               [](const Cap& cap) { return cap.kind == CapKind::kUnfinished; });
+  return at == grade.caps.end() ? nullptr : &*at;
 }
 
 std::string critical_words(const Words& words, const AttemptResult& result, const Event& event,
@@ -39,10 +30,10 @@ std::string critical_words(const Words& words, const AttemptResult& result, cons
                {t, event_words(words, event).empty() ? event.type : event_words(words, event)});
 }
 
-std::string undone_words(const Words& words, const AttemptResult& result, const Undone& left) {
-  return result.grade.status == AttemptStatus::kTimeout
-             ? words("Time ran out: {0} of {1} done.", {left.done, left.all})
-             : words("Not finished: {0} of {1} done.", {left.done, left.all});
+std::string undone_words(const Words& words, const AttemptResult& result, const Cap& left) {
+  const std::vector<std::string> counts{std::to_string(left.done), std::to_string(left.total)};
+  return result.grade.status == AttemptStatus::kTimeout ? words("Time ran out: {0} of {1} done.", counts)
+                                                        : words("Not finished: {0} of {1} done.", counts);
 }
 
 std::string gate_words(const Words& words, const DebriefRow& row) {
@@ -150,7 +141,7 @@ std::string reason_words(const Words& words, const AttemptResult& result, const 
   if (facts.outcome == Outcome::kPass) return score_words(words, facts);
   if (const Event* event = first_critical(result)) return critical_words(words, result, *event, exercise);
   if (const DebriefRow* gate = worst_gate(facts.rows)) return gate_words(words, *gate);
-  if (const auto left = undone(result.grade)) return undone_words(words, result, *left);
+  if (const Cap* left = undone(result.grade)) return undone_words(words, result, *left);
   if (result.grade.status == AttemptStatus::kTimeout) return words("Time ran out before the task was done.");
   return score_words(words, facts);
 }
@@ -163,8 +154,6 @@ std::vector<std::string> further_words(const Words& words, const AttemptResult& 
       out.push_back(words.made(fault));
     else if (!result.integrity.empty())
       out.push_back(words.made(result.integrity));
-    else if (!result.grade.caps.empty())
-      out.push_back(words.made(result.grade.caps.front()));
     add_pauses(words, result, out);
     return out;
   }
@@ -172,7 +161,7 @@ std::vector<std::string> further_words(const Words& words, const AttemptResult& 
   const DebriefRow* first = critical ? nullptr : worst_gate(facts.rows);
   for (const DebriefRow& row : facts.rows)
     if (row.failed && &row != first) out.push_back(gate_words(words, row));
-  if (const auto left = undone(result.grade); left && (critical || first))
+  if (const Cap* left = undone(result.grade); left && (critical || first))
     out.push_back(undone_words(words, result, *left));
   if (result.device.force_not_rendered())
     out.push_back(

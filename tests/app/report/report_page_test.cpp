@@ -129,7 +129,7 @@ TEST(ReportPage, EscapesWhateverComesFromOutside) {
                              &attempt.grade.subscores[0].unit,
                              &attempt.grade.metrics[0].name,
                              &attempt.grade.metrics[0].unit,
-                             &attempt.grade.caps[0],
+                             &attempt.grade.caps[0].subject,
                              &c.exercise_number,
                              &c.exercise_title,
                              &c.goal,

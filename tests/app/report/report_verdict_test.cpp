@@ -18,7 +18,7 @@ TEST(Verdict, PassNamesTheMarginAndTheLargestLoss) {
 TEST(Verdict, CapComesBeforeLostPoints) {
   const Verdict verdict = judge(sample_attempt(), 75);
   EXPECT_EQ(verdict.headline, "NOT YET");
-  EXPECT_EQ(verdict.reason, "Safety gate peak force below half: total limited to 59.");
+  EXPECT_EQ(verdict.reason, "safety: peak_force below 0.5: at most 59.");
   EXPECT_NE(verdict.advice.find("Peak force down to 2 N (now 5.61 N)"), std::string::npos) << verdict.advice;
 }
 

@@ -227,8 +227,8 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
             (&o == &view.overrides.front() ? " The score above stays as it was." : " (followed by the decision above)"),
         o.passed ? Tone::kGood : Tone::kBad, true});
   out.blocks.emplace_back(point_table(view));
-  for (const std::string& cap : view.result.grade.caps)
-    out.blocks.emplace_back(Paragraph{"The score is capped: " + cap, Tone::kBad, true});
+  for (const Cap& cap : view.result.grade.caps)
+    out.blocks.emplace_back(Paragraph{"The score is capped: " + cap_sentence(cap), Tone::kBad, true});
   add_traces(out.blocks, view);
   if (!report.picture_png.empty())
     out.blocks.emplace_back(printed::Picture{

@@ -166,7 +166,7 @@ const std::vector<CarriedTable>& carried_of_attempt() {
       table("score", "@attempt revision# ruleset_sha256 value~ passed# grade", 2),
       table("metric", "@score name position# value~ unit", 2),
       table("subscore", "@score name position# value~ weight~ raw~ unit full_at~ zero_at~ gate#", 2),
-      table("score_cap", "@score position# reason", 2),
+      table("score_cap", "@score position# kind subject below~ done# total# at_most~", 2),
   };
   return kTables;
 }

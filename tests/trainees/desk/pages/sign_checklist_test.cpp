@@ -41,7 +41,8 @@ TEST(SignChecklist, EachLineTurnsWithItsOwnFault) {
   view.result.events.push_back({41, "TISSUE_TORN", Severity::kCritical, -1, 6.1, "N", Vec3::Zero()});
   EXPECT_EQ(faults(view), Words{"1 critical event"});
   view = clean_attempt();
-  view.result.grade.caps = {"safety: in_band below 0.5: at most 59", "not finished: 7 of 12: at most 28.6"};
+  view.result.grade.caps = {{.kind = CapKind::kGate, .subject = "in_band", .below = 0.5, .at_most = 59},
+                            {.kind = CapKind::kUnfinished, .done = 7, .total = 12, .at_most = 28.6}};
   EXPECT_EQ(faults(view), Words{"1 safety gate not met"});
   view = clean_attempt();
   view.result.device.ticks = 1000;
