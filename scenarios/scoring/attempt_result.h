@@ -101,6 +101,7 @@ struct AttemptResult {
   std::string organ_credit;  ///< licence and origin, shown wherever the organ is
   std::string rubric_sha256, recording_sha256, recording_path;
   std::string integrity;    ///< why it was aborted, void or stopped by the device; empty when nothing is wrong
+  bool cut_off = false;     ///< its program ended before it did (kill -9, power)
   std::string state_hash;   ///< 16 hexadecimal digits
   std::string started_utc;  ///< ISO 8601, wall clock, informative only
 };

@@ -86,12 +86,12 @@ void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& 
                     const std::string& ended_utc) {
   sql::Statement update(
       connection,
-      "UPDATE attempt SET finished_utc = ?, integrity = ?, recording_path = ?,"
+      "UPDATE attempt SET finished_utc = ?, integrity = ?, cut_off = ?, recording_path = ?,"
       " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
       " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
       " kappa = ?, device_fault = ?, device_realtime = ? WHERE id = ?");
   const DeviceReceipt& device = result.device;
-  update.bind(ended_utc).bind(result.integrity);
+  update.bind(ended_utc).bind(result.integrity).bind(result.cut_off);
   update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
   update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
   update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
@@ -170,7 +170,7 @@ std::string summary_query(const std::string& code, const std::string& joins) {
   return "SELECT a.id, a.uuid, " + code +
          ", a.exercise_id, a.level, a.hand, a.started_utc, a.seed, a.board, a.status, s.value, " + sql::kPassed +
          ", coalesce(s.grade, 'not graded'), a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity,"
-         " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, '') FROM attempt a" +
+         " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, ''), a.cut_off FROM attempt a" +
          joins + " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
 }
 
@@ -196,6 +196,7 @@ AttemptSummary summary_of(const sql::Statement& row) {
   summary.passed_by_score = row.integer(17) != 0;
   summary.decided_by = row.text(18);
   summary.decided_utc = row.text(19);
+  summary.cut_off = row.integer(20) != 0;
   return summary;
 }
 

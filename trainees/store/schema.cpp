@@ -181,6 +181,8 @@ CREATE TABLE attempt (
                                         OR status = 'fault' OR status = 'void'),
   -- why it was aborted or void; empty when nothing is wrong
   integrity        TEXT NOT NULL DEFAULT '',
+  -- 1: its program ended before it did
+  cut_off          INTEGER NOT NULL DEFAULT 0 CHECK (cut_off IN (0, 1)),
   finished_utc     TEXT,
   recording_path   TEXT NOT NULL DEFAULT '',
   recording_sha256 TEXT NOT NULL DEFAULT '',

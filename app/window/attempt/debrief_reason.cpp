@@ -4,7 +4,6 @@
 
 #include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_receipt.h"
-#include "app/window/attempt/cut_off.h"
 
 namespace trocar {
 namespace {
@@ -51,7 +50,7 @@ std::string ungraded_words(const Words& words, const AttemptResult& result, Outc
   const double t = result.events.empty() ? 0 : clock_s(result, result.events.back().t_s);
   switch (outcome) {
     case Outcome::kStopped:
-      if (was_cut_off(result.integrity))
+      if (result.cut_off)
         return words("The attempt was cut off with its program, so there is no score. It counts as not passed.");
       return t > 0 ? words("You left the attempt, so there is no score. It counts as not passed.")
                    : words("You left before the clock began, so there is no score. It counts as not passed.");

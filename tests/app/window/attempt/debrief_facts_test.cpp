@@ -285,7 +285,7 @@ TEST(DebriefCutOff, SaysThatTheProgramEndedNotThatThePersonLeft) {
   AttemptResult result;
   result.level = "L1";
   result.grade.status = AttemptStatus::kAborted;
-  result.integrity = "its program ended before the attempt did";
+  result.cut_off = true;
   EXPECT_EQ(debrief_facts(Words(), result, touch).reason,
             "The attempt was cut off with its program, so there is no score. It counts as not passed.");
 }
