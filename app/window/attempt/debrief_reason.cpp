@@ -20,11 +20,11 @@ const Cap* undone(const Grade& grade) {
 std::string critical_words(const Words& words, const AttemptResult& result, const Event& event,
                            const Exercise& exercise) {
   const std::string t = words.number(clock_s(result, event.t_s), 1);
-  if (event.type == "CRITICAL_FORCE")
+  if (event.type == event_type::kCriticalForce)
     return words("{0} N at {1} s: above the critical limit of {2} N.",
                  {words.number(event.value, 2), t, words.number(exercise.critical_force_n, 1)});
-  if (event.type == "LOST") return words("A block was lost at {0} s: it lies outside the field.", {t});
-  if (event.type == "CRUSH") return words("Too many blocks crushed, the last one at {0} s.", {t});
+  if (event.type == event_type::kLost) return words("A block was lost at {0} s: it lies outside the field.", {t});
+  if (event.type == event_type::kCrush) return words("Too many blocks crushed, the last one at {0} s.", {t});
   return words("A critical event at {0} s: {1}.",
                {t, event_words(words, event).empty() ? event.type : event_words(words, event)});
 }
@@ -77,8 +77,8 @@ void add_pauses(const Words& words, const AttemptResult& result, std::vector<std
 }  // namespace
 
 double clock_s(const AttemptResult& result, double t_s) {
-  const auto start =
-      std::find_if(result.events.begin(), result.events.end(), [](const Event& e) { return e.type == "START"; });
+  const auto start = std::find_if(result.events.begin(), result.events.end(),
+                                  [](const Event& e) { return e.type == event_type::kStart; });
   return start == result.events.end() ? 0 : std::max(0.0, t_s - start->t_s);
 }
 

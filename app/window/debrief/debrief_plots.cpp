@@ -165,7 +165,7 @@ std::vector<PlotEvent> plot_events(const Words& words, const std::vector<Event>&
   for (const Event& event : events) {
     const std::string text = event_words(words, event);
     if (!text.empty() && event.t_s >= trace.begin_s && event.t_s <= trace.end_s)
-      out.push_back({event.t_s, event.severity, text, event.type == kMomentMark});
+      out.push_back({event.t_s, event.severity, text, event.type == event_type::kMarked});
   }
   return out;
 }

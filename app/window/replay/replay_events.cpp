@@ -8,7 +8,7 @@ std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double 
   std::vector<ReplayEvent> out;
   for (const Event& event : events) {
     const std::string said = event_words(words, event);
-    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said, event.type == kMomentMark});
+    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said, event.type == event_type::kMarked});
   }
   return out;
 }
