@@ -1,6 +1,6 @@
-// The types of events; docs/scoring.md says when each happens and what its value is.
+// The types of events that are graded or that every kind of exercise has; docs/scoring.md says when each happens and
+// what its value is. What a kind alone logs and no metric counts stands in its room (scenarios/kinds).
 //
-// Those of a kind of exercise stand here with the others, because recordings are graded where no exercise is loaded.
 // Records hold the name: they may come from a program that knows more types than this one.
 #pragma once
 
@@ -27,15 +27,14 @@ inline constexpr EventType kExcessForce{"EXCESS_FORCE"}, kCriticalForce{"CRITICA
 // Every kind of exercise
 inline constexpr EventType kTargetLit{"TARGET_LIT"}, kTargetHeld{"TARGET_HELD"};
 // Touch
-inline constexpr EventType kTargetTouched{"TARGET_TOUCHED"}, kWrongPlace{"WRONG_PLACE"}, kGripOffered{"GRIP_OFFERED"},
-    kGripTouched{"GRIP_TOUCHED"}, kGripExcess{"GRIP_EXCESS"}, kGripHeld{"GRIP_HELD"};
+inline constexpr EventType kTargetTouched{"TARGET_TOUCHED"}, kWrongPlace{"WRONG_PLACE"}, kGripTouched{"GRIP_TOUCHED"},
+    kGripExcess{"GRIP_EXCESS"}, kGripHeld{"GRIP_HELD"};
 // Reach
 inline constexpr EventType kPositionError{"POSITION_ERROR"}, kAngleError{"ANGLE_ERROR"},
     kTargetTimeout{"TARGET_TIMEOUT"};
 // Grasp
-inline constexpr EventType kGrasped{"GRASPED"}, kRegrasp{"REGRASP"}, kWrongBlock{"WRONG_BLOCK"}, kLifted{"LIFTED"},
-    kSetDown{"SET_DOWN"}, kSlip{"SLIP"}, kCrush{"CRUSH"}, kDrop{"DROP"}, kPlaced{"PLACED"}, kMisplaced{"MISPLACED"},
-    kRemoved{"REMOVED"}, kLost{"LOST"};
+inline constexpr EventType kRegrasp{"REGRASP"}, kLifted{"LIFTED"}, kSetDown{"SET_DOWN"}, kSlip{"SLIP"}, kCrush{"CRUSH"},
+    kDrop{"DROP"}, kMisplaced{"MISPLACED"};
 // Persons: nobody grades these, and running the recording again does not make them
 inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
 

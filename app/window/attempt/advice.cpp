@@ -1,6 +1,7 @@
 #include "app/window/attempt/advice.h"
 
 #include "app/window/attempt/debrief_reason.h"
+#include "scenarios/kinds/grasp/grasp_events.h"
 
 namespace trocar {
 namespace {

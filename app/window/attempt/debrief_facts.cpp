@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/moment_mark.h"
 #include "app/window/attempt/debrief_reason.h"
+#include "scenarios/kinds/grasp/grasp_events.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/progress/learning_curve.h"
 

@@ -4,6 +4,7 @@
 
 #include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_receipt.h"
+#include "scenarios/kinds/grasp/grasp_events.h"
 
 namespace trocar {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/moment_mark.h"
 #include "app/window/attempt/debrief_facts.h"
 #include "app/window/ui/plot.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 namespace {

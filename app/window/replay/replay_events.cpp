@@ -1,7 +1,7 @@
 #include "app/window/replay/replay_events.h"
 
-#include "app/session/moment_mark.h"
 #include "app/window/attempt/debrief_facts.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Words& words) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scenarios/kinds/grasp/grasp_events.h"
 #include "scenarios/kinds/grasp/grasp_layout.h"
 #include "scenarios/kinds/grasp/grasp_reader.h"
 #include "scenarios/kinds/grasp/grasp_task.h"

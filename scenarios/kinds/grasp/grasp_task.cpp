@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/kinds/grasp/grasp_events.h"
+
 namespace trocar {
 namespace {
 

@@ -5,6 +5,7 @@ namespace {
 
 constexpr double kJawClearance = 0.001;  // m that the jaws must be wider than the block before it is offered
 constexpr double kGripTouch = 0.05;      // N
+constexpr EventType kGripOffered{"GRIP_OFFERED"};
 
 }  // namespace
 
@@ -28,7 +29,7 @@ void SqueezeTask::update(const TaskInput& input, EventLog& log) {
     if (state.jaw_opening_m < task_.block_thickness_m + kJawClearance) return;
     offered_ = true;
     offered_at_s_ = log.t_s;
-    log.add(event_type::kGripOffered, Severity::kInfo, object_, task_.block_thickness_m, "m");
+    log.add(kGripOffered, Severity::kInfo, object_, task_.block_thickness_m, "m");
     return;
   }
   const double grip = state.grip_force_n;
