@@ -79,7 +79,7 @@ struct Rig {
   /// Why it ended, if not by the exercise, and what the loop remembers when its torque went off on the way.
   void tell_stop(const TickRecord& record, SessionOutcome& out) const {
     const bool reached_run = director.status().run_time_s > 0;
-    out.device.reason = end_words(out.status, out.device, loop_state_name(record.stylus.loop), reached_run);
+    out.device.reason = end_words(out.status, out.device, record.stylus.loop, reached_run);
     bool stopped = false;
     for (const SafetyTransition& t : loop.safety_log().transitions()) {
       const double t_s = static_cast<double>(t.period) / scene.loop.daq.rate_hz;
