@@ -14,14 +14,13 @@
 
 namespace trocar {
 
-inline constexpr const char* kBookmark = "MARKED";
-inline constexpr const char* kMessageMark = "MESSAGE";
-
 /// How often it happened; window to tissue task.
 using MarkCount = std::atomic<std::uint32_t>;
 
 inline std::vector<Event> without_marks(std::vector<Event> events) {
-  std::erase_if(events, [](const Event& event) { return event.type == kBookmark || event.type == kMessageMark; });
+  std::erase_if(events, [](const Event& event) {
+    return event.type == event_type::kMarked || event.type == event_type::kMessage;
+  });
   return events;
 }
 

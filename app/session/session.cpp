@@ -79,7 +79,7 @@ struct Rig {
   /// Why it ended, if not by the exercise, and what the loop remembers when its torque went off on the way.
   void tell_stop(const TickRecord& record, SessionOutcome& out) const {
     const bool reached_run = director.status().run_time_s > 0;
-    out.device.reason = end_words(out.status, out.device, loop_state_name(record.stylus.loop), reached_run);
+    out.device.reason = end_words(out.status, out.device, record.stylus.loop, reached_run);
     bool stopped = false;
     for (const SafetyTransition& t : loop.safety_log().transitions()) {
       const double t_s = static_cast<double>(t.period) / scene.loop.daq.rate_hz;
@@ -126,14 +126,14 @@ class ObserverTask final : public Task {
 /// events it shares.
 class MarkTask final : public Task {
  public:
-  MarkTask(Rig& rig, EventRing& events, const MarkCount& marks, const char* type)
+  MarkTask(Rig& rig, EventRing& events, const MarkCount& marks, EventType type)
       : rig_(rig), events_(events), marks_(marks), type_(type) {}
   std::uint32_t period() const override { return rig_.tissue.period(); }
   void run(std::uint64_t tick) override {
     const StylusState& seen = rig_.state->newest(tick);
     for (const std::uint32_t asked = marks_.load(); taken_ != asked; ++taken_) {
       Event event;
-      event.type = type_;
+      event.type = type_.name;
       const std::vector<Event>& told = rig_.director.events();
       event.t_s = told.empty() ? seen.t_s : std::max(seen.t_s, told.back().t_s);  // events stand in their order
       event.tip_T = seen.X_TI.p;
@@ -145,7 +145,7 @@ class MarkTask final : public Task {
   Rig& rig_;
   EventRing& events_;
   const MarkCount& marks_;
-  const char* type_;
+  EventType type_;
   std::uint32_t taken_ = 0;
 };
 
@@ -217,8 +217,9 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   std::vector<Task*> tissue{&rig.tissue};
   if (each_step) tissue.push_back(&observer);
   std::optional<MarkTask> marks, messages;
-  if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks, kBookmark));
-  if (hooks.messages) tissue.push_back(&messages.emplace(rig, attempt.rings->events, *hooks.messages, kMessageMark));
+  if (hooks.marks) tissue.push_back(&marks.emplace(rig, attempt.rings->events, *hooks.marks, event_type::kMarked));
+  if (hooks.messages)
+    tissue.push_back(&messages.emplace(rig, attempt.rings->events, *hooks.messages, event_type::kMessage));
   executor.add_lane("haptic", attempt.haptic_lane(), kHapticPriority);
   if (hooks.board_answers) executor.await(hooks.board_answers);
   executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);

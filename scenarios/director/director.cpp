@@ -29,7 +29,7 @@ struct Director::State {
 
   void wait_for_start(const StylusState& state, double dt_s);
   void run(const StylusState& state, const TissueFrame* tissue, double dt_s);
-  void end(Phase phase, const char* type, Severity severity, double value, const char* unit);
+  void end(Phase phase, EventType type, Severity severity, double value, const char* unit);
   void describe_start(bool active);
   void describe_run(const TaskInput& input);
   bool all_done() const { return current >= tasks.size(); }
@@ -47,7 +47,7 @@ struct Director::State {
   AttemptStatus outcome = AttemptStatus::kAborted;
 };
 
-void Director::State::end(Phase phase, const char* type, Severity severity, double value, const char* unit) {
+void Director::State::end(Phase phase, EventType type, Severity severity, double value, const char* unit) {
   log.add(type, severity, -1, value, unit);
   status.phase = phase;
   status.cue = Cue::kFinished;
@@ -88,11 +88,12 @@ void Director::State::wait_for_start(const StylusState& state, double dt_s) {
     if (inside && in_start_s >= exercise.start_hold_s - 1e-9) {
       start_s = log.t_s;
       status.phase = Phase::kRun;
-      log.add("START", Severity::kInfo);
+      log.add(event_type::kStart, Severity::kInfo);
       tasks.front()->begin(log);
       return describe_run({state, nullptr, 0, false});
     }
-    if (waiting_s >= time_limit_s) return end(Phase::kTimeout, "TIMEOUT", Severity::kMajor, time_limit_s, "s");
+    if (waiting_s >= time_limit_s)
+      return end(Phase::kTimeout, event_type::kTimeout, Severity::kMajor, time_limit_s, "s");
   }
   describe_start(active);
 }
@@ -111,11 +112,12 @@ void Director::State::run(const StylusState& state, const TissueFrame* tissue, d
   describe_run(input);
   if (tasks[current]->finished()) {
     ++current;
-    if (all_done()) return end(Phase::kDone, "DONE", Severity::kInfo, status.run_time_s, "s");
+    if (all_done()) return end(Phase::kDone, event_type::kDone, Severity::kInfo, status.run_time_s, "s");
     tasks[current]->begin(log);
     describe_run(input);
   }
-  if (status.run_time_s >= time_limit_s) end(Phase::kTimeout, "TIMEOUT", Severity::kMajor, time_limit_s, "s");
+  if (status.run_time_s >= time_limit_s)
+    end(Phase::kTimeout, event_type::kTimeout, Severity::kMajor, time_limit_s, "s");
 }
 
 Director::Director(const Exercise& exercise, const ExerciseLevel& level, Board board)
@@ -131,9 +133,9 @@ void Director::update(const StylusState& state, const TissueFrame* tissue) {
   s.log.t_s = state.t_s;
   s.log.tip_T = state.X_TI.p;
   if (state.loop == LoopState::kFault)
-    return s.end(Phase::kFault, "DEVICE_FAULT", Severity::kMajor, state.fault.value, "");
+    return s.end(Phase::kFault, event_type::kDeviceFault, Severity::kMajor, state.fault.value, "");
   if (s.status.phase == Phase::kRun && state.loop != LoopState::kActive)
-    return s.end(Phase::kVoid, "DEADMAN_OPEN", Severity::kMajor, s.status.run_time_s, "s");
+    return s.end(Phase::kVoid, event_type::kDeadmanOpen, Severity::kMajor, s.status.run_time_s, "s");
   if (s.status.phase == Phase::kRun) {
     s.run(state, tissue, dt_s);
   } else {

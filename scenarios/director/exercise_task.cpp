@@ -4,9 +4,8 @@
 
 namespace trocar {
 
-void EventLog::add(const std::string& type, Severity severity, std::int32_t object, double value,
-                   const std::string& unit) {
-  events.push_back({t_s, type, severity, object, value, unit, tip_T});
+void EventLog::add(EventType type, Severity severity, std::int32_t object, double value, const std::string& unit) {
+  events.push_back({t_s, std::string(type.name), severity, object, value, unit, tip_T});
 }
 
 void say(DirectorStatus& status, const std::string& message, const std::string& hint, bool warning) {

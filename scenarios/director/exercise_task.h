@@ -20,8 +20,7 @@ struct EventLog {
   double t_s = 0;
   Vec3 tip_T = Vec3::Zero();
 
-  void add(const std::string& type, Severity severity, std::int32_t object = -1, double value = 0,
-           const std::string& unit = "");
+  void add(EventType type, Severity severity, std::int32_t object = -1, double value = 0, const std::string& unit = "");
 };
 
 /// What a part is told each period.

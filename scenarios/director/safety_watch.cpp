@@ -22,15 +22,15 @@ void SafetyWatch::update(const StylusState& state, double dt_s, std::int32_t obj
   peak_n_ = std::max(peak_n_, force);
   if (excess_.update(force, dt_s)) {
     ++excess_count_;
-    log.add("EXCESS_FORCE", Severity::kMajor, object, force, "N");
+    log.add(event_type::kExcessForce, Severity::kMajor, object, force, "N");
   }
-  if (critical_.update(force, dt_s)) log.add("CRITICAL_FORCE", Severity::kCritical, object, force, "N");
+  if (critical_.update(force, dt_s)) log.add(event_type::kCriticalForce, Severity::kCritical, object, force, "N");
   const double shaft_force = state.contact && !state.tip_contact ? force : 0;
-  if (collision_.update(shaft_force, dt_s)) log.add("TOOL_COLLISION", Severity::kMinor, object, force, "N");
+  if (collision_.update(shaft_force, dt_s)) log.add(event_type::kToolCollision, Severity::kMinor, object, force, "N");
   if (limit_.update(state.saturated ? 1 : 0, dt_s))
-    log.add("DEVICE_LIMIT", Severity::kInfo, object, state.rendered_force_T.norm(), "N");
-  if (state.clutched && !clutched_) log.add("CLUTCH", Severity::kInfo, object);
-  if (state.port_held && !held_) log.add("PORT_HOLD", Severity::kMinor, object, state.depth_in_port_m, "m");
+    log.add(event_type::kDeviceLimit, Severity::kInfo, object, state.rendered_force_T.norm(), "N");
+  if (state.clutched && !clutched_) log.add(event_type::kClutch, Severity::kInfo, object);
+  if (state.port_held && !held_) log.add(event_type::kPortHold, Severity::kMinor, object, state.depth_in_port_m, "m");
   clutched_ = state.clutched;
   held_ = state.port_held;
 }

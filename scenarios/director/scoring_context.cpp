@@ -62,7 +62,7 @@ void require_finite(const ScoringContext& context) {
 void account_held_targets(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
   std::set<std::int32_t> done;
   for (const Event& event : events) {
-    if (event.type != "TARGET_HELD" || !done.insert(event.object).second) continue;
+    if (event.type != event_type::kTargetHeld || !done.insert(event.object).second) continue;
     const auto index = static_cast<std::size_t>(event.object);
     if (event.object >= 0 && index < board.targets.size()) context.waypoints.push_back(board.targets[index].centre_T);
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/scoring/cap.h"
 #include "scenarios/scoring/trace.h"
 
 namespace trocar {
@@ -32,7 +33,7 @@ struct Grade {
   bool passed = false;
   std::string grade;  ///< "expert", "proficient", "pass", "below pass", "not graded"
   std::vector<Subscore> subscores;
-  std::vector<std::string> caps;  ///< each cap applied, with its reason
+  std::vector<Cap> caps;  ///< each that was applied
   std::vector<Metric> metrics;
 };
 
@@ -100,6 +101,7 @@ struct AttemptResult {
   std::string organ_credit;  ///< licence and origin, shown wherever the organ is
   std::string rubric_sha256, recording_sha256, recording_path;
   std::string integrity;    ///< why it was aborted, void or stopped by the device; empty when nothing is wrong
+  bool cut_off = false;     ///< its program ended before it did (kill -9, power)
   std::string state_hash;   ///< 16 hexadecimal digits
   std::string started_utc;  ///< ISO 8601, wall clock, informative only
 };

@@ -55,8 +55,8 @@ Value in_band_share(const Samples& samples, const std::vector<Window>& windows, 
 
 /// From the first `opening` event of each object to its `closing` event, or to the end. @param bands by object; the
 /// first stands for all that have none of their own.
-std::vector<Window> windows_between(const std::vector<Event>& events, const std::string& opening,
-                                    const std::string& closing, double end, const std::vector<ObjectBand>& bands) {
+std::vector<Window> windows_between(const std::vector<Event>& events, EventType opening, EventType closing, double end,
+                                    const std::vector<ObjectBand>& bands) {
   std::vector<Window> windows;
   std::vector<std::int32_t> seen;
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -155,8 +155,8 @@ void add_grip_metrics(const Samples& samples, const std::vector<Event>& events, 
     sum += grip * weight[i];
   }
   const double end = samples.empty() ? 0 : samples.back().t_s;
-  const auto windows =
-      windows_between(events, "GRIP_TOUCHED", "GRIP_HELD", end, {{context.grip_low_n, context.grip_high_n}});
+  const auto windows = windows_between(events, event_type::kGripTouched, event_type::kGripHeld, end,
+                                       {{context.grip_low_n, context.grip_high_n}});
   sink.push_back({"grip_max_n", time > 0 ? Value(largest) : std::nullopt, "N"});
   sink.push_back({"grip_mean_n", time > 0 ? Value(sum / time) : std::nullopt, "N"});
   sink.push_back({"grip_in_band_share",
@@ -207,7 +207,9 @@ void add_force_metrics(const Trace& trace, const std::vector<Event>& events, con
   if (bands.empty()) bands.push_back({context.band_low_n, context.band_high_n});
   sink.push_back(
       {"in_band_share",
-       in_band_share(trace.samples, windows_between(events, "TARGET_TOUCHED", "TARGET_HELD", end, bands), force_of),
+       in_band_share(trace.samples,
+                     windows_between(events, event_type::kTargetTouched, event_type::kTargetHeld, end, bands),
+                     force_of),
        "1"});
   add_grip_metrics(trace.samples, events, context, sink);
   add_rendered_metrics(trace.samples, context, sink);

@@ -14,9 +14,9 @@ struct Carry {
 std::vector<Carry> carries_of(const std::vector<Event>& events, double end_s) {
   std::vector<Carry> carries;
   for (std::size_t i = 0; i < events.size(); ++i) {
-    if (events[i].type != "LIFTED") continue;
+    if (events[i].type != event_type::kLifted) continue;
     const auto down = std::find_if(events.begin() + static_cast<std::ptrdiff_t>(i), events.end(), [&](const Event& e) {
-      return e.type == "SET_DOWN" && e.object == events[i].object;
+      return e.type == event_type::kSetDown && e.object == events[i].object;
     });
     carries.push_back({events[i].object, events[i].t_s, down == events.end() ? end_s : down->t_s});
   }
@@ -46,17 +46,17 @@ std::optional<double> window_share(const std::vector<TraceSample>& samples, cons
 void add_grasp_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
                        MetricSink& sink) {
   const bool grasp = !context.grip_windows.empty();
-  const auto count = [&](const char* type) -> std::optional<double> {
+  const auto count = [&](EventType type) -> std::optional<double> {
     if (!grasp) return std::nullopt;
     return static_cast<double>(
         std::count_if(events.begin(), events.end(), [&](const Event& event) { return event.type == type; }));
   };
   sink.push_back({"grip_window_share", window_share(trace.samples, events, context), "1"});
-  sink.push_back({"crushed", count("CRUSH"), "1"});
-  sink.push_back({"block_regrasps", count("REGRASP"), "1"});
-  sink.push_back({"slips", count("SLIP"), "1"});
-  sink.push_back({"drops", count("DROP"), "1"});
-  sink.push_back({"misplaced", count("MISPLACED"), "1"});
+  sink.push_back({"crushed", count(event_type::kCrush), "1"});
+  sink.push_back({"block_regrasps", count(event_type::kRegrasp), "1"});
+  sink.push_back({"slips", count(event_type::kSlip), "1"});
+  sink.push_back({"drops", count(event_type::kDrop), "1"});
+  sink.push_back({"misplaced", count(event_type::kMisplaced), "1"});
 }
 
 }  // namespace trocar

@@ -106,11 +106,12 @@ Trace cut_trace(const Trace& trace, double start_s, double end_s) {
 }
 
 std::optional<std::pair<double, double>> graded_window(const Trace& trace, const std::vector<Event>& events) {
-  const auto is = [](const char* type) { return [type](const Event& event) { return event.type == type; }; };
-  const auto start = std::find_if(events.begin(), events.end(), is("START"));
+  const auto is = [](EventType type) { return [type](const Event& event) { return event.type == type; }; };
+  const auto start = std::find_if(events.begin(), events.end(), is(event_type::kStart));
   if (start == events.end()) return std::nullopt;
-  const auto end = std::find_if(start, events.end(),
-                                [](const Event& event) { return event.type == "DONE" || event.type == "TIMEOUT"; });
+  const auto end = std::find_if(start, events.end(), [](const Event& event) {
+    return event.type == event_type::kDone || event.type == event_type::kTimeout;
+  });
   if (end != events.end()) return std::pair{start->t_s, end->t_s};
   return std::pair{start->t_s, trace.samples.empty() ? start->t_s : trace.samples.back().t_s};
 }
@@ -119,12 +120,12 @@ void add_count_metrics(const std::vector<Event>& events, const ScoringContext& c
   int wrong = 0, excess = 0, critical = 0, collisions = 0, clutches = 0;
   std::vector<std::int32_t> held;
   for (const Event& event : events) {
-    wrong += event.type == "WRONG_PLACE";
-    excess += event.type == "EXCESS_FORCE" || event.type == "GRIP_EXCESS";
+    wrong += event.type == event_type::kWrongPlace;
+    excess += event.type == event_type::kExcessForce || event.type == event_type::kGripExcess;
     critical += event.severity == Severity::kCritical;
-    collisions += event.type == "TOOL_COLLISION";
-    clutches += event.type == "CLUTCH";
-    if (event.type == "TARGET_HELD" && std::find(held.begin(), held.end(), event.object) == held.end())
+    collisions += event.type == event_type::kToolCollision;
+    clutches += event.type == event_type::kClutch;
+    if (event.type == event_type::kTargetHeld && std::find(held.begin(), held.end(), event.object) == held.end())
       held.push_back(event.object);
   }
   const double total = context.objects_total;

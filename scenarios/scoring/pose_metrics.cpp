@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kRestTime = 1.024;  // s before START: the tip rests in the start ball for at least a second
 
-int count(const std::vector<Event>& events, const char* type) {
+int count(const std::vector<Event>& events, EventType type) {
   return static_cast<int>(
       std::count_if(events.begin(), events.end(), [&](const Event& event) { return event.type == type; }));
 }
 
-std::optional<double> mean_value(const std::vector<Event>& events, const char* type) {
+std::optional<double> mean_value(const std::vector<Event>& events, EventType type) {
   double sum = 0;
   for (const Event& event : events) sum += event.type == type ? event.value : 0;
   const int n = count(events, type);
@@ -30,8 +30,8 @@ std::optional<double> in_time_share(const std::vector<Event>& events, const Scor
     const auto listed = [&](const std::vector<std::int32_t>& list) {
       return std::find(list.begin(), list.end(), event.object) != list.end();
     };
-    if (event.type == "TARGET_TIMEOUT") late.push_back(event.object);
-    if (event.type == "TARGET_HELD" && !listed(late) && !listed(done)) done.push_back(event.object);
+    if (event.type == event_type::kTargetTimeout) late.push_back(event.object);
+    if (event.type == event_type::kTargetHeld && !listed(late) && !listed(done)) done.push_back(event.object);
   }
   return static_cast<double>(done.size()) / context.objects_total;
 }
@@ -39,18 +39,18 @@ std::optional<double> in_time_share(const std::vector<Event>& events, const Scor
 }  // namespace
 
 void add_pose_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink) {
-  const auto angle = mean_value(events, "ANGLE_ERROR");
+  const auto angle = mean_value(events, event_type::kAngleError);
   sink.push_back({"matched_in_time_share", in_time_share(events, context), "1"});
-  sink.push_back({"position_error_m", mean_value(events, "POSITION_ERROR"), "m"});
+  sink.push_back({"position_error_m", mean_value(events, event_type::kPositionError), "m"});
   sink.push_back(
       {"angle_error_deg", angle ? std::optional<double>(*angle * 180 / std::numbers::pi) : std::nullopt, "deg"});
-  sink.push_back({"target_timeouts", count(events, "TARGET_TIMEOUT"), "1"});
-  sink.push_back({"device_limits", count(events, "DEVICE_LIMIT"), "1"});
+  sink.push_back({"target_timeouts", count(events, event_type::kTargetTimeout), "1"});
+  sink.push_back({"device_limits", count(events, event_type::kDeviceLimit), "1"});
 }
 
 void add_rest_metric(const Trace& trace, const std::vector<Event>& events, MetricSink& sink) {
   const auto start =
-      std::find_if(events.begin(), events.end(), [](const Event& event) { return event.type == "START"; });
+      std::find_if(events.begin(), events.end(), [](const Event& event) { return event.type == event_type::kStart; });
   std::optional<double> rest;
   if (start != events.end()) {
     std::vector<Vec3> position;

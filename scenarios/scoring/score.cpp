@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "scenarios/scoring/integrity.h"
 #include "scenarios/scoring/metrics.h"
@@ -10,37 +9,35 @@
 namespace trocar {
 namespace {
 
-std::string short_text(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 const Metric* metric_named(const std::vector<Metric>& metrics, const std::string& name) {
   const auto it = std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.name == name; });
   return it == metrics.end() ? nullptr : &*it;
 }
 
 /// Lowers the score to a cap and writes down why. A cap is listed even when the score lies below it already.
-void apply_cap(Grade& grade, double cap, const std::string& reason) {
-  grade.score = std::min(*grade.score, cap);
-  grade.caps.push_back(reason + ": at most " + short_text(cap));
+void apply_cap(Grade& grade, const Cap& cap) {
+  grade.score = std::min(*grade.score, cap.at_most);
+  grade.caps.push_back(cap);
 }
 
 void apply_caps(Grade& grade, const Rubric& rubric, const ScoringContext& context) {
   for (std::size_t k = 0; k < rubric.subscores.size(); ++k) {
     const SubscoreRule& rule = rubric.subscores[k];
     if (rule.gate && grade.subscores[k].value < rule.gate_below)
-      apply_cap(grade, rubric.gate_cap, "safety: " + rule.name + " below " + short_text(rule.gate_below));
+      apply_cap(grade,
+                {.kind = CapKind::kGate, .subject = rule.name, .below = rule.gate_below, .at_most = rubric.gate_cap});
   }
   const Metric* critical = metric_named(grade.metrics, "critical_events");
-  if (critical && critical->value.value_or(0) > 0) apply_cap(grade, rubric.critical_cap, "critical event");
+  if (critical && critical->value.value_or(0) > 0)
+    apply_cap(grade, {.kind = CapKind::kCritical, .at_most = rubric.critical_cap});
   // An attempt may also end with something undone: a lost object cannot be fetched back.
   const bool undone = context.objects_done < context.objects_total;
   if (context.outcome != AttemptStatus::kTimeout && !undone) return;
   const double share = context.objects_total > 0 ? 1.0 * context.objects_done / context.objects_total : 0;
-  apply_cap(grade, rubric.unfinished_cap * std::clamp(share, 0.0, 1.0),
-            "not finished: " + std::to_string(context.objects_done) + " of " + std::to_string(context.objects_total));
+  apply_cap(grade, {.kind = CapKind::kUnfinished,
+                    .done = context.objects_done,
+                    .total = context.objects_total,
+                    .at_most = rubric.unfinished_cap * std::clamp(share, 0.0, 1.0)});
 }
 
 std::string grade_name(double score, const Rubric& rubric) {
@@ -53,7 +50,7 @@ Grade void_grade(const std::string& reason) {
   Grade grade;
   grade.status = AttemptStatus::kVoid;
   grade.grade = "not graded";
-  grade.caps.push_back("void: " + reason);
+  grade.caps.push_back({.kind = CapKind::kVoid, .subject = reason});
   return grade;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "haptics/quantities.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 
@@ -50,7 +51,7 @@ constexpr const char* severity_name(Severity severity) {
   return "unknown";
 }
 
-/// Something that happened. `type` is an upper-case identifier of the catalogue (docs/scoring.md), e.g. TARGET_HELD.
+/// Something that happened. `type` is the name of an EventType, e.g. TARGET_HELD.
 struct Event {
   double t_s = 0;
   std::string type;

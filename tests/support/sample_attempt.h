@@ -43,7 +43,7 @@ inline Grade sample_grade(bool passed) {
                      {"peak_force", passed ? 0.95 : 0.22, 0.30, passed ? 2.2 : 5.61, "N", 2.0, 6.0, true},
                      {"time_in_band_share", 0.84, 0.20, 0.78, "1", 0.9, 0.3, false},
                      {"wrong_places", 1.0, 0.15, 0.0, "count", 0, 3, false}};
-  if (!passed) grade.caps = {"Safety gate peak force below half: total limited to 59"};
+  if (!passed) grade.caps = {{.kind = CapKind::kGate, .subject = "peak_force", .below = 0.5, .at_most = 59}};
   grade.metrics = {{"task_time", 47.2, "s"},
                    {"path_length", 0.612, "m"},
                    {"ideal_path_length", 0.322, "m"},

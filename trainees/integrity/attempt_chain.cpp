@@ -17,7 +17,7 @@ const std::string kAttempt =
     " finished_utc, s.value, coalesce(s.passed, 0), coalesce(s.grade, 'not graded'), recording_path, recording_sha256,"
     " state_hash, device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share,"
     " passivity_active_share, min_energy_j, kappa, device_fault,"
-    " program, integrity, device_realtime, (SELECT uuid FROM session WHERE id = session_id),"
+    " program, integrity, cut_off, device_realtime, (SELECT uuid FROM session WHERE id = session_id),"
     " (SELECT sha256 FROM device_calibration WHERE id = calibration_id), s.revision, s.ruleset_sha256"
     " FROM attempt a JOIN trainee t ON t.id = a.trainee_id LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
     " WHERE a.id = ?";
@@ -32,7 +32,7 @@ constexpr const char* kRows[] = {
     " CROSS JOIN subscore_row r ON r.id BETWEEN s.id << 10 AND s.id << 10 | 1023 CROSS JOIN subscore_kind k ON k.id = "
     "r.kind_id"
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY r.id",
-    "SELECT position, reason FROM score_cap m JOIN score s ON s.id = m.score_id"
+    "SELECT position, kind, subject, below, done, total, at_most FROM score_cap m JOIN score s ON s.id = m.score_id"
     " WHERE s.attempt_id = ? AND s.revision = 0 ORDER BY position",
     "SELECT position, name, first_s, ticks FROM device_warning WHERE attempt_id = ? ORDER BY position",
     "SELECT r.id & 1048575, t_s, from_state, to_state FROM device_transition_row r CROSS JOIN device_change c ON c.id "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/kinds/grasp/grasp_events.h"
 #include "trainees/markup/html.h"
 #include "trainees/markup/plots.h"
 #include "trainees/markup/svg.h"
@@ -73,7 +74,8 @@ struct Panel {
 double start_of(const Trace& trace) { return trace.samples.empty() ? 0 : trace.samples.front().t_s; }
 
 bool ends_carry(const Event& event) {
-  return event.type == "SET_DOWN" || event.type == "DROP" || event.type == "LOST" || event.type == "PLACED";
+  return event.type == event_type::kSetDown || event.type == event_type::kDrop || event.type == event_type::kLost ||
+         event.type == event_type::kPlaced;
 }
 
 double window_share(const Trace& trace, double from_s, double to_s, const GripLimits& limits) {
@@ -198,10 +200,10 @@ std::vector<PenOutcome> pen_outcomes(const std::vector<Event>& events) {
     if (event.object < 0 || event.object > 255) continue;
     const auto i = static_cast<std::size_t>(event.object);
     if (i >= pens.size()) pens.resize(i + 1);
-    if (event.type == "POSITION_ERROR") pens[i].position_error_m = event.value;
-    if (event.type == "ANGLE_ERROR") pens[i].angle_error_rad = event.value;
-    if (event.type == "TARGET_HELD") pens[i].time_s = event.value;
-    if (event.type == "TARGET_TIMEOUT") ++pens[i].timeouts;
+    if (event.type == event_type::kPositionError) pens[i].position_error_m = event.value;
+    if (event.type == event_type::kAngleError) pens[i].angle_error_rad = event.value;
+    if (event.type == event_type::kTargetHeld) pens[i].time_s = event.value;
+    if (event.type == event_type::kTargetTimeout) ++pens[i].timeouts;
   }
   return pens;
 }
@@ -219,7 +221,7 @@ std::vector<Carry> carries(const Trace& trace, const std::vector<Event>& events,
   for (const Event& event : events) {
     if (event.object < 0 || event.object >= static_cast<int>(blocks.size())) continue;
     const auto block = static_cast<std::size_t>(event.object);
-    if (event.type == "LIFTED" && !lifted[block]) lifted[block] = event.t_s;
+    if (event.type == event_type::kLifted && !lifted[block]) lifted[block] = event.t_s;
     if (ends_carry(event)) close(block, event.t_s);
   }
   const double end_s = trace.samples.empty() ? 0 : trace.samples.back().t_s;

@@ -37,6 +37,7 @@ PastAttempt past_attempt(const AttemptResult& result) {
   s.organ_synthetic = result.organ_synthetic;
   s.rubric_sha256 = result.rubric_sha256;
   s.integrity = result.integrity;
+  s.cut_off = result.cut_off;
   for (const Metric& metric : result.grade.metrics)
     if (metric.value && std::isfinite(*metric.value)) out.metrics[metric.name] = *metric.value;
   return out;

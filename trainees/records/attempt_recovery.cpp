@@ -41,6 +41,7 @@ AttemptResult aborted_result(const fs::path& recording, const std::string& reaso
   result.grade.status = AttemptStatus::kAborted;
   result.grade.grade = "not graded";
   result.integrity = reason;
+  result.cut_off = true;
   if (!recording.empty()) result.recording_sha256 = digest::of_readable_file(recording);
   return result;
 }

@@ -3,15 +3,13 @@
 #include "haptics/input_error.h"
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/cap_rows.h"
 #include "trainees/records/verdicts.h"
 #include "trainees/store/lookup_tables.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
 namespace {
-
-constexpr const char* kOfScore =
-    " WHERE score_id = (SELECT id FROM score WHERE attempt_id = ? AND revision = 0) ORDER BY position";
 
 Severity severity_of(const std::string& name) {
   for (const Severity severity : {Severity::kInfo, Severity::kMinor, Severity::kMajor, Severity::kCritical}) {
@@ -68,9 +66,7 @@ void insert_grade(sqlite3* connection, std::int64_t score, const Grade& grade) {
     if (position > 1023) throw InputError("an attempt has at most 1024 sub-scores");
     subscore.bind(score).bind(position++).bind(subscore_kind(connection, row)).bind(row.value).bind(row.raw).run();
   }
-  sql::Statement cap(connection, "INSERT INTO score_cap VALUES (?, ?, ?)");
-  position = 0;
-  for (const std::string& reason : grade.caps) cap.bind(score).bind(position++).bind(reason).run();
+  insert_caps(connection, score, grade.caps);
 }
 
 void insert_device_rows(sqlite3* connection, std::int64_t attempt, const DeviceReceipt& device) {
@@ -90,12 +86,12 @@ void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& 
                     const std::string& ended_utc) {
   sql::Statement update(
       connection,
-      "UPDATE attempt SET finished_utc = ?, integrity = ?, recording_path = ?,"
+      "UPDATE attempt SET finished_utc = ?, integrity = ?, cut_off = ?, recording_path = ?,"
       " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
       " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
       " kappa = ?, device_fault = ?, device_realtime = ? WHERE id = ?");
   const DeviceReceipt& device = result.device;
-  update.bind(ended_utc).bind(result.integrity);
+  update.bind(ended_utc).bind(result.integrity).bind(result.cut_off);
   update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
   update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
   update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
@@ -159,23 +155,22 @@ void read_attempt_rows(sqlite3* connection, std::int64_t attempt, AttemptResult&
   }
   sql::Statement subscores(
       connection,
-      std::string("SELECT name, value, weight, raw, unit, full_at, zero_at, gate FROM subscore") + kOfScore);
+      "SELECT name, value, weight, raw, unit, full_at, zero_at, gate FROM subscore WHERE score_id ="
+      " (SELECT id FROM score WHERE attempt_id = ? AND revision = 0) ORDER BY position");
   subscores.bind(attempt);
   while (subscores.step()) {
     result.grade.subscores.push_back({subscores.text(0), subscores.real(1), subscores.real(2),
                                       subscores.optional_real(3), subscores.text(4), subscores.real(5),
                                       subscores.real(6), subscores.integer(7) != 0});
   }
-  sql::Statement caps(connection, std::string("SELECT reason FROM score_cap") + kOfScore);
-  caps.bind(attempt);
-  while (caps.step()) result.grade.caps.push_back(caps.text(0));
+  result.grade.caps = read_caps(connection, attempt);
 }
 
 std::string summary_query(const std::string& code, const std::string& joins) {
   return "SELECT a.id, a.uuid, " + code +
          ", a.exercise_id, a.level, a.hand, a.started_utc, a.seed, a.board, a.status, s.value, " + sql::kPassed +
          ", coalesce(s.grade, 'not graded'), a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity,"
-         " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, '') FROM attempt a" +
+         " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, ''), a.cut_off FROM attempt a" +
          joins + " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
 }
 
@@ -201,6 +196,7 @@ AttemptSummary summary_of(const sql::Statement& row) {
   summary.passed_by_score = row.integer(17) != 0;
   summary.decided_by = row.text(18);
   summary.decided_utc = row.text(19);
+  summary.cut_off = row.integer(20) != 0;
   return summary;
 }
 

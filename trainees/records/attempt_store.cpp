@@ -125,7 +125,7 @@ constexpr const char* kResultColumns =
     " coalesce(s.passed, 0), coalesce(s.grade, 'not graded'),"
     " device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share, passivity_active_share,"
     " min_energy_j, kappa, device_fault, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit,"
-    " a.ruleset_sha256, recording_sha256, recording_path, state_hash, started_utc, integrity, device_realtime"
+    " a.ruleset_sha256, recording_sha256, recording_path, state_hash, started_utc, integrity, device_realtime, cut_off"
     " FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
     " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?";
 
@@ -170,6 +170,7 @@ AttemptResult result_of(const sql::Statement& row, const fs::path& database) {
   result.state_hash = row.text(29);
   result.started_utc = row.text(30);
   result.integrity = row.text(31);
+  result.cut_off = row.integer(33) != 0;
   return result;
 }
 

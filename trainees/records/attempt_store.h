@@ -65,6 +65,7 @@ struct AttemptSummary {
   bool organ_synthetic = false;
   std::string exercise_version, rubric_sha256;
   std::string integrity;                          ///< why it was aborted or void
+  bool cut_off = false;                           ///< its program ended before it did
   bool passed_by_score = false;                   ///< what the score says, whatever was decided
   std::string decided_by = {}, decided_utc = {};  ///< of the newest decision, "" without one
 };

@@ -64,7 +64,9 @@ constexpr Part kOfScore[] = {
     {"subscores",
      "SELECT name, value, weight, raw, unit, full_at, zero_at, gate FROM subscore WHERE score_id = ?1 ORDER BY "
      "position"},
-    {"caps", "SELECT reason FROM score_cap WHERE score_id = ?1 ORDER BY position"},
+    {"caps",
+     "SELECT cap_sentence(kind, subject, below, done, total, at_most) AS reason FROM score_cap WHERE score_id = ?1 "
+     "ORDER BY position"},
 };
 
 constexpr Part kOfAttempt[] = {

@@ -14,6 +14,7 @@
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
+#include "trainees/records/cap_rows.h"
 #include "trainees/store/sqlite_handle.h"
 #include "trainees/store/statement_cache.h"
 
@@ -110,6 +111,7 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, con
                "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 8000;"
                "PRAGMA secure_delete = ON");  // what an erasure takes away is overwritten
   sql::keep_statements(connection_.get());
+  add_cap_sentence(connection_.get());
   anchor_beginning();
   recovered_ = recover_dead_attempts(connection_.get(), file_, regrade);
   if (!recovered_.empty()) append_anchor(file_, audit_head(connection_.get()));

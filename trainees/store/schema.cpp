@@ -181,6 +181,8 @@ CREATE TABLE attempt (
                                         OR status = 'fault' OR status = 'void'),
   -- why it was aborted or void; empty when nothing is wrong
   integrity        TEXT NOT NULL DEFAULT '',
+  -- 1: its program ended before it did
+  cut_off          INTEGER NOT NULL DEFAULT 0 CHECK (cut_off IN (0, 1)),
   finished_utc     TEXT,
   recording_path   TEXT NOT NULL DEFAULT '',
   recording_sha256 TEXT NOT NULL DEFAULT '',
@@ -216,10 +218,16 @@ CREATE TABLE score (
   UNIQUE (attempt_id, revision)
 ) STRICT;
 
+-- scenarios/scoring/cap.h; what a kind does not have is empty or 0.
 CREATE TABLE score_cap (
   score_id INTEGER NOT NULL REFERENCES score(id),
   position INTEGER NOT NULL,
-  reason   TEXT NOT NULL,
+  kind     TEXT NOT NULL CHECK (kind IN ('gate','critical','unfinished','void')),
+  subject  TEXT NOT NULL,
+  below    REAL NOT NULL,
+  done     INTEGER NOT NULL,
+  total    INTEGER NOT NULL,
+  at_most  REAL NOT NULL,
   PRIMARY KEY (score_id, position)
 ) STRICT, WITHOUT ROWID;
 
@@ -501,7 +509,7 @@ CREATE INDEX audit_by_subject ON audit(subject);
 CREATE INDEX score_first ON score(attempt_id, revision, value, passed) WHERE revision = 0;
 CREATE INDEX metric_peak_force ON metric_row(value) WHERE id & 1023 = 1;
 CREATE INDEX event_grave ON event_row(kind_id) WHERE kind_id & 3;
-CREATE INDEX cap_of_safety ON score_cap(score_id, reason) WHERE substr(reason, 1, 8) = 'safety: ';
+CREATE INDEX cap_of_gate ON score_cap(score_id, kind) WHERE kind = 'gate';
 )sql";
 
 // INSERT OR REPLACE would delete without asking a DELETE trigger, hence the _no_replace ones.

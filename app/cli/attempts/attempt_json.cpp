@@ -122,7 +122,7 @@ std::string attempt_json(const AttemptResult& result) {
                      {"grade", result.grade.grade},
                      {"integrity", result.integrity.empty() ? Json(nullptr) : Json(result.integrity)},
                      {"subscores", subscores(result.grade)},
-                     {"caps", result.grade.caps},
+                     {"caps", cap_sentences(result.grade.caps)},
                      {"events", events(result)},
                      {"metrics", metrics(result.grade)},
                      {"device", device(result.device)},

@@ -215,7 +215,7 @@ void print_result(const AttemptResult& result, std::ostream& out) {
     out << "  " << std::left << std::setw(16) << s.name << std::right << std::setw(5) << 100 * s.value << " %  weight "
         << std::setw(4) << 100 * s.weight << " %" << (s.gate ? "  safety gate" : "") << '\n';
   }
-  for (const std::string& cap : grade.caps) out << "cap      " << cap << '\n';
+  for (const Cap& cap : grade.caps) out << "cap      " << cap_sentence(cap) << '\n';
   print_stiffness(result.device.stiffness, out);
   if (!result.device.fault.empty()) out << "fault    " << result.device.fault << '\n';
   if (!result.integrity.empty()) out << "reason   " << result.integrity << '\n';

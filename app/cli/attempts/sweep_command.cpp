@@ -129,7 +129,7 @@ struct Cell {
   std::string exercise, level;
   ValidityScope scope;
   std::map<std::string, HandOutcomes> outcomes;
-  std::map<std::string, std::map<std::string, int>> caps;  ///< by hand: reason and how often
+  std::map<std::string, std::map<std::string, int>> caps;  ///< by hand: sentence and how often
   std::vector<Job> without_number;
 
   std::vector<ValidityCheck> checks() const { return check_validity(outcomes, scope); }
@@ -139,7 +139,7 @@ struct Cell {
 std::string end_of(const Job& job) {
   const std::string status = status_name(job.grade.status);
   if (!job.fault.empty()) return status + " (" + job.fault + ")";
-  return job.grade.caps.empty() ? status : status + " (" + job.grade.caps.front() + ")";
+  return job.grade.caps.empty() ? status : status + " (" + cap_sentence(job.grade.caps.front()) + ")";
 }
 
 std::vector<Cell> collect(const std::vector<Job>& jobs) {
@@ -157,7 +157,7 @@ std::vector<Cell> collect(const std::vector<Job>& jobs) {
       cells.back().without_number.push_back(job);
     }
     outcome.passes += job.grade.passed ? 1 : 0;
-    for (const std::string& cap : job.grade.caps) ++cells.back().caps[job.hand][cap];
+    for (const Cap& cap : job.grade.caps) ++cells.back().caps[job.hand][cap_sentence(cap)];
   }
   return cells;
 }

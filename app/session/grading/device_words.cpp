@@ -61,7 +61,7 @@ std::string fault_words(const DeviceReceipt& device) {
   return out + ": " + what + ". " + found->second.advice + "; then reset, home the device in its jig and start again.";
 }
 
-std::string end_words(AttemptStatus status, const DeviceReceipt& device, const std::string& loop, bool reached_run) {
+std::string end_words(AttemptStatus status, const DeviceReceipt& device, LoopState loop, bool reached_run) {
   switch (status) {
     case AttemptStatus::kFault:
       return "device fault " + fault_words(device);
@@ -69,8 +69,8 @@ std::string end_words(AttemptStatus status, const DeviceReceipt& device, const s
       return "the deadman was opened during the attempt: a graded attempt cannot be paused";
     case AttemptStatus::kAborted:
       if (reached_run) return "the exercise did not end within its time";
-      return "the exercise never began: the device was " + loop +
-             (loop == "homed" ? ", waiting for the deadman to be closed" : "");
+      return std::string("the exercise never began: the device was ") + loop_state_name(loop) +
+             (loop == LoopState::kHomed ? ", waiting for the deadman to be closed" : "");
     default:
       return "";
   }

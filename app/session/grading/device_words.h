@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "haptics/exchange/stylus_state.h"
 #include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {
@@ -12,6 +13,6 @@ std::string fault_words(const DeviceReceipt& device);
 
 /// Why an attempt that was not graded ended, in a sentence. @param loop state of the device at the end.
 /// @param reached_run whether the clock of the exercise had begun.
-std::string end_words(AttemptStatus status, const DeviceReceipt& device, const std::string& loop, bool reached_run);
+std::string end_words(AttemptStatus status, const DeviceReceipt& device, LoopState loop, bool reached_run);
 
 }  // namespace trocar

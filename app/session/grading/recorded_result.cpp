@@ -78,7 +78,7 @@ AttemptResult recorded_result(const Recording& recording, const std::filesystem:
   AttemptResult result;
   result.grade = grade_recording(recording, name);
   if (result.grade.status == AttemptStatus::kVoid && !result.grade.caps.empty()) {
-    result.integrity = result.grade.caps.front();
+    result.integrity = cap_sentence(result.grade.caps.front());
   }
   if (recording.end && result.grade.status == AttemptStatus::kAborted)
     result.integrity = "ended before the exercise did";

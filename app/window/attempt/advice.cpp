@@ -1,6 +1,7 @@
 #include "app/window/attempt/advice.h"
 
 #include "app/window/attempt/debrief_reason.h"
+#include "scenarios/kinds/grasp/grasp_events.h"
 
 namespace trocar {
 namespace {
@@ -12,12 +13,13 @@ std::string band_text(const Translator& words, const ExerciseLevel* level) {
 }
 
 std::string critical_advice(const Translator& words, const std::string& event, const Exercise& exercise) {
-  if (event == "CRITICAL_FORCE")
+  if (event == event_type::kCriticalForce)
     return words("Try next: stop as soon as you feel contact, then press; never above {0} N.",
                  {words.number(exercise.hard_force_n, 1)});
-  if (event == "LOST")
+  if (event == event_type::kLost)
     return words("Try next: carry each block low and within the board, and let go only over its ring.");
-  if (event == "CRUSH") return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
+  if (event == event_type::kCrush)
+    return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
   return words("Try next: the same again, slower.");
 }
 

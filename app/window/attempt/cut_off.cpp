@@ -5,8 +5,6 @@
 
 namespace trocar {
 
-bool was_cut_off(const std::string& integrity) { return integrity.starts_with("its program ended"); }
-
 std::string local_time(const std::string& utc, long long now) {
   std::tm parts = {};
   if (::strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%S", &parts) == nullptr) return utc;
@@ -23,7 +21,7 @@ std::string local_time(const std::string& utc, long long now) {
 std::string cut_off_words(const Translator& words, const std::string& name, const AttemptSummary& attempt,
                           long long now) {
   const std::string at = local_time(attempt.started_utc, now);
-  if (was_cut_off(attempt.integrity))
+  if (attempt.cut_off)
     return words("The attempt of {0} at {1} was cut off; it is kept as aborted and its recording can be seen.",
                  {name, at});
   return words("The attempt of {0} at {1} was over when its program ended; its result is stored now.", {name, at});

@@ -1,4 +1,4 @@
-// Attempts that ended with their program (kill -9, power): how one is known again, and what a person is told of it.
+// What a person is told of attempts that ended with their program (kill -9, power).
 //
 // Pure but for the machine's time zone. Thread: the window's.
 #pragma once
@@ -9,9 +9,6 @@
 #include "trainees/records/attempt_store.h"
 
 namespace trocar {
-
-/// By what its opening noted (trainees/records/attempt_recovery.cpp). @param integrity of the result or the summary.
-bool was_cut_off(const std::string& integrity);
 
 /// "14:32", or with the day when that is another one than `now`. @param utc ISO 8601, as the database keeps it. @param
 /// now seconds since 1970.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/bookmark.h"
 #include "app/window/attempt/debrief_reason.h"
+#include "scenarios/kinds/grasp/grasp_events.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/progress/learning_curve.h"
 
@@ -111,29 +111,29 @@ std::vector<std::string> explained(const Translator& words, const DebriefRow& ro
 
 std::string event_words(const Translator& words, const Event& event) {
   const std::string& type = event.type;
-  if (type == "EXCESS_FORCE") return words("Too much force");
-  if (type == "CRITICAL_FORCE") return words("Critical force");
-  if (type == "GRIP_EXCESS") return words("Grip too hard");
-  if (type == "WRONG_PLACE") return words("Wrong place");
-  if (type == "TARGET_HELD") return words("Target held");
-  if (type == "TARGET_TIMEOUT") return words("Time for this target over");
-  if (type == "TOOL_COLLISION") return words("Shaft pressed on tissue");
-  if (type == "GRIP_HELD") return words("Grip held");
-  if (type == "CRUSH") return words("Block crushed");
-  if (type == "SLIP") return words("Block slipped");
-  if (type == "DROP") return words("Block dropped");
-  if (type == "LOST") return words("Block lost");
-  if (type == "PLACED") return words("Block placed");
-  if (type == "MISPLACED") return words("Block misplaced");
-  if (type == "REGRASP") return words("Grasped again");
-  if (type == "WRONG_BLOCK") return words("Wrong block");
-  if (type == "REMOVED") return words("Placed block taken away");
-  if (type == "PORT_HOLD") return words("Too close to the port");
-  if (type == "DEADMAN_OPEN") return words("Deadman opened");
-  if (type == kBookmark) return words("Marked by you");
-  if (type == kMessageMark) return words("Message from your teacher");
-  if (type == "DEVICE_FAULT") return words("Device stopped");
-  if (type == "TIMEOUT") return words("Time over");
+  if (type == event_type::kExcessForce) return words("Too much force");
+  if (type == event_type::kCriticalForce) return words("Critical force");
+  if (type == event_type::kGripExcess) return words("Grip too hard");
+  if (type == event_type::kWrongPlace) return words("Wrong place");
+  if (type == event_type::kTargetHeld) return words("Target held");
+  if (type == event_type::kTargetTimeout) return words("Time for this target over");
+  if (type == event_type::kToolCollision) return words("Shaft pressed on tissue");
+  if (type == event_type::kGripHeld) return words("Grip held");
+  if (type == event_type::kCrush) return words("Block crushed");
+  if (type == event_type::kSlip) return words("Block slipped");
+  if (type == event_type::kDrop) return words("Block dropped");
+  if (type == event_type::kLost) return words("Block lost");
+  if (type == event_type::kPlaced) return words("Block placed");
+  if (type == event_type::kMisplaced) return words("Block misplaced");
+  if (type == event_type::kRegrasp) return words("Grasped again");
+  if (type == event_type::kWrongBlock) return words("Wrong block");
+  if (type == event_type::kRemoved) return words("Placed block taken away");
+  if (type == event_type::kPortHold) return words("Too close to the port");
+  if (type == event_type::kDeadmanOpen) return words("Deadman opened");
+  if (type == event_type::kMarked) return words("Marked by you");
+  if (type == event_type::kMessage) return words("Message from your teacher");
+  if (type == event_type::kDeviceFault) return words("Device stopped");
+  if (type == event_type::kTimeout) return words("Time over");
   return "";
 }
 

@@ -4,45 +4,36 @@
 
 #include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_receipt.h"
-#include "app/window/attempt/cut_off.h"
+#include "scenarios/kinds/grasp/grasp_events.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kWorthSaying = 0.5;  // points
 
-struct Undone {
-  std::string done, all;
-};
-
-/// "not finished: 7 of 12: at most 28.6" of the caps.
-std::optional<Undone> undone(const Grade& grade) {
-  const std::string begin = "not finished: ";
-  for (const std::string& cap : grade.caps) {
-    if (!cap.starts_with(begin)) continue;
-    const std::size_t of = cap.find(" of ", begin.size()), end = cap.find(':', begin.size());
-    if (of == std::string::npos || end == std::string::npos || of > end) continue;
-    return Undone{cap.substr(begin.size(), of - begin.size()), cap.substr(of + 4, end - of - 4)};
-  }
-  return std::nullopt;
+/// The cap of what was left undone; null without one.
+const Cap* undone(const Grade& grade) {
+  const auto at = std::find_if(grade.caps.begin(), grade.caps.end(),
+                               [](const Cap& cap) { return cap.kind == CapKind::kUnfinished; });
+  return at == grade.caps.end() ? nullptr : &*at;
 }
 
 std::string critical_words(const Translator& words, const AttemptResult& result, const Event& event,
                            const Exercise& exercise) {
   const std::string t = words.number(clock_s(result, event.t_s), 1);
-  if (event.type == "CRITICAL_FORCE")
+  if (event.type == event_type::kCriticalForce)
     return words("{0} N at {1} s: above the critical limit of {2} N.",
                  {words.number(event.value, 2), t, words.number(exercise.critical_force_n, 1)});
-  if (event.type == "LOST") return words("A block was lost at {0} s: it lies outside the field.", {t});
-  if (event.type == "CRUSH") return words("Too many blocks crushed, the last one at {0} s.", {t});
+  if (event.type == event_type::kLost) return words("A block was lost at {0} s: it lies outside the field.", {t});
+  if (event.type == event_type::kCrush) return words("Too many blocks crushed, the last one at {0} s.", {t});
   return words("A critical event at {0} s: {1}.",
                {t, event_words(words, event).empty() ? event.type : event_words(words, event)});
 }
 
-std::string undone_words(const Translator& words, const AttemptResult& result, const Undone& left) {
-  return result.grade.status == AttemptStatus::kTimeout
-             ? words("Time ran out: {0} of {1} done.", {left.done, left.all})
-             : words("Not finished: {0} of {1} done.", {left.done, left.all});
+std::string undone_words(const Translator& words, const AttemptResult& result, const Cap& left) {
+  const std::vector<std::string> counts{std::to_string(left.done), std::to_string(left.total)};
+  return result.grade.status == AttemptStatus::kTimeout ? words("Time ran out: {0} of {1} done.", counts)
+                                                        : words("Not finished: {0} of {1} done.", counts);
 }
 
 std::string gate_words(const Translator& words, const DebriefRow& row) {
@@ -60,7 +51,7 @@ std::string ungraded_words(const Translator& words, const AttemptResult& result,
   const double t = result.events.empty() ? 0 : clock_s(result, result.events.back().t_s);
   switch (outcome) {
     case Outcome::kStopped:
-      if (was_cut_off(result.integrity))
+      if (result.cut_off)
         return words("The attempt was cut off with its program, so there is no score. It counts as not passed.");
       return t > 0 ? words("You left the attempt, so there is no score. It counts as not passed.")
                    : words("You left before the clock began, so there is no score. It counts as not passed.");
@@ -87,8 +78,8 @@ void add_pauses(const Translator& words, const AttemptResult& result, std::vecto
 }  // namespace
 
 double clock_s(const AttemptResult& result, double t_s) {
-  const auto start =
-      std::find_if(result.events.begin(), result.events.end(), [](const Event& e) { return e.type == "START"; });
+  const auto start = std::find_if(result.events.begin(), result.events.end(),
+                                  [](const Event& e) { return e.type == event_type::kStart; });
   return start == result.events.end() ? 0 : std::max(0.0, t_s - start->t_s);
 }
 
@@ -150,7 +141,7 @@ std::string reason_words(const Translator& words, const AttemptResult& result, c
   if (facts.outcome == Outcome::kPass) return score_words(words, facts);
   if (const Event* event = first_critical(result)) return critical_words(words, result, *event, exercise);
   if (const DebriefRow* gate = worst_gate(facts.rows)) return gate_words(words, *gate);
-  if (const auto left = undone(result.grade)) return undone_words(words, result, *left);
+  if (const Cap* left = undone(result.grade)) return undone_words(words, result, *left);
   if (result.grade.status == AttemptStatus::kTimeout) return words("Time ran out before the task was done.");
   return score_words(words, facts);
 }
@@ -164,8 +155,6 @@ std::vector<std::string> further_words(const Translator& words, const AttemptRes
       out.push_back(words.made(fault));
     else if (!result.integrity.empty())
       out.push_back(words.made(result.integrity));
-    else if (!result.grade.caps.empty())
-      out.push_back(words.made(result.grade.caps.front()));
     add_pauses(words, result, out);
     return out;
   }
@@ -173,7 +162,7 @@ std::vector<std::string> further_words(const Translator& words, const AttemptRes
   const DebriefRow* first = critical ? nullptr : worst_gate(facts.rows);
   for (const DebriefRow& row : facts.rows)
     if (row.failed && &row != first) out.push_back(gate_words(words, row));
-  if (const auto left = undone(result.grade); left && (critical || first))
+  if (const Cap* left = undone(result.grade); left && (critical || first))
     out.push_back(undone_words(words, result, *left));
   if (result.device.force_not_rendered())
     out.push_back(

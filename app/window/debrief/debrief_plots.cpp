@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/bookmark.h"
 #include "app/window/attempt/debrief_facts.h"
 #include "app/window/ui/plot.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 namespace {
@@ -165,7 +165,7 @@ std::vector<PlotEvent> plot_events(const Translator& words, const std::vector<Ev
   for (const Event& event : events) {
     const std::string text = event_words(words, event);
     if (!text.empty() && event.t_s >= trace.begin_s && event.t_s <= trace.end_s)
-      out.push_back({event.t_s, event.severity, text, event.type == kBookmark});
+      out.push_back({event.t_s, event.severity, text, event.type == event_type::kMarked});
   }
   return out;
 }

@@ -43,8 +43,7 @@ ProgressEntry entry_of(const PracticeModel& model, LearningCurve curve) {
   out.in_a_row = passes_in_a_row(summaries);
   out.open = opens_next(summaries);
   out.cusum = cusum(curve.passes());
-  const auto cut = std::find_if(summaries.begin(), summaries.end(),
-                                [](const AttemptSummary& a) { return was_cut_off(a.integrity); });
+  const auto cut = std::find_if(summaries.begin(), summaries.end(), [](const AttemptSummary& a) { return a.cut_off; });
   if (cut != summaries.end())
     out.note = cut_off_words(w, exercise == all.end() ? key.exercise_id : exercise->number, *cut, std::time(nullptr));
   out.curve = std::move(curve);

@@ -1,14 +1,14 @@
 #include "app/window/replay/replay_events.h"
 
-#include "app/session/bookmark.h"
 #include "app/window/attempt/debrief_facts.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 std::vector<ReplayEvent> replay_events(const std::vector<Event>& events, double begin_s, const Translator& words) {
   std::vector<ReplayEvent> out;
   for (const Event& event : events) {
     const std::string said = event_words(words, event);
-    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said, event.type == kBookmark});
+    if (!said.empty()) out.push_back({event.t_s - begin_s, event.severity, said, event.type == event_type::kMarked});
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scenarios/kinds/grasp/grasp_events.h"
 #include "scenarios/kinds/grasp/grasp_layout.h"
 #include "scenarios/kinds/grasp/grasp_reader.h"
 #include "scenarios/kinds/grasp/grasp_task.h"
@@ -38,8 +39,8 @@ void account_blocks(const Board& board, const std::vector<Event>& events, Scorin
   for (const Event& event : events) {
     const auto index = static_cast<std::size_t>(event.object);
     if (event.object < 0 || index >= board.rigid.blocks.size()) continue;
-    if (event.type == "REMOVED" || event.type == "LOST") done.erase(event.object);
-    if (event.type != "PLACED") continue;
+    if (event.type == event_type::kRemoved || event.type == event_type::kLost) done.erase(event.object);
+    if (event.type != event_type::kPlaced) continue;
     done.insert(event.object);
     if (!seen.insert(event.object).second) continue;
     const Vec3 up(0, 0, board.rigid.blocks[index].size_m.z() / 2);

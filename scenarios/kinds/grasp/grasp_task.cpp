@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/kinds/grasp/grasp_events.h"
+
 namespace trocar {
 namespace {
 
@@ -40,7 +42,7 @@ void GraspTask::light_next(EventLog& log) {
   for (std::size_t i = 0; i < blocks_.size() && lit_ < 0; ++i) {
     if (!gone(static_cast<std::int32_t>(i))) lit_ = static_cast<std::int32_t>(i);
   }
-  if (lit_ >= 0) log.add("TARGET_LIT", Severity::kInfo, lit_);
+  if (lit_ >= 0) log.add(event_type::kTargetLit, Severity::kInfo, lit_);
 }
 
 void GraspTask::update(const TaskInput& input, EventLog& log) {
@@ -63,22 +65,22 @@ void GraspTask::follow_grip(const TissueFrame& frame, std::int32_t index, double
   if (object.crushed && !block.crushed) {
     block.crushed = true;
     const bool critical = ++crushed_ == rules_.critical_crushed;
-    log.add("CRUSH", critical ? Severity::kCritical : Severity::kMajor, index, grip_n, "N");
+    log.add(event_type::kCrush, critical ? Severity::kCritical : Severity::kMajor, index, grip_n, "N");
     toast_ = "Crushed - hold it more gently";
     toast_s_ = 0;
     ++errors_;
   }
   if (held && !block.held) {
-    log.add(block.grasped ? "REGRASP" : "GRASPED", block.grasped ? Severity::kMinor : Severity::kInfo, index, grip_n,
-            "N");
-    if (index != lit_) log.add("WRONG_BLOCK", Severity::kMinor, index);
+    log.add(block.grasped ? event_type::kRegrasp : event_type::kGrasped,
+            block.grasped ? Severity::kMinor : Severity::kInfo, index, grip_n, "N");
+    if (index != lit_) log.add(event_type::kWrongBlock, Severity::kMinor, index);
     block.grasped = true;
     block.dropped = block.slipping = block.up = false;
     block.highest_m = block.slip_from_m = 0;
     if (block.placed) take_out(index, log);
   }
   if (!held && block.held) {
-    if (block.up) log.add("SET_DOWN", Severity::kInfo, index, clearance(object), "m");
+    if (block.up) log.add(event_type::kSetDown, Severity::kInfo, index, clearance(object), "m");
     block.up = false;
     block.judged = false;
     block.let_go_z_m = object.X_TO.p.z();
@@ -91,7 +93,7 @@ void GraspTask::take_out(std::int32_t index, EventLog& log) {
   blocks_[static_cast<std::size_t>(index)].placed = false;
   --done_;
   ++errors_;
-  log.add("REMOVED", Severity::kMinor, index);
+  log.add(event_type::kRemoved, Severity::kMinor, index);
 }
 
 void GraspTask::follow_carry(const TissueFrame& frame, std::int32_t index, EventLog& log) {
@@ -100,17 +102,17 @@ void GraspTask::follow_carry(const TissueFrame& frame, std::int32_t index, Event
   block.highest_m = std::max(block.highest_m, height);
   if (!block.up && height > kUpFrom) {
     block.up = true;
-    log.add("LIFTED", Severity::kInfo, index, height, "m");
+    log.add(event_type::kLifted, Severity::kInfo, index, height, "m");
   } else if (block.up && height < kDownUntil) {
     block.up = false;
-    log.add("SET_DOWN", Severity::kInfo, index, height, "m");
+    log.add(event_type::kSetDown, Severity::kInfo, index, height, "m");
   }
   if (frame.grip != GripState::kSlipping) {
     block.slipping = false;
     block.slip_from_m = frame.slipped_m;
   } else if (!block.slipping && frame.slipped_m - block.slip_from_m > kSlipFrom) {
     block.slipping = true;
-    log.add("SLIP", Severity::kMinor, index, frame.slipped_m - block.slip_from_m, "m");
+    log.add(event_type::kSlip, Severity::kMinor, index, frame.slipped_m - block.slip_from_m, "m");
     toast_ = "It slips - hold it tighter";
     toast_s_ = 0;
   }
@@ -128,7 +130,7 @@ void GraspTask::follow_free(const ObjectState& object, std::int32_t index, Event
   if (!block.dropped && fallen > rules_.drop_m) {
     block.dropped = true;
     ++errors_;
-    log.add("DROP", Severity::kMajor, index, clearance(object) + fallen, "m");
+    log.add(event_type::kDrop, Severity::kMajor, index, clearance(object) + fallen, "m");
     toast_ = "Dropped - pick it up again";
     toast_s_ = 0;
   }
@@ -145,7 +147,7 @@ bool GraspTask::has_left(const ObjectState& object, std::int32_t index, EventLog
   if (block.placed) take_out(index, log);
   block.lost = true;
   ++errors_;
-  log.add("LOST", Severity::kCritical, index, outside, "m");
+  log.add(event_type::kLost, Severity::kCritical, index, outside, "m");
   return true;
 }
 
@@ -160,9 +162,9 @@ void GraspTask::judge_rest(const ObjectState& object, std::int32_t index, EventL
   if (lifted && !block.dropped && stands && off <= ring.radius_m) {
     block.placed = true;
     ++done_;
-    return log.add("PLACED", Severity::kInfo, index, off, "m");
+    return log.add(event_type::kPlaced, Severity::kInfo, index, off, "m");
   }
-  if (block.highest_m > kUpFrom && !block.dropped) log.add("MISPLACED", Severity::kMinor, index, off, "m");
+  if (block.highest_m > kUpFrom && !block.dropped) log.add(event_type::kMisplaced, Severity::kMinor, index, off, "m");
   if (off <= ring.radius_m && !lifted && !block.dropped) {
     toast_ = "Lift it higher on the way";
     toast_s_ = 0;

@@ -32,13 +32,13 @@ void PoseTask::light(EventLog& log) {
   hold_.reset();
   judged_s_ = position_sum_ = angle_sum_ = 0;
   lit_at_s_ = log.t_s;
-  if (!finished()) log.add("TARGET_LIT", Severity::kInfo, object());
+  if (!finished()) log.add(event_type::kTargetLit, Severity::kInfo, object());
 }
 
 void PoseTask::matched(EventLog& log) {
-  log.add("TARGET_HELD", Severity::kInfo, object(), log.t_s - lit_at_s_, "s");
-  log.add("POSITION_ERROR", Severity::kInfo, object(), position_sum_ / judged_s_, "m");
-  log.add("ANGLE_ERROR", Severity::kInfo, object(), angle_sum_ / judged_s_, "rad");
+  log.add(event_type::kTargetHeld, Severity::kInfo, object(), log.t_s - lit_at_s_, "s");
+  log.add(event_type::kPositionError, Severity::kInfo, object(), position_sum_ / judged_s_, "m");
+  log.add(event_type::kAngleError, Severity::kInfo, object(), angle_sum_ / judged_s_, "rad");
   waiting_.pop_front();
   light(log);
 }
@@ -59,7 +59,7 @@ void PoseTask::update(const TaskInput& input, EventLog& log) {
   if (hold_.progress() == 0) judged_s_ = position_sum_ = angle_sum_ = 0;
   if (log.t_s - lit_at_s_ < timeout_s_) return;
   ++timeouts_;
-  log.add("TARGET_TIMEOUT", Severity::kMinor, object(), timeout_s_, "s");
+  log.add(event_type::kTargetTimeout, Severity::kMinor, object(), timeout_s_, "s");
   waiting_.push_back(waiting_.front());
   waiting_.pop_front();
   light(log);

@@ -24,7 +24,7 @@ void DiscTask::light(EventLog& log) {
   touched_ = on_disc_ = strayed_ = false;
   astray_s_ = 0;
   lit_at_s_ = log.t_s;
-  if (!finished()) log.add("TARGET_LIT", Severity::kInfo, index_);
+  if (!finished()) log.add(event_type::kTargetLit, Severity::kInfo, index_);
 }
 
 bool DiscTask::leaving_last_disc(const Vec3& point_T) const {
@@ -44,11 +44,11 @@ void DiscTask::judge_contact(const StylusState& state, bool new_contact, double 
     ++wrong_places_;
     strayed_ = true;
     since_wrong_place_s_ = 0;
-    log.add("WRONG_PLACE", Severity::kMinor, index_, outside, "m");
+    log.add(event_type::kWrongPlace, Severity::kMinor, index_, outside, "m");
   }
   if (!touched_ && outside <= wrong_place_m_) {
     touched_ = true;
-    log.add("TARGET_TOUCHED", Severity::kInfo, index_, distance, "m");
+    log.add(event_type::kTargetTouched, Severity::kInfo, index_, distance, "m");
   }
   on_disc_ = outside <= wrong_place_m_ / 2;
 }
@@ -70,7 +70,7 @@ void DiscTask::update(const TaskInput& input, EventLog& log) {
   const WantedForce& band = targets_[static_cast<std::size_t>(index_)].band;
   const bool wanted = on_disc_ && force >= band.low_n && force <= band.high_n;
   if (!hold_.update(wanted, dt_s)) return;
-  log.add("TARGET_HELD", Severity::kInfo, index_, log.t_s - lit_at_s_, "s");
+  log.add(event_type::kTargetHeld, Severity::kInfo, index_, log.t_s - lit_at_s_, "s");
   ++index_;
   light(log);
 }

@@ -5,6 +5,7 @@ namespace {
 
 constexpr double kJawClearance = 0.001;  // m that the jaws must be wider than the block before it is offered
 constexpr double kGripTouch = 0.05;      // N
+constexpr EventType kGripOffered{"GRIP_OFFERED"};
 
 }  // namespace
 
@@ -28,21 +29,21 @@ void SqueezeTask::update(const TaskInput& input, EventLog& log) {
     if (state.jaw_opening_m < task_.block_thickness_m + kJawClearance) return;
     offered_ = true;
     offered_at_s_ = log.t_s;
-    log.add("GRIP_OFFERED", Severity::kInfo, object_, task_.block_thickness_m, "m");
+    log.add(kGripOffered, Severity::kInfo, object_, task_.block_thickness_m, "m");
     return;
   }
   const double grip = state.grip_force_n;
   if (!touched_ && grip > kGripTouch) {
     touched_ = true;
-    log.add("GRIP_TOUCHED", Severity::kInfo, object_, grip, "N");
+    log.add(event_type::kGripTouched, Severity::kInfo, object_, grip, "N");
   }
   if (excess_.update(grip, dt_s)) {
     ++excess_count_;
-    log.add("GRIP_EXCESS", Severity::kMajor, object_, grip, "N");
+    log.add(event_type::kGripExcess, Severity::kMajor, object_, grip, "N");
   }
   if (!hold_.update(grip >= task_.low_n && grip <= task_.high_n, dt_s)) return;
   finished_ = true;
-  log.add("GRIP_HELD", Severity::kInfo, object_, log.t_s - offered_at_s_, "s");
+  log.add(event_type::kGripHeld, Severity::kInfo, object_, log.t_s - offered_at_s_, "s");
 }
 
 void SqueezeTask::describe(const TaskInput& input, DirectorStatus& status) const {

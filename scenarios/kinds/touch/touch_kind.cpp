@@ -97,7 +97,9 @@ void account_touch(const Board& board, const std::vector<Event>& events, Scoring
   account_held_targets(board, events, context);
   context.objects_total += 1;
   context.objects_done +=
-      std::any_of(events.begin(), events.end(), [](const Event& event) { return event.type == "GRIP_HELD"; }) ? 1 : 0;
+      std::any_of(events.begin(), events.end(), [](const Event& event) { return event.type == event_type::kGripHeld; })
+          ? 1
+          : 0;
 }
 
 }  // namespace

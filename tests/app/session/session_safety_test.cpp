@@ -104,11 +104,11 @@ TEST(DeviceWords, EveryFaultSaysWhatToDo) {
 }
 
 TEST(DeviceWords, AnEndNamesItsReason) {
-  EXPECT_EQ(end_words(AttemptStatus::kCompleted, {}, "active", true), "");
-  EXPECT_EQ(end_words(AttemptStatus::kTimeout, {}, "active", true), "");
-  EXPECT_NE(end_words(AttemptStatus::kAborted, {}, "active", true).find("did not end"), std::string::npos);
-  EXPECT_NE(end_words(AttemptStatus::kAborted, {}, "self-test", false).find("self-test"), std::string::npos);
-  EXPECT_NE(end_words(AttemptStatus::kVoid, {}, "homed", true).find("deadman"), std::string::npos);
+  EXPECT_EQ(end_words(AttemptStatus::kCompleted, {}, LoopState::kActive, true), "");
+  EXPECT_EQ(end_words(AttemptStatus::kTimeout, {}, LoopState::kActive, true), "");
+  EXPECT_NE(end_words(AttemptStatus::kAborted, {}, LoopState::kActive, true).find("did not end"), std::string::npos);
+  EXPECT_NE(end_words(AttemptStatus::kAborted, {}, LoopState::kSelfTest, false).find("self-test"), std::string::npos);
+  EXPECT_NE(end_words(AttemptStatus::kVoid, {}, LoopState::kHomed, true).find("deadman"), std::string::npos);
 }
 
 TEST(SafetyFile, LiesBesideTheRecordingAndIsNeverWrittenInSilence) {

@@ -128,8 +128,7 @@ TEST(Caps, CriticalEventHoldsAnyRunAtFortyNine) {
   EXPECT_DOUBLE_EQ(*grade.score, 49);
   EXPECT_FALSE(grade.passed);
   EXPECT_EQ(grade.grade, "below pass");
-  ASSERT_EQ(grade.caps.size(), 1u);
-  EXPECT_NE(grade.caps[0].find("critical"), std::string::npos);
+  EXPECT_EQ(grade.caps, (std::vector<Cap>{{.kind = CapKind::kCritical, .at_most = 49}}));
 }
 
 TEST(Caps, FailedGateHoldsAtFiftyNine) {
@@ -138,7 +137,8 @@ TEST(Caps, FailedGateHoldsAtFiftyNine) {
   const Grade grade = graded(good_trace(), events, finished_context());
   EXPECT_DOUBLE_EQ(*grade.score, 59);
   EXPECT_FALSE(grade.passed);
-  EXPECT_NE(grade.caps.at(0).find("excess force"), std::string::npos);
+  EXPECT_EQ(grade.caps,
+            (std::vector<Cap>{{.kind = CapKind::kGate, .subject = "excess force", .below = 0.5, .at_most = 59}}));
 }
 
 TEST(Caps, UnfinishedRunsEarnAtMostTheirShare) {
@@ -148,10 +148,21 @@ TEST(Caps, UnfinishedRunsEarnAtMostTheirShare) {
   events.back().type = "TIMEOUT";
   context.objects_done = 1;
   EXPECT_NEAR(*graded(good_trace(), events, context).score, 49.0 / 3, 1e-12);
+  EXPECT_EQ(graded(good_trace(), events, context).caps.back(),
+            (Cap{.kind = CapKind::kUnfinished, .done = 1, .total = 3, .at_most = 49.0 / 3}));
   context.objects_done = 0;
   EXPECT_EQ(*graded(good_trace(), events, context).score, 0);
   context.objects_done = 3;
   EXPECT_DOUBLE_EQ(*graded(good_trace(), events, context).score, 49) << "all done but not finished";
+}
+
+TEST(Caps, SayInASentenceWhatTheyHeldDown) {
+  EXPECT_EQ(cap_sentence({.kind = CapKind::kGate, .subject = "force in band", .below = 0.5, .at_most = 59}),
+            "safety: force in band below 0.5: at most 59");
+  EXPECT_EQ(cap_sentence({.kind = CapKind::kCritical, .at_most = 49}), "critical event: at most 49");
+  EXPECT_EQ(cap_sentence({.kind = CapKind::kUnfinished, .done = 7, .total = 12, .at_most = 49.0 * 7 / 12}),
+            "not finished: 7 of 12: at most 28.5833");
+  EXPECT_EQ(cap_sentence({.kind = CapKind::kVoid, .subject = "no samples"}), "void: no samples");
 }
 
 TEST(Caps, DroppingThemWouldLetDangerPass) {
@@ -187,7 +198,8 @@ TEST(Outcome, BrokenTraceIsVoidWithItsReason) {
     EXPECT_EQ(grade.status, AttemptStatus::kVoid) << reason;
     EXPECT_FALSE(grade.score) << reason;
     ASSERT_EQ(grade.caps.size(), 1u) << reason;
-    EXPECT_NE(grade.caps[0].find(reason), std::string::npos) << grade.caps[0];
+    EXPECT_EQ(grade.caps[0].kind, CapKind::kVoid);
+    EXPECT_NE(grade.caps[0].subject.find(reason), std::string::npos) << grade.caps[0].subject;
   }
 }
 
@@ -244,7 +256,7 @@ TEST(Metamorphic, IdleTimeNeverRaisesTheScore) {
       for (Event& event : events)
         if (event.t_s > pause_at) event.t_s += pause;
       const Grade grade = graded(trace, events, finished_context());
-      ASSERT_TRUE(grade.score) << grade.caps.at(0);
+      ASSERT_TRUE(grade.score) << cap_sentence(grade.caps.at(0));
       EXPECT_LE(*grade.score, before + 1e-9) << pause << " s at " << pause_at;
       before = *grade.score;
     }

@@ -55,7 +55,7 @@ TEST_F(AttemptChain, ShowsARemovedEvent) {
 
 TEST_F(AttemptChain, ShowsAChangedSubscoreAndCap) {
   EXPECT_NE(after("UPDATE subscore_row SET raw = 1 WHERE id = 1 << 10;"
-                  "UPDATE score_cap SET reason = '' WHERE score_id = 2"),
+                  "UPDATE score_cap SET at_most = 100 WHERE score_id = 2"),
             "");
 }
 

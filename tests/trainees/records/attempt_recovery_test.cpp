@@ -98,6 +98,7 @@ TEST_F(AttemptRecovery, ARecordingThatCannotBeGradedIsAbortedWithTheReason) {
   }
   const auto attempts = AttemptStore(*std::make_unique<Database>(folder_ / "t.db")).list();
   EXPECT_EQ(attempts[0].integrity, "its program ended before the attempt did");
+  EXPECT_TRUE(attempts[0].cut_off);
   EXPECT_NE(attempts[1].integrity.find("its header is damaged"), std::string::npos);
 }
 

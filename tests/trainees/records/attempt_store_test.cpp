@@ -95,6 +95,20 @@ TEST(AttemptStore, KeepsAnAbsentScoreAbsentAndNotANumberUndefined) {
   EXPECT_EQ(back.grade.status, AttemptStatus::kFault);
 }
 
+TEST(AttemptStore, KeepsCapsOfEveryKindAndSqlSaysThemInTheSameWords) {
+  Database database(":memory:");
+  const AttemptResult result = capped_result();
+  const AttemptId id = store_attempt(database, sample_start(), result);
+  EXPECT_EQ(AttemptStore(database).load(id.row).grade.caps, result.grade.caps);
+  EXPECT_EQ(database.check(), std::vector<std::string>{});
+  sql::Statement rows(
+      database.connection(),
+      "SELECT cap_sentence(kind, subject, below, done, total, at_most) FROM score_cap ORDER BY position");
+  std::vector<std::string> said;
+  while (rows.step()) said.push_back(rows.text(0));
+  EXPECT_EQ(said, cap_sentences(result.grade.caps));
+}
+
 TEST(AttemptStore, ARunningAttemptIsListedButHasNoResult) {
   Database database(":memory:");
   AttemptStore store(database);
@@ -187,7 +201,7 @@ const char* const kChanges[] = {
     "UPDATE subscore SET value = 1",
     "DELETE FROM subscore",
     "DELETE FROM score_cap",
-    "UPDATE score_cap SET reason = ''",
+    "UPDATE score_cap SET subject = ''",
     "INSERT INTO event SELECT attempt_id, 99, t_s, type, severity, object, value, unit, 0, 0, 0 FROM event LIMIT 1",
     "INSERT INTO score (attempt_id, revision, ruleset_sha256, passed, grade)"
     " SELECT attempt_id, 1, ruleset_sha256, 1, 'expert' FROM score",
@@ -195,7 +209,7 @@ const char* const kChanges[] = {
     "INSERT INTO metric VALUES (1, 99, 'luck', 1, '')",
     "INSERT OR REPLACE INTO metric VALUES (1, 0, 'time', 1, 's')",
     "INSERT INTO subscore SELECT score_id, 99, 'luck', 1, 1, 1, '', 0, 0, 0 FROM subscore LIMIT 1",
-    "INSERT INTO score_cap VALUES (1, 99, 'x')",
+    "INSERT INTO score_cap VALUES (1, 99, 'void', 'x', 0, 0, 0, 0)",
     "UPDATE event_row SET value = 0",
     "DELETE FROM event_row",
     "INSERT INTO event_row SELECT id + 9, t_s, kind_id, object, value, 0, 0, 0 FROM event_row LIMIT 1",

@@ -168,11 +168,11 @@ class Filler {
       grade.subscores.push_back({name, uniform(), 0.2, uniform(), "N", 0, 6, name[0] == 'f'});
     double score = std::clamp(95 - 45 * left + 6 * (uniform() - 0.5), 0.0, 100.0);
     if (uniform() < 0.4 * left) {
-      grade.caps.push_back("safety: force below 0.5: at most 59");
+      grade.caps.push_back({.kind = CapKind::kGate, .subject = "force", .below = 0.5, .at_most = 59});
       score = std::min(score, 59.0);
     }
     if (count(Severity::kCritical) > 0) {
-      grade.caps.push_back("critical event: at most 49");
+      grade.caps.push_back({.kind = CapKind::kCritical, .at_most = 49});
       score = std::min(score, 49.0);
     }
     grade.score = score;

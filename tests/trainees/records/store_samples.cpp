@@ -45,7 +45,7 @@ AttemptResult sample_result(double score) {
       {"time_s", 41.5, "s"}, {"force_max_n", 2.0 + score / 100, "N"}, {"tremor", std::nullopt, "mm"}};
   result.grade.subscores = {{"force", 0.8125, 0.6, 2.6, "N", 2.0, 6.0, true},
                             {"time", 1.0 / 3, 0.4, {}, "s", 30, 90, false}};
-  result.grade.caps = {"critical event: EXCESS_FORCE at 12.0 s"};
+  result.grade.caps = {{.kind = CapKind::kCritical, .at_most = 49}};
   result.events = {{1.0 / 3, "TARGET_HELD", Severity::kInfo, 2, 1.25, "N", Vec3(0.1, -0.2, 1e-17)},
                    {0.5, "EXCESS_FORCE", Severity::kCritical, -1, 6.5, "N", Vec3::Zero()}};
   DeviceReceipt& device = result.device;
@@ -61,6 +61,15 @@ AttemptResult sample_result(double score) {
   device.transitions = {{0, "homing", "armed"}, {1.0 / 3, "armed", "running"}};
   device.realtime = "{\"policy\":\"fifo\"}";
   result.state_hash = "0123456789abcdef";
+  return result;
+}
+
+AttemptResult capped_result() {
+  AttemptResult result = sample_result(100.0 / 3);
+  result.grade.caps = {{.kind = CapKind::kGate, .subject = "force", .below = 0.5, .at_most = 59},
+                       {.kind = CapKind::kCritical, .at_most = 49},
+                       {.kind = CapKind::kUnfinished, .done = 7, .total = 12, .at_most = 49.0 * 7 / 12},
+                       {.kind = CapKind::kVoid, .subject = "it \"jumps\", 0.2 m"}};
   return result;
 }
 

@@ -23,6 +23,8 @@ AttemptStart sample_start(const std::string& trainee = "T-expert");
 
 /// A completed attempt of that score, with events, metrics, sub-scores and a cap.
 AttemptResult sample_result(double score = 81.25);
+/// With a cap of every kind.
+AttemptResult capped_result();
 
 /// Begins and finishes one attempt.
 AttemptId store_attempt(Database& database, const AttemptStart& start, const AttemptResult& result);

@@ -25,10 +25,9 @@ std::string recorded(const std::string& name, const std::string& words, bool mon
   return fact(name, words.empty() ? "not recorded" : words, mono);
 }
 
-/// The scorer names a failed gate in its cap: "safety: NAME below 0.5: at most 59".
 bool capped_by(const Grade& grade, const std::string& part) {
   return std::any_of(grade.caps.begin(), grade.caps.end(),
-                     [&](const std::string& cap) { return cap.starts_with("safety: " + part + " "); });
+                     [&](const Cap& cap) { return cap.kind == CapKind::kGate && cap.subject == part; });
 }
 
 const Subscore* failed_gate(const Grade& grade) {
@@ -72,9 +71,9 @@ std::string verdict_reason(const AttemptView& view) {
     return words_of(part.name) + ": " + quantity(part.raw, part.unit) + " (" + anchors(part) + ")";
   };
   if (const Subscore* gate = failed_gate(grade)) return "Safety gate not met. " + said(*gate) + ".";
-  for (const std::string& cap : grade.caps)
-    if (cap.starts_with("not finished"))
-      return (grade.status == AttemptStatus::kTimeout ? "Time ran out, " : "") + cap + ".";
+  for (const Cap& cap : grade.caps)
+    if (cap.kind == CapKind::kUnfinished)
+      return (grade.status == AttemptStatus::kTimeout ? "Time ran out, " : "") + cap_sentence(cap) + ".";
   if (grade.status == AttemptStatus::kTimeout) return "Time ran out.";
   const Subscore* worst = largest_loss(grade);
   const std::string most =
@@ -157,7 +156,7 @@ std::string subscore_table(const AttemptView& view) {
   }
   if (rows.empty()) return section("points", "Points", "<p>No score, so no points.</p>");
   std::string caps;
-  for (const std::string& cap : grade.caps) caps += "<li>" + escape_html(cap) + "</li>";
+  for (const Cap& cap : grade.caps) caps += "<li>" + escape_html(cap_sentence(cap)) + "</li>";
   if (!caps.empty()) caps = "<p>The score is capped:</p><ul>" + caps + "</ul>";
   return section(
       "points", "Points",

@@ -90,8 +90,8 @@ std::vector<SharedMark> shared_marks(const AttemptView& left, const AttemptView&
   const auto times = [](const AttemptView& view) {
     std::map<std::string, std::vector<double>> out;
     for (const Event& event : view.result.events)
-      if (event.severity == Severity::kInfo && std::isfinite(event.t_s) && event.type != "MARKED" &&
-          event.type != "MESSAGE")
+      if (event.severity == Severity::kInfo && std::isfinite(event.t_s) && event.type != event_type::kMarked &&
+          event.type != event_type::kMessage)
         out[event.type].push_back(event.t_s - view.begin_s());
     return out;
   };

@@ -18,8 +18,8 @@ SignCheck critical_events(const AttemptResult& result) {
 }
 
 SignCheck safety_gates(const Grade& grade) {
-  const auto failed = std::count_if(grade.caps.begin(), grade.caps.end(),
-                                    [](const std::string& cap) { return cap.starts_with("safety: "); });
+  const auto failed =
+      std::count_if(grade.caps.begin(), grade.caps.end(), [](const Cap& cap) { return cap.kind == CapKind::kGate; });
   const bool any =
       std::any_of(grade.subscores.begin(), grade.subscores.end(), [](const Subscore& part) { return part.gate; });
   if (failed > 0) return {false, plural(failed, "safety gate", "safety gates") + " not met"};

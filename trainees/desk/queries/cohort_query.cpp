@@ -71,8 +71,7 @@ ByRow<Facts> read_facts(const Database& database) {
     while (of_kind.step()) out.at(attempt_of.get(of_kind.integer(0))).peak = of_kind.real(1);
     of_kind.run();
   }
-  sql::Statement gates(
-      connection, "SELECT score_id FROM score_cap INDEXED BY cap_of_safety WHERE substr(reason, 1, 8) = 'safety: '");
+  sql::Statement gates(connection, "SELECT score_id FROM score_cap INDEXED BY cap_of_gate WHERE kind = 'gate'");
   while (gates.step()) ++out.at(attempt_of.get(gates.integer(0))).gates;
   sql::Statement grave(
       connection, "SELECT id >> 20, kind_id & 1, kind_id & 2 FROM event_row INDEXED BY event_grave WHERE kind_id & 3");

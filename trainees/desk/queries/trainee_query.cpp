@@ -25,7 +25,7 @@ std::map<CurveKey, std::vector<SafetyRecord>> safety_of(sqlite3* connection, std
       " (SELECT count(*) FROM event e WHERE e.attempt_id = a.id AND e.severity = 'critical'),"
       " (SELECT count(*) FROM score s JOIN score_cap c ON c.score_id = s.id WHERE s.attempt_id = a.id AND s.revision = "
       "0"
-      "  AND substr(c.reason, 1, 8) = 'safety: ')"
+      "  AND c.kind = 'gate')"
       " FROM attempt a WHERE a.trainee_id = ? AND a.status <> 'running' ORDER BY a.id");
   rows.bind(trainee);
   while (rows.step()) {

@@ -276,8 +276,8 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
         o.passed ? Tone::kGood : Tone::kBad, true});
   add_advice(out.blocks, view.result.grade);
   out.blocks.emplace_back(point_table(view));
-  for (const std::string& cap : view.result.grade.caps)
-    out.blocks.emplace_back(Paragraph{"The score is capped: " + cap, Tone::kBad, true});
+  for (const Cap& cap : view.result.grade.caps)
+    out.blocks.emplace_back(Paragraph{"The score is capped: " + cap_sentence(cap), Tone::kBad, true});
   add_traces(out.blocks, view);
   add_stiffness(out.blocks, view);
   if (!report.picture_png.empty())

@@ -80,7 +80,10 @@ ExportTable subscores() {
 }
 
 ExportTable caps() {
-  return {"caps", {{"attempt_uuid", "a.uuid"}, {"reason", "x.reason"}}, std::string("FROM score_cap x") + kOfScore};
+  return {
+      "caps",
+      {{"attempt_uuid", "a.uuid"}, {"reason", "cap_sentence(x.kind, x.subject, x.below, x.done, x.total, x.at_most)"}},
+      std::string("FROM score_cap x") + kOfScore};
 }
 
 ExportTable events() {

@@ -207,9 +207,9 @@ std::vector<Metric> kinematic_metrics(const Trace& given) {
   const Trace trace = at_metric_rate(given);
   Event start, done;
   start.t_s = trace.samples.front().t_s;
-  start.type = "START";
+  start.type = event_type::kStart.name;
   done.t_s = trace.samples.back().t_s;
-  done.type = "DONE";
+  done.type = event_type::kDone.name;
   add_motion_metrics(trace, {start, done}, ScoringContext{}, all);
   std::copy_if(all.begin(), all.end(), std::back_inserter(defined),
                [](const Metric& metric) { return metric.value.has_value(); });

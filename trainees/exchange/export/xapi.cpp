@@ -124,7 +124,7 @@ Json result_extensions(const XapiAttempt& attempt) {
   };
   add("status", status_name(r.grade.status));
   add("subscores", subscores(r));
-  add("caps", r.grade.caps);
+  add("caps", cap_sentences(r.grade.caps));
   add("events", events(r));
   add_text("integrity", r.integrity);
   add_text("ruleset-sha256", r.rubric_sha256);

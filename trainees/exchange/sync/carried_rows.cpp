@@ -148,7 +148,7 @@ const CarriedTable& carried_attempt() {
                                            "uuid @origin @session @calibration exercise_id exercise_version "
                                            "ruleset_sha256 level seed# board# hand organ_name organ_source"
                                            " organ_sha256 organ_synthetic# organ_credit program started_utc owner_pid# "
-                                           "owner_boot owner_start# status integrity"
+                                           "owner_boot owner_start# status integrity cut_off#"
                                            " finished_utc recording_path recording_sha256 state_hash device_backend "
                                            "device_rate_hz~ device_ticks# device_overruns#"
                                            " saturated_contact_share~ passivity_active_share~ min_energy_j~ kappa~ "
@@ -166,7 +166,7 @@ const std::vector<CarriedTable>& carried_of_attempt() {
       table("score", "@attempt revision# ruleset_sha256 value~ passed# grade", 2),
       table("metric", "@score name position# value~ unit", 2),
       table("subscore", "@score name position# value~ weight~ raw~ unit full_at~ zero_at~ gate#", 2),
-      table("score_cap", "@score position# reason", 2),
+      table("score_cap", "@score position# kind subject below~ done# total# at_most~", 2),
   };
   return kTables;
 }

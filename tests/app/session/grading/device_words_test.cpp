@@ -53,16 +53,17 @@ TEST(FaultWords, NoChannelIsNotNamedAndNoFaultIsSilence) {
 
 TEST(EndWords, SayWhyAnAttemptWasNotGraded) {
   const DeviceReceipt none;
-  EXPECT_EQ(end_words(AttemptStatus::kFault, stopped("drive-hot"), "fault", true),
+  EXPECT_EQ(end_words(AttemptStatus::kFault, stopped("drive-hot"), LoopState::kFault, true),
             "device fault " + fault_words(stopped("drive-hot")));
-  EXPECT_CONTAINS(end_words(AttemptStatus::kVoid, none, "run", true), "the deadman was opened");
-  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, "run", true), "the exercise did not end within its time");
-  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, "homed", false),
+  EXPECT_CONTAINS(end_words(AttemptStatus::kVoid, none, LoopState::kActive, true), "the deadman was opened");
+  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, LoopState::kActive, true),
+            "the exercise did not end within its time");
+  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, LoopState::kHomed, false),
             "the exercise never began: the device was homed, waiting for the deadman to be closed");
-  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, "self-test", false),
+  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, LoopState::kSelfTest, false),
             "the exercise never began: the device was self-test");
   for (const AttemptStatus graded : {AttemptStatus::kCompleted, AttemptStatus::kTimeout}) {
-    EXPECT_EQ(end_words(graded, stopped("drive-hot"), "run", true), "") << status_name(graded);
+    EXPECT_EQ(end_words(graded, stopped("drive-hot"), LoopState::kActive, true), "") << status_name(graded);
   }
 }
 

@@ -160,9 +160,9 @@ TEST(AttemptRunner, AMarkedMomentIsAnEventOfTheRecordingAndChangesNothingElse) {
   const AttemptResult kept = stored_attempt(folder.database());
   std::vector<double> marked, messages;
   for (const Event& event : kept.events)
-    if (event.type == kBookmark) marked.push_back(event.t_s);
+    if (event.type == event_type::kMarked) marked.push_back(event.t_s);
   for (const Event& event : kept.events)
-    if (event.type == kMessageMark) messages.push_back(event.t_s);
+    if (event.type == event_type::kMessage) messages.push_back(event.t_s);
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_NEAR(messages[0], before_s, 0.25);
   ASSERT_EQ(marked.size(), 2u);

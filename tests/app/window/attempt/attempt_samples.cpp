@@ -67,19 +67,20 @@ AttemptResult graded(const Exercise& exercise, const std::string& level_name,
 void put_caps(AttemptResult& result, const Exercise& exercise, int done, int total) {
   const Rubric& rubric = level_named(exercise, result.level)->rubric;
   Grade& grade = result.grade;
-  const auto cap = [&](double at_most, const std::string& why) {
-    grade.score = std::min(*grade.score, at_most);
-    grade.caps.push_back(why);
+  const auto apply = [&](const Cap& cap) {
+    grade.score = std::min(*grade.score, cap.at_most);
+    grade.caps.push_back(cap);
     grade.passed = false;
     grade.grade = "below pass";
   };
   for (const Subscore& s : grade.subscores)
-    if (s.gate && s.value < 0.5) cap(rubric.gate_cap, "safety: " + s.name + " below 0.5: at most 59");
+    if (s.gate && s.value < 0.5)
+      apply({.kind = CapKind::kGate, .subject = s.name, .below = 0.5, .at_most = rubric.gate_cap});
   for (const Event& e : result.events)
-    if (e.severity == Severity::kCritical) cap(rubric.critical_cap, "critical event: at most 49");
+    if (e.severity == Severity::kCritical) apply({.kind = CapKind::kCritical, .at_most = rubric.critical_cap});
   if (done >= 0)
-    cap(rubric.unfinished_cap * done / total,
-        "not finished: " + std::to_string(done) + " of " + std::to_string(total) + ": at most 9");
+    apply(
+        {.kind = CapKind::kUnfinished, .done = done, .total = total, .at_most = rubric.unfinished_cap * done / total});
 }
 
 Event event(double t_s, const std::string& type, Severity severity, double value, const std::string& unit) {

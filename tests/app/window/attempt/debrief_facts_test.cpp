@@ -131,6 +131,15 @@ TEST_F(DebriefFactsTest, TimeOutSaysHowMuchWasDone) {
   EXPECT_GT(facts(result).lost_to_caps, 50);
 }
 
+TEST_F(DebriefFactsTest, WhatCapsTheScoreIsSaidInTheLanguage) {
+  const Translator german(TROCAR_SOURCE_DIR "/assets/languages", "de");
+  AttemptResult result = graded(touch_, "L1", {{"excess_events", 4}});
+  put_caps(result, touch_, 7, 12);
+  const DebriefFacts f = debrief_facts(german, result, touch_);
+  EXPECT_EQ(f.reason, "Zu viel Kraft: 4; zum Bestehen: höchstens 3.");
+  EXPECT_EQ(f.more, (std::vector<std::string>{"Nicht fertig: 7 von 12 geschafft."}));
+}
+
 TEST_F(DebriefFactsTest, BelowThePassLineTheLargestLossIsTheReason) {
   const AttemptResult result = graded(touch_, "L1", {{"wrong_places", 6}, {"in_band_share", 0.7}});
   const DebriefFacts f = facts(result);
@@ -276,7 +285,7 @@ TEST(DebriefCutOff, SaysThatTheProgramEndedNotThatThePersonLeft) {
   AttemptResult result;
   result.level = "L1";
   result.grade.status = AttemptStatus::kAborted;
-  result.integrity = "its program ended before the attempt did";
+  result.cut_off = true;
   EXPECT_EQ(debrief_facts(Translator(), result, touch).reason,
             "The attempt was cut off with its program, so there is no score. It counts as not passed.");
 }

@@ -33,7 +33,7 @@ void tell(const Played& played) {
               played.grade.score.value_or(-1), played.outcome.events.empty() ? 0 : played.outcome.events.back().t_s);
   for (const Subscore& s : played.grade.subscores)
     std::printf("  %-16s %3.0f %%  raw %.3f %s\n", s.name.c_str(), 100 * s.value, s.raw.value_or(-1), s.unit.c_str());
-  for (const std::string& cap : played.grade.caps) std::printf("  cap %s\n", cap.c_str());
+  for (const Cap& cap : played.grade.caps) std::printf("  cap %s\n", cap_sentence(cap).c_str());
 }
 
 TEST(MousePlayer, SurfaceTouchCanBePlayedByMouseAlone) {

@@ -181,15 +181,6 @@ TEST(Catalogues, HaveLettersOfTheFontOnly) {
   }
 }
 
-TEST(Catalogues, HaveWhatCapsAScore) {
-  for (const Translator& words : translated()) {
-    for (const char* cap : {"safety: force in band below 0.5: at most 59", "critical event: at most 49",
-                            "not finished: 7 of 12: at most 28.6"})
-      EXPECT_NE(words.made(cap), cap);
-    EXPECT_TRUE(words.missing().empty());
-  }
-}
-
 TEST(SentenceScan, ReadsLiteralsAsTheCompilerJoinsThem) {
   const std::string code = "f(\"a \" // \"no\"\n  \"b\", 'x', '\"', \"c\\\"d\"); /* \"no\" */ g(R\"(raw \"q\")\");";
   std::vector<std::string> texts;

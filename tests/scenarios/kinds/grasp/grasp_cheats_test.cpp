@@ -127,9 +127,9 @@ TEST(GraspCheats, AnotherOrderGainsNothing) {
   }
 }
 
-bool has_cap(const Grade& grade, const std::string& reason) {
-  return std::any_of(grade.caps.begin(), grade.caps.end(),
-                     [&](const std::string& cap) { return cap.find(reason) != std::string::npos; });
+const Cap* cap_of(const Grade& grade, CapKind kind) {
+  const auto at = std::find_if(grade.caps.begin(), grade.caps.end(), [&](const Cap& cap) { return cap.kind == kind; });
+  return at == grade.caps.end() ? nullptr : &*at;
 }
 
 TEST(GraspCheats, SweepingTheBoardEmptyEarnsNothing) {
@@ -142,7 +142,9 @@ TEST(GraspCheats, SweepingTheBoardEmptyEarnsNothing) {
   EXPECT_FALSE(value_of(grade.metrics, "grip_window_share").has_value());
   EXPECT_FALSE(grade.passed);
   EXPECT_EQ(grade.score.value(), 0);
-  EXPECT_TRUE(has_cap(grade, "not finished: 0 of 6")) << grade.caps.size();
+  const Cap* undone = cap_of(grade, CapKind::kUnfinished);
+  ASSERT_TRUE(undone);
+  EXPECT_EQ(cap_sentence(*undone), "not finished: 0 of 6: at most 0");
 }
 
 TEST(GraspCheats, PlacingTheEasyOnesAndLosingTheRestIsUnfinished) {
@@ -153,8 +155,11 @@ TEST(GraspCheats, PlacingTheEasyOnesAndLosingTheRestIsUnfinished) {
     const Grade grade = bench.grade();
     EXPECT_LE(grade.score.value(), 49.0 * placed / 6 + 1e-12) << placed;
     EXPECT_FALSE(grade.passed);
-    EXPECT_TRUE(has_cap(grade, "critical event"));
-    EXPECT_TRUE(has_cap(grade, "not finished: " + std::to_string(placed) + " of 6"));
+    EXPECT_TRUE(cap_of(grade, CapKind::kCritical));
+    const Cap* undone = cap_of(grade, CapKind::kUnfinished);
+    ASSERT_TRUE(undone);
+    EXPECT_EQ(undone->done, placed);
+    EXPECT_EQ(undone->total, 6);
   }
 }
 

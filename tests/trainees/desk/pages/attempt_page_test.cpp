@@ -44,7 +44,7 @@ TEST(Verdict, ReasonsInTheirOrder) {
   EXPECT_EQ(verdict_reason(view), "Tissue torn at 41.0 s: 6.1 N.");
   view.result.events.pop_back();
   EXPECT_EQ(verdict_reason(view), "Safety gate not met. In band: 0.58 (full at 1, none at 0.3).");
-  view.result.grade.caps = {"not finished: 7 of 12: at most 28.6"};
+  view.result.grade.caps = {{.kind = CapKind::kUnfinished, .done = 7, .total = 12, .at_most = 28.6}};
   view.result.grade.status = AttemptStatus::kTimeout;
   EXPECT_EQ(verdict_reason(view), "Time ran out, not finished: 7 of 12: at most 28.6.");
   view.result.grade.caps.clear();
@@ -182,7 +182,7 @@ TEST(AttemptPage, HostileTextsAndManyEvents) {
   r.uuid = r.exercise_id = r.level = r.trainee = r.hand = r.started_utc = r.organ_name = r.organ_credit = r.integrity =
       r.state_hash = kHostile;
   r.grade.grade = kHostile;
-  r.grade.caps = {kHostile};
+  r.grade.caps = {{.kind = CapKind::kVoid, .subject = kHostile}};
   for (Metric& m : r.grade.metrics) m.name = m.unit = kHostile;
   for (Subscore& s : r.grade.subscores) s.name = s.unit = kHostile;
   for (int i = 0; i < 10000; ++i)

@@ -173,7 +173,7 @@ AttemptView sample_attempt(double score, double peak_n) {
   r.grade.subscores = {{"in_band", 0.4, 0.35, 0.58, "share", 1, 0.3, true},
                        {"excess", 0.5, 0.25, 3.0, "count", 0, 6, true},
                        {"time", 0.9, 0.4, 36, "s", 30, 90, false}};
-  if (!r.grade.passed) r.grade.caps = {"safety: in_band below 0.5: at most 59"};
+  if (!r.grade.passed) r.grade.caps = {{.kind = CapKind::kGate, .subject = "in_band", .below = 0.5, .at_most = 59}};
   r.grade.metrics = {
       {"time_s", 60, "s"}, {"force_max_n", peak_n, "N"}, {"path_m", 0.377, "m"}, {"tremor", std::nullopt, "mm"}};
   r.events = {{12.5, "TARGET_HELD", Severity::kInfo, 0, 1.1, "N", Vec3(0.01, 0, 0)},

@@ -25,42 +25,43 @@ std::vector<std::string> faults(const AttemptView& view) {
   return out;
 }
 
-using Translator = std::vector<std::string>;
+using Lines = std::vector<std::string>;
 
 TEST(SignChecklist, ACleanAttemptHasFiveLinesInOrder) {
   const auto checks = sign_checks(clean_attempt());
   EXPECT_EQ(checks.size(), 5U);
-  EXPECT_EQ(faults(clean_attempt()), Translator{});
+  EXPECT_EQ(faults(clean_attempt()), Lines{});
 }
 
 TEST(SignChecklist, EachLineTurnsWithItsOwnFault) {
   AttemptView view = clean_attempt();
   view.result.grade.status = AttemptStatus::kTimeout;
-  EXPECT_EQ(faults(view), Translator{std::string("Not finished: ") + status_name(AttemptStatus::kTimeout)});
+  EXPECT_EQ(faults(view), Lines{std::string("Not finished: ") + status_name(AttemptStatus::kTimeout)});
   view = clean_attempt();
   view.result.events.push_back({41, "TISSUE_TORN", Severity::kCritical, -1, 6.1, "N", Vec3::Zero()});
-  EXPECT_EQ(faults(view), Translator{"1 critical event"});
+  EXPECT_EQ(faults(view), Lines{"1 critical event"});
   view = clean_attempt();
-  view.result.grade.caps = {"safety: in_band below 0.5: at most 59", "not finished: 7 of 12: at most 28.6"};
-  EXPECT_EQ(faults(view), Translator{"1 safety gate not met"});
+  view.result.grade.caps = {{.kind = CapKind::kGate, .subject = "in_band", .below = 0.5, .at_most = 59},
+                            {.kind = CapKind::kUnfinished, .done = 7, .total = 12, .at_most = 28.6}};
+  EXPECT_EQ(faults(view), Lines{"1 safety gate not met"});
   view = clean_attempt();
   view.result.device.ticks = 1000;
   view.result.device.overruns = 10;
-  EXPECT_EQ(faults(view), Translator{});
+  EXPECT_EQ(faults(view), Lines{});
   view.result.device.overruns = 11;
-  EXPECT_EQ(faults(view), Translator{"Device late: 11 of 1000 ticks missed"});
+  EXPECT_EQ(faults(view), Lines{"Device late: 11 of 1000 ticks missed"});
   view.late_share = 0.02;
-  EXPECT_EQ(faults(view), Translator{});
+  EXPECT_EQ(faults(view), Lines{});
   view.result.device.saturated_contact_share = 0.06;
   EXPECT_EQ(faults(view).at(0).substr(0, 26), "Forces were not all felt: ");
   view.result.device.fault = "encoder jump";
-  EXPECT_EQ(faults(view), Translator{"The device reported a fault: encoder jump"});
+  EXPECT_EQ(faults(view), Lines{"The device reported a fault: encoder jump"});
   view = clean_attempt();
   view.trace.reset();
   view.no_trace = "its recording was erased";
-  EXPECT_EQ(faults(view), Translator{"No recording to look at: its recording was erased"});
+  EXPECT_EQ(faults(view), Lines{"No recording to look at: its recording was erased"});
   view.result.integrity = "aborted: window closed";
-  EXPECT_EQ(faults(view), Translator{"Remark in the record: aborted: window closed"});
+  EXPECT_EQ(faults(view), Lines{"Remark in the record: aborted: window closed"});
 }
 
 TEST(SignChecklist, WithoutAGateItSaysSo) {

@@ -64,7 +64,7 @@ std::map<std::pair<std::string, CurveKey>, Slow> the_slow_way(Database& database
       record.critical_events += event.severity == Severity::kCritical ? 1 : 0;
       slow.over += event.type == "EXCESS_FORCE" || event.type == "CRITICAL_FORCE" ? 1 : 0;
     }
-    for (const std::string& cap : result.grade.caps) record.failed_gates += cap.starts_with("safety: ") ? 1 : 0;
+    for (const Cap& cap : result.grade.caps) record.failed_gates += cap.kind == CapKind::kGate ? 1 : 0;
     slow.safety.push_back(record);
   }
   return out;

@@ -81,6 +81,16 @@ TEST_F(TableExport, WritesOneFileATable) {
   EXPECT_EQ(table(out, "overrides").size(), 1u + 1);
 }
 
+TEST_F(TableExport, CapsOfEveryKindAreSentences) {
+  const AttemptResult result = capped_result();
+  const AttemptId id = store_attempt(database_, sample_start("C"), result);
+  const CsvTable caps = table(csv({.trainee = "C"}), "caps");
+  ASSERT_EQ(caps.size(), 5u);
+  EXPECT_EQ(caps[0], (std::vector<std::string>{"attempt_uuid", "reason"}));
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(caps[i + 1], (std::vector<std::string>{id.uuid, cap_sentence(result.grade.caps[i])}));
+}
+
 TEST_F(TableExport, AttemptsHaveEveryColumn) {
   const CsvTable attempts = table(csv(), "attempts");
   const AttemptResult stored = AttemptStore(database_).load(first_.row);
@@ -247,7 +257,7 @@ TEST_F(TableExport, TheDocumentHoldsTheSame) {
   EXPECT_TRUE(one["metrics"][2]["value"].is_null());
   EXPECT_EQ(one["events"][0]["t_s"], 1.0 / 3);
   EXPECT_EQ(one["subscores"].size(), 2u);
-  EXPECT_EQ(one["caps"][0]["reason"], "critical event: EXCESS_FORCE at 12.0 s");
+  EXPECT_EQ(one["caps"][0]["reason"], "critical event: at most 49");
   EXPECT_EQ(one["notes"][0]["text"], "=cmd|' /C calc'!A0\nsecond line, \"quoted\"") << "JSON needs no apostrophe";
   EXPECT_EQ(one["signatures"][0]["signer"], kTeacher.printed);
   EXPECT_EQ(all["attempts"][1]["overrides"][0]["passed"], true);

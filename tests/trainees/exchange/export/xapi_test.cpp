@@ -150,7 +150,7 @@ TEST(XapiStatement, OddNamesStayIris) {
   attempt.result.exercise_version = "";
   attempt.result.level = "L 1";
   attempt.title.clear();
-  attempt.result.grade.caps = {"caf\xE9 is no UTF-8"};
+  attempt.result.grade.caps = {{.kind = CapKind::kVoid, .subject = "caf\xE9 is no UTF-8"}};
   const json s = statement_of(attempt);
   EXPECT_EQ(s["object"]["id"], "https://trocar.invalid/xapi/exercise/my%20exercise%2F%3C2%3E%22é%3F%23%25/-/L%201");
   EXPECT_EQ(s["object"]["definition"]["name"]["en"], attempt.result.exercise_id);
@@ -223,7 +223,7 @@ TEST(Cmi5, SpeaksAsTheLaunchAsks) {
 TEST(Cmi5, TheLaunchsMasteryScoreHolds) {
   const auto verdict = [](double score, std::optional<double> mastery, bool capped) {
     XapiAttempt attempt = sample_xapi(score);
-    if (capped) attempt.result.grade.caps = {"safety: gate"};
+    if (capped) attempt.result.grade.caps = {{.kind = CapKind::kGate, .subject = "gate", .below = 0.5, .at_most = 59}};
     return sound(cmi5_statements(attempt, sample_launch(mastery)).back());
   };
   EXPECT_EQ(verb_of(verdict(81.25, 0.9, false)), "failed") << "above our mark, below theirs";

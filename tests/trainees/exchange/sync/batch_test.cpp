@@ -152,6 +152,17 @@ TEST_F(Stations, ExtremeNumbersComeBackToTheBit) {
   }
 }
 
+TEST_F(Stations, CapsOfEveryKindComeBackAsTheyWere) {
+  Database database = station("a");
+  store_attempt(database, sample_start(), capped_result());
+  push(database);
+  Database desk = station("desk");
+  EXPECT_EQ(replicate_central(desk, central_).problems, std::vector<std::string>{});
+  EXPECT_EQ(desk.check(), std::vector<std::string>{});
+  const AttemptStore there(desk);
+  EXPECT_EQ(there.load(there.latest()->row).grade.caps, capped_result().grade.caps);
+}
+
 TEST_F(Stations, TextThatIsNoUtf8IsNamedAndNothingGoes) {
   Database database = station("a");
   practise(database, "T-a", 1);

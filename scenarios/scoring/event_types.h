@@ -1,0 +1,42 @@
+// The types of events that are graded or that every kind of exercise has; docs/scoring.md says when each happens and
+// what its value is. What a kind alone logs and no metric counts stands in its room (scenarios/kinds).
+//
+// Records hold the name: they may come from a program that knows more types than this one.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace trocar {
+
+/// What is logged and asked for. A literal does not turn into one, so that a misspelled type does not compile.
+struct EventType {
+  std::string_view name;
+
+  friend constexpr bool operator==(std::string_view recorded, EventType type) { return recorded == type.name; }
+};
+
+namespace event_type {
+
+// The director
+inline constexpr EventType kStart{"START"}, kDone{"DONE"}, kTimeout{"TIMEOUT"}, kDeadmanOpen{"DEADMAN_OPEN"},
+    kDeviceFault{"DEVICE_FAULT"};
+// Its safety watch
+inline constexpr EventType kExcessForce{"EXCESS_FORCE"}, kCriticalForce{"CRITICAL_FORCE"},
+    kToolCollision{"TOOL_COLLISION"}, kDeviceLimit{"DEVICE_LIMIT"}, kClutch{"CLUTCH"}, kPortHold{"PORT_HOLD"};
+// Every kind of exercise
+inline constexpr EventType kTargetLit{"TARGET_LIT"}, kTargetHeld{"TARGET_HELD"};
+// Touch
+inline constexpr EventType kTargetTouched{"TARGET_TOUCHED"}, kWrongPlace{"WRONG_PLACE"}, kGripTouched{"GRIP_TOUCHED"},
+    kGripExcess{"GRIP_EXCESS"}, kGripHeld{"GRIP_HELD"};
+// Reach
+inline constexpr EventType kPositionError{"POSITION_ERROR"}, kAngleError{"ANGLE_ERROR"},
+    kTargetTimeout{"TARGET_TIMEOUT"};
+// Grasp
+inline constexpr EventType kRegrasp{"REGRASP"}, kLifted{"LIFTED"}, kSetDown{"SET_DOWN"}, kSlip{"SLIP"}, kCrush{"CRUSH"},
+    kDrop{"DROP"}, kMisplaced{"MISPLACED"};
+// Persons: nobody grades these, and running the recording again does not make them
+inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
+
+}  // namespace event_type
+}  // namespace trocar
