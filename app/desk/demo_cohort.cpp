@@ -146,7 +146,7 @@ bool perform_all(std::vector<Planned>& planned, const DemoCohortOptions& options
 }
 
 /// By the same invented clock as the beginning: as long afterwards as the loop ran.
-std::string ended(const std::string& started_utc, const DeviceReceipt& device) {
+std::string ended(const std::string& started_utc, const RunReport& device) {
   const double ran_s = device.rate_hz > 0 ? static_cast<double>(device.ticks) / device.rate_hz : 0;
   const auto started =
       std::chrono::system_clock::from_time_t(static_cast<std::time_t>(seconds_of_utc(started_utc).value_or(0)));

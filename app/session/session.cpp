@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/grading/device_words.h"
-#include "app/session/grading/realtime_receipt.h"
+#include "app/session/grading/realtime_report.h"
 #include "app/session/grading/recorded_result.h"
 #include "app/session/lanes/force_sensor_task.h"
 #include "app/session/lanes/hand_task.h"
@@ -280,7 +280,7 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
   end.state_hash = out.state_hash;
   end.status = out.status;
   end.summary_json = out.scoring_json;
-  writer.close(end, receipt_json(out.device));
+  writer.close(end, run_report_json(out.device));
   return out;
 }
 
@@ -343,7 +343,7 @@ Grade grade_recording(const Recording& recording, const std::string& name, const
   return score_attempt(trace, recording.events, rubric, context);
 }
 
-void fill_shares(const Recording& recording, DeviceReceipt& device) {
+void fill_shares(const Recording& recording, RunReport& device) {
   std::uint64_t contact = 0, saturated = 0, passivity = 0;
   for (const RecordedTick& row : recording.ticks) {
     if (!(row.flags & kFlagContact)) continue;

@@ -67,7 +67,7 @@ struct SessionHooks {
 struct SessionOutcome {
   AttemptStatus status = AttemptStatus::kAborted;
   std::vector<Event> events;
-  DeviceReceipt device;
+  RunReport device;
   std::string safety_csv;  ///< the loop's memory of a stop (recorder/safety_file.h), empty without one
   std::uint64_t state_hash = 0;
   std::string state_hash_hex;
@@ -105,7 +105,7 @@ Backend setup_backend(const AttemptSetup& setup);
 /// @param rubric_of exercise whose rubric to use; nullptr: the one embedded in the recording.
 Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of = nullptr);
 
-/// Saturation and passivity shares, as the receipt states them, from the decoded trace.
-void fill_shares(const Recording& recording, DeviceReceipt& device);
+/// Saturation and passivity shares, as the run report states them, from the decoded trace.
+void fill_shares(const Recording& recording, RunReport& device);
 
 }  // namespace trocar

@@ -52,7 +52,7 @@ struct DeviceTransition {
 
 /// How stiff the contacts were at the stylus beside K_max, what the device can display there
 /// (haptics/contact/stiffness_limit.h).
-struct StiffnessReceipt {
+struct StiffnessReport {
   bool recorded = false;            ///< recordings before format 3 do not say
   bool clamped = false;             ///< contacts stiffer than K_max were weakened to it
   std::uint64_t contact_ticks = 0;  ///< that felt a spring; what follows holds only with some
@@ -62,8 +62,8 @@ struct StiffnessReceipt {
   double above_share = 0;        ///< of the contact ticks: asked for more than K_max
 };
 
-/// Loop quality of the attempt (the device receipt).
-struct DeviceReceipt {
+/// Loop quality of the attempt (the run report).
+struct RunReport {
   std::string backend;
   double rate_hz = 0;
   std::uint64_t ticks = 0;
@@ -72,7 +72,7 @@ struct DeviceReceipt {
   double passivity_active_share = 0;   ///< of contact ticks
   double min_energy_j = 0;
   double kappa = 1;
-  StiffnessReceipt stiffness;
+  StiffnessReport stiffness;
   /// The force was not rendered when the device lacked room in over 5 % of the contact time.
   bool force_not_rendered() const { return saturated_contact_share > 0.05; }
   std::string fault;         ///< cause of the first one, empty when none
@@ -94,7 +94,7 @@ struct AttemptResult {
   std::string trainee, hand;
   Grade grade;
   std::vector<Event> events;
-  DeviceReceipt device;
+  RunReport device;
   std::string safety_log_path;  ///< empty when nothing stopped the device
   std::string organ_name, organ_source, organ_sha256;
   bool organ_synthetic = false;

@@ -122,7 +122,7 @@ std::string stiffness_plot_svg(const Trace& trace) {
   return out + legend() + "</svg>";
 }
 
-std::string stiffness_words(const StiffnessReceipt& s) {
+std::string stiffness_words(const StiffnessReport& s) {
   if (!s.recorded) return "";
   const std::string clamp = s.clamped ? "The clamp was on: " : "The clamp was off: ";
   if (s.contact_ticks == 0) return clamp + "nothing was touched.";

@@ -25,6 +25,6 @@ std::vector<StiffnessColumn> stiffness_columns(const Trace& trace, int columns);
 std::string stiffness_plot_svg(const Trace& trace);
 
 /// One sentence: what the numbers mean for the attempt. @return empty when the recording does not say.
-std::string stiffness_words(const StiffnessReceipt& stiffness);
+std::string stiffness_words(const StiffnessReport& stiffness);
 
 }  // namespace trocar

@@ -69,7 +69,7 @@ void insert_grade(sqlite3* connection, std::int64_t score, const Grade& grade) {
   insert_caps(connection, score, grade.caps);
 }
 
-void insert_device_rows(sqlite3* connection, std::int64_t attempt, const DeviceReceipt& device) {
+void insert_device_rows(sqlite3* connection, std::int64_t attempt, const RunReport& device) {
   sql::Statement warning(connection, "INSERT INTO device_warning VALUES (?, ?, ?, ?, ?)");
   std::int64_t position = 0;
   for (const DeviceWarning& row : device.warnings) {
@@ -90,7 +90,7 @@ void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& 
       " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
       " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
       " kappa = ?, device_fault = ?, device_realtime = ? WHERE id = ?");
-  const DeviceReceipt& device = result.device;
+  const RunReport& device = result.device;
   update.bind(ended_utc).bind(result.integrity).bind(result.cut_off);
   update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
   update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
@@ -112,7 +112,7 @@ std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {
   return events;
 }
 
-void read_device_rows(sqlite3* connection, std::int64_t attempt, DeviceReceipt& device) {
+void read_device_rows(sqlite3* connection, std::int64_t attempt, RunReport& device) {
   sql::Statement warnings(connection,
                           "SELECT name, first_s, ticks FROM device_warning WHERE attempt_id = ? ORDER BY position");
   warnings.bind(attempt);

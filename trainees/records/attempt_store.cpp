@@ -129,8 +129,8 @@ constexpr const char* kResultColumns =
     " FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
     " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?";
 
-DeviceReceipt receipt_of(const sql::Statement& row) {
-  DeviceReceipt device;
+RunReport run_report_of(const sql::Statement& row) {
+  RunReport device;
   device.backend = row.text(12);
   device.rate_hz = row.real(13);
   device.ticks = static_cast<std::uint64_t>(row.integer(14));
@@ -158,7 +158,7 @@ AttemptResult result_of(const sql::Statement& row, const fs::path& database) {
   result.grade.score = row.optional_real(9);
   result.grade.passed = row.integer(10) != 0;
   result.grade.grade = row.text(11);
-  result.device = receipt_of(row);
+  result.device = run_report_of(row);
   result.organ_name = row.text(21);
   result.organ_source = row.text(22);
   result.organ_sha256 = row.text(23);

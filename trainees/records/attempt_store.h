@@ -92,8 +92,8 @@ class AttemptStore {
   void finish_attempt(const AttemptId& id, const AttemptResult& result, const std::string& finished_utc = "");
 
   /// The stored result. What has no column comes back empty: safety_log_path, and of the device force_sensor,
-  /// stiffness, reason and where the fault was; the recording's receipt keeps those of the device. @throws InputError:
-  /// unknown, or still running.
+  /// stiffness, reason and where the fault was; the recording's run report keeps those of the device. @throws
+  /// InputError: unknown, or still running.
   AttemptResult load(std::int64_t row) const;
   AttemptResult load(std::string_view name) const { return load(find(name).row); }
 

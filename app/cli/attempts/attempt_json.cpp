@@ -48,31 +48,31 @@ Json metrics(const Grade& grade) {
   return table;
 }
 
-Json warnings(const DeviceReceipt& receipt) {
+Json warnings(const RunReport& run_report) {
   Json list = Json::array();
-  for (const DeviceWarning& w : receipt.warnings) {
+  for (const DeviceWarning& w : run_report.warnings) {
     list.push_back({{"name", w.name}, {"first_s", number(w.first_s)}, {"ticks", w.ticks}});
   }
   return list;
 }
 
-Json transitions(const DeviceReceipt& receipt) {
+Json transitions(const RunReport& run_report) {
   Json list = Json::array();
-  for (const DeviceTransition& t : receipt.transitions) {
+  for (const DeviceTransition& t : run_report.transitions) {
     list.push_back({{"t_s", number(t.t_s)}, {"from", t.from}, {"to", t.to}});
   }
   return list;
 }
 
-Json fault_detail(const DeviceReceipt& receipt) {
-  if (receipt.fault.empty()) return nullptr;
-  return {{"cause", receipt.fault},
-          {"channel", receipt.fault_channel < 0 ? Json(nullptr) : Json(receipt.fault_channel)},
-          {"first_s", number(receipt.fault_s)},
-          {"value", number(receipt.fault_value)}};
+Json fault_detail(const RunReport& run_report) {
+  if (run_report.fault.empty()) return nullptr;
+  return {{"cause", run_report.fault},
+          {"channel", run_report.fault_channel < 0 ? Json(nullptr) : Json(run_report.fault_channel)},
+          {"first_s", number(run_report.fault_s)},
+          {"value", number(run_report.fault_value)}};
 }
 
-void add_stiffness(Json& json, const StiffnessReceipt& stiffness) {
+void add_stiffness(Json& json, const StiffnessReport& stiffness) {
   const bool touched = stiffness.contact_ticks > 0;
   const auto measured = [&](double value) { return touched ? number(value) : Json(nullptr); };
   json["stiffness_clamp"] = stiffness.recorded ? Json(stiffness.clamped) : Json(nullptr);
@@ -84,24 +84,24 @@ void add_stiffness(Json& json, const StiffnessReceipt& stiffness) {
   json["above_k_max_share"] = measured(stiffness.above_share);
 }
 
-Json device(const DeviceReceipt& receipt) {
-  Json json = {{"backend", receipt.backend},
-               {"rate_hz", number(receipt.rate_hz)},
-               {"ticks", receipt.ticks},
-               {"overruns", receipt.overruns},
-               {"saturated_contact_share", number(receipt.saturated_contact_share)},
-               {"force_not_rendered", receipt.force_not_rendered()},
-               {"passivity_active_share", number(receipt.passivity_active_share)},
-               {"min_energy_j", number(receipt.min_energy_j)},
-               {"kappa", number(receipt.kappa)},
-               {"fault", receipt.fault.empty() ? Json(nullptr) : Json(receipt.fault)},
-               {"fault_detail", fault_detail(receipt)},
-               {"warnings", warnings(receipt)},
-               {"transitions", transitions(receipt)}};
-  add_stiffness(json, receipt.stiffness);
-  if (!receipt.force_sensor.empty()) json["force_sensor"] = Json::parse(receipt.force_sensor);
-  if (!receipt.plant.empty()) json["plant"] = Json::parse(receipt.plant);
-  if (!receipt.realtime.empty()) json["realtime"] = Json::parse(receipt.realtime);
+Json device(const RunReport& run_report) {
+  Json json = {{"backend", run_report.backend},
+               {"rate_hz", number(run_report.rate_hz)},
+               {"ticks", run_report.ticks},
+               {"overruns", run_report.overruns},
+               {"saturated_contact_share", number(run_report.saturated_contact_share)},
+               {"force_not_rendered", run_report.force_not_rendered()},
+               {"passivity_active_share", number(run_report.passivity_active_share)},
+               {"min_energy_j", number(run_report.min_energy_j)},
+               {"kappa", number(run_report.kappa)},
+               {"fault", run_report.fault.empty() ? Json(nullptr) : Json(run_report.fault)},
+               {"fault_detail", fault_detail(run_report)},
+               {"warnings", warnings(run_report)},
+               {"transitions", transitions(run_report)}};
+  add_stiffness(json, run_report.stiffness);
+  if (!run_report.force_sensor.empty()) json["force_sensor"] = Json::parse(run_report.force_sensor);
+  if (!run_report.plant.empty()) json["plant"] = Json::parse(run_report.plant);
+  if (!run_report.realtime.empty()) json["realtime"] = Json::parse(run_report.realtime);
   return json;
 }
 

@@ -100,7 +100,7 @@ void say_beginning(const Scene& scene, std::ostream& err) {
 }
 
 /// How the contacts stood to what the device can display; nothing when nothing was touched or nothing is known.
-void print_stiffness(const StiffnessReceipt& s, std::ostream& out) {
+void print_stiffness(const StiffnessReport& s, std::ostream& out) {
   if (s.contact_ticks == 0) return;
   out << std::setprecision(0) << "contact  up to " << s.asked_max_n_per_m << " N/m asked of the device, K_max "
       << s.k_max_min_n_per_m << " to " << s.k_max_max_n_per_m << " N/m, above it for " << 100 * s.above_share

@@ -49,7 +49,7 @@ std::string number(double value, const char* format) {
 
 }  // namespace
 
-std::string fault_words(const DeviceReceipt& device) {
+std::string fault_words(const RunReport& device) {
   if (device.fault.empty()) return "";
   std::string out = device.fault;
   if (device.fault_channel >= 0) out += " on channel " + std::to_string(device.fault_channel);
@@ -61,7 +61,7 @@ std::string fault_words(const DeviceReceipt& device) {
   return out + ": " + what + ". " + found->second.advice + "; then reset, home the device in its jig and start again.";
 }
 
-std::string end_words(AttemptStatus status, const DeviceReceipt& device, LoopState loop, bool reached_run) {
+std::string end_words(AttemptStatus status, const RunReport& device, LoopState loop, bool reached_run) {
   switch (status) {
     case AttemptStatus::kFault:
       return "device fault " + fault_words(device);

@@ -9,10 +9,10 @@
 namespace trocar {
 
 /// "encoder-jump on channel 2 at 3.001 s: the counter jumped by 1000 counts. Check ...". Empty without a fault.
-std::string fault_words(const DeviceReceipt& device);
+std::string fault_words(const RunReport& device);
 
 /// Why an attempt that was not graded ended, in a sentence. @param loop state of the device at the end.
 /// @param reached_run whether the clock of the exercise had begun.
-std::string end_words(AttemptStatus status, const DeviceReceipt& device, LoopState loop, bool reached_run);
+std::string end_words(AttemptStatus status, const RunReport& device, LoopState loop, bool reached_run);
 
 }  // namespace trocar

@@ -18,19 +18,19 @@ void DeviceAccount::add(const TickRecord& record) {
   fault_s_ = s.t_s;
 }
 
-void DeviceAccount::fill(DeviceReceipt& receipt) const {
-  receipt.ticks = ticks_;
-  receipt.overruns = missed_;
-  receipt.min_energy_j = min_energy_j_;
+void DeviceAccount::fill(RunReport& run_report) const {
+  run_report.ticks = ticks_;
+  run_report.overruns = missed_;
+  run_report.min_energy_j = min_energy_j_;
   for (std::size_t i = 0; i < kLoopWarnings.size(); ++i) {
     const Count& count = warnings_[i];
-    if (count.ticks > 0) receipt.warnings.push_back({warning_name(kLoopWarnings[i]), count.first_s, count.ticks});
+    if (count.ticks > 0) run_report.warnings.push_back({warning_name(kLoopWarnings[i]), count.first_s, count.ticks});
   }
   if (!fault_) return;
-  receipt.fault = fault_name(fault_.code);
-  receipt.fault_channel = fault_.channel;
-  receipt.fault_value = fault_.value;
-  receipt.fault_s = fault_s_;
+  run_report.fault = fault_name(fault_.code);
+  run_report.fault_channel = fault_.channel;
+  run_report.fault_value = fault_.value;
+  run_report.fault_s = fault_s_;
 }
 
 }  // namespace trocar

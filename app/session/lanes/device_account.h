@@ -1,4 +1,5 @@
-// What the receipt says of the device: missed periods, warnings, when the first fault came. Counted in the haptic task.
+// What the run report says of the device: missed periods, warnings, when the first fault came. Counted in the haptic
+// task.
 //
 // Thread: add() the haptic task's, no allocation; the rest when the run is over.
 #pragma once
@@ -16,7 +17,7 @@ class DeviceAccount {
  public:
   void add(const TickRecord& record);
   /// Ticks, missed periods (as `overruns`), lowest energy, warnings and fault.
-  void fill(DeviceReceipt& receipt) const;
+  void fill(RunReport& run_report) const;
 
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t missed() const { return missed_; }  ///< periods without a tick

@@ -1,7 +1,7 @@
 // The force sensor task (40 Hz) and what it compares: measured at the stylus against what the loop believes to deliver.
 //
 // The residual holds what the loop does not know: friction, inertia, errors of weight compensation and of the
-// amplifiers. It is stated in the receipt and reaches neither loop nor exercise. Delivered forces are delayed as the
+// amplifiers. It is stated in the run report and reaches neither loop nor exercise. Delivered forces are delayed as the
 // sensor delays. Threads: the tap beside the device, the sensor its own.
 #pragma once
 

@@ -26,7 +26,7 @@ bool known_type(std::uint32_t type) {
     case ChunkType::kHeader:
     case ChunkType::kTicks:
     case ChunkType::kEvents:
-    case ChunkType::kReceipt:
+    case ChunkType::kRunReport:
     case ChunkType::kSchedule:
     case ChunkType::kEnd:
       return true;

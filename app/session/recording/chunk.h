@@ -24,12 +24,12 @@ inline constexpr std::uint32_t kMaxChunkPayload = 1u << 26;  ///< 64 MiB: a long
 
 /// The four letters read in a hex dump.
 enum class ChunkType : std::uint32_t {
-  kHeader = 0x52444548,    // "HEDR"
-  kTicks = 0x4b434954,     // "TICK"
-  kEvents = 0x53545645,    // "EVTS"
-  kSchedule = 0x44484353,  // "SCHD"
-  kReceipt = 0x54504352,   // "RCPT"
-  kEnd = 0x21444e45,       // "END!"
+  kHeader = 0x52444548,     // "HEDR"
+  kTicks = 0x4b434954,      // "TICK"
+  kEvents = 0x53545645,     // "EVTS"
+  kSchedule = 0x44484353,   // "SCHD"
+  kRunReport = 0x54504352,  // "RCPT"
+  kEnd = 0x21444e45,        // "END!"
 };
 
 struct Chunk {

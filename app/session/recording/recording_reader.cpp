@@ -92,8 +92,8 @@ class Parser {
           return accept_ticks(chunk);
         case ChunkType::kEvents:
           return accept_events(chunk);
-        case ChunkType::kReceipt:
-          recording_.receipt_json = std::string(chunk.payload);
+        case ChunkType::kRunReport:
+          recording_.run_report_json = std::string(chunk.payload);
           return;
         case ChunkType::kSchedule:
           return accept_schedule(chunk);

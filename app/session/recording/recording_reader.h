@@ -23,7 +23,7 @@ struct Recording {
   std::uint32_t version = 0;        ///< of the format
   std::vector<RecordedTick> ticks;  ///< ticks increase; they may skip only where `damage` or the device says so
   std::vector<Event> events;
-  std::string receipt_json;         ///< opaque text given to close(), empty when cut off
+  std::string run_report_json;      ///< opaque text given to close(), empty when cut off
   Schedule schedule;                ///< empty in format 1
   std::optional<RecordingEnd> end;  ///< absent when the attempt was cut off
   std::string torn;                 ///< why there is no END, empty when the recording is complete

@@ -89,12 +89,12 @@ void RecordingWriter::flush() {
   if (!chunks.empty()) write(chunks);
 }
 
-void RecordingWriter::close(RecordingEnd end, std::string_view receipt_json) {
+void RecordingWriter::close(RecordingEnd end, std::string_view run_report_json) {
   flush();
   end.tick_count = tick_count_;
   end.event_count = event_count_;
-  const std::string receipt = receipt_json.empty() ? "" : make_chunk(ChunkType::kReceipt, receipt_json);
-  write(receipt + make_chunk(ChunkType::kEnd, encode_end(end)));
+  const std::string run_report = run_report_json.empty() ? "" : make_chunk(ChunkType::kRunReport, run_report_json);
+  write(run_report + make_chunk(ChunkType::kEnd, encode_end(end)));
   state_ = State::kClosed;
 }
 

@@ -58,8 +58,8 @@ class RecordingWriter {
   void append_events(std::span<const Event> events);
   /// Writes what is held now as chunks and synchronises.
   void flush();
-  /// Flushes, writes the receipt (opaque here, none when empty) and END. Nothing can be appended afterwards.
-  void close(RecordingEnd end, std::string_view receipt_json = {});
+  /// Flushes, writes the run report (opaque here, none when empty) and END. Nothing can be appended afterwards.
+  void close(RecordingEnd end, std::string_view run_report_json = {});
 
   std::uint64_t tick_count() const { return tick_count_; }
   /// SHA-256 of the bytes written so far: of the whole file once closed.

@@ -40,8 +40,8 @@ struct PaceLimits {
 };
 
 /// Live on the simulated device nobody holds a motor, and the machine may be busy with other things: a hole that would
-/// be a fault at a real device is tolerated, counted and stated in the receipt. At a quarter of a second, about what a
-/// person needs to react to what the eye sees, it is no longer the same task and a fault here too.
+/// be a fault at a real device is tolerated, counted and stated in the run report. At a quarter of a second, about what
+/// a person needs to react to what the eye sees, it is no longer the same task and a fault here too.
 inline constexpr PaceLimits kSimulatedLivePace{250, 0.25};
 
 struct AttemptSetup {

@@ -21,7 +21,7 @@ TruePlant true_plant(const std::filesystem::path& file, std::uint64_t seed);
 /// "plant file arm.toml, sha256 0123abcd": eight digits, enough to tell files apart.
 std::string plant_words(const PlantFile& plant);
 
-/// For a device's receipt: {"file": ..., "sha256": ...}.
+/// For a device's run report: {"file": ..., "sha256": ...}.
 std::string plant_json(const PlantFile& plant);
 
 }  // namespace trocar

@@ -51,7 +51,7 @@ class AttemptRunner {
   bool ready() const;
   /// Where the hand pulls to now: the newest intent, or what its speed has let it reach of that.
   const HandIntent& target();
-  /// Everything stands still, simulated device and clock of the exercise too; nothing is lost, and the receipt says
+  /// Everything stands still, simulated device and clock of the exercise too; nothing is lost, and the run report says
   /// when and how long. An exam has no pause. @return whether it is as asked.
   bool pause(bool paused);
   bool paused() const;

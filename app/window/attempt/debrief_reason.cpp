@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/session/grading/device_words.h"
-#include "app/session/grading/realtime_receipt.h"
+#include "app/session/grading/realtime_report.h"
 #include "scenarios/kinds/grasp/grasp_events.h"
 
 namespace trocar {

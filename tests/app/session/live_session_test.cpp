@@ -63,17 +63,17 @@ TEST(LiveSession, RepeatsToTheBitAndTellsTheSameStoryAsLockstep) {
   EXPECT_EQ(types(replayed.events), types(live.recording.events));
 }
 
-TEST(LiveSession, ItsReceiptSaysHowItWasPaced) {
+TEST(LiveSession, ItsRunReportSaysHowItWasPaced) {
   int ticks = 0;
   const Taken live = take(short_scene(true), [&] { return ++ticks > 50; });  // asked 50 times a second
-  const auto receipt = nlohmann::json::parse(live.outcome.device.realtime);
-  const auto& haptic = receipt.at("lanes").at("haptic");
+  const auto run_report = nlohmann::json::parse(live.outcome.device.realtime);
+  const auto& haptic = run_report.at("lanes").at("haptic");
   EXPECT_EQ(haptic.at("wakes"), live.outcome.device.ticks);
   EXPECT_EQ(haptic.at("missed"), live.outcome.device.overruns);
-  EXPECT_EQ(receipt.at("lost_records"), 0);
+  EXPECT_EQ(run_report.at("lost_records"), 0);
   for (const char* lane : {"haptic", "tissue", "force-sensor", "recorder"}) {
-    EXPECT_TRUE(receipt.at("lanes").at(lane).at("policy").is_string()) << lane;
-    EXPECT_GT(receipt.at("lanes").at(lane).at("wakes"), 0) << lane;
+    EXPECT_TRUE(run_report.at("lanes").at(lane).at("policy").is_string()) << lane;
+    EXPECT_GT(run_report.at("lanes").at(lane).at("wakes"), 0) << lane;
   }
   const bool fifo = haptic.at("policy") == "SCHED_FIFO 80";
   EXPECT_NE(fifo, haptic.contains("refused")) << "given, or the reason why not";

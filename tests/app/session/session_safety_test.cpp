@@ -90,7 +90,7 @@ TEST(SessionSafety, ASoundAttemptHasNoReasonAndKeepsNoStop) {
 
 TEST(DeviceWords, EveryFaultSaysWhatToDo) {
   for (int code = 1; std::string(fault_name(static_cast<FaultCode>(code))) != "unknown"; ++code) {
-    DeviceReceipt device;
+    RunReport device;
     device.fault = fault_name(static_cast<FaultCode>(code));
     device.fault_channel = 4;
     device.fault_s = 1.25;

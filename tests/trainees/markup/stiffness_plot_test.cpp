@@ -30,8 +30,8 @@ Trace two_touches() {
   return trace;
 }
 
-StiffnessReceipt receipt(bool clamped, double above) {
-  StiffnessReceipt s;
+StiffnessReport run_report(bool clamped, double above) {
+  StiffnessReport s;
   s.recorded = true;
   s.clamped = clamped;
   s.contact_ticks = 3000;
@@ -84,11 +84,11 @@ TEST(StiffnessPlot, SaysWhenNothingWasTouched) {
 
 TEST(StiffnessWords, FollowTheNumbers) {
   EXPECT_EQ(stiffness_words({}), "") << "an older recording";
-  const std::string off = stiffness_words(receipt(false, 0.34)), on = stiffness_words(receipt(true, 0.34));
+  const std::string off = stiffness_words(run_report(false, 0.34)), on = stiffness_words(run_report(true, 0.34));
   EXPECT_TRUE(has(off, "clamp was off") && has(off, "34 %") && has(off, "40 %") && has(off, "80 to 300 N/m")) << off;
   EXPECT_TRUE(has(on, "clamp was on") && has(on, "softer")) << on;
-  EXPECT_TRUE(has(stiffness_words(receipt(true, 0)), "None asked for more"));
-  StiffnessReceipt free = receipt(false, 0);
+  EXPECT_TRUE(has(stiffness_words(run_report(true, 0)), "None asked for more"));
+  StiffnessReport free = run_report(false, 0);
   free.contact_ticks = 0;
   EXPECT_TRUE(has(stiffness_words(free), "nothing was touched"));
 }

@@ -40,7 +40,7 @@ void expect_equal(const AttemptResult& back, const AttemptResult& result) {
               std::tie(b.t_s, b.type, b.severity, b.object, b.value, b.unit));
     EXPECT_EQ(a.tip_T, b.tip_T);
   }
-  const DeviceReceipt &a = back.device, &b = result.device;
+  const RunReport &a = back.device, &b = result.device;
   EXPECT_EQ(std::tie(a.backend, a.rate_hz, a.ticks, a.overruns, a.saturated_contact_share, a.passivity_active_share,
                      a.min_energy_j, a.kappa, a.fault, a.realtime),
             std::tie(b.backend, b.rate_hz, b.ticks, b.overruns, b.saturated_contact_share, b.passivity_active_share,

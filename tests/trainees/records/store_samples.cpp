@@ -48,7 +48,7 @@ AttemptResult sample_result(double score) {
   result.grade.caps = {{.kind = CapKind::kCritical, .at_most = 49}};
   result.events = {{1.0 / 3, "TARGET_HELD", Severity::kInfo, 2, 1.25, "N", Vec3(0.1, -0.2, 1e-17)},
                    {0.5, "EXCESS_FORCE", Severity::kCritical, -1, 6.5, "N", Vec3::Zero()}};
-  DeviceReceipt& device = result.device;
+  RunReport& device = result.device;
   device.backend = "simulated";
   device.rate_hz = 1000;
   device.ticks = 60000;

@@ -180,7 +180,7 @@ std::string metric_table(const AttemptView& view) {
 }
 
 std::string device_facts(const AttemptView& view) {
-  const DeviceReceipt& d = view.result.device;
+  const RunReport& d = view.result.device;
   std::string out = "<dl class=\"facts\">" + recorded("Device", d.backend) +
                     recorded("Loop", d.rate_hz > 0 ? number_text(d.rate_hz) + " Hz" : "") +
                     recorded("Ticks", std::to_string(d.ticks)) + recorded("Ticks missed", std::to_string(d.overruns)) +
@@ -201,7 +201,7 @@ std::string device_facts(const AttemptView& view) {
     rows += "<tr><th scope=\"row\">" + escape_html(w.name) + "</th>" + number_cell(fixed_text(w.first_s, 2) + " s") +
             number_cell(std::to_string(w.ticks)) + "</tr>";
   if (!rows.empty()) out += table("Warnings of the device loop", head_cells({"Warning", ">First", ">Ticks"}), rows);
-  return section("device", "Device receipt", out);
+  return section("device", "Run report", out);
 }
 
 std::string origin_facts(const AttemptView& view) {

@@ -26,13 +26,13 @@ SignCheck safety_gates(const Grade& grade) {
   return {true, any ? "Safety gates met" : "This exercise has no safety gate"};
 }
 
-SignCheck device(const DeviceReceipt& receipt, double late_share) {
-  if (!receipt.fault.empty()) return {false, "The device reported a fault: " + receipt.fault};
-  if (receipt.force_not_rendered())
+SignCheck device(const RunReport& run_report, double late_share) {
+  if (!run_report.fault.empty()) return {false, "The device reported a fault: " + run_report.fault};
+  if (run_report.force_not_rendered())
     return {false, "Forces were not all felt: the device was at its limit in over 5 % of the contact"};
-  const double missed = static_cast<double>(receipt.overruns), ticks = static_cast<double>(receipt.ticks);
-  const std::string words = std::to_string(receipt.overruns) + " of " +
-                            plural(static_cast<std::int64_t>(receipt.ticks), "tick", "ticks") + " missed";
+  const double missed = static_cast<double>(run_report.overruns), ticks = static_cast<double>(run_report.ticks);
+  const std::string words = std::to_string(run_report.overruns) + " of " +
+                            plural(static_cast<std::int64_t>(run_report.ticks), "tick", "ticks") + " missed";
   if (missed > late_share * ticks) return {false, "Device late: " + words};
   return {true, "Device on time (" + words + "), forces rendered"};
 }

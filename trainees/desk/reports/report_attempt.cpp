@@ -93,7 +93,7 @@ void add_board(std::vector<Block>& out, const AttemptView& view) {
 
 /// Recordings before format 3 have nothing to show here.
 void add_stiffness(std::vector<Block>& out, const AttemptView& view) {
-  const StiffnessReceipt& stiffness = view.result.device.stiffness;
+  const StiffnessReport& stiffness = view.result.device.stiffness;
   if (!stiffness.recorded) return;
   out.emplace_back(Heading{"Stiffness that the device could display", 1});
   out.emplace_back(Paragraph{stiffness_words(stiffness)});
@@ -176,8 +176,8 @@ std::string undefined_metrics(const AttemptView& view) {
 }
 
 void add_device(std::vector<Block>& out, const AttemptView& view) {
-  const DeviceReceipt& d = view.result.device;
-  out.emplace_back(Heading{"Device receipt", 1});
+  const RunReport& d = view.result.device;
+  out.emplace_back(Heading{"Run report", 1});
   const bool simulated =
       d.backend.find("simulated") != std::string::npos || d.backend.find("emulated") != std::string::npos;
   Facts facts{{{"Device", or_none(d.backend) + (simulated ? ", no hardware moved" : "")},

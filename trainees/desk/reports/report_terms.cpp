@@ -63,7 +63,7 @@ std::vector<Term> attempt_terms() {
            "A sub-score runs from 0 at its 'none' to 1 at its 'full'; lost points are 100 times its weight times what "
            "it lacks of 1."},
           {"Safety gate", "A sub-score below 0.5 at a gate caps the score under the pass mark."},
-          {"Device receipt",
+          {"Run report",
            "What the device loop measured of itself. At its limit: share of the contact in which the device could not "
            "give the asked force; "
            "above 5 % the attempt does not count towards a certificate."},

@@ -1,4 +1,4 @@
-// Plant files on the command line: the printed template, the check, what takes --plant, what the receipt says of it.
+// Plant files on the command line: the printed template, the check, what takes --plant, what the run report says of it.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -153,7 +153,7 @@ AttemptSetup short_setup() {
   return setup;
 }
 
-TEST(RunPlant, TheAttemptHappensOnTheFilesDeviceAndItsReceiptSaysSo) {
+TEST(RunPlant, TheAttemptHappensOnTheFilesDeviceAndItsRunReportSaysSo) {
   AttemptSetup setup = short_setup();
   const std::string text = "seed = 5\n[hand]\ngrip = \"firm\"\n[sensor]\nrate_hz = 50\n[cable]\n[heat]\n";
   setup.plant = std::make_shared<const PlantFile>(parse_plant(text, "folder/arm.toml"));
@@ -163,9 +163,9 @@ TEST(RunPlant, TheAttemptHappensOnTheFilesDeviceAndItsReceiptSaysSo) {
   const auto [outcome, recording] = record_session(scene, find_assets(), {});
   EXPECT_EQ(outcome.status, AttemptStatus::kCompleted);
   const AttemptResult result = recorded_result(recording, {});
-  const std::string receipt = "\"plant\":{\"file\":\"arm.toml\",\"sha256\":\"" + digest::of_bytes(text) + "\"}";
-  EXPECT_NE(recording.receipt_json.find(receipt), std::string::npos) << recording.receipt_json;
-  EXPECT_NE(recording.receipt_json.find("\"rate_hz\":50"), std::string::npos) << "the file's sensor";
+  const std::string run_report = "\"plant\":{\"file\":\"arm.toml\",\"sha256\":\"" + digest::of_bytes(text) + "\"}";
+  EXPECT_NE(recording.run_report_json.find(run_report), std::string::npos) << recording.run_report_json;
+  EXPECT_NE(recording.run_report_json.find("\"rate_hz\":50"), std::string::npos) << "the file's sensor";
   EXPECT_NE(attempt_json(result).find(digest::of_bytes(text)), std::string::npos);
   EXPECT_EQ(replay_session(scene, recording).state_hash, outcome.state_hash) << "a replay needs no plant";
 }

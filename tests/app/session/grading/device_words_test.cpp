@@ -12,13 +12,13 @@
 namespace trocar::device_words_test {
 namespace {
 
-DeviceReceipt stopped(const std::string& fault) {
-  DeviceReceipt receipt;
-  receipt.fault = fault;
-  receipt.fault_channel = 2;
-  receipt.fault_s = 3.0006;
-  receipt.fault_value = 1234.5;
-  return receipt;
+RunReport stopped(const std::string& fault) {
+  RunReport run_report;
+  run_report.fault = fault;
+  run_report.fault_channel = 2;
+  run_report.fault_s = 3.0006;
+  run_report.fault_value = 1234.5;
+  return run_report;
 }
 
 TEST(FaultWords, EveryFaultOfTheDeviceHasACauseAndAdvice) {
@@ -38,21 +38,21 @@ TEST(FaultWords, EveryFaultOfTheDeviceHasACauseAndAdvice) {
 TEST(FaultWords, SayTheNumberWhereThereIsOne) {
   EXPECT_CONTAINS(fault_words(stopped("encoder-jump")), "the counter moved by 1234.5 counts in one period");
   EXPECT_EQ(fault_words(stopped("emergency-stop")).find("1234"), std::string::npos) << "a button has no number";
-  DeviceReceipt endless = stopped("overspeed");
+  RunReport endless = stopped("overspeed");
   endless.fault_value = std::numeric_limits<double>::infinity();
   EXPECT_CONTAINS(fault_words(endless), "it moved at inf (rad/s");
 }
 
 TEST(FaultWords, NoChannelIsNotNamedAndNoFaultIsSilence) {
-  DeviceReceipt receipt = stopped("late-loop");
-  receipt.fault_channel = -1;
-  EXPECT_EQ(fault_words(receipt).find("late-loop at 3.001 s: 1234.5 periods were missed. Close"), 0u);
+  RunReport run_report = stopped("late-loop");
+  run_report.fault_channel = -1;
+  EXPECT_EQ(fault_words(run_report).find("late-loop at 3.001 s: 1234.5 periods were missed. Close"), 0u);
   EXPECT_EQ(fault_words(stopped("")), "");
   EXPECT_EQ(fault_words(stopped("of-tomorrow")), "of-tomorrow on channel 2 at 3.001 s") << "no cause is made up";
 }
 
 TEST(EndWords, SayWhyAnAttemptWasNotGraded) {
-  const DeviceReceipt none;
+  const RunReport none;
   EXPECT_EQ(end_words(AttemptStatus::kFault, stopped("drive-hot"), LoopState::kFault, true),
             "device fault " + fault_words(stopped("drive-hot")));
   EXPECT_CONTAINS(end_words(AttemptStatus::kVoid, none, LoopState::kActive, true), "the deadman was opened");

@@ -124,16 +124,16 @@ TEST(RecordingWriter, AnEmptyRecordingIsWhole) {
   EXPECT_TRUE(recording.end && recording.torn.empty());
 }
 
-TEST(RecordingWriter, TheReceiptStandsBeforeTheEnd) {
+TEST(RecordingWriter, TheRunReportStandsBeforeTheEnd) {
   MemorySink sink;
   RecordingWriter writer(sink, "", 1000);
   writer.close({}, "{\"ticks\": 1}");
   const Recording recording = parse_recording(sink.bytes(), "memory");
-  EXPECT_EQ(recording.receipt_json, "{\"ticks\": 1}");
+  EXPECT_EQ(recording.run_report_json, "{\"ticks\": 1}");
   EXPECT_TRUE(recording.end);
   MemorySink without;
   RecordingWriter(without, "", 1000).close({});
-  EXPECT_EQ(parse_recording(without.bytes(), "memory").receipt_json, "");
+  EXPECT_EQ(parse_recording(without.bytes(), "memory").run_report_json, "");
 }
 
 TEST(RecordingWriter, EventsGoOutWithTheNextChunk) {

@@ -64,7 +64,7 @@ TEST(AttemptRunner, APersonsIntentsMoveTheInstrumentAndTheInputIsStoredAsTheHand
   EXPECT_TRUE(verified(run.result().recording_path)) << "a person's hand is in the device's counts";
 }
 
-TEST(AttemptRunner, APauseStopsEverythingLosesNothingAndIsInTheReceipt) {
+TEST(AttemptRunner, APauseStopsEverythingLosesNothingAndIsInTheRunReport) {
   const RunnerFolder folder;
   AttemptRunner run(short_request(folder.database()), find_assets());
   ASSERT_TRUE(wait_for([&] { return run.ready(); }));

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "app/picture/gl/image.h"
-#include "app/session/grading/realtime_receipt.h"
+#include "app/session/grading/realtime_report.h"
 #include "app/window/practice/latency_bench.h"
 #include "tests/app/window/pages/loop_bench.h"
 #include "trainees/records/attempt_store.h"

@@ -136,8 +136,8 @@ Trace sample_trace(double peak_n) {
 }
 
 namespace {
-DeviceReceipt sample_receipt() {
-  DeviceReceipt device;
+RunReport sample_run_report() {
+  RunReport device;
   device.backend = "simulated";
   device.rate_hz = 1000;
   device.ticks = 60000;
@@ -179,7 +179,7 @@ AttemptView sample_attempt(double score, double peak_n) {
   r.events = {{12.5, "TARGET_HELD", Severity::kInfo, 0, 1.1, "N", Vec3(0.01, 0, 0)},
               {27.0, "OUT_OF_VIEW", Severity::kMinor, -1, 0, "", Vec3::Zero()},
               {30.0, "EXCESS_FORCE", Severity::kMajor, 2, peak_n, "N", Vec3(0, 0.02, 0)}};
-  r.device = sample_receipt();
+  r.device = sample_run_report();
   view.exercise = "Surface touch";
   view.program = "trocar 0.7";
   view.row_hash = std::string(64, 'd');

@@ -191,7 +191,7 @@ TEST(AttemptReport, EveryNumberOfThePageIsInIt) {
   EXPECT_EQ(left, std::set<std::string>{});
 }
 
-TEST(AttemptReport, VerdictEventsMetricsReceiptAndHashes) {
+TEST(AttemptReport, VerdictEventsMetricsRunReportAndHashes) {
   const ReadPdf pdf = read_pdf(printed::pdf_of(attempt_report(sample_run(), {})));
   for (const char* words :
        {"Not yet", "58.0", "of 100, pass 75", "Safety gate not met.",

@@ -14,6 +14,6 @@ namespace trocar {
 
 /// @param clamped whether contacts stiffer than K_max were weakened to it. Rows of a recording before format 3 say
 /// nothing.
-StiffnessReceipt stiffness_receipt(std::span<const RecordedTick> rows, bool clamped);
+StiffnessReport stiffness_report(std::span<const RecordedTick> rows, bool clamped);
 
 }  // namespace trocar

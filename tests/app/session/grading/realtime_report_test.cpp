@@ -1,5 +1,5 @@
-// Receipts of pacing and of the force sensor, and the device's receipt as a recording keeps it.
-#include "app/session/grading/realtime_receipt.h"
+// Reports of pacing and of the force sensor, and the run report as a recording keeps it.
+#include "app/session/grading/realtime_report.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
 
-namespace trocar::realtime_receipt_test {
+namespace trocar::realtime_report_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -28,7 +28,7 @@ class Counted final : public Task {
   std::uint64_t calls_, runs_ = 0;
 };
 
-TEST(RealtimeReceipt, EveryLaneSaysItsPolicyRateAndLatencies) {
+TEST(RealtimeReport, EveryLaneSaysItsPolicyRateAndLatencies) {
   Counted first(50), second(1000000);
   ThreadedExecutor executor(500);
   executor.add_lane("first", {&first}, 0);
@@ -59,7 +59,7 @@ TEST(RealtimeReceipt, EveryLaneSaysItsPolicyRateAndLatencies) {
   same("cpu_us", report.cpu);
 }
 
-TEST(RealtimeReceipt, NotesSayWhatWasRefusedAndWhatWasLost) {
+TEST(RealtimeReport, NotesSayWhatWasRefusedAndWhatWasLost) {
   Counted task(5);
   ThreadedExecutor executor(500);
   executor.add_lane("haptic", {&task}, 80);
@@ -77,7 +77,7 @@ TEST(RealtimeReceipt, NotesSayWhatWasRefusedAndWhatWasLost) {
   }
 }
 
-TEST(ForceSensorReceipt, HoldsWhatWasMeasuredAndWhatTheLoopDidNotKnow) {
+TEST(ForceSensorReport, HoldsWhatWasMeasuredAndWhatTheLoopDidNotKnow) {
   LiveChannel<StylusForces> forces;
   SimulatedForceSensor simulated({.rate_hz = 40, .lag_s = 0.15, .noise_n = 0, .drift_n_per_h = 0}, 1);
   ForceSensorTask sensor(forces, simulated, 1000);
@@ -96,7 +96,7 @@ TEST(ForceSensorReceipt, HoldsWhatWasMeasuredAndWhatTheLoopDidNotKnow) {
   EXPECT_NEAR(json.at("residual_rms_n"), std::sqrt((10 * 0.25 + 4 * 1.0) / 14), 1e-12) << "10 early, 4 late ones";
 }
 
-TEST(ForceSensorReceipt, WithoutASampleItIsZeroNotNothing) {
+TEST(ForceSensorReport, WithoutASampleItIsZeroNotNothing) {
   LiveChannel<StylusForces> forces;
   SimulatedForceSensor simulated({}, 1);
   const ForceSensorTask sensor(forces, simulated, 1000);
@@ -106,22 +106,22 @@ TEST(ForceSensorReceipt, WithoutASampleItIsZeroNotNothing) {
   EXPECT_EQ(json.at("residual_rms_n"), 0);
 }
 
-DeviceReceipt stopped() {
-  DeviceReceipt receipt;
-  receipt.backend = "simulated";
-  receipt.fault = "overspeed";
-  receipt.fault_channel = 5;
-  receipt.fault_s = 1.0 / 3;
-  receipt.fault_value = -0.1;
-  receipt.reason = "device fault \"overspeed\"\n\xc3\xa4";
-  receipt.warnings = {{"saturated", 0.1, 12}, {"near-limit", 2.0 / 3, 1}};
-  receipt.transitions = {{0.0, "off", "self-test"}, {0.7, "self-test", "homed"}};
-  receipt.force_sensor = R"({"rate_hz":40.0,"samples":3})";
-  return receipt;
+RunReport stopped() {
+  RunReport run_report;
+  run_report.backend = "simulated";
+  run_report.fault = "overspeed";
+  run_report.fault_channel = 5;
+  run_report.fault_s = 1.0 / 3;
+  run_report.fault_value = -0.1;
+  run_report.reason = "device fault \"overspeed\"\n\xc3\xa4";
+  run_report.warnings = {{"saturated", 0.1, 12}, {"near-limit", 2.0 / 3, 1}};
+  run_report.transitions = {{0.0, "off", "self-test"}, {0.7, "self-test", "homed"}};
+  run_report.force_sensor = R"({"rate_hz":40.0,"samples":3})";
+  return run_report;
 }
 
-TEST(ReceiptJson, AStopComesBackWithItsWarningsAndTransitions) {
-  const DeviceReceipt given = stopped(), back = parse_receipt(receipt_json(given), "a.trec");
+TEST(RunReportJson, AStopComesBackWithItsWarningsAndTransitions) {
+  const RunReport given = stopped(), back = parse_run_report(run_report_json(given), "a.trec");
   EXPECT_EQ(
       std::tie(back.fault, back.fault_channel, back.fault_s, back.fault_value, back.reason, back.force_sensor),
       std::tie(given.fault, given.fault_channel, given.fault_s, given.fault_value, given.reason, given.force_sensor));
@@ -134,29 +134,29 @@ TEST(ReceiptJson, AStopComesBackWithItsWarningsAndTransitions) {
   EXPECT_EQ(back.transitions[1].t_s, 0.7);
   EXPECT_EQ(back.transitions[1].from, "self-test");
   EXPECT_EQ(back.transitions[1].to, "homed");
-  EXPECT_EQ(receipt_json(back), receipt_json(given)) << "and again the same bytes";
+  EXPECT_EQ(run_report_json(back), run_report_json(given)) << "and again the same bytes";
 }
 
-TEST(ReceiptJson, ANumberThatIsNotFiniteDoesNotSpoilTheReceipt) {
-  DeviceReceipt receipt = stopped();
+TEST(RunReportJson, ANumberThatIsNotFiniteDoesNotSpoilTheRunReport) {
+  RunReport run_report = stopped();
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    receipt.fault_value = bad;
-    EXPECT_EQ(parse_receipt(receipt_json(receipt), "a.trec").fault_value, 0);
+    run_report.fault_value = bad;
+    EXPECT_EQ(parse_run_report(run_report_json(run_report), "a.trec").fault_value, 0);
   }
 }
 
-TEST(ReceiptJson, OldReceiptsThatDoNotSayHowItStoppedAreRead) {
-  Json json = Json::parse(receipt_json(stopped()));
+TEST(RunReportJson, OldRunReportsThatDoNotSayHowItStoppedAreRead) {
+  Json json = Json::parse(run_report_json(stopped()));
   for (const char* key : {"reason", "warnings", "transitions", "fault_channel", "fault_s", "fault_value"}) {
     json.erase(key);
   }
-  const DeviceReceipt old = parse_receipt(json.dump(), "old.trec");
+  const RunReport old = parse_run_report(json.dump(), "old.trec");
   EXPECT_EQ(old.fault, "overspeed");
   EXPECT_EQ(old.fault_channel, -1);
   EXPECT_TRUE(old.warnings.empty() && old.transitions.empty() && old.reason.empty());
   json["reason"] = "half of the new keys";
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { parse_receipt(json.dump(), "half.trec"); }), "half.trec: ");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { parse_run_report(json.dump(), "half.trec"); }), "half.trec: ");
 }
 
 }  // namespace
-}  // namespace trocar::realtime_receipt_test
+}  // namespace trocar::realtime_report_test

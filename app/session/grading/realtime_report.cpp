@@ -1,4 +1,4 @@
-#include "app/session/grading/realtime_receipt.h"
+#include "app/session/grading/realtime_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -7,9 +7,9 @@
 namespace trocar {
 namespace {
 
-using ReceiptJson = nlohmann::ordered_json;
+using RunReportJson = nlohmann::ordered_json;
 
-ReceiptJson distribution(const DurationCounts& counts) {
+RunReportJson distribution(const DurationCounts& counts) {
   return {{"p50", counts.percentile_us(0.5)},
           {"p99", counts.percentile_us(0.99)},
           {"p99.9", counts.percentile_us(0.999)},
@@ -18,8 +18,8 @@ ReceiptJson distribution(const DurationCounts& counts) {
           {"above_1ms", counts.above_us(1000)}};
 }
 
-ReceiptJson lane(const LaneReport& report) {
-  ReceiptJson json = {{"policy", report.policy}};
+RunReportJson lane(const LaneReport& report) {
+  RunReportJson json = {{"policy", report.policy}};
   if (!report.refusal.empty()) json["refused"] = report.refusal;
   json["rate_hz"] = report.seconds > 0 ? static_cast<double>(report.wakes + report.missed) / report.seconds : 0.0;
   json["wakes"] = report.wakes;
@@ -34,10 +34,10 @@ ReceiptJson lane(const LaneReport& report) {
 }  // namespace
 
 std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) {
-  ReceiptJson json = {{"kernel_realtime", real_time_kernel()},
-                      {"memory_locked", executor.memory_locked()},
-                      {"lost_records", lost},
-                      {"lanes", ReceiptJson::object()}};
+  RunReportJson json = {{"kernel_realtime", real_time_kernel()},
+                        {"memory_locked", executor.memory_locked()},
+                        {"lost_records", lost},
+                        {"lanes", RunReportJson::object()}};
   for (const LaneReport* report : executor.reports()) json["lanes"][report->name] = lane(*report);
   for (const ThreadedExecutor::Pause& pause : executor.pauses())
     json["pauses"].push_back({{"at_s", pause.at_s}, {"seconds", pause.seconds}});
@@ -45,21 +45,21 @@ std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) 
 }
 
 std::string force_sensor_json(const ForceSensorTask& sensor) {
-  return ReceiptJson{{"rate_hz", sensor.config().rate_hz},
-                     {"lag_s", sensor.config().lag_s},
-                     {"samples", sensor.measured().count()},
-                     {"measured_rms_n", sensor.measured().rms()},
-                     {"residual_samples", sensor.residual().count()},
-                     {"residual_rms_n", sensor.residual().rms()},
-                     {"residual_max_n", sensor.residual().largest()}}
+  return RunReportJson{{"rate_hz", sensor.config().rate_hz},
+                       {"lag_s", sensor.config().lag_s},
+                       {"samples", sensor.measured().count()},
+                       {"measured_rms_n", sensor.measured().rms()},
+                       {"residual_samples", sensor.residual().count()},
+                       {"residual_rms_n", sensor.residual().rms()},
+                       {"residual_max_n", sensor.residual().largest()}}
       .dump();
 }
 
 std::vector<StoodStill> pauses_of(const std::string& realtime) {
   std::vector<StoodStill> out;
-  const ReceiptJson json = ReceiptJson::parse(realtime, nullptr, false);
+  const RunReportJson json = RunReportJson::parse(realtime, nullptr, false);
   if (!json.is_object() || !json.contains("pauses") || !json["pauses"].is_array()) return out;
-  for (const ReceiptJson& pause : json["pauses"])
+  for (const RunReportJson& pause : json["pauses"])
     if (pause.is_object() && pause.contains("at_s") && pause["at_s"].is_number() && pause.contains("seconds") &&
         pause["seconds"].is_number())
       out.push_back({pause["at_s"].get<double>(), pause["seconds"].get<double>()});
