@@ -34,4 +34,14 @@ double nice_step(double range, double count) {
   return 10 * power;
 }
 
+std::string without_links(std::string svg) {
+  for (std::size_t at = 0; (at = svg.find('<', at)) != std::string::npos; ++at) {
+    if (svg.compare(at, 3, "<a ") == 0 || svg.compare(at, 3, "<a>") == 0)
+      svg.replace(at, svg.find('>', at) - at, "<g");
+    else if (svg.compare(at, 4, "</a>") == 0)
+      svg.replace(at, 4, "</g>");
+  }
+  return svg;
+}
+
 }  // namespace trocar::svg

@@ -16,4 +16,7 @@ std::string label(double x, double y, const std::string& words, const char* anch
 /// 1, 2 or 5 times a power of ten, giving about `count` steps.
 double nice_step(double range, double count);
 
+/// A whole chart as groups in place of its links, for a file by itself.
+std::string without_links(std::string svg);
+
 }  // namespace trocar::svg

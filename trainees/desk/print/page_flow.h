@@ -24,11 +24,11 @@ class PageFlow {
   void next_page();
   void need(double height);  ///< goes on to the next page where it does not fit
 
-  /// Wrapped over the width from x on. @return lines
-  int words(const std::string& text, Face face, double size, const Colour& colour, double x = kLeft,
-            double width = kContent);
-  double height_of_words(const std::string& text, Face face, double size, double width = kContent) const;
-  static double leading(double size) { return 1.36 * size; }
+  /// Wrapped over the width from x on; goes on over the page.
+  void words(const std::string& text, const Font& font, const Colour& colour, double x = kLeft,
+             double width = kContent);
+  /// 0 for no words.
+  double height_of_words(const std::string& text, const Font& font, double width = kContent) const;
 
  private:
   PdfPages* pages_;

@@ -8,12 +8,11 @@
 namespace trocar::printed {
 namespace {
 
-constexpr double kSize = 8.0, kMonoSize = 6.8, kHeadSize = 7.2, kPad = 5, kRowPad = 4.4, kDrawnHeight = 21,
-                 kUsualWord = 50;
+constexpr Font kPlainCell = plain(8), kMonoCell = mono(6.8), kTitle = bold(7.2), kCaption = plain(7.2);
+constexpr double kStep = 1.28 * 8, kHeadStep = 1.2 * 7.2, kPad = 5, kRowPad = 4.4, kDrawnHeight = 21, kUsualWord = 50;
 constexpr int kMostLines = 8;
 
-Face face_of(const Column& column) { return column.mono ? Face::kMono : Face::kPlain; }
-double size_of(const Column& column) { return column.mono ? kMonoSize : kSize; }
+const Font& font_of(const Column& column) { return column.mono ? kMonoCell : kPlainCell; }
 
 class TableOnPages {
  public:
@@ -33,7 +32,7 @@ class TableOnPages {
     if (const double whole = height(PageFlow::kKeptWhole); whole <= PageFlow::kKeptWhole) flow_.need(whole);
     head(false);
     for (const auto& row : table_.rows) {
-      const std::vector<std::vector<std::string>> lines = lines_of(row);
+      const std::vector<Lines> lines = lines_of(row);
       const double height = height_of(row, lines);
       if (!flow_.fits(height)) {
         flow_.next_page();
@@ -41,27 +40,18 @@ class TableOnPages {
       }
       put_row(row, lines, height);
     }
-    if (table_.rows.empty()) flow_.words(table_.none, Face::kPlain, kSize, kDim);
+    if (table_.rows.empty()) flow_.words(table_.none, kPlainCell, kDim);
     flow_.down(8);
   }
 
  private:
   /// Room for the longest word of the head and of the cells, but for hashes and words that are longer than usual.
   double least_width(std::size_t column) const {
-    const PdfPages& pages = flow_.pages();
-    const auto longest = [&](std::string words, Face face, double size) {
-      words = printable(words);
-      std::replace(words.begin(), words.end(), ' ', '\n');
-      double out = 0;
-      for (const std::string& word : wrapped(words, PageFlow::kContent, pages.measure(face, size)))
-        out = std::max(out, pages.width_of(word, face, size));
-      return out;
-    };
-    double out = longest(table_.columns[column].title, Face::kBold, kHeadSize);
     const Column& about = table_.columns[column];
+    double out = flow_.pages().width_of_word(about.title, kTitle);
     for (const auto& row : table_.rows) {
       if (about.mono || column >= row.size()) continue;
-      const double wide = longest(row[column].words, face_of(about), size_of(about));
+      const double wide = flow_.pages().width_of_word(row[column].words, font_of(about));
       out = std::max(out, about.number ? wide : std::min(wide, kUsualWord));
     }
     return std::min(out + kPad + 0.5, 2 * PageFlow::kContent / static_cast<double>(table_.columns.size()));
@@ -96,62 +86,50 @@ class TableOnPages {
   double inner(std::size_t column) const { return widths_[column] - kPad; }
 
   void head(bool again) {
-    PdfPages& pages = flow_.pages();
-    std::vector<std::vector<std::string>> titles;
-    std::size_t most = 1;
+    std::vector<Lines> titles;
+    int most = 1;
     for (std::size_t i = 0; i < widths_.size(); ++i) {
-      titles.push_back(wrapped(printable(table_.columns[i].title), inner(i), pages.measure(Face::kBold, kHeadSize), 3));
-      most = std::max(most, titles.back().size());
+      titles.push_back(flow_.pages().lines(table_.columns[i].title, kTitle, inner(i), 3));
+      most = std::max(most, titles.back().count());
     }
-    if (!table_.caption.empty())
-      flow_.words(table_.caption + (again ? " (continued)" : ""), Face::kPlain, kHeadSize, kDim);
+    if (!table_.caption.empty()) flow_.words(table_.caption + (again ? " (continued)" : ""), kCaption, kDim);
     if (table_.rows.empty()) return;
-    const double step = 1.2 * kHeadSize;
-    for (std::size_t i = 0; i < widths_.size(); ++i) {
-      double y = flow_.y() + 3 + step * static_cast<double>(most - titles[i].size());
-      for (const std::string& line : titles[i]) put_words(i, y += step, line, Face::kBold, kHeadSize, kInk);
-    }
-    flow_.down(3 + step * static_cast<double>(most) + 4);
-    pages.line(PageFlow::kLeft, flow_.y(), PageFlow::kRight, flow_.y(), 0.9, kInk);
+    for (std::size_t i = 0; i < widths_.size(); ++i)
+      put_words(i, flow_.y() + 3 + kHeadStep * (most - titles[i].count() + 1), titles[i], kHeadStep, kInk);
+    flow_.down(3 + kHeadStep * most + 4);
+    flow_.pages().line(PageFlow::kLeft, flow_.y(), PageFlow::kRight, flow_.y(), 0.9, kInk);
   }
 
-  void put_words(std::size_t column, double y, const std::string& words, Face face, double size, const Colour& colour) {
-    double x =
-        PageFlow::kLeft + std::accumulate(widths_.begin(), widths_.begin() + static_cast<std::ptrdiff_t>(column), 0.0);
-    if (table_.columns[column].number)
-      flow_.pages().text_right(x + inner(column), y, words, face, size, colour);
-    else
-      flow_.pages().text(x, y, words, face, size, colour);
+  double left_of(std::size_t column) const {
+    return std::accumulate(widths_.begin(), widths_.begin() + static_cast<std::ptrdiff_t>(column), PageFlow::kLeft);
   }
 
-  std::vector<std::vector<std::string>> lines_of(const std::vector<Cell>& row) const {
-    std::vector<std::vector<std::string>> out;
+  void put_words(std::size_t column, double y, const Lines& words, double step, const Colour& colour) {
+    const bool number = table_.columns[column].number;
+    flow_.pages().text(left_of(column) + (number ? inner(column) : 0), y, words, colour,
+                       number ? Side::kRight : Side::kLeft, step);
+  }
+
+  std::vector<Lines> lines_of(const std::vector<Cell>& row) const {
+    std::vector<Lines> out;
     for (std::size_t i = 0; i < widths_.size() && i < row.size(); ++i)
-      out.push_back(wrapped(printable(row[i].words), inner(i),
-                            flow_.pages().measure(face_of(table_.columns[i]), size_of(table_.columns[i])), kMostLines));
+      out.push_back(flow_.pages().lines(row[i].words, font_of(table_.columns[i]), inner(i), kMostLines));
     return out;
   }
 
-  double height_of(const std::vector<Cell>& row, const std::vector<std::vector<std::string>>& lines) const {
+  double height_of(const std::vector<Cell>& row, const std::vector<Lines>& lines) const {
     double highest = 0;
     for (std::size_t i = 0; i < lines.size(); ++i)
-      highest =
-          std::max(highest, row[i].svg.empty() ? 1.28 * kSize * static_cast<double>(lines[i].size()) : kDrawnHeight);
+      highest = std::max(highest, row[i].svg.empty() ? kStep * lines[i].count() : kDrawnHeight);
     return highest + kRowPad;
   }
 
-  void put_row(const std::vector<Cell>& row, const std::vector<std::vector<std::string>>& lines, double height) {
+  void put_row(const std::vector<Cell>& row, const std::vector<Lines>& lines, double height) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      double y = flow_.y() + 0.5 * kRowPad - 0.28 * kSize;
-      if (!row[i].svg.empty()) {
-        const double x =
-            PageFlow::kLeft + std::accumulate(widths_.begin(), widths_.begin() + static_cast<std::ptrdiff_t>(i), 0.0);
-        flow_.pages().chart(row[i].svg, x, flow_.y() + 2, std::min(inner(i), kDrawnHeight * 120.0 / 34.0));
-        continue;
-      }
-      for (const std::string& line : lines[i])
-        put_words(i, y += 1.28 * kSize, line, face_of(table_.columns[i]), size_of(table_.columns[i]),
-                  colour_of(row[i].tone));
+      if (row[i].svg.empty())
+        put_words(i, flow_.y() + 0.5 * kRowPad + 0.78 * kStep, lines[i], kStep, colour_of(row[i].tone));
+      else
+        flow_.pages().chart(row[i].svg, left_of(i), flow_.y() + 2, std::min(inner(i), kDrawnHeight * 120.0 / 34.0));
     }
     flow_.down(height);
     flow_.pages().line(PageFlow::kLeft, flow_.y(), PageFlow::kRight, flow_.y(), 0.35, kRule);

@@ -1,307 +1,362 @@
 #include "trainees/desk/print/pdf_pages.h"
 
-#include <hpdf.h>
+#include <cairo-pdf.h>
+#include <librsvg/rsvg.h>
+#include <pango/pangocairo.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
+#include <functional>
 #include <map>
+#include <regex>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
 #include "haptics/input_error.h"
-#include "trainees/desk/print/png_check.h"
+#include "trainees/markup/html.h"
+#include "trainees/markup/svg.h"
 
 namespace trocar::printed {
 namespace {
 
-/// Haru calls it from C: it may not throw. What went wrong stays in the document and is looked at in the end.
-void keep_quiet(HPDF_STATUS, HPDF_STATUS, void*) {}
-
-std::string font_file(const std::string& file) {
-  std::string searched;
-  for (const char* place : {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF",
-                            "/usr/share/fonts/dejavu-sans-fonts", "/usr/local/share/fonts"}) {
-    const std::filesystem::path path = std::filesystem::path(place) / file;
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored)) return path.string();
-    searched += std::string(" ") + place;
-  }
-  throw EnvironmentError("font " + file + " not found in" + searched + "; install fonts-dejavu-core");
+template <class T>
+std::shared_ptr<T> owned(T* object) {
+  return {object, g_object_unref};
 }
 
-/// Properties of a PDF are of the one-byte set that begins with Latin-1.
-std::string property_text(const std::string& utf8) {
-  std::string out;
-  for (std::size_t i = 0; i < utf8.size(); ++i) {
-    const auto c = static_cast<unsigned char>(utf8[i]);
-    const unsigned next = i + 1 < utf8.size() ? static_cast<unsigned char>(utf8[i + 1]) : 0U;
-    if (c < 0x80)
-      out += c < 0x20 ? ' ' : utf8[i];
-    else if ((c == 0xC2 || c == 0xC3) && next >= (c == 0xC2 ? 0xA1U : 0x80U))
-      out += static_cast<char>(((c & 3U) << 6) | (next & 0x3FU));
-    else if (c >= 0xC0)
-      out += '?';
-  }
+using Description = std::unique_ptr<PangoFontDescription, decltype(&pango_font_description_free)>;
+using Characters = std::unique_ptr<char, decltype(&g_free)>;
+
+const char* name_of(Font::Face face) {
+  return face == Font::Face::kMono   ? "DejaVu Sans Mono"
+         : face == Font::Face::kBold ? "DejaVu Sans Bold"
+                                     : "DejaVu Sans";
+}
+
+Description description(const Font& font) {
+  Description out(pango_font_description_from_string(name_of(font.face)), pango_font_description_free);
+  pango_font_description_set_absolute_size(out.get(), font.size * PANGO_SCALE);
   return out;
 }
 
-/// The date as a PDF has it; false when the text is none.
-bool date_of(const std::string& utc, HPDF_Date& out) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0;
-  const int found = std::sscanf(utc.c_str(), "%4d-%2d-%2dT%2d:%2d:%2d", &year, &month, &day, &hour, &minute, &second);
-  if (found < 3 || year < 1900 || month < 1 || month > 12 || day < 1 || day > 31 || hour > 23 || minute > 59 ||
-      second > 59)
-    return false;
-  out = {year, month, day, hour, minute, second, 'Z', 0, 0};
-  return true;
+/// @throws EnvironmentError: fontconfig names another one in its place.
+void need_font(PangoContext* context, const Font& font) {
+  const std::string wanted = name_of(font.face);
+  if (PangoFont* found = pango_context_load_font(context, description(font).get()); found != nullptr) {
+    const Description got(pango_font_describe(found), pango_font_description_free);
+    g_object_unref(found);
+    pango_font_description_unset_fields(got.get(), PANGO_FONT_MASK_SIZE);
+    if (wanted == Characters(pango_font_description_to_string(got.get()), g_free).get()) return;
+  }
+  throw EnvironmentError("font " + wanted + " not found by fontconfig; install fonts-dejavu-core");
 }
 
-HPDF_REAL real(double value) { return static_cast<HPDF_REAL>(std::isfinite(value) ? value : 0); }
+/// Lengths in points, letters where the font's own widths put them. @throws EnvironmentError: a font is missing.
+std::shared_ptr<PangoContext> context_of_points() {
+  auto out = owned(pango_font_map_create_context(pango_cairo_font_map_get_default()));
+  const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(
+      cairo_font_options_create(), cairo_font_options_destroy);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  pango_cairo_context_set_font_options(out.get(), options.get());
+  pango_cairo_context_set_resolution(out.get(), 72);
+  pango_context_set_round_glyph_positions(out.get(), FALSE);
+  for (const Font& font : {plain(10), bold(10), mono(10)}) need_font(out.get(), font);
+  return out;
+}
 
-constexpr double kLeastWords = 6.2;  // points: below it nobody reads
+std::string printable(const std::string& text) {
+  const Characters valid(g_utf8_make_valid(text.data(), static_cast<gssize>(text.size())), g_free);
+  std::string out = valid.get();
+  for (char& c : out)
+    if (g_ascii_iscntrl(c) && c != '\n') c = ' ';
+  return out;
+}
+
+/// The date as Cairo takes it; "" when the text is none.
+std::string date_of(const std::string& utc) {
+  static const std::regex kDate(
+      R"((19|20)\d\d-(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01])(T([01]\d|2[0-3]):[0-5]\d:[0-5]\d.*)?)");
+  if (!std::regex_match(utc, kDate)) return "";
+  return utc.size() > 10 ? utc.substr(0, 19) + "Z" : utc;
+}
+
+/// What is left to be read is moved on. @param from std::string_view
+cairo_status_t read_bytes(void* from, unsigned char* to, unsigned length) {
+  auto& left = *static_cast<std::string_view*>(from);
+  if (length > left.size()) return CAIRO_STATUS_READ_ERROR;
+  left.copy(reinterpret_cast<char*>(to), length);
+  left.remove_prefix(length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+using Pixels = std::shared_ptr<cairo_surface_t>;
+
+/// @return null when it is broken, or wider or higher than 8191 pixels.
+Pixels pixels_of(const std::string& png) {
+  constexpr std::size_t kWidthAt = 16, kHeightAt = 20, kPixelsAt = 24;
+  const auto modest = [&](std::size_t at) { return png[at] == 0 && png[at + 1] == 0 && (png[at + 2] & 0xE0) == 0; };
+  if (png.size() < kPixelsAt || !modest(kWidthAt) || !modest(kHeightAt)) return nullptr;
+  std::string_view left = png;
+  Pixels out(cairo_image_surface_create_from_png_stream(read_bytes, &left), cairo_surface_destroy);
+  return cairo_surface_status(out.get()) == CAIRO_STATUS_SUCCESS ? out : nullptr;
+}
+
+double shape_of(const Pixels& pixels) {
+  return pixels == nullptr ? 0
+                           : static_cast<double>(cairo_image_surface_get_height(pixels.get())) /
+                                 cairo_image_surface_get_width(pixels.get());
+}
+
+struct Chart {
+  std::shared_ptr<RsvgHandle> svg = {};
+  double width = 1, shape = 0;  ///< of the viewBox; height over width, 0: cannot be drawn
+};
+
+/// Read without an address of its own, so that it can name no file.
+Chart chart_of(const std::string& svg) {
+  std::string whole = svg::without_links(svg);
+  if (whole.starts_with("<svg ") && whole.find(" xmlns=") > whole.find('>'))
+    whole.insert(4, " xmlns=\"http://www.w3.org/2000/svg\"");
+  Chart out;
+  auto* handle = rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(whole.data()), whole.size(), nullptr);
+  if (handle == nullptr) return out;
+  out.svg = owned(handle);
+  gboolean ignored = FALSE, boxed = FALSE;
+  RsvgLength length;
+  RsvgRectangle box{};
+  rsvg_handle_get_intrinsic_dimensions(handle, &ignored, &length, &ignored, &length, &boxed, &box);
+  const double shape = box.height / box.width;
+  if (boxed == FALSE || !(shape > 0 && shape < 10)) return out;
+  out.width = box.width;
+  out.shape = shape;
+  return out;
+}
+
+/// As on the desk's pages. @param least size of words, in the chart's own lengths.
+std::string chart_style(double least) {
+  const auto size = [&](double usual) { return fixed_text(std::max(usual, least), 3) + "px"; };
+  return "svg{overflow:visible;stroke-linejoin:round;font-family:'DejaVu Sans';font-size:" + size(14) +
+         "}svg text:not([fill]){fill:#27313b}.square{font-size:" + size(20) + "}";
+}
+
+/// Where the last character begins.
+std::size_t begin_of_last(const std::string& text) {
+  return static_cast<std::size_t>(g_utf8_prev_char(text.data() + text.size()) - text.data());
+}
+
+cairo_status_t append(void* to, const unsigned char* bytes, unsigned length) {
+  static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void set_colour(cairo_t* cr, const Colour& c, double opacity = 1) {
+  cairo_set_source_rgba(cr, c[0], c[1], c[2], opacity);
+}
 
 }  // namespace
 
 struct PdfPages::State {
-  HPDF_Doc document = nullptr;
-  std::map<Face, HPDF_Font> fonts;
-  std::vector<HPDF_Page> pages;
-  HPDF_Page page = nullptr;
-  std::map<std::pair<int, int>, HPDF_ExtGState> opacities;  // in thousandths
-  std::map<std::string, HPDF_Image> pictures;
+  using Drawing = std::function<void(cairo_t*)>;
+  std::string title, date;
+  std::shared_ptr<PangoContext> context = context_of_points();
+  std::vector<std::vector<Drawing>> pages = {};
+  std::size_t page = 0;
+  std::map<std::tuple<std::string, Font, double, int>, std::shared_ptr<PangoLayout>> layouts = {};  // asked for often
+  std::map<std::string, Chart> charts = {};
+  std::map<std::string, Pixels> pictures = {};
 
-  HPDF_Image image(const std::string& png) {
-    const auto [it, added] = pictures.try_emplace(png, nullptr);
-    if (added && whole_png(png))
-      it->second = HPDF_LoadPngImageFromMem(document, reinterpret_cast<const HPDF_BYTE*>(png.data()),
-                                            static_cast<HPDF_UINT>(png.size()));
-    if (it->second == nullptr) HPDF_ResetError(document);  // a broken picture is none
+  void draw(Drawing one) { pages.at(page).push_back(std::move(one)); }
+  const Chart& chart(const std::string& svg) {
+    const auto [it, added] = charts.try_emplace(svg);
+    if (added) it->second = chart_of(svg);
     return it->second;
   }
-  void ink(const Colour& c) const { HPDF_Page_SetRGBFill(page, real(c[0]), real(c[1]), real(c[2])); }
-  void pen(const Colour& c) const { HPDF_Page_SetRGBStroke(page, real(c[0]), real(c[1]), real(c[2])); }
+  const Pixels& picture(const std::string& png) {
+    const auto [it, added] = pictures.try_emplace(png);
+    if (added) it->second = pixels_of(png);
+    return it->second;
+  }
+
+  std::shared_ptr<PangoLayout> layout(const std::string& words, const Font& font, int width, PangoWrapMode wrap) const {
+    auto out = owned(pango_layout_new(context.get()));
+    pango_layout_set_font_description(out.get(), description(font).get());
+    pango_layout_set_text(out.get(), words.data(), static_cast<int>(words.size()));
+    pango_layout_set_width(out.get(), width);
+    pango_layout_set_wrap(out.get(), wrap);
+    const std::unique_ptr<PangoAttrList, decltype(&pango_attr_list_unref)> attributes(pango_attr_list_new(),
+                                                                                      pango_attr_list_unref);
+    pango_attr_list_insert(attributes.get(), pango_attr_insert_hyphens_new(FALSE));  // a hash is copied as it stands
+    pango_layout_set_attributes(out.get(), attributes.get());
+    return out;
+  }
 };
 
-PdfPages::PdfPages(const std::string& title, const std::string& utc) : state_(std::make_unique<State>()) {
-  const std::map<Face, std::string> files = {{Face::kPlain, font_file("DejaVuSans.ttf")},
-                                             {Face::kBold, font_file("DejaVuSans-Bold.ttf")},
-                                             {Face::kMono, font_file("DejaVuSansMono.ttf")}};
-  state_->document = HPDF_New(keep_quiet, nullptr);
-  if (state_->document == nullptr) throw EnvironmentError("PDF: not enough memory");
-  HPDF_Doc document = state_->document;
-  HPDF_SetCompressionMode(document, HPDF_COMP_ALL);
-  HPDF_UseUTFEncodings(document);
-  for (const auto& [face, file] : files) {
-    const char* name = HPDF_LoadTTFontFromFile(document, file.c_str(), HPDF_TRUE);
-    const HPDF_Font font = name == nullptr ? nullptr : HPDF_GetFont(document, name, "UTF-8");
-    if (font == nullptr) {
-      HPDF_Free(document);
-      throw EnvironmentError(file + ": cannot be read as a font; reinstall fonts-dejavu-core");
-    }
-    state_->fonts[face] = font;
-  }
-  HPDF_SetInfoAttr(document, HPDF_INFO_TITLE, property_text(title).c_str());
-  HPDF_SetInfoAttr(document, HPDF_INFO_CREATOR, "Trocar");
-  HPDF_Date date{};
-  if (date_of(utc, date)) HPDF_SetInfoDateAttr(document, HPDF_INFO_CREATION_DATE, date);
+int Lines::count() const { return pango_layout_get_line_count(layout_.get()); }
+
+double Lines::width() const {
+  PangoRectangle box;
+  pango_layout_get_extents(layout_.get(), nullptr, &box);
+  return pango_units_to_double(box.width);
 }
 
-PdfPages::~PdfPages() { HPDF_Free(state_->document); }
+PdfPages::PdfPages(const std::string& title, const std::string& utc)
+    : state_(new State{printable(title), date_of(utc)}) {}
+
+PdfPages::~PdfPages() = default;
 
 void PdfPages::add() {
-  state_->page = HPDF_AddPage(state_->document);
-  HPDF_Page_SetSize(state_->page, HPDF_PAGE_SIZE_A4, HPDF_PAGE_PORTRAIT);
-  state_->pages.push_back(state_->page);
+  state_->page = state_->pages.size();
+  state_->pages.emplace_back();
 }
 
-void PdfPages::choose(int page) { state_->page = state_->pages.at(static_cast<std::size_t>(page)); }
+void PdfPages::choose(int page) {
+  state_->page = static_cast<std::size_t>(page);
+  static_cast<void>(state_->pages.at(state_->page));
+}
 
 int PdfPages::count() const { return static_cast<int>(state_->pages.size()); }
 
-double PdfPages::width_of(const std::string& words, Face face, double size) const {
-  const HPDF_TextWidth width = HPDF_Font_TextWidth(
-      state_->fonts.at(face), reinterpret_cast<const HPDF_BYTE*>(words.data()), static_cast<HPDF_UINT>(words.size()));
-  return size * width.width / 1000.0;
+Lines PdfPages::lines(const std::string& words, const Font& font, double width, int most) const {
+  std::shared_ptr<PangoLayout>& layout = state_->layouts[{words, font, width, most}];
+  if (layout != nullptr) return {font, layout};
+  const int units = width > 0 ? pango_units_from_double(width) : -1;
+  std::string text = printable(words);
+  layout = state_->layout(text, font, units, PANGO_WRAP_WORD_CHAR);
+  const auto too_many = [&] { return most > 0 && pango_layout_get_line_count(layout.get()) > most; };
+  if (too_many())
+    text.resize(static_cast<std::size_t>(pango_layout_get_line_readonly(layout.get(), most)->start_index));
+  while (too_many()) {
+    while (text.ends_with(' ') || text.ends_with('\n')) text.pop_back();
+    layout = state_->layout(text + "\xE2\x80\xA6", font, units, PANGO_WRAP_WORD_CHAR);
+    if (text.empty()) break;
+    text.resize(begin_of_last(text));
+  }
+  return {font, layout};
 }
 
-WidthOf PdfPages::measure(Face face, double size) const {
-  return [this, face, size](const std::string& words) { return width_of(words, face, size); };
+double PdfPages::width_of_word(const std::string& words, const Font& font) const {
+  return Lines(font, state_->layout(printable(words), font, 0, PANGO_WRAP_WORD)).width();
 }
 
-void PdfPages::text(double x, double y, const std::string& words, Face face, double size, const Colour& colour) {
-  if (words.empty()) return;
-  state_->ink(colour);
-  HPDF_Page_BeginText(state_->page);
-  HPDF_Page_SetFontAndSize(state_->page, state_->fonts.at(face), real(size));
-  HPDF_Page_TextOut(state_->page, real(x), real(kHeight - y), words.c_str());
-  HPDF_Page_EndText(state_->page);
+void PdfPages::text_line(double x, double y, const Lines& lines, int index, const Colour& colour, Side side) {
+  PangoLayoutLine* line = pango_layout_get_line_readonly(lines.layout_.get(), index);
+  PangoRectangle box;
+  pango_layout_line_get_extents(line, nullptr, &box);
+  const double before = side == Side::kLeft ? 0 : side == Side::kMiddle ? 0.5 : 1;
+  const double left = x - before * pango_units_to_double(box.width);
+  state_->draw([=, kept = lines.layout_](cairo_t* cr) {
+    set_colour(cr, colour);
+    cairo_move_to(cr, left, y);
+    pango_cairo_show_layout_line(cr, line);
+  });
 }
 
-void PdfPages::text_right(double x, double y, const std::string& words, Face face, double size, const Colour& colour) {
-  text(x - width_of(words, face, size), y, words, face, size, colour);
+void PdfPages::text(double x, double y, const Lines& lines, const Colour& colour, Side side, double leading) {
+  for (int i = 0; i < lines.count(); ++i)
+    text_line(x, y + i * (leading > 0 ? leading : lines.font_.leading()), lines, i, colour, side);
 }
 
-void PdfPages::text_middle(double x, double y, const std::string& words, Face face, double size, const Colour& colour) {
-  text(x - 0.5 * width_of(words, face, size), y, words, face, size, colour);
+void PdfPages::text(double x, double y, const std::string& words, const Font& font, const Colour& colour, Side side) {
+  text(x, y, lines(words, font), colour, side);
 }
 
 void PdfPages::line(double x0, double y0, double x1, double y1, double width, const Colour& colour) {
-  state_->pen(colour);
-  HPDF_Page_SetLineWidth(state_->page, real(width));
-  HPDF_Page_MoveTo(state_->page, real(x0), real(kHeight - y0));
-  HPDF_Page_LineTo(state_->page, real(x1), real(kHeight - y1));
-  HPDF_Page_Stroke(state_->page);
+  state_->draw([=](cairo_t* cr) {
+    set_colour(cr, colour);
+    cairo_set_line_width(cr, width);
+    cairo_move_to(cr, x0, y0);
+    cairo_line_to(cr, x1, y1);
+    cairo_stroke(cr);
+  });
 }
 
 void PdfPages::fill(double x, double y, double width, double height, const Colour& colour) {
-  state_->ink(colour);
-  HPDF_Page_Rectangle(state_->page, real(x), real(kHeight - y - height), real(width), real(height));
-  HPDF_Page_Fill(state_->page);
+  state_->draw([=](cairo_t* cr) {
+    set_colour(cr, colour);
+    cairo_rectangle(cr, x, y, width, height);
+    cairo_fill(cr);
+  });
 }
 
 void PdfPages::frame(double x, double y, double width, double height, double line_width, const Colour& colour) {
-  state_->pen(colour);
-  HPDF_Page_SetLineWidth(state_->page, real(line_width));
-  HPDF_Page_Rectangle(state_->page, real(x), real(kHeight - y - height), real(width), real(height));
-  HPDF_Page_Stroke(state_->page);
+  state_->draw([=](cairo_t* cr) {
+    set_colour(cr, colour);
+    cairo_set_line_width(cr, line_width);
+    cairo_rectangle(cr, x, y, width, height);
+    cairo_stroke(cr);
+  });
 }
 
-void PdfPages::set_opacity(double fill, double stroke) {
-  HPDF_ExtGState& known =
-      state_->opacities[{static_cast<int>(std::lround(1000 * fill)), static_cast<int>(std::lround(1000 * stroke))}];
-  if (known == nullptr) {
-    known = HPDF_CreateExtGState(state_->document);
-    HPDF_ExtGState_SetAlphaFill(known, real(fill));
-    HPDF_ExtGState_SetAlphaStroke(known, real(stroke));
-  }
-  HPDF_Page_SetExtGState(state_->page, known);
-}
-
-/// Slanted lines at the pattern's distance, within the shape.
-void PdfPages::hatch(const Shape::Run& run, double x, double y, double scale) {
-  double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
-  for (const Point& p : run.points) {
-    x0 = std::min(x0, x + scale * p.x);
-    x1 = std::max(x1, x + scale * p.x);
-    y0 = std::min(y0, y + scale * p.y);
-    y1 = std::max(y1, y + scale * p.y);
-  }
-  if (x1 <= x0 || y1 <= y0) return;
-  HPDF_Page_GSave(state_->page);
-  HPDF_Page_Rectangle(state_->page, real(x0), real(kHeight - y1), real(x1 - x0), real(y1 - y0));
-  HPDF_Page_Clip(state_->page);
-  HPDF_Page_EndPath(state_->page);
-  set_opacity(1, 0.4);
-  const double step = std::max(2.5, 11.3 * scale), tall = y1 - y0;
-  for (double at = x0 - tall; at < x1; at += step) line(at, y0, at + tall, y1, 2 * scale, {0.835, 0.369, 0});
-  HPDF_Page_GRestore(state_->page);
-}
-
-void PdfPages::words_of_chart(const Shape& shape, double x, double y, double scale, double font_size) {
-  const Face face = shape.bold ? Face::kBold : Face::kPlain;
-  const double size = std::max(kLeastWords, font_size * scale);
-  const std::string words = printable(shape.words);
-  const double wide = width_of(words, face, size), at = x + scale * shape.at.x;
-  const double left = shape.anchor == "end" ? at - wide : shape.anchor == "middle" ? at - 0.5 * wide : at;
-  text(left, y + scale * shape.at.y, words, face, size, shape.fill.value_or(kInk));
-}
-
-void PdfPages::shape(const Shape& shape, double x, double y, double scale, double font_size) {
-  if (shape.kind == Shape::Kind::kText) return words_of_chart(shape, x, y, scale, font_size);
-  const bool circle = shape.kind == Shape::Kind::kCircle;
-  if (shape.hatched)
-    for (const Shape::Run& run : shape.runs) hatch(run, x, y, scale);
-  const bool filled = shape.fill && shape.fill_opacity > 0, drawn = shape.stroke && shape.stroke_opacity > 0;
-  if (!filled && !drawn) return;
-  const HPDF_Page page = state_->page;
-  HPDF_Page_GSave(page);
-  set_opacity(shape.fill_opacity, shape.stroke_opacity);
-  if (filled) state_->ink(*shape.fill);
-  if (drawn) state_->pen(*shape.stroke);
-  HPDF_Page_SetLineWidth(page, real(std::max(0.3, scale * shape.stroke_width)));
-  HPDF_Page_SetLineJoin(page, HPDF_ROUND_JOIN);
-  if (shape.round) HPDF_Page_SetLineCap(page, HPDF_ROUND_END);
-  if (!shape.dash.empty()) {
-    // Haru 2.3 takes whole numbers: never 0, which would draw nothing.
-    std::vector<HPDF_UINT16> dash;
-    for (std::size_t i = 0; i < shape.dash.size() && i < 4; ++i)
-      dash.push_back(static_cast<HPDF_UINT16>(std::max(1L, std::lround(shape.dash[i] * scale))));
-    HPDF_Page_SetDash(page, dash.data(), static_cast<HPDF_UINT>(dash.size()), 0);
-  }
-  if (circle)
-    HPDF_Page_Circle(page, real(x + scale * shape.at.x), real(kHeight - y - scale * shape.at.y),
-                     real(scale * shape.radius));
-  for (const Shape::Run& run : shape.runs) {
-    for (std::size_t i = 0; i < run.points.size(); ++i) {
-      const HPDF_REAL px = real(x + scale * run.points[i].x), py = real(kHeight - y - scale * run.points[i].y);
-      i == 0 ? HPDF_Page_MoveTo(page, px, py) : HPDF_Page_LineTo(page, px, py);
-    }
-    if (run.closed) HPDF_Page_ClosePath(page);
-  }
-  if (filled && drawn)
-    HPDF_Page_FillStroke(page);
-  else if (filled)
-    HPDF_Page_Fill(page);
-  else
-    HPDF_Page_Stroke(page);
-  HPDF_Page_GRestore(page);
-}
+double PdfPages::height_of_chart(const std::string& svg, double width) { return width * state_->chart(svg).shape; }
 
 double PdfPages::chart(const std::string& svg, double x, double y, double width) {
-  const Drawing drawing = read_svg(svg);
-  const double scale = width / drawing.width;
-  for (const Shape& one : drawing.shapes) {
-    const bool nothing =
-        one.kind == Shape::Kind::kLines &&
-        std::none_of(one.runs.begin(), one.runs.end(), [](const Shape::Run& run) { return run.points.size() > 1; });
-    if (!nothing) shape(one, x, y, scale, drawing.font_size);
-  }
-  return scale * drawing.height;
+  constexpr double kLeastWords = 6.2;  // points: below it nobody reads
+  const Chart& chart = state_->chart(svg);
+  const RsvgRectangle box{x, y, width, width * chart.shape};
+  if (box.height <= 0) return 0;
+  state_->draw([=](cairo_t* cr) {
+    const std::string style = chart_style(kLeastWords * chart.width / width);
+    rsvg_handle_set_stylesheet(chart.svg.get(), reinterpret_cast<const guint8*>(style.data()), style.size(), nullptr);
+    rsvg_handle_render_document(chart.svg.get(), cr, &box, nullptr);
+  });
+  return box.height;
 }
 
 double PdfPages::height_of_picture(const std::string& png, double width) {
-  const HPDF_Image image = state_->image(png);
-  if (image == nullptr) return 0;
-  const HPDF_Point size = HPDF_Image_GetSize(image);
-  return size.x > 0 ? width * size.y / size.x : 0;
+  return width * shape_of(state_->picture(png));
 }
 
 double PdfPages::picture(const std::string& png, double x, double y, double width) {
-  const double height = height_of_picture(png, width);
-  if (height > 0)
-    HPDF_Page_DrawImage(state_->page, state_->image(png), real(x), real(kHeight - y - height), real(width),
-                        real(height));
-  return height;
+  const Pixels& pixels = state_->picture(png);
+  if (pixels == nullptr) return 0;
+  state_->draw([=](cairo_t* cr) {
+    cairo_save(cr);
+    cairo_translate(cr, x, y);
+    const double scale = width / cairo_image_surface_get_width(pixels.get());
+    cairo_scale(cr, scale, scale);
+    cairo_set_source_surface(cr, pixels.get(), 0, 0);
+    cairo_paint(cr);
+    cairo_restore(cr);
+  });
+  return width * shape_of(pixels);
 }
 
 void PdfPages::stamp(const std::string& words, const Colour& colour) {
   constexpr double kSlant = 0.86;  // rad, along the page's diagonal
-  const double size = std::min(120.0, 680.0 / std::max(1.0, width_of(words, Face::kBold, 1)));
-  const double half = 0.5 * width_of(words, Face::kBold, size), c = std::cos(kSlant), s = std::sin(kSlant);
-  HPDF_Page_GSave(state_->page);
-  set_opacity(0.07, 1);
-  state_->ink(colour);
-  HPDF_Page_BeginText(state_->page);
-  HPDF_Page_SetFontAndSize(state_->page, state_->fonts.at(Face::kBold), real(size));
-  HPDF_Page_SetTextMatrix(state_->page, real(c), real(s), real(-s), real(c),
-                          real(0.5 * kWidth - half * c + 0.35 * size * s),
-                          real(0.5 * kHeight - half * s - 0.35 * size * c));
-  HPDF_Page_ShowText(state_->page, words.c_str());
-  HPDF_Page_EndText(state_->page);
-  HPDF_Page_GRestore(state_->page);
+  const double size = std::min(120.0, 680.0 / std::max(1.0, lines(words, bold(1)).width()));
+  const Lines stamped = lines(words, bold(size));
+  state_->draw([=](cairo_t* cr) {
+    cairo_save(cr);
+    cairo_translate(cr, 0.5 * kWidth, 0.5 * kHeight);
+    cairo_rotate(cr, -kSlant);
+    cairo_move_to(cr, -0.5 * stamped.width(), 0.35 * size);
+    set_colour(cr, colour, 0.07);
+    pango_cairo_show_layout_line(cr, pango_layout_get_line_readonly(stamped.layout_.get(), 0));
+    cairo_restore(cr);
+  });
 }
 
 std::string PdfPages::bytes() {
-  HPDF_SaveToStream(state_->document);
-  if (const HPDF_STATUS error = HPDF_GetError(state_->document); error != HPDF_OK)
-    throw std::runtime_error("PDF: the library refused something (error " + std::to_string(error) + ")");
-  HPDF_ResetStream(state_->document);
-  std::string out(HPDF_GetStreamSize(state_->document), '\0');
-  auto size = static_cast<HPDF_UINT32>(out.size());
-  if (size > 0) HPDF_ReadFromStream(state_->document, reinterpret_cast<HPDF_BYTE*>(out.data()), &size);
-  out.resize(size);
+  std::string out;
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+      cairo_pdf_surface_create_for_stream(append, &out, kWidth, kHeight), cairo_surface_destroy);
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, state_->title.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, "Trocar");
+  // Without one Cairo would take the clock's.
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
+                                 state_->date.empty() ? nullptr : state_->date.c_str());
+  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cr(cairo_create(surface.get()), cairo_destroy);
+  for (const auto& page : state_->pages) {
+    for (const State::Drawing& draw : page) draw(cr.get());
+    cairo_show_page(cr.get());
+  }
+  cairo_surface_finish(surface.get());
+  for (const cairo_status_t status : {cairo_status(cr.get()), cairo_surface_status(surface.get())})
+    if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(std::string("PDF: ") + cairo_status_to_string(status));
   return out;
 }
+
+double shape_of_picture(const std::string& png) { return shape_of(pixels_of(png)); }
 
 }  // namespace trocar::printed

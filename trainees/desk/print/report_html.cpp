@@ -1,9 +1,9 @@
 // A report as one HTML file: style and charts inside it, no script, nothing fetched; it prints as it stands.
 #include "trainees/desk/print/html_file.h"
-#include "trainees/desk/print/png_check.h"
+#include "trainees/desk/print/pdf_pages.h"
 #include "trainees/desk/print/report.h"
-#include "trainees/desk/print/svg_shapes.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/svg.h"
 
 namespace trocar::printed {
 namespace {
@@ -58,7 +58,7 @@ std::string html(const Table& table) {
       const Column& column = table.columns[i];
       out += std::string("<td class=\"") + class_of(row[i].tone) + (column.number ? " n" : "") +
              (column.mono ? " mono" : "") + "\">" +
-             (row[i].svg.empty() ? escape_html(row[i].words) : without_links(row[i].svg)) + "</td>";
+             (row[i].svg.empty() ? escape_html(row[i].words) : svg::without_links(row[i].svg)) + "</td>";
     }
     out += "</tr>";
   }
@@ -68,13 +68,13 @@ std::string html(const Table& table) {
 std::string html(const Figures& figures) {
   std::string out = "<div class=\"figures\">";
   for (const Figure& figure : figures.all)
-    out += "<figure style=\"width:" + percent(figure.share) + "\">" + without_links(figure.svg) + "<figcaption>" +
+    out += "<figure style=\"width:" + percent(figure.share) + "\">" + svg::without_links(figure.svg) + "<figcaption>" +
            escape_html(figure.caption) + "</figcaption></figure>";
   return out + "</div>";
 }
 
 std::string html(const Picture& picture) {
-  if (!whole_png(picture.png)) return "";
+  if (shape_of_picture(picture.png) <= 0) return "";
   const auto* bytes = reinterpret_cast<const unsigned char*>(picture.png.data());
   return "<figure style=\"width:" + percent(picture.share) + "\"><img alt=\"\" src=\"data:image/png;base64," +
          base64({bytes, picture.png.size()}) + "\"/><figcaption>" + escape_html(picture.caption) +

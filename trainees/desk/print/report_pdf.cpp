@@ -6,10 +6,10 @@ namespace trocar::printed {
 namespace {
 
 void put_title(PageFlow& flow, const Report& report) {
-  flow.words(report.kind, Face::kPlain, 9, kDim);
-  flow.words(report.title, Face::kBold, 20, kInk);
+  flow.words(report.kind, plain(9), kDim);
+  flow.words(report.title, bold(20), kInk);
   flow.down(2);
-  flow.words(report.subtitle, Face::kPlain, 9.4, kDim);
+  flow.words(report.subtitle, plain(9.4), kDim);
   flow.down(8);
 }
 
@@ -27,27 +27,25 @@ void put_blocks(PageFlow& flow, const std::vector<Block>& blocks) {
 }
 
 void put_frame(PdfPages& pages, const Report& report) {
-  constexpr double kBodySize = 7.6, kHead = 40, kFoot = 812;
-  const std::string date = report.newest_utc.empty() ? "" : "Record to " + day_text(report.newest_utc);
+  constexpr Font kFont = plain(7.6);
+  constexpr double kHead = 40, kFoot = 812;
   const double left = PageFlow::kLeft, right = PageFlow::kRight;
+  const Lines date = pages.lines(report.newest_utc.empty() ? "" : "Record to " + day_text(report.newest_utc), kFont);
+  const Lines head =
+      pages.lines("Trocar  |  " + report.kind + "  |  " + report.who, kFont, right - left - date.width() - 20, 1);
+  const std::string foot =
+      report.mark.empty()
+          ? "Trocar is a training aid, not a medical device. A score judges a run at a simulator; a person signs."
+          : report.mark + ": these trainees and attempts are invented. Nothing here is a record.";
   for (int i = 0; i < pages.count(); ++i) {
     pages.choose(i);
     if (!report.mark.empty()) pages.stamp(report.mark, kRed);
-    const double room = right - left - pages.width_of(date, Face::kPlain, kBodySize) - 20;
-    pages.text(left, kHead,
-               shortened(printable("Trocar  |  " + report.kind + "  |  " + report.who), room,
-                         pages.measure(Face::kPlain, kBodySize)),
-               Face::kPlain, kBodySize, kDim);
-    pages.text_right(right, kHead, date, Face::kPlain, kBodySize, kDim);
+    pages.text(left, kHead, head, kDim);
+    pages.text(right, kHead, date, kDim, Side::kRight);
     pages.line(left, kHead + 5, right, kHead + 5, 0.5, kRule);
     pages.line(left, kFoot - 11, right, kFoot - 11, 0.5, kRule);
-    const std::string foot =
-        report.mark.empty()
-            ? "Trocar is a training aid, not a medical device. A score judges a run at a simulator; a person signs."
-            : report.mark + ": these trainees and attempts are invented. Nothing here is a record.";
-    pages.text(left, kFoot, printable(foot), Face::kPlain, kBodySize, report.mark.empty() ? kDim : kRed);
-    pages.text_right(right, kFoot, std::to_string(i + 1) + " of " + std::to_string(pages.count()), Face::kPlain,
-                     kBodySize, kInk);
+    pages.text(left, kFoot, foot, kFont, report.mark.empty() ? kDim : kRed);
+    pages.text(right, kFoot, std::to_string(i + 1) + " of " + std::to_string(pages.count()), kFont, kInk, Side::kRight);
   }
 }
 

@@ -37,7 +37,7 @@ TEST(ReportPdf, NamesOfEveryAlphabetArePrinted) {
   EXPECT_TRUE(pdf.holds("\xCE\x91\xCE\xB8\xCE\xAE\xCE\xBD\xCE\xB1, \xD0\x98\xD0\xB2\xD0\xB0\xD0\xBD"));
   EXPECT_TRUE(pdf.holds("lacking: "));
   EXPECT_TRUE(pdf.holds(" end")) << "what the font lacks is a box and no error";
-  for (const char* face : {"DejaVuSans,", "DejaVuSans-Bold"})
+  for (const char* face : {"+DejaVuSans ", "+DejaVuSans-Bold "})
     EXPECT_NE(pdf.fonts.find(face), std::string::npos) << pdf.fonts;
   EXPECT_EQ(pdf.fonts.find(" no  "), std::string::npos) << "a font is not embedded:\n" << pdf.fonts;
 }
