@@ -53,7 +53,7 @@ class PlantBench {
   /// not fit into a patch.
   void put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material);
   void take_wall_away() {
-    patch_->count = 0;
+    patch_->clear();
     ++patch_->stamp;
   }
 
