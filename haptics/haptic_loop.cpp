@@ -69,7 +69,7 @@ std::array<std::int32_t, kChannels> count_limits(const HapticLoopConfig& config)
 }
 
 /// NaN or infinity anywhere in the patch: comparisons would swallow it and the force would silently vanish. The same
-/// for a material that the table does not have.
+/// for a material or a vertex that its table does not have.
 bool is_sound(const ContactPatch& patch, bool triangles) {
   double sum = patch.grip.thickness_m + patch.grip.stiffness_n_per_m + (patch.held.from_I + patch.held.to_I).sum() +
                patch.held.radius_m;
@@ -79,7 +79,14 @@ bool is_sound(const ContactPatch& patch, bool triangles) {
   for (int i = 0; triangles && i < patch.count; ++i) {
     const PatchTriangle& t = patch.triangle[i];
     if (t.material < 0 || t.material >= kMaxPatchMaterials) return false;
-    sum += (t.vertex[0] + t.vertex[1] + t.vertex[2] + t.normal).sum();
+    for (const std::int16_t corner : t.corner) {
+      if (corner < 0 || corner >= patch.vertex_count) return false;
+    }
+    sum += t.normal.sum();
+  }
+  for (int i = 0; triangles && i < patch.vertex_count; ++i) {
+    sum += patch.vertex[i].sum();
+    if (patch.moving) sum += patch.velocity[i].sum();
   }
   return std::isfinite(sum);
 }
@@ -172,6 +179,7 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   checked_stamp_ = patch.stamp;
   if (!is_sound(patch, new_patch)) {
     supervisor_.raise(FaultCode::kNonFinite, tick_, -1, patch.material[0].stiffness_n_per_m);
+    contact_.reset();
     return contact;
   }
   contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T, patch, motion.q[kPinchChannel]);

@@ -68,6 +68,8 @@ class HapticLoop {
   void set_passivity_law(PassivityLaw law) noexcept;
   void set_stiffness_clamp(bool clamp) noexcept { config_.clamp_stiffness = clamp; }
   const HapticLoopConfig& config() const { return config_; }
+  /// Of the last tick, for the tissue.
+  const SolvedContacts& contacts() const { return contact_.contacts(); }
   const SafetyLog& safety_log() const { return safety_log_; }
   const PassivityController& pinch_passivity() const { return pinch_passivity_; }
 

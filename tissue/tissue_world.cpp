@@ -18,12 +18,14 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
   if (!setup.rigid.empty()) rigid_.emplace(setup.rigid, setup.tool);
 }
 
-void TissueWorld::step(const StylusState& state, bool present, ContactPatch& patch) {
+void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& patch) {
+  const StylusState& state = newest.stylus;
   const double dt_s = frame_.stamp == 0 ? kFirstStep : std::clamp(state.t_s - frame_.t_s, 0.0, kLongestStep);
   ++frame_.stamp;
   frame_.t_s = state.t_s;
   patch.stamp = frame_.stamp;
-  patch.count = patch.dropped = 0;
+  patch.topology = seen_ ? seen_->topology : 0;
+  patch.clear();
   patch.reach_m = kPatchRadius;
   patch.material[0] = organ_;
   std::copy(adjacent_.begin(), adjacent_.end(), patch.material.begin() + 1);

@@ -31,7 +31,7 @@ class TissueWorld final : public World {
  public:
   explicit TissueWorld(const TissueSetup& setup);
 
-  void step(const StylusState& state, bool present, ContactPatch& patch) override;
+  void step(const HapticState& state, bool present, ContactPatch& patch) override;
   const TissueFrame& frame() const override { return frame_; }
   SurfacePtr surface() const override { return seen_; }
   std::uint64_t dropped() const override { return dropped_; }

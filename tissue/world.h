@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "haptics/exchange/contact_patch.h"
-#include "haptics/exchange/stylus_state.h"
+#include "haptics/exchange/solved_contacts.h"
 #include "tissue/surface_snapshot.h"
 #include "tissue/tissue_frame.h"
 
@@ -18,8 +18,9 @@ namespace trocar {
 class World {
  public:
   virtual ~World() = default;
+  /// @param state with what the last tick's contacts do to the surface of an earlier patch.
   /// @param present the instrument is in the scene: before that nothing is felt or moved by it. @param patch filled.
-  virtual void step(const StylusState& state, bool present, ContactPatch& patch) = 0;
+  virtual void step(const HapticState& state, bool present, ContactPatch& patch) = 0;
   virtual const TissueFrame& frame() const = 0;
   /// The organ after the step; nullptr: none is to be seen.
   virtual SurfacePtr surface() const = 0;

@@ -21,11 +21,6 @@ HapticLoopConfig matched(HapticLoopConfig loop, const SimulatedDaq& daq) {
   return loop;
 }
 
-void add_triangle(ContactPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
-  patch.triangle[static_cast<std::size_t>(patch.count)] = {{a, b, c}, (b - a).cross(c - a).normalized(), patch.count};
-  ++patch.count;
-}
-
 }  // namespace
 
 SimulatedDaqConfig nominal_device() {
@@ -122,9 +117,9 @@ void PlantBench::put_wall(const Vec3& point_T, const Vec3& normal_T, const Conta
 
 void PlantBench::put_surface(std::span<const std::array<Vec3, 3>> triangles_T, const ContactMaterial& material) {
   if (triangles_T.size() > kMaxPatchTriangles) throw std::invalid_argument("bench: a surface of too many triangles");
-  patch_->count = 0;
+  patch_->clear();
   patch_->material[0] = material;
-  for (const auto& [a, b, c] : triangles_T) add_triangle(*patch_, a, b, c);
+  for (const auto& triangle : triangles_T) add_triangle(*patch_, triangle, patch_->count);
   ++patch_->stamp;
 }
 

@@ -40,7 +40,7 @@ struct Rig {
   Rig(const Scene& scene_in, DataAcquisition& daq, Timing timing, std::unique_ptr<Channel<ContactPatch>> patches,
       RecorderRings* recorder)
       : scene(scene_in),
-        state(make_channel<StylusState>(timing)),
+        state(make_channel<HapticState>(timing)),
         patch(std::move(patches)),
         hand_frames(make_channel<ExerciseFrame>(timing)),
         observer_frames(make_channel<ExerciseFrame>(timing)),
@@ -92,7 +92,7 @@ struct Rig {
   }
 
   const Scene& scene;
-  std::unique_ptr<Channel<StylusState>> state;
+  std::unique_ptr<Channel<HapticState>> state;
   std::unique_ptr<Channel<ContactPatch>> patch;
   std::unique_ptr<Channel<ExerciseFrame>> hand_frames, observer_frames;
   std::unique_ptr<Channel<TickRecord>> records;
@@ -130,7 +130,7 @@ class MarkTask final : public Task {
       : rig_(rig), events_(events), marks_(marks), type_(type) {}
   std::uint32_t period() const override { return rig_.tissue.period(); }
   void run(std::uint64_t tick) override {
-    const StylusState& seen = rig_.state->newest(tick);
+    const StylusState& seen = rig_.state->newest(tick).stylus;
     for (const std::uint32_t asked = marks_.load(); taken_ != asked; ++taken_) {
       Event event;
       event.type = type_.name;

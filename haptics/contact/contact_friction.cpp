@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -24,15 +25,6 @@ Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) {
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal * normal.dot(v); }
 
-std::array<double, 3> barycentric_of(const Vec3& p, const std::array<Vec3, 3>& t) {
-  const Vec3 e1 = t[1] - t[0], e2 = t[2] - t[0], d = p - t[0];
-  const double a = e1.dot(e1), b = e1.dot(e2), c = e2.dot(e2), f = e1.dot(d), g = e2.dot(d);
-  const double det = a * c - b * b;
-  if (det <= 1e-12 * a * c) return {1, 0, 0};  // a needle: its first corner stands for it
-  const double v = (c * f - b * g) / det, w = (a * g - b * f) / det;
-  return {1 - v - w, v, w};
-}
-
 double stribeck(const ContactMaterial& m, double speed_m_s) {
   const double ratio = m.stribeck_m_s > 0 ? speed_m_s / m.stribeck_m_s : 1e3;
   return m.mu_dynamic + (m.mu_static - m.mu_dynamic) * std::exp(-std::min(50.0, ratio * ratio));
@@ -43,14 +35,14 @@ double stribeck(const ContactMaterial& m, double speed_m_s) {
 FrictionResult ContactFriction::update(const PressingTool& tool, std::span<const PressedPlace> places,
                                        double stiffness_n_per_m, const ContactPatch& patch) {
   FrictionResult result;
-  std::array<PressedPlace, kMaxPlaces> merged;
-  const int count = merge(places, merged);
+  const bool ids_hold = std::exchange(topology_, patch.topology) == patch.topology;
+  const Merged merged = merge(places);
   double depth = 0;
-  for (int i = 0; i < count; ++i) depth += merged[i].share;
-  std::array<Anchor, kMaxPlaces> next;
+  for (int i = 0; i < merged.count; ++i) depth += merged.at[i].share;
+  std::array<Anchor, kMaxPressedPlaces> next;
   int kept = 0;
-  for (int i = 0; i < count; ++i) {
-    const PressedPlace& place = merged[i];
+  for (int i = 0; i < merged.count; ++i) {
+    const PressedPlace& place = merged.at[i];
     const auto& material = patch.material[static_cast<std::size_t>(patch.triangle[place.index].material)];
     const Anchor* known = find(place);
     if (!known && material.mu_static <= 0) continue;
@@ -62,12 +54,12 @@ FrictionResult ContactFriction::update(const PressingTool& tool, std::span<const
       anchor.normal = place.normal;
       anchor.mu = material.mu_static;
     }
-    const bool held = known && stretch(anchor, place, X_TC, patch);
+    const bool held = known && ids_hold && stretch(anchor, place, X_TC, patch);
     if (!held) anchor.u = turned(anchor.u, anchor.normal, place.normal);
     anchor.normal = place.normal;
     anchor.foot = place.foot;
     const Vec3 lever = place.foot - tool.y - tool.X_TI.p;
-    const Vec3 speed = across(tool.V_TI_T.linear + tool.V_TI_T.angular.cross(lever), place.normal);
+    const Vec3 speed = across(tool.V_TI_T.linear + tool.V_TI_T.angular.cross(lever) - place.velocity, place.normal);
     const double before = anchor.u.squaredNorm();
     slide(anchor, material, speed.norm(), depth / kTangential);
     const bool dragged = anchor.u.squaredNorm() < before;
@@ -79,34 +71,42 @@ FrictionResult ContactFriction::update(const PressingTool& tool, std::span<const
     result.F_I_T.moment += lever.cross(force);
     result.stored_j += 0.5 * spring * anchor.u.squaredNorm();
     result.slipping = result.slipping || anchor.slipping;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (merged.into[p] == i) result.at[p] = {force * (places[p].share / merged.pressed[i]), anchor.on_tissue};
+    }
   }
   anchor_ = next;
   count_ = kept;
   return result;
 }
 
-int ContactFriction::merge(std::span<const PressedPlace> places, std::array<PressedPlace, kMaxPlaces>& merged) const {
-  int count = 0;
-  for (const PressedPlace& place : places) {
+ContactFriction::Merged ContactFriction::merge(std::span<const PressedPlace> places) {
+  Merged merged;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const PressedPlace& place = places[p];
     int into = 0;
-    while (into < count &&
-           !(merged[into].capsule == place.capsule && merged[into].normal.dot(place.normal) > kMergeCosine &&
-             (merged[into].foot - place.foot).norm() < kMergeDistance)) {
+    while (into < merged.count &&
+           !(merged.at[into].capsule == place.capsule && merged.at[into].normal.dot(place.normal) > kMergeCosine &&
+             (merged.at[into].foot - place.foot).norm() < kMergeDistance)) {
       ++into;
     }
-    if (into == count) {
-      merged[count++] = place;
+    merged.into[p] = into;
+    merged.pressed[into] += place.share;
+    PressedPlace& m = merged.at[into];
+    if (into == merged.count) {
+      m = place;
+      ++merged.count;
       continue;
     }
-    PressedPlace& m = merged[into];
     const double sum = m.share + place.share;
     if (place.share > m.share) m.index = place.index;
     m.foot = (m.foot * m.share + place.foot * place.share) / sum;
+    m.velocity = (m.velocity * m.share + place.velocity * place.share) / sum;
     const Vec3 pressed = m.normal * m.share + place.normal * place.share;
     m.normal = pressed.normalized();
     m.share = pressed.norm();
   }
-  return count;
+  return merged;
 }
 
 const ContactFriction::Anchor* ContactFriction::find(const PressedPlace& place) const {
@@ -124,15 +124,14 @@ const ContactFriction::Anchor* ContactFriction::find(const PressedPlace& place) 
 
 bool ContactFriction::stretch(Anchor& anchor, const PressedPlace& place, const Pose& X_TC,
                               const ContactPatch& patch) const {
-  if (anchor.index >= patch.count || patch.triangle[anchor.index].id != anchor.id) {
+  const std::int32_t id = anchor.on_tissue.triangle;
+  if (anchor.index >= patch.count || patch.triangle[anchor.index].id != id) {
     std::int32_t i = 0;
-    while (i < patch.count && patch.triangle[i].id != anchor.id) ++i;
+    while (i < patch.count && patch.triangle[i].id != id) ++i;
     if (i == patch.count) return false;
     anchor.index = i;
   }
-  const auto& v = patch.triangle[anchor.index].vertex;
-  const auto& b = anchor.barycentric;
-  const Vec3 on_tissue = b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
+  const Vec3 on_tissue = interpolate(anchor.on_tissue.weight, patch.corners(anchor.index));
   const Vec3 apart = X_TC * anchor.on_tool - on_tissue - anchor.origin;
   anchor.u = turned(across(apart, anchor.normal_then), anchor.normal_then, place.normal);
   anchor.normal = place.normal;
@@ -141,12 +140,10 @@ bool ContactFriction::stretch(Anchor& anchor, const PressedPlace& place, const P
 
 void ContactFriction::take_points(Anchor& anchor, const PressedPlace& place, const Pose& X_TC, const Vec3& y,
                                   const ContactPatch& patch) const {
-  const PatchTriangle& triangle = patch.triangle[place.index];
+  const std::array<Vec3, 3> triangle = patch.corners(place.index);
   anchor.index = place.index;
-  anchor.id = triangle.id;
-  anchor.barycentric = barycentric_of(place.foot, triangle.vertex);
-  const auto& b = anchor.barycentric;
-  const Vec3 on_tissue = b[0] * triangle.vertex[0] + b[1] * triangle.vertex[1] + b[2] * triangle.vertex[2];
+  anchor.on_tissue = {patch.triangle[place.index].id, barycentric_of(place.foot, triangle)};
+  const Vec3 on_tissue = interpolate(anchor.on_tissue.weight, triangle);
   const Vec3 on_tool = place.foot - y;
   anchor.on_tool = X_TC.inverse() * on_tool;
   anchor.origin = on_tool - on_tissue - anchor.u;

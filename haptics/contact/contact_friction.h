@@ -22,18 +22,28 @@
 
 namespace trocar {
 
+inline constexpr int kMaxPressedPlaces = 3;  ///< contacts that can carry at once in space
+
 /// Where the instrument presses this period.
 struct PressedPlace {
   Vec3 foot, normal;       ///< on the surface; unit, out of it
   double share = 0;        ///< of the depth, m: N = k share
   std::int32_t index = 0;  ///< triangle in the patch
   std::int8_t capsule = 0;
+  Vec3 velocity = Vec3::Zero();  ///< of the surface at the foot, m/s
+};
+
+/// What friction does at one pressed place.
+struct PlaceFriction {
+  Vec3 force = Vec3::Zero();  ///< on the instrument
+  MaterialPoint anchor;       ///< what it holds on to
 };
 
 struct FrictionResult {
   Wrench F_I_T;  ///< on the instrument, moment about its tip
   double stored_j = 0;
-  bool slipping = false;  ///< any contact
+  bool slipping = false;                            ///< any contact
+  std::array<PlaceFriction, kMaxPressedPlaces> at;  ///< in the order of the places
 };
 
 /// What the friction must know of the instrument. proxy - tip = y.
@@ -48,18 +58,15 @@ class ContactFriction {
  public:
   void reset() { count_ = 0; }
 
-  /// One period. @param places at most kMaxPlaces, shares > 0; @param stiffness k of the normal springs.
+  /// One period. @param places at most kMaxPressedPlaces, shares > 0; @param stiffness k of the normal springs.
   FrictionResult update(const PressingTool& tool, std::span<const PressedPlace> places, double stiffness_n_per_m,
                         const ContactPatch& patch);
 
-  static constexpr int kMaxPlaces = 3;
-
  private:
   struct Anchor {
-    Vec3 on_tool;  ///< material point of the instrument, in the frame of its capsule
-    std::array<double, 3> barycentric{};
-    std::int32_t id = -1;        ///< triangle of the tissue's material point
-    std::int32_t index = 0;      ///< where it was in the patch
+    Vec3 on_tool;                ///< material point of the instrument, in the frame of its capsule
+    MaterialPoint on_tissue;     ///< material point of the tissue
+    std::int32_t index = 0;      ///< where its triangle was in the patch
     Vec3 origin = Vec3::Zero();  ///< tool point minus tissue point at u = 0
     Vec3 normal_then;            ///< when both points were taken
     Vec3 normal, foot;           ///< in the last period
@@ -69,18 +76,25 @@ class ContactFriction {
     bool slipping = false;
   };
 
-  /// Pressed places that are one contact to friction.
-  int merge(std::span<const PressedPlace> places, std::array<PressedPlace, kMaxPlaces>& merged) const;
+  /// Pressed places as friction takes them: what is one contact to it is one place.
+  struct Merged {
+    std::array<PressedPlace, kMaxPressedPlaces> at;
+    std::array<double, kMaxPressedPlaces> pressed{};  ///< sum of the shares
+    int count = 0;
+    std::array<int, kMaxPressedPlaces> into{};  ///< where each place has gone
+  };
+  static Merged merge(std::span<const PressedPlace> places);
   const Anchor* find(const PressedPlace& place) const;
-  /// u of this period from the two material points; false when the tissue point has left the patch.
+  /// u of this period from the two material points; false when points are to be taken anew.
   bool stretch(Anchor& anchor, const PressedPlace& place, const Pose& X_TC, const ContactPatch& patch) const;
   void take_points(Anchor& anchor, const PressedPlace& place, const Pose& X_TC, const Vec3& y,
                    const ContactPatch& patch) const;
   /// Moves along mu(v) and drags the anchor. @param limit_m u at mu = 1
   void slide(Anchor& anchor, const ContactMaterial& material, double speed_m_s, double limit_m) const;
 
-  std::array<Anchor, kMaxPlaces> anchor_;
+  std::array<Anchor, kMaxPressedPlaces> anchor_;
   int count_ = 0;
+  std::uint64_t topology_ = 0;  ///< that the anchors' ids are of
 };
 
 }  // namespace trocar

@@ -29,24 +29,27 @@ constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a cha
 
 ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch,
                                       double jaw_opening_m) {
+  contacts_.topology = patch.topology;
+  contacts_.count = 0;
   if (law_ == ContactLaw::kThesis) return thesis_law(X_TI, patch);
   tool_ = tool_capsules(shape_, jaw_opening_m, patch.held);
   return proxy_law(X_TI, V_TI_T, patch);
 }
 
-ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) const {
+ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) {
   ContactResult result;
   double nearest = -1;
-  const PatchTriangle* triangle = nullptr;
+  int index = -1;
   for (int i = 0; i < patch.count; ++i) {
-    const Vec3 point = closest_point_on_triangle(X_TI.p, patch.triangle[i].vertex);
+    const Vec3 point = closest_point_on_triangle(X_TI.p, patch.corners(i));
     const double distance = (point - X_TI.p).norm();
     if (nearest < 0 || distance < nearest) {
       nearest = distance;
-      triangle = &patch.triangle[i];
+      index = i;
       result.point_T = point;
     }
   }
+  const PatchTriangle* triangle = index < 0 ? nullptr : &patch.triangle[index];
   if (!triangle || (X_TI.p - result.point_T).dot(triangle->normal) >= 0) return result;
   result.contact = result.tip_contact = true;
   result.depth_m = nearest;
@@ -56,6 +59,8 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
   result.F_I_T.moment = (result.point_T - X_TI.p).cross(result.F_I_T.force);
   result.spring_I_T = result.F_I_T;
   result.stored_j = 0.5 * stiffness * nearest * nearest;
+  contacts_.at[contacts_.count++] = {
+      {triangle->id, barycentric_of(result.point_T, patch.corners(index))}, triangle->normal, result.F_I_T.force, {}};
   return result;
 }
 
@@ -155,13 +160,15 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
     return result;
   }
   blend_material(patch, travel);
+  list_pressed(patch);
   const double approach = approach_speed(V_TI_T, y.norm());
   const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * blend_.damping_s_per_m * approach);
-  for (int i = 0; i < touch_count_; ++i) {
-    const Touch& t = touch_[i];
-    const Vec3 force = blend_.stiffness_n_per_m * t.share * t.normal;
+  for (int i = 0; i < contacts_.count; ++i) {
+    const PressedPlace& p = pressed_[i];
+    const Vec3 force = blend_.stiffness_n_per_m * p.share * p.normal;
     result.spring_I_T.force += force;
-    result.spring_I_T.moment += (t.point - proxy_).cross(force);
+    result.spring_I_T.moment += (p.foot - proxy_).cross(force);
+    contacts_.at[i].force_T = force * damping;
   }
   result.F_I_T = result.spring_I_T * damping;
   result.contact = true;
@@ -174,16 +181,26 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
   return result;
 }
 
+void ContactRenderer::list_pressed(const ContactPatch& patch) {
+  for (int i = 0; i < touch_count_ && contacts_.count < kMaxPressedPlaces; ++i) {
+    const Touch& t = touch_[i];
+    if (t.share <= 0) continue;
+    SolvedContact& contact = contacts_.at[contacts_.count];
+    contact.place = {patch.triangle[t.index].id, barycentric_of(t.point, patch.corners(t.index))};
+    contact.normal_T = t.normal;
+    const Vec3 velocity = patch.velocity_at(t.index, contact.place.weight);
+    pressed_[contacts_.count++] = {t.point, t.normal, t.share, t.index, t.capsule, velocity};
+  }
+}
+
 void ContactRenderer::add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch,
                                    ContactResult& result) {
-  std::array<PressedPlace, ContactFriction::kMaxPlaces> places;
-  std::size_t count = 0;
-  for (int i = 0; i < touch_count_ && count < places.size(); ++i) {
-    const Touch& t = touch_[i];
-    if (t.share > 0) places[count++] = {t.point, t.normal, t.share, t.index, t.capsule};
-  }
   const FrictionResult friction =
-      friction_.update({X_TI, V_TI_T, tool_, proxy_ - X_TI.p}, {places.data(), count}, blend_.stiffness_n_per_m, patch);
+      friction_.update({X_TI, V_TI_T, tool_, proxy_ - X_TI.p}, pressed(), blend_.stiffness_n_per_m, patch);
+  for (int i = 0; i < contacts_.count; ++i) {
+    contacts_.at[i].force_T += friction.at[i].force;
+    contacts_.at[i].anchor = friction.at[i].anchor;
+  }
   result.F_I_T = result.F_I_T + friction.F_I_T;
   result.spring_I_T = result.spring_I_T + friction.F_I_T;
   result.stored_j += friction.stored_j;
@@ -206,9 +223,9 @@ void ContactRenderer::blend_material(const ContactPatch& patch, double travel_m)
 
 double ContactRenderer::approach_speed(const Twist& V_TI_T, double depth_m) const {
   double power = 0;
-  for (int i = 0; i < touch_count_; ++i) {
-    const Vec3 lever = touch_[i].point - proxy_;
-    power -= touch_[i].share * touch_[i].normal.dot(V_TI_T.linear + V_TI_T.angular.cross(lever));
+  for (const PressedPlace& p : pressed()) {
+    const Vec3 lever = p.foot - proxy_;
+    power -= p.share * p.normal.dot(V_TI_T.linear + V_TI_T.angular.cross(lever) - p.velocity);
   }
   return power / depth_m;
 }
@@ -227,15 +244,15 @@ double ContactRenderer::sweep(const ContactPatch& patch, double slack) {
   for (int n = 0; n < near_.count(); ++n) {
     if (!near_.due(near_.at(n), slack)) continue;
     const NearPairs::Pair pair = near_.at(n);
-    const PatchTriangle& triangle = patch.triangle[pair.index];
     const CapsuleAxis& axis = axes_[pair.capsule];
     const Capsule& capsule = tool_.at[pair.capsule];
-    const ClosestPair closest = closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, triangle.vertex);
+    const ClosestPair closest =
+        closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, patch.corners(pair.index));
     const double gap = closest.distance - capsule.radius_m;
     near_.measured(n, gap);
     if (gap > slack) continue;
     // On the axis itself the direction is undefined: the surface's own normal leads out.
-    Vec3 normal = triangle.normal;
+    Vec3 normal = patch.triangle[pair.index].normal;
     if (closest.distance > 1e-9) normal = (closest.on_segment - closest.on_triangle) / closest.distance;
     if (gap < 0) {
       proxy_ -= gap * normal;
@@ -281,7 +298,7 @@ Vec3 ContactRenderer::share_out(const Vec3& y) {
   for (int i = 0; i < touch_count_; ++i) touch_[i].share = 0;
   carrying_count_ = 0;
   Vec3 rest = y;
-  for (int round = 0; round < kShareRounds && carrying_count_ < kMaxCarrying; ++round) {
+  for (int round = 0; round < kShareRounds && carrying_count_ < kMaxPressedPlaces; ++round) {
     int best = -1;
     double gain = kShareGain;
     for (int i = 0; i < touch_count_; ++i) {

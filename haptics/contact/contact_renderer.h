@@ -7,9 +7,9 @@
 // contact forces about the tip (virtual work of V = k |y|^2 / 2, so the law is conservative). One k serves all
 // contacts: that of the touched materials by the force they carry; where it changes it follows over 2 mm of travel, so
 // that no border between materials is a step. The radius rounds convex edges: the normal turns continuously. Damping
-// multiplies the force by 1 + 1.5 c v, v the approach speed, bounded below by 0: it never pulls (Hunt and Crossley
-// 1975, exponent 1). Friction comes on top (contact_friction.h). Zilles and Salisbury 1995 (god-object), Ortega, Redon
-// and Coquillart 2007 (6-DOF god-object).
+// multiplies the force by 1 + 1.5 c v, v the speed at which instrument and surface approach, bounded below by 0: it
+// never pulls (Hunt and Crossley 1975, exponent 1). Friction comes on top (contact_friction.h). Zilles and Salisbury
+// 1995 (god-object), Ortega, Redon and Coquillart 2007 (6-DOF god-object).
 //
 // The thesis' law (nearest point, F = k x, M = (p_contact - p_origin) x F) is kept as a selectable baseline.
 // Frame T. Thread: haptic task; no allocation.
@@ -17,12 +17,14 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "haptics/contact/contact_friction.h"
 #include "haptics/contact/near_pairs.h"
 #include "haptics/contact/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
+#include "haptics/exchange/solved_contacts.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -49,6 +51,7 @@ class ContactRenderer {
   /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
   void reset() {
     started_ = touching_ = false;
+    contacts_.count = 0;
     near_.forget();
     friction_.reset();
   }
@@ -59,11 +62,10 @@ class ContactRenderer {
   /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
   /// @param jaw_opening_m gap between the ends of the jaw pads.
   ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, double jaw_opening_m = 0);
+  /// Those that carried force in the last period; their forces add up to F_I_T.force.
+  const SolvedContacts& contacts() const { return contacts_; }
 
  private:
-  static constexpr int kMaxContacts = 16;  ///< distinct contacts kept
-  static constexpr int kMaxCarrying = 3;   ///< of them, those that can carry at once in space
-
   struct Touch {
     Vec3 normal, point;  ///< unit from surface to axis; surface point
     double gap;          ///< between the surfaces of capsule and triangle, m; negative: they overlap
@@ -73,7 +75,7 @@ class ContactRenderer {
     double share = 0;  ///< part of y carried, m
   };
 
-  ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch) const;
+  ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch);
   /// Where the axes of all capsules lie now; on the first call the proxy begins there.
   CapsuleAxes place_capsules(const Pose& X_TI);
   /// Moves the proxy to where it rests this period and lists what it touches.
@@ -84,8 +86,11 @@ class ContactRenderer {
   /// Furthest that an end of a capsule has to go against the tip to take this place.
   double turn_to(const CapsuleAxes& axes) const;
   void blend_material(const ContactPatch& patch, double travel_m);
+  /// Lists the contacts that carry.
+  void list_pressed(const ContactPatch& patch);
+  std::span<const PressedPlace> pressed() const { return {pressed_.data(), static_cast<std::size_t>(contacts_.count)}; }
   void add_friction(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, ContactResult& result);
-  /// Speed at which the contacts are pressed in, conjugate to their forces, m/s.
+  /// Speed at which the contacts are pressed in, relative to the surface and conjugate to their forces, m/s.
   double approach_speed(const Twist& V_TI_T, double depth_m) const;
   /// Pushes the proxy out of the near triangles and lists those within `slack` of touching.
   void project(const ContactPatch& patch, double slack);
@@ -114,8 +119,10 @@ class ContactRenderer {
   NearPairs near_;
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
-  std::array<std::int32_t, kMaxCarrying> carrying_{};
+  std::array<std::int32_t, kMaxPressedPlaces> carrying_{};
   int carrying_count_ = 0;
+  std::array<PressedPlace, kMaxPressedPlaces> pressed_;
+  SolvedContacts contacts_;  ///< of the same places
 };
 
 }  // namespace trocar

@@ -154,7 +154,7 @@ void NearPairs::sift(const PlacedTool& tool, const ContactPatch& patch, const Pa
         Pair& pair = pair_[listed_count_];
         pair.index = i;
         pair.capsule = static_cast<std::int8_t>(c);
-        if (!bound(tool, capsules[c], balls, patch.triangle[i], pair)) continue;
+        if (!bound(tool, capsules[c], balls, patch.corners(i), pair)) continue;
         furthest_share_[c] = std::max(furthest_share_[c], pair.share);
         ++listed_count_;
       }
@@ -163,7 +163,7 @@ void NearPairs::sift(const PlacedTool& tool, const ContactPatch& patch, const Pa
 }
 
 bool NearPairs::bound(const PlacedTool& tool, const SiftedCapsule& sifted, const PatchBalls& balls,
-                      const PatchTriangle& triangle, Pair& pair) const {
+                      const std::array<Vec3, 3>& triangle, Pair& pair) const {
   const CapsuleAxis& ends = tool.axes[pair.capsule];
   const std::size_t i = static_cast<std::size_t>(pair.index);
   const double radius = tool.capsules.at[pair.capsule].radius_m;
@@ -173,7 +173,7 @@ bool NearPairs::bound(const PlacedTool& tool, const SiftedCapsule& sifted, const
   const Vec3 u = axis * s - from_front;
   const double distance2 = u.squaredNorm();
   double support = 0;
-  for (const Vec3& v : triangle.vertex) support = std::max(support, u.dot(v - centre));
+  for (const Vec3& v : triangle) support = std::max(support, u.dot(v - centre));
   const double apart = distance2 > support ? (distance2 - support) / std::sqrt(distance2) : 0;
   const double beside =
       balls.radius[i] + radius + room_m_ + kTurnRoom;  // beyond, a point of the axis has too far to go

@@ -80,7 +80,7 @@ class NearPairs {
   struct SiftedCapsule;
   /// Fills in how far it is. @return whether it can touch
   bool bound(const PlacedTool& tool, const SiftedCapsule& sifted, const PatchBalls& balls,
-             const PatchTriangle& triangle, Pair& pair) const;
+             const std::array<Vec3, 3>& triangle, Pair& pair) const;
   bool choice_serves() const;
   /// Takes from the list what may come within the slack before it is asked again.
   void choose(double slack_m);

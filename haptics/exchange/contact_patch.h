@@ -2,19 +2,23 @@
 // they are made of.
 //
 // Extracted by the tissue task (tissue/collision/patch_extraction.h) within kPatchRadius of the tool, read by the
-// contact stage of the tick. A new content has a new stamp. Frame T, metres. Fixed size: copying it allocates nothing.
+// contact stage of the tick. A new content has a new stamp. The triangles share vertices; where nothing moves no
+// velocity is filled in or read. Frame T, metres. Fixed size: copying it allocates nothing.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 
+#include "haptics/exchange/material_point.h"
 #include "haptics/exchange/patch_balls.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
 
 inline constexpr int kMaxPatchMaterials = 8;
-inline constexpr double kPatchRadius = 0.025;  ///< m from the axes of the tool
+inline constexpr int kMaxPatchVertices = 3 * kMaxPatchTriangles;  ///< full never before the triangles are
+inline constexpr double kPatchRadius = 0.025;                     ///< m from the axes of the tool
 
 /// Local elasticity, damping and dry friction of a surface.
 struct ContactMaterial {
@@ -26,10 +30,10 @@ struct ContactMaterial {
 };
 
 struct PatchTriangle {
-  std::array<Vec3, 3> vertex;  ///< counter-clockwise from outside
-  Vec3 normal;                 ///< unit, outward
-  std::int32_t id = -1;        ///< names the piece of surface: equal from patch to patch
-  std::int32_t material = 0;   ///< index into ContactPatch::material
+  Vec3 normal;                           ///< unit, outward
+  std::int32_t id = -1;                  ///< names the piece of surface: equal from patch to patch of one topology
+  std::int32_t material = 0;             ///< index into ContactPatch::material
+  std::array<std::int16_t, 3> corner{};  ///< indices into ContactPatch::vertex, counter-clockwise from outside
 };
 
 /// What lies between the jaws: a block of given thickness and stiffness; absent when stiffness is 0.
@@ -46,14 +50,44 @@ struct HeldObject {
 
 struct ContactPatch {
   std::uint64_t stamp = 0;        ///< tissue frame that made it
+  std::uint64_t topology = 0;     ///< of the surface (SurfaceSnapshot): another one, and ids name other triangles
   std::int32_t count = 0;         ///< triangles in use
+  std::int32_t vertex_count = 0;  ///< vertices in use
   std::int32_t dropped = 0;       ///< > 0: not all triangles within kPatchRadius fitted (reported, never silent)
   double reach_m = kPatchRadius;  ///< from the axes of the tool: every triangle nearer than this is in the patch
+  bool moving = false;            ///< velocities are filled in; else nothing moves
   std::array<PatchTriangle, kMaxPatchTriangles> triangle;
+  std::array<Vec3, kMaxPatchVertices> vertex;
+  std::array<Vec3, kMaxPatchVertices> velocity;  ///< of each vertex, m/s; only where `moving`
   std::array<ContactMaterial, kMaxPatchMaterials> material;
   GripBlock grip;
   HeldObject held;
   PatchBalls balls;  ///< enclose() last; a patch whose balls are not of its stamp and count does without, only slower
+
+  /// Takes all triangles out.
+  void clear() {
+    count = vertex_count = dropped = 0;
+    moving = false;
+  }
+  /// Of the i-th triangle.
+  std::array<Vec3, 3> corners(std::int32_t i) const { return at_corners(vertex, i); }
+  /// Velocity of that point of the i-th triangle, m/s.
+  Vec3 velocity_at(std::int32_t i, const Barycentric& weight) const {
+    return moving ? interpolate(weight, at_corners(velocity, i)) : Vec3::Zero();
+  }
+
+ private:
+  std::array<Vec3, 3> at_corners(const std::array<Vec3, kMaxPatchVertices>& value, std::int32_t i) const {
+    const auto& [a, b, c] = triangle[static_cast<std::size_t>(i)].corner;
+    return {value[a], value[b], value[c]};
+  }
 };
+
+/// Appends a piece of surface that stands still; its triangles' ids count up from `first_id`. What finds no room is
+/// counted in `dropped`.
+void add_surface(ContactPatch& patch, std::span<const Vec3> vertices, std::span<const std::array<int, 3>> triangles,
+                 std::int32_t first_id, std::int32_t material);
+/// The same of one triangle.
+void add_triangle(ContactPatch& patch, const std::array<Vec3, 3>& vertex, std::int32_t id, std::int32_t material = 0);
 
 }  // namespace trocar

@@ -17,9 +17,10 @@ TriangleBall ball_round(const std::array<Vec3, 3>& triangle) {
 void enclose(const ContactPatch& patch, PatchBalls& balls) {
   balls.count = patch.count;
   balls.stamp = patch.stamp;
-  if (patch.count > 0) balls.origin = patch.triangle[0].vertex[0];
-  for (std::size_t i = 0; i < static_cast<std::size_t>(patch.count); ++i) {
-    const TriangleBall ball = ball_round(patch.triangle[i].vertex);
+  if (patch.count > 0) balls.origin = patch.corners(0)[0];
+  for (std::int32_t n = 0; n < patch.count; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    const TriangleBall ball = ball_round(patch.corners(n));
     const Eigen::Vector3f centre = (ball.centre - balls.origin).cast<float>();
     balls.x[i] = centre.x();
     balls.y[i] = centre.y();

@@ -114,8 +114,21 @@ TEST(HapticLoopFaults, NotANumberInTheDamping) {
 
 TEST(HapticLoopFaults, NotANumberInTheVertices) {
   LoopRig rig;
+  expect_nan_stops(rig, [](ContactPatch& patch, double nan) { patch.vertex[0].x() = nan; });
+}
+
+TEST(HapticLoopFaults, NotANumberInTheVelocities) {
+  LoopRig rig;
   expect_nan_stops(rig, [](ContactPatch& patch, double nan) {
-    for (PatchTriangle& t : patch.triangle) t.vertex[0] = Vec3::Constant(nan);
+    patch.moving = true;
+    patch.velocity.fill(Vec3::Constant(nan));
+  });
+}
+
+TEST(HapticLoopFaults, ATriangleWithoutVertices) {
+  LoopRig rig;
+  expect_nan_stops(rig, [](ContactPatch& patch, double) {
+    patch.triangle[0].corner[2] = static_cast<std::int16_t>(patch.vertex_count);
   });
 }
 

@@ -110,6 +110,27 @@ Squeeze hold(LoopRig& rig, double jaw, double thickness) {
   return mean;
 }
 
+TEST(HapticLoop, ToldContactsAreThoseOfTheTick) {
+  LoopRig rig;
+  rig.start();
+  rig.move(working_pose(), 1.5);
+  EXPECT_EQ(rig.loop.contacts().count, 0);
+  rig.put_floor(0.002, 150);
+  Pose deep = rig.goal;
+  deep.p.z() -= 0.010;
+  rig.move(deep, 0.5);
+  const SolvedContacts& contacts = rig.loop.contacts();
+  ASSERT_EQ(contacts.count, 1);
+  EXPECT_GT(rig.record.stylus.F_I_T.force.norm(), 0.3);
+  EXPECT_LT((contacts.at[0].force_T - rig.record.stylus.F_I_T.force).norm(), 1e-14);
+  const Vec3 place = interpolate(contacts.at[0].place.weight, rig.patch->corners(contacts.at[0].place.triangle));
+  EXPECT_LT((place - rig.record.stylus.contact_point_T).norm(), 1e-12);
+  rig.holding = false;
+  rig.daq.release_hand();
+  rig.run(0.3);
+  EXPECT_EQ(rig.loop.contacts().count, 0) << "the hand has let go: nothing is felt";
+}
+
 TEST(HapticLoop, PinchBlockFeelsItsStiffnessAtTheFingers) {
   constexpr double kThickness = 0.012;
   for (const double stiffness : {300.0, 600.0, 1000.0, 2000.0}) {

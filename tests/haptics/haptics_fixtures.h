@@ -70,8 +70,7 @@ inline double turn_between(const Mat3& a, const Mat3& b) { return Eigen::AngleAx
 inline double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 inline void add_triangle(ContactPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
-  patch.triangle[static_cast<std::size_t>(patch.count)] = {{a, b, c}, (b - a).cross(c - a).normalized(), patch.count};
-  ++patch.count;
+  trocar::add_triangle(patch, {a, b, c}, patch.count);
   ++patch.stamp;  // new content, new stamp
 }
 
@@ -88,7 +87,7 @@ inline void add_sheet(ContactPatch& patch, const Vec3& origin, const Vec3& u, co
 
 /// Horizontal square of side 2 `half` at `height`, normal up.
 inline void flat_patch(ContactPatch& patch, double height = 0, double half = 0.04, int cells = 6) {
-  patch.count = 0;
+  patch.clear();
   add_sheet(patch, {-half, -half, height}, {2 * half, 0, 0}, {0, 2 * half, 0}, cells);
 }
 

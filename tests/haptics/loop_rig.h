@@ -70,7 +70,7 @@ class LoopRig {
   /// Flat patch facing up under the tip, its surface `below` metres under where the tip is now (plus its radius).
   void put_floor(double below, double stiffness) {
     const Vec3 tip = record.stylus.X_TI.p;
-    patch->count = 0;
+    patch->clear();
     patch->material[0].stiffness_n_per_m = stiffness;
     const double z = tip.z() - config.tool.radius_m - below;
     add_sheet(*patch, {tip.x() - 0.03, tip.y() - 0.03, z}, {0.06, 0, 0}, {0, 0.06, 0}, 6);

@@ -17,5 +17,17 @@ TEST(SurfaceSnapshot, AnOrganThatStandsStillIsOneForAllSteps) {
   EXPECT_EQ(before, rig.setup.seen_T);
 }
 
+TEST(SurfaceSnapshot, ThePatchTellsItsTopology) {
+  test::WorldRig rig;
+  rig.step();
+  EXPECT_EQ(rig.patch->topology, 0u);
+  auto cut = std::make_shared<SurfaceSnapshot>();
+  cut->topology = 3;
+  rig.setup.seen_T = cut;
+  rig.start();
+  rig.step();
+  EXPECT_EQ(rig.patch->topology, 3u);
+}
+
 }  // namespace
 }  // namespace trocar::surface_snapshot_test

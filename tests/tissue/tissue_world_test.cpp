@@ -65,7 +65,7 @@ TEST(TissueWorld, BoardAndBlocksAreFeltWithMaterialsOfTheirOwn) {
     const PatchTriangle& t = w.patch->triangle[std::size_t(i)];
     if (t.material < kFirstFoamMaterial) continue;
     const Vec3 middle = w.object(t.material - kFirstFoamMaterial).X_TO.p;
-    EXPECT_GT(t.normal.dot(t.vertex[0] - middle), 0) << "outward";
+    EXPECT_GT(t.normal.dot(w.patch->corners(i)[0] - middle), 0) << "outward";
   }
   EXPECT_EQ(w.patch->material[kBoardMaterial].stiffness_n_per_m, w.setup.rigid.board->material.stiffness_n_per_m);
 }

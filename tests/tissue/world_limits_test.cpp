@@ -124,7 +124,7 @@ TEST(WorldFrame, AGapInTheStatesCountsAsFiftyMilliseconds) {
   EXPECT_NEAR(s.frame().object[0].velocity_T.z(), -kGravity * 0.06, 1e-12);
   EXPECT_EQ(s.frame().object[0].motion, ObjectMotion::kMoving);
   const double height = s.frame().object[0].X_TO.p.z();
-  s.world->step(s.state, true, *s.patch);
+  s.world->step({s.state}, true, *s.patch);
   EXPECT_EQ(s.frame().object[0].X_TO.p.z(), height) << "the same time again: no step";
 }
 
@@ -141,7 +141,7 @@ TEST(WorldFrame, BlocksRestOnABoardOfAnyHeight) {
   for (int i = 0; i < s.patch->count; ++i) {
     const PatchTriangle& t = s.patch->triangle[std::size_t(i)];
     if (t.material != kBoardMaterial) continue;
-    for (const Vec3& v : t.vertex) EXPECT_EQ(v.z(), -0.030);
+    for (const Vec3& v : s.patch->corners(i)) EXPECT_EQ(v.z(), -0.030);
     EXPECT_EQ(t.normal, Vec3::UnitZ());
   }
 }

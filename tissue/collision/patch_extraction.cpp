@@ -6,7 +6,7 @@
 namespace trocar {
 
 PatchExtraction::PatchExtraction(const TriangleSurface& surface, std::span<const std::int32_t> material)
-    : tree_(surface), material_(material) {
+    : tree_(surface), material_(material), place_(surface.vertices.size()) {
   hits_.reserve(kMaxPatchTriangles + 1);
 }
 
@@ -19,6 +19,8 @@ void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPa
   }
   const std::int64_t left_over =
       tree_.nearest({axes.data(), static_cast<std::size_t>(capsules.count)}, kPatchRadius, kMaxPatchTriangles, hits_);
+  patch.clear();
+  patch.moving = !velocity_.empty();
   patch.count = static_cast<std::int32_t>(hits_.size());
   patch.dropped = static_cast<std::int32_t>(std::min<std::int64_t>(left_over, 1 << 30));
   patch.reach_m = patch.dropped > 0 ? hits_.back().distance : kPatchRadius;
@@ -27,11 +29,23 @@ void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPa
     const std::int32_t id = hits_[i].triangle;
     const auto& [a, b, c] = surface.triangles[id];
     const auto& v = surface.vertices;
-    patch.triangle[i] = {{v[a], v[b], v[c]},
-                         (v[b] - v[a]).cross(v[c] - v[a]).normalized(),
+    patch.triangle[i] = {(v[b] - v[a]).cross(v[c] - v[a]).normalized(),
                          id,
-                         material_.empty() ? 0 : material_[static_cast<std::size_t>(id)]};
+                         material_.empty() ? 0 : material_[static_cast<std::size_t>(id)],
+                         {place_vertex(a, patch), place_vertex(b, patch), place_vertex(c, patch)}};
   }
+}
+
+std::int16_t PatchExtraction::place_vertex(std::int32_t vertex, ContactPatch& patch) {
+  std::int16_t& place = place_[static_cast<std::size_t>(vertex)];
+  if (place >= patch.vertex_count || source_[static_cast<std::size_t>(place)] != vertex) {
+    place = static_cast<std::int16_t>(patch.vertex_count++);
+    const auto at = static_cast<std::size_t>(place);
+    source_[at] = vertex;
+    patch.vertex[at] = tree_.surface().vertices[vertex];
+    if (patch.moving) patch.velocity[at] = velocity_[static_cast<std::size_t>(vertex)];
+  }
+  return place;
 }
 
 }  // namespace trocar

@@ -6,6 +6,8 @@
 // buffer has grown.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,16 +24,28 @@ class PatchExtraction {
   explicit PatchExtraction(const TriangleSurface& surface, std::span<const std::int32_t> material = {});
 
   /// The surface's vertices have moved.
-  void refit() { tree_.refit(); }
+  /// @param velocity of each vertex, m/s; empty: they stand. Must outlive the next extractions.
+  void refit(std::span<const Vec3> velocity = {}) {
+    tree_.refit();
+    velocity_ = velocity;
+  }
 
-  /// Fills triangles, count, dropped and reach; leaves stamp, material, grip and held object to the caller.
+  /// Fills triangles, vertices, count, dropped and reach; leaves stamp, topology, material, grip and held object to the
+  /// caller.
   /// @param patch its held object is part of the tool
   void extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch, double jaw_opening_m = 0);
 
  private:
+  /// Place of the surface's vertex in the patch, which gets it when it has it not.
+  std::int16_t place_vertex(std::int32_t vertex, ContactPatch& patch);
+
   SurfaceTree tree_;
   std::span<const std::int32_t> material_;
+  std::span<const Vec3> velocity_;
   std::vector<SurfaceTree::Hit> hits_;
+  // A sparse set (Briggs and Torczon 1993): nothing is cleared between patches.
+  std::vector<std::int16_t> place_;                     ///< of each vertex of the surface, if source_ there names it
+  std::array<std::int32_t, kMaxPatchVertices> source_;  ///< vertex of the surface behind each of the patch
 };
 
 }  // namespace trocar

@@ -13,6 +13,7 @@ constexpr double kTouchSkin = 1e-4;  // m between two blocks that still counts a
 constexpr int kBoxTriangles = 12;
 constexpr std::int32_t kFirstBlockId = kFirstRigidId + 16;
 
+constexpr std::array<std::array<int, 3>, 2> kBoardFaces{{{0, 1, 2}, {0, 2, 3}}};
 /// Corners of BoxShape::corner(), counter-clockwise from outside.
 constexpr std::array<std::array<int, 3>, kBoxTriangles> kBoxFaces{{{0, 2, 1},
                                                                    {1, 2, 3},
@@ -26,15 +27,6 @@ constexpr std::array<std::array<int, 3>, kBoxTriangles> kBoxFaces{{{0, 2, 1},
                                                                    {2, 4, 6},
                                                                    {1, 3, 5},
                                                                    {3, 7, 5}}};
-
-void add_triangle(ContactPatch& patch, const std::array<Vec3, 3>& vertex, std::int32_t id, std::int32_t material) {
-  if (patch.count >= kMaxPatchTriangles) {
-    ++patch.dropped;
-    return;
-  }
-  const Vec3 normal = (vertex[1] - vertex[0]).cross(vertex[2] - vertex[0]).normalized();
-  patch.triangle[static_cast<std::size_t>(patch.count++)] = {vertex, normal, id, material};
-}
 
 BlockDynamicsSettings dynamics_of(const RigidScene& scene) {
   BlockDynamicsSettings settings;
@@ -117,10 +109,10 @@ void RigidWorld::add_to(const JawReading& jaws, ContactPatch& patch) const {
   if (scene_.board) {
     patch.material[kBoardMaterial] = {board_.stiffness_n_per_m, board_.damping_s_per_m, board_.tool_mu_static,
                                       board_.tool_mu_dynamic};
-    const Vec3 a(-kTableHalf, -kTableHalf, floor_z_m_), b(kTableHalf, -kTableHalf, floor_z_m_);
-    const Vec3 c(kTableHalf, kTableHalf, floor_z_m_), d(-kTableHalf, kTableHalf, floor_z_m_);
-    add_triangle(patch, {a, b, c}, kFirstRigidId, kBoardMaterial);
-    add_triangle(patch, {a, c, d}, kFirstRigidId + 1, kBoardMaterial);
+    const std::array<Vec3, 4> corners{
+        Vec3(-kTableHalf, -kTableHalf, floor_z_m_), Vec3(kTableHalf, -kTableHalf, floor_z_m_),
+        Vec3(kTableHalf, kTableHalf, floor_z_m_), Vec3(-kTableHalf, kTableHalf, floor_z_m_)};
+    add_surface(patch, corners, kBoardFaces, kFirstRigidId, kBoardMaterial);
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const std::int32_t material = kFirstFoamMaterial + foams_[i].spec.kind;
@@ -128,11 +120,9 @@ void RigidWorld::add_to(const JawReading& jaws, ContactPatch& patch) const {
                                                           board_.tool_mu_static, board_.tool_mu_dynamic};
     if (static_cast<int>(i) == grip_.object() || !near_tool(jaws, bodies_[i])) continue;
     const BoxShape box = bodies_[i].shape();
-    for (int t = 0; t < kBoxTriangles; ++t) {
-      const auto& face = kBoxFaces[static_cast<std::size_t>(t)];
-      add_triangle(patch, {box.corner(face[0]), box.corner(face[1]), box.corner(face[2])},
-                   kFirstBlockId + static_cast<std::int32_t>(i) * kBoxTriangles + t, material);
-    }
+    std::array<Vec3, 8> corners;
+    for (int c = 0; c < 8; ++c) corners[static_cast<std::size_t>(c)] = box.corner(c);
+    add_surface(patch, corners, kBoxFaces, kFirstBlockId + static_cast<std::int32_t>(i) * kBoxTriangles, material);
   }
   patch.grip = grip_.block(bodies_, foams_, jaws.X_TI);
 }

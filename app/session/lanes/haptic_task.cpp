@@ -13,7 +13,10 @@ void HapticTask::run(std::uint64_t tick) {
   account_.add(record_);
   if (record_.stylus.loop == LoopState::kFault) since_fault_s_ += 1 / loop_.config().daq.rate_hz;
   hash_.add(record_);
-  ports_.tissue.write(tick, record_.stylus);
+  HapticState& state = ports_.tissue.begin(tick);
+  state.stylus = record_.stylus;
+  state.contacts = loop_.contacts();
+  ports_.tissue.commit();
   if (ports_.observer) ports_.observer->write(tick, record_);
   if (ports_.recorder) ports_.recorder->push(record_);
 }

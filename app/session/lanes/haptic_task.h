@@ -18,7 +18,7 @@ using TickRing = Ring<TickRecord, 8192>;
 /// What the haptic task reads from and writes to. An absent reader costs nothing.
 struct HapticPorts {
   Inlet<ContactPatch>& patch;
-  Outlet<StylusState>& tissue;
+  Outlet<HapticState>& tissue;
   Outlet<TickRecord>* observer = nullptr;
   TickRing* recorder = nullptr;
 };

@@ -46,7 +46,7 @@ void StateHash::add(const ContactPatch& patch) {
     const PatchTriangle& triangle = patch.triangle[i];
     add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(triangle.id)) << 32 |
         static_cast<std::uint32_t>(triangle.material));
-    for (const Vec3& vertex : triangle.vertex) add(vertex);
+    for (const Vec3& vertex : patch.corners(i)) add(vertex);
   }
   add(patch.reach_m);
   for (const ContactMaterial& m : patch.material) {

@@ -24,7 +24,7 @@ using EventRing = Ring<Event, 1024>;
 
 /// What the tissue task reads from and writes to. An absent reader costs nothing.
 struct TissuePorts {
-  Inlet<StylusState>& state;
+  Inlet<HapticState>& state;
   Outlet<ContactPatch>& patch;
   Outlet<ExerciseFrame>* hand = nullptr;
   Outlet<ExerciseFrame>* observer = nullptr;
@@ -42,10 +42,10 @@ class TissueTask final : public Task {
 
   std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
-    const StylusState& state = ports_.state.newest(tick);
+    const HapticState& state = ports_.state.newest(tick);
     ContactPatch& patch = ports_.patch.begin(tick);
     world_->step(state, inserted_, patch);
-    director_.update(state, &world_->frame());
+    director_.update(state.stylus, &world_->frame());
     // The jig lies beneath the board: the world is there from the moment the tip first rests at the start, in free
     // space.
     inserted_ = inserted_ || director_.status().phase != Phase::kReady;
@@ -53,7 +53,7 @@ class TissueTask final : public Task {
     hash_.add(patch);
     hash_.add(world_->frame());
     hash_.add(director_.status());
-    tell(tick, state.period);
+    tell(tick, state.stylus.period);
     ports_.patch.commit();  // last: whoever sees this stamp finds its step in the ring
   }
   bool finished() const override { return director_.finished(); }

@@ -6,8 +6,7 @@ namespace trocar::contact_law {
 namespace {
 
 void add(ContactPatch& patch, const Vec3& a, const Vec3& b, const Vec3& c) {
-  patch.triangle[patch.count] = {{a, b, c}, (b - a).cross(c - a).normalized(), patch.count};
-  ++patch.count;
+  add_triangle(patch, {a, b, c}, patch.count);
 }
 
 /// Parallelogram with the normal u x v in cells x cells squares.

@@ -24,7 +24,7 @@ constexpr int kHapticPriority = 80, kTissuePriority = 60;
 /// The walls, in place of the tissue task.
 class WallsTask final : public Task {
  public:
-  WallsTask(const Scene& scene, Inlet<StylusState>& state, Inlet<TickRecord>& records, Outlet<ContactPatch>& patch,
+  WallsTask(const Scene& scene, Inlet<HapticState>& state, Inlet<TickRecord>& records, Outlet<ContactPatch>& patch,
             const std::atomic<double>& stiffness)
       : state_(state),
         records_(records),
@@ -35,8 +35,9 @@ class WallsTask final : public Task {
 
   std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
-    const StylusState& state = state_.newest(tick);
-    present_ = present_ || (state.loop == LoopState::kActive && state.X_TI.p.norm() < kInMiddle);
+    const HapticState& state = state_.newest(tick);
+    const StylusState& stylus = state.stylus;
+    present_ = present_ || (stylus.loop == LoopState::kActive && stylus.X_TI.p.norm() < kInMiddle);
     ContactPatch& patch = patch_.begin(tick);
     world_.step(state, present_, patch);
     patch.material[0].stiffness_n_per_m = stiffness_.load(std::memory_order_relaxed);
@@ -57,7 +58,7 @@ class WallsTask final : public Task {
     setup.tool = scene.loop.tool;
     return setup;
   }
-  Inlet<StylusState>& state_;
+  Inlet<HapticState>& state_;
   Inlet<TickRecord>& records_;
   Outlet<ContactPatch>& patch_;
   const std::atomic<double>& stiffness_;
@@ -71,7 +72,7 @@ class WallsTask final : public Task {
 struct NotchRig {
   NotchRig(const Scene& scene, std::unique_ptr<Hand> person, Timing timing)
       : backend(setup_backend(scene.setup)),
-        state(make_channel<StylusState>(timing)),
+        state(make_channel<HapticState>(timing)),
         patch(make_channel<ContactPatch>(timing, kPatchDelay)),
         frames(make_channel<ExerciseFrame>(timing)),
         records(make_channel<TickRecord>(timing)),
@@ -82,7 +83,7 @@ struct NotchRig {
 
   std::atomic<double> stiffness{kThesisWall_n_per_m};
   Backend backend;
-  std::unique_ptr<Channel<StylusState>> state;
+  std::unique_ptr<Channel<HapticState>> state;
   std::unique_ptr<Channel<ContactPatch>> patch;
   std::unique_ptr<Channel<ExerciseFrame>> frames;
   std::unique_ptr<Channel<TickRecord>> records;

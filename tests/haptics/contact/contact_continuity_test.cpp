@@ -113,7 +113,7 @@ TEST_P(Continuity, NoStepWithAnyPartOfTheTool) {
       const bool jammed = GetParam().make == valley && tool.R == lying();  // its shaft would start inside the walls
       if (jammed) continue;
       most_force = 0;
-      patch->count = 0;
+      patch->clear();
       GetParam().make(*patch);
       patch->material[0].mu_static = mu;
       patch->material[0].mu_dynamic = mu / 2;

@@ -168,10 +168,9 @@ TEST_F(ContactEnergy, ClosedLoopsInAGrooveDoNoWork) {
 TEST(ContactDamping, OfASwingingShaftOnlyDissipates) {
   // The shaft rests on a plane far behind the tip: the damping must follow the speed of the contact, not of the tip.
   ContactPatch patch;
-  patch.count = 2;
   const double s = 0.4;
-  patch.triangle[0] = {{Vec3(-s, -s, 0), Vec3(s, -s, 0), Vec3(s, s, 0)}, Vec3::UnitZ(), 0};
-  patch.triangle[1] = {{Vec3(-s, -s, 0), Vec3(s, s, 0), Vec3(-s, s, 0)}, Vec3::UnitZ(), 1};
+  add_triangle(patch, {Vec3(-s, -s, 0), Vec3(s, -s, 0), Vec3(s, s, 0)}, 0);
+  add_triangle(patch, {Vec3(-s, -s, 0), Vec3(s, s, 0), Vec3(-s, s, 0)}, 1);
   for (const double phase : {0.0, 1.5, 3.0, 4.5}) {
     ContactRenderer renderer(ContactLaw::kProxy);
     double work = 0, largest = 0;

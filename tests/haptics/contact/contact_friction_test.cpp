@@ -87,7 +87,7 @@ TEST_F(Friction, SticksUpToTheAngleWhoseTangentIsMu) {
   // slope but friction's; it holds while tan(slope) < mu_s.
   for (const double slope : {0.97 * std::atan(0.3), 1.03 * std::atan(0.3)}) {
     const Vec3 along(std::cos(slope), 0, std::sin(slope)), normal(-std::sin(slope), 0, std::cos(slope));
-    patch->count = 0;
+    patch->clear();
     test::add_sheet(*patch, -0.04 * along - Vec3(0, 0.04, 0), 0.08 * along, {0, 0.08, 0}, 8);
     press(tip_down(normal * 0.01), tip_down(normal * kRadius - Vec3(0, 0, 1e-4)));
     // Quasi-static load: a weight of 0.4 N that moves under the force left over, heavily damped.
@@ -154,9 +154,7 @@ TEST_F(Friction, TheTissueTakesTheToolAlong) {
   const double depth = 0.003;
   press(tip_down({0, 0, 0.01}), tip_down({0, 0, kRadius - depth}));
   for (int k = 1; k <= 20; ++k) {  // the surface moves by 0.4 mm, a new patch every 10 ticks
-    for (int i = 0; i < patch->count; ++i) {
-      for (Vec3& v : patch->triangle[std::size_t(i)].vertex) v.x() += 2e-5;
-    }
+    for (int i = 0; i < patch->vertex_count; ++i) patch->vertex[std::size_t(i)].x() += 2e-5;
     // Another order and another part of the surface: the triangle is found by its name.
     std::swap(patch->triangle[0], patch->triangle[std::size_t(patch->count - 1 - k)]);
     ++patch->stamp;

@@ -199,7 +199,7 @@ TEST_F(Contact, RandomPosesOnATriangleSoupStayFinite) {
   Mat3 R = Mat3::Identity();
   for (int k = 0; k < kTicks; ++k) {
     if (k % 500 == 0) {
-      patch->count = 0;
+      patch->clear();
       for (int i = 0; i < 60; ++i) {
         const Vec3 a = random.vector(0.02);
         const double size = random.below(8) == 0 ? 0 : 0.01;  // every eighth is a point

@@ -140,8 +140,9 @@ TEST_F(ContactTool, ShaftOnTwoRidgesCarriesTheTorqueOfBoth) {
 TEST_F(ContactTool, EachMaterialGivesItsOwnStiffnessWithoutAStepAtTheBorder) {
   test::flat_patch(*patch, 0, 0.04, 8);
   patch->material[3] = {450, 0.2};
-  for (PatchTriangle& t : patch->triangle) {
-    if ((t.vertex[0] + t.vertex[1] + t.vertex[2]).x() > 0) t.material = 3;
+  for (int i = 0; i < patch->count; ++i) {
+    const auto [a, b, c] = patch->corners(i);
+    if ((a + b + c).x() > 0) patch->triangle[std::size_t(i)].material = 3;
   }
   ContactRenderer probe(ContactLaw::kProxy);
   const double height = 0.0025 - 0.002;

@@ -29,7 +29,7 @@ CapsuleAxes axes_of(const ToolCapsules& tool, const Mat3& R) {
 
 /// Triangles of all sizes from 0.1 to 30 mm, some of them points and needles.
 void fill_with_soup(Random& random, ContactPatch& patch) {
-  patch.count = 0;
+  patch.clear();
   while (patch.count < kMaxPatchTriangles) {
     const double size = std::pow(10, random.between(-4, -1.5));
     const Vec3 a = random.vector(0.04), b = a + random.vector(size);
@@ -63,7 +63,7 @@ struct Walk {
   }
   double gap(const ContactPatch& patch, int i, int c) const {
     const CapsuleAxis& axis = axes[std::size_t(c)];
-    return closest_segment_triangle(tip + axis.front, tip + axis.back, patch.triangle[std::size_t(i)].vertex).distance -
+    return closest_segment_triangle(tip + axis.front, tip + axis.back, patch.corners(i)).distance -
            tool.at[std::size_t(c)].radius_m;
   }
   void keep_up(const ContactPatch& patch) { near.keep_up({tool, axes, tip}, patch, kSlack); }
@@ -166,7 +166,7 @@ TEST_F(NearPairsTest, NothingIsMissedByAShaftThatOnlyTurns) {
 TEST_F(NearPairsTest, ABallHoldsItsTriangleFarFromTheOriginToo) {
   Random random(2);
   for (const double away : {0.0, 0.3, 3.0}) {
-    patch->count = 0;
+    patch->clear();
     const Vec3 centre = random.direction() * away;
     for (int i = 0; i < kMaxPatchTriangles; ++i) {
       const Vec3 a = centre + random.vector(0.3), b = a + random.vector(0.01);
@@ -179,7 +179,7 @@ TEST_F(NearPairsTest, ABallHoldsItsTriangleFarFromTheOriginToo) {
     for (std::size_t i = 0; i < std::size_t(kMaxPatchTriangles); ++i) {
       const Vec3 middle = balls.origin + Vec3(balls.x[i], balls.y[i], balls.z[i]);
       double furthest = 0;
-      for (const Vec3& v : patch->triangle[i].vertex) furthest = std::max(furthest, (v - middle).norm());
+      for (const Vec3& v : patch->corners(int(i))) furthest = std::max(furthest, (v - middle).norm());
       EXPECT_LE(furthest, balls.radius[i]);
       EXPECT_GE(furthest, balls.radius[i] - 4e-6) << "and is not much larger";
     }

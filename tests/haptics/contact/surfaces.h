@@ -53,7 +53,7 @@ inline TriangleSurface lumpy_sphere(int levels, double radius) {
 
 /// The triangles of a surface whose centre lies within `reach` of p, as a patch in the order of the surface.
 inline void patch_near(const TriangleSurface& s, const Vec3& p, double reach, ContactPatch& patch) {
-  patch.count = 0;
+  patch.clear();
   for (const auto& [a, b, c] : s.triangles) {
     const Vec3 &u = s.vertices[std::size_t(a)], &v = s.vertices[std::size_t(b)], &w = s.vertices[std::size_t(c)];
     if (((u + v + w) / 3 - p).norm() < reach && patch.count < kMaxPatchTriangles) add_triangle(patch, u, v, w);

@@ -157,12 +157,12 @@ TEST_F(Patch, NearestFirstWithOutwardNormals) {
   double last = 0;
   for (int i = 0; i < patch->count; ++i) {
     const PatchTriangle& t = patch->triangle[std::size_t(i)];
-    const double d = closest_segment_triangle(X.p, handle, t.vertex).distance;
+    const double d = closest_segment_triangle(X.p, handle, patch->corners(i)).distance;
     EXPECT_GE(d, last);
     EXPECT_LE(d, kPatchRadius);
     EXPECT_NEAR(t.normal.norm(), 1, 1e-12);
-    EXPECT_GT(t.normal.dot(t.vertex[0]), 0) << "outward";
-    EXPECT_EQ(t.vertex, corners(surface, std::size_t(t.id)));
+    EXPECT_GT(t.normal.dot(patch->corners(i)[0]), 0) << "outward";
+    EXPECT_EQ(patch->corners(i), corners(surface, std::size_t(t.id)));
     last = d;
   }
   EXPECT_EQ(patch->count + patch->dropped, static_cast<int>(brute_force(surface, X.p, handle, kPatchRadius).size()));
@@ -216,8 +216,12 @@ TEST_F(Patch, JawsAndHeldObjectWidenIt) {
 TEST_F(Patch, FollowsASurfaceThatMoves) {
   TriangleSurface surface = test::sphere(4, 0.05);
   PatchExtraction extraction(surface);
-  for (Vec3& v : surface.vertices) v = 1.2 * v + Vec3(0.01, 0, 0);
-  extraction.refit();
+  std::vector<Vec3> velocity;
+  for (Vec3& v : surface.vertices) {
+    velocity.push_back(7 * v);
+    v = 1.2 * v + Vec3(0.01, 0, 0);
+  }
+  extraction.refit(velocity);
   const Pose X = test::tip_down({0.01, 0.002, 0.061});
   extraction.extract(X, {}, *patch);
   const Hits all = brute_force(surface, X.p, X.p - X.R.col(2) * ToolShape{}.shaft_length_m, kPatchRadius);
@@ -225,9 +229,22 @@ TEST_F(Patch, FollowsASurfaceThatMoves) {
   ASSERT_GT(patch->count, 50);
   for (int i = 0; i < patch->count; ++i) {
     const PatchTriangle& t = patch->triangle[std::size_t(i)];
-    ASSERT_EQ(t.vertex, corners(surface, std::size_t(t.id))) << "where it is now";
-    ASSERT_GT(t.normal.dot(t.vertex[0] - Vec3(0.01, 0, 0)), 0.9 * 0.06) << "outward, and of the moved triangle";
+    ASSERT_EQ(patch->corners(i), corners(surface, std::size_t(t.id))) << "where it is now";
+    ASSERT_GT(t.normal.dot(patch->corners(i)[0] - Vec3(0.01, 0, 0)), 0.9 * 0.06)
+        << "outward, and of the moved triangle";
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& corner = surface.triangles[std::size_t(t.id)];
+      Barycentric weight{};
+      weight[k] = 1;
+      ASSERT_EQ(patch->velocity_at(i, weight), velocity[std::size_t(corner[k])]);
+    }
   }
+  EXPECT_TRUE(patch->moving);
+  EXPECT_LT(patch->vertex_count, 0.6 * patch->count + 40) << "shared: half as many as triangles, and the rim";
+  extraction.refit();
+  extraction.extract(X, {}, *patch);
+  EXPECT_FALSE(patch->moving);
+  EXPECT_EQ(patch->velocity_at(0, {1, 0, 0}), Vec3::Zero());
 }
 
 TEST_F(Patch, FarAwayNothingIsFoundAndMaterialIsLeftAlone) {

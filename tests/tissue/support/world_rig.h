@@ -42,7 +42,7 @@ struct WorldRig {
     for (int i = 0; i < steps; ++i) {
       state.t_s += 0.01;
       state.grip_force_n = grip_block(patch->grip, state.jaw_opening_m).force_n;
-      world->step(state, present, *patch);
+      world->step({state}, present, *patch);
     }
   }
   int triangles_of(std::int32_t material) const {

@@ -102,7 +102,7 @@ TEST(AdjacentOrgans, ThePatchGivesEachTriangleItsMaterial) {
   StylusState state;
   state.X_TI.p = Vec3(0.081, 0, 0.005);
   const auto patch = std::make_unique<ContactPatch>();
-  world.step(state, true, *patch);
+  world.step({state}, true, *patch);
   int of_organ = 0, of_adjacent = 0;
   for (int n = 0; n < patch->count; ++n) {
     const PatchTriangle& triangle = patch->triangle[static_cast<std::size_t>(n)];
