@@ -41,7 +41,7 @@ Axis count_axis(int low, int high, int most) {
   Axis axis;
   axis.low = low;
   axis.high = std::max(low + 1, high);
-  fill_ticks(axis, std::max(1.0, round_step((axis.high - axis.low) / std::max(1, most - 1))));
+  fill_ticks(axis, std::max(1.0, svg::nice_step(axis.high - axis.low, std::max(1, most - 1))));
   return axis;
 }
 
