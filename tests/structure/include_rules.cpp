@@ -82,7 +82,8 @@ const std::vector<Territory>& territories() {
       {"^imgui|^GLFW/", "^app/window/.*\\.cpp$", "the window's libraries stay in sources of app/window"},
       {"^AL/", "^app/window/sound/.*\\.cpp$", "OpenAL stays in sources of app/window/sound"},
       {"^httplib|^sodium", "^trainees/.*\\.cpp$", "the web server and its cryptography stay in sources of trainees"},
-      {"^cairo|^pango/|^librsvg/", "^trainees/desk/print/.*\\.cpp$", "PDF is written in sources of trainees/desk/print"},
+      {"^cairo|^pango/|^librsvg/", "^trainees/desk/print/.*\\.cpp$",
+       "PDF is written in sources of trainees/desk/print"},
       {"^pqxx", "^trainees/exchange/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/exchange/sync"},
       {"^hidapi", "^app/window/input/.*\\.cpp$", "HID stays in sources of app/window/input"},
   };

@@ -29,7 +29,7 @@ class FontSet {
 
   /// Width of UTF-8 text, px. Malformed bytes count as the replacement character.
   double width(const std::string& text, int size, bool bold = false);
-  double ascent(int size) const { return 0.928 * size; }   ///< DejaVu's own, px above the baseline
+  double ascent(int size) const { return 0.928 * size; }  ///< DejaVu's own, px above the baseline
   double line_height(int size) const { return 1.164 * size; }
   const Glyph& glyph(char32_t code, int size, bool bold);
 
