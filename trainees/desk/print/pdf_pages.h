@@ -50,7 +50,8 @@ class PdfPages {
  public:
   static constexpr double kWidth = 595.276, kHeight = 841.89;
 
-  /// @param title in the file's properties. @param utc date of the file, ISO 8601; "" or another text: none.
+  /// @param title in the file's properties. @param utc date of the file, ISO 8601 with time and zone; another text:
+  /// none.
   /// @throws EnvironmentError: a font is missing.
   PdfPages(const std::string& title, const std::string& utc);
   ~PdfPages();
