@@ -54,7 +54,7 @@ std::string nesting_fault(const std::string& page) {
 
 TEST(ReportPage, LeadsWithVerdictAndReason) {
   const std::string page = report_page(sample_attempt(), sample_trace(), context());
-  const std::size_t verdict = page.find("NOT YET"), reason = page.find("Safety gate peak force below half"),
+  const std::size_t verdict = page.find("NOT YET"), reason = page.find("safety: peak_force below 0.5"),
                     table = page.find("Where the points went");
   ASSERT_NE(verdict, std::string::npos);
   EXPECT_LT(verdict, reason);
