@@ -9,7 +9,7 @@
 namespace trocar {
 
 struct PracticeOptions {
-  PracticeOptions model = {};
+  ModelOptions model = {};
   std::filesystem::path screens = {};  ///< folder for pictures of the screens; empty: the window
   int width = 1280, height = 720;      ///< px
   bool fullscreen = false;

@@ -33,8 +33,8 @@ InputEvent circling(int frame, int width, int height) {
 }
 
 /// Nothing of a person's own is read or kept.
-PracticeOptions nobody() {
-  PracticeOptions options;
+ModelOptions nobody() {
+  ModelOptions options;
   options.database = ":memory:";
   options.settings = "/dev/null/none";
   options.exercise = "surface-touch";

@@ -33,7 +33,7 @@ std::string unread_words(const Translator& w, const Settings& settings, const st
 
 }  // namespace
 
-PracticeModel::PracticeModel(const PracticeOptions& options, const AssetRoots& assets)
+PracticeModel::PracticeModel(const ModelOptions& options, const AssetRoots& assets)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.options = options;

@@ -23,7 +23,7 @@
 
 namespace trocar {
 
-struct PracticeOptions {
+struct ModelOptions {
   std::filesystem::path database = {};  ///< empty: the default; ":memory:" keeps nothing
   std::string trainee = {};             ///< code, empty: guest
   std::string exercise = {};            ///< straight to its briefing
@@ -40,7 +40,7 @@ struct PracticeOptions {
 
 class PracticeModel {
  public:
-  PracticeModel(const PracticeOptions& options, const AssetRoots& assets);
+  PracticeModel(const ModelOptions& options, const AssetRoots& assets);
   ~PracticeModel();
 
   const AssetRoots& assets() const;

@@ -18,7 +18,7 @@ inline constexpr const char* kGuest = "guest";
 inline constexpr const char* kDemonstration = "demonstration";  // whose the runs of scripted hands are
 
 struct PracticeModel::State {
-  PracticeOptions options;
+  ModelOptions options;
   AssetRoots assets;
   std::vector<Exercise> exercises;
   Settings settings, followed;  // as they are; as they were when they were last taken up

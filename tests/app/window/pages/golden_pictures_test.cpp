@@ -129,7 +129,7 @@ TEST_F(GoldenScreens, StartAndBriefing) {
 }
 
 TEST_F(GoldenScreens, RunAsAPersonTakesHold) {
-  PracticeOptions touch = bench_.options();
+  ModelOptions touch = bench_.options();
   touch.exercise = "surface-touch";
   open(touch);
   ASSERT_EQ(model_->begin_attempt(), "");

@@ -49,7 +49,7 @@ class LanguageLayout : public testing_support::HeadlessFixture, public ::testing
   void SetUp() override {
     HeadlessFixture::SetUp();
     if (IsSkipped()) return;
-    PracticeOptions options = bench_.options();
+    ModelOptions options = bench_.options();
     options.language = GetParam().language;
     options.scale = GetParam().scale;
     model_ = bench_.model(options);

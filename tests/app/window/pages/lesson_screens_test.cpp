@@ -30,7 +30,7 @@ class LessonScreens : public testing_support::LoopBench {
   void window(int width, int height, double scale) {
     width_ = width;
     height_ = height;
-    PracticeOptions options = bench_.options();
+    ModelOptions options = bench_.options();
     options.scale = scale;
     open(options);
   }

@@ -17,7 +17,7 @@ class LoopBench : public HeadlessFixture {
     loop_.reset();
     model_.reset();
   }
-  void open(const PracticeOptions& options) {
+  void open(const ModelOptions& options) {
     loop_.reset();
     model_ = bench_.model(options);
     loop_ = std::make_unique<PracticeLoop>(*model_, *context_, false);

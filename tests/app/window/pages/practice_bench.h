@@ -22,17 +22,17 @@ struct PracticeBench {
   PracticeBench() { ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); }
 
   /// Without sound: a machine that tests has none, and its library says so at length.
-  PracticeOptions options() const {
+  ModelOptions options() const {
     if (!std::filesystem::exists(folder / "settings.toml"))
       folder.write("settings.toml", "version = 1\nsound = false\n");
-    PracticeOptions o;
+    ModelOptions o;
     o.database = folder.path() / "trocar.db";
     o.settings = folder.path() / "settings.toml";
     o.language = "en";
     o.seed = 7;
     return o;
   }
-  std::unique_ptr<PracticeModel> model(const PracticeOptions& given) const {
+  std::unique_ptr<PracticeModel> model(const ModelOptions& given) const {
     return std::make_unique<PracticeModel>(given, source_assets());
   }
   std::unique_ptr<PracticeModel> model() const { return model(options()); }

@@ -49,7 +49,7 @@ TEST_F(RunKeys, F5TakesTheWaitingPensAwayAndBringsThemBack) {
 }
 
 TEST_F(RunKeys, GuidanceThatTheLevelLacksIsRefusedInWords) {
-  PracticeOptions options = bench_.options();
+  ModelOptions options = bench_.options();
   options.hand = "expert";  // a level that is locked for guests
   options.level = "L2";
   open(options);

@@ -24,7 +24,7 @@ class ScreenLayout : public testing_support::LoopBench, public ::testing::WithPa
 TEST_P(ScreenLayout, NothingIsCutAndNothingCollides) {
   width_ = GetParam().width;
   height_ = GetParam().height;
-  PracticeOptions options = bench_.options();
+  ModelOptions options = bench_.options();
   options.scale = GetParam().scale;
   open(options);
   model_->show_scene(60);

@@ -68,7 +68,7 @@ class SoakBench : public LoopBench {
     std::string text = find_exercise("surface-touch", source_assets().exercises).text;
     text.replace(text.find("count = 12"), 10, "count = 2");
     text.replace(text.find("time_limit_s = 120"), 18, kAttempts > 0 ? "time_limit_s = 3" : "time_limit_s = 30");
-    PracticeOptions options = bench_.options();
+    ModelOptions options = bench_.options();
     options.exercise = bench_.folder.write("short.toml", text).string();
     options.hand = "expert";
     open(options);

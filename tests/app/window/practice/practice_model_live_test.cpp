@@ -148,7 +148,7 @@ TEST_F(PracticeModelLive, NobodyElseMeetsIt) {
 }
 
 TEST_F(PracticeModelLive, WhereNothingIsKeptNothingIsTold) {
-  PracticeOptions options = bench_.options();
+  ModelOptions options = bench_.options();
   options.database = ":memory:";
   const auto model = bench_.model(options);
   model->pass(2);

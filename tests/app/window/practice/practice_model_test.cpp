@@ -71,7 +71,7 @@ TEST(PracticeModel, SignsInByCodeAndSaysWhatIsWrongWithOne) {
 
 TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {
   const PracticeBench bench;
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   options.trainee = "T-9";
   options.exercise = "E02";
   options.level = "L2";
@@ -83,7 +83,7 @@ TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {
 
 TEST(PracticeModel, WrongOptionsAreRefusedBeforeAWindowOpens) {
   const PracticeBench bench;
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   options.exercise = "E99";
   EXPECT_THROW(bench.model(options), InputError);
   options = bench.options();
@@ -204,7 +204,7 @@ TEST(PracticeModel, AnAttemptThatIsLeftIsStoredAsAborted) {
 
 TEST(PracticeModel, AnOrganIsPlacedOnceForAttemptsThatFollowEachOther) {
   const PracticeBench bench;
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   options.exercise = "surface-touch";
   const auto model = bench.model(options);
   const auto attempt = [&] {
@@ -223,7 +223,7 @@ TEST(PracticeModel, AnOrganIsPlacedOnceForAttemptsThatFollowEachOther) {
 
 TEST(PracticeModel, InMemoryTheSittingIsKeptInMind) {
   const PracticeBench bench;
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   options.database = ":memory:";
   const auto model = bench.model(options);
   ASSERT_EQ(model->begin_attempt(), "");
@@ -249,7 +249,7 @@ TEST(PracticeModel, SettingsAreKeptForTheNextTime) {
 
 TEST(PracticeModel, ScaleOfTheCommandLineHoldsThisTimeOnly) {
   const PracticeBench bench;
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   options.scale = 2;
   const auto model = bench.model(options);
   EXPECT_EQ(model->scale(), 2);
@@ -258,7 +258,7 @@ TEST(PracticeModel, ScaleOfTheCommandLineHoldsThisTimeOnly) {
 
 TEST(PracticeModel, AChoiceOfSizeLeavesTheLanguageOfTheCommandLine) {
   const PracticeBench bench;
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   options.language = "fr";
   options.scale = 1.25;
   const auto model = bench.model(options);
@@ -297,7 +297,7 @@ TEST(PracticeModel, TheShowSceneLoadsBehindTheDesk) {
 
 TEST(PracticeModelNotice, UnreadableSettingsAreSaidInTheLanguageWithoutTheParsersWords) {
   testing_support::PracticeBench bench;
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   bench.folder.write("settings.toml", "version = 1\nscale = = 2\n");
   options.language = "de";
   const auto model = bench.model(options);
@@ -320,7 +320,7 @@ TEST(PracticeModel, WhatAScriptedHandDidIsNobodysPass) {
     EXPECT_TRUE(model->past().empty());
     EXPECT_NE(model->sign_in("demonstration"), "") << "kept for them";
   }
-  PracticeOptions options = bench.options();
+  ModelOptions options = bench.options();
   options.hand = "expert";
   const auto model = bench.model(options);
   EXPECT_EQ(model->who(), "Demonstration");

@@ -39,7 +39,7 @@ class RunScreenBench : public LoopBench {
   }
   /// Into the organ until it is felt: the ring stands off the tip.
   void press_picture() {
-    PracticeOptions touch = bench_.options();
+    ModelOptions touch = bench_.options();
     touch.exercise = "surface-touch";
     width_ = 640;
     height_ = 360;
@@ -183,7 +183,7 @@ TEST_F(RunScreenBench, ALostContextOfAttemptsLeadsAway) {
 }
 
 TEST_F(RunScreenBench, TheLightPostTurnsAThirtyDegreeViewAndTheDialFollowsThePicture) {
-  PracticeOptions thirty = bench_.options();
+  ModelOptions thirty = bench_.options();
   thirty.exercise = "reach-and-orient";
   thirty.scope = "30";
   open(thirty);
@@ -309,7 +309,7 @@ TEST_F(RunScreenBench, ABoardThatStopsAnsweringPausesTheAttemptAndItGoesOnWhenIt
 }
 
 TEST_F(RunScreenBench, AnExamHasNoPauseForACableEither) {
-  PracticeOptions exam = bench_.options();
+  ModelOptions exam = bench_.options();
   exam.hand = "expert";
   exam.level = "exam";
   open(exam);
