@@ -16,6 +16,10 @@ Trace trace_of(const std::filesystem::path& file) {
   return rebuild_trace(recording.ticks, recording.rate_hz);
 }
 
+StiffnessReport stiffness_of(const std::filesystem::path& file) {
+  return recorded_stiffness(read_recording(file, Reading::kTolerant), file.string());
+}
+
 std::string words_of_metric(const std::string& metric) {
   const MetricDefinition* known = find_metric(metric);
   return known ? std::string(known->meaning) : "";
@@ -50,6 +54,7 @@ std::unique_ptr<DeskFilms> desk_films(const std::filesystem::path& file, std::st
 review::DeskSources desk_sources() {
   review::DeskSources out;
   out.trace = trace_of;
+  out.stiffness = stiffness_of;
   out.metric_words = words_of_metric;
   out.level_facts = desk_level_facts;
   out.grip_limits = desk_grip_limits;

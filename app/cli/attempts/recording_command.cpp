@@ -77,7 +77,7 @@ int score_command(const RecordingOptions& options, std::ostream& out, std::ostre
   result.events = subject.recording.events;
   result.recording_sha256 = subject.recording.sha256;
   result.recording_path = subject.file.string();
-  fill_stiffness(subject.recording, subject.file.string(), result.device);
+  result.device.stiffness = recorded_stiffness(subject.recording, subject.file.string());
   if (!subject.stored) {
     const RecordedSetup recorded = parse_scene_json(subject.recording.session, subject.file.string());
     result.exercise_id = recorded.setup.exercise.id;

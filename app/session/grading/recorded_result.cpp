@@ -68,9 +68,8 @@ RunReport parse_run_report(const std::string& text, const std::string& name) {
   }
 }
 
-void fill_stiffness(const Recording& recording, const std::string& name, RunReport& device) {
-  const bool clamped = parse_scene_json(recording.session, name).setup.clamp_stiffness;
-  device.stiffness = stiffness_report(recording.ticks, clamped);
+StiffnessReport recorded_stiffness(const Recording& recording, const std::string& name) {
+  return stiffness_report(recording.ticks, parse_scene_json(recording.session, name).setup.clamp_stiffness);
 }
 
 AttemptResult recorded_result(const Recording& recording, const std::filesystem::path& file) {
@@ -86,7 +85,7 @@ AttemptResult recorded_result(const Recording& recording, const std::filesystem:
   if (!recording.run_report_json.empty()) result.device = parse_run_report(recording.run_report_json, name);
   if (result.integrity.empty()) result.integrity = result.device.reason;
   fill_shares(recording, result.device);
-  fill_stiffness(recording, name, result.device);
+  result.device.stiffness = recorded_stiffness(recording, name);
   result.recording_sha256 = recording.sha256;
   result.recording_path = file.string();
   if (recording.end) result.state_hash = StateHash(recording.end->state_hash).hex();

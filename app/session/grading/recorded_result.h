@@ -19,7 +19,7 @@ std::string run_report_json(const RunReport& run_report);
 RunReport parse_run_report(const std::string& json, const std::string& name);
 
 /// What the recording says of the contacts' stiffness. @param name of the recording, for messages. @throws InputError.
-void fill_stiffness(const Recording& recording, const std::string& name, RunReport& device);
+StiffnessReport recorded_stiffness(const Recording& recording, const std::string& name);
 
 /// Grade, events, run report, hashes. What the attempt began with (exercise, trainee, organ) is left empty.
 /// @throws InputError when the setup or the run report cannot be read.

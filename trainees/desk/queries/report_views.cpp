@@ -156,6 +156,11 @@ CohortReportView cohort_report_view(Desk& desk, const std::map<std::string, std:
 AttemptReportView attempt_report_view(Desk& desk, const std::string& name, const std::string& now_utc) {
   AttemptReportView out;
   out.attempt = attempt_view(desk, asked(now_utc), AttemptStore(desk.database).find(name).uuid);
+  try {
+    if (out.attempt.trace && desk.sources.stiffness)
+      out.attempt.result.device.stiffness = desk.sources.stiffness(out.attempt.result.recording_path);
+  } catch (const std::exception&) {  // of a program that recorded otherwise: the report says all without it
+  }
   if (!out.attempt.picture) return out;
   try {
     out.picture_png = desk.sources.picture(out.attempt.result.uuid, peak_moment_s(out.attempt), kPictureWidth);

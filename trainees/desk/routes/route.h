@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/scoring/attempt_result.h"
 #include "scenarios/scoring/trace.h"
 #include "trainees/desk/queries/film_state.h"
 #include "trainees/exchange/sync/replica_status.h"
@@ -84,6 +85,8 @@ struct DeskSources {
   std::function<std::string(const std::string& metric)> metric_words = {};
   /// What an exercise's file says of a level. @throws InputError: a text or level that cannot be read.
   std::function<LevelFacts(const std::string& exercise_text, const std::string& level)> level_facts = {};
+  /// What the contacts of a recording asked of the device, and what it could display. @throws as `trace`.
+  std::function<StiffnessReport(const std::filesystem::path& recording)> stiffness = {};
   /// Of the foam blocks of a board, in their order; none where there are none. @throws as `level_facts`.
   std::function<std::vector<GripLimits>(const std::string& exercise_text, const std::string& level, int board)>
       grip_limits = {};
