@@ -50,7 +50,7 @@ struct Panel {
       if (values[i] && std::isfinite(*values[i]))
         out += bar(*values[i] * scale, middle, 0.44 * slot, y);
       else
-        out += label(middle, bottom - 6, "not matched", "middle", "fill=\"#b04a00\"");
+        out += label(middle, bottom - 6, slot < 95 ? "none" : "not matched", "middle", "fill=\"#b04a00\"");
       if (timeouts[i] > 0)
         out += label(middle + 0.26 * slot, top + 14, "\u00d7" + std::to_string(timeouts[i]), "start",
                      "fill=\"#b04a00\" font-weight=\"bold\"");

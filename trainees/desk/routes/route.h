@@ -49,9 +49,9 @@ struct Response {
 /// Of an exercise at a level, as its file says.
 struct LevelFacts {
   ForceLimits limits = {};
-  PoseLimits pose = {};
   double pass_at = 75;
   std::map<std::string, bool> less_is_better = {};  ///< of the metrics that the rubric judges
+  PoseLimits pose = {};                             ///< of pens
 };
 
 /// A map of an attempt on its scene.
