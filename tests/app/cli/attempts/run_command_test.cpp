@@ -153,7 +153,7 @@ TEST(PrintResult, SaysScoreGradeSubscoresAndCaps) {
   AttemptResult result = testing_support::sample_attempt(false);
   print_result(result, out);
   for (const char* part : {"status   completed", "score    59.0  (below pass)", "peak_force", "safety gate",
-                           "cap      Safety gate", "hash     0123456789abcdef"}) {
+                           "cap      safety: peak_force below 0.5: at most 59", "hash     0123456789abcdef"}) {
     EXPECT_NE(out.str().find(part), std::string::npos) << part << " in\n" << out.str();
   }
   out.str("");
