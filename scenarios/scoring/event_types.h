@@ -1,5 +1,5 @@
-// The types of events that are graded or that every kind of exercise has; docs/scoring.md says when each happens and
-// what its value is. What a kind alone logs and no metric counts stands in its room (scenarios/kinds).
+// The types of events that are graded, that every kind of exercise has, or that the desk draws; docs/scoring.md says
+// when each happens and what its value is. What a kind alone logs and reads stands in its room (scenarios/kinds).
 //
 // Records hold the name: they may come from a program that knows more types than this one.
 #pragma once
@@ -34,7 +34,7 @@ inline constexpr EventType kPositionError{"POSITION_ERROR"}, kAngleError{"ANGLE_
     kTargetTimeout{"TARGET_TIMEOUT"};
 // Grasp
 inline constexpr EventType kRegrasp{"REGRASP"}, kLifted{"LIFTED"}, kSetDown{"SET_DOWN"}, kSlip{"SLIP"}, kCrush{"CRUSH"},
-    kDrop{"DROP"}, kMisplaced{"MISPLACED"};
+    kDrop{"DROP"}, kPlaced{"PLACED"}, kMisplaced{"MISPLACED"}, kLost{"LOST"};
 // Persons: nobody grades these, and running the recording again does not make them
 inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
 

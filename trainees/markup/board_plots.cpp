@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenarios/kinds/grasp/grasp_events.h"
+#include "scenarios/scoring/event_types.h"
 #include "trainees/markup/html.h"
 #include "trainees/markup/plots.h"
 #include "trainees/markup/svg.h"

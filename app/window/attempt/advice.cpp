@@ -1,7 +1,7 @@
 #include "app/window/attempt/advice.h"
 
 #include "app/window/attempt/debrief_reason.h"
-#include "scenarios/kinds/grasp/grasp_events.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_report.h"
-#include "scenarios/kinds/grasp/grasp_events.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 namespace {
