@@ -105,15 +105,6 @@ void add_readiness(AttemptView& view, Desk& desk, const ProgressRules& rules, co
   }
 }
 
-void add_grip_limits(AttemptView& view, Desk& desk) {
-  if (!desk.sources.grip_limits) return;
-  try {
-    view.grips = desk.sources.grip_limits(AttemptStore(desk.database).exercise_text(view.result.rubric_sha256),
-                                          view.result.level, view.result.board);
-  } catch (const InputError&) {  // an exercise of another version of the program: drawn without its limits
-  }
-}
-
 double moment_of(const AttemptView& view, const std::string& text) {
   double worst = -1;
   for (const Event& event : view.result.events)
@@ -156,7 +147,6 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   view.pass_at = facts.pass_at;
   view.limits = facts.limits;
   view.pose = facts.pose;
-  add_grip_limits(view, desk);
   view.less_is_better = facts.less_is_better;
   add_trace(view, desk);
   view.picture = static_cast<bool>(desk.sources.picture) && view.trace.has_value();

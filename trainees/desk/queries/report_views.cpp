@@ -120,6 +120,23 @@ std::vector<CertifiedAttempt> attempts_behind(Database& database, const Certific
   return out;
 }
 
+void read_stiffness(AttemptView& view, Desk& desk) {
+  if (!view.trace || !desk.sources.stiffness) return;
+  try {
+    view.result.device.stiffness = desk.sources.stiffness(view.result.recording_path);
+  } catch (const std::exception&) {  // of a program that recorded otherwise: the report says all without it
+  }
+}
+
+void read_grip_limits(AttemptView& view, Desk& desk) {
+  if (!desk.sources.grip_limits) return;
+  try {
+    view.grips = desk.sources.grip_limits(AttemptStore(desk.database).exercise_text(view.result.rubric_sha256),
+                                          view.result.level, view.result.board);
+  } catch (const InputError&) {  // an exercise of another version of the program: drawn without its limits
+  }
+}
+
 }  // namespace
 
 TraineeReportView trainee_report_view(Desk& desk, const std::string& code, const std::string& now_utc) {
@@ -156,11 +173,8 @@ CohortReportView cohort_report_view(Desk& desk, const std::map<std::string, std:
 AttemptReportView attempt_report_view(Desk& desk, const std::string& name, const std::string& now_utc) {
   AttemptReportView out;
   out.attempt = attempt_view(desk, asked(now_utc), AttemptStore(desk.database).find(name).uuid);
-  try {
-    if (out.attempt.trace && desk.sources.stiffness)
-      out.attempt.result.device.stiffness = desk.sources.stiffness(out.attempt.result.recording_path);
-  } catch (const std::exception&) {  // of a program that recorded otherwise: the report says all without it
-  }
+  read_stiffness(out.attempt, desk);
+  read_grip_limits(out.attempt, desk);
   if (!out.attempt.picture) return out;
   try {
     out.picture_png = desk.sources.picture(out.attempt.result.uuid, peak_moment_s(out.attempt), kPictureWidth);

@@ -165,7 +165,7 @@ struct AttemptView {
   double pass_at = 75;
   ForceLimits limits = {};
   PoseLimits pose = {};                             ///< of pens
-  std::vector<GripLimits> grips = {};               ///< of the board's blocks
+  std::vector<GripLimits> grips = {};               ///< of the board's blocks; read for reports
   std::map<std::string, bool> less_is_better = {};  ///< of the metrics that the rubric judges
   std::optional<Trace> trace = {};
   std::string no_trace = {};   ///< why there is none
