@@ -4,7 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "haptics/control/gravity.h"
 #include "haptics/device/plant/plant_parameters.h"
+#include "haptics/device/transmission.h"
 #include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
@@ -23,13 +25,6 @@ HapticLoopConfig matched(HapticLoopConfig loop, const SimulatedDaq& daq) {
 
 }  // namespace
 
-SimulatedDaqConfig nominal_device() {
-  SimulatedDaqConfig device;
-  device.plant = nominal_parameters();
-  device.hand.tremor_m = 0;
-  return device;
-}
-
 PlantBench::PlantBench(const SimulatedDaqConfig& device, const HapticLoopConfig& loop)
     : daq_(device),
       config_(matched(loop, daq_)),
@@ -37,8 +32,7 @@ PlantBench::PlantBench(const SimulatedDaqConfig& device, const HapticLoopConfig&
       patch_(std::make_unique<ContactPatch>()),
       goal_(daq_.sense().X_BS),
       jaw_(kJawOpening),
-      last_q_(daq_.plant().angles()),
-      on_the_way_(static_cast<std::size_t>(device.extra_delay_periods) + 2, JointVector::Zero()) {}
+      last_q_(daq_.plant().motor_outputs().head<kArmJoints>()) {}
 
 PlantBench::PlantBench(const PlantBench& other)
     : daq_(other.daq_),
@@ -50,18 +44,18 @@ PlantBench::PlantBench(const PlantBench& other)
       jaw_(other.jaw_),
       holding_(other.holding_),
       last_q_(other.last_q_),
-      on_the_way_(other.on_the_way_),
+      asked_(other.asked_),
       absorbed_j_(other.absorbed_j_) {}
 
 const TickRecord& PlantBench::tick() {
   if (holding_) daq_.set_hand_intent(goal_, jaw_);
+  const DacFrame acting = daq_.codes_in_force();
   const DaqSample sample = daq_.read();
-  account();
+  account(acting);
   const DacFrame out = loop_.tick(sample, *patch_, record_);
   daq_.arm(record_.amplifiers_armed);
   daq_.write(out);
-  on_the_way_.push_back(record_.contact_torque.head<kArmJoints>());
-  on_the_way_.pop_front();
+  remember(out);
   const Fault& fault = record_.stylus.fault;
   if (fault.code != FaultCode::kNone) {
     throw BenchFault("the device loop of the bench has faulted at " + std::to_string(time_s()) +
@@ -70,9 +64,18 @@ const TickRecord& PlantBench::tick() {
   return record_;
 }
 
-void PlantBench::account() {
-  const JointVector q = daq_.plant().angles();
-  absorbed_j_ -= on_the_way_.front().dot(q - last_q_);
+void PlantBench::remember(const DacFrame& out) {
+  JointVector torque = torques_of(config_.device, out, config_.daq.dac_bits).head<kArmJoints>();
+  if (config_.carry_weight) torque -= gravity_torque(config_.device, arm_state(record_.q.head<kArmJoints>()));
+  asked_.push_front({out, torque});
+  if (asked_.size() > kKept) asked_.pop_back();
+}
+
+void PlantBench::account(const DacFrame& acting) {
+  const JointVector q = daq_.plant().motor_outputs().head<kArmJoints>();
+  const auto tick =
+      std::find_if(asked_.begin(), asked_.end(), [&](const Asked& a) { return a.codes.codes == acting.codes; });
+  if (tick != asked_.end()) absorbed_j_ -= tick->torque.dot(q - last_q_);
   last_q_ = q;
 }
 

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "app/device_bench/drawn_device.h"
 #include "haptics/device/simulated_daq.h"
 #include "haptics/haptic_loop.h"
 
@@ -23,9 +24,6 @@ namespace trocar {
 struct BenchFault : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-/// A device without tremor whose amplifiers, friction and masses are those of its documents.
-SimulatedDaqConfig nominal_device();
 
 class PlantBench {
  public:
@@ -61,11 +59,15 @@ class PlantBench {
   Pose& goal() { return goal_; }
   double time_s() const { return daq_.time_s(); }
   double period_s() const { return 1 / config_.daq.rate_hz; }
-  /// True energy that the contact force has absorbed since start(): -sum of acting torque times true joint motion, J.
+  /// True energy that all that the loop asks for beyond the weight has absorbed since start(), J: -sum of acting torque
+  /// times true motion of the motors.
   double true_absorbed_j() const { return absorbed_j_; }
+  /// That and what friction and cables of the arm have taken, J: what it falls the hand has been fed.
+  double net_absorbed_j() const { return absorbed_j_ + daq_.plant().dissipated_j(); }
 
  private:
-  void account();
+  void remember(const DacFrame& out);
+  void account(const DacFrame& acting);
 
   SimulatedDaq daq_;
   HapticLoopConfig config_;
@@ -75,8 +77,14 @@ class PlantBench {
   Pose goal_;
   double jaw_;
   bool holding_ = false;
+  /// What a tick asked for: the codes, and their torque beyond the weight.
+  struct Asked {
+    DacFrame codes;
+    JointVector torque = JointVector::Zero();
+  };
+  static constexpr std::size_t kKept = kMaxExtraDelayPeriods + 3;
   JointVector last_q_;
-  std::deque<JointVector> on_the_way_;  ///< contact torques between the tick that asked and the DAC
+  std::deque<Asked> asked_;  ///< newest first
   double absorbed_j_ = 0;
 };
 

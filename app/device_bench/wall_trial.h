@@ -3,8 +3,9 @@
 //
 // The hand leads the stylus along `direction` and aims some way beyond the wall; how fast it sets out is searched once,
 // so that the stylus meets the wall at `speed` (within 3 %, on the plant without the wall). The prepared bench is
-// copied for each law, so every law meets the same press to the bit. Tool: a ball at the stylus origin, so the force
-// has no moment. Times run from first touch. Frame W'. Thread: one owner.
+// copied for each law, so every law meets the same press to the bit. After a hold the hand leads the stylus out again:
+// what a law has lent is given back then. Tool: a ball at the stylus origin, so the force has no moment. Times run from
+// first touch. Frame W'. Thread: one owner.
 #pragma once
 
 #include <optional>
@@ -17,16 +18,17 @@ namespace trocar {
 inline constexpr double kSettledBand = 0.1;  ///< N that a settled force may differ from its 50 ms mean (H5)
 
 struct WallCase {
-  double stiffness = 150;  ///< N/m
-  double gain = 1;         ///< true amplifier gain over what the loop believes (the thesis had 5)
-  int extra_delay = 0;     ///< periods between write and DAC beyond the seam's one; known to the loop
-  GripPreset grip = GripPreset::kNormal;
+  /// Plant, rate, delay (of which the loop knows the fixed part), jitter, tremor, and the hand that presses.
+  SimulatedDaqConfig device = nominal_device();
+  DeviceModel model;                       ///< what the loop believes
+  double stiffness = 150;                  ///< N/m
+  double gain = 1;                         ///< true amplifier gain over what the loop believes (the thesis had 5)
   double past_wall_m = 0.015;              ///< how far beyond the wall the hand aims (reference scenario)
   double speed = 0.45;                     ///< m/s of the stylus at first touch
+  double speed_tolerance = 0.03;           ///< of it
   JointVector pose = JointVector::Zero();  ///< rad, where the hand sets out
   Vec3 direction = Vec3::UnitZ();          ///< unit, W', into the wall
   std::optional<double> stiffens_s;        ///< after touch the hand's grip turns firm ("the operator stabilises it")
-  double rate_hz = 1000;
   bool compensated = true;  ///< weight and friction; with a gain that is not 1 compensation would be wrong by it
 };
 
@@ -41,6 +43,8 @@ inline constexpr double kDampingDepth = 0.002;  ///< m
 
 struct WallTrace {
   std::vector<double> t, position_m, speed_m_s, force_n, observed_j, true_j;
+  std::vector<double> net_j;     ///< true energy taken by the control, and by friction and cables of the arm
+  std::vector<double> wanted_n;  ///< force of the spring as far as the motors can render it
 };
 
 struct WallOutcome {
@@ -48,9 +52,13 @@ struct WallOutcome {
   double touched_at_m_s = 0;
   double settled_s = 0;                 ///< last time at which |force - its centred 50 ms mean| >= kSettledBand
   int contacts = 0, late_contacts = 0;  ///< all; begun later than kSettleLimit
-  double displayed = 0;        ///< share of the commanded force that was rendered at the end; saturation counts as all
-  double shown_stiffness = 0;  ///< N/m, mean force over mean depth at the end
-  double least_true_j = 0;     ///< lowest true energy that the contact force had absorbed so far
+  double displayed = 0;        ///< rendered over commanded force at the end of the hold, as far as the motors can
+  double shown_stiffness = 0;  ///< N/m, mean force over mean depth there
+  double saturated = 0;        ///< share of that time in which the motors could not
+  double least_true_j = 0;     ///< lowest true energy that the control had absorbed so far
+  double least_net_j = 0;      ///< the same with what friction and cables of the arm took: below zero the hand was fed
+  double law_step_n = 0;       ///< most that the force moved in a tick against what the spring asked
+  double shaking_n = 0;        ///< rms of the force above 30 Hz in the first second
   double observer_gap_j = 0;   ///< largest difference of observed and true energy
   double passive_share = 0;    ///< of the contact ticks in which the law acted
   double largest_step_n = 0;   ///< of the rendered force within one tick
@@ -68,19 +76,25 @@ JointVector near_home(double travel_m);
 /// A pose from which all of `travel` along the direction is comfortable: inside the joint limits, det A >= 0.35.
 bool comfortable(const JointVector& pose, const Vec3& direction, double travel_m);
 
+/// Way that a press needs from its pose on, m.
+double press_travel(const WallCase& c);
+
 class WallRig {
  public:
   /// Homes, goes to the pose, finds the reach; a speed beyond the hand's is replaced by its fastest.
   /// @throws BenchFault, std::invalid_argument for an uncomfortable path.
   explicit WallRig(const WallCase& c);
 
-  /// Presses once from the prepared state. @param seconds after touch.
+  /// Presses once from the prepared state. @param seconds after touch until the hand sets out to leave.
   WallOutcome press(const WallPress& how, double seconds) const;
+  /// The same press into a continuous wall that pushes on the stylus itself, no harder than the motors could.
+  WallOutcome press_ideal(double seconds) const;
 
   const WallCase& the_case() const { return case_; }
   double reach_s() const { return reach_s_; }
 
  private:
+  WallOutcome press(PlantBench& bench, bool ideal, double seconds) const;
   Vec3 wall_point() const;
   Pose goal_at(double share) const;
   double speed_at_wall(double reach_s) const;

@@ -47,6 +47,7 @@ struct StudyRequest {
   std::uint64_t seed = 1;                     ///< of everything that is drawn
   std::optional<PlantParameters> plant = {};  ///< of a plant file, instead of the seed's; only where a study takes one
   std::string plant_words = {};               ///< what that file is called
+  bool nominal = false;                       ///< the arm of the documents, where a study draws arms otherwise
 
   PlantParameters true_device() const { return plant ? *plant : draw_parameters(seed); }
   std::string device_words() const { return plant ? plant_words : "seed " + std::to_string(seed); }

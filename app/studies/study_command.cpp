@@ -33,6 +33,7 @@ struct KnownStudy {
   const char* name;
   StudyResult (*run)(const StudyRequest&);
   bool takes_plant = false;  ///< works on the device of the request
+  bool draws = false;        ///< works on an arm drawn for each trial
 };
 
 /// In the order of the thesis, then what goes beyond it.
@@ -45,25 +46,34 @@ constexpr std::array kStudies{
     KnownStudy{"torque-y", [](const StudyRequest& request) { return torque_study('y', request); }},
     KnownStudy{"torque-z", [](const StudyRequest& request) { return torque_study('z', request); }},
     KnownStudy{"gravity", gravity_study, true},
-    KnownStudy{"passivity", passivity_study},
+    KnownStudy{"passivity", passivity_study, false, true},
     KnownStudy{"admittance", admittance_study},
     KnownStudy{"velocity", velocity_study},
-    KnownStudy{"zwidth", zwidth_study},
+    KnownStudy{"zwidth", zwidth_study, false, true},
     KnownStudy{"transparency", transparency_study, true},
     KnownStudy{"workspace", workspace_study},
     KnownStudy{"plant", plant_study, true},
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
 };
 
-StudyRequest request_of(const StudyOptions& options, bool takes_plant) {
+std::string names_where(bool KnownStudy::*which) {
+  std::string names;
+  for (const KnownStudy& known : kStudies) {
+    if (known.*which) names += std::string(names.empty() ? "" : ", ") + known.name;
+  }
+  return names;
+}
+
+StudyRequest request_of(const StudyOptions& options, const KnownStudy& study) {
   StudyRequest request{options.quick, options.seed};
+  if (options.nominal && !study.draws) {
+    throw InputError("study " + options.name + " draws no arms; --nominal is for " + names_where(&KnownStudy::draws));
+  }
+  request.nominal = options.nominal;
   if (options.plant.empty()) return request;
-  if (!takes_plant) {
-    std::string others;
-    for (const KnownStudy& known : kStudies) {
-      if (known.takes_plant) others += std::string(others.empty() ? "" : ", ") + known.name;
-    }
-    throw InputError("study " + options.name + " works on a device of its own; --plant is for " + others);
+  if (!study.takes_plant) {
+    throw InputError("study " + options.name + " works on a device of its own; --plant is for " +
+                     names_where(&KnownStudy::takes_plant));
   }
   const TruePlant plant = true_plant(options.plant, options.seed);
   request.plant = plant.parameters;
@@ -87,7 +97,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
     for (const std::string& name : study_names()) known += " " + name;
     throw InputError("no study '" + options.name + "'; there are:" + known);
   }
-  const StudyResult result = study->run(request_of(options, study->takes_plant));
+  const StudyResult result = study->run(request_of(options, *study));
   write_study(result, options.out);
   out << (options.json ? summary_json(result) : table_markdown(result));
   err << "trocar: data, plots and summary.json in " << options.out.string() << '\n';
@@ -107,6 +117,8 @@ void add_study(CLI::App& parent, CommandAction& chosen) {
   study->add_flag("--quick", o.quick, "Fewer trials of the same kind");
   study->add_option("--plant", o.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant")
       ->check(file_name());
+  study->add_flag("--nominal", o.nominal,
+                  "The arm of the documents instead of drawn ones: " + names_where(&KnownStudy::draws));
   study->add_option("--seed", o.seed, "Of everything that is drawn")->capture_default_str()->check(seed_range());
   study->add_flag("--json", o.json, "Summary as JSON");
 }

@@ -16,6 +16,7 @@ struct StudyOptions {
   bool quick = false;                ///< fewer trials of the same kind
   std::uint64_t seed = 1;            ///< of everything that is drawn
   std::filesystem::path plant = {};  ///< plant file, for the studies that take one
+  bool nominal = false;              ///< no drawn arms, for the studies that draw them
 };
 
 /// Names that study_command knows.

@@ -141,7 +141,9 @@ void SimulatedDaq::advance_period() noexcept {
   force_on_finger_ = 0;
   for (int n = 0; n < substeps_; ++n) {
     const ExternalLoad load = hand_.update(plant_.motion(), substep_s_);
-    plant_.step(substep_s_, load);
+    ExternalLoad all = load;
+    if (ideal_wall_.stiffness > 0) all.stylus_B.force -= ideal_wall_n() * ideal_wall_.inward;
+    plant_.step(substep_s_, all);
     if (encoders_.flawed()) encoders_.follow(plant_.motor_outputs(), substep_s_);
     force_on_hand_ -= load.stylus_B.force / substeps_;
     moment_on_hand_ -= load.stylus_B.moment / substeps_;
@@ -150,6 +152,11 @@ void SimulatedDaq::advance_period() noexcept {
   if (carried_s_ >= 0) return carry();
   if (armed_) armed_for_s_ += period_s_;
   if (plant_.clamped() && armed_for_s_ >= kJigReleaseS - kTimeSlack) plant_.clamp(false);
+}
+
+double SimulatedDaq::ideal_wall_n() const noexcept {
+  const double depth = (plant_.motion().X_BS.p - ideal_wall_.point).dot(ideal_wall_.inward);
+  return std::clamp(ideal_wall_.stiffness * depth, 0.0, ideal_wall_.most_n);
 }
 
 void SimulatedDaq::watch_writes() noexcept {

@@ -50,6 +50,14 @@ struct SimulatedDaqConfig {
   bool dac_readback = true;        ///< the board can read its DAC registers back (kDacMismatch)
 };
 
+/// A wall that pushes on the stylus itself, continuously: without counts, periods, delay or motors. What a wall felt
+/// through this device could be at best, for studies. Frame W'.
+struct IdealWall {
+  Vec3 point = Vec3::Zero(), inward = Vec3::UnitZ();  ///< of its face; unit
+  double stiffness = 0;                               ///< N/m
+  double most_n = 0;                                  ///< force that the motors could give
+};
+
 class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
  public:
   /// @throws std::invalid_argument when a rate, bit count, delay, channel or time is out of range.
@@ -69,6 +77,8 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
 
   void set_hand_parameters(const HandParameters& parameters) noexcept { hand_.set_parameters(parameters); }
   void release_hand() noexcept { hand_.let_go(); }
+  void set_ideal_wall(const IdealWall& wall) noexcept { ideal_wall_ = wall; }
+  double ideal_wall_n() const noexcept;  ///< its push now
   /// The operator carries the arm back into its jig within kReturnS, where it is clamped again.
   void return_to_jig() noexcept;
   /// Codes that act on the DACs now, and counts that the encoders have missed: for tests and studies only.
@@ -100,6 +110,7 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
   JointVector from_ = JointVector::Zero();  ///< where the operator took the arm up
   double jaw_from_ = 0, carried_s_ = -1;    ///< on the way back to the jig, < 0: not on the way
   HandModel hand_;
+  IdealWall ideal_wall_;
   PlantFaults faults_;
 
   std::uint64_t sync_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "app/studies/contact/passivity_grid.h"
 #include "haptics/kinematics/hybrid_arm.h"
@@ -13,7 +14,8 @@ constexpr double kPressTravel = 0.105;  // m of the fastest press
 constexpr double kReacts = 0.45;        // s after touch at which the operator stiffens
 constexpr double kWatched = 2.5;        // s after touch
 constexpr double kThesisOff = 0.66, kThesisOn = 0.17, kThesisGravity = 0.08;  // s, figures 4.15, 4.16, 4.18
-constexpr int kPassivityQuickEvery = 20;                                      // quick form: five cases of the grid
+constexpr std::size_t kQuickPresses = 5, kQuickHands = 4, kSettlingHands = 120;
+constexpr double kSettlingWatched = 1.5;  // s after touch
 
 const std::string kSettled =
     "Last time after touch at which the force differs by 0.1 N or more from its centred 50 ms mean";
@@ -27,8 +29,8 @@ WallCase wall_near_home() {
 
 WallCase scenario_1() {
   WallCase c = wall_near_home();
-  c.extra_delay = 9;
-  c.grip = GripPreset::kFingertip;
+  c.device.extra_delay_periods = 9;
+  c.device.hand = hand_parameters(GripPreset::kFingertip), c.device.hand.tremor_m = 0;
   c.speed = 0.46;
   return c;
 }
@@ -39,8 +41,8 @@ WallCase scenario_2(bool known) {
   c.stiffness = known ? 750 : 150;
   c.gain = known ? 1 : 5;
   c.compensated = known;
-  c.extra_delay = 5;
-  c.grip = GripPreset::kLight;
+  c.device.extra_delay_periods = 5;
+  c.device.hand = hand_parameters(GripPreset::kLight), c.device.hand.tremor_m = 0;
   c.speed = 0.43;
   return c;
 }
@@ -122,10 +124,9 @@ void experiments(StudyResult& study) {
   const std::string how =
       "; 150 N/m, normal pen grip, 2 ms between latch and force, the hand aims 15 mm past the wall.";
   study.cases.push_back(settling("150 N/m at 0.45 m/s, law off", off.settled_s, kThesisOff, "reported", true, how));
+  study.cases.push_back(settling("150 N/m at 0.44 m/s, law on", on.settled_s, kThesisOn, "reported", true, how));
   study.cases.push_back(
-      settling("150 N/m at 0.44 m/s, law on", on.settled_s, kThesisOn, "<= 0.17", on.settled_s <= kThesisOn, how));
-  study.cases.push_back(settling("150 N/m at 0.96 m/s, law on, weight carried", weight.settled_s, kThesisGravity,
-                                 "<= 0.08", weight.settled_s <= kThesisGravity, how));
+      settling("150 N/m at 0.96 m/s, law on, weight carried", weight.settled_s, kThesisGravity, "reported", true, how));
   study.curves.push_back(figure("figure_4_15", "0.45 m/s, law off", off));
   study.curves.push_back(figure("figure_4_16", "0.44 m/s, law on", on));
   study.curves.push_back(figure("figure_4_18", "0.96 m/s, law on, weight carried", weight));
@@ -137,41 +138,111 @@ const LawTally& tally_of(const GridResult& grid, PassivityLaw law, bool clamp) {
 }
 
 void passivity_laws(StudyResult& study, const StudyRequest& request) {
-  const GridResult grid = run_grid(grid_cases(request.seed, request.quick ? kPassivityQuickEvery : 1), grid_laws());
-  const double cases = static_cast<double>(grid.cases.size());
+  const GridResult grid =
+      run_grid(grid_cases(request.seed, request.quick ? kQuickPresses : kGridPresses, request.nominal), grid_laws());
+  const int presses = static_cast<int>(grid.cases.size());
+  const auto share = [&](const LawTally& t) { return static_cast<double>(t.stable) / presses; };
   const LawTally &off = tally_of(grid, PassivityLaw::kOff, false),
                  &thesis = tally_of(grid, PassivityLaw::kThesis, false),
                  &on = tally_of(grid, PassivityLaw::kBudgeted, false),
                  &clamped = tally_of(grid, PassivityLaw::kBudgeted, true);
   const std::string rule =
-      "Presses of the grid (grid.csv) without shutdown, settled within 0.5 s of touch, with at most "
-      "two touches later than that.";
+      "Presses (grid.csv) without shutdown, settled within 0.5 s of touch, with at most two touches later than that.";
   study.cases.push_back(
-      {"grid: stable with the law off", "share", off.stable / cases, thesis.stable / cases, "reported", true, rule});
-  study.cases.push_back({"grid: stable with the default law, no clamp", "share", on.stable / cases,
-                         thesis.stable / cases, ">= 0.98", on.stable >= 0.98 * cases, rule});
+      {"presses: stable with the law off", "share", share(off), share(thesis), "reported", true, rule});
   study.cases.push_back(
-      {"grid: force displayed with the default law", "share", on.displayed, std::nullopt, ">= 0.75",
-       on.displayed >= 0.75,
-       "Rendered over commanded force in the last 0.3 s, mean over the cases that are stable with the "
-       "law off; a saturated force counts as displayed."});
-  study.cases.push_back({"grid: stable with the default law and the K_max clamp", "share", clamped.stable / cases,
-                         std::nullopt, "1", clamped.stable == static_cast<int>(grid.cases.size()), rule});
-  study.cases.push_back({"grid: lowest energy that the contact took", "mJ", on.least_true_j * 1e3,
-                         thesis.least_true_j * 1e3, "reported", true,
-                         "True joint motion times acting contact torque, lowest sum since touch over all presses."});
-  study.cases.push_back({"grid: error of the energy observer", "mJ", on.observer_gap_j * 1e3, std::nullopt, "reported",
-                         true, "Largest difference of observed and true contact energy over all presses."});
+      {"presses: stable with the default law", "share", share(on), share(thesis), ">= 0.99", share(on) >= 0.99, rule});
+  study.cases.push_back({"presses: stable, lower bound", "share", wilson_low(on.stable, presses),
+                         wilson_low(thesis.stable, presses), ">= 0.97", wilson_low(on.stable, presses) >= 0.97,
+                         "Of the 95 % interval of that share (Wilson)."});
+  study.cases.push_back({"presses: stable with the default law and the K_max clamp", "share", share(clamped),
+                         std::nullopt, "reported", true, rule});
+  study.cases.push_back({"presses: force displayed where the motors can", "share", on.displayed, thesis.displayed,
+                         ">= 0.9", on.displayed >= 0.9,
+                         "Rendered over commanded force in the last 0.3 s of the hold, mean over the presses in which "
+                         "the motors could give it for at least half of that time."});
+  study.cases.push_back({"presses: force displayed of what the motors can", "share", on.displayed_all,
+                         thesis.displayed_all, "reported", true,
+                         "The same over all presses, of the commanded force as far as the motors can give it."});
+  study.cases.push_back(
+      {"presses: least net energy", "mJ", on.least_net_j * 1e3, thesis.least_net_j * 1e3, ">= -1",
+       on.least_net_j >= -1e-3,
+       "True energy that all but weight compensation absorbed since touch, with what friction and "
+       "cables of the arm took, lowest over all presses, holds and ways out: below 0 the hand is fed."});
+  study.cases.push_back({"presses: step of the law", "N", on.law_step_n, thesis.law_step_n, "< 0.1",
+                         on.law_step_n < 0.1,
+                         "Most that the force moved in a tick beyond standing still and following the spring."});
+  study.cases.push_back({"presses: error of the energy observer", "mJ", on.observer_gap_j * 1e3, std::nullopt,
+                         "reported", true, "Largest difference of observed and true energy over all presses."});
   study.files.push_back({"grid.csv", grid_csv(grid)});
   study.files.push_back({"laws.md", law_table(grid)});
+}
+
+/// One hand at 150 N/m: through the device, and at a wall that the device would be at best.
+struct Settling {
+  WallOutcome ours, off, ideal;
+  double more_s() const { return ours.settled_s - ideal.settled_s; }
+};
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+}
+
+void settling_beside_ideal(StudyResult& study, const StudyRequest& request) {
+  PressDraw draw{{150}, {0}, 0.2, 1.0};
+  draw.nominal = request.nominal;
+  const auto presses = drawn_presses(request.seed, request.quick ? kQuickHands : kSettlingHands, draw);
+  std::vector<Settling> all(presses.size());
+  on_all_processors(all.size(), [&](std::size_t i) {
+    const WallRig rig(presses[i].wall);
+    all[i] = {rig.press({PassivityLaw::kBudgeted}, kSettlingWatched), rig.press({PassivityLaw::kOff}, kSettlingWatched),
+              rig.press_ideal(kSettlingWatched)};
+    for (WallOutcome* o : {&all[i].ours, &all[i].off, &all[i].ideal}) o->trace = {};
+  });
+  std::string table = "grip,speed_m_s,settled_s,settled_off_s,settled_ideal_s,above_30_Hz_N,above_30_Hz_ideal_N\n";
+  std::vector<double> more, ours, off, ideal, shaking;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Settling& s = all[i];
+    more.push_back(s.more_s());
+    off.push_back(s.off.settled_s - s.ideal.settled_s);
+    ours.push_back(s.ours.settled_s);
+    ideal.push_back(s.ideal.settled_s);
+    shaking.push_back(s.ours.shaking_n - s.ideal.shaking_n);
+    std::ostringstream row;
+    row << grip_name(presses[i].grip) << ',' << s.ours.touched_at_m_s << ',' << s.ours.settled_s << ','
+        << s.off.settled_s << ',' << s.ideal.settled_s << ',' << s.ours.shaking_n << ',' << s.ideal.shaking_n << '\n';
+    table += row.str();
+  }
+  const std::string how =
+      "150 N/m, 0.2 to 1.0 m/s, drawn hands and arms (settling.csv); the ideal wall is continuous, pushes on the "
+      "stylus "
+      "itself and no harder than the motors can.";
+  const auto add = [&](const char* name, const char* unit, double value, double thesis, const char* bar, bool met) {
+    study.cases.push_back({name, unit, value, thesis, bar, met, how});
+  };
+  add("settling above the ideal wall, median", "s", quantile(more, 0.5), quantile(off, 0.5), "<= 0.030",
+      quantile(more, 0.5) <= 0.030);
+  add("settling above the ideal wall, 95 %", "s", quantile(more, 0.95), quantile(off, 0.95), "<= 0.080",
+      quantile(more, 0.95) <= 0.080);
+  study.cases.push_back({"settling itself, median", "s", quantile(ours, 0.5), std::nullopt, "reported", true, how});
+  study.cases.push_back(
+      {"settling of the ideal wall, median", "s", quantile(ideal, 0.5), std::nullopt, "reported", true, how});
+  study.cases.push_back({"force above 30 Hz over that of the ideal wall, 95 %", "N", quantile(shaking, 0.95),
+                         std::nullopt, "reported", true, how});
+  study.files.push_back({"settling.csv", table});
 }
 
 }  // namespace
 
 StudyResult passivity_study(const StudyRequest& request) {
-  StudyResult study{"passivity", "simulated plant, nominal parameters, 1 kHz", {}, {}};
+  StudyResult study{"passivity",
+                    drawn_plant_words(request.seed, request.nominal) + "; the thesis' scenarios on the nominal plant",
+                    {},
+                    {}};
   scenarios(study);
   experiments(study);
+  settling_beside_ideal(study, request);
   passivity_laws(study, request);
   return study;
 }

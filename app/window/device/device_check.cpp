@@ -116,13 +116,13 @@ void DeviceCheck::Work::press(PlantBench& bench, const Pose& above) {
                  {.stiffness_n_per_m = kWall_n_per_m});
   Pose into = above;
   into.p.z() -= kWallBelow + kPast;
-  const double before = bench.true_absorbed_j();
+  const double before = bench.net_absorbed_j();
   double least = 0;
   std::vector<Vec3> ignored;
   const auto watch = [&](double seconds) {
     for (long n = std::lround(seconds / bench.period_s()); n > 0; --n) {
       bench.tick();
-      least = std::min(least, bench.true_absorbed_j() - before);
+      least = std::min(least, bench.net_absorbed_j() - before);
       if (stop) throw GivenUp{};
     }
   };

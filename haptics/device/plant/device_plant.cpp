@@ -192,7 +192,7 @@ Vec6 DevicePlant::from_joint_loads(const PlantKinematics& k, const Vec6& tau) co
 DevicePlant::Resistances DevicePlant::resist(const JointVector& q, const JointVector& qd, double dt) noexcept {
   Resistances r;
   for (int i = 0; i < kArmJoints; ++i) {
-    const ResistanceLine rub = friction_[i].linearise(qd[i], dt);
+    const ResistanceLine& rub = r.friction[i] = friction_[i].linearise(qd[i], dt);
     const ResistanceLine stop = stop_resistance(p_.channel[i].stop, q[i], qd[i]);
     r.constant[i] = rub.constant + stop.constant;
     r.slope[i] = rub.slope + stop.slope;
@@ -231,7 +231,11 @@ void DevicePlant::kick(double dt, const ExternalLoad& load) noexcept {
   stop_legs(elastic ? Eigen::LLT<Mat6>(M) : factor);
   nu_dot_ = (nu_ - nu_old) / dt;
   const JointVector qd_new = to_joint_rates(k, nu_);
-  for (int i = 0; i < kArmJoints; ++i) friction_[i].advance(qd_new[i], dt);
+  for (int i = 0; i < kArmJoints; ++i) {
+    friction_[i].advance(qd_new[i], dt);
+    dissipated_j_ += dt * r.friction[i].at(qd_new[i]) * qd_new[i];
+    if (cable_[i].elastic()) dissipated_j_ += dt * cable_[i].taken_w(qd_new[i]);
+  }
 }
 
 bool DevicePlant::advance_cables(const JointVector& qd_new, double dt) noexcept {

@@ -83,13 +83,16 @@ class DevicePlant {
   Mat6 mass_matrix() const noexcept;   ///< in nu, rotors included but those behind elastic cables
   double energy() const noexcept;      ///< kinetic and potential of the arm, its cables and their rotors, J
   double cable_loss() const noexcept;  ///< heat that the cables' damping makes now, W
+  /// What friction and cables of the six joints have taken out of the motion since construction, J.
+  double dissipated_j() const noexcept { return dissipated_j_; }
   JointVector holding_torque() const;  ///< joint torque that carries the weight, N m
   Mat6 joint_jacobian() const;         ///< d(twist in W')/d(joint rates), linear rows first
   const PlantParameters& parameters() const noexcept { return p_; }
 
  private:
   struct Resistances {
-    JointVector constant, slope;
+    JointVector constant, slope;                      ///< friction, stops and cables
+    std::array<ResistanceLine, kArmJoints> friction;  ///< of that
   };
 
   void drift(double dt) noexcept;
@@ -121,6 +124,7 @@ class DevicePlant {
   Vec6 nu_ = Vec6::Zero();
   Vec6 nu_dot_ = Vec6::Zero();  ///< of the last step, to centre velocity products
   double jaw_ = 0, jaw_rate_ = 0;
+  double dissipated_j_ = 0;
   ChannelVector volts_ = ChannelVector::Zero();
   bool enabled_ = false, clamped_ = false;
 };

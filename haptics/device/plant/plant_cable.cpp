@@ -34,9 +34,9 @@ ResistanceLine PlantCable::linearise(double q, double qd, double motor_load, dou
   const double follow = 0.25 * dt * p_.stiffness;
   const double pull = p_.stiffness * stretch(q) - follow * (rate_ - qd);
   const double slope = p_.damping + follow;
-  const ResistanceLine rub = brushes_.linearise(rate_, dt);
-  mass_ = inertia_ + dt * (slope + rub.slope);
-  push_ = inertia_ * rate_ + dt * (motor_load - pull - rub.constant);
+  rub_ = brushes_.linearise(rate_, dt);
+  mass_ = inertia_ + dt * (slope + rub_.slope);
+  push_ = inertia_ * rate_ + dt * (motor_load - pull - rub_.constant);
   coupling_ = dt * slope;
   return {-(pull + slope * push_ / mass_), slope * (1 - coupling_ / mass_)};
 }

@@ -32,6 +32,8 @@ class PlantCable {
   double rate() const noexcept { return rate_; }
   /// Energy of rotor and spring, J.
   double energy(double q) const noexcept;
+  /// What damping and brushes take from the motion in the step that advance() ended, W. @param qd_new of the joint.
+  double taken_w(double qd_new) const noexcept { return loss(qd_new) + rub_.at(rate_) * rate_; }
   /// Heat that the damping makes, W.
   double loss(double qd) const noexcept { return p_.damping * (rate_ - qd) * (rate_ - qd); }
 
@@ -42,6 +44,7 @@ class PlantCable {
   CableParameters p_;
   double inertia_;
   PlantFriction brushes_;
+  ResistanceLine rub_;  ///< of the brushes in the prepared step
   double angle_ = 0, rate_ = 0;
   double push_ = 0, mass_ = 1, coupling_ = 0;  ///< of the prepared step: rate_new = (push + coupling qd_new) / mass
 };

@@ -15,6 +15,7 @@ namespace trocar {
 struct ResistanceLine {
   double constant = 0;
   double slope = 0;
+  double at(double v_new) const { return constant + slope * v_new; }
 };
 
 class PlantFriction {

@@ -28,8 +28,8 @@ const WallRig& slow_rig() {
     WallCase c;
     c.pose = near_home(kTravel);
     c.direction = -arm_state(c.pose).X_WS.R.col(1);
-    c.extra_delay = 9;
-    c.grip = GripPreset::kFingertip;
+    c.device = nominal_device(GripPreset::kFingertip);
+    c.device.extra_delay_periods = 9;
     c.speed = 0.46;
     return WallRig(c);
   }();
@@ -40,8 +40,7 @@ const WallRig& slow_rig() {
 const WallRig& quick_rig() {
   static const WallRig rig = [] {
     WallCase c = slow_rig().the_case();
-    c.extra_delay = 0;
-    c.grip = GripPreset::kNormal;
+    c.device = nominal_device();
     return WallRig(c);
   }();
   return rig;
@@ -86,11 +85,12 @@ TEST(WallTrial, TheDefaultLawSettlesScenario1) {
 TEST(WallTrial, TrueEnergyIsTheForceTimesTheWay) {
   const WallOutcome o = quick_rig().press({PassivityLaw::kOff}, 0.08);
   double sum = 0;
-  for (std::size_t i = 2; i < o.trace.t.size(); ++i) {  // what tick i - 2 asked for acted until tick i
+  const std::size_t held = 80;              // ticks until the hand sets out to leave
+  for (std::size_t i = 2; i < held; ++i) {  // what tick i - 2 asked for acted until tick i
     sum += o.trace.force_n[i - 2] * (o.trace.position_m[i] - o.trace.position_m[i - 1]);
   }
   EXPECT_GT(sum, 5e-3);
-  EXPECT_NEAR(o.trace.true_j.back(), sum, 0.05 * sum) << "the ball's way aside does no work";
+  EXPECT_NEAR(o.trace.true_j[held - 1], sum, 0.1 * sum) << "the ball's way aside does no work";
   EXPECT_LT(o.observer_gap_j, 1e-3);
 }
 
@@ -108,8 +108,8 @@ TEST(WallTrial, AGainThatTheLoopDoesNotKnowIsBeyondItsLaw) {
   WallCase c = slow_rig().the_case();
   c.gain = 5;
   c.compensated = false;
-  c.extra_delay = 5;
-  c.grip = GripPreset::kLight;
+  c.device = nominal_device(GripPreset::kLight);
+  c.device.extra_delay_periods = 5;
   EXPECT_FALSE(WallRig(c).press({PassivityLaw::kBudgeted}, 1.5).stable());
 }
 
@@ -136,28 +136,71 @@ TEST(PlantBench, ThrowsWhenTheLoopFaults) {
   }
 }
 
-TEST(PassivityGrid, HasEveryStiffnessDelayAndGripOnceOnComfortableWays) {
-  const std::vector<WallCase> cases = grid_cases(1, 1);
-  ASSERT_EQ(cases.size(), 100u);
-  std::set<std::tuple<double, int, GripPreset>> seen;
-  for (const WallCase& c : cases) {
-    seen.insert({c.stiffness, c.extra_delay, c.grip});
-    EXPECT_TRUE(comfortable(c.pose, c.direction, 0.06));
-    EXPECT_NEAR(c.direction.norm(), 1, 1e-12);
+TEST(WallTrial, WithoutALawTheHandIsFedAndFrictionOnlyTakes) {
+  const WallOutcome o = slow_rig().press({PassivityLaw::kOff}, 0.3);
+  const WallTrace& t = o.trace;
+  ASSERT_GT(t.t.back(), 1.0);
+  EXPECT_LT(o.least_net_j, -1e-3) << "law off at 10 ms of delay feeds the hand";
+  EXPECT_GT(t.net_j.back() - t.true_j.back(), 1e-3) << "friction only takes";
+  for (std::size_t i = 1; i < t.t.size(); ++i) {
+    EXPECT_GE(t.net_j[i] - t.true_j[i], t.net_j[i - 1] - t.true_j[i - 1] - 1e-5);
   }
-  EXPECT_EQ(seen.size(), 100u);
-  EXPECT_EQ(grid_cases(1, 20).size(), 5u);
 }
 
-TEST(PassivityGrid, TheSeedDrawsTheCases) {
-  const auto a = grid_cases(4, 1), b = grid_cases(4, 1), c = grid_cases(5, 1);
-  int same = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].direction, b[i].direction);
-    EXPECT_EQ(a[i].speed, b[i].speed);
-    same += a[i].direction == c[i].direction && a[i].speed == c[i].speed;
+TEST(WallTrial, AnIdealWallPushesWithItsStiffnessAndNoHarderThanTheMotorsCan) {
+  const WallOutcome ideal = quick_rig().press_ideal(0.4);
+  double most = 0;
+  for (std::size_t i = 0; i < ideal.trace.t.size(); ++i) {
+    const double spring = 150 * std::max(0.0, ideal.trace.position_m[i]);
+    EXPECT_LE(ideal.trace.force_n[i], spring + 1e-9);
+    if (ideal.trace.force_n[i] < spring - 1e-9) most = std::max(most, ideal.trace.force_n[i]);
   }
-  EXPECT_LT(same, 50);
+  EXPECT_NEAR(ideal.displayed, 1, 1e-12);
+  EXPECT_EQ(ideal.law_step_n, 0);
+  EXPECT_LT(ideal.shaking_n, quick_rig().press({PassivityLaw::kOff}, 0.4).shaking_n);
+  if (most > 0) {
+    EXPECT_GT(most, 1.1) << "reference 2: 5 % of the workspace has less";
+    EXPECT_LT(most, 2.25) << "and 5 % more";
+  }
+}
+
+TEST(WallTrial, ALawStepsTheForceOnlyAgainstTheSpring) {
+  EXPECT_LT(quick_rig().press({PassivityLaw::kOff}, 0.4).law_step_n, 0.01) << "no law";
+}
+
+TEST(PassivityGrid, HasEveryStiffnessDelayAndGripEquallyOftenOnComfortableWays) {
+  const std::vector<DrawnPress> cases = grid_cases(1, 100, false);
+  ASSERT_EQ(cases.size(), 100u);
+  std::set<std::tuple<double, int, GripPreset>> seen;
+  std::set<double> friction;
+  for (const DrawnPress& c : cases) {
+    seen.insert({c.wall.stiffness, c.wall.device.extra_delay_periods, c.grip});
+    friction.insert(c.wall.device.plant->channel[0].friction.coulomb);
+    EXPECT_GT(c.wall.device.plant->options.cable[0].stiffness, 40);
+    EXPECT_GT(c.wall.device.hand.tremor_m, 0);
+    EXPECT_TRUE(comfortable(c.wall.pose, c.wall.direction, press_travel(c.wall)));
+    EXPECT_NEAR(c.wall.direction.norm(), 1, 1e-12);
+  }
+  EXPECT_EQ(seen.size(), 100u);
+  EXPECT_EQ(friction.size(), 100u) << "an arm for each press";
+  const WallCase nominal = grid_cases(1, 1, true).front().wall;
+  EXPECT_EQ(nominal.device.plant->channel[0].friction.coulomb, nominal_parameters().channel[0].friction.coulomb);
+  EXPECT_EQ(nominal.device.plant->options.cable[0].stiffness, 0);
+}
+
+TEST(PassivityGrid, TheSeedDrawsTheCasesWhateverTheirNumber) {
+  const auto a = grid_cases(4, 40, false), b = grid_cases(4, 20, false), c = grid_cases(5, 20, false);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    EXPECT_EQ(a[i].wall.direction, b[i].wall.direction);
+    EXPECT_EQ(a[i].wall.speed, b[i].wall.speed);
+    EXPECT_NE(a[i].wall.speed, c[i].wall.speed);
+  }
+}
+
+TEST(PassivityGrid, TheLowerBoundIsWilsons) {
+  EXPECT_NEAR(wilson_low(297, 300), 0.9710, 5e-4);
+  EXPECT_NEAR(wilson_low(300, 300), 0.9874, 5e-4);
+  EXPECT_EQ(wilson_low(0, 0), 0);
 }
 
 TEST(PassivityGrid, EveryTaskRunsOnceAndAFailureIsHeard) {
@@ -171,23 +214,23 @@ TEST(PassivityGrid, EveryTaskRunsOnceAndAFailureIsHeard) {
                std::runtime_error);
 }
 
-TEST(PassivityStudy, QuickFormMeetsWhatItAsksOfScenariosAndLaws) {
+TEST(PassivityStudy, QuickFormMeetsWhatItAsksOfScenariosAndWritesEveryPress) {
   const StudyResult study = passivity_study({true, 1});
-  for (const char* name : {"S1: law off, no reaction", "S1: thesis' law", "S1: budgeted", "S2: law off, no reaction",
-                           "S2: budgeted", "grid: stable with the default law, no clamp", "grid: force displayed",
-                           "grid: stable with the default law and the K_max clamp"}) {
+  for (const char* name :
+       {"S1: law off, no reaction", "S1: thesis' law", "S1: budgeted", "S2: law off, no reaction", "S2: budgeted"}) {
     const StudyCase* c = find(study, name);
     ASSERT_NE(c, nullptr);
     EXPECT_TRUE(c->met) << c->name << ": " << c->value;
     EXPECT_FALSE(c->definition.empty());
   }
-  // The hand's own swing keeps these from the thesis' figures: the study says so and does not hide it.
-  EXPECT_FALSE(find(study, "150 N/m at 0.96 m/s")->met);
-  ASSERT_EQ(study.files.size(), 2u);
-  const std::string& csv = study.files[0].bytes;
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 5 * 14)
-      << "five cases, seven laws without and with the clamp";
-  EXPECT_NE(study.files[1].bytes.find("| budgeted + clamp |"), std::string::npos);
+  EXPECT_NE(study.plant.find("seed 1"), std::string::npos) << study.plant;
+  EXPECT_NE(find(study, "presses: least net energy"), nullptr);
+  EXPECT_NE(find(study, "settling above the ideal wall, 95 %"), nullptr);
+  ASSERT_EQ(study.files.size(), 3u);
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  EXPECT_EQ(lines(study.files[0].bytes), 1 + 4) << "four hands";
+  EXPECT_EQ(lines(study.files[1].bytes), 1 + 5 * 8) << "five presses, seven laws and one with the clamp";
+  EXPECT_NE(study.files[2].bytes.find("| budgeted + clamp |"), std::string::npos);
   EXPECT_EQ(study.curves.size(), 5u);
 }
 

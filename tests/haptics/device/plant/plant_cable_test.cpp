@@ -167,6 +167,24 @@ TEST(PlantCable, WhatIsLostIsWhatTheDampingMakesWarm) {
   EXPECT_LT(std::abs(fine_lost / fine_warm - 1), 0.5 * std::abs(lost / warm - 1));
 }
 
+TEST(PlantCable, WhatASwingLosesIsWhatFrictionAndCablesTook) {
+  for (const double stiffness : {0.0, 100.0}) {
+    PlantParameters p = with_cables(nominal_parameters(), stiffness);
+    for (ChannelParameters& c : p.channel) c.stop = test::conservative_parameters().channel[0].stop;
+    DevicePlant plant(p);
+    PlantRandom random(7);
+    plant.place(test::random_joints(random, 30), 0.02);
+    JointVector rates;
+    rates << 0.8, -0.6, 0.7, 1.2, -1.0, 2.0;
+    plant.set_joint_rates(rates);
+    const double before = plant.energy(), taken_before = plant.dissipated_j();
+    for (int n = 0; n < 4000; ++n) plant.step(kStep, {});
+    const double lost = before - plant.energy(), taken = plant.dissipated_j() - taken_before;
+    EXPECT_GT(taken, 3e-3) << stiffness;
+    EXPECT_NEAR(lost, taken, 0.01 * taken) << stiffness << ": implicit friction loses a little by itself";
+  }
+}
+
 TEST(PlantCable, AVeryStiffCableIsTheRigidDevice) {
   PlantParameters rigid = test::conservative_parameters(), stiff = with_cables(rigid, 1e4, 0.2);
   DevicePlant a(rigid), b(stiff);
