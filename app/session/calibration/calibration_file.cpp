@@ -1,8 +1,13 @@
 #include "app/session/calibration/calibration_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <span>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +21,37 @@ using Json = nlohmann::json;
 constexpr double kLeastGain = 0.004, kLargestGain = 10;  // A/V; nominal 0.431, and a chain may be ten times off
 constexpr double kLargestOffset = 1;                     // V: a tenth of the DAC's range is no offset any more
 
+/// Of the file and of each of its channels.
+constexpr std::array kFileKeys{"plant", "channels"};
+constexpr std::array kChannelKeys{"channel",  "amps_per_volt", "amps_per_volt_sd", "gain_over_nominal",
+                                  "offset_v", "offset_sd_v",   "stiction_nm",      "residual_nm"};
+
+void require_known(const Json& object, std::span<const char* const> known, const std::string& where) {
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw InputError(where + ": unknown key \"" + key + "\"");
+    }
+  }
+}
+
+/// The file as JSON. A key that comes twice is refused: a reader of JSON would silently take one of the two values.
+Json parsed(const std::string& text, const std::string& file) {
+  std::vector<std::set<std::string>> open;
+  std::string twice;
+  const auto note = [&](int, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second && twice.empty()) {
+      twice = value.get<std::string>();
+    }
+    return true;
+  };
+  Json json = Json::parse(text, note, false);
+  if (json.is_discarded() || !json.is_object()) throw InputError(file + ": no JSON object");
+  if (!twice.empty()) throw InputError(file + ": key \"" + twice + "\" comes twice in one object");
+  return json;
+}
+
 double number_of(const Json& channel, const char* key, const std::string& where) {
   const auto found = channel.find(key);
   if (found == channel.end()) throw InputError(where + ": no \"" + key + "\"");
@@ -27,6 +63,7 @@ double number_of(const Json& channel, const char* key, const std::string& where)
 
 ChannelCalibration channel_of(const Json& channel, int index, const std::string& where) {
   if (!channel.is_object()) throw InputError(where + ": not an object");
+  require_known(channel, kChannelKeys, where);
   const auto named = channel.find("channel");
   const std::string name = named != channel.end() && named->is_string() ? named->get<std::string>() : "";
   if (name != calibration_channel(index)) {
@@ -80,8 +117,8 @@ AmplifierCalibration read_calibration(const std::filesystem::path& file) {
 }
 
 AmplifierCalibration parse_calibration(const std::string& text, const std::string& file, std::string* plant) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw InputError(file + ": no JSON object");
+  const Json json = parsed(text, file);
+  require_known(json, kFileKeys, file);
   if (json.contains("plant") && !json["plant"].is_string()) throw InputError(file + ": \"plant\" must be a text");
   if (plant) *plant = json.value("plant", "");
   const auto channels = json.find("channels");

@@ -77,6 +77,10 @@ TEST_F(CalibrationFile, RefusesWhatIsNoCalibration) {
   }
   write("{}");
   expect_refusal_of_the_file("array of seven");
+  write("{\"channels\": [], \"plant\": \"a\", \"channels\": []}");
+  expect_refusal_of_the_file("\"channels\" comes twice");
+  expect_refusal([](Json& j) { j["chanels"] = 1; }, "unknown key \"chanels\"");
+  expect_refusal([](Json& j) { j["channels"][3]["offset_mv"] = 1; }, "channels[3]: unknown key \"offset_mv\"");
   expect_refusal([](Json& j) { j["channels"].erase(2); }, "array of seven");
   expect_refusal([](Json& j) { j["channels"][2] = 5; }, "channels[2]: not an object");
 }
