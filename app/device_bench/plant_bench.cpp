@@ -73,6 +73,7 @@ void PlantBench::remember(const DacFrame& out) {
 
 void PlantBench::account(const DacFrame& acting) {
   const JointVector q = daq_.plant().motor_outputs().head<kArmJoints>();
+  // By its codes: however late they are, jitter included.
   const auto tick =
       std::find_if(asked_.begin(), asked_.end(), [&](const Asked& a) { return a.codes.codes == acting.codes; });
   if (tick != asked_.end()) absorbed_j_ -= tick->torque.dot(q - last_q_);

@@ -38,7 +38,6 @@ SimulatedDaqConfig device_of(const WallCase& c) {
 
 HapticLoopConfig loop_of(const WallCase& c) {
   HapticLoopConfig loop;
-  loop.device = c.model;
   loop.tool.shaft_length_m = 1e-3;  // a ball
   loop.known_delay_periods = c.device.extra_delay_periods;
   loop.carry_weight = c.compensated;

@@ -20,7 +20,6 @@ inline constexpr double kSettledBand = 0.1;  ///< N that a settled force may dif
 struct WallCase {
   /// Plant, rate, delay (of which the loop knows the fixed part), jitter, tremor, and the hand that presses.
   SimulatedDaqConfig device = nominal_device();
-  DeviceModel model;                       ///< what the loop believes
   double stiffness = 150;                  ///< N/m
   double gain = 1;                         ///< true amplifier gain over what the loop believes (the thesis had 5)
   double past_wall_m = 0.015;              ///< how far beyond the wall the hand aims (reference scenario)

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <span>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "haptics/input_error.h"
+#include "trainees/files/doubled_keys.h"
 
 namespace trocar {
 namespace {
@@ -32,24 +31,6 @@ void require_known(const Json& object, std::span<const char* const> known, const
       throw InputError(where + ": unknown key \"" + key + "\"");
     }
   }
-}
-
-/// The file as JSON. A key that comes twice is refused: a reader of JSON would silently take one of the two values.
-Json parsed(const std::string& text, const std::string& file) {
-  std::vector<std::set<std::string>> open;
-  std::string twice;
-  const auto note = [&](int, Json::parse_event_t event, Json& value) {
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second && twice.empty()) {
-      twice = value.get<std::string>();
-    }
-    return true;
-  };
-  Json json = Json::parse(text, note, false);
-  if (json.is_discarded() || !json.is_object()) throw InputError(file + ": no JSON object");
-  if (!twice.empty()) throw InputError(file + ": key \"" + twice + "\" comes twice in one object");
-  return json;
 }
 
 double number_of(const Json& channel, const char* key, const std::string& where) {
@@ -117,7 +98,11 @@ AmplifierCalibration read_calibration(const std::filesystem::path& file) {
 }
 
 AmplifierCalibration parse_calibration(const std::string& text, const std::string& file, std::string* plant) {
-  const Json json = parsed(text, file);
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw InputError(file + ": no JSON object");
+  if (const auto twice = doubled_keys(text); !twice.empty()) {
+    throw InputError(file + ": key \"" + twice.front() + "\" comes twice in one object");
+  }
   require_known(json, kFileKeys, file);
   if (json.contains("plant") && !json["plant"].is_string()) throw InputError(file + ": \"plant\" must be a text");
   if (plant) *plant = json.value("plant", "");

@@ -1,12 +1,10 @@
 #include "app/studies/contact/drawn_presses.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "haptics/device/plant/plant_random.h"
-#include "haptics/kinematics/hybrid_arm.h"
 
 namespace trocar {
 namespace {

@@ -25,12 +25,10 @@ struct LawTally {
   GridLaw law;
   int stable = 0;
   double displayed = 0;      ///< mean share of the commanded force that was rendered, where the motors could
-  int within_motors = 0;     ///< presses that this is the mean of
   double displayed_all = 0;  ///< the same over all presses, of what the motors could
-  double least_true_j = 0;   ///< over all presses
-  double least_net_j = 0;
+  double least_net_j = 0;    ///< over all presses
   double observer_gap_j = 0;
-  double law_step_n = 0, largest_step_n = 0;
+  double law_step_n = 0;
 };
 
 struct GridResult {

@@ -55,13 +55,21 @@ WallCase experiment(double speed, bool compensated) {
   return c;
 }
 
+/// What was drawn until the hand sets out to leave.
+StudyCurves while_held(StudyCurves curves) {
+  const auto held = std::lower_bound(curves.x.begin(), curves.x.end(), kWatched) - curves.x.begin();
+  curves.x.resize(static_cast<std::size_t>(held));
+  for (StudyCurves::Series& series : curves.series) series.y.resize(curves.x.size());
+  return curves;
+}
+
 StudyCurves curves_of(const std::string& file, const std::string& title, const WallOutcome& off,
                       const WallOutcome& on) {
   StudyCurves curves{file, title, "time after touch, s", "rendered force, N", off.trace.t, {}};
   std::vector<double> with = on.trace.force_n, without = off.trace.force_n;
   with.resize(curves.x.size(), std::nan(""));
   curves.series = {{"law off", without}, {"budgeted", with}};
-  return curves;
+  return while_held(curves);
 }
 
 /// Figures 4.15, 4.16 and 4.18: what the thesis plots, each scaled to fit one axis.
@@ -75,7 +83,7 @@ StudyCurves figure(const std::string& file, const std::string& title, const Wall
                    {"speed, m/s", o.trace.speed_m_s},
                    {"force, N", o.trace.force_n},
                    {"energy, 10 mJ", scaled(o.trace.true_j, 100)}};
-  return curves;
+  return while_held(curves);
 }
 
 StudyCase settling(const std::string& name, double value, std::optional<double> thesis, const std::string& bar,
@@ -181,7 +189,6 @@ void passivity_laws(StudyResult& study, const StudyRequest& request) {
 /// One hand at 150 N/m: through the device, and at a wall that the device would be at best.
 struct Settling {
   WallOutcome ours, off, ideal;
-  double more_s() const { return ours.settled_s - ideal.settled_s; }
 };
 
 double quantile(std::vector<double> values, double share) {
@@ -204,7 +211,7 @@ void settling_beside_ideal(StudyResult& study, const StudyRequest& request) {
   std::vector<double> more, ours, off, ideal, shaking;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Settling& s = all[i];
-    more.push_back(s.more_s());
+    more.push_back(s.ours.settled_s - s.ideal.settled_s);
     off.push_back(s.off.settled_s - s.ideal.settled_s);
     ours.push_back(s.ours.settled_s);
     ideal.push_back(s.ideal.settled_s);
@@ -216,8 +223,7 @@ void settling_beside_ideal(StudyResult& study, const StudyRequest& request) {
   }
   const std::string how =
       "150 N/m, 0.2 to 1.0 m/s, drawn hands and arms (settling.csv); the ideal wall is continuous, pushes on the "
-      "stylus "
-      "itself and no harder than the motors can.";
+      "stylus itself and no harder than the motors can.";
   const auto add = [&](const char* name, const char* unit, double value, double thesis, const char* bar, bool met) {
     study.cases.push_back({name, unit, value, thesis, bar, met, how});
   };

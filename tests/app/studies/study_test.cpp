@@ -137,6 +137,14 @@ TEST(StudyCommand, RefusesWhatItDoesNotKnowAndCannotWrite) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("contact-law"), std::string::npos) << "names what there is";
   }
+  StudyOptions nominal{"walls", "nowhere"};
+  nominal.nominal = true;
+  try {
+    study_command(nominal, out, err);
+    ADD_FAILURE() << "--nominal where no arm is drawn";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("passivity, zwidth"), std::string::npos) << error.what();
+  }
   EXPECT_FALSE(fs::exists("nowhere"));
   const fs::path file = fs::temp_directory_path() / "trocar_study_file";
   std::ofstream(file) << "in the way";

@@ -6,6 +6,7 @@
 
 #include "trainees/exchange/export/xapi.h"
 #include "trainees/exchange/export/xapi_terms.h"
+#include "trainees/files/doubled_keys.h"
 
 namespace trocar {
 namespace {
@@ -269,21 +270,6 @@ void StatementCheck::statement(const json& s, const std::string& at, bool inner)
   if (s.contains("authority")) actor(s["authority"], below(at, "authority"), {"Agent", "Group"});
   if (s.contains("attachments") && !s["attachments"].is_array()) say(below(at, "attachments"), "is no array");
   if (!inner) no_nulls(s, at);
-}
-
-/// @return the keys that stand twice in one object.
-std::vector<std::string> doubled_keys(std::string_view text) {
-  std::vector<std::set<std::string>> open;
-  std::vector<std::string> doubled;
-  const auto note = [&](int, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) open.emplace_back();
-    if (event == json::parse_event_t::object_end) open.pop_back();
-    if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second)
-      doubled.push_back(value);
-    return true;
-  };
-  [[maybe_unused]] const json unused = json::parse(text, note, false);
-  return doubled;
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST(WallTrial, TrueEnergyIsTheForceTimesTheWay) {
     sum += o.trace.force_n[i - 2] * (o.trace.position_m[i] - o.trace.position_m[i - 1]);
   }
   EXPECT_GT(sum, 5e-3);
-  EXPECT_NEAR(o.trace.true_j[held - 1], sum, 0.1 * sum) << "the ball's way aside does no work";
+  EXPECT_NEAR(o.trace.true_j[held - 1], sum, 0.05 * sum) << "the ball's way aside does no work";
   EXPECT_LT(o.observer_gap_j, 1e-3);
 }
 
@@ -158,13 +158,11 @@ TEST(WallTrial, AnIdealWallPushesWithItsStiffnessAndNoHarderThanTheMotorsCan) {
   EXPECT_NEAR(ideal.displayed, 1, 1e-12);
   EXPECT_EQ(ideal.law_step_n, 0);
   EXPECT_LT(ideal.shaking_n, quick_rig().press({PassivityLaw::kOff}, 0.4).shaking_n);
-  if (most > 0) {
-    EXPECT_GT(most, 1.1) << "reference 2: 5 % of the workspace has less";
-    EXPECT_LT(most, 2.25) << "and 5 % more";
-  }
+  EXPECT_GT(most, 1.1) << "reference 2: 5 % of the workspace has less";
+  EXPECT_LT(most, 2.25) << "and 5 % more";
 }
 
-TEST(WallTrial, ALawStepsTheForceOnlyAgainstTheSpring) {
+TEST(WallTrial, WithoutALawTheForceStepsOnlyWithTheSpring) {
   EXPECT_LT(quick_rig().press({PassivityLaw::kOff}, 0.4).law_step_n, 0.01) << "no law";
 }
 
@@ -232,6 +230,7 @@ TEST(PassivityStudy, QuickFormMeetsWhatItAsksOfScenariosAndWritesEveryPress) {
   EXPECT_EQ(lines(study.files[1].bytes), 1 + 5 * 8) << "five presses, seven laws and one with the clamp";
   EXPECT_NE(study.files[2].bytes.find("| budgeted + clamp |"), std::string::npos);
   EXPECT_EQ(study.curves.size(), 5u);
+  for (const StudyCurves& c : study.curves) EXPECT_LT(c.x.back(), 2.5) << "the way out is not drawn";
 }
 
 TEST(VelocityStudy, OrdersTheEstimatorsAsPublished) {
