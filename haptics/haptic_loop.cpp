@@ -25,8 +25,10 @@ DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRe
 
 PassivityParameters HapticLoopConfig::pinch_defaults() {
   PassivityParameters p;
-  p.viscous_n_s_per_m = 1.0;   // slide and finger pads [assumed]
-  p.coulomb_n = 0.04;          // [assumed]
+  p.viscous_n_s_per_m = 1.0;  // slide and finger pads [assumed]
+  p.most_stiffness_n_per_m =
+      550;  // [chosen in pinch_budget_test.cpp: more swings between soft fingers, less shows less]
+  p.recovery_s = 0.1;
   p.effective_mass_kg = 0.02;  // jaw and finger [assumed]
   return p;
 }
@@ -39,10 +41,18 @@ PassivityParameters with_period(PassivityParameters p, double period_s, int know
   return p;
 }
 
-/// What compensation takes away from friction no longer dissipates: the budget counts the rest.
-PassivityParameters with_friction_left(PassivityParameters p, const FrictionFeedForward& friction) {
-  p.friction_left = 1 - friction.share;
-  return p;
+/// No more is fed forward than friction surely takes.
+FrictionFeedForward safe(FrictionFeedForward friction, const DeviceModel& model) {
+  friction.share = std::min(friction.share, FrictionFeedForward::kOfSure * model.friction_sure());
+  return friction;
+}
+
+SureFriction sure_friction(const HapticLoopConfig& config) {
+  ChannelVector coulomb, viscous, play;
+  coulomb << config.device.coulomb, config.pinch_coulomb_n;
+  viscous << config.device.viscous, kSlideAlone;
+  play << JointVector::Constant(config.friction.play_rad), config.pinch_play_m;
+  return {config.device.friction_sure() * coulomb, config.device.friction_sure() * viscous, play};
 }
 
 ChannelVector torque_limits(const DeviceModel& model) {
@@ -99,15 +109,16 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       instrument_(config.map),
       port_(config.port),
       contact_(config.contact_law, config.tool),
-      arm_passivity_(
-          with_friction_left(with_period(config.passivity, period_s_, config.known_delay_periods), config.friction)),
+      arm_passivity_(with_period(config.passivity, period_s_, config.known_delay_periods)),
       pinch_(with_period(config.pinch_passivity, period_s_, config.known_delay_periods)),
       pinch_passivity_(pinch_),
+      sure_friction_(sure_friction(config)),
       limiter_(torque_limits(config.device), torque_rates(config), period_s_),
       supervisor_(config.safety, count_limits(config), period_s_),
       watch_(config.safety, config.device, config.heat, period_s_),
       safety_log_(config.daq.rate_hz),
       friction_rates_(config.friction, period_s_) {
+  config_.friction = safe(config.friction, config.device);
   home_ << home_angles(), config.device.pinch_home_m;
   for (int i = 0; i < kChannels; ++i) {
     count_[i] = count_size(config.device.transmission[i]);
@@ -141,7 +152,6 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   motion.q = joint_positions(config_.device, counts_.total(), home_);
   for (int i = 0; i < kChannels; ++i) {
     motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
-    if (i < kArmJoints) motion.lag_s = std::max(motion.lag_s, velocity_[i].lag_s());
   }
   motion.travel =
       fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_).cwiseProduct(count_);
@@ -163,6 +173,7 @@ void HapticLoop::take_home() noexcept {
   contact_.reset();
   arm_passivity_.reset();
   pinch_passivity_.reset();
+  sure_friction_.reset();
   fine_.reset(counts_.total());
   friction_rates_.reset();
 }
@@ -205,8 +216,11 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   contact.share = contact.port_share * (config_.clamp_stiffness ? contact.limit.share : 1);
   contact.commanded_W = whole.force;
   contact.torque.head<kArmJoints>() = contact.share * torque_of(whole);
-  contact.jaw_limit = pinch_stiffness_limit(pinch_, count_[kPinchChannel], patch.grip.stiffness_n_per_m);
-  if (config_.clamp_stiffness) contact.jaw_share *= std::exchange(contact.jaw_limit.share, 1.0);
+  if (config_.clamp_stiffness) {
+    contact.jaw_share *=
+        pinch_stiffness_limit(pinch_, config_.pinch_coulomb_n, count_[kPinchChannel], patch.grip.stiffness_n_per_m)
+            .share;
+  }
   contact.torque[kPinchChannel] = contact.jaw_share * contact.grip.force_n;
   contact.spring_torque = contact.share * spring_torque;
   feel_port(motion, contact);
@@ -245,13 +259,13 @@ TorqueShares HapticLoop::hold_up(const Motion& motion, Contact& contact) noexcep
   }
   shares.contact = contact.torque + contact.port;
   contact.room = limiter_.room(shares);
-  contact.carried = (shares.springs + shares.gravity).head<kArmJoints>();
   return shares;
 }
 
 ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& contact) noexcept {
   const ChannelVector& dq = motion.travel;
   const ChannelVector acted = asked_contact_.acted(static_cast<int>(motion.periods), config_.known_delay_periods);
+  const ChannelVector friction_j = sure_friction_.update(dq, motion.qd);
   ContactWork arm;
   // The spring as the motors can render it: beyond their limit its force stays the same and it stores less,
   // E (2 s - s^2) where s of the force is left.
@@ -261,41 +275,28 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
   const double port_j = contact.port_share * (contact.port_stored_j - last_port_j_);
   arm.absorbed_j = -acted.head<kArmJoints>().dot(dq.head<kArmJoints>()) - port_j;
   last_port_j_ = contact.port_stored_j;
+  arm.friction_j = friction_j.head<kArmJoints>().sum();
   arm.stored_j = stored_room * contact.share * config_.map.force_scale * contact.tissue.stored_j;
   if (arm.wanted_n > 0) {
     const JointVector unit = contact.spring_torque / (contact.share * contact.spring_n);
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
-    arm.lag_s = motion.lag_s;
-    arm.count_m = unit.cwiseAbs().cwiseProduct(count_.head<kArmJoints>()).maxCoeff();
     arm.stiffness = contact.stiffness;
     arm.beyond_m = (1 - room) * contact.spring_n / contact.stiffness;
   }
   ContactWork pinch;
   pinch.wanted_n = room * contact.jaw_share * contact.grip.force_n;
   pinch.absorbed_j = -acted[kPinchChannel] * dq[kPinchChannel];
+  pinch.friction_j = friction_j[kPinchChannel];
   pinch.dx_m = -dq[kPinchChannel];
   pinch.speed_m_s = -motion.qd[kPinchChannel];
   pinch.stored_j = stored_room * contact.jaw_share * contact.grip.stored_j;
 
   ChannelVector passive = room * contact.torque;
-  const double force = arm_passivity_.update(arm);
+  const double bounded = arm_passivity_.update(arm), force = compared_law_ ? compared_law_(arm) : bounded;
   if (arm.wanted_n > 0) passive.head<kArmJoints>() *= force / arm.wanted_n;
-  pinch_passivity_.set_viscous(pinch_damping(pinch_, contact.jaw_limit));
   passive[kPinchChannel] = pinch_passivity_.update(pinch);
-  passive += contact.port;
-  if (arm_passivity_.damping_w() > 0) {
-    passive.head<kArmJoints>() += spread_damping(motion, contact, passive.head<kArmJoints>());
-  }
-  return passive;
-}
-
-JointVector HapticLoop::spread_damping(const Motion& motion, const Contact& contact,
-                                       const JointVector& passive) const noexcept {
-  const JointVector limit = torque_limits(config_.device).head<kArmJoints>();
-  const JointVector qd = moving_joints(motion.qd.head<kArmJoints>());
-  const JointVector headroom = headroom_against(qd, contact.carried + passive, limit);
-  return place_damping(arm_passivity_.damping_w(), qd, headroom, limit).torque;
+  return passive + contact.port;
 }
 
 LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept {
@@ -305,7 +306,9 @@ LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact
   }
   const JointVector qd = friction_rates_.update(motion.qd.head<kArmJoints>());
   shares.alignment = contact.alignment;
-  if (arm_passivity_.budget_j() >= -config_.friction.debt_j) {
+  // Where the law holds a contact down, friction pays for it: none is fed forward.
+  const bool held_down = contact.tissue.contact && !arm_passivity_.leaves_alone(contact.stiffness);
+  if (!held_down && arm_passivity_.budget_j() >= -config_.friction.debt_j) {
     shares.friction.head<kArmJoints>() = supervisor_.ramp() * friction_torque(config_.device, config_.friction, qd);
   }
   const LimitedTorque limited = limiter_.update(shares);
@@ -340,9 +343,8 @@ DacFrame HapticLoop::to_codes(const LimitedTorque& torque) noexcept {
     return {};
   }
   const DacFrame out = dac_codes(config_.device, torque.total, config_.daq.dac_bits);
-  // What quantisation left is charged to the contact: the observer sees the codes, not the wish.
-  asked_contact_.add(torque.contact + torque.alignment +
-                     (torques_of(config_.device, out, config_.daq.dac_bits) - torque.total));
+  // The observer sees the codes, not the wish, and all in them but weight and limit springs.
+  asked_contact_.add(torques_of(config_.device, out, config_.daq.dac_bits) - torque.carried);
   return out;
 }
 

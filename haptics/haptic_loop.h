@@ -6,19 +6,21 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "haptics/contact/contact_renderer.h"
 #include "haptics/contact/friction.h"
 #include "haptics/contact/stiffness_limit.h"
 #include "haptics/control/channel_velocity.h"
-#include "haptics/control/damping_distribution.h"
 #include "haptics/control/device_watch.h"
 #include "haptics/control/passivity.h"
 #include "haptics/control/pinch_channel.h"
 #include "haptics/control/safety_log.h"
 #include "haptics/control/sub_count_travel.h"
 #include "haptics/control/supervisor.h"
+#include "haptics/control/sure_friction.h"
 #include "haptics/control/torque_history.h"
 #include "haptics/control/torque_limiter.h"
 #include "haptics/device/data_acquisition.h"
@@ -42,6 +44,8 @@ struct HapticLoopConfig {
   PassivityParameters passivity;  ///< arm; period_s is set from the rate
   PassivityParameters pinch_passivity = pinch_defaults();
   FrictionFeedForward friction;
+  double pinch_coulomb_n = 0.04;  ///< of the slide [assumed]
+  double pinch_play_m = 50e-6;    ///< way that the slide's friction gives back when it turns, half [assumed]
   SafetyLimits safety;
   MotorHeatParameters heat;
   VelocityMethod velocity = VelocityMethod::kBlend;
@@ -66,6 +70,9 @@ class HapticLoop {
   void reset_fault() noexcept;
   /// From the next tick on, arm and pinch.
   void set_passivity_law(PassivityLaw law) noexcept;
+  /// A law of another's, for studies: takes the place of the arm's own, which goes on observing. It may allocate where
+  /// the loop's own may not.
+  void compare_with(std::function<double(const ContactWork&)> law) { compared_law_ = std::move(law); }
   void set_stiffness_clamp(bool clamp) noexcept { config_.clamp_stiffness = clamp; }
   const HapticLoopConfig& config() const { return config_; }
   /// Of the last tick, for the tissue.
@@ -83,7 +90,6 @@ class HapticLoop {
     double tip_speed = 0;                         ///< of the stylus, m/s
     std::array<std::int32_t, kChannels> delta{};  ///< counts since the last tick
     double periods = 1;                           ///< since the last tick
-    double lag_s = 0;                             ///< of the slowest arm channel's velocity
   };
   struct Contact {
     ContactResult tissue;
@@ -94,7 +100,6 @@ class HapticLoop {
     double room = 1;                  ///< share of all contact torque that the motors can give
     double jaw_share = 1;             ///< the same of the grip, without the clutch, with its own K_max
     StiffnessLimit limit;             ///< K_max and what it left of the spring
-    StiffnessLimit jaw_limit;         ///< the same of the block, share 1 once it is weakened
     double stiffness = 0;             ///< of that spring at the stylus, N/m
     double spring_n = 0;              ///< spring force asked at the stylus, without damping
     Vec3 commanded_W = Vec3::Zero();  ///< force asked at the stylus
@@ -102,13 +107,11 @@ class HapticLoop {
     ChannelVector alignment = ChannelVector::Zero();  ///< spring that leads the stylus along the shaft
     double port_stored_j = 0;                         ///< in both, before share
     JointVector spring_torque = JointVector::Zero();  ///< conjugate to it, times share
-    JointVector carried = JointVector::Zero();        ///< limit springs and weight
   };
 
   Motion measure(const DaqSample& in) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
-  JointVector spread_damping(const Motion& motion, const Contact& contact, const JointVector& passive) const noexcept;
   TorqueShares hold_up(const Motion& motion, Contact& contact) noexcept;
   LimitedTorque share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept;
   void feel_port(const Motion& motion, Contact& contact) noexcept;
@@ -134,6 +137,8 @@ class HapticLoop {
   PassivityController arm_passivity_;
   PassivityParameters pinch_;  ///< with period and delay
   PassivityController pinch_passivity_;
+  std::function<double(const ContactWork&)> compared_law_;
+  SureFriction sure_friction_;
   TorqueLimiter limiter_;
   Supervisor supervisor_;
   DeviceWatch watch_;

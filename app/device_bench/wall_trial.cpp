@@ -24,6 +24,7 @@ constexpr double kLongestApproach = 6.0;                      // s until the wal
 constexpr int kHalfWindow = 25;                               // periods at 1 kHz to either side: 50 ms
 constexpr double kEndWindow = 0.3;                            // s before the hand leaves in which the display is taken
 constexpr double kLeaveS = 0.6, kAfterS = 0.2;                // the way out, and beyond
+constexpr double kBesideIdeal = 0.1;                          // s
 constexpr double kJointMargin = 8 * kDegree, kLeastDet = 0.35;
 
 double run_up(double speed) { return speed > kFast ? kLongRunUp : kShortRunUp; }
@@ -89,8 +90,9 @@ double rms_above_30_hz(const std::vector<double>& force, double rate_hz, double 
 /// What one press adds up to, tick by tick.
 class Tally {
  public:
-  Tally(const WallCase& c, const PlantBench& bench, const Vec3& wall, bool ideal)
-      : case_(c), bench_(bench), wall_(wall), ideal_(ideal) {}
+  /// @param seconds since touch at which the hand sets out to leave.
+  Tally(const WallCase& c, const PlantBench& bench, const Vec3& wall, bool ideal, double seconds)
+      : case_(c), bench_(bench), wall_(wall), ideal_(ideal), seconds_(seconds) {}
 
   bool touched() const { return touched_; }
   double since_touch() const { return bench_.time_s() - touch_s_; }
@@ -113,7 +115,7 @@ class Tally {
     keep(s, (motion.X_BS.p - wall_).dot(case_.direction), speed);
     if (contact && !in_contact_) {
       ++out.contacts;
-      if (since_touch() > kSettleLimit) ++out.late_contacts;
+      if (since_touch() > kSettleLimit && since_touch() < seconds_) ++out.late_contacts;
     }
     in_contact_ = contact;
     contact_ticks_ += contact;
@@ -121,26 +123,29 @@ class Tally {
     if (contact) out.k_max = std::min(out.k_max, bench_.record().k_max_n_per_m);
   }
 
-  /// @param seconds since touch at which the hand sets out to leave.
-  void finish(double seconds) {
+  void finish() {
     WallTrace& trace = out.trace;
     const double rate_hz = case_.device.rate_hz;
     const std::vector<double> mean = slow_part(trace.force_n, rate_hz);
     for (std::size_t i = 0; i < trace.t.size(); ++i) {
-      const bool held = trace.t[i] < seconds - kHalfWindow * 1e-3;
+      const bool held = trace.t[i] < seconds_ - kHalfWindow * 1e-3;
       if (held && std::abs(trace.force_n[i] - mean[i]) >= kSettledBand) out.settled_s = trace.t[i];
       if (i > 0) {
         const double step = trace.force_n[i] - trace.force_n[i - 1];
         out.largest_step_n = std::max(out.largest_step_n, std::abs(step));
-        out.law_step_n = std::max(out.law_step_n, outside(step, 0, trace.wanted_n[i] - trace.wanted_n[i - 1]));
+        const double rendered = trace.wanted_n[i] - trace.wanted_n[i - 1], whole = spring_n_[i] - spring_n_[i - 1];
+        // What the limiter's rate held back, the force makes up for.
+        const double late = std::min(0.0, trace.wanted_n[i - 1] - trace.force_n[i - 1]);
+        const double out_of = outside(step, std::min({0.0, rendered, whole}) + late, std::max({0.0, rendered, whole}));
+        out.law_step_n = std::max(out.law_step_n, out_of);
       }
       out.least_true_j = std::min(out.least_true_j, trace.true_j[i]);
       out.least_net_j = std::min(out.least_net_j, trace.net_j[i]);
-      out.observer_gap_j = std::max(out.observer_gap_j, std::abs(trace.true_j[i] - trace.observed_j[i]));
+      out.overclaimed_j = std::max(out.overclaimed_j, trace.observed_j[i] - trace.net_j[i]);
     }
     out.shaking_n = rms_above_30_hz(trace.force_n, rate_hz, 1.0);
     if (contact_ticks_ > 0) out.passive_share = static_cast<double>(active_ticks_) / contact_ticks_;
-    display(seconds);
+    display();
   }
 
   WallOutcome out;
@@ -154,18 +159,19 @@ class Tally {
     trace.force_n.push_back(ideal_ ? bench_.daq().ideal_wall_n() : -s.rendered_force_T.dot(case_.direction));
     trace.wanted_n.push_back(ideal_ ? trace.force_n.back()
                                     : -bench_.record().contact_scale * s.commanded_force_T.dot(case_.direction));
+    spring_n_.push_back(ideal_ ? trace.force_n.back() : -s.commanded_force_T.dot(case_.direction));
     trace.observed_j.push_back(s.energy_j - observed_before_);
     trace.true_j.push_back(bench_.true_absorbed_j() - true_before_);
     trace.net_j.push_back(bench_.net_absorbed_j() - net_before_);
     saturated_.push_back(bench_.record().contact_scale < 1);
   }
 
-  void display(double seconds) {
+  void display() {
     const WallTrace& trace = out.trace;
     double shown = 0, wanted = 0, force = 0, depth = 0, saturated = 0;
     int count = 0;
     for (std::size_t i = 0; i < trace.t.size(); ++i) {
-      if (trace.t[i] < seconds - kEndWindow || trace.t[i] >= seconds || trace.wanted_n[i] <= 0) continue;
+      if (trace.t[i] < seconds_ - kEndWindow || trace.t[i] >= seconds_ || trace.wanted_n[i] <= 0) continue;
       shown += std::min(trace.force_n[i], trace.wanted_n[i]);
       wanted += trace.wanted_n[i];
       force += trace.force_n[i];
@@ -176,16 +182,19 @@ class Tally {
     out.displayed = wanted > 0 ? shown / wanted : 1;
     out.saturated = count > 0 ? saturated / count : 0;
     out.shown_stiffness = depth > 0 ? force / depth : 0;
+    out.held_n = count > 0 ? force / count : 0;
   }
 
   const WallCase& case_;
   const PlantBench& bench_;
   Vec3 wall_;
   bool ideal_;
+  double seconds_;
   bool touched_ = false, in_contact_ = false;
   double touch_s_ = 0, observed_before_ = 0, true_before_ = 0, net_before_ = 0;
   long contact_ticks_ = 0, active_ticks_ = 0;
   std::vector<bool> saturated_;
+  std::vector<double> spring_n_;  ///< commanded, whatever the motors can
 };
 
 /// Force against `direction` that the motors of this device can give beside its weight, N.
@@ -206,6 +215,11 @@ double most_force(const PlantBench& bench, const Vec3& direction) {
 }  // namespace
 
 bool WallOutcome::stable() const { return !faulted && settled_s <= kSettleLimit && late_contacts <= 2; }
+
+bool stable_beside(const WallOutcome& ours, const WallOutcome& ideal) {
+  return !ours.faulted && ours.settled_s <= std::max(kSettleLimit, ideal.settled_s + kBesideIdeal) &&
+         ours.late_contacts <= std::max(2, ideal.late_contacts);
+}
 
 bool comfortable(const JointVector& pose, const Vec3& direction, double travel_m) {
   Pose X = arm_state(pose).X_WS;
@@ -279,6 +293,12 @@ double WallRig::speed_at_wall(double reach_s) const {
 WallOutcome WallRig::press(const WallPress& how, double seconds) const {
   PlantBench bench(*ready_);
   bench.loop().set_passivity_law(how.law);
+  if (how.instead) {
+    PassivityParameters seam;
+    seam.period_s = bench.period_s();
+    seam.delay_s = (1 + case_.device.extra_delay_periods) * seam.period_s;
+    bench.loop().compare_with(comparison_law(*how.instead, seam));
+  }
   bench.loop().set_stiffness_clamp(how.clamp);
   ContactMaterial material;
   material.stiffness_n_per_m = how.stiffness.value_or(case_.stiffness);
@@ -293,7 +313,7 @@ WallOutcome WallRig::press_ideal(double seconds) const {
 }
 
 WallOutcome WallRig::press(PlantBench& bench, bool ideal, double seconds) const {
-  Tally tally(case_, bench, wall_point(), ideal);
+  Tally tally(case_, bench, wall_point(), ideal, seconds);
   const double begun = bench.time_s();
   bool firm = false;
   try {
@@ -315,7 +335,7 @@ WallOutcome WallRig::press(PlantBench& bench, bool ideal, double seconds) const 
   } catch (const BenchFault&) {
     tally.out.faulted = true;
   }
-  tally.finish(seconds);
+  tally.finish();
   return tally.out;
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/device_bench/comparison_laws.h"
 #include "app/device_bench/plant_bench.h"
 
 namespace trocar {
@@ -34,9 +35,10 @@ struct WallCase {
 /// What may differ from press to press of one case.
 struct WallPress {
   PassivityLaw law = PassivityLaw::kBudgeted;
-  bool clamp = false;                    ///< contacts stiffer than K_max are weakened to it
-  std::optional<double> stiffness = {};  ///< N/m, instead of the case's
-  double damping_n_s_per_m = 0;          ///< of the wall at kDampingDepth: its force is k x (1 + 1.5 c v)
+  bool clamp = false;                         ///< contacts stiffer than K_max are weakened to it
+  std::optional<double> stiffness = {};       ///< N/m, instead of the case's
+  double damping_n_s_per_m = 0;               ///< of the wall at kDampingDepth: its force is k x (1 + 1.5 c v)
+  std::optional<ComparisonLaw> instead = {};  ///< a law of another's in place of the loop's
 };
 inline constexpr double kDampingDepth = 0.002;  ///< m
 
@@ -50,15 +52,16 @@ struct WallOutcome {
   bool faulted = false;  ///< the loop shut down
   double touched_at_m_s = 0;
   double settled_s = 0;                 ///< last time at which |force - its centred 50 ms mean| >= kSettledBand
-  int contacts = 0, late_contacts = 0;  ///< all; begun later than kSettleLimit
+  int contacts = 0, late_contacts = 0;  ///< all; begun later than kSettleLimit and before the hand leaves
   double displayed = 0;        ///< rendered over commanded force at the end of the hold, as far as the motors can
   double shown_stiffness = 0;  ///< N/m, mean force over mean depth there
+  double held_n = 0;           ///< mean force there
   double saturated = 0;        ///< share of that time in which the motors could not
   double least_true_j = 0;     ///< lowest true energy that the control had absorbed so far
   double least_net_j = 0;      ///< the same with what friction and cables of the arm took: below zero the hand was fed
-  double law_step_n = 0;       ///< most that the force moved in a tick against what the spring asked
+  double law_step_n = 0;       ///< most that the force moved in a tick beyond the spring, saturated or not
   double shaking_n = 0;        ///< rms of the force above 30 Hz in the first second
-  double observer_gap_j = 0;   ///< largest difference of observed and true energy
+  double overclaimed_j = 0;    ///< most that the observer, with sure friction, stood above the net energy
   double passive_share = 0;    ///< of the contact ticks in which the law acted
   double largest_step_n = 0;   ///< of the rendered force within one tick
   double k_max = 0;            ///< N/m, least that the loop worked out
@@ -67,6 +70,8 @@ struct WallOutcome {
 };
 inline constexpr double kSettleLimit =
     0.5;  ///< s; a force that swings later, or more than two late contacts, is unstable
+/// Stable, or no worse than a continuous wall before the same hand: settled at most 0.1 s later, no more late contacts.
+bool stable_beside(const WallOutcome& ours, const WallOutcome& ideal);
 
 /// The home orientation with the stylus drawn back until a press of `travel` along +-Y6 is comfortable: home itself is
 /// nearly stretched (272 of 274 mm).

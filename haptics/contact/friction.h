@@ -14,11 +14,14 @@
 namespace trocar {
 
 struct FrictionFeedForward {
-  double share = 0.7;        ///< the most that budgets allow
+  double share = 0.7;        ///< the most that budgets allow; never more than kOfSure of what friction surely takes
   double knee_rad_s = 0.03;  ///< v0: 3 times the noise of the smoothed rates (`trocar study transparency`)
   double dead_band_rad_s = 0.02;
   double smoothing_s = 0.02;  ///< time constant of the rates' low-pass
-  double debt_j = 1e-5;  ///< most that the passivity budget may owe: in free air DAC rounding alone owes up to 1e-6 J
+  double debt_j = 1e-4;       ///< most that the passivity budget may owe: six joints that turn back owe half of it
+  double play_rad = 1e-3;     ///< way that friction gives back when a joint turns, half [assumed: the plant's bristles]
+
+  static constexpr double kOfSure = 0.92;
 };
 
 inline JointVector friction_torque(const DeviceModel& model, const FrictionFeedForward& p, const JointVector& qd) {

@@ -2,12 +2,10 @@
 //
 // Opening o = slide position; a block of thickness h and stiffness k pushes the jaws apart with F = k (h - o) while
 // o < h. The force is rendered through its own passivity budget (haptic_loop). Its limit, as the arm's:
-//   K_max = max(K_rest, min(2 b / T, b / (T/2 + Td), 2 fc / Delta))
-// with the pinch's own b and fc and the slide's way in one count, Delta (stiffness_limit.h names the sources); K_rest
-// is what the budget gives unpaid at rest. Stiffer blocks are weakened to it only where the arm's contacts are
-// (clamp_stiffness). Otherwise the budget reckons with the slide's own damping for them, without the fingers': with
-// very light fingers, who damp less than b, blocks of 1000 N/m and more swung for ever (pinch_budget_test.cpp). Thread:
-// haptic task; no allocation.
+//   K_max = max(least, min(2 b / T, b / (T/2 + Td), 2 fc / Delta))
+// with the pinch's own b and fc and the slide's way in one count, Delta (stiffness_limit.h names the sources); least is
+// the local stiffness that the budget gives at any delay. Stiffer blocks are weakened to it only where the arm's
+// contacts are (clamp_stiffness). Thread: haptic task; no allocation.
 #pragma once
 
 #include <algorithm>
@@ -29,24 +27,20 @@ inline GripResult grip_block(const GripBlock& block, double opening_m) {
   return {block.stiffness_n_per_m * squeeze, 0.5 * block.stiffness_n_per_m * squeeze * squeeze};
 }
 
-/// @param pinch what the law assumes of the slide, with the loop's period and delay; @param count_m one count of the
-/// slide; @param asked stiffness of the block, N/m.
-inline StiffnessLimit pinch_stiffness_limit(const PassivityParameters& pinch, double count_m, double asked) {
+/// @param pinch what the law assumes of the slide, with the loop's period and delay; @param coulomb_n friction of the
+/// slide; @param count_m one count of it; @param asked stiffness of the block, N/m.
+inline StiffnessLimit pinch_stiffness_limit(const PassivityParameters& pinch, double coulomb_n, double count_m,
+                                            double asked) {
   StiffnessLimit limit;
   if (pinch.law == PassivityLaw::kOff) return limit;  // the baseline: nothing is held back
   const double b = pinch.viscous_n_s_per_m;
   const double passive =
-      std::min({2 * b / pinch.period_s, b / (pinch.period_s / 2 + pinch.delay_s), 2 * pinch.coulomb_n / count_m});
-  limit.k_max = std::max(passive, pinch.rest_stiffness_n_per_m);
+      std::min({2 * b / pinch.period_s, b / (pinch.period_s / 2 + pinch.delay_s), 2 * coulomb_n / count_m});
+  limit.k_max = std::max(passive, pinch.least_stiffness_n_per_m);
   if (asked > limit.k_max) limit.share = limit.k_max / asked;
   return limit;
 }
 
 inline constexpr double kSlideAlone = 0.4;  ///< N s/m of the pinch's slide without fingers [assumed]
-
-/// Damping that the budget of the pinch may count on, N s/m.
-inline double pinch_damping(const PassivityParameters& pinch, const StiffnessLimit& limit) {
-  return limit.share < 1 ? std::min(kSlideAlone, pinch.viscous_n_s_per_m) : pinch.viscous_n_s_per_m;
-}
 
 }  // namespace trocar

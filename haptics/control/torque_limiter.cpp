@@ -27,12 +27,11 @@ double TorqueLimiter::room(const TorqueShares& shares) const {
 
 LimitedTorque TorqueLimiter::update(const TorqueShares& shares) {
   LimitedTorque out;
-  const ChannelVector first = (shares.springs + shares.gravity).cwiseMax(-limit_).cwiseMin(limit_);
+  out.carried = (shares.springs + shares.gravity).cwiseMax(-limit_).cwiseMin(limit_);
   out.contact_scale = room(shares);
   const ChannelVector contact = shares.contact * out.contact_scale;
-  const ChannelVector without = (first + contact + shares.friction).cwiseMax(-limit_).cwiseMin(limit_);
+  const ChannelVector without = (out.carried + contact + shares.friction).cwiseMax(-limit_).cwiseMin(limit_);
   const ChannelVector wanted = (without + shares.alignment).cwiseMax(-limit_).cwiseMin(limit_);
-  out.alignment = wanted - without;
   for (int i = 0; i < kChannels; ++i) {
     out.total[i] = std::clamp(wanted[i], last_[i] - step_[i], last_[i] + step_[i]);
   }

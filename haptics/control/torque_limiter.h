@@ -19,9 +19,9 @@ struct TorqueShares {
 
 struct LimitedTorque {
   ChannelVector total = ChannelVector::Zero();
-  ChannelVector contact = ChannelVector::Zero();    ///< what remained of shares.contact
-  ChannelVector alignment = ChannelVector::Zero();  ///< what remained of shares.alignment
-  double contact_scale = 1;                         ///< < 1: saturated
+  ChannelVector contact = ChannelVector::Zero();  ///< what remained of shares.contact
+  ChannelVector carried = ChannelVector::Zero();  ///< limit springs and weight
+  double contact_scale = 1;                       ///< < 1: saturated
 };
 
 class TorqueLimiter {

@@ -234,7 +234,7 @@ TEST(EnergyDebt, WarnsAndFadesThenStopsSoftly) {
   config.passivity.law = PassivityLaw::kBudgeted;
   config.passivity.fade_debt_j = 2e-6;
   config.passivity.fault_debt_j = 2e-5;
-  config.passivity.debt_decay_s = 100;
+  config.passivity.forgiven_w = 0;
   MovingRig rig({K::kDelay, 0, 0, 0, 30}, config);
   rig.run(0.5);
   rig.put_floor(0.004, 400);

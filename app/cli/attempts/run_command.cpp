@@ -294,9 +294,7 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
       ->capture_default_str()
       ->check(CLI::IsMember({1000, 2000, 4000}));
   run->add_option("--contact", o.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
-  run->add_option("--passivity", o.passivity_law,
-                  "Passivity law: budgeted, distributed, increment, cap, reference, thesis or off")
-      ->capture_default_str();
+  run->add_option("--passivity", o.passivity_law, "Passivity law: budgeted, increment or off")->capture_default_str();
   run->add_flag("--clamp", o.clamp, "Weaken contacts stiffer than K_max, what the device can display, to it");
   run->add_option("--calibration", o.calibration,
                   "Amplifier gains and offsets from device calibrate (default: nominal)")

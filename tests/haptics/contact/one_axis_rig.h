@@ -10,6 +10,18 @@
 
 namespace trocar::test {
 
+/// Spring of stiffness k pressed to depth x, moved by dx in the last period while `held` newtons acted.
+inline ContactWork spring(double k, double x, double dx, double held) {
+  ContactWork work;
+  work.wanted_n = k * x;
+  work.absorbed_j = held * dx;
+  work.dx_m = dx;
+  work.speed_m_s = dx / 1e-3;
+  work.stored_j = 0.5 * k * x * x;
+  work.stiffness = k;
+  return work;
+}
+
 struct OneAxisCase {
   PassivityParameters law;
   double mass = 0.127, viscous = 0.3, coulomb = 0.06, quantum = 0.208e-3;  ///< haptics notes 3.4
@@ -62,6 +74,7 @@ class OneAxisRig {
     work.wanted_n = std::min(c_.saturation, c_.stiffness * depth);
     work.absorbed_j = acting_ * dx;
     work.dx_m = dx;
+    work.friction_j = 0.6 * c_.coulomb * std::abs(dx);  // the sure part
     work.speed_m_s = velocity_.update(count, 1);
     work.stored_j = stored(depth);
     work.stiffness = c_.stiffness;
@@ -74,7 +87,7 @@ class OneAxisRig {
     result_.largest_step_n = std::max(result_.largest_step_n, std::abs(pending_.front() - acting_));
     acting_ = pending_.front();
     pending_.pop_front();
-    result_.worst_gap_j = std::max(result_.worst_gap_j, std::abs(controller_.energy_j() - true_j_));
+    result_.worst_gap_j = std::max(result_.worst_gap_j, std::abs(controller_.absorbed_j() - true_j_));
     if (work.wanted_n > 0 && t > c_.duration_s - 0.1) result_.displayed = asked / work.wanted_n;
   }
 

@@ -63,9 +63,9 @@ TEST(PlantOptionsLoop, AWallOf300StaysStableWithCablesJitterAndHeat) {
 }
 
 TEST(PlantOptionsLoop, TheWallCanAlsoBeTooStiff) {
-  // Not every loop passes: without a law, at eight times the stiffness and 5 ms more delay, the same press hunts.
+  // Not every loop passes: without a law, at eight times the stiffness and 9 ms more delay, the same press hunts.
   SimulatedDaqConfig device = with_options();
-  device.extra_delay_periods = 5;
+  device.extra_delay_periods = 9;
   HapticLoopConfig loop;
   loop.passivity.law = PassivityLaw::kOff;
   LoopRig rig(device, loop);
