@@ -282,7 +282,6 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
     arm.dx_m = -unit.dot(dq.head<kArmJoints>());
     arm.speed_m_s = -unit.dot(motion.qd.head<kArmJoints>());
     arm.stiffness = contact.stiffness;
-    arm.beyond_m = (1 - room) * contact.spring_n / contact.stiffness;
   }
   ContactWork pinch;
   pinch.wanted_n = room * contact.jaw_share * contact.grip.force_n;

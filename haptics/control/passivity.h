@@ -89,7 +89,6 @@ struct ContactWork {
   double stored_j = 0;    ///< energy that the wanted spring holds now
   double friction_j = 0;  ///< what friction surely took in the last period
   double stiffness = 0;   ///< N/m of the contact as asked of the motors; 0: taken from wanted and stored
-  double beyond_m = 0;    ///< depth beyond the one at which the motors' limit is reached
 };
 
 class PassivityController {
