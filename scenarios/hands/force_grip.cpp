@@ -14,15 +14,18 @@ constexpr double kBiasFade = 0.6, kSpreadFade = 0.8;
 constexpr double kWanderTime = 0.5;     // s, correlation time of the force wander
 constexpr double kWanderShare = 0.3;    // of the CV
 constexpr double kSmallestGoal = 0.05;  // N
+constexpr double kTaught = 0.3;         // weight of one success
+constexpr double kTrialShare = 0.4;     // of the band's width from one force that is tried to the next
 
 }  // namespace
 
 void ForceGrip::begin(double low_n, double high_n, HandRandom& random) {
   low_n_ = low_n;
   high_n_ = high_n;
-  outside_s_ = wander_ = rate_n_per_s_ = 0;
+  outside_s_ = inside_s_ = wander_ = rate_n_per_s_ = 0;
   last_n_ = kNothingFelt;
-  thoughts_ = 0;
+  thoughts_ = trials_ = 0;
+  wrong_n_ = taught_n_;
   draw_goal(random);
 }
 
@@ -32,8 +35,21 @@ void ForceGrip::draw_goal(HandRandom& random) {
   goal_n_ = std::max(kSmallestGoal, (low_n_ + high_n_) / 2 * bias * (1 + cv * random.normal()));
 }
 
-double ForceGrip::speed(double felt_n, double dt_s, HandRandom& random) {
+void ForceGrip::succeeded() { taught_n_ += kTaught * (last_n_ + wrong_n_ - (low_n_ + high_n_) / 2 - taught_n_); }
+
+void ForceGrip::try_another(HandRandom& random) {
+  if (trials_++ == 0) first_way_ = random.uniform() < 0.5 ? -1 : 1;
+  const double off = kTrialShare * (high_n_ - low_n_) * ((trials_ + 1) / 2) * (trials_ % 2 == 1 ? 1 : -1);
+  wrong_n_ = taught_n_ + first_way_ * off;
+  inside_s_ = outside_s_ = 0;
+  draw_goal(random);
+}
+
+double ForceGrip::speed(double raw_n, double dt_s, HandRandom& random) {
+  const double felt_n = raw_n - wrong_n_;
   const bool inside = felt_n >= low_n_ && felt_n <= high_n_;
+  inside_s_ += inside ? dt_s : 0;
+  if (inside_s_ > tuning_.patience_s) try_another(random);
   outside_s_ = std::max(0.0, outside_s_ + (inside ? -kForgiven : 1) * dt_s);
   if (outside_s_ > kThinkAgainAfter) {
     outside_s_ = 0;

@@ -6,6 +6,9 @@
 namespace trocar {
 namespace {
 
+constexpr double kUsedTime = 0.25;  // s in which the fingers get used to a force that stays
+constexpr double kLearnTime = 0.5;  // s of looking at the bar in which they learn what it makes of it
+
 HandJob task_of(const Percept& percept) {
   switch (percept.cue) {
     case Cue::kWait:
@@ -42,10 +45,15 @@ double LateSignal::update(double value, double dt_s) {
 }
 
 void HandSenses::update(const Percept& percept, double pause_s, double dt_s) {
-  touch_.update(percept.felt_force_n, dt_s);
+  const double felt = percept.felt_force_T.dot(percept.target_normal_T);
+  const double touch = touch_.update(felt, dt_s);
+  if (gets_used_) free_n_ += (touch - free_n_) * std::min(1.0, dt_s / kUsedTime);
   const bool bar = percept.foam_count > 0 && std::isfinite(percept.shown_grip_n);
   grip_.update(bar ? percept.shown_grip_n : percept.felt_grip_n, dt_s);
-  force_.update(std::isfinite(percept.shown_force_n) ? percept.shown_force_n : percept.felt_force_n, dt_s);
+  const bool shown = std::isfinite(percept.shown_force_n);
+  knows_bar_ = knows_bar_ || shown;
+  if (shown) missing_n_ += (percept.shown_force_n - (felt - free_n_) - missing_n_) * std::min(1.0, dt_s / kLearnTime);
+  force_.update(shown ? percept.shown_force_n : std::max(0.0, felt - free_n_ + missing_n_), dt_s);
   const HandJob now = task_of(percept);
   noticed_for_s_ = now == seen_ ? noticed_for_s_ + dt_s : 0;
   seen_ = now;

@@ -37,14 +37,23 @@ class HandSenses {
   const HandJob& task() const { return task_; }
   /// What the screen asks for now, perhaps not noticed yet.
   const HandJob& seen() const { return seen_; }
-  double force_n() const { return force_.value(); }  ///< contact force as judged for control (bar, else fingers)
-  double touch_n() const { return touch_.value(); }  ///< contact force as felt, quick, for noticing contact
+  /// Contact force against the target as judged for control: the bar, else the fingers.
+  double force_n() const { return force_.value(); }
+  /// Contact force against the target as felt, quick, for noticing contact: more than the arm asks for anyhow.
+  double touch_n() const { return touch_.value() - free_n_; }
+  /// A bar has told how the felt force is to be taken.
+  bool knows_bar() const { return knows_bar_; }
+  /// Until said otherwise: is what is felt that of the arm alone? Then the fingers get used to it.
+  void set_used_to_it(bool used) { gets_used_ = used; }
   double grip_n() const { return grip_.value(); }
 
  private:
   double reaction_s_, noticed_for_s_ = 0;
   HandJob task_, seen_;
   LateSignal force_{0.12, 0.05}, touch_{0.06, 0.02}, grip_{0.08, 0.04};
+  double free_n_ = 0;     ///< what the arm's weight and friction make the fingers feel
+  double missing_n_ = 0;  ///< what the bar has shown more than the fingers felt
+  bool gets_used_ = true, knows_bar_ = false;
 };
 
 }  // namespace trocar

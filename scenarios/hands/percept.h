@@ -44,12 +44,12 @@ inline constexpr int kMostFoams = 4;
 /// What a person senses: delayed and noisy, nothing of the world that is not on the screen or in the fingers.
 struct Percept {
   double t_s = 0;
-  bool device_ready = false;     ///< the loop is active and holds the stylus weight
-  Vec3 tip_T = Vec3::Zero();     ///< seen position of the instrument tip (delayed, noisy), m
-  Mat3 R_TI = Mat3::Identity();  ///< seen orientation of the instrument
-  double felt_force_n = 0;       ///< felt magnitude of the contact force (noisy)
-  double felt_grip_n = 0;        ///< felt pinch force
-  double jaw_opening_m = 0;      ///< proprioception of the fingers
+  bool device_ready = false;         ///< the loop is active and holds the stylus weight
+  Vec3 tip_T = Vec3::Zero();         ///< seen position of the instrument tip (delayed, noisy), m
+  Mat3 R_TI = Mat3::Identity();      ///< seen orientation of the instrument
+  Vec3 felt_force_T = Vec3::Zero();  ///< handle on fingers, taken to the tip: tissue, friction, inertia (noisy), N
+  double felt_grip_n = 0;            ///< pinch on the fingers, its friction included (noisy), N
+  double jaw_opening_m = 0;          ///< seen opening of the jaws (delayed, noisy), m
   Cue cue = Cue::kNone;
   std::int32_t target_index = -1;        ///< which target is lit; changes when the next one lights
   Vec3 target_T = Vec3::Zero();          ///< centre of the lit target (m)

@@ -15,10 +15,13 @@ constexpr double kNearEnough = 0.6;                             // of the start 
 constexpr double kLift = 0.012;                                 // m of withdrawal before crossing
 constexpr double kLookTime = 0.16;                              // s: the eyes are that late
 constexpr double kPenSettling = 0.15;      // s more before judging a pose: arm and instrument come to rest first
-constexpr double kTouchForce = 0.12;       // N that counts as feeling the tissue
+constexpr double kTouchForce = 0.15;       // N that counts as feeling the tissue ...
+constexpr double kHitForce = 0.35;         // ... and, while the arm is moved fast, as having hit it, so near to it
+constexpr double kHitNear = 0.012;         // m: further off it is the arm's own weight that is felt
 constexpr double kLongestDescent = 0.030;  // m below the hover point before looking again
 constexpr double kForesight =
     0.08;                          // s: a force that rises is judged by what it will be when the eyes and fingers tell
+constexpr double kInVain = 2;      // s in the band, as it feels, in which a hold of 1 s has not succeeded
 constexpr double kSideGain = 1.2;  // 1/s, sideways correction while pressing
 constexpr double kSideDeadBand = 0.0010;                  // m
 constexpr double kAsideTime = 0.5;                        // s beside the target before lifting off to try again
@@ -28,7 +31,7 @@ constexpr double kJawSpeed = 0.030;                       // m/s of free opening
 constexpr double kOpenEnough = 0.004;                     // m short of open at which the fingers turn round
 constexpr double kTightestJaw = -0.010;                   // m of intent: the fingers press beyond what they hold
 constexpr double kClosingSpeed = 0.012;                   // m/s until the block is felt
-constexpr double kDiscGripTouch = 0.08;                   // N
+constexpr double kDiscGripTouch = 0.12;                   // N
 constexpr std::uint64_t kJobStride = 0x9e3779b97f4a7c15;  // keeps the streams of the jobs apart
 
 }  // namespace
@@ -47,8 +50,8 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
       random_(seed),
       skill_(drawn_person(skill, random_)),
       senses_(skill_.reaction_s),
-      press_({60, 3.5, 0.04, skill_.force_bias, skill_.force_cv, kForesight}),
-      squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv}),
+      press_({60, 3.5, 0.04, skill_.force_bias, skill_.force_cv, kForesight, kInVain}),
+      squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv, 0, kInVain}),
       blocks_(skill_),
       jaw_m_(kOpenJaw) {
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
@@ -64,6 +67,11 @@ Vec3 SkilledHand::tremor(double t_s) const {
 Vec3 SkilledHand::sideways_error(const Percept& percept) const {
   const Vec3 error = percept.target_T - percept.tip_T;
   return error - percept.target_normal_T * error.dot(percept.target_normal_T);
+}
+
+/// Seen height of the tip over the target's plane, m.
+double SkilledHand::height_over(const Percept& percept) {
+  return percept.target_normal_T.dot(percept.tip_T - percept.target_T);
 }
 
 /// Plans a movement of the intent such that the SEEN tip would arrive at the goal.
@@ -114,6 +122,7 @@ void SkilledHand::draw_anew(std::uint64_t part) { random_ = HandRandom(seed_ + k
 
 void SkilledHand::begin_task(const Percept& percept) {
   ++jobs_;
+  if (step_ == Step::kPress && !senses_.knows_bar()) press_.succeeded();  // another disc is lit
   draw_anew(0);
   corrections_ = 0;
   in_step_s_ = 0;
@@ -149,7 +158,7 @@ void SkilledHand::start_pressing(const Percept& percept) {
 
 /// Felt the tissue before it was meant to: press when about on target, else withdraw and try again.
 void SkilledHand::on_unexpected_touch(const Percept& percept) {
-  if (task_.kind != HandJob::Kind::kDisc) return;
+  if (task_.kind != HandJob::Kind::kDisc || height_over(percept) > kHitNear) return;
   if (sideways_error(percept).norm() <= percept.target_radius_m) return start_pressing(percept);
   reach_target(percept, true);
 }
@@ -188,8 +197,9 @@ void SkilledHand::press(const Percept& percept, double dt_s) {
   const Vec3 error = sideways_error(percept);
   const double distance = error.norm();
   if (distance > kSideDeadBand) intent_T_ += error * (kSideGain * (1 - kSideDeadBand / distance) * dt_s);
-  aside_s_ = distance > percept.target_radius_m + kSideDeadBand ? aside_s_ + dt_s : 0;
-  if (aside_s_ > kAsideTime * skill_.speed_factor) reach_target(percept, true);
+  const bool beside = distance > percept.target_radius_m + kSideDeadBand || height_over(percept) > kHitNear;
+  aside_s_ = beside ? aside_s_ + dt_s : 0;
+  if (aside_s_ > kAsideTime * skill_.speed_factor || press_.gives_up()) reach_target(percept, true);
 }
 
 void SkilledHand::squeeze(const Percept& percept, double dt_s) {
@@ -201,6 +211,7 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
   }
   const bool felt = senses_.grip_n() > kDiscGripTouch;
   const double closing = felt ? squeeze_.speed(senses_.grip_n(), dt_s, random_) : kClosingSpeed / skill_.speed_factor;
+  if (squeeze_.gives_up()) begin_task(percept);
   jaw_m_ = std::clamp(jaw_m_ - closing * dt_s, std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
 }
 
@@ -236,6 +247,7 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
   }
   time_s_ += dt_s;
   in_step_s_ += dt_s;
+  senses_.set_used_to_it(step_ != Step::kPress);
   senses_.update(percept, skill_.pause_s, dt_s);
   if (!(senses_.task() == task_)) {
     task_ = senses_.task();
@@ -257,12 +269,12 @@ void SkilledHand::act(const Percept& percept, double dt_s) {
       if (in_step_s_ > std::max(plan_.duration_s(), task_.kind == HandJob::Kind::kPen ? turn_.duration_s() : 0)) {
         in_step_s_ = 0;
         step_ = task_.kind == HandJob::Kind::kFinished ? Step::kStill : Step::kLook;
-      } else if (in_step_s_ > 0.5 * plan_.duration_s() && senses_.touch_n() > kTouchForce) {
+      } else if (in_step_s_ > 0.5 * plan_.duration_s() && senses_.touch_n() > kHitForce) {
         on_unexpected_touch(percept);
       }
       break;
     case Step::kLook:
-      if (senses_.touch_n() > kTouchForce) on_unexpected_touch(percept);
+      if (senses_.touch_n() > kHitForce) on_unexpected_touch(percept);
       if (step_ == Step::kLook) look(percept);
       break;
     case Step::kDescend:

@@ -42,6 +42,7 @@ class SkilledHand : public Hand {
   void draw_anew(std::uint64_t part);
   void start_pressing(const Percept& percept);
   Vec3 sideways_error(const Percept& percept) const;
+  static double height_over(const Percept& percept);
   Vec3 tremor(double t_s) const;
 
   std::uint64_t seed_, jobs_ = 0;

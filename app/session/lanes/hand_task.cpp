@@ -26,15 +26,26 @@ HandTask::HandTask(const Scene& scene, const HapticTask& haptic, Inlet<ExerciseF
       world_(world),
       random_(static_cast<std::uint64_t>(scene.setup.seed) ^ kSensesSeed),
       past_(std::max<std::size_t>(1, static_cast<std::size_t>(kEyeDelay_s * scene.loop.daq.rate_hz)),
-            scene.loop.map.instrument_pose(home_pose())),
+            Seen{scene.loop.map.instrument_pose(home_pose()), 0}),
       past_objects_(past_.size()) {}
 
-Pose HandTask::see() {
+HandTask::Seen HandTask::see() {
   // The oldest entry is what the eye reports; the newest state takes its place.
-  Pose& slot = past_[periods_ % past_.size()];
-  const Pose seen = slot;
-  if (periods_ > 0) slot = haptic_.record().stylus.X_TI;
+  Seen& slot = past_[periods_ % past_.size()];
+  const Seen seen = slot;
+  const StylusState& now = haptic_.record().stylus;
+  if (periods_ > 0) slot = {now.X_TI, now.jaw_opening_m};
   return seen;
+}
+
+/// The force at the tip that the instrument would bring to the hand as the one that is felt, N.
+Vec3 HandTask::feel_T() {
+  const HandSense sense = world_.sense();
+  Mat3 felt_of_tip;
+  for (int axis = 0; axis < 3; ++axis)
+    felt_of_tip.col(axis) = scene_.loop.map.stylus_wrench(sense.X_BS, {Vec3::Unit(axis), Vec3::Zero()}).force;
+  const Vec3 error(random_.normal(), random_.normal(), random_.normal());
+  return felt_of_tip.inverse() * (sense.force_on_hand + kTouchError_n * error);
 }
 
 /// The errors of the senses begin anew with each target, so that an attempt that is shifted by some milliseconds (live,
@@ -51,6 +62,7 @@ void HandTask::draw_eye_error(const DirectorStatus& status) {
   const auto redraw = static_cast<std::uint64_t>(kEyeErrorPeriod_s * scene_.loop.daq.rate_hz);
   if (periods_of_target_++ % redraw != 0) return;
   for (int axis = 0; axis < 3; ++axis) eye_error_[axis] = kEyeError_m * random_.normal();
+  jaw_error_m_ = kEyeError_m * random_.normal();
 }
 
 Percept HandTask::perceive(std::uint64_t tick) {
@@ -62,13 +74,12 @@ Percept HandTask::perceive(std::uint64_t tick) {
   Percept percept;
   percept.t_s = state.t_s;
   percept.device_ready = static_cast<double>(active_ticks_) > kReadyAfter_s * rate;
-  const Pose seen = see();
-  percept.tip_T = seen.p + eye_error_;
-  percept.R_TI = seen.R;
-  const double felt = state.delivered_share * state.F_I_T.force.norm();  // what the fingers make of it in scene newtons
-  percept.felt_force_n = std::max(0.0, felt + kTouchError_n * random_.normal());
-  percept.felt_grip_n = std::max(0.0, state.rendered_grip_n + kTouchError_n * random_.normal());
-  percept.jaw_opening_m = world_.sense().jaw_opening_m;
+  const Seen seen = see();
+  percept.tip_T = seen.X_TI.p + eye_error_;
+  percept.R_TI = seen.X_TI.R;
+  percept.felt_force_T = feel_T();
+  percept.felt_grip_n = std::max(0.0, world_.sense().force_on_finger_n + kTouchError_n * random_.normal());
+  percept.jaw_opening_m = std::max(0.0, seen.jaw_opening_m + jaw_error_m_);
   percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
   percept.shown_grip_n = status.force_shown ? state.grip_force_n : std::numeric_limits<double>::quiet_NaN();
   show_cue(status, percept);

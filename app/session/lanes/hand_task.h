@@ -1,11 +1,11 @@
 // The hand task: gives a scripted hand its percept, late and noisy, and hands its intent to the simulated device.
 //
-// What is seen lags by 150 ms and errs by 0.3 mm, felt forces err by 0.03 N and do not lag here (what a
-// person makes of them late is the hand's part, hand_senses.h): design choices, named here. The force felt is
-// the one that the loop delivers, in scene newtons: device errors between DAC and hand act on the hand through the
-// plant, but are not in its percept. Nothing of the world goes to the hand but the Percept. It is part of the simulated
-// world: it runs beside the device, once a period of it, also in periods that the loop missed. Thread: the haptic
-// task's, before it.
+// What is seen, the jaws' opening too, lags by 150 ms and errs by 0.3 mm; felt forces err by 0.03 N and do not lag here
+// (what a person makes of them late is the hand's part, hand_senses.h): design choices, named here. The force felt is
+// the simulated device's own on the hand, with friction, inertia, saturation and whatever the amplifiers make of it. A
+// person takes it for a force at the tip, in the newtons of the force bar: the instrument map is what practice has
+// taught. Nothing of the world goes to the hand but the Percept. It is part of the simulated world: it runs beside the
+// device, once a period of it, also in periods that the loop missed. Thread: the haptic task's, before it.
 #pragma once
 
 #include <memory>
@@ -39,7 +39,12 @@ class HandTask final : public Task {
 
  private:
   Percept perceive(std::uint64_t tick);
-  Pose see();
+  struct Seen {
+    Pose X_TI;
+    double jaw_opening_m = 0;
+  };
+  Seen see();
+  Vec3 feel_T();
   void draw_eye_error(const DirectorStatus& status);
   void press_deadman();
 
@@ -49,10 +54,11 @@ class HandTask final : public Task {
   std::unique_ptr<Hand> hand_;
   SimulatedWorld& world_;
   HandRandom random_;
-  std::vector<Pose> past_;  ///< ring over the eye's delay
+  std::vector<Seen> past_;  ///< ring over the eye's delay
   Pose stylus_W_;           ///< where the hand wants the stylus
   std::vector<SeenObject> past_objects_;
   Vec3 eye_error_ = Vec3::Zero();
+  double jaw_error_m_ = 0;
   std::uint64_t active_ticks_ = 0, homed_ticks_ = 0, periods_ = 0;
   std::uint64_t periods_of_target_ = 0;  ///< since what is shown changed
   Cue shown_ = Cue::kNone;

@@ -8,8 +8,10 @@ namespace {
 
 constexpr double kBlockAimReference = 0.060,
                  kBlockAimFloor = 0.15;       // m of travel with the nominal aim error; share at rest
+constexpr double kQuickest = 0.05;            // s that a movement takes at least
 constexpr double kBlockOpenJaw = 0.022;       // m
 constexpr double kBlockJawSpeed = 0.040;      // m/s of free opening
+constexpr double kLettingGo = 0.15;           // m/s: the fingers relax
 constexpr double kBlockClosingSpeed = 0.014;  // m/s until the block is felt
 constexpr double kBlockTightestJaw = -0.030;  // m of intent: the fingers press beyond what they hold
 constexpr double kBeyondMiddle = 0.003;       // m that the tips reach beyond the block's middle
@@ -22,18 +24,21 @@ constexpr double kGoodTurn = 0.10;            // rad between pads and block that
 constexpr double kGoodRing = 0.4;             // of the ring's tolerance
 constexpr double kLevel = 0.7;                // largest sine of a side's slope that can be taken between the pads
 constexpr double kRoom = 0.004;               // m that open jaws are wider than what they take
-constexpr double kHit = 0.35;                 // N met on the way down: the jaws stand on something
+constexpr double kHit = 0.50;                 // N met on the way down: the jaws stand on something
 constexpr double kSlowFrom = 0.010;           // m under a block that is lowered from which the hand slows down ...
 constexpr double kSlowest = 0.25;             // ... to this share of its speed
-constexpr double kGuiding = 1.5;              // 1/s of what is seen to be off, while it is lowered ...
+constexpr double kGuiding = 2.5;              // 1/s of what is seen to be off, on the way down, and with a block ...
 constexpr double kGuided = 0.001;             // ... to this height over the ring, m
 constexpr double kEasing = 0.020;             // m/s at which the hand takes its weight off what stands
-constexpr int kTriesASide = 2;                // met by something on the way down that often, the other sides are tried
-constexpr double kGripFelt = 0.08;            // N
-constexpr double kFlat = 0.995;               // least cosine of a block that is seen to stand flat
-constexpr double kSet = 0.15;                 // N of the board on the block that tells that it stands
-constexpr double kFeelLow = 0.40, kFeelHigh = 0.55;  // N, a light squeeze that no foam minds
-constexpr double kFeelTime = 0.7, kFeelLook = 0.3;   // s of feeling; the last of it is what is judged by
+constexpr double kCare = 0.5;  // of the time for the way down, more with each time that something was met
+constexpr int kMostCare = 4;
+constexpr int kTriesASide = 2;         // met by something on the way down that often, the other sides are tried
+constexpr double kGripFelt = 0.12;     // N
+constexpr double kFlat = 0.995;        // least cosine of a block that is seen to stand flat
+constexpr double kSet = 0.15;          // N of the board on the block that tells that it stands, when it is ...
+constexpr double kNearlyDown = 0.004;  // m over the ring as it is seen: before, it is the arm that is felt
+constexpr double kFeelLow = 0.75, kFeelHigh = 0.95;  // N, a squeeze that no foam minds
+constexpr double kFeelTime = 1.0, kFeelLook = 0.4;   // s of feeling; the last of it is what is judged by
 constexpr double kJudgement = 0.5;                   // of the force CV: error of the judged stiffness
 constexpr double kLostTime = 0.25;                   // s without felt grip before the block counts as lost
 constexpr double kTighter = 1.35;                    // of the window when the block is seen to slip
@@ -99,16 +104,16 @@ double GraspJob::roll_off(const Percept& percept) const {
 }
 
 void GraspJob::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
-  plan_ = ReachPlan(from_T, to_T, {0, Vec3::Zero(), 0, std::max(0.05, seconds)});
+  plan_ = ReachPlan(from_T, to_T, {0, Vec3::Zero(), 0, std::max(kQuickest, seconds)});
 }
 
 /// Plans a movement of the intent such that the seen tip would arrive at the goal.
-void GraspJob::reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent,
-                     HandRandom& random) {
+void GraspJob::reach(const Percept& percept, const Vec3& goal_T, double width_m, double least_s,
+                     const HandIntent& intent, HandRandom& random) {
   const Vec3 way = goal_T - percept.tip_T;
   const double distance = way.norm();
   ReachPlan::Shape shape;
-  shape.travel_time_s = std::max(0.05, reach_time_s(distance, width_m, skill_.speed_factor));
+  shape.travel_time_s = std::max(least_s, reach_time_s(distance, width_m, skill_.speed_factor));
   const Vec3 across = Vec3::UnitZ().cross(way);
   if (across.norm() > 1e-6)
     shape.bulge = across.normalized() * (skill_.path_bulge * distance * (random.uniform() < 0.5 ? -1 : 1));
@@ -119,21 +124,30 @@ void GraspJob::reach(const Percept& percept, const Vec3& goal_T, double width_m,
 }
 
 void GraspJob::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  reach(percept, grip_point(percept) + way_out(percept), 2 * kGoodAim, intent, random);
   turn_ = Eigen::AngleAxisd(roll_off(percept), Vec3::UnitZ());
+  const double turning = reach_time_s(std::abs(turn_.angle()), 2 * kGoodTurn, skill_.speed_factor);
+  reach(percept, grip_point(percept) + way_out(percept), 2 * kGoodAim, std::max(kQuickest, turning), intent, random);
   R_from_ = intent.X_TI.R;
   enter(Step::kReach);
 }
 
 void GraspJob::reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   const Vec3 wanted = percept.goal_T + Vec3(0, 0, kOverRing);
-  reach(percept, percept.tip_T + (wanted - base_of(percept.object)), 2 * percept.target_radius_m, intent, random);
+  reach(percept, percept.tip_T + (wanted - base_of(percept.object)), 2 * percept.target_radius_m, kQuickest, intent,
+        random);
   enter(Step::kCarry);
 }
 
 void GraspJob::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   corrections_ = hits_ = 0;
-  reach_block(percept, intent, random);
+  due_ = step_ == Step::kOpen || step_ == Step::kRetreat;  // first the jaws leave what stands between them
+  if (!due_) reach_block(percept, intent, random);
+}
+
+/// On the way down the eyes keep the jaws over the block: what is seen to be off across the way is taken out.
+void GraspJob::guide(const Percept& percept, double dt_s) {
+  const Vec3 off = grip_point(percept) - percept.tip_T, way = way_out(percept).normalized();
+  aside_ += kGuiding / skill_.speed_factor * dt_s * (off - way * off.dot(way));
 }
 
 void GraspJob::squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
@@ -162,7 +176,7 @@ void GraspJob::approach(const Percept& percept, const HandSenses& senses, double
                         HandRandom& random) {
   intent.jaw_opening_m = std::min(kBlockOpenJaw, intent.jaw_opening_m + kBlockJawSpeed * dt_s);
   const bool there = in_step_s_ > plan_.duration_s();
-  if (step_ != Step::kLook) intent.X_TI.p = plan_.at(in_step_s_);
+  if (step_ == Step::kReach) intent.X_TI.p = plan_.at(in_step_s_);
   if (step_ == Step::kReach && there) return enter(Step::kLook);
   if (step_ == Step::kLook && in_step_s_ > kSeenLate) {
     const Vec3 error = grip_point(percept) + way_out(percept) - percept.tip_T;
@@ -171,10 +185,14 @@ void GraspJob::approach(const Percept& percept, const HandSenses& senses, double
     if (((error - shaft * error.dot(shaft)).norm() > kGoodAim || askew) && corrections_++ < skill_.max_corrections)
       return reach_block(percept, intent, random);
     const Vec3 way = grip_point(percept) - percept.tip_T;
-    straight(intent.X_TI.p, intent.X_TI.p + way, reach_time_s(way.norm(), 0.004, skill_.speed_factor));
+    const double care = 1 + kCare * std::min(hits_, kMostCare);
+    straight(intent.X_TI.p, intent.X_TI.p + way, care * reach_time_s(way.norm(), 0.002, skill_.speed_factor));
+    aside_.setZero();
     return enter(Step::kDescend);
   }
   if (step_ != Step::kDescend) return;
+  guide(percept, dt_s);
+  intent.X_TI.p = plan_.at(in_step_s_) + aside_;
   if (senses.touch_n() > kHit && in_step_s_ < plan_.duration_s()) {  // the jaws stand on something: look again
     corrections_ = 0;
     ++hits_;
@@ -198,13 +216,14 @@ void GraspJob::take(const Percept& percept, const HandSenses& senses, double dt_
         enter(told ? Step::kSqueeze : Step::kFeel);
       } else if (percept.jaw_opening_m < thickness(percept) / 3) {  // closed on nothing
         corrections_ = 0;
+        ++hits_;
         reach_block(percept, intent, random);
       }
       return;
     case Step::kFeel:
       squeeze(percept, senses, dt_s, intent, random);
       if (in_step_s_ > (kFeelTime - kFeelLook) * std::sqrt(skill_.speed_factor)) {
-        felt_sum_n_ += percept.felt_grip_n;
+        felt_sum_n_ += senses.grip_n();
         opening_sum_m_ += percept.jaw_opening_m;
         ++felt_count_;
       }
@@ -271,7 +290,7 @@ void GraspJob::bring(const Percept& percept, const HandSenses& senses, double dt
       intent.X_TI.p.z() -= speed * std::clamp(under / kSlowFrom, kSlowest, 1.0) * dt_s;
       if (under > kGuided) intent.X_TI.p.head<2>() += kGuiding / skill_.speed_factor * dt_s * off.head<2>();
       const bool flat = percept.object.X_TO.R.row(2).cwiseAbs().maxCoeff() > kFlat && under < 0.0005;
-      const bool stands = senses.touch_n() > kSet * skill_.force_bias || flat;
+      const bool stands = (under < kNearlyDown && senses.touch_n() > kSet * skill_.force_bias) || flat;
       if (stands && in_step_s_ > kSeenLate) enter(Step::kOpen);
       return;
     }
@@ -289,8 +308,7 @@ void GraspJob::withdraw(const Percept& percept, const HandIntent& intent) {
 }
 
 void GraspJob::leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
-  intent.jaw_opening_m =
-      std::min(kBlockOpenJaw, std::max(intent.jaw_opening_m, percept.jaw_opening_m) + kBlockJawSpeed * dt_s);
+  intent.jaw_opening_m = std::min(kBlockOpenJaw, intent.jaw_opening_m + kLettingGo * dt_s);
   switch (step_) {
     case Step::kOpen:
       if (intent.X_TI.p.z() < percept.tip_T.z()) intent.X_TI.p.z() += kEasing * dt_s;
@@ -298,8 +316,10 @@ void GraspJob::leave(const Percept& percept, double dt_s, HandIntent& intent, Ha
       return withdraw(percept, intent);
     case Step::kRetreat:
       intent.X_TI.p = plan_.at(in_step_s_);
-      if (in_step_s_ > plan_.duration_s()) enter(Step::kWait);
-      return;
+      if (in_step_s_ <= plan_.duration_s()) return;
+      if (!due_) return enter(Step::kWait);
+      due_ = false;
+      return reach_block(percept, intent, random);
     default:
       if (in_step_s_ < kPatience) return;
       corrections_ = 0;

@@ -41,11 +41,13 @@ class GraspJob {
   };
 
   void enter(Step step);
-  void reach(const Percept& percept, const Vec3& goal_T, double width_m, const HandIntent& intent, HandRandom& random);
+  void reach(const Percept& percept, const Vec3& goal_T, double width_m, double least_s, const HandIntent& intent,
+             HandRandom& random);
   void reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void reach_ring(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void withdraw(const Percept& percept, const HandIntent& intent);
   void straight(const Vec3& from_T, const Vec3& to_T, double seconds);
+  void guide(const Percept& percept, double dt_s);
   void squeeze(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
   void approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
   void take(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
@@ -66,11 +68,13 @@ class GraspJob {
   Step step_ = Step::kWait;
   Mat3 R_from_ = Mat3::Identity();  ///< orientation before the present reach, which turns it by turn_
   Eigen::AngleAxisd turn_{0, Vec3::UnitX()};
+  Vec3 aside_ = Vec3::Zero();      ///< of the way down, as corrected on it
   double low_n_ = 0, high_n_ = 0;  ///< window that the person believes in
   double in_step_s_ = 0, lost_s_ = 0, slip_s_ = 0;
   double felt_sum_n_ = 0, opening_sum_m_ = 0;
   int felt_count_ = 0, corrections_ = 0;
-  int hits_ = 0;  ///< on the way down, one after the other
+  bool due_ = false;  ///< the next block is lit, and will be reached for after the withdrawal
+  int hits_ = 0;      ///< on the way down, one after the other
 };
 
 }  // namespace trocar

@@ -167,13 +167,13 @@ TEST(CuePercept, LeavesPlaceForceAndTimeToTheSession) {
   Percept percept;
   percept.t_s = 7;
   percept.tip_T = Vec3(0.1, 0.2, 0.3);
-  percept.felt_force_n = 0.5;
+  percept.felt_force_T = Vec3(0, 0, 0.5);
   percept.shown_force_n = 0.25;
   percept.jaw_opening_m = 0.012;
   show_cue(DirectorStatus{}, percept);
   EXPECT_EQ(percept.t_s, 7);
   EXPECT_EQ(percept.tip_T, Vec3(0.1, 0.2, 0.3));
-  EXPECT_EQ(percept.felt_force_n, 0.5);
+  EXPECT_EQ(percept.felt_force_T.z(), 0.5);
   EXPECT_EQ(percept.shown_force_n, 0.25);
   EXPECT_EQ(percept.jaw_opening_m, 0.012);
 }

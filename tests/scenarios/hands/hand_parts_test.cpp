@@ -104,14 +104,81 @@ TEST(HandSenses, NoticeACueAfterReactionAndPause) {
 TEST(HandSenses, PreferTheForceBarAndFallBackToTheFingers) {
   HandSenses bar(0.17), fingers(0.17);
   Percept percept;
-  percept.felt_force_n = 0.3;
+  percept.felt_force_T = Vec3(0.2, 0, 0.3);
   percept.shown_force_n = 0.7;
+  fingers.set_used_to_it(false);
   for (int i = 0; i < 1000; ++i) bar.update(percept, 0, kDt);
   EXPECT_NEAR(bar.force_n(), 0.7, 1e-6);
   percept.shown_force_n = std::nan("");
   for (int i = 0; i < 1000; ++i) fingers.update(percept, 0, kDt);
   EXPECT_NEAR(fingers.force_n(), 0.3, 1e-6);
-  EXPECT_NEAR(fingers.touch_n(), 0.3, 1e-6);
+  EXPECT_NEAR(fingers.touch_n(), 0.3, 1e-6) << "what acts against the target, not what acts sideways";
+}
+
+TEST(HandSenses, GetUsedToWhatTheArmMakesThemFeelAndNoticeATouchBesideIt) {
+  HandSenses senses(0.17);
+  Percept percept;
+  percept.shown_force_n = std::nan("");
+  percept.felt_force_T = Vec3(0, 0, 0.2);  // friction of the arm on the way down
+  for (int i = 0; i < 2000; ++i) senses.update(percept, 0, kDt);
+  EXPECT_NEAR(senses.touch_n(), 0, 1e-3);
+  EXPECT_NEAR(senses.force_n(), 0, 1e-3);
+  senses.set_used_to_it(false);
+  percept.felt_force_T = Vec3(0, 0, 0.5);
+  for (int i = 0; i < 2000; ++i) senses.update(percept, 0, kDt);
+  EXPECT_NEAR(senses.touch_n(), 0.3, 1e-3) << "a pressing hand does not get used to the tissue";
+  EXPECT_NEAR(senses.force_n(), 0.3, 1e-3);
+}
+
+TEST(HandSenses, LearnFromTheBarWhatTheyFeelTooLittleOrTooMuch) {
+  HandSenses senses(0.17);
+  senses.set_used_to_it(false);
+  Percept percept;
+  percept.felt_force_T = Vec3(0, 0, 0.5);
+  percept.shown_force_n = 0.7;
+  for (int i = 0; i < 3000; ++i) senses.update(percept, 0, kDt);
+  EXPECT_TRUE(senses.knows_bar());
+  percept.shown_force_n = std::nan("");  // the bar goes, what it taught stays
+  percept.felt_force_T = Vec3(0, 0, 0.6);
+  for (int i = 0; i < 1000; ++i) senses.update(percept, 0, kDt);
+  EXPECT_NEAR(senses.force_n(), 0.8, 0.01);
+}
+
+/// Seconds until a force that is felt `wrong` too strong has been in the band for 1 s; 0: given up or never.
+double seconds_until_held(ForceGrip& grip, double wrong_n) {
+  HandRandom random(4);
+  grip.begin(0.45, 0.75, random);
+  double force = 0, held_s = 0;
+  for (int i = 0; i < 30000 && !grip.gives_up(); ++i) {
+    force = std::max(0.0, force + 100 * grip.speed(force + wrong_n, kDt, random) * kDt);
+    held_s = force >= 0.45 && force <= 0.75 ? held_s + kDt : 0;
+    if (held_s >= 1) return i * kDt;
+  }
+  return 0;
+}
+
+TEST(ForceGrip, TriesOtherForcesWhenNothingComesOfTheOneThatFeelsRight) {
+  for (const double wrong : {-0.2, 0.2}) {
+    ForceGrip stubborn({100, 3, 0.04, 1.0, 0.0}), patient({100, 3, 0.04, 1.0, 0.0, 0, 2});
+    EXPECT_EQ(seconds_until_held(stubborn, wrong), 0) << "feels right and is not";
+    EXPECT_GT(seconds_until_held(patient, wrong), 2) << wrong;
+  }
+  ForceGrip patient({100, 3, 0.04, 1.0, 0.0, 0, 2});
+  EXPECT_EQ(seconds_until_held(patient, -0.6), 0) << "gives up, to press afresh";
+  EXPECT_TRUE(patient.gives_up());
+}
+
+TEST(ForceGrip, LearnsFromTheTrialThatSucceeded) {
+  ForceGrip grip({100, 3, 0.04, 1.0, 0.0, 0, 2});
+  const double first = seconds_until_held(grip, 0.2);
+  double last = first;
+  for (int hold = 0; hold < 4; ++hold) {
+    grip.succeeded();
+    last = seconds_until_held(grip, 0.2);
+  }
+  EXPECT_GT(first, 3);
+  EXPECT_GT(last, 1);
+  EXPECT_LT(last, 2.5);
 }
 
 class ForceGripAgainstASpring : public testing::TestWithParam<double> {};

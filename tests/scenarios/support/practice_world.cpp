@@ -89,7 +89,7 @@ struct World {
     percept.device_ready = state.tick > 300;
     percept.tip_T = seen[(state.tick + seen.size() - kEyeDelay) % seen.size()] + eye_error;
     percept.R_TI = state.X_TI.R;
-    percept.felt_force_n = std::max(0.0, state.F_I_T.force.norm() + kTouchNoise * random.normal());
+    percept.felt_force_T = state.F_I_T.force + kTouchNoise * Vec3(random.normal(), random.normal(), random.normal());
     percept.felt_grip_n = std::max(0.0, state.grip_force_n + kTouchNoise * random.normal());
     percept.jaw_opening_m = state.jaw_opening_m;
     percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::nan("");
