@@ -13,6 +13,7 @@
 #include "app/studies/contact/contact_law_study.h"
 #include "app/studies/contact/contact_torque_study.h"
 #include "app/studies/contact/passivity_study.h"
+#include "app/studies/contact/sensitivity_study.h"
 #include "app/studies/contact/transparency_study.h"
 #include "app/studies/contact/walls_study.h"
 #include "app/studies/contact/zwidth_study.h"
@@ -50,6 +51,7 @@ constexpr std::array kStudies{
     KnownStudy{"admittance", admittance_study},
     KnownStudy{"velocity", velocity_study},
     KnownStudy{"zwidth", zwidth_study, false, true},
+    KnownStudy{"sensitivity", sensitivity_study, false, true},
     KnownStudy{"transparency", transparency_study, true},
     KnownStudy{"workspace", workspace_study},
     KnownStudy{"plant", plant_study, true},

@@ -29,7 +29,8 @@ StiffnessLimit stiffness_limit(const DeviceModel& model, const JointVector& leve
   StiffnessLimit limit;
   const TipFriction tip = tip_friction(model, lever);
   if (tip.count_m == 0) return limit;
-  limit.k_max = std::min({2 * tip.viscous_n_s_per_m / period_s, tip.viscous_n_s_per_m / (period_s / 2 + delay_s),
+  limit.k_max = model.friction_sure() *
+                std::min({2 * tip.viscous_n_s_per_m / period_s, tip.viscous_n_s_per_m / (period_s / 2 + delay_s),
                           2 * tip.coulomb_n / tip.count_m});
   limit.share = asked > limit.k_max ? limit.k_max / asked : 1;
   return limit;

@@ -1,11 +1,12 @@
 // The stiffness that this device can display without making energy, in the direction of a contact force.
 //
 //   K_max = min(2 b / T, b / (T/2 + Td), 2 fc / Delta)
-// b and fc: damping and Coulomb friction felt at the stylus along the force, Delta: what one encoder count moves it
-// (Colgate and Schenkel 1997; Abbott and Okamura 2005; with delay after Hulin). The device gives the direction as a
-// lever g = J^T e: its torque for 1 N, m. Motion along e is taken as the one that meets least friction: b = 1 /
-// sum(g_i^2 / b_i), fc = min(fc_i / |g_i|); Delta = max(|g_i| count_i). So the limit errs on the safe side whatever the
-// hand holds fast. Thread: haptic task; pure, no allocation.
+// b and fc: damping and Coulomb friction felt at the stylus along the force, as far as the model is sure of them
+// (DeviceModel::friction_sure()); Delta: what one encoder count moves it (Colgate and Schenkel 1997; Abbott and Okamura
+// 2005; with delay after Hulin). The device gives the direction as a lever g = J^T e: its torque for 1 N, m. Motion
+// along e is taken as the one that meets least friction: b = 1 / sum(g_i^2 / b_i), fc = min(fc_i / |g_i|); Delta =
+// max(|g_i| count_i). So the limit errs on the safe side whatever the hand holds fast. Thread: haptic task; pure, no
+// allocation.
 #pragma once
 
 #include <limits>

@@ -66,7 +66,7 @@ struct PassivityParameters {
   double recovery_n_per_s = 4;     ///< at most so fast
   double pressing_m_s = 0.05;      ///< faster than this it surely goes in,
   double pressing_n_per_m = 1500;  ///< and the force may rise by this stiffness at the finest hold, less with delay
-  double law_n_per_s = 50;         ///< most that the law moves the force beside its local stiffness
+  double law_n_per_s = 48;         ///< most that the law moves the force beside its local stiffness
   double fade_debt_j = 0.05;       ///< debt that warns
   double fault_debt_j = 0.15;      ///< debt that is a fault
 

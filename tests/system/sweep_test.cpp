@@ -43,6 +43,18 @@ TEST_F(Sweep, ALineThatDoesNotApplySaysSo) {
   EXPECT_TRUE(cell["hands"][0].contains("pass_share"));
 }
 
+TEST_F(Sweep, AWorseArmStandsBesideTheDrawnOne) {
+  const Json json = json_of({"sweep", exercise_of(3, 12), "--hand", "expert", "--level", "L1", "--seeds", "1", "--arm",
+                             "drawn,friction,degraded", "--json"},
+                            1);
+  ASSERT_EQ(json["cells"].size(), 3u);
+  EXPECT_EQ(json["cells"][1]["arm"], "friction");
+  EXPECT_EQ(json["cells"][1]["checks"][0]["name"], "expert: drawn arm - friction");
+  EXPECT_TRUE(json["cells"][1]["checks"][0].contains("not_asked")) << "only the degraded arm must cost points";
+  EXPECT_EQ(json["cells"][2]["checks"][0]["bar"], ">= 5");
+  EXPECT_FALSE(json["cells"][2]["checks"][0]["met"]) << "nobody earns anything in three seconds";
+}
+
 TEST_F(Sweep, RefusesWhatItCannotRun) {
   expect_refusal({"sweep", "surface-touch", "--hand", "nobody"}, 2, "nobody");
   expect_refusal({"sweep", "surface-touch", "--level", "L9"}, 2, "L9");
@@ -50,6 +62,7 @@ TEST_F(Sweep, RefusesWhatItCannotRun) {
   expect_refusal({"sweep", "surface-touch", "--seeds=-9223372036854775808..9223372036854775807"}, 2, "--seeds");
   expect_refusal({"sweep", "surface-touch", "--seeds", "9223372036854775807"}, 2, "--seeds");
   expect_refusal({"sweep", "surface-touch", "--seeds", "1..x"}, 2, "two whole numbers");
+  expect_refusal({"sweep", "surface-touch", "--arm", "rusty"}, 2, "--arm rusty");
   expect_refusal({"sweep", "no-such-exercise"}, 2, "no-such-exercise");
 }
 

@@ -1,7 +1,9 @@
 #include "app/cli/attempts/sweep_command.h"
 
+#include <array>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -28,10 +30,32 @@ namespace trocar {
 namespace {
 
 constexpr std::int64_t kMostSeeds = 10000;
+constexpr double kWorseBy = 5;  ///< points that an expert must lose on the degraded arm where force is judged
 constexpr std::int64_t kLargestSeed = std::int64_t{1} << 60;
+
+/// What an attempt's simulated arm is made of: the one that its seed draws, or worse.
+struct Arm {
+  const char* name;
+  double friction = 1;  ///< times the drawn one, Coulomb and viscous
+  double current = 1;   ///< of what the motors' largest torque needs
+  PassivityLaw law = PassivityLaw::kBudgeted;
+};
+constexpr std::array<Arm, 5> kArms{{{"drawn"},
+                                    {"friction", 2},
+                                    {"saturation", 1, 0.5},
+                                    {"increment", 1, 1, PassivityLaw::kIncrement},
+                                    {"degraded", 2, 0.5, PassivityLaw::kIncrement}}};
+
+const Arm& find_arm(const std::string& name) {
+  for (const Arm& arm : kArms) {
+    if (name == arm.name) return arm;
+  }
+  throw InputError("--arm " + name + ": drawn, friction, saturation, increment or degraded");
+}
 
 /// One attempt of the sweep and, later, what became of it.
 struct Job {
+  const Arm* arm = &kArms[0];
   std::string exercise, level, hand;
   std::int64_t seed = 0;
   ValidityScope scope;
@@ -70,12 +94,28 @@ std::vector<Job> list_jobs(const SweepOptions& options, const AssetRoots& assets
     for (const std::string& level : levels) {
       const ValidityScope scope{level == exercise.levels.front().name,
                                 judges_force(find_level(exercise, level).rubric)};
-      for (const std::string& hand : options.hands) {
-        for (std::int64_t seed = first; seed <= last; ++seed) jobs.push_back({name, level, hand, seed, scope, {}, ""});
+      for (const std::string& arm : options.arms) {
+        for (const std::string& hand : options.hands) {
+          for (std::int64_t seed = first; seed <= last; ++seed)
+            jobs.push_back({&find_arm(arm), name, level, hand, seed, scope, {}, ""});
+        }
       }
     }
   }
   return jobs;
+}
+
+/// The arm of the seed with more friction, or with amplifiers that give less current than the loop counts on.
+std::shared_ptr<const PlantFile> worse_plant(const Arm& arm, std::int64_t seed) {
+  PlantFile plant{draw_parameters(static_cast<std::uint64_t>(seed)), {}, {}, arm.name, std::string(8, '0')};
+  PlantParameters& p = plant.parameters;
+  for (ChannelParameters& channel : p.channel) {
+    channel.friction.coulomb *= arm.friction;
+    channel.friction.viscous *= arm.friction;
+  }
+  const double largest = p.dac_full_scale * std::abs(p.channel[0].amplifier_gain);
+  p.current_limit = std::min(p.current_limit, arm.current * largest);
+  return std::make_shared<const PlantFile>(plant);
 }
 
 void run_job(Job& job, const SweepOptions& options, const AssetRoots& assets) {
@@ -85,7 +125,9 @@ void run_job(Job& job, const SweepOptions& options, const AssetRoots& assets) {
   run.hand = job.hand;
   run.seed = job.seed;
   run.organ = options.organ;
-  const AttemptSetup setup = attempt_setup(run, assets);
+  run.passivity_law = passivity_law_name(job.arm->law);
+  AttemptSetup setup = attempt_setup(run, assets);
+  if (job.arm->friction != 1 || job.arm->current != 1) setup.plant = worse_plant(*job.arm, job.seed);
   const Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});
   const auto [outcome, recording] = record_session(scene, assets, {});
   job.grade = grade_recording(recording, "recording in memory");
@@ -124,16 +166,35 @@ void run_jobs(std::vector<Job>& jobs, const SweepOptions& options, const AssetRo
   if (failure) std::rethrow_exception(failure);
 }
 
-/// One exercise at one level: outcomes by hand, and the checks over them.
+/// One exercise at one level on one kind of arm: outcomes by hand, and the checks over them.
 struct Cell {
+  const Arm* arm = nullptr;
   std::string exercise, level;
   ValidityScope scope;
   std::map<std::string, HandOutcomes> outcomes;
   std::map<std::string, std::map<std::string, int>> caps;  ///< by hand: sentence and how often
   std::vector<Job> without_number;
-
-  std::vector<ValidityCheck> checks() const { return check_validity(outcomes, scope); }
+  std::vector<ValidityCheck> checks;
 };
+
+/// Does the same hand earn less on a worse arm? An attempt without a number earned nothing.
+std::vector<ValidityCheck> check_worse_arm(const Cell& worse, const Cell& drawn) {
+  std::vector<ValidityCheck> checks;
+  const auto earned = [](const HandOutcomes& of) {
+    const GroupSummary s = summarise(of.scores);
+    const int count = s.count + of.without_score;
+    return count > 0 ? s.mean * s.count / count : 0;
+  };
+  for (const auto& [hand, outcome] : worse.outcomes) {
+    ValidityCheck check{hand + ": drawn arm - " + worse.arm->name, 0, ">= 0", true, ""};
+    check.value = earned(drawn.outcomes.at(hand)) - earned(outcome);
+    const bool asked = worse.scope.judges_force && hand == "expert" && worse.arm == &kArms.back();
+    if (asked) check.bar = ">= " + cell(kWorseBy, 0), check.met = check.value >= kWorseBy;
+    if (!asked) check.not_asked = cell(check.value, 1) + " points";
+    checks.push_back(check);
+  }
+  return checks;
+}
 
 /// "fault (overspeed)": what became of an attempt without a number.
 std::string end_of(const Job& job) {
@@ -145,8 +206,9 @@ std::string end_of(const Job& job) {
 std::vector<Cell> collect(const std::vector<Job>& jobs) {
   std::vector<Cell> cells;
   for (const Job& job : jobs) {
-    if (cells.empty() || cells.back().exercise != job.exercise || cells.back().level != job.level) {
-      cells.push_back({job.exercise, job.level, job.scope, {}, {}, {}});
+    if (cells.empty() || cells.back().exercise != job.exercise || cells.back().level != job.level ||
+        cells.back().arm != job.arm) {
+      cells.push_back({job.arm, job.exercise, job.level, job.scope, {}, {}, {}, {}});
     }
     HandOutcomes& outcome = cells.back().outcomes[job.hand];
     if (job.grade.score) {
@@ -158,6 +220,15 @@ std::vector<Cell> collect(const std::vector<Job>& jobs) {
     }
     outcome.passes += job.grade.passed ? 1 : 0;
     for (const Cap& cap : job.grade.caps) ++cells.back().caps[job.hand][cap_sentence(cap)];
+  }
+  const Cell* drawn = nullptr;
+  for (Cell& at : cells) {
+    if (at.arm == &kArms[0]) {
+      drawn = &at;
+      at.checks = check_validity(at.outcomes, at.scope);
+    } else if (drawn && drawn->exercise == at.exercise && drawn->level == at.level) {
+      at.checks = check_worse_arm(at, *drawn);
+    }
   }
   return cells;
 }
@@ -175,7 +246,7 @@ void print_check(const ValidityCheck& check, std::ostream& out) {
 
 void print_cell(const Cell& at, const SweepOptions& options, std::ostream& out) {
   using Align = TextTable::Align;
-  out << at.exercise << "  " << at.level << '\n';
+  out << at.exercise << "  " << at.level << (at.arm == &kArms[0] ? "" : std::string("  arm: ") + at.arm->name) << '\n';
   TextTable table({{"  hand"},
                    {"attempts", Align::kRight},
                    {"mean", Align::kRight},
@@ -194,7 +265,7 @@ void print_cell(const Cell& at, const SweepOptions& options, std::ostream& out) 
   for (const Job& job : at.without_number) {
     out << "  no number: not passed: " << job.hand << ", seed " << job.seed << ": " << end_of(job) << '\n';
   }
-  for (const ValidityCheck& check : at.checks()) print_check(check, out);
+  for (const ValidityCheck& check : at.checks) print_check(check, out);
 }
 
 nlohmann::ordered_json check_json(const ValidityCheck& check) {
@@ -223,12 +294,9 @@ nlohmann::ordered_json cell_json(const Cell& at, const SweepOptions& options) {
   for (const Job& job : at.without_number) {
     without.push_back({{"hand", job.hand}, {"seed", job.seed}, {"end", end_of(job)}});
   }
-  for (const ValidityCheck& check : at.checks()) checks.push_back(check_json(check));
-  return {{"exercise", at.exercise},
-          {"level", at.level},
-          {"hands", hands},
-          {"without_number", without},
-          {"checks", checks}};
+  for (const ValidityCheck& check : at.checks) checks.push_back(check_json(check));
+  return {{"exercise", at.exercise}, {"level", at.level},         {"arm", at.arm->name},
+          {"hands", hands},          {"without_number", without}, {"checks", checks}};
 }
 
 }  // namespace
@@ -256,7 +324,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   bool met = true;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Cell& cell : cells) {
-    for (const ValidityCheck& check : cell.checks()) met = met && check.met;
+    for (const ValidityCheck& check : cell.checks) met = met && check.met;
     if (options.json)
       list.push_back(cell_json(cell, options));
     else
@@ -275,6 +343,11 @@ void add_sweep(CLI::App& parent, CommandAction& chosen) {
   sweep->add_option("exercise", o.exercises, "Exercise ids, numbers or files (default: all)");
   sweep->add_option("--hand", o.hands, "Hands, separated by commas")->delimiter(',')->capture_default_str();
   sweep->add_option("--level", o.levels, "Levels, separated by commas (default: all)")->delimiter(',');
+  sweep
+      ->add_option("--arm", o.arms,
+                   "Simulated arms, separated by commas: drawn, friction, saturation, increment, degraded")
+      ->delimiter(',')
+      ->capture_default_str();
   sweep->add_option("--seeds", o.seeds, "First and last seed, A..B")->capture_default_str();
   sweep->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
   sweep->add_option("--jobs", o.jobs, "Attempts at once (0: one a processor)")

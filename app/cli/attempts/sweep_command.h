@@ -13,8 +13,9 @@ namespace trocar {
 struct SweepOptions {
   std::vector<std::string> exercises;  ///< ids, numbers or files; empty: the whole catalogue
   std::vector<std::string> hands{"expert", "intermediate", "novice", "clumsy", "speed-runner", "heavy-handed", "idle"};
-  std::vector<std::string> levels;  ///< empty: every level of the exercise
-  std::string seeds = "1..10";      ///< A..B
+  std::vector<std::string> levels;         ///< empty: every level of the exercise
+  std::string seeds = "1..10";             ///< A..B
+  std::vector<std::string> arms{"drawn"};  ///< the seed's own, or worse ones (kArms in sweep_command.cpp)
   std::string organ = "phantom-liver";
   int jobs = 0;  ///< 0: one a processor
   bool json = false;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "app/studies/device/identified_device.h"
 #include "haptics/device/plant/plant_parameters.h"
 #include "haptics/force_sensor/simulated_wrench_sensor.h"
 #include "haptics/kinematics/hybrid_arm.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr double kToRestS = 1.2, kSettleS = 0.4;
 constexpr double kEase = 0.2, kEaseS = 0.3;  // share of the depth, s
 constexpr int kMovesPerContact = 3;          // in, ease, out
+constexpr std::uint64_t kIdentifiedBy = 1;   // seed of the poses and movements
 constexpr int kWaySteps = 50;                // of a move, when its joints are looked at
 
 Pose between(const Pose& from, const Pose& to, double share) {
@@ -56,13 +58,23 @@ SimulatedDaqConfig device_of(const ContactSetting& setting) {
   return device;
 }
 
+/// What identification finds about the device of these studies.
+const DeviceModel& identified_nominal() {
+  static const DeviceModel found =
+      identify_simulated(nominal_parameters(), seeded_identification(kIdentifiedBy, false)).device;
+  return found;
+}
+
 HapticLoopConfig loop_of(const ContactExperiment& experiment, const ContactSetting& setting) {
   HapticLoopConfig loop;
   loop.tool = experiment.tool;
   loop.map.X_SI = experiment.X_SI;
   loop.passivity.law = setting.law;
   loop.carry_weight = setting.compensation;
-  loop.friction.share = 0;  // as the thesis had it, with and without: the sensor reads friction as well
+  if (setting.compensation)
+    loop.device = identified_nominal();
+  else
+    loop.friction.share = 0;
   return loop;
 }
 

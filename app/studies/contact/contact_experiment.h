@@ -68,7 +68,7 @@ struct ContactSetting {
   double stiffness = 20;  ///< N/m
   PassivityLaw law = PassivityLaw::kBudgeted;
   double gain = 1;           ///< of the amplifiers over what the loop believes
-  bool compensation = true;  ///< of weight
+  bool compensation = true;  ///< of weight and friction, as identified
   double fixture_kg = 0;     ///< on the hand's side of the sensor; its inertia is left out
   std::uint64_t seed = 1;    ///< of hand, tremor and sensor
 };

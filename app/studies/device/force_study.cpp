@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include <Eigen/LU>
 
@@ -37,6 +38,8 @@ const std::array<Case, 6>& cases() {
 
 constexpr double kAside = 2.5 * kDegree;  // every joint, from where the fixture comes
 constexpr double kWay_s = 0.8, kRest_s = 0.4, kRead_s = 1.0;
+constexpr int kHands = 10;
+constexpr double kHeldMoment = 0.1;    // N m
 constexpr double kMomentNoise = 5e-4;  // N m [assumed, with the sensor's 20 mN]
 
 /// Stiffer than any hand: 0.2 mm under 1 N, 1 deg under 1 N m.
@@ -61,8 +64,8 @@ PlantParameters ideal() {
 class ForceBench {
  public:
   ForceBench(const PlantParameters& truth, const DeviceModel& model, const ForceSensorConfig& sensor,
-             const ForceSensorConfig& moments, std::uint64_t seed)
-      : daq_(config(truth)),
+             const ForceSensorConfig& moments, std::uint64_t seed, const HandParameters& holds = fixture())
+      : daq_(config(truth, holds)),
         force_(sensor, seed),
         moment_(moments, seed + 1),
         home_(daq_.sense()),
@@ -92,17 +95,29 @@ class ForceBench {
     return (above + from(-1)) * 0.5;
   }
 
+  /// Mean reading where the stylus is held, without coming from anywhere: friction hides what it can.
+  Wrench read_as_held(const Case& c, double share) {
+    wanted_ = &c, on_ = share > 0, share_ = share;
+    Wrench sum;
+    double samples = 0;
+    run(
+        kRest_s, [](double) { return 0.0; }, nullptr);
+    run(
+        kRead_s, [](double) { return 0.0; }, [&](const Wrench& reading) { sum = sum + reading, samples += 1; });
+    return sum * (1 / samples);
+  }
+
  private:
-  static SimulatedDaqConfig config(const PlantParameters& truth) {
+  static SimulatedDaqConfig config(const PlantParameters& truth, const HandParameters& holds) {
     SimulatedDaqConfig c;
     c.plant = truth;
-    c.hand = fixture();
+    c.hand = holds;
     return c;
   }
   JointVector torque(const ArmState& arm) const {
     if (!on_ || !wanted_) return JointVector::Zero();
     Vec6 w = Vec6::Zero();
-    (wanted_->moment ? w.tail<3>() : w.head<3>()) = arm.X_WS.R * wanted_->axis_S;
+    (wanted_->moment ? w.tail<3>() : w.head<3>()) = share_ * (arm.X_WS.R * wanted_->axis_S);
     return arm.J_WS.transpose() * w;
   }
   /// @param aside share of kAside of the joints at which the fixture holds, by the share of time.
@@ -129,6 +144,7 @@ class ForceBench {
   HandSense home_;
   const Case* wanted_ = nullptr;
   bool on_ = false;
+  double share_ = 1;  ///< of the case's wrench
   BareControlLoop loop_;
 };
 
@@ -173,8 +189,25 @@ DeviceModel calibrated_model(const PlantParameters& truth, std::uint64_t seed) {
   return calibrated({}, calibrate_amplifiers(rig, {}));
 }
 
+/// As the thesis measured: the stylus in a hand, amplifiers as they come, the wrench switched on where the hand is.
+/// Mean direction over drawn arms and hands; a hand holds no more than kHeldMoment.
+Error held_error(const Case& c, const StudyRequest& request, const ForceSensorConfig& moments) {
+  Error mean;
+  const int hands = request.quick ? 2 : kHands;
+  const double share = c.moment ? kHeldMoment : 1;
+  for (int i = 0; i < hands; ++i) {
+    const std::uint64_t seed = request.seed + static_cast<std::uint64_t>(i);
+    ForceBench bench(draw_parameters(seed), {}, {}, moments, seed, draw_hand_parameters(GripPreset::kNormal, seed));
+    const Wrench without = bench.read_as_held(c, 0), with = bench.read_as_held(c, share);
+    const Error one = error_of(c, (with + without * -1) * (1 / share));
+    mean.direction_deg += one.direction_deg / hands;
+    mean.magnitude += one.magnitude / hands;
+  }
+  return mean;
+}
+
 struct Errors {
-  std::array<Error, 6> map, quantised, chain, uncalibrated;
+  std::array<Error, 6> map, quantised, chain, uncalibrated, held;
 };
 
 Errors measure(const StudyRequest& request) {
@@ -190,6 +223,7 @@ Errors measure(const StudyRequest& request) {
     e.map[i] = map_error(c);
     ForceBench whole(truth, model, {}, moments, request.seed + 10 * i);
     e.chain[i] = measured_error(whole, c);
+    e.held[i] = held_error(c, request, moments);
     if (request.quick) continue;
     ForceBench without_friction(ideal(), {}, clean, clean, request.seed);
     e.quantised[i] = measured_error(without_friction, c);
@@ -230,10 +264,23 @@ void add_force_cases(StudyResult& study, const Errors& e) {
       "1 s of readings each.");
 }
 
+void add_held_cases(StudyResult& study, const Errors& e) {
+  for (std::size_t i = 0; i < cases().size(); ++i) {
+    const Case& c = cases()[i];
+    const std::string wrench = c.moment ? "0.1 N m about " : "1 N along ";
+    std::ostringstream bar;
+    bar << "<= " << c.thesis_deg << " deg, the thesis'";
+    study.cases.push_back({wrench + c.name + ", held by a hand: direction", "deg", e.held[i].direction_deg,
+                           c.thesis_deg, bar.str(), e.held[i].direction_deg <= c.thesis_deg,
+                           "In the thesis' own conditions: the stylus in a hand, amplifiers as they come, the wrench "
+                           "switched on where the hand is; mean over drawn arms and hands."});
+  }
+}
+
 void draw_forces(StudyResult& study, const Errors& e, bool whole) {
   StudyCurves c{"direction", "Direction error of six wrenches at home (simulated plant)",
                 "wrench",    "direction error, deg",
-                {},          {{"thesis, measured", {}}, {"whole chain", {}}}};
+                {},          {{"thesis, measured", {}}, {"whole chain", {}}, {"held by a hand", {}}}};
   if (whole) c.series.push_back({"whole chain, not calibrated", {}});
   std::vector<std::string> names;
   for (std::size_t i = 0; i < cases().size(); ++i) {
@@ -242,15 +289,16 @@ void draw_forces(StudyResult& study, const Errors& e, bool whole) {
     c.x.push_back(static_cast<double>(i + 1));
     c.series[0].y.push_back(one.thesis_deg);
     c.series[1].y.push_back(e.chain[i].direction_deg);
-    if (whole) c.series[2].y.push_back(e.uncalibrated[i].direction_deg);
+    c.series[2].y.push_back(e.held[i].direction_deg);
+    if (whole) c.series[3].y.push_back(e.uncalibrated[i].direction_deg);
   }
   study.files.push_back({"direction.svg", grouped_bars_svg(c, names)});
   c.x_label = "case";
   if (whole) {
     c.series.push_back({"static map", {}});
     c.series.push_back({"without friction", {}});
-    for (const Error& one : e.map) c.series[3].y.push_back(one.direction_deg);
-    for (const Error& one : e.quantised) c.series[4].y.push_back(one.direction_deg);
+    for (const Error& one : e.map) c.series[4].y.push_back(one.direction_deg);
+    for (const Error& one : e.quantised) c.series[5].y.push_back(one.direction_deg);
   }
   study.files.push_back({"direction.csv", curves_csv(c)});
 }
@@ -261,6 +309,7 @@ StudyResult force_study(const StudyRequest& request) {
   StudyResult study{"force", "simulated plant of seed " + std::to_string(request.seed), {}, {}};
   const Errors e = measure(request);
   add_force_cases(study, e);
+  add_held_cases(study, e);
   draw_forces(study, e, !request.quick);
   return study;
 }

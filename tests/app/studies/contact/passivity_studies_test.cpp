@@ -12,6 +12,7 @@
 
 #include "app/studies/contact/passivity_grid.h"
 #include "app/studies/contact/passivity_study.h"
+#include "app/studies/contact/sensitivity_study.h"
 #include "app/studies/contact/zwidth_study.h"
 #include "app/studies/device/velocity_study.h"
 #include "haptics/device/plant/plant_faults.h"
@@ -268,6 +269,21 @@ TEST(VelocityStudy, OrdersTheEstimatorsAsPublished) {
   EXPECT_LT(value("creep at 10 mm/s,foaw"), value("creep at 10 mm/s,kalman"));
   EXPECT_LT(value("reach at 0.45 m/s,kalman"), value("reach at 0.45 m/s,average"));
   EXPECT_EQ(study.curves.size(), 3u);
+}
+
+TEST(SensitivityStudy, SaysWhatEveryDoubtfulNumberDoes) {
+  const StudyResult study = sensitivity_study({true, 1});
+  EXPECT_EQ(study.cases.size(), 1u + 2 * (1 + 2 * 7));
+  const StudyCase* finer = find(study, "sub-steps half as long: verdicts that change");
+  ASSERT_TRUE(finer);
+  EXPECT_EQ(finer->value, 0);
+  std::set<double> net;
+  for (const StudyCase& c : study.cases) {
+    if (c.unit == "mJ") net.insert(c.value);
+    if (c.unit != "1" || !c.thesis) continue;
+    EXPECT_TRUE(c.value >= 0 && c.value <= 1) << c.name;
+  }
+  EXPECT_GT(net.size(), 8u) << "each property makes a difference";
 }
 
 TEST(ZWidthStudy, QuickFormClimbsTheLadder) {
