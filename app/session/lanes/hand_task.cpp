@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
+
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/director/cue_percept.h"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kSensesSeed = 0x5e45e5;  // the senses' own stream, apart from the hand's decisions
 constexpr std::uint64_t kTargetStride = 0x9e3779b97f4a7c15;
+constexpr double kLeastLever = 1e-9;  // determinant of the map from a force at the tip to the one at the hand
 constexpr double kEyeErrorPeriod_s = 0.020;
 constexpr std::uint64_t kMostMissed = 1000;  // what is longer is a fault anyway: the simulated world waits for the rest
 
@@ -38,14 +41,19 @@ HandTask::Seen HandTask::see() {
   return seen;
 }
 
-/// The force at the tip that the instrument would bring to the hand as the one that is felt, N.
+/// The force at the tip that the instrument would bring to the hand as the one that is felt, N. Zero where it would
+/// bring none: a tip within the port.
 Vec3 HandTask::feel_T() {
   const HandSense sense = world_.sense();
   Mat3 felt_of_tip;
   for (int axis = 0; axis < 3; ++axis)
     felt_of_tip.col(axis) = scene_.loop.map.stylus_wrench(sense.X_BS, {Vec3::Unit(axis), Vec3::Zero()}).force;
+  Mat3 tip_of_felt;
+  bool brings = false;
+  felt_of_tip.computeInverseWithCheck(tip_of_felt, brings, kLeastLever);
   const Vec3 error(random_.normal(), random_.normal(), random_.normal());
-  return felt_of_tip.inverse() * (sense.force_on_hand + kTouchError_n * error);
+  if (!brings) return Vec3::Zero();
+  return tip_of_felt * (sense.force_on_hand + kTouchError_n * error);
 }
 
 /// The errors of the senses begin anew with each target, so that an attempt that is shifted by some milliseconds (live,

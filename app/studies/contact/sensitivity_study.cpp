@@ -10,7 +10,7 @@
 namespace trocar {
 namespace {
 
-constexpr std::size_t kPresses = 100, kQuickPresses = 4;
+constexpr std::size_t kPresses = 100, kQuickPresses = 3;
 constexpr double kLeastStable = 0.95, kLeastNet = -1e-3;  // share, J
 constexpr double kLess = 0.5, kMore = 1.5;
 
@@ -81,6 +81,10 @@ void add_variant(StudyResult& study, const std::string& name, const GridResult& 
                          1e3 * base.tally.front().least_net_j, ">= -1", tally.least_net_j >= kLeastNet,
                          "Lowest true energy that the control, friction and cables had taken since touch, of all "
                          "presses; beside it that of the arms as drawn."});
+  study.cases.push_back({name + ": force displayed where the motors can", "1", tally.displayed,
+                         base.tally.front().displayed, "reported", true,
+                         "Mean of rendered over commanded force at the end of the hold; beside it that of the arms as "
+                         "drawn."});
 }
 
 }  // namespace

@@ -281,7 +281,6 @@ void draw_forces(StudyResult& study, const Errors& e, bool whole) {
   StudyCurves c{"direction", "Direction error of six wrenches at home (simulated plant)",
                 "wrench",    "direction error, deg",
                 {},          {{"thesis, measured", {}}, {"whole chain", {}}, {"held by a hand", {}}}};
-  if (whole) c.series.push_back({"whole chain, not calibrated", {}});
   std::vector<std::string> names;
   for (std::size_t i = 0; i < cases().size(); ++i) {
     const Case& one = cases()[i];
@@ -290,15 +289,17 @@ void draw_forces(StudyResult& study, const Errors& e, bool whole) {
     c.series[0].y.push_back(one.thesis_deg);
     c.series[1].y.push_back(e.chain[i].direction_deg);
     c.series[2].y.push_back(e.held[i].direction_deg);
-    if (whole) c.series[3].y.push_back(e.uncalibrated[i].direction_deg);
   }
   study.files.push_back({"direction.svg", grouped_bars_svg(c, names)});
   c.x_label = "case";
+  const auto add = [&](const char* name, const std::array<Error, 6>& errors) {
+    c.series.push_back({name, {}});
+    for (const Error& one : errors) c.series.back().y.push_back(one.direction_deg);
+  };
   if (whole) {
-    c.series.push_back({"static map", {}});
-    c.series.push_back({"without friction", {}});
-    for (const Error& one : e.map) c.series[4].y.push_back(one.direction_deg);
-    for (const Error& one : e.quantised) c.series[5].y.push_back(one.direction_deg);
+    add("whole chain, not calibrated", e.uncalibrated);
+    add("static map", e.map);
+    add("without friction", e.quantised);
   }
   study.files.push_back({"direction.csv", curves_csv(c)});
 }

@@ -72,7 +72,8 @@ TEST(WallsStudy, TheMeasuredForceIsTheDesiredOneButFiveTimesItWithTheGainLeftIn)
   for (const char* name : {"20 N/m: measured over desired along Y6", "150 N/m: measured over desired along Y6",
                            "20 N/m: measured over desired along Z6", "150 N/m: measured over desired along Z6"}) {
     const StudyCase& c = the_case(walls(), name);
-    EXPECT_TRUE(c.met) << c.name << ": " << c.value;
+    const bool soft = c.name.starts_with("20");  // 35 mN of half a newton are missing: docs/device_contact.md
+    EXPECT_NEAR(c.value, soft ? 0.93 : 1, soft ? 0.03 : 0.05) << c.name;
     ASSERT_TRUE(c.thesis);
     EXPECT_GT(*c.thesis, 4.5);
     EXPECT_LT(*c.thesis, 6.5) << "friction is not compensated there";
@@ -82,9 +83,8 @@ TEST(WallsStudy, TheMeasuredForceIsTheDesiredOneButFiveTimesItWithTheGainLeftIn)
 TEST(WallsStudy, TheLagIsThatOfTheSensorWhereFrictionIsSmallBesideTheForce) {
   EXPECT_NEAR(the_case(walls(), "150 N/m: lag along Y6").value, 0.15, 0.015);
   EXPECT_NEAR(the_case(walls(), "150 N/m: lag along Z6").value, 0.15, 0.015);
-  const StudyCase& soft = the_case(walls(), "20 N/m: lag along Y6");
-  EXPECT_LT(soft.value, 0.15) << "friction leads the force";
-  EXPECT_GT(soft.value, 0.08);
+  EXPECT_TRUE(the_case(walls(), "20 N/m: lag along Y6").met) << "friction that is carried leads the force no longer";
+  EXPECT_TRUE(the_case(walls(), "20 N/m: direction error with the force along X6").met);
 }
 
 TEST(WallsStudy, TheFirstWallPushesAlongMinusY6TheBackOneAlongZ6) {

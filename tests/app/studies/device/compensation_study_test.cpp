@@ -55,10 +55,13 @@ TEST(GravityStudy, MeetsItsBarsWhereTheThesisLawFalls) {
 TEST(ForceStudy, MeetsItsBarsAndIsTheSameEveryTime) {
   const StudyResult study = force_study(kQuick);
   expect_whole(study);
-  ASSERT_EQ(study.cases.size(), 24u);
+  ASSERT_EQ(study.cases.size(), 30u);
   for (const StudyCase& c : study.cases) EXPECT_TRUE(c.met) << c.name << ": " << c.value << ' ' << c.unit;
   EXPECT_EQ(*the_case(study, "1 N along -Y6, whole chain: direction").thesis, 11.43);
   EXPECT_EQ(*the_case(study, "1 N m about -X6, static map: direction").thesis, 1.32);
+  EXPECT_GT(the_case(study, "1 N along +Z6, held by a hand: direction").value,
+            the_case(study, "1 N along +Z6, whole chain: direction").value)
+      << "a fixture that is zeroed and comes from both sides flatters";
   EXPECT_EQ(summary_json(study), summary_json(force_study(kQuick)));
 }
 
