@@ -178,7 +178,8 @@ struct Attempt {
   SessionOutcome outcome() {
     SessionOutcome out = rig.outcome(backend.daq->capabilities().name);
     if (sensor) out.device.force_sensor = force_sensor_json(*sensor);
-    if (rig.scene.setup.plant) out.device.plant = plant_json(*rig.scene.setup.plant);
+    const AttemptSetup& setup = rig.scene.setup;
+    if (backend.world) out.device.plant = plant_json(setup.plant.get(), setup.seed, setup.device);
     return out;
   }
 

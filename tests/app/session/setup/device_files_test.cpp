@@ -9,6 +9,8 @@
 #include <numbers>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
 #include "app/cli/attempts/recording_command.h"
 #include "app/cli/attempts/run_command.h"
 #include "app/cli/device/device_calibrate.h"
@@ -16,6 +18,7 @@
 #include "app/device_bench/plant_bench.h"
 #include "app/session/calibration/calibration_file.h"
 #include "app/session/session.h"
+#include "app/session/setup/true_plant.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/device_file.h"
 #include "scenarios/files/exercise_loader.h"
@@ -215,6 +218,18 @@ TEST(RunWithDeviceFiles, IsVerifiedWithoutTheFiles) {
   ASSERT_TRUE(setup.setup.device.calibration && setup.setup.device.identified);
   EXPECT_EQ(setup.setup.device.identified->text, identified_text());
   EXPECT_FALSE(parse_scene_json(without.session, "without").setup.device.calibration);
+}
+
+TEST(PlantJson, NamesTheArmAndTheFilesThatTheLoopKnewItBy) {
+  EXPECT_EQ(plant_json(nullptr, 7, {}), R"({"seed":7,"calibration":null,"identification":null})");
+  PlantFile plant;
+  plant.name = "arm.toml";
+  plant.sha256 = "0123";
+  const auto json = nlohmann::json::parse(plant_json(&plant, 7, {DeviceFile{"{}", "c.json"}, std::nullopt}));
+  EXPECT_EQ(json["file"], "arm.toml");
+  EXPECT_FALSE(json.contains("seed"));
+  EXPECT_EQ(json["calibration"]["file"], "c.json");
+  EXPECT_EQ(json["calibration"]["sha256"], "44136fa355b3678a1146ad16f7e8649e94fb4fc21fe77e8310c060f61caaff8a");
 }
 
 }  // namespace
