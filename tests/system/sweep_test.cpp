@@ -53,6 +53,10 @@ TEST_F(Sweep, AWorseArmStandsBesideTheDrawnOne) {
   EXPECT_TRUE(json["cells"][1]["checks"][0].contains("not_asked")) << "only the degraded arm must cost points";
   EXPECT_EQ(json["cells"][2]["checks"][0]["bar"], ">= 5");
   EXPECT_FALSE(json["cells"][2]["checks"][0]["met"]) << "nobody earns anything in three seconds";
+  const Json turned = json_of({"sweep", exercise_of(3, 12), "--hand", "expert", "--level", "L1", "--seeds", "1",
+                               "--arm", "degraded,drawn", "--json"},
+                              1);
+  EXPECT_EQ(turned["cells"][0]["checks"], json["cells"][2]["checks"]) << "in whatever order";
 }
 
 TEST_F(Sweep, RefusesWhatItCannotRun) {

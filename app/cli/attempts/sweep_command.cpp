@@ -1,5 +1,6 @@
 #include "app/cli/attempts/sweep_command.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <charconv>
@@ -107,7 +108,9 @@ std::vector<Job> list_jobs(const SweepOptions& options, const AssetRoots& assets
 
 /// The arm of the seed with more friction, or with amplifiers that give less current than the loop counts on.
 std::shared_ptr<const PlantFile> worse_plant(const Arm& arm, std::int64_t seed) {
-  PlantFile plant{draw_parameters(static_cast<std::uint64_t>(seed)), {}, {}, arm.name, std::string(8, '0')};
+  PlantFile plant;
+  plant.parameters = draw_parameters(static_cast<std::uint64_t>(seed));
+  plant.name = arm.name;
   PlantParameters& p = plant.parameters;
   for (ChannelParameters& channel : p.channel) {
     channel.friction.coulomb *= arm.friction;
@@ -186,10 +189,12 @@ std::vector<ValidityCheck> check_worse_arm(const Cell& worse, const Cell& drawn)
     return count > 0 ? s.mean * s.count / count : 0;
   };
   for (const auto& [hand, outcome] : worse.outcomes) {
-    ValidityCheck check{hand + ": drawn arm - " + worse.arm->name, 0, ">= 0", true, ""};
+    ValidityCheck check;
+    check.name = hand + ": drawn arm - " + worse.arm->name;
     check.value = earned(drawn.outcomes.at(hand)) - earned(outcome);
+    check.bar = ">= " + cell(kWorseBy, 0);
     const bool asked = worse.scope.judges_force && hand == "expert" && worse.arm == &kArms.back();
-    if (asked) check.bar = ">= " + cell(kWorseBy, 0), check.met = check.value >= kWorseBy;
+    check.met = !asked || check.value >= kWorseBy;
     if (!asked) check.not_asked = cell(check.value, 1) + " points";
     checks.push_back(check);
   }
@@ -221,14 +226,14 @@ std::vector<Cell> collect(const std::vector<Job>& jobs) {
     outcome.passes += job.grade.passed ? 1 : 0;
     for (const Cap& cap : job.grade.caps) ++cells.back().caps[job.hand][cap_sentence(cap)];
   }
-  const Cell* drawn = nullptr;
   for (Cell& at : cells) {
-    if (at.arm == &kArms[0]) {
-      drawn = &at;
+    const auto drawn = std::find_if(cells.begin(), cells.end(), [&](const Cell& other) {
+      return other.arm == &kArms[0] && other.exercise == at.exercise && other.level == at.level;
+    });
+    if (at.arm == &kArms[0])
       at.checks = check_validity(at.outcomes, at.scope);
-    } else if (drawn && drawn->exercise == at.exercise && drawn->level == at.level) {
+    else if (drawn != cells.end())
       at.checks = check_worse_arm(at, *drawn);
-    }
   }
   return cells;
 }

@@ -43,8 +43,7 @@ HandTask::Seen HandTask::see() {
 
 /// The force at the tip that the instrument would bring to the hand as the one that is felt, N. Zero where it would
 /// bring none: a tip within the port.
-Vec3 HandTask::feel_T() {
-  const HandSense sense = world_.sense();
+Vec3 HandTask::feel_T(const HandSense& sense) {
   Mat3 felt_of_tip;
   for (int axis = 0; axis < 3; ++axis)
     felt_of_tip.col(axis) = scene_.loop.map.stylus_wrench(sense.X_BS, {Vec3::Unit(axis), Vec3::Zero()}).force;
@@ -85,8 +84,9 @@ Percept HandTask::perceive(std::uint64_t tick) {
   const Seen seen = see();
   percept.tip_T = seen.X_TI.p + eye_error_;
   percept.R_TI = seen.X_TI.R;
-  percept.felt_force_T = feel_T();
-  percept.felt_grip_n = std::max(0.0, world_.sense().force_on_finger_n + kTouchError_n * random_.normal());
+  const HandSense sense = world_.sense();
+  percept.felt_force_T = feel_T(sense);
+  percept.felt_grip_n = std::max(0.0, sense.force_on_finger_n + kTouchError_n * random_.normal());
   percept.jaw_opening_m = std::max(0.0, seen.jaw_opening_m + jaw_error_m_);
   percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
   percept.shown_grip_n = status.force_shown ? state.grip_force_n : std::numeric_limits<double>::quiet_NaN();

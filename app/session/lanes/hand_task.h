@@ -44,7 +44,7 @@ class HandTask final : public Task {
     double jaw_opening_m = 0;
   };
   Seen see();
-  Vec3 feel_T();
+  Vec3 feel_T(const HandSense& sense);
   void draw_eye_error(const DirectorStatus& status);
   void press_deadman();
 

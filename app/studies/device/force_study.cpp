@@ -79,17 +79,11 @@ class ForceBench {
   Wrench read(const Case& c, bool wrench) {
     wanted_ = &c, on_ = wrench;
     const auto from = [&](double sign) {
-      Wrench sum;
-      double samples = 0;
       run(
           kWay_s, [&](double s) { return sign * minimum_jerk(s); }, nullptr);
       run(
           kWay_s, [&](double s) { return sign * (1 - minimum_jerk(s)); }, nullptr);
-      run(
-          kRest_s, [](double) { return 0.0; }, nullptr);
-      run(
-          kRead_s, [](double) { return 0.0; }, [&](const Wrench& reading) { sum = sum + reading, samples += 1; });
-      return sum * (1 / samples);
+      return read_at_rest();
     };
     const Wrench above = from(1);
     return (above + from(-1)) * 0.5;
@@ -98,13 +92,7 @@ class ForceBench {
   /// Mean reading where the stylus is held, without coming from anywhere: friction hides what it can.
   Wrench read_as_held(const Case& c, double share) {
     wanted_ = &c, on_ = share > 0, share_ = share;
-    Wrench sum;
-    double samples = 0;
-    run(
-        kRest_s, [](double) { return 0.0; }, nullptr);
-    run(
-        kRead_s, [](double) { return 0.0; }, [&](const Wrench& reading) { sum = sum + reading, samples += 1; });
-    return sum * (1 / samples);
+    return read_at_rest();
   }
 
  private:
@@ -119,6 +107,15 @@ class ForceBench {
     Vec6 w = Vec6::Zero();
     (wanted_->moment ? w.tail<3>() : w.head<3>()) = share_ * (arm.X_WS.R * wanted_->axis_S);
     return arm.J_WS.transpose() * w;
+  }
+  Wrench read_at_rest() {
+    Wrench sum;
+    double samples = 0;
+    run(
+        kRest_s, [](double) { return 0.0; }, nullptr);
+    run(
+        kRead_s, [](double) { return 0.0; }, [&](const Wrench& reading) { sum = sum + reading, samples += 1; });
+    return sum * (1 / samples);
   }
   /// @param aside share of kAside of the joints at which the fixture holds, by the share of time.
   template <class Place>
