@@ -55,12 +55,6 @@ SureFriction sure_friction(const HapticLoopConfig& config) {
   return {config.device.friction_sure() * coulomb, config.device.friction_sure() * viscous, play};
 }
 
-ChannelVector torque_limits(const DeviceModel& model) {
-  ChannelVector limit;
-  for (int i = 0; i < kChannels; ++i) limit[i] = max_joint_torque(model.transmission[i]);
-  return limit;
-}
-
 ChannelVector torque_rates(const HapticLoopConfig& config) {
   ChannelVector rate = ChannelVector::Constant(config.torque_rate);
   rate[kPinchChannel] = config.pinch_force_rate;
@@ -113,7 +107,8 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       pinch_(with_period(config.pinch_passivity, period_s_, config.known_delay_periods)),
       pinch_passivity_(pinch_),
       sure_friction_(sure_friction(config)),
-      limiter_(torque_limits(config.device), torque_rates(config), period_s_),
+      peak_(config.peak, config.device, config.heat),
+      limiter_(peak_.most(), torque_rates(config), period_s_),
       supervisor_(config.safety, count_limits(config), period_s_),
       watch_(config.safety, config.device, config.heat, period_s_),
       safety_log_(config.daq.rate_hz),
@@ -151,10 +146,11 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   motion.periods = std::max<double>(1, in.elapsed_periods);
   motion.q = joint_positions(config_.device, counts_.total(), home_);
   for (int i = 0; i < kChannels; ++i) {
-    motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods);
+    motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods, in.edge_age_us[i]);
   }
-  motion.travel =
-      fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_).cwiseProduct(count_);
+  motion.travel = count_.cwiseProduct(
+      edges_told(in) ? place_between_counts(motion)
+                     : fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_));
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.tip_speed = twist.head<3>().norm();
@@ -164,6 +160,20 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   motion.V_TI_T = instrument_.V_TI_T();
   periods_ += static_cast<std::uint64_t>(motion.periods);
   return motion;
+}
+
+bool HapticLoop::edges_told(const DaqSample& in) const noexcept {
+  return config_.velocity == VelocityMethod::kEdges && in.edge_age_us[0] > 0;
+}
+
+/// Puts q where the edges say that the channels stand. @return counts travelled since the last tick.
+ChannelVector HapticLoop::place_between_counts(Motion& motion) noexcept {
+  ChannelVector position;
+  for (int i = 0; i < kChannels; ++i) {
+    position[i] = velocity_[i].position();
+    motion.q[i] += count_[i] * (position[i] - 0.5 - static_cast<double>(counts_.total()[i]));
+  }
+  return fine_.advance_to(position);
 }
 
 void HapticLoop::take_home() noexcept {
@@ -329,6 +339,7 @@ void HapticLoop::watch(const Motion& motion, const Contact& contact, const Limit
   now.saturated = now.touching && contact.room * torque.contact_scale < 1;
   now.debt = arm_passivity_.debt_faded() || pinch_passivity_.debt_faded();
   watch_.update(now, supervisor_);
+  limiter_.set_limit(peak_.update(torque.total, watch_.winding_c(), motion.periods * period_s_));
   if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
   if (pinch_passivity_.debt_fault()) {
     supervisor_.raise(FaultCode::kEnergyDebt, tick_, kPinchChannel, pinch_passivity_.budget_j());

@@ -16,6 +16,7 @@
 #include "haptics/control/channel_velocity.h"
 #include "haptics/control/device_watch.h"
 #include "haptics/control/passivity.h"
+#include "haptics/control/peak_torque.h"
 #include "haptics/control/pinch_channel.h"
 #include "haptics/control/safety_log.h"
 #include "haptics/control/sub_count_travel.h"
@@ -48,6 +49,7 @@ struct HapticLoopConfig {
   double pinch_play_m = 50e-6;    ///< way that the slide's friction gives back when it turns, half [assumed]
   SafetyLimits safety;
   MotorHeatParameters heat;
+  PeakTorqueParameters peak;
   VelocityMethod velocity = VelocityMethod::kBlend;
   int known_delay_periods = 0;    ///< whole periods between write and DAC beyond the seam's own one, as measured
   bool carry_weight = true;       ///< gravity compensation; off only to show what it is good for
@@ -110,6 +112,8 @@ class HapticLoop {
   };
 
   Motion measure(const DaqSample& in) noexcept;
+  bool edges_told(const DaqSample& in) const noexcept;
+  ChannelVector place_between_counts(Motion& motion) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
   TorqueShares hold_up(const Motion& motion, Contact& contact) noexcept;
@@ -139,6 +143,7 @@ class HapticLoop {
   PassivityController pinch_passivity_;
   std::function<double(const ContactWork&)> compared_law_;
   SureFriction sure_friction_;
+  PeakTorque peak_;
   TorqueLimiter limiter_;
   Supervisor supervisor_;
   DeviceWatch watch_;

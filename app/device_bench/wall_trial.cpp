@@ -32,6 +32,7 @@ double run_up(double speed) { return speed > kFast ? kLongRunUp : kShortRunUp; }
 SimulatedDaqConfig device_of(const WallCase& c) {
   SimulatedDaqConfig device = c.device;
   for (ChannelParameters& channel : device.plant->channel) channel.amplifier_gain *= c.gain;
+  for (int i = 0; i < kArmJoints; ++i) device.plant->channel[static_cast<std::size_t>(i)].amplifier_gain *= c.peak;
   device.hand = hand_parameters(GripPreset::kFirm);  // leads the arm to its pose; then the case's grip
   device.hand.tremor_m = 0;
   return device;
@@ -41,6 +42,11 @@ HapticLoopConfig loop_of(const WallCase& c) {
   HapticLoopConfig loop;
   loop.tool.shaft_length_m = 1e-3;  // a ball
   loop.known_delay_periods = c.device.extra_delay_periods;
+  if (c.device.edge_times) loop.velocity = VelocityMethod::kEdges;
+  for (int i = 0; i < kArmJoints; ++i) {
+    Transmission& t = loop.device.transmission[static_cast<std::size_t>(i)];
+    t.amps_per_volt *= c.peak, t.max_motor_torque *= c.peak;
+  }
   loop.carry_weight = c.compensated;
   if (!c.compensated) loop.friction.share = 0;
   return loop;

@@ -29,6 +29,9 @@ struct WallCase {
   JointVector pose = JointVector::Zero();  ///< rad, where the hand sets out
   Vec3 direction = Vec3::UnitZ();          ///< unit, W', into the wall
   std::optional<double> stiffens_s;        ///< after touch the hand's grip turns firm ("the operator stabilises it")
+  /// Most that a joint's motor gives for a short time over what the thesis drives; the amplifiers are set to it, and
+  /// the loop knows.
+  double peak = 1;
   bool compensated = true;  ///< weight and friction; with a gain that is not 1 compensation would be wrong by it
 };
 

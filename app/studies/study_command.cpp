@@ -12,6 +12,7 @@
 #include "app/studies/admittance/admittance_study.h"
 #include "app/studies/contact/contact_law_study.h"
 #include "app/studies/contact/contact_torque_study.h"
+#include "app/studies/contact/hardware_study.h"
 #include "app/studies/contact/passivity_study.h"
 #include "app/studies/contact/sensitivity_study.h"
 #include "app/studies/contact/transparency_study.h"
@@ -52,6 +53,7 @@ constexpr std::array kStudies{
     KnownStudy{"velocity", velocity_study},
     KnownStudy{"zwidth", zwidth_study, false, true},
     KnownStudy{"sensitivity", sensitivity_study, false, true},
+    KnownStudy{"hardware", hardware_study, false, true},
     KnownStudy{"transparency", transparency_study, true},
     KnownStudy{"workspace", workspace_study},
     KnownStudy{"plant", plant_study, true},

@@ -7,17 +7,23 @@
 namespace trocar {
 
 ChannelVelocity::ChannelVelocity(VelocityMethod method, double quantum, double period_s)
-    : method_(method), quantum_(quantum), period_s_(period_s), foaw_(quantum, period_s), kalman_(quantum, period_s) {}
+    : method_(method),
+      quantum_(quantum),
+      period_s_(period_s),
+      foaw_(quantum, period_s),
+      kalman_(quantum, period_s),
+      edges_(period_s) {}
 
 void ChannelVelocity::reset() {
   foaw_.reset();
   kalman_.reset();
+  edges_.reset();
   tap_.fill(0);
-  smooth_ = lag_s_ = 0;
+  smooth_ = last_velocity_ = 0;
   started_ = false;
 }
 
-double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods) {
+double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods, std::uint16_t edge_age_us) {
   const std::uint32_t periods = std::max<std::uint32_t>(1, elapsed_periods);
   double velocity = 0;
   switch (method_) {
@@ -26,20 +32,21 @@ double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods
       break;
     case VelocityMethod::kFoaw:
       velocity = foaw_.update(count, periods);
-      lag_s_ = 0.5 * foaw_.window() * period_s_;
       break;
     case VelocityMethod::kKalman:
       velocity = kalman_.update(count, periods);
       break;
     case VelocityMethod::kBackward:
       velocity = started_ ? static_cast<double>(count - last_) * quantum_ / (periods * period_s_) : 0;
-      lag_s_ = 0.5 * period_s_;
       break;
     case VelocityMethod::kAverage:
       velocity = average(count, periods);
       break;
     case VelocityMethod::kLowPass:
       velocity = low_pass(count, periods);
+      break;
+    case VelocityMethod::kEdges:
+      velocity = edge_age_us > 0 ? edges(count, periods, edge_age_us) : blend(count, periods);
       break;
   }
   last_ = count;
@@ -50,8 +57,13 @@ double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods
 double ChannelVelocity::blend(std::int64_t count, std::uint32_t periods) {
   const double slow = foaw_.update(count, periods), fast = kalman_.update(count, periods);
   const double weight = std::clamp((std::abs(slow) / quantum_ - kSlow) / (kFast - kSlow), 0.0, 1.0);
-  lag_s_ = (1 - weight) * 0.5 * foaw_.window() * period_s_;
   return slow + weight * (fast - slow);
+}
+
+double ChannelVelocity::edges(std::int64_t count, std::uint32_t periods, std::uint16_t edge_age_us) {
+  const double slow = edges_.update(count, periods, edge_age_us) * quantum_, fast = kalman_.update(count, periods);
+  const double weight = std::clamp((std::abs(slow) / quantum_ - kSlowEdges) / (kFastEdges - kSlowEdges), 0.0, 1.0);
+  return last_velocity_ = slow + weight * (fast - slow);
 }
 
 double ChannelVelocity::average(std::int64_t count, std::uint32_t periods) {
@@ -62,7 +74,6 @@ double ChannelVelocity::average(std::int64_t count, std::uint32_t periods) {
   }
   double sum = 0;
   for (const double counts : tap_) sum += counts;
-  lag_s_ = 0.5 * kTaps * period_s_;
   return sum * quantum_ / (kTaps * period_s_);
 }
 
@@ -70,7 +81,6 @@ double ChannelVelocity::low_pass(std::int64_t count, std::uint32_t periods) {
   const double each = started_ ? static_cast<double>(count - last_) / (periods * period_s_) : 0;
   const double keep = std::exp(-2 * std::numbers::pi * kCutOffHz * period_s_);
   for (std::uint32_t i = 0; i < periods; ++i) smooth_ = keep * smooth_ + (1 - keep) * each;
-  lag_s_ = 1 / (2 * std::numbers::pi * kCutOffHz);
   return smooth_ * quantum_;
 }
 

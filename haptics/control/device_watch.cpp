@@ -96,10 +96,12 @@ ChannelVector DeviceWatch::damping(const ChannelVector& qd) const {
   return torque;
 }
 
-double DeviceWatch::hottest_c() const {
-  double hottest = 0;
-  for (const MotorHeat& heat : heat_) hottest = std::max(hottest, heat.winding_c());
-  return hottest;
+std::array<double, kChannels> DeviceWatch::winding_c() const {
+  std::array<double, kChannels> winding;
+  std::ranges::transform(heat_, winding.begin(), &MotorHeat::winding_c);
+  return winding;
 }
+
+double DeviceWatch::hottest_c() const { return std::ranges::max(winding_c()); }
 
 }  // namespace trocar

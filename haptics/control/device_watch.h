@@ -42,6 +42,7 @@ class DeviceWatch {
   double contact_share() const;
   /// Against motion that is too fast; zero otherwise. @param qd rad/s.
   ChannelVector damping(const ChannelVector& qd) const;
+  std::array<double, kChannels> winding_c() const;
   double hottest_c() const;
 
  private:

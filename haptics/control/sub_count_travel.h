@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "haptics/quantities.h"
 
@@ -37,6 +38,8 @@ class SubCountTravel {
     }
     return position_ - before;
   }
+  /// Where the channels are known to stand, counts. @return way since the last call.
+  ChannelVector advance_to(const ChannelVector& position) { return position - std::exchange(position_, position); }
 
  private:
   static double middle(const Counts& counts, int i) {

@@ -34,6 +34,8 @@ class TorqueLimiter {
   /// Share of shares.contact for which springs and gravity leave room in every channel, 0..1.
   double room(const TorqueShares& shares) const;
   void reset() { last_.setZero(); }
+  /// From the next update on.
+  void set_limit(const ChannelVector& limit) { limit_ = limit; }
 
  private:
   ChannelVector limit_, step_, last_ = ChannelVector::Zero();

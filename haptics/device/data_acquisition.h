@@ -37,6 +37,8 @@ struct DaqSample {
   std::uint8_t valid = 0x7F;                     ///< bit i: channel i was latched correctly
   std::uint32_t elapsed_periods = 1;  ///< SYNC periods since the previous read (1 unless one was missed, 0: no news)
   std::uint32_t digital_in = 0;       ///< DigitalInput bits
+  /// Microseconds before the latch at which each counter last moved, rounded up; 65535: that or longer; 0: not told.
+  std::array<std::uint16_t, kChannels> edge_age_us{};
 };
 
 struct DacFrame {

@@ -51,7 +51,7 @@ SimulatedDaq::SimulatedDaq(const SimulatedDaqConfig& config)
       substep_s_(period_s_ / substeps_of(config)),
       substeps_(substeps_of(config)),
       plant_(config.plant ? *config.plant : draw_parameters(config.seed)),
-      encoders_(plant_.parameters(), plant_.motor_outputs(), config.seed ^ kEncoderStream),
+      encoders_(plant_.parameters(), plant_.motor_outputs(), config.seed ^ kEncoderStream, config.edge_times),
       hand_(config.hand, config.seed ^ kTremorStream),
       faults_(config.faults),
       jitter_(config.seed ^ kJitterStream) {
@@ -60,7 +60,7 @@ SimulatedDaq::SimulatedDaq(const SimulatedDaqConfig& config)
   plant_.place(home_, p.jig_jaw_opening);
   plant_.clamp(true);
   const ChannelVector outputs = plant_.motor_outputs();
-  encoders_ = PlantEncoders(p, outputs, config.seed ^ kEncoderStream);
+  encoders_ = PlantEncoders(p, outputs, config.seed ^ kEncoderStream, config.edge_times);
   for (int i = 0; i < kChannels; ++i) last_.counts[i] = encoders_.count(i, outputs[i]);
 }
 
@@ -90,7 +90,10 @@ DaqSample SimulatedDaq::read() noexcept {
   }
   sample.elapsed_periods = periods + std::exchange(missed_, 0);
   const ChannelVector outputs = plant_.motor_outputs();
-  for (int i = 0; i < kChannels; ++i) sample.counts[i] = encoders_.count(i, outputs[i]);
+  for (int i = 0; i < kChannels; ++i) {
+    sample.counts[i] = encoders_.count(i, outputs[i]);
+    sample.edge_age_us[i] = encoders_.edge_age_us(i);
+  }
   sample.digital_in = digital_inputs();
   faults_.spoil(sample, last_, time_s());
   last_ = sample;
@@ -144,7 +147,7 @@ void SimulatedDaq::advance_period() noexcept {
     ExternalLoad all = load;
     if (ideal_wall_.stiffness > 0) all.stylus_B.force -= ideal_wall_n() * ideal_wall_.inward;
     plant_.step(substep_s_, all);
-    if (encoders_.flawed()) encoders_.follow(plant_.motor_outputs(), substep_s_);
+    if (encoders_.watched()) encoders_.follow(plant_.motor_outputs(), substep_s_);
     force_on_hand_ -= load.stylus_B.force / substeps_;
     moment_on_hand_ -= load.stylus_B.moment / substeps_;
     force_on_finger_ -= load.jaw_force_n / substeps_;

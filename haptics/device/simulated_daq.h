@@ -48,6 +48,7 @@ struct SimulatedDaqConfig {
   std::vector<InjectedFault> faults;
   double watchdog_s = kWatchdogS;  ///< without a write until the board zeroes its DACs
   bool dac_readback = true;        ///< the board can read its DAC registers back (kDacMismatch)
+  bool edge_times = false;         ///< the board tells when each counter last moved (DaqSample::edge_age_us)
 };
 
 /// A wall that pushes on the stylus itself, continuously: without counts, periods, delay or motors. What a wall felt

@@ -128,7 +128,10 @@ JointVector JointServo::torque_for(const PathPoint& wanted) {
   if (ticks_ % kInertiaTicks == 0) M_ = inertia_matrix(wanted.q, masses_);
   const double w = gains_.stiffness;
   JointVector tau = gravity_torque(model_, arm_state(wanted.q));
-  tau += M_ * (w * w * (wanted.q - q_) + 2 * w * (wanted.qd - qd_));
+  const double pass = period_s_ / (gains_.rate_lag_s + period_s_);
+  once_ += pass * (wanted.qd - qd_ - once_);
+  twice_ += pass * (once_ - twice_);
+  tau += M_ * (w * w * (wanted.q - q_) + 2 * w * twice_);
   for (int i = 0; i < kArmJoints; ++i) {
     tau[i] += model_.coulomb[i] * std::tanh(wanted.qd[i] / gains_.friction_knee) + model_.viscous[i] * wanted.qd[i];
   }

@@ -1,9 +1,10 @@
-// A stiff position servo of the six joints straight on the device seam: counts in, codes out, no hand.
+// A position servo of the six joints straight on the device seam: counts in, codes out, no hand.
 //
-// tau = g(q_ref) + c tanh(qd_ref / 0.05 rad/s) + b qd_ref + M(q_ref) (w^2 (q_ref - q) + 2 w (qd_ref - qd)); g, c, b are
-// those of the model that the servo is given, M the inertia of its weights, rotors and wrist, renewed every 20 ms. What
-// it asks for through the DAC codes is the measured torque. A code written after SYNC k acts from SYNC k+1 to k+2: the
-// trace pairs the angle of a SYNC with the mean of the codes before and after it. Refuses a device that does not
+// tau = g(q_ref) + c tanh(qd_ref / 0.05 rad/s) + b qd_ref + M(q_ref) (w^2 (q_ref - q) + 2 w e'); e' is qd_ref - qd
+// behind two low-passes, for on elastic cables the encoders see light rotors, which a fast rate loop shakes. g, c, b
+// are those of the model that the servo is given, M the inertia of its weights, rotors and wrist, renewed every 20 ms.
+// What it asks for through the DAC codes is the measured torque. A code written after SYNC k acts from SYNC k+1 to k+2:
+// the trace pairs the angle of a SYNC with the mean of the codes before and after it. Refuses a device that does not
 // follow, jumps or misses SYNCs, and rests the arm when a motor's winding grows hot. SI, radians. Thread: one owner.
 #pragma once
 
@@ -31,7 +32,8 @@ struct MotionTrace {
 };
 
 struct ServoGains {
-  double stiffness = 35;            ///< w, rad/s
+  double stiffness = 25;            ///< w, rad/s
+  double rate_lag_s = 0.006;        ///< of each of two low-passes of the rate error
   double friction_knee = 0.05;      ///< rad/s
   double lost_rad = 0.3;            ///< an error beyond this: the device does not follow
   double hot_c = 100, cool_c = 85;  ///< winding at which the arm is rested, and until
@@ -74,7 +76,8 @@ class JointServo {
   JointVector asked_ = JointVector::Zero(), asked_before_ = JointVector::Zero();  ///< last two torques written
   double hottest_c_ = 0, worst_error_ = 0;
   std::uint64_t ticks_ = 0;
-  Eigen::VectorXd masses_;  ///< for the servo's M
+  Eigen::VectorXd masses_;                                                ///< for the servo's M
+  JointVector once_ = JointVector::Zero(), twice_ = JointVector::Zero();  ///< error of the rates, smoothed, rad/s
   Mat6 M_;
 };
 

@@ -47,12 +47,13 @@ JointVector weighted(const std::vector<JointVector>& x, const std::vector<double
   return sum;
 }
 
-/// Joint rows of one instant under each other: 6 x columns.
-Eigen::MatrixXd rows_at(const JointVector& q, const JointVector& qd, const JointVector& qdd, const BaseSet& base) {
+/// Joint rows of one instant under each other: 6 x columns. @param u -1 to 1: way in which friction is drawn.
+Eigen::MatrixXd rows_at(const JointVector& q, const JointVector& qd, const JointVector& qdd, const JointVector& u,
+                        const BaseSet& base) {
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(kArmJoints, column_count(base));
   Y.leftCols(base.size()) = base.columns(torque_regressor(q, qd, qdd));
   for (int i = 0; i < kArmJoints; ++i) {
-    Y(i, base.size() + kCoulombColumn + i) = qd[i] > 0 ? 1 : -1;
+    Y(i, base.size() + kCoulombColumn + i) = u[i];
     Y(i, base.size() + kViscousColumn + i) = qd[i];
     Y(i, base.size() + kOffsetColumn + i) = 1;
   }
@@ -68,11 +69,16 @@ Smoothed smooth(const MotionTrace& trace, const BaseSet& base) {
   const Kernel k = gaussian(kSmooth_s / trace.period_s);
   const double dt = trace.period_s;
   Smoothed s;
+  JointVector u = JointVector::Zero();
   for (int n = k.half; n + k.half < static_cast<int>(trace.q.size()); ++n) {
     const JointVector q = weighted(trace.q, k.value, n, k.half);
     const JointVector qd = weighted(trace.q, k.slope, n, k.half) / dt;
     const JointVector qdd = weighted(trace.q, k.curve, n, k.half) / (dt * dt);
-    s.rows.push_back(rows_at(q, qd, qdd, base));
+    for (int j = 0; j < kArmJoints; ++j) {
+      const double way = qd[j] * dt / kPresliding;
+      u[j] = (u[j] + way) / (1 + std::abs(way));
+    }
+    s.rows.push_back(rows_at(q, qd, qdd, u, base));
     s.tau.push_back(weighted(trace.tau, k.value, n, k.half));
     s.rate.push_back(qd);
   }
@@ -106,7 +112,7 @@ void add_pass(const MotionTrace& pass, const JointVector& qd, const BaseSet& bas
   JointVector tau = JointVector::Zero();
   for (int k = skip; k < n - skip; ++k) {
     tau += pass.tau[static_cast<std::size_t>(k)] / (n - 2 * skip);
-    Y += rows_at(pass.q[static_cast<std::size_t>(k)], qd, JointVector::Zero(), base) / (n - 2 * skip);
+    Y += rows_at(pass.q[static_cast<std::size_t>(k)], qd, JointVector::Zero(), qd.cwiseSign(), base) / (n - 2 * skip);
   }
   for (int j = 0; j < kArmJoints; ++j) rows.add(j, group, Y.row(j), tau[j]);
 }

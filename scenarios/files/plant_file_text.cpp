@@ -102,7 +102,8 @@ void write_options(Writer& out, PlantParameters p) {
   const PlantOptions o = p.options;
   for (const char* name : {"encoder", "heat"}) {
     const bool encoder = std::string_view(name) == "encoder";
-    const bool on = encoder ? o.encoder.missed_per_edge > 0 || o.encoder.limit_hz > 0 : o.heat.on;
+    const bool on =
+        encoder ? o.encoder.missed_per_edge > 0 || o.encoder.limit_hz > 0 || o.encoder.uneven_counts > 0 : o.heat.on;
     if (encoder && !on) p.options.encoder = {1e-6, 100e3};
     out.table(name, on ? "" : encoder ? "off: nothing missed" : "off: windings stay at their start", on);
     for (const PlantNumber& f : option_numbers()) {

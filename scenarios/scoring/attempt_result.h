@@ -77,9 +77,9 @@ struct RunReport {
   bool force_not_rendered() const { return saturated_contact_share > 0.05; }
   std::string fault;         ///< cause of the first one, empty when none
   std::string force_sensor;  ///< JSON: what the force sensor says of the delivered force; empty without one
-  std::string plant;         ///< JSON: file and sha256 of the simulated device's plant file; empty: the seed's
-  std::string realtime;      ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep
-  int fault_channel = -1;    ///< -1: none in particular
+  std::string plant;     ///< JSON of a simulated device: which arm, and by which files the loop knew it (true_plant.h)
+  std::string realtime;  ///< JSON of a live run's pacing (docs/architecture.md); empty in lockstep
+  int fault_channel = -1;               ///< -1: none in particular
   double fault_s = 0, fault_value = 0;  ///< loop time of the tick in which it was seen; the offending number
   std::string reason;                   ///< why the loop ended, empty when the exercise ended it
   std::vector<DeviceWarning> warnings;

@@ -89,13 +89,13 @@ void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& 
       "UPDATE attempt SET finished_utc = ?, integrity = ?, cut_off = ?, recording_path = ?,"
       " recording_sha256 = ?, state_hash = ?, device_backend = ?, device_rate_hz = ?, device_ticks = ?,"
       " device_overruns = ?, saturated_contact_share = ?, passivity_active_share = ?, min_energy_j = ?,"
-      " kappa = ?, device_fault = ?, device_realtime = ? WHERE id = ?");
+      " kappa = ?, device_fault = ?, device_realtime = ?, device_plant = ? WHERE id = ?");
   const RunReport& device = result.device;
   update.bind(ended_utc).bind(result.integrity).bind(result.cut_off);
   update.bind(recording).bind(result.recording_sha256).bind(result.state_hash).bind(device.backend);
   update.bind(device.rate_hz).bind(device.ticks).bind(device.overruns).bind(device.saturated_contact_share);
   update.bind(device.passivity_active_share).bind(device.min_energy_j).bind(device.kappa).bind(device.fault);
-  update.bind(device.realtime).bind(row).run();
+  update.bind(device.realtime).bind(device.plant).bind(row).run();
 }
 
 std::vector<Event> read_events(sqlite3* connection, std::int64_t attempt) {

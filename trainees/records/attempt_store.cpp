@@ -125,7 +125,8 @@ constexpr const char* kResultColumns =
     " coalesce(s.passed, 0), coalesce(s.grade, 'not graded'),"
     " device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share, passivity_active_share,"
     " min_energy_j, kappa, device_fault, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit,"
-    " a.ruleset_sha256, recording_sha256, recording_path, state_hash, started_utc, integrity, device_realtime, cut_off"
+    " a.ruleset_sha256, recording_sha256, recording_path, state_hash, started_utc, integrity, device_realtime, cut_off,"
+    " device_plant"
     " FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
     " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?";
 
@@ -141,6 +142,7 @@ RunReport run_report_of(const sql::Statement& row) {
   device.kappa = row.real(19);
   device.fault = row.text(20);
   device.realtime = row.text(32);
+  device.plant = row.text(34);
   return device;
 }
 

@@ -188,6 +188,8 @@ CREATE TABLE attempt (
   recording_sha256 TEXT NOT NULL DEFAULT '',
   state_hash       TEXT NOT NULL DEFAULT '',
   device_backend   TEXT NOT NULL DEFAULT '',
+  -- JSON: which simulated arm, and by which files the loop knew it; empty where there is a real one
+  device_plant     TEXT NOT NULL DEFAULT '',
   device_rate_hz   REAL,
   device_ticks     INTEGER NOT NULL DEFAULT 0,
   device_overruns  INTEGER NOT NULL DEFAULT 0,

@@ -79,6 +79,7 @@ void check_exercise(const Exercise& exercise, const Organ& organ, const CheckOpt
     AttemptSetup setup;
     setup.exercise = exercise;
     setup.level = level.name;
+    setup.weak_too = true;
     checked.scenes.push_back(build_scene(setup, organ, {"simulated", 1000, 16}));
   }
 }

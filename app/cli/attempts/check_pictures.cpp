@@ -94,6 +94,7 @@ void paint_inversion(const Exercise& exercise, const Organ& organ, const AssetRo
   AttemptSetup setup;
   setup.exercise = exercise;
   setup.level = exercise.levels.front().name;
+  setup.weak_too = true;
   HeadlessContext context;
   Renderer renderer(context, assets.assets);
   for (const bool port : {false, true}) {

@@ -52,6 +52,7 @@ std::string option_words(const PlantOptions& o, const PlantParameters& p) {
     if (on) out << (out.str().empty() ? "" : "; ") << what;
   };
   add(o.encoder.missed_per_edge > 0 || o.encoder.limit_hz > 0, "encoders that miss counts");
+  add(o.encoder.uneven_counts > 0, "uneven encoders");
   add(o.jitter_periods > 0, "jitter up to " + std::to_string(o.jitter_periods) + " periods");
   add(o.heat.on, "motors that warm up");
   return out.str().empty() ? "none" : out.str();

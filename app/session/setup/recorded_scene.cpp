@@ -7,6 +7,7 @@ namespace trocar {
 Scene recorded_scene(const Recording& recording, const std::filesystem::path& file, const AssetRoots& assets,
                      const std::string& organ_now) {
   RecordedSetup recorded = parse_scene_json(recording.session, file.string());
+  recorded.setup.weak_too = true;
   if (!organ_now.empty()) recorded.setup.organ = organ_now;
   // Before anything is laid out on it: another organ may well have no room for the board.
   Organ organ = organ_of(recorded.setup, assets);

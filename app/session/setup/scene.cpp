@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -104,7 +105,8 @@ void require_reach(const Scene& scene) {
   throw InputError(scene.organ.manifest.string() + ": the surface is too fine to be felt: " + fit.words());
 }
 
-constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
+constexpr double kNoticedForce = 0.1;  // share by which a force must differ to be noticed [M]
+constexpr double kJawLength = 0.020;   // m, of the grasper that the exercises with objects use
 
 /// The loop's map is set before: pens turn from the resting instrument.
 Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
@@ -116,7 +118,7 @@ Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
 /// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be
 /// met, and asks nothing.
 double force_scale(const Scene& scene, const ShaftRoom* room) {
-  if (scene.level.force_scale > 0) return std::min(1.0, scene.level.force_scale);
+  if (scene.level.force_scale > 0) return scene.level.force_scale;
   std::vector<Board> boards;
   for (int k = 0; k < kPracticeBoards + kProvedUnseen; ++k) {
     try {
@@ -126,6 +128,19 @@ double force_scale(const Scene& scene, const ShaftRoom* room) {
     }
   }
   return auto_force_scale(scene.loop.map, scene.loop.device, scene.setup.exercise, boards);
+}
+
+/// Refuses a number of which the motors cannot give the board's forces, by more than a hand could tell.
+void require_force(const Scene& scene) {
+  if (scene.setup.weak_too || scene.level.force_scale <= 0) return;
+  const Exercise& exercise = scene.setup.exercise;
+  const double most = auto_force_scale(scene.loop.map, scene.loop.device, exercise, {scene.board});
+  if (scene.level.force_scale <= most * (1 + kNoticedForce)) return;
+  std::ostringstream words;
+  words << exercise.file.string() << ": level " << scene.level.name << ": force_scale: " << scene.level.force_scale
+        << " is more than the device can give on board " << scene.setup.board << ", " << most
+        << "; say that, less or \"auto\" (trocar check shows where it falls short)";
+  throw InputError(words.str());
 }
 
 /// Lays the organ, and what lies round it, into the theatre.
@@ -153,6 +168,7 @@ void set_stage(Scene& scene) {
   if (kind_of(exercise).on_organ) require_reach(scene);
   if (kind_of(exercise).jaws_hold) scene.loop.tool.jaw_length_m = kJawLength;
   scene.loop.map.force_scale = force_scale(scene, behind_tip);
+  require_force(scene);
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ struct AttemptSetup {
   std::vector<InjectedFault> faults;        ///< simulated back-end only
   std::shared_ptr<const PlantFile> plant;   ///< of the simulated back-end; none: drawn by the seed. A replay needs none
   std::optional<OrganPlacement> placement;  ///< where the organ lies, when that is known; none: it is looked for
+  bool weak_too = false;                    ///< a force scale beyond the device is laid out too: proofs, replays
   bool realtime = false;                    ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;
 };

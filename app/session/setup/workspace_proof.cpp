@@ -125,6 +125,7 @@ LevelProof prove_level(const Exercise& exercise, const std::string& level, const
   AttemptSetup setup;
   setup.exercise = exercise;
   setup.level = level;
+  setup.weak_too = true;
   const bool exam = find_level(exercise, level).exam;
   for (int k = 0; k < kPracticeBoards + unseen; ++k) {
     setup.board = k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, exam);

@@ -121,6 +121,8 @@ constexpr PlantNumber kOptions[] = {
      [](P& p) -> double& { return p.options.encoder.missed_per_edge; }},
     {"encoder", "limit_hz", 0, 1e9, "[M] lines a second, 100e3 for the HEDS-5540; 0: any",
      [](P& p) -> double& { return p.options.encoder.limit_hz; }},
+    {"encoder", "uneven_counts", 0, 0.4, "most that an edge lies off its even place, counts: assumption",
+     [](P& p) -> double& { return p.options.encoder.uneven_counts; }},
     {"heat", "winding_to_case_k_per_w", 0.01, 100, "[M]",
      [](P& p) -> double& { return p.options.heat.winding_to_case; }},
     {"heat", "case_to_air_k_per_w", 0.01, 1000, "[M]", [](P& p) -> double& { return p.options.heat.case_to_air; }},

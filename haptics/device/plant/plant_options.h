@@ -2,7 +2,7 @@
 // behaves to the bit as if this header were not there.
 //
 //   cable     the capstan cable of a joint as a spring: the rotor becomes a state of its own (plant_cable.h)
-//   encoder   edges that the counter does not see (plant_encoder.h)
+//   encoder   edges that the counter does not see, and uneven ones (plant_encoder.h)
 //   jitter    further whole periods between write and DAC, drawn anew each SYNC (simulated_daq.h)
 //   heat      windings and cases warm up, copper resists more (plant_heat.h)
 // Marks of the values as in plant_parameters.h. Units: SI, radians, temperatures in degrees Celsius.
@@ -27,6 +27,7 @@ struct CableParameters {
 struct EncoderFlaws {
   double missed_per_edge = 0;  ///< chance that the counter does not see an edge
   double limit_hz = 0;         ///< lines a second that the encoder can follow, 100 kHz [M]; 0: any
+  double uneven_counts = 0;    ///< most that an edge lies off its even place, counts: assumption
 };
 
 /// One motor as two nodes, winding and case.

@@ -2,8 +2,11 @@
 // periods.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 #include "haptics/control/channel_velocity.h"
 #include "tests/haptics/haptics_fixtures.h"
@@ -91,14 +94,75 @@ TEST(ChannelVelocity, TheBlendIsCalmInCreepAndBetterThanFoawInMotion) {
   EXPECT_LT(creep_error(VelocityMethod::kBlend), 0.6 * creep_error(VelocityMethod::kKalman));
 }
 
-TEST(ChannelVelocity, TheBlendRestsExactlyAndKnowsItsLag) {
+TEST(ChannelVelocity, TheBlendRestsExactly) {
   ChannelVelocity channel(VelocityMethod::kBlend, kQuantum, kPeriod);
   for (int k = 0; k < 300; ++k) channel.update(count_at(0.5 * k * kPeriod), 1);
-  EXPECT_LT(channel.lag_s(), 1e-9) << "Kalman alone";
   double v = 1;
   for (int k = 0; k < 100; ++k) v = channel.update(count_at(0.5 * 300 * kPeriod), 1);
   EXPECT_EQ(v, 0);
-  EXPECT_NEAR(channel.lag_s(), 0.008, 1e-9) << "half of FOAW's 16 periods";
+}
+
+/// A channel that moves at v counts/s, and is told its edges.
+struct TimedChannel {
+  ChannelVelocity velocity{VelocityMethod::kEdges, kQuantum, kPeriod};
+  std::int64_t count = 0;
+  double age_s = 0.1;
+
+  double tick(const std::function<double(double)>& position, double t) {
+    age_s += kPeriod;
+    for (int us = 1000; us > 0; --us) {  // edges of the period, in order
+      const auto now = static_cast<std::int64_t>(std::floor(position(t - (us - 1) * 1e-6)));
+      if (std::exchange(count, now) != now) age_s = us * 1e-6;
+    }
+    return velocity.update(count, 1, static_cast<std::uint16_t>(std::min(65535.0, std::ceil(age_s * 1e6))));
+  }
+};
+
+TEST(EdgeTimes, ACreepIsExactWithinTheFirstTwoEdges) {
+  for (const double v : {-37.0, 21.0, 60.0}) {  // counts/s
+    TimedChannel channel;
+    const auto position = [&](double t) { return 0.3 + v * t; };
+    for (int k = 0; k < 500; ++k) {
+      const double t = k * kPeriod, found = channel.tick(position, t);
+      if (k < 150) continue;
+      EXPECT_NEAR(found / kQuantum, v, 0.01 * std::abs(v)) << k;
+      EXPECT_NEAR(channel.velocity.position(), position(t), 0.01) << k;
+    }
+  }
+}
+
+TEST(EdgeTimes, SilenceBoundsTheSpeedAndIsRestAfterAWhile) {
+  TimedChannel channel;
+  const auto stops = [](double t) { return 100 * std::min(t, 0.2) + 0.5; };
+  double last = 1e9;
+  for (int k = 0; k < 300; ++k) {
+    const double v = channel.tick(stops, k * kPeriod) / kQuantum;
+    if (k <= 210) continue;
+    EXPECT_LE(v, last) << k;
+    EXPECT_LE(v, 1 / (k * kPeriod - 0.2)) << "at most the count that has not come";
+    last = v;
+  }
+  EXPECT_EQ(last, 0);
+  EXPECT_NEAR(channel.velocity.position(), 20.5, 0.5) << "within the count";
+}
+
+TEST(EdgeTimes, AnEdgeThatComesAndGoesIsNoWay) {
+  TimedChannel channel;
+  const auto flickers = [](double t) { return 5 + 0.01 * std::sin(2 * std::numbers::pi * 40 * t); };
+  for (int k = 0; k < 500; ++k) {
+    const double v = channel.tick(flickers, k * kPeriod);
+    if (k < 50) continue;
+    EXPECT_EQ(v, 0) << k;
+    EXPECT_EQ(channel.velocity.position(), 5) << k;
+  }
+}
+
+TEST(EdgeTimes, ABoardThatDoesNotTellThemGetsTheBlend) {
+  ChannelVelocity told(VelocityMethod::kEdges, kQuantum, kPeriod), blend(VelocityMethod::kBlend, kQuantum, kPeriod);
+  for (int k = 0; k < 400; ++k) {
+    const std::int64_t count = count_at(0.01 * std::sin(0.02 * k));
+    EXPECT_EQ(told.update(count, 1, 0), blend.update(count, 1));
+  }
 }
 
 TEST(ChannelVelocity, EveryMethodFindsARampAcrossMissedPeriods) {

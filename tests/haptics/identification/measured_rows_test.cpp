@@ -92,7 +92,7 @@ TEST(AddTrajectory, LeavesOutMomentsInWhichTheJointIsSlow) {
   const Eigen::MatrixXd Y = moving.rows(1);
   for (int k = 0; k < Y.rows(); ++k) {
     EXPECT_GT(std::abs(Y(k, base().size() + kViscousColumn + 1)), kSlow);
-    EXPECT_NEAR(std::abs(Y(k, base().size() + kCoulombColumn + 1)), 1, 1e-9) << "no sign changes within a row";
+    EXPECT_NEAR(std::abs(Y(k, base().size() + kCoulombColumn + 1)), 1, 1e-4) << "presliding is over";
   }
 }
 

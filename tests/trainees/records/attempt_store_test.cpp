@@ -42,9 +42,9 @@ void expect_equal(const AttemptResult& back, const AttemptResult& result) {
   }
   const RunReport &a = back.device, &b = result.device;
   EXPECT_EQ(std::tie(a.backend, a.rate_hz, a.ticks, a.overruns, a.saturated_contact_share, a.passivity_active_share,
-                     a.min_energy_j, a.kappa, a.fault, a.realtime),
+                     a.min_energy_j, a.kappa, a.fault, a.realtime, a.plant),
             std::tie(b.backend, b.rate_hz, b.ticks, b.overruns, b.saturated_contact_share, b.passivity_active_share,
-                     b.min_energy_j, b.kappa, b.fault, b.realtime));
+                     b.min_energy_j, b.kappa, b.fault, b.realtime, b.plant));
   ASSERT_EQ(a.warnings.size(), b.warnings.size());
   for (std::size_t i = 0; i < b.warnings.size(); ++i) {
     EXPECT_EQ(std::tie(a.warnings[i].name, a.warnings[i].first_s, a.warnings[i].ticks),

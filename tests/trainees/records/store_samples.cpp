@@ -60,6 +60,7 @@ AttemptResult sample_result(double score) {
   device.warnings = {{"sensor stale", 0.25, 12}, {"heat", 41.5, 3}};
   device.transitions = {{0, "homing", "armed"}, {1.0 / 3, "armed", "running"}};
   device.realtime = "{\"policy\":\"fifo\"}";
+  device.plant = "{\"seed\":7,\"calibration\":null,\"identification\":null}";
   result.state_hash = "0123456789abcdef";
   return result;
 }

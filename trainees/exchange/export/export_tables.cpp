@@ -53,6 +53,7 @@ std::vector<ExportColumn> attempt_columns() {
           {"kappa_1", "a.kappa", Kind::kReal},
           {"device_fault", "a.device_fault"},
           {"device_realtime_json", "a.device_realtime"},
+          {"device_plant_json", "a.device_plant"},
           {"hash_version", "a.hash_version", Kind::kInteger},
           {"chain_position", "a.chain_position", Kind::kInteger},
           {"prev_hash", "a.prev_hash"},

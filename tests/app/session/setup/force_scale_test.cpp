@@ -105,6 +105,28 @@ TEST(ForceScale, ANumberWinsOverTheRule) {
   EXPECT_EQ(scene_of(exercise, "L1", 0).loop.map.force_scale, 0.3);
 }
 
+TEST(ForceScale, ANumberBeyondTheDeviceIsRefusedByAnAttemptAndJudgedByTheProof) {
+  Exercise exercise = automatic("surface-touch");
+  const double most = auto_force_scale(scene_of(exercise, "L1", 0).loop.map, DeviceModel(), exercise,
+                                       {scene_of(exercise, "L1", 0).board});
+  ASSERT_LT(most, 0.9) << "1 is more than a tenth beyond";
+  exercise.levels.front().force_scale = most;
+  EXPECT_EQ(scene_of(exercise, "L1", 0).loop.map.force_scale, most);
+  exercise.levels.front().force_scale = 1.05 * most;
+  EXPECT_EQ(scene_of(exercise, "L1", 0).loop.map.force_scale, 1.05 * most) << "nobody notices";
+  exercise.levels.front().force_scale = 1;
+  try {
+    scene_of(exercise, "L1", 0);
+    FAIL() << "was laid out";
+  } catch (const InputError& error) {
+    const std::string words = error.what();
+    EXPECT_NE(words.find("surface-touch.toml: level L1: force_scale: 1 is more than the device can give on board 0"),
+              std::string::npos)
+        << words;
+  }
+  EXPECT_FALSE(prove_level(exercise, "L1", organ_for(exercise), 0).sound);
+}
+
 TEST(ForceScale, ALargerLimitIsScaledDownFurther) {
   Exercise exercise = automatic("limited-grasp");
   const Scene scene = scene_of(exercise, "L1", 0);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "app/studies/contact/hardware_study.h"
 #include "app/studies/contact/passivity_grid.h"
 #include "app/studies/contact/passivity_study.h"
 #include "app/studies/contact/sensitivity_study.h"
@@ -284,6 +285,25 @@ TEST(SensitivityStudy, SaysWhatEveryDoubtfulNumberDoes) {
     EXPECT_TRUE(c.value >= 0 && c.value <= 1) << c.name;
   }
   EXPECT_GT(displayed.size(), 12u) << "each property makes a difference";
+}
+
+TEST(HardwareStudy, SaysWhatEdgeTimesAndPeakTorqueBring) {
+  const StudyResult study = hardware_study({true, 1});
+  const StudyCase *as_is = find(study, "as it is: force held"), *peak = find(study, "200 mN m: force held"),
+                  *edges = find(study, "edge times: force held");
+  ASSERT_TRUE(as_is && peak && edges);
+  EXPECT_NE(peak->value, as_is->value);
+  EXPECT_NE(edges->value, as_is->value);
+  const StudyCase* within = find(study, "200 mN m: presses that the motors can give");
+  ASSERT_TRUE(within && within->thesis);
+  EXPECT_GE(within->value, *within->thesis);
+  const StudyCase* given = find(study, "force in every direction at 200 mN m, median pose");
+  ASSERT_TRUE(given && given->thesis);
+  EXPECT_GT(given->value, 2 * *given->thesis) << "the weight is carried either way";
+  const StudyCase* borne = find(study, "force in every direction at 200 mN m, borne by a motor that held 20 mN m");
+  ASSERT_TRUE(borne);
+  EXPECT_GT(borne->value, 0.5);
+  EXPECT_LT(borne->value, 3) << "a peak is short";
 }
 
 TEST(ZWidthStudy, QuickFormClimbsTheLadder) {

@@ -43,12 +43,39 @@ std::pair<std::int64_t, std::int64_t> there_and_back(const PlantParameters& p, i
 TEST(PlantEncoders, CountsTheMotorsTurns) {
   PlantParameters p = nominal_parameters();
   PlantEncoders encoders(p, ChannelVector::Zero(), 1);
-  EXPECT_FALSE(encoders.flawed());
+  EXPECT_FALSE(encoders.watched());
   EXPECT_EQ(encoders.count(0, at_counts(p, 1999.5)), 1999);
   EXPECT_EQ(encoders.count(0, at_counts(p, -0.5)), -1) << "floor, not truncation";
   p.channel[0].encoder_offset_counts = 2147483647.5;
   const PlantEncoders at_the_end(p, ChannelVector::Zero(), 1);
   EXPECT_EQ(at_the_end.count(0, at_counts(p, 1)), INT32_MIN) << "wraps";
+}
+
+TEST(PlantEncoders, TellsWhenTheLastEdgePassed) {
+  const PlantParameters p = nominal_parameters();
+  PlantEncoders encoders(p, first(at_counts(p, 0.5)), 1, true);
+  EXPECT_TRUE(encoders.watched());
+  EXPECT_EQ(encoders.edge_age_us(0), 65535) << "none yet";
+  encoders.follow(first(at_counts(p, 2.25)), 50e-6);  // 2 passed 0.25 of 1.75 before the end
+  EXPECT_EQ(encoders.edge_age_us(0), std::ceil(50 * 0.25 / 1.75));
+  encoders.follow(first(at_counts(p, 2.75)), 50e-6);
+  EXPECT_EQ(encoders.edge_age_us(0), std::ceil(50 + 50 * 0.25 / 1.75));
+  encoders.follow(first(at_counts(p, 1.75)), 50e-6);  // and back over 2
+  EXPECT_EQ(encoders.edge_age_us(0), std::ceil(50 * 0.25));
+  EXPECT_EQ(encoders.edge_age_us(1), 65535);
+  EXPECT_EQ(PlantEncoders(p, ChannelVector::Zero(), 1).edge_age_us(0), 0) << "not asked to";
+}
+
+TEST(PlantEncoders, AnUnevenDiscMovesItsEdgesEveryLineAlike) {
+  PlantParameters p = nominal_parameters();
+  p.options.encoder.uneven_counts = 0.1;
+  const PlantEncoders encoders(p, ChannelVector::Zero(), 1);
+  for (const int line : {-8, 0, 4, 4000}) {
+    EXPECT_EQ(encoders.count(0, at_counts(p, line + 0.09)), line - 1) << "the first edge of a line comes late";
+    EXPECT_EQ(encoders.count(0, at_counts(p, line + 0.11)), line);
+    EXPECT_EQ(encoders.count(0, at_counts(p, line + 0.94)), line + 1) << "the second early";
+    EXPECT_EQ(encoders.count(0, at_counts(p, line + 2.5)), line + 2);
+  }
 }
 
 TEST(PlantEncoders, MissedEdgesAreAsManyAsTheirChanceSays) {

@@ -109,6 +109,7 @@ TEST_F(TableExport, AttemptsHaveEveryColumn) {
   EXPECT_EQ(cell("device_rate_hz"), "1000");
   EXPECT_EQ(cell("min_energy_j"), "-1e-09");
   EXPECT_EQ(cell("device_realtime_json"), "{\"policy\":\"fifo\"}");
+  EXPECT_EQ(cell("device_plant_json"), "{\"seed\":7,\"calibration\":null,\"identification\":null}");
   EXPECT_EQ(cell("row_hash").size(), 64u);
   EXPECT_EQ(cell("started_utc"), stored.started_utc);
 }
@@ -148,6 +149,7 @@ TEST_F(TableExport, HidesNoColumnOfTheAttempt) {
                              "kappa",
                              "device_fault",
                              "device_realtime",
+                             "device_plant",
                              "hash_version",
                              "chain_position",
                              "prev_hash",
