@@ -145,12 +145,16 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   motion.delta = delta;
   motion.periods = std::max<double>(1, in.elapsed_periods);
   motion.q = joint_positions(config_.device, counts_.total(), home_);
+  ChannelVector between_counts = ChannelVector::Constant(std::nan(""));
   for (int i = 0; i < kChannels; ++i) {
     motion.qd[i] = velocity_[i].update(counts_.total()[i], in.elapsed_periods, in.edge_age_us[i]);
+    if (config_.velocity != VelocityMethod::kEdges || in.edge_age_us[i] == 0) continue;
+    between_counts[i] = velocity_[i].position();
+    motion.q[i] += count_[i] * (between_counts[i] - 0.5 - static_cast<double>(counts_.total()[i]));
   }
-  motion.travel = count_.cwiseProduct(
-      edges_told(in) ? place_between_counts(motion)
-                     : fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_));
+  motion.travel =
+      fine_.advance(counts_.total(), motion.qd.cwiseQuotient(count_), motion.periods * period_s_, between_counts)
+          .cwiseProduct(count_);
   motion.arm = arm_state(motion.q.head<kArmJoints>());
   const Vec6 twist = motion.arm.J_WS * motion.qd.head<kArmJoints>();
   motion.tip_speed = twist.head<3>().norm();
@@ -160,20 +164,6 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   motion.V_TI_T = instrument_.V_TI_T();
   periods_ += static_cast<std::uint64_t>(motion.periods);
   return motion;
-}
-
-bool HapticLoop::edges_told(const DaqSample& in) const noexcept {
-  return config_.velocity == VelocityMethod::kEdges && in.edge_age_us[0] > 0;
-}
-
-/// Puts q where the edges say that the channels stand. @return counts travelled since the last tick.
-ChannelVector HapticLoop::place_between_counts(Motion& motion) noexcept {
-  ChannelVector position;
-  for (int i = 0; i < kChannels; ++i) {
-    position[i] = velocity_[i].position();
-    motion.q[i] += count_[i] * (position[i] - 0.5 - static_cast<double>(counts_.total()[i]));
-  }
-  return fine_.advance_to(position);
 }
 
 void HapticLoop::take_home() noexcept {

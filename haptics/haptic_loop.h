@@ -112,8 +112,6 @@ class HapticLoop {
   };
 
   Motion measure(const DaqSample& in) noexcept;
-  bool edges_told(const DaqSample& in) const noexcept;
-  ChannelVector place_between_counts(Motion& motion) noexcept;
   Contact feel(const Motion& motion, const ContactPatch& patch) noexcept;
   ChannelVector make_passive(const Motion& motion, const Contact& contact) noexcept;
   TorqueShares hold_up(const Motion& motion, Contact& contact) noexcept;

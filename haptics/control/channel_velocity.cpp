@@ -19,7 +19,7 @@ void ChannelVelocity::reset() {
   kalman_.reset();
   edges_.reset();
   tap_.fill(0);
-  smooth_ = last_velocity_ = 0;
+  smooth_ = 0;
   started_ = false;
 }
 
@@ -46,7 +46,7 @@ double ChannelVelocity::update(std::int64_t count, std::uint32_t elapsed_periods
       velocity = low_pass(count, periods);
       break;
     case VelocityMethod::kEdges:
-      velocity = edge_age_us > 0 ? edges(count, periods, edge_age_us) : blend(count, periods);
+      velocity = edges(count, periods, edge_age_us);
       break;
   }
   last_ = count;
@@ -61,9 +61,15 @@ double ChannelVelocity::blend(std::int64_t count, std::uint32_t periods) {
 }
 
 double ChannelVelocity::edges(std::int64_t count, std::uint32_t periods, std::uint16_t edge_age_us) {
-  const double slow = edges_.update(count, periods, edge_age_us) * quantum_, fast = kalman_.update(count, periods);
-  const double weight = std::clamp((std::abs(slow) / quantum_ - kSlowEdges) / (kFastEdges - kSlowEdges), 0.0, 1.0);
-  return last_velocity_ = slow + weight * (fast - slow);
+  if (edge_age_us == 0) {
+    edges_.reset();
+    return blend(count, periods);
+  }
+  const double slow = edges_.update(count, periods, edge_age_us), fast = kalman_.update(count, periods) / quantum_;
+  const double weight = std::clamp((std::abs(slow) - kSlowEdges) / (kFastEdges - kSlowEdges), 0.0, 1.0);
+  const double velocity = slow + weight * (fast - slow);
+  edges_.advance(velocity);
+  return velocity * quantum_;
 }
 
 double ChannelVelocity::average(std::int64_t count, std::uint32_t periods) {

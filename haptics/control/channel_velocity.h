@@ -46,8 +46,8 @@ class ChannelVelocity {
   /// @param count position in counts; @param elapsed_periods since the last sample. @param edge_age_us as
   /// DaqSample. @return velocity, unit/s.
   double update(std::int64_t count, std::uint32_t elapsed_periods, std::uint16_t edge_age_us = 0);
-  /// Where the last edge and the last velocity put the channel, counts; of kEdges only.
-  double position() const { return edges_.position(last_velocity_ / quantum_); }
+  /// Where the edges put the channel, counts; of kEdges while they are told.
+  double position() const { return edges_.position(); }
 
  private:
   double blend(std::int64_t count, std::uint32_t periods);
@@ -65,7 +65,6 @@ class ChannelVelocity {
   double smooth_ = 0;  ///< of kLowPass, counts/s
   std::int64_t last_ = 0;
   bool started_ = false;
-  double last_velocity_ = 0;  ///< of kEdges, unit/s
 };
 
 }  // namespace trocar

@@ -1,4 +1,4 @@
-// What the motors may be given now: more than they bear for ever, for as long as winding and amplifier bear it.
+// What the motors may be given: more than the thesis drives, for as long as winding and amplifier bear it.
 //
 // The most is DeviceModel's max_motor_torque. While a winding is below warm_c the most may be used; from there it falls
 // to lasting_nm, which is reached at the heat model's warning: a peak never brings a motor to where its contact force
@@ -40,7 +40,7 @@ class PeakTorque {
   }
 
   const ChannelVector& most() const { return most_; }
-  /// @param given torque of the last tick; @param winding_c of each channel. @return most of this tick.
+  /// @param given torque of this tick; @param winding_c of each channel. @return most of the next tick.
   ChannelVector update(const ChannelVector& given, const std::array<double, kChannels>& winding_c, double dt_s) {
     ChannelVector limit;
     for (int i = 0; i < kChannels; ++i) {

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "haptics/quantities.h"
 
@@ -28,18 +27,17 @@ class SubCountTravel {
     for (int i = 0; i < kChannels; ++i) position_[i] = middle(counts, i);
   }
   /// @param counts rounded down; @param velocity estimated, counts/s; @param seconds since the last call.
-  /// @return way since the last call.
-  ChannelVector advance(const Counts& counts, const ChannelVector& velocity, double seconds) {
+  /// @param known where the board's edges put a channel, counts; NaN: they do not. @return way since the last call.
+  ChannelVector advance(const Counts& counts, const ChannelVector& velocity, double seconds,
+                        const ChannelVector& known = ChannelVector::Constant(std::nan(""))) {
     const ChannelVector before = position_;
     for (int i = 0; i < kChannels; ++i) {
       const double low = middle(counts, i) - 0.5;
       const double expected = std::abs(velocity[i]) < kCreep ? 0 : velocity[i] * seconds;
-      position_[i] = std::clamp(position_[i] + expected, low, low + 1);
+      position_[i] = std::isnan(known[i]) ? std::clamp(position_[i] + expected, low, low + 1) : known[i];
     }
     return position_ - before;
   }
-  /// Where the channels are known to stand, counts. @return way since the last call.
-  ChannelVector advance_to(const ChannelVector& position) { return position - std::exchange(position_, position); }
 
  private:
   static double middle(const Counts& counts, int i) {

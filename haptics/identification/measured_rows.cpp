@@ -74,6 +74,7 @@ Smoothed smooth(const MotionTrace& trace, const BaseSet& base) {
     const JointVector q = weighted(trace.q, k.value, n, k.half);
     const JointVector qd = weighted(trace.q, k.slope, n, k.half) / dt;
     const JointVector qdd = weighted(trace.q, k.curve, n, k.half) / (dt * dt);
+    if (s.rows.empty()) u = qd.cwiseSign();  // under way
     for (int j = 0; j < kArmJoints; ++j) {
       const double way = qd[j] * dt / kPresliding;
       u[j] = (u[j] + way) / (1 + std::abs(way));

@@ -5,8 +5,8 @@
 // (Stribeck) is no column: the motions pass that zone too fast to tell it.
 // A pass of a static pose is one row a joint: the mean over its middle. A trajectory is smoothed without lag by a
 // Gaussian of 10 ms, whose derivatives give rates and accelerations; then rows and torques alike pass a Gaussian of 25
-// ms (6 Hz) and are taken every 20 ms. Rows in which the joint comes slower than kSlow can be left out, to judge the
-// rest without what friction does at reversals. SI. Thread: any.
+// ms (6 Hz) and are taken every 20 ms. Rows in which the joint comes slower than kSlow can be left out:
+// there friction is neither Coulomb nor viscous. SI. Thread: any.
 #pragma once
 
 #include "haptics/identification/base_parameters.h"

@@ -54,6 +54,7 @@ AttemptSetup expert_setup(const AttemptSetup& of) {
   setup.seed = of.seed;
   setup.board = of.board;
   setup.placement = of.placement;
+  setup.weak_too = of.weak_too;
   return setup;
 }
 

@@ -53,8 +53,9 @@ void add_hardware(StudyResult& study, const Hardware& hardware, const GridResult
     return sum / static_cast<double>(r.outcome.size());
   };
   const auto within = [](const GridResult& r) {
-    return static_cast<double>(std::count_if(r.outcome.begin(), r.outcome.end(),
-                                             [](const auto& of_case) { return of_case.front().saturated <= 0.5; }));
+    return static_cast<double>(std::count_if(r.outcome.begin(), r.outcome.end(), [](const auto& of_case) {
+      return !of_case.front().faulted && of_case.front().saturated <= 0.5;
+    }));
   };
   const auto add = [&](const char* what, const char* unit, double value, double before, const char* how) {
     study.cases.push_back({std::string(hardware.name) + ": " + what, unit, value, before, "reported", true,

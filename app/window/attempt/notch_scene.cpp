@@ -54,6 +54,7 @@ Scene notch_scene(const AssetRoots& assets, std::int64_t seed, const Notch& notc
       find_exercise("reach-and-orient", assets.exercises);  // its place in the theatre; its pens are not used
   setup.level = setup.exercise.levels.front().name;
   setup.seed = seed;
+  setup.weak_too = true;  // the notch has a force scale of its own
   setup.realtime = true;
   setup.pace = kSimulatedLivePace;
   Scene scene = build_scene(setup, assets, {"simulated", setup.rate_hz, 16});

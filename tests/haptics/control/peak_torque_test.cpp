@@ -61,8 +61,7 @@ TEST(PeakTorque, TheAmplifierGivesItsPeakForTwoSecondsOnly) {
     largest_step = std::max(largest_step, before - limit[0]);
   }
   EXPECT_NEAR(limit[0], six_amps, 0.02 * six_amps);
-  EXPECT_GT(above_s, 1.5);
-  EXPECT_LT(above_s, 4.5) << "the end is faded";
+  EXPECT_NEAR(above_s, 2, 0.05);
   EXPECT_LT(largest_step, 0.002) << "and never falls by a step";
   for (int k = 0; k < 10000; ++k) limit = peak.update(ChannelVector::Zero(), all_at(25), kStep);
   EXPECT_DOUBLE_EQ(limit[0], peak.most()[0]) << "rested";

@@ -134,16 +134,58 @@ TEST(EdgeTimes, ACreepIsExactWithinTheFirstTwoEdges) {
 TEST(EdgeTimes, SilenceBoundsTheSpeedAndIsRestAfterAWhile) {
   TimedChannel channel;
   const auto stops = [](double t) { return 100 * std::min(t, 0.2) + 0.5; };
-  double last = 1e9;
+  double last = 1e9, before = 0;
   for (int k = 0; k < 300; ++k) {
     const double v = channel.tick(stops, k * kPeriod) / kQuantum;
+    const double moved = std::abs(channel.velocity.position() - std::exchange(before, channel.velocity.position()));
+    if (k > 30) {
+      EXPECT_LE(moved, 0.2) << "it never jumps, at " << k;
+    }
     if (k <= 210) continue;
     EXPECT_LE(v, last) << k;
     EXPECT_LE(v, 1 / (k * kPeriod - 0.2)) << "at most the count that has not come";
     last = v;
   }
   EXPECT_EQ(last, 0);
-  EXPECT_NEAR(channel.velocity.position(), 20.5, 0.5) << "within the count";
+}
+
+TEST(EdgeTimes, SlowAndTurningWaysAreFollowedWithinAFractionOfACount) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const std::function<double(double)> ways[] = {[](double t) { return 0.3 + 15 * t; },
+                                                [](double t) { return 20 * std::sin(kTurn * 1.5 * t); }};
+  for (const auto& way : ways) {
+    TimedChannel channel;
+    double squares = 0;
+    int n = 0;
+    for (int k = 0; k < 1500; ++k) {
+      channel.tick(way, k * kPeriod);
+      if (k <= 250) continue;
+      const double off = channel.velocity.position() - way(k * kPeriod);
+      squares += off * off;
+      ++n;
+    }
+    EXPECT_LT(std::sqrt(squares / n), 0.2) << "the middle of the count leaves 0.29";
+  }
+}
+
+TEST(EdgeTimes, OutAndBackOverTheFarEdgeIsThere) {
+  // Up to 10.9 at 60 counts/s, over 11 and back within a period: the last edge was 11, not 10.
+  TimedChannel channel;
+  const double there = 10.9 / 60;
+  const auto way = [&](double t) { return t < there ? 60 * t : t > 0.1822 && t < 0.1828 ? 11.05 : 10.9; };
+  for (int k = 0; k <= 183; ++k) channel.tick(way, k * kPeriod);
+  EXPECT_NEAR(channel.velocity.position(), 11, 0.15);
+}
+
+TEST(EdgeTimes, AnEdgeJustBeforeTheLatchCountsOnce) {
+  ChannelVelocity channel(VelocityMethod::kEdges, kQuantum, kPeriod);
+  double v = 0;
+  for (int k = 0; k < 200; ++k) {  // 50 counts/s, each edge at most a microsecond before its latch
+    v = channel.update(k / 20, 1, static_cast<std::uint16_t>(1 + 1000 * (k % 20)));
+    if (k > 45) {
+      EXPECT_NEAR(v / kQuantum, 50, 0.1) << k;
+    }
+  }
 }
 
 TEST(EdgeTimes, AnEdgeThatComesAndGoesIsNoWay) {

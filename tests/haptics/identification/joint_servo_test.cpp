@@ -52,6 +52,21 @@ TEST(JointServo, MeasuresWeightAndFrictionOfAPassWithTheSignOfTheMotion) {
   EXPECT_LT((friction - expected).cwiseAbs().maxCoeff(), 1e-3);
 }
 
+TEST(JointServo, FollowsThroughElasticCables) {
+  for (const double stiffness : {50.0, 200.0}) {
+    SimulatedDaqConfig config = nominal();
+    config.plant->options.cable.fill({stiffness});
+    SimulatedDaq daq(config);
+    JointServo servo(daq, {});
+    const JointVector there = test::degrees(25, 60, 40, -90, -50, 40);
+    servo.move_to(there);
+    servo.move_to(home_angles());
+    servo.move_to(there);
+    EXPECT_LT((daq.plant().angles() - there).cwiseAbs().maxCoeff(), 0.08) << stiffness;
+    EXPECT_LT(servo.worst_error(), 0.15) << stiffness;
+  }
+}
+
 TEST(JointServo, TraceHasOneEntryASyncAndStartsWithoutAJump) {
   SimulatedDaq daq(nominal());
   JointServo servo(daq, {});
