@@ -1,8 +1,8 @@
 // What the motors may be given: more than the thesis drives, for as long as winding and amplifier bear it.
 //
 // The most is DeviceModel's max_motor_torque. While a winding is below warm_c the most may be used; from there it falls
-// to lasting_nm, which is reached at the heat model's warning: a peak never brings a motor to where its contact force
-// would fade. The amplifier gives more than continuous_a for peak_s only (AMC 12A8: 12 A for 2 s, 6 A for ever) and
+// to lasting_nm, which is reached at the heat model's warning: what goes beyond has ended before heat fades the
+// contact. The amplifier gives more than continuous_a for peak_s only (AMC 12A8: 12 A for 2 s, 6 A for ever) and
 // needs recover_s below that to give it again; the last kFadeS of it are faded. An arm whose most is no more than
 // lasting_nm, as the thesis drives it, is never limited here. Channels 0..5 N m, 6 N. Thread: haptic task; no
 // allocation.

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 
 #include "app/studies/contact/passivity_grid.h"
+#include "app/studies/workspace/workspace_quality.h"
 #include "haptics/control/gravity.h"
 #include "haptics/control/motor_heat.h"
 #include "haptics/control/peak_torque.h"
-#include "haptics/device/transmission.h"
 #include "haptics/kinematics/hybrid_arm.h"
 
 namespace trocar {
@@ -54,7 +53,7 @@ void add_hardware(StudyResult& study, const Hardware& hardware, const GridResult
   };
   const auto within = [](const GridResult& r) {
     return static_cast<double>(std::count_if(r.outcome.begin(), r.outcome.end(), [](const auto& of_case) {
-      return !of_case.front().faulted && of_case.front().saturated <= 0.5;
+      return !of_case.front().faulted && of_case.front().saturated <= kWithinMotors;
     }));
   };
   const auto add = [&](const char* what, const char* unit, double value, double before, const char* how) {
@@ -74,16 +73,18 @@ void add_hardware(StudyResult& study, const Hardware& hardware, const GridResult
   add("step of the law", "N", t.law_step_n, as_is.law_step_n, "Most that the law moved the force in a tick.");
 }
 
-/// Force that the motors can give in every direction beside the weight, N.
-double worst_direction_n(const DeviceModel& model, const JointVector& q, double peak) {
+/// Force that motors of so much torque can give in every direction beside the weight, N.
+double force_beside_weight(const DeviceModel& model, const JointVector& q, double motor_nm) {
   const ArmState arm = arm_state(q);
-  const JointVector weight = gravity_torque(model, arm);
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kArmJoints; ++i) {
-    const double left = peak * max_joint_torque(model.transmission[static_cast<std::size_t>(i)]) - std::abs(weight[i]);
-    least = std::min(least, std::max(0.0, left) / arm.J_WS.col(i).head<3>().norm());
-  }
-  return least;
+  return worst_direction_force(model, arm, gravity_torque(model, arm), motor_nm);
+}
+
+/// The same in the poses of the presses, ascending.
+std::vector<double> forces_in_poses(const DeviceModel& model, const std::vector<DrawnPress>& presses, double motor_nm) {
+  std::vector<double> force;
+  for (const DrawnPress& press : presses) force.push_back(force_beside_weight(model, press.wall.pose, motor_nm));
+  std::sort(force.begin(), force.end());
+  return force;
 }
 
 /// Seconds at a motor torque until the winding reaches `until_c`, from one that has carried `before_nm` for long.
@@ -106,13 +107,12 @@ void peak_table(StudyResult& study, const std::vector<DrawnPress>& presses) {
   table << "motor_mN_m,current_A,force_home_N,force_median_N,force_5_percent_N,cold_to_85_C_s,held_to_85_C_s,"
            "cold_to_110_C_s,held_to_110_C_s\n"
         << std::setprecision(4);
+  const std::vector<double> before = forces_in_poses(model, presses, lasting);
   for (const double factor : kPeaks) {
-    std::vector<double> force;
-    for (const DrawnPress& press : presses) force.push_back(worst_direction_n(model, press.wall.pose, factor));
-    std::sort(force.begin(), force.end());
     const double nm = factor * lasting, fade = MotorHeatParameters().fade_c;
+    const std::vector<double> force = forces_in_poses(model, presses, nm);
     const double median = force[force.size() / 2], low = force[force.size() / 20];
-    const double home = worst_direction_n(model, home_angles(), factor);
+    const double home = force_beside_weight(model, home_angles(), nm);
     const double cold_s = borne_s(nm, 0, peak.warm_c), held_s = borne_s(nm, kWeightNm, peak.warm_c);
     table << 1e3 * nm << ',' << nm / model.transmission[0].torque_constant << ',' << home << ',' << median << ',' << low
           << ',' << cold_s << ',' << held_s << ',' << borne_s(nm, 0, fade) << ',' << borne_s(nm, kWeightNm, fade)
@@ -120,15 +120,9 @@ void peak_table(StudyResult& study, const std::vector<DrawnPress>& presses) {
     if (factor == 1) continue;
     std::ostringstream name;
     name << "force in every direction at " << 1e3 * nm << " mN m";
-    const auto before = [&](std::size_t at) {
-      std::vector<double> flat;
-      for (const DrawnPress& press : presses) flat.push_back(worst_direction_n(model, press.wall.pose, 1));
-      std::sort(flat.begin(), flat.end());
-      return flat[at];
-    };
-    study.cases.push_back({name.str() + ", median pose", "N", median, before(force.size() / 2), "reported", true,
+    study.cases.push_back({name.str() + ", median pose", "N", median, before[force.size() / 2], "reported", true,
                            "Of the poses of the presses, beside the weight; beside it 100 mN m."});
-    study.cases.push_back({name.str() + ", 5 % of the poses have less", "N", low, before(force.size() / 20), "reported",
+    study.cases.push_back({name.str() + ", 5 % of the poses have less", "N", low, before[force.size() / 20], "reported",
                            true, "The same."});
     study.cases.push_back(
         {name.str() + ", borne by a motor that held 20 mN m", "s", held_s, borne_s(lasting, kWeightNm, peak.warm_c),

@@ -13,7 +13,6 @@ namespace trocar {
 namespace {
 
 constexpr double kGridAfterTouch = 1.6;  // s
-constexpr double kWithinMotors = 0.5;    // share of the time of measuring in which the motors may be saturated
 
 /// The case's outcomes in `result`.
 void press_with_all(std::size_t i, GridResult& result) {

@@ -22,6 +22,8 @@ struct GridLaw {
   std::string name() const;
 };
 
+inline constexpr double kWithinMotors = 0.5;  ///< share of the time of measuring in which the motors may be saturated
+
 /// One law over all presses.
 struct LawTally {
   GridLaw law;
