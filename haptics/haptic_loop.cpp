@@ -15,7 +15,7 @@ DacFrame HapticLoop::tick(const DaqSample& in, const ContactPatch& patch, TickRe
   TorqueShares shares = hold_up(motion, contact);                   // limit springs and weight, and the room they leave
   shares.contact = make_passive(motion, contact);                   // budget, fed with what was applied
   const LimitedTorque torque = share_out(motion, contact, shares);  // then friction, alignment; rate and size limited
-  watch(motion, contact, torque);                                   // faults, heat, warnings
+  if (config_.daq.motors) watch(motion, contact, torque);           // faults, heat, warnings
   const DacFrame out = to_codes(torque);                            // volts -> DAC codes; zero unless powered
   publish(in, motion, contact, torque, out, record);
   safety_log_.add(record);
@@ -245,12 +245,13 @@ void HapticLoop::feel_port(const Motion& motion, Contact& contact) noexcept {
 }
 
 double HapticLoop::rendered_share(double det_a) const noexcept {
+  if (!config_.daq.motors) return 0;
   return std::min(supervisor_.ramp() * singularity_share(det_a), watch_.contact_share());
 }
 
 TorqueShares HapticLoop::hold_up(const Motion& motion, Contact& contact) noexcept {
   TorqueShares shares;
-  if (!supervisor_.powered()) return shares;
+  if (!supervisor_.powered() || !config_.daq.motors) return shares;
   const JointVector qd = motion.qd.head<kArmJoints>();
   shares.springs =
       supervisor_.ramp() * limit_spring_torque(motion.q.head<kArmJoints>(), qd) + watch_.damping(motion.qd);
@@ -299,7 +300,7 @@ ChannelVector HapticLoop::make_passive(const Motion& motion, const Contact& cont
 }
 
 LimitedTorque HapticLoop::share_out(const Motion& motion, const Contact& contact, TorqueShares shares) noexcept {
-  if (!supervisor_.powered()) {
+  if (!supervisor_.powered() || !config_.daq.motors) {
     limiter_.reset();
     return {};
   }

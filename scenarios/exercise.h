@@ -38,6 +38,13 @@ struct LevelAnchors {
   double full_at = 0, zero_at = 0;
 };
 
+/// What a level is for hands at mouse, keys or pad, which feel nothing: its assists, and anchors of its own.
+struct PointerLevel {
+  bool glide = false;        ///< over organ or board the tip keeps its height, until a person says otherwise
+  double expert_time_s = 0;  ///< muE of time anchors; 0: as with the device
+  Rubric rubric;
+};
+
 /// What one level asks for.
 struct ExerciseLevel {
   std::string name;  ///< "L1", "L2", "L3" or "exam"
@@ -57,6 +64,7 @@ struct ExerciseLevel {
   std::vector<LevelAnchors> anchors;                         ///< in place of the rubric's
   GraspLevel grasp;                                          ///< grasp
   Rubric rubric;                                             ///< with this level's anchors
+  PointerLevel pointer;
 };
 
 /// Where the objects of a board may lie; what only discs on an organ have is marked.

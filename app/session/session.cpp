@@ -179,7 +179,8 @@ struct Attempt {
     SessionOutcome out = rig.outcome(backend.daq->capabilities().name);
     if (sensor) out.device.force_sensor = force_sensor_json(*sensor);
     const AttemptSetup& setup = rig.scene.setup;
-    if (backend.world) out.device.plant = plant_json(setup.plant.get(), setup.seed, setup.device);
+    if (backend.world && backend.daq->capabilities().motors)
+      out.device.plant = plant_json(setup.plant.get(), setup.seed, setup.device);
     return out;
   }
 
@@ -273,6 +274,9 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
   if (timing == Timing::kLockstep && !attempt->backend.can.pace) {
     throw InputError("--backend " + scene.setup.backend + ": runs by its own clock; add --realtime");
   }
+  if (!hooks.hand && !attempt->backend.daq->capabilities().motors) {
+    throw InputError("--backend " + scene.setup.backend + ": a person's mouse, keys or pad; a script needs a device");
+  }
   SessionOutcome out = timing == Timing::kLive ? run_live(*attempt, hooks) : run_lockstep(*attempt, hooks);
   if (out.status == AttemptStatus::kAborted && hooks.interrupted && hooks.interrupted()) {
     out.device.reason = "interrupted before its end";
@@ -331,7 +335,8 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
 Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {
   const RecordedSetup recorded = parse_scene_json(recording.session, name);
   const Exercise& own = recorded.setup.exercise;
-  const Rubric& rubric = find_level(rubric_of ? *rubric_of : own, recorded.setup.level).rubric;
+  const ExerciseLevel& judged = find_level(rubric_of ? *rubric_of : own, recorded.setup.level);
+  const Rubric& rubric = recorded.daq.motors ? judged.rubric : judged.pointer.rubric;
   ScoringContext context;
   if (recording.end && !recording.end->summary_json.empty()) {
     context = parse_scoring_context(recording.end->summary_json, name);

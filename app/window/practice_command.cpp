@@ -84,6 +84,7 @@ void run_window(const PracticeOptions& options, PracticeModel& model, InterruptW
       first_s = seconds_since(begin);
       first_cpu_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     }
+    window->hold_pointer(loop.holds_pointer());
     if (loop.fullscreen() != fullscreen) window->set_fullscreen(fullscreen = loop.fullscreen());
   }
   if (options.timing)

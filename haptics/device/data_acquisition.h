@@ -49,6 +49,7 @@ struct DaqCapabilities {
   const char* name = "";  ///< "simulated", "replay", ...
   double rate_hz = 1000;  ///< SYNC rate
   int dac_bits = 16;
+  bool motors = true;  ///< false: nothing can push back (PointerDaq); the loop then renders nothing and guards no motor
 };
 
 class DataAcquisition {

@@ -77,6 +77,10 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   for (ExerciseLevel& level : exercise.levels) {
     level.rubric = read_rubric(document.table("rubric"), level);
     level.rubric.sha256 = digest::of_bytes(text);
+    ExerciseLevel by_pointer = level;
+    if (level.pointer.expert_time_s > 0) by_pointer.expert_time_s = level.pointer.expert_time_s;
+    level.pointer.rubric = read_rubric(document.table("rubric"), by_pointer);
+    level.pointer.rubric.sha256 = level.rubric.sha256;
   }
   exercise.rubric = exercise.levels.front().rubric;
   document.finish();

@@ -88,6 +88,8 @@ ExerciseLevel read_level(StrictTable& table, const std::vector<std::string>& sub
   read_anchors(table, subscores, level);
   level.time_limit_s = table.number_or("time_limit_s", 1, 3600, level.time_limit_s);
   level.expert_time_s = table.number_or("expert_time_s", 1, 3600, level.expert_time_s);
+  level.pointer.glide = table.flag_or("pointer_glide", level.pointer.glide);
+  level.pointer.expert_time_s = table.number_or("pointer_time_s", 1, 3600, level.pointer.expert_time_s);
   table.finish();
   return level;
 }

@@ -288,7 +288,8 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
   run->add_option("--fps", o.fps, "Frames per second of loop time (default: 10, of a film 25)")
       ->check(CLI::Range(0.1, 50.0));
   std::string backends;
-  for (const std::string& name : backend_names()) backends += (backends.empty() ? "" : ", ") + name;
+  for (const std::string& name : backend_names())
+    if (backend_capabilities(name, 1000).motors) backends += (backends.empty() ? "" : ", ") + name;
   run->add_option("--backend", o.backend, "Device that it runs on: " + backends)->capture_default_str();
   run->add_option("--rate", o.rate_hz, "Loop rate, Hz")
       ->capture_default_str()

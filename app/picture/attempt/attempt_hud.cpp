@@ -41,6 +41,7 @@ void add_map_notices(const StylusState& stylus, std::vector<HudNotice>& notices)
 
 std::vector<HudRow> device_rows(const SessionView& view) {
   const Scene& scene = view.scene;
+  if (!scene.loop.daq.motors) return {};
   std::vector<HudRow> out = {{"plant", "simulated", ""},
                              {"loop", hud_number("%.0f", scene.loop.daq.rate_hz), "Hz"},
                              {"passivity", view.record.stylus.passivity_active ? "acting" : "ok", ""},

@@ -77,8 +77,8 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   pen.text(what, title_x, baseline, frame.title_size(), true, HudInk::kText, right - margin - title_x);
 }
 
-/// At most two lines of message and two of hint, over the lower edge of the picture.
-void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame) {
+/// At most two lines of message and two of hint, over the lower edge of the picture, or below what is at the upper one.
+void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame, double upper) {
   if (hud.toast.empty()) return;
   const double pad = frame.px(12), icon = frame.px(34), line = 1.25 * frame.body;
   const double wish = std::max(pen.width(hud.toast, frame.body, true), pen.width(hud.toast_hint, frame.body, false));
@@ -88,8 +88,8 @@ void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const auto hint = hud.toast_hint.empty() ? std::vector<std::string>{}
                                            : pen.fonts().wrapped(hud.toast_hint, frame.body, false, room, 2);
   const double height = 2 * pad + line * static_cast<double>(message.size() + hint.size());
-  const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - width), frame.scene.y + frame.scene.height - height - pad,
-                   width, height};
+  const double y = hud.toast_above ? upper : frame.scene.y + frame.scene.height - height - pad;
+  const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - width), y, width, height};
   pen.shape(HudShape::Kind::kToast, box);
   pen.shape(hud.toast_warning ? HudShape::Kind::kWarning : HudShape::Kind::kInfo,
             {box.x + pad, box.y + 0.5 * (height - icon), icon, icon});
@@ -104,8 +104,8 @@ void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   write(hint, false, HudInk::kDim);
 }
 
-/// One line each, below the notch, at most two.
-void lay_notices(HudPen& pen, const Hud& hud, const HudFrame& frame) {
+/// One line each, below the notch, at most two. @return where they end.
+double lay_notices(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const double pad = 0.45 * frame.body, icon = 1.15 * frame.body, height = 1.25 * frame.body + pad;
   double y = frame.scene.y + 1.3 * frame.body;
   for (std::size_t i = 0; i < std::min<std::size_t>(hud.notices.size(), 2); ++i) {
@@ -125,6 +125,7 @@ void lay_notices(HudPen& pen, const Hud& hud, const HudFrame& frame) {
              room);
     y += height + pad;
   }
+  return y;
 }
 
 }  // namespace
@@ -183,8 +184,8 @@ HudLayout layout_hud(const Hud& hud, int width, int height, double text_scale, F
     pen.text(without_last(pen, hud.credit, frame.body, strip - 2 * margin), margin,
              height - frame.bottom * 0.5 + 0.34 * frame.body, frame.body, false, HudInk::kDim, strip - 2 * margin);
   }
-  lay_notices(pen, hud, frame);
-  lay_toast(pen, hud, frame);
+  const double upper = lay_notices(pen, hud, frame);
+  lay_toast(pen, hud, frame, upper);
   return layout;
 }
 

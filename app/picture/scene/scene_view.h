@@ -82,7 +82,8 @@ struct Hud {
   std::vector<HudRow> device;     ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
   std::string toast, toast_hint;  ///< at most one message; empty when none
   bool toast_warning = false;
-  std::string credit;  ///< organ's origin and licence; says "synthetic" for phantoms
+  bool toast_above = false;  ///< at the picture's upper edge: what it would cover below is to be seen
+  std::string credit;        ///< organ's origin and licence; says "synthetic" for phantoms
 };
 
 struct Camera {

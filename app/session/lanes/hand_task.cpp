@@ -16,6 +16,7 @@ constexpr std::uint64_t kSensesSeed = 0x5e45e5;  // the senses' own stream, apar
 constexpr std::uint64_t kTargetStride = 0x9e3779b97f4a7c15;
 constexpr double kLeastLever = 1e-9;  // determinant of the map from a force at the tip to the one at the hand
 constexpr double kEyeErrorPeriod_s = 0.020;
+constexpr double kSeenOpen_s = 0.01;  // the switch of no device is open for as long as the loop wants to see it so
 constexpr std::uint64_t kMostMissed = 1000;  // what is longer is a fault anyway: the simulated world waits for the rest
 
 }  // namespace
@@ -80,13 +81,18 @@ Percept HandTask::perceive(std::uint64_t tick) {
   draw_eye_error(status);
   Percept percept;
   percept.t_s = state.t_s;
-  percept.device_ready = static_cast<double>(active_ticks_) > kReadyAfter_s * rate;
+  percept.device_ready = static_cast<double>(active_ticks_) > (scene_.loop.daq.motors ? kReadyAfter_s : 0) * rate;
   const Seen seen = see();
   percept.tip_T = seen.X_TI.p + eye_error_;
   percept.R_TI = seen.X_TI.R;
   const HandSense sense = world_.sense();
-  percept.felt_force_T = feel_T(sense);
-  percept.felt_grip_n = std::max(0.0, sense.force_on_finger_n + kTouchError_n * random_.normal());
+  if (scene_.loop.daq.motors) {
+    percept.felt_force_T = feel_T(sense);
+    percept.felt_grip_n = std::max(0.0, sense.force_on_finger_n + kTouchError_n * random_.normal());
+  } else {  // nothing pushes back: what the scene does to the instrument is all that a hand can go by
+    percept.felt_force_T = state.F_I_T.force;
+    percept.felt_grip_n = state.grip_force_n;
+  }
   percept.jaw_opening_m = std::max(0.0, seen.jaw_opening_m + jaw_error_m_);
   percept.shown_force_n = status.force_shown ? state.F_I_T.force.norm() : std::numeric_limits<double>::quiet_NaN();
   percept.shown_grip_n = status.force_shown ? state.grip_force_n : std::numeric_limits<double>::quiet_NaN();
@@ -99,7 +105,8 @@ Percept HandTask::perceive(std::uint64_t tick) {
 /// Presses when the device has homed and keeps pressing, whatever happens afterwards.
 void HandTask::press_deadman() {
   if (haptic_.record().stylus.loop == LoopState::kHomed) ++homed_ticks_;
-  world_.press_deadman(static_cast<double>(homed_ticks_) > kPressAfter_s * scene_.loop.daq.rate_hz);
+  const double thumb_s = scene_.loop.daq.motors ? kPressAfter_s : kSeenOpen_s;
+  world_.press_deadman(static_cast<double>(homed_ticks_) > thumb_s * scene_.loop.daq.rate_hz);
 }
 
 void HandTask::run(std::uint64_t tick) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -10,6 +11,7 @@
 #include "app/session/setup/force_scale.h"
 #include "app/session/setup/patch_fit.h"
 #include "app/session/setup/placement.h"
+#include "haptics/device/pointer_daq.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/files/exercise_loader.h"
@@ -106,7 +108,8 @@ void require_reach(const Scene& scene) {
 }
 
 constexpr double kNoticedForce = 0.1;  // share by which a force must differ to be noticed [M]
-constexpr double kJawLength = 0.020;   // m, of the grasper that the exercises with objects use
+constexpr double kPointerAwake_s = 0.01;
+constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
 
 /// The loop's map is set before: pens turn from the resting instrument.
 Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
@@ -115,9 +118,10 @@ Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
   return kind_of(exercise).lay_out(exercise, scene.level, board, {*scene.organ_T, behind_tip, R_TI_rest});
 }
 
-/// The number of the level, or what the boards allow that `trocar check` proves. One that cannot be laid out cannot be
-/// met, and asks nothing.
+/// Without motors 1. The number of the level, or what the boards allow that `trocar check` proves. One that cannot be
+/// laid out cannot be met, and asks nothing.
 double force_scale(const Scene& scene, const ShaftRoom* room) {
+  if (!scene.loop.daq.motors) return 1;
   if (scene.level.force_scale > 0) return scene.level.force_scale;
   std::vector<Board> boards;
   for (int k = 0; k < kPracticeBoards + kProvedUnseen; ++k) {
@@ -132,7 +136,7 @@ double force_scale(const Scene& scene, const ShaftRoom* room) {
 
 /// Refuses a number of which the motors cannot give the board's forces, by more than a hand could tell.
 void require_force(const Scene& scene) {
-  if (scene.setup.weak_too || scene.level.force_scale <= 0) return;
+  if (scene.setup.weak_too || scene.level.force_scale <= 0 || !scene.loop.daq.motors) return;
   const Exercise& exercise = scene.setup.exercise;
   const double most = auto_force_scale(scene.loop.map, scene.loop.device, exercise, {scene.board});
   if (scene.level.force_scale <= most * (1 + kNoticedForce)) return;
@@ -171,6 +175,15 @@ void set_stage(Scene& scene) {
   require_force(scene);
 }
 
+/// Nothing is homed, armed or late where there is no device.
+void spare_the_device(HapticLoopConfig& loop) {
+  loop.device.transmission = pointer_transmissions();
+  SafetyLimits& limits = loop.safety;
+  limits.selftest_s = limits.beam_s = limits.still_s = limits.arm_s = limits.ramp_s = kPointerAwake_s;
+  limits.selftest_limit_s = limits.max_missed_share = std::numeric_limits<double>::infinity();
+  limits.max_missed_in_a_row = std::numeric_limits<std::uint32_t>::max();
+}
+
 }  // namespace
 
 Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets) {
@@ -197,6 +210,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.room_share = room_share(scene.loop.map, scene.loop.device, setup.exercise.layout, setup.exercise.soft_force_n);
   scene.loop.safety.max_missed_in_a_row = setup.pace.missed_in_a_row;
   scene.loop.safety.max_missed_share = setup.pace.missed_share;
+  if (!daq.motors) spare_the_device(scene.loop);
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
@@ -226,6 +240,7 @@ std::string scene_json(const Scene& scene) {
       {"passivity_law", passivity_law_name(s.passivity_law)},
       {"clamp_stiffness", s.clamp_stiffness},
       {"force_scale", scene.loop.map.force_scale}};
+  if (!scene.loop.daq.motors) json["motors"] = false;
   if (kind_of(s.exercise).on_organ) json["placement"] = placement_json(scene.placement);
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
   if (s.device.identified) json["device"] = file_json(*s.device.identified);
@@ -252,7 +267,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
       s.pace = {json.at("pace").at("missed_in_a_row").get<std::uint32_t>(),
                 json.at("pace").at("missed_share").get<double>()};
     }
-    out.daq = {"replay", s.rate_hz, json.at("dac_bits").get<int>()};
+    out.daq = {"replay", s.rate_hz, json.at("dac_bits").get<int>(), json.value("motors", true)};
     out.force_scale = json.at("force_scale").get<double>();
     s.contact_law = json.at("contact_law").get<std::string>() == "thesis" ? ContactLaw::kThesis : ContactLaw::kProxy;
     const auto law = passivity_law_named(json.at("passivity_law").get<std::string>());

@@ -11,6 +11,7 @@
 #include "app/session/keeping/attempt_keeping.h"
 #include "app/window/attempt/disk_room.h"
 #include "app/window/attempt/person_hand.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/hands/make_hand.h"
 
@@ -112,7 +113,7 @@ void AttemptRunner::State::record_and_grade() {
   hooks.observe = [this](const SessionView& view) { show(view); };
   hooks.observe_each_step = true;
   hooks.interrupted = [this] { return abort.load(); };
-  if (steered) hooks.hand = [this] { return std::make_unique<PersonHand>(link); };
+  if (steered) hooks.hand = [this] { return std::make_unique<PersonHand>(link, !scene->loop.daq.motors); };
   hooks.pause = &pause;
   hooks.marks = &marks;
   hooks.messages = &messages;
@@ -167,7 +168,8 @@ void AttemptRunner::State::end_without_grade(const std::string& why) noexcept {
 
 AttemptRunner::AttemptRunner(const AttemptRequest& request, const AssetRoots& assets)
     : AttemptRunner(request, assets,
-                    live_scene(build_scene(live(request.setup), assets, {"simulated", request.setup.rate_hz, 16}))) {}
+                    live_scene(build_scene(live(request.setup), assets,
+                                           backend_capabilities(request.setup.backend, request.setup.rate_hz)))) {}
 
 AttemptRunner::AttemptRunner(const AttemptRequest& request, const AssetRoots& assets,
                              std::shared_ptr<const Scene> scene)

@@ -9,9 +9,16 @@ double share_of(double way, double longest) { return way > longest ? longest / w
 
 }  // namespace
 
-void PersonHand::follow(const HandIntent& wanted, double dt_s) {
+void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double dt_s) {
   const Vec3 way = wanted.X_TI.p - intent_.X_TI.p;
-  intent_.X_TI.p += share_of(way.norm(), kSpeed * dt_s) * way;
+  Vec3 step = share_of(way.norm(), kSpeed * dt_s) * way;
+  const double felt_n = percept.felt_force_T.norm();
+  if (careful_ && felt_n > 0) {
+    const Vec3 out = percept.felt_force_T / felt_n;
+    const double deeper = -step.dot(out);
+    if (deeper > kPress * dt_s) step += (deeper - kPress * dt_s) * out;
+  }
+  intent_.X_TI.p += step;
   const Eigen::AngleAxisd turn(Mat3(wanted.X_TI.R * intent_.X_TI.R.transpose()));
   const double share = share_of(turn.angle(), kTurnSpeed * dt_s);
   if (share < 1)
@@ -19,7 +26,8 @@ void PersonHand::follow(const HandIntent& wanted, double dt_s) {
   else
     intent_.X_TI.R = wanted.X_TI.R;
   const double close = wanted.jaw_opening_m - intent_.jaw_opening_m;
-  intent_.jaw_opening_m += std::clamp(close, -kFingerSpeed * dt_s, kFingerSpeed * dt_s);
+  const double closing = careful_ && percept.felt_grip_n > 0 ? kFingerPress : kFingerSpeed;
+  intent_.jaw_opening_m += std::clamp(close, -closing * dt_s, kFingerSpeed * dt_s);
   intent_.clutch = wanted.clutch;
 }
 
@@ -34,7 +42,7 @@ HandIntent PersonHand::update(const Percept& percept, double dt_s) {
   link_.felt.store(taken_, std::memory_order_release);  // the tick of the previous call is over
   if (ready) {
     const SteeredIntent& wanted = link_.wanted.read();
-    if (wanted.number > 0) follow(wanted.intent, dt_s);
+    if (wanted.number > 0) follow(wanted.intent, percept, dt_s);
     taken_ = wanted.number;
   }
   link_.target.write(intent_);

@@ -3,9 +3,9 @@
 //
 // It takes hold where the instrument is and rests there until the device is ready and a first intent has come. A leap
 // of the intent (the pointer has crossed the window at once) becomes a movement at kSpeed, so that it cannot throw the
-// arm; the spring between this hand and the stylus is the plant's own (haptics/device/plant/hand_model.h). Frame T, SI.
-// No allocation, no lock: wait-free on both sides. Threads: update() the haptic task's; the link's other ends belong to
-// one more.
+// arm; without a device it is careful with what it touches. The spring between this hand and the stylus is the plant's
+// own (haptics/device/plant/hand_model.h). Frame T, SI. No allocation, no lock: wait-free on both sides. Threads:
+// update() the haptic task's; the link's other ends belong to one more.
 #pragma once
 
 #include <atomic>
@@ -36,14 +36,19 @@ class PersonHand final : public Hand {
   static constexpr double kTurnSpeed = 6;       ///< rad/s
   static constexpr double kFingerSpeed = 0.05;  ///< m/s: fully open to closed in 0.4 s
 
-  /// @param link outlives the hand.
-  explicit PersonHand(HandLink& link) : link_(link) {}
+  static constexpr double kPress = 0.003;         ///< careful: m/s into what is touched, 0.45 N/s at 150 N/m
+  static constexpr double kFingerPress = 0.0012;  ///< likewise, of the fingers: 0.36 N/s at 300 N/m
+
+  /// @param link outlives the hand. @param careful nothing pushes back: what is touched is pressed slowly, so that a
+  /// force can be had by eye.
+  explicit PersonHand(HandLink& link, bool careful = false) : link_(link), careful_(careful) {}
   HandIntent update(const Percept& percept, double dt_s) override;
 
  private:
-  void follow(const HandIntent& wanted, double dt_s);
+  void follow(const HandIntent& wanted, const Percept& percept, double dt_s);
 
   HandLink& link_;
+  bool careful_;
   HandIntent intent_;
   std::uint64_t taken_ = 0;  ///< number of the newest intent
   bool holding_ = false;

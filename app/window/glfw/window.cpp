@@ -160,6 +160,11 @@ bool Window::lost() const { return state_->reset_status != nullptr && state_->re
 void Window::present() { glfwSwapBuffers(state_->window); }
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
 
+void Window::hold_pointer(bool held) {
+  const int wanted = held ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL;
+  if (glfwGetInputMode(state_->window, GLFW_CURSOR) != wanted) glfwSetInputMode(state_->window, GLFW_CURSOR, wanted);
+}
+
 void Window::set_fullscreen(bool fullscreen) {
   State& s = *state_;
   const bool now = glfwGetWindowMonitor(s.window) != nullptr;

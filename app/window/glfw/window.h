@@ -39,6 +39,8 @@ class Window final : public GraphicsContext {
   void present();  ///< swaps buffers, waits for the screen when it gives a beat
   void set_title(const std::string& title);
   void set_fullscreen(bool fullscreen);
+  /// Hides the pointer and lets it move without an end, or gives it back where it was.
+  void hold_pointer(bool held);
   void* native() const;  ///< GLFWwindow*
 
  private:

@@ -12,32 +12,28 @@ double finger_toward(double from, double to, double step) { return from + std::c
 }  // namespace
 
 void JawFingers::begin(double opening_m) {
+  *this = JawFingers();
   widest_m_ = std::max(kWidest_m, opening_m);
-  opening_m_ = widest_m_;
-  latched_ = false;
+  opening_m_ = opening_m;
 }
 
 void JawFingers::advance(const Wish& wish, double dt_s) {
-  const double fast = widest_m_ / kRampTime_s * dt_s, slow = kSlow_m_per_s * dt_s;
-  if (wish.open) {
-    if (!wish.fine) latched_ = false;
-    opening_m_ = finger_toward(opening_m_, widest_m_, wish.fine ? slow : fast);
+  const double step = kSpeed_m_per_s * dt_s;
+  const bool begins = wish.used && !used_;
+  used_ = wish.used;
+  if (!wish.used) {
+    opening_m_ = finger_toward(opening_m_, 0, step);
     return;
   }
-  if (wish.trigger > 0) {
-    if (!latched_) opening_m_ = finger_toward(opening_m_, widest_m_ + wish.trigger * (kTightest_m - widest_m_), fast);
-    return;
-  }
+  if (begins || wish.open) opening_ = true;
   if (wish.close) {
-    const bool gentle = wish.fine || latched_ || opening_m_ <= 0;
-    opening_m_ = gentle ? finger_toward(opening_m_, kTightest_m, slow) : std::max(0.0, opening_m_ - fast);
-    return;
+    opening_ = false;
+    opening_m_ = finger_toward(opening_m_, kTightest_m, step);
+    if (wish.gripping) opening_m_ = std::max(opening_m_, wish.fingers_m - kAhead_m);
+  } else if (wish.let_go && !opening_) {
+    opening_m_ = wish.fingers_m;
   }
-  if (!latched_) opening_m_ = finger_toward(opening_m_, widest_m_, fast);
+  if (opening_) opening_m_ = finger_toward(opening_m_, widest_m_, step);
 }
-
-void JawFingers::toggle_latch() { latched_ = !latched_; }
-
-void JawFingers::hold() { latched_ = latched_ || opening_m_ < widest_m_; }
 
 }  // namespace trocar

@@ -1,34 +1,35 @@
-// The fingers at the jaws when a button or a trigger stands for them.
+// The fingers at the jaws when a button stands for them.
 //
-// Held closed, the wanted opening goes from open to 0 in 0.4 s, then on slowly: intent beyond what is held is grip
-// force. Released it opens at the same speed unless it is latched. Latched, closing and `fine` are slow (5 mm/s), so
-// that a grip force can be had by eye. A trigger says the opening itself. m, s. Thread: plain value, any thread.
+// Held, they close and go on closing: what is asked beyond the object is grip force. Let go, they stay as they are, so
+// that a force that looks right is kept. Let off, they open. While nothing is to be gripped the jaws are closed, as a
+// tip to touch with. m, s. Thread: plain value, any thread.
 #pragma once
 
 namespace trocar {
 
 class JawFingers {
  public:
-  static constexpr double kTightest_m = -0.010;  ///< the fingers press beyond what they hold
-  static constexpr double kRampTime_s = 0.4;
-  static constexpr double kSlow_m_per_s = 0.005;
+  static constexpr double kTightest_m = -0.010;   ///< the fingers press beyond what they hold
+  static constexpr double kSpeed_m_per_s = 0.04;  ///< open to closed in half a second
+  static constexpr double kAhead_m = 0.002;       ///< of the fingers that are at the object
 
   void begin(double opening_m);
   struct Wish {
-    bool close = false, open = false, fine = false;
-    double trigger = 0;  ///< 0..1
+    bool used = true;         ///< something is to be gripped
+    bool close = false;       ///< held
+    bool let_go = false;      ///< no longer held since this step: they stay where the fingers are
+    bool open = false;        ///< let off
+    bool gripping = false;    ///< the jaws feel something between them
+    double fingers_m = 0.02;  ///< opening that the hand has reached
   };
   void advance(const Wish& wish, double dt_s);
-  /// Holds what is held; a second time lets it go.
-  void toggle_latch();
-  /// Keeps the opening as it is, whatever is released now.
-  void hold();
-  bool latched() const { return latched_; }
+  /// They go on opening, or stay as they are.
+  bool opening() const { return opening_; }
   double opening_m() const { return opening_m_; }
 
  private:
   double widest_m_ = 0.02, opening_m_ = 0.02;
-  bool latched_ = false;
+  bool opening_ = true, used_ = true;
 };
 
 }  // namespace trocar

@@ -49,16 +49,16 @@ const std::vector<KeyName>& named_keys() {
 
 const std::map<Action, std::int32_t>& default_keys() {
   static const std::map<Action, std::int32_t> table{
-      {Action::kLeft, kKeyLeft},    {Action::kRight, kKeyRight},    {Action::kUp, kKeyUp},
-      {Action::kDown, kKeyDown},    {Action::kInsert, kKeyPageUp},  {Action::kWithdraw, kKeyPageDown},
-      {Action::kRollLeft, 'Q'},     {Action::kRollRight, 'E'},      {Action::kPitchUp, 'Z'},
-      {Action::kPitchDown, 'C'},    {Action::kYawLeft, kKeyHome},   {Action::kYawRight, kKeyEnd},
-      {Action::kClose, 'S'},        {Action::kOpen, 'X'},           {Action::kLatch, kKeySpace},
-      {Action::kClutch, 'W'},       {Action::kPostLeft, 'A'},       {Action::kPostRight, 'D'},
-      {Action::kScope, kKeyAlt},    {Action::kLevel, 'H'},          {Action::kPause, 'P'},
-      {Action::kRestart, 'R'},      {Action::kMark, 'M'},           {Action::kHelp, kKeyF1},
-      {Action::kForceBars, kKeyF2}, {Action::kDevicePanel, kKeyF3}, {Action::kGuidance, kKeyF5},
-      {Action::kPicture, kKeyF12},  {Action::kMenu, kKeyEscape}};
+      {Action::kLeft, kKeyLeft},      {Action::kRight, kKeyRight},   {Action::kUp, kKeyUp},
+      {Action::kDown, kKeyDown},      {Action::kInsert, kKeyPageUp}, {Action::kWithdraw, kKeyPageDown},
+      {Action::kRollLeft, 'Q'},       {Action::kRollRight, 'E'},     {Action::kPitchUp, 'Z'},
+      {Action::kPitchDown, 'C'},      {Action::kYawLeft, kKeyHome},  {Action::kYawRight, kKeyEnd},
+      {Action::kAct, kKeySpace},      {Action::kLetOff, 'X'},        {Action::kClutch, 'W'},
+      {Action::kPostLeft, 'A'},       {Action::kPostRight, 'D'},     {Action::kScope, 'V'},
+      {Action::kLevel, 'H'},          {Action::kPause, 'P'},         {Action::kRestart, 'R'},
+      {Action::kMark, 'M'},           {Action::kHelp, kKeyF1},       {Action::kForceBars, kKeyF2},
+      {Action::kDevicePanel, kKeyF3}, {Action::kGuidance, kKeyF5},   {Action::kPicture, kKeyF12},
+      {Action::kMenu, kKeyEscape}};
   return table;
 }
 
@@ -101,9 +101,8 @@ const std::vector<ActionName>& action_names() {
                                              {Action::kPitchDown, "pitch-down", "Shaft down", true},
                                              {Action::kYawLeft, "yaw-left", "Shaft to the left", true},
                                              {Action::kYawRight, "yaw-right", "Shaft to the right", true},
-                                             {Action::kClose, "close", "Close the jaws", true},
-                                             {Action::kOpen, "open", "Open the jaws", true},
-                                             {Action::kLatch, "latch", "Latch the jaws", true},
+                                             {Action::kAct, "act", "Press, or close the jaws", true},
+                                             {Action::kLetOff, "let-off", "Let off", true},
                                              {Action::kClutch, "clutch", "Clutch", true},
                                              {Action::kPostLeft, "post-left", "Light post to the left", true},
                                              {Action::kPostRight, "post-right", "Light post to the right", true},

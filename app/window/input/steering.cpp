@@ -16,15 +16,31 @@ constexpr double kMostAhead = 0.040;  // m that a flick of the mouse may be ahea
 constexpr double kKeySlow = 0.008, kKeyFast = 0.080, kKeyRamp = 1.2;     // m/s when pressed, after s of holding
 constexpr double kStickSpeed = 0.10;                                     // m/s at full deflection
 constexpr double kFine = 0.25;                                           // of all that keys and sticks do, with Shift
-constexpr double kWheel = 0.005, kWheelFine = 0.001;                     // m a notch
+constexpr double kWheel = 0.002, kWheelFine = 0.0005;                    // m a notch
+constexpr double kScopeWheel = 0.005;                                    // likewise
+constexpr double kWheelRoll = 4 * kDegree;                               // a notch
 constexpr double kLeanSpeed = 90 * kDegree, kRollSpeed = 270 * kDegree;  // rad/s, of the target
 constexpr double kKeyTurn = 45 * kDegree, kKeyRoll = 90 * kDegree;       // rad/s
-constexpr double kDragTurn = 120 * kDegree, kDragRoll = 360 * kDegree;   // over the picture's height
+constexpr double kDragTurn = 120 * kDegree;                              // over the picture's height
 constexpr double kScopeDrag = 60 * kDegree;                              // likewise
 constexpr double kScopeTurn = 25 * kDegree, kScopeDepth = 0.03, kPostTurn = 60 * kDegree;  // rad/s, m/s, rad/s
 constexpr double kCircle = 0.64;  // radius of the scope's picture, of its height (scope_optics.h)
+constexpr double kTrigger = 0.3;  // of a pad's trigger: pulled
 constexpr double kLeap_px = 200;  // between two events: the pointer was elsewhere meanwhile (a panel, another window)
 constexpr double kLongestStep = 0.1;  // s: after a standstill of the window nothing leaps
+
+// The act button.
+constexpr double kClick_s = 0.2;                            // shorter is a click: it lets off
+constexpr double kApproach = 0.012;                         // m/s towards what is not touched yet
+constexpr double kToGround_s = 0.25;                        // over a ground: faster from high above,
+constexpr double kGroundSlow = 0.004, kGroundFast = 0.040;  // within these, m/s
+constexpr double kPress = 0.003;                            // m/s into what is touched: 0.45 N/s at 150 N/m
+constexpr double kAhead = 0.0015;                           // m that the target may be deeper than the tip
+constexpr double kLetOff = 0.10;                            // m/s back
+constexpr double kFeltGain = 0.3;                           // of sideways movements, while something is touched
+constexpr double kAway = 0.005;                             // m of a movement sideways that lets off by itself
+constexpr double kSettle = 0.08;                            // m/s to the height that belongs to a ground
+constexpr double kLowest = -0.010, kHighest = 0.120;        // m over the ground
 
 struct View {
   Vec3 right, up, away;
@@ -75,6 +91,17 @@ struct Steering::State {
   double wanted_roll = 0, roll = 0;
   HandIntent intent = {};
   JawFingers jaw = {};
+  // over a ground
+  int ground = 0;                 ///< its number; 0: none
+  Vec3 foot_T = Vec3::Zero();     ///< on the ground, below the tip
+  double lift_m = 0, rest_m = 0;  ///< of the tip over its foot; and where it settles
+  // the act button
+  bool acting = false;                   ///< held
+  double acted_s = 0;                    ///< for how long
+  bool let_go = false, let_off = false;  ///< in this step: kept from now on; a click, or the tip goes away
+  Vec3 act_way_T = Vec3::Zero();         ///< what pressing has added to the place
+  bool returning = false;                ///< and is taken back
+  double aside_m = 0;                    ///< moved sideways since it is kept
   ScopeHand scope = {};
   InputKind kind = InputKind::kMouse;
   // held
@@ -87,8 +114,7 @@ struct Steering::State {
   // since the last step
   Eigen::Vector2d moved_px = Eigen::Vector2d::Zero(), dragged_px = Eigen::Vector2d::Zero(),
                   scoped_px = Eigen::Vector2d::Zero();
-  bool yaw_drag = false;
-  double wheel_m = 0, scope_wheel = 0;
+  double wheel_m = 0, roll_wheel = 0, scope_wheel = 0;
 
   bool on(Action action) const { return held.contains(action); }
   bool pad_on(std::uint32_t button) const { return (pad_buttons & button) != 0; }
@@ -102,7 +128,7 @@ struct Steering::State {
     pad = space_mouse = {};
     pad_buttons = space_mouse_buttons = 0;
     moved_px = dragged_px = scoped_px = Eigen::Vector2d::Zero();
-    wheel_m = scope_wheel = 0;
+    wheel_m = roll_wheel = scope_wheel = 0;
   }
 
   /// As the event says, or as the keys themselves were seen.
@@ -129,7 +155,6 @@ struct Steering::State {
     if (event.repeat || on(*action)) return true;
     held[*action] = 0;
     if (*action <= Action::kWithdraw) kind = InputKind::kKeyboard;
-    if (*action == Action::kLatch) jaw.toggle_latch();
     if (*action == Action::kLevel) scope.level();
     return true;
   }
@@ -146,7 +171,6 @@ struct Steering::State {
       scoped_px += by;
     } else if (right) {
       dragged_px += by;
-      yaw_drag = control;
     } else {
       moved_px += by;
       kind = InputKind::kMouse;
@@ -161,6 +185,8 @@ struct Steering::State {
   void wheel(const InputEvent& event) {
     if (middle || scoping()) {
       scope_wheel += event.wheel;
+    } else if (right) {
+      roll_wheel += event.wheel;
     } else {
       wheel_m += event.wheel * (shift ? kWheelFine : kWheel);
       kind = InputKind::kMouse;
@@ -168,11 +194,8 @@ struct Steering::State {
   }
 
   void sticks(const InputEvent& event, std::array<double, 6>& axes, std::uint32_t& buttons, InputKind own) {
-    const std::uint32_t pressed = event.buttons & ~buttons;
     axes = event.axis;
     buttons = event.buttons;
-    if (own == InputKind::kPad && (pressed & kPadA)) jaw.toggle_latch();
-    if (own == InputKind::kSpaceMouse && (pressed & 2u)) jaw.toggle_latch();
     for (const double axis : axes)
       if (shaped_axis(axis) != 0) kind = own;
   }
@@ -180,8 +203,8 @@ struct Steering::State {
   bool handle(const InputEvent& event) {
     using Kind = InputEvent::Kind;
     if (event.kind == Kind::kFocusLost) {
-      jaw.hold();
       release_all();
+      acted_s = kClick_s;  // what is let go now is kept, not clicked
       return false;
     }
     if (event.kind != Kind::kPad && event.kind != Kind::kSpaceMouse) {
@@ -251,18 +274,86 @@ struct Steering::State {
     const Eigen::Vector2d hand(side() * (stick.x() + shaped_axis(-space_mouse[5])),
                                stick.y() - shaped_axis(space_mouse[3]));
     const Eigen::Vector2d by_key(pair(Action::kYawRight, Action::kYawLeft), pair(Action::kPitchUp, Action::kPitchDown));
-    out.lean = fine * kKeyTurn * dt_s * (hand + by_key) +
-               kDragTurn * Eigen::Vector2d(yaw_drag ? side() * drag.x() : 0, drag.y());
+    out.lean = fine * kKeyTurn * dt_s * (hand + by_key) + kDragTurn * Eigen::Vector2d(side() * drag.x(), drag.y());
     out.roll = fine * kKeyRoll * dt_s *
                    (pair(Action::kRollRight, Action::kRollLeft) + side() * (cross + shaped_axis(-space_mouse[4]))) +
-               (yaw_drag ? 0 : side() * kDragRoll * drag.x());
+               side() * kWheelRoll * roll_wheel;
     return out;
   }
 
-  void move_tip(const Wish& wish, const View& view, double dt_s) {
-    const Vec3 next = wanted_T + view.right * wish.tip.x() + view.up * wish.tip.y() + view.away * wish.tip.z();
-    wanted_T = intent.X_TI.p + no_longer(within_ball(next, centre_T, reach.radius_m) - intent.X_TI.p, kMostAhead);
-    intent.X_TI.p = toward(intent.X_TI.p, wanted_T, kTipSpeed * dt_s);
+  bool act_held() const {
+    return left || on(Action::kAct) || pad_on(kPadA) || std::max(pad[4], pad[5]) > kTrigger ||
+           (space_mouse_buttons & 1u) != 0;
+  }
+
+  /// Held, let go of, or clicked. A click takes back at once.
+  void act(double dt_s) {
+    const bool held_now = act_held();
+    let_go = acting && !held_now;
+    let_off = (let_go && acted_s < kClick_s) || on(Action::kLetOff) || (space_mouse_buttons & 2u) != 0 || pad_on(kPadY);
+    acted_s = held_now ? acted_s + dt_s : 0;
+    if (held_now && !acting) aside_m = 0;
+    acting = held_now;
+  }
+
+  /// Where the tip is without what pressing adds. Over a ground its foot follows the pointer.
+  void move_foot(const Vec3& aside, double deeper_m, const GlideGround& over, const Camera& camera, double dt_s) {
+    if (over.number != ground) {
+      ground = over.number;
+      foot_T = wanted_T;
+      lift_m = wanted_T.z() - over.height(foot_T.x(), foot_T.y());
+      rest_m = over.clearance_m;
+    }
+    if (!aside.isZero()) {
+      const Vec3 next = foot_T + aside;
+      foot_T = seen_ground(over, camera, next).value_or(next);
+    }
+    foot_T = within_ball(foot_T, Vec3(centre_T.x(), centre_T.y(), foot_T.z()), reach.radius_m);
+    foot_T.z() = over.height(foot_T.x(), foot_T.y());
+    if (deeper_m != 0) rest_m = lift_m = std::clamp(lift_m - deeper_m, kLowest, kHighest);
+    lift_m += std::clamp(rest_m - lift_m, -kSettle * dt_s, kSettle * dt_s);
+    wanted_T = foot_T + lift_m * Vec3::UnitZ();
+  }
+
+  /// What the act button adds: on to the surface, and into it as long as it is held.
+  void press(const AtHand& around, const View& view, double dt_s) {
+    if (let_off && !around.jaws) returning = true;
+    if (acting && acted_s > kClick_s) returning = false;
+    if (returning) act_way_T = toward(act_way_T, Vec3::Zero(), kLetOff * dt_s);
+    if (act_way_T.isZero()) returning = false;
+    if (!acting || around.jaws || returning) return;
+    const Vec3& tip = around.now.X_TI.p;
+    if (around.touching) {
+      act_way_T -= kPress * dt_s * around.normal_T;
+    } else if (ground > 0) {
+      const double speed = std::clamp((lift_m + act_way_T.z()) / kToGround_s, kGroundSlow, kGroundFast);
+      act_way_T.z() -= speed * dt_s;
+    } else {
+      act_way_T += kApproach * dt_s * view.away;
+    }
+    const Vec3 ahead = wanted_T + act_way_T - tip;  // not far beyond a tip that something holds back
+    const double deep = around.touching ? -ahead.dot(around.normal_T) : 0;
+    if (deep > kAhead) act_way_T += (deep - kAhead) * around.normal_T;
+  }
+
+  void move_tip(const Wish& wish, const View& view, const Camera& camera, const AtHand& around, double dt_s) {
+    const bool felt = around.touching && !around.jaws;
+    const double gain = felt ? kFeltGain : 1;
+    const Vec3 aside = gain * (view.right * wish.tip.x() + view.up * wish.tip.y());
+    aside_m = felt && !acting ? aside_m + aside.norm() : 0;
+    if (aside_m > kAway) let_off = true;
+    if (around.ground) {
+      move_foot(aside, wish.tip.z(), *around.ground, camera, dt_s);
+    } else {
+      ground = 0;
+      wanted_T += aside + view.away * wish.tip.z();
+    }
+    press(around, view, dt_s);
+    wanted_T = within_ball(wanted_T, centre_T, reach.radius_m);
+    const Vec3 next = wanted_T + act_way_T;
+    const Vec3 there = around.ground ? next : Vec3(intent.X_TI.p + no_longer(next - intent.X_TI.p, kMostAhead));
+    if (!around.ground) wanted_T = there - act_way_T;
+    intent.X_TI.p = toward(intent.X_TI.p, there, kTipSpeed * dt_s);
   }
 
   /// Lean is a vector across the shaft as it began: direction and angle of what its far end has gone.
@@ -290,7 +381,7 @@ struct Steering::State {
 
   void move_scope(double dt_s, double height_px) {
     const Eigen::Vector2d drag = kScopeDrag * scoped_px / std::max(1.0, height_px);
-    ScopeMove more{0, drag.x(), drag.y(), scope_wheel * kWheel};
+    ScopeMove more{0, drag.x(), drag.y(), scope_wheel * kScopeWheel};
     if (scoping()) {
       const Vec3 held_wish = plane_wish(1);  // m/s
       more.yaw_rad += std::clamp(held_wish.x() / kKeyFast, -1.0, 1.0) * kScopeTurn * dt_s;
@@ -307,26 +398,30 @@ struct Steering::State {
   void hold_clutch() {
     const bool clutch = on(Action::kClutch) || pad_on(kPadB);
     if (clutch && !intent.clutch) clutched_at_T = intent.X_TI.p;
-    if (!clutch && intent.clutch) intent.X_TI.p = wanted_T = clutched_at_T;  // the instrument stood still meanwhile
+    if (!clutch && intent.clutch) intent.X_TI.p = wanted_T = clutched_at_T, ground = 0;  // it stood still meanwhile
     intent.clutch = clutch;
   }
 
-  void advance(double dt_s, const Camera& camera, double height_px) {
+  void advance(double dt_s, const Camera& camera, double height_px, const AtHand& around) {
     const double dt = std::clamp(dt_s, 0.0, kLongestStep);
     const View view = view_of(camera, intent.X_TI.p, height_px);
     const Wish now = wish(dt, view, height_px);
     hold_clutch();
-    move_tip(now, view, dt);
+    act(dt);
+    move_tip(now, view, camera, around, dt);
     turn_wrist(now, view, dt);
     move_scope(dt, height_px);
-    const double trigger = std::clamp(std::max(pad[4], pad[5]), 0.0, 1.0);
-    jaw.advance({left || on(Action::kClose) || (space_mouse_buttons & 1u) != 0, on(Action::kOpen), shift,
-                 trigger > 0.05 ? trigger : 0.0},
+    jaw.advance({.used = around.jaws,
+                 .close = acting,
+                 .let_go = let_go,
+                 .open = let_off,
+                 .gripping = around.gripping,
+                 .fingers_m = around.now.jaw_opening_m},
                 dt);
     intent.jaw_opening_m = jaw.opening_m();
     for (auto& [action, since] : held) since += dt;
     moved_px = dragged_px = scoped_px = Eigen::Vector2d::Zero();
-    wheel_m = scope_wheel = 0;
+    wheel_m = roll_wheel = scope_wheel = 0;
   }
 };
 
@@ -359,14 +454,16 @@ void Steering::begin(const Pose& X_TI, double jaw_opening_m, const Vec3& centre_
 
 bool Steering::handle(const InputEvent& event) { return state_->handle(event); }
 
-const HandIntent& Steering::advance(double dt_s, const Camera& camera, double height_px) {
-  state_->advance(dt_s, camera, height_px);
+const HandIntent& Steering::advance(double dt_s, const Camera& camera, double height_px, const AtHand& around) {
+  state_->advance(dt_s, camera, height_px, around);
   return state_->intent;
 }
 
 const HandIntent& Steering::intent() const { return state_->intent; }
 InputKind Steering::kind() const { return state_->kind; }
-bool Steering::latched() const { return state_->jaw.latched(); }
+std::optional<Vec3> Steering::foot_T() const {
+  return state_->ground > 0 ? std::optional(state_->foot_T) : std::nullopt;
+}
 ScopeMove Steering::scope() const { return state_->scope.move(); }
 
 }  // namespace trocar

@@ -4,7 +4,11 @@
 // Movements are in the picture's plane about the view's own axes; depth is along the line of sight. Speeds are limited,
 // and the target stays in a ball about the work space. The wrist turns the shaft about the tip: its far end goes where
 // the hand goes, within what the device's wrist can follow (steering_reach.h); roll is about the shaft. Through a port
-// only tip and roll can be had. Frame T, m, rad. Same events and same steps give the same intents. Thread: the
+// only tip and roll can be had.
+//
+// One button acts: it presses the closed tip on to what lies below and into it, or closes the jaws where something is
+// to be gripped. Held, the force grows; let go, it stays; a click lets off. Over a ground the tip glides at a height.
+// Frame T, m, rad. Same events and same steps give the same intents. Thread: the
 // window's.
 #pragma once
 
@@ -12,6 +16,7 @@
 #include <string>
 
 #include "app/picture/scene/scene_view.h"
+#include "app/window/input/glide_ground.h"
 #include "app/window/input/input_event.h"
 #include "app/window/input/key_map.h"
 #include "app/window/input/scope_hand.h"
@@ -26,6 +31,15 @@ struct SteeringOptions {
   double sensitivity = 1;       ///< 0.25 to 4
 };
 
+/// What the hand is at, as the newest moment and the exercise say.
+struct AtHand {
+  HandIntent now = {};                  ///< where the hand has got to: the tip and the fingers
+  bool jaws = true;                     ///< something is to be gripped: the act button closes the jaws, else it presses
+  bool touching = false;                ///< the instrument feels a force
+  Vec3 normal_T = Vec3::UnitZ();        ///< out of what it touches
+  bool gripping = false;                ///< so do the jaws
+  const GlideGround* ground = nullptr;  ///< to glide over
+};
 class Steering {
  public:
   Steering(const KeyMap& keys, const SteeringOptions& options);
@@ -41,11 +55,13 @@ class Steering {
   bool handle(const InputEvent& event);
   /// Moves what is held (keys, sticks) by dt and gives the newest intent. @param camera axes of the picture.
   /// @param height_px of the scope's picture, for the mouse.
-  const HandIntent& advance(double dt_s, const Camera& camera, double height_px);
+  /// @param around what the hand is at; its default: nothing is touched, jaws in use, no ground.
+  const HandIntent& advance(double dt_s, const Camera& camera, double height_px, const AtHand& around = {});
   const HandIntent& intent() const;
 
   InputKind kind() const;  ///< what moved the hand last
-  bool latched() const;    ///< the jaws keep their opening
+  /// Below the tip on the ground that it glides over; nothing: it moves along the view.
+  std::optional<Vec3> foot_T() const;
   using ScopeMove = trocar::ScopeMove;
   ScopeMove scope() const;  ///< turned by the person: light post, about its port, depth
 

@@ -123,7 +123,10 @@ void NotchScreen::steer(PracticeModel& model, double dt_s) {
     model.steering().begin({rest, Vec3::Zero()}, run_->newest().record.stylus.jaw_opening_m, Vec3::Zero(), reach);
     steering_ = true;
   }
-  run_->steer(model.steering().advance(dt_s, camera_, std::max(1.0, picture_.height)));
+  const StylusState& stylus = run_->newest().record.stylus;
+  const AtHand around{
+      .now = model.steering().intent(), .jaws = false, .touching = stylus.contact, .normal_T = stylus.contact_normal_T};
+  run_->steer(model.steering().advance(dt_s, camera_, std::max(1.0, picture_.height), around));
 }
 
 void NotchScreen::settle(PracticeModel& model, double wait_s) {

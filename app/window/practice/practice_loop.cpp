@@ -202,7 +202,8 @@ void PracticeLoop::State::dispatch(const std::vector<InputEvent>& events) {
     const bool key = event.kind == Kind::kKeyDown || event.kind == Kind::kText;
     const bool press = event.kind == Kind::kButtonDown || event.kind == Kind::kWheel;
     // What was let go is told to the screen always: nothing stays held because a panel lay under the pointer.
-    if ((key && drawn->layer.wants_keys()) || (press && drawn->layer.wants_pointer())) continue;
+    const bool over_panel = press && drawn->layer.wants_pointer() && !screen->holds_pointer();
+    if ((key && drawn->layer.wants_keys()) || over_panel) continue;
     if (const auto to = screen->handle(event, model)) show(*to);
   }
 }
@@ -357,6 +358,10 @@ ScreenName PracticeLoop::here() const { return state_->name; }
 const Screen* PracticeLoop::screen() const { return state_->screen.get(); }
 bool PracticeLoop::menu_open() const { return state_->menu; }
 Preset PracticeLoop::preset() const { return state_->drawn->renderer.options().preset; }
+bool PracticeLoop::holds_pointer() const {
+  const State& s = *state_;
+  return s.screen && !s.menu && !s.help && s.screen->holds_pointer();
+}
 bool PracticeLoop::fullscreen() const { return state_->fullscreen; }
 Image PracticeLoop::picture() const { return state_->drawn->target.read(); }
 const std::vector<DrawnText>& PracticeLoop::texts() const { return state_->texts; }

@@ -43,8 +43,9 @@ class PracticeLoop {
   ScreenName here() const;
   const Screen* screen() const;  ///< that is up; nullptr: none
   bool menu_open() const;
-  Preset preset() const;    ///< that the pictures are drawn with
-  bool fullscreen() const;  ///< wanted
+  Preset preset() const;       ///< that the pictures are drawn with
+  bool fullscreen() const;     ///< wanted
+  bool holds_pointer() const;  ///< the screen that is up has the pointer for itself: nothing lies over it
   /// The last frame. @throws EnvironmentError.
   Image picture() const;
   const std::vector<DrawnText>& texts() const;  ///< of the last frame

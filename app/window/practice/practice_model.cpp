@@ -8,6 +8,7 @@
 #include "app/picture/models/show_scene.h"
 #include "app/session/setup/recorded_scene.h"
 #include "app/window/practice/practice_model_state.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/kind.h"
@@ -254,6 +255,7 @@ std::string PracticeModel::begin_attempt() {
                        : s.options.input != "auto"  ? s.options.input
                        : s.settings.input != "auto" ? s.settings.input
                                                     : input_name(s.steering->kind());
+  if (!scripted && request.setup.hand != input_name(InputKind::kDevice)) request.setup.backend = kPointerBackend;
   request.setup.seed = s.seed();
   request.setup.board = drawn_board(request.setup.seed, level == kExamLevel);
   request.setup.realtime = true;

@@ -7,6 +7,7 @@
 
 #include "app/session/grading/recorded_result.h"
 #include "app/window/attempt/cut_off.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
@@ -113,7 +114,8 @@ std::shared_ptr<const Scene> PracticeModel::State::built(AttemptSetup setup) con
   if (last && kind_of(setup.exercise).on_organ && last->organ.sha256 == made.sha256 &&
       last->setup.exercise.text == setup.exercise.text && last->setup.level == setup.level)
     setup.placement = last->placement;
-  return std::make_shared<const Scene>(build_scene(setup, std::move(made), {"simulated", setup.rate_hz, 16}));
+  return std::make_shared<const Scene>(
+      build_scene(setup, std::move(made), backend_capabilities(setup.backend, setup.rate_hz)));
 }
 
 /// At sign-in. A database that does not answer has none to show now.

@@ -43,6 +43,8 @@ class Screen {
   virtual bool takes_escape() const { return false; }
   /// A dialog of its own stands over the picture: the device panel gives way.
   virtual bool asks() const { return false; }
+  /// The pointer is the screen's: hidden, never at an edge, and over no panel.
+  virtual bool holds_pointer() const { return false; }
   /// Every event goes to handle() before anything else looks at it: while a key is being chosen.
   virtual bool takes_all() const { return false; }
   /// What the renderer shall draw behind or within this frame, and where (px of the window); nothing: a plain ground.

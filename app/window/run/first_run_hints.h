@@ -29,10 +29,13 @@ class FirstRunHints {
 
  private:
   static constexpr double kLinger_s = 2;
-  bool all() const { return done_[0] && done_[1] && done_[2]; }
+  bool all() const { return done_[0] && done_[1] && done_[2] && done_[3]; }
+  void acts(bool held);
 
   bool wanted_ = false;
-  std::array<bool, 3> done_{};  ///< moved, deeper, gripped
+  std::array<bool, 4> done_{};  ///< moved, deeper, pressed or gripped, let off
+  bool acting_ = false;
+  double acted_s_ = 0;
   double way_px_ = 0, last_x_ = -1, last_y_ = -1, over_s_ = 0;
 };
 

@@ -28,6 +28,11 @@ std::vector<Ui::Cell> key_row(const PracticeModel& model, const ActionName& acti
 
 void key_tables(Ui& ui, const PracticeModel& model) {
   const Translator& w = model.words();
+  ui.heading(w("Mouse"));
+  ui.text(w(
+      "Move: the tip; at L1 it keeps its height by itself. Wheel: deeper, back. Left button held: press, or close the "
+      "jaws; let go, the force stays; a click lets off. Right button held: lean the shaft, with the wheel roll it."));
+  ui.gap();
   for (const bool steering : {true, false}) {
     ui.heading(steering ? w("Steering with keys") : w("Commands"));
     std::vector<std::vector<Ui::Cell>> rows;
@@ -37,10 +42,6 @@ void key_tables(Ui& ui, const PracticeModel& model) {
     ui.table(steering ? "keys.steering" : "keys.commands", {w("Key"), w("What it does")}, {0.3, 0.7}, rows);
     ui.gap();
   }
-  ui.heading(w("Mouse"));
-  ui.text(
-      w("Move: the tip in the plane of the picture. Wheel: in and out. Left button: close the jaws. Right button held: "
-        "roll and turn the shaft."));
 }
 
 void metric_table(Ui& ui, const PracticeModel& model) {

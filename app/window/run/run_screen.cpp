@@ -1,14 +1,17 @@
 #include "app/window/run/run_screen.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/attempt/attempt_scene.h"
+#include "app/window/attempt/surroundings.h"
 #include "app/window/practice/practice_model.h"
 #include "app/window/run/first_run_hints.h"
 #include "app/window/run/hud_words.h"
 #include "app/window/run/run_sounds.h"
 #include "app/window/run/run_view.h"
+#include "app/window/run/tip_guide.h"
 #include "app/window/ui/hud_draw_list.h"
 #include "app/window/ui/ui.h"
 #include "haptics/kinematics/device_geometry.h"
@@ -18,6 +21,7 @@ namespace {
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+constexpr double kTipRoom = 0.07;   // of the picture's height round tip and target: for the bar at the tip
 constexpr double kStoring_s = 0.5;  // that a database may take before the debrief is shown all the same
 
 /// Before anything has been seen of the run: the instrument as the jig holds it.
@@ -35,12 +39,15 @@ struct RunScreen::State {
 
   FontSet fonts;
   bool begun = false, steering = false, was_paused = false, overlay = false;
-  bool again = false;  // the overlay asks whether to start again
-  RunMoment before;    // shown while nothing has been seen
-  Camera camera;
+  bool again = false;   // the overlay asks whether to start again
+  RunMoment before;     // shown while nothing has been seen
+  Camera camera, seen;  // of the exercise; of the last picture
   PixelRect picture;
   HudLayout layout;
   std::optional<double> rim;  // where the tip is when it is out of view
+  std::unique_ptr<Surroundings> surroundings;
+  TipGuide guide;
+  bool toast_above = false;
   bool bars = true, guides = true;
   Asked asked = Asked::kNothing;
   double dt_s = 0, event_s = 0;  // last frame's step; when the first event since the last intent was handed over
@@ -53,7 +60,9 @@ struct RunScreen::State {
   void steer(PracticeModel& model);
   void command(Action action, PracticeModel& model);
   Camera seen_by(PracticeModel& model) const;
+  TipGuide guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment);
   SceneView view(PracticeModel& model);
+  bool covers(const HudBox& box, double margin = 0) const;
   void lay_out(const Hud& hud, PracticeModel& model, int width, int height);
   void pause(PracticeModel& model, bool paused);
   void mark(PracticeModel& model) const;
@@ -70,12 +79,15 @@ RunScreen::~RunScreen() = default;
 
 bool RunScreen::asks() const { return state_->overlay; }
 bool RunScreen::takes_escape() const { return state_->overlay; }
+bool RunScreen::holds_pointer() const { return state_->steering && !state_->overlay; }
 const LatencyMeter& RunScreen::latency() const { return state_->latency; }
 
 /// An attempt that has just begun.
 void RunScreen::State::begin(PracticeModel& model) {
   const Scene& scene = model.running()->scene();
   before = first_moment(scene);
+  surroundings = std::make_unique<Surroundings>(scene);
+  guide = {};
   camera = attempt_camera(scene);
   steering = was_paused = overlay = again = false;
   bars = true;
@@ -107,9 +119,25 @@ void RunScreen::State::steer(PracticeModel& model) {
     hand.begin(from.X_TI, from.jaw_opening_m, scene.board.centre_T, steering_reach(scene.setup.exercise, scene.level));
     steering = true;
   }
-  const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(model), picture.height));
+  const RunMoment& now = run.newest();
+  const AtHand around = surroundings->around(now.record, now.status, run.target());
+  const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(model), picture.height, around));
   if (event_s > 0) latency.steered(number, event_s);
   event_s = 0;
+}
+
+/// The bar that counts now, where it is shown at all; the plumb line where the level has guides.
+TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment) {
+  TipGuide out;
+  out.tip_T = view.X_TI.p;
+  out.held = moment.status.hold_progress;
+  out.lit_T = lit_outline(view_of(scene, moment), view.camera);
+  const StylusState& stylus = moment.record.stylus;
+  if (guides) out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(view.X_TI.p);
+  if (view.hud.bars.empty()) return out;
+  const ForceBar& bar = moment.status.cue == Cue::kGrip ? view.hud.bars.back() : view.hud.bars.front();
+  if (bars && !bar.hidden) out.force = bar;
+  return out;
 }
 
 SceneView RunScreen::State::view(PracticeModel& model) {
@@ -125,7 +153,27 @@ SceneView RunScreen::State::view(PracticeModel& model) {
                                seen_by(model));
   if (!guides) hide_guides(out);
   if (steering) add_ghost(out, run.target());
+  guide = steering ? guide_at(run.scene(), out, moment) : TipGuide{};
   return out;
+}
+
+/// Whether it would lie over what the hand is at, what is lit, or a message. @param margin px round tip and target.
+bool RunScreen::State::covers(const HudBox& box, double margin) const {
+  const ScopeOptics optics(seen, picture);
+  std::vector<Vec3> points;
+  if (steering) points.push_back(guide.tip_T);
+  for (const auto& line : guide.lit_T) points.insert(points.end(), line.begin(), line.end());
+  const bool hides = std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
+    const auto at = optics.project(p);
+    return at && at->x() > box.x - margin && at->x() < box.right() + margin && at->y() > box.y - margin &&
+           at->y() < box.bottom() + margin;
+  });
+  return hides || std::any_of(layout.shapes.begin(), layout.shapes.end(), [&](const HudShape& shape) {
+           const HudBox& other = shape.box;
+           const bool itself = other.x == box.x && other.y == box.y;
+           return shape.kind == HudShape::Kind::kToast && !itself && other.x < box.right() && other.right() > box.x &&
+                  other.y < box.bottom() && other.bottom() > box.y;
+         });
 }
 
 void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, int height) {
@@ -138,6 +186,14 @@ void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, 
   }
   picture = hud_scene_window(shown, width, height, model.scale());
   layout = layout_hud(shown, width, height, model.scale(), fonts);
+  toast_above = std::any_of(layout.shapes.begin(), layout.shapes.end(), [&](const HudShape& shape) {
+    return shape.kind == HudShape::Kind::kToast && shape.box.y > picture.y + 0.5 * picture.height &&
+           covers(shape.box, kTipRoom * picture.height);
+  });
+  if (toast_above) {
+    shown.toast_above = true;
+    layout = layout_hud(shown, width, height, model.scale(), fonts);
+  }
   if (!model.settings().left_handed) return;
   picture = picture_right(picture, width);
   layout = column_left(std::move(layout));
@@ -151,6 +207,7 @@ std::optional<Screen::Stage> RunScreen::stage(PracticeModel& model, int width, i
   s.steer(model);
   Stage out;
   out.view = s.view(model);
+  s.seen = out.view.camera;
   s.lay_out(out.view.hud, model, width, height);
   s.rim = rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
   out.x = s.picture.x;
@@ -284,7 +341,8 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& m
   return to;
 }
 
-/// Painted, not a panel: the pointer over it still steers.
+/// Painted, not a panel: the pointer over it still steers. In the first corner of the picture where nothing is to be
+/// seen that it would cover.
 void RunScreen::State::hint_panel(Ui& ui, PracticeModel& model) const {
   if (!hints.speaks() || !steering) return;
   const auto marks = hints.marks(model.words(), model.keys(), model.steering().kind());
@@ -292,13 +350,19 @@ void RunScreen::State::hint_panel(Ui& ui, PracticeModel& model) const {
   double wide = 0;
   for (const FirstRunHints::Hint& mark : marks) wide = std::max(wide, ui.text_width(mark.text));
   const double width = std::min(wide + side + 3 * pad, picture.width - 2 * pad), room = width - side - 3 * pad;
-  const double x = picture.x + pad;
-  double y = picture.y + pad;
-  ui.paint_ground({x, y, width, line * static_cast<double>(marks.size()) + pad}, 0.85, ui.px(8));
-  y += 0.5 * pad + 0.5 * (line - ui.line_height());
+  const double height = line * static_cast<double>(marks.size()) + pad;
+  const double left = picture.x + pad, right = picture.x + picture.width - pad - width;
+  const double top = picture.y + pad, bottom = picture.y + picture.height - pad - height;
+  const Area corners[] = {{left, top, width, height}, {right, top, width, height}, {right, bottom, width, height}};
+  const Area* free = std::find_if(std::begin(corners), std::end(corners), [&](const Area& corner) {
+    return !covers({corner.x, corner.y, corner.width, corner.height});
+  });
+  if (free == std::end(corners)) free = corners;  // a window too small for both
+  ui.paint_ground(*free, 0.85, ui.px(8));
+  double y = free->y + 0.5 * pad + 0.5 * (line - ui.line_height());
   for (const FirstRunHints::Hint& mark : marks) {
-    ui.paint_mark(mark.done ? Mark::kTick : Mark::kOpen, x + pad, y + 0.5 * (ui.line_height() - side), side);
-    ui.text_at(x + 2 * pad + side, y, mark.text, mark.done ? Ink::kDim : Ink::kText, room);
+    ui.paint_mark(mark.done ? Mark::kTick : Mark::kOpen, free->x + pad, y + 0.5 * (ui.line_height() - side), side);
+    ui.text_at(free->x + 2 * pad + side, y, mark.text, mark.done ? Ink::kDim : Ink::kText, room);
     y += line;
   }
 }
@@ -341,6 +405,7 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double 
   if (!s.overlay && !model.running()->board_answers()) s.asked = State::Asked::kPause;
   if (!s.overlay) ui.keys_to_screen();
   s.hints.pass(dt_s);
+  if (!s.overlay) paint_tip_guide(ui, ScopeOptics(s.seen, s.picture), s.guide);
   draw_hud(s.layout);
   if (s.rim && s.steering) s.rim_arrow(*s.rim, ui.px(26));
   s.key_hints(ui, model);

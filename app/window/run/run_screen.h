@@ -19,6 +19,7 @@ class RunScreen final : public Screen {
   std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
   std::optional<ScreenName> handle(const InputEvent& event, PracticeModel& model) override;
   bool asks() const override;
+  bool holds_pointer() const override;
   bool takes_escape() const override;  ///< while its box is up, which Esc closes
   std::optional<Stage> stage(PracticeModel& model, int width, int height) override;
 

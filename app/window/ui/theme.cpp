@@ -29,6 +29,8 @@ const char* ink_name(Ink ink) {
       return "alarm";
     case Ink::kAccent:
       return "accent";
+    case Ink::kTip:
+      return "tip";
   }
   return "text";
 }
@@ -53,6 +55,8 @@ Rgb ink_colour(Ink ink) {
       return {255, 130, 95};
     case Ink::kAccent:
       return {244, 233, 104};
+    case Ink::kTip:
+      return {255, 170, 240};
   }
   return {241, 243, 245};
 }
@@ -73,6 +77,8 @@ Rgb shape_colour(Ink ink) {
       return okabe_ito::kVermillion;
     case Ink::kAccent:
       return okabe_ito::kYellow;
+    case Ink::kTip:
+      return {255, 170, 240};  // okabe_ito::kPurple, lighter: no tissue, no highlight and no text has it
   }
   return {241, 243, 245};
 }

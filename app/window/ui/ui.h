@@ -14,7 +14,7 @@
 
 namespace trocar {
 
-enum class Ink : std::uint8_t { kText, kDim, kHeading, kGood, kCaution, kAlarm, kAccent };
+enum class Ink : std::uint8_t { kText, kDim, kHeading, kGood, kCaution, kAlarm, kAccent, kTip };
 enum class Mark : std::uint8_t { kNone, kTick, kHalf, kOpen, kLock, kWarning, kInfo, kUp, kDown, kPlay };
 
 /// A text as it was drawn: for tests of layout.
@@ -119,6 +119,8 @@ class Ui {
     double x = 0, y = 0;
   };
   void paint_curve(const std::vector<Point>& points, Ink shape, double thickness = 2);
+  /// The same with a dark edge: seen on any picture.
+  void paint_outlined(const std::vector<Point>& points, Ink shape, double thickness = 2);
   /// A mark in a square of the given side.
   void paint_mark(Mark mark, double x, double y, double side);
 

@@ -114,6 +114,17 @@ void Ui::paint_curve(const std::vector<Point>& points, Ink ink, double thickness
   list().AddPolyline(line.data(), static_cast<int>(line.size()), shape(ink), ImDrawFlags_None, f(px(thickness)));
 }
 
+void Ui::paint_outlined(const std::vector<Point>& points, Ink ink, double thickness) {
+  std::vector<ImVec2> line;
+  line.reserve(points.size());
+  for (const Point& p : points) line.push_back(at(p.x, p.y));
+  const auto draw = [&](unsigned colour, double wide) {
+    list().AddPolyline(line.data(), static_cast<int>(line.size()), colour, ImDrawFlags_None, f(px(wide)));
+  };
+  draw(packed({0, 0, 0}, 0.75), thickness + 2.5);
+  draw(shape(ink), thickness);
+}
+
 void Ui::paint_mark(Mark mark, double x, double y, double side) {
   const Square s{x, y, side};
   const double thick = std::max(1.0, 0.11 * side);

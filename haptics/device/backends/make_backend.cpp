@@ -1,5 +1,6 @@
 #include "haptics/device/backends/make_backend.h"
 
+#include "haptics/device/pointer_daq.h"
 #include "haptics/device/replay_daq.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/input_error.h"
@@ -11,6 +12,7 @@ namespace {
 struct BackendKind {
   const char* name;
   int dac_bits;
+  bool motors;
   BackendAbilities can;
   Backend (*make)(const BackendOptions&);
 };
@@ -23,7 +25,14 @@ Backend simulated_backend(const BackendOptions& options) {
           .world = world};
 }
 
-constexpr BackendKind kBackends[] = {{kSimulatedBackend, 16, {.pause = true, .pace = true}, simulated_backend}};
+Backend pointer_backend(const BackendOptions& options) {
+  auto daq = std::make_unique<PointerDaq>(options.simulated.rate_hz);
+  SimulatedWorld* world = daq.get();
+  return {.daq = std::move(daq), .world = world};
+}
+
+constexpr BackendKind kBackends[] = {{kSimulatedBackend, 16, true, {.pause = true, .pace = true}, simulated_backend},
+                                     {kPointerBackend, 16, false, {.pause = true, .pace = true}, pointer_backend}};
 
 const BackendKind& backend_kind(const std::string& name) {
   std::string known;
@@ -44,7 +53,7 @@ std::vector<std::string> backend_names() {
 
 DaqCapabilities backend_capabilities(const std::string& name, double rate_hz) {
   const BackendKind& kind = backend_kind(name);
-  return {kind.name, rate_hz, kind.dac_bits};
+  return {kind.name, rate_hz, kind.dac_bits, kind.motors};
 }
 
 Backend make_backend(const std::string& name, const BackendOptions& options) {

@@ -13,6 +13,7 @@
 namespace trocar {
 
 inline constexpr const char* kSimulatedBackend = "simulated";
+inline constexpr const char* kPointerBackend = "pointer";  ///< no device: mouse, keys, pad, SpaceMouse
 
 struct BackendOptions {
   SimulatedDaqConfig simulated = {};  ///< of "simulated"; its rate holds for every back-end

@@ -38,7 +38,7 @@ TEST(MakeBackend, AnUnknownNameIsRefusedWithThoseThatThereAre) {
     make_backend("mc5000", {});
     FAIL() << "made";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "--backend mc5000: unknown; known are simulated");
+    EXPECT_STREQ(error.what(), "--backend mc5000: unknown; known are simulated, pointer");
   }
 }
 

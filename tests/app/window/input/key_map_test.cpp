@@ -38,7 +38,7 @@ TEST(KeyMap, DefaultsAreThoseOfTheGuide) {
   const KeyMap keys;
   const std::map<Action, std::string> guide{
       {Action::kInsert, "Page up"}, {Action::kRollLeft, "Q"},  {Action::kRollRight, "E"},  {Action::kPitchUp, "Z"},
-      {Action::kPitchDown, "C"},    {Action::kLatch, "Space"}, {Action::kOpen, "X"},       {Action::kScope, "Alt"},
+      {Action::kPitchDown, "C"},    {Action::kAct, "Space"},   {Action::kLetOff, "X"},     {Action::kScope, "V"},
       {Action::kPostLeft, "A"},     {Action::kLevel, "H"},     {Action::kPause, "P"},      {Action::kRestart, "R"},
       {Action::kMark, "M"},         {Action::kHelp, "F1"},     {Action::kForceBars, "F2"}, {Action::kDevicePanel, "F3"},
       {Action::kGuidance, "F5"},    {Action::kPicture, "F12"}, {Action::kMenu, "Esc"}};
@@ -60,7 +60,7 @@ TEST(KeyMap, ChangesComeBackAsTheyWere) {
   KeyMap keys, again;
   keys.assign(Action::kLeft, 'J');
   keys.assign(Action::kRight, 'L');
-  keys.assign(Action::kLatch, kKeyEnter);
+  keys.assign(Action::kAct, kKeyEnter);
   keys.assign(Action::kScope, kKeyPageUp);
   again.apply(keys.changes());
   for (const ActionName& one : action_names()) EXPECT_EQ(again.key_of(one.action), keys.key_of(one.action)) << one.name;

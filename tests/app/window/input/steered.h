@@ -72,7 +72,10 @@ struct Steered {
     steering.handle(event);
   }
   const HandIntent& run(double seconds) {
-    for (int i = 0; i < std::lround(seconds / kStep_s); ++i) steering.advance(kStep_s, camera, kHeight_px);
+    for (int i = 0; i < std::lround(seconds / kStep_s); ++i) {
+      around.now = steering.intent();  // a hand that follows at once
+      steering.advance(kStep_s, camera, kHeight_px, around);
+    }
     return steering.intent();
   }
   Vec3 tip() const { return steering.intent().X_TI.p; }
@@ -81,6 +84,7 @@ struct Steered {
 
   Steering steering;
   Camera camera = front_camera();
+  AtHand around = {};
 };
 
 struct Axes {

@@ -65,7 +65,7 @@ TEST(SteeringPad, BumpersWristTriggersAndScope) {
   EXPECT_GT((s.far() - before).dot(axes.right), 0.05);
   EXPECT_GT((s.far() - before).dot(axes.up), 0.05);
   s.sticks(Kind::kPad, {0, 0, 0, 0, 0, 0.5});
-  EXPECT_NEAR(s.run(1).jaw_opening_m, 0.005, 1e-9);
+  EXPECT_NEAR(s.run(0.25).jaw_opening_m, 0.010, 1e-9);  // a trigger that is pulled is held
   s.sticks(Kind::kPad, {}, kPadX);
   const Vec3 tip = s.run(0.1).X_TI.p;
   s.sticks(Kind::kPad, {1, 0, 0, 0, 0, 0}, kPadX);
@@ -77,11 +77,13 @@ TEST(SteeringPad, BumpersWristTriggersAndScope) {
   EXPECT_GT(s.steering.scope().post_rad, 0.1);
 }
 
-TEST(SteeringPad, LatchAndClutchAreButtons) {
+TEST(SteeringPad, ActLetOffAndClutchAreButtons) {
   Steered s;
   s.sticks(Kind::kPad, {}, kPadA);
   s.sticks(Kind::kPad, {}, kPadA);  // still held
-  EXPECT_TRUE(s.steering.latched());
+  EXPECT_NEAR(s.run(0.25).jaw_opening_m, 0.010, 1e-9);
+  s.sticks(Kind::kPad, {}, kPadY);
+  EXPECT_DOUBLE_EQ(s.run(0.5).jaw_opening_m, 0.02);
   s.sticks(Kind::kPad, {}, kPadB);
   EXPECT_TRUE(s.run(kStep_s).clutch);
   s.sticks(Kind::kPad, {}, 0);
@@ -115,13 +117,14 @@ TEST(SteeringSpaceMouse, SixAxesAreRatesOfTheTarget) {
   EXPECT_EQ(s.steering.kind(), InputKind::kSpaceMouse);
 }
 
-TEST(SteeringSpaceMouse, ButtonsPinchAndLatch) {
+TEST(SteeringSpaceMouse, ButtonsActAndLetOff) {
   Steered s;
   s.sticks(Kind::kSpaceMouse, {}, 1);
-  EXPECT_NEAR(s.run(0.2).jaw_opening_m, 0.010, 1e-9);
-  s.sticks(Kind::kSpaceMouse, {}, 3);
+  EXPECT_NEAR(s.run(0.25).jaw_opening_m, 0.010, 1e-9);
   s.sticks(Kind::kSpaceMouse, {}, 0);
   EXPECT_NEAR(s.run(1).jaw_opening_m, 0.010, 1e-9);
+  s.sticks(Kind::kSpaceMouse, {}, 2);
+  EXPECT_DOUBLE_EQ(s.run(0.5).jaw_opening_m, 0.02);
 }
 
 TEST(SteeringKind, IsWhatMovedTheHandLast) {

@@ -47,15 +47,15 @@ TEST(Steering, APixelOfMouseIsAPixelOfTip) {
   }
 }
 
-TEST(Steering, WheelGoesInByFiveMillimetresAndByOne) {
+TEST(Steering, WheelGoesInByTwoMillimetresAndByHalfOne) {
   Steered s;
   const Vec3 away = axes_of(s.camera).away;
   s.wheel(1);
   s.run(0.3);
-  EXPECT_NEAR(s.tip().dot(away), 0.005, 1e-12);
+  EXPECT_NEAR(s.tip().dot(away), 0.002, 1e-12);
   s.wheel(-2, true);
   s.run(0.3);
-  EXPECT_NEAR(s.tip().dot(away), 0.003, 1e-12);
+  EXPECT_NEAR(s.tip().dot(away), 0.001, 1e-12);
 }
 
 TEST(Steering, SensitivityScalesMouseAndKeysWithinItsLimits) {
@@ -67,10 +67,10 @@ TEST(Steering, SensitivityScalesMouseAndKeysWithinItsLimits) {
     s.run(0.3);
     return s.tip().norm();
   };
-  EXPECT_NEAR(way(2), 0.010, 1e-12);
-  EXPECT_NEAR(way(0.5), 0.0025, 1e-12);
-  EXPECT_NEAR(way(100), 0.020, 1e-12);
-  EXPECT_NEAR(way(0), 0.00125, 1e-12);
+  EXPECT_NEAR(way(2), 0.004, 1e-12);
+  EXPECT_NEAR(way(0.5), 0.001, 1e-12);
+  EXPECT_NEAR(way(100), 0.008, 1e-12);
+  EXPECT_NEAR(way(0), 0.0005, 1e-12);
 }
 
 TEST(Steering, KeysStartSlowlyAndGrowFaster) {

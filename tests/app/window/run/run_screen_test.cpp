@@ -74,6 +74,9 @@ TEST_F(RunScreenBench, TheMouseMovesTheInstrumentAndTheHintIsTicked) {
   InputEvent press = pointer(InputEvent::Kind::kButtonDown, 380, 160),
              release = pointer(InputEvent::Kind::kButtonUp, 380, 160);
   frame({press});
+  for (int i = 0; i < 10; ++i) frame();  // held
+  frame({release});
+  frame({press});  // clicked
   frame({release});
   for (int i = 0; i < 60; ++i) frame();  // 3 s of the window's time
   EXPECT_FALSE(sees("Mouse: move the tip")) << "all done: the coach falls silent";
@@ -282,6 +285,12 @@ TEST_F(RunScreenBench, ABoardThatStopsAnsweringPausesTheAttemptAndItGoesOnWhenIt
   begin();
   ASSERT_TRUE(ready());
   AttemptRunner* run = model_->running();
+  Vec3 rests = tip();
+  ASSERT_TRUE(until([&] {  // the tip has gone to the height of the start ball
+    const bool still = frame() && (tip() - std::exchange(rests, tip())).norm() < 1e-4;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return still;
+  }));
   ASSERT_TRUE(run->plug(false));
   ASSERT_TRUE(until([&] { return sees("The device does not answer"); }));
   EXPECT_TRUE(run->paused());

@@ -1,0 +1,24 @@
+// What a steered tip glides over: the height of the ground under every place, and how far above it the tip stays.
+//
+// A hand without force feedback has two directions on a screen. Over a ground they move the tip's foot, the point
+// straight below it, to what lies under the pointer; the height is then a matter of its own. Frame T, m. Thread: the
+// window's.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "app/picture/scene/scene_view.h"
+
+namespace trocar {
+
+struct GlideGround {
+  int number = 0;                                        ///< another number: another ground, to which the tip goes over
+  std::function<double(double x_m, double y_m)> height;  ///< m, everywhere
+  double clearance_m = 0;                                ///< where the tip stays until a person says otherwise
+};
+
+/// First point of the ground on the line of sight through a point; none within reach: nothing.
+std::optional<Vec3> seen_ground(const GlideGround& ground, const Camera& camera, const Vec3& through_T);
+
+}  // namespace trocar

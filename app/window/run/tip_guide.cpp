@@ -1,0 +1,112 @@
+#include "app/window/run/tip_guide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "app/window/ui/ui.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kFootRadius = 0.002;  // m
+constexpr double kRoundDisc = 0.002;   // m beyond a disc's edge: the foot's ring is seen within
+constexpr double kPenLine = 0.03;      // m of a pen behind its tip
+constexpr int kFootPoints = 24, kHeldPoints = 32, kCirclePoints = 32;
+constexpr double kHeldRadius = 17, kBarWide = 116, kBarHigh = 14, kBarBelow = 30;  // px at 720 lines
+constexpr double kTouching_n = 0.01;
+
+void paint_plumb(Ui& ui, const ScopeOptics& optics, const Vec3& tip_T, const Vec3& foot_T) {
+  std::vector<Ui::Point> foot;
+  for (int i = 0; i <= kFootPoints; ++i) {
+    const double a = 2 * std::numbers::pi * i / kFootPoints;
+    const auto at = optics.project(foot_T + kFootRadius * Vec3(std::cos(a), std::sin(a), 0));
+    if (!at) return;
+    foot.push_back({at->x(), at->y()});
+  }
+  const auto from = optics.project(tip_T), to = optics.project(foot_T);
+  if (!from || !to) return;
+  if ((*from - *to).norm() > ui.px(3)) ui.paint_outlined({{from->x(), from->y()}, {to->x(), to->y()}}, Ink::kTip, 2.5);
+  ui.paint_outlined(foot, Ink::kTip, 2.5);
+}
+
+void paint_force(Ui& ui, const ForceBar& bar, double x, double y) {
+  const double wide = ui.px(kBarWide), high = ui.px(kBarHigh);
+  const auto at = [&](double n) { return x + wide * std::clamp(n / bar.full_scale_n, 0.0, 1.0); };
+  const double now = at(bar.value_n), low = at(bar.band_low_n), top = at(bar.band_high_n), limit = at(bar.limit_n);
+  ui.paint_ground({x - ui.px(4), y - ui.px(4), wide + ui.px(8), high + ui.px(8)}, 0.8, ui.px(4));
+  ui.paint_hatch({limit, y, x + wide - limit, high}, Ink::kCaution, 5, 1);
+  if (top > low) ui.paint_frame({low, y, top - low, high}, Ink::kGood, 1.5);
+  const bool inside = bar.value_n >= bar.band_low_n && bar.value_n <= bar.band_high_n && top > low;
+  const Ink ink = bar.value_n > bar.limit_n       ? Ink::kAlarm
+                  : inside                        ? Ink::kGood
+                  : bar.value_n > bar.band_high_n ? Ink::kCaution
+                                                  : Ink::kHeading;
+  if (now > x) ui.paint_box({x, y + high * 0.25, now - x, high * 0.5}, ink);
+}
+
+using Line = std::vector<Vec3>;
+
+Line circle(const Vec3& centre, const Vec3& normal, double radius_m) {
+  const Vec3 a = normal.unitOrthogonal(), b = normal.cross(a);
+  Line out;
+  for (int i = 0; i <= kCirclePoints; ++i) {
+    const double t = 2 * std::numbers::pi * i / kCirclePoints;
+    out.push_back(centre + radius_m * (std::cos(t) * a + std::sin(t) * b));
+  }
+  return out;
+}
+
+Line top_of(const SeenObject& block) {
+  const Vec3 half = 0.5 * block.size_m;
+  Line out;
+  for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}, {-1, -1}})
+    out.push_back(block.X_TO * Vec3(x * half.x(), y * half.y(), half.z()));
+  return out;
+}
+
+void paint_lit(Ui& ui, const ScopeOptics& optics, const Line& line) {
+  std::vector<Ui::Point> seen;
+  for (const Vec3& p : line)
+    if (const auto at = optics.project(p)) seen.push_back({at->x(), at->y()});
+  if (seen.size() == line.size()) ui.paint_outlined(seen, Ink::kAccent, 3);
+}
+
+}  // namespace
+
+std::vector<Line> lit_outline(const SessionView& view, const Camera& camera) {
+  const DirectorStatus& status = view.director.status();
+  const Board& board = view.director.board();
+  const auto facing = [&](const Vec3& p) { return Vec3((camera.eye_T - p).normalized()); };
+  if (status.phase == Phase::kReady || status.phase == Phase::kArmed)
+    return {circle(board.start_T, facing(board.start_T), view.scene.setup.exercise.start_sphere_m)};
+  if (status.phase != Phase::kRun || status.target_index < 0) return {};
+  const Demand& d = status.demand;
+  if (status.cue == Cue::kPick) return {top_of(d.object)};
+  if (status.cue == Cue::kCarry || status.cue == Cue::kPlace)
+    return {circle(board.targets.at(static_cast<std::size_t>(status.target_index)).centre_T, Vec3::UnitZ(),
+                   view.scene.setup.exercise.grasp.ring_radius_m)};
+  if (d.oriented)
+    return {circle(d.centre_T, facing(d.centre_T), d.radius_m), {d.centre_T, d.centre_T - kPenLine * d.R_TI.col(2)}};
+  return {circle(d.centre_T, d.normal_T, d.radius_m + kRoundDisc)};
+}
+
+void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
+  for (const Line& line : guide.lit_T) paint_lit(ui, optics, line);
+  if (guide.foot_T) paint_plumb(ui, optics, guide.tip_T, *guide.foot_T);
+  const auto tip = optics.project(guide.tip_T);
+  if (!tip) return;
+  if (guide.held > 0) {
+    std::vector<Ui::Point> ring;
+    for (int i = 0; i <= kHeldPoints; ++i) {
+      const double a = 2 * std::numbers::pi * std::min(1.0, guide.held) * i / kHeldPoints;
+      ring.push_back({tip->x() + ui.px(kHeldRadius) * std::sin(a), tip->y() - ui.px(kHeldRadius) * std::cos(a)});
+    }
+    ui.paint_outlined(ring, Ink::kGood, 3.5);
+  }
+  if (!guide.force || guide.force->value_n < kTouching_n) return;
+  paint_force(ui, *guide.force, tip->x() - 0.5 * ui.px(kBarWide), tip->y() + ui.px(kBarBelow));
+}
+
+}  // namespace trocar

@@ -1,0 +1,33 @@
+// What eyes are given in place of a hand's feeling: what is lit, how high the tip is, over which point, and how hard it
+// presses.
+//
+// An outline of what is asked for, seen through shaft and edges; a plumb line with a ring at its foot, on what lies
+// below the tip; beside the tip a bar of the force that counts now, with its band and limit, and a ring that fills with
+// the time held. Painted over the picture, so that every preset has it. px of the window, frame T. Thread: the
+// window's.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/picture/scene/scope_optics.h"
+#include "app/session/session.h"
+
+namespace trocar {
+
+class Ui;
+
+struct TipGuide {
+  std::vector<std::vector<Vec3>> lit_T = {};  ///< lines
+  Vec3 tip_T = Vec3::Zero();
+  std::optional<Vec3> foot_T = {};     ///< below the tip on what it may fall on; nothing: no plumb line
+  std::optional<ForceBar> force = {};  ///< while it may be seen
+  double held = 0;                     ///< 0..1
+};
+
+/// Outline of what the exercise asks for now: start ball, disc, pen, block or ring.
+std::vector<std::vector<Vec3>> lit_outline(const SessionView& view, const Camera& camera);
+
+void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide);
+
+}  // namespace trocar

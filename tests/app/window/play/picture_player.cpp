@@ -1,0 +1,216 @@
+#include "tests/app/window/play/picture_player.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/window/ui/theme.h"
+
+namespace trocar::testing_support {
+namespace {
+
+constexpr double kPictureShare = 0.75;  // of the window's width: the column stands beside it
+constexpr double kMoved_px = 12;        // what is lit is somewhere else
+constexpr double kClick_s = 0.08;
+
+bool is(const std::uint8_t* pixel, Rgb colour, int within = 6) {
+  return std::abs(pixel[0] - colour.r) <= within && std::abs(pixel[1] - colour.g) <= within &&
+         std::abs(pixel[2] - colour.b) <= within;
+}
+
+/// By hue, also where the edge of a line is mixed with the dark round it.
+bool is_pink(const std::uint8_t* p) {
+  return p[0] > 140 && p[2] > 0.8 * p[0] && p[1] < 0.8 * p[0] && p[1] > 0.5 * p[0];
+}
+bool is_yellow(const std::uint8_t* p) { return p[0] > 150 && p[1] > 0.9 * p[0] && p[2] < 0.5 * p[0]; }
+
+struct Patch {
+  int count = 0;
+  double left = 1e9, right = -1, top = 1e9, bottom = -1;
+  void add(int x, int y) {
+    ++count;
+    left = std::min<double>(left, x);
+    right = std::max<double>(right, x);
+    top = std::min<double>(top, y);
+    bottom = std::max<double>(bottom, y);
+  }
+  Spot middle() const { return {0.5 * (left + right), 0.5 * (top + bottom)}; }
+};
+
+/// Of all pixels of a colour the largest patch whose parts lie within some px of each other.
+Patch patch_of(const Image& picture, bool (*is_colour)(const std::uint8_t*), double near_px) {
+  std::vector<Patch> patches;
+  const int wide = static_cast<int>(kPictureShare * picture.width);
+  for (int y = picture.height / 15; y < picture.height - picture.height / 22; ++y)
+    for (int x = 0; x < wide; ++x) {
+      if (!is_colour(picture.pixel(x, y))) continue;
+      const auto at = std::find_if(patches.begin(), patches.end(), [&](const Patch& p) {
+        return x >= p.left - near_px && x <= p.right + near_px && y >= p.top - near_px && y <= p.bottom + near_px;
+      });
+      (at == patches.end() ? patches.emplace_back() : *at).add(x, y);
+    }
+  for (std::size_t i = 0; i < patches.size(); ++i)  // parts that have grown together
+    for (std::size_t j = i + 1; j < patches.size();) {
+      Patch &a = patches[i], b = patches[j];
+      const bool meet = b.left <= a.right + near_px && b.right >= a.left - near_px && b.top <= a.bottom + near_px &&
+                        b.bottom >= a.top - near_px;
+      if (!meet) {
+        ++j;
+        continue;
+      }
+      a = {a.count + b.count, std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.top, b.top),
+           std::max(a.bottom, b.bottom)};
+      patches.erase(patches.begin() + static_cast<std::ptrdiff_t>(j));
+      j = i + 1;
+    }
+  const auto most = std::max_element(patches.begin(), patches.end(),
+                                     [](const Patch& a, const Patch& b) { return a.count < b.count; });
+  return most == patches.end() ? Patch{} : *most;
+}
+
+double way(const Spot& a, const Spot& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+InputEvent mouse(InputEvent::Kind kind, double x, double y) {
+  InputEvent event;
+  event.kind = kind;
+  event.x = x;
+  event.y = y;
+  return event;
+}
+
+}  // namespace
+
+Glance glance(const Image& picture) {
+  Glance out;
+  const double unit = picture.height / 720.0;
+  const Patch lit = patch_of(picture, is_yellow, 8 * unit);
+  if (lit.count > 8) out.lit = lit.middle(), out.lit_wide = lit.right - lit.left;
+  const Patch plumb = patch_of(picture, is_pink, 6 * unit);
+  if (plumb.count > 8) {
+    const double ring = std::min(plumb.bottom - plumb.top, 0.6 * (plumb.right - plumb.left));
+    out.foot = Spot{plumb.middle().x, plumb.bottom - 0.5 * ring};
+    out.tip = Spot{plumb.middle().x, plumb.bottom - plumb.top > 2 * ring ? plumb.top : out.foot->y};
+  }
+  if (!out.tip) return out;
+  // The bar lies straight below the tip.
+  const int x0 = static_cast<int>(out.tip->x - 70 * unit), x1 = static_cast<int>(out.tip->x + 70 * unit);
+  const int y0 = static_cast<int>(out.tip->y + 5 * unit), y1 = static_cast<int>(out.tip->y + 80 * unit);
+  using Force = Glance::Force;
+  const std::pair<Ink, Force> colours[] = {{Ink::kHeading, Force::kLow},
+                                           {Ink::kGood, Force::kGood},
+                                           {Ink::kCaution, Force::kHigh},
+                                           {Ink::kAlarm, Force::kHigh}};
+  for (int x = std::max(0, x0); x < std::min(picture.width, x1); ++x)  // the bar begins at its left end
+    for (const auto& [ink, force] : colours) {
+      int count = 0;
+      for (int y = std::max(0, y0); y < std::min(picture.height, y1); ++y)
+        count += is(picture.pixel(x, y), shape_colour(ink)) ? 1 : 0;
+      if (count < 3 || x > out.tip->x - 25 * unit) continue;
+      out.force = force;
+      return out;
+    }
+  return out;
+}
+
+std::vector<InputEvent> MouseHand::move(double right_px, double down_px) {
+  x_ += right_px;
+  y_ += down_px;
+  return {mouse(InputEvent::Kind::kMouseMove, x_, y_)};
+}
+std::vector<InputEvent> MouseHand::act(bool down) {
+  return {mouse(down ? InputEvent::Kind::kButtonDown : InputEvent::Kind::kButtonUp, x_, y_)};
+}
+std::vector<InputEvent> MouseHand::deeper(int steps) {
+  InputEvent event = mouse(InputEvent::Kind::kWheel, x_, y_);
+  event.wheel = steps;
+  return {event};
+}
+
+std::vector<InputEvent> PicturePlayer::play(double t_s, const Image& picture) {
+  eye_.push_back({t_s, glance(picture)});
+  std::optional<Glance> seen;
+  while (!eye_.empty() && eye_.front().t_s <= t_s - kEye_s) {
+    seen = eye_.front().seen;
+    eye_.pop_front();
+  }
+  if (!seen) return {};
+  return decide(t_s, *seen);
+}
+
+/// Half of the way that is left, then a look at what became of it.
+std::vector<InputEvent> PicturePlayer::aim(double t_s, const Spot& from, const Spot& to) {
+  wait_until_s_ = t_s + kEye_s + 0.15;
+  const double share = way(from, to) > 40 ? 0.85 : 0.7;
+  return hand_.move(share * (to.x - from.x), share * (to.y - from.y));
+}
+
+std::vector<InputEvent> PicturePlayer::press(double t_s, const Glance& seen) {
+  using Force = Glance::Force;
+  switch (stage_) {
+    case Stage::kAim:
+      break;
+    case Stage::kPress:
+      doing = "press";
+      if (!down_) {
+        down_ = true;
+        since_s_ = t_s;
+        return hand_.act(true);
+      }
+      if (seen.force == Force::kGood || seen.force == Force::kHigh || t_s - since_s_ > 8) {
+        stage_ = seen.force == Force::kGood ? Stage::kKeep : Stage::kLift;
+        down_ = false;
+        since_s_ = t_s;
+        wait_until_s_ = t_s + 0.5;
+        return hand_.act(false);
+      }
+      break;
+    case Stage::kKeep:
+      doing = "keep";
+      if (seen.force == Force::kLow && t_s - since_s_ > 0.7) stage_ = Stage::kPress;
+      if (seen.force == Force::kHigh || t_s - since_s_ > 6) stage_ = Stage::kLift;
+      break;
+    case Stage::kLift:
+      doing = "lift";
+      if (!down_) {
+        down_ = true;
+        since_s_ = t_s;
+        return hand_.act(true);
+      }
+      if (t_s - since_s_ < kClick_s) return {};
+      down_ = false;
+      stage_ = Stage::kAim;
+      wait_until_s_ = t_s + kEye_s + 0.3;
+      return hand_.act(false);
+  }
+  return {};
+}
+
+std::vector<InputEvent> PicturePlayer::decide(double t_s, const Glance& seen) {
+  if (t_s < wait_until_s_ || !seen.tip) return {};
+  const bool ball = seen.lit_wide > 60;
+  if (!seen.lit) {  // nothing is lit: a grip is asked for, or it is over
+    if (dark_s_ < 0) dark_s_ = t_s;
+    if (t_s - dark_s_ < 0.8) return {};
+    if (stage_ == Stage::kAim) stage_ = Stage::kPress;
+    return press(t_s, seen);
+  }
+  dark_s_ = -1;
+  const bool moved = goal_ && way(*goal_, *seen.lit) > kMoved_px;
+  goal_ = seen.lit;
+  if (moved && stage_ != Stage::kAim && stage_ != Stage::kLift) {
+    stage_ = Stage::kLift;
+    if (down_) {
+      down_ = false;
+      return hand_.act(false);
+    }
+  }
+  if (stage_ != Stage::kAim) return press(t_s, seen);
+  const Spot& mine = ball ? *seen.tip : *seen.foot;
+  const double off = way(mine, *seen.lit);
+  doing = ball ? "to the ball" : "over the disc";
+  if (off > (ball ? 8 : 4)) return aim(t_s, mine, *seen.lit);
+  if (ball) return {};
+  stage_ = Stage::kPress;
+  return press(t_s, seen);
+}
+
+}  // namespace trocar::testing_support

@@ -1,0 +1,76 @@
+// A player who sees nothing but pictures of the window and answers with mouse events, as slowly as a person does.
+//
+// From each picture it takes what stands out in it: the yellow outline of what is lit, the white plumb line and its
+// foot, the force bar at the tip, the dial's pointers. It sees them 0.3 s late, and after each movement waits to see
+// what became of it. It knows no scene, no force and no depth. Test support.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/gl/image.h"
+#include "app/window/input/input_event.h"
+
+namespace trocar::testing_support {
+
+struct Spot {
+  double x = 0, y = 0;
+};
+
+/// What the eye takes from one picture.
+struct Glance {
+  std::optional<Spot> lit, tip, foot;  ///< middle of the outline; upper end of the plumb line; its foot
+  double lit_wide = 0;                 ///< px
+  enum class Force { kNone, kLow, kGood, kHigh } force = Force::kNone;  ///< colour of the bar at the tip
+  bool held = false;                                                    ///< a ring fills at the tip
+};
+Glance glance(const Image& picture);
+
+/// What a hand can do, whatever it holds.
+class PlayerHand {
+ public:
+  virtual ~PlayerHand() = default;
+  virtual std::vector<InputEvent> move(double right_px, double down_px) = 0;
+  virtual std::vector<InputEvent> act(bool down) = 0;
+  virtual std::vector<InputEvent> deeper(int steps) = 0;
+};
+
+class MouseHand final : public PlayerHand {
+ public:
+  std::vector<InputEvent> move(double right_px, double down_px) override;
+  std::vector<InputEvent> act(bool down) override;
+  std::vector<InputEvent> deeper(int steps) override;
+
+ private:
+  double x_ = 400, y_ = 300;
+};
+
+class PicturePlayer {
+ public:
+  static constexpr double kEye_s = 0.3;
+
+  explicit PicturePlayer(PlayerHand& hand) : hand_(hand) {}
+  /// @param t_s clock. @return what it does now.
+  std::vector<InputEvent> play(double t_s, const Image& picture);
+  std::string doing;  ///< for whoever watches it
+
+ private:
+  std::vector<InputEvent> decide(double t_s, const Glance& seen);
+  std::vector<InputEvent> aim(double t_s, const Spot& from, const Spot& to);
+  std::vector<InputEvent> press(double t_s, const Glance& seen);
+
+  struct Moment {
+    double t_s;
+    Glance seen;
+  };
+  PlayerHand& hand_;
+  std::deque<Moment> eye_;
+  double wait_until_s_ = 0, since_s_ = 0, dark_s_ = -1;
+  enum class Stage { kAim, kPress, kKeep, kLift } stage_ = Stage::kAim;
+  bool down_ = false;
+  std::optional<Spot> goal_;
+};
+
+}  // namespace trocar::testing_support
