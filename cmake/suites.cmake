@@ -5,12 +5,16 @@ if(CMAKE_SCRIPT_MODE_FILE)
   string(REPLACE ";" "," _listed "${_listed}")
   string(REPLACE "\n" ";" _listed "${_listed}")
   set(_text "")
+  set(_serial "")
+  if("${LABELS}" MATCHES "serial")
+    set(_serial " RUN_SERIAL TRUE")
+  endif()
   # A suite counts as skipped when none passed and the last line names a skipped case: failed ones would be listed behind.
   foreach(_line IN LISTS _listed)
     if(_line MATCHES "^([A-Za-z0-9_/]+)\\.( |$)")
       set(_suite ${CMAKE_MATCH_1})
       string(APPEND _text "add_test([=[${NAME}.${_suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${_suite}.*]=])\n"
-        "set_tests_properties([=[${NAME}.${_suite}]=] PROPERTIES TIMEOUT ${TIMEOUT} LABELS \"${LABELS}\""
+        "set_tests_properties([=[${NAME}.${_suite}]=] PROPERTIES TIMEOUT ${TIMEOUT} LABELS \"${LABELS}\"${_serial}"
         " SKIP_REGULAR_EXPRESSION [=[\\[  PASSED  \\] 0 tests.*\\[  SKIPPED \\] [A-Za-z0-9_/.]+[^A-Za-z]*$]=])\n")
     endif()
   endforeach()

@@ -268,14 +268,14 @@ Backend setup_backend(const AttemptSetup& setup) {
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
                            RecordingWriter& writer) {
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
+  if (!hooks.hand && !scene.loop.daq.motors) {
+    throw InputError("--backend " + scene.setup.backend + ": a person's mouse, keys or pad; a script needs a device");
+  }
   auto hand =
       hooks.hand ? hooks.hand() : make_hand(scene.setup.hand, seed_of(scene.setup), assets.hands, scene.setup.attempt);
   const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing);
   if (timing == Timing::kLockstep && !attempt->backend.can.pace) {
     throw InputError("--backend " + scene.setup.backend + ": runs by its own clock; add --realtime");
-  }
-  if (!hooks.hand && !attempt->backend.daq->capabilities().motors) {
-    throw InputError("--backend " + scene.setup.backend + ": a person's mouse, keys or pad; a script needs a device");
   }
   SessionOutcome out = timing == Timing::kLive ? run_live(*attempt, hooks) : run_lockstep(*attempt, hooks);
   if (out.status == AttemptStatus::kAborted && hooks.interrupted && hooks.interrupted()) {

@@ -1,6 +1,7 @@
 #include "app/window/attempt/surroundings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "app/picture/kinds/kind_picture.h"
@@ -12,7 +13,18 @@ namespace {
 
 constexpr double kOverOrgan = 0.008;  // m: the foot is seen beside the tip, the way down is short
 constexpr double kOverBoard = 0.050;  // m: over blocks that stand, and over one that hangs from the jaws
-constexpr int kStartGround = 1, kWorkGround = 2, kFirstPen = 3;
+constexpr double kAbove = 1;          // m: over everything
+constexpr double kOver = 0.0025;      // m beside the middle of the lit block: the open jaws go down round it
+constexpr double kNear = 0.006;       // m: the tip settles over it while the hand rests
+constexpr double kHangs = 0.002;      // m of a block over the board before it is let go: no fall
+enum GroundNumber : int {
+  kStartGround = 1,
+  kWorkGround = 2,
+  kPenGround = 100,
+  kNearBlockGround = 200,
+  kBlockGround = 300,
+  kRingGround = 400
+};
 
 bool starting(Phase phase) { return phase == Phase::kReady || phase == Phase::kArmed; }
 
@@ -37,24 +49,56 @@ struct Surroundings::State {
     return scene.board.rigid.board ? scene.board.rigid.board->top_z_m : board_z;
   }
 
-  GlideGround ground_of(const DirectorStatus& status) const {
+  Vec3 below(const Vec3& p_T) const {
+    Vec3 out(p_T.x(), p_T.y(), height(p_T.x(), p_T.y()));
+    for (int i = 0; i < tissue.object_count; ++i) {
+      const ObjectState& object = tissue.object[static_cast<std::size_t>(i)];
+      if (tissue.held() && i == tissue.grip_object) continue;
+      const Vec3 half = 0.5 * object.size_m, in = object.X_TO.R.transpose() * (p_T - object.X_TO.p);
+      const double top = object.X_TO.p.z() + half.z();
+      if (std::abs(in.x()) < half.x() && std::abs(in.y()) < half.y() && top < p_T.z()) out.z() = std::max(out.z(), top);
+    }
+    return out;
+  }
+
+  /// The lit block is gone down to by who stands over it, and set down within its ring; else the way is high.
+  GlideGround block_ground(const DirectorStatus& status, const Vec3& tip_T) const {
+    const auto board = [this](double x, double y) { return below(Vec3(x, y, kAbove)).z(); };
+    const double level = height(0, 0);
+    const SeenObject& block = status.demand.object;
+    const double middle = 0.5 * block.size_m.z();
+    const double off_m = (block.X_TO.p - tip_T).head<2>().norm();
+    if (status.cue == Cue::kPick && off_m < kNear) {
+      const int low = off_m < kOver ? kBlockGround : kNearBlockGround;
+      return {low + status.target_index, board, off_m < kOver ? middle : kOverBoard, block.X_TO.p, level};
+    }
+    if (status.cue == Cue::kPlace) return {kRingGround + status.target_index, board, middle + kHangs, {}, level};
+    return {kWorkGround, board, kOverBoard, {}, level};
+  }
+
+  GlideGround ground_of(const DirectorStatus& status, const Vec3& tip_T) const {
     const auto level = [](double z) { return [z](double, double) { return z; }; };
     if (starting(status.phase)) return {kStartGround, level(scene.board.start_T.z()), 0};
-    if (status.demand.oriented) return {kFirstPen + status.target_index, level(status.demand.centre_T.z()), 0};
-    return {kWorkGround, [this](double x, double y) { return height(x, y); }, organ ? kOverOrgan : kOverBoard};
+    if (status.demand.oriented) return {kPenGround + status.target_index, level(status.demand.centre_T.z()), 0};
+    if (!organ) return block_ground(status, tip_T);
+    return {kWorkGround, [this](double x, double y) { return height(x, y); }, kOverOrgan};
   }
 
   const Scene& scene;
   double board_z = 0;  ///< of the board that is seen under pens
   std::optional<HeightField> organ;
   GlideGround ground;
+  TissueFrame tissue = {};  ///< newest
 };
 
 Surroundings::Surroundings(const Scene& scene) : state_(std::make_unique<State>(scene)) {}
 Surroundings::~Surroundings() = default;
 
-AtHand Surroundings::around(const TickRecord& record, const DirectorStatus& status, const HandIntent& hand) {
+AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   State& s = *state_;
+  const TickRecord& record = moment.record;
+  const DirectorStatus& status = moment.status;
+  s.tissue = moment.tissue;
   AtHand out;
   out.now = hand;
   out.jaws = kind_of(s.scene.setup.exercise).jaws_hold || status.cue == Cue::kGrip;
@@ -62,11 +106,12 @@ AtHand Surroundings::around(const TickRecord& record, const DirectorStatus& stat
   if (out.touching) out.normal_T = record.stylus.contact_normal_T;
   out.gripping = record.stylus.grip_force_n > 0;
   if (!s.scene.level.pointer.glide && !starting(status.phase)) return out;
-  if (const GlideGround next = s.ground_of(status); next.number != s.ground.number) s.ground = next;
+  if (const GlideGround next = s.ground_of(status, record.stylus.X_TI.p); next.number != s.ground.number)
+    s.ground = next;
   out.ground = &s.ground;
   return out;
 }
 
-Vec3 Surroundings::below(const Vec3& p_T) const { return {p_T.x(), p_T.y(), state_->height(p_T.x(), p_T.y())}; }
+Vec3 Surroundings::below(const Vec3& p_T) const { return state_->below(p_T); }
 
 }  // namespace trocar

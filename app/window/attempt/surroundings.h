@@ -2,8 +2,9 @@
 // the tip glides over.
 //
 // Before the clock runs the ground is the height of the start ball, so that two directions find it. Then, where the
-// level lets a pointer glide: the organ from above, the board under blocks, the height of the lit pen's tip. Frame T,
-// m. Thread: the window's.
+// level lets a pointer glide: the organ from above, the height of the lit pen's tip, and over a board with blocks a
+// height at which they are carried, from which the tip goes down by itself over the lit block and within its ring.
+// Frame T, m. Thread: the window's.
 #pragma once
 
 #include <memory>
@@ -21,8 +22,8 @@ class Surroundings {
   ~Surroundings();
 
   /// @param hand where the hand has got to. The ground is this object's, until the next call.
-  AtHand around(const TickRecord& record, const DirectorStatus& status, const HandIntent& hand);
-  /// Point of what lies below, seen from above: what a shadow falls on.
+  AtHand around(const RunMoment& moment, const HandIntent& hand);
+  /// Point of what lies below, organ, board or block, but for a block that is held: what a shadow falls on.
   Vec3 below(const Vec3& p_T) const;
 
  private:

@@ -14,8 +14,10 @@ namespace trocar {
 
 struct GlideGround {
   int number = 0;                                        ///< another number: another ground, to which the tip goes over
-  std::function<double(double x_m, double y_m)> height;  ///< m, everywhere
-  double clearance_m = 0;                                ///< where the tip stays until a person says otherwise
+  std::function<double(double x_m, double y_m)> height;  ///< of what is pointed at, m, everywhere
+  double clearance_m = 0;                                ///< where the tip stays over it until a person says otherwise
+  std::optional<Vec3> centre_T = {};                     ///< to which the foot settles while the hand rests
+  std::optional<double> level_z_m = {};  ///< the clearance is over this instead: things stand on a board
 };
 
 /// First point of the ground on the line of sight through a point; none within reach: nothing.

@@ -26,7 +26,7 @@ constexpr double kScopeDrag = 60 * kDegree;                              // like
 constexpr double kScopeTurn = 25 * kDegree, kScopeDepth = 0.03, kPostTurn = 60 * kDegree;  // rad/s, m/s, rad/s
 constexpr double kCircle = 0.64;  // radius of the scope's picture, of its height (scope_optics.h)
 constexpr double kTrigger = 0.3;  // of a pad's trigger: pulled
-constexpr double kLeap_px = 200;  // between two events: the pointer was elsewhere meanwhile (a panel, another window)
+constexpr double kLeap_px = 600;  // between two events: the pointer was elsewhere meanwhile (a panel, another window)
 constexpr double kLongestStep = 0.1;  // s: after a standstill of the window nothing leaps
 
 // The act button.
@@ -40,6 +40,7 @@ constexpr double kLetOff = 0.10;                            // m/s back
 constexpr double kFeltGain = 0.3;                           // of sideways movements, while something is touched
 constexpr double kAway = 0.005;                             // m of a movement sideways that lets off by itself
 constexpr double kSettle = 0.08;                            // m/s to the height that belongs to a ground
+constexpr double kSnap = 0.02;                              // m/s to the middle of what it stands over
 constexpr double kLowest = -0.010, kHighest = 0.120;        // m over the ground
 
 struct View {
@@ -301,18 +302,21 @@ struct Steering::State {
     if (over.number != ground) {
       ground = over.number;
       foot_T = wanted_T;
-      lift_m = wanted_T.z() - over.height(foot_T.x(), foot_T.y());
+      lift_m = wanted_T.z() - over.level_z_m.value_or(over.height(foot_T.x(), foot_T.y()));
       rest_m = over.clearance_m;
     }
     if (!aside.isZero()) {
       const Vec3 next = foot_T + aside;
       foot_T = seen_ground(over, camera, next).value_or(next);
     }
+    if (aside.isZero() && !acting && over.centre_T)
+      foot_T.head<2>() +=
+          no_longer(Vec3((*over.centre_T - foot_T).cwiseProduct(Vec3(1, 1, 0))), kSnap * dt_s).head<2>();
     foot_T = within_ball(foot_T, Vec3(centre_T.x(), centre_T.y(), foot_T.z()), reach.radius_m);
     foot_T.z() = over.height(foot_T.x(), foot_T.y());
     if (deeper_m != 0) rest_m = lift_m = std::clamp(lift_m - deeper_m, kLowest, kHighest);
-    lift_m += std::clamp(rest_m - lift_m, -kSettle * dt_s, kSettle * dt_s);
-    wanted_T = foot_T + lift_m * Vec3::UnitZ();
+    if (!acting) lift_m += std::clamp(rest_m - lift_m, -kSettle * dt_s, kSettle * dt_s);
+    wanted_T = {foot_T.x(), foot_T.y(), over.level_z_m.value_or(foot_T.z()) + lift_m};
   }
 
   /// What the act button adds: on to the surface, and into it as long as it is held.

@@ -120,7 +120,7 @@ void RunScreen::State::steer(PracticeModel& model) {
     steering = true;
   }
   const RunMoment& now = run.newest();
-  const AtHand around = surroundings->around(now.record, now.status, run.target());
+  const AtHand around = surroundings->around(now, run.target());
   const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(model), picture.height, around));
   if (event_s > 0) latency.steered(number, event_s);
   event_s = 0;

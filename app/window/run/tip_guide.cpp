@@ -14,7 +14,7 @@ constexpr double kFootRadius = 0.002;  // m
 constexpr double kRoundDisc = 0.002;   // m beyond a disc's edge: the foot's ring is seen within
 constexpr double kPenLine = 0.03;      // m of a pen behind its tip
 constexpr int kFootPoints = 24, kHeldPoints = 32, kCirclePoints = 32;
-constexpr double kHeldRadius = 17, kBarWide = 116, kBarHigh = 14, kBarBelow = 30;  // px at 720 lines
+constexpr double kHeldRadius = 17, kBarWide = 116, kBarHigh = 14, kBarBeside = 46;  // px at 720 lines
 constexpr double kTouching_n = 0.01;
 
 void paint_plumb(Ui& ui, const ScopeOptics& optics, const Vec3& tip_T, const Vec3& foot_T) {
@@ -106,7 +106,7 @@ void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
     ui.paint_outlined(ring, Ink::kGood, 3.5);
   }
   if (!guide.force || guide.force->value_n < kTouching_n) return;
-  paint_force(ui, *guide.force, tip->x() - 0.5 * ui.px(kBarWide), tip->y() + ui.px(kBarBelow));
+  paint_force(ui, *guide.force, tip->x() - ui.px(kBarBeside + kBarWide), tip->y() - 0.5 * ui.px(kBarHigh));
 }
 
 }  // namespace trocar

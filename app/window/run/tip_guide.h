@@ -2,9 +2,9 @@
 // presses.
 //
 // An outline of what is asked for, seen through shaft and edges; a plumb line with a ring at its foot, on what lies
-// below the tip; beside the tip a bar of the force that counts now, with its band and limit, and a ring that fills with
-// the time held. Painted over the picture, so that every preset has it. px of the window, frame T. Thread: the
-// window's.
+// below the tip; left of the tip, where neither shaft nor target is, a bar of the force that counts now, with its band
+// and limit, and a ring that fills with the time held. Painted over the picture, so that every preset has it. px of the
+// window, frame T. Thread: the window's.
 #pragma once
 
 #include <optional>

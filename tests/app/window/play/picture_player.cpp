@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/window/ui/theme.h"
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kPictureShare = 0.75;  // of the window's width: the column stands beside it
 constexpr double kMoved_px = 12;        // what is lit is somewhere else
+constexpr double kBall_px = 40;         // the start ball is large, and a message may hide a part of it
 constexpr double kClick_s = 0.08;
 
 bool is(const std::uint8_t* pixel, Rgb colour, int within = 6) {
@@ -17,11 +19,9 @@ bool is(const std::uint8_t* pixel, Rgb colour, int within = 6) {
          std::abs(pixel[2] - colour.b) <= within;
 }
 
-/// By hue, also where the edge of a line is mixed with the dark round it.
-bool is_pink(const std::uint8_t* p) {
-  return p[0] > 140 && p[2] > 0.8 * p[0] && p[1] < 0.8 * p[0] && p[1] > 0.5 * p[0];
-}
-bool is_yellow(const std::uint8_t* p) { return p[0] > 150 && p[1] > 0.9 * p[0] && p[2] < 0.5 * p[0]; }
+/// The core of a painted line: nothing that is lit has its colour.
+bool is_tip(const std::uint8_t* p) { return is(p, shape_colour(Ink::kTip), 12); }
+bool is_lit(const std::uint8_t* p) { return is(p, shape_colour(Ink::kAccent), 12); }
 
 struct Patch {
   int count = 0;
@@ -69,6 +69,35 @@ Patch patch_of(const Image& picture, bool (*is_colour)(const std::uint8_t*), dou
 
 double way(const Spot& a, const Spot& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
+constexpr double kDialRadius = 56, kDialY = 134, kDialX[] = {67, 216};  // px, from the column's left edge
+
+/// Dot of a dial, while it is yellow: middle of what is bright and yellow.
+std::optional<Spot> dot_of(const Image& picture, double x0) {
+  double x_sum = 0, y_sum = 0;
+  int count = 0;
+  for (int y = -kDialRadius; y <= kDialRadius; ++y)
+    for (int x = -kDialRadius; x <= kDialRadius; ++x) {
+      const std::uint8_t* p = picture.pixel(static_cast<int>(x0) + x, static_cast<int>(kDialY) + y);
+      if (p[0] < 215 || p[1] < 170 || p[2] > 90) continue;
+      ++count, x_sum += x, y_sum += y;
+    }
+  if (count < 40) return std::nullopt;
+  return Spot{x_sum / count / kDialRadius, -y_sum / count / kDialRadius};
+}
+
+/// Angle of the white mark on a dial's rim, clockwise from the top.
+double mark_of(const Image& picture, double x0) {
+  double x_sum = 0, y_sum = 0;
+  for (int y = -kDialRadius; y <= kDialRadius; ++y)
+    for (int x = -kDialRadius; x <= kDialRadius; ++x) {
+      const std::uint8_t* p = picture.pixel(static_cast<int>(x0) + x, static_cast<int>(kDialY) + y);
+      const double r = std::hypot(x, y);
+      if (r < 0.7 * kDialRadius || r > kDialRadius || std::min({p[0], p[1], p[2]}) < 220) continue;
+      x_sum += x, y_sum += y;
+    }
+  return std::atan2(x_sum, -y_sum);
+}
+
 InputEvent mouse(InputEvent::Kind kind, double x, double y) {
   InputEvent event;
   event.kind = kind;
@@ -81,19 +110,23 @@ InputEvent mouse(InputEvent::Kind kind, double x, double y) {
 
 Glance glance(const Image& picture) {
   Glance out;
+  const double column = kPictureShare * picture.width;
+  out.place = dot_of(picture, column + kDialX[0]);
+  out.turn = dot_of(picture, column + kDialX[1]);
+  out.roll_rad = mark_of(picture, column + kDialX[1]);
   const double unit = picture.height / 720.0;
-  const Patch lit = patch_of(picture, is_yellow, 8 * unit);
+  const Patch lit = patch_of(picture, is_lit, 10 * unit);
   if (lit.count > 8) out.lit = lit.middle(), out.lit_wide = lit.right - lit.left;
-  const Patch plumb = patch_of(picture, is_pink, 6 * unit);
+  const Patch plumb = patch_of(picture, is_tip, 10 * unit);
   if (plumb.count > 8) {
     const double ring = std::min(plumb.bottom - plumb.top, 0.6 * (plumb.right - plumb.left));
     out.foot = Spot{plumb.middle().x, plumb.bottom - 0.5 * ring};
     out.tip = Spot{plumb.middle().x, plumb.bottom - plumb.top > 2 * ring ? plumb.top : out.foot->y};
   }
   if (!out.tip) return out;
-  // The bar lies straight below the tip.
-  const int x0 = static_cast<int>(out.tip->x - 70 * unit), x1 = static_cast<int>(out.tip->x + 70 * unit);
-  const int y0 = static_cast<int>(out.tip->y + 5 * unit), y1 = static_cast<int>(out.tip->y + 80 * unit);
+  // The bar lies left of the tip.
+  const int x0 = static_cast<int>(out.tip->x - 170 * unit), x1 = static_cast<int>(out.tip->x - 40 * unit);
+  const int y0 = static_cast<int>(out.tip->y - 14 * unit), y1 = static_cast<int>(out.tip->y + 14 * unit);
   using Force = Glance::Force;
   const std::pair<Ink, Force> colours[] = {{Ink::kHeading, Force::kLow},
                                            {Ink::kGood, Force::kGood},
@@ -104,7 +137,7 @@ Glance glance(const Image& picture) {
       int count = 0;
       for (int y = std::max(0, y0); y < std::min(picture.height, y1); ++y)
         count += is(picture.pixel(x, y), shape_colour(ink)) ? 1 : 0;
-      if (count < 3 || x > out.tip->x - 25 * unit) continue;
+      if (count < 3 || x > out.tip->x - 140 * unit) continue;  // further right it is the band
       out.force = force;
       return out;
     }
@@ -119,10 +152,21 @@ std::vector<InputEvent> MouseHand::move(double right_px, double down_px) {
 std::vector<InputEvent> MouseHand::act(bool down) {
   return {mouse(down ? InputEvent::Kind::kButtonDown : InputEvent::Kind::kButtonUp, x_, y_)};
 }
-std::vector<InputEvent> MouseHand::deeper(int steps) {
-  InputEvent event = mouse(InputEvent::Kind::kWheel, x_, y_);
-  event.wheel = steps;
-  return {event};
+std::vector<InputEvent> MouseHand::lean(double right_px, double down_px) {
+  std::vector<InputEvent> out{mouse(InputEvent::Kind::kButtonDown, x_, y_)};
+  out.push_back(move(right_px, down_px).front());
+  out.push_back(mouse(InputEvent::Kind::kButtonUp, x_, y_));
+  for (InputEvent& event : out) event.button = MouseButton::kRight;
+  return out;
+}
+std::vector<InputEvent> MouseHand::roll(int steps) {
+  std::vector<InputEvent> out;
+  for (const auto kind : {InputEvent::Kind::kButtonDown, InputEvent::Kind::kWheel, InputEvent::Kind::kButtonUp}) {
+    out.push_back(mouse(kind, x_, y_));
+    out.back().button = MouseButton::kRight;
+  }
+  out[1].wheel = steps;
+  return out;
 }
 
 std::vector<InputEvent> PicturePlayer::play(double t_s, const Image& picture) {
@@ -147,6 +191,7 @@ std::vector<InputEvent> PicturePlayer::press(double t_s, const Glance& seen) {
   using Force = Glance::Force;
   switch (stage_) {
     case Stage::kAim:
+    case Stage::kCarry:
       break;
     case Stage::kPress:
       doing = "press";
@@ -184,9 +229,71 @@ std::vector<InputEvent> PicturePlayer::press(double t_s, const Glance& seen) {
   return {};
 }
 
+/// Over the block, which the tip then goes down to by itself; squeeze until the bar is green; over its ring; open.
+std::vector<InputEvent> PicturePlayer::grasp(double t_s, const Glance& seen) {
+  const double off = way(*seen.foot, *seen.lit);
+  switch (stage_) {
+    case Stage::kAim:
+      doing = "over the block";
+      if (off > 7) return aim(t_s, *seen.foot, *seen.lit);
+      goal_ = seen.lit;
+      stage_ = Stage::kPress;
+      wait_until_s_ = t_s + 0.6;  // it goes down
+      return {};
+    case Stage::kPress:
+      if (down_ && goal_ && way(*goal_, *seen.lit) > kMoved_px && seen.force == Glance::Force::kNone) break;
+      {
+        auto out = press(t_s, seen);
+        if (stage_ == Stage::kKeep) stage_ = Stage::kCarry;
+        return out;
+      }
+    case Stage::kCarry:
+      doing = "carry";
+      if (way(*goal_, *seen.lit) < kMoved_px) {  // it was not held
+        if (t_s - since_s_ > 2) stage_ = Stage::kLift;
+        return {};
+      }
+      if (off > 6) return aim(t_s, *seen.foot, *seen.lit);
+      if (t_s - settled_s_ > 3) settled_s_ = t_s;
+      if (t_s - settled_s_ < 1 || seen.foot->y - seen.tip->y > 60) return {};  // it goes down by itself
+      stage_ = Stage::kLift;
+      return {};
+    default:
+      return press(t_s, seen);
+  }
+  return {};
+}
+
+/// By the dials: the place first, then the lean, then the roll.
+std::vector<InputEvent> PicturePlayer::reach(double t_s, const Glance& seen) {
+  wait_until_s_ = t_s + kEye_s + 0.15;
+  // From a dot's place to the error, in tolerances: what practice with the dial teaches.
+  const auto tolerances = [](const Spot& dot) {
+    const double share = std::min(0.99, std::hypot(dot.x, dot.y));
+    return share <= 0.4 ? share / 0.4 : 1 - 4 * std::log(1 - (share - 0.4) / 0.6);
+  };
+  const auto step = [&](const Spot& dot, double px_a_tolerance) {
+    const double length = 0.85 * px_a_tolerance * tolerances(dot) / std::hypot(dot.x, dot.y);
+    return Spot{-length * dot.x, length * dot.y};
+  };
+  if (seen.place) {
+    doing = "to the pen";
+    const Spot by = step(*seen.place, 18);
+    return hand_.move(by.x, by.y);
+  }
+  if (!seen.turn) return {};
+  if (std::hypot(seen.turn->x, seen.turn->y) > 0.2) {
+    doing = "lean";
+    const Spot by = step(*seen.turn, 43);
+    return hand_.lean(by.x, by.y);
+  }
+  doing = "roll";
+  const double degrees = seen.roll_rad * 180 / std::numbers::pi;
+  return hand_.roll(static_cast<int>(std::lround(-degrees / 4)));
+}
+
 std::vector<InputEvent> PicturePlayer::decide(double t_s, const Glance& seen) {
   if (t_s < wait_until_s_ || !seen.tip) return {};
-  const bool ball = seen.lit_wide > 60;
   if (!seen.lit) {  // nothing is lit: a grip is asked for, or it is over
     if (dark_s_ < 0) dark_s_ = t_s;
     if (t_s - dark_s_ < 0.8) return {};
@@ -194,6 +301,11 @@ std::vector<InputEvent> PicturePlayer::decide(double t_s, const Glance& seen) {
     return press(t_s, seen);
   }
   dark_s_ = -1;
+  if (!ball_) ball_ = seen.lit;  // the first that is lit
+  const bool ball = way(*ball_, *seen.lit) < kBall_px;
+  if (!ball) ball_ = Spot{-1000, -1000};
+  if (task_ == Task::kReach && !ball) return reach(t_s, seen);
+  if (task_ == Task::kGrasp && !ball) return grasp(t_s, seen);
   const bool moved = goal_ && way(*goal_, *seen.lit) > kMoved_px;
   goal_ = seen.lit;
   if (moved && stage_ != Stage::kAim && stage_ != Stage::kLift) {

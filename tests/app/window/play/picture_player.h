@@ -24,7 +24,9 @@ struct Glance {
   std::optional<Spot> lit, tip, foot;  ///< middle of the outline; upper end of the plumb line; its foot
   double lit_wide = 0;                 ///< px
   enum class Force { kNone, kLow, kGood, kHigh } force = Force::kNone;  ///< colour of the bar at the tip
-  bool held = false;                                                    ///< a ring fills at the tip
+  /// The two dials: where the yellow dot is, 1 at the rim, up positive; nothing while it is within its ring.
+  std::optional<Spot> place, turn;
+  double roll_rad = 0;  ///< of the white mark, from the top, clockwise
 };
 Glance glance(const Image& picture);
 
@@ -34,14 +36,16 @@ class PlayerHand {
   virtual ~PlayerHand() = default;
   virtual std::vector<InputEvent> move(double right_px, double down_px) = 0;
   virtual std::vector<InputEvent> act(bool down) = 0;
-  virtual std::vector<InputEvent> deeper(int steps) = 0;
+  virtual std::vector<InputEvent> lean(double right_px, double down_px) = 0;
+  virtual std::vector<InputEvent> roll(int steps) = 0;
 };
 
 class MouseHand final : public PlayerHand {
  public:
   std::vector<InputEvent> move(double right_px, double down_px) override;
   std::vector<InputEvent> act(bool down) override;
-  std::vector<InputEvent> deeper(int steps) override;
+  std::vector<InputEvent> lean(double right_px, double down_px) override;
+  std::vector<InputEvent> roll(int steps) override;
 
  private:
   double x_ = 400, y_ = 300;
@@ -51,7 +55,9 @@ class PicturePlayer {
  public:
   static constexpr double kEye_s = 0.3;
 
-  explicit PicturePlayer(PlayerHand& hand) : hand_(hand) {}
+  /// What the briefing has taught.
+  enum class Task { kTouch, kReach, kGrasp };
+  PicturePlayer(PlayerHand& hand, Task task) : hand_(hand), task_(task) {}
   /// @param t_s clock. @return what it does now.
   std::vector<InputEvent> play(double t_s, const Image& picture);
   std::string doing;  ///< for whoever watches it
@@ -65,12 +71,16 @@ class PicturePlayer {
     double t_s;
     Glance seen;
   };
+  std::vector<InputEvent> grasp(double t_s, const Glance& seen);
+  std::vector<InputEvent> reach(double t_s, const Glance& seen);
+
   PlayerHand& hand_;
+  Task task_;
   std::deque<Moment> eye_;
-  double wait_until_s_ = 0, since_s_ = 0, dark_s_ = -1;
-  enum class Stage { kAim, kPress, kKeep, kLift } stage_ = Stage::kAim;
+  double wait_until_s_ = 0, since_s_ = 0, dark_s_ = -1, settled_s_ = -9;
+  enum class Stage { kAim, kPress, kKeep, kLift, kCarry } stage_ = Stage::kAim;
   bool down_ = false;
-  std::optional<Spot> goal_;
+  std::optional<Spot> goal_, ball_;
 };
 
 }  // namespace trocar::testing_support
