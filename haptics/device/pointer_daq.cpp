@@ -81,9 +81,9 @@ JointVector PointerDaq::wanted_angles() const noexcept {
 }
 
 DaqSample PointerDaq::read() noexcept {
-  ++sync_;
   DaqSample sample;
   sample.elapsed_periods = 1 + std::exchange(missed_, 0);
+  sync_ += sample.elapsed_periods;
   const double dt_s = sample.elapsed_periods / rate_hz_;
   if (holding_ && armed_) {
     ChannelVector to;

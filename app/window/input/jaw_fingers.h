@@ -23,8 +23,6 @@ class JawFingers {
     double fingers_m = 0.02;  ///< opening that the hand has reached
   };
   void advance(const Wish& wish, double dt_s);
-  /// They go on opening, or stay as they are.
-  bool opening() const { return opening_; }
   double opening_m() const { return opening_m_; }
 
  private:

@@ -107,7 +107,7 @@ struct Steering::State {
   InputKind kind = InputKind::kMouse;
   // held
   std::map<Action, double> held = {};  ///< and for how long, s
-  bool shift_key = false, control_key = false, shift = false, control = false;
+  bool shift_key = false, shift = false;
   bool left = false, right = false, middle = false, alt = false, pointer_known = false;
   double x = 0, y = 0;  ///< px
   std::array<double, 6> pad{}, space_mouse{};
@@ -125,7 +125,7 @@ struct Steering::State {
 
   void release_all() {
     held.clear();
-    shift_key = control_key = shift = control = left = right = middle = alt = pointer_known = false;
+    shift_key = shift = left = right = middle = alt = pointer_known = false;
     pad = space_mouse = {};
     pad_buttons = space_mouse_buttons = 0;
     moved_px = dragged_px = scoped_px = Eigen::Vector2d::Zero();
@@ -136,9 +136,7 @@ struct Steering::State {
   void modifiers(const InputEvent& event) {
     const bool down = event.kind == InputEvent::Kind::kKeyDown;
     if (event.key == kKeyShift) shift_key = down;
-    if (event.key == kKeyControl) control_key = down;
     shift = shift_key || (event.shift && event.key != kKeyShift);
-    control = control_key || (event.control && event.key != kKeyControl);
     alt = keys.key_of(Action::kScope) == kKeyAlt && event.alt && event.key != kKeyAlt;
   }
 

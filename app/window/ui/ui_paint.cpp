@@ -107,22 +107,24 @@ void Ui::paint_triangle(double x0, double y0, double x1, double y1, double x2, d
   list().AddTriangleFilled(at(x0, y0), at(x1, y1), at(x2, y2), shape(ink));
 }
 
-void Ui::paint_curve(const std::vector<Point>& points, Ink ink, double thickness) {
+namespace {
+
+void polyline(const std::vector<Ui::Point>& points, unsigned colour, double thickness_px) {
   std::vector<ImVec2> line;
   line.reserve(points.size());
-  for (const Point& p : points) line.push_back(at(p.x, p.y));
-  list().AddPolyline(line.data(), static_cast<int>(line.size()), shape(ink), ImDrawFlags_None, f(px(thickness)));
+  for (const Ui::Point& p : points) line.push_back(at(p.x, p.y));
+  list().AddPolyline(line.data(), static_cast<int>(line.size()), colour, ImDrawFlags_None, f(thickness_px));
+}
+
+}  // namespace
+
+void Ui::paint_curve(const std::vector<Point>& points, Ink ink, double thickness) {
+  polyline(points, shape(ink), px(thickness));
 }
 
 void Ui::paint_outlined(const std::vector<Point>& points, Ink ink, double thickness) {
-  std::vector<ImVec2> line;
-  line.reserve(points.size());
-  for (const Point& p : points) line.push_back(at(p.x, p.y));
-  const auto draw = [&](unsigned colour, double wide) {
-    list().AddPolyline(line.data(), static_cast<int>(line.size()), colour, ImDrawFlags_None, f(px(wide)));
-  };
-  draw(packed({0, 0, 0}, 0.75), thickness + 2.5);
-  draw(shape(ink), thickness);
+  polyline(points, packed({0, 0, 0}, 0.75), px(thickness + 2.5));
+  polyline(points, shape(ink), px(thickness));
 }
 
 void Ui::paint_mark(Mark mark, double x, double y, double side) {
