@@ -11,6 +11,7 @@
 #include "app/session/keeping/attempt_keeping.h"
 #include "app/window/attempt/disk_room.h"
 #include "app/window/attempt/person_hand.h"
+#include "app/window/attempt/step_gate.h"
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/hands/make_hand.h"
@@ -22,14 +23,14 @@ constexpr int kBusy_ms = 1000;          // the window waits for the database no 
 constexpr double kBeyondLimit_s = 120;  // homing, start and reading, and a director's own patience
 constexpr std::chrono::milliseconds kAskAgain{200};
 
-AttemptSetup live(AttemptSetup setup) {
-  setup.realtime = true;
+AttemptSetup paced(AttemptSetup setup, bool by_clock) {
+  setup.realtime = by_clock;
   if (setup.pace == PaceLimits{}) setup.pace = kSimulatedLivePace;
   return setup;
 }
 
-std::shared_ptr<const Scene> live_scene(Scene scene) {
-  scene.setup = live(std::move(scene.setup));
+std::shared_ptr<const Scene> paced_scene(Scene scene, bool by_clock) {
+  scene.setup = paced(std::move(scene.setup), by_clock);
   return std::make_shared<const Scene>(std::move(scene));
 }
 
@@ -51,6 +52,7 @@ Database checked_database(const AttemptRequest& request, const Scene& scene, con
 struct AttemptRunner::State {
   State(const AttemptRequest& request, const AssetRoots& assets_in, std::shared_ptr<const Scene> scene_in)
       : steered(request.steered),
+        steps(request.steps),
         assets(assets_in),
         scene(std::move(scene_in)),
         database(checked_database(request, *scene, assets)),
@@ -73,6 +75,7 @@ struct AttemptRunner::State {
   void end_without_grade(const std::string& why) noexcept;
 
   const bool steered;
+  StepGate* const steps;
   const AssetRoots assets;
   const std::shared_ptr<const Scene> scene;
   Database database;  // the caller's thread until the attempt's begins, then that one's
@@ -106,6 +109,7 @@ void AttemptRunner::State::show(const SessionView& view) {
   moment.t_s = view.t_s;
   moment.seen = true;
   moments.publish();
+  if (steps) steps->reach(view.t_s);
 }
 
 void AttemptRunner::State::record_and_grade() {
@@ -114,7 +118,7 @@ void AttemptRunner::State::record_and_grade() {
   hooks.observe_each_step = true;
   hooks.interrupted = [this] { return abort.load(); };
   if (steered) hooks.hand = [this] { return std::make_unique<PersonHand>(link, !scene->loop.daq.motors); };
-  hooks.pause = &pause;
+  if (!steps) hooks.pause = &pause;
   hooks.marks = &marks;
   hooks.messages = &messages;
   if (scene->level.name != kExamLevel) hooks.board_answers = [this] { return plugged.load(std::memory_order_relaxed); };
@@ -142,9 +146,11 @@ void AttemptRunner::State::keep() {
 void AttemptRunner::State::run() noexcept {
   try {
     record_and_grade();
+    if (steps) steps->close();
     finished.store(true);
     keep();
   } catch (const std::exception& error) {
+    if (steps) steps->close();
     note(error.what());
     if (!finished.load()) {
       thrown = std::current_exception();
@@ -168,18 +174,24 @@ void AttemptRunner::State::end_without_grade(const std::string& why) noexcept {
 
 AttemptRunner::AttemptRunner(const AttemptRequest& request, const AssetRoots& assets)
     : AttemptRunner(request, assets,
-                    live_scene(build_scene(live(request.setup), assets,
-                                           backend_capabilities(request.setup.backend, request.setup.rate_hz)))) {}
+                    std::make_shared<const Scene>(
+                        build_scene(paced(request.setup, request.steps == nullptr), assets,
+                                    backend_capabilities(request.setup.backend, request.setup.rate_hz)))) {}
 
 AttemptRunner::AttemptRunner(const AttemptRequest& request, const AssetRoots& assets,
                              std::shared_ptr<const Scene> scene)
-    : state_(std::make_unique<State>(request, assets, scene->setup.realtime ? std::move(scene) : live_scene(*scene))) {
+    : state_(std::make_unique<State>(request, assets,
+                                     scene->setup.realtime != (request.steps == nullptr)
+                                         ? paced_scene(*scene, request.steps == nullptr)
+                                         : std::move(scene))) {
+  if (request.steps) request.steps->open();
   state_->thread = std::thread([state = state_.get()] { state->run(); });
 }
 
 AttemptRunner::~AttemptRunner() {
   state_->abort.store(true);
   state_->give_up.store(true);
+  if (state_->steps) state_->steps->close();
   state_->thread.join();
 }
 

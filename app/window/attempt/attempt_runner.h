@@ -23,17 +23,20 @@
 
 namespace trocar {
 
+class StepGate;
+
 struct AttemptRequest {
   AttemptSetup setup = {};  ///< realtime; `hand` is the input's name ("mouse") or a scripted one
   std::string trainee = "guest";
   std::string session = {};             ///< UUID of their sign-in here
   std::filesystem::path database = {};  ///< as RunOptions::database
   bool steered = true;                  ///< a person's intents move the hand; false: the script that setup names
+  StepGate* steps = nullptr;  ///< time passes as it says, not by the clock; no pause then. Outlives the runner
 };
 
 class AttemptRunner {
  public:
-  /// Builds the scene and starts; live, whatever the setup says. @throws InputError, EnvironmentError (disk nearly
+  /// Builds the scene and starts; live, whatever the setup says, unless the request has a gate. @throws InputError, EnvironmentError (disk nearly
   /// full, database busy) before anything is stored.
   AttemptRunner(const AttemptRequest& request, const AssetRoots& assets);
   /// The same on a scene that has been built already.

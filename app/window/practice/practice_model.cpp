@@ -264,6 +264,7 @@ std::string PracticeModel::begin_attempt() {
   request.session = s.session;
   request.database = s.options.database;
   request.steered = !scripted;
+  request.steps = s.options.steps;
   try {
     s.runner = std::make_unique<AttemptRunner>(request, s.assets, s.built(request.setup));
     s.last_scene = s.runner->shared_scene();

@@ -36,6 +36,7 @@ struct ModelOptions {
   std::optional<double> scale = {};       ///< given: this time only, whatever the settings say
   std::string language = {};              ///< given: this time only
   std::string scope = {};                 ///< "0" or "30" degrees of the tip; given: this time only
+  StepGate* steps = nullptr;              ///< as AttemptRequest::steps
 };
 
 class PracticeModel {
