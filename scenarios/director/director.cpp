@@ -92,8 +92,10 @@ void Director::State::wait_for_start(const StylusState& state, double dt_s) {
       tasks.front()->begin(log);
       return describe_run({state, nullptr, 0, false});
     }
-    if (waiting_s >= time_limit_s)
-      return end(Phase::kTimeout, event_type::kTimeout, Severity::kMajor, time_limit_s, "s");
+    if (waiting_s >= time_limit_s) {
+      end(Phase::kVoid, event_type::kTimeout, Severity::kInfo, time_limit_s, "s");
+      return say(status, "Not begun", "The tip did not rest in the start ball. Nothing is graded.", true);
+    }
   }
   describe_start(active);
 }

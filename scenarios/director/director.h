@@ -1,5 +1,5 @@
 // The director: runs one exercise against what the instrument does. READY <-> ARMED -> RUN -> DONE | TIMEOUT | FAULT |
-// VOID; waiting too long for the start is a TIMEOUT too. ARMED: the tip rests in the start sphere (not the loop's
+// VOID; waiting too long for the start is VOID too: what has not begun is not graded. ARMED: the tip rests in the start sphere (not the loop's
 // ARMED).
 //
 // Called at the tissue rate (100 Hz) with the newest haptic state; emits cues (for screen and hand), events and the
@@ -42,6 +42,8 @@ struct Board {
 };
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };
+/// Before the clock runs.
+constexpr bool waits_for_start(Phase phase) { return phase == Phase::kReady || phase == Phase::kArmed; }
 
 /// What is asked for at this moment: a place, perhaps an orientation, perhaps a force.
 struct Demand {

@@ -11,7 +11,7 @@ namespace trocar {
 namespace {
 
 std::vector<HudStep> steps(const Scene& scene, const DirectorStatus& status) {
-  const RunStage stage{status.phase != Phase::kReady && status.phase != Phase::kArmed,
+  const RunStage stage{!waits_for_start(status.phase),
                        status.targets_done >= static_cast<int>(scene.board.targets.size()),
                        status.phase == Phase::kDone};
   std::vector<HudStep> out = {hud_step("Rest at the start", stage.started, !stage.started)};

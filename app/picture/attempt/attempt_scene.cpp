@@ -39,7 +39,7 @@ std::vector<TargetMark> marks(const DirectorView& director) {
 
 void add_start(const SessionView& view, std::vector<SceneObject>& out) {
   const Phase phase = view.director.status().phase;
-  if (phase != Phase::kReady && phase != Phase::kArmed) return;
+  if (!waits_for_start(phase)) return;
   SceneObject start;
   start.shape = Shape::kSphere;
   start.style = Style::kGhostLit;

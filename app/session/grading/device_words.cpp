@@ -66,6 +66,7 @@ std::string end_words(AttemptStatus status, const RunReport& device, LoopState l
     case AttemptStatus::kFault:
       return "device fault " + fault_words(device);
     case AttemptStatus::kVoid:
+      if (!reached_run) return "the clock never began: the tip did not come to rest in the start ball";
       return "the deadman was opened during the attempt: a graded attempt cannot be paused";
     case AttemptStatus::kAborted:
       if (reached_run) return "the exercise did not end within its time";

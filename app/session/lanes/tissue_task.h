@@ -35,7 +35,9 @@ struct TissuePorts {
 class TissueTask final : public Task {
  public:
   TissueTask(const Scene& scene, Director& director, const TissuePorts& ports)
-      : director_(director),
+      : motors_(scene.loop.daq.motors),
+        start_z_m_(scene.board.start_T.z()),
+        director_(director),
         ports_(ports),
         world_(make_world(scene)),
         period_(static_cast<std::uint32_t>(scene.loop.daq.rate_hz / kTissueRateHz)) {}
@@ -44,10 +46,11 @@ class TissueTask final : public Task {
   void run(std::uint64_t tick) override {
     const HapticState& state = ports_.state.newest(tick);
     ContactPatch& patch = ports_.patch.begin(tick);
+    // The jig lies beneath the board: the world is there from the moment the tip first rests at the start, in free
+    // space. Without a jig it is there as soon as the instrument has come in from above.
+    inserted_ = inserted_ || (!motors_ && state.stylus.X_TI.p.z() > start_z_m_);
     world_->step(state, inserted_, patch);
     director_.update(state.stylus, &world_->frame());
-    // The jig lies beneath the board: the world is there from the moment the tip first rests at the start, in free
-    // space.
     inserted_ = inserted_ || director_.status().phase != Phase::kReady;
     if (patch.grip.stiffness_n_per_m <= 0) patch.grip = director_.status().grip;
     hash_.add(patch);
@@ -85,6 +88,8 @@ class TissueTask final : public Task {
     for (; ports_.events && told_ < events.size(); ++told_) ports_.events->push(events[told_]);
   }
 
+  bool motors_;
+  double start_z_m_;
   Director& director_;
   TissuePorts ports_;
   StateHash hash_;

@@ -20,7 +20,7 @@ namespace trocar {
 namespace {
 
 constexpr int kBusy_ms = 1000;          // the window waits for the database no longer than this
-constexpr double kBeyondLimit_s = 120;  // homing, start and reading, and a director's own patience
+constexpr double kBeyondLimits_s = 120;  // homing and reading, beyond the run's time and as much of waiting for it
 constexpr std::chrono::milliseconds kAskAgain{200};
 
 AttemptSetup paced(AttemptSetup setup, bool by_clock) {
@@ -41,7 +41,7 @@ Database checked_database(const AttemptRequest& request, const Scene& scene, con
   const std::filesystem::path file = request.database.empty() ? default_database_path() : request.database;
   if (file != ":memory:") {
     const double rate_hz = scene.loop.daq.rate_hz;
-    require_room(file.parent_path(), room_needed(scene.level.time_limit_s + kBeyondLimit_s, rate_hz),
+    require_room(file.parent_path(), room_needed(2 * scene.level.time_limit_s + kBeyondLimits_s, rate_hz),
                  room_free(file.parent_path()));
   }
   return Database(file, OpenMode::kCreate, kBusy_ms, regrade_file);
@@ -117,7 +117,10 @@ void AttemptRunner::State::record_and_grade() {
   hooks.observe = [this](const SessionView& view) { show(view); };
   hooks.observe_each_step = true;
   hooks.interrupted = [this] { return abort.load(); };
-  if (steered) hooks.hand = [this] { return std::make_unique<PersonHand>(link, !scene->loop.daq.motors); };
+  if (steered)
+    hooks.hand = [this] {
+      return std::make_unique<PersonHand>(link, scene->loop.daq.motors ? std::nullopt : std::optional(entry_T(*scene)));
+    };
   if (!steps) hooks.pause = &pause;
   hooks.marks = &marks;
   hooks.messages = &messages;

@@ -47,6 +47,11 @@ std::string score_words(const Translator& words, const DebriefFacts& facts) {
   return words("{0} of 100 points, a pass needs {1}. Most points were lost on: {2}.", {score, pass, worst->name});
 }
 
+bool began(const AttemptResult& result) {
+  return std::any_of(result.events.begin(), result.events.end(),
+                     [](const Event& e) { return e.type == event_type::kStart; });
+}
+
 std::string ungraded_words(const Translator& words, const AttemptResult& result, Outcome outcome) {
   const double t = result.events.empty() ? 0 : clock_s(result, result.events.back().t_s);
   switch (outcome) {
@@ -58,7 +63,8 @@ std::string ungraded_words(const Translator& words, const AttemptResult& result,
     case Outcome::kDeviceStopped:
       return words("The device stopped. That is not your doing: the attempt does not count.");
     default:
-      return words("The attempt is void: its record cannot be graded, and it does not count.");
+      return began(result) ? words("The attempt is void: its record cannot be graded, and it does not count.")
+                           : words("The clock never began: nothing is graded, and it does not count.");
   }
 }
 

@@ -13,7 +13,7 @@ void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double
   const Vec3 way = wanted.X_TI.p - intent_.X_TI.p;
   Vec3 step = share_of(way.norm(), kSpeed * dt_s) * way;
   const double felt_n = percept.felt_force_T.norm();
-  if (careful_ && felt_n > 0) {
+  if (entry_T_ && felt_n > 0) {
     const Vec3 out = percept.felt_force_T / felt_n;
     const double deeper = -step.dot(out);
     if (deeper > kPress * dt_s) step += (deeper - kPress * dt_s) * out;
@@ -26,7 +26,7 @@ void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double
   else
     intent_.X_TI.R = wanted.X_TI.R;
   const double close = wanted.jaw_opening_m - intent_.jaw_opening_m;
-  const double closing = careful_ && percept.felt_grip_n > 0 ? kFingerPress : kFingerSpeed;
+  const double closing = entry_T_ && percept.felt_grip_n > 0 ? kFingerPress : kFingerSpeed;
   intent_.jaw_opening_m += std::clamp(close, -closing * dt_s, kFingerSpeed * dt_s);
   intent_.clutch = wanted.clutch;
 }
@@ -34,7 +34,7 @@ void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double
 HandIntent PersonHand::update(const Percept& percept, double dt_s) {
   const bool ready = link_.ready.load(std::memory_order_relaxed);
   if (!holding_ || (!ready && percept.device_ready)) {
-    intent_.X_TI = {percept.R_TI, percept.tip_T};
+    intent_.X_TI = {percept.R_TI, percept.device_ready && entry_T_ ? *entry_T_ : percept.tip_T};
     if (!holding_) intent_.jaw_opening_m = percept.jaw_opening_m;
   }
   holding_ = true;

@@ -3,12 +3,14 @@
 //
 // It takes hold where the instrument is and rests there until the device is ready and a first intent has come. A leap
 // of the intent (the pointer has crossed the window at once) becomes a movement at kSpeed, so that it cannot throw the
-// arm; without a device it is careful with what it touches. The spring between this hand and the stylus is the plant's
+// arm; without a device it brings the instrument in and is careful with what it touches. The spring between this hand and the stylus is the plant's
 // own (haptics/device/plant/hand_model.h). Frame T, SI. No allocation, no lock: wait-free on both sides. Threads:
 // update() the haptic task's; the link's other ends belong to one more.
 #pragma once
 
 #include <atomic>
+#include <optional>
+#include <utility>
 
 #include "haptics/exchange/latest.h"
 #include "scenarios/hands/hand.h"
@@ -39,16 +41,16 @@ class PersonHand final : public Hand {
   static constexpr double kPress = 0.003;         ///< careful: m/s into what is touched, 0.45 N/s at 150 N/m
   static constexpr double kFingerPress = 0.0012;  ///< likewise, of the fingers: 0.36 N/s at 300 N/m
 
-  /// @param link outlives the hand. @param careful nothing pushes back: what is touched is pressed slowly, so that a
-  /// force can be had by eye.
-  explicit PersonHand(HandLink& link, bool careful = false) : link_(link), careful_(careful) {}
+  /// @param link outlives the hand. @param entry_T without a device: where the hand brings the instrument in. Nothing
+  /// pushes back then, and what is touched is pressed slowly, so that a force can be had by eye.
+  explicit PersonHand(HandLink& link, std::optional<Vec3> entry_T = {}) : link_(link), entry_T_(std::move(entry_T)) {}
   HandIntent update(const Percept& percept, double dt_s) override;
 
  private:
   void follow(const HandIntent& wanted, const Percept& percept, double dt_s);
 
   HandLink& link_;
-  bool careful_;
+  std::optional<Vec3> entry_T_;
   HandIntent intent_;
   std::uint64_t taken_ = 0;  ///< number of the newest intent
   bool holding_ = false;

@@ -16,6 +16,8 @@ constexpr double kOverBoard = 0.050;  // m: over blocks that stand, and over one
 constexpr double kAbove = 1;          // m: over everything
 constexpr double kOver = 0.0025;      // m beside the middle of the lit block: the open jaws go down round it
 constexpr double kNear = 0.006;       // m: the tip settles over it while the hand rests
+constexpr double kNearRing = 0.008;   // m: so does what is carried, over the middle of its ring
+constexpr double kSticks = 0.3;       // of sideways movements, while a block is between the jaws or in its ring
 constexpr double kHangs = 0.002;      // m of a block over the board before it is let go: no fall
 enum GroundNumber : int {
   kStartGround = 1,
@@ -23,10 +25,9 @@ enum GroundNumber : int {
   kPenGround = 100,
   kNearBlockGround = 200,
   kBlockGround = 300,
-  kRingGround = 400
+  kNearRingGround = 400,
+  kRingGround = 500
 };
-
-bool starting(Phase phase) { return phase == Phase::kReady || phase == Phase::kArmed; }
 
 }  // namespace
 
@@ -56,7 +57,7 @@ struct Surroundings::State {
       if (tissue.held() && i == tissue.grip_object) continue;
       const Vec3 half = 0.5 * object.size_m, in = object.X_TO.R.transpose() * (p_T - object.X_TO.p);
       const double top = object.X_TO.p.z() + half.z();
-      if (std::abs(in.x()) < half.x() && std::abs(in.y()) < half.y() && top < p_T.z()) out.z() = std::max(out.z(), top);
+      if (std::abs(in.x()) < half.x() && std::abs(in.y()) < half.y()) out.z() = std::max(out.z(), top);
     }
     return out;
   }
@@ -67,18 +68,21 @@ struct Surroundings::State {
     const double level = height(0, 0);
     const SeenObject& block = status.demand.object;
     const double middle = 0.5 * block.size_m.z();
-    const double off_m = (block.X_TO.p - tip_T).head<2>().norm();
-    if (status.cue == Cue::kPick && off_m < kNear) {
-      const int low = off_m < kOver ? kBlockGround : kNearBlockGround;
-      return {low + status.target_index, board, off_m < kOver ? middle : kOverBoard, block.X_TO.p, level};
-    }
-    if (status.cue == Cue::kPlace) return {kRingGround + status.target_index, board, middle + kHangs, {}, level};
+    const bool carried = status.cue == Cue::kCarry || status.cue == Cue::kPlace;
+    // What is gripped aside of its middle is set down by its middle all the same.
+    const Vec3 goal = carried ? Vec3(status.demand.goal_T - block.X_TO.p + tip_T) : block.X_TO.p;
+    const double off_m = (goal - tip_T).head<2>().norm();
+    const int near = carried ? kNearRingGround : kNearBlockGround, low = carried ? kRingGround : kBlockGround;
+    const bool is_low = ground.number == low + status.target_index;
+    if (off_m < (is_low && carried ? kNearRing : kOver))
+      return {low + status.target_index, board, carried ? middle + kHangs : middle, goal, level, kSticks};
+    if (off_m < (carried ? kNearRing : kNear)) return {near + status.target_index, board, kOverBoard, goal, level};
     return {kWorkGround, board, kOverBoard, {}, level};
   }
 
   GlideGround ground_of(const DirectorStatus& status, const Vec3& tip_T) const {
     const auto level = [](double z) { return [z](double, double) { return z; }; };
-    if (starting(status.phase)) return {kStartGround, level(scene.board.start_T.z()), 0};
+    if (waits_for_start(status.phase)) return {kStartGround, level(scene.board.start_T.z()), 0};
     if (status.demand.oriented) return {kPenGround + status.target_index, level(status.demand.centre_T.z()), 0};
     if (!organ) return block_ground(status, tip_T);
     return {kWorkGround, [this](double x, double y) { return height(x, y); }, kOverOrgan};
@@ -105,9 +109,8 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   out.touching = record.stylus.contact;
   if (out.touching) out.normal_T = record.stylus.contact_normal_T;
   out.gripping = record.stylus.grip_force_n > 0;
-  if (!s.scene.level.pointer.glide && !starting(status.phase)) return out;
-  if (const GlideGround next = s.ground_of(status, record.stylus.X_TI.p); next.number != s.ground.number)
-    s.ground = next;
+  if (!s.scene.level.pointer.glide && !waits_for_start(status.phase)) return out;
+  s.ground = s.ground_of(status, record.stylus.X_TI.p);
   out.ground = &s.ground;
   return out;
 }

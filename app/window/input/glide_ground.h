@@ -18,6 +18,7 @@ struct GlideGround {
   double clearance_m = 0;                                ///< where the tip stays over it until a person says otherwise
   std::optional<Vec3> centre_T = {};                     ///< to which the foot settles while the hand rests
   std::optional<double> level_z_m = {};  ///< the clearance is over this instead: things stand on a board
+  double aside = 1;                      ///< of a movement sideways: less where it would push what stands there
 };
 
 /// First point of the ground on the line of sight through a point; none within reach: nothing.

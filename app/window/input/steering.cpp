@@ -304,7 +304,7 @@ struct Steering::State {
       rest_m = over.clearance_m;
     }
     if (!aside.isZero()) {
-      const Vec3 next = foot_T + aside;
+      const Vec3 next = foot_T + over.aside * aside;
       foot_T = seen_ground(over, camera, next).value_or(next);
     }
     if (aside.isZero() && !acting && over.centre_T)

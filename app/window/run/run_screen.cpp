@@ -22,12 +22,14 @@ namespace {
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 constexpr double kTipRoom = 0.07;   // of the picture's height round tip and target: for the bar at the tip
+constexpr double kSameDepth = 0.004;  // m: neither nearer nor farther
 constexpr double kStoring_s = 0.5;  // that a database may take before the debrief is shown all the same
 
-/// Before anything has been seen of the run: the instrument as the jig holds it.
+/// Before anything has been seen of the run: the instrument as the jig holds it, or where it comes in.
 RunMoment first_moment(const Scene& scene) {
   RunMoment moment;
   moment.record.stylus.X_TI = scene.loop.map.instrument_pose(home_pose());
+  if (!scene.loop.daq.motors) moment.record.stylus.X_TI.p = entry_T(scene);
   moment.record.stylus.jaw_opening_m = 0.02;
   return moment;
 }
@@ -44,7 +46,7 @@ struct RunScreen::State {
   Camera camera, seen;  // of the exercise; of the last picture
   PixelRect picture;
   HudLayout layout;
-  std::optional<double> rim;  // where the tip is when it is out of view
+  std::optional<double> rim, lit_rim;  // where tip and lit target are when they are out of view
   std::unique_ptr<Surroundings> surroundings;
   TipGuide guide;
   bool toast_above = false;
@@ -61,12 +63,13 @@ struct RunScreen::State {
   void command(Action action, PracticeModel& model);
   Camera seen_by(PracticeModel& model) const;
   TipGuide guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment);
+  std::string to_start(const Translator& words, const Scene& scene, const Vec3& tip_T) const;
   SceneView view(PracticeModel& model);
   bool covers(const HudBox& box, double margin = 0) const;
   void lay_out(const Hud& hud, PracticeModel& model, int width, int height);
   void pause(PracticeModel& model, bool paused);
   void mark(PracticeModel& model) const;
-  void rim_arrow(double angle_rad, double size) const;
+  void rim_arrow(double angle_rad, double size, Ink colour, double within = 0) const;
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
   std::optional<ScreenName> restart(PracticeModel& model);
   std::optional<ScreenName> ended(PracticeModel& model);
@@ -133,17 +136,29 @@ TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, c
   out.held = moment.status.hold_progress;
   out.lit_T = lit_outline(view_of(scene, moment), view.camera);
   const StylusState& stylus = moment.record.stylus;
-  if (guides) out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(view.X_TI.p);
+  const bool carries = moment.status.cue == Cue::kCarry || moment.status.cue == Cue::kPlace;
+  if (carries) out.plumb_T = moment.status.demand.object.X_TO.p;
+  if (guides) out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(out.plumb_T.value_or(out.tip_T));
   if (view.hud.bars.empty()) return out;
   const ForceBar& bar = moment.status.cue == Cue::kGrip ? view.hud.bars.back() : view.hud.bars.front();
   if (bars && !bar.hidden) out.force = bar;
   return out;
 }
 
+/// How far the start ball is, and whether beyond the tip or before it.
+std::string RunScreen::State::to_start(const Translator& words, const Scene& scene, const Vec3& tip_T) const {
+  const Vec3 way = scene.board.start_T - tip_T;
+  if (way.norm() < scene.setup.exercise.start_sphere_m) return "";
+  const std::string far = words.number(1000 * way.norm(), 0);
+  const double deeper = way.dot((seen.look_at_T - seen.eye_T).normalized());
+  if (std::abs(deeper) < kSameDepth) return words("{0} mm to go", {far});
+  return deeper > 0 ? words("{0} mm to go, farther away", {far}) : words("{0} mm to go, nearer to you", {far});
+}
+
 SceneView RunScreen::State::view(PracticeModel& model) {
   AttemptRunner& run = *model.running();
   const RunMoment& newest = run.newest();
-  const RunMoment& moment = newest.seen ? newest : before;
+  const RunMoment& moment = newest.seen && (run.ready() || run.scene().loop.daq.motors) ? newest : before;
   if (newest.seen) latency.drawn(newest.steered);
   sounds.hear(run.scene(), moment, model.sound());
   SceneView out = attempt_view(view_of(run.scene(), moment),
@@ -154,6 +169,8 @@ SceneView RunScreen::State::view(PracticeModel& model) {
   if (!guides) hide_guides(out);
   if (steering) add_ghost(out, run.target());
   guide = steering ? guide_at(run.scene(), out, moment) : TipGuide{};
+  if (steering && waits_for_start(moment.status.phase))
+    guide.to_go = to_start(model.words(), run.scene(), moment.record.stylus.X_TI.p);
   return out;
 }
 
@@ -210,6 +227,7 @@ std::optional<Screen::Stage> RunScreen::stage(PracticeModel& model, int width, i
   s.seen = out.view.camera;
   s.lay_out(out.view.hud, model, width, height);
   s.rim = rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
+  s.lit_rim = s.guide.lit_T.empty() ? std::nullopt : rim_angle(out.view.camera, s.picture, middle_of(s.guide.lit_T));
   out.x = s.picture.x;
   out.y = s.picture.y;
   out.width = s.picture.width;
@@ -387,12 +405,12 @@ void RunScreen::State::key_hints(Ui& ui, const PracticeModel& model) const {
 }
 
 /// At the rim of the round field, and clear of the messages that lie over it.
-void RunScreen::State::rim_arrow(double angle_rad, double size) const {
+void RunScreen::State::rim_arrow(double angle_rad, double size, Ink colour, double within) const {
   std::vector<HudBox> messages;
   for (const HudShape& shape : layout.shapes)
     if (shape.kind == HudShape::Kind::kToast) messages.push_back(shape.box);
   draw_rim_arrow(picture.x + 0.5 * picture.width, picture.y + 0.5 * picture.height,
-                 rim_reach(picture, angle_rad, size, messages), angle_rad, size);
+                 rim_reach(picture, angle_rad, size, messages) - within, angle_rad, size, colour);
 }
 
 std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
@@ -407,7 +425,9 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double 
   s.hints.pass(dt_s);
   if (!s.overlay) paint_tip_guide(ui, ScopeOptics(s.seen, s.picture), s.guide);
   draw_hud(s.layout);
-  if (s.rim && s.steering) s.rim_arrow(*s.rim, ui.px(26));
+  const double arrow = ui.px(26);
+  if (s.lit_rim) s.rim_arrow(*s.lit_rim, arrow, Ink::kAccent);
+  if (s.rim && s.steering) s.rim_arrow(*s.rim, arrow, Ink::kTip, s.lit_rim ? 1.5 * arrow : 0);
   s.key_hints(ui, model);
   if (s.overlay) return s.pause_panel(ui, model);
   s.hint_panel(ui, model);

@@ -27,7 +27,8 @@ void paint_plumb(Ui& ui, const ScopeOptics& optics, const Vec3& tip_T, const Vec
   }
   const auto from = optics.project(tip_T), to = optics.project(foot_T);
   if (!from || !to) return;
-  if ((*from - *to).norm() > ui.px(3)) ui.paint_outlined({{from->x(), from->y()}, {to->x(), to->y()}}, Ink::kTip, 2.5);
+  const bool over = tip_T.z() > foot_T.z();  // not so within a block, which the open jaws stand round
+  if (over && (*from - *to).norm() > ui.px(3)) ui.paint_outlined({{from->x(), from->y()}, {to->x(), to->y()}}, Ink::kTip, 2.5);
   ui.paint_outlined(foot, Ink::kTip, 2.5);
 }
 
@@ -58,11 +59,19 @@ Line circle(const Vec3& centre, const Vec3& normal, double radius_m) {
   return out;
 }
 
+/// Edge of the face that is uppermost: one may lie on its side.
 Line top_of(const SeenObject& block) {
-  const Vec3 half = 0.5 * block.size_m;
+  const Vec3 up = block.X_TO.R.row(2).transpose(), half = 0.5 * block.size_m;
+  int axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
   Line out;
-  for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}, {-1, -1}})
-    out.push_back(block.X_TO * Vec3(x * half.x(), y * half.y(), half.z()));
+  for (const auto& [a, b] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
+    Vec3 corner = half;
+    corner[axis] *= up[axis] < 0 ? -1 : 1;
+    corner[(axis + 1) % 3] *= a;
+    corner[(axis + 2) % 3] *= b;
+    out.push_back(block.X_TO * corner);
+  }
   return out;
 }
 
@@ -73,13 +82,34 @@ void paint_lit(Ui& ui, const ScopeOptics& optics, const Line& line) {
   if (seen.size() == line.size()) ui.paint_outlined(seen, Ink::kAccent, 3);
 }
 
+/// Below what is lit.
+void paint_to_go(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
+  double x = 0, bottom = 0;
+  for (const Vec3& p : guide.lit_T.front()) {
+    const auto at = optics.project(p);
+    if (!at) return;
+    x += at->x() / static_cast<double>(guide.lit_T.front().size());
+    bottom = std::max(bottom, at->y());
+  }
+  const double wide = ui.text_width(guide.to_go), y = bottom + ui.px(10);
+  ui.paint_ground({x - 0.5 * wide - ui.px(6), y - ui.px(2), wide + ui.px(12), ui.line_height() + ui.px(4)}, 0.8,
+                  ui.px(4));
+  ui.text_at(x, y, guide.to_go, Ink::kText, 0, 0.5);
+}
+
 }  // namespace
+
+Vec3 middle_of(const std::vector<Line>& lit_T) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : lit_T.front()) sum += p;
+  return sum / static_cast<double>(lit_T.front().size());
+}
 
 std::vector<Line> lit_outline(const SessionView& view, const Camera& camera) {
   const DirectorStatus& status = view.director.status();
   const Board& board = view.director.board();
   const auto facing = [&](const Vec3& p) { return Vec3((camera.eye_T - p).normalized()); };
-  if (status.phase == Phase::kReady || status.phase == Phase::kArmed)
+  if (waits_for_start(status.phase))
     return {circle(board.start_T, facing(board.start_T), view.scene.setup.exercise.start_sphere_m)};
   if (status.phase != Phase::kRun || status.target_index < 0) return {};
   const Demand& d = status.demand;
@@ -94,7 +124,8 @@ std::vector<Line> lit_outline(const SessionView& view, const Camera& camera) {
 
 void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
   for (const Line& line : guide.lit_T) paint_lit(ui, optics, line);
-  if (guide.foot_T) paint_plumb(ui, optics, guide.tip_T, *guide.foot_T);
+  if (!guide.to_go.empty() && !guide.lit_T.empty()) paint_to_go(ui, optics, guide);
+  if (guide.foot_T) paint_plumb(ui, optics, guide.plumb_T.value_or(guide.tip_T), *guide.foot_T);
   const auto tip = optics.project(guide.tip_T);
   if (!tip) return;
   if (guide.held > 0) {

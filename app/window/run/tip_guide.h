@@ -8,6 +8,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/picture/scene/scope_optics.h"
@@ -20,13 +21,18 @@ class Ui;
 struct TipGuide {
   std::vector<std::vector<Vec3>> lit_T = {};  ///< lines
   Vec3 tip_T = Vec3::Zero();
-  std::optional<Vec3> foot_T = {};     ///< below the tip on what it may fall on; nothing: no plumb line
+  std::optional<Vec3> plumb_T = {};    ///< where the plumb line hangs, if not at the tip: middle of what is carried
+  std::optional<Vec3> foot_T = {};     ///< below it on what it may fall on; nothing: no plumb line
   std::optional<ForceBar> force = {};  ///< while it may be seen
   double held = 0;                     ///< 0..1
+  std::string to_go = {};              ///< to the start ball, in words, below it
 };
 
 /// Outline of what the exercise asks for now: start ball, disc, pen, block or ring.
 std::vector<std::vector<Vec3>> lit_outline(const SessionView& view, const Camera& camera);
+
+/// Middle of its first line.
+Vec3 middle_of(const std::vector<std::vector<Vec3>>& lit_T);
 
 void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide);
 

@@ -88,18 +88,19 @@ PixelRect picture_right(const PixelRect& picture, int width) {
   return {width - picture.x - picture.width, picture.y, picture.width, picture.height};
 }
 
-void draw_rim_arrow(double x, double y, double radius, double angle_rad, double size) {
+void draw_rim_arrow(double x, double y, double radius, double angle_rad, double size, Ink colour) {
   Pencil pen(*ImGui::GetBackgroundDrawList());
   const double c = std::cos(angle_rad), s = -std::sin(angle_rad);  // y down
   const double tip_x = x + radius * c, tip_y = y + radius * s, foot = radius - size;
   const double foot_x = x + foot * c, foot_y = y + foot * s, half = 0.6 * size;
-  const auto arrow = [&](double grow, const Colour& colour) {
+  const Rgb inside = shape_colour(colour);
+  const auto arrow = [&](double grow, const Colour& filled) {
     pen.triangle(tip_x + grow * c, tip_y + grow * s, foot_x - grow * c - (half + grow) * s,
                  foot_y - grow * s + (half + grow) * c, foot_x - grow * c + (half + grow) * s,
-                 foot_y - grow * s - (half + grow) * c, colour);
+                 foot_y - grow * s - (half + grow) * c, filled);
   };
   arrow(3, hud_colour::kToast);
-  arrow(0, hud_colour::kYellow);
+  arrow(0, {inside.r, inside.g, inside.b});
 }
 
 }  // namespace trocar

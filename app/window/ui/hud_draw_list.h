@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/picture/display/hud_layout.h"
+#include "app/window/ui/theme.h"
 
 namespace trocar {
 
@@ -17,7 +18,7 @@ HudLayout column_left(HudLayout layout);
 PixelRect picture_right(const PixelRect& picture, int width);
 
 /// Arrow at the rim of the round field, pointing outwards. @param x,y centre of the field, px.
-/// @param angle_rad 0 to the right, up positive.
-void draw_rim_arrow(double x, double y, double radius, double angle_rad, double size);
+/// @param angle_rad 0 to the right, up positive. @param colour of the shape.
+void draw_rim_arrow(double x, double y, double radius, double angle_rad, double size, Ink colour);
 
 }  // namespace trocar

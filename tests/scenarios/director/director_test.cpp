@@ -306,9 +306,10 @@ TEST_F(DirectorTest, TimesOutAtTheLimit) {
   EXPECT_NEAR(last("TIMEOUT").t_s - last("START").t_s, 120, 0.02);
 }
 
-TEST_F(DirectorTest, NeverStartingTimesOutToo) {
+TEST_F(DirectorTest, WhatNeverBeginsIsVoidAndNotGraded) {
   feed(121);
-  EXPECT_EQ(director_.outcome(), AttemptStatus::kTimeout);
+  EXPECT_EQ(director_.outcome(), AttemptStatus::kVoid);
+  EXPECT_EQ(director_.status().message, "Not begun");
   EXPECT_EQ(count("START"), 0);
 }
 

@@ -238,7 +238,7 @@ std::vector<InputEvent> PicturePlayer::grasp(double t_s, const Glance& seen) {
       if (off > 7) return aim(t_s, *seen.foot, *seen.lit);
       goal_ = seen.lit;
       stage_ = Stage::kPress;
-      wait_until_s_ = t_s + 0.6;  // it goes down
+      wait_until_s_ = t_s + 1.2;  // it goes down
       return {};
     case Stage::kPress:
       if (down_ && goal_ && way(*goal_, *seen.lit) > kMoved_px && seen.force == Glance::Force::kNone) break;
@@ -253,10 +253,12 @@ std::vector<InputEvent> PicturePlayer::grasp(double t_s, const Glance& seen) {
         if (t_s - since_s_ > 2) stage_ = Stage::kLift;
         return {};
       }
-      if (off > 6) return aim(t_s, *seen.foot, *seen.lit);
-      if (t_s - settled_s_ > 3) settled_s_ = t_s;
-      if (t_s - settled_s_ < 1 || seen.foot->y - seen.tip->y > 60) return {};  // it goes down by itself
-      stage_ = Stage::kLift;
+      if (off > 10) return aim(t_s, *seen.foot, *seen.lit);
+      if (std::abs(way(*seen.foot, *seen.tip) - plumb_px_) > 3) {  // it goes down by itself
+        plumb_px_ = way(*seen.foot, *seen.tip);
+        settled_s_ = t_s;
+      }
+      if (t_s - settled_s_ > 0.5) stage_ = Stage::kLift;
       return {};
     default:
       return press(t_s, seen);

@@ -77,7 +77,7 @@ class PicturePlayer {
   PlayerHand& hand_;
   Task task_;
   std::deque<Moment> eye_;
-  double wait_until_s_ = 0, since_s_ = 0, dark_s_ = -1, settled_s_ = -9;
+  double wait_until_s_ = 0, since_s_ = 0, dark_s_ = -1, settled_s_ = -9, plumb_px_ = 0;
   enum class Stage { kAim, kPress, kKeep, kLift, kCarry } stage_ = Stage::kAim;
   bool down_ = false;
   std::optional<Spot> goal_, ball_;

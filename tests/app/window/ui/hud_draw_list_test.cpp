@@ -10,6 +10,7 @@ namespace trocar::hud_draw_list_test {
 namespace {
 
 constexpr Rgb kTrack{38, 43, 50}, kGood{40, 200, 150}, kWhite{240, 242, 245}, kYellow{240, 200, 20},
+    kAccent{240, 228, 66},
     kOverLimit{225, 104, 20};
 
 class HudDrawn : public testing_support::UiBench {
@@ -132,13 +133,13 @@ TEST_F(HudDrawn, TextIsNoWiderThanItWasLaidOut) {
 TEST_F(HudDrawn, RimArrowPointsOutwardsWithItsTipOnTheRim) {
   for (const auto& [quarters, dx, dy] : {std::tuple{0, 1, 0}, std::tuple{1, 0, -1}, std::tuple{2, -1, 0}}) {
     const double turned = quarters * std::numbers::pi / 2, angle = turned;
-    paint([turned](Ui&) { draw_rim_arrow(300, 300, 100, turned, 26); });
+    paint([turned](Ui&) { draw_rim_arrow(300, 300, 100, turned, 26, Ink::kAccent); });
     const auto along = [&, x = dx, y = dy](int r, int aside) {
       return at(300 + r * x - aside * y, 300 + r * y + aside * x);
     };
-    EXPECT_EQ(along(80, 0), kYellow) << angle;
-    EXPECT_EQ(along(78, 11), kYellow) << angle << ": broad at its foot";
-    EXPECT_NE(along(95, 11), kYellow) << angle << ": narrow at its tip";
+    EXPECT_EQ(along(80, 0), kAccent) << angle;
+    EXPECT_EQ(along(78, 11), kAccent) << angle << ": broad at its foot";
+    EXPECT_NE(along(95, 11), kAccent) << angle << ": narrow at its tip";
     EXPECT_EQ(along(66, 0), (Rgb{0, 0, 0})) << angle;
     EXPECT_EQ(along(108, 0), (Rgb{0, 0, 0})) << angle;
   }
