@@ -12,7 +12,8 @@ namespace trocar {
 namespace {
 
 constexpr double kOverOrgan = 0.008;  // m: the foot is seen beside the tip, the way down is short
-constexpr double kOverBoard = 0.050;  // m: over blocks that stand, and over one that hangs from the jaws
+constexpr double kOverBoard = 0.044;  // m: over blocks that stand, with one that hangs from the jaws
+constexpr double kOverBlock = 0.032;  // m over the board: the open jaws are clear of it
 constexpr double kAbove = 1;          // m: over everything
 constexpr double kOver = 0.0025;      // m beside the middle of the lit block: the open jaws go down round it
 constexpr double kNear = 0.006;       // m: the tip settles over it while the hand rests
@@ -76,7 +77,7 @@ struct Surroundings::State {
     const bool is_low = ground.number == low + status.target_index;
     if (off_m < (is_low && carried ? kNearRing : kOver))
       return {low + status.target_index, board, carried ? middle + kHangs : middle, goal, level, kSticks};
-    if (off_m < (carried ? kNearRing : kNear)) return {near + status.target_index, board, kOverBoard, goal, level};
+    if (off_m < (carried ? kNearRing : kNear)) return {near + status.target_index, board, carried ? kOverBoard : kOverBlock, goal, level};
     return {kWorkGround, board, kOverBoard, {}, level};
   }
 
