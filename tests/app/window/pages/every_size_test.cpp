@@ -143,7 +143,10 @@ class EverySize : public HeadlessFixture, public ::testing::WithParamInterface<c
     }
   }
   void everywhere(ScreenName name, const std::string& after = "") {
-    everywhere(*make_screen(name), screen_name(name) + after);
+    everywhere(screen_name(name) + after, [&](const std::string& page, const Sight& at) {
+      const std::unique_ptr<Screen> screen = make_screen(name);
+      look(page, at, *screen);
+    });
   }
   void everywhere(Screen& screen, const std::string& page) {
     everywhere(page, [&](const std::string& called, const Sight& at) { look(called, at, screen); });
@@ -177,7 +180,7 @@ TEST_P(EverySize, PagesBeforeARun) {
     model_->exercise_id = exercise.id;
     for (const ExerciseLevel& level : exercise.levels) {
       model_->level = level.name;
-      everywhere(ScreenName::kBriefing, "-" + exercise.number + "-" + level.name);
+      everywhere(*make_screen(ScreenName::kBriefing), "briefing-" + exercise.number + "-" + level.name);
     }
   }
 }
