@@ -25,7 +25,8 @@ class DeskPagesTest : public testing_support::PageBench {
   /// Stored as if it had been done now. @return its uuid.
   std::string store(const AttemptResult& result, const std::string& trainee, bool recorded = true) {
     std::filesystem::path file;
-    if (recorded) file = bench_.folder.write("run" + std::to_string(boards_) + ".trec", small_recording(6, 1000, 3));
+    if (recorded)
+      file = bench_.folder.write("run" + std::to_string(boards_ + 1) + ".trec", small_recording(6, 1000, 3));
     return testing_support::stored(bench_.options().database, result, touch_, trainee, ++boards_, file);
   }
   std::optional<ScreenName> show(Screen& screen, const std::vector<InputEvent>& events = {}) {
