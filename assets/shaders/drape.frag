@@ -11,7 +11,8 @@ uniform sampler2DShadow u_shadow;
 void main() {
   vec3 to_lamp = lamp.xyz - v_position;
   float diffuse = max(dot(normalize(v_normal), normalize(to_lamp)), 0.0);
-  colour = vec4(lamp_power(to_lamp) * vec3(0.038, 0.110, 0.122) * v_open * (0.85 * diffuse * contact_shade(v_position) + 0.16), 1.0);
+  float shade = lamp_shadow(u_shadow, v_position) * contact_shade(v_position);
+  colour = vec4(lamp_power(to_lamp) * vec3(0.038, 0.110, 0.122) * v_open * (0.85 * diffuse * shade + 0.16), 1.0);
 }
 #else
 void main() {

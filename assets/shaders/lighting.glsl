@@ -40,15 +40,14 @@ vec3 hazed(vec3 light, vec3 at) {
   return mix(light, vec3(0.070, 0.036, 0.029), thick);
 }
 
-#ifdef PRESET_LOW
-float lamp_shadow(sampler2DShadow map, vec3 at) { return 1.0; }
-#else
 // Share of the lamp's light that reaches a point; the floor is light scattered inside the tissue and thrown back by the walls.
 float lamp_shadow(sampler2DShadow map, vec3 at) {
   vec4 s = lamp_projection * vec4(at, 1.0);
   vec3 uvz = s.xyz / s.w * 0.5 + 0.5;
   uvz.z -= 0.0012;
-#ifdef PRESET_SOFT
+#if defined(PRESET_LOW)
+  float sum = texture(map, uvz);
+#elif defined(PRESET_SOFT)
   float sum = 0.5 * (texture(map, uvz + vec3(-0.0010, -0.0004, 0.0)) + texture(map, uvz + vec3(0.0010, 0.0004, 0.0)));
 #else
   float sum = texture(map, uvz + vec3(-0.0011, -0.0004, 0.0)) + texture(map, uvz + vec3(0.0004, -0.0011, 0.0));
@@ -57,7 +56,6 @@ float lamp_shadow(sampler2DShadow map, vec3 at) {
 #endif
   return 0.30 + 0.70 * sum;
 }
-#endif
 
 // Darkening near the instrument: the nearer the shaft to a surface, the darker the surface under it.
 float contact_shade(vec3 at) {

@@ -193,7 +193,8 @@ vec3 across(vec3 g, vec3 n) { return g - n * dot(g, n); }
 #ifdef PRESET_LOW
 vec3 lit_by_lamp(Surface s, vec3 n, vec3 l, vec3 v, vec4 coarse, vec4 middle, vec4 fine) {
   float gloss = pow(max(dot(reflect(-l, n), v), 0.0), 24.0);
-  return s.base * (0.12 + max(dot(n, l), 0.0)) * (0.35 + 0.65 * v_open) + vec3(0.10 * s.film * gloss);
+  float shade = lamp_shadow(u_shadow, v_position) * contact_shade(v_position);
+  return s.base * (0.12 + max(dot(n, l), 0.0) * shade) * (0.35 + 0.65 * v_open) + vec3(0.10 * s.film * gloss);
 }
 #else
 vec3 lit_by_lamp(Surface s, vec3 n, vec3 l, vec3 v, vec4 coarse, vec4 middle, vec4 fine) {

@@ -46,7 +46,7 @@ std::vector<HudRow> device_rows(const SessionView& view) {
                              {"loop", hud_number("%.0f", scene.loop.daq.rate_hz), "Hz"},
                              {"passivity", view.record.stylus.passivity_active ? "acting" : "ok", ""},
                              {"force scale", hud_number("%.2f", scene.loop.map.force_scale), ""},
-                             {"motor heat", hud_number("%.0f", view.record.winding_c), "°C"}};
+                             {"motor heat", hud_number("%.0f", view.record.winding_c), "°C", true}};
   if (scene.loop.map.fulcrum)
     out.push_back({"depth in port", hud_number("%.0f", 1000 * view.record.stylus.depth_in_port_m), "mm"});
   return out;

@@ -11,13 +11,16 @@
 namespace trocar {
 namespace {
 
+constexpr int kStepLines = 3, kRowsToSay = 3;
+constexpr double kWholeFrom = 10;  // mm: an error so large is said in whole millimetres
+
 /// What is shown and how tightly: from roomy to dense until the column holds it.
 struct Plan {
   double pitch = 1.34;  ///< line pitch of lists, in body sizes
   double gap = 0.75;    ///< between sections
   int bars = 0, steps = 0, rows = 0;
-  double dial = 0;     ///< diameter of the dials in body sizes; 0: the same as two rows of text
-  int step_lines = 2;  ///< of steps that are not the current one
+  double dial = 0;      ///< diameter of the dials in body sizes; 0: the same as two rows of text
+  bool legends = true;  ///< under the force bars
   bool device_as_rows = true;
   int device_lines = 2;  ///< of the flowing form
 };
@@ -73,12 +76,11 @@ class Column {
 
   double line() const { return plan_.pitch * body_; }
   double heading_height() const { return 1.45 * body_; }
-  double bar_height() const { return (1.40 + 1.15 + 1.35 + 0.35) * body_; }
+  double bar_height() const { return (1.40 + 1.15 + (plan_.legends ? 1.35 : 0) + 0.35) * body_; }
   double icon_room() const { return 1.5 * body_; }
 
-  int step_lines(std::size_t i) {
-    const int limit = hud_.steps[i].state == HudStep::State::kCurrent ? 2 : plan_.step_lines;
-    return static_cast<int>(pen_.fonts().wrapped(hud_.steps[i].text, body_, false, room_ - icon_room(), limit).size());
+  HudPen::Lines step_lines(std::size_t i) {
+    return pen_.wrapped(hud_.steps[i].text, body_, false, room_ - icon_room(), kStepLines);
   }
 
   /// First and one past the last step shown: a window that holds the current one.
@@ -87,15 +89,37 @@ class Column {
     std::size_t current = 0;
     for (std::size_t i = 0; i < n; ++i)
       if (hud_.steps[i].state != HudStep::State::kOpen) current = i;
-    const std::size_t first = std::min(current > 0 ? current - 1 : 0, n - shown);
+    const std::size_t before = shown > 1 && current > 0 ? current - 1 : current;
+    const std::size_t first = std::min(before, n - shown);
     return {first, first + shown};
   }
 
-  std::string device_flow() const {
-    std::string flow;
-    for (const HudRow& row : hud_.device)
-      flow += (flow.empty() ? "" : " \u00b7 ") + row.name + " " + row.value + (row.unit.empty() ? "" : " " + row.unit);
-    return flow;
+  /// The rows that are shown, in their order: gauges are left out last.
+  std::vector<HudRow> shown_rows() const {
+    std::vector<HudRow> out = hud_.rows;
+    while (static_cast<int>(out.size()) > plan_.rows) {
+      const auto last = std::find_if(out.rbegin(), out.rend(), [](const HudRow& row) { return !row.gauge; });
+      out.erase(last == out.rend() ? out.end() - 1 : std::prev(last.base()));
+    }
+    return out;
+  }
+
+  bool says_left_out() const { return plan_.rows >= kRowsToSay && plan_.rows < static_cast<int>(hud_.rows.size()); }
+
+  /// The device in flowing lines of whole entries, gauges first; what has no room is left out.
+  std::vector<std::string> device_flow() {
+    std::vector<HudRow> entries = hud_.device;
+    std::stable_partition(entries.begin(), entries.end(), [](const HudRow& row) { return row.gauge; });
+    std::vector<std::string> lines;
+    for (const HudRow& row : entries) {
+      const std::string entry = row.name + " " + row.value + (row.unit.empty() ? "" : " " + row.unit);
+      const std::string longer = lines.empty() ? entry : lines.back() + " \u00b7 " + entry;
+      if (!lines.empty() && pen_.width(longer, body_, false) <= room_)
+        lines.back() = longer;
+      else if (static_cast<int>(lines.size()) < plan_.device_lines && pen_.width(entry, body_, false) <= room_)
+        lines.push_back(entry);
+    }
+    return lines;
   }
 
   double dial_height() const {
@@ -109,37 +133,39 @@ class Column {
     if (plan_.steps > 0) {
       sum += plan_.gap * body_ + heading_height();
       const auto [first, last] = step_window();
-      for (std::size_t i = first; i < last; ++i) sum += step_lines(i) * line();
+      for (std::size_t i = first; i < last; ++i) sum += static_cast<double>(step_lines(i).lines.size()) * line();
     }
-    if (plan_.rows > 0) {
-      const bool cut = plan_.rows < static_cast<int>(hud_.rows.size());
-      sum += plan_.gap * body_ + heading_height() + (plan_.rows + (cut ? 1 : 0)) * line();
-    }
+    if (plan_.rows > 0) sum += plan_.gap * body_ + heading_height() + (plan_.rows + (says_left_out() ? 1 : 0)) * line();
     if (!hud_.device.empty()) {
       if (plan_.device_as_rows)
         sum += heading_height() + plan_.gap * body_ + static_cast<double>(hud_.device.size()) * line();
       else if (plan_.device_lines > 0)
-        sum += plan_.gap * body_ + plan_.device_lines * line();
+        sum += plan_.gap * body_ + static_cast<double>(device_flow().size()) * line();
     }
     return sum;
   }
 
+  /// What is told in words gives way before what is read at a glance.
   void choose_plan() {
     plan_.bars = static_cast<int>(hud_.bars.size());
     plan_.steps = static_cast<int>(hud_.steps.size());
     plan_.rows = static_cast<int>(hud_.rows.size());
     plan_.dial = hud_.dial ? std::min(6.2, (0.5 * room_ / body_ - 1.2)) : 0;
     const auto full = [this] { return needed() > box_.height; };
-    if (full()) plan_.step_lines = 1;
+    const int gauges = static_cast<int>(
+        std::count_if(hud_.rows.begin(), hud_.rows.end(), [](const HudRow& row) { return row.gauge; }));
     if (full()) plan_.device_as_rows = false;
     if (full()) plan_.pitch = 1.19, plan_.gap = 0.35;
     while (full() && plan_.dial > 4) plan_.dial -= 0.2;
-    while (full() && plan_.rows > 4) --plan_.rows;
+    while (full() && plan_.rows > std::max(4, gauges)) --plan_.rows;
     if (full()) plan_.dial = 0;
     while (full() && plan_.steps > 2) --plan_.steps;
-    while (full() && plan_.device_lines > 0) --plan_.device_lines;
-    while (full() && plan_.rows > 0) --plan_.rows;
+    if (full()) plan_.device_lines = 1;
+    if (full()) plan_.legends = false;
+    while (full() && plan_.rows > gauges) --plan_.rows;
     while (full() && plan_.steps > 0) --plan_.steps;
+    if (full()) plan_.device_lines = 0;
+    while (full() && plan_.rows > 0) --plan_.rows;
     while (full() && plan_.bars > 0) --plan_.bars;
   }
 
@@ -155,11 +181,10 @@ class Column {
     const double mm = 1e3, deg = 180 / std::numbers::pi;
     if (d.hidden) return lay_hidden_dial(d);
     heading(labels_.match);
-    const auto fault = [&](double error, double tolerance, const char* unit, int decimals) {
-      return put_in(labels_.error, number(error, decimals), short_number(tolerance)) + unit;
-    };
-    const std::string tip = fault(d.position_error_m * mm, d.position_tolerance_m * mm, " mm", 1),
-                      turn = fault(d.angle_error_rad * deg, d.angle_tolerance_rad * deg, "\u00b0", 0);
+    const double off_mm = d.position_error_m * mm, off_deg = d.angle_error_rad * deg;
+    const std::string off = number(off_mm, off_mm < kWholeFrom ? 1 : 0), leans = number(off_deg, 0);
+    const std::string tip = put_in(labels_.error, off, short_number(d.position_tolerance_m * mm)) + " mm",
+                      turn = put_in(labels_.error, leans, short_number(d.angle_tolerance_rad * deg)) + "\u00b0";
     const bool tip_in = d.position_error_m <= d.position_tolerance_m,
                turn_in = d.angle_error_rad <= d.angle_tolerance_rad;
     if (plan_.dial == 0) return lay_dial_rows(tip, tip_in, turn, turn_in);
@@ -200,8 +225,9 @@ class Column {
       const double baseline = y_ + 0.98 * body_;
       pen_.shape(inside ? HudShape::Kind::kTick : HudShape::Kind::kOpen,
                  {x_, y_ + 0.1 * body_, 1.05 * body_, 1.05 * body_});
-      const double left =
-          pen_.text_right(value, x_ + room_, baseline, body_, true, inside ? HudInk::kGood : HudInk::kText);
+      const double most = room_ - icon_room() - 0.75 * pen_.width(name, body_, false) - 0.4 * body_,
+                   left = pen_.text_right(value, x_ + room_, baseline, body_, true,
+                                          inside ? HudInk::kGood : HudInk::kText, most);
       pen_.text(name, x_ + icon_room(), baseline, body_, false, HudInk::kDim, left - 0.4 * body_ - x_ - icon_room());
       y_ += line();
     }
@@ -216,7 +242,7 @@ class Column {
   /// The place of a bar that the feedback mode hides: same height, so that nothing jumps when it appears.
   void lay_hidden_bar(const ForceBar& bar) {
     pen_.text(bar.label, x_, y_ + 1.02 * body_, body_, false, HudInk::kDim, room_);
-    pen_.text(bar.hidden_note, x_, y_ + (1.40 + 1.0) * body_, body_, false, HudInk::kDim, room_);
+    pen_.text(bar.hidden_note, x_, y_ + (1.40 + 0.9) * body_, body_, false, HudInk::kDim, room_);
     y_ += bar_height();
   }
 
@@ -228,7 +254,7 @@ class Column {
                        : level == HudBar::Level::kAbove   ? HudInk::kCaution
                        : level == HudBar::Level::kInBand  ? HudInk::kGood
                                                           : HudInk::kText;
-    double right = pen_.text_right(number(bar.value_n, 2) + " N", x_ + room_, baseline, body_, true, ink);
+    double right = pen_.text_right(number(bar.value_n, 2) + " N", x_ + room_, baseline, body_, true, ink, room_);
     if (level != HudBar::Level::kBelow) {
       const HudShape::Kind kind = level == HudBar::Level::kInBand  ? HudShape::Kind::kTick
                                   : level == HudBar::Level::kAbove ? HudShape::Kind::kUp
@@ -248,8 +274,11 @@ class Column {
               bar.limit_n > 0 ? share(bar.limit_n) : 1.0,
               level});
     y_ += 1.15 * body_;
-    lay_bar_legend(bar);
-    y_ += 1.35 * body_ + 0.35 * body_;
+    if (plan_.legends) {
+      lay_bar_legend(bar);
+      y_ += 1.35 * body_;
+    }
+    y_ += 0.35 * body_;
   }
 
   /// One line under the bar: band left, peak in the middle, limit right; never on top of each other.
@@ -258,7 +287,7 @@ class Column {
     double right = x_ + room_;
     if (bar.limit_n > 0)
       right = pen_.text_right(put_in(labels_.limit, short_number(bar.limit_n)), right, baseline, body_, false,
-                              HudInk::kDim) -
+                              HudInk::kDim, room_) -
               space;
     const std::string range =
         bar.band_high_n > 0 ? short_number(bar.band_low_n) + "\u2013" + short_number(bar.band_high_n) : "";
@@ -289,9 +318,9 @@ class Column {
                                   : current                           ? HudShape::Kind::kCurrent
                                                                       : HudShape::Kind::kOpen;
       pen_.shape(kind, {x_, y_ + 0.10 * body_, 1.05 * body_, 1.05 * body_});
-      const int limit = current ? 2 : plan_.step_lines;
-      for (const std::string& words : pen_.fonts().wrapped(step.text, body_, false, room_ - icon_room(), limit)) {
-        pen_.text(words, x_ + icon_room(), y_ + 0.98 * body_, body_, false, current ? HudInk::kText : HudInk::kDim,
+      const HudPen::Lines said = step_lines(i);
+      for (const std::string& words : said.lines) {
+        pen_.text(words, x_ + icon_room(), y_ + 0.98 * body_, said.size, false, current ? HudInk::kText : HudInk::kDim,
                   room_ - icon_room());
         y_ += line();
       }
@@ -304,8 +333,7 @@ class Column {
     const std::string value = row.unit.empty() ? row.value : row.value + " " + row.unit;
     // 60 % of the width to the name; a short value gives the rest away.
     const double value_room = std::max(0.4 * room_, room_ - pen_.width(row.name, body_, false) - 0.5 * body_);
-    const std::string shown = pen_.fonts().fitted(value, body_, false, value_room);
-    const double left = pen_.text_right(shown, x_ + room_, baseline, body_, false, HudInk::kText);
+    const double left = pen_.text_right(value, x_ + room_, baseline, body_, false, HudInk::kText, value_room);
     pen_.text(row.name, x_, baseline, body_, false, HudInk::kDim, left - 0.4 * body_ - x_);
     y_ += line();
   }
@@ -314,9 +342,10 @@ class Column {
     if (plan_.rows == 0) return;
     y_ += plan_.gap * body_;
     heading(labels_.so_far);
-    for (int i = 0; i < plan_.rows; ++i) row(hud_.rows[static_cast<std::size_t>(i)], i % 2 == 0);
-    const int left_out = static_cast<int>(hud_.rows.size()) - plan_.rows;
-    if (left_out > 0) {
+    const std::vector<HudRow> rows = shown_rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) row(rows[i], i % 2 == 0);
+    const std::size_t left_out = hud_.rows.size() - rows.size();
+    if (says_left_out()) {
       pen_.text(put_in(labels_.more, std::to_string(left_out)), x_, y_ + 0.98 * body_, body_, false, HudInk::kDim,
                 room_);
       y_ += line();
@@ -331,7 +360,7 @@ class Column {
       for (std::size_t i = 0; i < hud_.device.size(); ++i) row(hud_.device[i], i % 2 == 0);
       return;
     }
-    for (const std::string& words : pen_.fonts().wrapped(device_flow(), body_, false, room_, plan_.device_lines)) {
+    for (const std::string& words : device_flow()) {
       pen_.text(words, x_, y_ + 0.98 * body_, body_, false, HudInk::kDim, room_);
       y_ += line();
     }

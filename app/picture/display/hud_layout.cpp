@@ -19,6 +19,7 @@ std::string clock_text(double seconds) {
   return text.data();
 }
 
+constexpr int kLeastNumber = 8;  // px: of a number in a place far too small
 constexpr std::string_view kBetween = " · ";
 
 /// "a · b · c", then "a · b", then "a".
@@ -67,41 +68,59 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const double margin = frame.px(14), baseline = 0.5 * frame.top + 0.36 * big;
   double right = frame.width - margin;
   if (hud.limit_s > 0)
-    right = pen.text_right("/ " + clock_text(hud.limit_s), right, baseline, body, false, HudInk::kDim) - frame.px(8);
+    right =
+        pen.text_right("/ " + clock_text(hud.limit_s), right, baseline, body, false, HudInk::kDim, right) - frame.px(8);
   const bool late = hud.limit_s > 0 && hud.elapsed_s > 0.9 * hud.limit_s;
-  right =
-      pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true, late ? HudInk::kCaution : HudInk::kText);
+  right = pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true, late ? HudInk::kCaution : HudInk::kText,
+                         right);
   const auto [who, what] = fitting_names(pen, hud, frame, right - 2 * margin);
   const double used = pen.text(who, margin, baseline, body, false, HudInk::kDim, right - margin);
   const double title_x = who.empty() ? margin : used + 1.6 * margin;
   pen.text(what, title_x, baseline, frame.title_size(), true, HudInk::kText, right - margin - title_x);
 }
 
-/// At most two lines of message and two of hint, over the lower edge of the picture, or below what is at the upper one.
+/// A message as it stands in a box of its own, text of `size` px.
+struct Toast {
+  int size;
+  double pad, icon, line, width, room;
+  std::vector<std::string> message, hint;
+  double height() const { return 2 * pad + line * static_cast<double>(message.size() + hint.size()); }
+};
+
+Toast toast_at(HudPen& pen, const Hud& hud, const HudFrame& frame, int size) {
+  constexpr int kLines = 3;  // of message and of hint
+  Toast t{size, size * 12 / 18.0, size * 34 / 18.0, 1.25 * size, 0, 0, {}, {}};
+  const double wish = std::max(pen.width(hud.toast, size, true), pen.width(hud.toast_hint, size, false));
+  t.width = std::min(wish + 3.5 * t.pad + t.icon, frame.scene.width - 2 * t.pad);
+  t.room = t.width - 3 * t.pad - t.icon;
+  t.message = pen.wrapped(hud.toast, size, true, t.room, kLines).lines;
+  if (!hud.toast_hint.empty()) t.hint = pen.wrapped(hud.toast_hint, size, false, t.room, kLines).lines;
+  return t;
+}
+
+/// Between the lower edge of the picture and what is at the upper one. It may cover a fifth of the picture's height:
+/// larger text is drawn as at 100 % before it covers more.
 void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame, double upper) {
   if (hud.toast.empty()) return;
-  const double pad = frame.px(12), icon = frame.px(34), line = 1.25 * frame.body;
-  const double wish = std::max(pen.width(hud.toast, frame.body, true), pen.width(hud.toast_hint, frame.body, false));
-  const double width = std::min(wish + 3.5 * pad + icon, frame.scene.width - 2 * pad);
-  const double room = width - 3 * pad - icon;
-  const auto message = pen.fonts().wrapped(hud.toast, frame.body, true, room, 2);
-  const auto hint = hud.toast_hint.empty() ? std::vector<std::string>{}
-                                           : pen.fonts().wrapped(hud.toast_hint, frame.body, false, room, 2);
-  const double height = 2 * pad + line * static_cast<double>(message.size() + hint.size());
-  const double y = hud.toast_above ? upper : frame.scene.y + frame.scene.height - height - pad;
-  const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - width), y, width, height};
+  constexpr double kMost = 0.2;
+  Toast t = toast_at(pen, hud, frame, frame.body);
+  for (int size = frame.body - 1; size >= frame.plain && t.height() > kMost * frame.scene.height; --size)
+    t = toast_at(pen, hud, frame, size);
+  const double lower = frame.scene.y + frame.scene.height - t.height() - t.pad;
+  const double y = std::lerp(std::min(upper, lower), lower, hud.toast_at);
+  const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - t.width), y, t.width, t.height()};
   pen.shape(HudShape::Kind::kToast, box);
   pen.shape(hud.toast_warning ? HudShape::Kind::kWarning : HudShape::Kind::kInfo,
-            {box.x + pad, box.y + 0.5 * (height - icon), icon, icon});
-  double baseline = box.y + pad + 0.95 * frame.body;
+            {box.x + t.pad, box.y + 0.5 * (box.height - t.icon), t.icon, t.icon});
+  double baseline = box.y + t.pad + 0.95 * t.size;
   const auto write = [&](const std::vector<std::string>& lines, bool bold, HudInk ink) {
     for (const std::string& words : lines) {
-      pen.text(words, box.x + 2 * pad + icon, baseline, frame.body, bold, ink, room);
-      baseline += line;
+      pen.text(words, box.x + 2 * t.pad + t.icon, baseline, t.size, bold, ink, t.room);
+      baseline += t.line;
     }
   };
-  write(message, true, HudInk::kText);
-  write(hint, false, HudInk::kDim);
+  write(t.message, true, HudInk::kText);
+  write(t.hint, false, HudInk::kDim);
 }
 
 /// One line each, below the notch, at most two. @return where they end.
@@ -142,12 +161,15 @@ bool hud_is_empty(const Hud& hud) {
          hud.device.empty() && !hud.dial;
 }
 
+constexpr int kBody = 18, kLeastBody = 12;  // px: at 720 lines, and in the smallest window
 /// px that the display needs beside a picture worth seeing, at 720 lines: what 1280 x 720 leaves at 200 %.
 constexpr double kColumnNeeds = 640;
 
 HudFrame::HudFrame(const Hud& hud, int w, int h, double text_scale) : width(w), height(h) {
-  scale = std::min(h / 720.0 * std::clamp(text_scale, 1.0, 2.0), w / kColumnNeeds);
-  body = std::max(px(18), 18);
+  const double wanted = std::clamp(text_scale, 1.0, 2.0);
+  scale = std::min(h / 720.0 * wanted, w / kColumnNeeds);
+  body = std::max(px(kBody), kLeastBody);
+  plain = std::max(static_cast<int>(std::lround(kBody * scale / wanted)), kLeastBody);
   empty = hud_is_empty(hud);
   bottom = hud.credit.empty() ? 0.0 : std::round(1.7 * body);
   top = empty ? 0.0 : std::round(2.5 * body);
@@ -189,19 +211,40 @@ HudLayout layout_hud(const Hud& hud, int width, int height, double text_scale, F
   return layout;
 }
 
+/// Of whole text where that is three quarters of `size` or more; below only for a number.
+int HudPen::fitting_size(const std::string& words, int size, bool bold, double room) {
+  const bool number = words.find_first_of("0123456789") != std::string::npos;
+  const int least = number ? kLeastNumber : (3 * size + 3) / 4;
+  while (size > least && fonts_.width(words, size, bold) > room) --size;
+  return size;
+}
+
 double HudPen::text(const std::string& words, double x, double baseline, int size, bool bold, HudInk ink, double room) {
-  const std::string shown = fonts_.fitted(words, size, bold, room);
+  const int fit = fitting_size(words, size, bold, room);
+  const std::string shown = fonts_.fitted(words, fit, bold, room);
   if (shown.empty()) return x;
-  const double w = fonts_.width(shown, size, bold);
+  const double w = fonts_.width(shown, fit, bold);
   layout_.texts.push_back(
-      {shown, {x, baseline - fonts_.ascent(size), w, fonts_.line_height(size)}, baseline, size, bold, ink});
+      {shown, {x, baseline - fonts_.ascent(fit), w, fonts_.line_height(fit)}, baseline, fit, bold, ink});
   return x + w;
 }
 
-double HudPen::text_right(const std::string& words, double right, double baseline, int size, bool bold, HudInk ink) {
-  const double x = right - fonts_.width(words, size, bold);
-  text(words, x, baseline, size, bold, ink, right - x + 1);
+double HudPen::text_right(const std::string& words, double right, double baseline, int size, bool bold, HudInk ink,
+                          double room) {
+  const int fit = fitting_size(words, size, bold, room);
+  const double x = right - fonts_.width(words, fit, bold);
+  text(words, x, baseline, fit, bold, ink, right - x + 1);
   return x;
+}
+
+HudPen::Lines HudPen::wrapped(const std::string& words, int size, bool bold, double room, int limit) {
+  const auto whole = [](const std::vector<std::string>& lines) {
+    return std::none_of(lines.begin(), lines.end(), [](const std::string& l) { return l.ends_with("\u2026"); });
+  };
+  Lines out{fonts_.wrapped(words, size, bold, room, limit), size};
+  for (int smaller = size - 1; smaller >= (3 * size + 3) / 4 && !whole(out.lines); --smaller)
+    out = {fonts_.wrapped(words, smaller, bold, room, limit), smaller};
+  return out;
 }
 
 }  // namespace trocar

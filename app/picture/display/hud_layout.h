@@ -1,8 +1,10 @@
 // Where every piece of the head-up display stands: a pure function of its content, so that overlap can be tested.
 //
 // Top bar, right column (force bars, steps, "So far", device), credit strip, one toast over the picture. Body text is
-// 18 px at 720 lines times the text scale and never smaller: when the column is full, text is shortened with an
-// ellipsis and lists are cut with a line that says how many entries are left out. Pixels of the image, y down.
+// 18 px at 720 lines times the text scale, 12 px at the least; what is too wide for its place is drawn smaller, by a
+// quarter at most, and only then shortened with an ellipsis: a number never. When the column is full, lists are cut
+// with a line that says how many entries are left out, gauges (HudRow::gauge, force bars) last. Pixels of the image, y
+// down.
 #pragma once
 
 #include <string>

@@ -18,7 +18,9 @@ std::string targets_done(const Scene& scene, const DirectorStatus& status) {
   return std::to_string(status.targets_done) + " / " + std::to_string(scene.board.targets.size());
 }
 
-HudRow hold_row(const DirectorStatus& status) { return {"Hold", hud_number("%.0f", 100 * status.hold_progress), "%"}; }
+HudRow hold_row(const DirectorStatus& status) {
+  return {"Hold", hud_number("%.0f", 100 * status.hold_progress), "%", true};
+}
 
 ForceBar force_bar(const char* label, double value_n, const WantedForce& band, double limit_n) {
   ForceBar out;

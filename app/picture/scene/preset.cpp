@@ -1,7 +1,9 @@
 #include "app/picture/scene/preset.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <utility>
 
 #include "app/picture/models/show_scene.h"
 #include "app/picture/scene/renderer.h"
@@ -12,6 +14,22 @@ namespace {
 constexpr double kWanted_s = 1.0 / 12;  // of the show scene, 18 organs: the exercises cost half of it
 constexpr int kFrames = 10;
 constexpr std::array<Preset, 3> kAll = {Preset::kLow, Preset::kSoft, Preset::kFull};
+
+/// From rich to plain.
+constexpr std::array<PictureThrift::Step, 7> kSteps = {{{Preset::kFull, 1},
+                                                        {Preset::kSoft, 1},
+                                                        {Preset::kSoft, 0.8},
+                                                        {Preset::kSoft, 0.65},
+                                                        {Preset::kLow, 0.65},
+                                                        {Preset::kLow, 0.5},
+                                                        {Preset::kLow, 0.4}}};
+
+/// The step at which a preset stands at its own size, or nearest to it.
+std::size_t step_of(Preset preset) {
+  return static_cast<std::size_t>(
+      std::find_if(kSteps.begin(), kSteps.end(), [&](const auto& step) { return step.preset == preset; }) -
+      kSteps.begin());
+}
 
 /// Mean time of a picture; stops early when `enough_s` have gone.
 double mean_frame_s(Renderer& renderer, SceneView view, int width, int height, double enough_s) {
@@ -32,7 +50,7 @@ double mean_frame_s(Renderer& renderer, SceneView view, int width, int height, d
 }  // namespace
 
 const PresetTraits& traits_of(Preset preset) {
-  static const std::array<PresetTraits, 3> kTraits = {{{"PRESET_LOW", 0.5, 0, false, 12000, 4000},
+  static const std::array<PresetTraits, 3> kTraits = {{{"PRESET_LOW", 0.5, 256, false, 12000, 4000},
                                                        {"PRESET_SOFT", 0.5, 512, true, 20000, 6000},
                                                        {"PRESET_FULL", 1.0, 1024, true, 60000, 16000}}};
   return kTraits[static_cast<std::size_t>(preset)];
@@ -55,12 +73,37 @@ Preset choose_preset(Preset first, double wanted_s, const std::function<double(P
   return Preset::kLow;
 }
 
-std::optional<Preset> PresetWatch::picture(double dt_s, Preset now) {
-  if (dt_s > kStandstill_s) return std::nullopt;
-  slow_ = dt_s > kTooSlow_s && now != Preset::kLow ? slow_ + 1 : 0;
-  if (slow_ < kInARow) return std::nullopt;
-  slow_ = 0;
-  return kAll[static_cast<std::size_t>(now) - 1];
+PictureThrift::PictureThrift(Preset first, Preset richest) : at_(step_of(first)), top_(step_of(richest)) {
+  at_ = std::max(at_, top_);
+}
+
+const PictureThrift::Step& PictureThrift::now() const { return kSteps[at_]; }
+
+void PictureThrift::go(int by) {
+  at_ = static_cast<std::size_t>(static_cast<int>(at_) + by);
+  count_ = 0;
+  quiet_s_ = 0;
+}
+
+bool PictureThrift::picture(double dt_s) {
+  if (dt_s > kStandstill_s) return false;
+  times_[static_cast<std::size_t>(count_++)] = dt_s;
+  quiet_s_ += dt_s;
+  if (count_ < kLook) return false;
+  std::array<double, kLook> sorted = times_;
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[kLook / 2];
+  count_ = 0;
+  if (median > kQuick_s) quiet_s_ = 0;
+  if (median > kSlow_s && at_ + 1 < kSteps.size()) {
+    if (std::exchange(climbed_, false)) wait_s_ = std::min(2 * wait_s_, kLongestWait_s);
+    go(median > 2 * kSlow_s && at_ + 2 < kSteps.size() ? 2 : 1);
+    return true;
+  }
+  if (quiet_s_ < wait_s_ || at_ == top_) return false;
+  climbed_ = true;
+  go(-1);
+  return true;
 }
 
 Preset measure_preset(Renderer& renderer, Preset first, const SceneView& view, int width, int height) {

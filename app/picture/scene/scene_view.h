@@ -59,6 +59,7 @@ struct HudStep {
 
 struct HudRow {
   std::string name, value, unit;
+  bool gauge = false;  ///< watched while one works: left out last
 };
 
 /// What the column says by itself, in the language that was chosen; {0} is a number.
@@ -82,8 +83,8 @@ struct Hud {
   std::vector<HudRow> device;     ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
   std::string toast, toast_hint;  ///< at most one message; empty when none
   bool toast_warning = false;
-  bool toast_above = false;  ///< at the picture's upper edge: what it would cover below is to be seen
-  std::string credit;        ///< organ's origin and licence; says "synthetic" for phantoms
+  double toast_at = 1;  ///< 0 at the picture's upper edge .. 1 at the lower: where it covers nothing that is to be seen
+  std::string credit;   ///< organ's origin and licence; says "synthetic" for phantoms
 };
 
 struct Camera {

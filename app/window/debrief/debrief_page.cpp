@@ -236,7 +236,7 @@ DebriefChoice DebriefPage::foot(Ui& ui, const DebriefContent& content) {
 
 /// px that the foot needs; with the advice above its buttons where there are two columns.
 double DebriefPage::foot_height(const Ui& ui, const DebriefContent& content, double wide, bool advised) const {
-  const double room = wide - ui.px(36), line = ui.px(7);
+  const double room = ui.strip_room(wide), line = ui.px(7);
   const std::string note = foot_note(ui.words(), content);
   double high = button_rows_height(ui, foot_buttons(ui.words(), content, cursor_s_), wide);
   if (!note.empty()) high += ui.text_height(note, room) + line;

@@ -14,7 +14,7 @@ namespace {
 using Shape = SceneObject::Shape;
 using Style = SceneObject::Style;
 
-constexpr double kSide = 360, kNotchMargin = 10, kAxis_m = 0.014, kThin_m = 0.0012;
+constexpr double kSide = 360, kSideHigh = 300, kNotchMargin = 10, kAxis_m = 0.014, kThin_m = 0.0012;
 
 SceneObject object(Shape shape, const Vec3& middle_T, const Vec3& size_m, const Vec3& colour) {
   SceneObject out;
@@ -181,7 +181,7 @@ std::optional<ScreenName> NotchScreen::frame(Ui& ui, PracticeModel& model, doubl
   const double left = std::min(ui.px(kSide), ui.width() - 2 * m);
   const double picture_right = panel_.open && beside ? panel.x - m : ui.width();
   const bool stacked = panel_.open && beside;
-  const double top_high = stacked ? 0.44 * (ui.height() - 3 * m) : ui.height() - 2 * m;
+  const double top_high = stacked ? std::max(0.44 * (ui.height() - 3 * m), ui.px(kSideHigh)) : ui.height() - 2 * m;
   if (stacked)
     picture_ = {m, 2 * m + top_high, picture_right - m, ui.height() - 3 * m - top_high};
   else

@@ -121,11 +121,17 @@ void StartScreen::caption(Ui& ui, const PracticeModel& model) const {
   const Translator& w = model.words();
   const std::string said = film_ && film_->ready() ? w("Replay of the expert: {0}", {w.name(film_->scene().organ.name)})
                                                    : w("Still scene, synthetic: no patient.");
-  const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), high = ui.line_height(),
+  const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), line = ui.line_height(),
                pad = ui.px(10);
-  const double y = ui.height() - high - ui.px(22);
-  ui.paint_ground({x - pad, y - pad / 2, std::min(room, ui.text_width(said)) + 2 * pad, high + pad}, 0.85, ui.px(6));
-  ui.text_at(x, y, said, Ink::kDim, room);
+  const std::vector<std::string> lines = ui.lines(said, room);
+  const double high = line * static_cast<double>(lines.size());
+  double y = ui.height() - high - ui.px(22), wide = 0;
+  for (const std::string& words : lines) wide = std::max(wide, ui.text_width(words));
+  ui.paint_ground({x - pad, y - pad / 2, wide + 2 * pad, high + pad}, 0.85, ui.px(6));
+  for (const std::string& words : lines) {
+    ui.text_at(x, y, words, Ink::kDim);
+    y += line;
+  }
 }
 
 std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {

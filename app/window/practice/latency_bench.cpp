@@ -49,6 +49,7 @@ PictureLatency measure_picture_latency(const AssetRoots& assets, double seconds,
   PracticeModel model(nobody(), assets);
   HeadlessContext context;
   PracticeLoop loop(model, context, false);
+  loop.keep_rate();
   if (const std::string hindered = model.begin_attempt(); !hindered.empty())
     throw EnvironmentError("no attempt to measure: " + hindered);
   loop.go(ScreenName::kRun);
@@ -66,7 +67,7 @@ PictureLatency measure_picture_latency(const AssetRoots& assets, double seconds,
     if (!model.running()) throw EnvironmentError("the attempt to measure has ended: " + model.notice);
     if (begin) frames.push_back(dt_s);
     loop.frame(width, height, dt_s, {circling(static_cast<int>(frames.size()), width, height)});
-    loop.picture();  // reading it back waits until it is complete, as showing it would
+    loop.finish();  // as showing it would
     if (const auto* run = dynamic_cast<const RunScreen*>(loop.screen())) latencies = run->latency().sorted();
   }
   out.frames = static_cast<int>(frames.size());

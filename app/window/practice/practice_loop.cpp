@@ -61,13 +61,14 @@ struct PracticeLoop::State {
   std::vector<DrawnText> texts;
   std::vector<std::string> scrolling;
 
-  PresetWatch watch;
-  bool timed = false;
+  std::optional<PictureThrift> thrift, thrift_in_run;  // a page's picture costs another time than a run's
+  bool timed = false, keeps_rate = false, plainer_told = false;
+  double size = 1;              // of the scope's pictures relative to their places
   std::string preset = "auto";  // as the settings had it when it was last followed
   long frames = 0;
 
   State(PracticeModel& given, GraphicsContext& context, bool window)
-      : model(given), to_window(window), software(context.info().software) {
+      : model(given), to_window(window), software(context.info().software), keeps_rate(window) {
     drawn.emplace(model, context, to_window, guessed_preset(software));
   }
 
@@ -79,7 +80,7 @@ struct PracticeLoop::State {
   void dispatch(const std::vector<InputEvent>& events);
   void follow_preset(int width, int height);
   void use_preset(Preset wanted);
-  void watch_preset(double dt_s);
+  void keep_rate(double dt_s);
   void draw_stage(int width, int height);
   void draw_interface(int width, int height, double dt_s, const std::vector<InputEvent>& events);
   void save_picture();
@@ -215,13 +216,16 @@ void PracticeLoop::State::follow_preset(int width, int height) {
   if (preset != wanted) {
     preset = wanted;
     timed = false;
-    watch = PresetWatch();
+    thrift.reset();
+    size = 1;
     use_preset(preset_named(wanted).value_or(guessed_preset(software)));
   }
   if (wanted != "auto" || timed || !to_window || frames == 0) return;
   const std::shared_ptr<const SceneView> scene = model.show_scene(0);
   if (!scene) return;
   timed = true;
+  thrift.reset();
+  size = 1;
   use_preset(measure_preset(drawn->renderer, guessed_preset(software), *scene, width, height));
 }
 
@@ -232,13 +236,20 @@ void PracticeLoop::State::use_preset(Preset wanted) {
   if (drawn->second) drawn->second->set_options(options);
 }
 
-/// A picture that was chosen by speed and has become too slow gives way to a plainer one, and says so; a chosen one
-/// stays.
-void PracticeLoop::State::watch_preset(double dt_s) {
-  if (!to_window || model.settings().preset != "auto" || frames < 3) return;
-  const std::optional<Preset> plainer = watch.picture(dt_s, drawn->renderer.options().preset);
-  if (!plainer) return;
-  use_preset(*plainer);
+/// A picture that was chosen by speed and comes too slowly is drawn more plainly, and says so once; a preset that a
+/// person chose stays.
+void PracticeLoop::State::keep_rate(double dt_s) {
+  if (!keeps_rate || model.settings().preset != "auto" || frames < 3) return;
+  if (!thrift) {
+    thrift.emplace(drawn->renderer.options().preset, guessed_preset(software));
+    thrift_in_run = thrift;
+  }
+  PictureThrift& now = name == ScreenName::kRun ? *thrift_in_run : *thrift;
+  const bool changed = now.picture(dt_s), slower = changed && dt_s > PictureThrift::kQuick_s;
+  size = now.now().size;
+  if (now.now().preset == drawn->renderer.options().preset) return;
+  use_preset(now.now().preset);
+  if (!slower || std::exchange(plainer_told, true)) return;
   model.notice =
       model.words()("The picture had become slow and is drawn more plainly now. The settings can change that.");
 }
@@ -259,8 +270,11 @@ void PracticeLoop::State::draw_stage(int width, int height) {
       part = {static_cast<int>(stage->x), static_cast<int>(stage->y), static_cast<int>(stage->width),
               static_cast<int>(stage->height)};
     if (part.width < 64 || part.height < 48) return;
-    placed.push_back(
-        {with.draw_scope(stage->view, part.width, part.height), part, std::max(stage->dim, menu || help ? 0.6 : 0.0)});
+    const auto sized = [this](int length, int least) {
+      return std::max(least, static_cast<int>(std::lround(size * length)));
+    };
+    placed.push_back({with.draw_scope(stage->view, sized(part.width, 64), sized(part.height, 48)), part,
+                      std::max(stage->dim, menu || help ? 0.6 : 0.0)});
   };
   if (const auto stage = screen && room ? screen->stage(model, width, height) : std::nullopt)
     draw(stage, drawn->renderer);
@@ -321,7 +335,7 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
   if (!s.drawn) return true;
   s.dispatch(events);
   if (width >= 64 && height >= 48) {
-    s.watch_preset(dt_s);
+    s.keep_rate(dt_s);
     s.draw_stage(width, height);
     s.draw_interface(width, height, dt_s, events);
     ++s.frames;
@@ -345,7 +359,8 @@ void PracticeLoop::take_up(GraphicsContext& context) {
   s.software = context.info().software;
   s.drawn.emplace(s.model, context, s.to_window, preset_named(s.preset).value_or(guessed_preset(s.software)));
   s.timed = false;
-  s.watch = PresetWatch();
+  s.thrift.reset();
+  s.size = 1;
   s.model.notice = s.model.words()("The graphics driver was started anew; nothing of the attempt is lost.");
 }
 
@@ -353,6 +368,7 @@ void PracticeLoop::settle(double wait_s) {
   if (state_->screen) state_->screen->settle(state_->model, wait_s);
 }
 
+void PracticeLoop::keep_rate() { state_->keeps_rate = true; }
 void PracticeLoop::go(ScreenName name) { state_->show(name); }
 ScreenName PracticeLoop::here() const { return state_->name; }
 const Screen* PracticeLoop::screen() const { return state_->screen.get(); }
@@ -363,6 +379,7 @@ bool PracticeLoop::holds_pointer() const {
   return s.screen && !s.menu && !s.help && s.screen->holds_pointer();
 }
 bool PracticeLoop::fullscreen() const { return state_->fullscreen; }
+void PracticeLoop::finish() const { state_->drawn->renderer.finish(); }
 Image PracticeLoop::picture() const { return state_->drawn->target.read(); }
 const std::vector<DrawnText>& PracticeLoop::texts() const { return state_->texts; }
 const std::vector<std::string>& PracticeLoop::scrolling() const { return state_->scrolling; }

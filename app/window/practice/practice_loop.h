@@ -38,6 +38,9 @@ class PracticeLoop {
   void take_up(GraphicsContext& context);
   /// Waits for what the screen that is up makes in the background; wait_s at most.
   void settle(double wait_s);
+  /// Draws less when pictures come too slowly, as in a window: in memory only when asked, so that pictures do not
+  /// depend on how busy the machine is.
+  void keep_rate();
   /// To another screen, as from the next frame.
   void go(ScreenName name);
   ScreenName here() const;
@@ -46,6 +49,7 @@ class PracticeLoop {
   Preset preset() const;       ///< that the pictures are drawn with
   bool fullscreen() const;     ///< wanted
   bool holds_pointer() const;  ///< the screen that is up has the pointer for itself: nothing lies over it
+  void finish() const;         ///< waits until the last frame is complete: for timing
   /// The last frame. @throws EnvironmentError.
   Image picture() const;
   const std::vector<DrawnText>& texts() const;  ///< of the last frame

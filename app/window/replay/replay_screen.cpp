@@ -8,6 +8,7 @@
 #include "app/picture/attempt/attempt_hud.h"
 #include "app/picture/attempt/attempt_scene.h"
 #include "app/picture/films/film.h"
+#include "app/window/attempt/metric_words.h"
 #include "app/window/practice/practice_model.h"
 #include "app/window/replay/replay_plot.h"
 #include "app/window/ui/ui.h"
@@ -25,13 +26,24 @@ std::optional<ForceBar> telling_bar(const Scene& scene, const RunMoment& moment)
   return moment.status.cue == Cue::kGrip ? bars.back() : bars.front();
 }
 
+/// Whose run it is: the person's own, or whoever the recording says did it.
+std::string name_of(const RecordedRun& run, const std::filesystem::path& file, const PracticeModel& model) {
+  if (file == model.recording()) return model.words()("You");
+  const std::string& hand = run.scene().setup.hand;
+  return hand == "expert" ? model.words()("Expert") : hand_words(model.words(), hand);
+}
+
 std::string speed_words(const Translator& w, double speed) {
   return w("speed {0}", {w.number(speed, speed < 1 ? 2 : 0)});
 }
 
 }  // namespace
 
-void ReplayScreen::Side::look_after() { seen = seen || (run && run->has_pictures()); }
+void ReplayScreen::Side::look_after(const PracticeModel& model) {
+  if (seen || !run || !run->has_pictures()) return;
+  seen = true;
+  name = name_of(*run, file, model);
+}
 
 void ReplayScreen::open(PracticeModel& model) {
   opened_ = true;
@@ -47,7 +59,7 @@ void ReplayScreen::open(PracticeModel& model) {
                                 : w("There is no recording to show yet: it is made with every attempt.");
     return;
   }
-  own_.name = model.replay_file.empty() ? w("You") : file.stem().string();
+  own_.file = file;
   own_.run = RecordedRun::in_background(file, model.assets());
 }
 
@@ -57,7 +69,7 @@ void ReplayScreen::ask_beside(PracticeModel& model) {
   const std::filesystem::path file =
       expert ? expert_.ask(expert_setup(own_.run->scene().setup), model.assets()) : beside_file_;
   if (file.empty()) return;
-  beside_.name = expert ? model.words()("Expert") : beside_file_.stem().string();
+  beside_.file = file;
   beside_.run = RecordedRun::in_background(file, model.assets());
 }
 
@@ -66,8 +78,8 @@ void ReplayScreen::look_after(PracticeModel& model, double dt_s) {
   if (!own_.run) return;
   if (own_.run->stage() == RecordedRun::Stage::kFailed && !own_.shown()) nothing_ = own_.run->failure();
   const bool before = own_.shown();
-  own_.look_after();
-  beside_.look_after();
+  own_.look_after(model);
+  beside_.look_after(model);
   ask_beside(model);
   if (!own_.shown()) return;
   const RecordedRun& run = *own_.run;
@@ -151,11 +163,17 @@ void ReplayScreen::heading(Ui& ui) const {
   if (clock_.playing()) ui.paint_mark(Mark::kPlay, area.x, area.y, mark);
   for (const double x : {0.25, 0.6})
     if (!clock_.playing()) ui.paint_box({area.x + x * mark, area.y + 0.15 * mark, 0.18 * mark, 0.7 * mark}, Ink::kText);
-  const double first = std::min(ui.text_width(time), 0.5 * area.width);
-  ui.text_at(area.x + mark + ui.px(8), area.y, time, Ink::kText, first);
-  const double from = area.x + mark + ui.px(8) + first + ui.px(20);
   const std::string state = state_words(w);
-  if (!state.empty()) ui.text_at(from, area.y, state, Ink::kHeading, area.x + area.width - from);
+  const double x = area.x + mark + ui.px(8), room = area.x + area.width - x;
+  const double said = state.empty() ? 0 : ui.text_width(state) + ui.px(20);
+  // What happens comes before the speed, and for its seconds before the time, which the time line shows too.
+  double right = x;
+  for (const std::string& words : {time, place}) {
+    if (right > x || ui.text_width(words) + said > room) continue;
+    ui.text_at(x, area.y, words);
+    right += ui.text_width(words) + ui.px(20);
+  }
+  if (!state.empty()) ui.text_at(right, area.y, state, Ink::kHeading, area.x + area.width - right);
 }
 
 void ReplayScreen::force_of(Ui& ui, const Side& side, const Area& area) const {
@@ -175,8 +193,9 @@ void ReplayScreen::force_of(Ui& ui, const Side& side, const Area& area) const {
   const bool banded = bar->band_high_n > 0, above = banded && bar->value_n > bar->band_high_n;
   const bool in = banded && !above && bar->value_n >= bar->band_low_n;
   const std::string value = w.number(bar->value_n, 2) + " N";
-  ui.text_at(area.x, area.y, name + ", " + w.made(bar->label), Ink::kText,
-             area.width - ui.text_width("00.00 N") - ui.px(20));
+  const double room = area.width - ui.text_width("00.00 N") - ui.px(20);
+  const std::string labelled = name + ", " + w.made(bar->label);
+  ui.text_at(area.x, area.y, ui.text_width(labelled) <= room ? labelled : name, Ink::kText, room);
   ui.text_at(area.x + area.width, area.y, value, above ? Ink::kAlarm : in ? Ink::kGood : Ink::kText, 0, 1);
   const Area track{area.x, area.y + ui.line_height() + ui.px(3), area.width, ui.px(12)};
   const auto x = [&](double n) {

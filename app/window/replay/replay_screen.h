@@ -33,10 +33,11 @@ class ReplayScreen final : public Screen {
  private:
   /// One of the two runs.
   struct Side {
+    std::filesystem::path file;
     std::optional<RecordedRun> run;
-    std::string name;
+    std::string name;  ///< once it is shown
     bool shown() const { return seen; }
-    void look_after();
+    void look_after(const PracticeModel& model);
     bool seen = false;  ///< there has been something to show
   };
   void open(PracticeModel& model);

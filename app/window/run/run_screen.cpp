@@ -21,9 +21,10 @@ namespace {
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-constexpr double kTipRoom = 0.07;   // of the picture's height round tip and target: for the bar at the tip
+constexpr double kHintsMost = 0.25;  // of the picture's height
+constexpr double kTipRoom = 0.07;    // of the picture's height round tip and target: for the bar at the tip
 constexpr double kSameDepth = 0.004;  // m: neither nearer nor farther
-constexpr double kStoring_s = 0.5;  // that a database may take before the debrief is shown all the same
+constexpr double kStoring_s = 0.5;   // that a database may take before the debrief is shown all the same
 
 /// Before anything has been seen of the run: the instrument as the jig holds it, or where it comes in.
 RunMoment first_moment(const Scene& scene) {
@@ -49,7 +50,8 @@ struct RunScreen::State {
   std::optional<double> rim, lit_rim;  // where tip and lit target are when they are out of view
   std::unique_ptr<Surroundings> surroundings;
   TipGuide guide;
-  bool toast_above = false;
+  double toast_at = 1;             // as Hud has it
+  std::optional<HudBox> hints_at;  // the hints' panel
   bool bars = true, guides = true;
   Asked asked = Asked::kNothing;
   double dt_s = 0, event_s = 0;  // last frame's step; when the first event since the last intent was handed over
@@ -65,7 +67,9 @@ struct RunScreen::State {
   TipGuide guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment);
   std::string to_start(const Translator& words, const Scene& scene, const Vec3& tip_T) const;
   SceneView view(PracticeModel& model);
-  bool covers(const HudBox& box, double margin = 0) const;
+  int covered(const HudBox& box, double margin = 0) const;
+  bool covers(const HudBox& box) const;
+  void place_toast(Hud& shown, const PracticeModel& model, int width, int height);
   void lay_out(const Hud& hud, PracticeModel& model, int width, int height);
   void pause(PracticeModel& model, bool paused);
   void mark(PracticeModel& model) const;
@@ -73,7 +77,8 @@ struct RunScreen::State {
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
   std::optional<ScreenName> restart(PracticeModel& model);
   std::optional<ScreenName> ended(PracticeModel& model);
-  void hint_panel(Ui& ui, PracticeModel& model) const;
+  void hint_panel(Ui& ui, PracticeModel& model);
+  bool paint_hints(Ui& ui, const std::vector<FirstRunHints::Hint>& marks, double most);
   void key_hints(Ui& ui, const PracticeModel& model) const;
 };
 
@@ -174,23 +179,47 @@ SceneView RunScreen::State::view(PracticeModel& model) {
   return out;
 }
 
-/// Whether it would lie over what the hand is at, what is lit, or a message. @param margin px round tip and target.
-bool RunScreen::State::covers(const HudBox& box, double margin) const {
+/// Points that it would lie over of what the hand is at and what is lit; the hand counts for all. @param margin px.
+int RunScreen::State::covered(const HudBox& box, double margin) const {
   const ScopeOptics optics(seen, picture);
-  std::vector<Vec3> points;
-  if (steering) points.push_back(guide.tip_T);
-  for (const auto& line : guide.lit_T) points.insert(points.end(), line.begin(), line.end());
-  const bool hides = std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
+  const auto hides = [&](const Vec3& p) {
     const auto at = optics.project(p);
     return at && at->x() > box.x - margin && at->x() < box.right() + margin && at->y() > box.y - margin &&
            at->y() < box.bottom() + margin;
-  });
-  return hides || std::any_of(layout.shapes.begin(), layout.shapes.end(), [&](const HudShape& shape) {
+  };
+  int hidden = 0, points = 0;
+  for (const auto& line : guide.lit_T) {
+    hidden += static_cast<int>(std::count_if(line.begin(), line.end(), hides));
+    points += static_cast<int>(line.size());
+  }
+  return hidden + (steering && hides(guide.tip_T) ? 1 + points : 0);
+}
+
+/// Whether it would lie over what is to be seen, or over a message.
+bool RunScreen::State::covers(const HudBox& box) const {
+  return covered(box) > 0 || std::any_of(layout.shapes.begin(), layout.shapes.end(), [&](const HudShape& shape) {
            const HudBox& other = shape.box;
-           const bool itself = other.x == box.x && other.y == box.y;
-           return shape.kind == HudShape::Kind::kToast && !itself && other.x < box.right() && other.right() > box.x &&
+           return shape.kind == HudShape::Kind::kToast && other.x < box.right() && other.right() > box.x &&
                   other.y < box.bottom() && other.bottom() > box.y;
          });
+}
+
+/// Where the message covers nothing that is to be seen, else the least; it stays where it is while it covers nothing.
+void RunScreen::State::place_toast(Hud& shown, const PracticeModel& model, int width, int height) {
+  if (shown.toast.empty()) return;
+  int least = -1;
+  double best = 1;
+  for (const double at : {toast_at, 1.0, 0.0, 0.75, 0.25, 0.5}) {
+    shown.toast_at = at;
+    layout = layout_hud(shown, width, height, model.scale(), fonts);
+    const auto toast = std::find_if(layout.shapes.rbegin(), layout.shapes.rend(), [](const HudShape& shape) {
+      return shape.kind == HudShape::Kind::kToast;  // notices come before it
+    });
+    const int hides = covered(toast->box, kTipRoom * picture.height);
+    if (least < 0 || hides < least) least = hides, best = at;
+    if (hides == 0) break;
+  }
+  shown.toast_at = toast_at = best;
 }
 
 void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, int height) {
@@ -202,15 +231,8 @@ void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, 
         model.words()("hidden ({0} shows it)", {model.words().name(key_name(model.keys().key_of(Action::kForceBars)))});
   }
   picture = hud_scene_window(shown, width, height, model.scale());
+  place_toast(shown, model, width, height);
   layout = layout_hud(shown, width, height, model.scale(), fonts);
-  toast_above = std::any_of(layout.shapes.begin(), layout.shapes.end(), [&](const HudShape& shape) {
-    return shape.kind == HudShape::Kind::kToast && shape.box.y > picture.y + 0.5 * picture.height &&
-           covers(shape.box, kTipRoom * picture.height);
-  });
-  if (toast_above) {
-    shown.toast_above = true;
-    layout = layout_hud(shown, width, height, model.scale(), fonts);
-  }
   if (!model.settings().left_handed) return;
   picture = picture_right(picture, width);
   layout = column_left(std::move(layout));
@@ -360,29 +382,48 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& m
 }
 
 /// Painted, not a panel: the pointer over it still steers. In the first corner of the picture where nothing is to be
-/// seen that it would cover.
-void RunScreen::State::hint_panel(Ui& ui, PracticeModel& model) const {
+/// seen that it would cover; where there is none, only what is to be tried next, and else nothing.
+void RunScreen::State::hint_panel(Ui& ui, PracticeModel& model) {
+  hints_at.reset();
   if (!hints.speaks() || !steering) return;
   const auto marks = hints.marks(model.words(), model.keys(), model.steering().kind());
-  const double line = 1.25 * ui.line_height(), pad = ui.px(12), side = 0.8 * ui.line_height();
-  double wide = 0;
-  for (const FirstRunHints::Hint& mark : marks) wide = std::max(wide, ui.text_width(mark.text));
-  const double width = std::min(wide + side + 3 * pad, picture.width - 2 * pad), room = width - side - 3 * pad;
-  const double height = line * static_cast<double>(marks.size()) + pad;
+  if (paint_hints(ui, marks, kHintsMost * picture.height)) return;
+  const auto open =
+      std::find_if(marks.begin(), marks.end(), [](const FirstRunHints::Hint& mark) { return !mark.done; });
+  if (open != marks.end()) paint_hints(ui, {*open}, picture.height);
+}
+
+/// @param most px of height. @return false: no corner is free, nothing was painted.
+bool RunScreen::State::paint_hints(Ui& ui, const std::vector<FirstRunHints::Hint>& marks, double most) {
+  const double line = ui.line_height(), gap = 0.25 * line, pad = ui.px(12), side = 0.8 * line;
+  std::vector<std::vector<std::string>> texts;
+  double wide = 0, height = pad;
+  for (const FirstRunHints::Hint& mark : marks) {
+    texts.push_back(ui.lines(mark.text, picture.width - side - 5 * pad));
+    for (const std::string& words : texts.back()) wide = std::max(wide, ui.text_width(words));
+    height += line * static_cast<double>(texts.back().size()) + gap;
+  }
+  if (height > most) return false;
+  const double width = wide + side + 3 * pad;
   const double left = picture.x + pad, right = picture.x + picture.width - pad - width;
   const double top = picture.y + pad, bottom = picture.y + picture.height - pad - height;
   const Area corners[] = {{left, top, width, height}, {right, top, width, height}, {right, bottom, width, height}};
   const Area* free = std::find_if(std::begin(corners), std::end(corners), [&](const Area& corner) {
     return !covers({corner.x, corner.y, corner.width, corner.height});
   });
-  if (free == std::end(corners)) free = corners;  // a window too small for both
+  if (free == std::end(corners)) return false;
+  hints_at = HudBox{free->x, free->y, free->width, free->height};
   ui.paint_ground(*free, 0.85, ui.px(8));
-  double y = free->y + 0.5 * pad + 0.5 * (line - ui.line_height());
-  for (const FirstRunHints::Hint& mark : marks) {
-    ui.paint_mark(mark.done ? Mark::kTick : Mark::kOpen, free->x + pad, y + 0.5 * (ui.line_height() - side), side);
-    ui.text_at(free->x + 2 * pad + side, y, mark.text, mark.done ? Ink::kDim : Ink::kText, room);
-    y += line;
+  double y = free->y + 0.5 * pad + 0.5 * gap;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    ui.paint_mark(marks[i].done ? Mark::kTick : Mark::kOpen, free->x + pad, y + 0.5 * (line - side), side);
+    for (const std::string& words : texts[i]) {
+      ui.text_at(free->x + 2 * pad + side, y, words, marks[i].done ? Ink::kDim : Ink::kText);
+      y += line;
+    }
+    y += gap;
   }
+  return true;
 }
 
 /// In the black corner below the round field.
@@ -409,6 +450,7 @@ void RunScreen::State::rim_arrow(double angle_rad, double size, Ink colour, doub
   std::vector<HudBox> messages;
   for (const HudShape& shape : layout.shapes)
     if (shape.kind == HudShape::Kind::kToast) messages.push_back(shape.box);
+  if (hints_at) messages.push_back(*hints_at);
   draw_rim_arrow(picture.x + 0.5 * picture.width, picture.y + 0.5 * picture.height,
                  rim_reach(picture, angle_rad, size, messages) - within, angle_rad, size, colour);
 }
@@ -424,13 +466,13 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double 
   if (!s.overlay) ui.keys_to_screen();
   s.hints.pass(dt_s);
   if (!s.overlay) paint_tip_guide(ui, ScopeOptics(s.seen, s.picture), s.guide);
-  draw_hud(s.layout);
+  draw_hud(ui, s.layout);
+  if (!s.overlay) s.hint_panel(ui, model);
   const double arrow = ui.px(26);
   if (s.lit_rim) s.rim_arrow(*s.lit_rim, arrow, Ink::kAccent);
   if (s.rim && s.steering) s.rim_arrow(*s.rim, arrow, Ink::kTip, s.lit_rim ? 1.5 * arrow : 0);
   s.key_hints(ui, model);
   if (s.overlay) return s.pause_panel(ui, model);
-  s.hint_panel(ui, model);
   if (std::exchange(s.asked, State::Asked::kNothing) != State::Asked::kNothing) s.pause(model, true);
   return {};
 }

@@ -5,7 +5,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kGap = 10, kPadding = 12, kPanelSides = 36;
+constexpr double kGap = 10, kPadding = 12;
 
 double wide(const Ui& ui, const RowButton& button) {
   const double hint = button.key.empty() ? 0 : ui.text_width("[" + ui.words().name(button.key) + "]") + ui.px(10);
@@ -27,7 +27,7 @@ std::vector<bool> breaks(const Ui& ui, const std::vector<RowButton>& buttons, do
 }  // namespace
 
 double button_rows_height(const Ui& ui, const std::vector<RowButton>& buttons, double width) {
-  const std::vector<bool> new_row = breaks(ui, buttons, width - ui.px(kPanelSides));
+  const std::vector<bool> new_row = breaks(ui, buttons, ui.strip_room(width));
   return ui.strip_height(1 + static_cast<int>(std::count(new_row.begin(), new_row.end(), true)));
 }
 

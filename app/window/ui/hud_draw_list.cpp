@@ -64,9 +64,13 @@ class Pencil {
 
 }  // namespace
 
-void draw_hud(const HudLayout& layout) {
+void draw_hud(Ui& ui, const HudLayout& layout) {
   Pencil pen(*ImGui::GetBackgroundDrawList());
   draw_hud_with(pen, layout);
+  for (const HudText& text : layout.texts) {
+    const HudBox& box = text.box;
+    UiParts::note(ui, text.text, box.x, box.y, box.width, box.height, box.width, text.text.ends_with("\u2026"));
+  }
 }
 
 HudLayout column_left(HudLayout layout) {

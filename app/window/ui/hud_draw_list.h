@@ -10,7 +10,9 @@
 
 namespace trocar {
 
-void draw_hud(const HudLayout& layout);
+class Ui;
+
+void draw_hud(Ui& ui, const HudLayout& layout);
 
 /// The same display for a left hand: the column on the left, the picture and what lies over it on the right.
 HudLayout column_left(HudLayout layout);

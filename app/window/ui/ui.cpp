@@ -51,7 +51,7 @@ void UiParts::note(Ui& ui, const std::string& text, double x, double y, double w
   const double top = grounded ? 0 : window->ClipRect.Min.y, bottom = grounded ? ui.height() : window->ClipRect.Max.y;
   const double seen_top = std::max(y, top), seen_bottom = std::min(y + height, bottom);
   if (seen_bottom <= seen_top) return;
-  ui.drawn_.push_back({text, x, seen_top, width, seen_bottom - seen_top, room, shortened, ui.in_front_});
+  ui.drawn_.push_back({text, x, seen_top, width, seen_bottom - seen_top, room, shortened, ui.in_front_, grounded});
 }
 
 double UiParts::draw(Ui& ui, double x, double y, const std::string& text, Ink ink, double room, UiFont font) {
@@ -70,6 +70,10 @@ Ui::Ui(const Translator& words, double scale, int width_px, int height_px)
 double Ui::px(double at_720) const { return at_720 * scale_; }
 
 void Ui::begin_panel(const char* id, const Area& area, double opacity) {
+  begin(id, area, opacity, ImGuiWindowFlags_None);
+}
+
+void Ui::begin(const char* id, const Area& area, double opacity, int flags) {
   panel_ = id;
   ImGui::SetNextWindowPos(at(area.x, area.y));
   ImGui::SetNextWindowSize(at(std::max(8.0, area.width), std::max(8.0, area.height)));
@@ -77,14 +81,15 @@ void Ui::begin_panel(const char* id, const Area& area, double opacity) {
   ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
   ImGui::PushFont(font_of(UiFont::kBody));
 }
 
+/// Without a bar: it would take room from the buttons, whose new row then needs it.
 void Ui::begin_strip(const char* id, const Area& area, double opacity) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
                       ImVec2(ImGui::GetStyle().WindowPadding.x, static_cast<float>(px(kStripAir))));
-  begin_panel(id, area, opacity);
+  begin(id, area, opacity, ImGuiWindowFlags_NoScrollbar);
   ImGui::PopStyleVar();
 }
 
@@ -93,6 +98,8 @@ double Ui::strip_height(int rows) const {
   const double row = UiParts::height() + 2 * style.FramePadding.y;
   return std::ceil(2 * px(kStripAir) + rows * row + (rows - 1) * style.ItemSpacing.y) + 1;
 }
+
+double Ui::strip_room(double width) const { return std::floor(width) - 2 * ImGui::GetStyle().WindowPadding.x; }
 
 void Ui::in_front() {
   ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
@@ -229,8 +236,8 @@ void Ui::text_at(double x, double y, const std::string& text, Ink ink, double ro
     const ImFont* f = font_of(font);
     ImGui::GetBackgroundDrawList()->AddText(f, f->FontSize, at(left, y), packed(ink_colour(ink)), shown.data(),
                                             shown.data() + shown.size());
-    drawn_.push_back(
-        {text, left, y, UiParts::width(shown, font), UiParts::height(font), room > 0 ? room : w, shown != text, false});
+    UiParts::note(*this, text, left, y, UiParts::width(shown, font), UiParts::height(font), room > 0 ? room : w,
+                  shown != text);
     return;
   }
   UiParts::draw(*this, left, y, text, ink, room > 0 ? room : w + 1, font);
@@ -242,6 +249,18 @@ double Ui::text_width(const std::string& text, bool heading) const {
 double Ui::text_height(const std::string& text, double room, bool heading) const {
   return size_of(text, heading ? UiFont::kHeading : UiFont::kBody, static_cast<float>(std::max(1.0, room))).y;
 }
+std::vector<std::string> Ui::lines(const std::string& text, double room) const {
+  const ImFont* f = font_of(UiFont::kBody);
+  std::vector<std::string> out;
+  const char *at = text.data(), *end = at + text.size();
+  while (at < end) {
+    const char* stop = std::max(f->CalcWordWrapPositionA(1, at, end, static_cast<float>(room)), at + 1);
+    out.emplace_back(at, stop);
+    for (at = stop; at < end && *at == ' ';) ++at;
+  }
+  return out;
+}
+
 double Ui::line_height() const { return UiParts::height(); }
 
 void Ui::explain(const std::string& text) {

@@ -24,6 +24,7 @@ struct DrawnText {
   double room = 0;                             ///< px that there were; narrower than width: clipped
   bool shortened = false;                      ///< ends with an ellipsis, the whole is shown on hover
   bool in_front = false;                       ///< of a panel that lies over all others
+  bool ground = false;                         ///< painted behind all panels
 };
 
 struct Area {
@@ -47,7 +48,8 @@ class Ui {
   /// A panel for buttons along an edge: less air above and below; strip_height() px hold `rows` of them.
   void begin_strip(const char* id, const Area& area, double opacity = 0.92);
   double strip_height(int rows) const;
-  double room() const;  ///< px to the panel's right edge
+  double strip_room(double width) const;  ///< px between the edges of a panel so wide
+  double room() const;                    ///< px to the panel's right edge
   /// The last item is scrolled to where it is seen.
   void reveal();
   /// Page keys move what does not fit into the open panel up and down, also while the keys are the screen's.
@@ -105,6 +107,8 @@ class Ui {
                bool heading = false);
   double text_width(const std::string& text, bool heading = false) const;
   double text_height(const std::string& text, double room, bool heading = false) const;  ///< px, wrapped
+  /// Lines of body text no wider than `room` px: for text_at().
+  std::vector<std::string> lines(const std::string& text, double room) const;
   double line_height() const;
   /// Shapes, px of the window; colours of the theme's shapes; within the panel that is open, or on the ground.
   void paint_box(const Area& area, Ink shape, double opacity = 1, double corner = 0);
@@ -137,6 +141,7 @@ class Ui {
 
  private:
   friend class UiParts;
+  void begin(const char* id, const Area& area, double opacity, int flags);
   const Translator& words_;
   double scale_, width_, height_;
   std::vector<DrawnText> drawn_;

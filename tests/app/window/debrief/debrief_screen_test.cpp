@@ -23,27 +23,11 @@ class DeskPagesTest : public testing_support::PageBench {
     if (!IsSkipped()) model_ = bench_.model();
   }
   /// Stored as if it had been done now. @return its uuid.
-  std::string store(AttemptResult result, const std::string& trainee, bool recorded = true) {
-    Database database(bench_.options().database);
-    AttemptStart start;
-    start.trainee = trainee;
-    start.exercise_id = result.exercise_id;
-    start.exercise_version = result.exercise_version;
-    start.exercise_number = touch_.number;
-    start.exercise_title = touch_.title;
-    start.exercise_text = touch_.text;
-    start.level = result.level;
-    start.hand = result.hand;
-    start.board = ++boards_;
-    start.program = "0";
+  std::string store(const AttemptResult& result, const std::string& trainee, bool recorded = true) {
+    std::filesystem::path file;
     if (recorded)
-      start.recording = bench_.folder.write("run" + std::to_string(boards_) + ".trec", small_recording(6, 1000, 3));
-    else
-      start.recording = "";
-    const AttemptId id = AttemptStore(database).begin_attempt(start);
-    result.recording_path = recorded ? start.recording->string() : "";
-    AttemptStore(database).finish_attempt(id, result);
-    return id.uuid;
+      file = bench_.folder.write("run" + std::to_string(boards_ + 1) + ".trec", small_recording(6, 1000, 3));
+    return testing_support::stored(bench_.options().database, result, touch_, trainee, ++boards_, file);
   }
   std::optional<ScreenName> show(Screen& screen, const std::vector<InputEvent>& events = {}) {
     std::optional<ScreenName> to;

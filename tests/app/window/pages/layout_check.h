@@ -30,7 +30,8 @@ inline void expect_laid_out(const std::vector<DrawnText>& texts, double width, d
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
     for (std::size_t j = i + 1; j < texts.size(); ++j) {
-      if (texts[i].in_front != texts[j].in_front) continue;  // a menu covers what it lies over
+      if (texts[i].in_front != texts[j].in_front || texts[i].ground != texts[j].ground)
+        continue;  // a menu covers what it lies over
       EXPECT_LE(common_side(texts[i], texts[j]), 2.0)
           << where << ": '" << texts[i].text << "' lies over '" << texts[j].text << "'";
     }

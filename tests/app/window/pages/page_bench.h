@@ -9,6 +9,7 @@
 #include "tests/app/window/attempt/attempt_samples.h"
 #include "tests/app/window/pages/layout_check.h"
 #include "tests/app/window/pages/ui_bench.h"
+#include "trainees/records/attempt_store.h"
 
 namespace trocar::testing_support {
 
@@ -41,6 +42,28 @@ class PageBench : public UiBench {
   }
   ForceTrace trace_;
 };
+
+/// Kept as if it had been done now. @param recording empty: none. @return its uuid.
+inline std::string stored(const std::filesystem::path& database, AttemptResult result, const Exercise& exercise,
+                          const std::string& trainee, int board, const std::filesystem::path& recording = {}) {
+  Database opened(database);
+  AttemptStart start;
+  start.trainee = trainee;
+  start.exercise_id = result.exercise_id;
+  start.exercise_version = result.exercise_version;
+  start.exercise_number = exercise.number;
+  start.exercise_title = exercise.title;
+  start.exercise_text = exercise.text;
+  start.level = result.level;
+  start.hand = result.hand;
+  start.board = board;
+  start.program = "0";
+  start.recording = recording;
+  const AttemptId id = AttemptStore(opened).begin_attempt(start);
+  result.recording_path = recording.string();
+  AttemptStore(opened).finish_attempt(id, result);
+  return id.uuid;
+}
 
 /// A run of somebody who pressed too hard and too long, with a past to compare with.
 inline AttemptResult heavy_run(const Exercise& exercise) {

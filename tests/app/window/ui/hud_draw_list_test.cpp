@@ -20,7 +20,7 @@ class HudDrawn : public testing_support::UiBench {
     image_ = target_->read();
   }
   void paint(const HudLayout& layout) {
-    paint([&](Ui&) { draw_hud(layout); });
+    paint([&](Ui& ui) { draw_hud(ui, layout); });
   }
   Rgb at(int x, int y) const {
     const std::uint8_t* p = image_.pixel(x, y);
