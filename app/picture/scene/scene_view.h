@@ -71,17 +71,17 @@ struct HudLabels {
 
 struct Hud {
   HudLabels labels = {};
-  std::string trainee;  ///< "Trainee: T-expert"
-  std::string title;    ///< "E02 Surface touch - L1"
-  double elapsed_s = 0, limit_s = 0;
+  std::string trainee;                ///< "Trainee: T-expert"
+  std::string title;                  ///< "E02 Surface touch - L1"
+  double elapsed_s = 0, limit_s = 0;  ///< elapsed below 0: no clock
   std::vector<ForceBar> bars;
   std::optional<PoseDial> dial;
   std::vector<HudNotice> notices;  ///< the first two are shown
   std::vector<HudStep> steps;
-  std::vector<HudRow> rows;       ///< "So far"
-  std::vector<HudRow> device;     ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
-  std::string toast, toast_hint;  ///< at most one message; empty when none
-  bool toast_warning = false;
+  std::vector<HudRow> rows;                        ///< "So far"
+  std::vector<HudRow> device;                      ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
+  std::string toast, toast_hint;                   ///< at most one message; empty when none
+  bool toast_warning = false, toast_done = false;  ///< a triangle, a tick stands before it
   bool toast_above = false;  ///< at the picture's upper edge: what it would cover below is to be seen
   std::string credit;        ///< organ's origin and licence; says "synthetic" for phantoms
 };

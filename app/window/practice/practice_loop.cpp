@@ -75,6 +75,7 @@ struct PracticeLoop::State {
   void remember(ScreenName to);
   void open_menu(bool open);
   void choose(MenuChoice choice);
+  void answer(HelpChoice choice);
   bool command(const InputEvent& event);
   void dispatch(const std::vector<InputEvent>& events);
   void follow_preset(int width, int height);
@@ -87,6 +88,11 @@ struct PracticeLoop::State {
 
 PracticeLoop::PracticeLoop(PracticeModel& model, GraphicsContext& context, bool to_window)
     : state_(std::make_unique<State>(model, context, to_window)) {
+  if (model.free_play_given()) {
+    model.notice = model.begin_play(Play::kFree);
+    state_->show(model.running() ? ScreenName::kRun : ScreenName::kStart);
+    return;
+  }
   const bool briefing = model.exercise_given() && make_screen(ScreenName::kBriefing);
   state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
 }
@@ -162,6 +168,16 @@ void PracticeLoop::State::choose(MenuChoice choice) {
     case MenuChoice::kBack:
       return;
   }
+}
+
+void PracticeLoop::State::answer(HelpChoice choice) {
+  if (choice == HelpChoice::kNone) return;
+  help = false;
+  open_menu(false);
+  if (choice != HelpChoice::kTutorial) return;
+  if (model.running()) model.end_attempt();
+  model.notice = model.begin_play(Play::kTutorial);
+  show(model.running() ? ScreenName::kRun : ScreenName::kStart);
 }
 
 /// Keys that work on every screen. @return true when the event was one.
@@ -284,10 +300,9 @@ void PracticeLoop::State::draw_interface(int width, int height, double dt_s, con
     small_window(ui);
   else if (menu)
     choose(menu_overlay(ui, model, model.running() != nullptr));
-  else if (help && help_overlay(ui, model, help_page, sounds)) {
-    help = false;
-    open_menu(false);
-  } else if (!help && screen)
+  else if (help)
+    answer(help_overlay(ui, model, help_page, sounds));
+  else if (screen)
     to = screen->frame(ui, model, dt_s);
   sounds.pass(model.sound(), help && help_page == HelpPage::kSounds, dt_s);
   if (AttemptRunner* run = model.running();
