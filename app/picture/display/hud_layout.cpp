@@ -78,7 +78,8 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   pen.text(what, title_x, baseline, frame.title_size(), true, HudInk::kText, right - margin - title_x);
 }
 
-/// At most two lines of message and two of hint, over the lower edge of the picture, or below what is at the upper one.
+/// At most two lines of message and three of hint, over the lower edge of the picture, or below what is at the upper
+/// one.
 void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame, double upper) {
   if (hud.toast.empty()) return;
   const double pad = frame.px(12), icon = frame.px(34), line = 1.25 * frame.body;
@@ -87,7 +88,7 @@ void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame, double upper)
   const double room = width - 3 * pad - icon;
   const auto message = pen.fonts().wrapped(hud.toast, frame.body, true, room, 2);
   const auto hint = hud.toast_hint.empty() ? std::vector<std::string>{}
-                                           : pen.fonts().wrapped(hud.toast_hint, frame.body, false, room, 2);
+                                           : pen.fonts().wrapped(hud.toast_hint, frame.body, false, room, 3);
   const double height = 2 * pad + line * static_cast<double>(message.size() + hint.size());
   const double y = hud.toast_above ? upper : frame.scene.y + frame.scene.height - height - pad;
   const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - width), y, width, height};

@@ -107,12 +107,9 @@ std::optional<Tutorial::Step> Tutorial::see(const Seen& seen, double dt_s) {
 }
 
 std::vector<HudStep> Tutorial::list(const Translator& w) const {
-  const std::pair<std::string, Step> parts[] = {{w("Move"), Step::kMove},
-                                                {w("See depth"), Step::kLower},
-                                                {w("Press, keep, let off"), Step::kLetOff},
-                                                {w("Look round"), Step::kLevel},
-                                                {w("On your own"), Step::kAgain},
-                                                {w("Grip"), Step::kOpen}};
+  const std::pair<std::string, Step> parts[] = {
+      {w("Move"), Step::kMove},        {w("See depth"), Step::kLower},   {w("Press, keep, let off"), Step::kLetOff},
+      {w("Look round"), Step::kLevel}, {w("On your own"), Step::kAgain}, {w("Grip"), Step::kOpen}};
   std::vector<HudStep> out;
   int first = 0;  // step of the part
   for (const auto& [name, last] : parts) {
@@ -137,12 +134,11 @@ Tutorial::Said Tutorial::says(const Translator& w, const KeyMap& keys, InputKind
     case Step::kMove:
       return {by(kMoving), w("Bring the tip into the ball with the yellow outline, and rest there.")};
     case Step::kOver:
-      return {by(kMoving),
-              w("The pink ring is the place below the tip: bring it onto the disc with the yellow outline.")};
+      return {by(kMoving), w("The pink ring is below the tip: bring it onto the yellow disc.")};
     case Step::kLower:
       return {by(kDeeper), w("Lower the tip towards the disc: the pink line gets shorter.")};
     case Step::kPress:
-      return {by(kActing), w("The tip goes down and presses: hold until the bar beside it ends in its green frame.")};
+      return {by(kActing), w("Hold until the bar beside the tip ends in its green frame.")};
     case Step::kKeep:
       return {w("Let go: the force stays"), w("Wait until the green ring round the tip is full.")};
     case Step::kLetOff:
@@ -157,7 +153,7 @@ Tutorial::Said Tutorial::says(const Translator& w, const KeyMap& keys, InputKind
     case Step::kRaise:
       return {by(kDeeper), w("Draw the tip back, clear of the organ.")};
     case Step::kGrip:
-      return {by(kActing), w("Close the jaws on the block until the bar ends in its green frame, then let go.")};
+      return {by(kActing), w("Close the jaws until the bar ends in its green frame, then let go.")};
     case Step::kOpen:
       return {by(kLettingOff), w("Open the jaws.")};
   }

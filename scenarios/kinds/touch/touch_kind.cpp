@@ -89,7 +89,8 @@ class FreeTask final : public ExerciseTask {
   std::int32_t object() const override { return -1; }
   void describe(const TaskInput&, DirectorStatus& status) const override {
     status.cue = Cue::kNone;
-    say(status, "", "");
+    status.message.clear();
+    status.hint.clear();
   }
 };
 

@@ -144,10 +144,132 @@ TEST_F(TutorialBench, EachStepIsDoneByTheMouseAndNothingIsKept) {
   ASSERT_TRUE(until([this] { return loop_->here() == ScreenName::kStart; }));
   frame();
   keep_picture("13_start");
-  EXPECT_TRUE(sees("That was all. The start page offers it again; F1 lists the keys."));
+  EXPECT_TRUE(sees(model_->words()("That was all. The start page offers it again; F1 lists the keys.")));
   EXPECT_EQ(kept(), 0U);
   EXPECT_FALSE(model_->result());
   EXPECT_TRUE(model_->past().empty());
+}
+
+TEST_F(TutorialBench, TheFirstStartOfAStationShowsItOnceAndEscSkipsIt) {
+  bench_.folder.write("settings.toml", "version = 1\nsound = false\n");
+  open(bench_.options());
+  ASSERT_TRUE(until([this] { return loop_->here() == ScreenName::kRun; }));
+  ASSERT_TRUE(runs());
+  frame();
+  EXPECT_TRUE(at(Step::kMove));
+  tap(kKeyEscape);
+  EXPECT_EQ(loop_->here(), ScreenName::kStart);
+  EXPECT_EQ(model_->running(), nullptr);
+  EXPECT_FALSE(loop_->menu_open());
+  EXPECT_EQ(kept(), 0U);
+  for (int i = 0; i < 60; ++i) frame();
+  EXPECT_EQ(loop_->here(), ScreenName::kStart);
+  open(bench_.options());
+  for (int i = 0; i < 60; ++i) frame();
+  EXPECT_EQ(loop_->here(), ScreenName::kStart) << "the station remembers";
+}
+
+TEST_F(TutorialBench, WhoComesForAnExerciseIsNotTaught) {
+  bench_.folder.write("settings.toml", "version = 1\nsound = false\n");
+  ModelOptions given = bench_.options();
+  given.exercise = "E02";
+  open(given);
+  EXPECT_FALSE(model_->tutorial_due());
+  loop_->go(ScreenName::kStart);
+  for (int i = 0; i < 60; ++i) frame();
+  EXPECT_EQ(loop_->here(), ScreenName::kStart);
+}
+
+TEST_F(TutorialBench, FreePlayHasAnOrganAndItsForceAndKeepsNothing) {
+  ModelOptions free = bench_.options();
+  free.free_play = true;
+  open(free);
+  ASSERT_EQ(loop_->here(), ScreenName::kRun);
+  ASSERT_TRUE(runs());
+  pointer_by(0, 0);
+  ASSERT_TRUE(go_to([this] { return model_->running()->scene().board.start_T; }, 0.004));
+  ASSERT_TRUE(until([this] { return now().status.phase == Phase::kRun; }));
+  const SceneView seen = stage().view;
+  EXPECT_TRUE(seen.targets.empty());
+  EXPECT_TRUE(seen.hud.steps.empty());
+  EXPECT_TRUE(seen.hud.rows.empty());
+  EXPECT_LT(seen.hud.elapsed_s, 0) << "no clock";
+  ASSERT_EQ(seen.hud.bars.size(), 1U);
+  ASSERT_TRUE(go_to([this] { return model_->running()->scene().board.centre_T; }, 0.004));
+  button(Kind::kButtonDown);
+  EXPECT_TRUE(until([this] { return now().record.stylus.F_I_T.force.norm() > 0.2; }));
+  button(Kind::kButtonUp);
+  keep_picture("free");
+  tap(kKeyEscape);
+  EXPECT_EQ(loop_->here(), ScreenName::kStart);
+  EXPECT_EQ(model_->running(), nullptr);
+  EXPECT_EQ(kept(), 0U);
+  EXPECT_TRUE(model_->past().empty());
+}
+
+TEST_F(TutorialBench, ThePauseOffersTheStartPageAndAFreshBeginning) {
+  ASSERT_EQ(model_->begin_play(Play::kTutorial), "");
+  loop_->go(ScreenName::kRun);
+  ASSERT_TRUE(runs());
+  tap('P');
+  frame();
+  EXPECT_TRUE(sees("Nothing here is graded or kept."));
+  tap(kKeyEscape);
+  EXPECT_FALSE(model_->running()->paused()) << "Esc closes what lies on top";
+  EXPECT_EQ(loop_->here(), ScreenName::kRun);
+  tap('R');
+  frame();
+  tap(kKeyEnter);
+  ASSERT_TRUE(runs());
+  EXPECT_EQ(model_->playing(), Play::kTutorial);
+  EXPECT_TRUE(at(Step::kMove));
+}
+
+TEST_F(TutorialBench, HelpScrollsToItsLastLineAndLeadsToTheTutorial) {
+  width_ = 640;
+  height_ = 400;
+  tap(kKeyF1);
+  frame();
+  const auto bottom = [this](const std::string& text) {
+    for (const DrawnText& t : loop_->texts())
+      if (t.text == text) return t.y + t.height;
+    return 1e9;
+  };
+  EXPECT_LT(bottom("Mouse"), height_) << "the mouse comes first";
+  EXPECT_FALSE(sees("Fill the screen")) << "the last line, further down";
+  const double unscrolled = bottom("Mouse");
+  tap(kKeyDown);
+  EXPECT_LT(bottom("Mouse"), unscrolled);
+  const double before_wheel = bottom("Steering with keys");
+  InputEvent wheel = pointer(Kind::kWheel, 320, 150);
+  wheel.wheel = -1;
+  frame({pointer(Kind::kMouseMove, 320, 150)});
+  frame({wheel});
+  frame();
+  EXPECT_LT(bottom("Steering with keys"), before_wheel);
+  for (int i = 0; i < 30; ++i) tap(kKeyPageDown);
+  EXPECT_LT(bottom("Fill the screen"), height_ - 40) << "above the buttons";
+  keep_picture("help_end");
+  for (int i = 0; i < 60; ++i) tap(kKeyUp);
+  EXPECT_LT(bottom("Mouse"), height_);
+  EXPECT_GT(bottom("Mouse"), 0);
+  tap(kKeyF6);
+  ASSERT_TRUE(runs());
+  frame();
+  EXPECT_TRUE(at(Step::kMove));
+}
+
+TEST_F(TutorialBench, HelpOverAnAttemptDoesNotEndItForTheTutorial) {
+  ASSERT_EQ(model_->begin_attempt(), "");
+  loop_->go(ScreenName::kRun);
+  ASSERT_TRUE(runs());
+  tap(kKeyF1);
+  frame();
+  EXPECT_TRUE(sees("Close"));
+  EXPECT_FALSE(sees("Tutorial"));
+  AttemptRunner* const attempt = model_->running();
+  tap(kKeyF6);
+  EXPECT_EQ(model_->running(), attempt);
 }
 
 }  // namespace
