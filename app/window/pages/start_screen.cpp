@@ -104,8 +104,11 @@ std::optional<ScreenName> StartScreen::plays(Ui& ui, PracticeModel& model) {
   ui.explain(w("Touch what you like: no clock, no score."));
   if (t_s_ > kFirstWait_s && model.tutorial_due()) chosen = Play::kTutorial;
   if (!chosen) return {};
-  model.notice = model.begin_play(*chosen);
-  return model.running() ? std::optional(ScreenName::kRun) : std::nullopt;
+  if (const std::string hindered = model.begin_play(*chosen); !hindered.empty()) {
+    model.notice = hindered;
+    return {};
+  }
+  return ScreenName::kRun;
 }
 
 std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeModel& model) {

@@ -76,6 +76,7 @@ struct PracticeLoop::State {
   void open_menu(bool open);
   void choose(MenuChoice choice);
   void answer(HelpChoice choice);
+  void show_play(Play play);
   bool command(const InputEvent& event);
   void dispatch(const std::vector<InputEvent>& events);
   void follow_preset(int width, int height);
@@ -88,13 +89,11 @@ struct PracticeLoop::State {
 
 PracticeLoop::PracticeLoop(PracticeModel& model, GraphicsContext& context, bool to_window)
     : state_(std::make_unique<State>(model, context, to_window)) {
-  if (model.free_play_given()) {
-    model.notice = model.begin_play(Play::kFree);
-    state_->show(model.running() ? ScreenName::kRun : ScreenName::kStart);
-    return;
-  }
   const bool briefing = model.exercise_given() && make_screen(ScreenName::kBriefing);
-  state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
+  if (model.free_play_given())
+    state_->show_play(Play::kFree);
+  else
+    state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
 }
 
 PracticeLoop::~PracticeLoop() {
@@ -176,8 +175,14 @@ void PracticeLoop::State::answer(HelpChoice choice) {
   open_menu(false);
   if (choice != HelpChoice::kTutorial) return;
   if (model.running()) model.end_attempt();
-  model.notice = model.begin_play(Play::kTutorial);
-  show(model.running() ? ScreenName::kRun : ScreenName::kStart);
+  show_play(Play::kTutorial);
+}
+
+/// Or the start page, which then says what hindered it.
+void PracticeLoop::State::show_play(Play play) {
+  const std::string hindered = model.begin_play(play);
+  if (!hindered.empty()) model.notice = hindered;
+  show(hindered.empty() ? ScreenName::kRun : ScreenName::kStart);
 }
 
 /// Keys that work on every screen. @return true when the event was one.

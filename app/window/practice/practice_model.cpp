@@ -297,7 +297,7 @@ std::string PracticeModel::begin_play(Play what) {
   const bool tutorial = what == Play::kTutorial;
   if (tutorial && !s.settings.tutorial_seen) {
     s.settings.tutorial_seen = true;
-    settings_changed();
+    if (s.settings.note.empty()) settings_changed();  // a file that cannot be read waits for a person's own change
   }
   try {
     const std::filesystem::path file =

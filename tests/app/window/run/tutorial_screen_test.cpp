@@ -146,6 +146,8 @@ TEST_F(TutorialBench, EachStepIsDoneByTheMouseAndNothingIsKept) {
   keep_picture("13_start");
   EXPECT_TRUE(sees(model_->words()("That was all. The start page offers it again; F1 lists the keys.")));
   EXPECT_EQ(kept(), 0U);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(bench_.folder.path()))
+    EXPECT_NE(entry.path().extension(), ".trec") << entry.path();
   EXPECT_FALSE(model_->result());
   EXPECT_TRUE(model_->past().empty());
 }
