@@ -1,5 +1,6 @@
 #include "app/window/run/tutorial.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,11 +58,11 @@ bool Tutorial::done(const Seen& seen, double dt_s) {
     case Step::kMove:
       return status_.phase == Phase::kRun;
     case Step::kOver:
-      return status_.targets_done > 0 || held(off_m < lit.radius_m, dt_s, kStays_s);
+      return held(off_m < lit.radius_m, dt_s, kStays_s);
     case Step::kLower:
-      return status_.targets_done > 0 || stylus.contact || (off_m < lit.radius_m && height_m < kLow_m);
+      return stylus.contact || (off_m < lit.radius_m && height_m < kLow_m);
     case Step::kPress:
-      return status_.targets_done > 0 || (status_.cue == Cue::kPress && stylus.F_I_T.force.norm() >= lit.band.low_n);
+      return status_.cue == Cue::kPress && stylus.F_I_T.force.norm() >= lit.band.low_n;
     case Step::kKeep:
       if (status_.targets_done == 0 && held(!stylus.contact, dt_s, kFree_s)) {
         --step_;  // let off too early: press again
@@ -95,6 +96,7 @@ std::optional<Tutorial::Step> Tutorial::see(const Seen& seen, double dt_s) {
   }
   status_ = seen.moment.status;
   const StylusState& stylus = seen.moment.record.stylus;
+  if (status_.targets_done > 0) step_ = std::max(step_, static_cast<int>(Step::kKeep));  // went ahead
   const bool gripping = status_.cue == Cue::kGrip;
   const double force_n = gripping ? stylus.grip_force_n : stylus.F_I_T.force.norm();
   beside_ = !gripping && stylus.contact && status_.cue != Cue::kPress;

@@ -91,6 +91,7 @@ class TutorialBench : public LoopBench {
   double at_x_ = 400, at_y_ = 300;
 };
 
+/// Each step as a picture for the eye: TROCAR_PICTURES=folder, TROCAR_SIZE=800x600, TROCAR_LANGUAGE=de.
 TEST_F(TutorialBench, EachStepIsDoneByTheMouseAndNothingIsKept) {
   const bool pictures = std::getenv("TROCAR_PICTURES") != nullptr;
   if (pictures && std::getenv("TROCAR_SIZE")) std::sscanf(std::getenv("TROCAR_SIZE"), "%dx%d", &width_, &height_);

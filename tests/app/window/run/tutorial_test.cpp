@@ -134,6 +134,16 @@ TEST(Tutorial, WhoLetsOffTooEarlyPressesAgain) {
   EXPECT_EQ(person.tutorial.step(), Step::kKeep);
 }
 
+TEST(Tutorial, WhoHasHeldTheDiscBeforeBeingAskedIsPraisedOnce) {
+  Person person;
+  person.up_to(Step::kOver);
+  person.force(0.5);
+  person.does(Step::kKeep);
+  EXPECT_EQ(person.tutorial.see({person.moment, person.below_T, person.scope}, 0.05), Step::kKeep);
+  person.pass(1.2);
+  EXPECT_EQ(person.tutorial.step(), Step::kLetOff);
+}
+
 TEST(Tutorial, TooMuchForceAndAPlaceBesideTheDiscAreSaid) {
   Person person;
   person.up_to(Step::kPress);
