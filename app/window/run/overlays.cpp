@@ -32,7 +32,8 @@ void key_tables(Ui& ui, const PracticeModel& model) {
   ui.heading(w("Mouse"));
   ui.text(w(
       "Move: the tip; at L1 it keeps its height by itself. Wheel: deeper, back. Left button held: press, or close the "
-      "jaws; let go, the force stays; a click lets off. Right button held: lean the shaft, with the wheel roll it."));
+      "jaws; let go, the force stays; a click lets off. Right button held: lean the shaft, with the wheel roll it. "
+      "Middle button held: move the scope."));
   ui.gap();
   for (const bool steering : {true, false}) {
     ui.heading(steering ? w("Steering with keys") : w("Commands"));
