@@ -123,10 +123,16 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<PracticeArguments>();
   PracticeOptions& o = given->options;
   CLI::App* practice = parent.add_subcommand("practice", "The trainee's window: see, feel, be judged, try again");
-  practice->add_option("exercise", o.model.exercise, "Exercise id, number or FILE.toml: straight to its briefing");
-  practice->add_option("--level", o.model.level, "Level: L1, L2, L3 or exam")->capture_default_str();
+  CLI::Option* exercise =
+      practice->add_option("exercise", o.model.exercise, "Exercise id, number or FILE.toml: straight to its briefing");
+  CLI::Option* level =
+      practice->add_option("--level", o.model.level, "Level: L1, L2, L3 or exam")->capture_default_str();
   practice->add_option("--trainee", o.model.trainee,
                        "Trainee code, created when new (default: a guest, until signed in)");
+  practice
+      ->add_flag("--free", o.model.free_play, "Straight to free play on the organ: no clock, no score, nothing kept")
+      ->excludes(exercise)
+      ->excludes(level);
   practice
       ->add_option("--input", o.model.input,
                    "What steers: auto (the first that moves), mouse, keyboard, gamepad, spacemouse or device")

@@ -28,7 +28,7 @@ void read_start(StrictTable table, Exercise& exercise) {
 
 void read_targets(StrictTable table, Exercise& exercise) {
   TargetLayout& layout = exercise.layout;
-  layout.count = table.integer("count", 1, kMostTargets);
+  layout.count = table.integer("count", kind_of(exercise).on_organ ? 0 : 1, kMostTargets);  // 0: nothing is asked
   const auto [x, y] = table.pair("region_mm", 10, 500);
   layout.region_x_m = x * kMilli;
   layout.region_y_m = y * kMilli;

@@ -35,7 +35,13 @@ class WindowOnADisplay : public SystemTest {
              {"XDG_PICTURES_DIR", (folder_ / "pictures").string()},
              {"LANG", "C"}}};
   }
+  fs::path settings() const { return folder_ / "config/trocar/settings.toml"; }
+  /// A station that has shown its tutorial.
   void open_window(const std::vector<std::string>& arguments) {
+    folder_.write("config/trocar/settings.toml", "tutorial_seen = true\n");
+    open_first(arguments);
+  }
+  void open_first(const std::vector<std::string>& arguments) {
     program_ = std::make_unique<RunningProgram>(on_display(arguments));
     ASSERT_TRUE(comes_true([&] { return !program_->running() || !display_->window("Trocar").empty(); }));
     ASSERT_TRUE(program_->running()) << program_->wait().err;
@@ -72,6 +78,18 @@ TEST_F(WindowOnADisplay, OpensTakesRealKeysAndQuitsByItsMenu) {
   const Outcome outcome = program_->wait();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_GE(pictures(), 8);
+}
+
+TEST_F(WindowOnADisplay, ItsFirstStartTeachesAndEscSkipsThat) {
+  open_first({"practice", "--db", ":memory:", "--width", "640", "--height", "360"});
+  if (HasFatalFailure()) return;
+  ASSERT_TRUE(comes_true([&] { return fs::exists(settings()); })) << "the tutorial has begun";
+  key("F12");
+  key("Escape");
+  key("Escape");
+  for (int i = 0; i < 5; ++i) key("Tab");
+  display_->xdotool({"key", "Return"});
+  ASSERT_TRUE(comes_true([&] { return !program_->running(); })) << "the start page's menu ends with Quit";
 }
 
 TEST_F(WindowOnADisplay, PointerAndResizingDoNotBreakIt) {

@@ -67,12 +67,13 @@ void lay_top_bar(HudPen& pen, const Hud& hud, const HudFrame& frame) {
   const int big = frame.clock_size(), body = frame.body;
   const double margin = frame.px(14), baseline = 0.5 * frame.top + 0.36 * big;
   double right = frame.width - margin;
-  if (hud.limit_s > 0)
+  if (hud.elapsed_s >= 0 && hud.limit_s > 0)
     right =
         pen.text_right("/ " + clock_text(hud.limit_s), right, baseline, body, false, HudInk::kDim, right) - frame.px(8);
   const bool late = hud.limit_s > 0 && hud.elapsed_s > 0.9 * hud.limit_s;
-  right = pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true, late ? HudInk::kCaution : HudInk::kText,
-                         right);
+  if (hud.elapsed_s >= 0)
+    right = pen.text_right(clock_text(hud.elapsed_s), right, baseline, big, true,
+                           late ? HudInk::kCaution : HudInk::kText, right);
   const auto [who, what] = fitting_names(pen, hud, frame, right - 2 * margin);
   const double used = pen.text(who, margin, baseline, body, false, HudInk::kDim, right - margin);
   const double title_x = who.empty() ? margin : used + 1.6 * margin;
@@ -110,7 +111,9 @@ void lay_toast(HudPen& pen, const Hud& hud, const HudFrame& frame, double upper)
   const double y = std::lerp(std::min(upper, lower), lower, hud.toast_at);
   const HudBox box{frame.scene.x + 0.5 * (frame.scene.width - t.width), y, t.width, t.height()};
   pen.shape(HudShape::Kind::kToast, box);
-  pen.shape(hud.toast_warning ? HudShape::Kind::kWarning : HudShape::Kind::kInfo,
+  pen.shape(hud.toast_warning ? HudShape::Kind::kWarning
+            : hud.toast_done  ? HudShape::Kind::kTick
+                              : HudShape::Kind::kInfo,
             {box.x + t.pad, box.y + 0.5 * (box.height - t.icon), t.icon, t.icon});
   double baseline = box.y + t.pad + 0.95 * t.size;
   const auto write = [&](const std::vector<std::string>& lines, bool bold, HudInk ink) {

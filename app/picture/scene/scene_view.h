@@ -72,9 +72,9 @@ struct HudLabels {
 
 struct Hud {
   HudLabels labels = {};
-  std::string trainee;  ///< "Trainee: T-expert"
-  std::string title;    ///< "E02 Surface touch - L1"
-  double elapsed_s = 0, limit_s = 0;
+  std::string trainee;                ///< "Trainee: T-expert"
+  std::string title;                  ///< "E02 Surface touch - L1"
+  double elapsed_s = 0, limit_s = 0;  ///< elapsed below 0: no clock
   std::vector<ForceBar> bars;
   std::optional<PoseDial> dial;
   std::vector<HudNotice> notices;  ///< the first two are shown
@@ -82,7 +82,7 @@ struct Hud {
   std::vector<HudRow> rows;       ///< "So far"
   std::vector<HudRow> device;     ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
   std::string toast, toast_hint;  ///< at most one message; empty when none
-  bool toast_warning = false;
+  bool toast_warning = false, toast_done = false;  ///< a triangle, a tick stands before it
   double toast_at = 1;  ///< 0 at the picture's upper edge .. 1 at the lower: where it covers nothing that is to be seen
   std::string credit;   ///< organ's origin and licence; says "synthetic" for phantoms
 };

@@ -23,6 +23,13 @@ constexpr int kBusy_ms = 1000;          // the window waits for the database no 
 constexpr double kBeyondLimits_s = 120;  // homing and reading, beyond the run's time and as much of waiting for it
 constexpr std::chrono::milliseconds kAskAgain{200};
 
+/// Where what nobody grades is recorded to.
+class Nowhere final : public RecordingSink {
+ public:
+  void append(std::string_view) override {}
+  void sync() override {}
+};
+
 AttemptSetup paced(AttemptSetup setup, bool by_clock) {
   setup.realtime = by_clock;
   if (setup.pace == PaceLimits{}) setup.pace = kSimulatedLivePace;
@@ -38,7 +45,9 @@ std::shared_ptr<const Scene> paced_scene(Scene scene, bool by_clock) {
 Database checked_database(const AttemptRequest& request, const Scene& scene, const AssetRoots& assets) {
   if (!request.steered)
     make_hand(scene.setup.hand, 0, assets.hands);  // a wrong one is refused before anything is stored
-  const std::filesystem::path file = request.database.empty() ? default_database_path() : request.database;
+  const std::filesystem::path file = !request.graded            ? ":memory:"
+                                     : request.database.empty() ? default_database_path()
+                                                                : request.database;
   if (file != ":memory:") {
     const double rate_hz = scene.loop.daq.rate_hz;
     require_room(file.parent_path(), room_needed(2 * scene.level.time_limit_s + kBeyondLimits_s, rate_hz),
@@ -53,6 +62,7 @@ struct AttemptRunner::State {
   State(const AttemptRequest& request, const AssetRoots& assets_in, std::shared_ptr<const Scene> scene_in)
       : steered(request.steered),
         steps(request.steps),
+        graded(request.graded),
         assets(assets_in),
         scene(std::move(scene_in)),
         database(checked_database(request, *scene, assets)),
@@ -76,6 +86,7 @@ struct AttemptRunner::State {
 
   const bool steered;
   StepGate* const steps;
+  const bool graded;
   const AssetRoots assets;
   const std::shared_ptr<const Scene> scene;
   Database database;  // the caller's thread until the attempt's begins, then that one's
@@ -125,6 +136,12 @@ void AttemptRunner::State::record_and_grade() {
   hooks.marks = &marks;
   hooks.messages = &messages;
   if (scene->level.name != kExamLevel) hooks.board_answers = [this] { return plugged.load(std::memory_order_relaxed); };
+  if (!graded) {
+    Nowhere nowhere;
+    RecordingWriter writer(nowhere, scene_json(*scene), scene->loop.daq.rate_hz);
+    result.grade.status = run_session(*scene, assets, hooks, writer).status;
+    return;
+  }
   const auto [outcome, recording] = record_or_abort(store, id, *scene, assets, hooks);
   for (const std::string& line : outcome.notes) note(line);
   result = kept_result(start, id, outcome, recording);
@@ -151,7 +168,7 @@ void AttemptRunner::State::run() noexcept {
     record_and_grade();
     if (steps) steps->close();
     finished.store(true);
-    keep();
+    if (graded) keep();
   } catch (const std::exception& error) {
     if (steps) steps->close();
     note(error.what());

@@ -6,7 +6,8 @@
 //
 // The 1 kHz loop never waits for a picture. Whatever its end, the attempt is kept as `trocar run` keeps it: recorded to
 // disk twice a second, graded from the recording, stored; a database that is busy at the end is asked again until the
-// runner goes. Threads: all members from the window's thread; the attempt owns the others.
+// runner goes. What is not graded (tutorial, free play) leaves nothing behind. Threads: all members from the window's
+// thread; the attempt owns the others.
 #pragma once
 
 #include <filesystem>
@@ -32,6 +33,7 @@ struct AttemptRequest {
   std::filesystem::path database = {};  ///< as RunOptions::database
   bool steered = true;                  ///< a person's intents move the hand; false: the script that setup names
   StepGate* steps = nullptr;  ///< time passes as it says, not by the clock; no pause then. Outlives the runner
+  bool graded = true;                   ///< false: nothing is recorded, graded or stored, whatever the database
 };
 
 class AttemptRunner {

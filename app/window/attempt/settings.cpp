@@ -48,6 +48,7 @@ Settings parse(const std::string& text, const std::string& file) {
   settings.like_a_fulcrum = table.flag_or("like_a_fulcrum", settings.like_a_fulcrum);
   settings.sensitivity = table.number_or("sensitivity", 0.25, 4, settings.sensitivity);
   settings.sound = table.flag_or("sound", settings.sound);
+  settings.tutorial_seen = table.flag_or("tutorial_seen", settings.tutorial_seen);
   settings.scope = table.choice_or("scope", kScopes, settings.scope);
   settings.preset = table.choice_or("preset", kPresets, settings.preset);
   settings.input = table.choice_or("input", kInputs, settings.input);
@@ -110,6 +111,7 @@ void save_settings(const fs::path& file, const Settings& settings) {
                     {"like_a_fulcrum", settings.like_a_fulcrum},
                     {"sensitivity", settings.sensitivity},
                     {"sound", settings.sound},
+                    {"tutorial_seen", settings.tutorial_seen},
                     {"scope", settings.scope},
                     {"preset", settings.preset},
                     {"input", settings.input},

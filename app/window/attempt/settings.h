@@ -17,6 +17,7 @@ struct Settings {
   bool like_a_fulcrum = false;
   double sensitivity = 1;
   bool sound = true;
+  bool tutorial_seen = false;                    ///< it has been begun here once
   std::string scope = "0";                       ///< tilt of the scope's tip, degrees: "0", "30"
   std::string preset = "auto";                   ///< "auto", "low", "soft", "full"
   std::string input = "auto";                    ///< "auto", "mouse", "gamepad", "spacemouse", "device"

@@ -60,6 +60,7 @@ std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeModel& model) 
     to = ScreenName::kBriefing;
   }
   ui.text(w("No account, mouse and keyboard are enough."), Ink::kDim);
+  if (const auto chosen = plays(ui, model)) to = chosen;
   ui.gap(6);
   ui.heading(w("Sign in"));
   const bool entered = ui.field("code", w("Your code"), code_);
@@ -88,7 +89,26 @@ std::optional<ScreenName> StartScreen::trainee_part(Ui& ui, PracticeModel& model
   if (ui.button("progress", w("My progress"))) to = ScreenName::kProgress;
   ui.same_line();
   if (ui.button("signout", w("Sign out"))) model.sign_out();
+  if (const auto chosen = plays(ui, model)) to = chosen;
   return to;
+}
+
+/// What is not graded.
+std::optional<ScreenName> StartScreen::plays(Ui& ui, PracticeModel& model) {
+  const Translator& w = model.words();
+  std::optional<Play> chosen;
+  if (ui.button("tutorial", w("Tutorial"))) chosen = Play::kTutorial;
+  ui.explain(w("One minute: move, see depth, press, grip, look round."));
+  ui.same_line();
+  if (ui.button("free", w("Free play"))) chosen = Play::kFree;
+  ui.explain(w("Touch what you like: no clock, no score."));
+  if (t_s_ > kFirstWait_s && model.tutorial_due()) chosen = Play::kTutorial;
+  if (!chosen) return {};
+  if (const std::string hindered = model.begin_play(*chosen); !hindered.empty()) {
+    model.notice = hindered;
+    return {};
+  }
+  return ScreenName::kRun;
 }
 
 std::optional<ScreenName> StartScreen::foot(Ui& ui, PracticeModel& model) {

@@ -19,6 +19,7 @@ class StartScreen final : public Screen {
  private:
   std::optional<ScreenName> guest_part(Ui& ui, PracticeModel& model);
   std::optional<ScreenName> trainee_part(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> plays(Ui& ui, PracticeModel& model);
   std::optional<ScreenName> foot(Ui& ui, PracticeModel& model);
   void caption(Ui& ui, const PracticeModel& model) const;
 

@@ -76,6 +76,8 @@ struct PracticeLoop::State {
   void remember(ScreenName to);
   void open_menu(bool open);
   void choose(MenuChoice choice);
+  void answer(HelpChoice choice);
+  void show_play(Play play);
   bool command(const InputEvent& event);
   void dispatch(const std::vector<InputEvent>& events);
   void follow_preset(int width, int height);
@@ -89,7 +91,10 @@ struct PracticeLoop::State {
 PracticeLoop::PracticeLoop(PracticeModel& model, GraphicsContext& context, bool to_window)
     : state_(std::make_unique<State>(model, context, to_window)) {
   const bool briefing = model.exercise_given() && make_screen(ScreenName::kBriefing);
-  state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
+  if (model.free_play_given())
+    state_->show_play(Play::kFree);
+  else
+    state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
 }
 
 PracticeLoop::~PracticeLoop() {
@@ -163,6 +168,22 @@ void PracticeLoop::State::choose(MenuChoice choice) {
     case MenuChoice::kBack:
       return;
   }
+}
+
+void PracticeLoop::State::answer(HelpChoice choice) {
+  if (choice == HelpChoice::kNone) return;
+  help = false;
+  open_menu(false);
+  if (choice != HelpChoice::kTutorial) return;
+  if (model.running()) model.end_attempt();
+  show_play(Play::kTutorial);
+}
+
+/// Or the start page, which then says what hindered it.
+void PracticeLoop::State::show_play(Play play) {
+  const std::string hindered = model.begin_play(play);
+  if (!hindered.empty()) model.notice = hindered;
+  show(hindered.empty() ? ScreenName::kRun : ScreenName::kStart);
 }
 
 /// Keys that work on every screen. @return true when the event was one.
@@ -298,10 +319,9 @@ void PracticeLoop::State::draw_interface(int width, int height, double dt_s, con
     small_window(ui);
   else if (menu)
     choose(menu_overlay(ui, model, model.running() != nullptr));
-  else if (help && help_overlay(ui, model, help_page, sounds)) {
-    help = false;
-    open_menu(false);
-  } else if (!help && screen)
+  else if (help)
+    answer(help_overlay(ui, model, help_page, sounds));
+  else if (screen)
     to = screen->frame(ui, model, dt_s);
   sounds.pass(model.sound(), help && help_page == HelpPage::kSounds, dt_s);
   if (AttemptRunner* run = model.running();

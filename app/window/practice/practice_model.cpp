@@ -20,6 +20,7 @@
 namespace trocar {
 namespace {
 
+constexpr const char* kTutorialOrgan = "phantom-liver";
 constexpr int kStoring_ms = 500;  // that a result may take to the database before the person is told
 
 /// The parser's own words are English and for who writes programs: the line says enough.
@@ -182,6 +183,8 @@ const Exercise& PracticeModel::exercise() const {
 
 bool PracticeModel::exercise_given() const { return !state_->options.exercise.empty(); }
 
+bool PracticeModel::free_play_given() const { return state_->options.free_play; }
+
 LevelProgress PracticeModel::progress(const std::string& id, const std::string& of_level) const {
   const auto& all = state_->exercises;
   const auto at = std::find_if(all.begin(), all.end(), [&id](const Exercise& e) { return e.id == id; });
@@ -242,39 +245,77 @@ std::vector<PastAttempt> PracticeModel::past(const std::string& id) const {
   }
 }
 
-std::string PracticeModel::begin_attempt() {
-  State& s = *state_;
-  if (s.runner) return s.words("An attempt is running.");
-  const bool scripted = s.scripted();
-  if (std::string why = locked(); !why.empty()) return why;
-  AttemptRequest request;
-  request.setup.exercise = exercise();
-  request.setup.level = level;
-  request.setup.organ = organ;
-  request.setup.hand = scripted                     ? s.options.hand
-                       : s.options.input != "auto"  ? s.options.input
-                       : s.settings.input != "auto" ? s.settings.input
-                                                    : input_name(s.steering->kind());
-  if (!scripted && request.setup.hand != input_name(InputKind::kDevice)) request.setup.backend = kPointerBackend;
-  request.setup.seed = s.seed();
-  request.setup.board = drawn_board(request.setup.seed, level == kExamLevel);
-  request.setup.realtime = true;
-  request.setup.pace = kSimulatedLivePace;
-  request.trainee = scripted ? kDemonstration : s.trainee;
-  request.session = s.session;
-  request.database = s.options.database;
-  request.steered = !scripted;
-  request.steps = s.options.steps;
+AttemptRequest PracticeModel::State::request(Exercise exercise, const std::string& level,
+                                             const std::string& organ) const {
+  AttemptRequest out;
+  out.setup.exercise = std::move(exercise);
+  out.setup.level = level;
+  out.setup.organ = organ;
+  out.setup.hand = scripted()                 ? options.hand
+                   : options.input != "auto"  ? options.input
+                   : settings.input != "auto" ? settings.input
+                                              : input_name(steering->kind());
+  if (!scripted() && out.setup.hand != input_name(InputKind::kDevice)) out.setup.backend = kPointerBackend;
+  out.setup.realtime = true;
+  out.setup.pace = kSimulatedLivePace;
+  out.trainee = scripted() ? kDemonstration : trainee;
+  out.session = session;
+  out.database = options.database;
+  out.steered = !scripted();
+  out.steps = options.steps;
+  return out;
+}
+
+/// @return what hindered it, empty when it runs.
+std::string PracticeModel::State::run(AttemptRequest wanted, Play what) {
   try {
-    s.runner = std::make_unique<AttemptRunner>(request, s.assets, s.built(request.setup));
-    s.last_scene = s.runner->shared_scene();
-    s.note_was_met();
+    runner = std::make_unique<AttemptRunner>(wanted, assets, built(wanted.setup));
+    play = what;
     return "";
   } catch (const InputError& error) {
     return error.what();
   } catch (const EnvironmentError& error) {
     return error.what();
   }
+}
+
+std::string PracticeModel::begin_attempt() {
+  State& s = *state_;
+  if (s.runner) return s.words("An attempt is running.");
+  if (std::string why = locked(); !why.empty()) return why;
+  AttemptRequest request = s.request(exercise(), level, organ);
+  request.setup.seed = s.seed();
+  request.setup.board = drawn_board(request.setup.seed, level == kExamLevel);
+  if (std::string why = s.run(std::move(request), Play::kAttempt); !why.empty()) return why;
+  s.last_scene = s.runner->shared_scene();
+  s.note_was_met();
+  return "";
+}
+
+std::string PracticeModel::begin_play(Play what) {
+  State& s = *state_;
+  if (s.runner) return s.words("An attempt is running.");
+  const bool tutorial = what == Play::kTutorial;
+  if (tutorial && !s.settings.tutorial_seen) {
+    s.settings.tutorial_seen = true;
+    if (s.settings.note.empty()) settings_changed();  // a file that cannot be read waits for a person's own change
+  }
+  try {
+    const std::filesystem::path file =
+        s.assets.exercises / "ungraded" / (tutorial ? "tutorial.toml" : "free-play.toml");
+    AttemptRequest request = s.request(load_exercise(file), "L1", tutorial ? kTutorialOrgan : organ);
+    request.graded = false;
+    return s.run(std::move(request), what);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+Play PracticeModel::playing() const { return state_->play; }
+
+bool PracticeModel::tutorial_due() const {
+  const State& s = *state_;
+  return !s.settings.tutorial_seen && !s.scripted() && !exercise_given() && !free_play_given();
 }
 
 AttemptRunner* PracticeModel::running() { return state_->runner.get(); }
@@ -284,6 +325,7 @@ bool PracticeModel::end_attempt() {
   if (!s.runner) return false;
   std::erase_if(s.unstored, [](const std::unique_ptr<AttemptRunner>& old) { return old->stored(); });
   std::unique_ptr<AttemptRunner> runner = std::move(s.runner);
+  if (s.play != Play::kAttempt) return false;
   try {
     if (!runner->finished()) runner->abort();
     s.result = runner->result();

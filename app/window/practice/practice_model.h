@@ -28,6 +28,7 @@ struct ModelOptions {
   std::string trainee = {};             ///< code, empty: guest
   std::string exercise = {};            ///< straight to its briefing
   std::string level = "L1";
+  bool free_play = false;  ///< straight to free play on the organ
   std::string organ = "phantom-liver";
   std::string input = "auto";
   std::filesystem::path settings = {};  ///< empty: settings_file()
@@ -38,6 +39,9 @@ struct ModelOptions {
   std::string scope = {};                 ///< "0" or "30" degrees of the tip; given: this time only
   StepGate* steps = nullptr;              ///< as AttemptRequest::steps
 };
+
+/// What runs: an attempt, or what nobody grades and nothing keeps.
+enum class Play : std::uint8_t { kAttempt, kTutorial, kFree };
 
 class PracticeModel {
  public:
@@ -81,6 +85,7 @@ class PracticeModel {
   std::string exercise_id, level = "L1", organ = "phantom-liver";
   const Exercise& exercise() const;  ///< the chosen one
   bool exercise_given() const;       ///< by the options: straight to its briefing
+  bool free_play_given() const;      ///< likewise
   LevelProgress progress(const std::string& exercise_id, const std::string& level) const;
   /// What to do next, and why: exercise id, level, one sentence.
   struct Advice {
@@ -96,8 +101,14 @@ class PracticeModel {
   /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when
   /// it runs.
   std::string begin_attempt();
+  /// The tutorial, on the phantom's liver, or free play on the chosen organ: always the same board. @return as
+  /// begin_attempt().
+  std::string begin_play(Play play);
   AttemptRunner* running();  ///< null: none
-  /// Takes over the result of a finished or aborted attempt. @return false: it had none, notice() says why.
+  Play playing() const;      ///< what runs, or ran last
+  /// This station has not shown its tutorial yet, and the start page is where its person begins.
+  bool tutorial_due() const;
+  /// Takes over the result of a finished or aborted attempt. @return false: it had none (notice says why), or was none.
   bool end_attempt();
   const std::optional<AttemptResult>& result() const;
   /// An attempt that the database keeps, as if it had just ended: to look at it again. @return whether it is there.

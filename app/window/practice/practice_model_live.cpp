@@ -15,7 +15,7 @@ constexpr const char* kProgram = "practice window";
 /// News at once, the rest when the desk wants it.
 void PracticeModel::State::tell_desk(bool guest) {
   const std::string who = guest ? "" : trainee;
-  if (!runner) {
+  if (!runner || play != Play::kAttempt) {
     if (told || told_phase.empty() || told_trainee != who) {
       LiveMoment idle;
       idle.program = kProgram;

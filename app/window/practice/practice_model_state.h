@@ -31,6 +31,7 @@ struct PracticeModel::State {
   std::string trainee = kGuest, session = make_uuid();  // session: of a sign-in
   std::optional<Note> note;                             // of a teacher, that the trainee has not met yet
   std::unique_ptr<AttemptRunner> runner;
+  Play play = Play::kAttempt;                            // of the runner
   std::vector<std::unique_ptr<AttemptRunner>> unstored;  // over, but the database has not taken them yet
   std::optional<AttemptResult> result;
   std::shared_ptr<const Scene> last_scene;
@@ -64,6 +65,8 @@ struct PracticeModel::State {
   void look_for_message();
   bool show_message(std::string& notice);
   std::shared_ptr<const Scene> built(AttemptSetup setup) const;
+  AttemptRequest request(Exercise exercise, const std::string& level, const std::string& organ) const;
+  std::string run(AttemptRequest request, Play what);
   std::int64_t seed() const;
 };
 

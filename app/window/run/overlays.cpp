@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/window/ui/button_row.h"
 #include "scenarios/scoring/metrics.h"
 
 namespace trocar {
@@ -31,7 +32,8 @@ void key_tables(Ui& ui, const PracticeModel& model) {
   ui.heading(w("Mouse"));
   ui.text(w(
       "Move: the tip; at L1 it keeps its height by itself. Wheel: deeper, back. Left button held: press, or close the "
-      "jaws; let go, the force stays; a click lets off. Right button held: lean the shaft, with the wheel roll it."));
+      "jaws; let go, the force stays; a click lets off. Right button held: lean the shaft, with the wheel roll it. "
+      "Middle button held: move the scope."));
   ui.gap();
   for (const bool steering : {true, false}) {
     ui.heading(steering ? w("Steering with keys") : w("Commands"));
@@ -75,31 +77,37 @@ MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs) {
   return choice;
 }
 
-bool help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds) {
+HelpChoice help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds) {
   const Translator& w = model.words();
   const Area all = middle(ui, 900, 680);
-  const double foot = ui.strip_height(1), gap = ui.px(8);
-  ui.begin_panel("help", {all.x, all.y, all.width, all.height - foot - gap}, 0.97);
+  const bool keys = page == HelpPage::kKeys;
+  std::vector<RowButton> buttons{{"close", w("Close"), "Enter", true},
+                                 {"page", keys ? w("What is measured") : w("Keys"), "F2"},
+                                 {"sounds", w("Sounds"), "F4"}};
+  if (!model.running() || model.playing() != Play::kAttempt) buttons.push_back({"tutorial", w("Tutorial"), "F6"});
+  const double foot = button_rows_height(ui, buttons, all.width), gap = ui.px(8);
+  const bool told = page != HelpPage::kSounds;  // nothing to choose from: the arrows scroll
+  ui.begin_panel(keys   ? "help"
+                 : told ? "help.measures"
+                        : "help.sounds",
+                 {all.x, all.y, all.width, all.height - foot - gap}, 0.97);
   ui.in_front();
-  ui.title(page == HelpPage::kKeys ? w("Keys") : page == HelpPage::kMetrics ? w("What is measured") : w("Sounds"));
-  if (page == HelpPage::kKeys)
+  ui.scroll_by_keys(told);
+  ui.title(keys ? w("Keys") : told ? w("What is measured") : w("Sounds"));
+  if (keys)
     key_tables(ui, model);
-  else if (page == HelpPage::kMetrics)
+  else if (told)
     metric_table(ui, model);
   else
     sounds.frame(ui, model);
   ui.end_panel();
   ui.begin_strip("help.foot", {all.x, all.y + all.height - foot, all.width, foot}, 0.97);
   ui.in_front();
-  const bool close = ui.button("close", w("Close"), "Enter", true);
-  ui.same_line();
-  const bool keys = page == HelpPage::kKeys;
-  if (ui.button("page", keys ? w("What is measured") : w("Keys"), "F2"))
-    page = keys ? HelpPage::kMetrics : HelpPage::kKeys;
-  ui.same_line();
-  if (ui.button("sounds", w("Sounds"), "F4")) page = HelpPage::kSounds;
+  const std::string chosen = button_rows(ui, buttons);
   ui.end_panel();
-  return close;
+  if (chosen == "page") page = keys ? HelpPage::kMetrics : HelpPage::kKeys;
+  if (chosen == "sounds") page = HelpPage::kSounds;
+  return chosen == "close" ? HelpChoice::kClose : chosen == "tutorial" ? HelpChoice::kTutorial : HelpChoice::kNone;
 }
 
 void small_window(Ui& ui) {

@@ -18,9 +18,10 @@ enum class MenuChoice : std::uint8_t { kNone, kBack, kLeaveAttempt, kStart, kSet
 MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs);
 
 /// Keys as they are now, what every metric means, and every sound; page and sounds are kept by the caller. @return true
-/// to close.
+/// what a person chose.
 enum class HelpPage : std::uint8_t { kKeys, kMetrics, kSounds };
-bool help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds);
+enum class HelpChoice : std::uint8_t { kNone, kClose, kTutorial };
+HelpChoice help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds);
 
 /// In place of a page that has no room.
 void small_window(Ui& ui);

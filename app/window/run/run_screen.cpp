@@ -12,6 +12,7 @@
 #include "app/window/run/run_sounds.h"
 #include "app/window/run/run_view.h"
 #include "app/window/run/tip_guide.h"
+#include "app/window/run/tutorial.h"
 #include "app/window/ui/hud_draw_list.h"
 #include "app/window/ui/ui.h"
 #include "haptics/kinematics/device_geometry.h"
@@ -33,6 +34,14 @@ RunMoment first_moment(const Scene& scene) {
   if (!scene.loop.daq.motors) moment.record.stylus.X_TI.p = entry_T(scene);
   moment.record.stylus.jaw_opening_m = 0.02;
   return moment;
+}
+
+/// Of what nobody grades there is no clock, no count, and nothing that stands in a record.
+void leave_out_grading(Hud& hud) {
+  hud.elapsed_s = -1;
+  hud.steps.clear();
+  hud.rows.clear();
+  hud.device.clear();
 }
 
 }  // namespace
@@ -57,6 +66,8 @@ struct RunScreen::State {
   double dt_s = 0, event_s = 0;  // last frame's step; when the first event since the last intent was handed over
   double over_s = 0;             // since the result is there
   FirstRunHints hints;
+  Play play = Play::kAttempt;
+  std::optional<Tutorial> tutorial;
   RunSounds sounds;
   LatencyMeter latency;
 
@@ -67,6 +78,8 @@ struct RunScreen::State {
   TipGuide guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment);
   std::string to_start(const Translator& words, const Scene& scene, const Vec3& tip_T) const;
   SceneView view(PracticeModel& model);
+  void teach(const RunMoment& moment, PracticeModel& model);
+  void tell(Hud& hud, PracticeModel& model) const;
   int covered(const HudBox& box, double margin = 0) const;
   bool covers(const HudBox& box) const;
   void place_toast(Hud& shown, const PracticeModel& model, int width, int height);
@@ -75,6 +88,7 @@ struct RunScreen::State {
   void mark(PracticeModel& model) const;
   void rim_arrow(double angle_rad, double size, Ink colour, double within = 0) const;
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
+  ScreenName back() const { return play == Play::kAttempt ? ScreenName::kBriefing : ScreenName::kStart; }
   std::optional<ScreenName> restart(PracticeModel& model);
   std::optional<ScreenName> ended(PracticeModel& model);
   void hint_panel(Ui& ui, PracticeModel& model);
@@ -86,9 +100,10 @@ RunScreen::RunScreen() : state_(std::make_unique<State>()) {}
 RunScreen::~RunScreen() = default;
 
 bool RunScreen::asks() const { return state_->overlay; }
-bool RunScreen::takes_escape() const { return state_->overlay; }
+bool RunScreen::takes_escape() const { return state_->overlay || (state_->begun && state_->play != Play::kAttempt); }
 bool RunScreen::holds_pointer() const { return state_->steering && !state_->overlay; }
 const LatencyMeter& RunScreen::latency() const { return state_->latency; }
+const Tutorial* RunScreen::tutorial() const { return state_->tutorial ? &*state_->tutorial : nullptr; }
 
 /// An attempt that has just begun.
 void RunScreen::State::begin(PracticeModel& model) {
@@ -104,8 +119,11 @@ void RunScreen::State::begin(PracticeModel& model) {
   over_s = 0;
   latency.forget();
   sounds = RunSounds();
+  play = model.playing();
+  tutorial.reset();
+  if (play == Play::kTutorial) tutorial.emplace();
   const LevelProgress progress = model.progress(model.exercise_id, model.level);
-  hints.begin(model.is_guest() && progress.passed == 0 && progress.attempts <= 1);
+  hints.begin(play == Play::kAttempt && model.is_guest() && progress.passed == 0 && progress.attempts <= 1);
   begun = true;
 }
 
@@ -171,12 +189,38 @@ SceneView RunScreen::State::view(PracticeModel& model) {
                                : model.is_guest()       ? ""
                                                         : model.trainee(),
                                seen_by(model));
+  if (play != Play::kAttempt) leave_out_grading(out.hud);
+  if (steering && tutorial) teach(moment, model);
   if (!guides) hide_guides(out);
   if (steering) add_ghost(out, run.target());
   guide = steering ? guide_at(run.scene(), out, moment) : TipGuide{};
   if (steering && waits_for_start(moment.status.phase))
     guide.to_go = to_start(model.words(), run.scene(), moment.record.stylus.X_TI.p);
   return out;
+}
+
+/// A disc that is held is heard already.
+void RunScreen::State::teach(const RunMoment& moment, PracticeModel& model) {
+  if (model.running()->paused()) return;
+  const Vec3 below_T = surroundings->below(moment.record.stylus.X_TI.p);
+  const auto done = tutorial->see({moment, below_T, model.steering().scope()}, dt_s);
+  if (done && *done != Tutorial::Step::kKeep && *done != Tutorial::Step::kAgain) model.sound().play(Tone::kGood);
+}
+
+/// What runs and how to leave it, above; what to do, as a message.
+void RunScreen::State::tell(Hud& hud, PracticeModel& model) const {
+  const Translator& w = model.words();
+  if (play == Play::kAttempt) return;
+  hud.title =
+      w(model.running()->scene().setup.exercise.title) + " \u00b7 " + w("{0}: leave", {w.name(key_name(kKeyEscape))});
+  if (!tutorial) return;
+  hud.steps = tutorial->list(w);
+  if (tutorial->over()) return;
+  const Tutorial::Said said = tutorial->says(w, model.keys(), model.steering().kind());
+  hud.toast = said.message;
+  hud.toast_hint = said.hint;
+  hud.toast_warning = said.warning;
+  hud.toast_done = said.done;
 }
 
 /// Points that it would lie over of what the hand is at and what is lit; the hand counts for all. @param margin px.
@@ -224,6 +268,7 @@ void RunScreen::State::place_toast(Hud& shown, const PracticeModel& model, int w
 
 void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, int height) {
   Hud shown = in_words(hud, model.words());
+  tell(shown, model);
   for (ForceBar& bar : shown.bars) {
     if (bars || bar.hidden) continue;
     bar.hidden = true;
@@ -286,7 +331,7 @@ void RunScreen::State::command(Action action, PracticeModel& model) {
       again = true;
       break;
     case Action::kMark:
-      mark(model);
+      if (play == Play::kAttempt) mark(model);
       break;
     case Action::kForceBars:
       bars = !bars;
@@ -326,9 +371,10 @@ std::optional<ScreenName> RunScreen::State::restart(PracticeModel& model) {
   RunSounds::hush(model.sound());
   model.end_attempt();
   begun = overlay = false;
-  if (const std::string hindered = model.begin_attempt(); !hindered.empty()) {
+  const std::string hindered = play == Play::kAttempt ? model.begin_attempt() : model.begin_play(play);
+  if (!hindered.empty()) {
     model.notice = hindered;
-    return ScreenName::kBriefing;
+    return back();
   }
   return {};
 }
@@ -336,19 +382,20 @@ std::optional<ScreenName> RunScreen::State::restart(PracticeModel& model) {
 std::optional<ScreenName> RunScreen::State::ended(PracticeModel& model) {
   RunSounds::hush(model.sound());
   begun = overlay = false;
-  return model.end_attempt() ? ScreenName::kDebrief : ScreenName::kBriefing;
+  return model.end_attempt() ? ScreenName::kDebrief : back();
 }
 
 std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& model) {
   const Translator& w = model.words();
   const bool stands = model.running()->paused();
   const auto key = [&](Action action) { return key_name(model.keys().key_of(action)); };
-  const bool silent = !model.running()->board_answers();
+  const bool silent = !model.running()->board_answers(), graded = play == Play::kAttempt;
   const std::string said =
-      silent   ? w("Instrument and clock stand still, nothing is lost. Plug it in again, then continue.")
-      : again  ? w("This attempt then ends, and counts as not passed.")
-      : stands ? w("Instrument and clock stand still. The pause is noted in the result.")
-               : w("An exam has no pause: the clock runs on.");
+      silent    ? w("Instrument and clock stand still, nothing is lost. Plug it in again, then continue.")
+      : !graded ? w("Nothing here is graded or kept.")
+      : again   ? w("This attempt then ends, and counts as not passed.")
+      : stands  ? w("Instrument and clock stand still. The pause is noted in the result.")
+                : w("An exam has no pause: the clock runs on.");
   const double width = std::min(ui.px(430), ui.width());
   const double height = std::min(ui.px(216) + ui.text_height(said, width - ui.px(36)), ui.height());
   ui.begin_panel("pause", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
@@ -363,10 +410,11 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& m
     return chosen || ui.pressed("Esc");
   };
   const auto anew = [&] {
-    return ui.button("restart", w("Start again with a fresh board"), key(Action::kRestart), again, 390);
+    return ui.button("restart", graded ? w("Start again with a fresh board") : w("Start again"), key(Action::kRestart),
+                     again, 390);
   };
   const bool first = again ? anew() : go_on(), second = again ? go_on() : anew();
-  const bool left = ui.button("leave", w("Leave this attempt"), "", false, 390);
+  const bool left = ui.button("leave", graded ? w("Leave this attempt") : w("Start page"), "", false, 390);
   std::optional<ScreenName> to;
   if (again ? first : second) {
     to = restart(model);
@@ -375,7 +423,7 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& m
   } else if (left) {
     model.end_attempt();
     begun = overlay = false;
-    to = ScreenName::kBriefing;
+    to = back();
   }
   ui.end_panel();
   return to;
@@ -464,6 +512,11 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double 
   if (!s.begun) return {};
   if (!s.overlay && !model.running()->board_answers()) s.asked = State::Asked::kPause;
   if (!s.overlay) ui.keys_to_screen();
+  if (s.tutorial && s.tutorial->over()) {
+    model.notice = model.words()("That was all. The start page offers it again; F1 lists the keys.");
+    return s.ended(model);
+  }
+  if (s.play != Play::kAttempt && !s.overlay && ui.pressed("Esc")) return s.ended(model);
   s.hints.pass(dt_s);
   if (!s.overlay) paint_tip_guide(ui, ScopeOptics(s.seen, s.picture), s.guide);
   draw_hud(ui, s.layout);

@@ -12,6 +12,8 @@
 
 namespace trocar {
 
+class Tutorial;  // app/window/run/tutorial.h
+
 class RunScreen final : public Screen {
  public:
   RunScreen();
@@ -25,6 +27,7 @@ class RunScreen final : public Screen {
 
   /// From events to the frames that show them, of the attempt that runs.
   const LatencyMeter& latency() const;
+  const Tutorial* tutorial() const;  ///< nullptr: none runs
 
  private:
   struct State;

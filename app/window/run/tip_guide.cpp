@@ -40,10 +40,10 @@ void paint_force(Ui& ui, const ForceBar& bar, double x, double y) {
   ui.paint_hatch({limit, y, x + wide - limit, high}, Ink::kCaution, 5, 1);
   if (top > low) ui.paint_frame({low, y, top - low, high}, Ink::kGood, 1.5);
   const bool inside = bar.value_n >= bar.band_low_n && bar.value_n <= bar.band_high_n && top > low;
-  const Ink ink = bar.value_n > bar.limit_n       ? Ink::kAlarm
-                  : inside                        ? Ink::kGood
-                  : bar.value_n > bar.band_high_n ? Ink::kCaution
-                                                  : Ink::kHeading;
+  const Ink ink = bar.value_n > bar.limit_n                    ? Ink::kAlarm
+                  : inside                                     ? Ink::kGood
+                  : top > low && bar.value_n > bar.band_high_n ? Ink::kCaution
+                                                               : Ink::kHeading;
   if (now > x) ui.paint_box({x, y + high * 0.25, now - x, high * 0.5}, ink);
 }
 

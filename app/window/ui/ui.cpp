@@ -22,7 +22,8 @@ ImVec2 size_of(const std::string& text, UiFont font, float wrap = 0) {
   return f->CalcTextSizeA(f->FontSize, FLT_MAX, wrap, text.data(), text.data() + text.size());
 }
 
-constexpr double kStripAir = 9;  // px at 720 lines above and below a strip's buttons
+constexpr double kStripAir = 9;       // px at 720 lines above and below a strip's buttons
+constexpr double kScrolledLines = 3;  // by an arrow
 
 }  // namespace
 
@@ -122,10 +123,15 @@ void Ui::end_panel() {
 }
 
 double Ui::room() const { return std::max(1.0F, ImGui::GetContentRegionAvail().x); }
-void Ui::scroll_by_keys() {
-  const float page = 0.8F * ImGui::GetWindowHeight();
-  if (pressed("Page down")) ImGui::SetScrollY(std::min(ImGui::GetScrollY() + page, ImGui::GetScrollMaxY()));
-  if (pressed("Page up")) ImGui::SetScrollY(std::max(ImGui::GetScrollY() - page, 0.0F));
+
+void Ui::scroll_by_keys(bool arrows) {
+  const float page = 0.8F * ImGui::GetWindowHeight(), step = static_cast<float>(kScrolledLines * UiParts::height());
+  float by = (pressed("Page down") ? page : 0) - (pressed("Page up") ? page : 0);
+  if (const float asked = (pressed("Down") ? step : 0) - (pressed("Up") ? step : 0); arrows && asked != 0) {
+    by += asked;
+    ImGui::NavMoveRequestCancel();
+  }
+  if (by != 0) ImGui::SetScrollY(std::clamp(ImGui::GetScrollY() + by, 0.0F, ImGui::GetScrollMaxY()));
 }
 
 double Ui::room_below() const { return std::max(1.0F, ImGui::GetContentRegionAvail().y); }

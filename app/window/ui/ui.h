@@ -53,7 +53,8 @@ class Ui {
   /// The last item is scrolled to where it is seen.
   void reveal();
   /// Page keys move what does not fit into the open panel up and down, also while the keys are the screen's.
-  void scroll_by_keys();
+  /// @param arrows these too, by some lines; they are then not the focus'.
+  void scroll_by_keys(bool arrows = false);
 
   /// @param right stands at the panel's right edge, on the title's line where both fit, else below it: who is here.
   void title(const std::string& text, const std::string& right = "");

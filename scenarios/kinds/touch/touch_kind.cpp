@@ -80,6 +80,20 @@ JudgedForces touch_limits(const Exercise& exercise, const ExerciseLevel&, const 
   return {exercise.hard_force_n, exercise.grip.excess_n};
 }
 
+/// An organ without discs: to touch as one likes, without an end.
+class FreeTask final : public ExerciseTask {
+ public:
+  void begin(EventLog&) override {}
+  void update(const TaskInput&, EventLog&) override {}
+  bool finished() const override { return false; }
+  std::int32_t object() const override { return -1; }
+  void describe(const TaskInput&, DirectorStatus& status) const override {
+    status.cue = Cue::kNone;
+    status.message.clear();
+    status.hint.clear();
+  }
+};
+
 Board lay_out_touch(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
   return lay_out_discs(place.organ_T, exercise, level, board, place.behind_tip);
 }
@@ -87,6 +101,10 @@ Board lay_out_touch(const Exercise& exercise, const ExerciseLevel& level, int bo
 std::vector<std::unique_ptr<ExerciseTask>> touch_tasks(const Exercise& exercise, const ExerciseLevel& level,
                                                        const Board& board) {
   std::vector<std::unique_ptr<ExerciseTask>> tasks;
+  if (board.targets.empty()) {
+    tasks.push_back(std::make_unique<FreeTask>());
+    return tasks;
+  }
   tasks.push_back(std::make_unique<DiscTask>(exercise, level, board.targets));
   tasks.push_back(std::make_unique<SqueezeTask>(exercise.grip, level, static_cast<std::int32_t>(board.targets.size())));
   return tasks;

@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadValue{"hard_n = 1.5", "hard_n = 0.5", "'hard_n' must not be below 'soft_n'"},
                     BadValue{"critical_n = 4.7", "critical_n = 1.2", "'critical_n' must be above 'hard_n'"},
                     BadValue{"count = 12", "count = 12.5", "'count' must be a whole number"},
-                    BadValue{"count = 12", "count = 0", "'count' = 0 is out of range"},
+                    BadValue{"count = 12", "count = -1", "'count' = -1 is out of range"},
                     BadValue{"count = 12", "count = 33", "'count' = 33 is out of range"},
                     BadValue{"region_mm = [100, 80]", "region_mm = [100]", "'region_mm' must be an array of 2 numbers"},
                     BadValue{"region_mm = [100, 80]", "region_mm = [100, nan]", "'region_mm' must be finite"},

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "haptics/input_error.h"
 #include "scenarios/director/director.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/kind.h"
@@ -37,6 +38,28 @@ TEST(Kinds, TouchJudgesTheTipAndWhileGrippingTheGrip) {
   const JudgedForces limits = judged_forces(touch, touch.levels.front(), {}, status);
   EXPECT_EQ(limits.tip_n, touch.hard_force_n);
   EXPECT_EQ(limits.grip_n, touch.grip.excess_n);
+}
+
+TEST(Kinds, AnOrganWithoutDiscsAsksForNothingAndDoesNotEnd) {
+  const Exercise free =
+      load_exercise(std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises/ungraded/free-play.toml");
+  Board board;
+  board.start_T = Vec3(0, 0, 0.05);
+  Director director(free, free.levels.front(), board);
+  StylusState state;
+  state.loop = LoopState::kActive;
+  state.X_TI.p = board.start_T;
+  for (; state.t_s < 60; state.t_s += 0.05) director.update(state);
+  EXPECT_EQ(director.status().phase, Phase::kRun);
+  EXPECT_EQ(director.status().cue, Cue::kNone);
+  EXPECT_EQ(director.status().message + director.status().hint, "");
+}
+
+TEST(Kinds, OnlyAnOrganIsWithoutTargets) {
+  Exercise reach = shipped("E01");
+  const std::string count = "count = 8";
+  reach.text.replace(reach.text.find(count), count.size(), "count = 0");
+  EXPECT_THROW(parse_exercise(reach.text, "reach.toml"), InputError);
 }
 
 TEST(Kinds, ReachJudgesNoForce) {

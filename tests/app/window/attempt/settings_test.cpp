@@ -38,6 +38,7 @@ TEST_F(SettingsFile, WhatIsSavedIsReadAgain) {
   chosen.left_handed = chosen.like_a_fulcrum = true;
   chosen.sensitivity = 0.75;
   chosen.sound = false;
+  chosen.tutorial_seen = true;
   chosen.preset = "soft";
   chosen.scope = "30";
   chosen.input = "gamepad";
@@ -47,7 +48,7 @@ TEST_F(SettingsFile, WhatIsSavedIsReadAgain) {
   EXPECT_EQ(read.note, "");
   EXPECT_EQ(read.language, "de");
   EXPECT_EQ(read.scale, 1.5);
-  EXPECT_TRUE(read.left_handed && read.like_a_fulcrum && !read.sound);
+  EXPECT_TRUE(read.left_handed && read.like_a_fulcrum && !read.sound && read.tutorial_seen);
   EXPECT_EQ(read.sensitivity, 0.75);
   EXPECT_EQ(read.preset, "soft");
   EXPECT_EQ(read.scope, "30");

@@ -24,7 +24,7 @@ struct PracticeBench {
   /// Without sound: a machine that tests has none, and its library says so at length.
   ModelOptions options() const {
     if (!std::filesystem::exists(folder / "settings.toml"))
-      folder.write("settings.toml", "version = 1\nsound = false\n");
+      folder.write("settings.toml", "version = 1\nsound = false\ntutorial_seen = true\n");
     ModelOptions o;
     o.database = folder.path() / "trocar.db";
     o.settings = folder.path() / "settings.toml";

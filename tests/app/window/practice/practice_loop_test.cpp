@@ -49,7 +49,7 @@ TEST_F(PracticeLoopTest, KeyboardAloneQuitsThroughTheMenu) {
 TEST_F(PracticeLoopTest, KeyboardAloneSignsIn) {
   frame();
   frame();
-  tab(2);  // Try now, code
+  tab(4);  // Try now, tutorial, free play, code
   frame();
   frame();
   frame(typed("T-7"));

@@ -91,6 +91,16 @@ TEST_F(PracticeModelLive, TellsWhoIsHereAndWhatRuns) {
   EXPECT_TRUE(look_at_stations(file()).stations.empty()) << "closed, not crashed";
 }
 
+TEST_F(PracticeModelLive, TheTutorialIsNoAttemptForTheDesk) {
+  ASSERT_EQ(model_->begin_play(Play::kTutorial), "");
+  for (int i = 0; i < 500 && !model_->running()->newest().seen; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ASSERT_TRUE(model_->running()->newest().seen);
+  EXPECT_TRUE(told("between attempts"));
+  EXPECT_EQ(told("between attempts")->attempt, "");
+  model_->end_attempt();
+}
+
 TEST_F(PracticeModelLive, AMessageIsShownAtOnceBetweenAttemptsAndMetOnce) {
   ASSERT_EQ(model_->sign_in("T-7"), "");
   EXPECT_EQ(notice(), "");

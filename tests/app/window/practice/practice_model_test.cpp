@@ -304,6 +304,9 @@ TEST(PracticeModelNotice, UnreadableSettingsAreSaidInTheLanguageWithoutTheParser
   EXPECT_NE(model->notice.find("Zeile 2"), std::string::npos) << model->notice;
   EXPECT_NE(model->notice.find("settings.toml.unread"), std::string::npos) << model->notice;
   EXPECT_EQ(model->notice.find("Error"), std::string::npos) << model->notice;
+  ASSERT_EQ(model->begin_play(Play::kTutorial), "");
+  model->end_attempt();
+  EXPECT_FALSE(std::filesystem::exists(unread_settings(options.settings))) << "nobody has changed anything";
   model->settings_changed();
   EXPECT_TRUE(std::filesystem::exists(unread_settings(options.settings)));
 }
