@@ -33,7 +33,7 @@ constexpr double kPictureRateHz = 50;     // live; frames that come too late are
 constexpr int kHapticPriority = 80, kTissuePriority = 60, kSensorPriority = 50;
 constexpr std::uint64_t kSensorSeed = 0xf0ece5;  // the sensor's noise, apart from the hand's
 constexpr double kTissueOffset = 0.5;            // loop periods: a tissue step sees the tick of its own period
-constexpr double kLongestBeyondLimits_s = 60;    // homing and reading, beyond the run's time and the director's patience
+constexpr double kLongestBeyondLimits_s = 60;  // homing and reading, beyond the run's time and the director's patience
 
 /// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
 struct Rig {

@@ -1,6 +1,6 @@
 // The director: runs one exercise against what the instrument does. READY <-> ARMED -> RUN -> DONE | TIMEOUT | FAULT |
-// VOID; waiting too long for the start is VOID too: what has not begun is not graded. ARMED: the tip rests in the start sphere (not the loop's
-// ARMED).
+// VOID; waiting too long for the start is VOID too: what has not begun is not graded. ARMED: the tip rests in the start
+// sphere (not the loop's ARMED).
 //
 // Called at the tissue rate (100 Hz) with the newest haptic state; emits cues (for screen and hand), events and the
 // block between the jaws. A device that is switched off by its deadman during RUN would be a pause: the attempt is

@@ -79,9 +79,9 @@ struct Hud {
   std::optional<PoseDial> dial;
   std::vector<HudNotice> notices;  ///< the first two are shown
   std::vector<HudStep> steps;
-  std::vector<HudRow> rows;       ///< "So far"
-  std::vector<HudRow> device;     ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
-  std::string toast, toast_hint;  ///< at most one message; empty when none
+  std::vector<HudRow> rows;                        ///< "So far"
+  std::vector<HudRow> device;                      ///< device strip: "plant | simulated |", "loop | 1000 | Hz"
+  std::string toast, toast_hint;                   ///< at most one message; empty when none
   bool toast_warning = false, toast_done = false;  ///< a triangle, a tick stands before it
   double toast_at = 1;  ///< 0 at the picture's upper edge .. 1 at the lower: where it covers nothing that is to be seen
   std::string credit;   ///< organ's origin and licence; says "synthetic" for phantoms

@@ -110,7 +110,7 @@ void require_reach(const Scene& scene) {
 constexpr double kNoticedForce = 0.1;  // share by which a force must differ to be noticed [M]
 constexpr double kPointerAwake_s = 0.01;
 constexpr double kEntryAside = 0.025, kEntryAbove = 0.015;  // m from the start ball, towards the resting instrument
-constexpr double kJawLength = 0.020;  // m, of the grasper that the exercises with objects use
+constexpr double kJawLength = 0.020;                        // m, of the grasper that the exercises with objects use
 
 /// The loop's map is set before: pens turn from the resting instrument.
 Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
@@ -190,7 +190,8 @@ void spare_the_device(HapticLoopConfig& loop) {
 Vec3 entry_T(const Scene& scene) {
   const Vec3 start = scene.board.start_T, rest = scene.loop.map.instrument_pose(home_pose()).p;
   const Vec3 way(rest.x() - start.x(), rest.y() - start.y(), 0);
-  return start + kEntryAside * (way.norm() > 1e-6 ? Vec3(way.normalized()) : Vec3::UnitX()) + kEntryAbove * Vec3::UnitZ();
+  return start + kEntryAside * (way.norm() > 1e-6 ? Vec3(way.normalized()) : Vec3::UnitX()) +
+         kEntryAbove * Vec3::UnitZ();
 }
 
 Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets) {

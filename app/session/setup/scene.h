@@ -82,7 +82,8 @@ struct Scene {
 /// Everything that the instrument can touch: the organ, with what lies round it.
 const TriangleSurface& felt_surface(const Scene& scene);
 
-/// Where an instrument that no arm brings out of its jig comes in: in free space, in sight of the start ball, m, frame T.
+/// Where an instrument that no arm brings out of its jig comes in: in free space, in sight of the start ball, m, frame
+/// T.
 Vec3 entry_T(const Scene& scene);
 
 /// @param daq rate and DAC bits of the back-end. @throws InputError.

@@ -19,7 +19,7 @@
 namespace trocar {
 namespace {
 
-constexpr int kBusy_ms = 1000;          // the window waits for the database no longer than this
+constexpr int kBusy_ms = 1000;           // the window waits for the database no longer than this
 constexpr double kBeyondLimits_s = 120;  // homing and reading, beyond the run's time and as much of waiting for it
 constexpr std::chrono::milliseconds kAskAgain{200};
 

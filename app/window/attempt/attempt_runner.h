@@ -33,13 +33,13 @@ struct AttemptRequest {
   std::filesystem::path database = {};  ///< as RunOptions::database
   bool steered = true;                  ///< a person's intents move the hand; false: the script that setup names
   StepGate* steps = nullptr;  ///< time passes as it says, not by the clock; no pause then. Outlives the runner
-  bool graded = true;                   ///< false: nothing is recorded, graded or stored, whatever the database
+  bool graded = true;         ///< false: nothing is recorded, graded or stored, whatever the database
 };
 
 class AttemptRunner {
  public:
-  /// Builds the scene and starts; live, whatever the setup says, unless the request has a gate. @throws InputError, EnvironmentError (disk nearly
-  /// full, database busy) before anything is stored.
+  /// Builds the scene and starts; live, whatever the setup says, unless the request has a gate. @throws InputError,
+  /// EnvironmentError (disk nearly full, database busy) before anything is stored.
   AttemptRunner(const AttemptRequest& request, const AssetRoots& assets);
   /// The same on a scene that has been built already.
   AttemptRunner(const AttemptRequest& request, const AssetRoots& assets, std::shared_ptr<const Scene> scene);

@@ -3,9 +3,9 @@
 //
 // It takes hold where the instrument is and rests there until the device is ready and a first intent has come. A leap
 // of the intent (the pointer has crossed the window at once) becomes a movement at kSpeed, so that it cannot throw the
-// arm; without a device it brings the instrument in and is careful with what it touches. The spring between this hand and the stylus is the plant's
-// own (haptics/device/plant/hand_model.h). Frame T, SI. No allocation, no lock: wait-free on both sides. Threads:
-// update() the haptic task's; the link's other ends belong to one more.
+// arm; without a device it brings the instrument in and is careful with what it touches. The spring between this hand
+// and the stylus is the plant's own (haptics/device/plant/hand_model.h). Frame T, SI. No allocation, no lock: wait-free
+// on both sides. Threads: update() the haptic task's; the link's other ends belong to one more.
 #pragma once
 
 #include <atomic>

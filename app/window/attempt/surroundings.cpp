@@ -77,7 +77,8 @@ struct Surroundings::State {
     const bool is_low = ground.number == low + status.target_index;
     if (off_m < (is_low && carried ? kNearRing : kOver))
       return {low + status.target_index, board, carried ? middle + kHangs : middle, goal, level, kSticks};
-    if (off_m < (carried ? kNearRing : kNear)) return {near + status.target_index, board, carried ? kOverBoard : kOverBlock, goal, level};
+    if (off_m < (carried ? kNearRing : kNear))
+      return {near + status.target_index, board, carried ? kOverBoard : kOverBlock, goal, level};
     return {kWorkGround, board, kOverBoard, {}, level};
   }
 

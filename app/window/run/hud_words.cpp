@@ -50,8 +50,8 @@ const std::vector<std::string>& hud_sentences() {
         words("Waiting for the device"), words("It starts when homing is complete."),
         words("Hold still in the start ball"), words("The clock starts in a moment."),
         words("Move the tip into the start ball"), words("It floats above the organ."),
-        words("It floats above the board."), words("Done"), words("Your result follows."), words("Time is up"), words("Not begun"),
-        words("The tip did not rest in the start ball. Nothing is graded."),
+        words("It floats above the board."), words("Done"), words("Your result follows."), words("Time is up"),
+        words("Not begun"), words("The tip did not rest in the start ball. Nothing is graded."),
         words("Device switched off"), words("A graded attempt cannot be paused: it is void."), words("Device fault"),
         words("This attempt is not graded."), words("Good - hold"), words("A little softer"), words("{0} to {1} N"),
         words("{0} of {1}")};

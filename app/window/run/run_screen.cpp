@@ -22,10 +22,10 @@ namespace {
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-constexpr double kHintsMost = 0.25;  // of the picture's height
-constexpr double kTipRoom = 0.07;    // of the picture's height round tip and target: for the bar at the tip
+constexpr double kHintsMost = 0.25;   // of the picture's height
+constexpr double kTipRoom = 0.07;     // of the picture's height round tip and target: for the bar at the tip
 constexpr double kSameDepth = 0.004;  // m: neither nearer nor farther
-constexpr double kStoring_s = 0.5;   // that a database may take before the debrief is shown all the same
+constexpr double kStoring_s = 0.5;    // that a database may take before the debrief is shown all the same
 
 /// Before anything has been seen of the run: the instrument as the jig holds it, or where it comes in.
 RunMoment first_moment(const Scene& scene) {
@@ -161,7 +161,8 @@ TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, c
   const StylusState& stylus = moment.record.stylus;
   const bool carries = moment.status.cue == Cue::kCarry || moment.status.cue == Cue::kPlace;
   if (carries) out.plumb_T = moment.status.demand.object.X_TO.p;
-  if (guides) out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(out.plumb_T.value_or(out.tip_T));
+  if (guides)
+    out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(out.plumb_T.value_or(out.tip_T));
   if (view.hud.bars.empty()) return out;
   const ForceBar& bar = moment.status.cue == Cue::kGrip ? view.hud.bars.back() : view.hud.bars.front();
   if (bars && !bar.hidden) out.force = bar;

@@ -28,7 +28,8 @@ void paint_plumb(Ui& ui, const ScopeOptics& optics, const Vec3& tip_T, const Vec
   const auto from = optics.project(tip_T), to = optics.project(foot_T);
   if (!from || !to) return;
   const bool over = tip_T.z() > foot_T.z();  // not so within a block, which the open jaws stand round
-  if (over && (*from - *to).norm() > ui.px(3)) ui.paint_outlined({{from->x(), from->y()}, {to->x(), to->y()}}, Ink::kTip, 2.5);
+  if (over && (*from - *to).norm() > ui.px(3))
+    ui.paint_outlined({{from->x(), from->y()}, {to->x(), to->y()}}, Ink::kTip, 2.5);
   ui.paint_outlined(foot, Ink::kTip, 2.5);
 }
 

@@ -10,8 +10,7 @@ namespace trocar::hud_draw_list_test {
 namespace {
 
 constexpr Rgb kTrack{38, 43, 50}, kGood{40, 200, 150}, kWhite{240, 242, 245}, kYellow{240, 200, 20},
-    kAccent{240, 228, 66},
-    kOverLimit{225, 104, 20};
+    kAccent{240, 228, 66}, kOverLimit{225, 104, 20};
 
 class HudDrawn : public testing_support::UiBench {
  protected:
