@@ -14,8 +14,9 @@ constexpr double kLongestStep = 0.1;  // s: a gap in the states never counts as 
 }  // namespace
 
 struct Director::State {
-  State(const Exercise& exercise_in, const ExerciseLevel& level, Board board_in)
+  State(const Exercise& exercise_in, const ExerciseLevel& level, Board board_in, Unbegun unbegun_in)
       : exercise(exercise_in),
+        unbegun(unbegun_in),
         time_limit_s(level.time_limit_s),
         display(level.force_display),
         board(std::move(board_in)),
@@ -35,6 +36,7 @@ struct Director::State {
   bool all_done() const { return current >= tasks.size(); }
 
   Exercise exercise;
+  Unbegun unbegun;
   double time_limit_s;
   std::string display;
   Board board;
@@ -93,6 +95,8 @@ void Director::State::wait_for_start(const StylusState& state, double dt_s) {
       return describe_run({state, nullptr, 0, false});
     }
     if (waiting_s >= time_limit_s) {
+      if (unbegun == Unbegun::kTimeout)
+        return end(Phase::kTimeout, event_type::kTimeout, Severity::kMajor, time_limit_s, "s");
       end(Phase::kVoid, event_type::kTimeout, Severity::kInfo, time_limit_s, "s");
       return say(status, "Not begun", "The tip did not rest in the start ball. Nothing is graded.", true);
     }
@@ -122,10 +126,11 @@ void Director::State::run(const StylusState& state, const TissueFrame* tissue, d
     end(Phase::kTimeout, event_type::kTimeout, Severity::kMajor, time_limit_s, "s");
 }
 
-Director::Director(const Exercise& exercise, const ExerciseLevel& level, Board board)
-    : state_(std::make_unique<State>(exercise, level, std::move(board))) {}
+Director::Director(const Exercise& exercise, const ExerciseLevel& level, Board board, Unbegun unbegun)
+    : state_(std::make_unique<State>(exercise, level, std::move(board), unbegun)) {}
 Director::~Director() = default;
 Director::Director(Director&&) noexcept = default;
+Director& Director::operator=(Director&&) noexcept = default;
 
 void Director::update(const StylusState& state, const TissueFrame* tissue) {
   State& s = *state_;

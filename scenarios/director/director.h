@@ -1,5 +1,5 @@
 // The director: runs one exercise against what the instrument does. READY <-> ARMED -> RUN -> DONE | TIMEOUT | FAULT |
-// VOID; waiting too long for the start is VOID too: what has not begun is not graded. ARMED: the tip rests in the start
+// VOID; waiting too long for the start is a TIMEOUT too, or VOID. ARMED: the tip rests in the start
 // sphere (not the loop's ARMED).
 //
 // Called at the tissue rate (100 Hz) with the newest haptic state; emits cues (for screen and hand), events and the
@@ -80,11 +80,18 @@ struct DirectorStatus {
   bool warning = false;
 };
 
+/// What becomes of an attempt whose tip never rests in the start sphere within the time limit.
+enum class Unbegun : std::uint8_t {
+  kTimeout,  ///< graded like any other that was not done
+  kVoid      ///< not graded, and it does not count
+};
+
 class Director {
  public:
-  Director(const Exercise& exercise, const ExerciseLevel& level, Board board);
+  Director(const Exercise& exercise, const ExerciseLevel& level, Board board, Unbegun unbegun = Unbegun::kTimeout);
   ~Director();
   Director(Director&&) noexcept;
+  Director& operator=(Director&&) noexcept;
 
   /// Advances by one tissue period. @param state newest haptic state. @param tissue newest frame of the world's
   /// objects, nullptr when it has none.

@@ -76,7 +76,7 @@ TEST_P(PracticeLevels, KeepOutAHeavyHandWhereForceIsAskedFor) {
   EXPECT_EQ(cohort(GetParam(), "heavy-handed").passes, 0);
 }
 
-TEST_P(PracticeLevels, GiveNothingForIdling) { EXPECT_EQ(attempt(GetParam(), "idle", 0).grade.score.value_or(0), 0); }
+TEST_P(PracticeLevels, GiveNothingForIdling) { EXPECT_EQ(*attempt(GetParam(), "idle", 0).grade.score, 0); }
 
 TEST_P(PracticeLevels, CapAnAttemptWithOneCriticalEvent) {
   PracticeAttempt a = attempt(GetParam(), "expert", 1);

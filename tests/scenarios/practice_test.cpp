@@ -94,8 +94,9 @@ TEST(Practice, ForgivingForceWouldLiftAHeavyHandOverTheCap) {
 
 TEST(Practice, IdlingEarnsNothing) {
   const PracticeAttempt attempt = practise(room(), "idle", 0, 1);
-  EXPECT_EQ(attempt.grade.status, AttemptStatus::kVoid) << "it never began";
-  EXPECT_FALSE(attempt.grade.score);
+  EXPECT_EQ(attempt.grade.status, AttemptStatus::kTimeout);
+  ASSERT_TRUE(attempt.grade.score);
+  EXPECT_EQ(*attempt.grade.score, 0);
   EXPECT_FALSE(metric(attempt.grade, "time_s"));
 }
 

@@ -8,7 +8,7 @@ bool is_ghost(const SceneObject& object) {
 }
 
 const std::array<FoamClass, 3>& foam_classes() {
-  static const std::array<FoamClass, 3> classes = {{{Vec3(0.56, 0.55, 0.50), Vec3(0.12, 0.12, 0.11), 1},
+  static const std::array<FoamClass, 3> classes = {{{Vec3(0.42, 0.26, 0.03), Vec3(0.10, 0.05, 0.01), 1},
                                                     {Vec3(0.10, 0.36, 0.60), Vec3(0.01, 0.03, 0.10), 2},
                                                     {Vec3(0.50, 0.15, 0.32), Vec3(0.09, 0.01, 0.05), 3}}};
   return classes;

@@ -38,8 +38,8 @@ struct SceneObject {
 /// True for what light passes through.
 bool is_ghost(const SceneObject& object);
 
-/// Look of foam by crush class, gentlest first: colour and number of bands (linear; the catalogue's yellow is pale
-/// here, because yellow is what is lit).
+/// Look of foam by crush class, gentlest first: colour and number of bands (linear; the catalogue's yellow is
+/// ochre here, because bright yellow is what is lit).
 struct FoamClass {
   Vec3 colour, band;
   int bands;

@@ -82,7 +82,7 @@ struct RunScreen::State {
   void tell(Hud& hud, PracticeModel& model) const;
   int covered(const HudBox& box, double margin = 0) const;
   bool covers(const HudBox& box) const;
-  void place_toast(Hud& shown, const PracticeModel& model, int width, int height);
+  void lay_out_clear(Hud& shown, const PracticeModel& model, int width, int height);
   void lay_out(const Hud& hud, PracticeModel& model, int width, int height);
   void pause(PracticeModel& model, bool paused);
   void mark(PracticeModel& model) const;
@@ -249,22 +249,27 @@ bool RunScreen::State::covers(const HudBox& box) const {
          });
 }
 
-/// Where the message covers nothing that is to be seen, else the least; it stays where it is while it covers nothing.
-void RunScreen::State::place_toast(Hud& shown, const PracticeModel& model, int width, int height) {
-  if (shown.toast.empty()) return;
+/// With the message where it covers nothing that is to be seen, else the least; it stays where it is while it covers
+/// nothing.
+void RunScreen::State::lay_out_clear(Hud& shown, const PracticeModel& model, int width, int height) {
   int least = -1;
-  double best = 1;
+  HudLayout best;
   for (const double at : {toast_at, 1.0, 0.0, 0.75, 0.25, 0.5}) {
     shown.toast_at = at;
     layout = layout_hud(shown, width, height, model.scale(), fonts);
+    if (shown.toast.empty()) return;
     const auto toast = std::find_if(layout.shapes.rbegin(), layout.shapes.rend(), [](const HudShape& shape) {
       return shape.kind == HudShape::Kind::kToast;  // notices come before it
     });
     const int hides = covered(toast->box, kTipRoom * picture.height);
-    if (least < 0 || hides < least) least = hides, best = at;
+    if (least < 0 || hides < least) {
+      least = hides;
+      toast_at = at;
+      best = layout;
+    }
     if (hides == 0) break;
   }
-  shown.toast_at = toast_at = best;
+  layout = std::move(best);
 }
 
 void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, int height) {
@@ -277,8 +282,7 @@ void RunScreen::State::lay_out(const Hud& hud, PracticeModel& model, int width, 
         model.words()("hidden ({0} shows it)", {model.words().name(key_name(model.keys().key_of(Action::kForceBars)))});
   }
   picture = hud_scene_window(shown, width, height, model.scale());
-  place_toast(shown, model, width, height);
-  layout = layout_hud(shown, width, height, model.scale(), fonts);
+  lay_out_clear(shown, model, width, height);
   if (!model.settings().left_handed) return;
   picture = picture_right(picture, width);
   layout = column_left(std::move(layout));

@@ -56,9 +56,12 @@ TEST(DeskFacts, PensHaveTolerancesAndBlocksTheirLimitsByBoard) {
 }
 
 TEST(DeskFacts, AllShippedExercisesCanBeShown) {
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises"))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises")) {
+    if (entry.is_directory()) continue;  // what is not graded
     EXPECT_GT(desk_level_facts(file_text("scenarios/exercises/" + entry.path().filename().string()), "L1").pass_at, 0)
         << entry.path();
+  }
 }
 
 TEST(DeskFacts, BadTextAndLevelAreRefused) {

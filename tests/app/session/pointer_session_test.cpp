@@ -71,6 +71,47 @@ TEST(PointerSession, ReplaysToTheBit) {
   EXPECT_EQ(replay_session(again, recording).state_hash_hex, outcome.state_hash_hex);
 }
 
+/// Comes in and goes to a place, or stays where it came in.
+class Visitor final : public Hand {
+ public:
+  Visitor(const Vec3& entry_T, const Vec3& to_T) : at_T_(entry_T), to_T_(to_T) {}
+  HandIntent update(const Percept& percept, double dt_s) override {
+    const Vec3 way = to_T_ - at_T_;
+    if (percept.device_ready) at_T_ += std::min(1.0, 0.02 * dt_s / std::max(1e-9, way.norm())) * way;
+    return {{percept.R_TI, at_T_}, 0};
+  }
+
+ private:
+  Vec3 at_T_, to_T_;
+};
+
+TEST(PointerSession, TheOrganStopsTheInstrumentBeforeTheStart) {
+  const Scene scene = pointed();
+  const Vec3 entry = entry_T(scene);
+  double force_n = 0;
+  SessionHooks hooks;
+  hooks.hand = [&] {
+    return std::make_unique<Visitor>(entry, scene.board.targets.front().centre_T - Vec3(0, 0, 0.01));
+  };
+  hooks.observe = [&](const SessionView& view) {
+    EXPECT_TRUE(waits_for_start(view.director.status().phase));
+    force_n = std::max(force_n, view.record.stylus.F_I_T.force.norm());
+  };
+  hooks.interrupted = [&] { return force_n > 0.5; };
+  const auto [outcome, recording] = record_session(scene, find_assets(), hooks, {});
+  EXPECT_GT(force_n, 0.5);
+}
+
+TEST(PointerSession, WhatNeverBeginsIsVoidAndHasNoScore) {
+  const Scene scene = pointed();
+  SessionHooks hooks;
+  hooks.hand = [&] { return std::make_unique<Visitor>(entry_T(scene), entry_T(scene)); };
+  const auto [outcome, recording] = record_session(scene, find_assets(), hooks, {});
+  EXPECT_EQ(outcome.status, AttemptStatus::kVoid);
+  EXPECT_NE(outcome.device.reason.find("the clock never began"), std::string::npos) << outcome.device.reason;
+  EXPECT_FALSE(grade_recording(recording, "never begun").score);
+}
+
 TEST(PointerSession, AScriptedHandIsRefused) {
   const Scene scene = pointed();
   try {

@@ -306,7 +306,14 @@ TEST_F(DirectorTest, TimesOutAtTheLimit) {
   EXPECT_NEAR(last("TIMEOUT").t_s - last("START").t_s, 120, 0.02);
 }
 
-TEST_F(DirectorTest, WhatNeverBeginsIsVoidAndNotGraded) {
+TEST_F(DirectorTest, NeverStartingTimesOutToo) {
+  feed(121);
+  EXPECT_EQ(director_.outcome(), AttemptStatus::kTimeout);
+  EXPECT_EQ(count("START"), 0);
+}
+
+TEST_F(DirectorTest, NeverStartingIsVoidWhereThatIsAsked) {
+  director_ = Director(exercise_, exercise_.levels[0], board(), Unbegun::kVoid);
   feed(121);
   EXPECT_EQ(director_.outcome(), AttemptStatus::kVoid);
   EXPECT_EQ(director_.status().message, "Not begun");
