@@ -206,6 +206,17 @@ PracticeModel::Advice PracticeModel::next() const {
   return {found->exercise->id, found->level, why};
 }
 
+std::string PracticeModel::State::hand() const {
+  return scripted()                 ? options.hand
+         : options.input != "auto"  ? options.input
+         : settings.input != "auto" ? settings.input
+                                    : input_name(steering->kind());
+}
+
+bool PracticeModel::at_pointer() const {
+  return !state_->scripted() && state_->hand() != input_name(InputKind::kDevice);
+}
+
 std::string PracticeModel::locked() const {
   const std::vector<ExerciseLevel>& levels = exercise().levels;
   const auto at =
@@ -251,11 +262,8 @@ std::string PracticeModel::begin_attempt() {
   request.setup.exercise = exercise();
   request.setup.level = level;
   request.setup.organ = organ;
-  request.setup.hand = scripted                     ? s.options.hand
-                       : s.options.input != "auto"  ? s.options.input
-                       : s.settings.input != "auto" ? s.settings.input
-                                                    : input_name(s.steering->kind());
-  if (!scripted && request.setup.hand != input_name(InputKind::kDevice)) request.setup.backend = kPointerBackend;
+  request.setup.hand = s.hand();
+  if (at_pointer()) request.setup.backend = kPointerBackend;
   request.setup.seed = s.seed();
   request.setup.board = drawn_board(request.setup.seed, level == kExamLevel);
   request.setup.realtime = true;

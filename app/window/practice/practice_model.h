@@ -90,6 +90,8 @@ class PracticeModel {
   std::optional<std::string> teacher_note() const;
 
   // the attempt
+  /// Will the next attempt be done at mouse, keys or pad, without a device?
+  bool at_pointer() const;
   /// Why the chosen level is locked, and what opens it; empty: it is open. A demonstration may show any.
   std::string locked() const;
   /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when

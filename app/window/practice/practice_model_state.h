@@ -52,6 +52,7 @@ struct PracticeModel::State {
   std::vector<RecoveredAttempt> recovered;  // found cut off when the database was opened
 
   bool scripted() const { return !options.hand.empty(); }
+  std::string hand() const;  // of the next attempt
   bool counts(const AttemptSummary& attempt) const { return scripted() || !by_scripted_hand(attempt); }
   std::string recovered_words(const std::string& of) const;
   void check_names() const;

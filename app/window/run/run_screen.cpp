@@ -15,6 +15,7 @@
 #include "app/window/ui/hud_draw_list.h"
 #include "app/window/ui/ui.h"
 #include "haptics/kinematics/device_geometry.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -130,7 +131,7 @@ void RunScreen::State::steer(PracticeModel& model) {
 TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment) {
   TipGuide out;
   out.tip_T = view.X_TI.p;
-  out.held = moment.status.hold_progress;
+  if (hold_shown(scene.setup.exercise, scene.level)) out.held = moment.status.hold_progress;
   out.lit_T = lit_outline(view_of(scene, moment), view.camera);
   const StylusState& stylus = moment.record.stylus;
   if (guides) out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(view.X_TI.p);
