@@ -72,8 +72,17 @@ class PracticeModel {
   bool is_demonstration() const;  ///< a scripted hand does the attempts; then also a guest
   /// Whoever is here in words, for the head of a page: "Signed in as T-7", "Guest", "Demonstration".
   std::string who() const;
-  /// @return what was wrong with the code, in the trainee's language; empty when signed in.
-  std::string sign_in(const std::string& code);
+  /// What stands between a typed code and its trainee.
+  enum class CodeAsks : std::uint8_t {
+    kNothing,
+    kNew,  ///< nobody has it: signing in makes a new trainee
+    kPin   ///< this station asks for the PIN or password that the trainee has at the desk
+  };
+  /// kNothing for a code that sign_in() refuses, too.
+  CodeAsks code_asks(const std::string& code) const;
+  /// A new code becomes a trainee. After a wrong PIN the next one is taken later and later.
+  /// @return what was wrong, in the trainee's language; empty when signed in.
+  std::string sign_in(const std::string& code, const std::string& pin = "");
   void sign_out();
 
   // what

@@ -9,6 +9,7 @@
 #include "app/window/practice/practice_model.h"
 #include "app/window/run/first_run_hints.h"
 #include "app/window/run/hud_words.h"
+#include "app/window/run/overlays.h"
 #include "app/window/run/run_sounds.h"
 #include "app/window/run/run_view.h"
 #include "app/window/run/tip_guide.h"
@@ -40,9 +41,10 @@ struct RunScreen::State {
 
   FontSet fonts;
   bool begun = false, steering = false, was_paused = false, overlay = false;
-  bool again = false;   // the overlay asks whether to start again
-  RunMoment before;     // shown while nothing has been seen
-  Camera camera, seen;  // of the exercise; of the last picture
+  bool again = false;    // the overlay asks whether to start again
+  bool leaving = false;  // the overlay asks whether to leave an exam
+  RunMoment before;      // shown while nothing has been seen
+  Camera camera, seen;   // of the exercise; of the last picture
   PixelRect picture;
   HudLayout layout;
   std::optional<double> rim;  // where the tip is when it is out of view
@@ -69,6 +71,8 @@ struct RunScreen::State {
   void mark(PracticeModel& model) const;
   void rim_arrow(double angle_rad, double size) const;
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> leave_panel(Ui& ui, PracticeModel& model);
+  ScreenName leave(PracticeModel& model);
   std::optional<ScreenName> restart(PracticeModel& model);
   std::optional<ScreenName> ended(PracticeModel& model);
   void hint_panel(Ui& ui, PracticeModel& model) const;
@@ -90,7 +94,7 @@ void RunScreen::State::begin(PracticeModel& model) {
   surroundings = std::make_unique<Surroundings>(scene);
   guide = {};
   camera = attempt_camera(scene);
-  steering = was_paused = overlay = again = false;
+  steering = was_paused = overlay = again = leaving = false;
   bars = true;
   guides = scene.level.guides;
   asked = Asked::kNothing;
@@ -223,6 +227,7 @@ void RunScreen::State::pause(PracticeModel& model, bool paused) {
   if (!model.running()->pause(paused)) model.notice = model.words()("An exam has no pause: the clock runs on.");
   overlay = paused;
   again = paused && again;
+  leaving = false;
   RunSounds::hush(model.sound());
 }
 
@@ -302,6 +307,7 @@ std::optional<ScreenName> RunScreen::State::ended(PracticeModel& model) {
 
 std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& model) {
   const Translator& w = model.words();
+  if (leaving) return leave_panel(ui, model);
   const bool stands = model.running()->paused();
   const auto key = [&](Action action) { return key_name(model.keys().key_of(action)); };
   const bool silent = !model.running()->board_answers();
@@ -333,13 +339,26 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& m
     to = restart(model);
   } else if (again ? second : first) {
     pause(model, false);
+  } else if (left && model.running()->scene().level.name == kExamLevel) {
+    leaving = true;
   } else if (left) {
-    model.end_attempt();
-    begun = overlay = false;
-    to = ScreenName::kBriefing;
+    to = leave(model);
   }
   ui.end_panel();
   return to;
+}
+
+ScreenName RunScreen::State::leave(PracticeModel& model) {
+  model.end_attempt();
+  begun = overlay = false;
+  return ScreenName::kBriefing;
+}
+
+std::optional<ScreenName> RunScreen::State::leave_panel(Ui& ui, PracticeModel& model) {
+  const std::optional<bool> left = leave_exam_overlay(ui, model.words());
+  if (left == true) return leave(model);
+  if (left == false || ui.pressed("Esc")) pause(model, false);
+  return {};
 }
 
 /// Painted, not a panel: the pointer over it still steers. In the first corner of the picture where nothing is to be

@@ -70,7 +70,8 @@ TEST(Verdict, WhatHasNoValueIsNoReason) {
   const std::string untouched = verdict_reason(view);
   EXPECT_TRUE(untouched.starts_with("Time ran out, not finished: 0 of 12: at most 0.")) << untouched;
   EXPECT_TRUE(untouched.ends_with("Nothing was done that in band could be judged by.")) << untouched;
-  for (int i = 0; i < 13; ++i) view.result.events.push_back({10.0 + i, "WRONG_PLACE", Severity::kMinor});
+  for (int i = 0; i < 13; ++i)
+    view.result.events.push_back({10.0 + i, "WRONG_PLACE", Severity::kMinor, -1, 0.004, "m", Vec3::Zero()});
   const std::string beside = verdict_reason(view);
   EXPECT_NE(beside.find("Beside the lit disc 1"), std::string::npos) << beside;
   EXPECT_EQ(beside.find("undefined"), std::string::npos) << beside;
