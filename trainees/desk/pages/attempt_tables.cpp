@@ -89,7 +89,8 @@ std::string verdict_reason(const AttemptView& view) {
   if (const Subscore* gate = failed_gate(grade)) return "Safety gate not met. " + said(*gate) + "." + beside;
   const Subscore* unjudged = unjudged_gate(grade);
   const std::string unjudged_words =
-      unjudged == nullptr ? "" : " Nothing was done that " + unjudged->name + " could be judged by.";
+      unjudged == nullptr ? ""
+                          : " " + words_of(unjudged->name) + " cannot be judged: nothing was done that it measures.";
   for (const Cap& cap : grade.caps)
     if (cap.kind == CapKind::kUnfinished)
       return (grade.status == AttemptStatus::kTimeout ? "Time ran out, " : "") + cap_sentence(cap) + "." + beside +

@@ -69,7 +69,7 @@ TEST(Verdict, WhatHasNoValueIsNoReason) {
   grade.status = AttemptStatus::kTimeout;
   const std::string untouched = verdict_reason(view);
   EXPECT_TRUE(untouched.starts_with("Time ran out, not finished: 0 of 12: at most 0.")) << untouched;
-  EXPECT_TRUE(untouched.ends_with("Nothing was done that in band could be judged by.")) << untouched;
+  EXPECT_TRUE(untouched.ends_with("In band cannot be judged: nothing was done that it measures.")) << untouched;
   for (int i = 0; i < 13; ++i)
     view.result.events.push_back({10.0 + i, "WRONG_PLACE", Severity::kMinor, -1, 0.004, "m", Vec3::Zero()});
   const std::string beside = verdict_reason(view);
