@@ -71,7 +71,11 @@ void run_window(const PracticeOptions& options, PracticeModel& model, InterruptW
   double first_s = 0, first_cpu_s = 0;
   long frames = 0;
   DebriefWait debrief;
-  while (going && !window->close_asked() && !interrupt.seen()) {
+  while (going && !interrupt.seen()) {
+    if (window->close_asked()) {
+      if (loop.close()) break;
+      window->stay_open();
+    }
     const std::vector<InputEvent> events = window->poll();
     const double dt_s = seconds_since(last);
     last = Clock::now();

@@ -3,6 +3,19 @@
 #include <cstdio>
 
 namespace trocar {
+namespace {
+
+/// Two decimals at most, no zeros at the end: a band of 0.45 to 0.75 N is not one of 0.5 to 0.8 N.
+std::string band_number(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.2f", value);
+  std::string text = buffer;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace
 
 void EventLog::add(EventType type, Severity severity, std::int32_t object, double value, const std::string& unit) {
   events.push_back({t_s, std::string(type.name), severity, object, value, unit, tip_T});
@@ -19,9 +32,7 @@ bool force_shown(const std::string& display, bool outside) {
 }
 
 std::string band_text(const WantedForce& band) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.1f to %.1f N", band.low_n, band.high_n);
-  return text;
+  return band_number(band.low_n) + " to " + band_number(band.high_n) + " N";
 }
 
 }  // namespace trocar

@@ -51,7 +51,7 @@ void say(DirectorStatus& status, const std::string& message, const std::string& 
 /// matters.
 bool force_shown(const std::string& display, bool outside);
 
-/// "0.4 to 0.8 N"
+/// "0.4 to 0.8 N", "0.45 to 0.75 N"
 std::string band_text(const WantedForce& band);
 
 }  // namespace trocar

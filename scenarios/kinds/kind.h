@@ -76,5 +76,7 @@ JudgedForces judged_forces(const Exercise&, const ExerciseLevel&, const Board&);
 JudgedForces judged_forces(const Exercise&, const ExerciseLevel&, const Board&, const DirectorStatus&);
 /// The force that is judged now. Who is judged at which limit: judged_forces() of this.
 WatchedForce watched_now(const Exercise&, const DirectorStatus&);
+/// May the progress of a hold be seen during the run? Where the force is hidden it would tell that it is right.
+bool hold_shown(const Exercise&, const ExerciseLevel&);
 
 }  // namespace trocar

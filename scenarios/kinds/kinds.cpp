@@ -37,4 +37,8 @@ WatchedForce watched_now(const Exercise& exercise, const DirectorStatus& status)
   return status.cue == Cue::kGrip ? WatchedForce::kGrip : kind_of(exercise).watched;
 }
 
+bool hold_shown(const Exercise& exercise, const ExerciseLevel& level) {
+  return kind_of(exercise).watched == WatchedForce::kNone || level.force_display != "after";
+}
+
 }  // namespace trocar

@@ -205,6 +205,12 @@ std::optional<Account> AccountStore::find(const std::string& login) const {
   return account_of(row);
 }
 
+std::optional<Account> AccountStore::of_trainee(const std::string& code) const {
+  sql::Statement row(database_->connection(), std::string(kSelect) + " WHERE t.code = ?");
+  if (!row.bind(code).step()) return std::nullopt;
+  return account_of(row);
+}
+
 std::optional<Account> AccountStore::by_uuid(const std::string& uuid) const {
   sql::Statement row(database_->connection(), std::string(kSelect) + " WHERE a.uuid = ?");
   if (!row.bind(uuid).step()) return std::nullopt;

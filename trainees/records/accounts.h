@@ -52,6 +52,8 @@ class AccountStore {
   /// The account when the password is right and it may sign in. Takes as long for a login that does not exist.
   std::optional<Account> verify(const std::string& login, const std::string& password) const;
   std::optional<Account> find(const std::string& login) const;
+  /// The account of the trainee of that code; nothing: there is none.
+  std::optional<Account> of_trainee(const std::string& code) const;
   std::optional<Account> by_uuid(const std::string& uuid) const;
   std::vector<Account> list() const;
 

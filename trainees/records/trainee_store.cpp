@@ -25,25 +25,6 @@ std::string trainees_query() {
          sql::kDecision;
 }
 
-void check_code(const std::string& code) {
-  const auto letter_or_digit = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
-  const auto allowed = [&](char c) { return letter_or_digit(c) || c == '.' || c == '-' || c == '_'; };
-  if (code.empty() || code.size() > kMaxCode || !letter_or_digit(code[0]) ||
-      !std::all_of(code.begin(), code.end(), allowed)) {
-    throw InputError("trainee code \"" + code +
-                     "\": give 1 to 32 letters, digits, '.', '-' or '_', beginning with a "
-                     "letter or digit");
-  }
-  std::string lower = code;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  if (lower.starts_with("erased-")) {
-    throw InputError("trainee code \"" + code + "\": \"erased-...\" stands for somebody whose identity was erased");
-  }
-}
-
 /// Enough to catch a name in the wrong place; whether an address is anybody's only a letter to it can tell.
 void check_address(const std::string& email) {
   check_printed("e-mail address", email, kLongestAddress);
@@ -70,6 +51,25 @@ Trainee trainee_of(const sql::Statement& row) {
 
 }  // namespace
 
+void check_trainee_code(const std::string& code) {
+  const auto letter_or_digit = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  const auto allowed = [&](char c) { return letter_or_digit(c) || c == '.' || c == '-' || c == '_'; };
+  if (code.empty() || code.size() > kMaxCode || !letter_or_digit(code[0]) ||
+      !std::all_of(code.begin(), code.end(), allowed)) {
+    throw InputError("trainee code \"" + code +
+                     "\": give 1 to 32 letters, digits, '.', '-' or '_', beginning with a "
+                     "letter or digit");
+  }
+  std::string lower = code;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  if (lower.starts_with("erased-")) {
+    throw InputError("trainee code \"" + code + "\": \"erased-...\" stands for somebody whose identity was erased");
+  }
+}
+
 Trainee TraineeStore::ensure_trainee(const std::string& code) {
   AnchoredTransaction transaction(*database_);
   ensure_id(code);
@@ -78,7 +78,7 @@ Trainee TraineeStore::ensure_trainee(const std::string& code) {
 }
 
 std::int64_t TraineeStore::ensure_id(const std::string& code) {
-  check_code(code);
+  check_trainee_code(code);
   sql::Statement known(connection_, "SELECT trainee_id FROM person WHERE code = ?");
   if (known.bind(code).step()) return known.integer(0);
   require_no_replica(connection_);

@@ -20,13 +20,16 @@ struct Trainee {
   std::string last_utc;  ///< start of the newest attempt, empty when none
 };
 
+/// @throws InputError: a code is 1 to 32 letters, digits, '.', '-' or '_', beginning with a letter or digit, and not
+/// with "erased-".
+void check_trainee_code(const std::string& code);
+
 class TraineeStore {
  public:
   explicit TraineeStore(Database& database) : database_(&database), connection_(database.connection()) {}
 
   /// The trainee of that code, created when new. Codes differ by more than case.
-  /// @throws InputError: a code is 1 to 32 letters, digits, '.', '-' or '_', beginning with a letter or digit, and
-  /// not with "erased-".
+  /// @throws InputError: as check_trainee_code().
   Trainee ensure_trainee(const std::string& code);
   /// The same, but only the row's number, and inside the caller's transaction.
   std::int64_t ensure_id(const std::string& code);

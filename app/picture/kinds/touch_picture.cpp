@@ -60,10 +60,11 @@ KindPicture touch_picture() {
               },
           .rows =
               [](const Scene& scene, const DirectorStatus& status) {
-                return std::vector<HudRow>{{"Discs held", targets_done(scene, status), ""},
-                                           {"Wrong places", std::to_string(status.wrong_places), ""},
-                                           {"Too much force", std::to_string(status.excess_forces), "x"},
-                                           hold_row(status)};
+                std::vector<HudRow> rows{{"Discs held", targets_done(scene, status), ""},
+                                         {"Wrong places", std::to_string(status.wrong_places), ""},
+                                         {"Too much force", std::to_string(status.excess_forces), "x"}};
+                if (hold_shown(scene.setup.exercise, scene.level)) rows.push_back(hold_row(status));
+                return rows;
               },
           .bars = touch_bars,
           .add_objects = add_block,

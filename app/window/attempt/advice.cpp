@@ -1,107 +1,234 @@
 #include "app/window/attempt/advice.h"
 
+#include <algorithm>
+
 #include "app/window/attempt/debrief_reason.h"
+#include "app/window/attempt/number_words.h"
 #include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 namespace {
 
-/// The force that one level asks for, "" when there are several.
-std::string band_text(const Translator& words, const ExerciseLevel* level) {
-  if (!level || level->bands.size() != 1) return "";
-  return words("{0} to {1} N", {words.number(level->bands[0].low_n, 1), words.number(level->bands[0].high_n, 1)});
-}
+/// What a sentence of advice is made from.
+struct Advised {
+  const Translator& words;
+  const AttemptResult& result;
+  const DebriefFacts& facts;
+  const Exercise& exercise;
+  const ExerciseLevel* level;  ///< null: the exercise has no such level any more
+  bool pointer;
 
-std::string critical_advice(const Translator& words, const std::string& event, const Exercise& exercise) {
-  if (event == event_type::kCriticalForce)
-    return words("Try next: stop as soon as you feel contact, then press; never above {0} N.",
-                 {words.number(exercise.hard_force_n, 1)});
-  if (event == event_type::kLost)
-    return words("Try next: carry each block low and within the board, and let go only over its ring.");
-  if (event == event_type::kCrush)
-    return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
-  return words("Try next: the same again, slower.");
-}
-
-std::string force_advice(const Translator& words, const std::string& metric, const Exercise& exercise,
-                         const ExerciseLevel* level) {
-  if (metric == "excess_events")
-    return words("Try next: come down slowly over the last 5 mm and stay below {0} N.",
-                 {words.number(exercise.hard_force_n, 1)});
-  if (metric == "in_band_share") {
-    const std::string band = band_text(words, level);
-    return band.empty() ? words("Try next: press into the band in one go and then keep still until the disc is done.")
-                        : words("Try next: press to {0} in one go, then keep still until the disc is done.", {band});
+  const EventCounts& counts() const { return facts.counts; }
+  /// What tells a hand at this input that it touches.
+  enum class Contact : std::uint8_t { kFelt, kBar, kTissue };
+  Contact contact() const {
+    if (!pointer) return Contact::kFelt;
+    return level && level->force_display == "after" ? Contact::kTissue : Contact::kBar;
   }
-  if (metric == "grip_window_share")
-    return words("Try next: set your grip before you lift, and hold it unchanged until the block stands.");
-  if (metric == "crushed")
-    return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
-  return "";
+};
+
+std::string press_carefully(const Advised& a) {
+  const std::vector<std::string> limit{newtons(a.words, a.exercise.hard_force_n)};
+  switch (a.contact()) {
+    case Advised::Contact::kFelt:
+      return a.words("Try next: stop as soon as you feel contact, then press; never above {0}.", limit);
+    case Advised::Contact::kBar:
+      return a.words("Try next: stop as soon as the force bar shows contact, then press; never above {0}.", limit);
+    case Advised::Contact::kTissue:
+      break;
+  }
+  return a.words("Try next: stop as soon as the tissue gives way, then press little; never above {0}.", limit);
 }
 
-std::string motion_advice(const Translator& words, const std::string& metric, const ExerciseLevel* level) {
-  if (metric == "block_regrasps")
-    return words("Try next: take each block in its middle, firmly enough to carry it at one go.");
-  if (metric == "wrong_places") return words("Try next: stop just over the lit disc, look, then go straight down.");
-  if (metric == "path_ratio") return words("Try next: decide the way first, then go there in one straight move.");
-  if (metric == "matched_in_time_share")
-    return words("Try next: turn the instrument while you travel, so that only the last millimetres are left.");
+std::string critical_advice(const Advised& a) {
+  const std::string& event = a.facts.cause.event;
+  if (event == event_type::kCriticalForce) return press_carefully(a);
+  if (event == event_type::kLost)
+    return a.words("Try next: carry each block low and within the board, and let go only over its ring.");
+  if (event == event_type::kCrush)
+    return a.words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
+  return a.words("Try next: the same again, slower.");
+}
+
+std::string first_touch(const Advised& a) {
+  switch (a.contact()) {
+    case Advised::Contact::kFelt:
+      return a.words("Try next: stop over the lit disc, then go straight down until you feel it.");
+    case Advised::Contact::kBar:
+      return a.words("Try next: stop over the lit disc, then press until the force bar shows contact.");
+    case Advised::Contact::kTissue:
+      break;
+  }
+  return a.words("Try next: stop over the lit disc, then press until the tissue gives way.");
+}
+
+std::string not_tried_advice(const Advised& a) {
+  if (a.facts.cause.metric == "in_band_share") return first_touch(a);
+  if (a.counts().grasped == 0) return a.words("Try next: go down with open jaws round the lit block, then close them.");
+  return a.words("Try next: close the jaws until the block no longer slides, then lift it {0}.",
+                 {millimetres(a.words, a.exercise.grasp.lift_m)});
+}
+
+std::string in_band_advice(const Advised& a) {
+  const bool one = a.level && a.level->bands.size() == 1;
+  const std::string band =
+      one ? newtons_between(a.words, a.level->bands[0].low_n, a.level->bands[0].high_n) : std::string();
+  if (a.contact() == Advised::Contact::kTissue)
+    return a.words(
+        "Try next: press a little, see how far the tissue gives way, then let it stay until the disc is done.");
+  if (a.contact() == Advised::Contact::kBar)
+    return one ? a.words("Try next: press until the bar reads {0}, then let go: the force stays.", {band})
+               : a.words("Try next: press until the bar stands in its band, then let go: the force stays.");
+  return one ? a.words("Try next: press to {0} in one go, then keep still until the disc is done.", {band})
+             : a.words("Try next: press into the band in one go and then keep still until the disc is done.");
+}
+
+std::string excess_advice(const Advised& a) {
+  if (a.counts().squeezed_hard > a.counts().pressed_hard)
+    return a.words("Try next: close the jaws slowly and stop at {0}.",
+                   {newtons_between(a.words, a.exercise.grip.low_n, a.exercise.grip.high_n)});
+  return press_carefully(a);
+}
+
+std::string placing_advice(const Advised& a) {
+  const EventCounts& n = a.counts();
+  if (n.drops > n.misplaced) return a.words("Try next: keep the jaws closed until the block stands on the board.");
+  if (n.misplaced > 0)
+    return a.words("Try next: bring the block over the middle of its ring, lower it until it stands, then let go.");
+  return a.words("Try next: set each block down whole within its ring before you take the next one.");
+}
+
+std::string time_advice(const Advised& a) {
+  const double model_s = a.level ? model_time_s(*a.level, a.result) : 0;
+  const std::vector<std::string> seconds{a.words.number(model_s, 0)};
+  if (model_s <= 0) return a.words("Try next: keep this care and save pauses between targets.");
+  return a.pointer ? a.words("Try next: keep this care and save pauses between targets; a practised hand takes {0} s.",
+                             seconds)
+                   : a.words("Try next: keep this care and save pauses between targets; the expert hand takes {0} s.",
+                             seconds);
+}
+
+std::string pose_advice(const Advised& a, const std::string& metric) {
+  if (metric == "angle_error_deg") return a.words("Try next: bring the tip to its place first, then turn about it.");
   if (metric == "position_error_m")
-    return words("Try next: hold still for the whole time; rest your hand, and move only the tip.");
-  if (metric == "angle_error_deg") return words("Try next: bring the tip to its place first, then turn about it.");
-  if (metric == "objects_done_share")
-    return words("Try next: set each block down whole within its ring before you take the next one.");
-  if (metric == "time_s")
-    return level && level->expert_time_s > 0
-               ? words("Try next: keep this care and save pauses between targets; the expert hand takes {0} s.",
-                       {words.number(level->expert_time_s, 0)})
-               : words("Try next: keep this care and save pauses between targets.");
+    return a.pointer ? a.words("Try next: make the last millimetres in small moves, then let everything rest.")
+                     : a.words("Try next: hold still for the whole time; rest your hand, and move only the tip.");
+  if (a.counts().held == 0)
+    return a.words("Try next: bring the tip to the end of the lit pen, then turn along it, then hold still.");
+  return a.pointer
+             ? a.words("Try next: place the tip, then lean the shaft along the pen, and roll it last.")
+             : a.words("Try next: turn the instrument while you travel, so that only the last millimetres are left.");
+}
+
+std::string next_for(const Advised& a, const DebriefRow& row) {
+  const Translator& words = a.words;
+  const std::string& m = row.metric;
+  if (m == "wrong_places") return words("Try next: stop just over the lit disc, look, then go straight down.");
+  if (m == "in_band_share") return in_band_advice(a);
+  if (m == "excess_events") return excess_advice(a);
+  if (m == "grip_window_share")
+    return words("Try next: set your grip before you lift, and hold it unchanged until the block stands.");
+  if (m == "crushed") return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
+  if (m == "block_regrasps")
+    return words("Try next: take each block in its middle, firmly enough to carry it at one go.");
+  if (m == "objects_done_share") return placing_advice(a);
+  if (m == "path_ratio") return words("Try next: decide the way first, then go there in one straight move.");
+  if (m == "matched_in_time_share" || m == "position_error_m" || m == "angle_error_deg") return pose_advice(a, m);
+  if (m == "time_s") return time_advice(a);
+  return words("Try next: {0}, now {1}, towards {2}.", {row.name, row.value, row.full});
+}
+
+std::string count_of_force(const Advised& a, const DebriefRow& row) {
+  const Translator& words = a.words;
+  const int pressed = a.counts().pressed_hard, squeezed = a.counts().squeezed_hard;
+  const bool jaws = squeezed > pressed;
+  const int n = jaws ? squeezed : pressed > 0 ? pressed : static_cast<int>(*row.raw);
+  const std::vector<std::string> values{std::to_string(n),
+                                        newtons(words, jaws ? a.exercise.grip.excess_n : a.exercise.hard_force_n)};
+  if (jaws) return words(n == 1 ? "Once squeezed above {1}." : "{0} times squeezed above {1}.", values);
+  return words(n == 1 ? "Once above {1}." : "{0} times above {1}.", values);
+}
+
+std::string count_of_placing(const Advised& a) {
+  const Translator& words = a.words;
+  const EventCounts& n = a.counts();
+  if (n.drops > n.misplaced)
+    return words(n.drops == 1 ? "One block dropped." : "{0} times a block dropped.", {std::to_string(n.drops)});
+  if (n.misplaced > 0)
+    return words(n.misplaced == 1 ? "Once set down outside the ring." : "{0} times set down outside the ring.",
+                 {std::to_string(n.misplaced)});
+  return words("{0} of {1} blocks placed.",
+               {std::to_string(std::max(0, n.placed)), std::to_string(a.exercise.layout.count)});
+}
+
+std::string count_of_grip(const Advised& a, const DebriefRow& row) {
+  const Translator& words = a.words;
+  const int slips = a.counts().slips, crushed = a.counts().crushed;
+  if (slips > crushed)
+    return words(slips == 1 ? "Held too lightly: once it slipped." : "Held too lightly: {0} times it slipped.",
+                 {std::to_string(slips)});
+  if (crushed > 0)
+    return words(crushed == 1 ? "Held too hard: one block crushed." : "Held too hard: {0} blocks crushed.",
+                 {std::to_string(crushed)});
+  return words("In the wanted grip for {0} of the carrying time.", {row.value});
+}
+
+/// What happened, in numbers; "" where the reason and the table say all of it.
+std::string count_of(const Advised& a, const DebriefRow& row) {
+  const Translator& words = a.words;
+  const std::string& m = row.metric;
+  if (m == "wrong_places")
+    return words(row.raw == 1 ? "Once beside the disc." : "{0} times beside the disc.", {row.value});
+  if (m == "excess_events") return count_of_force(a, row);
+  if (m == "in_band_share") return words("In the band for {0} of the pressing time.", {row.value});
+  if (m == "grip_window_share") return count_of_grip(a, row);
+  if (m == "crushed") return words(row.raw == 1 ? "One block crushed." : "{0} blocks crushed.", {row.value});
+  if (m == "block_regrasps")
+    return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});
+  if (m == "objects_done_share") return count_of_placing(a);
+  if (m == "matched_in_time_share" && a.counts().out_of_time > 0)
+    return words(a.counts().out_of_time == 1 ? "Once a pen ran out of time." : "{0} times a pen ran out of time.",
+                 {std::to_string(a.counts().out_of_time)});
+  if (m == "position_error_m") return words("{0} off the place on average.", {row.value});
+  if (m == "angle_error_deg") return words("{0} off the turn on average.", {row.value});
+  if (m == "path_ratio") return words("The tip went {0} times the shortest way.", {row.value});
   return "";
 }
 
-const DebriefRow* row_named(const DebriefFacts& facts, const std::string& subscore) {
-  for (const DebriefRow& row : facts.rows)
-    if (row.subscore == subscore) return &row;
-  return nullptr;
-}
-
-std::string row_advice(const Translator& words, const DebriefRow& row, const Exercise& exercise,
-                       const ExerciseLevel* level) {
-  std::string text = force_advice(words, row.metric, exercise, level);
-  if (text.empty()) text = motion_advice(words, row.metric, level);
-  return text.empty() ? words("Try next: {0}, now {1}, towards {2}.", {row.name, row.value, row.full}) : text;
+/// Without the count that the reason has given already.
+std::string cause_advice(const Advised& a, const DebriefRow& row) {
+  const std::string happened = a.facts.cause.kind == DebriefCause::Kind::kBeside ? "" : count_of(a, row);
+  return happened.empty() ? next_for(a, row) : happened + " " + next_for(a, row);
 }
 
 }  // namespace
 
-AdviceTopic advice_topic(const AttemptResult& result, const DebriefFacts& facts) {
-  using Kind = AdviceTopic::Kind;
-  if (facts.outcome == Outcome::kDeviceStopped || facts.outcome == Outcome::kVoid) return {Kind::kDevice, "", "", ""};
-  if (facts.outcome == Outcome::kStopped) return {Kind::kAgain, "", "", ""};
-  if (const Event* event = first_critical(result)) return {Kind::kCritical, "", "", event->type};
-  if (const DebriefRow* gate = worst_gate(facts.rows)) return {Kind::kGate, gate->metric, gate->subscore, ""};
-  if (const DebriefRow* loss = largest_loss(facts.rows)) return {Kind::kLoss, loss->metric, loss->subscore, ""};
-  return {Kind::kOnward, "", "", ""};
-}
-
 std::string advice(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                    const Exercise& exercise) {
-  using Kind = AdviceTopic::Kind;
-  const AdviceTopic topic = advice_topic(result, facts);
-  const ExerciseLevel* level = level_named(exercise, result.level);
-  switch (topic.kind) {
+  using Kind = DebriefCause::Kind;
+  const Advised a{words, result, facts, exercise, level_named(exercise, result.level), by_pointer(result)};
+  switch (facts.cause.kind) {
     case Kind::kCritical:
-      return critical_advice(words, topic.event, exercise);
+      return critical_advice(a);
+    case Kind::kNotStarted:
+      return words("Try next: bring the tip into the ball at the start and rest there for {0} s.",
+                   {brief(words, exercise.start_hold_s)});
+    case Kind::kNotTried:
+      return not_tried_advice(a);
     case Kind::kGate:
+    case Kind::kBeside:
+    case Kind::kUndone:
     case Kind::kLoss:
-      return row_advice(words, *row_named(facts, topic.subscore), exercise, level);
+      if (const DebriefRow* row = row_of_subscore(facts, facts.cause.subscore)) return cause_advice(a, *row);
+      return words("Try next: the same again, quicker.");
     case Kind::kOnward:
       return words("Try next: the same on another board; three passes in a row open the next level.");
     case Kind::kAgain:
       return words("Try next: the whole task once, however slowly; only a finished one is graded.");
     case Kind::kDevice:
       return words("Try next: the same once more; call your teacher if it happens again.");
+    case Kind::kDeadman:
+      return words("Try next: keep the deadman closed until the clock stops.");
   }
   return "";
 }

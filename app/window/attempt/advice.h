@@ -1,20 +1,12 @@
-// One thing to try next, chosen by rule: what was critical, else the failed safety gate that cost most, else the
-// largest loss (safety before time where two cost the same), else the next step. Pure. Thread: any.
+// What happened, counted, and one thing to try next: by the cause that the reason names. For the input in hand: mouse,
+// keys and pad feel nothing, so they are told what to look at. Pure. Thread: any.
 #pragma once
 
 #include "app/window/attempt/debrief_facts.h"
 
 namespace trocar {
 
-/// What the advice is about.
-struct AdviceTopic {
-  enum class Kind : std::uint8_t { kCritical, kGate, kLoss, kOnward, kAgain, kDevice } kind = Kind::kOnward;
-  std::string metric, subscore;  ///< of kGate and kLoss
-  std::string event;             ///< of kCritical
-};
-AdviceTopic advice_topic(const AttemptResult& result, const DebriefFacts& facts);
-
-/// "Try next: ..."
+/// "8 times beside the disc. Try next: ..."
 std::string advice(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                    const Exercise& exercise);
 

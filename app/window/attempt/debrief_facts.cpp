@@ -15,15 +15,6 @@ std::string own_text(const Translator& words, const DebriefRow& row, const std::
   return value ? metric_text(words, row.metric, value, row.unit) : "";
 }
 
-/// The metric at which the gate opens, as a sentence part.
-std::string needed_text(const Translator& words, const DebriefRow& row, const Subscore& s, double floor) {
-  double x = s.zero_at + floor * (s.full_at - s.zero_at);
-  const bool less = s.full_at < s.zero_at;
-  if (is_count(row.metric, row.unit)) x = less ? std::floor(x + 1e-9) : std::ceil(x - 1e-9);
-  const std::string text = metric_text(words, row.metric, x, row.unit);
-  return less ? words("at most {0}", {text}) : words("at least {0}", {text});
-}
-
 void compare(const Translator& words, DebriefRow& row, const Subscore& s, const DebriefPast& past) {
   const bool less = s.full_at < s.zero_at;
   const OwnValues own = own_values(past.own, row.metric, less);
@@ -46,6 +37,7 @@ DebriefRow row_of(const Translator& words, const Subscore& s, const ExerciseLeve
   row.unit = s.unit;
   if (const MetricDefinition* metric = find_metric(row.metric); metric && row.unit.empty()) row.unit = metric->unit;
   row.group = group_of(rule ? *rule : stand_in);
+  if (s.raw && std::isfinite(*s.raw)) row.raw = s.raw;
   row.name = subscore_words(words, s.name);
   row.value = metric_text(words, row.metric, s.raw, row.unit);
   row.full = metric_text(words, row.metric, s.full_at, row.unit);
@@ -53,7 +45,7 @@ DebriefRow row_of(const Translator& words, const Subscore& s, const ExerciseLeve
   row.gate = s.gate;
   const double floor = rule ? rule->gate_below : SubscoreRule{}.gate_below;
   row.failed = s.gate && s.value < floor;
-  if (s.gate) row.needed = needed_text(words, row, s, floor);
+  if (s.gate) row.needed = needed_text(words, row.metric, row.unit, s.full_at, s.zero_at, floor);
   row.possible = 100 * s.weight;
   row.lost = 100 * s.weight * (1 - s.value);
   compare(words, row, s, past);
@@ -83,7 +75,9 @@ DebriefFacts debrief_facts(const Translator& words, const AttemptResult& result,
   facts.pass_at = level ? level->rubric.pass_at : exercise.rubric.pass_at;
   facts.outcome = outcome_of(result);
   facts.verdict = verdict_words(words, facts.outcome);
+  facts.counts = counted(result.events);
   if (facts.score) add_rows(words, facts, result, level, past);
+  facts.cause = cause_of(result, facts);
   facts.reason = reason_words(words, result, facts, exercise);
   facts.more = further_words(words, result, facts);
   return facts;
@@ -103,8 +97,11 @@ std::vector<std::string> explained(const Translator& words, const DebriefRow& ro
   if (row.gate && rule)
     out.push_back(words("Safety gate: a pass needs {0}; without it the score is {1} or less.",
                         {row.needed, words.number(level->rubric.gate_cap, 0)}));
-  if (row.metric == "time_s" && level && level->expert_time_s > 0)
-    out.push_back(words("The expert hand takes {0} s on average.", {words.number(level->expert_time_s, 1)}));
+  const double model_s = level ? model_time_s(*level, result) : 0;
+  if (row.metric == "time_s" && model_s > 0)
+    out.push_back(
+        words(by_pointer(result) ? "A practised hand takes {0} s." : "The expert hand takes {0} s on average.",
+              {words.number(model_s, 1)}));
   if (!row.metric.empty()) out.push_back(words("Its name in exports: {0}.", {row.metric}));
   return out;
 }

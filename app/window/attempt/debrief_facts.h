@@ -2,12 +2,15 @@
 // drawing.
 //
 // Points lost: 100 w (1 - s) each; what caps took on top is lost_to_caps, so that all of it is 100 - score.
-// The reason: a critical event, else the failed safety gate that cost most, else what was left undone, else the largest
-// loss. Pure. Thread: any.
+// One cause stands behind reason and advice, so that they never disagree: a critical event, else that the clock never
+// began, else the failed safety gate that cost most, else what was left undone, else the largest loss. What has no
+// value is no cause: then it is what was never tried. Force is not judged where the discs were missed. Pure. Thread:
+// any.
 #pragma once
 
 #include <map>
 
+#include "app/window/attempt/event_counts.h"
 #include "app/window/attempt/metric_words.h"
 #include "scenarios/scoring/attempt_result.h"
 #include "trainees/progress/past_attempts.h"
@@ -16,9 +19,29 @@ namespace trocar {
 
 enum class Outcome : std::uint8_t { kPass, kNotYet, kStopped, kDeviceStopped, kVoid };
 
+/// Why the attempt is no better than it is.
+struct DebriefCause {
+  enum class Kind : std::uint8_t {
+    kCritical,
+    kNotStarted,  ///< the clock never began: time ran out, or it is void
+    kGate,        ///< failed, with a value
+    kBeside,      ///< force failed its gate, but the discs were missed at least as badly
+    kNotTried,    ///< a gate has no value: nothing was done that it could judge
+    kUndone,
+    kLoss,    ///< a pass, or a score below it: what cost most
+    kOnward,  ///< nothing to speak of
+    kAgain,   ///< left, or cut off
+    kDevice,  ///< stopped, or no record to grade
+    kDeadman  ///< opened while the clock ran
+  } kind = Kind::kOnward;
+  std::string metric = {}, subscore = {};  ///< of the row; of kUndone the largest loss, empty without one
+  std::string event = {};                  ///< of kCritical
+};
+
 struct DebriefRow {
   ScoreGroup group = ScoreGroup::kAccuracy;
   std::string subscore, metric, unit;   ///< names as in the rubric; metric "" when the rubric is another one
+  std::optional<double> raw = {};       ///< the metric; nothing: it has no value
   std::string name, value, full, none;  ///< texts: what it is called, was, what earns all, what earns nothing
   std::string best, median, expert;     ///< own attempts before this one, the expert's; "" unknown
   bool gate = false, failed = false;    ///< safety gate; below its floor
@@ -29,11 +52,13 @@ struct DebriefRow {
 
 struct DebriefFacts {
   Outcome outcome = Outcome::kStopped;
-  std::string verdict, reason;    ///< "NOT YET"; one sentence
+  DebriefCause cause;
+  EventCounts counts;
+  std::string verdict, reason;    ///< "NOT YET"; one sentence, two where the first needs one
   std::vector<std::string> more;  ///< further caps, and what is honest to say: a sentence each
   std::optional<double> score;
   double pass_at = 0;
-  std::vector<DebriefRow> rows;  ///< safety, accuracy, economy, time; within a group what cost most first
+  std::vector<DebriefRow> rows;  ///< safety, accuracy, motion, time; within a group what cost most first
   double lost_to_caps = 0;
 };
 

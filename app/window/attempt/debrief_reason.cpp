@@ -10,6 +10,29 @@ namespace trocar {
 namespace {
 
 constexpr double kWorthSaying = 0.5;  // points
+constexpr const char *kForceInBand = "in_band_share", *kWrongPlaces = "wrong_places";
+
+/// The row that cost most of those that `counts`; of two that cost the same the first, and safety comes first. Null
+/// without one.
+template <typename Counts>
+const DebriefRow* costliest(const std::vector<DebriefRow>& rows, Counts counts) {
+  const DebriefRow* worst = nullptr;
+  for (const DebriefRow& row : rows)
+    if (counts(row) && (!worst || row.lost > worst->lost + 1e-9)) worst = &row;
+  return worst;
+}
+
+double share_lost(const DebriefRow& row) { return row.possible > 0 ? row.lost / row.possible : 0; }
+
+/// The row of the places, where force failed its gate and they went at least as badly: what is pressed beside the disc
+/// is no force in the band, however gentle. Null otherwise.
+const DebriefRow* missed_discs(const std::vector<DebriefRow>& rows) {
+  const DebriefRow* force =
+      costliest(rows, [](const DebriefRow& row) { return row.metric == kForceInBand && row.failed; });
+  const DebriefRow* place =
+      costliest(rows, [](const DebriefRow& row) { return row.metric == kWrongPlaces && row.raw.value_or(0) > 0; });
+  return force && place && share_lost(*place) >= share_lost(*force) - 1e-9 ? place : nullptr;
+}
 
 /// The cap of what was left undone; null without one.
 const Cap* undone(const Grade& grade) {
@@ -36,25 +59,37 @@ std::string undone_words(const Translator& words, const AttemptResult& result, c
                                                         : words("Not finished: {0} of {1} done.", counts);
 }
 
-std::string gate_words(const Translator& words, const DebriefRow& row) {
+/// What was never done, so that this part has no value.
+std::string not_tried_words(const Translator& words, const DebriefRow& row, const EventCounts& counts) {
+  const std::vector<std::string> part{words.made(row.subscore)};
+  if (row.metric == "in_band_share") return words("No disc was touched, so {0} cannot be judged.", part);
+  if (row.metric == "grip_window_share")
+    return counts.grasped == 0 ? words("No block was gripped, so {0} cannot be judged.", part)
+                               : words("No block was lifted, so {0} cannot be judged.", part);
+  return words("Nothing was done that {0} could be judged by.", part);
+}
+
+std::string gate_words(const Translator& words, const DebriefRow& row, const EventCounts& counts) {
+  if (!row.raw) return not_tried_words(words, row, counts);
   return words("{0}: {1}; a pass needs {2}.", {row.name, row.value, row.needed});
+}
+
+std::string beside_words(const Translator& words, const DebriefRow& row) {
+  return words(row.raw == 1 ? "Once beside the lit disc: what is pressed there does not count."
+                            : "{0} times beside the lit disc: what is pressed there does not count.",
+               {row.value});
 }
 
 std::string score_words(const Translator& words, const DebriefFacts& facts) {
   const std::string score = words.number(*facts.score, 1), pass = words.number(facts.pass_at, 0);
-  const DebriefRow* worst = largest_loss(facts.rows);
+  const DebriefRow* worst = row_of_subscore(facts, facts.cause.subscore);
   if (!worst) return words("{0} of 100 points, a pass needs {1}.", {score, pass});
   return words("{0} of 100 points, a pass needs {1}. Most points were lost on: {2}.", {score, pass, worst->name});
 }
 
-bool began(const AttemptResult& result) {
-  return std::any_of(result.events.begin(), result.events.end(),
-                     [](const Event& e) { return e.type == event_type::kStart; });
-}
-
-std::string ungraded_words(const Translator& words, const AttemptResult& result, Outcome outcome) {
+std::string ungraded_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts) {
   const double t = result.events.empty() ? 0 : clock_s(result, result.events.back().t_s);
-  switch (outcome) {
+  switch (facts.outcome) {
     case Outcome::kStopped:
       if (result.cut_off)
         return words("The attempt was cut off with its program, so there is no score. It counts as not passed.");
@@ -63,8 +98,14 @@ std::string ungraded_words(const Translator& words, const AttemptResult& result,
     case Outcome::kDeviceStopped:
       return words("The device stopped. That is not your doing: the attempt does not count.");
     default:
-      return began(result) ? words("The attempt is void: its record cannot be graded, and it does not count.")
-                           : words("The clock never began: nothing is graded, and it does not count.");
+      switch (facts.cause.kind) {
+        case DebriefCause::Kind::kDeadman:
+          return words("The deadman was opened while the clock ran: the attempt is void, and it does not count.");
+        case DebriefCause::Kind::kNotStarted:
+          return words("The clock never began: nothing is graded, and it does not count.");
+        default:
+          return words("The attempt is void: its record cannot be graded, and it does not count.");
+      }
   }
 }
 
@@ -95,18 +136,36 @@ const Event* first_critical(const AttemptResult& result) {
   return at == result.events.end() ? nullptr : &*at;
 }
 
-const DebriefRow* largest_loss(const std::vector<DebriefRow>& rows) {
-  const DebriefRow* worst = nullptr;
-  for (const DebriefRow& row : rows)
-    if (row.lost >= kWorthSaying && (!worst || row.lost > worst->lost + 1e-9)) worst = &row;
-  return worst;
+const DebriefRow* row_of_subscore(const DebriefFacts& facts, const std::string& subscore) {
+  const auto at = std::find_if(facts.rows.begin(), facts.rows.end(),
+                               [&](const DebriefRow& row) { return row.subscore == subscore; });
+  return at == facts.rows.end() ? nullptr : &*at;
 }
 
-const DebriefRow* worst_gate(const std::vector<DebriefRow>& rows) {
-  const DebriefRow* worst = nullptr;
-  for (const DebriefRow& row : rows)
-    if (row.failed && (!worst || row.lost > worst->lost + 1e-9)) worst = &row;
-  return worst;
+DebriefCause cause_of(const AttemptResult& result, const DebriefFacts& facts) {
+  using Kind = DebriefCause::Kind;
+  const auto of = [](Kind kind, const DebriefRow* row) {
+    return row ? DebriefCause{kind, row->metric, row->subscore} : DebriefCause{kind};
+  };
+  if (facts.outcome == Outcome::kStopped) return {Kind::kAgain};
+  if (facts.outcome == Outcome::kVoid && facts.counts.deadman_opened) return {Kind::kDeadman};
+  if (facts.outcome == Outcome::kVoid && !facts.counts.started) return {Kind::kNotStarted};
+  if (facts.outcome == Outcome::kDeviceStopped || facts.outcome == Outcome::kVoid) return {Kind::kDevice};
+  if (const Event* event = first_critical(result)) return {Kind::kCritical, "", "", event->type};
+  const bool late = result.grade.status == AttemptStatus::kTimeout;
+  if (late && !facts.counts.started) return {Kind::kNotStarted};
+  const DebriefRow* beside = missed_discs(facts.rows);
+  if (const DebriefRow* gate = costliest(facts.rows, [&](const DebriefRow& row) {
+        return row.failed && row.raw && !(beside && row.metric == kForceInBand);
+      }))
+    return of(Kind::kGate, gate);
+  if (beside) return of(Kind::kBeside, beside);
+  if (const DebriefRow* gate = costliest(facts.rows, [](const DebriefRow& row) { return row.failed; }))
+    return of(Kind::kNotTried, gate);
+  const DebriefRow* loss =
+      costliest(facts.rows, [](const DebriefRow& row) { return row.raw && row.lost >= kWorthSaying; });
+  if (late || undone(result.grade)) return of(Kind::kUndone, loss);
+  return of(loss ? Kind::kLoss : Kind::kOnward, loss);
 }
 
 Outcome outcome_of(const AttemptResult& result) {
@@ -143,17 +202,33 @@ std::string verdict_words(const Translator& words, Outcome outcome) {
 
 std::string reason_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                          const Exercise& exercise) {
-  if (!facts.score) return ungraded_words(words, result, facts.outcome);
-  if (facts.outcome == Outcome::kPass) return score_words(words, facts);
-  if (const Event* event = first_critical(result)) return critical_words(words, result, *event, exercise);
-  if (const DebriefRow* gate = worst_gate(facts.rows)) return gate_words(words, *gate);
-  if (const Cap* left = undone(result.grade)) return undone_words(words, result, *left);
-  if (result.grade.status == AttemptStatus::kTimeout) return words("Time ran out before the task was done.");
-  return score_words(words, facts);
+  using Kind = DebriefCause::Kind;
+  if (!facts.score) return ungraded_words(words, result, facts);
+  const Cap* left = undone(result.grade);
+  const DebriefRow* row = row_of_subscore(facts, facts.cause.subscore);
+  switch (facts.cause.kind) {
+    case Kind::kCritical:
+      return critical_words(words, result, *first_critical(result), exercise);
+    case Kind::kNotStarted:
+      return words("Time ran out before the clock began: the tip did not rest in the ball at the start.");
+    case Kind::kGate:
+      return gate_words(words, *row, facts.counts);
+    case Kind::kBeside:
+      return beside_words(words, *row);
+    case Kind::kNotTried: {
+      const std::string said = not_tried_words(words, *row, facts.counts);
+      return left ? undone_words(words, result, *left) + " " + said : said;
+    }
+    case Kind::kUndone:
+      return left ? undone_words(words, result, *left) : words("Time ran out before the task was done.");
+    default:
+      return score_words(words, facts);
+  }
 }
 
 std::vector<std::string> further_words(const Translator& words, const AttemptResult& result,
                                        const DebriefFacts& facts) {
+  using Kind = DebriefCause::Kind;
   std::vector<std::string> out;
   if (!facts.score) {
     const std::string fault = fault_words(result.device);
@@ -164,12 +239,13 @@ std::vector<std::string> further_words(const Translator& words, const AttemptRes
     add_pauses(words, result, out);
     return out;
   }
-  const bool critical = facts.outcome != Outcome::kPass && first_critical(result) != nullptr;
-  const DebriefRow* first = critical ? nullptr : worst_gate(facts.rows);
+  const Kind kind = facts.cause.kind;
+  const bool nothing_done = kind == Kind::kNotStarted;
   for (const DebriefRow& row : facts.rows)
-    if (row.failed && &row != first) out.push_back(gate_words(words, row));
-  if (const Cap* left = undone(result.grade); left && (critical || first))
-    out.push_back(undone_words(words, result, *left));
+    if (row.failed && row.subscore != facts.cause.subscore && !nothing_done)
+      out.push_back(gate_words(words, row, facts.counts));
+  const bool said = kind == Kind::kUndone || kind == Kind::kNotTried || nothing_done;
+  if (const Cap* left = undone(result.grade); left && !said) out.push_back(undone_words(words, result, *left));
   if (result.device.force_not_rendered())
     out.push_back(
         words("The device could not give the force in {0} % of the contact time: this attempt does not count for a "

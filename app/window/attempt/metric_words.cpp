@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "haptics/device/backends/make_backend.h"
+
 namespace trocar {
 namespace {
 
@@ -24,7 +26,7 @@ ScoreGroup group_of(const SubscoreRule& rule) {
   if (m.starts_with("path_") || m.ends_with("regrasps") ||
       among(m, {"economy", "depth_path_m", "angular_path_deg", "movements", "speed_peaks", "speed_peak_rate_hz",
                 "idle_share", "clutches"}))
-    return ScoreGroup::kEconomy;
+    return ScoreGroup::kMotion;
   return ScoreGroup::kAccuracy;
 }
 
@@ -34,8 +36,8 @@ std::string group_name(const Translator& words, ScoreGroup group) {
       return words("Safety");
     case ScoreGroup::kAccuracy:
       return words("Accuracy");
-    case ScoreGroup::kEconomy:
-      return words("Economy");
+    case ScoreGroup::kMotion:
+      return words("Motion");
     case ScoreGroup::kTime:
       return words("Time");
   }
@@ -59,6 +61,15 @@ std::string metric_text(const Translator& words, const std::string& metric, cons
   if (unit == "deg") return words.number(x, 1) + "\u00b0";
   if (unit == "s") return words.number(x, 1) + " s";
   return words.number(x, 2) + " " + unit;
+}
+
+std::string needed_text(const Translator& words, const std::string& metric, const std::string& unit, double full_at,
+                        double zero_at, double floor) {
+  double x = zero_at + floor * (full_at - zero_at);
+  const bool less = full_at < zero_at;
+  if (is_count(metric, unit)) x = less ? std::floor(x + 1e-9) : std::ceil(x - 1e-9);
+  const std::string text = metric_text(words, metric, x, unit);
+  return less ? words("at most {0}", {text}) : words("at least {0}", {text});
 }
 
 std::string hand_words(const Translator& words, const std::string& hand) {
@@ -95,6 +106,13 @@ const SubscoreRule* rule_named(const ExerciseLevel* level, const std::string& su
   const auto& rules = level->rubric.subscores;
   const auto at = std::find_if(rules.begin(), rules.end(), [&](const SubscoreRule& r) { return r.name == subscore; });
   return at == rules.end() ? nullptr : &*at;
+}
+
+bool by_pointer(const AttemptResult& result) { return result.device.backend == kPointerBackend; }
+
+double model_time_s(const ExerciseLevel& level, const AttemptResult& result) {
+  const double own = by_pointer(result) ? level.pointer.expert_time_s : 0;
+  return own > 0 ? own : level.expert_time_s;
 }
 
 }  // namespace trocar

@@ -8,11 +8,12 @@
 
 #include "app/window/words/translator.h"
 #include "scenarios/exercise.h"
+#include "scenarios/scoring/attempt_result.h"
 
 namespace trocar {
 
 /// In the order of the debrief: safety leads, time comes last.
-enum class ScoreGroup : std::uint8_t { kSafety, kAccuracy, kEconomy, kTime };
+enum class ScoreGroup : std::uint8_t { kSafety, kAccuracy, kMotion, kTime };
 ScoreGroup group_of(const SubscoreRule& rule);
 std::string group_name(const Translator& words, ScoreGroup group);
 
@@ -20,6 +21,9 @@ std::string group_name(const Translator& words, ScoreGroup group);
 /// catalogue.
 std::string metric_text(const Translator& words, const std::string& metric, const std::optional<double>& value,
                         const std::string& unit);
+/// The metric at which a gate opens: "at most 3". @param floor share of the sub-score that meets it.
+std::string needed_text(const Translator& words, const std::string& metric, const std::string& unit, double full_at,
+                        double zero_at, double floor);
 /// Is the value counted in whole numbers?
 bool is_count(const std::string& metric, const std::string& unit);
 
@@ -32,5 +36,10 @@ std::string subscore_words(const Translator& words, const std::string& name);
 /// Of the result's level; nullptr when the exercise has no such level or sub-score (another version of it).
 const ExerciseLevel* level_named(const Exercise& exercise, const std::string& level);
 const SubscoreRule* rule_named(const ExerciseLevel* level, const std::string& subscore);
+
+/// Was it done without a device: at mouse, keys or pad, which feel nothing?
+bool by_pointer(const AttemptResult& result);
+/// What a good hand takes at the input of the result, s; 0 unknown.
+double model_time_s(const ExerciseLevel& level, const AttemptResult& result);
 
 }  // namespace trocar

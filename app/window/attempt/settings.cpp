@@ -52,6 +52,7 @@ Settings parse(const std::string& text, const std::string& file) {
   settings.scope = table.choice_or("scope", kScopes, settings.scope);
   settings.preset = table.choice_or("preset", kPresets, settings.preset);
   settings.input = table.choice_or("input", kInputs, settings.input);
+  settings.ask_pin = table.flag_or("ask_pin", settings.ask_pin);
   table.allow("keys");
   table.finish();
   settings.keys = keys_of(toml::parse(text, file), file);
@@ -115,6 +116,7 @@ void save_settings(const fs::path& file, const Settings& settings) {
                     {"scope", settings.scope},
                     {"preset", settings.preset},
                     {"input", settings.input},
+                    {"ask_pin", settings.ask_pin},
                     {"keys", keys}};
   if (!settings.language.empty()) table.insert("language", settings.language);
   std::ostringstream text;

@@ -17,10 +17,11 @@ struct Settings {
   bool like_a_fulcrum = false;
   double sensitivity = 1;
   bool sound = true;
-  bool tutorial_seen = false;                    ///< it has been begun here once
-  std::string scope = "0";                       ///< tilt of the scope's tip, degrees: "0", "30"
-  std::string preset = "auto";                   ///< "auto", "low", "soft", "full"
-  std::string input = "auto";                    ///< "auto", "mouse", "gamepad", "spacemouse", "device"
+  bool tutorial_seen = false;   ///< it has been begun here once
+  std::string scope = "0";      ///< tilt of the scope's tip, degrees: "0", "30"
+  std::string preset = "auto";  ///< "auto", "low", "soft", "full"
+  std::string input = "auto";   ///< "auto", "mouse", "gamepad", "spacemouse", "device"
+  bool ask_pin = false;  ///< of this station: whoever has an account at the desk signs in with its PIN or password
   std::map<std::string, std::string> keys = {};  ///< changes of KeyMap
   std::string note = {};                         ///< what went wrong while loading, for who mends the file; not saved
   int note_line = 0;                             ///< of the file where it went wrong; 0: not known

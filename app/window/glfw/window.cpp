@@ -143,6 +143,7 @@ std::vector<InputEvent> Window::poll() {
 }
 
 bool Window::close_asked() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }
+void Window::stay_open() { glfwSetWindowShouldClose(state_->window, GLFW_FALSE); }
 
 int Window::width() const {
   int width = 0, height = 0;

@@ -32,6 +32,7 @@ class Window final : public GraphicsContext {
   /// (ui_layer.h).
   std::vector<InputEvent> poll();
   bool close_asked() const;
+  void stay_open();   ///< what was asked is not done
   int width() const;  ///< px of the framebuffer
   int height() const;
   /// The driver was reset and everything in the context is gone: make another window.

@@ -1,13 +1,17 @@
+#include <algorithm>
+
+#include "app/window/attempt/metric_words.h"
+#include "app/window/attempt/number_words.h"
 #include "app/window/kinds/kind_lesson.h"
-#include "app/window/lessons/lesson_numbers.h"
 
 namespace trocar {
 namespace {
 
-std::vector<LessonStep> grasp_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level) {
+std::vector<LessonStep> grasp_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level, bool pointer) {
   const std::string grip = level.grasp.colour_cue
                                ? w("Grip it: bands round a block tell its foam, one the softest, three the hardest.")
-                               : w("Grip it: no colour tells the foam, feel how hard it is.");
+                           : pointer ? w("Grip it: no colour tells the foam, see how far it gives way.")
+                                     : w("Grip it: no colour tells the foam, feel how hard it is.");
   return {{StepIcon::kPick, w("Put the open jaws round the lit block.")},
           {StepIcon::kSqueeze, grip},
           {StepIcon::kCarry, w("Lift it {0} and carry it to its ring.", {millimetres(w, e.grasp.lift_m)})},
@@ -26,7 +30,13 @@ void add_grasp_limits(const Translator& w, const Exercise& e, const ExerciseLeve
           {w("Bands {0}: wanted grip", {std::to_string(++bands)}), newtons_between(w, window.low_n, window.high_n)});
     }
   }
-  out.push_back({w("Crushed blocks"), w("fewer than {0}", {std::to_string(e.grasp.critical_crushed)})});
+  const auto& rules = level.rubric.subscores;
+  const auto gate =
+      std::find_if(rules.begin(), rules.end(), [](const SubscoreRule& r) { return r.gate && r.metric == "crushed"; });
+  out.push_back({w("Crushed blocks"), gate == rules.end()
+                                          ? w("fewer than {0}", {std::to_string(e.grasp.critical_crushed)})
+                                          : w("{0} for a pass", {needed_text(w, "crushed", "1", gate->full_at,
+                                                                             gate->zero_at, gate->gate_below)})});
 }
 
 }  // namespace

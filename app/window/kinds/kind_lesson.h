@@ -11,8 +11,8 @@ namespace trocar {
 struct KindLesson {
   ExerciseKind kind;
   std::string (*skill)(const Translator&);
-  /// After the rest at the start.
-  std::vector<LessonStep> (*steps)(const Translator&, const Exercise&, const ExerciseLevel&);
+  /// After the rest at the start. @param pointer without a device: nothing is felt.
+  std::vector<LessonStep> (*steps)(const Translator&, const Exercise&, const ExerciseLevel&, bool pointer);
   /// What only this kind limits.
   void (*add_limits)(const Translator&, const Exercise&, const ExerciseLevel&, std::vector<LessonLimit>&);
   /// What director and display say in it: for the check of the catalogues, which finds sentences by "words".

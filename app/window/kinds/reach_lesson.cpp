@@ -1,14 +1,17 @@
+#include "app/window/attempt/number_words.h"
 #include "app/window/kinds/kind_lesson.h"
-#include "app/window/lessons/lesson_numbers.h"
 
 namespace trocar {
 namespace {
 
-std::vector<LessonStep> reach_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level) {
+std::vector<LessonStep> reach_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level, bool) {
+  const std::string angle = degrees(w, level.angle_tolerance_rad);
   return {{StepIcon::kReach,
            w("Bring the tip to the lit pen, to {0} or nearer.", {millimetres(w, level.position_tolerance_m)})},
           {StepIcon::kTurn,
-           w("Turn the instrument along it and about it, to {0} or nearer.", {degrees(w, level.angle_tolerance_rad)})},
+           level.mapping == Mapping::kFulcrum
+               ? w("Roll the instrument as the pen is rolled, to {0} or nearer; the port leans it.", {angle})
+               : w("Turn the instrument along it and about it, to {0} or nearer.", {angle})},
           {StepIcon::kHold, w("Hold still for {0} s; the next pen lights.", {brief(w, e.hold_s)})}};
 }
 

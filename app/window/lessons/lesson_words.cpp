@@ -3,8 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "app/window/attempt/metric_words.h"
+#include "app/window/attempt/number_words.h"
 #include "app/window/kinds/kind_lesson.h"
-#include "app/window/lessons/lesson_numbers.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/metrics.h"
 
@@ -17,14 +18,6 @@ std::string clock(double seconds) {
   return std::to_string(all / 60) + (rest < 10 ? ":0" : ":") + std::to_string(rest);
 }
 
-/// A metric's value in the unit that people read: mm for m.
-std::string metric_value(const Translator& w, const MetricDefinition* metric, double value) {
-  const std::string unit = metric ? std::string(metric->unit) : "";
-  if (unit == "m") return w("{0} mm", {brief(w, 1e3 * value)});
-  if (unit == "1" || unit.empty()) return brief(w, value);
-  return brief(w, value) + " " + unit;
-}
-
 }  // namespace
 
 std::string lesson_title(const Translator& w, const Exercise& exercise, const std::string& level) {
@@ -33,11 +26,12 @@ std::string lesson_title(const Translator& w, const Exercise& exercise, const st
 
 std::string lesson_skill(const Translator& w, const Exercise& exercise) { return lesson_of(exercise).skill(w); }
 
-std::vector<LessonStep> lesson_steps(const Translator& w, const Exercise& exercise, const ExerciseLevel& level) {
+std::vector<LessonStep> lesson_steps(const Translator& w, const Exercise& exercise, const ExerciseLevel& level,
+                                     bool pointer) {
   std::vector<LessonStep> out{
       {StepIcon::kRest, w("Rest the tip in the ball at the start for {0} s: the clock then begins.",
                           {brief(w, exercise.start_hold_s)})}};
-  for (LessonStep& step : lesson_of(exercise).steps(w, exercise, level)) out.push_back(std::move(step));
+  for (LessonStep& step : lesson_of(exercise).steps(w, exercise, level, pointer)) out.push_back(std::move(step));
   return out;
 }
 
@@ -51,20 +45,23 @@ std::vector<LessonLimit> lesson_limits(const Translator& w, const Exercise& exer
   return out;
 }
 
-std::vector<LessonMeasure> lesson_measures(const Translator& w, const ExerciseLevel& level) {
+std::vector<LessonMeasure> lesson_measures(const Translator& w, const ExerciseLevel& level, bool pointer) {
   std::vector<LessonMeasure> out;
-  for (const SubscoreRule& rule : level.rubric.subscores) {
+  const Rubric& rubric = pointer ? level.pointer.rubric : level.rubric;
+  for (const SubscoreRule& rule : rubric.subscores) {
     const MetricDefinition* metric = find_metric(rule.metric);
+    const std::string unit(metric ? metric->unit : "");
     LessonMeasure m;
     m.name = w(rule.name);
     m.weight = w("{0} %", {brief(w, std::round(1000 * rule.weight) / 10)});
-    m.full = metric_value(w, metric, rule.full_at);
-    m.none = metric_value(w, metric, rule.zero_at);
+    m.full = metric_text(w, rule.metric, rule.full_at, unit);
+    m.none = metric_text(w, rule.metric, rule.zero_at, unit);
     m.metric = rule.metric;
     m.meaning = metric ? w(metric->meaning) : "";
     if (rule.gate)
-      m.gate = w("Safety: a share below {0} here holds the whole score at {1} or less.",
-                 {brief(w, rule.gate_below), brief(w, level.rubric.gate_cap)});
+      m.gate = w(
+          "Safety gate: a pass needs {0}; without it the score is {1} or less.",
+          {needed_text(w, rule.metric, unit, rule.full_at, rule.zero_at, rule.gate_below), brief(w, rubric.gate_cap)});
     out.push_back(m);
   }
   return out;
@@ -77,17 +74,27 @@ std::string lesson_rule(const Translator& w, const Rubric& rubric) {
       {brief(w, rubric.pass_at)});
 }
 
-std::string lesson_display(const Translator& w, const ExerciseLevel& level) {
-  if (level.force_display == "band")
-    return w("Force bar: only outside the limits. You see it when something is wrong.");
-  if (level.force_display == "after") return w("Force bar: after the run. Feel the force; you see it in the debrief.");
+std::string lesson_display(const Translator& w, const Exercise& exercise, const ExerciseLevel& level, bool pointer) {
+  const std::string& display = level.force_display;
+  if (kind_of(exercise).watched == WatchedForce::kNone) {
+    if (display == "band") return w("Match of the pen: shown only while something is off.");
+    if (display == "after") return w("Match of the pen: not during the run. Judge place and turn by eye.");
+    return w("Match of the pen: always shown. You see how far off you are.");
+  }
+  if (display == "band") return w("Force bar: only outside the limits. You see it when something is wrong.");
+  if (display == "after")
+    return pointer ? w("Force bar: after the run. Go by how far things give way.")
+                   : w("Force bar: after the run. Feel the force; you see it in the debrief.");
   return w("Force bar: always. You see the force all the time.");
 }
 
-std::string lesson_tool(const Translator& w, const Exercise& exercise, const ExerciseLevel& level) {
+std::string lesson_tool(const Translator& w, const Exercise& exercise, const ExerciseLevel& level, bool pointer) {
   const std::string tool = kind_of(exercise).tool == ToolKind::kProbe ? w("Probe, 5 mm") : w("Grasper, 5 mm");
-  if (level.mapping == Mapping::kFulcrum) return w("{0}, through a port: the tip moves against the hand.", {tool});
-  return w("{0}, one hand, no port: the tip moves with the hand.", {tool});
+  if (level.mapping != Mapping::kFulcrum)
+    return pointer ? w("{0}, no port: you move the tip and turn the shaft about it.", {tool})
+                   : w("{0}, one hand, no port: the tip moves with the hand.", {tool});
+  return pointer ? w("{0}, through a port: you move and roll the tip.", {tool})
+                 : w("{0}, through a port: the tip moves against the hand.", {tool});
 }
 
 std::string lesson_scope(const Translator& w, const std::string& degrees, const std::string& post_left,

@@ -50,6 +50,13 @@ void SettingsScreen::general(Ui& ui, PracticeModel& model) {
   ui.explain(w("The light post of a 30 degree scope turns where it looks; the camera head keeps the horizon."));
   changed |= name_choice(ui, "preset", w("Picture"), {w("Chosen by speed"), w("Plain"), w("Soft"), w("Full")},
                          {"auto", "low", "soft", "full"}, s.preset);
+  const std::string pin = w("Whoever has a PIN is asked for it. Only settings.toml turns it off: ask_pin = false.");
+  if (s.ask_pin) {
+    ui.marked(Mark::kLock, pin);
+  } else {
+    changed |= ui.toggle("pin", w("Ask for the PIN at sign-in"), s.ask_pin);
+    ui.explain(pin);
+  }
   changed |= ui.toggle("sound", w("Sound"), s.sound);
   if (!model.sound().refusal().empty()) ui.text(w.made(model.sound().refusal()), Ink::kDim);
   if (changed) model.settings_changed();

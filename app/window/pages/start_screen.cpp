@@ -1,6 +1,7 @@
 #include "app/window/pages/start_screen.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/window/pages/show_scene.h"
 #include "app/window/practice/practice_model.h"
@@ -65,10 +66,55 @@ std::optional<ScreenName> StartScreen::guest_part(Ui& ui, PracticeModel& model) 
   ui.heading(w("Sign in"));
   const bool entered = ui.field("code", w("Your code"), code_);
   if (ui.button("signin", w("Sign in"), coded ? "Enter" : "", coded) || entered) {
-    wrong_ = model.sign_in(code_);
-    if (wrong_.empty()) to = ScreenName::kCurriculum;
+    asked_ = model.code_asks(code_);
+    pin_begins_ = asked_ == PracticeModel::CodeAsks::kPin;
+    if (asked_ == PracticeModel::CodeAsks::kNothing)
+      to = sign_in(model);
+    else
+      wrong_.clear();
   }
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
+  return to;
+}
+
+/// With what has been typed.
+std::optional<ScreenName> StartScreen::sign_in(PracticeModel& model) {
+  wrong_ = model.sign_in(code_, pin_);
+  pin_.clear();
+  pin_begins_ = asked_ == PracticeModel::CodeAsks::kPin;
+  if (!wrong_.empty()) return {};
+  asked_ = PracticeModel::CodeAsks::kNothing;
+  return ScreenName::kCurriculum;
+}
+
+/// A slip of the keys makes no trainee.
+std::optional<ScreenName> StartScreen::new_code_part(Ui& ui, PracticeModel& model) {
+  const Translator& w = model.words();
+  std::optional<ScreenName> to;
+  ui.heading(w("Nobody has the code {0}", {code_}));
+  ui.text(w("Was it typed as you always write it? A new trainee begins with no attempts."), Ink::kDim);
+  const bool back = ui.button("back", w("Back to the code"), "Enter", true, kPanelWidth - 36);
+  if (ui.button("new", w("New trainee {0}", {code_}), "", false, kPanelWidth - 36)) to = sign_in(model);
+  if (back || ui.pressed("Esc")) asked_ = PracticeModel::CodeAsks::kNothing;
+  if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
+  return to;
+}
+
+std::optional<ScreenName> StartScreen::pin_part(Ui& ui, PracticeModel& model) {
+  const Translator& w = model.words();
+  std::optional<ScreenName> to;
+  ui.heading(w("Sign in as {0}", {code_}));
+  if (std::exchange(pin_begins_, false)) ui.focus_next();
+  const bool entered = ui.field("pin", w("PIN or password"), pin_, true);
+  if (ui.button("signin", w("Sign in"), "Enter", true) || entered) to = sign_in(model);
+  ui.same_line();
+  if (ui.button("back", w("Another code")) || ui.pressed("Esc")) {
+    asked_ = PracticeModel::CodeAsks::kNothing;
+    pin_.clear();
+    wrong_.clear();
+  }
+  if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
+  ui.text(w("Your teacher gave it to you, and can give a new one."), Ink::kDim);
   return to;
 }
 
@@ -163,7 +209,11 @@ std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeModel& model, doubl
   ui.title("Trocar");
   ui.text(w("Practise laparoscopy and feel what you touch."), Ink::kDim);
   ui.gap(10);
-  std::optional<ScreenName> to = model.is_guest() ? guest_part(ui, model) : trainee_part(ui, model);
+  using Asks = PracticeModel::CodeAsks;
+  std::optional<ScreenName> to = !model.is_guest()      ? trainee_part(ui, model)
+                                 : asked_ == Asks::kNew ? new_code_part(ui, model)
+                                 : asked_ == Asks::kPin ? pin_part(ui, model)
+                                                        : guest_part(ui, model);
   ui.to_bottom(236);
   if (const auto chosen = foot(ui, model)) to = chosen;
   ui.gap(4);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/picture/films/film_loop.h"
+#include "app/window/practice/practice_model.h"
 #include "app/window/practice/screen.h"
 #include "app/window/words/translator.h"
 
@@ -15,9 +16,13 @@ class StartScreen final : public Screen {
  public:
   std::optional<ScreenName> frame(Ui& ui, PracticeModel& model, double dt_s) override;
   std::optional<Stage> stage(PracticeModel& model, int width, int height) override;
+  bool takes_escape() const override { return asked_ != PracticeModel::CodeAsks::kNothing; }
 
  private:
   std::optional<ScreenName> guest_part(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> new_code_part(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> pin_part(Ui& ui, PracticeModel& model);
+  std::optional<ScreenName> sign_in(PracticeModel& model);
   std::optional<ScreenName> trainee_part(Ui& ui, PracticeModel& model);
   std::optional<ScreenName> plays(Ui& ui, PracticeModel& model);
   std::optional<ScreenName> foot(Ui& ui, PracticeModel& model);
@@ -27,7 +32,9 @@ class StartScreen final : public Screen {
   std::shared_ptr<const SceneView> scene_;
   std::unique_ptr<FilmLoop> film_;  ///< over the show scene, as soon as there is one
   std::vector<Language> languages_;
-  std::string code_, wrong_;
+  std::string code_, pin_, wrong_;
+  PracticeModel::CodeAsks asked_ = PracticeModel::CodeAsks::kNothing;  ///< before code_ is signed in
+  bool pin_begins_ = false;                                            ///< its field takes the focus once
 };
 
 }  // namespace trocar

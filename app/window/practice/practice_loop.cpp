@@ -52,6 +52,7 @@ struct PracticeLoop::State {
   std::vector<ScreenName> before;  // the way to this one, each once; without the run, which is over when it is left
   std::unique_ptr<Screen> screen;
   DevicePanel device;
+  MenuChoice asked = MenuChoice::kNone;  // would end an exam: done when the person says so once more
   bool menu = false, help = false, fullscreen = false, picture_wanted = false;
   bool paused_by_menu = false;
   HelpPage help_page = HelpPage::kKeys;
@@ -78,6 +79,9 @@ struct PracticeLoop::State {
   void choose(MenuChoice choice);
   void answer(HelpChoice choice);
   void show_play(Play play);
+  bool exam_runs() const;
+  void ask(MenuChoice what);
+  void answer(bool leave);
   bool command(const InputEvent& event);
   void dispatch(const std::vector<InputEvent>& events);
   void follow_preset(int width, int height);
@@ -135,6 +139,7 @@ void PracticeLoop::State::show(ScreenName to) {
 void PracticeLoop::State::open_menu(bool open) {
   AttemptRunner* run = model.running();
   menu = open;
+  if (!open) asked = MenuChoice::kNone;
   const bool covered = menu || help;
   if (run && covered && !run->paused()) {
     run->pause(true);
@@ -145,8 +150,30 @@ void PracticeLoop::State::open_menu(bool open) {
   if (!covered) paused_by_menu = false;
 }
 
+bool PracticeLoop::State::exam_runs() const {
+  AttemptRunner* run = model.running();
+  return run && !run->finished() && run->scene().level.name == kExamLevel;
+}
+
+/// Over the menu, which takes keys and pointer from the exam below it.
+void PracticeLoop::State::ask(MenuChoice what) {
+  help = false;
+  open_menu(true);
+  asked = what;
+}
+
+void PracticeLoop::State::answer(bool leave) {
+  const MenuChoice what = asked;
+  open_menu(false);
+  if (!leave) return;
+  model.end_attempt();
+  choose(what);
+}
+
 void PracticeLoop::State::choose(MenuChoice choice) {
   if (choice == MenuChoice::kNone) return;
+  const bool stays = choice == MenuChoice::kBack || choice == MenuChoice::kFullscreen;
+  if (!stays && exam_runs()) return ask(choice);
   open_menu(false);
   const auto leave = [this](ScreenName to) {
     if (model.running()) model.end_attempt();
@@ -317,7 +344,9 @@ void PracticeLoop::State::draw_interface(int width, int height, double dt_s, con
   std::optional<ScreenName> to;
   if (too_small(width, height))
     small_window(ui);
-  else if (menu)
+  else if (asked != MenuChoice::kNone) {
+    if (const auto leave = leave_exam_overlay(ui, model.words()); leave || !exam_runs()) answer(leave.value_or(false));
+  } else if (menu)
     choose(menu_overlay(ui, model, model.running() != nullptr));
   else if (help)
     answer(help_overlay(ui, model, help_page, sounds));
@@ -363,6 +392,12 @@ bool PracticeLoop::frame(int width, int height, double dt_s, const std::vector<I
   }
   s.model.pass(dt_s);
   return s.name != ScreenName::kQuit;
+}
+
+bool PracticeLoop::close() {
+  if (!state_->exam_runs()) return true;
+  state_->ask(MenuChoice::kQuit);
+  return false;
 }
 
 void PracticeLoop::lose_pictures() {

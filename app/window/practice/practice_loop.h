@@ -32,6 +32,8 @@ class PracticeLoop {
 
   /// One frame. Smaller than 64 x 48 px: nothing is drawn. @return false when the program shall end.
   bool frame(int width, int height, double dt_s, const std::vector<InputEvent>& events);
+  /// Somebody closes the window. @return whether it may close now: while an exam runs it asks first.
+  bool close();
   /// The context is lost (a driver was reset): lets go of all that lived in it while it is still there; an attempt
   /// pauses. Until take_up() frames draw nothing. The attempt itself and the screens know nothing of it.
   void lose_pictures();

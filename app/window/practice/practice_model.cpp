@@ -21,6 +21,8 @@ namespace trocar {
 namespace {
 
 constexpr const char* kTutorialOrgan = "phantom-liver";
+constexpr int kHeldBackFrom = 5;                      // wrong PINs in a row, that the audit trail tells of
+constexpr std::chrono::seconds kLongestPinWait{900};  // they double from one second on
 constexpr int kStoring_ms = 500;  // that a result may take to the database before the person is told
 
 /// The parser's own words are English and for who writes programs: the line says enough.
@@ -66,6 +68,8 @@ PracticeModel::PracticeModel(const ModelOptions& options, const AssetRoots& asse
   }
   find_level(exercise(), level);
   if (options.trainee.empty()) return;
+  if (code_asks(options.trainee) == CodeAsks::kPin)
+    throw InputError("--trainee " + options.trainee + ": this station asks for the PIN; sign in on the start page");
   if (const std::string wrong = sign_in(options.trainee); !wrong.empty())
     throw InputError("--trainee " + options.trainee + ": " + wrong);
 }
@@ -141,12 +145,51 @@ AttemptSetup PracticeModel::show_setup() const {
 const std::string& PracticeModel::trainee() const { return state_->trainee; }
 bool PracticeModel::is_guest() const { return state_->trainee == kGuest || state_->trainee == kDemonstration; }
 
-std::string PracticeModel::sign_in(const std::string& code) {
+PracticeModel::CodeAsks PracticeModel::code_asks(const std::string& code) const {
+  const State& s = *state_;
+  if (code == kDemonstration || code == kGuest) return CodeAsks::kNothing;
+  try {
+    check_trainee_code(code);
+    if (!TraineeStore(*s.database).find(code)) return CodeAsks::kNew;
+    return s.guarded(code) ? CodeAsks::kPin : CodeAsks::kNothing;
+  } catch (const std::exception&) {
+    return CodeAsks::kNothing;  // signing in says what is wrong
+  }
+}
+
+/// The account that this station asks for; codes differ by more than case.
+std::optional<Account> PracticeModel::State::guarded(const std::string& code) const {
+  if (!settings.ask_pin) return std::nullopt;
+  const auto known = TraineeStore(*database).find(code);
+  return known ? AccountStore(*database).of_trainee(known->code) : std::nullopt;
+}
+
+/// @return what was wrong with it; "" when it is right.
+std::string PracticeModel::State::check_pin(const Account& account, const std::string& pin) {
+  using Clock = std::chrono::steady_clock;
+  if (!account.disabled_utc.empty()) return words("The account of this code is disabled: ask your teacher.");
+  if (pin.empty()) return words("Type your PIN.");
+  WrongPins& wrong = wrong_pins[account.uuid];
+  const auto left = std::chrono::ceil<std::chrono::seconds>(wrong.until - Clock::now());
+  if (left.count() > 0) return words("Wait {0} s, then try again.", {std::to_string(left.count())});
+  if (AccountStore(*database).verify(account.login, pin)) {
+    wrong_pins.erase(account.uuid);
+    return "";
+  }
+  const auto wait = std::min(kLongestPinWait, std::chrono::seconds(1 << std::min(wrong.count, 20)));
+  wrong.until = Clock::now() + wait;
+  if (++wrong.count == kHeldBackFrom) AccountStore(*database).held_back(account.uuid);
+  return words("This PIN is wrong. Wait {0} s, then try again.", {std::to_string(wait.count())});
+}
+
+std::string PracticeModel::sign_in(const std::string& code, const std::string& pin) {
   State& s = *state_;
   if (code.empty()) return s.words("Type your code first.");
   if (code == kDemonstration || code == kGuest)
     return s.words("This code is kept for runs that are nobody's; take another.");
   try {
+    if (const auto account = s.guarded(code))
+      if (std::string wrong = s.check_pin(*account, pin); !wrong.empty()) return wrong;
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
     if (const std::string said = s.recovered_words(s.trainee); !said.empty()) notice = said;
     s.look_for_note();
@@ -209,6 +252,17 @@ PracticeModel::Advice PracticeModel::next() const {
   return {found->exercise->id, found->level, why};
 }
 
+std::string PracticeModel::State::hand() const {
+  return scripted()                 ? options.hand
+         : options.input != "auto"  ? options.input
+         : settings.input != "auto" ? settings.input
+                                    : input_name(steering->kind());
+}
+
+bool PracticeModel::State::at_pointer() const { return !scripted() && hand() != input_name(InputKind::kDevice); }
+
+bool PracticeModel::at_pointer() const { return state_->at_pointer(); }
+
 std::string PracticeModel::locked() const {
   const std::vector<ExerciseLevel>& levels = exercise().levels;
   const auto at =
@@ -251,11 +305,8 @@ AttemptRequest PracticeModel::State::request(Exercise exercise, const std::strin
   out.setup.exercise = std::move(exercise);
   out.setup.level = level;
   out.setup.organ = organ;
-  out.setup.hand = scripted()                 ? options.hand
-                   : options.input != "auto"  ? options.input
-                   : settings.input != "auto" ? settings.input
-                                              : input_name(steering->kind());
-  if (!scripted() && out.setup.hand != input_name(InputKind::kDevice)) out.setup.backend = kPointerBackend;
+  out.setup.hand = hand();
+  if (at_pointer()) out.setup.backend = kPointerBackend;
   out.setup.realtime = true;
   out.setup.pace = kSimulatedLivePace;
   out.trainee = scripted() ? kDemonstration : trainee;

@@ -77,8 +77,17 @@ class PracticeModel {
   bool is_demonstration() const;  ///< a scripted hand does the attempts; then also a guest
   /// Whoever is here in words, for the head of a page: "Signed in as T-7", "Guest", "Demonstration".
   std::string who() const;
-  /// @return what was wrong with the code, in the trainee's language; empty when signed in.
-  std::string sign_in(const std::string& code);
+  /// What stands between a typed code and its trainee.
+  enum class CodeAsks : std::uint8_t {
+    kNothing,
+    kNew,  ///< nobody has it: signing in makes a new trainee
+    kPin   ///< this station asks for the PIN or password that the trainee has at the desk
+  };
+  /// kNothing for a code that sign_in() refuses, too.
+  CodeAsks code_asks(const std::string& code) const;
+  /// A new code becomes a trainee. After a wrong PIN the next one is taken later and later.
+  /// @return what was wrong, in the trainee's language; empty when signed in.
+  std::string sign_in(const std::string& code, const std::string& pin = "");
   void sign_out();
 
   // what
@@ -96,6 +105,8 @@ class PracticeModel {
   std::optional<std::string> teacher_note() const;
 
   // the attempt
+  /// Will the next attempt be done at mouse, keys or pad, without a device?
+  bool at_pointer() const;
   /// Why the chosen level is locked, and what opens it; empty: it is open. A demonstration may show any.
   std::string locked() const;
   /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when

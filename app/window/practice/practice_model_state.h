@@ -3,12 +3,15 @@
 // Thread: the window's.
 #pragma once
 
+#include <chrono>
 #include <future>
+#include <map>
 #include <utility>
 
 #include "app/session/keeping/live_attempt.h"
 #include "app/session/playback/expert_run.h"
 #include "app/window/practice/practice_model.h"
+#include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/attempt_identity.h"
 
@@ -52,7 +55,18 @@ struct PracticeModel::State {
   }
   std::vector<RecoveredAttempt> recovered;  // found cut off when the database was opened
 
+  /// Of PINs at this station, by trainee; until the right one comes.
+  struct WrongPins {
+    int count = 0;
+    std::chrono::steady_clock::time_point until = {};  // none is taken before
+  };
+  std::map<std::string, WrongPins> wrong_pins;
+  std::optional<Account> guarded(const std::string& code) const;
+  std::string check_pin(const Account& account, const std::string& pin);
+
   bool scripted() const { return !options.hand.empty(); }
+  std::string hand() const;  // of the next attempt
+  bool at_pointer() const;
   bool counts(const AttemptSummary& attempt) const { return scripted() || !by_scripted_hand(attempt); }
   std::string recovered_words(const std::string& of) const;
   void check_names() const;

@@ -90,15 +90,17 @@ void BriefingScreen::load(PracticeModel& model) {
   }
   if (!organ_.valid()) organ_ = std::async(std::launch::async, credit_of, model.organ, model.assets());
   if (credit_.empty() && organ_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) credit_ = organ_.get();
-  const std::string now = model.exercise_id + "/" + model.level + "/" + model.words().language();
+  const bool pointer = model.at_pointer();
+  const std::string now =
+      model.exercise_id + "/" + model.level + "/" + model.words().language() + (pointer ? "/pointer" : "");
   if (now == shown_) return;
   shown_ = now;
   locked_ = model.locked();
   const Exercise& exercise = model.exercise();
   const ExerciseLevel& level = find_level(exercise, model.level);
-  steps_ = lesson_steps(model.words(), exercise, level);
+  steps_ = lesson_steps(model.words(), exercise, level, pointer);
   rows_ = lesson_limits(model.words(), exercise, level);
-  measures_ = lesson_measures(model.words(), level);
+  measures_ = lesson_measures(model.words(), level, pointer);
 }
 
 void BriefingScreen::steps(Ui& ui) const {
@@ -117,14 +119,14 @@ void BriefingScreen::stage_words(Ui& ui, PracticeModel& model) const {
   const Translator& w = model.words();
   const Exercise& exercise = model.exercise();
   const ExerciseLevel& level = find_level(exercise, model.level);
-  ui.text(lesson_tool(w, exercise, level));
+  ui.text(lesson_tool(w, exercise, level, model.at_pointer()));
   const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
   ui.text(lesson_scope(w, model.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
   if (kind_of(exercise).on_organ)
     ui.text(credit_.empty() ? w("On the organ {0}.", {model.organ}) : w.made(credit_), Ink::kDim);
   else
     ui.text(w("On a training board; each attempt has another layout."), Ink::kDim);
-  ui.text(lesson_display(w, level), Ink::kAccent);
+  ui.text(lesson_display(w, exercise, level, model.at_pointer()), Ink::kAccent);
 }
 
 void BriefingScreen::limits(Ui& ui, PracticeModel& model) const {

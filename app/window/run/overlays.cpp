@@ -77,6 +77,22 @@ MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs) {
   return choice;
 }
 
+std::optional<bool> leave_exam_overlay(Ui& ui, const Translator& w) {
+  const std::string said = w("The clock runs on. Left now, the exam ends and counts as not passed.");
+  const double width = std::min(ui.px(460), ui.width() - 2 * ui.px(12));
+  const double height = std::min(ui.px(182) + ui.text_height(said, width - ui.px(36)), ui.height());
+  std::optional<bool> leave;
+  ui.begin_panel("leave.exam", {(ui.width() - width) / 2, (ui.height() - height) / 2, width, height}, 0.97);
+  ui.in_front();
+  ui.title(w("Leave the exam?"));
+  ui.text(said, Ink::kDim);
+  ui.gap();
+  if (ui.button("stay", w("Go on with the exam"), "Enter", true, 424)) leave = false;
+  if (ui.button("leave", w("Leave the exam"), "", false, 424)) leave = true;
+  ui.end_panel();
+  return leave;
+}
+
 HelpChoice help_overlay(Ui& ui, PracticeModel& model, HelpPage& page, SoundPage& sounds) {
   const Translator& w = model.words();
   const Area all = middle(ui, 900, 680);

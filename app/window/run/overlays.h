@@ -17,6 +17,9 @@ namespace trocar {
 enum class MenuChoice : std::uint8_t { kNone, kBack, kLeaveAttempt, kStart, kSettings, kFullscreen, kQuit };
 MenuChoice menu_overlay(Ui& ui, const PracticeModel& model, bool attempt_runs);
 
+/// Whoever leaves an exam is asked: it cannot be taken up again. @return true to leave, false to stay, nothing yet.
+std::optional<bool> leave_exam_overlay(Ui& ui, const Translator& words);
+
 /// Keys as they are now, what every metric means, and every sound; page and sounds are kept by the caller. @return true
 /// what a person chose.
 enum class HelpPage : std::uint8_t { kKeys, kMetrics, kSounds };

@@ -9,6 +9,7 @@
 #include "app/window/practice/practice_model.h"
 #include "app/window/run/first_run_hints.h"
 #include "app/window/run/hud_words.h"
+#include "app/window/run/overlays.h"
 #include "app/window/run/run_sounds.h"
 #include "app/window/run/run_view.h"
 #include "app/window/run/tip_guide.h"
@@ -16,6 +17,7 @@
 #include "app/window/ui/hud_draw_list.h"
 #include "app/window/ui/ui.h"
 #include "haptics/kinematics/device_geometry.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -51,9 +53,10 @@ struct RunScreen::State {
 
   FontSet fonts;
   bool begun = false, steering = false, was_paused = false, overlay = false;
-  bool again = false;   // the overlay asks whether to start again
-  RunMoment before;     // shown while nothing has been seen
-  Camera camera, seen;  // of the exercise; of the last picture
+  bool again = false;    // the overlay asks whether to start again
+  bool leaving = false;  // the overlay asks whether to leave an exam
+  RunMoment before;      // shown while nothing has been seen
+  Camera camera, seen;   // of the exercise; of the last picture
   PixelRect picture;
   HudLayout layout;
   std::optional<double> rim, lit_rim;  // where tip and lit target are when they are out of view
@@ -89,6 +92,8 @@ struct RunScreen::State {
   void rim_arrow(double angle_rad, double size, Ink colour, double within = 0) const;
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
   ScreenName back() const { return play == Play::kAttempt ? ScreenName::kBriefing : ScreenName::kStart; }
+  std::optional<ScreenName> leave_panel(Ui& ui, PracticeModel& model);
+  ScreenName leave(PracticeModel& model);
   std::optional<ScreenName> restart(PracticeModel& model);
   std::optional<ScreenName> ended(PracticeModel& model);
   void hint_panel(Ui& ui, PracticeModel& model);
@@ -112,7 +117,7 @@ void RunScreen::State::begin(PracticeModel& model) {
   surroundings = std::make_unique<Surroundings>(scene);
   guide = {};
   camera = attempt_camera(scene);
-  steering = was_paused = overlay = again = false;
+  steering = was_paused = overlay = again = leaving = false;
   bars = true;
   guides = scene.level.guides;
   asked = Asked::kNothing;
@@ -156,7 +161,7 @@ void RunScreen::State::steer(PracticeModel& model) {
 TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment) {
   TipGuide out;
   out.tip_T = view.X_TI.p;
-  out.held = moment.status.hold_progress;
+  if (hold_shown(scene.setup.exercise, scene.level)) out.held = moment.status.hold_progress;
   out.lit_T = lit_outline(view_of(scene, moment), view.camera);
   const StylusState& stylus = moment.record.stylus;
   const bool carries = moment.status.cue == Cue::kCarry || moment.status.cue == Cue::kPlace;
@@ -312,6 +317,7 @@ void RunScreen::State::pause(PracticeModel& model, bool paused) {
   if (!model.running()->pause(paused)) model.notice = model.words()("An exam has no pause: the clock runs on.");
   overlay = paused;
   again = paused && again;
+  leaving = false;
   RunSounds::hush(model.sound());
 }
 
@@ -392,6 +398,7 @@ std::optional<ScreenName> RunScreen::State::ended(PracticeModel& model) {
 
 std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& model) {
   const Translator& w = model.words();
+  if (leaving) return leave_panel(ui, model);
   const bool stands = model.running()->paused();
   const auto key = [&](Action action) { return key_name(model.keys().key_of(action)); };
   const bool silent = !model.running()->board_answers(), graded = play == Play::kAttempt;
@@ -425,13 +432,26 @@ std::optional<ScreenName> RunScreen::State::pause_panel(Ui& ui, PracticeModel& m
     to = restart(model);
   } else if (again ? second : first) {
     pause(model, false);
+  } else if (left && model.running()->scene().level.name == kExamLevel) {
+    leaving = true;
   } else if (left) {
-    model.end_attempt();
-    begun = overlay = false;
-    to = back();
+    to = leave(model);
   }
   ui.end_panel();
   return to;
+}
+
+ScreenName RunScreen::State::leave(PracticeModel& model) {
+  model.end_attempt();
+  begun = overlay = false;
+  return back();
+}
+
+std::optional<ScreenName> RunScreen::State::leave_panel(Ui& ui, PracticeModel& model) {
+  const std::optional<bool> left = leave_exam_overlay(ui, model.words());
+  if (left == true) return leave(model);
+  if (left == false || ui.pressed("Esc")) pause(model, false);
+  return {};
 }
 
 /// Painted, not a panel: the pointer over it still steers. In the first corner of the picture where nothing is to be

@@ -78,6 +78,8 @@ class Ui {
   bool choice(const char* id, const std::string& text, const std::vector<std::string>& options, int& chosen);
   bool slider(const char* id, const std::string& text, double& value, double low, double high, int decimals);
   bool field(const char* id, const std::string& text, std::string& value, bool secret = false);
+  /// The next item takes the focus.
+  void focus_next();
   bool selectable(const char* id, Mark mark, const std::string& text, bool selected, const std::string& right = "");
   /// Table: `shares` of the width, 0..1. @return index of a clicked row, -1 none.
   struct Cell {

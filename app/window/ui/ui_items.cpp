@@ -166,6 +166,8 @@ bool Ui::field(const char* id, const std::string& text, std::string& value, bool
   return entered;
 }
 
+void Ui::focus_next() { ImGui::SetKeyboardFocusHere(); }
+
 bool Ui::selectable(const char* id, Mark mark, const std::string& text, bool selected, const std::string& right) {
   const double side = UiParts::height(), pad = px(6), high = side + 2 * pad, there = room();
   const bool clicked =

@@ -80,7 +80,7 @@ void DiscTask::hints(const TaskInput& input, const WantedForce& band, DirectorSt
   const std::string wanted = band_text(band);
   if (input.too_hard && display_ != "after") {
     status.cue = Cue::kRelease;
-    return say(status, "Too hard - ease off", "Stay between " + wanted + ".", true);
+    return say(status, "Too hard - ease off", "Keep to " + wanted + ".", true);
   }
   if (since_wrong_place_s_ < kWrongPlaceToast)
     return say(status, "Wrong place", "Lift off and touch inside the lit disc.", true);
@@ -89,8 +89,8 @@ void DiscTask::hints(const TaskInput& input, const WantedForce& band, DirectorSt
     return say(status, "Touch the lit disc", "Disc " + count + ": " + wanted + ".");
   }
   if (!on_disc_) return say(status, "Move onto the lit disc", "The tip is beside it.");
-  if (display_ == "after") return say(status, "Hold by feel", "Wanted: " + wanted + ".");
-  if (force > band.high_n) return say(status, "A little softer", "Stay between " + wanted + ".");
+  if (display_ == "after") return say(status, "Hold the force steady", "Wanted: " + wanted + ".");
+  if (force > band.high_n) return say(status, "A little softer", "Keep to " + wanted + ".");
   if (force < band.low_n) return say(status, "Press gently", "Reach " + wanted + " and hold.");
   say(status, "Good - hold", "Keep the force steady.");
 }

@@ -60,7 +60,7 @@ void SqueezeTask::describe(const TaskInput& input, DirectorStatus& status) const
   status.demand.band = band;
   status.force_shown = force_shown(display_, touched_ && (grip < band.low_n || grip > band.high_n));
   if (!offered_) return say(status, "Open the jaws", "A block will be placed between them.");
-  if (display_ == "after") return say(status, "Squeeze the block by feel", "Wanted: " + wanted + ".");
+  if (display_ == "after") return say(status, "Squeeze the block", "Wanted: " + wanted + ".");
   if (excess_.above()) return say(status, "Too tight - ease off", "Squeeze with " + wanted + ".", true);
   if (grip > band.high_n) return say(status, "A little softer", "Squeeze with " + wanted + ".");
   if (grip < band.low_n) return say(status, "Squeeze the block", "Reach " + wanted + " and hold.");

@@ -21,7 +21,7 @@ Rubric rubric_of_e02() {
                       {"place", "wrong_places", 0.20, 0, 6, false, 0.5},
                       {"force in band", "in_band_share", 0.35, 1.0, 0.3, true, 0.5},
                       {"excess force", "excess_events", 0.20, 0, 6, true, 0.5},
-                      {"economy", "path_ratio", 0.10, 1.0, 2.2, false, 0.5}};
+                      {"path ratio", "path_ratio", 0.10, 1.0, 2.2, false, 0.5}};
   return rubric;
 }
 

@@ -164,7 +164,7 @@ class Filler {
       const double value = k % 4 == 1 ? std::floor(20 * uniform()) : uniform();
       grade.metrics.push_back({names_[k], k % 8 == 0 ? std::nullopt : std::optional(value), k % 3 == 0 ? "m/s" : "1"});
     }
-    for (const char* name : {"force", "in band", "wrong places", "time", "economy"})
+    for (const char* name : {"force", "in band", "wrong places", "time", "path ratio"})
       grade.subscores.push_back({name, uniform(), 0.2, uniform(), "N", 0, 6, name[0] == 'f'});
     double score = std::clamp(95 - 45 * left + 6 * (uniform() - 0.5), 0.0, 100.0);
     if (uniform() < 0.4 * left) {

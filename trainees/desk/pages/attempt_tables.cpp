@@ -33,7 +33,8 @@ bool capped_by(const Grade& grade, const std::string& part) {
 const Subscore* failed_gate(const Grade& grade) {
   const Subscore* worst = nullptr;
   for (const Subscore& part : grade.subscores)
-    if (part.gate && capped_by(grade, part.name) && (worst == nullptr || points_lost(part) > points_lost(*worst)))
+    if (part.gate && part.raw && capped_by(grade, part.name) &&
+        (worst == nullptr || points_lost(part) > points_lost(*worst)))
       worst = &part;
   return worst;
 }
@@ -41,8 +42,22 @@ const Subscore* failed_gate(const Grade& grade) {
 const Subscore* largest_loss(const Grade& grade) {
   const Subscore* worst = nullptr;
   for (const Subscore& part : grade.subscores)
-    if (worst == nullptr || points_lost(part) > points_lost(*worst)) worst = &part;
+    if (part.raw && (worst == nullptr || points_lost(part) > points_lost(*worst))) worst = &part;
   return worst != nullptr && points_lost(*worst) >= 0.05 ? worst : nullptr;
+}
+
+/// What is pressed there is in no band: it belongs to every reason.
+std::string beside_words(const std::vector<Event>& events) {
+  const auto times = std::count_if(events.begin(), events.end(),
+                                   [](const Event& event) { return event.type == event_type::kWrongPlace; });
+  return times == 0 ? "" : " Beside the lit disc " + plural(times, "time", "times") + ".";
+}
+
+/// The first safety gate whose measure has no value: nothing was done that it could judge.
+const Subscore* unjudged_gate(const Grade& grade) {
+  const auto at = std::find_if(grade.subscores.begin(), grade.subscores.end(),
+                               [](const Subscore& part) { return part.gate && !part.raw; });
+  return at == grade.subscores.end() ? nullptr : &*at;
 }
 
 }  // namespace
@@ -70,10 +85,16 @@ std::string verdict_reason(const AttemptView& view) {
   const auto said = [](const Subscore& part) {
     return words_of(part.name) + ": " + quantity(part.raw, part.unit) + " (" + anchors(part) + ")";
   };
-  if (const Subscore* gate = failed_gate(grade)) return "Safety gate not met. " + said(*gate) + ".";
+  const std::string beside = beside_words(view.result.events);
+  if (const Subscore* gate = failed_gate(grade)) return "Safety gate not met. " + said(*gate) + "." + beside;
+  const Subscore* unjudged = unjudged_gate(grade);
+  const std::string unjudged_words =
+      unjudged == nullptr ? ""
+                          : " " + words_of(unjudged->name) + " cannot be judged: nothing was done that it measures.";
   for (const Cap& cap : grade.caps)
     if (cap.kind == CapKind::kUnfinished)
-      return (grade.status == AttemptStatus::kTimeout ? "Time ran out, " : "") + cap_sentence(cap) + ".";
+      return (grade.status == AttemptStatus::kTimeout ? "Time ran out, " : "") + cap_sentence(cap) + "." + beside +
+             unjudged_words;
   if (grade.status == AttemptStatus::kTimeout) return "Time ran out.";
   const Subscore* worst = largest_loss(grade);
   const std::string most =

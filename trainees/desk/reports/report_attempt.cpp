@@ -68,17 +68,16 @@ const Subscore* next_to_practise(const Grade& grade) {
     return a.gate != b.gate ? a.gate : points_lost(a) > points_lost(b);
   };
   for (const Subscore& part : grade.subscores)
-    if (points_lost(part) > 0.05 && (next == nullptr || before(part, *next))) next = &part;
+    if (part.raw && points_lost(part) > 0.05 && (next == nullptr || before(part, *next))) next = &part;
   return next;
 }
 
 void add_advice(std::vector<Block>& out, const Grade& grade) {
   const Subscore* next = grade.score ? next_to_practise(grade) : nullptr;
   if (next == nullptr) return;
-  out.emplace_back(Paragraph{"Try next: " + words_of(next->name) +
-                             (next->full_at < next->zero_at ? " down to " : " up to ") +
-                             quantity_text(next->full_at, next->unit) +
-                             (next->raw ? " (now " + quantity_text(next->raw, next->unit) + ")" : "") + "."});
+  out.emplace_back(
+      Paragraph{"Try next: " + words_of(next->name) + (next->full_at < next->zero_at ? " down to " : " up to ") +
+                quantity_text(next->full_at, next->unit) + " (now " + quantity_text(next->raw, next->unit) + ")."});
 }
 
 /// Errors of the pens, grip on the blocks: what says most of those exercises.

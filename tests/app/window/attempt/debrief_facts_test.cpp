@@ -72,7 +72,7 @@ TEST_F(DebriefFactsTest, RowsGoFromSafetyToTime) {
   }
   EXPECT_EQ(row(facts(graded(touch_, "L1")), "in_band_share").group, ScoreGroup::kSafety);
   EXPECT_EQ(row(facts(graded(touch_, "L1")), "wrong_places").group, ScoreGroup::kAccuracy);
-  EXPECT_EQ(row(facts(graded(touch_, "L1")), "path_ratio").group, ScoreGroup::kEconomy);
+  EXPECT_EQ(row(facts(graded(touch_, "L1")), "path_ratio").group, ScoreGroup::kMotion);
 }
 
 TEST_F(DebriefFactsTest, APassSaysTheScoreAndWhereMostWent) {
@@ -126,6 +126,7 @@ TEST_F(DebriefFactsTest, LostAndCrushedBlocksAreNamed) {
 TEST_F(DebriefFactsTest, TimeOutSaysHowMuchWasDone) {
   AttemptResult result = graded(touch_, "L1", {{"time_s", 120}});
   result.grade.status = AttemptStatus::kTimeout;
+  result.events = {event(2, "START")};
   put_caps(result, touch_, 7, 12);
   EXPECT_EQ(facts(result).reason, "Time ran out: 7 of 12 done.");
   EXPECT_GT(facts(result).lost_to_caps, 50);

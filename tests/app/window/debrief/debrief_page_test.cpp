@@ -119,7 +119,7 @@ TEST(PlotEvents, LieWithinTheTraceAndTheWorstIsTheFirstOfItsKind) {
 TEST_F(DebriefPageTest, GroupsStandInTheOrderSafetyToTime) {
   settle(touch());
   double above = 0;
-  for (const char* group : {"Safety", "Accuracy", "Economy", "Time"}) {
+  for (const char* group : {"Safety", "Accuracy", "Motion", "Time"}) {
     const auto at = std::find_if(texts_.begin(), texts_.end(), [&](const DrawnText& t) { return t.text == group; });
     ASSERT_NE(at, texts_.end()) << group;
     EXPECT_GT(at->y, above);

@@ -151,7 +151,7 @@ TEST_F(LessonScreens, EveryMeasureIsExplainedOneKeyAway) {
   go(ScreenName::kBriefing);
   tap('M');
   frame();
-  const auto measures = lesson_measures(model_->words(), find_level(model_->exercise(), "L1"));
+  const auto measures = lesson_measures(model_->words(), find_level(model_->exercise(), "L1"), model_->at_pointer());
   for (const LessonMeasure& m : measures) {
     EXPECT_TRUE(sees(m.meaning)) << m.name;
     EXPECT_TRUE(sees(m.full)) << m.name;

@@ -151,7 +151,7 @@ TEST(LessonSaid, TimesBandsAndSharesAreWrittenAsPeopleReadThem) {
   }
   EXPECT_EQ(lesson_steps(w, touch, level)[2].text, "Press it with 0.4 to 0.8 N.");
   level.bands = {{0.25, 0.5}, {1, 1.2}};
-  EXPECT_EQ(lesson_steps(w, touch, level)[2].text, "Press it with the force that the bar asks for.");
+  EXPECT_EQ(lesson_steps(w, touch, level)[2].text, "Press it with the force that its message names.");
   EXPECT_EQ(lesson_limits(w, touch, level)[1].value, "0.25 to 0.5 N or 1 to 1.2 N");
   level.rubric.subscores = {
       {.name = "place", .metric = "tremor_rms_m", .weight = 0.125, .full_at = 0.0015, .zero_at = 0.01},
@@ -159,7 +159,7 @@ TEST(LessonSaid, TimesBandsAndSharesAreWrittenAsPeopleReadThem) {
   const auto measures = lesson_measures(w, level);
   EXPECT_EQ(measures[0].weight, "12.5 %");
   EXPECT_EQ(measures[0].full, "1.5 mm");
-  EXPECT_EQ(measures[1].full, "1");
+  EXPECT_EQ(measures[1].full, "1.00");
   EXPECT_EQ(measures[1].meaning, "");
   const Translator german(source_assets().assets / "languages", "de");
   EXPECT_NE(lesson_limits(german, touch, level)[1].value.find("1,2 N"), std::string::npos);

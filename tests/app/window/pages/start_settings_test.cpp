@@ -1,5 +1,6 @@
 // What the first page and the settings do when a person uses them, by keys and pointer.
 #include "tests/app/window/pages/loop_bench.h"
+#include "trainees/records/accounts.h"
 
 namespace trocar::start_settings_test {
 namespace {
@@ -21,6 +22,14 @@ class PageTest : public testing_support::LoopBench {
     for (const DrawnText& t : loop_->texts())
       if (t.text == said) return &t;
     return nullptr;
+  }
+  /// Into its field, after the guest's button.
+  void type_code(const std::string& code) {
+    for (int i = 0; i < 2; ++i) frame();
+    tab(2);
+    for (int i = 0; i < 2; ++i) frame();
+    frame(typed(code));
+    frame();
   }
   /// Clicks on a text that is seen, as a person does.
   void click(const std::string& said) {
@@ -68,6 +77,41 @@ TEST_F(PageTest, ATraineeSeesWhatComesNextAndCanSignOut) {
   EXPECT_TRUE(model_->is_guest());
   frame();
   EXPECT_TRUE(sees("Try now as a guest"));
+}
+
+TEST_F(PageTest, ATypedCodeThatNobodyHasIsAskedAboutFirst) {
+  type_code("T-77");
+  tap(kKeyEnter);
+  frame();
+  EXPECT_TRUE(sees("Nobody has the code T-77"));
+  EXPECT_TRUE(model_->is_guest());
+  tap(kKeyEnter);  // goes back: a slip and two times Enter make nobody
+  frame();
+  EXPECT_TRUE(sees("Your code"));
+  EXPECT_EQ(model_->code_asks("T-77"), PracticeModel::CodeAsks::kNew);
+  tap(kKeyEnter);  // the blue button: sign in with what still stands there
+  click("New trainee T-77");
+  EXPECT_EQ(model_->trainee(), "T-77");
+}
+
+TEST_F(PageTest, AStationThatAsksForThePinHasAFieldForIt) {
+  ASSERT_EQ(model_->sign_in("T-4"), "");
+  model_->sign_out();
+  {
+    Database database(bench_.options().database, OpenMode::kExisting);
+    AccountStore(database).add("ann", "Ann", Role::kTrainee, "T-4", "246810", "");
+  }
+  model_->settings().ask_pin = true;
+  type_code("T-4");
+  tap(kKeyEnter);
+  frame();
+  ASSERT_TRUE(sees("Sign in as T-4"));
+  frame();  // its field has the focus
+  frame(typed("246810"));
+  frame();
+  EXPECT_FALSE(sees("246810")) << "nobody reads it over a shoulder";
+  tap(kKeyEnter);
+  EXPECT_EQ(model_->trainee(), "T-4");
 }
 
 TEST_F(PageTest, TheScenesOriginIsSaid) {

@@ -56,6 +56,10 @@ TEST_F(PracticeLoopTest, KeyboardAloneSignsIn) {
   frame();
   tap(kKeyEnter);
   frame();
+  EXPECT_TRUE(model_->is_guest()) << "nobody has this code: it is asked about";
+  tab(2);  // Back to the code, New trainee
+  tap(kKeyEnter);
+  frame();
   EXPECT_EQ(model_->trainee(), "T-7");
 }
 
@@ -147,8 +151,8 @@ TEST_F(PracticeLoopTest, AKeyIsChosenInTheSettings) {
   width_ = 1280;
   frame();
   frame();
-  tab(10);  // language, size, scope, picture, sound, steered by, sensitivity, left-handed, inverted, then the first
-            // key: "Tip to the left"
+  tab(11);  // language, size, scope, picture, PIN, sound, steered by, sensitivity, left-handed, inverted, then the
+            // first key: "Tip to the left"
   tap(kKeyEnter);
   frame();
   ASSERT_TRUE(sees("press a key"));
@@ -235,7 +239,7 @@ TEST_F(PracticeLoopTest, AKeyThatIsChosenDoesNotLeaveTheSettings) {
   for (const std::int32_t chosen : {std::int32_t{kKeyEscape}, std::int32_t{kKeyEnter}}) {
     frame();
     frame();
-    tab(10);
+    tab(11);
     tap(kKeyEnter);
     frame();
     ASSERT_TRUE(sees("press a key"));

@@ -12,6 +12,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/layout/board_numbers.h"
 #include "tests/app/window/pages/practice_bench.h"
+#include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
 
 namespace trocar::practice_model_test {
@@ -67,6 +68,55 @@ TEST(PracticeModel, SignsInByCodeAndSaysWhatIsWrongWithOne) {
   EXPECT_EQ(model->trainee(), "T-1");
   model->sign_out();
   EXPECT_TRUE(model->is_guest());
+}
+
+TEST(PracticeModel, SaysWhichCodesNobodyHasYet) {
+  using Asks = PracticeModel::CodeAsks;
+  const PracticeBench bench;
+  const auto model = bench.model();
+  EXPECT_EQ(model->code_asks("T-1"), Asks::kNew);
+  EXPECT_EQ(model->code_asks("T-1"), Asks::kNew) << "asking makes nobody";
+  EXPECT_EQ(model->code_asks("no spaces"), Asks::kNothing) << "signing in says what is wrong with it";
+  EXPECT_EQ(model->code_asks("guest"), Asks::kNothing);
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  model->sign_out();
+  EXPECT_EQ(model->code_asks("T-1"), Asks::kNothing);
+  EXPECT_EQ(model->code_asks("t-1"), Asks::kNothing) << "codes differ by more than case";
+}
+
+TEST(PracticeModel, AStationThatAsksForThePinTakesTheRightOneAndWaitsAfterEachWrongOne) {
+  using Asks = PracticeModel::CodeAsks;
+  const PracticeBench bench;
+  const auto model = bench.model();
+  for (const char* code : {"T-1", "T-2"}) ASSERT_EQ(model->sign_in(code), "");
+  model->sign_out();
+  {
+    Database database(bench.options().database, OpenMode::kExisting);
+    AccountStore(database).add("ann", "Ann", Role::kTrainee, "T-1", "246810", "");
+  }
+  EXPECT_EQ(model->code_asks("T-1"), Asks::kNothing) << "not unless the station asks";
+  model->settings().ask_pin = true;
+  model->settings_changed();
+  EXPECT_TRUE(load_settings(bench.options().settings).ask_pin) << "on the disk";
+  for (const char* code : {"T-1", "t-1"}) EXPECT_EQ(model->code_asks(code), Asks::kPin) << code;
+  EXPECT_EQ(model->code_asks("T-2"), Asks::kNothing) << "has none";
+  EXPECT_EQ(model->sign_in("T-2"), "");
+  model->sign_out();
+  EXPECT_EQ(model->sign_in("T-1"), "Type your PIN.");
+  EXPECT_EQ(model->sign_in("t-1", "111111"), "This PIN is wrong. Wait 1 s, then try again.");
+  EXPECT_EQ(model->sign_in("T-1", "246810"), "Wait 1 s, then try again.") << "whatever is typed";
+  EXPECT_TRUE(model->is_guest());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+  EXPECT_EQ(model->sign_in("T-1", "111111"), "This PIN is wrong. Wait 2 s, then try again.");
+  std::this_thread::sleep_for(std::chrono::milliseconds(2050));
+  EXPECT_EQ(model->sign_in("T-1", "246810"), "");
+  EXPECT_EQ(model->trainee(), "T-1");
+  ModelOptions straight = bench.options();
+  straight.trainee = "T-1";
+  EXPECT_THROW(bench.model(straight), InputError) << "not round the PIN by the command line";
+  Database database(bench.options().database, OpenMode::kExisting);
+  AccountStore(database).set_disabled("ann", true, "");
+  EXPECT_EQ(model->sign_in("T-1", "246810"), "The account of this code is disabled: ask your teacher.");
 }
 
 TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {

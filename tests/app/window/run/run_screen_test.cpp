@@ -33,6 +33,18 @@ class RunScreenBench : public LoopBench {
     return until(
         [this] { return model_->running() && model_->running()->ready() && model_->running()->newest().seen; });
   }
+  /// On a button's text. @return false when the program shall end.
+  bool click(const std::string& said) {
+    frame();
+    const auto at =
+        std::find_if(loop_->texts().begin(), loop_->texts().end(), [&](const DrawnText& t) { return t.text == said; });
+    if (at == loop_->texts().end()) throw std::runtime_error("nowhere: " + said);
+    const double x = at->x + 4, y = at->y + at->height / 2;
+    bool on = true;
+    for (const auto kind : {InputEvent::Kind::kMouseMove, InputEvent::Kind::kButtonDown, InputEvent::Kind::kButtonUp})
+      on = frame({pointer(kind, x, y)}) && on;
+    return frame() && on;
+  }
   void keep_picture(const std::string& name) {
     if (const char* folder = std::getenv("TROCAR_PICTURES"))
       write_png(std::filesystem::path(folder) / (name + ".png"), loop_->picture());
@@ -326,6 +338,45 @@ TEST_F(RunScreenBench, AnExamHasNoPauseForACableEither) {
   EXPECT_FALSE(model_->running()->plug(false));
   EXPECT_TRUE(model_->running()->board_answers());
 }
+
+TEST_F(RunScreenBench, AnExamIsLeftByNoWayThatDoesNotAsk) {
+  ModelOptions exam = bench_.options();
+  exam.hand = "expert";
+  exam.level = "exam";
+  width_ = 1280;
+  height_ = 720;
+  open(exam);
+  begin();
+  frame();
+  AttemptRunner* run = model_->running();
+  EXPECT_FALSE(loop_->close()) << "the window's cross";
+  frame();
+  ASSERT_TRUE(sees("Leave the exam?"));
+  EXPECT_FALSE(run->paused()) << "the clock runs on";
+  tap(kKeyEscape);
+  EXPECT_FALSE(sees("Leave the exam?"));
+  for (const char* way : {"Leave this attempt", "Start page", "Settings", "Quit"}) {
+    tap(kKeyEscape);
+    click(way);
+    ASSERT_TRUE(sees("Leave the exam?")) << way;
+    click("Go on with the exam");
+    EXPECT_FALSE(sees("Leave the exam?")) << way;
+  }
+  tap('P');
+  frame();
+  ASSERT_TRUE(sees("The exam goes on"));
+  click("Leave this attempt");
+  ASSERT_TRUE(sees("Leave the exam?"));
+  tap(kKeyEscape);
+  EXPECT_EQ(model_->running(), run);
+  EXPECT_FALSE(run->finished());
+  EXPECT_FALSE(loop_->close());
+  EXPECT_FALSE(click("Leave the exam")) << "said once more, the program ends";
+  EXPECT_FALSE(model_->running());
+  EXPECT_EQ(model_->result()->grade.status, AttemptStatus::kAborted);
+}
+
+TEST_F(RunScreenBench, TheWindowClosesWithoutAskingOutsideAnExam) { EXPECT_TRUE(loop_->close()); }
 
 }  // namespace
 }  // namespace trocar::testing_support::run_screen_test

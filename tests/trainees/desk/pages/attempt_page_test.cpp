@@ -60,6 +60,23 @@ TEST(Verdict, ReasonsInTheirOrder) {
   EXPECT_EQ(verdict_reason(view), "aborted: window closed");
 }
 
+TEST(Verdict, WhatHasNoValueIsNoReason) {
+  AttemptView view = sample_attempt();
+  Grade& grade = view.result.grade;
+  for (Subscore& part : grade.subscores)
+    if (part.gate) part.raw.reset(), part.value = 0;
+  grade.caps.push_back({.kind = CapKind::kUnfinished, .done = 0, .total = 12, .at_most = 0});
+  grade.status = AttemptStatus::kTimeout;
+  const std::string untouched = verdict_reason(view);
+  EXPECT_TRUE(untouched.starts_with("Time ran out, not finished: 0 of 12: at most 0.")) << untouched;
+  EXPECT_TRUE(untouched.ends_with("In band cannot be judged: nothing was done that it measures.")) << untouched;
+  for (int i = 0; i < 13; ++i)
+    view.result.events.push_back({10.0 + i, "WRONG_PLACE", Severity::kMinor, -1, 0.004, "m", Vec3::Zero()});
+  const std::string beside = verdict_reason(view);
+  EXPECT_NE(beside.find("Beside the lit disc 1"), std::string::npos) << beside;
+  EXPECT_EQ(beside.find("undefined"), std::string::npos) << beside;
+}
+
 TEST(Verdict, EventTimesCountFromTheTracesBeginning) {
   AttemptView view = sample_attempt();
   for (TraceSample& sample : view.trace->samples) sample.t_s += 100;

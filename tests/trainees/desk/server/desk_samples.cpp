@@ -148,7 +148,9 @@ std::string raw_answer(int port, const std::string& bytes, int patience_ms, bool
   std::string out;
   if (::connect(client, reinterpret_cast<sockaddr*>(&server), sizeof server) == 0) {
     for (std::size_t sent = 0; sent < bytes.size();) {
-      const ssize_t count = ::send(client, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+      // held back for the end, so that the other side never sees the request without it
+      const int flags = MSG_NOSIGNAL | (ends ? MSG_MORE : 0);
+      const ssize_t count = ::send(client, bytes.data() + sent, bytes.size() - sent, flags);
       if (count <= 0) break;
       sent += static_cast<std::size_t>(count);
     }

@@ -1,4 +1,4 @@
-// Numbers with their units in the sentences of a lesson. Thread: any.
+// Numbers with their units in sentences. Pure. Thread: any.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "app/window/lessons/lesson_numbers.h"
+#include "app/window/attempt/number_words.h"
 
 #include <cmath>
 #include <numbers>
