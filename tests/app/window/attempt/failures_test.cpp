@@ -415,10 +415,20 @@ TEST_F(EndsTest, LeavingAndADeviceThatStoppedAskForTheSameAgain) {
   result.level = "L1";
   result.grade.status = AttemptStatus::kAborted;
   EXPECT_EQ(said(result).second, "Try next: the whole task once, however slowly; only a finished one is graded.");
+  result.events = {event(2, "START")};
   for (const auto status : {AttemptStatus::kFault, AttemptStatus::kVoid}) {
     result.grade.status = status;
     EXPECT_EQ(said(result).second, "Try next: the same once more; call your teacher if it happens again.");
   }
+}
+
+TEST_F(EndsTest, WhatNeverBeganSaysHowItBegins) {
+  AttemptResult result;
+  result.level = "L1";
+  result.grade.status = AttemptStatus::kVoid;
+  const auto [facts, next] = said(result);
+  EXPECT_EQ(facts.reason, "The clock never began: nothing is graded, and it does not count.");
+  EXPECT_EQ(next, "Try next: bring the tip into the ball at the start and rest there for 1 s.");
 }
 
 }  // namespace
