@@ -67,6 +67,13 @@ struct ExerciseLevel {
   PointerLevel pointer;
 };
 
+/// What helps a hand at mouse, keys or pad at a level, as attempts keep it: "height" where the tip keeps its height by
+/// itself, "plumb" where a line falls from it to what lies below; separated by a space, empty without.
+inline std::string pointer_assists(const ExerciseLevel& level) {
+  return std::string(level.pointer.glide ? "height" : "") + (level.pointer.glide && level.guides ? " " : "") +
+         (level.guides ? "plumb" : "");
+}
+
 /// Where the objects of a board may lie; what only discs on an organ have is marked.
 struct TargetLayout {
   int count = 0;

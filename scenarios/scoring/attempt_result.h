@@ -65,6 +65,8 @@ struct StiffnessReport {
 /// Loop quality of the attempt (the run report).
 struct RunReport {
   std::string backend;
+  /// Mouse, keys, pad or SpaceMouse: nothing was felt, and what is said of motors below says nothing.
+  bool without_device() const { return backend == "pointer"; }
   double rate_hz = 0;
   std::uint64_t ticks = 0;
   std::uint64_t overruns = 0;          ///< SYNC periods that the loop missed; not the overruns of a lane in `realtime`
@@ -92,6 +94,7 @@ struct AttemptResult {
   std::int64_t seed = 0;
   int board = 0;
   std::string trainee, hand;
+  std::string assists;  ///< pointer_assists() of a hand without a device; empty with one
   Grade grade;
   std::vector<Event> events;
   RunReport device;

@@ -17,7 +17,8 @@ const std::string kAttempt =
     " finished_utc, s.value, coalesce(s.passed, 0), coalesce(s.grade, 'not graded'), recording_path, recording_sha256,"
     " state_hash, device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share,"
     " passivity_active_share, min_energy_j, kappa, device_fault,"
-    " program, integrity, cut_off, device_realtime, device_plant, (SELECT uuid FROM session WHERE id = session_id),"
+    " program, integrity, cut_off, device_realtime, device_plant, assists, (SELECT uuid FROM session WHERE id = "
+    "session_id),"
     " (SELECT sha256 FROM device_calibration WHERE id = calibration_id), s.revision, s.ruleset_sha256"
     " FROM attempt a JOIN trainee t ON t.id = a.trainee_id LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0"
     " WHERE a.id = ?";

@@ -109,13 +109,14 @@ void insert_attempt(sqlite3* connection, const AttemptStart& start, std::int64_t
       connection,
       "INSERT INTO attempt (uuid, trainee_id, exercise_id, exercise_version, ruleset_sha256, level, seed,"
       " board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, started_utc,"
-      " owner_pid, owner_boot, owner_start, recording_path, program, hash_version, session_id, calibration_id, status)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
+      " owner_pid, owner_boot, owner_start, recording_path, program, assists, hash_version, session_id, calibration_id,"
+      " status)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'running')");
   insert.bind(id.uuid).bind(trainee).bind(start.exercise_id).bind(start.exercise_version).bind(id.rubric_sha256);
   insert.bind(start.level).bind(start.seed).bind(start.board).bind(start.hand).bind(start.organ_name);
   insert.bind(start.organ_source).bind(start.organ_sha256).bind(start.organ_synthetic).bind(start.organ_credit);
   insert.bind(id.started_utc).bind(owner.pid).bind(owner.boot).bind(owner.start).bind(stored_recording);
-  insert.bind(start.program).bind(kHashVersion);
+  insert.bind(start.program).bind(start.assists).bind(kHashVersion);
   for (const std::optional<std::int64_t>& row : {session, calibration}) row ? insert.bind(*row) : insert.bind_null();
   insert.run();
 }
@@ -126,7 +127,7 @@ constexpr const char* kResultColumns =
     " device_backend, device_rate_hz, device_ticks, device_overruns, saturated_contact_share, passivity_active_share,"
     " min_energy_j, kappa, device_fault, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit,"
     " a.ruleset_sha256, recording_sha256, recording_path, state_hash, started_utc, integrity, device_realtime, cut_off,"
-    " device_plant"
+    " device_plant, assists"
     " FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
     " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?";
 
@@ -156,6 +157,7 @@ AttemptResult result_of(const sql::Statement& row, const fs::path& database) {
   result.board = static_cast<int>(row.integer(5));
   result.trainee = row.text(6);
   result.hand = row.text(7);
+  result.assists = row.text(35);
   result.grade.status = status_of(row.text(8));
   result.grade.score = row.optional_real(9);
   result.grade.passed = row.integer(10) != 0;

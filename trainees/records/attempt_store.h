@@ -33,7 +33,8 @@ struct AttemptStart {
   std::int64_t seed = 0;
   int board = 0;
   std::string hand;
-  std::string program;  ///< its version
+  std::string assists = {};  ///< as AttemptResult has it
+  std::string program;       ///< its version
   std::string organ_name, organ_source, organ_sha256, organ_credit;
   bool organ_synthetic = false;
   std::string calibration = {},

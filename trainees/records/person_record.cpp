@@ -48,7 +48,7 @@ constexpr const char* kAttempts =
     "status, integrity,"
     " finished_utc, recording_path, recording_sha256, state_hash, device_backend, device_rate_hz, device_ticks, "
     "device_overruns, saturated_contact_share,"
-    " passivity_active_share, min_energy_j, kappa, device_fault, device_realtime, device_plant, hash_version, "
+    " passivity_active_share, min_energy_j, kappa, device_fault, device_realtime, device_plant, assists, hash_version, "
     "chain_position, "
     "prev_hash, row_hash"
     " FROM attempt a LEFT JOIN session s ON s.id = a.session_id LEFT JOIN device_calibration c ON c.id = "

@@ -165,6 +165,8 @@ CREATE TABLE attempt (
   seed             INTEGER NOT NULL,
   board            INTEGER NOT NULL,
   hand             TEXT NOT NULL,
+  -- what helped a hand without a device: 'height', 'plumb', or both with a space between
+  assists          TEXT NOT NULL DEFAULT '',
   organ_name       TEXT NOT NULL,
   organ_source     TEXT NOT NULL,
   organ_sha256     TEXT NOT NULL,
@@ -525,7 +527,8 @@ CREATE TRIGGER attempt_no_update BEFORE UPDATE ON attempt WHEN OLD.status <> 'ru
 BEGIN SELECT RAISE(ABORT, 'a finished attempt cannot be changed'); END;
 CREATE TRIGGER attempt_keeps_identity
 BEFORE UPDATE OF id, uuid, trainee_id, session_id, calibration_id, exercise_id, exercise_version, ruleset_sha256, level,
-  seed, board, hand, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, program, started_utc,
+  seed, board, hand, assists, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit, program,
+  started_utc,
   owner_pid, owner_boot, owner_start, hash_version ON attempt
 BEGIN SELECT RAISE(ABORT, 'what an attempt began with cannot be changed'); END;
 CREATE TRIGGER attempt_no_delete BEFORE DELETE ON attempt

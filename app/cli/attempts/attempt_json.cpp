@@ -116,6 +116,7 @@ std::string attempt_json(const AttemptResult& result) {
                        {"board", result.board}}},
                      {"trainee", result.trainee},
                      {"hand", result.hand},
+                     {"assists", result.assists},
                      {"status", status_name(result.grade.status)},
                      {"score", number(result.grade.score)},
                      {"passed", result.grade.passed},

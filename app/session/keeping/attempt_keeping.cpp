@@ -39,6 +39,7 @@ AttemptStart attempt_start(const Scene& scene, const std::string& trainee, const
   start.seed = scene.setup.seed;
   start.board = scene.setup.board;
   start.hand = scene.setup.hand;
+  if (!scene.loop.daq.motors) start.assists = pointer_assists(scene.level);
   start.organ_name = scene.organ.name;
   start.organ_source = scene.organ.source_file;
   start.organ_sha256 = scene.organ.sha256;
@@ -84,6 +85,7 @@ AttemptResult kept_result(const AttemptStart& start, const AttemptId& id, const 
   result.board = start.board;
   result.trainee = start.trainee;
   result.hand = start.hand;
+  result.assists = start.assists;
   result.organ_name = start.organ_name;
   result.organ_source = start.organ_source;
   result.organ_sha256 = start.organ_sha256;

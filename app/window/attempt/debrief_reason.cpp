@@ -122,6 +122,14 @@ void add_pauses(const Translator& words, const AttemptResult& result, std::vecto
                                            {std::to_string(pauses.size()), at, took}));
 }
 
+/// Of AttemptResult::assists.
+std::string help_words(const Translator& w, const std::string& assists) {
+  const bool height = assists.find("height") != std::string::npos, plumb = assists.find("plumb") != std::string::npos;
+  if (height && plumb) return w("Helped at this level: the tip kept its height, a line showed what lies below it.");
+  if (height) return w("Helped at this level: the tip kept its height by itself.");
+  return plumb ? w("Helped at this level: a line showed what lies below the tip.") : "";
+}
+
 }  // namespace
 
 double clock_s(const AttemptResult& result, double t_s) {
@@ -252,6 +260,7 @@ std::vector<std::string> further_words(const Translator& words, const AttemptRes
               "certificate.",
               {words.number(100 * result.device.saturated_contact_share, 0)}));
   add_pauses(words, result, out);
+  if (const std::string help = help_words(words, result.assists); !help.empty()) out.push_back(help);
   return out;
 }
 

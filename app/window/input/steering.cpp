@@ -41,7 +41,8 @@ constexpr double kFeltGain = 0.3;                           // of sideways movem
 constexpr double kAway = 0.005;                             // m of a movement sideways that lets off by itself
 constexpr double kSettle = 0.08;                            // m/s to the height that belongs to a ground
 constexpr double kSnap = 0.02;                              // m/s to the middle of what it stands over
-constexpr double kLowest = -0.010, kHighest = 0.120;        // m over the ground
+constexpr double kEdge = 1e-5;  // m: above what seen_ground() leaves, below any step: there the ground ends
+constexpr double kLowest = -0.010, kHighest = 0.120;  // m over the ground
 
 struct View {
   Vec3 right, up, away;
@@ -95,6 +96,7 @@ struct Steering::State {
   // over a ground
   int ground = 0;                 ///< its number; 0: none
   Vec3 foot_T = Vec3::Zero();     ///< on the ground, below the tip
+  Vec3 pointed_T = Vec3::Zero();  ///< the same, but at an edge on the line of sight: no small step over it is lost
   double lift_m = 0, rest_m = 0;  ///< of the tip over its foot; and where it settles
   // the act button
   bool acting = false;                   ///< held
@@ -302,16 +304,19 @@ struct Steering::State {
       foot_T = wanted_T;
       lift_m = wanted_T.z() - over.level_z_m.value_or(over.height(foot_T.x(), foot_T.y()));
       rest_m = over.clearance_m;
+      pointed_T = {foot_T.x(), foot_T.y(), over.height(foot_T.x(), foot_T.y())};
     }
     if (!aside.isZero()) {
-      const Vec3 next = foot_T + over.aside * aside;
-      foot_T = seen_ground(over, camera, next).value_or(next);
+      const Vec3 next = pointed_T + over.aside * aside;
+      foot_T = pointed_T = seen_ground(over, camera, next).value_or(next);
     }
     if (aside.isZero() && !acting && over.centre_T)
       foot_T.head<2>() +=
           no_longer(Vec3((*over.centre_T - foot_T).cwiseProduct(Vec3(1, 1, 0))), kSnap * dt_s).head<2>();
     foot_T = within_ball(foot_T, Vec3(centre_T.x(), centre_T.y(), foot_T.z()), reach.radius_m);
     foot_T.z() = over.height(foot_T.x(), foot_T.y());
+    const bool below_edge = std::abs(pointed_T.z() - foot_T.z()) > kEdge;
+    if (!below_edge || pointed_T.head<2>() != foot_T.head<2>()) pointed_T = foot_T;
     if (deeper_m != 0) rest_m = lift_m = std::clamp(lift_m - deeper_m, kLowest, kHighest);
     if (!acting) lift_m += std::clamp(rest_m - lift_m, -kSettle * dt_s, kSettle * dt_s);
     wanted_T = {foot_T.x(), foot_T.y(), over.level_z_m.value_or(foot_T.z()) + lift_m};

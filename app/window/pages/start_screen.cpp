@@ -217,7 +217,10 @@ std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeModel& model, doubl
   ui.to_bottom(236);
   if (const auto chosen = foot(ui, model)) to = chosen;
   ui.gap(4);
-  ui.marked(Mark::kInfo, w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."), Ink::kDim);
+  ui.marked(Mark::kInfo,
+            model.at_pointer() ? w("Without a device: mouse, keyboard or pad. F1 help, Esc menu.")
+                               : w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."),
+            Ink::kDim);
   ui.gap(4);
   ui.heading(w("Teacher"));
   ui.text(w("Results, notes, sign-off and export: trocar review serve."), Ink::kDim);

@@ -64,6 +64,7 @@ struct PracticeLoop::State {
 
   std::optional<PictureThrift> thrift, thrift_in_run;  // a page's picture costs another time than a run's
   bool timed = false, keeps_rate = false, plainer_told = false;
+  bool draws_scopes = true;
   double size = 1;              // of the scope's pictures relative to their places
   std::string preset = "auto";  // as the settings had it when it was last followed
   long frames = 0;
@@ -317,7 +318,7 @@ void PracticeLoop::State::draw_stage(int width, int height) {
     if (stage->width > 0)
       part = {static_cast<int>(stage->x), static_cast<int>(stage->y), static_cast<int>(stage->width),
               static_cast<int>(stage->height)};
-    if (part.width < 64 || part.height < 48) return;
+    if (part.width < 64 || part.height < 48 || !draws_scopes) return;
     const auto sized = [this](int length, int least) {
       return std::max(least, static_cast<int>(std::lround(size * length)));
     };
@@ -423,6 +424,7 @@ void PracticeLoop::settle(double wait_s) {
   if (state_->screen) state_->screen->settle(state_->model, wait_s);
 }
 
+void PracticeLoop::draw_scopes(bool wanted) { state_->draws_scopes = wanted; }
 void PracticeLoop::keep_rate() { state_->keeps_rate = true; }
 void PracticeLoop::go(ScreenName name) { state_->show(name); }
 ScreenName PracticeLoop::here() const { return state_->name; }

@@ -38,6 +38,8 @@ class PracticeLoop {
   /// pauses. Until take_up() frames draw nothing. The attempt itself and the screens know nothing of it.
   void lose_pictures();
   void take_up(GraphicsContext& context);
+  /// Whether from now on scopes are drawn: not while nobody looks. All else goes on.
+  void draw_scopes(bool wanted);
   /// Waits for what the screen that is up makes in the background; wait_s at most.
   void settle(double wait_s);
   /// Draws less when pictures come too slowly, as in a window: in memory only when asked, so that pictures do not

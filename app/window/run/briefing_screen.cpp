@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "app/window/lessons/lesson_icons.h"
+#include "app/window/run/first_run_hints.h"
 #include "app/window/ui/button_row.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/kind.h"
@@ -84,13 +85,10 @@ std::string check_words(const Translator& w, const DeviceCheck::Line& line) {
 }
 
 void BriefingScreen::load(PracticeModel& model) {
-  if (!check_) {
-    SimulatedDaqConfig device;
-    check_ = std::make_unique<DeviceCheck>(device, limits_);
-  }
+  const bool pointer = model.at_pointer();
+  if (!check_ && !pointer) check_ = std::make_unique<DeviceCheck>(SimulatedDaqConfig{}, limits_);
   if (!organ_.valid()) organ_ = std::async(std::launch::async, credit_of, model.organ, model.assets());
   if (credit_.empty() && organ_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) credit_ = organ_.get();
-  const bool pointer = model.at_pointer();
   const std::string now =
       model.exercise_id + "/" + model.level + "/" + model.words().language() + (pointer ? "/pointer" : "");
   if (now == shown_) return;
@@ -142,8 +140,17 @@ void BriefingScreen::measures(Ui& ui, PracticeModel& model) const {
   ui.text(w("Pass from {0} of 100. M explains each measure.", {w.number(pass, 0)}), Ink::kDim);
 }
 
-void BriefingScreen::device(Ui& ui, PracticeModel& model) const {
+/// What moves what, or whether the device is as it should be.
+void BriefingScreen::hand(Ui& ui, PracticeModel& model) const {
   const Translator& w = model.words();
+  if (model.at_pointer()) {
+    FirstRunHints hints;
+    hints.begin(false, hand_tries(model.exercise(), find_level(model.exercise(), model.level)));
+    ui.heading(w("How to move"));
+    for (const FirstRunHints::Hint& hint : hints.marks(w, model.keys(), model.steering().kind())) ui.text(hint.text);
+    ui.text(w("No device is needed. F1 lists every key."), Ink::kDim);
+    return;
+  }
   ui.heading(w("Device check: simulated device"));
   for (const DeviceCheck::Line& line : check_->lines())
     ui.marked(check_mark(line.state), check_words(w, line),
@@ -152,7 +159,7 @@ void BriefingScreen::device(Ui& ui, PracticeModel& model) const {
 
 std::optional<ScreenName> BriefingScreen::start(PracticeModel& model) {
   const Translator& w = model.words();
-  if (find_level(model.exercise(), model.level).exam && !check_->sound()) {
+  if (find_level(model.exercise(), model.level).exam && !model.at_pointer() && !check_->sound()) {
     wrong_ = check_->finished() ? w("No exam on a device that fails its check. Other levels may be practised.")
                                 : w("An exam waits for the device check: try again in a moment.");
     return std::nullopt;
@@ -178,7 +185,7 @@ void BriefingScreen::column(Ui& ui, PracticeModel& model, const Area& area) {
   limits(ui, model);
   measures(ui, model);
   stage_words(ui, model);
-  device(ui, model);
+  hand(ui, model);
   ui.end_panel();
 }
 
@@ -199,7 +206,7 @@ void BriefingScreen::sheet(Ui& ui, PracticeModel& model, const Area& area) {
   panel("briefing.stage", {area.x, top + below - stage_high, left, stage_high}, [&] { stage_words(ui, model); });
   panel("briefing.limits", {x, top, half, limits_high}, [&] { limits(ui, model); });
   panel("briefing.measures", {x + half + gap, top, left - half - gap, limits_high}, [&] { measures(ui, model); });
-  panel("briefing.device", {x, top + limits_high + gap, left, below - limits_high - gap}, [&] { device(ui, model); });
+  panel("briefing.hand", {x, top + limits_high + gap, left, below - limits_high - gap}, [&] { hand(ui, model); });
 }
 
 std::string BriefingScreen::page(Ui& ui, PracticeModel& model) {
@@ -258,7 +265,7 @@ std::string BriefingScreen::explanation(Ui& ui, PracticeModel& model) {
 
 void BriefingScreen::settle(PracticeModel& model, double wait_s) {
   load(model);
-  check_->wait(wait_s);
+  if (check_) check_->wait(wait_s);
   organ_.wait_for(std::chrono::duration<double>(wait_s));
 }
 

@@ -1,4 +1,5 @@
-// T3: what will be done and measured, on one page; beside it the device is checked. Enter starts.
+// T3: what will be done and measured, on one page; beside it the device is checked, or without one it says what moves
+// what. Enter starts.
 //
 // At 720 lines and scale 1 everything stands on the page; with larger text the page keys move it. Thread: the window's.
 #pragma once
@@ -39,12 +40,12 @@ class BriefingScreen final : public Screen {
   void stage_words(Ui& ui, PracticeModel& model) const;
   void limits(Ui& ui, PracticeModel& model) const;
   void measures(Ui& ui, PracticeModel& model) const;
-  void device(Ui& ui, PracticeModel& model) const;
+  void hand(Ui& ui, PracticeModel& model) const;
   std::optional<ScreenName> start(PracticeModel& model);
 
   CheckLimits limits_;
-  std::unique_ptr<DeviceCheck> check_;
-  std::string shown_;  ///< exercise and level that the texts below are of
+  std::unique_ptr<DeviceCheck> check_;  ///< null: no device
+  std::string shown_;                   ///< exercise and level that the texts below are of
   std::vector<LessonStep> steps_;
   std::vector<LessonLimit> rows_;
   std::vector<LessonMeasure> measures_;

@@ -1,14 +1,16 @@
-// Three marks that tell a guest in a first attempt what moves what; each is ticked when it has been done once.
+// Marks that tell a guest in a first attempt what moves what; each is ticked when it has been done once.
 //
 // Thread: the window's.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/window/input/key_map.h"
 #include "app/window/words/translator.h"
+#include "scenarios/exercise.h"
 
 namespace trocar {
 
@@ -19,8 +21,15 @@ class FirstRunHints {
     bool done = false;
   };
 
+  /// What the exercise asks for beyond moving.
+  enum class Tries : std::uint8_t {
+    kActs,   ///< press or grip, and let off
+    kTurns,  ///< lean the shaft and roll it
+    kRolls   ///< through a port it cannot be leant
+  };
+
   /// @param wanted false: it has nothing to say.
-  void begin(bool wanted);
+  void begin(bool wanted, Tries tries = Tries::kActs);
   void saw(const InputEvent& event, const KeyMap& keys);
   /// While something is still to be tried, and a little longer.
   bool speaks() const { return wanted_ && over_s_ < kLinger_s; }
@@ -31,12 +40,16 @@ class FirstRunHints {
   static constexpr double kLinger_s = 2;
   bool all() const { return done_[0] && done_[1] && done_[2] && done_[3]; }
   void acts(bool held);
+  void turns(const InputEvent& event, std::optional<Action> action);
 
   bool wanted_ = false;
-  std::array<bool, 4> done_{};  ///< moved, deeper, pressed or gripped, let off
-  bool acting_ = false;
+  Tries tries_ = Tries::kActs;
+  std::array<bool, 4> done_{};  ///< moved, deeper; pressed or gripped and let off, or leant and rolled
+  bool acting_ = false, dragging_ = false;
   double acted_s_ = 0;
   double way_px_ = 0, last_x_ = -1, last_y_ = -1, over_s_ = 0;
 };
+
+FirstRunHints::Tries hand_tries(const Exercise& exercise, const ExerciseLevel& level);
 
 }  // namespace trocar

@@ -25,6 +25,16 @@ std::string recorded(const std::string& name, const std::string& words, bool mon
   return fact(name, words.empty() ? "not recorded" : words, mono);
 }
 
+/// Of AttemptResult::assists.
+std::string help_words(const std::string& assists) {
+  if (assists.empty()) return "nothing";
+  std::string out;
+  for (const auto& [word, meaning] :
+       {std::pair("height", "the tip keeps its height by itself"), {"plumb", "a line from the tip to what lies below"}})
+    if (assists.find(word) != std::string::npos) out += (out.empty() ? "" : "; ") + std::string(meaning);
+  return out;
+}
+
 bool capped_by(const Grade& grade, const std::string& part) {
   return std::any_of(grade.caps.begin(), grade.caps.end(),
                      [&](const Cap& cap) { return cap.kind == CapKind::kGate && cap.subject == part; });
@@ -202,13 +212,14 @@ std::string metric_table(const AttemptView& view) {
 
 std::string device_facts(const AttemptView& view) {
   const RunReport& d = view.result.device;
-  std::string out = "<dl class=\"facts\">" + recorded("Device", d.backend) +
+  std::string out = "<dl class=\"facts\">" +
+                    (d.without_device() ? fact("Device", "none: nothing was felt") : recorded("Device", d.backend)) +
                     recorded("Loop", d.rate_hz > 0 ? number_text(d.rate_hz) + " Hz" : "") +
-                    recorded("Ticks", std::to_string(d.ticks)) + recorded("Ticks missed", std::to_string(d.overruns)) +
-                    recorded("At its limit", share_text(d.saturated_contact_share) + " of contact") +
-                    recorded("Passivity at work", share_text(d.passivity_active_share) + " of contact") +
-                    recorded("Least energy", number_text(d.min_energy_j) + " J") +
-                    recorded("Force scale", number_text(d.kappa));
+                    recorded("Ticks", std::to_string(d.ticks)) + recorded("Ticks missed", std::to_string(d.overruns));
+  if (!d.without_device())
+    out += recorded("At its limit", share_text(d.saturated_contact_share) + " of contact") +
+           recorded("Passivity at work", share_text(d.passivity_active_share) + " of contact") +
+           recorded("Least energy", number_text(d.min_energy_j) + " J") + recorded("Force scale", number_text(d.kappa));
   if (!d.fault.empty()) out += recorded("Fault", d.fault);
   out += "</dl>";
   if (d.force_not_rendered())
@@ -231,7 +242,8 @@ std::string origin_facts(const AttemptView& view) {
       "<dl class=\"facts wide\">" + recorded("Number here", view.number > 0 ? std::to_string(view.number) : "") +
       recorded("Exercise", r.exercise_id + " " + r.exercise_version + ", level " + r.level) +
       recorded("Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)) + recorded("Input", r.hand) +
-      recorded("Program", view.program) + recorded("Organ", r.organ_name + (r.organ_synthetic ? ", synthetic" : "")) +
+      (r.device.without_device() ? fact("Helped by", help_words(r.assists)) : "") + recorded("Program", view.program) +
+      recorded("Organ", r.organ_name + (r.organ_synthetic ? ", synthetic" : "")) +
       recorded("Organ's origin", r.organ_credit);
   out += recorded("Attempt", r.uuid, true) + recorded("Rules (sha256)", r.rubric_sha256, true) +
          recorded("Recording (sha256)", r.recording_sha256, true) + recorded("State hash", r.state_hash, true) +

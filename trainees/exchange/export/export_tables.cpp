@@ -24,6 +24,7 @@ std::vector<ExportColumn> attempt_columns() {
           {"seed", "a.seed", Kind::kInteger},
           {"board", "a.board", Kind::kInteger},
           {"hand", "a.hand"},
+          {"assists", "a.assists"},
           {"organ", "a.organ_name"},
           {"organ_source", "a.organ_source"},
           {"organ_sha256", "a.organ_sha256"},

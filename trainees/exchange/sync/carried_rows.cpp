@@ -152,7 +152,7 @@ const CarriedTable& carried_attempt() {
                                            " finished_utc recording_path recording_sha256 state_hash device_backend "
                                            "device_rate_hz~ device_ticks# device_overruns#"
                                            " saturated_contact_share~ passivity_active_share~ min_energy_j~ kappa~ "
-                                           "device_fault device_realtime device_plant hash_version#"
+                                           "device_fault device_realtime device_plant assists hash_version#"
                                            " chain_position# prev_hash row_hash",
                                            1, "row_hash");
   return kTable;

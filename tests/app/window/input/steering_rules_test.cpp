@@ -218,6 +218,26 @@ TEST(SteeringGlide, TheFootFollowsThePointerAndTheTipStaysAtItsHeight) {
   EXPECT_NEAR(s.tip().z() - ground.height(s.tip().x(), s.tip().y()), 0.004, 1e-9);
 }
 
+/// Seen from the front over a hill whose far side falls below the plain behind it.
+TEST(SteeringGlide, SmallStepsComeBackOverAnEdgeThatHidesTheGround) {
+  const GlideGround ground{1, [](double, double y) { return y < 0.02 ? 0.01 - 60 * y * y : -0.002; }, 0.008};
+  Steered s;
+  s.camera.eye_T = {0, -0.1, 0.1};
+  s.camera.look_at_T = Vec3::Zero();
+  s.camera.up_T = Vec3::UnitZ();
+  s.around.ground = &ground;
+  s.run(1);
+  s.move(640, 360 - 200);
+  s.run(1);
+  ASSERT_GT(s.steering.foot_T()->y(), 0.02);
+  for (int n = 1; n <= 100; ++n) {
+    s.move(640, 360 - 200 + 2 * n);
+    s.run(kStep_s);
+  }
+  s.run(1);
+  EXPECT_LT(s.steering.foot_T()->y(), 0.005);
+}
+
 TEST(SteeringGlide, PressingGoesStraightDownAndSlowerTheNearer) {
   const GlideGround ground = slope();
   Steered s;

@@ -27,10 +27,11 @@ AttemptSummary attempt(const std::string& level, int board, bool passed, double 
 
 class LessonScreens : public testing_support::LoopBench {
  protected:
-  void window(int width, int height, double scale) {
+  void window(int width, int height, double scale, const std::string& input = "auto") {
     width_ = width;
     height_ = height;
     ModelOptions options = bench_.options();
+    options.input = input;
     options.scale = scale;
     open(options);
   }
@@ -135,14 +136,27 @@ TEST_F(LessonScreens, ExamWaitsForTheDeviceCheck) {
   EXPECT_TRUE(sees_part("is locked"));
 }
 
-TEST_F(LessonScreens, ResultsOfTheDeviceCheckStandInTheBriefing) {
-  window(1280, 720, 1);
+TEST_F(LessonScreens, ResultsOfTheDeviceCheckStandInTheBriefingOfWhoHoldsOne) {
+  window(1280, 720, 1, "device");
   go(ScreenName::kBriefing, 1);
   loop_->settle(120);
   frame();
   for (const char* part : {"Weight left over: 0.", "Friction: 0.", "Passive contact: 0.", "checks passed"})
     EXPECT_TRUE(sees_part(part)) << part;
   EXPECT_FALSE(sees_part("waits"));
+}
+
+TEST_F(LessonScreens, WithoutADeviceTheBriefingSaysWhatMovesWhat) {
+  window(1280, 720, 1);
+  go(ScreenName::kBriefing, 1);
+  loop_->settle(120);
+  frame();
+  for (const char* said : {"How to move", "Mouse: move the tip", "Right button, held: lean the shaft"})
+    EXPECT_TRUE(sees(said)) << said;
+  model_->exercise_id = "surface-touch";
+  frame();
+  EXPECT_TRUE(sees("Left button, held: press, grip"));
+  EXPECT_FALSE(sees_part("Device check"));
 }
 
 TEST_F(LessonScreens, EveryMeasureIsExplainedOneKeyAway) {
@@ -210,7 +224,7 @@ INSTANTIATE_TEST_SUITE_P(Windows, LessonLayout,
                                            Size{1920, 1080, 1}, Size{800, 600, 1}));
 
 TEST_F(LessonScreens, PageKeysReachTheEndOfALargeBriefing) {
-  window(1280, 720, 2);
+  window(1280, 720, 2, "device");
   go(ScreenName::kBriefing);
   EXPECT_FALSE(loop_->scrolling().empty());
   EXPECT_FALSE(sees_part("Device check"));

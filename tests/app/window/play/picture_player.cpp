@@ -13,6 +13,8 @@ constexpr double kPictureShare = 0.75;  // of the window's width: the column sta
 constexpr double kMoved_px = 12;        // what is lit is somewhere else
 constexpr double kBall_px = 40;         // the start ball is large, and a message may hide a part of it
 constexpr double kClick_s = 0.08;
+constexpr double kAfterHand_s = 0.1;  // until what the hand did is in the picture
+constexpr double kGlance_s = 0.15;    // from look to look, but while it presses
 
 bool is(const std::uint8_t* pixel, Rgb colour, int within = 6) {
   return std::abs(pixel[0] - colour.r) <= within && std::abs(pixel[1] - colour.g) <= within &&
@@ -69,52 +71,60 @@ Patch patch_of(const Image& picture, bool (*is_colour)(const std::uint8_t*), dou
 
 double way(const Spot& a, const Spot& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-constexpr double kDialRadius = 56, kDialY = 134, kDialX[] = {67, 216};  // px, from the column's left edge
+/// Where the two dials are, px.
+struct Dials {
+  double radius, y, place_x, turn_x;
+};
+/// As text is set in whole sizes they do not scale with the window: measured in two, in a straight line between them.
+Dials dials_in(const Image& picture) {
+  constexpr Dials kAt960{43.5, 104.5, 765.5, 879.5}, kAt1280{56, 134, 1027, 1176};
+  const double s = (picture.width - 960) / 320.0;
+  const auto at = [s](double a, double b) { return a + s * (b - a); };
+  return {at(kAt960.radius, kAt1280.radius), at(kAt960.y, kAt1280.y), at(kAt960.place_x, kAt1280.place_x),
+          at(kAt960.turn_x, kAt1280.turn_x)};
+}
+
+/// Of a dial's pixels: each with its place, 1 at the rim, up positive.
+template <class Look>
+void over_dial(const Image& picture, const Dials& dials, double x0, Look look) {
+  for (int y = static_cast<int>(dials.y - dials.radius); y <= dials.y + dials.radius; ++y)
+    for (int x = static_cast<int>(x0 - dials.radius); x <= x0 + dials.radius; ++x)
+      look(picture.pixel(x, y), Spot{(x - x0) / dials.radius, (dials.y - y) / dials.radius});
+}
 
 /// Dot of a dial, while it is yellow: middle of what is bright and yellow.
-std::optional<Spot> dot_of(const Image& picture, double x0) {
-  double x_sum = 0, y_sum = 0;
+std::optional<Spot> dot_of(const Image& picture, const Dials& dials, double x0) {
+  Spot sum;
   int count = 0;
-  for (int y = -kDialRadius; y <= kDialRadius; ++y)
-    for (int x = -kDialRadius; x <= kDialRadius; ++x) {
-      const std::uint8_t* p = picture.pixel(static_cast<int>(x0) + x, static_cast<int>(kDialY) + y);
-      if (p[0] < 215 || p[1] < 170 || p[2] > 90) continue;
-      ++count, x_sum += x, y_sum += y;
-    }
-  if (count < 40) return std::nullopt;
-  return Spot{x_sum / count / kDialRadius, -y_sum / count / kDialRadius};
+  over_dial(picture, dials, x0, [&](const std::uint8_t* p, const Spot& at) {
+    if (p[0] < 215 || p[1] < 170 || p[2] > 90) return;
+    ++count, sum.x += at.x, sum.y += at.y;
+  });
+  if (count < 0.0128 * dials.radius * dials.radius) return std::nullopt;
+  return Spot{sum.x / count, sum.y / count};
 }
 
 /// Angle of the white mark on a dial's rim, clockwise from the top.
-double mark_of(const Image& picture, double x0) {
-  double x_sum = 0, y_sum = 0;
-  for (int y = -kDialRadius; y <= kDialRadius; ++y)
-    for (int x = -kDialRadius; x <= kDialRadius; ++x) {
-      const std::uint8_t* p = picture.pixel(static_cast<int>(x0) + x, static_cast<int>(kDialY) + y);
-      const double r = std::hypot(x, y);
-      if (r < 0.7 * kDialRadius || r > kDialRadius || std::min({p[0], p[1], p[2]}) < 220) continue;
-      x_sum += x, y_sum += y;
-    }
-  return std::atan2(x_sum, -y_sum);
-}
-
-InputEvent mouse(InputEvent::Kind kind, double x, double y) {
-  InputEvent event;
-  event.kind = kind;
-  event.x = x;
-  event.y = y;
-  return event;
+double mark_of(const Image& picture, const Dials& dials, double x0) {
+  Spot sum;
+  over_dial(picture, dials, x0, [&](const std::uint8_t* p, const Spot& at) {
+    const double r = std::hypot(at.x, at.y);
+    if (r < 0.7 || r > 1 || std::min({p[0], p[1], p[2]}) < 220) return;
+    sum.x += at.x, sum.y += at.y;
+  });
+  return std::atan2(sum.x, sum.y);
 }
 
 }  // namespace
 
 Glance glance(const Image& picture) {
   Glance out;
-  const double column = kPictureShare * picture.width;
-  out.place = dot_of(picture, column + kDialX[0]);
-  out.turn = dot_of(picture, column + kDialX[1]);
-  out.roll_rad = mark_of(picture, column + kDialX[1]);
+  const Dials dials = dials_in(picture);
+  out.place = dot_of(picture, dials, dials.place_x);
+  out.turn = dot_of(picture, dials, dials.turn_x);
+  out.roll_rad = mark_of(picture, dials, dials.turn_x);
   const double unit = picture.height / 720.0;
+  out.high = picture.height;
   const Patch lit = patch_of(picture, is_lit, 10 * unit);
   if (lit.count > 8) out.lit = lit.middle(), out.lit_wide = lit.right - lit.left;
   const Patch plumb = patch_of(picture, is_tip, 10 * unit);
@@ -144,40 +154,28 @@ Glance glance(const Image& picture) {
   return out;
 }
 
-std::vector<InputEvent> MouseHand::move(double right_px, double down_px) {
-  x_ += right_px;
-  y_ += down_px;
-  return {mouse(InputEvent::Kind::kMouseMove, x_, y_)};
-}
-std::vector<InputEvent> MouseHand::act(bool down) {
-  return {mouse(down ? InputEvent::Kind::kButtonDown : InputEvent::Kind::kButtonUp, x_, y_)};
-}
-std::vector<InputEvent> MouseHand::lean(double right_px, double down_px) {
-  std::vector<InputEvent> out{mouse(InputEvent::Kind::kButtonDown, x_, y_)};
-  out.push_back(move(right_px, down_px).front());
-  out.push_back(mouse(InputEvent::Kind::kButtonUp, x_, y_));
-  for (InputEvent& event : out) event.button = MouseButton::kRight;
-  return out;
-}
-std::vector<InputEvent> MouseHand::roll(int steps) {
-  std::vector<InputEvent> out;
-  for (const auto kind : {InputEvent::Kind::kButtonDown, InputEvent::Kind::kWheel, InputEvent::Kind::kButtonUp}) {
-    out.push_back(mouse(kind, x_, y_));
-    out.back().button = MouseButton::kRight;
-  }
-  out[1].wheel = steps;
-  return out;
+bool PicturePlayer::looks(double t_s) const {
+  const double soon = 1e-9;
+  if (hand_.busy() || t_s + soon < std::max(hand_s_ + kAfterHand_s, wait_until_s_ - kEye_s)) return false;
+  return down_ || t_s + soon >= looked_s_ + kGlance_s;
 }
 
-std::vector<InputEvent> PicturePlayer::play(double t_s, const Image& picture) {
-  eye_.push_back({t_s, glance(picture)});
+std::vector<InputEvent> PicturePlayer::play(double t_s, const Image* picture) {
+  if (picture) {
+    looked_s_ = t_s;
+    eye_.push_back({t_s, glance(*picture)});
+  }
   std::optional<Glance> seen;
-  while (!eye_.empty() && eye_.front().t_s <= t_s - kEye_s) {
+  while (!eye_.empty() && eye_.front().t_s <= t_s - kEye_s + 1e-9) {
     seen = eye_.front().seen;
     eye_.pop_front();
   }
-  if (!seen) return {};
-  return decide(t_s, *seen);
+  std::vector<InputEvent> out = hand_.pass(t_s);
+  if (hand_.busy()) hand_s_ = t_s;
+  if (!seen || hand_.busy() || t_s - hand_s_ < kEye_s + kAfterHand_s - 1e-9) return out;  // a look at what became of it
+  const std::vector<InputEvent> more = decide(t_s, *seen);
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
 }
 
 /// Half of the way that is left, then a look at what became of it.
@@ -280,13 +278,13 @@ std::vector<InputEvent> PicturePlayer::reach(double t_s, const Glance& seen) {
   };
   if (seen.place) {
     doing = "to the pen";
-    const Spot by = step(*seen.place, 18);
+    const Spot by = step(*seen.place, 0.025 * seen.high);
     return hand_.move(by.x, by.y);
   }
   if (!seen.turn) return {};
   if (std::hypot(seen.turn->x, seen.turn->y) > 0.2) {
     doing = "lean";
-    const Spot by = step(*seen.turn, 43);
+    const Spot by = step(*seen.turn, 0.06 * seen.high);
     return hand_.lean(by.x, by.y);
   }
   doing = "roll";

@@ -1,4 +1,4 @@
-// A player who sees nothing but pictures of the window and answers with mouse events, as slowly as a person does.
+// A player who sees nothing but pictures of the window and answers with its hand, as slowly as a person does.
 //
 // From each picture it takes what stands out in it: the yellow outline of what is lit, the white plumb line and its
 // foot, the force bar at the tip, the dial's pointers. It sees them 0.3 s late, and after each movement waits to see
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/picture/gl/image.h"
-#include "app/window/input/input_event.h"
+#include "tests/app/window/play/player_hand.h"
 
 namespace trocar::testing_support {
 
@@ -22,34 +22,13 @@ struct Spot {
 /// What the eye takes from one picture.
 struct Glance {
   std::optional<Spot> lit, tip, foot;  ///< middle of the outline; upper end of the plumb line; its foot
-  double lit_wide = 0;                 ///< px
+  double high = 0, lit_wide = 0;       ///< px: the picture, the outline
   enum class Force { kNone, kLow, kGood, kHigh } force = Force::kNone;  ///< colour of the bar at the tip
   /// The two dials: where the yellow dot is, 1 at the rim, up positive; nothing while it is within its ring.
   std::optional<Spot> place, turn;
   double roll_rad = 0;  ///< of the white mark, from the top, clockwise
 };
 Glance glance(const Image& picture);
-
-/// What a hand can do, whatever it holds.
-class PlayerHand {
- public:
-  virtual ~PlayerHand() = default;
-  virtual std::vector<InputEvent> move(double right_px, double down_px) = 0;
-  virtual std::vector<InputEvent> act(bool down) = 0;
-  virtual std::vector<InputEvent> lean(double right_px, double down_px) = 0;
-  virtual std::vector<InputEvent> roll(int steps) = 0;
-};
-
-class MouseHand final : public PlayerHand {
- public:
-  std::vector<InputEvent> move(double right_px, double down_px) override;
-  std::vector<InputEvent> act(bool down) override;
-  std::vector<InputEvent> lean(double right_px, double down_px) override;
-  std::vector<InputEvent> roll(int steps) override;
-
- private:
-  double x_ = 400, y_ = 300;
-};
 
 class PicturePlayer {
  public:
@@ -58,8 +37,10 @@ class PicturePlayer {
   /// What the briefing has taught.
   enum class Task { kTouch, kReach, kGrasp };
   PicturePlayer(PlayerHand& hand, Task task) : hand_(hand), task_(task) {}
-  /// @param t_s clock. @return what it does now.
-  std::vector<InputEvent> play(double t_s, const Image& picture);
+  /// Whether it looks now: not while its hand moves, and not before what it has done can be seen.
+  bool looks(double t_s) const;
+  /// @param t_s clock. @param picture nullptr: it did not look. @return what it does now.
+  std::vector<InputEvent> play(double t_s, const Image* picture);
   std::string doing;  ///< for whoever watches it
 
  private:
@@ -77,7 +58,7 @@ class PicturePlayer {
   PlayerHand& hand_;
   Task task_;
   std::deque<Moment> eye_;
-  double wait_until_s_ = 0, since_s_ = 0, dark_s_ = -1, settled_s_ = -9, plumb_px_ = 0;
+  double looked_s_ = -9, hand_s_ = -9, wait_until_s_ = 0, since_s_ = 0, dark_s_ = -1, settled_s_ = -9, plumb_px_ = 0;
   enum class Stage { kAim, kPress, kKeep, kLift, kCarry } stage_ = Stage::kAim;
   bool down_ = false;
   std::optional<Spot> goal_, ball_;

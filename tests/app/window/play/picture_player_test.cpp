@@ -2,6 +2,7 @@
 // that the same player plays the same however slowly pictures are made.
 #include <iostream>
 
+#include "app/picture/films/video_writer.h"
 #include "app/window/attempt/step_gate.h"
 #include "app/window/practice/practice_loop.h"
 #include "scenarios/scoring/attempt_result.h"
@@ -37,16 +38,23 @@ void keep(int number, const PicturePlayer& player, const Image& picture) {
   std::cerr << '\n';
 }
 
-class PictureMouse : public LoopBench {
+/// With PLAYER_FILMS=FOLDER: the attempt as its player saw it.
+std::unique_ptr<VideoWriter> film(const std::string& name, int width, int height) {
+  const char* folder = std::getenv("PLAYER_FILMS");
+  if (!folder) return nullptr;
+  return std::make_unique<VideoWriter>(std::filesystem::path(folder) / (name + ".mp4"), width, height, 1 / kFrame_s);
+}
+
+class PicturePlay : public LoopBench {
  protected:
   /// One attempt, from its briefing to its debrief. @return its grade.
-  Grade attempt(const std::string& exercise, Task task, std::int64_t seed, PlayerHand& hand) {
+  Grade attempt(const std::string& exercise, Task task, std::int64_t seed, InputKind input) {
     ModelOptions options = bench_.options();
     options.exercise = exercise;
     options.seed = seed;
-    options.input = "mouse";
+    options.input = input_name(input);
     options.steps = &steps_;
-    width_ = test::repeats("PLAY_WIDTH", 1280);
+    width_ = test::repeats("PLAY_WIDTH", 960);
     height_ = width_ * 9 / 16;
     loop_.reset();
     model_.reset();
@@ -54,27 +62,35 @@ class PictureMouse : public LoopBench {
     open(options);
     frame();
     tap(kKeyEnter);
-    PicturePlayer player(hand, task);
+    const std::unique_ptr<PlayerHand> hand = player_hand(input, height_);
+    PicturePlayer player(*hand, task);
+    const std::unique_ptr<VideoWriter> filmed =
+        film(exercise + "-" + input_name(input) + "-" + std::to_string(seed), width_, height_);
     std::vector<InputEvent> events;
     int n = 0;
     for (double t_s = 0; loop_->here() != ScreenName::kDebrief && t_s < 300; t_s += kFrame_s) {
       steps_.advance(kFrame_s);
+      const bool kept = n++ % kKeepEvery == 0 && std::getenv("PLAYER_PICTURES"), looks = player.looks(t_s);
+      loop_->draw_scopes(looks || kept || filmed);
       loop_->frame(width_, height_, kFrame_s, events);
-      const Image picture = loop_->picture();
-      events = player.play(t_s, picture);
-      if (n++ % kKeepEvery == 0) keep(n, player, picture);
+      Image picture;
+      if (looks || kept || filmed) picture = loop_->picture();
+      events = player.play(t_s, looks ? &picture : nullptr);
+      if (kept) keep(n, player, picture);
+      if (filmed) filmed->add(picture);
     }
+    if (filmed) filmed->close();
     EXPECT_EQ(loop_->here(), ScreenName::kDebrief);
     return model_->result() ? model_->result()->grade : Grade{};
   }
 
   /// Each try on a board of its own.
-  void passes(const std::string& exercise, Task task, int tries, int seed) {
+  void passes(const std::string& exercise, Task task, int tries, int seed, InputKind input) {
     for (int n = 0; n < tries; ++n) {
-      MouseHand hand;
-      const Grade grade = attempt(exercise, task, 1000 * n + seed, hand);
-      std::printf("%s, seed %d, try %d: ", exercise.c_str(), seed, n + 1);
+      const Grade grade = attempt(exercise, task, 1000 * n + seed, input);
+      std::printf("%s by %s, seed %d, try %d: ", exercise.c_str(), input_name(input), seed, n + 1);
       tell(grade);
+      std::fflush(stdout);
       if (grade.passed) return;
     }
     ADD_FAILURE() << exercise << ": not passed in " << tries << " tries, seed " << seed;
@@ -85,22 +101,26 @@ class PictureMouse : public LoopBench {
 
 constexpr int kShortTries = 3;
 
-TEST_F(PictureMouse, PassesReachAndOrient) { passes("E01", Task::kReach, kShortTries, 7); }
-TEST_F(PictureMouse, PassesSurfaceTouch) { passes("E02", Task::kTouch, kShortTries, 7); }
+TEST_F(PicturePlay, PassesReachAndOrient) { passes("E01", Task::kReach, kShortTries, 7, InputKind::kMouse); }
+TEST_F(PicturePlay, PassesSurfaceTouch) { passes("E02", Task::kTouch, kShortTries, 7, InputKind::kMouse); }
+TEST_F(PicturePlay, PassesLimitedGrasp) { passes("E03", Task::kGrasp, kShortTries, 7, InputKind::kMouse); }
 
 /// How many tries each exercise takes on how many boards; by hand (ctest -L long).
-class PictureSweep : public PictureMouse {
+class PictureSweep : public PicturePlay, public ::testing::WithParamInterface<InputKind> {
  protected:
   void passes_within(const std::string& exercise, Task task, int tries) {
     const int seeds = test::repeats("PLAY_SEEDS", 0), first = test::repeats("PLAY_FIRST", 1);
     if (seeds == 0) GTEST_SKIP() << "only with PLAY_SEEDS";
-    for (int seed = first; seed < first + seeds; ++seed) passes(exercise, task, tries, seed);
+    for (int seed = first; seed < first + seeds; ++seed) passes(exercise, task, tries, seed, GetParam());
   }
 };
 
-TEST_F(PictureSweep, SurfaceTouchWithinFive) { passes_within("E02", Task::kTouch, 5); }
-TEST_F(PictureSweep, ReachAndOrientWithinFifteen) { passes_within("E01", Task::kReach, 15); }
-TEST_F(PictureSweep, LimitedGraspWithinFifteen) { passes_within("E03", Task::kGrasp, 15); }
+TEST_P(PictureSweep, SurfaceTouchWithinFive) { passes_within("E02", Task::kTouch, 5); }
+TEST_P(PictureSweep, ReachAndOrientWithinFifteen) { passes_within("E01", Task::kReach, 15); }
+TEST_P(PictureSweep, LimitedGraspWithinFifteen) { passes_within("E03", Task::kGrasp, 15); }
+
+INSTANTIATE_TEST_SUITE_P(By, PictureSweep, ::testing::Values(InputKind::kMouse, InputKind::kKeyboard, InputKind::kPad),
+                         [](const auto& one) { return std::string(input_name(one.param)); });
 
 }  // namespace
 }  // namespace trocar::testing_support::picture_player_test

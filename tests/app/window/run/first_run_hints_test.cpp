@@ -54,6 +54,24 @@ TEST(FirstRunHints, TicksWhatTheMouseHasDoneAndThenFallsSilent) {
   EXPECT_FALSE(hints.speaks());
 }
 
+TEST(FirstRunHints, WhereTheShaftIsTurnedTheyAreOfLeanAndRoll) {
+  FirstRunHints hints;
+  hints.begin(true, FirstRunHints::Tries::kTurns);
+  EXPECT_EQ(hints.marks(Translator(), KeyMap(), InputKind::kMouse)[2].text, "Right button, held: lean the shaft");
+  hints.saw(event(Kind::kWheel), KeyMap());
+  EXPECT_EQ(done(hints), (std::vector<bool>{false, true, false, false}));
+  InputEvent right = event(Kind::kButtonDown);
+  right.button = MouseButton::kRight;
+  hints.saw(right, KeyMap());
+  hints.saw(event(Kind::kWheel), KeyMap());
+  EXPECT_EQ(done(hints), (std::vector<bool>{false, true, false, true}));
+  hints.saw(event(Kind::kMouseMove), KeyMap());
+  EXPECT_EQ(done(hints), (std::vector<bool>{false, true, true, true}));
+  hints.begin(true, FirstRunHints::Tries::kRolls);
+  EXPECT_EQ(hints.marks(Translator(), KeyMap(), InputKind::kKeyboard).back().text, "Q, E: roll the shaft");
+  EXPECT_EQ(done(hints), (std::vector<bool>{false, false, false})) << "through a port nothing leans";
+}
+
 TEST(FirstRunHints, KeysDoAsWellAndTheRightButtonDoesNot) {
   FirstRunHints hints;
   hints.begin(true);
