@@ -228,7 +228,9 @@ bool PracticeLoop::State::command(const InputEvent& event) {
     help = !help;
     open_menu(false);
   } else if (action == Action::kDevicePanel && model.running()) {
-    device.open = !device.open;
+    const bool there = model.running()->scene().loop.daq.motors;
+    device.open = there && !device.open;
+    if (!there) model.notice = model.words()("There is no device to be shown.");
   } else if (action == Action::kMenu && !menu && !help && screen && screen->takes_escape()) {
     return true;  // its button hears it
   } else if (action == Action::kMenu && !drawn->layer.popup_open()) {

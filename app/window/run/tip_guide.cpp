@@ -13,11 +13,29 @@ namespace {
 constexpr double kFootRadius = 0.002;  // m
 constexpr double kRoundDisc = 0.002;   // m beyond a disc's edge: the foot's ring is seen within
 constexpr double kPenLine = 0.03;      // m of a pen behind its tip
-constexpr int kFootPoints = 24, kHeldPoints = 32, kCirclePoints = 32;
+constexpr int kFootPoints = 24, kHeldPoints = 32, kCirclePoints = 32, kHalvings = 12;
 constexpr double kHeldRadius = 17, kBarWide = 116, kBarHigh = 14, kBarBeside = 46;  // px at 720 lines
 constexpr double kTouching_n = 0.01;
 
+/// Last point on the way that is in the picture; the first one is.
+Vec3 last_seen(const ScopeOptics& optics, const Vec3& from_T, const Vec3& to_T) {
+  if (optics.project(to_T)) return to_T;
+  double seen = 0, unseen = 1;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double middle = 0.5 * (seen + unseen);
+    (optics.project(from_T + middle * (to_T - from_T)) ? seen : unseen) = middle;
+  }
+  return from_T + seen * (to_T - from_T);
+}
+
+/// The line as far as it is in the picture, and the ring at its foot where all of that is.
 void paint_plumb(Ui& ui, const ScopeOptics& optics, const Vec3& tip_T, const Vec3& foot_T) {
+  const auto from = optics.project(tip_T);
+  if (!from) return;
+  const auto to = optics.project(last_seen(optics, tip_T, foot_T));
+  const bool over = tip_T.z() > foot_T.z();  // not so within a block, which the open jaws stand round
+  if (to && over && (*from - *to).norm() > ui.px(3))
+    ui.paint_outlined({{from->x(), from->y()}, {to->x(), to->y()}}, Ink::kTip, 2.5);
   std::vector<Ui::Point> foot;
   for (int i = 0; i <= kFootPoints; ++i) {
     const double a = 2 * std::numbers::pi * i / kFootPoints;
@@ -25,11 +43,6 @@ void paint_plumb(Ui& ui, const ScopeOptics& optics, const Vec3& tip_T, const Vec
     if (!at) return;
     foot.push_back({at->x(), at->y()});
   }
-  const auto from = optics.project(tip_T), to = optics.project(foot_T);
-  if (!from || !to) return;
-  const bool over = tip_T.z() > foot_T.z();  // not so within a block, which the open jaws stand round
-  if (over && (*from - *to).norm() > ui.px(3))
-    ui.paint_outlined({{from->x(), from->y()}, {to->x(), to->y()}}, Ink::kTip, 2.5);
   ui.paint_outlined(foot, Ink::kTip, 2.5);
 }
 
@@ -83,16 +96,21 @@ void paint_lit(Ui& ui, const ScopeOptics& optics, const Line& line) {
   if (seen.size() == line.size()) ui.paint_outlined(seen, Ink::kAccent, 3);
 }
 
-/// Below what is lit.
+/// Below what is lit, or above it where it would hide the tip.
 void paint_to_go(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
-  double x = 0, bottom = 0;
+  double x = 0, top = 1e9, bottom = 0;
   for (const Vec3& p : guide.lit_T.front()) {
     const auto at = optics.project(p);
     if (!at) return;
     x += at->x() / static_cast<double>(guide.lit_T.front().size());
+    top = std::min(top, at->y());
     bottom = std::max(bottom, at->y());
   }
-  const double wide = ui.text_width(guide.to_go), y = bottom + ui.px(10);
+  const double wide = ui.text_width(guide.to_go), high = ui.line_height() + ui.px(14);
+  const auto tip = optics.project(guide.tip_T);
+  const bool hides = tip && std::abs(tip->x() - x) < 0.5 * wide + ui.px(12) && tip->y() > bottom - ui.px(4) &&
+                     tip->y() < bottom + high + ui.px(12);
+  const double y = hides ? top - high : bottom + ui.px(10);
   ui.paint_ground({x - 0.5 * wide - ui.px(6), y - ui.px(2), wide + ui.px(12), ui.line_height() + ui.px(4)}, 0.8,
                   ui.px(4));
   ui.text_at(x, y, guide.to_go, Ink::kText, 0, 0.5);

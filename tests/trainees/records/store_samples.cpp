@@ -27,6 +27,7 @@ AttemptStart sample_start(const std::string& trainee) {
   start.seed = -7;
   start.board = 3;
   start.hand = "expert";
+  start.assists = "plumb";
   start.organ_name = "liver";
   start.organ_source = "phantom.mha";
   start.organ_sha256 = std::string(64, 'a');

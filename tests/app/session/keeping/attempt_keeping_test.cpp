@@ -56,6 +56,21 @@ TEST_F(AttemptKeeping, AStartSaysWhatTheSceneIsMadeOf) {
   EXPECT_EQ(id.rubric_sha256, digest::of_bytes(scene_.setup.exercise.text));
 }
 
+TEST_F(AttemptKeeping, WhatHelpedAHandWithoutADeviceIsKept) {
+  EXPECT_EQ(start().assists, "") << "on a device it was no help";
+  scene_.loop.daq.motors = false;
+  EXPECT_EQ(start().assists, "height plumb");
+  const AttemptId id = store_.begin_attempt(start());
+  AttemptResult ended;
+  ended.grade.grade = "not graded";
+  store_.finish_attempt(id, ended);
+  EXPECT_EQ(store_.load(id.uuid).assists, "height plumb");
+  scene_.level.pointer.glide = false;
+  EXPECT_EQ(start().assists, "plumb");
+  scene_.level.guides = false;
+  EXPECT_EQ(start().assists, "");
+}
+
 TEST_F(AttemptKeeping, AStartSaysWhichSignInAndWhichCalibration) {
   EXPECT_EQ(start().session, "");
   EXPECT_EQ(start().station, "") << "without a sign-in no station";

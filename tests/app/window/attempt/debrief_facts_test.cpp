@@ -93,6 +93,13 @@ TEST_F(DebriefFactsTest, TheFailedGateIsTheReasonWhateverTimeCost) {
   EXPECT_TRUE(f.more.empty());
 }
 
+TEST_F(DebriefFactsTest, WhatHelpedIsSaid) {
+  AttemptResult result = graded(touch_, "L1");
+  result.assists = "height plumb";
+  ASSERT_EQ(facts(result).more.size(), 1u);
+  EXPECT_EQ(facts(result).more[0], "Helped at this level: the tip kept its height, a line showed what lies below it.");
+}
+
 TEST_F(DebriefFactsTest, OfTwoFailedGatesTheCostlierComesFirstAndTheOtherIsNotHidden) {
   AttemptResult result = graded(touch_, "L1", {{"excess_events", 4}, {"in_band_share", 0.4}});
   put_caps(result, touch_);

@@ -305,8 +305,17 @@ TEST_F(LessonScreens, DevicePanelKeepsItsColumnsFromFrameToFrame) {
   }
 }
 
+TEST_F(LessonScreens, WithoutADeviceF3ShowsNone) {
+  ASSERT_EQ(model_->begin_attempt(), "");
+  go(ScreenName::kRun);
+  tap(kKeyF3);
+  frame();
+  EXPECT_FALSE(sees("q6"));
+  EXPECT_TRUE(sees("There is no device to be shown."));
+}
+
 TEST_F(LessonScreens, DevicePanelLiesOverARunAndGoesAgain) {
-  window(1280, 720, 1);
+  window(1280, 720, 1, "device");
   ASSERT_EQ(model_->begin_attempt(), "");
   go(ScreenName::kRun);
   EXPECT_FALSE(sees("q6"));

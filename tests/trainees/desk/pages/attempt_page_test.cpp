@@ -193,6 +193,17 @@ TEST(AttemptPage, DeviceThatLackedRoomIsSaid) {
   EXPECT_NE(device_facts(view).find("sensor stale"), std::string::npos);
 }
 
+TEST(AttemptPage, WithoutADeviceItNamesWhatHelpedAndNoMotors) {
+  AttemptView view = sample_attempt();
+  EXPECT_EQ(origin_facts(view).find("Helped by"), std::string::npos);
+  view.result.device.backend = "pointer";
+  view.result.assists = "height plumb";
+  EXPECT_NE(origin_facts(view).find("the tip keeps its height by itself; a line from the tip"), std::string::npos);
+  EXPECT_EQ(device_facts(view).find("Passivity"), std::string::npos);
+  view.result.assists.clear();
+  EXPECT_NE(origin_facts(view).find("nothing"), std::string::npos);
+}
+
 TEST(AttemptPage, HostileTextsAndManyEvents) {
   AttemptView view = sample_attempt();
   AttemptResult& r = view.result;

@@ -100,6 +100,7 @@ TEST_F(TableExport, AttemptsHaveEveryColumn) {
   EXPECT_EQ(cell("ruleset_sha256"), stored.rubric_sha256);
   EXPECT_EQ(cell("seed"), "-7") << "numbers are not defused";
   EXPECT_EQ(cell("board"), "3");
+  EXPECT_EQ(cell("assists"), "plumb");
   EXPECT_EQ(cell("organ_synthetic"), "1");
   EXPECT_EQ(cell("organ_credit"), "Synthetic phantom, CC0-1.0");
   EXPECT_EQ(cell("status"), "completed");
