@@ -50,6 +50,7 @@ class FirstRunHints {
   double way_px_ = 0, last_x_ = -1, last_y_ = -1, over_s_ = 0;
 };
 
+/// What a level of an exercise asks of the hand.
 FirstRunHints::Tries hand_tries(const Exercise& exercise, const ExerciseLevel& level);
 
 }  // namespace trocar
