@@ -70,8 +70,8 @@ struct ExerciseLevel {
 /// What helps a hand at mouse, keys or pad at a level, as attempts keep it: "height" where the tip keeps its height by
 /// itself, "plumb" where a line falls from it to what lies below; separated by a space, empty without.
 inline std::string pointer_assists(const ExerciseLevel& level) {
-  return std::string(level.pointer.glide ? "height" : "") + (level.pointer.glide && level.guides ? " " : "") +
-         (level.guides ? "plumb" : "");
+  if (!level.pointer.glide) return level.guides ? "plumb" : "";
+  return level.guides ? "height plumb" : "height";
 }
 
 /// Where the objects of a board may lie; what only discs on an organ have is marked.

@@ -62,11 +62,14 @@ struct StiffnessReport {
   double above_share = 0;        ///< of the contact ticks: asked for more than K_max
 };
 
+/// Whether that back-end is mouse, keys, pad or SpaceMouse, with which nothing is felt (kPointerBackend, which scoring
+/// does not see; tested).
+inline bool without_device(const std::string& backend) { return backend == "pointer"; }
+
 /// Loop quality of the attempt (the run report).
 struct RunReport {
   std::string backend;
-  /// Mouse, keys, pad or SpaceMouse: nothing was felt, and what is said of motors below says nothing.
-  bool without_device() const { return backend == "pointer"; }
+  bool without_device() const { return trocar::without_device(backend); }  ///< then nothing below is of motors
   double rate_hz = 0;
   std::uint64_t ticks = 0;
   std::uint64_t overruns = 0;          ///< SYNC periods that the loop missed; not the overruns of a lane in `realtime`

@@ -86,6 +86,8 @@ int score_command(const RecordingOptions& options, std::ostream& out, std::ostre
     result.seed = recorded.setup.seed;
     result.board = recorded.setup.board;
     result.hand = recorded.setup.hand;
+    if (!recorded.daq.motors)
+      result.assists = pointer_assists(find_level(recorded.setup.exercise, recorded.setup.level));
     result.organ_sha256 = recorded.organ_sha256;
     fill_shares(subject.recording, result.device);
     result.rubric_sha256 = recorded.setup.exercise.rubric.sha256;

@@ -206,7 +206,7 @@ std::string cause_advice(const Advised& a, const DebriefRow& row) {
 std::string advice(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
                    const Exercise& exercise) {
   using Kind = DebriefCause::Kind;
-  const Advised a{words, result, facts, exercise, level_named(exercise, result.level), by_pointer(result)};
+  const Advised a{words, result, facts, exercise, level_named(exercise, result.level), result.device.without_device()};
   switch (facts.cause.kind) {
     case Kind::kCritical:
       return critical_advice(a);

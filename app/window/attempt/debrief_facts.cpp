@@ -99,9 +99,9 @@ std::vector<std::string> explained(const Translator& words, const DebriefRow& ro
                         {row.needed, words.number(level->rubric.gate_cap, 0)}));
   const double model_s = level ? model_time_s(*level, result) : 0;
   if (row.metric == "time_s" && model_s > 0)
-    out.push_back(
-        words(by_pointer(result) ? "A practised hand takes {0} s." : "The expert hand takes {0} s on average.",
-              {words.number(model_s, 1)}));
+    out.push_back(words(
+        result.device.without_device() ? "A practised hand takes {0} s." : "The expert hand takes {0} s on average.",
+        {words.number(model_s, 1)}));
   if (!row.metric.empty()) out.push_back(words("Its name in exports: {0}.", {row.metric}));
   return out;
 }

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "haptics/device/backends/make_backend.h"
-
 namespace trocar {
 namespace {
 
@@ -108,10 +106,8 @@ const SubscoreRule* rule_named(const ExerciseLevel* level, const std::string& su
   return at == rules.end() ? nullptr : &*at;
 }
 
-bool by_pointer(const AttemptResult& result) { return result.device.backend == kPointerBackend; }
-
 double model_time_s(const ExerciseLevel& level, const AttemptResult& result) {
-  const double own = by_pointer(result) ? level.pointer.expert_time_s : 0;
+  const double own = result.device.without_device() ? level.pointer.expert_time_s : 0;
   return own > 0 ? own : level.expert_time_s;
 }
 

@@ -37,8 +37,6 @@ std::string subscore_words(const Translator& words, const std::string& name);
 const ExerciseLevel* level_named(const Exercise& exercise, const std::string& level);
 const SubscoreRule* rule_named(const ExerciseLevel* level, const std::string& subscore);
 
-/// Was it done without a device: at mouse, keys or pad, which feel nothing?
-bool by_pointer(const AttemptResult& result);
 /// What a good hand takes at the input of the result, s; 0 unknown.
 double model_time_s(const ExerciseLevel& level, const AttemptResult& result);
 

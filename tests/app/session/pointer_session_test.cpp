@@ -1,11 +1,15 @@
 // An attempt without a device: the instrument goes where it is pointed, nothing can fault, and the recording replays.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "app/cli/attempts/recording_command.h"
 #include "app/session/recording/recording_reader.h"
 #include "app/session/session.h"
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar::pointer_session_test {
 namespace {
@@ -40,20 +44,22 @@ Scene pointed() {
   return build_scene(setup, assets, backend_capabilities(setup.backend, setup.rate_hz));
 }
 
-std::pair<SessionOutcome, Recording> pressed(const Scene& scene) {
+std::pair<SessionOutcome, Recording> pressed(const Scene& scene, long most_steps = 3000,
+                                             const std::filesystem::path& file = {}) {
   SessionHooks hooks;
   long steps = 0;
   hooks.hand = [&] { return std::make_unique<Presser>(scene.board.start_T, scene.board.targets.front().centre_T); };
   hooks.observe = [&](const SessionView&) { ++steps; };
-  hooks.interrupted = [&] { return steps > 3000; };  // 30 s
-  return record_session(scene, find_assets(), hooks, {});
+  hooks.interrupted = [&] { return steps > most_steps; };  // of 10 ms
+  return record_session(scene, find_assets(), hooks, file);
 }
 
 TEST(PointerSession, PressesForHalfAMinuteWithoutHeatFadingOrFault) {
   const Scene scene = pointed();
   const auto [outcome, recording] = pressed(scene);
   EXPECT_EQ(outcome.device.fault, "");
-  EXPECT_EQ(outcome.device.backend, "pointer");
+  EXPECT_EQ(outcome.device.backend, kPointerBackend);
+  EXPECT_TRUE(outcome.device.without_device());
   EXPECT_TRUE(outcome.device.warnings.empty());
   EXPECT_EQ(outcome.device.plant, "") << "there is none";
   const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
@@ -69,6 +75,18 @@ TEST(PointerSession, ReplaysToTheBit) {
   EXPECT_FALSE(recorded.daq.motors);
   const Scene again = build_scene(recorded.setup, find_assets(), recorded.daq);
   EXPECT_EQ(replay_session(again, recording).state_hash_hex, outcome.state_hash_hex);
+}
+
+TEST(PointerSession, ARecordingByItselfSaysWhatHelped) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "pressed.trec";
+  pressed(pointed(), 100, file);
+  RecordingOptions options;
+  options.subject = file.string();
+  options.json = true;
+  std::ostringstream out, err;
+  score_command(options, out, err);
+  EXPECT_NE(out.str().find("\"assists\": \"height plumb\""), std::string::npos) << out.str();
 }
 
 /// Comes in and goes to a place, or stays where it came in.

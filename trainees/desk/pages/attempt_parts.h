@@ -23,6 +23,9 @@ std::string metric_title(const std::string& name);
 /// Moment of the largest force, s after the beginning; 0 without a trace.
 double peak_moment_s(const AttemptView& view);
 
+/// What helped a hand without a device, of AttemptResult::assists.
+std::string help_words(const std::string& assists);
+
 std::string verdict_band(const AttemptView& view);
 std::string moment_section(const AttemptView& view);
 std::string path_section(const AttemptView& view);

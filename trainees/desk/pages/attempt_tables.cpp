@@ -25,16 +25,6 @@ std::string recorded(const std::string& name, const std::string& words, bool mon
   return fact(name, words.empty() ? "not recorded" : words, mono);
 }
 
-/// Of AttemptResult::assists.
-std::string help_words(const std::string& assists) {
-  if (assists.empty()) return "nothing";
-  std::string out;
-  for (const auto& [word, meaning] :
-       {std::pair("height", "the tip keeps its height by itself"), {"plumb", "a line from the tip to what lies below"}})
-    if (assists.find(word) != std::string::npos) out += (out.empty() ? "" : "; ") + std::string(meaning);
-  return out;
-}
-
 bool capped_by(const Grade& grade, const std::string& part) {
   return std::any_of(grade.caps.begin(), grade.caps.end(),
                      [&](const Cap& cap) { return cap.kind == CapKind::kGate && cap.subject == part; });
@@ -71,6 +61,15 @@ const Subscore* unjudged_gate(const Grade& grade) {
 }
 
 }  // namespace
+
+std::string help_words(const std::string& assists) {
+  if (assists.empty()) return "nothing";
+  std::string out;
+  for (const auto& [word, meaning] :
+       {std::pair("height", "the tip keeps its height by itself"), {"plumb", "a line from the tip to what lies below"}})
+    if (assists.find(word) != std::string::npos) out += (out.empty() ? "" : "; ") + std::string(meaning);
+  return out;
+}
 
 double points_lost(const Subscore& part) { return 100 * part.weight * (1 - part.value); }
 

@@ -179,16 +179,20 @@ void add_device(std::vector<Block>& out, const AttemptView& view) {
   out.emplace_back(Heading{"Run report", 1});
   const bool simulated =
       d.backend.find("simulated") != std::string::npos || d.backend.find("emulated") != std::string::npos;
-  Facts facts{{{"Device", or_none(d.backend) + (simulated ? ", no hardware moved" : "")},
+  Facts facts{{{"Device", d.without_device() ? "none: nothing was felt"
+                                             : or_none(d.backend) + (simulated ? ", no hardware moved" : "")},
                {"Loop", d.rate_hz > 0 ? number_text(d.rate_hz) + " Hz" : "not recorded"},
                {"Ticks", std::to_string(d.ticks)},
-               {"Ticks missed", std::to_string(d.overruns)},
-               {"At its limit", share(d.saturated_contact_share) + " of contact"},
-               {"Passivity at work", share(d.passivity_active_share) + " of contact"},
-               {"Least energy", number_text(d.min_energy_j) + " J"},
-               {"Force scale", number_text(d.kappa)}},
+               {"Ticks missed", std::to_string(d.overruns)}},
               4,
               false};
+  if (d.without_device())
+    facts.pairs.emplace_back("Helped by", help_words(view.result.assists));
+  else
+    facts.pairs.insert(facts.pairs.end(), {{"At its limit", share(d.saturated_contact_share) + " of contact"},
+                                           {"Passivity at work", share(d.passivity_active_share) + " of contact"},
+                                           {"Least energy", number_text(d.min_energy_j) + " J"},
+                                           {"Force scale", number_text(d.kappa)}});
   if (!d.fault.empty()) facts.pairs.emplace_back("Fault", d.fault);
   out.emplace_back(std::move(facts));
   if (d.force_not_rendered())

@@ -26,7 +26,7 @@ std::string list_of(const std::set<std::string>& values, const std::string& none
 struct Totals {
   std::set<std::string> devices, inputs;
   int passed = 0;
-  bool simulated = true;
+  bool simulated = true, without_device = true;  ///< each of them
 };
 
 Totals totals_of(const CertificateView& view) {
@@ -34,7 +34,11 @@ Totals totals_of(const CertificateView& view) {
   for (const CertifiedAttempt& a : view.attempts) {
     const bool simulated = a.backend.find("sim") != std::string::npos;
     out.simulated = out.simulated && simulated;
-    out.devices.insert(simulated ? "simulated plant" : a.backend.empty() ? "not recorded" : a.backend);
+    out.without_device = out.without_device && without_device(a.backend);
+    out.devices.insert(simulated                   ? "simulated plant"
+                       : without_device(a.backend) ? "no device"
+                       : a.backend.empty()         ? "not recorded"
+                                                   : a.backend);
     out.inputs.insert(a.hand);
     out.passed += a.passed ? 1 : 0;
   }
@@ -53,7 +57,9 @@ std::vector<std::string> not_attested(const Totals& totals) {
   return {
       "Skill with patients, in an operating theatre, or with other instruments; it is no medical qualification and no "
       "licence.",
-      totals.simulated
+      totals.without_device ? "Work on a device: the attempts were made without one and nothing was felt; forces are "
+                              "virtual newtons of a simulation."
+      : totals.simulated
           ? "Work on a device: the attempts were made on a simulated plant; forces are virtual newtons of a simulation."
           : "Forces as in tissue: they are virtual newtons of a simulation.",
       "That the skill is kept: it fades, and attempts for keeping come due after this date."};

@@ -14,6 +14,7 @@ constexpr double kMoved_px = 12;        // what is lit is somewhere else
 constexpr double kBall_px = 40;         // the start ball is large, and a message may hide a part of it
 constexpr double kClick_s = 0.08;
 constexpr double kAfterHand_s = 0.1;  // until what the hand did is in the picture
+constexpr double kRounding_s = 1e-9;  // of times that are sums of frames
 constexpr double kGlance_s = 0.15;    // from look to look, but while it presses
 
 bool is(const std::uint8_t* pixel, Rgb colour, int within = 6) {
@@ -155,9 +156,8 @@ Glance glance(const Image& picture) {
 }
 
 bool PicturePlayer::looks(double t_s) const {
-  const double soon = 1e-9;
-  if (hand_.busy() || t_s + soon < std::max(hand_s_ + kAfterHand_s, wait_until_s_ - kEye_s)) return false;
-  return down_ || t_s + soon >= looked_s_ + kGlance_s;
+  if (hand_.busy() || t_s + kRounding_s < std::max(hand_s_ + kAfterHand_s, wait_until_s_ - kEye_s)) return false;
+  return down_ || t_s + kRounding_s >= looked_s_ + kGlance_s;
 }
 
 std::vector<InputEvent> PicturePlayer::play(double t_s, const Image* picture) {
@@ -166,13 +166,14 @@ std::vector<InputEvent> PicturePlayer::play(double t_s, const Image* picture) {
     eye_.push_back({t_s, glance(*picture)});
   }
   std::optional<Glance> seen;
-  while (!eye_.empty() && eye_.front().t_s <= t_s - kEye_s + 1e-9) {
+  while (!eye_.empty() && eye_.front().t_s <= t_s - kEye_s + kRounding_s) {
     seen = eye_.front().seen;
     eye_.pop_front();
   }
   std::vector<InputEvent> out = hand_.pass(t_s);
   if (hand_.busy()) hand_s_ = t_s;
-  if (!seen || hand_.busy() || t_s - hand_s_ < kEye_s + kAfterHand_s - 1e-9) return out;  // a look at what became of it
+  if (!seen || hand_.busy() || t_s - hand_s_ < kEye_s + kAfterHand_s - kRounding_s)
+    return out;  // a look at what became of it
   const std::vector<InputEvent> more = decide(t_s, *seen);
   out.insert(out.end(), more.begin(), more.end());
   return out;

@@ -1,6 +1,6 @@
 // A player who sees nothing but pictures of the window and answers with its hand, as slowly as a person does.
 //
-// From each picture it takes what stands out in it: the yellow outline of what is lit, the white plumb line and its
+// From each picture it takes what stands out in it: the yellow outline of what is lit, the pink plumb line and its
 // foot, the force bar at the tip, the dial's pointers. It sees them 0.3 s late, and after each movement waits to see
 // what became of it. It knows no scene, no force and no depth. Test support.
 #pragma once

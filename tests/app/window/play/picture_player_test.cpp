@@ -25,12 +25,10 @@ void tell(const Grade& grade) {
 }
 
 /// With PLAYER_PICTURES=FOLDER: what was seen, and what the player took from it.
-void keep(int number, const PicturePlayer& player, const Image& picture) {
-  const char* folder = std::getenv("PLAYER_PICTURES");
-  if (!folder) return;
+void keep(const std::string& folder, int number, const PicturePlayer& player, const Image& picture) {
   char name[64];
   std::snprintf(name, sizeof name, "/%05d.png", number);
-  write_png(std::string(folder) + name, picture);
+  write_png(folder + name, picture);
   const Glance g = glance(picture);
   std::cerr << name << ' ' << player.doing << " force " << static_cast<int>(g.force);
   if (g.lit) std::cerr << " lit " << g.lit->x << ' ' << g.lit->y << " wide " << g.lit_wide;
@@ -66,17 +64,17 @@ class PicturePlay : public LoopBench {
     PicturePlayer player(*hand, task);
     const std::unique_ptr<VideoWriter> filmed =
         film(exercise + "-" + input_name(input) + "-" + std::to_string(seed), width_, height_);
+    const char* kept_in = std::getenv("PLAYER_PICTURES");
     std::vector<InputEvent> events;
     int n = 0;
     for (double t_s = 0; loop_->here() != ScreenName::kDebrief && t_s < 300; t_s += kFrame_s) {
       steps_.advance(kFrame_s);
-      const bool kept = n++ % kKeepEvery == 0 && std::getenv("PLAYER_PICTURES"), looks = player.looks(t_s);
-      loop_->draw_scopes(looks || kept || filmed);
+      const bool kept = kept_in && n++ % kKeepEvery == 0, looks = player.looks(t_s), drawn = looks || kept || filmed;
+      loop_->draw_scopes(drawn);
       loop_->frame(width_, height_, kFrame_s, events);
-      Image picture;
-      if (looks || kept || filmed) picture = loop_->picture();
+      const Image picture = drawn ? loop_->picture() : Image();
       events = player.play(t_s, looks ? &picture : nullptr);
-      if (kept) keep(n, player, picture);
+      if (kept) keep(kept_in, n, player, picture);
       if (filmed) filmed->add(picture);
     }
     if (filmed) filmed->close();

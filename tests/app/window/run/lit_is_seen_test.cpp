@@ -79,6 +79,7 @@ class OutlineStandsOut : public UiBench {
     RunMoment moment;
     DirectorStatus& status = moment.status;
     status.phase = Phase::kRun;
+    status.demand.oriented = kind_of(scene.setup.exercise).oriented;
     for (std::size_t i = 0; i < scene.board.targets.size(); ++i) {
       const Target& target = scene.board.targets[i];
       status.target_index = static_cast<int>(i);

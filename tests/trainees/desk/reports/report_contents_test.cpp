@@ -375,6 +375,25 @@ TEST(CertificateReport, OtherRulesThanTodaysLendItNoNumbers) {
   EXPECT_NE(html.find("version 1"), std::string::npos);
 }
 
+TEST(CertificateReport, WithoutADeviceItAttestsNoWorkOnOne) {
+  CertificateView view = sample_certificate();
+  for (CertifiedAttempt& a : view.attempts) a.backend = "pointer";
+  const std::string html = printed::html_of(certificate_sheet(view, {}));
+  EXPECT_NE(html.find("no device"), std::string::npos);
+  EXPECT_NE(html.find("made without one and nothing was felt"), std::string::npos);
+  EXPECT_EQ(html.find("simulated plant"), std::string::npos);
+}
+
+TEST(AttemptReport, WithoutADeviceItNamesWhatHelpedAndNoMotors) {
+  AttemptReportView view = sample_run();
+  view.attempt.result.device.backend = "pointer";
+  view.attempt.result.assists = "plumb";
+  const std::string html = printed::html_of(attempt_report(view, {}));
+  EXPECT_NE(html.find("none: nothing was felt"), std::string::npos);
+  EXPECT_NE(html.find("a line from the tip to what lies below"), std::string::npos);
+  EXPECT_EQ(html.find("Passivity at work"), std::string::npos);
+}
+
 TEST(CertificateReport, WithdrawnErasedAndRealDevice) {
   CertificateView view = sample_certificate();
   view.certificate.revoked_utc = "2026-04-03T10:00:00Z";
