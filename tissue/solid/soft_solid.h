@@ -1,0 +1,125 @@
+// A soft solid on a lattice of equal cubes: corotational B-bar hexahedra with relaxation, one implicit step at a time.
+//
+// Each cell turns with the rotation R of its mean gradient (Mueller 2016, warm-started); its force is R K (R^T x - X),
+// K of cube_element.h scaled by fill and strain stiffening. Two Prony branches a cell hold a strain e_i <- a_i (e_i
+// + g_i / g_inf du), a_i = tau_i / (tau_i + h), whose force is K e_i: unconditionally stable and dissipative. Strains and
+// not forces, so that stiffening leaves nothing behind on a closed path. A step is implicit Euler with one
+// linearisation,
+//   [(1 + h alpha) M + h^2 (K_alg + K_support + sum k J^T J)] v = M v0 + h f(x0),  x = x0 + h v,
+// by conjugate gradients from the last velocity. Nothing is assembled: products go cell by cell, eight cells a vector,
+// in the Walsh basis. The same operations in the same order on every machine: float without contraction, sums in eight
+// lanes.
+//
+// Positions in the frame that the nodes came in, m; SI. Thread: tissue task; same input, same bytes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "haptics/quantities.h"
+#include "tissue/solid/tissue_material.h"
+
+namespace trocar {
+
+using Vec3f = Eigen::Vector3f;
+
+struct SoftCell {
+  std::array<std::int32_t, 8> node{};  ///< corners: bits 1 = +x, 2 = +y, 4 = +z
+  double fill = 1;                     ///< share of the cube that is tissue, > 0
+  std::int32_t material = 0;           ///< index into the materials
+};
+
+struct SoftSolidOptions {
+  double edge_m = 0.010;
+  double step_s = 0.010;
+  double mass_damping_per_s = 1;  ///< alpha: of the motion of the whole
+  double tolerance = 1e-2;        ///< of the residual against the right-hand side
+  int most_iterations = 60;
+};
+
+/// A place on or in the solid as shares of its nodes.
+struct NodeShares {
+  std::vector<std::int32_t> node;
+  std::vector<float> share;  ///< sum 1
+};
+
+/// A spring between a place of the solid and something outside, along one direction: contact, friction, grip.
+struct SoftSpring {
+  NodeShares place;
+  Vec3 direction = Vec3::UnitZ();  ///< unit
+  double stiffness_n_per_m = 0;
+  double stretch_m = 0;     ///< before the step, with what it leads to where it will be: force on the solid is -k stretch
+  bool pushes_only = false;  ///< a contact: without force where the stretch becomes negative
+  double force_n = 0;        ///< after the step: k stretch, along -direction on the solid
+};
+
+class SoftSolid {
+ public:
+  /// @param nodes rest positions. @throws InputError: a cell that is no cube of the edge, a material that is none.
+  SoftSolid(std::span<const Vec3> nodes, std::span<const SoftCell> cells, std::span<const TissueSolid> materials,
+            const SoftSolidOptions& options);
+  ~SoftSolid();
+  SoftSolid(SoftSolid&&) noexcept;
+
+  /// Adds a spring to where the node rests, the same in every direction. N/m
+  void hold(std::int32_t node, double stiffness_n_per_m);
+  /// Moves everything that hold() holds on to: breathing. m
+  void move_support(const Vec3& displacement) { support_m_ = displacement.cast<float>(); }
+  /// Constant force on a node, N; zero again by the opposite.
+  void load(std::int32_t node, const Vec3& force_n);
+
+  /// One step. @param springs their force_n is filled in.
+  void step(std::span<SoftSpring> springs = {});
+  /// Static equilibrium by steps without inertia; for tests and studies. @return steps taken
+  int settle(std::span<SoftSpring> springs = {}, double still_m = 1e-7, int most_steps = 200);
+
+  std::size_t node_count() const { return rest_.size(); }
+  std::span<const Vec3f> rest() const { return rest_; }
+  std::span<const Vec3f> position() const { return position_; }
+  std::span<const Vec3f> velocity() const { return velocity_; }
+  /// For tests and scenes: sets where everything is, at rest.
+  void place(std::span<const Vec3f> position);
+  const SoftSolidOptions& options() const { return options_; }
+  int iterations() const { return iterations_; }  ///< of the last step
+
+  /// Elastic energy, that of the supports and, with velocity, kinetic energy, J; without relaxing branches.
+  double energy_j() const;
+  /// Elastic force on every node at the present place, N: long-term part and what the branches hold.
+  std::vector<Vec3f> elastic_force() const;
+  double mass_kg() const;
+  double volume_m3() const;  ///< of the cells as they are, by fill
+
+  /// Displacement per newton of a place in a direction when only the nodes within `radius` of it may move: the clamped
+  /// neighbourhood, never softer than the truth. @param inertia as the step sees it, else static
+  /// @param field displacement of every node per newton (zero outside), when asked for
+  /// @return m/N along the direction
+  double compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia,
+                    std::vector<Vec3f>* field = nullptr);
+
+ private:
+  struct Group;  ///< eight cells
+
+  void prepare();        ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
+  void add_product(const std::vector<Vec3f>& in, std::vector<Vec3f>& out, std::span<const std::int32_t> groups) const;
+  int solve(std::span<SoftSpring> springs, const std::vector<bool>& active);
+  void set_diagonal();
+
+  SoftSolidOptions options_;
+  std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;
+  std::vector<float> mass_, support_;  ///< of each node
+  Vec3f support_m_ = Vec3f::Zero();
+  std::vector<Group> groups_;
+  std::vector<std::int32_t> all_groups_;
+  std::vector<std::vector<std::int32_t>> groups_of_node_;
+  std::vector<float> diagonal_;  ///< of the step's matrix, without springs
+  std::vector<float> stiffness_diagonal_;
+  std::vector<Vec3f> right_, residual_, direction_, product_, preconditioned_, guess_, velocity_next_;
+  std::vector<float> inverse_;
+  int iterations_ = 0;
+  bool statics_ = false;  ///< settle(): without inertia
+};
+
+}  // namespace trocar
