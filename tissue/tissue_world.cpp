@@ -14,7 +14,18 @@ constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as
 TissueWorld::TissueWorld(const TissueSetup& setup)
     : organ_(setup.organ), adjacent_(setup.adjacent), tool_(setup.tool), seen_(setup.seen_T) {
   assert(adjacent_.size() < kMaxPatchMaterials && (adjacent_.empty() || setup.rigid.empty()));
-  if (setup.organ_T && !setup.organ_T->triangles.empty()) extraction_.emplace(*setup.organ_T, setup.triangle_material);
+  if (setup.soft && seen_) {
+    SoftOrganOptions options = setup.soft_options;
+    options.tool_radius_m = setup.tool.radius_m;
+    soft_.emplace(*seen_, *setup.soft, options);
+    felt_ = *setup.organ_T;
+    velocity_.assign(felt_.vertices.size(), Vec3::Zero());
+    organ_.mu_static = setup.soft->mu_static;
+    organ_.mu_dynamic = setup.soft->mu_dynamic;
+    extraction_.emplace(felt_, setup.triangle_material);
+  } else if (setup.organ_T && !setup.organ_T->triangles.empty()) {
+    extraction_.emplace(*setup.organ_T, setup.triangle_material);
+  }
   if (!setup.rigid.empty()) rigid_.emplace(setup.rigid, setup.tool);
 }
 
@@ -34,11 +45,34 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
   const JawReading jaws{state.X_TI, state.V_TI_T, state.jaw_opening_m, state.grip_force_n};
   if (rigid_) rigid_->step(jaws, present, dt_s);
   if (rigid_) patch.held = rigid_->held();
+  if (soft_) step_soft(newest, present);
   if (present && extraction_) extraction_->extract(state.X_TI, tool_, patch, state.jaw_opening_m);
+  if (soft_) {
+    patch.material[0].stiffness_n_per_m = soft_->stiffness_n_per_m();
+    patch.glide_s = soft_->solid().options().step_s;
+    patch.follows = frame_.stamp - 1;
+    patch.given_j = soft_->given_j();
+  }
   if (present && rigid_) rigid_->add_to(jaws, patch);
   enclose(patch, patch.balls);
   if (rigid_) rigid_->describe(frame_);
   dropped_ += static_cast<std::uint64_t>(patch.dropped);
+}
+
+void TissueWorld::step_soft(const HapticState& newest, bool present) {
+  soft_->step(newest.contacts, seen_->topology, present ? &newest.stylus.X_TI.p : nullptr);
+  const auto felt = soft_->felt();
+  const double step_s = soft_->solid().options().step_s;
+  for (std::size_t v = 0; v < felt.size(); ++v) {
+    velocity_[v] = (felt[v] - felt_.vertices[v]) / step_s;
+    felt_.vertices[v] = felt[v];
+  }
+  extraction_->refit(velocity_);
+  auto seen = std::make_shared<SurfaceSnapshot>();
+  seen->triangles = soft_->rest().triangles;
+  seen->vertices.assign(soft_->deformed().begin(), soft_->deformed().end());
+  seen->topology = seen_->topology;
+  seen_ = std::move(seen);
 }
 
 }  // namespace trocar

@@ -1,4 +1,4 @@
-// The world of today: an organ that stands still, if the exercise has one, and rigid things, if it has any.
+// The world: an organ that stands still or gives way, if the exercise has one, and rigid things, if it has any.
 //
 // Frame T, SI units. Thread: tissue task.
 #pragma once
@@ -12,6 +12,7 @@
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/rigid/rigid_scene.h"
 #include "tissue/rigid/rigid_world.h"
+#include "tissue/solid/soft_organ.h"
 #include "tissue/world.h"
 
 namespace trocar {
@@ -25,6 +26,9 @@ struct TissueSetup {
   std::vector<ContactMaterial> adjacent = {};  ///< at most kMaxPatchMaterials - 1, and only without rigid things
   RigidScene rigid;
   ToolShape tool;
+  /// What the organ is made of when it gives way; its vertices are then the first of organ_T. Empty: it stands still.
+  std::optional<TissueSolid> soft = {};
+  SoftOrganOptions soft_options = {};
 };
 
 class TissueWorld final : public World {
@@ -35,14 +39,22 @@ class TissueWorld final : public World {
   const TissueFrame& frame() const override { return frame_; }
   SurfacePtr surface() const override { return seen_; }
   std::uint64_t dropped() const override { return dropped_; }
+  /// nullptr: the organ stands still.
+  const SoftOrgan* soft() const { return soft_ ? &*soft_ : nullptr; }
 
  private:
+  /// Steps the organ that gives way, and tells the extraction where its surface is for the loop.
+  void step_soft(const HapticState& newest, bool present);
+
   ContactMaterial organ_;
   std::vector<ContactMaterial> adjacent_;
   ToolShape tool_;
   SurfacePtr seen_;
   std::optional<PatchExtraction> extraction_;
   std::optional<RigidWorld> rigid_;
+  std::optional<SoftOrgan> soft_;
+  TriangleSurface felt_;        ///< with soft_: what the loop is given, the adjacent organs behind the organ
+  std::vector<Vec3> velocity_;  ///< with soft_: of its vertices, m/s
   TissueFrame frame_;
   std::uint64_t dropped_ = 0;
 };

@@ -27,13 +27,28 @@ constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a cha
 
 }  // namespace
 
-ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch,
+ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& newest,
                                       double jaw_opening_m) {
+  tool_ = tool_capsules(shape_, jaw_opening_m, newest.held);
+  thinnest_m_ = tool_.at[0].radius_m;
+  for (int c = 1; c < tool_.count; ++c) thinnest_m_ = std::min(thinnest_m_, tool_.at[c].radius_m);
+  const ContactPatch& patch = glide_.follow(newest, contacts_, stored_j_, thinnest_m_);
+  near_.travel(glide_.moved_m());
   contacts_.topology = patch.topology;
   contacts_.count = 0;
-  if (law_ == ContactLaw::kThesis) return thesis_law(X_TI, patch);
-  tool_ = tool_capsules(shape_, jaw_opening_m, patch.held);
-  return proxy_law(X_TI, V_TI_T, patch);
+  stored_j_ = 0;
+  ContactResult result = law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, V_TI_T, patch);
+  if (glide_.force_share() < 1) fade(result);
+  return result;
+}
+
+void ContactRenderer::fade(ContactResult& result) {
+  const double share = glide_.force_share();
+  result.F_I_T = result.F_I_T * share;
+  result.spring_I_T = result.spring_I_T * share;
+  result.stored_j *= share;
+  stored_j_ *= share;
+  for (int i = 0; i < contacts_.count; ++i) contacts_.at[i].force_T *= share;
 }
 
 ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) {
@@ -59,8 +74,12 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
   result.F_I_T.moment = (result.point_T - X_TI.p).cross(result.F_I_T.force);
   result.spring_I_T = result.F_I_T;
   result.stored_j = 0.5 * stiffness * nearest * nearest;
-  contacts_.at[contacts_.count++] = {
-      {triangle->id, barycentric_of(result.point_T, patch.corners(index))}, triangle->normal, result.F_I_T.force, {}};
+  contacts_.at[contacts_.count++] = {{triangle->id, barycentric_of(result.point_T, patch.corners(index))},
+                                     triangle->normal,
+                                     result.F_I_T.force,
+                                     {},
+                                     X_TI.p,
+                                     1};
   return result;
 }
 
@@ -123,10 +142,8 @@ double ContactRenderer::turn_to(const CapsuleAxes& axes) const {
 
 CapsuleAxes ContactRenderer::place_capsules(const Pose& X_TI) {
   CapsuleAxes axes;
-  thinnest_m_ = tool_.at[0].radius_m;
   for (int c = 0; c < tool_.count; ++c) {
     const Capsule& capsule = tool_.at[c];
-    thinnest_m_ = std::min(thinnest_m_, capsule.radius_m);
     axes[c].front = X_TI.R * capsule.X_IC.p;
     axes[c].back = axes[c].front - X_TI.R * (capsule.X_IC.R.col(2) * capsule.length_m);
   }
@@ -163,12 +180,15 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
   list_pressed(patch);
   const double approach = approach_speed(V_TI_T, y.norm());
   const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * blend_.damping_s_per_m * approach);
+  glide_.dissipated((damping - 1) * blend_.stiffness_n_per_m * y.norm() * approach * glide_.period_s());
   for (int i = 0; i < contacts_.count; ++i) {
     const PressedPlace& p = pressed_[i];
     const Vec3 force = blend_.stiffness_n_per_m * p.share * p.normal;
     result.spring_I_T.force += force;
     result.spring_I_T.moment += (p.foot - proxy_).cross(force);
     contacts_.at[i].force_T = force * damping;
+    contacts_.at[i].tool_T = p.foot - y;
+    contacts_.at[i].share = std::clamp(p.share / std::max(kArrived, p.normal.dot(y)), 0.0, 1.0);
   }
   result.F_I_T = result.spring_I_T * damping;
   result.contact = true;
@@ -176,7 +196,7 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
   result.point_T = largest->point;
   result.normal_T = y.normalized();
   result.depth_m = y.norm();
-  result.stored_j = 0.5 * blend_.stiffness_n_per_m * y.squaredNorm();
+  result.stored_j = stored_j_ = 0.5 * blend_.stiffness_n_per_m * y.squaredNorm();
   add_friction(X_TI, V_TI_T, patch, result);
   return result;
 }
@@ -215,7 +235,8 @@ void ContactRenderer::blend_material(const ContactPatch& patch, double travel_m)
     stiffness += touch_[i].share * material.stiffness_n_per_m;
     damping += touch_[i].share * material.damping_s_per_m;
   }
-  const double follow = touching_ ? std::min(1.0, travel_m / kBlendTravel) : 1;
+  // Of gliding tissue the stiffness is of the place and glides itself.
+  const double follow = touching_ && patch.glide_s <= 0 ? std::min(1.0, travel_m / kBlendTravel) : 1;
   touching_ = true;
   blend_.stiffness_n_per_m += follow * (stiffness / sum - blend_.stiffness_n_per_m);
   blend_.damping_s_per_m += follow * (damping / sum - blend_.damping_s_per_m);

@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "haptics/contact/contact_friction.h"
+#include "haptics/contact/gliding_patch.h"
 #include "haptics/contact/near_pairs.h"
 #include "haptics/contact/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
@@ -46,13 +47,15 @@ struct ContactResult {
 
 class ContactRenderer {
  public:
-  explicit ContactRenderer(ContactLaw law, ToolShape shape = {}) : law_(law), shape_(shape) {}
+  explicit ContactRenderer(ContactLaw law, ToolShape shape = {}, const GlideParameters& glide = {})
+      : law_(law), shape_(shape), glide_(glide) {}
 
   /// Forgets the proxy: the next update starts at the instrument itself (after homing or a clutch).
   void reset() {
     started_ = touching_ = false;
     contacts_.count = 0;
     near_.forget();
+    glide_.forget();
     friction_.reset();
   }
 
@@ -61,7 +64,7 @@ class ContactRenderer {
 
   /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
   /// @param jaw_opening_m gap between the ends of the jaw pads.
-  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch, double jaw_opening_m = 0);
+  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& newest, double jaw_opening_m = 0);
   /// Those that carried force in the last period; their forces add up to F_I_T.force.
   const SolvedContacts& contacts() const { return contacts_; }
 
@@ -75,6 +78,8 @@ class ContactRenderer {
     double share = 0;  ///< part of y carried, m
   };
 
+  /// Weakens everything by what is left of the force without new patches.
+  void fade(ContactResult& result);
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch);
   /// Where the axes of all capsules lie now; on the first call the proxy begins there.
   CapsuleAxes place_capsules(const Pose& X_TI);
@@ -117,6 +122,8 @@ class ContactRenderer {
   ContactMaterial blend_;  ///< stiffness and damping in use
   bool touching_ = false;  ///< carried force in the last period
   NearPairs near_;
+  GlidingPatch glide_;
+  double stored_j_ = 0;  ///< of the normal springs, in the last period
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
   std::array<std::int32_t, kMaxPressedPlaces> carrying_{};

@@ -3,7 +3,9 @@
 //
 // Extracted by the tissue task (tissue/collision/patch_extraction.h) within kPatchRadius of the tool, read by the
 // contact stage of the tick. A new content has a new stamp. The triangles share vertices; where nothing moves no
-// velocity is filled in or read. Frame T, metres. Fixed size: copying it allocates nothing.
+// velocity is filled in or read. Tissue that deforms gives the surface as it would be without the tool's own dent, and
+// with it the stiffness of that dent: so that the force is right where the tool was, and its slope until the next patch
+// (docs/tissue.md). Frame T, metres. Fixed size: copying it allocates nothing.
 #pragma once
 
 #include <array>
@@ -59,6 +61,12 @@ struct ContactPatch {
   std::array<PatchTriangle, kMaxPatchTriangles> triangle;
   std::array<Vec3, kMaxPatchVertices> vertex;
   std::array<Vec3, kMaxPatchVertices> velocity;  ///< of each vertex, m/s; only where `moving`
+  /// > 0: the vertices come from vertex - glide_s velocity, or from where the loop has them, and are at their places so
+  /// long after the loop first sees the patch; there they stay. 0: they are there at once.
+  double glide_s = 0;
+  std::uint64_t follows = 0;                             ///< stamp of the patch that `previous` speaks of
+  std::array<std::int16_t, kMaxPatchVertices> previous;  ///< where each vertex was in that patch, -1: not there
+  double given_j = 0;  ///< energy that the tissue has lost in its step: what it may do on the tool beyond the tank
   std::array<ContactMaterial, kMaxPatchMaterials> material;
   GripBlock grip;
   HeldObject held;
@@ -68,6 +76,7 @@ struct ContactPatch {
   void clear() {
     count = vertex_count = dropped = 0;
     moving = false;
+    glide_s = given_j = 0;
   }
   /// Of the i-th triangle.
   std::array<Vec3, 3> corners(std::int32_t i) const { return at_corners(vertex, i); }

@@ -18,9 +18,11 @@ inline constexpr int kMaxContacts = 16;
 
 struct SolvedContact {
   MaterialPoint place;
-  Vec3 normal_T;         ///< unit, out of the surface
-  Vec3 force_T;          ///< spring, damping and friction
-  MaterialPoint anchor;  ///< what friction holds on to; triangle -1: no friction
+  Vec3 normal_T;               ///< unit, out of the surface
+  Vec3 force_T;                ///< spring, damping and friction
+  MaterialPoint anchor;        ///< what friction holds on to; triangle -1: no friction
+  Vec3 tool_T = Vec3::Zero();  ///< the point of the tool that presses there, as deep in the surface as it is
+  double share = 1;            ///< of the force that a spring of the whole depth at this place would give, 0..1
 };
 
 struct SolvedContacts {

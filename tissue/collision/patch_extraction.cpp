@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace trocar {
 
@@ -20,6 +21,8 @@ void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPa
   const std::int64_t left_over =
       tree_.nearest({axes.data(), static_cast<std::size_t>(capsules.count)}, kPatchRadius, kMaxPatchTriangles, hits_);
   patch.clear();
+  std::swap(last_source_, source_);
+  last_count_ = std::exchange(count_, 0);
   patch.moving = !velocity_.empty();
   patch.count = static_cast<std::int32_t>(hits_.size());
   patch.dropped = static_cast<std::int32_t>(std::min<std::int64_t>(left_over, 1 << 30));
@@ -39,12 +42,15 @@ void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPa
 std::int16_t PatchExtraction::place_vertex(std::int32_t vertex, ContactPatch& patch) {
   std::int16_t& place = place_[static_cast<std::size_t>(vertex)];
   if (place >= patch.vertex_count || source_[static_cast<std::size_t>(place)] != vertex) {
+    const bool was = place < last_count_ && last_source_[static_cast<std::size_t>(place)] == vertex;
+    patch.previous[static_cast<std::size_t>(patch.vertex_count)] = was ? place : std::int16_t{-1};
     place = static_cast<std::int16_t>(patch.vertex_count++);
     const auto at = static_cast<std::size_t>(place);
     source_[at] = vertex;
     patch.vertex[at] = tree_.surface().vertices[vertex];
     if (patch.moving) patch.velocity[at] = velocity_[static_cast<std::size_t>(vertex)];
   }
+  count_ = patch.vertex_count;
   return place;
 }
 

@@ -30,8 +30,8 @@ class PatchExtraction {
     velocity_ = velocity;
   }
 
-  /// Fills triangles, vertices, count, dropped and reach; leaves stamp, topology, material, grip and held object to the
-  /// caller.
+  /// Fills triangles, vertices, where those were in the last extraction (`previous`), count, dropped and reach; leaves
+  /// stamp, topology, glide, material, grip and held object to the caller.
   /// @param patch its held object is part of the tool
   void extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch, double jaw_opening_m = 0);
 
@@ -46,6 +46,8 @@ class PatchExtraction {
   // A sparse set (Briggs and Torczon 1993): nothing is cleared between patches.
   std::vector<std::int16_t> place_;                     ///< of each vertex of the surface, if source_ there names it
   std::array<std::int32_t, kMaxPatchVertices> source_;  ///< vertex of the surface behind each of the patch
+  std::array<std::int32_t, kMaxPatchVertices> last_source_;  ///< the same of the extraction before
+  std::int32_t count_ = 0, last_count_ = 0;
 };
 
 }  // namespace trocar

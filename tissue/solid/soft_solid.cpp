@@ -22,9 +22,9 @@ namespace {
 
 constexpr int kLanes = 8;
 constexpr int kAxes = 3;
-constexpr int kRotationSteps = 4;         // warm-started: the third already changes nothing beyond rounding
-constexpr float kMostStiffening = 8;      // times the small-strain modulus
-constexpr float kNoGradient = 1e-9F;      // keeps the division of a collapsed cell defined
+constexpr int kRotationSteps = 4;     // warm-started: the third already changes nothing beyond rounding
+constexpr float kMostStiffening = 8;  // times the small-strain modulus
+constexpr float kNoGradient = 1e-9F;  // keeps the division of a collapsed cell defined
 constexpr int kActiveSetPasses = 3;
 constexpr int kMostLocal = 80;            // iterations of a clamped neighbourhood
 constexpr double kLocalTolerance = 1e-6;  // of its energy: 0.1 % of the displacement
@@ -175,15 +175,15 @@ std::uint64_t interleaved(const std::array<std::uint32_t, 3>& at) {
 struct alignas(kLanes * sizeof(float)) SoftSolid::Group {
   std::int32_t node[kCubeCorners][kLanes];
   Lane rotation[kAxes][kAxes];
-  Lane strain[kAxes][kCubeCorners];      ///< R^T x - X, in modes
-  Lane held[2][kAxes][kCubeCorners];     ///< strain that the branches still hold, in modes
-  Lane mu, kappa;                        ///< long-term, with fill and edge
-  Lane instant;                          ///< instantaneous over long-term
-  Lane share[2], keep[2];                ///< g_i and a_i
-  Lane stiffening;                       ///< c
-  Lane factor;                           ///< of strain stiffening, at the present place
-  Lane step_mu, step_kappa;              ///< of the step's matrix
-  Lane volume;                           ///< of tissue, m3, for the record
+  Lane strain[kAxes][kCubeCorners];   ///< R^T x - X, in modes
+  Lane held[2][kAxes][kCubeCorners];  ///< strain that the branches still hold, in modes
+  Lane mu, kappa;                     ///< long-term, with fill and edge
+  Lane instant;                       ///< instantaneous over long-term
+  Lane share[2], keep[2];             ///< g_i and a_i
+  Lane stiffening;                    ///< c
+  Lane factor;                        ///< of strain stiffening, at the present place
+  Lane step_mu, step_kappa;           ///< of the step's matrix
+  Lane volume;                        ///< of tissue, m3, for the record
 };
 
 SoftSolid::~SoftSolid() = default;
@@ -292,8 +292,8 @@ TROCAR_LANES_CLONED void SoftSolid::prepare() {
     for (int i = 0; i < 2; ++i)
       for (int c = 0; c < kAxes; ++c)
         for (int m = 0; m < kCubeCorners; ++m)
-          group.held[i][c][m] = group.keep[i] * (group.held[i][c][m] + group.share[i] * group.instant *
-                                                                           (v[c][m] - group.strain[c][m]));
+          group.held[i][c][m] =
+              group.keep[i] * (group.held[i][c][m] + group.share[i] * group.instant * (v[c][m] - group.strain[c][m]));
     std::memcpy(group.strain, v, sizeof v);
     // Equivalent strain from the energy of the change of shape: w = mu/2 u K u / V = 3/2 mu e^2.
     stiffen(cube, v, all(1), Lane{}, f);
@@ -364,7 +364,8 @@ Vec3f at(const NodeShares& place, const std::vector<Vec3f>& value) {
   return sum;
 }
 void spread(const NodeShares& place, const Vec3f& value, std::vector<Vec3f>& to) {
-  for (std::size_t i = 0; i < place.node.size(); ++i) to[static_cast<std::size_t>(place.node[i])] += place.share[i] * value;
+  for (std::size_t i = 0; i < place.node.size(); ++i)
+    to[static_cast<std::size_t>(place.node[i])] += place.share[i] * value;
 }
 
 }  // namespace
@@ -381,7 +382,8 @@ int SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& act
     for (std::size_t s = 0; s < springs.size(); ++s) {
       if (!active[s]) continue;
       const Vec3f direction = springs[s].direction.cast<float>();
-      const float force = h * h * static_cast<float>(springs[s].stiffness_n_per_m) * direction.dot(at(springs[s].place, in));
+      const float force =
+          h * h * static_cast<float>(springs[s].stiffness_n_per_m) * direction.dot(at(springs[s].place, in));
       spread(springs[s].place, force * direction, out);
     }
   };
@@ -401,7 +403,8 @@ int SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& act
     if (!active[s]) continue;
     for (std::size_t i = 0; i < springs[s].place.node.size(); ++i)
       inverse[static_cast<std::size_t>(springs[s].place.node[i])] +=
-          h * h * static_cast<float>(springs[s].stiffness_n_per_m) * springs[s].place.share[i] * springs[s].place.share[i];
+          h * h * static_cast<float>(springs[s].stiffness_n_per_m) * springs[s].place.share[i] *
+          springs[s].place.share[i];
   }
   for (float& value : inverse) value = value > 0 ? 1 / value : 0;
 

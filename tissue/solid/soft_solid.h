@@ -2,8 +2,8 @@
 //
 // Each cell turns with the rotation R of its mean gradient (Mueller 2016, warm-started); its force is R K (R^T x - X),
 // K of cube_element.h scaled by fill and strain stiffening. Two Prony branches a cell hold a strain e_i <- a_i (e_i
-// + g_i / g_inf du), a_i = tau_i / (tau_i + h), whose force is K e_i: unconditionally stable and dissipative. Strains and
-// not forces, so that stiffening leaves nothing behind on a closed path. A step is implicit Euler with one
+// + g_i / g_inf du), a_i = tau_i / (tau_i + h), whose force is K e_i: unconditionally stable and dissipative. Strains
+// and not forces, so that stiffening leaves nothing behind on a closed path. A step is implicit Euler with one
 // linearisation,
 //   [(1 + h alpha) M + h^2 (K_alg + K_support + sum k J^T J)] v = M v0 + h f(x0),  x = x0 + h v,
 // by conjugate gradients from the last velocity. Nothing is assembled: products go cell by cell, eight cells a vector,
@@ -51,7 +51,7 @@ struct SoftSpring {
   NodeShares place;
   Vec3 direction = Vec3::UnitZ();  ///< unit
   double stiffness_n_per_m = 0;
-  double stretch_m = 0;     ///< before the step, with what it leads to where it will be: force on the solid is -k stretch
+  double stretch_m = 0;  ///< before the step, with what it leads to where it will be: force on the solid is -k stretch
   bool pushes_only = false;  ///< a contact: without force where the stretch becomes negative
   double force_n = 0;        ///< after the step: k stretch, along -direction on the solid
 };
@@ -102,7 +102,7 @@ class SoftSolid {
  private:
   struct Group;  ///< eight cells
 
-  void prepare();        ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
+  void prepare();  ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
   void add_product(const std::vector<Vec3f>& in, std::vector<Vec3f>& out, std::span<const std::int32_t> groups) const;
   int solve(std::span<SoftSpring> springs, const std::vector<bool>& active);
   void set_diagonal();

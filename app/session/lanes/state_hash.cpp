@@ -48,6 +48,11 @@ void StateHash::add(const ContactPatch& patch) {
         static_cast<std::uint32_t>(triangle.material));
     for (const Vec3& vertex : patch.corners(i)) add(vertex);
   }
+  if (patch.glide_s > 0) {
+    add(patch.glide_s);
+    add(patch.given_j);
+    for (int i = 0; i < patch.vertex_count; ++i) add(patch.velocity[static_cast<std::size_t>(i)]);
+  }
   add(patch.reach_m);
   for (const ContactMaterial& m : patch.material) {
     for (const double value : {m.stiffness_n_per_m, m.damping_s_per_m, m.mu_static, m.mu_dynamic, m.stribeck_m_s}) {

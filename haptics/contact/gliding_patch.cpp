@@ -1,0 +1,106 @@
+#include "haptics/contact/gliding_patch.h"
+
+#include <algorithm>
+
+namespace trocar {
+
+const ContactPatch& GlidingPatch::follow(const ContactPatch& newest, const SolvedContacts& pressed, double stored_j,
+                                         double thinnest_m) {
+  moved_m_ = 0;
+  force_share_ = 1;
+  if (newest.glide_s <= 0) {
+    forget();
+    return newest;
+  }
+  if (!filled_) tank_j_ = parameters_.tank_j;
+  filled_ = true;
+  if (newest.stamp != stamp_) take(newest);
+  age_s_ += parameters_.period_s;
+  double step = std::min(1 - progress_, parameters_.period_s / newest.glide_s);
+  if (longest_m_ * step > parameters_.most_step * thinnest_m) step = parameters_.most_step * thinnest_m / longest_m_;
+  const double cost = step * cost_of_rest(pressed, stored_j);
+  if (parameters_.metered && cost > tank_j_) step *= std::max(0.0, tank_j_) / cost;
+  tank_j_ = std::min(parameters_.tank_j, tank_j_ - std::min(cost, std::max(0.0, tank_j_)));
+  move(step);
+  force_share_ = std::clamp(1 - (age_s_ - parameters_.stale_s) / parameters_.fade_s, 0.0, 1.0);
+  return present_;
+}
+
+void GlidingPatch::dissipated(double energy_j) {
+  tank_j_ = std::min(parameters_.tank_j, tank_j_ + std::max(0.0, energy_j));
+}
+
+void GlidingPatch::take(const ContactPatch& newest) {
+  const bool known = stamp_ != 0 && newest.follows == stamp_ && newest.topology == present_.topology;
+  longest_m_ = 0;
+  std::array<Vec3, kMaxPatchVertices>& from = start_;
+  for (int i = 0; i < newest.vertex_count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const std::int16_t before = known ? newest.previous[at] : std::int16_t{-1};
+    end_[at] = newest.vertex[at];
+    from[at] = before >= 0 ? present_.vertex[static_cast<std::size_t>(before)]
+                           : Vec3(newest.vertex[at] - newest.glide_s * newest.velocity[at]);
+    longest_m_ = std::max(longest_m_, (end_[at] - from[at]).norm());
+  }
+  for (std::size_t m = 0; m < kMaxPatchMaterials; ++m) {
+    stiff_end_[m] = newest.material[m].stiffness_n_per_m;
+    stiff_start_[m] = stamp_ != 0 ? present_.material[m].stiffness_n_per_m : stiff_end_[m];
+  }
+  present_.stamp = newest.stamp;
+  present_.topology = newest.topology;
+  present_.count = newest.count;
+  present_.vertex_count = newest.vertex_count;
+  present_.dropped = newest.dropped;
+  present_.reach_m = newest.reach_m;
+  present_.moving = true;
+  present_.glide_s = newest.glide_s;
+  std::copy_n(newest.triangle.begin(), newest.count, present_.triangle.begin());
+  std::copy_n(start_.begin(), newest.vertex_count, present_.vertex.begin());
+  present_.material = newest.material;
+  present_.grip = newest.grip;
+  present_.held = newest.held;
+  present_.balls.count = -1;  // made where the vertices end: here they are still on their way
+  stamp_ = newest.stamp;
+  progress_ = 0;
+  age_s_ = 0;
+  dissipated(newest.given_j);
+}
+
+double GlidingPatch::cost_of_rest(const SolvedContacts& pressed, double stored_j) const {
+  if (progress_ >= 1) return 0;
+  double cost = 0, force = 0, stiffer = 0;
+  for (int c = 0; c < pressed.count; ++c) {
+    const SolvedContact& contact = pressed.at[static_cast<std::size_t>(c)];
+    const auto end = present_.triangle.begin() + present_.count;
+    const auto found = std::find_if(present_.triangle.begin(), end,
+                                    [&](const PatchTriangle& t) { return t.id == contact.place.triangle; });
+    if (found == end) continue;
+    Vec3 way = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto corner = static_cast<std::size_t>(found->corner[k]);
+      way += contact.place.weight[k] * (end_[corner] - start_[corner]);
+    }
+    cost += contact.force_T.dot(way);
+    const auto material = static_cast<std::size_t>(found->material);
+    const double now = present_.material[material].stiffness_n_per_m;
+    if (now > 0) stiffer += contact.force_T.norm() * (stiff_end_[material] - stiff_start_[material]) / now;
+    force += contact.force_T.norm();
+  }
+  return force > 0 ? cost + stored_j * stiffer / force : 0;
+}
+
+void GlidingPatch::move(double share) {
+  progress_ = std::min(1.0, progress_ + share);
+  moved_m_ = share * longest_m_;
+  const double rate = share / parameters_.period_s;
+  for (int i = 0; i < present_.vertex_count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Vec3 way = end_[at] - start_[at];
+    present_.vertex[at] = start_[at] + progress_ * way;
+    present_.velocity[at] = rate * way;
+  }
+  for (std::size_t m = 0; m < kMaxPatchMaterials; ++m)
+    present_.material[m].stiffness_n_per_m = stiff_start_[m] + progress_ * (stiff_end_[m] - stiff_start_[m]);
+}
+
+}  // namespace trocar

@@ -1,0 +1,79 @@
+// An organ that gives way: its surface embedded in a soft solid, pressed by the contacts that the loop has solved.
+//
+// One step (100 Hz). (1) Every contact that carried force in the newest tick is a spring between its place on the
+// tissue and the point of the tool that presses there. Its law is that of a sphere of the tool's radius in a
+// half-space (Hertz, the contact's radius at most the tool's), less the compliance that the lattice round the place
+// already has (tissue.md 1.4), so that force over depth does not hang on the cells. (2) The solid steps with all of
+// them, implicit: their forces are those felt. (3) What the loop gets is the surface without the dent of its own forces
+// in the clamped neighbourhood of 30 mm, and the stiffness with which that neighbourhood and the sub-cell law answer
+// within a step, at most `most_stiffness`. At the place of the solve the loop's force then is the solved one whatever
+// that stiffness is; it is never softer than the truth (tissue.md 2.4). docs/tissue.md draws it.
+//
+// Frame T, SI. Thread: tissue task. Same input, same bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "haptics/exchange/solved_contacts.h"
+#include "tissue/mesh/surface/triangle_surface.h"
+#include "tissue/solid/lattice.h"
+#include "tissue/solid/soft_solid.h"
+#include "tissue/solid/tissue_material.h"
+
+namespace trocar {
+
+struct SoftOrganOptions {
+  SoftSolidOptions solid;
+  double tool_radius_m = 0.0025;
+  double bed_n_per_m3 = 2e5;            ///< support of what faces down, per area: 5 kPa at 25 mm; a choice
+  double bed_cosine = -0.2;             ///< faces whose normal's z is below it lie on the bed
+  double neighbourhood_m = 0.030;       ///< radius of the clamped neighbourhood
+  double most_stiffness_n_per_m = 250;  ///< K_max of the loop, in scene newtons
+};
+
+class SoftOrgan {
+ public:
+  /// @param rest_T closed surface, outward. @throws InputError of build_lattice
+  SoftOrgan(const TriangleSurface& rest_T, const TissueSolid& material, const SoftOrganOptions& options);
+
+  /// One step of options.solid.step_s.
+  /// @param contacts of the newest tick; those on triangles beyond the organ's are left out
+  /// @param tip_T of the tool, where it may touch next; nullptr: no tool
+  void step(const SolvedContacts& contacts, std::uint64_t topology, const Vec3* tip_T);
+
+  const TriangleSurface& rest() const { return rest_; }
+  std::span<const Vec3> deformed() const { return deformed_; }
+  std::span<const Vec3> felt() const { return felt_; }     ///< for the loop: without the tool's own dent
+  double stiffness_n_per_m() const { return stiffness_; }  ///< of that dent
+  double force_n() const { return force_; }                ///< sum of the solved contact forces
+  double given_j() const { return given_; }                ///< energy that the tissue has lost in this step
+  const SoftSolid& solid() const { return solid_; }
+  SoftSolid& solid() { return solid_; }
+  const Lattice& lattice() const { return lattice_; }
+
+ private:
+  struct Pressed;
+  NodeShares shares_of(const MaterialPoint& place) const;
+  Vec3 place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const;
+  /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
+  double half_space_compliance(double force_n) const;
+  double half_space_depth(double force_n) const;
+  std::vector<Pressed> press(const SolvedContacts& contacts) const;
+  void embed_surface();
+  void find_felt(std::span<const Pressed> pressed, const Vec3* tip_T);
+
+  TriangleSurface rest_;
+  TissueSolid material_;
+  SoftOrganOptions options_;
+  Lattice lattice_;
+  SoftSolid solid_;
+  std::vector<Vec3> deformed_, felt_;
+  std::vector<Vec3f> field_, correction_;
+  double stiffness_ = 0, force_ = 0, given_ = 0;
+  double relaxed_share_ = 1;  ///< long-term modulus over that of a step
+  double sub_cell_ = 0;       ///< compliance that the lattice already has at the last place, long-term, m/N
+};
+
+}  // namespace trocar
