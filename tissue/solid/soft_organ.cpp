@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
+
+#include <Eigen/SVD>
 
 namespace trocar {
 namespace {
@@ -13,6 +17,8 @@ constexpr double kTangential = 0.8;     // friction's spring over the normal one
 constexpr double kFarShare = 1.0;       // gamma: what lies beyond a clamped ball of radius R takes gamma / (pi E* R)
 constexpr double kNoForce = 1e-6;       // N
 constexpr int kShiftRounds = 12;
+constexpr double kWholeDent = 0.7, kShellEnd = 1.3;  // of the neighbourhood: undone as a whole, and no longer
+constexpr std::size_t kFewestNodes = 8;              // that a motion is read from
 
 double plane_modulus(const TissueSolid& material) {
   return material.young_pa / (1 - material.poisson * material.poisson);
@@ -64,7 +70,6 @@ SoftOrgan::SoftOrgan(const TriangleSurface& rest_T, const TissueSolid& material,
       solid_(node_places(lattice_), soft_cells(lattice_), std::span(&material, 1), options.solid),
       deformed_(rest_.vertices),
       felt_(rest_.vertices),
-      correction_(solid_.node_count(), Vec3f::Zero()),
       relaxed_share_(relaxed_share(material, options.solid.step_s)) {
   for (const auto& triangle : rest_.triangles) {
     const Vec3 a = rest_.vertices[static_cast<std::size_t>(triangle[0])];
@@ -173,45 +178,88 @@ void SoftOrgan::embed_surface() {
   }
 }
 
-void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
-  felt_ = deformed_;
-  if (tip_T == nullptr) return;
-  double total = 0, compliance = 0;
-  std::fill(correction_.begin(), correction_.end(), Vec3f::Zero());
-  const auto take = [&](const NodeShares& place, const Vec3& direction, double whole, double weight) {
-    const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true, &field_);
-    const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
-    sub_cell_ = still + kFarShare / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
-    const double half_space = half_space_compliance(whole);
-    compliance += weight * (std::max(kLeastSubCell * half_space, half_space - sub_cell_) + answer);
-    total += weight;
-  };
-  for (const Pressed& p : pressed) {
-    if (p.force < kNoForce) continue;
-    take(p.shares, p.normal, p.force / p.share, p.force);
-    const auto force = static_cast<float>(p.force);
-    for (std::size_t n = 0; n < correction_.size(); ++n) correction_[n] += force * field_[n];
+Pose SoftOrgan::motion_round(const Vec3& rest_T) const {
+  // Weighted by a shell at the neighbourhood's edge, where the dent has died away (Kabsch 1976).
+  const auto rest = solid_.rest(), position = solid_.position();
+  double sum = 0;
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  std::vector<std::pair<std::size_t, double>> shell;
+  for (std::size_t n = 0; n < lattice_.nodes.size(); ++n) {
+    const double r = (rest[n].cast<double>() - rest_T).norm() / options_.neighbourhood_m;
+    if (r >= kShellEnd) continue;
+    const double weight = r * r * (kShellEnd - r);
+    shell.emplace_back(n, weight);
+    from += weight * rest[n].cast<double>();
+    to += weight * position[n].cast<double>();
+    sum += weight;
   }
-  if (total == 0) {
-    const auto nearest = std::min_element(deformed_.begin(), deformed_.end(), [&](const Vec3& a, const Vec3& b) {
-      return (a - *tip_T).squaredNorm() < (b - *tip_T).squaredNorm();
+  if (shell.size() < kFewestNodes) return {Mat3::Identity(), Vec3::Zero()};
+  from /= sum;
+  to /= sum;
+  Mat3 spread = Mat3::Zero();
+  for (const auto& [n, weight] : shell)
+    spread += weight * (position[n].cast<double>() - to) * (rest[n].cast<double>() - from).transpose();
+  const Eigen::JacobiSVD<Mat3> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Mat3 mirror = Mat3::Identity();
+  mirror(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  const Mat3 R = svd.matrixU() * mirror * svd.matrixV().transpose();
+  return {R, to - R * from};
+}
+
+void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
+  felt_ = deformed_;
+  std::vector<std::pair<Vec3, Pose>> dents;
+  for (const MaterialPoint& place : places) {
+    const Vec3 rest = place_at(place, rest_.vertices);
+    dents.emplace_back(rest, motion_round(rest));
+  }
+  const double inner = kWholeDent * options_.neighbourhood_m, outer = kShellEnd * options_.neighbourhood_m;
+  for (std::size_t v = 0; v < felt_.size(); ++v) {
+    const Vec3& rest = rest_.vertices[v];
+    const auto nearest = std::min_element(dents.begin(), dents.end(), [&](const auto& a, const auto& b) {
+      return (a.first - rest).squaredNorm() < (b.first - rest).squaredNorm();
     });
-    const Vec3 way = *tip_T - *nearest;
-    const Embedding& e = lattice_.embedding[static_cast<std::size_t>(nearest - deformed_.begin())];
-    const auto& corners = lattice_.cells[static_cast<std::size_t>(e.cell)].corners;
-    take({{corners.begin(), corners.end()}, {e.weights.begin(), e.weights.end()}},
-         way.norm() > kLeastContact ? Vec3(way.normalized()) : Vec3::UnitZ(), 0, 1);
-    stiffness_ = std::min(options_.most_stiffness_n_per_m, total / compliance);
+    const double along = std::clamp((outer - (nearest->first - rest).norm()) / (outer - inner), 0.0, 1.0);
+    if (along > 0) felt_[v] += along * along * (3 - 2 * along) * (nearest->second * rest - felt_[v]);
+  }
+}
+
+double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, double force_n) {
+  const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
+  const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
+  sub_cell_ = still + kFarShare / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
+  const double half_space = half_space_compliance(force_n);
+  return std::max(kLeastSubCell * half_space, half_space - sub_cell_) + answer;
+}
+
+MaterialPoint SoftOrgan::nearest_place(const Vec3& tip_T) const {
+  MaterialPoint place{0, {1, 0, 0}};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < rest_.triangles.size(); ++t) {
+    const double distance = (deformed_[static_cast<std::size_t>(rest_.triangles[t][0])] - tip_T).squaredNorm();
+    if (distance < least) least = distance, place.triangle = static_cast<std::int32_t>(t);
+  }
+  return place;
+}
+
+void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
+  if (tip_T == nullptr) {
+    felt_ = deformed_;
     return;
   }
-  stiffness_ = std::min(options_.most_stiffness_n_per_m, total / compliance);
-  for (std::size_t v = 0; v < felt_.size(); ++v) {
-    const Embedding& e = lattice_.embedding[v];
-    const auto& corners = lattice_.cells[static_cast<std::size_t>(e.cell)].corners;
-    Vec3f sum = Vec3f::Zero();
-    for (std::size_t k = 0; k < 8; ++k) sum += e.weights[k] * correction_[static_cast<std::size_t>(corners[k])];
-    felt_[v] += sum.cast<double>();
-  }
+  const auto strongest = std::max_element(pressed.begin(), pressed.end(),
+                                          [](const Pressed& a, const Pressed& b) { return a.force < b.force; });
+  std::vector<MaterialPoint> places;
+  for (const Pressed& p : pressed)
+    if (p.force >= kNoForce) places.push_back(p.place);
+  const bool touching = !places.empty();
+  if (!touching) places.push_back(nearest_place(*tip_T));
+  undo_dents(places);
+  const Vec3 way = *tip_T - place_at(places.front(), deformed_);
+  const Vec3 direction = touching ? strongest->normal : way.norm() > kLeastContact ? way.normalized() : Vec3::UnitZ();
+  const double compliance = touching ? compliance_at(strongest->shares, direction, strongest->force / strongest->share)
+                                     : compliance_at(shares_of(places.front()), direction, 0);
+  stiffness_ = std::min(options_.most_stiffness_n_per_m, 1 / compliance);
   // Where the loop's linear law would give another force at the tool's place, all of it moves by the difference.
   Vec3 displaced = Vec3::Zero(), shift = Vec3::Zero();
   for (const Pressed& p : pressed) displaced += p.force / stiffness_ * p.normal;

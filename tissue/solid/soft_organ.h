@@ -4,10 +4,11 @@
 // tissue and the point of the tool that presses there. Its law is that of a sphere of the tool's radius in a
 // half-space (Hertz, the contact's radius at most the tool's), less the compliance that the lattice round the place
 // already has (tissue.md 1.4), so that force over depth does not hang on the cells. (2) The solid steps with all of
-// them, implicit: their forces are those felt. (3) What the loop gets is the surface without the dent of its own forces
-// in the clamped neighbourhood of 30 mm, and the stiffness with which that neighbourhood and the sub-cell law answer
-// within a step, at most `most_stiffness`. At the place of the solve the loop's force then is the solved one whatever
-// that stiffness is; it is never softer than the truth (tissue.md 2.4). docs/tissue.md draws it.
+// them, implicit: their forces are those felt. (3) What the loop gets is the surface without the dents of its own
+// forces: the neighbourhood of each contact in its shape at rest, moved as its surroundings have moved; and the
+// stiffness with which the clamped neighbourhood and the sub-cell law answer within a step, at most `most_stiffness`.
+// At the place of the solve the loop's force then is the solved one whatever that stiffness is; it is never softer than
+// the truth (tissue.md 2.4). docs/tissue.md draws it.
 //
 // Frame T, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
@@ -62,6 +63,13 @@ class SoftOrgan {
   double half_space_depth(double force_n) const;
   std::vector<Pressed> press(const SolvedContacts& contacts) const;
   void embed_surface();
+  /// How the neighbourhood of a place has moved as a whole, from its rest.
+  Pose motion_round(const Vec3& rest_T) const;
+  /// The surface with the neighbourhoods of these places at rest, carried along as a whole.
+  void undo_dents(std::span<const MaterialPoint> places);
+  /// Of the place within a step of the loop, m/N. Keeps what the lattice has of it for the next solve.
+  double compliance_at(const NodeShares& place, const Vec3& direction, double force_n);
+  MaterialPoint nearest_place(const Vec3& tip_T) const;
   void find_felt(std::span<const Pressed> pressed, const Vec3* tip_T);
 
   TriangleSurface rest_;
@@ -70,7 +78,6 @@ class SoftOrgan {
   Lattice lattice_;
   SoftSolid solid_;
   std::vector<Vec3> deformed_, felt_;
-  std::vector<Vec3f> field_, correction_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
   double relaxed_share_ = 1;  ///< long-term modulus over that of a step
   double sub_cell_ = 0;       ///< compliance that the lattice already has at the last place, long-term, m/N

@@ -522,8 +522,7 @@ double SoftSolid::volume_m3() const {
   return volume;
 }
 
-double SoftSolid::compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia,
-                             std::vector<Vec3f>* field) {
+double SoftSolid::compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia) const {
   const Vec3f centre = at(place, position_);
   std::vector<std::int32_t> nodes, groups;
   for (std::size_t n = 0; n + 1 < rest_.size(); ++n)
@@ -574,9 +573,7 @@ double SoftSolid::compliance(const NodeShares& place, const Vec3& direction, dou
       d[n] = inverse[i] * r[n] + beta * d[n];
     }
   }
-  const double along = direction.cast<float>().dot(at(place, u));
-  if (field) *field = std::move(u);
-  return along;
+  return direction.cast<float>().dot(at(place, u));
 }
 
 }  // namespace trocar

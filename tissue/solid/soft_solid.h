@@ -94,10 +94,8 @@ class SoftSolid {
 
   /// Displacement per newton of a place in a direction when only the nodes within `radius` of it may move: the clamped
   /// neighbourhood, never softer than the truth. @param inertia as the step sees it, else static
-  /// @param field displacement of every node per newton (zero outside), when asked for
   /// @return m/N along the direction
-  double compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia,
-                    std::vector<Vec3f>* field = nullptr);
+  double compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia) const;
 
  private:
   struct Group;  ///< eight cells
