@@ -151,7 +151,7 @@ TEST(Occlusion, ANeighbourTakesLightOnlyFromTheSideThatFacesIt) {
   const TriangleSurface one = implicit_surface(ball, cube(0.03), 0.002);
   TriangleSurface other = one;
   for (Vec3& v : other.vertices) v += Vec3(0.042, 0, 0);
-  PictureMesh mesh = build_picture_mesh(one, 4000);
+  PictureMesh mesh = bake_picture_mesh(one);
   const PictureMesh before = mesh;
   darken_beside(mesh, SolidGrid(other));
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
