@@ -124,17 +124,35 @@ bool TissuePainter::built_for(const SceneView& view, const PresetTraits& traits)
              [](const TissuePart& part, const AdjacentOrganView* other) { return part.made_from(other->surface); });
 }
 
+/// What is there already is kept: where tissue is cut, one organ is made anew and not twenty.
 void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
-  adjacent_.clear();
-  organ_.emplace(view.organ, traits.organ_triangles);
-  Eigen::AlignedBox3d bounds = organ_->box();
-  for (const AdjacentOrganView* other : drawn_beside(view)) {
-    adjacent_.emplace_back(other->surface, traits.adjacent_triangles);
-    bounds.extend(adjacent_.back().box());
+  std::vector<TissuePart> before = std::exchange(adjacent_, {});
+  if (built_preset_ != traits.define) {
+    before.clear();
+    organ_.reset();
   }
-  wall_.emplace(build_cavity(bounds));
-  fat_.reset();
-  if (!brings_fat(view)) fat_.emplace(build_fat_bed(bounds));
+  if (!organ_ || !organ_->made_from(view.organ)) organ_.emplace(view.organ, traits.organ_triangles);
+  Eigen::AlignedBox3d bounds = organ_->box_at_rest();
+  for (const AdjacentOrganView* other : drawn_beside(view)) {
+    const auto same = std::find_if(before.begin(), before.end(),
+                                   [&](const TissuePart& part) { return part.made_from(other->surface); });
+    if (same == before.end()) {
+      adjacent_.emplace_back(other->surface, traits.adjacent_triangles);
+    } else {
+      adjacent_.push_back(std::move(*same));
+      before.erase(same);
+    }
+    bounds.extend(adjacent_.back().box_at_rest());
+  }
+  if (!wall_ || bounds.min() != bounds_.min() || bounds.max() != bounds_.max()) {
+    wall_.emplace(build_cavity(bounds));
+    fat_.reset();
+  }
+  if (brings_fat(view))
+    fat_.reset();
+  else if (!fat_)
+    fat_.emplace(build_fat_bed(bounds));
+  bounds_ = bounds;
   bake_all();
   for (TissuePart* one : parts()) one->send();
   built_preset_ = traits.define;
@@ -144,12 +162,13 @@ void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
 /// Every organ takes light from every other and from the fat beside it.
 void TissuePainter::bake_all() {
   const std::vector<TissuePart*> all = parts();
+  for (TissuePart* one : all) one->undarken();
   for (TissuePart* one : all)
     for (TissuePart* other : all)
       if (one != other && one != &*wall_) one->darken_by(*other);
   if (!fat_) return;
   for (TissuePart* one : all)
-    if (one != &*wall_ && one != &*fat_) darken_over(one->mesh(), fat_->mesh(), fat_->box());
+    if (one != &*wall_ && one != &*fat_) darken_over(one->mesh(), fat_->mesh(), fat_->box_at_rest());
 }
 
 /// Takes every organ to where it is now.

@@ -57,6 +57,7 @@ class TissuePainter {
   std::vector<Decal> decals_;
   std::vector<TissueMark> marks_;
   GlObject mark_block_;
+  Eigen::AlignedBox3d bounds_;  ///< of all organs at rest: wall and fat are made for it
   std::string built_preset_;
   int version_ = 0;
 };

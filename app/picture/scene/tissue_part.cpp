@@ -17,7 +17,9 @@ constexpr std::uint8_t kLeastField = 4;  // of 255: less than this shows nothing
 }  // namespace
 
 TissuePart::TissuePart(PictureMesh scenery) : mesh_(std::move(scenery)) {
-  for (const PictureVertex& v : mesh_.vertices) box_.extend(Vec3(v.position[0], v.position[1], v.position[2]));
+  for (const PictureVertex& v : mesh_.vertices) rest_box_.extend(Vec3(v.position[0], v.position[1], v.position[2]));
+  box_ = rest_box_;
+  keep_light();
 }
 
 TissuePart::TissuePart(const SurfacePtr& surface, std::size_t max_triangles) : rest_(surface_at_rest(surface)) {
@@ -26,12 +28,26 @@ TissuePart::TissuePart(const SurfacePtr& surface, std::size_t max_triangles) : r
   const TriangleSurface& fine = subdivision_->fine();
   mesh_ = bake_picture_mesh(fine);
   creases_ = bake_creases(fine, fine.vertex_normals());
-  box_ = rest.bounds();
+  box_ = rest_box_ = rest.bounds();
   solid_ = std::make_shared<SolidGrid>(rest);
+  keep_light();
+}
+
+void TissuePart::keep_light() {
+  for (const PictureVertex& v : mesh_.vertices) own_light_.push_back(v.light[0]);
+}
+
+void TissuePart::undarken() {
+  for (std::size_t i = 0; i < own_light_.size(); ++i) mesh_.vertices[i].light[0] = own_light_[i];
+}
+
+void TissuePart::send() {
+  gpu_ = GpuMesh(mesh_);
+  shown_.reset();
 }
 
 void TissuePart::darken_by(const TissuePart& other) {
-  if (other.solid_ && box_.exteriorDistance(other.box_) < 0.02) darken_beside(mesh_, *other.solid_);
+  if (other.solid_ && rest_box_.exteriorDistance(other.rest_box_) < 0.02) darken_beside(mesh_, *other.solid_);
 }
 
 void TissuePart::follow(const SurfacePtr& surface) {

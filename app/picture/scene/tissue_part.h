@@ -28,19 +28,21 @@ class TissuePart {
 
   /// Whether an organ's surface is this one, wherever it has moved to.
   bool made_from(const SurfacePtr& surface) const { return rest_.lock() == surface_at_rest(surface); }
+  PictureMesh& mesh() { return mesh_; }  ///< at rest; changes are seen after send()
+  const PictureMesh& mesh() const { return mesh_; }
+  /// The light that it has by itself.
+  void undarken();
   /// Takes light from where another organ stands close at rest. @see darken_beside
   void darken_by(const TissuePart& other);
-  PictureMesh& mesh() { return mesh_; }              ///< at rest; changes count until send()
-  const PictureMesh& mesh() const { return mesh_; }  ///< at rest
-  void send() { gpu_ = GpuMesh(mesh_); }
+  void send();
 
   /// Shows the surface as it is now, with its fields.
   void follow(const SurfacePtr& surface);
   /// Whether it has ever left its rest.
   bool moves() const { return moves_; }
   bool bears_fields() const { return !fields_.empty(); }
-  /// Of what is shown.
-  const Eigen::AlignedBox3d& box() const { return box_; }
+  const Eigen::AlignedBox3d& box() const { return box_; }  ///< of what is shown
+  const Eigen::AlignedBox3d& box_at_rest() const { return rest_box_; }
 
   /// Bears marks from now on. Those of its triangles, and those with a field, are its marked ones.
   void mark(const std::vector<TissueMark>& marks);
@@ -51,16 +53,17 @@ class TissuePart {
   std::string look = {};  ///< #define of assets/shaders/tissue.frag
 
  private:
+  void keep_light();
   void show_fields(const SurfaceSnapshot& surface);
   void gather_marked();
 
   std::weak_ptr<const SurfaceSnapshot> rest_, shown_;
   std::optional<CurvedSubdivision> subdivision_;
   PictureMesh mesh_;
-  std::vector<float> creases_;
+  std::vector<float> creases_, own_light_;
   std::shared_ptr<const SolidGrid> solid_;
   GpuMesh gpu_;
-  Eigen::AlignedBox3d box_;
+  Eigen::AlignedBox3d rest_box_, box_;
   bool moves_ = false;
   std::vector<std::array<std::uint8_t, 4>> fields_;
   std::vector<std::uint32_t> under_marks_;
