@@ -99,14 +99,14 @@ void draw(benchmark::State& state, const std::string& name, trocar::Preset prese
 void move(benchmark::State& state, trocar::Preset preset) {
   const Moments shown = deforming("phantom-liver");
   trocar::CurvedSubdivision subdivision(*shown.view.organ, trocar::traits_of(preset).organ_triangles);
-  const trocar::PictureMesh rest = trocar::bake_picture_mesh(subdivision.fine());
-  const std::vector<float> creases = trocar::bake_creases(subdivision.fine(), subdivision.fine().vertex_normals());
+  const trocar::SolidGrid rest(subdivision.fine());
   std::size_t moment = 0;
   for (auto step : state) {
     const trocar::SurfacePtr& now = shown.organ[moment++ % shown.organ.size()];
-    benchmark::DoNotOptimize(trocar::moved_vertices(rest, creases, subdivision.move(now->vertices)));
+    const trocar::TriangleSurface& fine = subdivision.move(now->vertices);
+    benchmark::DoNotOptimize(trocar::bake_vertices(fine, trocar::SolidGrid(fine, rest)));
   }
-  state.counters["triangles"] = static_cast<double>(rest.indices.size() / 3);
+  state.counters["triangles"] = static_cast<double>(subdivision.fine().triangles.size());
 }
 
 }  // namespace

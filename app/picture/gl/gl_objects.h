@@ -34,8 +34,8 @@ class GlObject {
   unsigned id_ = 0;
 };
 
-/// A triangle mesh of PictureVertex on the GPU. Attributes: 0 place, 1 normal, 2 light; 3 place and 4 normal at rest,
-/// once it has moved; 5 fields, where there are some.
+/// A triangle mesh of PictureVertex on the GPU. Attributes: 0 place, 1 normal, 2 light; after move() also 3 place
+/// and 4 normal at rest; 5 fields, where there are some.
 class GpuMesh {
  public:
   GpuMesh() = default;

@@ -28,11 +28,11 @@ std::vector<float> bake_openness(const TriangleSurface& surface, const std::vect
   return openness;
 }
 
-void darken_beside(PictureMesh& mesh, const SolidGrid& other) {
+void darken_beside(std::vector<PictureVertex>& vertices, const SolidGrid& other) {
   Eigen::AlignedBox3d near = other.bounds();
   near.min().array() -= kReach_m;
   near.max().array() += kReach_m;
-  for (PictureVertex& vertex : mesh.vertices) {
+  for (PictureVertex& vertex : vertices) {
     const Vec3 p(vertex.position[0], vertex.position[1], vertex.position[2]);
     if (!near.contains(p)) continue;
     const Vec3 n(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
@@ -72,34 +72,24 @@ std::vector<float> bake_creases(const TriangleSurface& surface, const std::vecto
   return shade;
 }
 
-PictureMesh bake_picture_mesh(const TriangleSurface& surface) {
+std::vector<PictureVertex> bake_vertices(const TriangleSurface& surface, const SolidGrid& grid) {
   const std::vector<Vec3> normals = surface.vertex_normals();
-  const std::vector<float> openness = bake_openness(surface, normals, SolidGrid(surface)),
-                           creases = bake_creases(surface, normals);
-  PictureMesh mesh;
-  mesh.vertices.resize(surface.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    put(mesh.vertices[i].position, surface.vertices[i]);
-    put(mesh.vertices[i].normal, normals[i]);
-    mesh.vertices[i].light[0] = openness[i] * creases[i];
+  const std::vector<float> openness = bake_openness(surface, normals, grid), creases = bake_creases(surface, normals);
+  std::vector<PictureVertex> vertices(surface.vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    put(vertices[i].position, surface.vertices[i]);
+    put(vertices[i].normal, normals[i]);
+    vertices[i].light[0] = openness[i] * creases[i];
   }
+  return vertices;
+}
+
+PictureMesh bake_picture_mesh(const TriangleSurface& surface, const SolidGrid& grid) {
+  PictureMesh mesh{bake_vertices(surface, grid), {}};
   mesh.indices.reserve(surface.triangles.size() * 3);
   for (const auto& triangle : surface.triangles)
     for (const std::int32_t index : triangle) mesh.indices.push_back(static_cast<std::uint32_t>(index));
   return mesh;
-}
-
-std::vector<PictureVertex> moved_vertices(const PictureMesh& rest, const std::vector<float>& creases,
-                                          const TriangleSurface& now) {
-  const std::vector<Vec3> normals = now.vertex_normals();
-  const std::vector<float> folds = bake_creases(now, normals);
-  std::vector<PictureVertex> out = rest.vertices;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    put(out[i].position, now.vertices[i]);
-    put(out[i].normal, normals[i]);
-    out[i].light[0] *= folds[i] / creases[i];
-  }
-  return out;
 }
 
 std::vector<std::uint32_t> triangles_near(const PictureMesh& mesh, const Vec3& centre, double radius) {

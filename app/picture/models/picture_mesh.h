@@ -32,16 +32,12 @@ std::vector<float> bake_openness(const TriangleSurface& surface, const std::vect
 /// smoothed once. @param normals of the vertices.
 std::vector<float> bake_creases(const TriangleSurface& surface, const std::vector<Vec3>& normals);
 
-/// The surface with normals, openness and creases.
-PictureMesh bake_picture_mesh(const TriangleSurface& surface);
-
-/// The vertices of a baked mesh whose surface has moved: places, normals and folds of now; what is open at rest stays
-/// open. @param creases at rest. @param now as many vertices as the mesh.
-std::vector<PictureVertex> moved_vertices(const PictureMesh& rest, const std::vector<float>& creases,
-                                          const TriangleSurface& now);
+/// The surface with normals, openness and creases: its vertices, or all. @param grid of the surface.
+std::vector<PictureVertex> bake_vertices(const TriangleSurface& surface, const SolidGrid& grid);
+PictureMesh bake_picture_mesh(const TriangleSurface& surface, const SolidGrid& grid);
 
 /// Takes light from where another solid stands close before the surface.
-void darken_beside(PictureMesh& mesh, const SolidGrid& other);
+void darken_beside(std::vector<PictureVertex>& vertices, const SolidGrid& other);
 
 /// Indices (three a triangle) of the triangles that come within `radius` of `centre`, both m.
 std::vector<std::uint32_t> triangles_near(const PictureMesh& mesh, const Vec3& centre, double radius);

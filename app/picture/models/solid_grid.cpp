@@ -1,6 +1,7 @@
 #include "app/picture/models/solid_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trocar {
@@ -12,11 +13,20 @@ std::size_t index(int x, int y, int z) { return static_cast<std::size_t>((z * kG
 
 }  // namespace
 
-SolidGrid::SolidGrid(const TriangleSurface& surface) {
-  const Eigen::AlignedBox3d box = surface.bounds();
-  bounds_ = box;
-  cell_ = std::max(box.sizes().maxCoeff(), 1e-6) / (kGrid - 8);
-  origin_ = box.center() - Vec3::Constant(cell_ * kGrid / 2);
+SolidGrid::SolidGrid(const TriangleSurface& surface) : bounds_(surface.bounds()) {
+  cell_ = std::max(bounds_.sizes().maxCoeff(), 1e-6) / (kGrid - 8);
+  origin_ = bounds_.center() - Vec3::Constant(cell_ * kGrid / 2);
+  voxelise(surface);
+}
+
+SolidGrid::SolidGrid(const TriangleSurface& surface, const SolidGrid& rest) : bounds_(surface.bounds()) {
+  cell_ = std::max(rest.cell_, bounds_.sizes().maxCoeff() / (kGrid - 3));
+  const Vec3 cells = (bounds_.center() - rest.bounds_.center()) / cell_;
+  origin_ = rest.bounds_.center() - Vec3::Constant(cell_ * kGrid / 2) + cell_ * cells.array().round().matrix();
+  voxelise(surface);
+}
+
+void SolidGrid::voxelise(const TriangleSurface& surface) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(kGrid) * kGrid);
   for (const auto& t : surface.triangles)
     add_crossings(surface.vertices[static_cast<std::size_t>(t[0])], surface.vertices[static_cast<std::size_t>(t[1])],
@@ -75,19 +85,21 @@ void SolidGrid::fill(std::vector<std::vector<double>>& crossings) {
     }
 }
 
-/// Binomial blur of five cells along one axis.
+/// Binomial blur of five cells along one axis; beyond the grid all is as at its face.
 void SolidGrid::blur(int axis) {
-  const std::vector<float> from = solid_;
-  const auto at = [&](int x, int y, int z) {
-    return from[index(std::clamp(x, 0, kGrid - 1), std::clamp(y, 0, kGrid - 1), std::clamp(z, 0, kGrid - 1))];
-  };
-  const int dx = axis == 0, dy = axis == 1, dz = axis == 2;
-  for (int z = 0; z < kGrid; ++z)
-    for (int y = 0; y < kGrid; ++y)
-      for (int x = 0; x < kGrid; ++x)
-        solid_[index(x, y, z)] = (at(x - 2 * dx, y - 2 * dy, z - 2 * dz) + at(x + 2 * dx, y + 2 * dy, z + 2 * dz) +
-                                  4 * (at(x - dx, y - dy, z - dz) + at(x + dx, y + dy, z + dz)) + 6 * at(x, y, z)) /
-                                 16;
+  constexpr int kStep[] = {1, kGrid, kGrid * kGrid};
+  const int step = kStep[axis], other = kStep[axis == 0 ? 1 : 0], third = kStep[axis == 2 ? 1 : 2];
+  std::array<float, kGrid + 4> line;
+  for (int j = 0; j < kGrid; ++j)
+    for (int i = 0; i < kGrid; ++i) {
+      float* first = &solid_[static_cast<std::size_t>(j * third + i * other)];
+      for (int k = 0; k < kGrid; ++k) line[static_cast<std::size_t>(k + 2)] = first[k * step];
+      line[0] = line[1] = line[2];
+      line[kGrid + 3] = line[kGrid + 2] = line[kGrid + 1];
+      for (std::size_t k = 0; k < kGrid; ++k)
+        first[static_cast<int>(k) * step] =
+            (line[k] + line[k + 4] + 4 * (line[k + 1] + line[k + 3]) + 6 * line[k + 2]) / 16;
+    }
 }
 
 }  // namespace trocar

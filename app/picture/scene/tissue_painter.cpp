@@ -80,9 +80,9 @@ double bed_height(const PictureMesh& bed, const Eigen::AlignedBox3d& box, const 
 }
 
 /// Takes light from what lies close over the bed.
-void darken_over(PictureMesh& mesh, const PictureMesh& bed, const Eigen::AlignedBox3d& bed_box) {
+void darken_over(std::vector<PictureVertex>& vertices, const PictureMesh& bed, const Eigen::AlignedBox3d& bed_box) {
   constexpr double kReach_m = 0.009;
-  for (PictureVertex& vertex : mesh.vertices) {
+  for (PictureVertex& vertex : vertices) {
     const double gap =
         vertex.position[2] - bed_height(bed, bed_box, Vec3(vertex.position[0], vertex.position[1], vertex.position[2]));
     const double down = std::clamp(0.75 - 0.6 * vertex.normal[2], 0.0, 1.0);  // what faces up is hardly hidden by it
@@ -153,34 +153,56 @@ void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
   else if (!fat_)
     fat_.emplace(build_fat_bed(bounds));
   bounds_ = bounds;
-  bake_all();
-  for (TissuePart* one : parts()) one->send();
   built_preset_ = traits.define;
-  ++version_;
 }
 
-/// Every organ takes light from every other and from the fat beside it.
-void TissuePainter::bake_all() {
+/// Of what stands still, every organ takes light from every other and from the fat beside it.
+void TissuePainter::light_still() {
+  std::vector<TissuePart*> still = parts();
+  std::erase_if(still, [](const TissuePart* part) { return part->moves(); });
+  for (TissuePart* one : still) {
+    one->take_own_light();
+    for (TissuePart* other : still)
+      if (one != other && one != &*wall_ && one->beside(*other)) one->darken_by(*other);
+    if (fat_ && one != &*wall_ && one != &*fat_) darken_over(one->vertices(), fat_->mesh(), fat_->box());
+    one->keep_as_steady();
+    one->beside_moving = false;
+    one->send();
+  }
+}
+
+/// What moves takes light from everything, and everything from what moves.
+void TissuePainter::light_moving() {
   const std::vector<TissuePart*> all = parts();
-  for (TissuePart* one : all) one->undarken();
-  for (TissuePart* one : all)
-    for (TissuePart* other : all)
-      if (one != other && one != &*wall_) one->darken_by(*other);
-  if (!fat_) return;
-  for (TissuePart* one : all)
-    if (one != &*wall_ && one != &*fat_) darken_over(one->mesh(), fat_->mesh(), fat_->box_at_rest());
+  for (TissuePart* one : all) {
+    if (one == &*wall_) continue;
+    std::vector<const TissuePart*> by;
+    for (const TissuePart* other : all)
+      if (one != other && (one->moves() || other->moves()) && one->beside(*other)) by.push_back(other);
+    const bool was_beside = std::exchange(one->beside_moving, !by.empty());
+    if (!one->moves() && !was_beside && by.empty()) continue;
+    one->take_steady_light();
+    for (const TissuePart* other : by) one->darken_by(*other);
+    if (fat_ && one->moves()) darken_over(one->vertices(), fat_->mesh(), fat_->box());
+    one->send();
+  }
 }
 
-/// Takes every organ to where it is now.
-void TissuePainter::follow(const SceneView& view) {
-  const auto take = [this](TissuePart& part, const SurfacePtr& to) {
+void TissuePainter::follow(const SceneView& view, bool built) {
+  bool changed = built;
+  const auto follow = [&](TissuePart& part, const SurfacePtr& surface) {
     const bool stood = !part.moves();
-    part.follow(to);
-    if (stood && part.moves()) ++version_;
+    changed = part.follow(surface) || changed;
+    built = built || (stood && part.moves());
   };
-  take(*organ_, view.organ);
+  follow(*organ_, view.organ);
   std::size_t i = 0;
-  for (const AdjacentOrganView* other : drawn_beside(view)) take(adjacent_[i++], other->surface);
+  for (const AdjacentOrganView* other : drawn_beside(view)) follow(adjacent_[i++], other->surface);
+  if (built) {
+    light_still();
+    ++version_;
+  }
+  if (changed) light_moving();
 }
 
 void TissuePainter::prepare(const SceneView& view, const PresetTraits& traits) {
@@ -191,12 +213,13 @@ void TissuePainter::prepare(const SceneView& view, const PresetTraits& traits) {
     version_ = next;
     return;
   }
-  if (!built_for(view, traits)) {
+  const bool build_anew = !built_for(view, traits);
+  if (build_anew) {
     decals_.clear();
     marks_.clear();
     build(view, traits);
   }
-  follow(view);
+  follow(view, build_anew);
   organ_->look = tissue_look(view.material);
   if (fat_) fat_->look = bed_look(view);
   wall_->look = "LOOK_WALL";

@@ -44,8 +44,10 @@ class TissuePainter {
 
   bool built_for(const SceneView& view, const PresetTraits& traits) const;
   void build(const SceneView& view, const PresetTraits& traits);
-  void bake_all();
-  void follow(const SceneView& view);
+  /// Takes every organ to where it is now. @param built anew.
+  void follow(const SceneView& view, bool built);
+  void light_still();
+  void light_moving();
   void prepare_marks(const SceneView& view);
   void prepare_decals(const SceneView& view);
   std::vector<TissuePart*> parts();

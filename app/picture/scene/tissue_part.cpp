@@ -19,46 +19,31 @@ constexpr std::uint8_t kLeastField = 4;  // of 255: less than this shows nothing
 TissuePart::TissuePart(PictureMesh scenery) : mesh_(std::move(scenery)) {
   for (const PictureVertex& v : mesh_.vertices) rest_box_.extend(Vec3(v.position[0], v.position[1], v.position[2]));
   box_ = rest_box_;
-  keep_light();
+  gpu_ = GpuMesh(mesh_);
 }
 
 TissuePart::TissuePart(const SurfacePtr& surface, std::size_t max_triangles) : rest_(surface_at_rest(surface)) {
   const SurfaceSnapshot& rest = *surface_at_rest(surface);
   subdivision_.emplace(rest, max_triangles);
-  const TriangleSurface& fine = subdivision_->fine();
-  mesh_ = bake_picture_mesh(fine);
-  creases_ = bake_creases(fine, fine.vertex_normals());
-  box_ = rest_box_ = rest.bounds();
-  solid_ = std::make_shared<SolidGrid>(rest);
-  keep_light();
-}
-
-void TissuePart::keep_light() {
-  for (const PictureVertex& v : mesh_.vertices) own_light_.push_back(v.light[0]);
-}
-
-void TissuePart::undarken() {
-  for (std::size_t i = 0; i < own_light_.size(); ++i) mesh_.vertices[i].light[0] = own_light_[i];
-}
-
-void TissuePart::send() {
+  own_grid_.emplace(subdivision_->fine());
+  mesh_ = bake_picture_mesh(subdivision_->fine(), *own_grid_);
   gpu_ = GpuMesh(mesh_);
-  shown_.reset();
+  grid_.emplace(rest);
+  box_ = rest_box_ = rest.bounds();
 }
 
-void TissuePart::darken_by(const TissuePart& other) {
-  if (other.solid_ && rest_box_.exteriorDistance(other.rest_box_) < 0.02) darken_beside(mesh_, *other.solid_);
-}
-
-void TissuePart::follow(const SurfacePtr& surface) {
-  if (shown_.lock() == surface) return;
+bool TissuePart::follow(const SurfacePtr& surface) {
+  if (shown_.lock() == surface) return false;
   shown_ = surface;
-  if (moves_ || surface->rest) {
-    gpu_.move(moved_vertices(mesh_, creases_, subdivision_->move(surface->vertices)));
+  moves_ = moves_ || surface->rest;
+  if (moves_) {
+    const TriangleSurface& fine = subdivision_->move(surface->vertices);
+    grid_.emplace(fine, *own_grid_);
+    steady_ = bake_vertices(fine, *grid_);
     box_ = surface->bounds();
-    moves_ = true;
   }
   show_fields(*surface);
+  return true;
 }
 
 void TissuePart::show_fields(const SurfaceSnapshot& surface) {

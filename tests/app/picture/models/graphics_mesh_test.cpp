@@ -94,7 +94,8 @@ TEST(Openness, IsFullOnASphereAndLowInAPit) {
 }
 
 PictureMesh built(const TriangleSurface& surface, std::size_t max_triangles) {
-  return bake_picture_mesh(CurvedSubdivision(surface, max_triangles).fine());
+  const TriangleSurface fine = CurvedSubdivision(surface, max_triangles).fine();
+  return bake_picture_mesh(fine, SolidGrid(fine));
 }
 
 TEST(PictureMeshBuild, StaysWithinItsTriangleBudget) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "app/picture/maps/seen_places.h"
-#include "app/picture/models/curved_subdivision.h"
 #include "app/picture/scene/scope_optics.h"
 #include "app/picture/scene/tissue_painter.h"
 #include "tests/support/headless_fixture.h"
@@ -34,26 +33,6 @@ std::vector<Vec3> all_of(const SurfacePtr& surface, Vec3 (*moved)(const Vec3&)) 
   std::vector<Vec3> out;
   for (const Vec3& v : surface->vertices) out.push_back(moved(v));
   return out;
-}
-
-TEST(MovedVertices, AreThoseOfABuildFromTheMovedSurface) {
-  const SurfacePtr rest = still_surface(testing_support::lumpy_ellipsoid({0.09, 0.07, 0.04}));
-  const SurfacePtr bent = moved_surface(rest, all_of(rest, pressed));
-  constexpr std::size_t kTriangles = 30000;
-  CurvedSubdivision subdivision(*rest, kTriangles);
-  const TriangleSurface fine = subdivision.fine();
-  const PictureMesh mesh = bake_picture_mesh(fine),
-                    direct = bake_picture_mesh(CurvedSubdivision(*bent, kTriangles).fine());
-  const std::vector<float> creases = bake_creases(fine, fine.vertex_normals());
-  const auto moved = moved_vertices(mesh, creases, subdivision.move(bent->vertices));
-  ASSERT_EQ(moved.size(), direct.vertices.size());
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      ASSERT_EQ(moved[i].position[k], direct.vertices[i].position[k]);
-      ASSERT_EQ(moved[i].normal[k], direct.vertices[i].normal[k]);
-    }
-  const auto back = moved_vertices(mesh, creases, subdivision.move(rest->vertices));
-  for (std::size_t i = 0; i < back.size(); ++i) ASSERT_EQ(back[i].light[0], mesh.vertices[i].light[0]);
 }
 
 class Deforming : public testing_support::HeadlessFixture {
