@@ -1,7 +1,6 @@
 #include "app/picture/models/solid_grid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace trocar {
@@ -73,12 +72,13 @@ void SolidGrid::add_crossings(const Vec3& a, const Vec3& b, const Vec3& c,
 
 void SolidGrid::fill(std::vector<std::vector<double>>& crossings) {
   solid_.assign(static_cast<std::size_t>(kGrid) * kGrid * kGrid, 0.0F);
+  const auto cell = [this](double height) { return static_cast<int>(std::floor((height - origin_.z()) / cell_)); };
   for (int y = 0; y < kGrid; ++y)
     for (int x = 0; x < kGrid; ++x) {
       auto& heights = crossings[static_cast<std::size_t>(y * kGrid + x)];
       std::sort(heights.begin(), heights.end());
       for (std::size_t pair = 0; pair + 1 < heights.size(); pair += 2)
-        for (int z = 0; z < kGrid; ++z) {
+        for (int z = std::max(0, cell(heights[pair]) - 1); z <= std::min(kGrid - 1, cell(heights[pair + 1]) + 1); ++z) {
           const double height = origin_.z() + (z + 0.5) * cell_;
           if (height > heights[pair] && height < heights[pair + 1]) solid_[index(x, y, z)] = 1;
         }
@@ -87,19 +87,20 @@ void SolidGrid::fill(std::vector<std::vector<double>>& crossings) {
 
 /// Binomial blur of five cells along one axis; beyond the grid all is as at its face.
 void SolidGrid::blur(int axis) {
-  constexpr int kStep[] = {1, kGrid, kGrid * kGrid};
-  const int step = kStep[axis], other = kStep[axis == 0 ? 1 : 0], third = kStep[axis == 2 ? 1 : 2];
-  std::array<float, kGrid + 4> line;
-  for (int j = 0; j < kGrid; ++j)
-    for (int i = 0; i < kGrid; ++i) {
-      float* first = &solid_[static_cast<std::size_t>(j * third + i * other)];
-      for (int k = 0; k < kGrid; ++k) line[static_cast<std::size_t>(k + 2)] = first[k * step];
-      line[0] = line[1] = line[2];
-      line[kGrid + 3] = line[kGrid + 2] = line[kGrid + 1];
-      for (std::size_t k = 0; k < kGrid; ++k)
-        first[static_cast<int>(k) * step] =
-            (line[k] + line[k + 4] + 4 * (line[k + 1] + line[k + 3]) + 6 * line[k + 2]) / 16;
-    }
+  using Cells = Eigen::Map<const Eigen::ArrayXf>;
+  constexpr Eigen::Index kWay[] = {1, kGrid, kGrid * kGrid};
+  const std::vector<float> from = solid_;
+  const Eigen::Index step = kWay[axis], run = step * kGrid;
+  std::vector<float> line(
+      static_cast<std::size_t>(run + 4 * step));  // the cells along the axis and two beyond each end
+  for (std::size_t at = 0; at < from.size(); at += static_cast<std::size_t>(run)) {
+    const Cells first(&from[at], step), last(&from[at] + run - step, step);
+    Eigen::Map<Eigen::ArrayXf> all(line.data(), run + 4 * step);
+    all << first, first, Cells(&from[at], run), last, last;
+    const auto beside = [&](Eigen::Index cells) { return all.segment((2 + cells) * step, run); };
+    Eigen::Map<Eigen::ArrayXf>(&solid_[at], run) =
+        (beside(-2) + beside(2) + 4 * (beside(-1) + beside(1)) + 6 * beside(0)) / 16;
+  }
 }
 
 }  // namespace trocar
