@@ -124,6 +124,32 @@ TEST_F(Deforming, ABentOrganIsShadedLikeOneThatWasBuiltBent) {
     }
 }
 
+TEST_F(Deforming, WhatAnOrganIsLiftedOffHasItsLightBack) {
+  const auto ball = [](const Vec3& centre) {
+    TriangleSurface s = testing_support::icosphere(4);
+    for (Vec3& v : s.vertices) v = centre + 0.02 * v;
+    return still_surface(s);
+  };
+  rest_ = view_.organ = ball({0.0205, 0, 0});
+  view_.adjacent = {{ball({-0.0205, 0, 0}), "liver"}};
+  view_.camera.eye_T = Vec3(0, 0, 0.1);
+  view_.camera.look_at_T = Vec3::Zero();
+  view_.camera.up_T = Vec3::UnitY();
+  const auto cleft = [&] {  // of the one that stays, on the flank towards the other
+    return brightness(mean_at(draw(), pixel(Vec3(-0.0205, 0, 0) + 0.02 * Vec3(0.94, 0, 0.34)), 2));
+  };
+  const double at_rest = cleft();
+  move([](const Vec3& p) -> Vec3 { return p + Vec3(0.0001, 0, 0); });
+  EXPECT_NEAR(cleft(), at_rest, 0.05 * at_rest);
+  move([](const Vec3& p) -> Vec3 { return p + Vec3(0.06, 0, 0); });
+  const double lifted = cleft();
+  EXPECT_GT(lifted, 1.15 * at_rest);
+  view_.organ = still_surface(*view_.organ);
+  EXPECT_NEAR(lifted, cleft(), 0.02 * lifted) << "as if it had never lain there";
+  view_.organ = rest_;
+  EXPECT_NEAR(cleft(), at_rest, 0.02 * at_rest);
+}
+
 TEST_F(Deforming, MarksAndTargetsStayOnTheirPlaceOfTheTissue) {
   const Vec3 place = spot(0.004, 0.010);
   const Vec3 now = pressed(place);
