@@ -1,7 +1,9 @@
 // A surface as it is at one moment, in T: what renderer, window, playback, desk and films read of an organ.
 //
 // Never changed once it is shared: tissue that moves shares a new one, an organ that stands still the same one for
-// good, so that it costs nobody a copy and a reader that sees the same pointer has nothing to do. m. Thread: any.
+// good, so that it costs nobody a copy and a reader that sees the same pointer has nothing to do. What moves tells its
+// surface at rest, which stays the same pointer until the triangles change: readers keep by it what they made of the
+// triangles, and what sticks to the tissue (texture, marks, targets) has its place there. m. Thread: any.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +25,29 @@ struct SurfaceField {
 struct SurfaceSnapshot : TriangleSurface {
   std::uint64_t topology = 0;  ///< as long as it is the same, so are the triangles, and vertex i is the same place
   std::vector<SurfaceField> fields = {};
+  std::shared_ptr<const SurfaceSnapshot> rest = nullptr;  ///< undeformed, same triangles; none: this one is
 };
 using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
+
+/// The undeformed surface of one that may have moved.
+inline const SurfacePtr& surface_at_rest(const SurfacePtr& surface) { return surface->rest ? surface->rest : surface; }
 
 /// A surface that stays as it is.
 inline SurfacePtr still_surface(TriangleSurface surface) {
   auto snapshot = std::make_shared<SurfaceSnapshot>();
   static_cast<TriangleSurface&>(*snapshot) = std::move(surface);
+  return snapshot;
+}
+
+/// What tissue shares after a step. @param rest undeformed. @param vertices as many as there, where they are now, m.
+inline SurfacePtr moved_surface(const SurfacePtr& rest, std::vector<Vec3> vertices,
+                                std::vector<SurfaceField> fields = {}) {
+  auto snapshot = std::make_shared<SurfaceSnapshot>();
+  snapshot->vertices = std::move(vertices);
+  snapshot->triangles = rest->triangles;
+  snapshot->topology = rest->topology;
+  snapshot->fields = std::move(fields);
+  snapshot->rest = rest;
   return snapshot;
 }
 

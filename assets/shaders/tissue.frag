@@ -1,11 +1,22 @@
 // Wet tissue under a scope's own light (recipe: solid noise at the rest position, wrapped diffuse per channel, two-lobe wet film).
 // One of LOOK_LIVER, LOOK_GALLBLADDER, LOOK_WALL, LOOK_FAT, LOOK_SPLEEN, LOOK_KIDNEY, LOOK_PANCREAS, LOOK_DUCT, LOOK_ARTERY,
 // LOOK_VEIN, LOOK_BONE is defined, else plain flesh (stomach, bowel). DIMPLED: dented by the tip. MARKED: bears blood, char,
-// whitening, wet. PRESET_LOW: plain Phong of the same colours; PRESET_SOFT: without the finest octave.
+// whitening, wet, with FIELDS those of its vertices too. DEFORMED: has left its rest, to which its texture sticks. PRESET_LOW: plain
+// Phong of the same colours; PRESET_SOFT: without the finest octave.
 in vec3 v_position;
 in vec3 v_rest;
 in vec3 v_normal;
 in float v_open;
+#ifdef DEFORMED
+in vec3 v_rest_normal;
+in vec3 v_place;
+#else
+#define v_rest_normal v_normal
+#define v_place v_rest
+#endif
+#ifdef FIELDS
+in vec4 v_fields;  // blood, char, whitening, wet
+#endif
 out vec4 colour;
 uniform sampler3D u_noise;
 uniform sampler2DShadow u_shadow;
@@ -21,7 +32,7 @@ layout(std140) uniform Marks {
 // slope along the surface counts: where the noise changes into the depth alone, the line would spread to a patch.
 vec2 vein(vec3 at, float level) {
   vec4 q = textureLod(u_noise, at, level);
-  vec3 g = q.xyz * 2.0 - 1.0, n = normalize(v_normal);
+  vec3 g = q.xyz * 2.0 - 1.0, n = normalize(v_rest_normal);
   float slope = length(g - n * dot(g, n));
   return vec2(abs(q.w - 0.5) / max(slope, 0.08), smoothstep(0.06, 0.16, slope));
 }
@@ -128,6 +139,9 @@ struct Surface {
 #ifdef MARKED
 vec4 marks_at(vec3 rest, vec4 coarse, vec4 middle) {
   vec4 sum = vec4(0.0);
+#ifdef FIELDS
+  sum = v_fields;
+#endif
   for (int i = 0; i < int(mark_count.x); ++i) {
     vec3 d = rest - mark_place[i].xyz;
     sum += mark_kind[i] * exp(-1.2 * dot(d, d) / (mark_place[i].w * mark_place[i].w));
@@ -172,7 +186,7 @@ void mark(inout Surface s, inout vec3 n, vec4 coarse, vec4 middle, vec4 fine) {
 #ifdef DIMPLED
 // Blood is pressed out under the tip and into a rim round it; the dent's slope is that of a Gaussian.
 vec3 press(inout Surface s, vec3 n) {
-  vec3 from = v_rest - dimple.xyz;
+  vec3 from = v_place - dimple.xyz;
   float spread2 = dimple_normal.w * dimple_normal.w;
   float reach = dot(from, from) / spread2;
   float hard = clamp(dimple.w / 0.0028, 0.0, 1.0);
@@ -188,7 +202,16 @@ vec3 press(inout Surface s, vec3 n) {
 }
 #endif
 
-vec3 across(vec3 g, vec3 n) { return g - n * dot(g, n); }
+// The part of a slope of the texture that lies along the surface, turned with it by the shortest way from rest.
+vec3 across(vec3 g, vec3 n) {
+#ifdef DEFORMED
+  vec3 r = normalize(v_rest_normal);
+  g -= r * dot(g, r);
+  return g - (n + r) * (dot(g, n) / max(1.0 + dot(n, r), 0.1));
+#else
+  return g - n * dot(g, n);
+#endif
+}
 
 #ifdef PRESET_LOW
 vec3 lit_by_lamp(Surface s, vec3 n, vec3 l, vec3 v, vec4 coarse, vec4 middle, vec4 fine) {

@@ -6,6 +6,18 @@ out vec3 v_position;
 out vec3 v_rest;
 out vec3 v_normal;
 out float v_open;
+#ifdef DEFORMED
+layout(location = 3) in vec3 a_rest;
+layout(location = 4) in vec3 a_rest_normal;
+out vec3 v_rest_normal;
+out vec3 v_place;  // deformed, before breath and dent
+#else
+#define a_rest a_position
+#endif
+#ifdef FIELDS
+layout(location = 5) in vec4 a_fields;
+out vec4 v_fields;
+#endif
 uniform vec3 u_breath;  // how far breathing has moved this part
 invariant gl_Position;
 
@@ -17,8 +29,15 @@ void main() {
 #endif
   p += u_breath;
   v_position = p;
-  v_rest = a_position;
+  v_rest = a_rest;
   v_normal = a_normal;
   v_open = a_light.x;
+#ifdef DEFORMED
+  v_rest_normal = a_rest_normal;
+  v_place = a_position;
+#endif
+#ifdef FIELDS
+  v_fields = a_fields;
+#endif
   gl_Position = view_projection * vec4(p, 1.0);
 }

@@ -9,6 +9,15 @@
 #include "haptics/input_error.h"
 
 namespace trocar {
+namespace {
+
+/// Of the bound array, read from the bound buffer of PictureVertex.
+void vertex_attribute(GLuint index, GLint size, std::size_t offset) {
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(PictureVertex), reinterpret_cast<const void*>(offset));
+}
+
+}  // namespace
 
 GlObject::GlObject(Kind kind, unsigned shader_stage) : kind_(kind) {
   switch (kind) {
@@ -89,15 +98,41 @@ GpuMesh::GpuMesh(const PictureMesh& mesh)
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.id());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(PictureVertex)),
                mesh.vertices.data(), GL_STATIC_DRAW);
-  const auto attribute = [](GLuint index, GLint size, std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(PictureVertex),
-                          reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, offsetof(PictureVertex, position));
-  attribute(1, 3, offsetof(PictureVertex, normal));
-  attribute(2, 2, offsetof(PictureVertex, light));
+  vertex_attribute(0, 3, offsetof(PictureVertex, position));
+  vertex_attribute(1, 3, offsetof(PictureVertex, normal));
+  vertex_attribute(2, 2, offsetof(PictureVertex, light));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+  glBindVertexArray(0);
+}
+
+void GpuMesh::move(const std::vector<PictureVertex>& vertices) {
+  glBindVertexArray(array_.id());
+  const bool first = moved_.id() == 0;
+  if (first) {
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.id());
+    vertex_attribute(3, 3, offsetof(PictureVertex, position));
+    vertex_attribute(4, 3, offsetof(PictureVertex, normal));
+    moved_ = GlObject(GlObject::Kind::kBuffer);
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, moved_.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(PictureVertex)), vertices.data(),
+               GL_STREAM_DRAW);
+  if (first) {
+    vertex_attribute(0, 3, offsetof(PictureVertex, position));
+    vertex_attribute(1, 3, offsetof(PictureVertex, normal));
+    vertex_attribute(2, 2, offsetof(PictureVertex, light));
+  }
+  glBindVertexArray(0);
+}
+
+void GpuMesh::set_fields(const std::vector<std::array<std::uint8_t, 4>>& fields) {
+  glBindVertexArray(array_.id());
+  if (fields_.id() == 0) fields_ = GlObject(GlObject::Kind::kBuffer);
+  glBindBuffer(GL_ARRAY_BUFFER, fields_.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(fields.size() * sizeof fields[0]), fields.data(),
+               GL_STREAM_DRAW);
+  glEnableVertexAttribArray(5);
+  glVertexAttribPointer(5, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0, nullptr);
   glBindVertexArray(0);
 }
 

@@ -4,6 +4,8 @@
 // objects die before their context.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -32,17 +34,22 @@ class GlObject {
   unsigned id_ = 0;
 };
 
-/// A triangle mesh of PictureVertex on the GPU.
+/// A triangle mesh of PictureVertex on the GPU. Attributes: 0 place, 1 normal, 2 light; after move() also 3 place
+/// and 4 normal at rest; 5 fields, where there are some.
 class GpuMesh {
  public:
   GpuMesh() = default;
   explicit GpuMesh(const PictureMesh& mesh);
+  /// Shows other vertices from now on, as many as the mesh's own, which stay as those at rest.
+  void move(const std::vector<PictureVertex>& vertices);
+  /// Four numbers at every vertex, 0 to 255 for 0 to 1.
+  void set_fields(const std::vector<std::array<std::uint8_t, 4>>& fields);
   void draw() const;
   /// Draws a list of vertex indices of this mesh (three a triangle) held in `indices`.
   void draw_subset(const GlObject& indices, int count) const;
 
  private:
-  GlObject array_, vertices_, indices_;
+  GlObject array_, vertices_, indices_, moved_, fields_;
   int count_ = 0;
 };
 

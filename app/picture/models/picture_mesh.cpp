@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace trocar {
@@ -10,46 +9,15 @@ namespace {
 
 constexpr double kFlat_per_m = 15, kDeep_per_m = 190;  // curvature of folds that begin to, and fully, hold light back
 constexpr double kReach_m = 0.014;                     // how far a neighbour takes light away
-constexpr double kCurvature = 0.55;  // share of the way onto the tangent planes (Boubekeur and Alexa use 3/4 at most)
 
-Vec3 onto_plane(const Vec3& point, const Vec3& origin, const Vec3& normal) {
-  return point - normal * normal.dot(point - origin);
+void put(float (&to)[3], const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
 }
 
 }  // namespace
 
-TriangleSurface subdivide_curved(const TriangleSurface& surface) {
-  const std::vector<Vec3> normals = surface.vertex_normals();
-  TriangleSurface fine;
-  fine.vertices = surface.vertices;
-  fine.triangles.reserve(surface.triangles.size() * 4);
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> midpoints;
-  const auto midpoint = [&](std::int32_t a, std::int32_t b) {
-    const auto key = std::minmax(a, b);
-    const auto [place, inserted] =
-        midpoints.try_emplace({key.first, key.second}, static_cast<std::int32_t>(fine.vertices.size()));
-    if (inserted) {
-      const auto first = static_cast<std::size_t>(key.first), second = static_cast<std::size_t>(key.second);
-      const Vec3 flat = 0.5 * (surface.vertices[first] + surface.vertices[second]);
-      const Vec3 curved = 0.5 * (onto_plane(flat, surface.vertices[first], normals[first]) +
-                                 onto_plane(flat, surface.vertices[second], normals[second]));
-      fine.vertices.push_back(flat + kCurvature * (curved - flat));
-    }
-    return place->second;
-  };
-  for (const auto& [a, b, c] : surface.triangles) {
-    const std::int32_t ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
-    fine.triangles.push_back({a, ab, ca});
-    fine.triangles.push_back({ab, b, bc});
-    fine.triangles.push_back({ca, bc, c});
-    fine.triangles.push_back({ab, bc, ca});
-  }
-  return fine;
-}
-
-std::vector<float> bake_openness(const TriangleSurface& surface) {
-  const SolidGrid grid(surface);
-  const std::vector<Vec3> normals = surface.vertex_normals();
+std::vector<float> bake_openness(const TriangleSurface& surface, const std::vector<Vec3>& normals,
+                                 const SolidGrid& grid) {
   std::vector<float> openness(surface.vertices.size(), 1.0F);
   for (std::size_t i = 0; i < openness.size(); ++i) {
     double met = 0;
@@ -60,11 +28,11 @@ std::vector<float> bake_openness(const TriangleSurface& surface) {
   return openness;
 }
 
-void darken_beside(PictureMesh& mesh, const SolidGrid& other) {
+void darken_beside(std::vector<PictureVertex>& vertices, const SolidGrid& other) {
   Eigen::AlignedBox3d near = other.bounds();
   near.min().array() -= kReach_m;
   near.max().array() += kReach_m;
-  for (PictureVertex& vertex : mesh.vertices) {
+  for (PictureVertex& vertex : vertices) {
     const Vec3 p(vertex.position[0], vertex.position[1], vertex.position[2]);
     if (!near.contains(p)) continue;
     const Vec3 n(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
@@ -74,8 +42,7 @@ void darken_beside(PictureMesh& mesh, const SolidGrid& other) {
   }
 }
 
-std::vector<float> bake_creases(const TriangleSurface& surface) {
-  const std::vector<Vec3> normals = surface.vertex_normals();
+std::vector<float> bake_creases(const TriangleSurface& surface, const std::vector<Vec3>& normals) {
   std::vector<double> rise(surface.vertices.size(), 0.0), weight(surface.vertices.size(), 0.0);
   const auto each_edge = [&](const auto& visit) {
     for (const auto& t : surface.triangles)
@@ -105,23 +72,22 @@ std::vector<float> bake_creases(const TriangleSurface& surface) {
   return shade;
 }
 
-PictureMesh build_picture_mesh(const TriangleSurface& surface, std::size_t max_triangles) {
-  TriangleSurface fine = surface;
-  if (fine.volume_m3() < 0)  // inside out: culling would show the far wall
-    for (auto& triangle : fine.triangles) std::swap(triangle[1], triangle[2]);
-  while (!fine.triangles.empty() && fine.triangles.size() * 4 <= max_triangles) fine = subdivide_curved(fine);
-  std::vector<float> openness = bake_openness(fine);
-  const std::vector<float> creases = bake_creases(fine);
-  for (std::size_t i = 0; i < openness.size(); ++i) openness[i] *= creases[i];
-  const std::vector<Vec3> normals = fine.vertex_normals();
-  PictureMesh mesh;
-  mesh.vertices.reserve(fine.vertices.size());
-  for (std::size_t i = 0; i < fine.vertices.size(); ++i) {
-    const Eigen::Vector3f p = fine.vertices[i].cast<float>(), n = normals[i].cast<float>();
-    mesh.vertices.push_back({{p.x(), p.y(), p.z()}, {n.x(), n.y(), n.z()}, {openness[i], 0.0F}});
+std::vector<PictureVertex> bake_vertices(const TriangleSurface& surface, const SolidGrid& grid) {
+  const std::vector<Vec3> normals = surface.vertex_normals();
+  const std::vector<float> openness = bake_openness(surface, normals, grid), creases = bake_creases(surface, normals);
+  std::vector<PictureVertex> vertices(surface.vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    put(vertices[i].position, surface.vertices[i]);
+    put(vertices[i].normal, normals[i]);
+    vertices[i].light[0] = openness[i] * creases[i];
   }
-  mesh.indices.reserve(fine.triangles.size() * 3);
-  for (const auto& triangle : fine.triangles)
+  return vertices;
+}
+
+PictureMesh bake_picture_mesh(const TriangleSurface& surface, const SolidGrid& grid) {
+  PictureMesh mesh{bake_vertices(surface, grid), {}};
+  mesh.indices.reserve(surface.triangles.size() * 3);
+  for (const auto& triangle : surface.triangles)
     for (const std::int32_t index : triangle) mesh.indices.push_back(static_cast<std::uint32_t>(index));
   return mesh;
 }

@@ -12,11 +12,20 @@ std::size_t index(int x, int y, int z) { return static_cast<std::size_t>((z * kG
 
 }  // namespace
 
-SolidGrid::SolidGrid(const TriangleSurface& surface) {
-  const Eigen::AlignedBox3d box = surface.bounds();
-  bounds_ = box;
-  cell_ = std::max(box.sizes().maxCoeff(), 1e-6) / (kGrid - 8);
-  origin_ = box.center() - Vec3::Constant(cell_ * kGrid / 2);
+SolidGrid::SolidGrid(const TriangleSurface& surface) : bounds_(surface.bounds()) {
+  cell_ = std::max(bounds_.sizes().maxCoeff(), 1e-6) / (kGrid - 8);
+  origin_ = bounds_.center() - Vec3::Constant(cell_ * kGrid / 2);
+  voxelise(surface);
+}
+
+SolidGrid::SolidGrid(const TriangleSurface& surface, const SolidGrid& rest) : bounds_(surface.bounds()) {
+  cell_ = std::max(rest.cell_, bounds_.sizes().maxCoeff() / (kGrid - 3));
+  const Vec3 cells = (bounds_.center() - rest.bounds_.center()) / cell_;
+  origin_ = rest.bounds_.center() - Vec3::Constant(cell_ * kGrid / 2) + cell_ * cells.array().round().matrix();
+  voxelise(surface);
+}
+
+void SolidGrid::voxelise(const TriangleSurface& surface) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(kGrid) * kGrid);
   for (const auto& t : surface.triangles)
     add_crossings(surface.vertices[static_cast<std::size_t>(t[0])], surface.vertices[static_cast<std::size_t>(t[1])],
@@ -63,31 +72,35 @@ void SolidGrid::add_crossings(const Vec3& a, const Vec3& b, const Vec3& c,
 
 void SolidGrid::fill(std::vector<std::vector<double>>& crossings) {
   solid_.assign(static_cast<std::size_t>(kGrid) * kGrid * kGrid, 0.0F);
+  const auto cell = [this](double height) { return static_cast<int>(std::floor((height - origin_.z()) / cell_)); };
   for (int y = 0; y < kGrid; ++y)
     for (int x = 0; x < kGrid; ++x) {
       auto& heights = crossings[static_cast<std::size_t>(y * kGrid + x)];
       std::sort(heights.begin(), heights.end());
       for (std::size_t pair = 0; pair + 1 < heights.size(); pair += 2)
-        for (int z = 0; z < kGrid; ++z) {
+        for (int z = std::max(0, cell(heights[pair]) - 1); z <= std::min(kGrid - 1, cell(heights[pair + 1]) + 1); ++z) {
           const double height = origin_.z() + (z + 0.5) * cell_;
           if (height > heights[pair] && height < heights[pair + 1]) solid_[index(x, y, z)] = 1;
         }
     }
 }
 
-/// Binomial blur of five cells along one axis.
+/// Binomial blur of five cells along one axis; beyond the grid all is as at its face.
 void SolidGrid::blur(int axis) {
+  using Cells = Eigen::Map<const Eigen::ArrayXf>;
+  constexpr Eigen::Index kWay[] = {1, kGrid, kGrid * kGrid};
   const std::vector<float> from = solid_;
-  const auto at = [&](int x, int y, int z) {
-    return from[index(std::clamp(x, 0, kGrid - 1), std::clamp(y, 0, kGrid - 1), std::clamp(z, 0, kGrid - 1))];
-  };
-  const int dx = axis == 0, dy = axis == 1, dz = axis == 2;
-  for (int z = 0; z < kGrid; ++z)
-    for (int y = 0; y < kGrid; ++y)
-      for (int x = 0; x < kGrid; ++x)
-        solid_[index(x, y, z)] = (at(x - 2 * dx, y - 2 * dy, z - 2 * dz) + at(x + 2 * dx, y + 2 * dy, z + 2 * dz) +
-                                  4 * (at(x - dx, y - dy, z - dz) + at(x + dx, y + dy, z + dz)) + 6 * at(x, y, z)) /
-                                 16;
+  const Eigen::Index step = kWay[axis], run = step * kGrid;
+  std::vector<float> line(
+      static_cast<std::size_t>(run + 4 * step));  // the cells along the axis and two beyond each end
+  for (std::size_t at = 0; at < from.size(); at += static_cast<std::size_t>(run)) {
+    const Cells first(&from[at], step), last(&from[at] + run - step, step);
+    Eigen::Map<Eigen::ArrayXf> all(line.data(), run + 4 * step);
+    all << first, first, Cells(&from[at], run), last, last;
+    const auto beside = [&](Eigen::Index cells) { return all.segment((2 + cells) * step, run); };
+    Eigen::Map<Eigen::ArrayXf>(&solid_[at], run) =
+        (beside(-2) + beside(2) + 4 * (beside(-1) + beside(1)) + 6 * beside(0)) / 16;
+  }
 }
 
 }  // namespace trocar

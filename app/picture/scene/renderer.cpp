@@ -33,7 +33,7 @@ struct Renderer::Impl {
   ShaderLibrary shaders;
   FontSet fonts;
   GlObject noise, scene_buffer, screen_array;
-  RenderSurface shadow, still_shadow;  // of everything, and of the tissue alone, which rests
+  RenderSurface shadow, still_shadow;  // of everything, and of the tissue alone that rests
   Eigen::Matrix4f still_for = Eigen::Matrix4f::Zero();
   int still_version = -1;
   CameraPass camera;
@@ -89,7 +89,8 @@ Program& Renderer::Impl::bind(const std::string& vertex, const std::string& frag
   return program;
 }
 
-/// The tissue's shadow is drawn anew only when the lamp or the meshes have changed; a resting scope pays for it once.
+/// The shadow of tissue at rest is drawn anew only when the lamp or the meshes have changed; a resting scope pays for
+/// it once.
 void Renderer::Impl::still_shadow_pass(Program& depth, const ScopeOptics& optics) {
   if (still_for == optics.lamp_projection() && still_version == tissue.version()) return;
   still_for = optics.lamp_projection();
@@ -99,7 +100,7 @@ void Renderer::Impl::still_shadow_pass(Program& depth, const ScopeOptics& optics
   const Eigen::Matrix4f here = Eigen::Matrix4f::Identity();
   glUniformMatrix4fv(depth.uniform("u_model"), 1, GL_FALSE, here.data());
   glCullFace(GL_FRONT);  // far sides cast: no self-shadow speckle on the lit side
-  tissue.draw_shadows();
+  tissue.draw_still_shadows();
 }
 
 void Renderer::Impl::shadow_pass(const SceneView& view, const ScopeOptics& optics) {
@@ -124,6 +125,9 @@ void Renderer::Impl::shadow_pass(const SceneView& view, const ScopeOptics& optic
   instruments.draw_shadows(program, view);
   glCullFace(GL_FRONT);
   objects.draw_shadows(program, view.objects);
+  const Eigen::Matrix4f here = Eigen::Matrix4f::Identity();
+  glUniformMatrix4fv(program.uniform("u_model"), 1, GL_FALSE, here.data());
+  tissue.draw_moving_shadows();
   glCullFace(GL_BACK);
 }
 

@@ -40,6 +40,14 @@ bool brings_fat(const SceneView& view) {
                      [](const AdjacentOrganView& one) { return tissue_look(one.material) == "LOOK_FAT"; });
 }
 
+/// The organs beside the one in the middle that have something to draw.
+std::vector<const AdjacentOrganView*> drawn_beside(const SceneView& view) {
+  std::vector<const AdjacentOrganView*> out;
+  for (const AdjacentOrganView& other : view.adjacent)
+    if (other.surface && !other.surface->triangles.empty()) out.push_back(&other);
+  return out;
+}
+
 std::string mark_look(TargetMark::State state) {
   switch (state) {
     case TargetMark::State::kWaiting:
@@ -60,12 +68,6 @@ void set_vector(int location, const Vec3& v) {
   glUniform3f(location, static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
 }
 
-Eigen::AlignedBox3d box_of(const PictureMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const PictureVertex& v : mesh.vertices) box.extend(Vec3(v.position[0], v.position[1], v.position[2]));
-  return box;
-}
-
 /// Height of the bed of fat, whose vertices stand in rows on an even grid, under a point; far below outside it.
 double bed_height(const PictureMesh& bed, const Eigen::AlignedBox3d& box, const Vec3& p) {
   const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(bed.vertices.size()))));
@@ -78,9 +80,9 @@ double bed_height(const PictureMesh& bed, const Eigen::AlignedBox3d& box, const 
 }
 
 /// Takes light from what lies close over the bed.
-void darken_over(PictureMesh& mesh, const PictureMesh& bed, const Eigen::AlignedBox3d& bed_box) {
+void darken_over(std::vector<PictureVertex>& vertices, const PictureMesh& bed, const Eigen::AlignedBox3d& bed_box) {
   constexpr double kReach_m = 0.009;
-  for (PictureVertex& vertex : mesh.vertices) {
+  for (PictureVertex& vertex : vertices) {
     const double gap =
         vertex.position[2] - bed_height(bed, bed_box, Vec3(vertex.position[0], vertex.position[1], vertex.position[2]));
     const double down = std::clamp(0.75 - 0.6 * vertex.normal[2], 0.0, 1.0);  // what faces up is hardly hidden by it
@@ -106,67 +108,101 @@ std::string tissue_look(const std::string& material) {
   return "LOOK_FLESH";
 }
 
-std::vector<TissuePainter::Part*> TissuePainter::parts() {
-  std::vector<Part*> all;
+std::vector<TissuePart*> TissuePainter::parts() {
+  std::vector<TissuePart*> all;
   for (auto* one : {&organ_, &fat_, &wall_})
     if (*one) all.push_back(&**one);
-  for (Part& one : adjacent_) all.push_back(&one);
+  for (TissuePart& one : adjacent_) all.push_back(&one);
   return all;
 }
 
 bool TissuePainter::built_for(const SceneView& view, const PresetTraits& traits) const {
-  if (built_preset_ != traits.define || !organ_ || organ_->source.lock() != view.organ) return false;
-  std::size_t i = 0;
-  for (const AdjacentOrganView& other : view.adjacent) {
-    if (!other.surface || other.surface->triangles.empty()) continue;
-    if (i >= adjacent_.size() || adjacent_[i].source.lock() != other.surface) return false;
-    ++i;
-  }
-  return i == adjacent_.size();
+  const std::vector<const AdjacentOrganView*> others = drawn_beside(view);
+  return built_preset_ == traits.define && organ_ && organ_->made_from(view.organ) &&
+         std::equal(
+             adjacent_.begin(), adjacent_.end(), others.begin(), others.end(),
+             [](const TissuePart& part, const AdjacentOrganView* other) { return part.made_from(other->surface); });
 }
 
+/// What is there already is kept: where tissue is cut, one organ is made anew and not twenty.
 void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
-  const auto part = [](const SurfacePtr& surface, std::size_t triangles) {
-    Part out;
-    out.source = surface;
-    out.mesh = build_picture_mesh(*surface, triangles);
-    out.box = surface->bounds();
-    out.solid = std::make_shared<SolidGrid>(*surface);
-    return out;
-  };
-  adjacent_.clear();
-  organ_ = part(view.organ, traits.organ_triangles);
-  Eigen::AlignedBox3d bounds = organ_->box;
-  for (const AdjacentOrganView& other : view.adjacent) {
-    if (!other.surface || other.surface->triangles.empty()) continue;
-    adjacent_.push_back(part(other.surface, traits.adjacent_triangles));
-    bounds.extend(adjacent_.back().box);
+  std::vector<TissuePart> before = std::exchange(adjacent_, {});
+  if (built_preset_ != traits.define) {
+    before.clear();
+    organ_.reset();
   }
-  wall_.emplace();
-  wall_->mesh = build_cavity(bounds);
-  wall_->box = box_of(wall_->mesh);
-  fat_.reset();
-  if (!brings_fat(view)) {
-    fat_.emplace();
-    fat_->mesh = build_fat_bed(bounds);
-    fat_->box = box_of(fat_->mesh);
+  if (!organ_ || !organ_->made_from(view.organ)) organ_.emplace(view.organ, traits.organ_triangles);
+  Eigen::AlignedBox3d bounds = organ_->box_at_rest();
+  for (const AdjacentOrganView* other : drawn_beside(view)) {
+    const auto same = std::find_if(before.begin(), before.end(),
+                                   [&](const TissuePart& part) { return part.made_from(other->surface); });
+    if (same == before.end()) {
+      adjacent_.emplace_back(other->surface, traits.adjacent_triangles);
+    } else {
+      adjacent_.push_back(std::move(*same));
+      before.erase(same);
+    }
+    bounds.extend(adjacent_.back().box_at_rest());
   }
-  bake_all();
-  for (Part* one : parts()) one->gpu = GpuMesh(one->mesh);
+  if (!wall_ || bounds.min() != bounds_.min() || bounds.max() != bounds_.max()) {
+    wall_.emplace(build_cavity(bounds));
+    fat_.reset();
+  }
+  if (brings_fat(view))
+    fat_.reset();
+  else if (!fat_)
+    fat_.emplace(build_fat_bed(bounds));
+  bounds_ = bounds;
   built_preset_ = traits.define;
-  ++version_;
 }
 
-/// Every organ takes light from every other and from the fat beside it.
-void TissuePainter::bake_all() {
-  const std::vector<Part*> all = parts();
-  for (Part* one : all)
-    for (Part* other : all)
-      if (one != other && other->solid && one != &*wall_ && one->box.exteriorDistance(other->box) < 0.02)
-        darken_beside(one->mesh, *other->solid);
-  for (Part* one : all)
-    if (one->solid && fat_) darken_over(one->mesh, fat_->mesh, fat_->box);
-  for (Part* one : all) one->solid.reset();
+/// Of what stands still, every organ takes light from every other and from the fat beside it.
+void TissuePainter::light_still() {
+  std::vector<TissuePart*> still = parts();
+  std::erase_if(still, [](const TissuePart* part) { return part->moves(); });
+  for (TissuePart* one : still) {
+    one->take_own_light();
+    for (TissuePart* other : still)
+      if (one != other && one != &*wall_ && one->beside(*other)) one->darken_by(*other);
+    if (fat_ && one != &*wall_ && one != &*fat_) darken_over(one->vertices(), fat_->mesh(), fat_->box());
+    one->keep_as_steady();
+    one->beside_moving = false;
+    one->send();
+  }
+}
+
+/// What moves takes light from everything, and everything from what moves.
+void TissuePainter::light_moving() {
+  const std::vector<TissuePart*> all = parts();
+  for (TissuePart* one : all) {
+    if (one == &*wall_) continue;
+    std::vector<const TissuePart*> by;
+    for (const TissuePart* other : all)
+      if (one != other && (one->moves() || other->moves()) && one->beside(*other)) by.push_back(other);
+    const bool was_beside = std::exchange(one->beside_moving, !by.empty());
+    if (!one->moves() && !was_beside && by.empty()) continue;
+    one->take_steady_light();
+    for (const TissuePart* other : by) one->darken_by(*other);
+    if (fat_ && one->moves()) darken_over(one->vertices(), fat_->mesh(), fat_->box());
+    one->send();
+  }
+}
+
+void TissuePainter::follow(const SceneView& view, bool built) {
+  bool changed = built;
+  const auto follow = [&](TissuePart& part, const SurfacePtr& surface) {
+    const bool stood = !part.moves();
+    changed = part.follow(surface) || changed;
+    built = built || (stood && part.moves());
+  };
+  follow(*organ_, view.organ);
+  std::size_t i = 0;
+  for (const AdjacentOrganView* other : drawn_beside(view)) follow(adjacent_[i++], other->surface);
+  if (built) {
+    light_still();
+    ++version_;
+  }
+  if (changed) light_moving();
 }
 
 void TissuePainter::prepare(const SceneView& view, const PresetTraits& traits) {
@@ -177,34 +213,31 @@ void TissuePainter::prepare(const SceneView& view, const PresetTraits& traits) {
     version_ = next;
     return;
   }
-  if (!built_for(view, traits)) {
+  const bool build_anew = !built_for(view, traits);
+  if (build_anew) {
     decals_.clear();
     marks_.clear();
     build(view, traits);
   }
+  follow(view, build_anew);
   organ_->look = tissue_look(view.material);
   if (fat_) fat_->look = bed_look(view);
   wall_->look = "LOOK_WALL";
   std::size_t i = 0;
-  for (const AdjacentOrganView& other : view.adjacent)
-    if (other.surface && !other.surface->triangles.empty()) adjacent_[i++].look = tissue_look(other.material);
+  for (const AdjacentOrganView* other : drawn_beside(view)) adjacent_[i++].look = tissue_look(other->material);
   prepare_marks(view);
   prepare_decals(view);
 }
 
 void TissuePainter::prepare_marks(const SceneView& view) {
-  if (marks_ == view.marks) return;
+  if (mark_block_.id() != 0 && marks_ == view.marks) return;
   marks_ = view.marks;
   if (marks_.size() > kMaxTissueMarks) marks_.resize(kMaxTissueMarks);
   if (mark_block_.id() == 0) mark_block_ = GlObject(GlObject::Kind::kBuffer);
   const MarkBlock block = make_mark_block(marks_);
   glBindBuffer(GL_UNIFORM_BUFFER, mark_block_.id());
   glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
-  for (Part* part : parts()) {
-    std::vector<std::uint32_t> indices = triangles_marked(part->mesh, marks_);
-    part->marked_count = static_cast<int>(indices.size());
-    part->marked = part->marked_count > 0 ? upload_indices(indices) : GlObject();
-  }
+  for (TissuePart* part : parts()) part->mark(marks_);
   marks_ = view.marks;
 }
 
@@ -215,21 +248,30 @@ void TissuePainter::prepare_decals(const SceneView& view) {
   if (same) return;
   decals_.clear();
   for (const TargetMark& mark : view.targets) {
-    const auto indices = triangles_near(organ_->mesh, mark.centre_T, 1.9 * mark.radius_m);
+    const auto indices = triangles_near(organ_->mesh(), mark.centre_T, 1.9 * mark.radius_m);
     decals_.push_back({mark.centre_T, mark.radius_m, upload_indices(indices), static_cast<int>(indices.size())});
   }
 }
 
-void TissuePainter::draw_shadows() {
-  if (organ_) organ_->gpu.draw();
-  for (Part& one : adjacent_) one.gpu.draw();
+void TissuePainter::draw_still_shadows() {
+  if (organ_ && !organ_->moves()) organ_->gpu().draw();
+  for (const TissuePart& one : adjacent_)
+    if (!one.moves()) one.gpu().draw();
 }
 
-void TissuePainter::draw_part(Part& part, const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
-  if (!in_field(part.box, view.camera, optics)) return;
+void TissuePainter::draw_moving_shadows() {
+  if (organ_ && organ_->moves()) organ_->gpu().draw();
+  for (const TissuePart& one : adjacent_)
+    if (one.moves()) one.gpu().draw();
+}
+
+void TissuePainter::draw_part(TissuePart& part, const ProgramBinder& bind, const SceneView& view,
+                              const ScopeOptics& optics) {
+  if (!in_field(part.box(), view.camera, optics)) return;
   std::vector<std::string> defines;
   const bool is_organ = organ_ && &part == &*organ_;
   if (is_organ && has_dimple(view)) defines.emplace_back("DIMPLED");
+  if (part.moves()) defines.emplace_back("DEFORMED");
   defines.push_back(part.look);
   // The lining hangs on the wall, the fat on what lies under it: the organs breathe most.
   const double share = wall_ && &part == &*wall_ ? 0.0 : fat_ && &part == &*fat_ ? 0.4 : 1.0;
@@ -239,16 +281,17 @@ void TissuePainter::draw_part(Part& part, const ProgramBinder& bind, const Scene
     return program;
   };
   draw(defines);
-  part.gpu.draw();
-  if (part.marked_count == 0) return;
+  part.gpu().draw();
+  if (!part.marked()) return;
   defines.emplace_back("MARKED");
+  if (part.bears_fields()) defines.emplace_back("FIELDS");
   draw(defines).bind_block("Marks", 1);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, mark_block_.id());
-  part.gpu.draw_subset(part.marked, part.marked_count);
+  part.draw_marked();
 }
 
 void TissuePainter::draw(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
-  for (Part& one : adjacent_) draw_part(one, bind, view, optics);
+  for (TissuePart& one : adjacent_) draw_part(one, bind, view, optics);
   for (auto* one : {&organ_, &fat_, &wall_})
     if (*one) draw_part(**one, bind, view, optics);
   if (organ_) draw_decals(bind, view, optics);
@@ -262,6 +305,7 @@ void TissuePainter::draw_decals(const ProgramBinder& bind, const SceneView& view
     const TargetMark& mark = view.targets[i];
     std::vector<std::string> defines;
     if (has_dimple(view)) defines.emplace_back("DIMPLED");
+    if (organ_->moves()) defines.emplace_back("DEFORMED");
     defines.push_back(mark_look(mark.state));
     Program& program = bind("tissue", "decal", defines);
     const Vec3 normal = mark.normal_T.normalized();
@@ -272,7 +316,7 @@ void TissuePainter::draw_decals(const ProgramBinder& bind, const SceneView& view
     set_vector(program.uniform("u_across"), across);
     set_vector(program.uniform("u_up"), normal.cross(across));
     set_vector(program.uniform("u_normal"), normal);
-    organ_->gpu.draw_subset(decals_[i].indices, decals_[i].count);
+    organ_->gpu().draw_subset(decals_[i].indices, decals_[i].count);
   }
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);

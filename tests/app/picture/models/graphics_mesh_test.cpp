@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "app/picture/models/curved_subdivision.h"
 #include "app/picture/models/instrument_model.h"
 #include "app/picture/models/organ_scene.h"
 #include "app/picture/models/picture_mesh.h"
@@ -33,15 +34,19 @@ double agreement(const PictureMesh& mesh) {
   return static_cast<double>(good) / all;
 }
 
+TriangleSurface once_finer(const TriangleSurface& coarse) {
+  return CurvedSubdivision(coarse, 4 * coarse.triangles.size()).fine();
+}
+
 TEST(CurvedSubdivision, BringsACoarseSphereNearerToTheSphere) {
-  const TriangleSurface coarse = icosphere(1), fine = subdivide_curved(coarse);
+  const TriangleSurface coarse = icosphere(1), fine = once_finer(coarse);
   EXPECT_EQ(fine.triangles.size(), 4 * coarse.triangles.size());
   const double exact = 4.0 / 3.0 * std::numbers::pi;
   EXPECT_LT(std::abs(fine.volume_m3() - exact), 0.55 * std::abs(coarse.volume_m3() - exact));
 }
 
 TEST(CurvedSubdivision, KeepsCornersAndAClosedSurface) {
-  const TriangleSurface coarse = icosphere(2), fine = subdivide_curved(coarse);
+  const TriangleSurface coarse = icosphere(2), fine = once_finer(coarse);
   for (std::size_t i = 0; i < coarse.vertices.size(); ++i) EXPECT_EQ(fine.vertices[i], coarse.vertices[i]);
   std::map<std::pair<int, int>, int> edges;
   for (const auto& t : fine.triangles)
@@ -52,8 +57,31 @@ TEST(CurvedSubdivision, KeepsCornersAndAClosedSurface) {
   }
 }
 
+TEST(CurvedSubdivision, AMovedOneIsWhatTheMovedSurfaceIsRefinedTo) {
+  const TriangleSurface coarse = icosphere(2);
+  TriangleSurface bent = coarse;
+  for (Vec3& v : bent.vertices) v.z() += 0.4 * v.x() * v.x() + 0.1;
+  CurvedSubdivision twice(coarse, 16 * coarse.triangles.size());
+  const TriangleSurface& moved = twice.move(bent.vertices);
+  EXPECT_EQ(moved.vertices, CurvedSubdivision(bent, 16 * bent.triangles.size()).fine().vertices);
+  EXPECT_EQ(twice.move(coarse.vertices).vertices,
+            CurvedSubdivision(coarse, 16 * coarse.triangles.size()).fine().vertices);
+  EXPECT_THROW(twice.move({Vec3::Zero()}), std::invalid_argument);
+}
+
+TEST(CurvedSubdivision, NumbersAtTheVerticesAreMeansBetweenThem) {
+  const TriangleSurface triangle{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{{0, 1, 2}}}};
+  const std::vector<float> fine = CurvedSubdivision(triangle, 4).spread({0, 1, 0.5F});
+  EXPECT_EQ(fine, (std::vector<float>{0, 1, 0.5F, 0.5F, 0.75F, 0.25F}));
+}
+
+/// Openness of a surface by itself.
+std::vector<float> openness_of(const TriangleSurface& surface) {
+  return bake_openness(surface, surface.vertex_normals(), SolidGrid(surface));
+}
+
 TEST(Openness, IsFullOnASphereAndLowInAPit) {
-  for (const float open : bake_openness(icosphere(4))) EXPECT_GT(open, 0.8F);
+  for (const float open : openness_of(icosphere(4))) EXPECT_GT(open, 0.8F);
   TriangleSurface pitted = icosphere(5);
   std::size_t deepest = 0;
   for (std::size_t i = 0; i < pitted.vertices.size(); ++i) {
@@ -62,11 +90,16 @@ TEST(Openness, IsFullOnASphereAndLowInAPit) {
     if (v.z() > 0) v *= 1 - 0.55 * std::exp(-r * r / 0.02);
     if (v.z() > 0 && r < std::hypot(pitted.vertices[deepest].x(), pitted.vertices[deepest].y())) deepest = i;
   }
-  EXPECT_LT(bake_openness(pitted)[deepest], 0.5F);
+  EXPECT_LT(openness_of(pitted)[deepest], 0.5F);
+}
+
+PictureMesh built(const TriangleSurface& surface, std::size_t max_triangles) {
+  const TriangleSurface fine = CurvedSubdivision(surface, max_triangles).fine();
+  return bake_picture_mesh(fine, SolidGrid(fine));
 }
 
 TEST(PictureMeshBuild, StaysWithinItsTriangleBudget) {
-  const PictureMesh mesh = build_picture_mesh(testing_support::lumpy_ellipsoid({0.09, 0.07, 0.04}), 36000);
+  const PictureMesh mesh = built(testing_support::lumpy_ellipsoid({0.09, 0.07, 0.04}), 36000);
   EXPECT_LE(mesh.indices.size() / 3, 36000U);
   EXPECT_GE(mesh.indices.size() / 3, 9000U);
   EXPECT_DOUBLE_EQ(agreement(mesh), 1.0);
@@ -75,11 +108,11 @@ TEST(PictureMeshBuild, StaysWithinItsTriangleBudget) {
 TEST(PictureMeshBuild, TurnsAnInsideOutSurfaceRight) {
   TriangleSurface inverted = icosphere(3);
   for (auto& t : inverted.triangles) std::swap(t[1], t[2]);
-  for (const PictureVertex& v : build_picture_mesh(inverted, 1280).vertices) EXPECT_GT(position(v).dot(normal(v)), 0.9);
+  for (const PictureVertex& v : built(inverted, 1280).vertices) EXPECT_GT(position(v).dot(normal(v)), 0.9);
 }
 
 TEST(PictureMeshBuild, FindsTheTrianglesNearATarget) {
-  const PictureMesh mesh = build_picture_mesh(icosphere(4), 5120);
+  const PictureMesh mesh = built(icosphere(4), 5120);
   const Vec3 pole = Vec3::UnitZ();
   const auto near = triangles_near(mesh, pole, 0.2);
   ASSERT_GT(near.size(), 30U);

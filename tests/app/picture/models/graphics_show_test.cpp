@@ -147,13 +147,27 @@ TEST(SolidGrid, IsFullInsideEmptyOutside) {
   EXPECT_EQ(grid.density(Vec3(1, 1, 1)), 0);
 }
 
+TEST(SolidGrid, OnTheLatticeAtRestWhatStaysInPlaceStaysAsItIs) {
+  const TriangleSurface still = implicit_surface(ball, cube(0.03), 0.001);
+  const SolidGrid rest(still);
+  TriangleSurface pulled = still;
+  for (Vec3& v : pulled.vertices) v.x() += v.x() > 0.015 ? 0.5 * (v.x() - 0.015) : 0;
+  const SolidGrid now(pulled, rest);
+  EXPECT_EQ(now.cell(), rest.cell());
+  for (const Vec3& p : {Vec3(-0.019, 0, 0), Vec3(0, 0.0195, 0), Vec3(0, 0, 0.02), Vec3(-0.01, 0.012, 0.012)})
+    EXPECT_NEAR(now.density(p), rest.density(p), 1e-6);
+  EXPECT_GT(now.density(Vec3(0.0215, 0, 0)), rest.density(Vec3(0.0215, 0, 0)) + 0.1);
+  for (Vec3& v : pulled.vertices) v.x() *= 3;
+  EXPECT_GT(SolidGrid(pulled, rest).density(Vec3(0.06, 0, 0)), 0.9) << "one that has grown beyond it has its own";
+}
+
 TEST(Occlusion, ANeighbourTakesLightOnlyFromTheSideThatFacesIt) {
   const TriangleSurface one = implicit_surface(ball, cube(0.03), 0.002);
   TriangleSurface other = one;
   for (Vec3& v : other.vertices) v += Vec3(0.042, 0, 0);
-  PictureMesh mesh = build_picture_mesh(one, 4000);
+  PictureMesh mesh = bake_picture_mesh(one, SolidGrid(one));
   const PictureMesh before = mesh;
-  darken_beside(mesh, SolidGrid(other));
+  darken_beside(mesh.vertices, SolidGrid(other));
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const float lost = before.vertices[i].light[0] - mesh.vertices[i].light[0];
     if (mesh.vertices[i].position[0] < 0) {
