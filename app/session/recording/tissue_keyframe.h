@@ -45,6 +45,12 @@ struct TopologyEvent {
   bool operator==(const TopologyEvent&) const = default;
 };
 
+/// When keyframes are made.
+struct KeyframeRule {
+  double rate_hz = 20;
+  bool always = false;  ///< also where nothing deforms, so that a long attempt opens at once
+};
+
 /// Nothing lies between the two but numbers that run from one to the other.
 bool runs_on(const DirectorStatus& a, const DirectorStatus& b);
 bool runs_on(const TissueFrame& a, const TissueFrame& b);
