@@ -9,6 +9,8 @@
 namespace trocar {
 namespace {
 
+constexpr double kSameTime_s = 1e-9;  // the loop and a row may round one time differently
+
 Mat3 between(const Mat3& a, const Mat3& b, double share) {
   return Eigen::Quaterniond(a).slerp(share, Eigen::Quaterniond(b)).toRotationMatrix();
 }
@@ -130,10 +132,9 @@ RecordedMoments::RecordedMoments(const Scene& scene, const Recording& recording)
 }
 
 const RecordedTick& RecordedMoments::row_at(double t_s) const {
-  // A row's time as others compute it, tick / rate, finds that row.
-  const auto after = std::upper_bound(rows_.begin(), rows_.end(), t_s, [this](double t, const RecordedTick& row) {
-    return t < static_cast<double>(row.tick) / rate_hz_;
-  });
+  const auto after = std::upper_bound(
+      rows_.begin(), rows_.end(), t_s + kSameTime_s,
+      [this](double t, const RecordedTick& row) { return t < static_cast<double>(row.tick) / rate_hz_; });
   return after == rows_.begin() ? rows_.front() : *std::prev(after);
 }
 
