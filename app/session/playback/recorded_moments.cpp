@@ -25,10 +25,10 @@ InstrumentDetail between(const InstrumentDetail& a, const InstrumentDetail& b, d
   out.winding_c = std::lerp(a.winding_c, b.winding_c, share);
   out.depth_in_port_m = std::lerp(a.depth_in_port_m, b.depth_in_port_m, share);
   out.rendered_grip_n = std::lerp(a.rendered_grip_n, b.rendered_grip_n, share);
+  out.depth_m = std::lerp(a.depth_m, b.depth_m, share);
   if (!a.contact || !b.contact) return out;
   out.contact_point_T += share * (b.contact_point_T - a.contact_point_T);
   out.contact_normal_T = (a.contact_normal_T + share * (b.contact_normal_T - a.contact_normal_T)).normalized();
-  out.depth_m = std::lerp(a.depth_m, b.depth_m, share);
   return out;
 }
 
@@ -40,6 +40,7 @@ DirectorStatus between(const DirectorStatus& a, const DirectorStatus& b, double 
   for (const auto number : {&DirectorStatus::hold_progress, &DirectorStatus::position_error_m,
                             &DirectorStatus::angle_error_rad, &DirectorStatus::peak_force_n})
     out.*number = std::lerp(a.*number, b.*number, share);
+  out.demand.centre_T += share * (b.demand.centre_T - a.demand.centre_T);
   out.demand.object.X_TO = between(a.demand.object.X_TO, b.demand.object.X_TO, share);
   return out;
 }

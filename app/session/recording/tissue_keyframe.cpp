@@ -22,12 +22,25 @@ InstrumentDetail detail_of(const TickRecord& record) {
           .rendered_grip_n = stylus.rendered_grip_n};
 }
 
+namespace {
+
+constexpr double kJump_m = 0.02;  // a block that is carried does not move as far from one keyframe to the next
+
+bool runs_on(const Demand& a, const Demand& b) {
+  return a.normal_T == b.normal_T && a.radius_m == b.radius_m && a.R_TI == b.R_TI &&
+         a.angle_tolerance_rad == b.angle_tolerance_rad && a.band == b.band && a.goal_T == b.goal_T &&
+         (a.centre_T - b.centre_T).norm() < kJump_m;
+}
+
+}  // namespace
+
 bool runs_on(const DirectorStatus& a, const DirectorStatus& b) {
   const auto steps = [](const DirectorStatus& s) {
     return std::tie(s.phase, s.cue, s.force_shown, s.target_index, s.targets_done, s.wrong_places, s.excess_forces,
                     s.timeouts, s.warning, s.demand.oriented, s.demand.object.slipping, s.demand.foam_count);
   };
-  return steps(a) == steps(b) && a.done == b.done && a.message == b.message && a.hint == b.hint;
+  return steps(a) == steps(b) && a.done == b.done && a.message == b.message && a.hint == b.hint &&
+         runs_on(a.demand, b.demand);
 }
 
 bool runs_on(const TissueFrame& a, const TissueFrame& b) {
