@@ -2,8 +2,8 @@
 // hands and pictures.
 //
 // step() takes the newest haptic state at the tissue rate (100 Hz) and gives back what the loop needs until the next
-// step (ContactPatch); frame() and surface() are what everybody else may know of it. Frame T, SI units. Deterministic:
-// same states in, same frames out. Thread: tissue task.
+// step (ContactPatch); frame() and surface() are what everybody else may know of it, shape() what the recorder keeps of
+// it. Frame T, SI units. Deterministic: same states in, same frames out. Thread: tissue task.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "haptics/exchange/solved_contacts.h"
 #include "tissue/surface_snapshot.h"
 #include "tissue/tissue_frame.h"
+#include "tissue/tissue_shape.h"
 
 namespace trocar {
 
@@ -24,6 +25,8 @@ class World {
   virtual const TissueFrame& frame() const = 0;
   /// The organ after the step; nullptr: none is to be seen.
   virtual SurfacePtr surface() const = 0;
+  /// What deforms, after the step. A world with a shape is played from what was recorded of it and not solved again.
+  virtual TissueShape shape() const { return {}; }
   /// Triangles in reach that did not fit into a patch, over the run.
   virtual std::uint64_t dropped() const = 0;
 };

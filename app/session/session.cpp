@@ -38,7 +38,7 @@ constexpr double kLongestBeyondLimits_s = 60;  // homing and reading, beyond the
 /// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
 struct Rig {
   Rig(const Scene& scene_in, DataAcquisition& daq, Timing timing, std::unique_ptr<Channel<ContactPatch>> patches,
-      RecorderRings* recorder)
+      RecorderRings* recorder, const KeyframeRule& keyframes = {})
       : scene(scene_in),
         state(make_channel<HapticState>(timing)),
         patch(std::move(patches)),
@@ -52,7 +52,7 @@ struct Rig {
                2 * scene.level.time_limit_s + kLongestBeyondLimits_s),
         tissue(scene, director,
                {*state, *patch, hand_frames.get(), observer_frames.get(), recorder ? &recorder->steps : nullptr,
-                recorder ? &recorder->events : nullptr}) {}
+                recorder ? &recorder->events : nullptr, recorder ? &recorder->tissue : nullptr, keyframes}) {}
 
   SessionOutcome outcome(const char* backend) {
     const TickRecord& record = haptic.record();
@@ -158,9 +158,10 @@ std::uint64_t seed_of(const AttemptSetup& setup) { return static_cast<std::uint6
 /// A whole attempt: back-end and rig, the simulated person and the sensor where the back-end has them, and what keeps
 /// books.
 struct Attempt {
-  Attempt(const Scene& scene, std::unique_ptr<Hand> person, RecordingWriter& writer, Timing timing)
+  Attempt(const Scene& scene, std::unique_ptr<Hand> person, RecordingWriter& writer, Timing timing,
+          const KeyframeRule& keyframes)
       : backend(setup_backend(scene.setup)),
-        rig(scene, *backend.daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get()),
+        rig(scene, *backend.daq, timing, make_channel<ContactPatch>(timing, kPatchDelay), rings.get(), keyframes),
         forces(make_channel<StylusForces>(timing)),
         tap(backend.world, rig.haptic, scene.loop.map.X_TW.R, *forces,
             sensor_of(scene.setup).fixture_kg * sensor_of(scene.setup).gravity),
@@ -274,7 +275,7 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
   }
   auto hand =
       hooks.hand ? hooks.hand() : make_hand(scene.setup.hand, seed_of(scene.setup), assets.hands, scene.setup.attempt);
-  const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing);
+  const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing, hooks.keyframes);
   if (timing == Timing::kLockstep && !attempt->backend.can.pace) {
     throw InputError("--backend " + scene.setup.backend + ": runs by its own clock; add --realtime");
   }

@@ -60,6 +60,7 @@ struct SessionHooks {
   const MarkCount* messages = nullptr;               ///< likewise, of messages that were shown
   std::function<bool()> board_answers =
       {};                        ///< live: while it says no, everything stands still; needs `pause`, and no exam
+  KeyframeRule keyframes = {};   ///< for playback
   PauseSwitch* pause = nullptr;  ///< live: lets everything stand still, the simulated device too
 };
 

@@ -17,6 +17,7 @@
 #include "app/picture/films/video_writer.h"
 #include "app/session/grading/recorded_result.h"
 #include "app/session/lanes/state_hash.h"
+#include "app/session/playback/recorded_run.h"
 #include "app/session/recording/chunk.h"
 #include "app/session/recording/event_codec.h"
 #include "app/session/session.h"
@@ -29,6 +30,7 @@ namespace {
 
 constexpr double kSameScore = 1e-9;
 constexpr double kPicturesPerSecond = 10;
+constexpr double kMoment_s = 0.01;
 
 /// Once, with pictures at the times of `trocar run --frames`.
 SessionOutcome replay_plainly(const RecordingOptions& options, const Subject& subject, const AssetRoots& assets,
@@ -43,14 +45,41 @@ SessionOutcome replay_plainly(const RecordingOptions& options, const Subject& su
   return outcome;
 }
 
+/// The same pictures from keyframes.
+void play_plainly(const RecordingOptions& options, const Subject& subject, const AssetRoots& assets,
+                  std::ostream& err) {
+  const RecordedRun run(subject.file, assets, options.organ);
+  AttemptPainter painter(assets, subject.stored ? subject.stored->trainee : "", options.width, options.height);
+  FrameWriter frames(painter, options.frames, options.fps.value_or(kPicturesPerSecond));
+  for (double t_s = run.at(0).t_s; t_s <= run.end_s(); t_s += kMoment_s)
+    frames.observe(view_of(run.scene(), run.at(t_s)));
+  err << "trocar: " << frames.written() << " frames in " << options.frames.string() << '\n';
+}
+
+/// Pictures are played from keyframes where there are any; the loop is run where it must be. @return what it left.
+std::optional<SessionOutcome> replayed(const RecordingOptions& options, const Subject& subject,
+                                       const AssetRoots& assets, std::ostream& err) {
+  const bool keyframes = !subject.recording.tissue.empty();
+  std::optional<SessionOutcome> outcome;
+  if (is_film(options))
+    outcome = replay_as_film(options, subject, assets, err);
+  else if (keyframes && !options.frames.empty())
+    play_plainly(options, subject, assets, err);
+  else
+    return replay_plainly(options, subject, assets, err);
+  if (outcome || !options.verify) return outcome;
+  return replay_session(recorded_scene(subject.recording, subject.file, assets, options.organ), subject.recording);
+}
+
 }  // namespace
 
 int replay_command(const RecordingOptions& options, std::ostream& out, std::ostream& err) {
   const AssetRoots assets = find_assets();
   if (!options.video.empty()) check_video_file(options.video);  // before minutes of work
   const Subject subject = find_subject(options.subject, options.database, err);
-  const SessionOutcome outcome =
-      is_film(options) ? replay_as_film(options, subject, assets, err) : replay_plainly(options, subject, assets, err);
+  const std::optional<SessionOutcome> ran = replayed(options, subject, assets, err);
+  if (!ran) return 0;
+  const SessionOutcome& outcome = *ran;
   out << "ticks     " << outcome.device.ticks << '\n' << "replayed  " << outcome.state_hash_hex << '\n';
   if (!options.verify) return 0;
   if (subject.recording.version < kOldestVerifiable) {

@@ -88,8 +88,8 @@ bool is_film(const RecordingOptions& options) {
   return film;
 }
 
-SessionOutcome replay_as_film(const RecordingOptions& options, const Subject& subject, const AssetRoots& assets,
-                              std::ostream& err) {
+std::optional<SessionOutcome> replay_as_film(const RecordingOptions& options, const Subject& subject,
+                                             const AssetRoots& assets, std::ostream& err) {
   ProgressDisplay display(err, error_is_terminal());
   const auto shown = [&display](const char* stage) {
     return [&display, stage](double share) {
@@ -120,6 +120,7 @@ SessionOutcome replay_as_film(const RecordingOptions& options, const Subject& su
   if (video) video->close();
   display.clear();
   err << "trocar: " << made << " frames in " << (video ? options.video : options.frames).string() << '\n';
+  if (run.plays_keyframes()) return std::nullopt;
   return run.outcome();
 }
 

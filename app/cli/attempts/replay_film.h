@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 
 #include "app/cli/attempts/recording_command.h"
 #include "app/cli/attempts/recording_subject.h"
@@ -18,8 +19,9 @@ bool is_film(const RecordingOptions& options);
 /// without EGL.
 Preset film_preset(const std::string& asked, std::ostream& err);
 
-/// @return what the loop left. @throws InputError, EnvironmentError; Interrupted on Ctrl-C, and then no film stays.
-SessionOutcome replay_as_film(const RecordingOptions& options, const Subject& subject, const AssetRoots& assets,
-                              std::ostream& err);
+/// @return what the loop left; none where keyframes were played and it was not run. @throws InputError,
+/// EnvironmentError; Interrupted on Ctrl-C, and then no film stays.
+std::optional<SessionOutcome> replay_as_film(const RecordingOptions& options, const Subject& subject,
+                                             const AssetRoots& assets, std::ostream& err);
 
 }  // namespace trocar

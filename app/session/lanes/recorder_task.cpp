@@ -1,6 +1,7 @@
 #include "app/session/lanes/recorder_task.h"
 
 #include <span>
+#include <utility>
 
 namespace trocar {
 
@@ -31,6 +32,9 @@ void RecorderTask::drain() {
     writer_.append_step(step.seen_period);
     seen_period_ = step.seen_period;
   }
+  for (std::shared_ptr<TissueKeyframe> keyframe; rings_.tissue.keyframes.pop(keyframe);)
+    keyframes_.push_back(std::move(keyframe));
+  for (TopologyEvent change; rings_.tissue.changes.pop(change);) writer_.append_change(std::move(change));
   for (Event event; rings_.events.pop(event);) writer_.append_events(std::span(&event, 1));
 }
 
@@ -41,6 +45,10 @@ void RecorderTask::write(const TickRecord& record) {
   }
   if (record.patch_stamp != patch_stamp_) writer_.append_patch({state.period, record.patch_stamp});
   patch_stamp_ = record.patch_stamp;
+  for (; !keyframes_.empty() && keyframes_.front()->period <= state.period; keyframes_.pop_front()) {
+    keyframes_.front()->instrument = detail_of(record);
+    writer_.append_keyframe(std::move(*keyframes_.front()));
+  }
   writer_.append(quantise(state.period, record.in, trace_sample(record), state.loop, phase_));
 }
 

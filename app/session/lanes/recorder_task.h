@@ -1,10 +1,11 @@
-// The recorder task (10 Hz): drains the rings of ticks, tissue steps and events into the recording.
+// The recorder task (10 Hz): drains the rings of ticks, tissue steps, keyframes and events into the recording.
 //
 // A row shows the phase after the last tissue step that saw it or an earlier one, so it waits until a step has seen it
 // or a later one. Thread: its own, never the haptic thread; it may wait for the disk.
 #pragma once
 
 #include <deque>
+#include <memory>
 
 #include "app/session/lanes/haptic_task.h"
 #include "app/session/lanes/task.h"
@@ -21,6 +22,7 @@ struct RecorderRings {
   TickRing ticks;
   StepRing steps;
   EventRing events;
+  KeyframeRings tissue;
 };
 
 class RecorderTask final : public Task {
@@ -34,8 +36,11 @@ class RecorderTask final : public Task {
   void run(std::uint64_t tick) override;
   /// What came after the last call. The recording stays open.
   void stop() override;
-  /// Ticks, steps and events that found their ring full.
-  std::uint64_t lost() const { return rings_.ticks.dropped() + rings_.steps.dropped() + rings_.events.dropped(); }
+  /// Ticks, steps, keyframes and events that found their ring full.
+  std::uint64_t lost() const {
+    return rings_.ticks.dropped() + rings_.steps.dropped() + rings_.events.dropped() +
+           rings_.tissue.keyframes.dropped() + rings_.tissue.changes.dropped();
+  }
 
  private:
   void drain();
@@ -45,9 +50,10 @@ class RecorderTask final : public Task {
   double rate_hz_;
   RecordingWriter& writer_;
   std::deque<TickRecord> waiting_;
-  std::deque<TissueStep> unused_;  ///< steps that saw a later tick than the last row written
-  std::uint64_t seen_period_ = 0;  ///< newest tick that a step has seen
-  std::uint64_t patch_stamp_ = 0;  ///< that the last row saw
+  std::deque<std::shared_ptr<TissueKeyframe>> keyframes_;  ///< of ticks behind the last row written
+  std::deque<TissueStep> unused_;                          ///< steps that saw a later tick than the last row written
+  std::uint64_t seen_period_ = 0;                          ///< newest tick that a step has seen
+  std::uint64_t patch_stamp_ = 0;                          ///< that the last row saw
   std::uint8_t phase_ = 0;
 };
 

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "app/session/lanes/channel.h"
 #include "app/session/lanes/exercise_frame.h"
+#include "app/session/lanes/keyframe_tap.h"
 #include "app/session/lanes/state_hash.h"
 #include "app/session/lanes/task.h"
 #include "app/session/setup/scene.h"
@@ -30,16 +32,20 @@ struct TissuePorts {
   Outlet<ExerciseFrame>* observer = nullptr;
   StepRing* steps = nullptr;
   EventRing* events = nullptr;
+  KeyframeRings* keyframes = nullptr;
+  KeyframeRule rule = {};
 };
 
 class TissueTask final : public Task {
  public:
-  TissueTask(const Scene& scene, Director& director, const TissuePorts& ports)
+  /// @param world another than the scene's own.
+  TissueTask(const Scene& scene, Director& director, const TissuePorts& ports, std::unique_ptr<World> world = nullptr)
       : motors_(scene.loop.daq.motors),
         start_z_m_(scene.board.start_T.z()),
         director_(director),
         ports_(ports),
-        world_(make_world(scene)),
+        world_(world ? std::move(world) : make_world(scene)),
+        keyframes_(ports.keyframes, ports.rule, kTissueRateHz),
         period_(static_cast<std::uint32_t>(scene.loop.daq.rate_hz / kTissueRateHz)) {}
 
   std::uint32_t period() const override { return period_; }
@@ -56,6 +62,7 @@ class TissueTask final : public Task {
     hash_.add(patch);
     hash_.add(world_->frame());
     hash_.add(director_.status());
+    keyframes_.tell(state.stylus, director_.status(), *world_);  // before the step: who has that has its keyframe
     tell(tick, state.stylus.period);
     ports_.patch.commit();  // last: whoever sees this stamp finds its step in the ring
   }
@@ -94,6 +101,7 @@ class TissueTask final : public Task {
   TissuePorts ports_;
   StateHash hash_;
   std::unique_ptr<World> world_;
+  KeyframeTap keyframes_;
   std::uint32_t period_;
   std::size_t told_ = 0;  ///< events that the recorder has
   bool inserted_ = false;

@@ -9,8 +9,10 @@
 #include <thread>
 
 #include "app/session/playback/moment_store.h"
+#include "app/session/playback/recorded_moments.h"
 #include "app/session/recording/recording_reader.h"
 #include "app/session/setup/recorded_scene.h"
+#include "haptics/input_error.h"
 
 namespace trocar {
 namespace {
@@ -77,6 +79,7 @@ struct RecordedRun::State {
   std::vector<Event> events;
   Grade grade;
   double begin_s = 0, end_s = 0;
+  std::optional<RecordedMoments> recorded;  ///< with keyframes; else:
   MomentStore moments;
   SessionOutcome outcome;  // written before kWhole
 
@@ -99,11 +102,17 @@ void RecordedRun::State::load(const Recording& recording) {
   });
   if (run != recording.ticks.end()) begin_s = static_cast<double>(run->tick) / recording.rate_hz;
   if (!trace.t_s.empty()) end_s = trace.t_s.back();
+  if (!recording.tissue.empty() && !recording.ticks.empty()) recorded.emplace(*scene, recording);
 }
 
 void RecordedRun::State::make(const std::function<bool(double)>& progress) {
   const Recording recording = read_recording(file);
   load(recording);
+  if (recorded) {
+    stage = Stage::kWhole;
+    if (progress) progress(1);
+    return;
+  }
   stage = Stage::kReplaying;
   int percent = -1;
   const auto keep = [&](const SessionView& view) {
@@ -171,7 +180,8 @@ RecordedRun& RecordedRun::operator=(RecordedRun&& other) noexcept {
 }
 
 RecordedRun::Stage RecordedRun::stage() const { return state_->stage; }
-bool RecordedRun::has_pictures() const { return stage() != Stage::kLoading && state_->moments.size() > 0; }
+bool RecordedRun::has_pictures() const { return plays_keyframes() || state_->moments.size() > 0; }
+bool RecordedRun::plays_keyframes() const { return stage() != Stage::kLoading && state_->recorded; }
 
 std::string RecordedRun::failure() const {
   const std::lock_guard lock(state_->mutex);
@@ -191,14 +201,25 @@ const Scene& RecordedRun::scene() const {
 double RecordedRun::begin_s() const { return state_->begin_s; }
 double RecordedRun::end_s() const { return state_->end_s; }
 double RecordedRun::available_until() const {
-  return stage() == Stage::kWhole ? state_->end_s : state_->moments.last_s();
+  return plays_keyframes() || stage() == Stage::kWhole ? state_->end_s : state_->moments.last_s();
 }
-RunMoment RecordedRun::at(double t_s) const { return state_->moments.at(t_s); }
+
+RunMoment RecordedRun::at(double t_s) const {
+  if (!plays_keyframes()) return state_->moments.at(t_s);
+  try {
+    return state_->recorded->at(t_s);
+  } catch (const InputError& error) {
+    state_->fail(error.what());
+    return state_->recorded->bare(t_s);
+  }
+}
+
 const std::vector<Event>& RecordedRun::events() const { return state_->events; }
 const Grade& RecordedRun::grade() const { return state_->grade; }
 
 const SessionOutcome& RecordedRun::outcome() const {
-  if (stage() != Stage::kWhole) throw std::logic_error("the recording has not been run to its end");
+  if (stage() != Stage::kWhole || plays_keyframes())
+    throw std::logic_error("the recording has not been run to its end");
   return state_->outcome;
 }
 
@@ -211,7 +232,8 @@ std::vector<RecordedRun::Column> RecordedRun::grip_columns(int columns, double f
 }
 
 std::size_t RecordedRun::bytes() const {
-  return state_->moments.bytes() + state_->trace.t_s.size() * (sizeof(double) + 2 * sizeof(float));
+  return (state_->recorded ? state_->recorded->bytes() : state_->moments.bytes()) +
+         state_->trace.t_s.size() * (sizeof(double) + 2 * sizeof(float));
 }
 
 }  // namespace trocar

@@ -1,8 +1,9 @@
 // A recording as a film: any moment of it, ready for pictures, plots and scrubbing.
 //
-// The loop is run again once from the recorded device input (the same code, the same bits); moments are kept at the
-// tissue rate (moment_store.h) and the force trace at the loop's. A recording that was cut off is played up to where it
-// ends; torn() says so. Frame T, SI. Thread: any may read, while a thread of the run's own goes on with it.
+// Where the recording has keyframes, moments are taken from them and nothing is run (recorded_moments.h). Else the loop
+// is run again once from the recorded device input (the same code, the same bits), and moments are kept at the tissue
+// rate (moment_store.h). A recording that was cut off is played up to where it ends; torn() says so. Frame T, SI.
+// Thread: any may read, while a thread of the run's own goes on with it.
 #pragma once
 
 #include <filesystem>
@@ -47,10 +48,12 @@ class RecordedRun {
   double begin_s() const;          ///< loop time of RUN's beginning; 0 when it never began
   double end_s() const;            ///< of the last tick
   double available_until() const;  ///< loop time up to which at() is exact
-  /// The moment at or before t, as far as it has been run.
+  /// The moment at or before t, as far as it has been run. A keyframe that cannot be decoded makes the run kFailed.
   RunMoment at(double t_s) const;
   const std::vector<Event>& events() const;
   const Grade& grade() const;
+  /// It plays keyframes: nothing was run again, and there is no outcome().
+  bool plays_keyframes() const;
   /// What the loop left when it was run again: ticks, hash, events. Only when kWhole.
   const SessionOutcome& outcome() const;
   /// Contact and grip force over loop time, N: lowest and highest in each of `columns` equal parts of from..to; 0 where

@@ -28,6 +28,9 @@ bool known_type(std::uint32_t type) {
     case ChunkType::kEvents:
     case ChunkType::kRunReport:
     case ChunkType::kSchedule:
+    case ChunkType::kShape:
+    case ChunkType::kKeyframes:
+    case ChunkType::kTopology:
     case ChunkType::kEnd:
       return true;
   }

@@ -13,11 +13,11 @@
 namespace trocar {
 
 inline constexpr std::string_view kRecordingMagic = "TROCREC\n";
-inline constexpr std::uint32_t kRecordingVersion = 3;
+inline constexpr std::uint32_t kRecordingVersion = 4;
 inline constexpr std::uint32_t kOldestReadable =
     1;  ///< 1: without schedule, fewer channels, state hash formed otherwise
-inline constexpr std::uint32_t kOldestVerifiable = 2;  ///< 2: without the channels of stiffness and K_max
-inline constexpr std::uint32_t kFirstWithStiffness = 3;
+inline constexpr std::uint32_t kOldestVerifiable = 2;    ///< 2: without the channels of stiffness and K_max
+inline constexpr std::uint32_t kFirstWithStiffness = 3;  ///< 3: without keyframes
 inline constexpr std::size_t kRecordingPrefixSize = 12;  ///< magic and version
 inline constexpr std::size_t kChunkHeaderSize = 12;
 inline constexpr std::uint32_t kMaxChunkPayload = 1u << 26;  ///< 64 MiB: a longer length is damage
@@ -28,6 +28,9 @@ enum class ChunkType : std::uint32_t {
   kTicks = 0x4b434954,      // "TICK"
   kEvents = 0x53545645,     // "EVTS"
   kSchedule = 0x44484353,   // "SCHD"
+  kShape = 0x50414853,      // "SHAP"
+  kKeyframes = 0x4659454b,  // "KEYF"
+  kTopology = 0x4f504f54,   // "TOPO"
   kRunReport = 0x54504352,  // "RCPT"
   kEnd = 0x21444e45,        // "END!"
 };

@@ -97,6 +97,12 @@ class Parser {
           return;
         case ChunkType::kSchedule:
           return accept_schedule(chunk);
+        case ChunkType::kShape:
+          return recording_.tissue.add_shape(chunk.payload);
+        case ChunkType::kKeyframes:
+          return recording_.tissue.add_keyframes(chunk.payload);
+        case ChunkType::kTopology:
+          return recording_.tissue.add_changes(chunk.payload);
         case ChunkType::kEnd:
           recording_.end = decode_end(chunk.payload);
           return;

@@ -14,6 +14,7 @@
 #include "app/session/recording/recorded_tick.h"
 #include "app/session/recording/recording_writer.h"
 #include "app/session/recording/schedule.h"
+#include "app/session/recording/tissue_track.h"
 
 namespace trocar {
 
@@ -25,6 +26,7 @@ struct Recording {
   std::vector<Event> events;
   std::string run_report_json;      ///< opaque text given to close(), empty when cut off
   Schedule schedule;                ///< empty in format 1
+  TissueTrack tissue;               ///< keyframes; empty where nothing deforms and before format 4
   std::optional<RecordingEnd> end;  ///< absent when the attempt was cut off
   std::string torn;                 ///< why there is no END, empty when the recording is complete
   std::vector<std::string> damage;  ///< tolerant mode: what could not be read

@@ -81,12 +81,26 @@ void RecordingWriter::flush() {
   if (!schedule_.patches.empty() || !schedule_.steps.empty()) {
     chunks += make_chunk(ChunkType::kSchedule, encode_schedule(schedule_));
   }
+  chunks += tissue_chunks();
   if (!rows_.empty()) chunks += make_chunk(ChunkType::kTicks, encoder_.encode(rows_));
   if (!events_.empty()) chunks += make_chunk(ChunkType::kEvents, encode_events(events_));
   rows_.clear();
   events_.clear();
   schedule_ = {};
   if (!chunks.empty()) write(chunks);
+}
+
+std::string RecordingWriter::tissue_chunks() {
+  std::string chunks;
+  if (!changes_.empty()) chunks += make_chunk(ChunkType::kTopology, encode_changes(changes_));
+  if (!keyframes_.empty()) {
+    const TissueEncoder::Chunks encoded = tissue_encoder_.encode(keyframes_);
+    for (const std::string& shape : encoded.shapes) chunks += make_chunk(ChunkType::kShape, shape);
+    chunks += make_chunk(ChunkType::kKeyframes, encoded.keyframes);
+  }
+  changes_.clear();
+  keyframes_.clear();
+  return chunks;
 }
 
 void RecordingWriter::close(RecordingEnd end, std::string_view run_report_json) {

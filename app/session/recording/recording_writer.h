@@ -11,12 +11,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/session/recording/recorded_tick.h"
 #include "app/session/recording/recording_sink.h"
 #include "app/session/recording/schedule.h"
 #include "app/session/recording/tick_codec.h"
+#include "app/session/recording/tissue_codec.h"
 #include "haptics/digest/digest.h"
 #include "scenarios/scoring/trace.h"
 
@@ -54,6 +56,9 @@ class RecordingWriter {
   /// Takes what is new of the schedule; it goes to disk before the rows of the next chunk.
   void append_patch(const PatchSeen& patch) { schedule_.patches.push_back(patch); }
   void append_step(std::uint64_t seen_period) { schedule_.steps.push_back(seen_period); }
+  /// Take what playback shows; it goes to disk before the rows of the next chunk. Periods do not decrease.
+  void append_keyframe(TissueKeyframe keyframe) { keyframes_.push_back(std::move(keyframe)); }
+  void append_change(TopologyEvent change) { changes_.push_back(std::move(change)); }
   /// Takes events; they go to disk with the next chunk.
   void append_events(std::span<const Event> events);
   /// Writes what is held now as chunks and synchronises.
@@ -67,6 +72,7 @@ class RecordingWriter {
 
  private:
   void begin(std::string_view session, double rate_hz);
+  std::string tissue_chunks();
   void write(const std::string& bytes);
   void require_open() const;
 
@@ -77,6 +83,9 @@ class RecordingWriter {
   std::vector<RecordedTick> rows_;
   std::vector<Event> events_;
   Schedule schedule_;
+  TissueEncoder tissue_encoder_;
+  std::vector<TissueKeyframe> keyframes_;
+  std::vector<TopologyEvent> changes_;
   std::size_t rows_per_chunk_ = 500;
   std::uint64_t tick_count_ = 0, event_count_ = 0, last_tick_ = 0;
   enum class State : std::uint8_t { kOpen, kClosed, kFailed } state_ = State::kOpen;

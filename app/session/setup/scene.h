@@ -23,6 +23,8 @@
 
 namespace trocar {
 
+class EmbeddedSurface;  // tissue/solid/embedded_surface.h
+
 /// Where the program finds what it ships.
 struct AssetRoots {
   std::filesystem::path exercises, hands;
@@ -72,8 +74,9 @@ struct Scene {
   ExerciseLevel level;
   Organ organ;
   OrganPlacement placement;
-  SurfacePtr organ_T = still_surface({});  ///< shared by all who show it
-  AdjacentOrgans adjacent;                 ///< what lies round the organ, when it is one of several
+  SurfacePtr organ_T = still_surface({});           ///< shared by all who show it
+  std::shared_ptr<const EmbeddedSurface> embedded;  ///< the organ on the nodes that deform; nullptr: it stands still
+  AdjacentOrgans adjacent;                          ///< what lies round the organ, when it is one of several
   Board board;
   HapticLoopConfig loop;
   double room_share = 1;  ///< of the region, where the device can give the soft force limit

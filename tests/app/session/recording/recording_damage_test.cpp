@@ -153,7 +153,7 @@ TEST(RecordingDamage, OtherFilesAndNewerFormatsAreRefusedByName) {
   EXPECT_EQ(error_of("SQLite format 3\0 and more", Reading::kTolerant), "x.trec: is not a recording of trocar");
   std::string newer = small_recording(1, 10, 8);
   newer[kRecordingMagic.size()] = 9;
-  EXPECT_EQ(error_of(newer, Reading::kTolerant), "x.trec: has recording format 9, this program reads formats 1 to 3");
+  EXPECT_EQ(error_of(newer, Reading::kTolerant), "x.trec: has recording format 9, this program reads formats 1 to 4");
   EXPECT_THROW(read_recording("/nonexistent/x.trec"), InputError);
   EXPECT_THROW(read_recording("/"), InputError);
 }
