@@ -3,20 +3,15 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
+#include "tissue/organ/material_names.h"
 #include "tissue/organ/organ_manifest.h"
 #include "tissue/organ/toml_table.h"
 
 namespace trocar {
 namespace {
 
-constexpr const char* kFallback = "soft_tissue";
 constexpr double kSoftest = 0.25,
                  kStiffest = 2.0;  ///< of the subject's stiffness: what the device renders calmly beside it
-
-bool fits(const std::string& alias, const std::string& name) {
-  if (alias.ends_with('*')) return name.starts_with(alias.substr(0, alias.size() - 1));
-  return alias == name;
-}
 
 TissueMaterial read_material(TomlTable& table) {
   TissueMaterial material;
@@ -53,26 +48,17 @@ MaterialTable MaterialTable::parse(const std::string& text, const std::string& f
     table.materials_.push_back(std::move(material));
   }
   root.finish();
-  if (table.look_up(kFallback) == nullptr)
-    root.refuse("material", std::string("no material is named \"") + kFallback + "\"");
+  if (material_named(table.materials_, kFallbackMaterial) == nullptr)
+    root.refuse("material", std::string("no material is named \"") + kFallbackMaterial + "\"");
   return table;
 }
 
-const TissueMaterial* MaterialTable::look_up(const std::string& name) const {
-  for (const TissueMaterial& material : materials_)
-    if (material.name == name) return &material;
-  for (const TissueMaterial& material : materials_)
-    for (const std::string& alias : material.aliases)
-      if (fits(alias, name)) return &material;
-  return nullptr;
-}
-
 const TissueMaterial& MaterialTable::find(const std::string& name) const {
-  const TissueMaterial* material = look_up(name);
-  return material ? *material : *look_up(kFallback);
+  const TissueMaterial* material = material_named(materials_, name);
+  return material ? *material : *material_named(materials_, kFallbackMaterial);
 }
 
-bool MaterialTable::knows(const std::string& name) const { return look_up(name) != nullptr; }
+bool MaterialTable::knows(const std::string& name) const { return material_named(materials_, name) != nullptr; }
 
 ContactMaterial MaterialTable::beside(const ContactMaterial& subject, const std::string& subject_material,
                                       const std::string& adjacent) const {

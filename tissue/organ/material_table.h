@@ -40,7 +40,6 @@ class MaterialTable {
                          const std::string& adjacent) const;
 
  private:
-  const TissueMaterial* look_up(const std::string& name) const;
   std::vector<TissueMaterial> materials_;
 };
 

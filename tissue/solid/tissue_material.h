@@ -17,7 +17,7 @@ namespace trocar {
 /// One branch of a Prony series: share of the instantaneous stiffness that relaxes, and how fast.
 struct PronyBranch {
   double share = 0;  ///< 0 <= share, all shares together < 1
-  double tau_s = 0;  ///< > 0
+  double tau_s = 0;  ///< > 0 where the share is
 };
 
 /// A number of a material and where it is from.
