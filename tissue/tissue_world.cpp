@@ -15,13 +15,13 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
     : organ_(setup.organ), adjacent_(setup.adjacent), tool_(setup.tool), seen_(setup.seen_T) {
   assert(adjacent_.size() < kMaxPatchMaterials && (adjacent_.empty() || setup.rigid.empty()));
   if (setup.soft && seen_) {
-    SoftOrganOptions options = setup.soft_options;
+    SoftOrganOptions options = setup.soft->options;
     options.tool_radius_m = setup.tool.radius_m;
-    soft_.emplace(*seen_, *setup.soft, options);
+    soft_.emplace(setup.soft->lattice, seen_, setup.soft->material, options);
     felt_ = *setup.organ_T;
     velocity_.assign(felt_.vertices.size(), Vec3::Zero());
-    organ_.mu_static = setup.soft->mu_static;
-    organ_.mu_dynamic = setup.soft->mu_dynamic;
+    organ_.mu_static = setup.soft->material.mu_static;
+    organ_.mu_dynamic = setup.soft->material.mu_dynamic;
     extraction_.emplace(felt_, setup.triangle_material);
   } else if (setup.organ_T && !setup.organ_T->triangles.empty()) {
     extraction_.emplace(*setup.organ_T, setup.triangle_material);
@@ -60,7 +60,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
 }
 
 void TissueWorld::step_soft(const HapticState& newest, bool present) {
-  soft_->step(newest.contacts, seen_->topology, present ? &newest.stylus.X_TI.p : nullptr);
+  soft_->step(newest.contacts, present ? &newest.stylus.X_TI.p : nullptr);
   const auto felt = soft_->felt();
   const double step_s = soft_->solid().options().step_s;
   for (std::size_t v = 0; v < felt.size(); ++v) {
@@ -68,11 +68,11 @@ void TissueWorld::step_soft(const HapticState& newest, bool present) {
     felt_.vertices[v] = felt[v];
   }
   extraction_->refit(velocity_);
-  auto seen = std::make_shared<SurfaceSnapshot>();
-  seen->triangles = soft_->rest().triangles;
-  seen->vertices.assign(soft_->deformed().begin(), soft_->deformed().end());
-  seen->topology = seen_->topology;
-  seen_ = std::move(seen);
+}
+
+TissueShape TissueWorld::shape() const {
+  if (!soft_) return {};
+  return {.topology = soft_->topology(), .nodes_T = soft_->solid().position(), .fields = {}, .changes = {}};
 }
 
 }  // namespace trocar

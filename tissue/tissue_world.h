@@ -3,6 +3,7 @@
 // Frame T, SI units. Thread: tissue task.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,13 @@
 
 namespace trocar {
 
+/// An organ that gives way, as it is laid out before a run.
+struct SoftSetup {
+  TissueSolid material;
+  SoftOrganOptions options;
+  Lattice lattice;  ///< over the organ as it lies in T
+};
+
 struct TissueSetup {
   const TriangleSurface* organ_T = nullptr;  ///< with the adjacent organs; must outlive the world; nullptr: none
   SurfacePtr seen_T = nullptr;               ///< what pictures show of it: the organ alone
@@ -26,9 +34,8 @@ struct TissueSetup {
   std::vector<ContactMaterial> adjacent = {};  ///< at most kMaxPatchMaterials - 1, and only without rigid things
   RigidScene rigid;
   ToolShape tool;
-  /// What the organ is made of when it gives way; its vertices are then the first of organ_T. Empty: it stands still.
-  std::optional<TissueSolid> soft = {};
-  SoftOrganOptions soft_options = {};
+  /// How the organ gives way; its vertices are then the first of organ_T. nullptr: it stands still.
+  std::shared_ptr<const SoftSetup> soft = nullptr;
 };
 
 class TissueWorld final : public World {
@@ -37,10 +44,9 @@ class TissueWorld final : public World {
 
   void step(const HapticState& state, bool present, ContactPatch& patch) override;
   const TissueFrame& frame() const override { return frame_; }
-  SurfacePtr surface() const override { return seen_; }
+  SurfacePtr surface() const override { return soft_ ? soft_->surface() : seen_; }
+  TissueShape shape() const override;
   std::uint64_t dropped() const override { return dropped_; }
-  /// nullptr: the organ stands still.
-  const SoftOrgan* soft() const { return soft_ ? &*soft_ : nullptr; }
 
  private:
   /// Steps the organ that gives way, and tells the extraction where its surface is for the loop.

@@ -4,6 +4,7 @@
 // Only sources see CLI11.
 #pragma once
 
+#include <array>
 #include <functional>
 
 namespace CLI {
@@ -32,6 +33,10 @@ CLI::Validator seed_range();
 /// How an organ is named, for the help of --organ.
 constexpr const char* kOrganForms =
     "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ";
+
+/// How tissue is chosen, for --tissue.
+constexpr const char* kTissueForms = "still, or how the organ gives way: soft, normal or stiff";
+inline constexpr std::array<const char*, 4> kTissueWords{"still", "soft", "normal", "stiff"};
 
 /// Adds one or more subcommands of `parent`.
 using AddCommand = void(CLI::App& parent, CommandAction& chosen);

@@ -143,6 +143,10 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "mouse", "keyboard", "gamepad", "spacemouse", "device"}));
   practice->add_option("--organ", o.model.organ, kOrganForms)->capture_default_str();
+  practice
+      ->add_option("--tissue", o.model.tissue,
+                   std::string(kTissueForms) + " (default: normal in free play, else still)")
+      ->check(CLI::IsMember(std::vector<std::string>(kTissueWords.begin(), kTissueWords.end())));
   practice->add_option("--db", o.model.database, "Database file, or :memory:, which keeps nothing")
       ->check(writable_path());
   CLI::Option* scale =

@@ -1,14 +1,16 @@
 #include "tissue/solid/embedded_surface.h"
 
+#include <utility>
+
 #include "haptics/input_error.h"
 
 namespace trocar {
 
-EmbeddedSurface::EmbeddedSurface(const Lattice& lattice, const TriangleSurface& rest, std::uint64_t topology)
-    : triangles_(rest.triangles), topology_(topology), nodes_(lattice.nodes.size()) {
-  if (lattice.embedding.size() != rest.vertices.size()) {
+EmbeddedSurface::EmbeddedSurface(const Lattice& lattice, SurfacePtr rest)
+    : rest_(std::move(rest)), nodes_(lattice.nodes.size()) {
+  if (lattice.embedding.size() != rest_->vertices.size()) {
     throw InputError("a lattice that embeds " + std::to_string(lattice.embedding.size()) +
-                     " vertices is not that of a surface of " + std::to_string(rest.vertices.size()));
+                     " vertices is not that of a surface of " + std::to_string(rest_->vertices.size()));
   }
   vertices_.reserve(lattice.embedding.size());
   for (const Embedding& e : lattice.embedding)
@@ -19,18 +21,17 @@ SurfacePtr EmbeddedSurface::at(std::span<const NodePlace> nodes, std::span<const
   if (nodes.size() != nodes_) {
     throw InputError(std::to_string(nodes.size()) + " nodes are not those of a lattice of " + std::to_string(nodes_));
   }
-  auto snapshot = std::make_shared<SurfaceSnapshot>();
-  snapshot->topology = topology_;
-  snapshot->triangles = triangles_;
-  snapshot->vertices.reserve(vertices_.size());
+  std::vector<Vec3> vertices;
+  vertices.reserve(vertices_.size());
   for (const Vertex& vertex : vertices_) {
     Vec3 place = Vec3::Zero();
     for (std::size_t c = 0; c < 8; ++c)
       place += double{vertex.weight[c]} * nodes[static_cast<std::size_t>(vertex.corner[c])].cast<double>();
-    snapshot->vertices.push_back(place);
+    vertices.push_back(place);
   }
-  for (const ShapeField& field : fields) snapshot->fields.push_back(spread(field));
-  return snapshot;
+  std::vector<SurfaceField> spread_fields;
+  for (const ShapeField& field : fields) spread_fields.push_back(spread(field));
+  return moved_surface(rest_, std::move(vertices), std::move(spread_fields));
 }
 
 SurfaceField EmbeddedSurface::spread(const ShapeField& field) const {

@@ -17,15 +17,16 @@ namespace trocar {
 
 class EmbeddedSurface {
  public:
-  /// @param rest the surface that the lattice was built over; its triangles are those of every snapshot.
-  /// @param topology of the snapshots. @throws InputError when the lattice embeds another number of vertices.
-  EmbeddedSurface(const Lattice& lattice, const TriangleSurface& rest, std::uint64_t topology = 0);
+  /// @param rest the surface that the lattice was built over: that at rest of every snapshot.
+  /// @throws InputError when the lattice embeds another number of vertices.
+  EmbeddedSurface(const Lattice& lattice, SurfacePtr rest);
 
   /// @param nodes as many as the lattice has. @param fields at nodes or vertices; those of nodes are spread by the
   /// weights. @throws InputError when a number of nodes or values is another.
   SurfacePtr at(std::span<const NodePlace> nodes, std::span<const ShapeField> fields = {}) const;
 
-  std::uint64_t topology() const { return topology_; }
+  const SurfacePtr& rest() const { return rest_; }
+  std::uint64_t topology() const { return rest_->topology; }
   std::size_t nodes() const { return nodes_; }
 
  private:
@@ -36,8 +37,7 @@ class EmbeddedSurface {
   SurfaceField spread(const ShapeField& field) const;
 
   std::vector<Vertex> vertices_;
-  std::vector<std::array<std::int32_t, 3>> triangles_;
-  std::uint64_t topology_;
+  SurfacePtr rest_;
   std::size_t nodes_;
 };
 

@@ -36,12 +36,6 @@ std::vector<SoftCell> soft_cells(const Lattice& lattice) {
   return out;
 }
 
-Lattice lattice_of(const TriangleSurface& surface, double cell_m) {
-  LatticeOptions options;
-  options.cell_m = cell_m;
-  return std::move(build_lattice(surface, options).lattice);
-}
-
 double relaxed_share(const TissueSolid& material, double step_s) {
   double left = 1, instant = 1;
   for (const PronyBranch& branch : material.prony) {
@@ -62,19 +56,21 @@ struct SoftOrgan::Pressed {
   Vec3 tangential = Vec3::Zero();
 };
 
-SoftOrgan::SoftOrgan(const TriangleSurface& rest_T, const TissueSolid& material, const SoftOrganOptions& options)
-    : rest_(rest_T),
-      material_(material),
+SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const TissueSolid& material,
+                     const SoftOrganOptions& options)
+    : material_(material),
       options_(options),
-      lattice_(lattice_of(rest_T, options.solid.edge_m)),
-      solid_(node_places(lattice_), soft_cells(lattice_), std::span(&material, 1), options.solid),
-      deformed_(rest_.vertices),
-      felt_(rest_.vertices),
+      lattice_(lattice),
+      embedded_(lattice, rest_T),
+      solid_(node_places(lattice), soft_cells(lattice), std::span(&material, 1), options.solid),
+      rest_(rest_T),
+      surface_(embedded_.at(solid_.position())),
+      felt_(surface_->vertices),
       relaxed_share_(relaxed_share(material, options.solid.step_s)) {
-  for (const auto& triangle : rest_.triangles) {
-    const Vec3 a = rest_.vertices[static_cast<std::size_t>(triangle[0])];
-    const Vec3 twice = (rest_.vertices[static_cast<std::size_t>(triangle[1])] - a)
-                           .cross(rest_.vertices[static_cast<std::size_t>(triangle[2])] - a);
+  for (const auto& triangle : rest_->triangles) {
+    const Vec3 a = rest_->vertices[static_cast<std::size_t>(triangle[0])];
+    const Vec3 twice = (rest_->vertices[static_cast<std::size_t>(triangle[1])] - a)
+                           .cross(rest_->vertices[static_cast<std::size_t>(triangle[2])] - a);
     if (twice.z() >= options.bed_cosine * twice.norm()) continue;
     for (const std::int32_t vertex : triangle) {
       const Embedding& e = lattice_.embedding[static_cast<std::size_t>(vertex)];
@@ -88,7 +84,7 @@ SoftOrgan::SoftOrgan(const TriangleSurface& rest_T, const TissueSolid& material,
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
   NodeShares out;
-  const auto& triangle = rest_.triangles[static_cast<std::size_t>(place.triangle)];
+  const auto& triangle = rest_->triangles[static_cast<std::size_t>(place.triangle)];
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const Embedding& e = lattice_.embedding[static_cast<std::size_t>(triangle[corner])];
     const LatticeCell& cell = lattice_.cells[static_cast<std::size_t>(e.cell)];
@@ -101,7 +97,7 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
 }
 
 Vec3 SoftOrgan::place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const {
-  const auto& [a, b, c] = rest_.triangles[static_cast<std::size_t>(place.triangle)];
+  const auto& [a, b, c] = rest_->triangles[static_cast<std::size_t>(place.triangle)];
   return interpolate(place.weight, {vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)],
                                     vertices[static_cast<std::size_t>(c)]});
 }
@@ -126,7 +122,7 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
   for (int i = 0; i < contacts.count; ++i) {
     const SolvedContact& contact = contacts.at[static_cast<std::size_t>(i)];
     const bool known =
-        contact.place.triangle >= 0 && contact.place.triangle < static_cast<std::int32_t>(rest_.triangles.size());
+        contact.place.triangle >= 0 && contact.place.triangle < static_cast<std::int32_t>(rest_->triangles.size());
     if (!known || contact.share <= 0 || !contact.force_T.allFinite() || !contact.tool_T.allFinite()) continue;
     Pressed p{contact.place, shares_of(contact.place), contact.normal_T, contact.tool_T};
     p.share = contact.share;
@@ -141,15 +137,15 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
   return pressed;
 }
 
-void SoftOrgan::step(const SolvedContacts& contacts, std::uint64_t topology, const Vec3* tip_T) {
+void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T) {
   std::vector<Pressed> pressed;
-  if (tip_T != nullptr && contacts.topology == topology) pressed = press(contacts);
+  if (tip_T != nullptr && contacts.topology == topology()) pressed = press(contacts);
   std::vector<SoftSpring> springs;
   for (const Pressed& p : pressed) {
     // Linear about the force of the last tick: k (d - d0) + F0.
     const double whole = p.force / p.share, slope = p.stiffness / p.share;
     const double depth0 = half_space_depth(whole) - whole * (half_space_compliance(whole) - 1 / slope);
-    const double depth = p.normal.dot(place_at(p.place, deformed_) - p.tool);
+    const double depth = p.normal.dot(place_at(p.place, surface_->vertices) - p.tool);
     springs.push_back({p.shares, p.normal, p.stiffness, depth - depth0 + whole / slope, true, 0});
   }
   for (const Pressed& p : pressed) {
@@ -163,19 +159,8 @@ void SoftOrgan::step(const SolvedContacts& contacts, std::uint64_t topology, con
   given_ = std::max(0.0, before - solid_.energy_j());
   force_ = 0;
   for (std::size_t i = 0; i < pressed.size(); ++i) force_ += pressed[i].force = springs[i].force_n;
-  embed_surface();
+  surface_ = embedded_.at(solid_.position());
   find_felt(pressed, tip_T);
-}
-
-void SoftOrgan::embed_surface() {
-  const auto position = solid_.position();
-  for (std::size_t v = 0; v < deformed_.size(); ++v) {
-    const Embedding& e = lattice_.embedding[v];
-    const auto& corners = lattice_.cells[static_cast<std::size_t>(e.cell)].corners;
-    Vec3f sum = Vec3f::Zero();
-    for (std::size_t k = 0; k < 8; ++k) sum += e.weights[k] * position[static_cast<std::size_t>(corners[k])];
-    deformed_[v] = sum.cast<double>();
-  }
 }
 
 Pose SoftOrgan::motion_round(const Vec3& rest_T) const {
@@ -207,15 +192,15 @@ Pose SoftOrgan::motion_round(const Vec3& rest_T) const {
 }
 
 void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
-  felt_ = deformed_;
+  felt_ = surface_->vertices;
   std::vector<std::pair<Vec3, Pose>> dents;
   for (const MaterialPoint& place : places) {
-    const Vec3 rest = place_at(place, rest_.vertices);
+    const Vec3 rest = place_at(place, rest_->vertices);
     dents.emplace_back(rest, motion_round(rest));
   }
   const double inner = kWholeDent * options_.neighbourhood_m, outer = kShellEnd * options_.neighbourhood_m;
   for (std::size_t v = 0; v < felt_.size(); ++v) {
-    const Vec3& rest = rest_.vertices[v];
+    const Vec3& rest = rest_->vertices[v];
     const auto nearest = std::min_element(dents.begin(), dents.end(), [&](const auto& a, const auto& b) {
       return (a.first - rest).squaredNorm() < (b.first - rest).squaredNorm();
     });
@@ -235,8 +220,9 @@ double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, 
 MaterialPoint SoftOrgan::nearest_place(const Vec3& tip_T) const {
   MaterialPoint place{0, {1, 0, 0}};
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < rest_.triangles.size(); ++t) {
-    const double distance = (deformed_[static_cast<std::size_t>(rest_.triangles[t][0])] - tip_T).squaredNorm();
+  for (std::size_t t = 0; t < rest_->triangles.size(); ++t) {
+    const double distance =
+        (surface_->vertices[static_cast<std::size_t>(rest_->triangles[t][0])] - tip_T).squaredNorm();
     if (distance < least) least = distance, place.triangle = static_cast<std::int32_t>(t);
   }
   return place;
@@ -244,7 +230,7 @@ MaterialPoint SoftOrgan::nearest_place(const Vec3& tip_T) const {
 
 void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   if (tip_T == nullptr) {
-    felt_ = deformed_;
+    felt_ = surface_->vertices;
     return;
   }
   const auto strongest = std::max_element(pressed.begin(), pressed.end(),
@@ -255,7 +241,7 @@ void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   const bool touching = !places.empty();
   if (!touching) places.push_back(nearest_place(*tip_T));
   undo_dents(places);
-  const Vec3 way = *tip_T - place_at(places.front(), deformed_);
+  const Vec3 way = *tip_T - place_at(places.front(), surface_->vertices);
   const Vec3 direction = touching ? strongest->normal : way.norm() > kLeastContact ? way.normalized() : Vec3::UnitZ();
   const double compliance = touching ? compliance_at(strongest->shares, direction, strongest->force / strongest->share)
                                      : compliance_at(shares_of(places.front()), direction, 0);

@@ -19,9 +19,11 @@
 
 #include "haptics/exchange/solved_contacts.h"
 #include "tissue/mesh/surface/triangle_surface.h"
+#include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/lattice.h"
 #include "tissue/solid/soft_solid.h"
 #include "tissue/solid/tissue_material.h"
+#include "tissue/surface_snapshot.h"
 
 namespace trocar {
 
@@ -36,23 +38,23 @@ struct SoftOrganOptions {
 
 class SoftOrgan {
  public:
-  /// @param rest_T closed surface, outward. @throws InputError of build_lattice
-  SoftOrgan(const TriangleSurface& rest_T, const TissueSolid& material, const SoftOrganOptions& options);
+  /// @param lattice over the surface at rest, of the edge that the options name.
+  SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const TissueSolid& material,
+            const SoftOrganOptions& options);
 
   /// One step of options.solid.step_s.
   /// @param contacts of the newest tick; those on triangles beyond the organ's are left out
   /// @param tip_T of the tool, where it may touch next; nullptr: no tool
-  void step(const SolvedContacts& contacts, std::uint64_t topology, const Vec3* tip_T);
+  void step(const SolvedContacts& contacts, const Vec3* tip_T);
 
-  const TriangleSurface& rest() const { return rest_; }
-  std::span<const Vec3> deformed() const { return deformed_; }
+  std::uint64_t topology() const { return surface_->topology; }
+  const SurfacePtr& surface() const { return surface_; }   ///< as it is
   std::span<const Vec3> felt() const { return felt_; }     ///< for the loop: without the tool's own dent
   double stiffness_n_per_m() const { return stiffness_; }  ///< of that dent
   double force_n() const { return force_; }                ///< sum of the solved contact forces
   double given_j() const { return given_; }                ///< energy that the tissue has lost in this step
   const SoftSolid& solid() const { return solid_; }
   SoftSolid& solid() { return solid_; }
-  const Lattice& lattice() const { return lattice_; }
 
  private:
   struct Pressed;
@@ -62,7 +64,6 @@ class SoftOrgan {
   double half_space_compliance(double force_n) const;
   double half_space_depth(double force_n) const;
   std::vector<Pressed> press(const SolvedContacts& contacts) const;
-  void embed_surface();
   /// How the neighbourhood of a place has moved as a whole, from its rest.
   Pose motion_round(const Vec3& rest_T) const;
   /// The surface with the neighbourhoods of these places at rest, carried along as a whole.
@@ -72,12 +73,13 @@ class SoftOrgan {
   MaterialPoint nearest_place(const Vec3& tip_T) const;
   void find_felt(std::span<const Pressed> pressed, const Vec3* tip_T);
 
-  TriangleSurface rest_;
   TissueSolid material_;
   SoftOrganOptions options_;
   Lattice lattice_;
+  EmbeddedSurface embedded_;
   SoftSolid solid_;
-  std::vector<Vec3> deformed_, felt_;
+  SurfacePtr rest_, surface_;
+  std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
   double relaxed_share_ = 1;  ///< long-term modulus over that of a step
   double sub_cell_ = 0;       ///< compliance that the lattice already has at the last place, long-term, m/N

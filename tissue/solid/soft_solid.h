@@ -76,10 +76,10 @@ class SoftSolid {
   /// Static equilibrium by steps without inertia; for tests and studies. @return steps taken
   int settle(std::span<SoftSpring> springs = {}, double still_m = 1e-7, int most_steps = 200);
 
-  std::size_t node_count() const { return rest_.size(); }
-  std::span<const Vec3f> rest() const { return rest_; }
-  std::span<const Vec3f> position() const { return position_; }
-  std::span<const Vec3f> velocity() const { return velocity_; }
+  std::size_t node_count() const { return rest_.size() - 1; }
+  std::span<const Vec3f> rest() const { return {rest_.data(), node_count()}; }
+  std::span<const Vec3f> position() const { return {position_.data(), node_count()}; }
+  std::span<const Vec3f> velocity() const { return {velocity_.data(), node_count()}; }
   /// For tests and scenes: sets where everything is, at rest.
   void place(std::span<const Vec3f> position);
   const SoftSolidOptions& options() const { return options_; }
@@ -106,8 +106,8 @@ class SoftSolid {
   void set_diagonal();
 
   SoftSolidOptions options_;
-  std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;
-  std::vector<float> mass_, support_;  ///< of each node
+  std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;  ///< last, a node for lanes without a cell
+  std::vector<float> mass_, support_;                               ///< of each node
   Vec3f support_m_ = Vec3f::Zero();
   std::vector<Group> groups_;
   std::vector<std::int32_t> all_groups_;

@@ -146,6 +146,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.exercise = find_exercise(options.exercise, assets.exercises);
   setup.level = options.level;
   setup.organ = options.organ;
+  setup.tissue = options.tissue;
   setup.hand = options.hand;
   setup.attempt = std::max(1, options.attempt);
   setup.seed = options.seed;
@@ -282,6 +283,9 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
   run->add_option("--trainee", o.trainee, "Trainee code, created when new")->capture_default_str();
   run->add_option("--db", o.database, "Database file, or :memory:")->check(writable_path());
   run->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
+  run->add_option("--tissue", o.tissue, kTissueForms)
+      ->capture_default_str()
+      ->check(CLI::IsMember(std::vector<std::string>(kTissueWords.begin(), kTissueWords.end())));
   run->add_option("--record", o.record, "Recording file (default: beside the database)")->check(writable_path());
   run->add_option("--frames", o.frames, "Folder for PNG frames")->check(writable_path());
   run->add_option("--video", o.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(writable_path());

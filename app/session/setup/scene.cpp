@@ -18,6 +18,9 @@
 #include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
 #include "scenarios/layout/shaft_room.h"
+#include "tissue/solid/embedded_surface.h"
+#include "tissue/solid/tissue_table.h"
+#include "tissue/tissue_world.h"
 
 namespace trocar {
 const TriangleSurface& felt_surface(const Scene& scene) {
@@ -110,6 +113,7 @@ void require_reach(const Scene& scene) {
 constexpr double kNoticedForce = 0.1;  // share by which a force must differ to be noticed [M]
 constexpr double kPointerAwake_s = 0.01;
 constexpr double kEntryAside = 0.025, kEntryAbove = 0.015;  // m from the start ball, towards the resting instrument
+constexpr double kLatticeCell = 0.010;                      // m
 constexpr double kJawLength = 0.020;                        // m, of the grasper that the exercises with objects use
 
 /// The loop's map is set before: pens turn from the resting instrument.
@@ -148,6 +152,19 @@ void require_force(const Scene& scene) {
   throw InputError(words.str());
 }
 
+/// Lays a lattice over the organ where it lies.
+void soften(Scene& scene) {
+  const TissueTable tissues = TissueTable::load(find_assets().assets / "tissues.toml");
+  auto soft = std::make_shared<SoftSetup>();
+  soft->material = stiffness_choice(tissues.find(scene.organ.material), scene.setup.tissue);
+  soft->options.solid.edge_m = kLatticeCell;
+  LatticeOptions options;
+  options.cell_m = kLatticeCell;
+  soft->lattice = build_lattice(*scene.organ_T, options).lattice;
+  scene.embedded = std::make_shared<EmbeddedSurface>(soft->lattice, scene.organ_T);
+  scene.soft = std::move(soft);
+}
+
 /// Lays the organ, and what lies round it, into the theatre.
 void place(Scene& scene) {
   const Exercise& exercise = scene.setup.exercise;
@@ -155,6 +172,7 @@ void place(Scene& scene) {
                         ? *scene.setup.placement
                         : place_organ(scene.organ.surface, exercise, scene.level, {scene.loop.tool, scene.loop.map});
   scene.organ_T = still_surface(scene.organ.surface.transformed(scene.placement.X_TO));
+  if (scene.setup.tissue != kStillTissue) soften(scene);
   if (scene.organ.adjacent.empty()) return;
   const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
   scene.adjacent = place_adjacent_organs(scene.organ, *scene.organ_T, scene.placement.X_TO, exercise, materials);
@@ -249,6 +267,7 @@ std::string scene_json(const Scene& scene) {
       {"clamp_stiffness", s.clamp_stiffness},
       {"force_scale", scene.loop.map.force_scale}};
   if (!scene.loop.daq.motors) json["motors"] = false;
+  if (s.tissue != kStillTissue) json["tissue"] = s.tissue;
   if (kind_of(s.exercise).on_organ) json["placement"] = placement_json(scene.placement);
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
   if (s.device.identified) json["device"] = file_json(*s.device.identified);
@@ -271,6 +290,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     s.board = json.at("board").get<int>();
     s.rate_hz = json.at("rate_hz").get<double>();
     s.realtime = json.value("realtime", false);
+    s.tissue = json.value("tissue", kStillTissue);
     if (json.contains("pace")) {  // recordings before live runs kept the defaults
       s.pace = {json.at("pace").at("missed_in_a_row").get<std::uint32_t>(),
                 json.at("pace").at("missed_share").get<double>()};

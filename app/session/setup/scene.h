@@ -24,6 +24,7 @@
 namespace trocar {
 
 class EmbeddedSurface;  // tissue/solid/embedded_surface.h
+struct SoftSetup;       // tissue/tissue_world.h
 
 /// Where the program finds what it ships.
 struct AssetRoots {
@@ -46,12 +47,15 @@ struct PaceLimits {
 /// a person needs to react to what the eye sees, it is no longer the same task and a fault here too.
 inline constexpr PaceLimits kSimulatedLivePace{250, 0.25};
 
+inline constexpr const char *kStillTissue = "still", *kNormalTissue = "normal";
+
 struct AttemptSetup {
   Exercise exercise;
   std::string level = "L1";
-  std::string organ;  ///< manifest path or name of a shipped organ, as given
-  std::string hand;   ///< name or script; a replay knows it and does not use it
-  int attempt = 1;    ///< of a learning hand
+  std::string organ;                  ///< manifest path or name of a shipped organ, as given
+  std::string tissue = kStillTissue;  ///< or how it gives way: a word of stiffness_choice()
+  std::string hand;                   ///< name or script; a replay knows it and does not use it
+  int attempt = 1;                    ///< of a learning hand
   std::int64_t seed = 1;
   int board = 0;
   std::string backend = "simulated";  ///< a name that make_backend() knows; a replay does not use it
@@ -75,6 +79,7 @@ struct Scene {
   Organ organ;
   OrganPlacement placement;
   SurfacePtr organ_T = still_surface({});           ///< shared by all who show it
+  std::shared_ptr<const SoftSetup> soft;            ///< how it gives way; nullptr: it stands still
   std::shared_ptr<const EmbeddedSurface> embedded;  ///< the organ on the nodes that deform; nullptr: it stands still
   AdjacentOrgans adjacent;                          ///< what lies round the organ, when it is one of several
   Board board;

@@ -305,6 +305,7 @@ AttemptRequest PracticeModel::State::request(Exercise exercise, const std::strin
   out.setup.exercise = std::move(exercise);
   out.setup.level = level;
   out.setup.organ = organ;
+  if (!options.tissue.empty()) out.setup.tissue = options.tissue;
   out.setup.hand = hand();
   if (at_pointer()) out.setup.backend = kPointerBackend;
   out.setup.realtime = true;
@@ -356,6 +357,7 @@ std::string PracticeModel::begin_play(Play what) {
         s.assets.exercises / "ungraded" / (tutorial ? "tutorial.toml" : "free-play.toml");
     AttemptRequest request = s.request(load_exercise(file), "L1", tutorial ? kTutorialOrgan : organ);
     request.graded = false;
+    if (!tutorial && s.options.tissue.empty()) request.setup.tissue = kNormalTissue;
     return s.run(std::move(request), what);
   } catch (const InputError& error) {
     return error.what();

@@ -30,6 +30,7 @@ struct ModelOptions {
   std::string level = "L1";
   bool free_play = false;  ///< straight to free play on the organ
   std::string organ = "phantom-liver";
+  std::string tissue = {};  ///< as AttemptSetup::tissue; empty: gives way in free play, stands still elsewhere
   std::string input = "auto";
   std::filesystem::path settings = {};  ///< empty: settings_file()
   std::string hand = {};  ///< scripted hand in place of a person ("expert"): a demonstration, kept under that name

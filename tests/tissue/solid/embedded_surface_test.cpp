@@ -27,7 +27,7 @@ class EmbeddedOctahedron : public ::testing::Test {
   }
   TriangleSurface rest_ = octahedron();
   Lattice lattice_ = build_lattice(rest_, {.cell_m = 0.01}).lattice;
-  EmbeddedSurface embedded_{lattice_, rest_, 9};
+  EmbeddedSurface embedded_{lattice_, still_surface(rest_)};
 };
 
 TEST_F(EmbeddedOctahedron, FollowsAnyAffineMotionOfItsNodes) {
@@ -39,7 +39,7 @@ TEST_F(EmbeddedOctahedron, FollowsAnyAffineMotionOfItsNodes) {
     for (std::size_t v = 0; v < rest_.vertices.size(); ++v)
       EXPECT_LT((moved->vertices[v] - (M * rest_.vertices[v] + b)).norm(), 1e-7) << "weights and nodes are floats";
     EXPECT_EQ(moved->triangles, rest_.triangles);
-    EXPECT_EQ(moved->topology, 9u);
+    EXPECT_EQ(moved->rest, embedded_.rest());
   }
 }
 
@@ -65,7 +65,7 @@ TEST_F(EmbeddedOctahedron, RefusesWhatIsNotItsOwn) {
   EXPECT_THROW(embedded_.at(nodes(), fields), InputError);
   TriangleSurface other = rest_;
   other.vertices.pop_back();
-  EXPECT_THROW(EmbeddedSurface(lattice_, other), InputError);
+  EXPECT_THROW(EmbeddedSurface(lattice_, still_surface(other)), InputError);
 }
 
 }  // namespace

@@ -111,10 +111,13 @@ class WavingAttempt : public ::testing::Test {
   std::filesystem::path record(double seconds) {
     const auto file = folder_ / "waving.trec";
     const BuiltLattice built = build_lattice(*scene_.organ_T, {.cell_m = 0.014});
-    std::vector<NodePlace> rest;
-    for (std::size_t n = 0; n < built.lattice.nodes.size(); ++n) rest.push_back(built.lattice.node_m(n).cast<float>());
-    scene_.embedded = std::make_shared<const EmbeddedSurface>(built.lattice, *scene_.organ_T, 7);
-    auto made = std::make_unique<test::WavingWorld>(rest, keep_ ? scene_.embedded : nullptr);
+    std::vector<NodePlace> nodes;
+    for (std::size_t n = 0; n < built.lattice.nodes.size(); ++n) nodes.push_back(built.lattice.node_m(n).cast<float>());
+    auto rest = std::make_shared<SurfaceSnapshot>(*scene_.organ_T);
+    rest->topology = 7;
+    scene_.organ_T = rest;
+    scene_.embedded = std::make_shared<const EmbeddedSurface>(built.lattice, scene_.organ_T);
+    auto made = std::make_unique<test::WavingWorld>(nodes, keep_ ? scene_.embedded : nullptr);
     test::WavingWorld& world = *made;
     RecordingWriter writer(file, scene_json(scene_), 1000);
     const auto rings = std::make_unique<RecorderRings>();
