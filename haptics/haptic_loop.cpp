@@ -76,7 +76,7 @@ std::array<std::int32_t, kChannels> count_limits(const HapticLoopConfig& config)
 /// for a material or a vertex that its table does not have.
 bool is_sound(const ContactPatch& patch, bool triangles) {
   double sum = patch.grip.thickness_m + patch.grip.stiffness_n_per_m + (patch.held.from_I + patch.held.to_I).sum() +
-               patch.held.radius_m;
+               patch.held.radius_m + (patch.hold.point_I + patch.hold.anchor_T).sum() + patch.hold.stiffness_n_per_m;
   for (const ContactMaterial& m : patch.material) {
     sum += m.stiffness_n_per_m + m.damping_s_per_m + m.mu_static + m.mu_dynamic + m.stribeck_m_s;
   }

@@ -93,6 +93,7 @@ struct Exercise {
   double time_limit_s = 0;                      ///< unless the level names its own
   double start_sphere_m = 0, start_hold_s = 0;  ///< radius; time in it: READY -> ARMED -> RUN
   Vec3 start_above_m = Vec3::Zero();            ///< start sphere's centre relative to the region's centre
+  bool jaws = false;                            ///< the instrument has jaws
   TargetLayout layout;
   PenRules pens;            ///< reach
   double hold_s = 0;        ///< time in band, or in pose, that completes a target

@@ -52,6 +52,11 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     patch.glide_s = soft_->solid().options().step_s;
     patch.follows = frame_.stamp - 1;
     patch.given_j = soft_->given_j();
+    patch.hold = grip_.hold();
+    patch.grip = grip_.block();
+    grip_.clear(patch);
+    frame_.grip = grip_.state();
+    frame_.slipped_m = grip_.slipped_m();
   }
   if (present && rigid_) rigid_->add_to(jaws, patch);
   enclose(patch, patch.balls);
@@ -60,7 +65,15 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
 }
 
 void TissueWorld::step_soft(const HapticState& newest, bool present) {
-  soft_->step(newest.contacts, present ? &newest.stylus.X_TI.p : nullptr);
+  const StylusState& stylus = newest.stylus;
+  std::vector<SoftSpring> springs;
+  const bool jaws = present && tool_.jaw_length_m > 0;
+  if (jaws)
+    grip_.reach(stylus.X_TI, stylus.jaw_opening_m, *soft_, springs);
+  else
+    grip_.let_go();
+  soft_->step(newest.contacts, present ? &stylus.X_TI.p : nullptr, springs);
+  if (jaws) grip_.feel(stylus.X_TI, springs, *soft_);
   const auto felt = soft_->felt();
   const double step_s = soft_->solid().options().step_s;
   for (std::size_t v = 0; v < felt.size(); ++v) {

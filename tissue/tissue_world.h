@@ -10,6 +10,7 @@
 
 #include "haptics/contact/tool_shape.h"
 #include "tissue/collision/patch_extraction.h"
+#include "tissue/interaction/soft_grip.h"
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/rigid/rigid_scene.h"
 #include "tissue/rigid/rigid_world.h"
@@ -59,6 +60,7 @@ class TissueWorld final : public World {
   std::optional<PatchExtraction> extraction_;
   std::optional<RigidWorld> rigid_;
   std::optional<SoftOrgan> soft_;
+  SoftGrip grip_;               ///< with soft_ and jaws
   TriangleSurface felt_;        ///< with soft_: what the loop is given, the adjacent organs behind the organ
   std::vector<Vec3> velocity_;  ///< with soft_: of its vertices, m/s
   TissueFrame frame_;

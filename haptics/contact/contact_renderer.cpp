@@ -37,9 +37,27 @@ ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, con
   contacts_.topology = patch.topology;
   contacts_.count = 0;
   stored_j_ = 0;
+  glide_.pulled(Vec3::Zero());
   ContactResult result = law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, V_TI_T, patch);
+  if (patch.hold.stiffness_n_per_m > 0) add_hold(X_TI, patch.hold, result);
   if (glide_.force_share() < 1) fade(result);
   return result;
+}
+
+void ContactRenderer::add_hold(const Pose& X_TI, const GripHold& hold, ContactResult& result) {
+  const Vec3 point = X_TI * hold.point_I, stretch = hold.anchor_T - point;
+  Wrench pull;
+  pull.force = hold.stiffness_n_per_m * stretch;
+  pull.moment = (point - X_TI.p).cross(pull.force);
+  glide_.pulled(pull.force);
+  result.F_I_T = result.F_I_T + pull;
+  result.spring_I_T = result.spring_I_T + pull;
+  result.stored_j += 0.5 * hold.stiffness_n_per_m * stretch.squaredNorm();
+  if (result.contact || stretch.norm() < kArrived) return;
+  result.contact = true;
+  result.point_T = point;
+  result.normal_T = stretch.normalized();
+  result.depth_m = stretch.norm();
 }
 
 void ContactRenderer::fade(ContactResult& result) {

@@ -78,6 +78,8 @@ class ContactRenderer {
     double share = 0;  ///< part of y carried, m
   };
 
+  /// What tissue in the grip of the jaws does on the instrument.
+  void add_hold(const Pose& X_TI, const GripHold& hold, ContactResult& result);
   /// Weakens everything by what is left of the force without new patches.
   void fade(ContactResult& result);
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch);

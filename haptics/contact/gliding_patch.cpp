@@ -33,19 +33,23 @@ void GlidingPatch::dissipated(double energy_j) {
 void GlidingPatch::take(const ContactPatch& newest) {
   const bool known = stamp_ != 0 && newest.follows == stamp_ && newest.topology == present_.topology;
   longest_m_ = 0;
-  std::array<Vec3, kMaxPatchVertices>& from = start_;
   for (int i = 0; i < newest.vertex_count; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const std::int16_t before = known ? newest.previous[at] : std::int16_t{-1};
     end_[at] = newest.vertex[at];
-    from[at] = before >= 0 ? present_.vertex[static_cast<std::size_t>(before)]
-                           : Vec3(newest.vertex[at] - newest.glide_s * newest.velocity[at]);
-    longest_m_ = std::max(longest_m_, (end_[at] - from[at]).norm());
+    start_[at] = before >= 0 ? present_.vertex[static_cast<std::size_t>(before)]
+                             : Vec3(newest.vertex[at] - newest.glide_s * newest.velocity[at]);
+    longest_m_ = std::max(longest_m_, (end_[at] - start_[at]).norm());
   }
   for (std::size_t m = 0; m < kMaxPatchMaterials; ++m) {
     stiff_end_[m] = newest.material[m].stiffness_n_per_m;
     stiff_start_[m] = stamp_ != 0 ? present_.material[m].stiffness_n_per_m : stiff_end_[m];
   }
+  // A grip comes and goes by its stiffness; its anchor has no place while there is none.
+  hold_start_ = stamp_ != 0 ? present_.hold : newest.hold;
+  hold_end_ = newest.hold;
+  if (hold_start_.stiffness_n_per_m <= 0) hold_start_ = {hold_end_.point_I, hold_end_.anchor_T, 0};
+  if (hold_end_.stiffness_n_per_m <= 0) hold_end_ = {hold_start_.point_I, hold_start_.anchor_T, 0};
   present_.stamp = newest.stamp;
   present_.topology = newest.topology;
   present_.count = newest.count;
@@ -68,7 +72,7 @@ void GlidingPatch::take(const ContactPatch& newest) {
 
 double GlidingPatch::cost_of_rest(const SolvedContacts& pressed, double stored_j) const {
   if (progress_ >= 1) return 0;
-  double cost = 0, force = 0, stiffer = 0;
+  double cost = pull_T_.dot(hold_end_.anchor_T - hold_start_.anchor_T), force = 0, stiffer = 0;
   for (int c = 0; c < pressed.count; ++c) {
     const SolvedContact& contact = pressed.at[static_cast<std::size_t>(c)];
     const auto end = present_.triangle.begin() + present_.count;
@@ -86,7 +90,7 @@ double GlidingPatch::cost_of_rest(const SolvedContacts& pressed, double stored_j
     if (now > 0) stiffer += contact.force_T.norm() * (stiff_end_[material] - stiff_start_[material]) / now;
     force += contact.force_T.norm();
   }
-  return force > 0 ? cost + stored_j * stiffer / force : 0;
+  return force > 0 ? cost + stored_j * stiffer / force : cost;
 }
 
 void GlidingPatch::move(double share) {
@@ -99,6 +103,9 @@ void GlidingPatch::move(double share) {
     present_.vertex[at] = start_[at] + progress_ * way;
     present_.velocity[at] = rate * way;
   }
+  const auto between = [this](const auto& from, const auto& to) { return from + progress_ * (to - from); };
+  present_.hold = {between(hold_start_.point_I, hold_end_.point_I), between(hold_start_.anchor_T, hold_end_.anchor_T),
+                   between(hold_start_.stiffness_n_per_m, hold_end_.stiffness_n_per_m)};
   for (std::size_t m = 0; m < kMaxPatchMaterials; ++m)
     present_.material[m].stiffness_n_per_m = stiff_start_[m] + progress_ * (stiff_end_[m] - stiff_start_[m]);
 }

@@ -37,6 +37,8 @@ class GlidingPatch {
                              double thinnest_m);
   void dissipated(double energy_j);
   void forget() { stamp_ = 0; }
+  /// What the grip's spring did on the tool this period.
+  void pulled(const Vec3& force_T) { pull_T_ = force_T; }
 
   double period_s() const { return parameters_.period_s; }
   double moved_m() const { return moved_m_; }          ///< most that a vertex moved this period
@@ -53,6 +55,8 @@ class GlidingPatch {
   ContactPatch present_;
   std::array<Vec3, kMaxPatchVertices> start_, end_;
   std::array<double, kMaxPatchMaterials> stiff_start_{}, stiff_end_{};
+  GripHold hold_start_, hold_end_;
+  Vec3 pull_T_ = Vec3::Zero();
   std::uint64_t stamp_ = 0;
   double progress_ = 1, longest_m_ = 0, age_s_ = 0;
   double moved_m_ = 0, force_share_ = 1;

@@ -50,6 +50,13 @@ struct HeldObject {
   double radius_m = 0;
 };
 
+/// Tissue in the grip of the jaws: a spring from a point of the instrument to where the tissue would have it; absent
+/// when its stiffness is 0.
+struct GripHold {
+  Vec3 point_I = Vec3::Zero(), anchor_T = Vec3::Zero();
+  double stiffness_n_per_m = 0;
+};
+
 struct ContactPatch {
   std::uint64_t stamp = 0;        ///< tissue frame that made it
   std::uint64_t topology = 0;     ///< of the surface (SurfaceSnapshot): another one, and ids name other triangles
@@ -70,6 +77,7 @@ struct ContactPatch {
   std::array<ContactMaterial, kMaxPatchMaterials> material;
   GripBlock grip;
   HeldObject held;
+  GripHold hold;
   PatchBalls balls;  ///< enclose() last; a patch whose balls are not of its stamp and count does without, only slower
 
   /// Takes all triangles out.
@@ -77,6 +85,7 @@ struct ContactPatch {
     count = vertex_count = dropped = 0;
     moving = false;
     glide_s = given_j = 0;
+    hold = {};
   }
   /// Of the i-th triangle.
   std::array<Vec3, 3> corners(std::int32_t i) const { return at_corners(vertex, i); }

@@ -68,6 +68,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   exercise.title = document.text("title");
   exercise.goal = document.text("goal");
   exercise.kind = read_kind(document);
+  exercise.jaws = document.flag_or("jaws", kind_of(exercise).jaws_hold);
   exercise.time_limit_s = document.number("time_limit_s", 1, 3600);
   read_start(document.table("start"), exercise);
   read_targets(document.table("targets"), exercise);

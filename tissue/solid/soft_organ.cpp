@@ -137,7 +137,7 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
   return pressed;
 }
 
-void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T) {
+void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::span<SoftSpring> more) {
   std::vector<Pressed> pressed;
   if (tip_T != nullptr && contacts.topology == topology()) pressed = press(contacts);
   std::vector<SoftSpring> springs;
@@ -154,8 +154,11 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T) {
     const double stiffness = kTangential * p.stiffness;
     springs.push_back({p.shares, p.tangential / drag, stiffness, drag / stiffness, false, 0});
   }
+  const std::size_t own = springs.size();
+  springs.insert(springs.end(), more.begin(), more.end());
   const double before = solid_.energy_j();
   solid_.step(springs);
+  for (std::size_t s = own; s < springs.size(); ++s) more[s - own].force_n = springs[s].force_n;
   given_ = std::max(0.0, before - solid_.energy_j());
   force_ = 0;
   for (std::size_t i = 0; i < pressed.size(); ++i) force_ += pressed[i].force = springs[i].force_n;
@@ -215,6 +218,11 @@ double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, 
   sub_cell_ = still + kFarShare / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
   const double half_space = half_space_compliance(force_n);
   return std::max(kLeastSubCell * half_space, half_space - sub_cell_) + answer;
+}
+
+double SoftOrgan::loop_stiffness(const NodeShares& place, const Vec3& direction, double spring_n_per_m) const {
+  const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
+  return std::min(options_.most_stiffness_n_per_m, 1 / (1 / spring_n_per_m + answer));
 }
 
 MaterialPoint SoftOrgan::nearest_place(const Vec3& tip_T) const {

@@ -45,9 +45,15 @@ class SoftOrgan {
   /// One step of options.solid.step_s.
   /// @param contacts of the newest tick; those on triangles beyond the organ's are left out
   /// @param tip_T of the tool, where it may touch next; nullptr: no tool
-  void step(const SolvedContacts& contacts, const Vec3* tip_T);
+  /// @param more springs of this step besides the contacts': a grip. Their forces are filled in.
+  void step(const SolvedContacts& contacts, const Vec3* tip_T, std::span<SoftSpring> more = {});
 
   std::uint64_t topology() const { return surface_->topology; }
+  const TriangleSurface& rest() const { return *rest_; }
+  const TissueSolid& material() const { return material_; }
+  NodeShares shares_of(const MaterialPoint& place) const;
+  /// Of a spring that holds on to a place, as the loop may render it within a step, N/m.
+  double loop_stiffness(const NodeShares& place, const Vec3& direction, double spring_n_per_m) const;
   const SurfacePtr& surface() const { return surface_; }   ///< as it is
   std::span<const Vec3> felt() const { return felt_; }     ///< for the loop: without the tool's own dent
   double stiffness_n_per_m() const { return stiffness_; }  ///< of that dent
@@ -58,7 +64,6 @@ class SoftOrgan {
 
  private:
   struct Pressed;
-  NodeShares shares_of(const MaterialPoint& place) const;
   Vec3 place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const;
   /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
   double half_space_compliance(double force_n) const;

@@ -51,6 +51,9 @@ void StateHash::add(const ContactPatch& patch) {
   if (patch.glide_s > 0) {
     add(patch.glide_s);
     add(patch.given_j);
+    add(patch.hold.point_I);
+    add(patch.hold.anchor_T);
+    add(patch.hold.stiffness_n_per_m);
     for (int i = 0; i < patch.vertex_count; ++i) add(patch.velocity[static_cast<std::size_t>(i)]);
   }
   add(patch.reach_m);

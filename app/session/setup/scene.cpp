@@ -189,7 +189,7 @@ void set_stage(Scene& scene) {
   const ShaftRoom* behind_tip = room ? &*room : nullptr;
   scene.board = lay_out(scene, scene.setup.board, behind_tip);
   if (kind_of(exercise).on_organ) require_reach(scene);
-  if (kind_of(exercise).jaws_hold) scene.loop.tool.jaw_length_m = kJawLength;
+  if (exercise.jaws) scene.loop.tool.jaw_length_m = kJawLength;
   scene.loop.map.force_scale = force_scale(scene, behind_tip);
   require_force(scene);
 }
