@@ -10,7 +10,7 @@ constexpr std::size_t kMostPlaces = 12;  // two pads of six
 constexpr std::size_t kFewestPlaces = 2;
 constexpr double kTakes = 0.1, kKeeps = 0.05;  // N of squeeze
 constexpr double kPadReach = 0.002;            // m beyond the pads in which the surface counts as between them
-constexpr double kLeastOpening = 0.002;        // m: jaws more closed than that let nothing in
+constexpr double kOpenEnough = 0.002;        // m: jaws more closed than that let nothing in
 constexpr double kNoContactRound = 0.012;      // m round the fold, at rest
 constexpr double kClear = 0.004;               // m between jaws and tissue that is to be felt again
 constexpr int kAxes = 3;
@@ -80,7 +80,7 @@ void SoftGrip::reach(const Pose& X_TI, double opening_m, const SoftOrgan& organ,
   if (!holding) {
     fold = between(X_TI, opening_m, organ);
     if (!no_contact_.empty() && jaws_clear(X_TI, organ)) no_contact_.clear();
-    const bool enters = state_ == GripState::kAround || opening_m > kLeastOpening;
+    const bool enters = state_ == GripState::kAround || opening_m > kOpenEnough;
     if (fold.size() < kFewestPlaces || !enters) {
       let_go();
       return;

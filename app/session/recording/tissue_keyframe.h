@@ -47,7 +47,7 @@ struct TopologyEvent {
 
 /// When keyframes are made.
 struct KeyframeRule {
-  double rate_hz = 20;
+  double rate_hz = 20;  ///< of shapes, > 0
   bool always = false;  ///< also where nothing deforms, so that a long attempt opens at once
 };
 

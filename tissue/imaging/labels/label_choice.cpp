@@ -21,7 +21,7 @@ std::string joined_names(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 /// The name that the file or the table gives a segment.
 std::string name_of(const Segment& segment, const LabelTable* table) {
@@ -38,7 +38,7 @@ Segment named(const Segment& segment, const LabelTable* table) {
   const std::string holds = "; it holds " + listed_segments(map, table);
   if (table != nullptr) {
     const auto number = table->number_of(wanted);
-    throw InputError(file + ": " + quoted(wanted) +
+    throw InputError(file + ": " + in_quotes(wanted) +
                      (number ? " is number " + std::to_string(*number) + " in the table " + std::string(table->name) +
                                    ", which marks no voxel"
                              : " is no name in the table " + std::string(table->name)) +
@@ -48,7 +48,7 @@ Segment named(const Segment& segment, const LabelTable* table) {
   for (const std::string& name : label_table_names())
     if (const auto number = label_table(name).number_of(wanted))
       knowing.push_back(name + " (" + std::to_string(*number) + ")");
-  throw InputError(file + ": " + quoted(wanted) + ": the file gives no such name" +
+  throw InputError(file + ": " + in_quotes(wanted) + ": the file gives no such name" +
                    (knowing.empty() ? ", and no table that is known here does"
                                     : "; say which table its numbers follow with --label-table: " +
                                           joined_names(knowing) + " know it") +
@@ -66,7 +66,7 @@ std::string asked_as(const Segment& segment, const std::vector<Segment>& all) {
   const auto alike =
       std::count_if(all.begin(), all.end(), [&](const Segment& one) { return one.name == segment.name; });
   return segment.name.empty() || alike > 1 ? std::to_string(segment.layer) + ":" + std::to_string(segment.number)
-                                           : quoted(segment.name);
+                                           : in_quotes(segment.name);
 }
 
 Segment only_one(const std::vector<Segment>& found, std::string_view wanted, const std::string& file) {
@@ -76,7 +76,7 @@ Segment only_one(const std::vector<Segment>& found, std::string_view wanted, con
     places += (places.empty() ? "" : ", ") + placed(segment);
     choices += (choices.empty() ? "" : " or ") + ("--label " + asked_as(segment, found));
   }
-  throw InputError(file + ": " + quoted(wanted) + " means " + std::to_string(found.size()) +
+  throw InputError(file + ": " + in_quotes(wanted) + " means " + std::to_string(found.size()) +
                    " segments, which overlap in layers: " + places + "; choose one with " + choices);
 }
 

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
+#include <optional>
 
 #include "app/session/lanes/recorder_task.h"
 #include "app/session/playback/recorded_run.h"
+#include "app/session/recording/chunk.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "tests/app/session/playback/playback_samples.h"
@@ -72,8 +75,12 @@ AttemptSetup grasp_setup() {
 void compare(const Scene& scene) {
   SessionHooks hooks;
   hooks.keyframes.always = true;
-  const auto [outcome, recording] = record_session(scene, find_assets(), hooks, {});
+  const test::TemporaryFolder folder;
+  const auto file = folder / "run.trec";
+  const auto [outcome, recording] = record_session(scene, find_assets(), hooks, file);
   ASSERT_FALSE(recording.tissue.empty());
+  std::printf("%.0f s, opened with one moment in %.2f s; ", 1e-3 * static_cast<double>(recording.ticks.size()),
+              seconds_of([&] { RecordedRun(file, find_assets()).at(10); }));
   const RecordedMoments moments(scene, recording);
   std::size_t seen = 0;
   const SessionOutcome again = replay_session(scene, recording, [&](const SessionView& view) {
@@ -217,6 +224,25 @@ TEST_F(WavingAttempt, IsPlayedUpToWhereItWasCutOff) {
     EXPECT_EQ(run.available_until(), run.end_s());
     EXPECT_NEAR(run.at(run.end_s()).t_s, run.end_s(), 0.011);
   }
+}
+
+TEST_F(WavingAttempt, StopsWhereAKeyframeCannotBeDecoded) {
+  std::ifstream in(record(6), std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  std::string forged = bytes.substr(0, kRecordingPrefixSize);
+  int chunks = 0;
+  for (auto chunk = chunk_at(bytes, kRecordingPrefixSize); chunk; chunk = chunk_at(bytes, chunk->end())) {
+    std::string payload(chunk->payload);
+    if (chunk->type == ChunkType::kKeyframes && ++chunks == 5) payload.resize(payload.size() - 9);
+    forged += make_chunk(chunk->type, payload);
+  }
+  const RecordedRun run(folder_.write("forged.trec", forged), find_assets());
+  EXPECT_NEAR(run.at(1).t_s, 1, 0.011);
+  EXPECT_EQ(run.failure(), "");
+  EXPECT_NEAR(run.at(2.5).record.stylus.X_TI.p.x(), 0.02 * std::sin(2.5), 3e-4) << "the row is there";
+  EXPECT_EQ(run.stage(), RecordedRun::Stage::kFailed);
+  EXPECT_NE(run.failure(), "");
+  EXPECT_TRUE(run.has_pictures());
 }
 
 TEST_F(WavingAttempt, OpensAtOnceHoweverLongItIs) {

@@ -91,16 +91,22 @@ TEST(FormatTwo, IsStillRead) {
   EXPECT_FALSE(recording.schedule.steps.empty()) << "formats from 2 on have a schedule";
 }
 
-TEST(FormatThree, IsWhatIsWrittenAndANewerOneIsRefused) {
+TEST(FormatFour, IsWhatIsWrittenAndANewerOneIsRefused) {
   std::string bytes = small_recording(1, 100, 1);
-  EXPECT_EQ(parse_recording(bytes, "now").version, 3u);
+  EXPECT_EQ(parse_recording(bytes, "now").version, 4u);
   ++bytes[kRecordingMagic.size()];
   EXPECT_THROW(parse_recording(bytes, "next"), InputError);
 }
 
-TEST(FormatThree, AVersionThatItsChannelsContradictIsRefused) {
+TEST(FormatThree, IsReadAsBeforeKeyframes) {
   std::string bytes = small_recording(1, 100, 1);
   --bytes[kRecordingMagic.size()];
+  EXPECT_EQ(parse_recording(bytes, "before").version, 3u);
+}
+
+TEST(FormatThree, AVersionThatItsChannelsContradictIsRefused) {
+  std::string bytes = small_recording(1, 100, 1);
+  bytes[kRecordingMagic.size()] = 2;
   try {
     parse_recording(bytes, "a.trec");
     ADD_FAILURE() << "was read";
