@@ -16,7 +16,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 using ElementGradients = Eigen::Matrix<double, 3, 10>;
 using ElementMatrix = Eigen::Matrix<double, 30, 30>;
 
-constexpr double kResidual = 1e-10;
+constexpr double kResidual = 1e-9;
 constexpr int kMostIterations = 20000;
 constexpr std::array<std::array<int, 2>, 6> kEdges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 constexpr std::array<std::array<int, 3>, 4> kFaces{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};  ///< outwards

@@ -52,7 +52,7 @@ struct QuadraticSolution {
   int iterations = 0;
 };
 
-/// Solves to a relative residual of 1e-10.
+/// Solves to a relative residual of 1e-9.
 /// @throws std::runtime_error when that is not reached: too little is held, or the modulus is not positive
 QuadraticSolution solve(const QuadraticProblem& problem);
 

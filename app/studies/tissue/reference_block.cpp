@@ -15,14 +15,38 @@ using Eigen::Vector3d;
 
 constexpr double kSame = 1e-9;  ///< m: two places that rounding set apart
 
-/// Distances from the load: even over its radius, then cells that grow e-fold while `cells` of them pass.
-std::vector<double> distances(double radius, int cells, double end) {
-  std::vector<double> result;
-  for (int i = 0; i <= cells; ++i) result.push_back(radius * i / cells);
-  const double stretch = std::log(1 + (end - radius) / radius);
-  const int outer = static_cast<int>(std::ceil(stretch * cells));
-  for (int i = 1; i < outer; ++i) result.push_back(radius * std::exp(stretch * i / outer));
+/// Growth of distances from where the load ends: t = 1 stands for its radius, `cells` cells for t from 0 to 1.
+/// A punch presses infinitely hard at its rim: there the cells shrink.
+double grown(double t, bool rim) {
+  if (rim) return t < 1 ? t * t : std::exp(2 * (t - 1));
+  return std::expm1(t);
+}
+
+/// Distances from a place where the load ends out to `end`, of which the first is left out.
+void grow(std::vector<double>& result, double from, double radius, double end, int cells, bool rim) {
+  const double reach = (end - from) / radius;
+  const double last = !rim ? std::log1p(reach) : reach < 1 ? std::sqrt(reach) : 1 + std::log(reach) / 2;
+  const int count = static_cast<int>(std::ceil(last * cells));
+  for (int i = 1; i < count; ++i) result.push_back(from + radius * grown(last * i / count, rim));
   result.push_back(end);
+}
+
+/// Planes across: from the axis over the load and on to the side.
+std::vector<double> across(double radius, int cells, double end, bool rim) {
+  std::vector<double> result;
+  for (int i = 0; i <= cells; ++i) {
+    const double left = 1 - static_cast<double>(i) / cells;
+    result.push_back(radius * (1 - (rim ? left * left : left)));
+  }
+  grow(result, radius, radius, end, cells, rim);
+  return result;
+}
+
+/// Planes from the top down, of which a tent's are even over a radius.
+std::vector<double> down(double radius, int cells, double end, bool rim) {
+  if (!rim) return across(radius, cells, end, false);
+  std::vector<double> result{0};
+  grow(result, 0, radius, end, cells, true);
   return result;
 }
 
@@ -35,12 +59,13 @@ void round_off(Vec3& node, double radius, double end) {
   node[0] *= scale, node[1] *= scale;
 }
 
-QuadraticMesh quarter_mesh(const ReferenceBlock& block, double radius) {
+QuadraticMesh quarter_mesh(const ReferenceBlock& block, double radius, bool rim) {
   const Vector3d half{block.size_m[0] / 2, block.size_m[1] / 2, block.size_m[2]};
   if (block.cells < 1 || !(radius > 0) || !(radius < half.minCoeff()))
     throw std::invalid_argument("the load must be smaller than the block, on one cell or more");
   std::array<std::vector<double>, 3> planes;
-  for (int axis = 0; axis < 3; ++axis) planes[axis] = distances(radius, block.cells, half[axis]);
+  for (int axis = 0; axis < 2; ++axis) planes[axis] = across(radius, block.cells, half[axis], rim);
+  planes[2] = down(radius, block.cells, half[2], rim);
   std::reverse(planes[2].begin(), planes[2].end());
   for (double& z : planes[2]) z = -z;
   TetrahedraMesh box = box_tetrahedra(planes);
@@ -74,7 +99,7 @@ void press_punch(const QuadraticMesh& mesh, double radius, double depth, bool bo
 }  // namespace
 
 BlockStiffness stiffness(const ReferenceBlock& block, BlockLoad load, double radius_m) {
-  const QuadraticMesh mesh = quarter_mesh(block, radius_m);
+  const QuadraticMesh mesh = quarter_mesh(block, radius_m, load != BlockLoad::tent);
   QuadraticProblem problem{.mesh = mesh, .young_pa = block.young_pa, .poisson = block.poisson};
   problem.held = supports(mesh, block);
   BlockStiffness result{.nodes = static_cast<int>(mesh.nodes.cols())};

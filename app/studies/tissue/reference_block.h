@@ -15,7 +15,9 @@ enum class BlockSides { free, held };
 
 struct ReferenceBlock {
   Eigen::Vector3d size_m{0.120, 0.120, 0.060};
-  int cells = 4;  ///< across the radius of the load; outside they grow e-fold in as many
+  /// Across the radius of the load; outside they grow e-fold in as many, under a punch they shrink towards its rim.
+  /// At 3 a tent is within 1 % of converged and a punch within 2 %.
+  int cells = 3;
   std::function<double(const Eigen::Vector3d& x_m)> young_pa = [](const Eigen::Vector3d&) { return 5000.0; };
   double poisson = 0.45;
   BlockSides sides = BlockSides::free;  ///< the bottom is always held

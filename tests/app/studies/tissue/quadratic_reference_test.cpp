@@ -46,7 +46,7 @@ TEST(QuadraticReference, ALinearFieldOnTheSurfaceIsOneInsideAtAnyPoisson) {
         for (int axis = 0; axis < 3; ++axis) problem.held.push_back({node, axis, u[axis]});
     }
     const Eigen::Matrix3Xd error = solve(problem).displacements_m - gradient * mesh.nodes;
-    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-9 * kSide) << poisson << ": the solver's own residual is 1e-10";
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-8 * kSide) << poisson << ": the solver's own residual is 1e-9";
   }
 }
 
@@ -63,7 +63,7 @@ TEST(QuadraticReference, PullOnABarGivesYoungAndPoisson) {
   const QuadraticSolution solution = solve(problem);
   for (int node = 0; node < mesh.nodes.cols(); ++node) {
     const Vector3d strain{kPull / 5000, -0.45 * kPull / 5000, -0.45 * kPull / 5000};
-    EXPECT_NEAR((solution.displacements_m.col(node) - strain.cwiseProduct(mesh.nodes.col(node))).norm(), 0, 1e-12);
+    EXPECT_NEAR((solution.displacements_m.col(node) - strain.cwiseProduct(mesh.nodes.col(node))).norm(), 0, 1e-11);
   }
   EXPECT_NEAR(solution.reactions_n.row(0).sum(), -kPull * kSide * kSide, 1e-11);
 }

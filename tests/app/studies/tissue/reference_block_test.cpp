@@ -12,15 +12,15 @@ using Eigen::Vector3d;
 TEST(ReferenceBlock, AFlatPunchOnALargeBlockComesToTheHalfSpace) {
   constexpr double kRadius = 0.01;
   const double half_space = 2 * kRadius * 5000 / (1 - 0.45 * 0.45);
-  ReferenceBlock block{.size_m = {1, 1, 0.5}, .cells = 1};
+  ReferenceBlock block{.size_m = {1, 1, 0.5}};
   double before = 1;
-  for (block.cells = 1; block.cells <= 4; block.cells *= 2) {
+  for (block.cells = 1; block.cells <= 3; ++block.cells) {
     const double error = stiffness(block, BlockLoad::punch, kRadius).n_per_m / half_space - 1;
     RecordProperty("error_at_" + std::to_string(block.cells), std::to_string(error));
     EXPECT_LT(std::abs(error), 0.7 * before) << block.cells;
     before = std::abs(error);
   }
-  EXPECT_LT(before, 0.03) << "of which 50 radii of block leave about 1 %";
+  EXPECT_LT(before, 0.03) << "of which 50 radii of block leave more than 1 %";
 }
 
 TEST(ReferenceBlock, TheTentOfTheTissueNotes) {
