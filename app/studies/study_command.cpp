@@ -25,6 +25,7 @@
 #include "app/studies/device/plant_study.h"
 #include "app/studies/device/velocity_study.h"
 #include "app/studies/study_files.h"
+#include "app/studies/tissue/soft_studies.h"
 #include "app/studies/workspace/workspace_study.h"
 #include "haptics/input_error.h"
 
@@ -58,6 +59,11 @@ constexpr std::array kStudies{
     KnownStudy{"workspace", workspace_study},
     KnownStudy{"plant", plant_study, true},
     KnownStudy{"contact-law", [](const StudyRequest&) { return contact_law_study(); }},
+    KnownStudy{"indentation", indentation_study},
+    KnownStudy{"relaxation", relaxation_study},
+    KnownStudy{"grasp", grasp_study},
+    KnownStudy{"multirate", multirate_study},
+    KnownStudy{"tissue-scaling", tissue_scaling_study},
 };
 
 std::string names_where(bool KnownStudy::*which) {
