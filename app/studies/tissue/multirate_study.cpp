@@ -16,7 +16,7 @@ struct Bridge {
 constexpr std::array kBridges{Bridge{RateBridge::kGliding, "ours"}, Bridge{RateBridge::kHeld, "held force"},
                               Bridge{RateBridge::kSpring, "linear coupling"},
                               Bridge{RateBridge::kThesis, "thesis' law"}};
-constexpr double kPressed = 0.018;  // m that the hand goes in, beyond what the spring of the hand gives back
+constexpr double kPressDepth = 0.018;  // m that the hand goes in, beyond what the spring of the hand gives back
 
 SoftBenchSetup setup_of(double young_pa, double step_s, RateBridge bridge) {
   SoftBenchSetup setup;
@@ -44,7 +44,7 @@ StudyResult multirate_study(const StudyRequest& request) {
       if (request.quick && step > 0.010) continue;
       for (const SoftHand& hand : {kFirmHand, kLightHand})
         for (const Bridge& bridge : kBridges) {
-          const PressMeasures m = press(setup_of(young, step, bridge.bridge), hand, kPressed);
+          const PressMeasures m = press(setup_of(young, step, bridge.bridge), hand, kPressDepth);
           char row[300];
           std::snprintf(row, sizeof row, "| %.0f kPa | %.0f | %s | %s | %.3f | %.3f | %.4f | %.4f | %.3f |\n",
                         young / 1e3, step * 1e3, hand.name, bridge.name, m.hold_n, m.tissue_n, m.ripple_n,

@@ -10,10 +10,10 @@
 namespace trocar {
 namespace {
 
-const Vec3 kHalf(0.100, 0.075, 0.040);  // m
-constexpr double kPeriod = 1e-3;
-constexpr double kCount = 3e-5;  // m of the tip to one count of an encoder
-constexpr int kSubsteps = 100;   // of the hand in a tick
+const Vec3 kOrganHalf(0.100, 0.075, 0.040);  // m
+constexpr double kLoopPeriod = 1e-3;
+constexpr double kEncoderStep = 3e-5;  // m of the tip to one count of an encoder
+constexpr int kHandSubsteps = 100;     // of the hand in a tick
 
 double thread_cpu_s() {
   timespec now{};
@@ -62,17 +62,17 @@ TriangleSurface ellipsoid_surface(const Vec3& half_m, int rows) {
 
 SoftBench::SoftBench(const SoftBenchSetup& setup)
     : setup_(setup),
-      rest_(still_surface(ellipsoid_surface(kHalf, setup.rows))),
+      rest_(still_surface(ellipsoid_surface(kOrganHalf, setup.rows))),
       organ_(organ_on(rest_, setup)),
       felt_(*rest_),
       velocity_(felt_.vertices.size(), Vec3::Zero()),
       extraction_(felt_),
       renderer_(setup.bridge == RateBridge::kThesis ? ContactLaw::kThesis : ContactLaw::kProxy, tool_),
-      period_(static_cast<int>(std::lround(setup.organ.solid.step_s / kPeriod))) {}
+      period_(static_cast<int>(std::lround(setup.organ.solid.step_s / kLoopPeriod))) {}
 
 Vec3 SoftBench::touching(double x_m, double y_m) const {
-  const double x = x_m / kHalf.x(), y = y_m / kHalf.y();
-  return {x_m, y_m, kHalf.z() * std::sqrt(1 - x * x - y * y) + tool_.radius_m};
+  const double x = x_m / kOrganHalf.x(), y = y_m / kOrganHalf.y();
+  return {x_m, y_m, kOrganHalf.z() * std::sqrt(1 - x * x - y * y) + tool_.radius_m};
 }
 
 void SoftBench::step_tissue(const Pose& X_TI) {
@@ -128,15 +128,15 @@ PressMeasures press(const SoftBenchSetup& setup, const SoftHand& hand, double de
   std::vector<double> held;
   double z = kAbove, speed = 0, before = 0, energy = 0, most = 0;
   for (int tick = 0; tick < 5000; ++tick) {
-    const double t = tick * kPeriod;
+    const double t = tick * kLoopPeriod;
     const double wave = t > 3 ? 0.004 * std::sin(4 * std::numbers::pi * (t - 3)) : 0;
     const double wanted = kAbove - (depth_m + kAbove) * std::min(1.0, t) + wave;
-    const double counted = kCount * std::round(z / kCount);
+    const double counted = kEncoderStep * std::round(z / kEncoderStep);
     const double force = bench.tick(touch + Vec3(0, 0, counted), {0, 0, speed}).z();
     out.most_step_n = std::max(out.most_step_n, std::abs(force - before));
     before = force;
-    for (int i = 0; i < kSubsteps; ++i) {
-      constexpr double kStep = kPeriod / kSubsteps;
+    for (int i = 0; i < kHandSubsteps; ++i) {
+      constexpr double kStep = kLoopPeriod / kHandSubsteps;
       speed += kStep * (hand.stiffness_n_per_m * (wanted - z) - hand.damping_n_s_per_m * speed + force) / hand.mass_kg;
       z += kStep * speed;
       energy += kStep * force * speed;

@@ -106,8 +106,8 @@ double probe_force(double edge_m, const TissueSolid& material, double depth_m, d
 }
 
 void nodule(const StudyRequest& request, StudyResult& study) {
-  // 15 mm, twice as stiff, its top 10 mm deep; pressed by a fingertip's tent of 10 mm.
-  constexpr double kEdge = 0.010, kRadius = 0.0075, kDeep = 0.010 + kRadius;
+  // 15 mm, twice as stiff, its middle 10 mm deep; pressed by a fingertip's tent of 10 mm.
+  constexpr double kEdge = 0.010, kRadius = 0.0075, kDeep = 0.010;
   CubeBlock plain(Vec3(0.120, 0.120, 0.060), kEdge), with = plain;
   TissueSolid soft, hard;
   hard.young_pa = 2 * soft.young_pa;
@@ -139,13 +139,14 @@ void nodule(const StudyRequest& request, StudyResult& study) {
     most = std::max(most, ratio - 1);
   }
   study.curves.push_back(curves);
-  study.cases.push_back({"nodule: change of dF/dx",
-                         "share",
-                         most,
-                         {},
-                         "> 0.07 (just noticeable)",
-                         most > 0.07,
-                         "15 mm ball twice as stiff, its top 10 mm below the surface, tent of 10 mm, cells of 10 mm."});
+  study.cases.push_back(
+      {"nodule: change of dF/dx",
+       "share",
+       most,
+       {},
+       "> 0.07 (just noticeable)",
+       most > 0.07,
+       "15 mm ball twice as stiff, its middle 10 mm below the surface, tent of 10 mm, cells of 10 mm."});
 }
 
 }  // namespace
