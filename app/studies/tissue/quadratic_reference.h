@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "tissue/solid/tetrahedra.h"
