@@ -15,6 +15,7 @@ constexpr double kLeastContact = 1e-3;  // m, radius of a contact that has just 
 constexpr double kLeastSubCell = 0.1;   // share of a half-space's compliance that the sub-cell law keeps
 constexpr double kTangential = 0.8;     // friction's spring over the normal one (haptics/contact/contact_friction.cpp)
 constexpr double kFarShare = 1.0;       // gamma: what lies beyond a clamped ball of radius R takes gamma / (pi E* R)
+constexpr double kOtherPlace = 5e-3;    // m at rest between contacts that share no past
 constexpr double kNoForce = 1e-6;       // N
 constexpr int kShiftRounds = 12;
 constexpr double kWholeDent = 0.7, kShellEnd = 1.3;  // of the neighbourhood: undone as a whole, and no longer
@@ -67,6 +68,12 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const Tis
       surface_(embedded_.at(solid_.position())),
       felt_(surface_->vertices),
       relaxed_share_(relaxed_share(material, options.solid.step_s)) {
+  const double left = 1 - material.prony[0].share - material.prony[1].share;
+  for (std::size_t i = 0; i < memory_.held.size(); ++i) {
+    const PronyBranch& branch = material.prony[i];
+    memory_.gain[i] = branch.share / left;
+    memory_.keep[i] = branch.tau_s / (branch.tau_s + options.solid.step_s);
+  }
   for (const auto& triangle : rest_->triangles) {
     const Vec3 a = rest_->vertices[static_cast<std::size_t>(triangle[0])];
     const Vec3 twice = (rest_->vertices[static_cast<std::size_t>(triangle[1])] - a)
@@ -117,6 +124,37 @@ double SoftOrgan::half_space_depth(double force_n) const {
   return bounded * bounded / radius + (force_n - there) / (2 * modulus * bounded);
 }
 
+double SoftOrgan::sub_cell_compliance(double force_n) const {
+  const double half_space = half_space_compliance(force_n);
+  return std::max(kLeastSubCell * half_space, half_space - sub_cell_);
+}
+
+double SoftOrgan::elastic_part(double force_n) const {
+  return std::max(0.0, force_n - memory_.held[0] - memory_.held[1]);
+}
+
+double SoftOrgan::Memory::carried() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < held.size(); ++i) sum += keep[i] * (held[i] - gain[i] * elastic_n);
+  return sum;
+}
+
+void SoftOrgan::remember(std::span<const Pressed> pressed) {
+  const auto strongest = std::max_element(pressed.begin(), pressed.end(),
+                                          [](const Pressed& a, const Pressed& b) { return a.force < b.force; });
+  const bool touching = strongest != pressed.end() && strongest->force > 0;
+  if (touching) {
+    const Vec3 rest = place_at(strongest->place, rest_->vertices);
+    if ((rest - memory_.rest_T).norm() > kOtherPlace) memory_.held = {}, memory_.elastic_n = 0;
+    memory_.rest_T = rest;
+  }
+  const double elastic =
+      touching ? std::max(0.0, relaxed_share_ * (strongest->force / strongest->share - memory_.carried())) : 0;
+  for (std::size_t i = 0; i < memory_.held.size(); ++i)
+    memory_.held[i] = memory_.keep[i] * (memory_.held[i] + memory_.gain[i] * (elastic - memory_.elastic_n));
+  memory_.elastic_n = elastic;
+}
+
 std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts) const {
   std::vector<Pressed> pressed;
   for (int i = 0; i < contacts.count; ++i) {
@@ -128,10 +166,7 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
     p.share = contact.share;
     p.force = std::max(0.0, contact.force_T.dot(contact.normal_T));
     p.tangential = contact.force_T - contact.force_T.dot(contact.normal_T) * contact.normal_T;
-    const double whole = p.force / p.share;
-    const double compliance =
-        std::max(kLeastSubCell * half_space_compliance(whole), half_space_compliance(whole) - sub_cell_);
-    p.stiffness = p.share / compliance;
+    p.stiffness = p.share / sub_cell_compliance(elastic_part(p.force / p.share));
     pressed.push_back(std::move(p));
   }
   return pressed;
@@ -142,11 +177,12 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   if (tip_T != nullptr && contacts.topology == topology()) pressed = press(contacts);
   std::vector<SoftSpring> springs;
   for (const Pressed& p : pressed) {
-    // Linear about the force of the last tick: k (d - d0) + F0.
-    const double whole = p.force / p.share, slope = p.stiffness / p.share;
+    // Elastic force linear about that of the last tick, k (d - d0) + F0; with what the branches take of its change.
+    const double whole = elastic_part(p.force / p.share), slope = p.stiffness / p.share;
     const double depth0 = half_space_depth(whole) - whole * (half_space_compliance(whole) - 1 / slope);
     const double depth = p.normal.dot(place_at(p.place, surface_->vertices) - p.tool);
-    springs.push_back({p.shares, p.normal, p.stiffness, depth - depth0 + whole / slope, true, 0});
+    springs.push_back({p.shares, p.normal, p.stiffness / relaxed_share_,
+                       depth - depth0 + whole / slope + relaxed_share_ * memory_.carried() / slope, true, 0});
   }
   for (const Pressed& p : pressed) {
     const double drag = p.tangential.norm();
@@ -162,6 +198,7 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   given_ = std::max(0.0, before - solid_.energy_j());
   force_ = 0;
   for (std::size_t i = 0; i < pressed.size(); ++i) force_ += pressed[i].force = springs[i].force_n;
+  remember(pressed);
   surface_ = embedded_.at(solid_.position());
   find_felt(pressed, tip_T);
 }
@@ -216,8 +253,7 @@ double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, 
   const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
   const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
   sub_cell_ = still + kFarShare / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
-  const double half_space = half_space_compliance(force_n);
-  return std::max(kLeastSubCell * half_space, half_space - sub_cell_) + answer;
+  return relaxed_share_ * sub_cell_compliance(elastic_part(force_n)) + answer;
 }
 
 double SoftOrgan::loop_stiffness(const NodeShares& place, const Vec3& direction, double spring_n_per_m) const {

@@ -13,6 +13,7 @@
 // Frame T, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -68,6 +69,11 @@ class SoftOrgan {
   /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
   double half_space_compliance(double force_n) const;
   double half_space_depth(double force_n) const;
+  /// Of that what the lattice does not have, m/N. @param force_n elastic
+  double sub_cell_compliance(double force_n) const;
+  /// What of a contact's force its branches do not hold, N.
+  double elastic_part(double force_n) const;
+  void remember(std::span<const Pressed> pressed);
   std::vector<Pressed> press(const SolvedContacts& contacts) const;
   /// How the neighbourhood of a place has moved as a whole, from its rest.
   Pose motion_round(const Vec3& rest_T) const;
@@ -86,6 +92,14 @@ class SoftOrgan {
   SurfacePtr rest_, surface_;
   std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
+  /// The sub-cell law relaxes as the solid does: its branches hold forces s_i <- a_i (s_i + g_i / g_inf dF).
+  struct Memory {
+    std::array<double, 2> held{}, gain{}, keep{};  ///< N; g_i / g_inf; a_i
+    double elastic_n = 0;                          ///< of the last step
+    Vec3 rest_T = Vec3::Zero();                    ///< place of the strongest contact, at rest
+    double carried() const;                        ///< N that the next step begins with beside its own elastic force
+  };
+  Memory memory_;
   double relaxed_share_ = 1;  ///< long-term modulus over that of a step
   double sub_cell_ = 0;       ///< compliance that the lattice already has at the last place, long-term, m/N
 };
