@@ -10,7 +10,7 @@ constexpr std::size_t kMostPlaces = 12;  // two pads of six
 constexpr std::size_t kFewestPlaces = 2;
 constexpr double kTakes = 0.1, kKeeps = 0.05;  // N of squeeze
 constexpr double kPadReach = 0.002;            // m beyond the pads in which the surface counts as between them
-constexpr double kOpenEnough = 0.002;        // m: jaws more closed than that let nothing in
+constexpr double kOpenEnough = 0.002;          // m: jaws more closed than that let nothing in
 constexpr double kNoContactRound = 0.012;      // m round the fold, at rest
 constexpr double kClear = 0.004;               // m between jaws and tissue that is to be felt again
 constexpr int kAxes = 3;
@@ -132,7 +132,12 @@ void SoftGrip::feel(const Pose& X_TI, std::span<const SoftSpring> springs, const
   }
   slipped_m_ += (1 - kept) * pull / options_.hold_n_per_m;
   pull_T_ *= kept;
-  if (slipped_m_ > options_.pad_length_m) {
+  // What has slid off the pads is lost.
+  std::erase_if(places_, [this](const Place& place) {
+    return std::abs(place.point_I.x()) > options_.pad_width_m / 2 + kPadReach || place.point_I.z() > kPadReach ||
+           place.point_I.z() < -options_.pad_length_m - kPadReach;
+  });
+  if (places_.size() < kFewestPlaces) {
     let_go();
     return;
   }

@@ -3,8 +3,8 @@
 //   squeeze   N = k (t - o), t the fold's thickness, o the pads' opening (rendered at 1 kHz by the pinch channel)
 //   hold      from 0.1 N on until below 0.05 N the pads hold on to up to 12 places of the surface between them, each by
 //             a spring to its point of the jaws: springs of the solid's own step, so pulling is felt as it is solved
-//   slip      no more than 2 mu N (two pads); beyond it the points slide along and keep that force; slid out of the
-//             pads' length, they are lost
+//   slip      no more than 2 mu N (two pads); beyond it the points slide along and keep that force; what has slid
+//             off the pads is lost
 // The loop gets the sum as one spring at their middle (ContactPatch::hold) whose force is the solved one where the
 // jaws were, as stiff as springs and clamped neighbourhood are within a step. While it is held, and until the jaws are
 // clear of it afterwards, the tissue round the fold is no contact. Frames T and I (x hinge axis, z to the tip, pads
@@ -24,7 +24,7 @@ struct SoftGripOptions {
   double pad_length_m = 0.020, pad_width_m = 0.005;  ///< fenestrated grasper of 5 mm
   double fold_m = 0.008;                             ///< thickness at which a fold fills the pads
   double fold_stiffening = 4;                        ///< of a fold squeezed between hard pads, over E* A / t
-  double friction = 0.4;                             ///< pads on wet tissue, 0.11 smooth to 0.83 profiled
+  double friction = 0.6;                             ///< pads on wet tissue, 0.11 smooth to 0.83 profiled [M]
   double hold_n_per_m = 600;                         ///< of all springs together
 };
 

@@ -144,6 +144,22 @@ Camera attempt_camera(const Scene& scene) {
   return camera;
 }
 
+namespace {
+
+/// On tissue that gives way the loop's depth is that of the whole dent; the surface has most of it already. What is
+/// left is how far the tip's sphere reaches into the surface as it is.
+void fit_dimple(double tip_radius_m, SceneView& out) {
+  const Vec3 tip = out.X_TI.p;
+  const auto nearest =
+      std::min_element(out.organ->vertices.begin(), out.organ->vertices.end(),
+                       [&](const Vec3& a, const Vec3& b) { return (a - tip).squaredNorm() < (b - tip).squaredNorm(); });
+  const double above = out.dimple_normal_T.dot(*nearest - tip);
+  out.dimple_depth_m = std::clamp(above + tip_radius_m, 0.0, out.dimple_depth_m);
+  out.dimple_T = tip + above * out.dimple_normal_T;
+}
+
+}  // namespace
+
 SceneView attempt_scene(const SessionView& view) {
   const StylusState& stylus = view.record.stylus;
   SceneView out;
@@ -157,7 +173,7 @@ SceneView attempt_scene(const SessionView& view) {
   }
   picture_of(view.scene.setup.exercise).add_objects(view, out.objects);
   auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
-  if (view.tissue && view.tissue->held()) {
+  if (view.tissue && view.tissue->held() && view.tissue->grip_object >= 0) {
     const std::size_t first = rigid.size() - view.scene.board.rigid.blocks.size();  // blocks come last
     pinch(rigid.at(first + static_cast<std::size_t>(view.tissue->grip_object)), stylus);
   }
@@ -174,10 +190,12 @@ SceneView attempt_scene(const SessionView& view) {
   out.shaft_length_m = view.scene.loop.tool.shaft_length_m;
   out.jaw_opening_m = stylus.jaw_opening_m;
   out.roll_stripe = kind.oriented;
-  if (stylus.contact && kind.on_organ) {
+  const bool pulls = view.tissue && view.tissue->held();  // on a fold, which is no dent
+  if (stylus.contact && kind.on_organ && !pulls) {
     out.dimple_T = stylus.contact_point_T;
     out.dimple_normal_T = stylus.contact_normal_T;
     out.dimple_depth_m = stylus.depth_m;
+    if (out.organ->rest) fit_dimple(view.scene.loop.tool.radius_m, out);
   }
   if (view.tissue) add_marks(*view.tissue, out);
   out.camera = attempt_camera(view.scene);
