@@ -10,7 +10,8 @@
 #include "tissue/solid/cube_element.h"
 
 // The vector path and the portable one do the same operations in the same order: eight lanes are one register or two.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(TROCAR_LANES_CLONED)
+#elif defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TROCAR_LANES_CLONED __attribute__((target_clones("default", "avx2")))
 #else
 #define TROCAR_LANES_CLONED
@@ -22,7 +23,7 @@ namespace {
 
 constexpr int kLanes = 8;
 constexpr int kAxes = 3;
-constexpr int kRotationSteps = 4;     // warm-started: the third already changes nothing beyond rounding
+constexpr int kRotationSteps = 4;     // warm-started: each leaves of the error its square and half the strain of it
 constexpr float kMostStiffening = 8;  // times the small-strain modulus
 constexpr float kNoGradient = 1e-9F;  // keeps the division of a collapsed cell defined
 constexpr int kActiveSetPasses = 3;
@@ -132,7 +133,9 @@ TROCAR_INLINE void follow_rotation(const Lane (*F)[kAxes], Lane (*R)[kAxes]) {
     }
     for (int l = 0; l < kLanes; ++l) weight[l] = std::fabs(weight[l]) + kNoGradient;
     Lane q[kAxes];
-    for (int c = 0; c < kAxes; ++c) q[c] = 0.5F * w[c] / weight;  // half the angle: the Cayley map
+    // Half the angle, for the Cayley map. Near a stretch S the torque of a turn v is (tr S - S) v, 2/3 of tr S v at rest:
+    // with that and not with all of tr S nothing is left of a turn of an undeformed cell.
+    for (int c = 0; c < kAxes; ++c) q[c] = 0.75F * w[c] / weight;
     const Lane scale = 2.0F / (1.0F + q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
     for (int k = 0; k < kAxes; ++k) {
       const Lane r[kAxes] = {R[0][k], R[1][k], R[2][k]};

@@ -1,0 +1,163 @@
+// An organ under the tool: force over depth does not hang on the lattice, the loop feels what the solid answers, and
+// nothing stays behind.
+#include "tissue/solid/soft_organ.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/tissue/solid/soft_organ_rig.h"
+
+namespace trocar::soft_organ_test {
+namespace {
+
+using test::from_above;
+using test::SoftScene;
+using test::SoftSceneOptions;
+
+SoftSceneOptions scene(double edge_m, double young_pa = 5000) {
+  SoftSceneOptions options;
+  options.half_m = {0.1, 0.075, 0.04};
+  options.material.young_pa = young_pa;
+  options.material.mu_static = options.material.mu_dynamic = 0;
+  options.organ.solid.edge_m = edge_m;
+  return options;
+}
+
+struct Answer {
+  double loop_n, solid_n;
+};
+
+/// The tool is lowered in steps to each depth and held there until nothing moves.
+std::vector<Answer> press(const SoftSceneOptions& options, double x, double y, const std::vector<double>& depths) {
+  SoftScene s(options);
+  const double top = s.touching_z(x, y);
+  std::vector<Answer> out;
+  double depth = -0.001;
+  for (const double wanted : depths) {
+    double loop = 0;
+    while (depth < wanted) {
+      depth = std::min(wanted, depth + 5e-5);
+      s.tick(from_above({x, y, top - depth}), {0, 0, -0.05});
+    }
+    for (int i = 0; i < 800; ++i) loop = s.tick(from_above({x, y, top - depth}), Vec3::Zero()).F_I_T.force.norm();
+    out.push_back({loop, s.organ().force_n()});
+  }
+  return out;
+}
+
+const std::vector<double> kDepths{0.002, 0.004, 0.007, 0.010};
+
+TEST(SoftOrgan, ForceOverDepthDoesNotHangOnTheCells) {
+  const std::vector<Answer> fine = press(scene(0.010), 0.013, 0.007, kDepths);
+  for (const double edge : {0.008, 0.0125}) {
+    const std::vector<Answer> other = press(scene(edge), 0.013, 0.007, kDepths);
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+      std::printf("depth %.0f mm: %.1f mm cells %.4f N, 10 mm cells %.4f N: %.2f %%\n", 1e3 * kDepths[i], 1e3 * edge,
+                  other[i].loop_n, fine[i].loop_n, 100 * (other[i].loop_n / fine[i].loop_n - 1));
+      EXPECT_NEAR(other[i].loop_n, fine[i].loop_n, 0.05 * fine[i].loop_n) << edge << " at " << kDepths[i];
+    }
+  }
+}
+
+TEST(SoftOrgan, ForceDoesNotHangOnThePlaceWithinACell) {
+  const std::vector<double> depths{0.003, 0.008};
+  std::vector<double> least(2, 1e9), most(2, 0);
+  for (const double x : {0.0, 0.0025, 0.005, 0.0075})
+    for (const double y : {0.0, 0.005}) {
+      const std::vector<Answer> there = press(scene(0.010), x, y, depths);
+      for (std::size_t i = 0; i < 2; ++i) {
+        least[i] = std::min(least[i], there[i].loop_n);
+        most[i] = std::max(most[i], there[i].loop_n);
+      }
+    }
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::printf("within a cell at %.0f mm: %.4f .. %.4f N (+-%.2f %%)\n", 1e3 * depths[i], least[i], most[i],
+                50 * (most[i] - least[i]) / (0.5 * (most[i] + least[i])));
+    EXPECT_LT(most[i], 1.07 * least[i]);
+  }
+}
+
+TEST(SoftOrgan, TheLoopFeelsWhatTheSolidAnswers) {
+  for (const double young : {5000.0, 50000.0}) {
+    SoftSceneOptions options = scene(0.010, young);
+    const std::vector<Answer> tens = press(options, 0.013, 0.007, kDepths);
+    options.period_ticks = 5;
+    const std::vector<Answer> fives = press(options, 0.013, 0.007, kDepths);
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+      std::printf("%.0f Pa at %.0f mm: loop %.4f solid %.4f N; step 5 ms %.4f N\n", young, 1e3 * kDepths[i],
+                  tens[i].loop_n, tens[i].solid_n, fives[i].loop_n);
+      EXPECT_NEAR(tens[i].loop_n, tens[i].solid_n, 0.01 * tens[i].solid_n);
+      EXPECT_NEAR(fives[i].loop_n, tens[i].loop_n, 0.01 * tens[i].loop_n) << "step 5 ms";
+    }
+  }
+}
+
+TEST(SoftOrgan, NothingIsLeftOfAPress) {
+  SoftSceneOptions options = scene(0.0125);
+  options.material.prony = {PronyBranch{0.35, 0.1}, PronyBranch{0.25, 1}};
+  options.material.mu_static = 0.1;
+  options.material.mu_dynamic = 0.05;
+  SoftScene s(options);
+  const double top = s.touching_z(0.013, 0.007);
+  double deepest = 0;
+  for (int i = 0; i < 7000; ++i) {
+    const double t = 1e-3 * i, depth = t < 1 ? 0.012 * t - 0.002 : t < 1.5 ? 0.010 : std::max(-0.02, 0.01 - 0.1 * (t - 1.5));
+    const ContactResult r = s.tick(from_above({0.013, 0.007, top - depth}), Vec3::Zero());
+    deepest = std::max(deepest, r.F_I_T.force.norm());
+    if (t > 2.5) {
+      ASSERT_FALSE(r.contact);
+    }
+  }
+  EXPECT_GT(deepest, 0.1);
+  double off = 0;
+  for (std::size_t v = 0; v < s.rest()->vertices.size(); ++v)
+    off = std::max(off, (s.organ().surface()->vertices[v] - s.rest()->vertices[v]).norm());
+  EXPECT_LT(off, 1e-4) << "5 s after";
+  EXPECT_EQ(s.organ().force_n(), 0);
+}
+
+TEST(SoftOrgan, SurvivesAToolThatTeleportsAndContactsThatAreNone) {
+  SoftSceneOptions options = scene(0.02);
+  options.half_m = {0.06, 0.05, 0.035};
+  options.rows = 24;
+  options.material.mu_static = 0.1;
+  options.material.mu_dynamic = 0.05;
+  options.material.prony = {PronyBranch{0.35, 0.1}, PronyBranch{0.25, 5}};
+  options.material.stiffening = 2;
+  SoftScene s(options);
+  std::mt19937 random(9);
+  const auto uniform = [&] { return double(random()) / 2147483648.0 - 1; };
+  Vec3 p(0, 0, 0.04), way = Vec3::Zero();
+  for (int i = 0; i < 10000; ++i) {
+    if (random() % 200 == 0) p = {0.05 * uniform(), 0.05 * uniform(), 0.04 + 0.03 * uniform()};
+    if (random() % 30 == 0) way = 3e-4 * Vec3(uniform(), uniform(), uniform());
+    p += way;
+    const ContactResult r = s.tick(from_above(p), 1e3 * way);
+    ASSERT_TRUE(r.F_I_T.force.allFinite()) << i;
+    if (i % 50 == 0) {
+      // What no loop should ever say.
+      SolvedContacts bad = s.renderer().contacts();
+      bad.topology = s.organ().topology();
+      bad.count = 3;
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      bad.at[0] = {{0, {1, 0, 0}}, Vec3::UnitZ(), Vec3(nan, 0, 1), {}, p, 1};
+      bad.at[1] = {{1 << 30, {1, 0, 0}}, Vec3::UnitZ(), Vec3(0, 0, 1), {}, p, 1};
+      bad.at[2] = {{2, {nan, nan, nan}}, Vec3(nan, nan, nan), Vec3(0, 0, 1), {}, Vec3(0, nan, 0), 1};
+      if (random() % 2 == 0) bad.at[2] = {{2, {nan, 0, 1}}, Vec3::UnitZ(), Vec3(0, 0, 1), {}, p, nan};
+      if (random() % 2 == 0) bad.at[2] = {{2, {1, 0, 0}}, Vec3(nan, 0, 1), Vec3(0, 0, 1), {}, p, 1};
+      s.organ().step(bad, &p);
+    }
+    for (const Vec3f& x : s.organ().solid().position()) ASSERT_TRUE(x.allFinite()) << i;
+  }
+  for (int i = 0; i < 1000; ++i) s.organ().step({}, nullptr);
+  double off = 0;
+  for (std::size_t v = 0; v < s.rest()->vertices.size(); ++v)
+    off = std::max(off, (s.organ().surface()->vertices[v] - s.rest()->vertices[v]).norm());
+  EXPECT_LT(off, 1e-3) << "10 s after";
+}
+
+}  // namespace
+}  // namespace trocar::soft_organ_test
