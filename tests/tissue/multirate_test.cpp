@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <string>
 #include <vector>
 
+#include "tests/haptics/contact/surfaces.h"
 #include "tests/tissue/solid/soft_organ_rig.h"
 
 namespace trocar::multirate_test {
@@ -22,7 +25,9 @@ SoftSceneOptions scene(double young_pa, int period_ticks, int delay_ticks) {
   options.material.young_pa = young_pa;
   options.material.mu_static = 0.1;
   options.material.mu_dynamic = 0.05;
-  options.organ.solid.edge_m = 0.01;
+  options.half_m = {0.05, 0.045, 0.03};
+  options.rows = 28;
+  options.organ.solid.edge_m = 0.0125;
   options.period_ticks = period_ticks;
   options.delay_ticks = delay_ticks;
   return options;
@@ -34,7 +39,7 @@ struct Felt {
   double most_n = 0, out_j = 0;
 };
 
-/// Press in 1 s, hold 1 s, 2 Hz to and fro for 1.5 s, let go.
+/// Press in 0.6 s, hold 0.6 s, 2 Hz to and fro for 1 s, let go.
 Felt press(const SoftSceneOptions& options, bool light, double deep_m, double encoder_m = 0) {
   SoftScene s(options);
   const double top = s.touching_z(kX, kY) + 1e-3;
@@ -42,19 +47,19 @@ Felt press(const SoftSceneOptions& options, bool light, double deep_m, double en
   Felt felt;
   std::vector<double> held;
   double last = 0;
-  for (int k = 0; k < 4000; ++k) {
+  for (int k = 0; k < 2600; ++k) {
     const double t = 1e-3 * k;
-    const double down = t < 1 ? deep_m * t : t < 3.5 ? deep_m : std::max(0.0, deep_m * (1 - 3 * (t - 3.5)));
-    const double wave = t > 2 && t < 3.5 ? 0.25 * deep_m * std::sin(4 * std::numbers::pi * (t - 2)) : 0;
+    const double down = t < 0.6 ? deep_m * t / 0.6 : t < 2.2 ? deep_m : std::max(0.0, deep_m * (1 - 3 * (t - 2.2)));
+    const double wave = t > 1.2 && t < 2.2 ? 0.25 * deep_m * std::sin(4 * std::numbers::pi * (t - 1.2)) : 0;
     const double z = encoder_m > 0 ? encoder_m * std::round(hand.z / encoder_m) : hand.z;
     const double force = s.tick(from_above({kX, kY, z}), {0, 0, hand.speed}).F_I_T.force.z();
     felt.step_n = std::max(felt.step_n, std::abs(force - last));
     felt.most_n = std::max(felt.most_n, force);
     last = force;
     hand.move(top - down + wave, force);
-    if (t >= 1.6 && t < 2) {
+    if (t >= 0.9 && t < 1.2) {
       held.push_back(force);
-      felt.solid_n += s.organ().force_n() / 400;
+      felt.solid_n += s.organ().force_n() / 300;
     }
   }
   for (const double f : held) felt.hold_n += f / double(held.size());
@@ -79,6 +84,139 @@ TEST(MultiRate, AllGripsTissuesRatesAndDelays) {
           EXPECT_LT(felt.ripple_n, 0.05) << which;
           EXPECT_LT(felt.step_n, 0.03 * std::max(1.0, felt.most_n)) << which;
         }
+}
+
+/// The tool straight down to `deep_m` in 0.6 s and held there.
+double depth_at(double t, double deep_m) { return std::min(1.0, t / 0.6) * deep_m; }
+
+TEST(MultiRate, AStalledOrganHarmsNothing) {
+  for (const double young : {5000.0, 50000.0})
+    for (const int stall_ms : {10, 30, 60, 100, 200, 400}) {
+      SoftScene s(scene(young, 10, 5));
+      const double top = s.touching_z(kX, kY), deep = young > 1e4 ? 0.004 : 0.008;
+      double last = 0, step = 0, grown = 0, at_end = 0, held = 0;
+      for (int k = 0; k < 1500; ++k) {
+        const int into = k - 803;  // the stall begins in the middle of a period
+        const bool stalled = into >= 0 && into < stall_ms;
+        const double force =
+            s.tick(from_above({kX, kY, top - depth_at(1e-3 * k, deep)}), Vec3::Zero(), stalled).F_I_T.force.norm();
+        step = std::max(step, std::abs(force - last));
+        // The packet on its way still arrives, and is glided to: 5 and 10 ms.
+        if (stalled && into > 16) grown = std::max(grown, force - last);
+        if (into == 0) held = force;
+        if (into == stall_ms - 1) at_end = force;
+        last = force;
+      }
+      std::printf("stall %d ms at %.2f N: step %.4f N/ms, grown %.2g N, left %.4f, after %.4f\n", stall_ms, held, step,
+                  grown, at_end, last);
+      EXPECT_LT(step, 0.3) << stall_ms << " ms";
+      EXPECT_LT(grown, 1e-6) << stall_ms << " ms: force grew without news";
+      if (stall_ms >= 300) {
+        EXPECT_EQ(at_end, 0) << "250 ms without news";
+      }
+      EXPECT_NEAR(last, held, 0.02 * held) << "and all is as before";
+    }
+}
+
+TEST(MultiRate, LostPacketsAreNotFelt) {
+  for (const double young : {5000.0, 50000.0}) {
+    SoftSceneOptions options = scene(young, 10, 5);
+    options.material.prony = {PronyBranch{0.35, 0.1}, PronyBranch{0.25, 5}};
+    SoftScene s(options);
+    const double top = s.touching_z(kX, kY) + 1e-3;
+    SoftHand hand = SoftHand::firm(top);
+    std::mt19937 random(3);
+    double last = 0, step = 0, most = 0;
+    for (int k = 0; k < 4000; ++k) {
+      const double t = 1e-3 * k, down = 0.005 - 0.005 * std::cos(5 * t);
+      const bool lost = k % 10 == 0 && random() % 10 < 4;
+      const double force = s.tick(from_above({kX, kY, hand.z}), {0, 0, hand.speed}, false, lost).F_I_T.force.z();
+      step = std::max(step, std::abs(force - last));
+      most = std::max(most, force);
+      last = force;
+      hand.move(top - down, force);
+    }
+    std::printf("lost packets at up to %.2f N: step %.4f N/ms, out %.4f mJ\n", most, step, 1e3 * hand.most_out_j);
+    EXPECT_GT(most, 0.15);
+    EXPECT_LT(step, 0.3) << young;
+    EXPECT_LT(hand.most_out_j, 5e-5) << young;
+  }
+}
+
+TEST(MultiRate, ASweepTurnsTheForceSmoothly) {
+  // 50 mm/s across the organ and back, 3 mm deep.
+  // Facets 2 deg apart: the tool turns from one to the next over its radius, here within 2 ms, however the organ
+  // gives way. Facets of 3.6 deg turn it by 3.6 deg/ms, at 10 mm/s by a fifth.
+  SoftSceneOptions options = scene(5000, 10, 5);
+  options.rows = 64;
+  SoftScene s(options);
+  Vec3 last = Vec3::Zero();
+  double turn = 0, rubbed = 0, step = 0;
+  for (int k = 0; k < 2500; ++k) {
+    const double t = 1e-3 * k, way = t < 0.3 ? 0 : std::fmod(0.05 * (t - 0.3), 0.08);
+    const double x = -0.02 + (way < 0.04 ? way : 0.08 - way), speed = t < 0.3 ? 0 : way < 0.04 ? 0.05 : -0.05;
+    const double deep = 0.004 * std::min(1.0, t / 0.3) - 0.001;
+    const Vec3 p(x, kY, s.touching_z(x, kY) - deep);
+    const Vec3 force = s.tick(from_above(p), {speed, 0, 0}).F_I_T.force;
+    step = std::max(step, (force - last).norm());
+    // From a hundredth of the force on a direction is felt.
+    if (force.norm() > 0.01 && last.norm() > 0.01)
+      turn = std::max(turn, std::acos(std::min(1.0, force.normalized().dot(last.normalized()))));
+    if (speed > 0) rubbed = std::max(rubbed, -force.x());
+    last = force;
+  }
+  std::printf("sweep: turn %.3f deg/ms, step %.4f N/ms, friction %.4f of %.4f N\n", turn * 180 / std::numbers::pi, step,
+              rubbed, last.norm());
+  EXPECT_LT(turn * 180 / std::numbers::pi, 2);
+  EXPECT_GT(rubbed, 0.002);
+}
+
+/// A flat patch at that height that is glided to over 10 ms.
+void plane_at(double z, ContactPatch& patch) {
+  const std::uint64_t last = patch.stamp;
+  test::flat_patch(patch, z, 0.04, 6);
+  patch.glide_s = 0.01;
+  patch.moving = true;
+  patch.velocity.fill(Vec3::Zero());
+  patch.follows = last;
+  patch.stamp = last + 1;
+  for (int v = 0; v < patch.vertex_count; ++v) patch.previous[std::size_t(v)] = std::int16_t(v);
+}
+
+/// The surface rises under a tool that waits, sinks when the tool is gone. @return work on the tool, J
+double work_of_an_adversary(bool metered) {
+  ContactRenderer renderer(ContactLaw::kProxy, {}, {.metered = metered});
+  const auto patch = std::make_unique<ContactPatch>();
+  patch->material[0] = {150, 0};
+  const double touch = ToolShape{}.radius_m;
+  double work = 0, last = touch + 1e-3;
+  for (int k = 0; k < 20 * 400; ++k) {
+    const double phase = k % 400 / 100.0;
+    const auto ramp = [&](double from) { return std::clamp(phase - from, 0.0, 1.0); };
+    if (k % 10 == 0) plane_at(0.003 * (ramp(0) - ramp(2)), *patch);
+    const double z = touch - 0.002 + 0.007 * (ramp(1) - ramp(3));
+    const double force = renderer.update(from_above({0, 0, z}), {{0, 0, (z - last) / 1e-3}, Vec3::Zero()}, *patch)
+                             .F_I_T.force.z();
+    work += force * (z - last);
+    last = z;
+  }
+  return work;
+}
+
+TEST(MultiRate, TheSurfaceGivesNoEnergyThatNobodyPutIn) {
+  const double metered = work_of_an_adversary(true), unmetered = work_of_an_adversary(false);
+  std::printf("adversary: metered %.3f mJ, unmetered %.3f mJ\n", 1e3 * metered, 1e3 * unmetered);
+  EXPECT_GT(unmetered, 0.02) << "this one would be felt";
+  EXPECT_LT(metered, GlideParameters{}.tank_j);
+}
+
+TEST(MultiRate, TheTankIsNotFeltOnTissue) {
+  SoftSceneOptions options = scene(5000, 10, 5);
+  const Felt metered = press(options, true, 0.012);
+  options.glide.metered = false;
+  const Felt unmetered = press(options, true, 0.012);
+  EXPECT_NEAR(metered.hold_n, unmetered.hold_n, 1e-4);
+  EXPECT_NEAR(metered.most_n, unmetered.most_n, 1e-3);
 }
 
 }  // namespace
