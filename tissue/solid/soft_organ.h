@@ -36,6 +36,9 @@ struct SoftOrganOptions {
   double most_stiffness_n_per_m = 250;  ///< K_max of the loop, in scene newtons
 };
 
+/// What a half-space beyond a clamped ball of radius R about a place on it adds to the place's compliance, times pi E* R.
+double far_share(double poisson);
+
 class SoftOrgan {
  public:
   /// @param lattice over the surface at rest, of the edge that the options name.

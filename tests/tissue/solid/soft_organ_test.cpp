@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
+#include "tests/tissue/solid/soft_blocks.h"
 #include "tests/tissue/solid/soft_organ_rig.h"
 
 namespace trocar::soft_organ_test {
@@ -19,11 +21,31 @@ using test::SoftSceneOptions;
 
 SoftSceneOptions scene(double edge_m, double young_pa = 5000) {
   SoftSceneOptions options;
-  options.half_m = {0.1, 0.075, 0.04};
+  options.half_m = {0.07, 0.06, 0.04};
+  options.rows = 36;
   options.material.young_pa = young_pa;
   options.material.mu_static = options.material.mu_dynamic = 0;
   options.organ.solid.edge_m = edge_m;
   return options;
+}
+
+TEST(SoftOrgan, WhatLiesBeyondAClampedBallGoesWithOneOverItsRadius) {
+  // Of a block far larger than the balls. Which cells a ball takes in is a matter of the lattice: 5 %.
+  const double edge = 0.005;
+  const test::SoftBlock block(32, 32, 16, edge);
+  for (const double nu : {0.3, 0.45, 0.49}) {
+    SoftSolid solid = test::solid_of(block, test::elastic(5000, nu), test::tight(edge));
+    for (const std::int32_t node : block.face(2, false)) solid.hold(node, 1e4);
+    NodeShares place;
+    for (int a = 0; a < 4; ++a) {
+      place.node.push_back(block.id(16 + a % 2, 16 + a / 2, 16));
+      place.share.push_back((a % 2 == 0 ? 0.75F : 0.25F) * (a / 2 == 0 ? 0.75F : 0.25F));
+    }
+    const auto clamped = [&](double radius) { return solid.compliance(place, Vec3::UnitZ(), radius, false); };
+    const double modulus = 5000 / (1 - nu * nu);
+    const double share = (clamped(0.06) - clamped(0.03)) * std::numbers::pi * modulus / (1 / 0.03 - 1 / 0.06);
+    EXPECT_NEAR(share, far_share(nu), 0.05 * far_share(nu)) << nu;
+  }
 }
 
 struct Answer {
@@ -39,44 +61,46 @@ std::vector<Answer> press(const SoftSceneOptions& options, double x, double y, c
   for (const double wanted : depths) {
     double loop = 0;
     while (depth < wanted) {
-      depth = std::min(wanted, depth + 5e-5);
-      s.tick(from_above({x, y, top - depth}), {0, 0, -0.05});
+      depth = std::min(wanted, depth + 1e-4);
+      s.tick(from_above({x, y, top - depth}), {0, 0, -0.1});
     }
-    for (int i = 0; i < 800; ++i) loop = s.tick(from_above({x, y, top - depth}), Vec3::Zero()).F_I_T.force.norm();
+    for (int i = 0; i < 300; ++i) loop = s.tick(from_above({x, y, top - depth}), Vec3::Zero()).F_I_T.force.norm();
     out.push_back({loop, s.organ().force_n()});
   }
   return out;
 }
 
-const std::vector<double> kDepths{0.002, 0.004, 0.007, 0.010};
+const std::vector<double> kDepths{0.002, 0.005, 0.010};
 
 TEST(SoftOrgan, ForceOverDepthDoesNotHangOnTheCells) {
   const std::vector<Answer> fine = press(scene(0.010), 0.013, 0.007, kDepths);
   for (const double edge : {0.008, 0.0125}) {
     const std::vector<Answer> other = press(scene(edge), 0.013, 0.007, kDepths);
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
-      std::printf("depth %.0f mm: %.1f mm cells %.4f N, 10 mm cells %.4f N: %.2f %%\n", 1e3 * kDepths[i], 1e3 * edge,
-                  other[i].loop_n, fine[i].loop_n, 100 * (other[i].loop_n / fine[i].loop_n - 1));
+      RecordProperty("change_pct_" + std::to_string(int(1e4 * edge)) + "_" + std::to_string(i),
+                     std::to_string(100 * (other[i].loop_n / fine[i].loop_n - 1)));
       EXPECT_NEAR(other[i].loop_n, fine[i].loop_n, 0.05 * fine[i].loop_n) << edge << " at " << kDepths[i];
     }
   }
 }
 
 TEST(SoftOrgan, ForceDoesNotHangOnThePlaceWithinACell) {
-  const std::vector<double> depths{0.003, 0.008};
-  std::vector<double> least(2, 1e9), most(2, 0);
-  for (const double x : {0.0, 0.0025, 0.005, 0.0075})
-    for (const double y : {0.0, 0.005}) {
-      const std::vector<Answer> there = press(scene(0.010), x, y, depths);
-      for (std::size_t i = 0; i < 2; ++i) {
-        least[i] = std::min(least[i], there[i].loop_n);
-        most[i] = std::max(most[i], there[i].loop_n);
+  // At 8 mm the tool is as deep as a cell and stands on a node as softly as a half-space: the hardest place.
+  for (const double edge : {0.008, 0.010}) {
+    std::vector<double> least(kDepths.size(), 1e9), most(kDepths.size(), 0);
+    for (const double x : {0.0, 0.3, 0.5, 0.8})
+      for (const double y : {0.0, 0.5}) {
+        const std::vector<Answer> there = press(scene(edge), 0.005 + x * edge, 0.003 + y * edge, kDepths);
+        for (std::size_t i = 0; i < kDepths.size(); ++i) {
+          least[i] = std::min(least[i], there[i].loop_n);
+          most[i] = std::max(most[i], there[i].loop_n);
+        }
       }
+    for (std::size_t i = 0; i < kDepths.size(); ++i) {
+      RecordProperty("spread_pct_" + std::to_string(int(1e4 * edge)) + "_" + std::to_string(i),
+                     std::to_string(100 * (most[i] / least[i] - 1)));
+      EXPECT_LT(most[i], 1.07 * least[i]) << edge << " at " << kDepths[i];
     }
-  for (std::size_t i = 0; i < 2; ++i) {
-    std::printf("within a cell at %.0f mm: %.4f .. %.4f N (+-%.2f %%)\n", 1e3 * depths[i], least[i], most[i],
-                50 * (most[i] - least[i]) / (0.5 * (most[i] + least[i])));
-    EXPECT_LT(most[i], 1.07 * least[i]);
   }
 }
 
@@ -87,8 +111,6 @@ TEST(SoftOrgan, TheLoopFeelsWhatTheSolidAnswers) {
     options.period_ticks = 5;
     const std::vector<Answer> fives = press(options, 0.013, 0.007, kDepths);
     for (std::size_t i = 0; i < kDepths.size(); ++i) {
-      std::printf("%.0f Pa at %.0f mm: loop %.4f solid %.4f N; step 5 ms %.4f N\n", young, 1e3 * kDepths[i],
-                  tens[i].loop_n, tens[i].solid_n, fives[i].loop_n);
       EXPECT_NEAR(tens[i].loop_n, tens[i].solid_n, 0.01 * tens[i].solid_n);
       EXPECT_NEAR(fives[i].loop_n, tens[i].loop_n, 0.01 * tens[i].loop_n) << "step 5 ms";
     }
