@@ -13,7 +13,7 @@ namespace trocar {
 namespace {
 
 constexpr double kLeastContact = 1e-3;  // m, radius of a contact that has just begun
-constexpr double kLeastSubCell = 0.1;   // share of a half-space's compliance that the sub-cell law keeps
+constexpr double kLeastSubCell = 0.03;  // share of a half-space's compliance that the sub-cell law keeps
 constexpr double kTangential = 0.8;     // friction's spring over the normal one (haptics/contact/contact_friction.cpp)
 constexpr double kNoForce = 1e-6;       // N
 constexpr int kShiftRounds = 12;

@@ -43,6 +43,7 @@ struct SoftSceneOptions {
   TissueSolid material;
   SoftOrganOptions organ;
   GlideParameters glide;
+  ToolShape tool;
   int period_ticks = 10;  ///< of the organ: its step in ms
   int delay_ticks = 5;    ///< after which the loop sees a patch
 };
@@ -58,7 +59,8 @@ inline Pose from_above(const Vec3& p) {
 class SoftScene {
  public:
   explicit SoftScene(const SoftSceneOptions& options)
-      : options_(with_step(options)),
+      : options_(made_one(options)),
+        tool_(options.tool),
         rest_(ellipsoid(options.half_m, options.rows)),
         organ_(build_lattice({rest_->vertices, rest_->triangles}, {.cell_m = options_.organ.solid.edge_m}).lattice, rest_,
                options.material, options_.organ),
@@ -99,7 +101,6 @@ class SoftScene {
   const SurfacePtr& rest() const { return rest_; }
   ContactRenderer& renderer() { return renderer_; }
   const ContactPatch& seen() const { return *seen_; }
-  double tool_radius_m() const { return tool_.radius_m; }
 
  private:
   struct Waiting {
@@ -107,7 +108,8 @@ class SoftScene {
     std::unique_ptr<ContactPatch> patch;
   };
 
-  static SoftSceneOptions with_step(SoftSceneOptions options) {
+  static SoftSceneOptions made_one(SoftSceneOptions options) {
+    options.organ.tool_radius_m = options.tool.radius_m;
     options.organ.solid.step_s = 1e-3 * options.period_ticks;
     return options;
   }

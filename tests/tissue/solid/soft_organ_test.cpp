@@ -104,6 +104,25 @@ TEST(SoftOrgan, ForceDoesNotHangOnThePlaceWithinACell) {
   }
 }
 
+TEST(SoftOrgan, ABallPressesAsHertzSays) {
+  // A ball of 10 mm on an organ so large that its bulk gives way by 5 % of the depth at most.
+  for (const double edge : {0.0125, 0.016}) {
+    SoftSceneOptions options = scene(edge);
+    options.half_m = {0.15, 0.15, 0.1};
+    options.rows = 60;
+    options.tool.radius_m = 0.010;
+    const std::vector<double> depths{0.001, 0.002, 0.004, 0.008};
+    const std::vector<Answer> answers = press(options, 0.006, 0.003, depths);
+    const double modulus = 5000 / (1 - 0.45 * 0.45);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      const double wanted = 4.0 / 3 * modulus * std::sqrt(0.010) * std::pow(depths[i], 1.5);
+      std::printf("hertz %.1f mm depth %.0f: %.4f of %.4f N: %.3f\n", 1e3 * edge, 1e3 * depths[i], answers[i].loop_n, wanted, answers[i].loop_n / wanted);
+      EXPECT_NEAR(answers[i].loop_n, wanted, 0.08 * wanted) << edge << " at " << depths[i];
+    }
+    EXPECT_NEAR(std::log(answers[3].loop_n / answers[0].loop_n) / std::log(8), 1.5, 0.07) << edge;
+  }
+}
+
 TEST(SoftOrgan, TheLoopFeelsWhatTheSolidAnswers) {
   for (const double young : {5000.0, 50000.0}) {
     SoftSceneOptions options = scene(0.010, young);
