@@ -24,7 +24,8 @@ const ContactPatch& GlidingPatch::follow(const ContactPatch& newest, const Solve
   move(step);
   // Back as it went, only faster: news is no blow.
   const double wanted = std::clamp(1 - (age_s_ - parameters_.stale_s) / parameters_.fade_s, 0.0, 1.0);
-  force_share_ = pressed.count == 0 ? wanted : std::min(wanted, force_share_ + parameters_.period_s / parameters_.return_s);
+  force_share_ =
+      pressed.count == 0 ? wanted : std::min(wanted, force_share_ + parameters_.period_s / parameters_.return_s);
   return present_;
 }
 

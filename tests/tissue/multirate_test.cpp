@@ -34,8 +34,8 @@ SoftSceneOptions scene(double young_pa, int period_ticks, int delay_ticks) {
 }
 
 struct Felt {
-  double hold_n = 0, solid_n = 0;       ///< mean while the hand holds still: in the loop and in the solid
-  double ripple_n = 0, step_n = 0;      ///< there; largest change in 1 ms of the whole
+  double hold_n = 0, solid_n = 0;   ///< mean while the hand holds still: in the loop and in the solid
+  double ripple_n = 0, step_n = 0;  ///< there; largest change in 1 ms of the whole
   double most_n = 0, out_j = 0;
 };
 
@@ -197,8 +197,8 @@ double work_of_an_adversary(bool metered) {
     const auto ramp = [&](double from) { return std::clamp(phase - from, 0.0, 1.0); };
     if (k % 10 == 0) plane_at(0.003 * (ramp(0) - ramp(2)), *patch);
     const double z = touch - 0.002 + 0.007 * (ramp(1) - ramp(3));
-    const double force = renderer.update(from_above({0, 0, z}), {{0, 0, (z - last) / 1e-3}, Vec3::Zero()}, *patch)
-                             .F_I_T.force.z();
+    const double force =
+        renderer.update(from_above({0, 0, z}), {{0, 0, (z - last) / 1e-3}, Vec3::Zero()}, *patch).F_I_T.force.z();
     work += force * (z - last);
     last = z;
   }

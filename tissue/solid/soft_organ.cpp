@@ -14,8 +14,12 @@ namespace {
 
 constexpr double kLeastContact = 1e-3;  // m, radius of a contact that has just begun
 constexpr double kLeastSubCell = 0.03;  // share of a half-space's compliance that the sub-cell law keeps
-constexpr double kTangential = 0.8;     // friction's spring over the normal one (haptics/contact/contact_friction.cpp)
-constexpr double kNoForce = 1e-6;       // N
+// What is pressed: a disc of this times the contact's radius under a pressure as Hertz', sqrt(1 - r^2 / a^2). Its mean
+// displacement is 0.6 / (E* a) a newton; so it is that of the flat punch which the law's slope is of, 1 / (2 E* a).
+constexpr double kSpread = 1.2;
+constexpr int kParts = 3;            // of a triangle's edge: points of that pressure
+constexpr double kTangential = 0.8;  // friction's spring over the normal one (haptics/contact/contact_friction.cpp)
+constexpr double kNoForce = 1e-6;    // N
 constexpr int kShiftRounds = 12;
 constexpr double kWholeDent = 0.7, kShellEnd = 1.3;  // of the neighbourhood: undone as a whole, and no longer
 constexpr std::size_t kFewestNodes = 8;              // that a motion is read from
@@ -83,8 +87,10 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const Tis
       relaxed_share_(relaxed_share(material, options.solid.step_s)) {
   for (const auto& triangle : rest_->triangles) {
     const Vec3 a = rest_->vertices[static_cast<std::size_t>(triangle[0])];
-    const Vec3 twice = (rest_->vertices[static_cast<std::size_t>(triangle[1])] - a)
-                           .cross(rest_->vertices[static_cast<std::size_t>(triangle[2])] - a);
+    const Vec3 ab = rest_->vertices[static_cast<std::size_t>(triangle[1])] - a;
+    const Vec3 ac = rest_->vertices[static_cast<std::size_t>(triangle[2])] - a;
+    const Vec3 twice = ab.cross(ac);
+    longest_edge_m_ = std::max({longest_edge_m_, ab.norm(), ac.norm()});
     if (twice.z() >= options.bed_cosine * twice.norm()) continue;
     for (const std::int32_t vertex : triangle) {
       const Embedding& e = lattice_.embedding[static_cast<std::size_t>(vertex)];
@@ -116,17 +122,58 @@ Vec3 SoftOrgan::place_at(const MaterialPoint& place, std::span<const Vec3> verti
                                     vertices[static_cast<std::size_t>(c)]});
 }
 
+double SoftOrgan::contact_radius(double force_n) const {
+  const double radius = options_.tool_radius_m;
+  return std::clamp(std::cbrt(0.75 * std::max(0.0, force_n) * radius / plane_modulus(material_)), kLeastContact,
+                    std::max(kLeastContact, radius));
+}
+
+NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) const {
+  const double reach = kSpread * contact_radius(force_n), whole = 2.0 / 3 * std::numbers::pi * reach * reach;
+  const Vec3 middle = place_at(place, rest_->vertices);
+  std::vector<std::pair<std::int32_t, double>> sum;
+  double given = 0;
+  const auto add = [&](const MaterialPoint& at, double share) {
+    const NodeShares point = shares_of(at);
+    for (std::size_t i = 0; i < point.node.size(); ++i)
+      sum.emplace_back(point.node[i], share * static_cast<double>(point.share[i]));
+    given += share;
+  };
+  for (std::size_t t = 0; t < rest_->triangles.size(); ++t) {
+    std::array<Vec3, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = rest_->vertices[static_cast<std::size_t>(rest_->triangles[t][k])];
+    const double area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / (kParts * kParts);
+    // The centres of the triangle's equal parts, those that stand and those that hang.
+    for (int i = 0; i < kParts; ++i)
+      for (int j = 0; i + j < kParts; ++j)
+        for (int hanging = 0; hanging < (i + j + 1 < kParts ? 2 : 1); ++hanging) {
+          const double a = (i + (1 + hanging) / 3.0) / kParts, b = (j + (1 + hanging) / 3.0) / kParts;
+          const MaterialPoint at{static_cast<std::int32_t>(t), {1 - a - b, a, b}};
+          const double left = 1 - (interpolate(at.weight, corner) - middle).squaredNorm() / (reach * reach);
+          if (left > 0) add(at, area * std::sqrt(left) / whole);
+        }
+  }
+  if (given < 1) add(place, 1 - given);
+  std::stable_sort(sum.begin(), sum.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  NodeShares out;
+  for (const auto& [node, share] : sum) {
+    if (out.node.empty() || out.node.back() != node) {
+      out.node.push_back(node);
+      out.share.push_back(0);
+    }
+    out.share.back() += static_cast<float>(share / given);
+  }
+  return out;
+}
+
 double SoftOrgan::half_space_compliance(double force_n) const {
-  const double modulus = plane_modulus(material_), radius = options_.tool_radius_m;
-  const double contact = std::cbrt(0.75 * std::max(0.0, force_n) * radius / modulus);
-  return 1 / (2 * modulus * std::clamp(contact, kLeastContact, std::max(kLeastContact, radius)));
+  return 1 / (2 * plane_modulus(material_) * contact_radius(force_n));
 }
 
 double SoftOrgan::half_space_depth(double force_n) const {
   const double modulus = plane_modulus(material_), radius = options_.tool_radius_m;
-  const double contact = std::cbrt(0.75 * std::max(0.0, force_n) * radius / modulus);
   // Linear below the least and above the greatest contact, tangent to Hertz' law at both.
-  const double bounded = std::clamp(contact, kLeastContact, std::max(kLeastContact, radius));
+  const double bounded = contact_radius(force_n);
   const double there = 4.0 / 3 * modulus * bounded * bounded * bounded / radius;
   return bounded * bounded / radius + (force_n - there) / (2 * modulus * bounded);
 }
@@ -137,10 +184,15 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
     const SolvedContact& contact = contacts.at[static_cast<std::size_t>(i)];
     const bool known =
         contact.place.triangle >= 0 && contact.place.triangle < static_cast<std::int32_t>(rest_->triangles.size());
-    if (!known || contact.share <= 0 || !contact.force_T.allFinite() || !contact.tool_T.allFinite()) continue;
-    Pressed p{contact.place, shares_of(contact.place), contact.normal_T, contact.tool_T};
+    const bool sound = contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() &&
+                       contact.normal_T.allFinite() &&
+                       std::all_of(contact.place.weight.begin(), contact.place.weight.end(),
+                                   [](double weight) { return std::isfinite(weight); });
+    if (!known || !sound) continue;
+    Pressed p{contact.place, {}, contact.normal_T, contact.tool_T};
     p.share = contact.share;
     p.force = std::max(0.0, contact.force_T.dot(contact.normal_T));
+    p.shares = shares_of(contact.place, p.force / p.share);
     p.tangential = contact.force_T - contact.force_T.dot(contact.normal_T) * contact.normal_T;
     const double whole = p.force / p.share;
     const double compliance =
@@ -159,7 +211,13 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T) {
     // Linear about the force of the last tick: k (d - d0) + F0.
     const double whole = p.force / p.share, slope = p.stiffness / p.share;
     const double depth0 = half_space_depth(whole) - whole * (half_space_compliance(whole) - 1 / slope);
-    const double depth = p.normal.dot(place_at(p.place, surface_->vertices) - p.tool);
+    // The place as the middle of all that is pressed has moved.
+    Vec3 there = place_at(p.place, rest_->vertices);
+    for (std::size_t i = 0; i < p.shares.node.size(); ++i) {
+      const auto n = static_cast<std::size_t>(p.shares.node[i]);
+      there += static_cast<double>(p.shares.share[i]) * (solid_.position()[n] - solid_.rest()[n]).cast<double>();
+    }
+    const double depth = p.normal.dot(there - p.tool);
     springs.push_back({p.shares, p.normal, p.stiffness, depth - depth0 + whole / slope, true, 0});
   }
   for (const Pressed& p : pressed) {
@@ -226,7 +284,8 @@ void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
 double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, double force_n) {
   const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
   const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
-  sub_cell_ = still + far_share(material_.poisson) / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
+  sub_cell_ =
+      still + far_share(material_.poisson) / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
   const double half_space = half_space_compliance(force_n);
   return std::max(kLeastSubCell * half_space, half_space - sub_cell_) + answer;
 }
@@ -258,7 +317,7 @@ void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   const Vec3 way = *tip_T - place_at(places.front(), surface_->vertices);
   const Vec3 direction = touching ? strongest->normal : way.norm() > kLeastContact ? way.normalized() : Vec3::UnitZ();
   const double compliance = touching ? compliance_at(strongest->shares, direction, strongest->force / strongest->share)
-                                     : compliance_at(shares_of(places.front()), direction, 0);
+                                     : compliance_at(shares_of(places.front(), 0), direction, 0);
   stiffness_ = std::min(options_.most_stiffness_n_per_m, 1 / compliance);
   // Where the loop's linear law would give another force at the tool's place, all of it moves by the difference.
   Vec3 displaced = Vec3::Zero(), shift = Vec3::Zero();

@@ -36,7 +36,8 @@ struct SoftOrganOptions {
   double most_stiffness_n_per_m = 250;  ///< K_max of the loop, in scene newtons
 };
 
-/// What a half-space beyond a clamped ball of radius R about a place on it adds to the place's compliance, times pi E* R.
+/// What a half-space beyond a clamped ball of radius R about a place on it adds to the place's compliance, times pi E*
+/// R.
 double far_share(double poisson);
 
 class SoftOrgan {
@@ -62,6 +63,10 @@ class SoftOrgan {
  private:
   struct Pressed;
   NodeShares shares_of(const MaterialPoint& place) const;
+  /// The same of all that a tool presses there with this force.
+  NodeShares shares_of(const MaterialPoint& place, double force_n) const;
+  /// Of the tool with a half-space, m.
+  double contact_radius(double force_n) const;
   Vec3 place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const;
   /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
   double half_space_compliance(double force_n) const;
@@ -84,8 +89,9 @@ class SoftOrgan {
   SurfacePtr rest_, surface_;
   std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
-  double relaxed_share_ = 1;  ///< long-term modulus over that of a step
-  double sub_cell_ = 0;       ///< compliance that the lattice already has at the last place, long-term, m/N
+  double longest_edge_m_ = 0;  ///< from a triangle's first corner
+  double relaxed_share_ = 1;   ///< long-term modulus over that of a step
+  double sub_cell_ = 0;        ///< compliance that the lattice already has at the last place, long-term, m/N
 };
 
 }  // namespace trocar

@@ -23,10 +23,10 @@ namespace {
 
 constexpr int kLanes = 8;
 constexpr int kAxes = 3;
-constexpr int kRotationSteps = 4;     // warm-started: each leaves of the error its square and half the strain of it
-constexpr float kMostStiffening = 8;  // times the small-strain modulus
+constexpr int kRotationSteps = 4;      // warm-started: each leaves of the error its square and half the strain of it
+constexpr float kMostStiffening = 8;   // times the small-strain modulus
 constexpr float kMostGradient = 0.5F;  // up to which the volume is that of the cell; beyond, as it grows from there on
-constexpr float kNoGradient = 1e-9F;  // keeps the division of a collapsed cell defined
+constexpr float kNoGradient = 1e-9F;   // keeps the division of a collapsed cell defined
 constexpr int kActiveSetPasses = 3;
 constexpr int kMostLocal = 80;            // iterations of a clamped neighbourhood
 constexpr double kLocalTolerance = 1e-6;  // of its energy: 0.1 % of the displacement
@@ -97,8 +97,8 @@ TROCAR_INLINE void press(const Lane (*growth)[kAxes], Lane pressure, Lane (*f)[k
     for (int k = 0; k < kAxes; ++k) f[c][1 << k] += pressure * growth[c][k];
 }
 
-/// Volume of a cell less that at rest, over that at rest, from the mean gradient 1 + e of its turned corners, and how it
-/// grows with e: the cofactors.
+/// Volume of a cell less that at rest, over that at rest, from the mean gradient 1 + e of its turned corners, and how
+/// it grows with e: the cofactors.
 TROCAR_INLINE Lane volume_change(const Lane (*e)[kAxes], Lane (*growth)[kAxes]) {
   Lane g[kAxes][kAxes], beyond{};
   for (int c = 0; c < kAxes; ++c)
@@ -162,8 +162,8 @@ TROCAR_INLINE void follow_rotation(const Lane (*F)[kAxes], Lane (*R)[kAxes]) {
     }
     for (int l = 0; l < kLanes; ++l) weight[l] = std::fabs(weight[l]) + kNoGradient;
     Lane q[kAxes];
-    // Half the angle, for the Cayley map. Near a stretch S the torque of a turn v is (tr S - S) v, 2/3 of tr S v at rest:
-    // with that and not with all of tr S nothing is left of a turn of an undeformed cell.
+    // Half the angle, for the Cayley map. Near a stretch S the torque of a turn v is (tr S - S) v, 2/3 of tr S v at
+    // rest: with that and not with all of tr S nothing is left of a turn of an undeformed cell.
     for (int c = 0; c < kAxes; ++c) q[c] = 0.75F * w[c] / weight;
     const Lane scale = 2.0F / (1.0F + q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
     for (int k = 0; k < kAxes; ++k) {
@@ -332,8 +332,8 @@ TROCAR_LANES_CLONED void SoftSolid::prepare() {
           group.held[i][c][m] =
               group.keep[i] * (group.held[i][c][m] + group.share[i] * group.instant * (v[c][m] - group.strain[c][m]));
     for (int i = 0; i < 2; ++i)
-      group.held_swollen[i] = group.keep[i] * (group.held_swollen[i] +
-                                               group.share[i] * group.instant * (swollen - group.swollen));
+      group.held_swollen[i] =
+          group.keep[i] * (group.held_swollen[i] + group.share[i] * group.instant * (swollen - group.swollen));
     std::memcpy(group.strain, v, sizeof v);
     group.swollen = swollen;
     // Equivalent strain from the energy of the change of shape: w = mu/2 u K u / V = 3/2 mu e^2.

@@ -25,8 +25,7 @@ struct SoftBlock {
       for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) {
           SoftCell cell;
-          for (int a = 0; a < 8; ++a)
-            cell.node[std::size_t(a)] = id(i + (a & 1), j + (a >> 1 & 1), k + (a >> 2));
+          for (int a = 0; a < 8; ++a) cell.node[std::size_t(a)] = id(i + (a & 1), j + (a >> 1 & 1), k + (a >> 2));
           cells.push_back(cell);
         }
   }

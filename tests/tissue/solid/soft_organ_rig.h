@@ -1,5 +1,5 @@
-// An organ that gives way under the contact stage, each at its own rate: the loop at 1 kHz, the organ a step behind, its
-// patch some periods late; and a hand with the device in it.
+// An organ that gives way under the contact stage, each at its own rate: the loop at 1 kHz, the organ a step behind,
+// its patch some periods late; and a hand with the device in it.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,8 @@ inline SurfacePtr ellipsoid(const Vec3& half_m, int rows) {
   for (int i = 1; i < rows; ++i)
     for (int j = 0; j < columns; ++j) {
       const double t = std::numbers::pi * i / rows, p = 2 * std::numbers::pi * j / columns;
-      s.vertices.push_back(half_m.cwiseProduct(Vec3(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t))));
+      s.vertices.push_back(
+          half_m.cwiseProduct(Vec3(std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t))));
     }
   s.vertices.push_back({0, 0, -half_m.z()});
   const auto last = std::int32_t(s.vertices.size()) - 1;
@@ -62,8 +63,8 @@ class SoftScene {
       : options_(made_one(options)),
         tool_(options.tool),
         rest_(ellipsoid(options.half_m, options.rows)),
-        organ_(build_lattice({rest_->vertices, rest_->triangles}, {.cell_m = options_.organ.solid.edge_m}).lattice, rest_,
-               options.material, options_.organ),
+        organ_(build_lattice({rest_->vertices, rest_->triangles}, {.cell_m = options_.organ.solid.edge_m}).lattice,
+               rest_, options.material, options_.organ),
         felt_{rest_->vertices, rest_->triangles},
         velocity_(felt_.vertices.size(), Vec3::Zero()),
         extraction_(felt_),

@@ -105,22 +105,29 @@ TEST(SoftOrgan, ForceDoesNotHangOnThePlaceWithinACell) {
 }
 
 TEST(SoftOrgan, ABallPressesAsHertzSays) {
-  // A ball of 10 mm on an organ so large that its bulk gives way by 5 % of the depth at most.
-  for (const double edge : {0.0125, 0.016}) {
+  // A ball of 10 mm on an organ so large that its bulk gives way by 5 % of the depth at most. Hertz' law is one of
+  // small strains: 8 % is the bar down to 4 mm. At 8 mm the contact is as wide as the ball, strains are a third, and
+  // tissue that keeps its volume is stiffer than the law: 12 %, the same on every lattice, where the bar says 8.
+  std::vector<std::vector<double>> forces;
+  const std::vector<double> depths{0.001, 0.002, 0.004, 0.008};
+  for (const double edge : {0.010, 0.0125}) {
     SoftSceneOptions options = scene(edge);
-    options.half_m = {0.15, 0.15, 0.1};
+    options.half_m = {0.13, 0.13, 0.09};
     options.rows = 60;
     options.tool.radius_m = 0.010;
-    const std::vector<double> depths{0.001, 0.002, 0.004, 0.008};
     const std::vector<Answer> answers = press(options, 0.006, 0.003, depths);
     const double modulus = 5000 / (1 - 0.45 * 0.45);
+    forces.emplace_back();
     for (std::size_t i = 0; i < depths.size(); ++i) {
       const double wanted = 4.0 / 3 * modulus * std::sqrt(0.010) * std::pow(depths[i], 1.5);
-      std::printf("hertz %.1f mm depth %.0f: %.4f of %.4f N: %.3f\n", 1e3 * edge, 1e3 * depths[i], answers[i].loop_n, wanted, answers[i].loop_n / wanted);
-      EXPECT_NEAR(answers[i].loop_n, wanted, 0.08 * wanted) << edge << " at " << depths[i];
+      forces.back().push_back(answers[i].loop_n);
+      RecordProperty("share_" + std::to_string(int(1e4 * edge)) + "_" + std::to_string(i),
+                     std::to_string(answers[i].loop_n / wanted));
+      EXPECT_NEAR(answers[i].loop_n, wanted, (depths[i] > 0.005 ? 0.12 : 0.08) * wanted) << edge << " at " << depths[i];
     }
     EXPECT_NEAR(std::log(answers[3].loop_n / answers[0].loop_n) / std::log(8), 1.5, 0.07) << edge;
   }
+  for (std::size_t i = 0; i < depths.size(); ++i) EXPECT_NEAR(forces[0][i], forces[1][i], 0.05 * forces[0][i]);
 }
 
 TEST(SoftOrgan, TheLoopFeelsWhatTheSolidAnswers) {
@@ -145,7 +152,9 @@ TEST(SoftOrgan, NothingIsLeftOfAPress) {
   const double top = s.touching_z(0.013, 0.007);
   double deepest = 0;
   for (int i = 0; i < 7000; ++i) {
-    const double t = 1e-3 * i, depth = t < 1 ? 0.012 * t - 0.002 : t < 1.5 ? 0.010 : std::max(-0.02, 0.01 - 0.1 * (t - 1.5));
+    const double t = 1e-3 * i, depth = t < 1     ? 0.012 * t - 0.002
+                                       : t < 1.5 ? 0.010
+                                                 : std::max(-0.02, 0.01 - 0.1 * (t - 1.5));
     const ContactResult r = s.tick(from_above({0.013, 0.007, top - depth}), Vec3::Zero());
     deepest = std::max(deepest, r.F_I_T.force.norm());
     if (t > 2.5) {
@@ -187,9 +196,10 @@ TEST(SoftOrgan, SurvivesAToolThatTeleportsAndContactsThatAreNone) {
       bad.at[0] = {{0, {1, 0, 0}}, Vec3::UnitZ(), Vec3(nan, 0, 1), {}, p, 1};
       bad.at[1] = {{1 << 30, {1, 0, 0}}, Vec3::UnitZ(), Vec3(0, 0, 1), {}, p, 1};
       bad.at[2] = {{2, {nan, nan, nan}}, Vec3(nan, nan, nan), Vec3(0, 0, 1), {}, Vec3(0, nan, 0), 1};
-      if (random() % 2 == 0) bad.at[2] = {{2, {nan, 0, 1}}, Vec3::UnitZ(), Vec3(0, 0, 1), {}, p, nan};
-      if (random() % 2 == 0) bad.at[2] = {{2, {1, 0, 0}}, Vec3(nan, 0, 1), Vec3(0, 0, 1), {}, p, 1};
+      if (random() % 2 == 0) bad.at[2] = {{2, {0, 0, 1}}, Vec3(nan, 0, 1), Vec3(0, 0, 1), {}, p, nan};
+      if (random() % 2 == 0) bad.at[2] = {{2, {nan, 0, 1}}, Vec3::UnitZ(), Vec3(0, 0, 1), {}, p, 1};
       s.organ().step(bad, &p);
+      ASSERT_EQ(s.organ().force_n(), 0) << "none of them presses";
     }
     for (const Vec3f& x : s.organ().solid().position()) ASSERT_TRUE(x.allFinite()) << i;
   }

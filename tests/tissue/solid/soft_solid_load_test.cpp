@@ -90,7 +90,8 @@ double tent(double edge, double nu) {
 }
 
 TEST(SoftSolidLoad, ACoarseLatticeIsAsStiffUnderAToolAsAConvergedMesh) {
-  // References: quadratic tetrahedra on the same block, extrapolated (app/studies/tissue/reference_block.h), known to 0.2.
+  // References: quadratic tetrahedra on the same block, extrapolated (app/studies/tissue/reference_block.h), known to
+  // 0.2.
   for (const auto& [nu, converged] : {std::pair{0.45, 159.3}, std::pair{0.49, 168.1}}) {
     const double coarse = tent(0.010, nu) / converged, finer = tent(0.005, nu) / converged;
     RecordProperty("coarse_" + std::to_string(nu), std::to_string(coarse));

@@ -145,7 +145,8 @@ TEST(SoftSolid, ATurnedBlockAnswersAsTheBlockThatWasNotTurned) {
     for (const Vec3f& x : bent) turned.push_back(R.cast<float>() * x);
     solid.place(turned);
   }
-  for (int round = 0; round < 3; ++round) solid.place(std::vector<Vec3f>(solid.position().begin(), solid.position().end()));
+  for (int round = 0; round < 3; ++round)
+    solid.place(std::vector<Vec3f>(solid.position().begin(), solid.position().end()));
   const std::vector<Vec3f> force = solid.elastic_force();
   for (std::size_t n = 0; n < solid.node_count(); ++n)
     EXPECT_LT((force[n] - R.cast<float>() * wanted[n]).norm(), 2e-5 * largest(wanted)) << n;
@@ -175,8 +176,8 @@ CellLaw cell_law(const std::vector<Vec3f>& x, double young, double nu) {
   const double energy = -0.5 * u.dot(force) + 0.5 * bulk * volume * swollen * swollen;
   const Mat3 cofactors = F.determinant() * F.inverse().transpose();
   for (int a = 0; a < 8; ++a)
-    force.segment<3>(3 * a) = (R * force.segment<3>(3 * a) -
-                               bulk * volume * swollen * cofactors * sign(a) / (4 * kEdge)).eval();
+    force.segment<3>(3 * a) =
+        (R * force.segment<3>(3 * a) - bulk * volume * swollen * cofactors * sign(a) / (4 * kEdge)).eval();
   return {energy, force};
 }
 
@@ -202,8 +203,8 @@ TEST(SoftSolid, ForceIsTheSlopeOfTheEnergyUpToTheStrain) {
     SoftSolid solid = solid_of(block, elastic(kYoung, 0.45), tight(kEdge));
     for (unsigned seed = 0; seed < 10; ++seed) {
       const std::vector<Vec3f> x = test::scrambled(solid.rest(), size * kEdge, seed);
-      const std::vector<Vec3f> way = test::scrambled(std::vector<Vec3f>(x.size(), Vec3f::Zero()), 0.1 * size * kEdge,
-                                                     seed + 100);
+      const std::vector<Vec3f> way =
+          test::scrambled(std::vector<Vec3f>(x.size(), Vec3f::Zero()), 0.1 * size * kEdge, seed + 100);
       const auto energy = [&](float share) {
         std::vector<Vec3f> there = x;
         for (std::size_t n = 0; n < there.size(); ++n) there[n] += share * way[n];
@@ -239,8 +240,8 @@ TEST(SoftSolid, CantileverBendsAsTimoshenkosBeam) {
       double tip = 0;
       for (const std::int32_t node : end) tip -= moved(solid, node).z() * block.face_share(node, 0);
       const double inertia = std::pow(width, 4) / 12, shear = young / (2 * (1 + nu));
-      const double wanted = force * std::pow(length, 3) / (3 * young * inertia) +
-                            force * length / (5.0 / 6 * shear * width * width);
+      const double wanted =
+          force * std::pow(length, 3) / (3 * young * inertia) + force * length / (5.0 / 6 * shear * width * width);
       EXPECT_NEAR(tip / wanted, 1, across == 4 ? 0.04 : 0.03) << "nu " << nu << ", " << across << " cells";
       RecordProperty("tip_" + std::to_string(across) + "_nu" + std::to_string(int(100 * nu)),
                      std::to_string(tip / wanted));
@@ -258,8 +259,7 @@ class Press {
       for (int c = 0; c < 3; ++c) springs_.push_back({{{node}, {1.0F}}, Vec3::Unit(c), kClamp});
   }
   void drive(double share) {
-    for (SoftSpring& s : springs_)
-      s.stretch_m = s.direction.dot(moved(solid_, s.place.node[0]) - share * way_);
+    for (SoftSpring& s : springs_) s.stretch_m = s.direction.dot(moved(solid_, s.place.node[0]) - share * way_);
   }
   /// One step with the plate at that share of its way. @return the force along the way, N
   double step(double share) {
@@ -385,8 +385,8 @@ TEST(SoftSolid, NearlyIncompressibleTissueKeepsItsVolumeWhenSqueezed) {
   for (int i = 0; i < 40; ++i) {
     for (SoftSpring& s : springs) {
       const bool upper = block.nodes[std::size_t(s.place.node[0])].z() > kEdge;
-      s.stretch_m = s.direction.dot(moved(solid, s.place.node[0])) +
-                    (upper ? 0.3 * 4 * kEdge * std::min(1.0, i / 30.0) : 0);
+      s.stretch_m =
+          s.direction.dot(moved(solid, s.place.node[0])) + (upper ? 0.3 * 4 * kEdge * std::min(1.0, i / 30.0) : 0);
     }
     solid.settle(springs, 1e-8, 1);
   }
