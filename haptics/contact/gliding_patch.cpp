@@ -7,8 +7,8 @@ namespace trocar {
 const ContactPatch& GlidingPatch::follow(const ContactPatch& newest, const SolvedContacts& pressed, double stored_j,
                                          double thinnest_m) {
   moved_m_ = 0;
-  force_share_ = 1;
   if (newest.glide_s <= 0) {
+    force_share_ = 1;
     forget();
     return newest;
   }
@@ -22,7 +22,10 @@ const ContactPatch& GlidingPatch::follow(const ContactPatch& newest, const Solve
   if (parameters_.metered && cost > tank_j_) step *= std::max(0.0, tank_j_) / cost;
   tank_j_ = std::min(parameters_.tank_j, tank_j_ - std::min(cost, std::max(0.0, tank_j_)));
   move(step);
-  force_share_ = std::clamp(1 - (age_s_ - parameters_.stale_s) / parameters_.fade_s, 0.0, 1.0);
+  // Back as it went, only faster: news is no blow.
+  const double wanted = std::clamp(1 - (age_s_ - parameters_.stale_s) / parameters_.fade_s, 0.0, 1.0);
+  force_share_ =
+      pressed.count == 0 ? wanted : std::min(wanted, force_share_ + parameters_.period_s / parameters_.return_s);
   return present_;
 }
 

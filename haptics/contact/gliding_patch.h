@@ -6,7 +6,8 @@
 // moving surface does on the tool, sum F . ds + dk y^2 / 2, is paid from a tank of its own: filled by what the surface
 // takes from the tool, by damping, and by the energy that the tissue lost in its step (ContactPatch::given_j); when it
 // is empty the surface waits. So a surface can give no energy that nobody put in, and a late patch never makes force
-// grow: after stale_s without one the force fades over fade_s. Frame T. Thread: haptic task; no allocation.
+// grow: after stale_s without one the force fades over fade_s, and comes back over return_s. Frame T. Thread: haptic
+// task; no allocation.
 #pragma once
 
 #include <array>
@@ -23,6 +24,7 @@ struct GlideParameters {
   bool metered = true;    ///< false: the surface goes on whatever it costs; for comparison
   double stale_s = 0.05;  ///< without a new patch
   double fade_s = 0.2;
+  double return_s = 0.05;  ///< over which faded force comes back once there are patches again
   double most_step = 0.4;  ///< of the thinnest capsule's radius that a vertex moves in a period
 };
 

@@ -1,6 +1,7 @@
 #include "tissue/solid/soft_organ.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,14 +13,23 @@ namespace trocar {
 namespace {
 
 constexpr double kLeastContact = 1e-3;  // m, radius of a contact that has just begun
-constexpr double kLeastSubCell = 0.1;   // share of a half-space's compliance that the sub-cell law keeps
-constexpr double kTangential = 0.8;     // friction's spring over the normal one (haptics/contact/contact_friction.cpp)
-constexpr double kFarShare = 1.0;       // gamma: what lies beyond a clamped ball of radius R takes gamma / (pi E* R)
-constexpr double kOtherPlace = 5e-3;    // m at rest between contacts that share no past
-constexpr double kNoForce = 1e-6;       // N
+constexpr double kLeastSubCell = 0.03;  // share of a half-space's compliance that the sub-cell law keeps
+// What is pressed: a disc of this times the contact's radius under a pressure as Hertz', sqrt(1 - r^2 / a^2). Its mean
+// displacement is 0.6 / (E* a) a newton; so it is that of the flat punch which the law's slope is of, 1 / (2 E* a).
+constexpr double kSpread = 1.2;
+constexpr int kParts = 3;             // of a triangle's edge: points of that pressure
+constexpr double kTangential = 0.8;   // friction's spring over the normal one (haptics/contact/contact_friction.cpp)
+constexpr double kOtherPlace = 5e-3;  // m at rest between contacts that share no past
+constexpr double kNoForce = 1e-6;     // N
 constexpr int kShiftRounds = 12;
 constexpr double kWholeDent = 0.7, kShellEnd = 1.3;  // of the neighbourhood: undone as a whole, and no longer
 constexpr std::size_t kFewestNodes = 8;              // that a motion is read from
+
+// Read off the lattice itself: on cells of 5 mm a clamped ball of 60 mm in a half-space is softer than one of 30 mm by
+// gamma / (pi E*) (1 / R1 - 1 / R2); cells of 4 mm give 1-2 % more. A ball that only bore the far field of a point
+// force, u = F / (pi E* R), would have 1; that its edge holds fast costs more, most where volume cannot give way.
+constexpr std::array<std::array<double, 2>, 7> kFarShare{
+    {{0, 1.30}, {0.2, 1.37}, {0.3, 1.50}, {0.4, 1.80}, {0.45, 2.10}, {0.47, 2.28}, {0.495, 2.57}}};
 
 double plane_modulus(const TissueSolid& material) {
   return material.young_pa / (1 - material.poisson * material.poisson);
@@ -47,6 +57,14 @@ double relaxed_share(const TissueSolid& material, double step_s) {
 }
 
 }  // namespace
+
+double far_share(double poisson) {
+  std::size_t upper = 1;
+  while (upper + 1 < kFarShare.size() && kFarShare[upper][0] < poisson) ++upper;
+  const auto& [x0, y0] = kFarShare[upper - 1];
+  const auto& [x1, y1] = kFarShare[upper];
+  return y0 + std::clamp((poisson - x0) / (x1 - x0), 0.0, 1.0) * (y1 - y0);
+}
 
 struct SoftOrgan::Pressed {
   MaterialPoint place;
@@ -76,8 +94,10 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const Tis
   }
   for (const auto& triangle : rest_->triangles) {
     const Vec3 a = rest_->vertices[static_cast<std::size_t>(triangle[0])];
-    const Vec3 twice = (rest_->vertices[static_cast<std::size_t>(triangle[1])] - a)
-                           .cross(rest_->vertices[static_cast<std::size_t>(triangle[2])] - a);
+    const Vec3 ab = rest_->vertices[static_cast<std::size_t>(triangle[1])] - a;
+    const Vec3 ac = rest_->vertices[static_cast<std::size_t>(triangle[2])] - a;
+    const Vec3 twice = ab.cross(ac);
+    longest_edge_m_ = std::max({longest_edge_m_, ab.norm(), ac.norm()});
     if (twice.z() >= options.bed_cosine * twice.norm()) continue;
     for (const std::int32_t vertex : triangle) {
       const Embedding& e = lattice_.embedding[static_cast<std::size_t>(vertex)];
@@ -109,17 +129,58 @@ Vec3 SoftOrgan::place_at(const MaterialPoint& place, std::span<const Vec3> verti
                                     vertices[static_cast<std::size_t>(c)]});
 }
 
+double SoftOrgan::contact_radius(double force_n) const {
+  const double radius = options_.tool_radius_m;
+  return std::clamp(std::cbrt(0.75 * std::max(0.0, force_n) * radius / plane_modulus(material_)), kLeastContact,
+                    std::max(kLeastContact, radius));
+}
+
+NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) const {
+  const double reach = kSpread * contact_radius(force_n), whole = 2.0 / 3 * std::numbers::pi * reach * reach;
+  const Vec3 middle = place_at(place, rest_->vertices);
+  std::vector<std::pair<std::int32_t, double>> sum;
+  double given = 0;
+  const auto add = [&](const MaterialPoint& at, double share) {
+    const NodeShares point = shares_of(at);
+    for (std::size_t i = 0; i < point.node.size(); ++i)
+      sum.emplace_back(point.node[i], share * static_cast<double>(point.share[i]));
+    given += share;
+  };
+  for (std::size_t t = 0; t < rest_->triangles.size(); ++t) {
+    std::array<Vec3, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = rest_->vertices[static_cast<std::size_t>(rest_->triangles[t][k])];
+    const double area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / (kParts * kParts);
+    // The centres of the triangle's equal parts, those that stand and those that hang.
+    for (int i = 0; i < kParts; ++i)
+      for (int j = 0; i + j < kParts; ++j)
+        for (int hanging = 0; hanging < (i + j + 1 < kParts ? 2 : 1); ++hanging) {
+          const double a = (i + (1 + hanging) / 3.0) / kParts, b = (j + (1 + hanging) / 3.0) / kParts;
+          const MaterialPoint at{static_cast<std::int32_t>(t), {1 - a - b, a, b}};
+          const double left = 1 - (interpolate(at.weight, corner) - middle).squaredNorm() / (reach * reach);
+          if (left > 0) add(at, area * std::sqrt(left) / whole);
+        }
+  }
+  if (given < 1) add(place, 1 - given);
+  std::stable_sort(sum.begin(), sum.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  NodeShares out;
+  for (const auto& [node, share] : sum) {
+    if (out.node.empty() || out.node.back() != node) {
+      out.node.push_back(node);
+      out.share.push_back(0);
+    }
+    out.share.back() += static_cast<float>(share / given);
+  }
+  return out;
+}
+
 double SoftOrgan::half_space_compliance(double force_n) const {
-  const double modulus = plane_modulus(material_), radius = options_.tool_radius_m;
-  const double contact = std::cbrt(0.75 * std::max(0.0, force_n) * radius / modulus);
-  return 1 / (2 * modulus * std::clamp(contact, kLeastContact, std::max(kLeastContact, radius)));
+  return 1 / (2 * plane_modulus(material_) * contact_radius(force_n));
 }
 
 double SoftOrgan::half_space_depth(double force_n) const {
   const double modulus = plane_modulus(material_), radius = options_.tool_radius_m;
-  const double contact = std::cbrt(0.75 * std::max(0.0, force_n) * radius / modulus);
   // Linear below the least and above the greatest contact, tangent to Hertz' law at both.
-  const double bounded = std::clamp(contact, kLeastContact, std::max(kLeastContact, radius));
+  const double bounded = contact_radius(force_n);
   const double there = 4.0 / 3 * modulus * bounded * bounded * bounded / radius;
   return bounded * bounded / radius + (force_n - there) / (2 * modulus * bounded);
 }
@@ -161,10 +222,15 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
     const SolvedContact& contact = contacts.at[static_cast<std::size_t>(i)];
     const bool known =
         contact.place.triangle >= 0 && contact.place.triangle < static_cast<std::int32_t>(rest_->triangles.size());
-    if (!known || contact.share <= 0 || !contact.force_T.allFinite() || !contact.tool_T.allFinite()) continue;
-    Pressed p{contact.place, shares_of(contact.place), contact.normal_T, contact.tool_T};
+    const bool sound = contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() &&
+                       contact.normal_T.allFinite() &&
+                       std::all_of(contact.place.weight.begin(), contact.place.weight.end(),
+                                   [](double weight) { return std::isfinite(weight); });
+    if (!known || !sound) continue;
+    Pressed p{contact.place, {}, contact.normal_T, contact.tool_T};
     p.share = contact.share;
     p.force = std::max(0.0, contact.force_T.dot(contact.normal_T));
+    p.shares = shares_of(contact.place, elastic_part(p.force / p.share));
     p.tangential = contact.force_T - contact.force_T.dot(contact.normal_T) * contact.normal_T;
     p.stiffness = p.share / sub_cell_compliance(elastic_part(p.force / p.share));
     pressed.push_back(std::move(p));
@@ -180,7 +246,13 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
     // Elastic force linear about that of the last tick, k (d - d0) + F0; with what the branches take of its change.
     const double whole = elastic_part(p.force / p.share), slope = p.stiffness / p.share;
     const double depth0 = half_space_depth(whole) - whole * (half_space_compliance(whole) - 1 / slope);
-    const double depth = p.normal.dot(place_at(p.place, surface_->vertices) - p.tool);
+    // The place as the middle of all that is pressed has moved.
+    Vec3 there = place_at(p.place, rest_->vertices);
+    for (std::size_t i = 0; i < p.shares.node.size(); ++i) {
+      const auto n = static_cast<std::size_t>(p.shares.node[i]);
+      there += static_cast<double>(p.shares.share[i]) * (solid_.position()[n] - solid_.rest()[n]).cast<double>();
+    }
+    const double depth = p.normal.dot(there - p.tool);
     springs.push_back({p.shares, p.normal, p.stiffness / relaxed_share_,
                        depth - depth0 + whole / slope + relaxed_share_ * memory_.carried() / slope, true, 0});
   }
@@ -252,7 +324,8 @@ void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
 double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, double force_n) {
   const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
   const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
-  sub_cell_ = still + kFarShare / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
+  sub_cell_ =
+      still + far_share(material_.poisson) / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
   return relaxed_share_ * sub_cell_compliance(elastic_part(force_n)) + answer;
 }
 
@@ -288,7 +361,7 @@ void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   const Vec3 way = *tip_T - place_at(places.front(), surface_->vertices);
   const Vec3 direction = touching ? strongest->normal : way.norm() > kLeastContact ? way.normalized() : Vec3::UnitZ();
   const double compliance = touching ? compliance_at(strongest->shares, direction, strongest->force / strongest->share)
-                                     : compliance_at(shares_of(places.front()), direction, 0);
+                                     : compliance_at(shares_of(places.front(), 0), direction, 0);
   stiffness_ = std::min(options_.most_stiffness_n_per_m, 1 / compliance);
   // Where the loop's linear law would give another force at the tool's place, all of it moves by the difference.
   Vec3 displaced = Vec3::Zero(), shift = Vec3::Zero();

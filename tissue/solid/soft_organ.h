@@ -37,6 +37,10 @@ struct SoftOrganOptions {
   double most_stiffness_n_per_m = 250;  ///< K_max of the loop, in scene newtons
 };
 
+/// What a half-space beyond a clamped ball of radius R about a place on it adds to the place's compliance, times pi E*
+/// R.
+double far_share(double poisson);
+
 class SoftOrgan {
  public:
   /// @param lattice over the surface at rest, of the edge that the options name.
@@ -65,6 +69,10 @@ class SoftOrgan {
 
  private:
   struct Pressed;
+  /// The same of all that a tool presses there with this force.
+  NodeShares shares_of(const MaterialPoint& place, double force_n) const;
+  /// Of the tool with a half-space, m.
+  double contact_radius(double force_n) const;
   Vec3 place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const;
   /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
   double half_space_compliance(double force_n) const;
@@ -100,8 +108,9 @@ class SoftOrgan {
     double carried() const;                        ///< N that the next step begins with beside its own elastic force
   };
   Memory memory_;
-  double relaxed_share_ = 1;  ///< long-term modulus over that of a step
-  double sub_cell_ = 0;       ///< compliance that the lattice already has at the last place, long-term, m/N
+  double longest_edge_m_ = 0;  ///< from a triangle's first corner
+  double relaxed_share_ = 1;   ///< long-term modulus over that of a step
+  double sub_cell_ = 0;        ///< compliance that the lattice already has at the last place, long-term, m/N
 };
 
 }  // namespace trocar

@@ -10,7 +10,8 @@
 #include "tissue/solid/cube_element.h"
 
 // The vector path and the portable one do the same operations in the same order: eight lanes are one register or two.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(TROCAR_LANES_CLONED)
+#elif defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TROCAR_LANES_CLONED __attribute__((target_clones("default", "avx2")))
 #else
 #define TROCAR_LANES_CLONED
@@ -22,9 +23,10 @@ namespace {
 
 constexpr int kLanes = 8;
 constexpr int kAxes = 3;
-constexpr int kRotationSteps = 4;     // warm-started: the third already changes nothing beyond rounding
-constexpr float kMostStiffening = 8;  // times the small-strain modulus
-constexpr float kNoGradient = 1e-9F;  // keeps the division of a collapsed cell defined
+constexpr int kRotationSteps = 4;      // warm-started: each leaves of the error its square and half the strain of it
+constexpr float kMostStiffening = 8;   // times the small-strain modulus
+constexpr float kMostGradient = 0.5F;  // up to which the volume is that of the cell; beyond, as it grows from there on
+constexpr float kNoGradient = 1e-9F;   // keeps the division of a collapsed cell defined
 constexpr int kActiveSetPasses = 3;
 constexpr int kMostLocal = 80;            // iterations of a clamped neighbourhood
 constexpr double kLocalTolerance = 1e-6;  // of its energy: 0.1 % of the displacement
@@ -57,37 +59,65 @@ TROCAR_INLINE void to_corners(Lane* v) {
 /// The element's constants as floats.
 struct FloatCube {
   float deviatoric[kCubeCorners][kAxes][kAxes];
-  float dilatation[kAxes][kAxes];
+  float dilatation;  ///< the same for every pair of axes
 };
 const FloatCube& float_cube() {
   static const FloatCube cube = [] {
     FloatCube out{};
     const CubeStiffness& exact = cube_stiffness();
     for (int c = 0; c < kAxes; ++c)
-      for (int d = 0; d < kAxes; ++d) {
+      for (int d = 0; d < kAxes; ++d)
         for (std::size_t p = 0; p < kCubeCorners; ++p)
           out.deviatoric[p][c][d] = static_cast<float>(exact.deviatoric[p](c, d));
-        out.dilatation[c][d] = static_cast<float>(exact.dilatation(c, d));
-      }
+    out.dilatation = static_cast<float>(exact.dilatation(0, 0));
     return out;
   }();
   return cube;
 }
 
-/// f = (mu deviatoric + kappa dilatation) u in modes; u and f by component and mode. Stiffnesses with edge and fill.
-TROCAR_INLINE void stiffen(const FloatCube& cube, const Lane (*u)[kCubeCorners], Lane mu, Lane kappa,
-                           Lane (*f)[kCubeCorners]) {
+/// f = mu deviatoric u in modes; u and f by component and mode. Stiffness with edge and fill.
+TROCAR_INLINE void stiffen(const FloatCube& cube, const Lane (*u)[kCubeCorners], Lane mu, Lane (*f)[kCubeCorners]) {
   for (int p = 0; p < kCubeCorners; ++p)
     for (int c = 0; c < kAxes; ++c) {
       Lane sum{};
       for (int d = 0; d < kAxes; ++d) sum += cube.deviatoric[p][c][d] * u[d][mode_of(p, d)];
       f[c][mode_of(p, c)] = mu * sum;
     }
+}
+/// How the volume grows with u: growth : grad u. In the small the trace.
+TROCAR_INLINE Lane swelling(const Lane (*growth)[kAxes], const Lane (*u)[kCubeCorners]) {
+  Lane sum{};
+  for (int c = 0; c < kAxes; ++c)
+    for (int k = 0; k < kAxes; ++k) sum += growth[c][k] * u[c][1 << k];
+  return sum;
+}
+/// f += the pressure against that. @param pressure with dilatation, edge and fill
+TROCAR_INLINE void press(const Lane (*growth)[kAxes], Lane pressure, Lane (*f)[kCubeCorners]) {
+  for (int c = 0; c < kAxes; ++c)
+    for (int k = 0; k < kAxes; ++k) f[c][1 << k] += pressure * growth[c][k];
+}
+
+/// Volume of a cell less that at rest, over that at rest, from the mean gradient 1 + e of its turned corners, and how
+/// it grows with e: the cofactors.
+TROCAR_INLINE Lane volume_change(const Lane (*e)[kAxes], Lane (*growth)[kAxes]) {
+  Lane g[kAxes][kAxes], beyond{};
+  for (int c = 0; c < kAxes; ++c)
+    for (int k = 0; k < kAxes; ++k)
+      for (int l = 0; l < kLanes; ++l) g[c][k][l] = std::clamp(e[c][k][l], -kMostGradient, kMostGradient);
+  Lane change = g[0][0] + g[1][1] + g[2][2];
   for (int c = 0; c < kAxes; ++c) {
-    Lane sum{};
-    for (int d = 0; d < kAxes; ++d) sum += cube.dilatation[c][d] * u[d][1 << d];
-    f[c][1 << c] += kappa * sum;
+    const int d = (c + 1) % kAxes, f = (c + 2) % kAxes;
+    change += g[d][d] * g[f][f] - g[d][f] * g[f][d];
+    change += g[0][c] * (g[1][d] * g[2][f] - g[1][f] * g[2][d]);
   }
+  for (int c = 0; c < kAxes; ++c) g[c][c] += 1.0F;
+  for (int c = 0; c < kAxes; ++c)
+    for (int k = 0; k < kAxes; ++k) {
+      const int d = (c + 1) % kAxes, f = (c + 2) % kAxes, m = (k + 1) % kAxes, n = (k + 2) % kAxes;
+      growth[c][k] = g[d][m] * g[f][n] - g[d][n] * g[f][m];
+      beyond += growth[c][k] * (e[c][k] - (c == k ? g[c][k] - 1.0F : g[c][k]));
+    }
+  return change + beyond;
 }
 
 TROCAR_INLINE void gather(const Vec3f* from, const std::int32_t (*node)[kLanes], Lane (*v)[kCubeCorners]) {
@@ -132,7 +162,9 @@ TROCAR_INLINE void follow_rotation(const Lane (*F)[kAxes], Lane (*R)[kAxes]) {
     }
     for (int l = 0; l < kLanes; ++l) weight[l] = std::fabs(weight[l]) + kNoGradient;
     Lane q[kAxes];
-    for (int c = 0; c < kAxes; ++c) q[c] = 0.5F * w[c] / weight;  // half the angle: the Cayley map
+    // Half the angle, for the Cayley map. Near a stretch S the torque of a turn v is (tr S - S) v, 2/3 of tr S v at
+    // rest: with that and not with all of tr S nothing is left of a turn of an undeformed cell.
+    for (int c = 0; c < kAxes; ++c) q[c] = 0.75F * w[c] / weight;
     const Lane scale = 2.0F / (1.0F + q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
     for (int k = 0; k < kAxes; ++k) {
       const Lane r[kAxes] = {R[0][k], R[1][k], R[2][k]};
@@ -177,6 +209,8 @@ struct alignas(kLanes * sizeof(float)) SoftSolid::Group {
   Lane rotation[kAxes][kAxes];
   Lane strain[kAxes][kCubeCorners];   ///< R^T x - X, in modes
   Lane held[2][kAxes][kCubeCorners];  ///< strain that the branches still hold, in modes
+  Lane growth[kAxes][kAxes];          ///< cofactors of R^T F
+  Lane swollen, held_swollen[2];      ///< change of volume, as strain is in modes, and what the branches hold of it
   Lane mu, kappa;                     ///< long-term, with fill and edge
   Lane instant;                       ///< instantaneous over long-term
   Lane share[2], keep[2];             ///< g_i and a_i
@@ -288,15 +322,22 @@ TROCAR_LANES_CLONED void SoftSolid::prepare() {
     follow_rotation(F, group.rotation);
     turn_back(group.rotation, v);
     for (int c = 0; c < kAxes; ++c) v[c][1 << c] -= quarter;
+    for (int c = 0; c < kAxes; ++c)
+      for (int k = 0; k < kAxes; ++k) F[c][k] = v[c][1 << k] / quarter;
+    const Lane swollen = quarter * volume_change(F, group.growth);
     // What the branches hold grows by what the cell was strained since, and decays.
     for (int i = 0; i < 2; ++i)
       for (int c = 0; c < kAxes; ++c)
         for (int m = 0; m < kCubeCorners; ++m)
           group.held[i][c][m] =
               group.keep[i] * (group.held[i][c][m] + group.share[i] * group.instant * (v[c][m] - group.strain[c][m]));
+    for (int i = 0; i < 2; ++i)
+      group.held_swollen[i] =
+          group.keep[i] * (group.held_swollen[i] + group.share[i] * group.instant * (swollen - group.swollen));
     std::memcpy(group.strain, v, sizeof v);
+    group.swollen = swollen;
     // Equivalent strain from the energy of the change of shape: w = mu/2 u K u / V = 3/2 mu e^2.
-    stiffen(cube, v, all(1), Lane{}, f);
+    stiffen(cube, v, all(1), f);
     Lane shape{};
     for (int c = 0; c < kAxes; ++c)
       for (int m = 1; m < kCubeCorners; ++m) shape += v[c][m] * f[c][m];
@@ -313,7 +354,11 @@ TROCAR_LANES_CLONED void SoftSolid::prepare() {
     for (int c = 0; c < kAxes; ++c)
       for (int m = 0; m < kCubeCorners; ++m)
         v[c][m] = -(v[c][m] + group.keep[0] * group.held[0][c][m] + group.keep[1] * group.held[1][c][m]);
-    stiffen(cube, v, mu, kappa, f);
+    stiffen(cube, v, mu, f);
+    press(group.growth,
+          -cube.dilatation * kappa *
+              (swollen + group.keep[0] * group.held_swollen[0] + group.keep[1] * group.held_swollen[1]),
+          f);
     turn(group.rotation, f);
     for (auto& component : f) to_corners(component);
     scatter(f, group.node, elastic_.data());
@@ -348,7 +393,8 @@ TROCAR_LANES_CLONED void SoftSolid::add_product(const std::vector<Vec3f>& in, st
     gather(in.data(), group.node, v);
     for (auto& component : v) to_modes(component);
     turn_back(group.rotation, v);
-    stiffen(cube, v, group.step_mu, group.step_kappa, f);
+    stiffen(cube, v, group.step_mu, f);
+    press(group.growth, cube.dilatation * group.step_kappa * swelling(group.growth, v), f);
     turn(group.rotation, f);
     for (auto& component : f) to_corners(component);
     scatter(f, group.node, out.data());
@@ -488,11 +534,14 @@ double SoftSolid::energy_j() const {
   double energy = 0;
   for (const Group& group : groups_) {
     Lane f[kAxes][kCubeCorners];
-    stiffen(cube, group.strain, group.mu, group.kappa, f);
-    for (int l = 0; l < kLanes; ++l)
+    stiffen(cube, group.strain, group.mu, f);
+    for (int l = 0; l < kLanes; ++l) {
+      energy += 0.5 * static_cast<double>(cube.dilatation * group.kappa[l]) * static_cast<double>(group.swollen[l]) *
+                static_cast<double>(group.swollen[l]);
       for (int c = 0; c < kAxes; ++c)
         for (int m = 1; m < kCubeCorners; ++m)
           energy += 0.5 * static_cast<double>(group.strain[c][m][l]) * static_cast<double>(f[c][m][l]);
+    }
   }
   for (std::size_t n = 0; n < rest_.size(); ++n) {
     energy += 0.5 * static_cast<double>(support_[n]) *

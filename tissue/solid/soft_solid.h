@@ -1,10 +1,13 @@
 // A soft solid on a lattice of equal cubes: corotational B-bar hexahedra with relaxation, one implicit step at a time.
 //
-// Each cell turns with the rotation R of its mean gradient (Mueller 2016, warm-started); its force is R K (R^T x - X),
-// K of cube_element.h scaled by fill and strain stiffening. Two Prony branches a cell hold a strain e_i <- a_i (e_i
-// + g_i / g_inf du), a_i = tau_i / (tau_i + h), whose force is K e_i: unconditionally stable and dissipative. Strains
-// and not forces, so that stiffening leaves nothing behind on a closed path. A step is implicit Euler with one
-// linearisation,
+// Each cell turns with the rotation R of its mean gradient F (Mueller 2016, warm-started). Against a change of shape
+// its force is R K (R^T x - X), K the deviatoric part of cube_element.h; against one of volume that of kappa V (det F -
+// 1)^2 / 2, which in the small is the B-bar dilatation: with the trace instead, a squeeze by 30 % loses 8 % of the
+// volume, and a cell under the tool goes soft. Both scaled by fill and strain stiffening. Two Prony branches a cell
+// hold a strain e_i
+// <- a_i (e_i + g_i / g_inf du), a_i = tau_i / (tau_i + h), that answers as strain does: unconditionally stable and
+// dissipative. Strains and not forces, so that stiffening leaves nothing behind on a closed path. A step is implicit
+// Euler with one linearisation,
 //   [(1 + h alpha) M + h^2 (K_alg + K_support + sum k J^T J)] v = M v0 + h f(x0),  x = x0 + h v,
 // by conjugate gradients from the last velocity. Nothing is assembled: products go cell by cell, eight cells a vector,
 // in the Walsh basis. The same operations in the same order on every machine: float without contraction, sums in eight
