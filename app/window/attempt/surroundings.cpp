@@ -107,7 +107,7 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   s.tissue = moment.tissue;
   AtHand out;
   out.now = hand;
-  out.jaws = s.scene.setup.exercise.jaws || status.cue == Cue::kGrip;
+  out.jaws = kind_of(s.scene.setup.exercise).jaws_hold || status.cue == Cue::kGrip;
   out.touching = record.stylus.contact;
   if (out.touching) out.normal_T = record.stylus.contact_normal_T;
   out.gripping = record.stylus.grip_force_n > 0;
