@@ -22,6 +22,7 @@ constexpr double kTangential = 0.8;   // friction's spring over the normal one (
 constexpr double kOtherPlace = 5e-3;  // m at rest between contacts that share no past
 constexpr double kNoForce = 1e-6;     // N
 constexpr int kShiftRounds = 12;
+constexpr int kStillEvery = 4;  // steps between looks at what the lattice has of a place: it changes as the tool slides
 constexpr double kWholeDent = 0.7, kShellEnd = 1.3;  // of the neighbourhood: undone as a whole, and no longer
 constexpr std::size_t kFewestNodes = 8;              // that a motion is read from
 
@@ -148,6 +149,8 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) cons
   };
   for (std::size_t t = 0; t < rest_->triangles.size(); ++t) {
     std::array<Vec3, 3> corner;
+    const Vec3& first = rest_->vertices[static_cast<std::size_t>(rest_->triangles[t][0])];
+    if ((first - middle).squaredNorm() > (reach + longest_edge_m_) * (reach + longest_edge_m_)) continue;
     for (std::size_t k = 0; k < 3; ++k) corner[k] = rest_->vertices[static_cast<std::size_t>(rest_->triangles[t][k])];
     const double area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / (kParts * kParts);
     // The centres of the triangle's equal parts, those that stand and those that hang.
@@ -323,9 +326,11 @@ void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
 
 double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, double force_n) {
   const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
-  const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
-  sub_cell_ =
-      still + far_share(material_.poisson) / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
+  if (steps_++ % kStillEvery == 0) {
+    const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
+    sub_cell_ =
+        still + far_share(material_.poisson) / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
+  }
   return relaxed_share_ * sub_cell_compliance(elastic_part(force_n)) + answer;
 }
 

@@ -108,6 +108,7 @@ class SoftOrgan {
     double carried() const;                        ///< N that the next step begins with beside its own elastic force
   };
   Memory memory_;
+  int steps_ = 0;
   double longest_edge_m_ = 0;  ///< from a triangle's first corner
   double relaxed_share_ = 1;   ///< long-term modulus over that of a step
   double sub_cell_ = 0;        ///< compliance that the lattice already has at the last place, long-term, m/N
