@@ -102,7 +102,7 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       period_s_(1 / config.daq.rate_hz),
       instrument_(config.map),
       port_(config.port),
-      contact_(config.contact_law, config.tool),
+      contact_(config.contact_law, config.tool, {.period_s = period_s_}),
       arm_passivity_(with_period(config.passivity, period_s_, config.known_delay_periods)),
       pinch_(with_period(config.pinch_passivity, period_s_, config.known_delay_periods)),
       pinch_passivity_(pinch_),
