@@ -184,14 +184,16 @@ void mark(inout Surface s, inout vec3 n, vec4 coarse, vec4 middle, vec4 fine) {
 #endif
 
 #ifdef DIMPLED
-// Blood is pressed out under the tip and into a rim round it; the dent's slope is that of a Gaussian.
+// Blood is pressed out under the tip and into a rim round it, no wider than a deep dent of firm tissue; the dent's slope
+// is that of a Gaussian.
 vec3 press(inout Surface s, vec3 n) {
   vec3 from = v_place - dimple.xyz;
   float spread2 = dimple_normal.w * dimple_normal.w;
   float reach = dot(from, from) / spread2;
   float hard = clamp(dimple.w / 0.0028, 0.0, 1.0);
-  float pale = hard * exp(-0.50 * reach);
-  float flush = hard * exp(-0.125 * (reach - 5.5) * (reach - 5.5));
+  float bled = reach * max(1.0, spread2 / (0.0047 * 0.0047));
+  float pale = hard * exp(-0.50 * bled);
+  float flush = hard * exp(-0.125 * (bled - 5.5) * (bled - 5.5));
   float grey = dot(s.base, vec3(0.4, 0.35, 0.25));
   s.base = mix(s.base, max(vec3(0.80, 0.54, 0.43) * (0.48 + 1.2 * grey), 1.15 * s.base), 0.90 * pale);
   s.base *= 1.0 - vec3(0.08, 0.34, 0.34) * flush;
