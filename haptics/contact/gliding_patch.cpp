@@ -76,18 +76,17 @@ void GlidingPatch::take(const ContactPatch& newest) {
 double GlidingPatch::cost_of_rest(const SolvedContacts& pressed, double stored_j) const {
   if (progress_ >= 1) return 0;
   double cost = pull_T_.dot(hold_end_.anchor_T - hold_start_.anchor_T), force = 0, stiffer = 0;
-  for (int c = 0; c < pressed.count; ++c) {
-    const SolvedContact& contact = pressed.at[static_cast<std::size_t>(c)];
+  for (int i = 0; i < pressed.count; ++i) {
+    const SolvedContact& contact = pressed.at[static_cast<std::size_t>(i)];
     const auto end = present_.triangle.begin() + present_.count;
     const auto found = std::find_if(present_.triangle.begin(), end,
                                     [&](const PatchTriangle& t) { return t.id == contact.place.triangle; });
     if (found == end) continue;
-    Vec3 way = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto corner = static_cast<std::size_t>(found->corner[k]);
-      way += contact.place.weight[k] * (end_[corner] - start_[corner]);
-    }
-    cost += contact.force_T.dot(way);
+    const auto way = [this](std::int16_t corner) -> Vec3 {
+      return end_[static_cast<std::size_t>(corner)] - start_[static_cast<std::size_t>(corner)];
+    };
+    const auto& [a, b, c] = found->corner;
+    cost += contact.force_T.dot(interpolate(contact.place.weight, {way(a), way(b), way(c)}));
     const auto material = static_cast<std::size_t>(found->material);
     const double now = present_.material[material].stiffness_n_per_m;
     if (now > 0) stiffer += contact.force_T.norm() * (stiff_end_[material] - stiff_start_[material]) / now;

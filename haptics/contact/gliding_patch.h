@@ -45,7 +45,6 @@ class GlidingPatch {
   double period_s() const { return parameters_.period_s; }
   double moved_m() const { return moved_m_; }          ///< most that a vertex moved this period
   double force_share() const { return force_share_; }  ///< 1 while patches come
-  double tank_j() const { return tank_j_; }
 
  private:
   void take(const ContactPatch& newest);

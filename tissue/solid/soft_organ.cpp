@@ -108,6 +108,7 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const Tis
     }
   }
   stiffness_ = 1 / half_space_compliance(0);
+  energy_ = solid_.energy_j();
 }
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
@@ -267,10 +268,10 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   }
   const std::size_t own = springs.size();
   springs.insert(springs.end(), more.begin(), more.end());
-  const double before = solid_.energy_j();
   solid_.step(springs);
   for (std::size_t s = own; s < springs.size(); ++s) more[s - own].force_n = springs[s].force_n;
-  given_ = std::max(0.0, before - solid_.energy_j());
+  const double before = std::exchange(energy_, solid_.energy_j());
+  given_ = std::max(0.0, before - energy_);
   force_ = 0;
   for (std::size_t i = 0; i < pressed.size(); ++i) force_ += pressed[i].force = springs[i].force_n;
   remember(pressed);
@@ -326,7 +327,7 @@ void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
 
 double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, double force_n) {
   const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
-  if (steps_++ % kStillEvery == 0) {
+  if (looks_++ % kStillEvery == 0) {
     const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
     sub_cell_ =
         still + far_share(material_.poisson) / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);

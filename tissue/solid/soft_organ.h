@@ -8,7 +8,7 @@
 // forces: the neighbourhood of each contact in its shape at rest, moved as its surroundings have moved; and the
 // stiffness with which the clamped neighbourhood and the sub-cell law answer within a step, at most `most_stiffness`.
 // At the place of the solve the loop's force then is the solved one whatever that stiffness is; it is never softer than
-// the truth (tissue.md 2.4). docs/tissue.md draws it.
+// the truth (tissue.md 2.4). docs/tissue.md tells why.
 //
 // Frame T, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
@@ -65,7 +65,6 @@ class SoftOrgan {
   double force_n() const { return force_; }                ///< sum of the solved contact forces
   double given_j() const { return given_; }                ///< energy that the tissue has lost in this step
   const SoftSolid& solid() const { return solid_; }
-  SoftSolid& solid() { return solid_; }
 
  private:
   struct Pressed;
@@ -100,6 +99,7 @@ class SoftOrgan {
   SurfacePtr rest_, surface_;
   std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
+  double energy_ = 0;  ///< of the solid after the last step, J
   /// The sub-cell law relaxes as the solid does: its branches hold forces s_i <- a_i (s_i + g_i / g_inf dF).
   struct Memory {
     std::array<double, 2> held{}, gain{}, keep{};  ///< N; g_i / g_inf; a_i
@@ -108,7 +108,7 @@ class SoftOrgan {
     double carried() const;                        ///< N that the next step begins with beside its own elastic force
   };
   Memory memory_;
-  int steps_ = 0;
+  int looks_ = 0;              ///< of compliance_at()
   double longest_edge_m_ = 0;  ///< from a triangle's first corner
   double relaxed_share_ = 1;   ///< long-term modulus over that of a step
   double sub_cell_ = 0;        ///< compliance that the lattice already has at the last place, long-term, m/N

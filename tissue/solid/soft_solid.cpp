@@ -416,7 +416,7 @@ void spread(const NodeShares& place, const Vec3f& value, std::vector<Vec3f>& to)
 
 }  // namespace
 
-int SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& active) {
+void SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& active) {
   const auto h = static_cast<float>(options_.step_s);
   const auto inertia = static_cast<float>(statics_ ? 0 : 1 + options_.step_s * options_.mass_damping_per_s);
   const std::size_t count = rest_.size();
@@ -435,36 +435,33 @@ int SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& act
   };
   for (std::size_t n = 0; n < count; ++n)
     right_[n] = (statics_ ? 0.0F : mass_[n]) * velocity_[n] +
-                h * (elastic_[n] + load_[n] + support_[n] * (rest_[n] + support_m_ - position_[n]));
+                h * (elastic_[n] + load_[n] + support_[n] * (rest_[n] - position_[n]));
   for (std::size_t s = 0; s < springs.size(); ++s) {
     if (!active[s]) continue;
     const auto force = static_cast<float>(-springs[s].stiffness_n_per_m * springs[s].stretch_m);
     spread(springs[s].place, h * force * springs[s].direction.cast<float>(), right_);
   }
   // Springs in the preconditioner: their share of each node's own row.
-  std::vector<float>& inverse = inverse_;
-  inverse.resize(count);
-  for (std::size_t n = 0; n < count; ++n) inverse[n] = diagonal_[n];
+  inverse_ = diagonal_;
   for (std::size_t s = 0; s < springs.size(); ++s) {
     if (!active[s]) continue;
     for (std::size_t i = 0; i < springs[s].place.node.size(); ++i)
-      inverse[static_cast<std::size_t>(springs[s].place.node[i])] +=
+      inverse_[static_cast<std::size_t>(springs[s].place.node[i])] +=
           h * h * static_cast<float>(springs[s].stiffness_n_per_m) * springs[s].place.share[i] *
           springs[s].place.share[i];
   }
-  for (float& value : inverse) value = value > 0 ? 1 / value : 0;
+  for (float& value : inverse_) value = value > 0 ? 1 / value : 0;
 
   std::vector<Vec3f>& v = velocity_next_;
   v = guess_;
   multiply(v, product_);
   for (std::size_t n = 0; n < count; ++n) residual_[n] = right_[n] - product_[n];
   const double enough = options_.tolerance * options_.tolerance * dot(right_, right_);
-  for (std::size_t n = 0; n < count; ++n) direction_[n] = inverse[n] * residual_[n];
+  for (std::size_t n = 0; n < count; ++n) direction_[n] = inverse_[n] * residual_[n];
   preconditioned_ = direction_;
   double rho = dot(residual_, preconditioned_);
-  int iteration = 0;
-  while (iteration < options_.most_iterations && dot(residual_, residual_) > enough && rho > 0) {
-    ++iteration;
+  for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+    if (!(dot(residual_, residual_) > enough && rho > 0)) break;
     multiply(direction_, product_);
     const double curvature = dot(direction_, product_);
     if (!(curvature > 0)) break;
@@ -472,23 +469,21 @@ int SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& act
     for (std::size_t n = 0; n < count; ++n) {
       v[n] += alpha * direction_[n];
       residual_[n] -= alpha * product_[n];
-      preconditioned_[n] = inverse[n] * residual_[n];
+      preconditioned_[n] = inverse_[n] * residual_[n];
     }
     const double next = dot(residual_, preconditioned_);
     const auto beta = static_cast<float>(next / rho);
     rho = next;
     for (std::size_t n = 0; n < count; ++n) direction_[n] = preconditioned_[n] + beta * direction_[n];
   }
-  return iteration;
 }
 
 void SoftSolid::step(std::span<SoftSpring> springs) {
   const auto h = static_cast<float>(options_.step_s);
   std::vector<bool> active(springs.size(), true);
   guess_ = velocity_;
-  iterations_ = 0;
   for (int pass = 0; pass < kActiveSetPasses; ++pass) {
-    iterations_ += solve(springs, active);
+    solve(springs, active);
     bool changed = false;
     for (std::size_t s = 0; s < springs.size(); ++s) {
       SoftSpring& spring = springs[s];
@@ -544,8 +539,7 @@ double SoftSolid::energy_j() const {
     }
   }
   for (std::size_t n = 0; n < rest_.size(); ++n) {
-    energy += 0.5 * static_cast<double>(support_[n]) *
-              static_cast<double>((position_[n] - rest_[n] - support_m_).squaredNorm());
+    energy += 0.5 * static_cast<double>(support_[n]) * static_cast<double>((position_[n] - rest_[n]).squaredNorm());
     energy += 0.5 * static_cast<double>(mass_[n]) * static_cast<double>(velocity_[n].squaredNorm());
   }
   return energy;
@@ -584,18 +578,17 @@ double SoftSolid::compliance(const NodeShares& place, const Vec3& direction, dou
   const auto h = static_cast<float>(options_.step_s);
   const float weight = inertia ? (1 + h * static_cast<float>(options_.mass_damping_per_s)) / (h * h) : 0;
   const auto row = [&](std::int32_t n) { return static_cast<std::size_t>(n); };
-  std::vector<Vec3f> zero(rest_.size(), Vec3f::Zero());
-  std::vector<Vec3f> u = zero, r = zero, d = zero, product = zero;
+  std::vector<Vec3f> u(rest_.size(), Vec3f::Zero()), r = u, d = u, product = u;
   spread(place, direction.cast<float>(), r);
   std::vector<float> inverse;
   for (const std::int32_t n : nodes)
     inverse.push_back(1 / (stiffness_diagonal_[row(n)] + support_[row(n)] + weight * mass_[row(n)]));
-  double rho = 0, first = 0;
+  double rho = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     d[row(nodes[i])] = inverse[i] * r[row(nodes[i])];
     rho += r[row(nodes[i])].dot(d[row(nodes[i])]);
   }
-  first = rho;
+  const double first = rho;
   for (int iteration = 0; iteration < kMostLocal && rho > kLocalTolerance * first && rho > 0; ++iteration) {
     // Only what the groups touch is ever read or written.
     for (const std::int32_t g : groups)

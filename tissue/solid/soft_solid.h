@@ -69,8 +69,6 @@ class SoftSolid {
 
   /// Adds a spring to where the node rests, the same in every direction. N/m
   void hold(std::int32_t node, double stiffness_n_per_m);
-  /// Moves everything that hold() holds on to: breathing. m
-  void move_support(const Vec3& displacement) { support_m_ = displacement.cast<float>(); }
   /// Constant force on a node, N; zero again by the opposite.
   void load(std::int32_t node, const Vec3& force_n);
 
@@ -86,7 +84,6 @@ class SoftSolid {
   /// For tests and scenes: sets where everything is, at rest.
   void place(std::span<const Vec3f> position);
   const SoftSolidOptions& options() const { return options_; }
-  int iterations() const { return iterations_; }  ///< of the last step
 
   /// Elastic energy, that of the supports and, with velocity, kinetic energy, J; without relaxing branches.
   double energy_j() const;
@@ -105,13 +102,12 @@ class SoftSolid {
 
   void prepare();  ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
   void add_product(const std::vector<Vec3f>& in, std::vector<Vec3f>& out, std::span<const std::int32_t> groups) const;
-  int solve(std::span<SoftSpring> springs, const std::vector<bool>& active);
+  void solve(std::span<SoftSpring> springs, const std::vector<bool>& active);
   void set_diagonal();
 
   SoftSolidOptions options_;
   std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;  ///< last, a node for lanes without a cell
   std::vector<float> mass_, support_;                               ///< of each node
-  Vec3f support_m_ = Vec3f::Zero();
   std::vector<Group> groups_;
   std::vector<std::int32_t> all_groups_;
   std::vector<std::vector<std::int32_t>> groups_of_node_;
@@ -119,7 +115,6 @@ class SoftSolid {
   std::vector<float> stiffness_diagonal_;
   std::vector<Vec3f> right_, residual_, direction_, product_, preconditioned_, guess_, velocity_next_;
   std::vector<float> inverse_;
-  int iterations_ = 0;
   bool statics_ = false;  ///< settle(): without inertia
 };
 

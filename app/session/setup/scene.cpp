@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
@@ -152,11 +153,15 @@ void require_force(const Scene& scene) {
   throw InputError(words.str());
 }
 
-/// Lays a lattice over the organ where it lies.
+/// Lays a lattice over the organ where it lies. @throws InputError: a tissue that is none.
 void soften(Scene& scene) {
   const TissueTable tissues = TissueTable::load(find_assets().assets / "tissues.toml");
   auto soft = std::make_shared<SoftSetup>();
-  soft->material = stiffness_choice(tissues.find(scene.organ.material), scene.setup.tissue);
+  try {
+    soft->material = stiffness_choice(tissues.find(scene.organ.material), scene.setup.tissue);
+  } catch (const std::invalid_argument& error) {  // a recording may name any word
+    throw InputError(std::string("tissue: ") + error.what());
+  }
   soft->options.solid.edge_m = kLatticeCell;
   LatticeOptions options;
   options.cell_m = kLatticeCell;

@@ -106,11 +106,11 @@ Vec3 SoftBench::bridged(const ContactResult& contact, const Vec3& tip_T) const {
   return solved_force_.z() > 0 ? Vec3(0, 0, std::max(0.0, force)) : Vec3::Zero();
 }
 
-Vec3 SoftBench::tick(const Vec3& tip_T, const Vec3& velocity_T, bool packet) {
+Vec3 SoftBench::tick(const Vec3& tip_T, const Vec3& velocity_T) {
   const Pose X_TI = pointing_down(tip_T);
   const auto period = static_cast<std::uint64_t>(period_);
   if (tick_ % period == 0) step_tissue(X_TI);
-  if (packet && tick_ % period == static_cast<std::uint64_t>(setup_.patch_delay) % period && made_->stamp > 0) {
+  if (tick_ % period == static_cast<std::uint64_t>(setup_.patch_delay) % period && made_->stamp > 0) {
     std::swap(seen_, made_);
     solved_force_ = made_force_;
     solved_tip_ = made_tip_;

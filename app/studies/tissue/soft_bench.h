@@ -39,9 +39,8 @@ class SoftBench {
  public:
   explicit SoftBench(const SoftBenchSetup& setup);
 
-  /// One tick. @param tip_T centre of the tip's sphere. @param packet false: this tick's patch, if any, is lost
-  /// @return force on the tool
-  Vec3 tick(const Vec3& tip_T, const Vec3& velocity_T, bool packet = true);
+  /// One tick. @param tip_T centre of the tip's sphere. @return force on the tool
+  Vec3 tick(const Vec3& tip_T, const Vec3& velocity_T);
 
   /// Centre of the tip when it just touches at this place of the top.
   Vec3 touching(double x_m, double y_m) const;
