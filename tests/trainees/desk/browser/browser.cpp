@@ -277,6 +277,11 @@ void Browser::as_printed() {
   session("POST", "/goog/cdp/execute", {{"cmd", "Emulation.setEmulatedMedia"}, {"params", {{"media", "print"}}}});
 }
 
+void Browser::keep_focused() {
+  session("POST", "/goog/cdp/execute",
+          {{"cmd", "Emulation.setFocusEmulationEnabled"}, {"params", {{"enabled", true}}}});
+}
+
 void Browser::picture(const fs::path& file) {
   const Json size = session("POST", "/goog/cdp/execute",
                             {{"cmd", "Page.getLayoutMetrics"}, {"params", Json::object()}})["cssContentSize"];

@@ -64,6 +64,8 @@ class Browser {
   std::vector<Json> cookies();
   /// Shows pages as a printer would get them.
   void as_printed();
+  /// The page takes itself for focused whatever the desktop's focus does: :focus holds at once on a busy machine too.
+  void keep_focused();
   /// A picture of the whole page, for people to look at.
   void picture(const std::filesystem::path& file);
 
