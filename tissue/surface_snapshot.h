@@ -25,6 +25,7 @@ struct SurfaceField {
 struct SurfaceSnapshot : TriangleSurface {
   std::uint64_t topology = 0;  ///< as long as it is the same, so are the triangles, and vertex i is the same place
   std::vector<SurfaceField> fields = {};
+  std::vector<bool> inside = {};  ///< of each triangle: the wall of a cut; empty: none is
   std::shared_ptr<const SurfaceSnapshot> rest = nullptr;  ///< undeformed, same triangles; none: this one is
 };
 using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
@@ -46,6 +47,7 @@ inline SurfacePtr moved_surface(const SurfacePtr& rest, std::vector<Vec3> vertic
   snapshot->vertices = std::move(vertices);
   snapshot->triangles = rest->triangles;
   snapshot->topology = rest->topology;
+  snapshot->inside = rest->inside;
   snapshot->fields = std::move(fields);
   snapshot->rest = rest;
   return snapshot;

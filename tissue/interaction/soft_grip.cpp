@@ -44,12 +44,12 @@ void SoftGrip::take(const Pose& X_TI, const std::vector<std::int32_t>& triangles
     const Vec3 now = middle(*organ.surface(), triangles[i]);
     places_.push_back(
         {triangles[i], organ.shares_of({triangles[i], {1.0 / 3, 1.0 / 3, 1.0 / 3}}), X_TI.inverse() * now});
-    fold += middle(organ.rest(), triangles[i]);
+    fold += middle(*organ.rest(), triangles[i]);
   }
   fold /= static_cast<double>(places_.size());
-  no_contact_.assign(organ.rest().triangles.size(), false);
+  no_contact_.assign(organ.rest()->triangles.size(), false);
   for (std::size_t t = 0; t < no_contact_.size(); ++t)
-    no_contact_[t] = (middle(organ.rest(), static_cast<std::int32_t>(t)) - fold).norm() < kNoContactRound;
+    no_contact_[t] = (middle(*organ.rest(), static_cast<std::int32_t>(t)) - fold).norm() < kNoContactRound;
   slipped_m_ = 0;
   state_ = GripState::kHolding;
 }

@@ -13,8 +13,12 @@ EmbeddedSurface::EmbeddedSurface(const Lattice& lattice, SurfacePtr rest)
                      " vertices is not that of a surface of " + std::to_string(rest_->vertices.size()));
   }
   vertices_.reserve(lattice.embedding.size());
-  for (const Embedding& e : lattice.embedding)
+  for (const Embedding& e : lattice.embedding) {
     vertices_.push_back({lattice.cells[static_cast<std::size_t>(e.cell)].corners, e.weights});
+    if (e.other < 0) continue;
+    halved_.push_back({static_cast<std::int32_t>(vertices_.size()) - 1,
+                       lattice.cells[static_cast<std::size_t>(e.other)].corners});
+  }
 }
 
 SurfacePtr EmbeddedSurface::at(std::span<const NodePlace> nodes, std::span<const ShapeField> fields) const {
@@ -28,6 +32,13 @@ SurfacePtr EmbeddedSurface::at(std::span<const NodePlace> nodes, std::span<const
     for (std::size_t c = 0; c < 8; ++c)
       place += double{vertex.weight[c]} * nodes[static_cast<std::size_t>(vertex.corner[c])].cast<double>();
     vertices.push_back(place);
+  }
+  for (const auto& [v, corner] : halved_) {
+    Vec3 place = Vec3::Zero();
+    for (std::size_t c = 0; c < 8; ++c)
+      place += double{vertices_[static_cast<std::size_t>(v)].weight[c]} *
+               nodes[static_cast<std::size_t>(corner[c])].cast<double>();
+    vertices[static_cast<std::size_t>(v)] = (vertices[static_cast<std::size_t>(v)] + place) / 2;
   }
   std::vector<SurfaceField> spread_fields;
   for (const ShapeField& field : fields) spread_fields.push_back(spread(field));

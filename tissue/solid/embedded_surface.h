@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tissue/solid/lattice.h"
@@ -37,6 +38,8 @@ class EmbeddedSurface {
   SurfaceField spread(const ShapeField& field) const;
 
   std::vector<Vertex> vertices_;
+  /// Vertices that a second cell bears by half, and its corners.
+  std::vector<std::pair<std::int32_t, std::array<std::int32_t, 8>>> halved_;
   SurfacePtr rest_;
   std::size_t nodes_;
 };

@@ -37,6 +37,7 @@ struct LatticeCell {
 struct Embedding {
   std::int32_t cell = 0;
   std::array<float, 8> weights{};  ///< of the cell's corners, all >= 0, sum 1
+  std::int32_t other = -1;         ///< a cell in the same place that bears half of it: at the end of a cut; -1: none
 };
 
 struct Lattice {

@@ -24,6 +24,9 @@ constexpr double kNoForce = 1e-6;     // N
 constexpr int kShiftRounds = 12;
 constexpr int kStillEvery = 4;  // steps between looks at what the lattice has of a place: it changes as the tool slides
 constexpr double kWholeDent = 0.7, kShellEnd = 1.3;  // of the neighbourhood: undone as a whole, and no longer
+constexpr double kLeastVolume = 0.2;    // of a cell, below which and above whose inverse its gradient is not trusted
+constexpr double kBelowBottom = 1.3;    // of a groove's depth: so much of it must still lie in the tissue
+constexpr int kShortenings = 4;         // halvings of a depth that goes through
 constexpr std::size_t kFewestNodes = 8;              // that a motion is read from
 
 // Read off the lattice itself: on cells of 5 mm a clamped ball of 60 mm in a half-space is softer than one of 30 mm by
@@ -46,6 +49,13 @@ std::vector<SoftCell> soft_cells(const Lattice& lattice) {
   std::vector<SoftCell> out;
   for (const LatticeCell& cell : lattice.cells) out.push_back({cell.corners, cell.fill, 0});
   return out;
+}
+
+Vec3 place_at_corners(const Barycentric& weight, const std::array<std::int32_t, 3>& corner,
+                      std::span<const Vec3> vertices) {
+  return interpolate(weight, {vertices[static_cast<std::size_t>(corner[0])],
+                              vertices[static_cast<std::size_t>(corner[1])],
+                              vertices[static_cast<std::size_t>(corner[2])]});
 }
 
 double relaxed_share(const TissueSolid& material, double step_s) {
@@ -80,10 +90,9 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const Tis
                      const SoftOrganOptions& options)
     : material_(material),
       options_(options),
-      lattice_(lattice),
+      lattice_(lattice, rest_T),
       embedded_(lattice, rest_T),
       solid_(node_places(lattice), soft_cells(lattice), std::span(&material, 1), options.solid),
-      rest_(rest_T),
       surface_(embedded_.at(solid_.position())),
       felt_(surface_->vertices),
       relaxed_share_(relaxed_share(material, options.solid.step_s)) {
@@ -93,16 +102,16 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const Tis
     memory_.gain[i] = branch.share / left;
     memory_.keep[i] = branch.tau_s / (branch.tau_s + options.solid.step_s);
   }
-  for (const auto& triangle : rest_->triangles) {
-    const Vec3 a = rest_->vertices[static_cast<std::size_t>(triangle[0])];
-    const Vec3 ab = rest_->vertices[static_cast<std::size_t>(triangle[1])] - a;
-    const Vec3 ac = rest_->vertices[static_cast<std::size_t>(triangle[2])] - a;
+  for (const auto& triangle : rest()->triangles) {
+    const Vec3 a = rest()->vertices[static_cast<std::size_t>(triangle[0])];
+    const Vec3 ab = rest()->vertices[static_cast<std::size_t>(triangle[1])] - a;
+    const Vec3 ac = rest()->vertices[static_cast<std::size_t>(triangle[2])] - a;
     const Vec3 twice = ab.cross(ac);
     longest_edge_m_ = std::max({longest_edge_m_, ab.norm(), ac.norm()});
     if (twice.z() >= options.bed_cosine * twice.norm()) continue;
     for (const std::int32_t vertex : triangle) {
-      const Embedding& e = lattice_.embedding[static_cast<std::size_t>(vertex)];
-      const LatticeCell& cell = lattice_.cells[static_cast<std::size_t>(e.cell)];
+      const Embedding& e = lattice_.lattice().embedding[static_cast<std::size_t>(vertex)];
+      const LatticeCell& cell = lattice_.lattice().cells[static_cast<std::size_t>(e.cell)];
       for (std::size_t k = 0; k < 8; ++k)
         solid_.hold(cell.corners[k], options.bed_n_per_m3 * twice.norm() / 6 * static_cast<double>(e.weights[k]));
     }
@@ -113,22 +122,103 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const Tis
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
   NodeShares out;
-  const auto& triangle = rest_->triangles[static_cast<std::size_t>(place.triangle)];
+  const Lattice& lattice = lattice_.lattice();
+  const auto& triangle = rest()->triangles[static_cast<std::size_t>(place.triangle)];
   for (std::size_t corner = 0; corner < 3; ++corner) {
-    const Embedding& e = lattice_.embedding[static_cast<std::size_t>(triangle[corner])];
-    const LatticeCell& cell = lattice_.cells[static_cast<std::size_t>(e.cell)];
-    for (std::size_t k = 0; k < 8; ++k) {
-      out.node.push_back(cell.corners[k]);
-      out.share.push_back(static_cast<float>(place.weight[corner]) * e.weights[k]);
+    const Embedding& e = lattice.embedding[static_cast<std::size_t>(triangle[corner])];
+    const auto weight = static_cast<float>(e.other < 0 ? place.weight[corner] : place.weight[corner] / 2);
+    for (const std::int32_t number : {e.cell, e.other}) {
+      if (number < 0) continue;
+      const LatticeCell& cell = lattice.cells[static_cast<std::size_t>(number)];
+      for (std::size_t k = 0; k < 8; ++k) {
+        out.node.push_back(cell.corners[k]);
+        out.share.push_back(weight * e.weights[k]);
+      }
     }
   }
   return out;
 }
 
+MaterialPoint SoftOrgan::place_now(const MaterialPoint& before) const {
+  // Vertices keep their numbers: of a triangle that was divided the piece is taken in which the place lies.
+  const SurfacePtr& old = lattice_.previous();
+  if (!old || before.triangle < 0 || before.triangle >= static_cast<std::int32_t>(old->triangles.size())) return {};
+  const auto was = old->triangles[static_cast<std::size_t>(before.triangle)];
+  if (was == rest()->triangles[static_cast<std::size_t>(before.triangle)]) return before;
+  const Vec3 place = place_at_corners(before.weight, was, rest()->vertices);
+  MaterialPoint best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](std::size_t t) {
+    if (!rest()->inside.empty() && rest()->inside[t]) return;
+    const auto& [a, b, c] = rest()->triangles[t];
+    const std::array<Vec3, 3> corner{rest()->vertices[static_cast<std::size_t>(a)],
+                                     rest()->vertices[static_cast<std::size_t>(b)],
+                                     rest()->vertices[static_cast<std::size_t>(c)]};
+    Barycentric weight = barycentric_of(place, corner);
+    double sum = 0;
+    for (double& w : weight) sum += w = std::max(0.0, w);
+    for (double& w : weight) w /= sum;
+    const double distance = (interpolate(weight, corner) - place).squaredNorm();
+    if (distance < least) least = distance, best = {static_cast<std::int32_t>(t), weight};
+  };
+  look(static_cast<std::size_t>(before.triangle));
+  for (std::size_t t = old->triangles.size(); t < rest()->triangles.size(); ++t) look(t);
+  return best;
+}
+
+Vec3 SoftOrgan::turned_to_rest(const MaterialPoint& place, const Vec3& vector_T) const {
+  // By the mean gradient of the cell under the place.
+  const Lattice& lattice = lattice_.lattice();
+  const auto vertex = static_cast<std::size_t>(rest()->triangles[static_cast<std::size_t>(place.triangle)][0]);
+  const LatticeCell& cell = lattice.cells[static_cast<std::size_t>(lattice.embedding[vertex].cell)];
+  Mat3 F = Mat3::Zero();
+  for (std::size_t k = 0; k < 8; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      F.col(static_cast<Eigen::Index>(axis)) += ((k >> axis & 1) != 0 ? 1 : -1) / (4 * lattice.cell_m) *
+                                                solid_.position()[static_cast<std::size_t>(cell.corners[k])].cast<double>();
+  const double det = F.determinant();
+  if (!(det > kLeastVolume && det < 1 / kLeastVolume)) return vector_T;
+  return F.inverse() * vector_T;
+}
+
+OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
+  TracedCut traced = trace_cut(*surface_, blade, options);
+  OrganCut out{traced.refusal, traced.length_m, traced.depth_m, traced.area_m2};
+  if (out.refusal != CutRefusal::kNone) return out;
+  for (CutCrossing& crossing : traced.cut.crossings) {
+    crossing.depth_m = turned_to_rest({crossing.triangle, {1, 0, 0}}, crossing.depth_m);
+    const Vec3 left = rest()->vertices[static_cast<std::size_t>(crossing.left)];
+    const Vec3 lip = left + crossing.share * (rest()->vertices[static_cast<std::size_t>(crossing.right)] - left);
+    // No deeper than the organ: a groove has a bottom.
+    int shortenings = 0;
+    while (!lattice_.holds(lip + kBelowBottom * crossing.depth_m) && shortenings++ < kShortenings)
+      crossing.depth_m /= 2;
+    if (shortenings > kShortenings) return out.refusal = CutRefusal::kThrough, out;
+    out.middle_rest_T += (lip + crossing.depth_m) / static_cast<double>(traced.cut.crossings.size());
+  }
+  out.first_vertex = static_cast<std::int32_t>(rest()->vertices.size());
+  LatticeChange change;
+  if (!lattice_.cut(traced.cut, change)) return out.refusal = CutRefusal::kPieceOff, out;
+  std::vector<SoftCellChange> cells;
+  for (const auto& [number, parent] : change.cells) {
+    const LatticeCell& cell = lattice_.lattice().cells[static_cast<std::size_t>(number)];
+    cells.push_back({number, parent, cell.corners, cell.fill});
+  }
+  if (!cells.empty()) solid_.sever(change.node_parent, cells);
+  cuts_.push_back(cut_bytes(traced.cut));
+  added_ = std::move(change.added);
+  embedded_ = EmbeddedSurface(lattice_.lattice(), lattice_.rest());
+  surface_ = embedded_.at(solid_.position());
+  const std::size_t known = felt_.size();
+  felt_.resize(surface_->vertices.size());
+  std::copy(surface_->vertices.begin() + static_cast<std::ptrdiff_t>(known), surface_->vertices.end(),
+            felt_.begin() + static_cast<std::ptrdiff_t>(known));
+  energy_ = solid_.energy_j();
+  return out;
+}
+
 Vec3 SoftOrgan::place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const {
-  const auto& [a, b, c] = rest_->triangles[static_cast<std::size_t>(place.triangle)];
-  return interpolate(place.weight, {vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)],
-                                    vertices[static_cast<std::size_t>(c)]});
+  return place_at_corners(place.weight, rest()->triangles[static_cast<std::size_t>(place.triangle)], vertices);
 }
 
 double SoftOrgan::contact_radius(double force_n) const {
@@ -139,7 +229,7 @@ double SoftOrgan::contact_radius(double force_n) const {
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) const {
   const double reach = kSpread * contact_radius(force_n), whole = 2.0 / 3 * std::numbers::pi * reach * reach;
-  const Vec3 middle = place_at(place, rest_->vertices);
+  const Vec3 middle = place_at(place, rest()->vertices);
   std::vector<std::pair<std::int32_t, double>> sum;
   double given = 0;
   const auto add = [&](const MaterialPoint& at, double share) {
@@ -148,11 +238,11 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) cons
       sum.emplace_back(point.node[i], share * static_cast<double>(point.share[i]));
     given += share;
   };
-  for (std::size_t t = 0; t < rest_->triangles.size(); ++t) {
+  for (std::size_t t = 0; t < rest()->triangles.size(); ++t) {
     std::array<Vec3, 3> corner;
-    const Vec3& first = rest_->vertices[static_cast<std::size_t>(rest_->triangles[t][0])];
+    const Vec3& first = rest()->vertices[static_cast<std::size_t>(rest()->triangles[t][0])];
     if ((first - middle).squaredNorm() > (reach + longest_edge_m_) * (reach + longest_edge_m_)) continue;
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = rest_->vertices[static_cast<std::size_t>(rest_->triangles[t][k])];
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = rest()->vertices[static_cast<std::size_t>(rest()->triangles[t][k])];
     const double area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / (kParts * kParts);
     // The centres of the triangle's equal parts, those that stand and those that hang.
     for (int i = 0; i < kParts; ++i)
@@ -209,7 +299,7 @@ void SoftOrgan::remember(std::span<const Pressed> pressed) {
                                           [](const Pressed& a, const Pressed& b) { return a.force < b.force; });
   const bool touching = strongest != pressed.end() && strongest->force > 0;
   if (touching) {
-    const Vec3 rest = place_at(strongest->place, rest_->vertices);
+    const Vec3 rest = place_at(strongest->place, lattice_.rest()->vertices);
     if ((rest - memory_.rest_T).norm() > kOtherPlace) memory_.held = {}, memory_.elastic_n = 0;
     memory_.rest_T = rest;
   }
@@ -223,9 +313,10 @@ void SoftOrgan::remember(std::span<const Pressed> pressed) {
 std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts) const {
   std::vector<Pressed> pressed;
   for (int i = 0; i < contacts.count; ++i) {
-    const SolvedContact& contact = contacts.at[static_cast<std::size_t>(i)];
+    SolvedContact contact = contacts.at[static_cast<std::size_t>(i)];
+    if (contacts.topology != topology()) contact.place = place_now(contact.place);
     const bool known =
-        contact.place.triangle >= 0 && contact.place.triangle < static_cast<std::int32_t>(rest_->triangles.size());
+        contact.place.triangle >= 0 && contact.place.triangle < static_cast<std::int32_t>(rest()->triangles.size());
     const bool sound = contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() &&
                        contact.normal_T.allFinite() &&
                        std::all_of(contact.place.weight.begin(), contact.place.weight.end(),
@@ -244,14 +335,15 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
 
 void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::span<SoftSpring> more) {
   std::vector<Pressed> pressed;
-  if (tip_T != nullptr && contacts.topology == topology()) pressed = press(contacts);
+  const bool of_before = lattice_.previous() && contacts.topology == lattice_.previous()->topology;
+  if (tip_T != nullptr && (contacts.topology == topology() || of_before)) pressed = press(contacts);
   std::vector<SoftSpring> springs;
   for (const Pressed& p : pressed) {
     // Elastic force linear about that of the last tick, k (d - d0) + F0; with what the branches take of its change.
     const double whole = elastic_part(p.force / p.share), slope = p.stiffness / p.share;
     const double depth0 = half_space_depth(whole) - whole * (half_space_compliance(whole) - 1 / slope);
     // The place as the middle of all that is pressed has moved.
-    Vec3 there = place_at(p.place, rest_->vertices);
+    Vec3 there = place_at(p.place, rest()->vertices);
     for (std::size_t i = 0; i < p.shares.node.size(); ++i) {
       const auto n = static_cast<std::size_t>(p.shares.node[i]);
       there += static_cast<double>(p.shares.share[i]) * (solid_.position()[n] - solid_.rest()[n]).cast<double>();
@@ -285,7 +377,7 @@ Pose SoftOrgan::motion_round(const Vec3& rest_T) const {
   double sum = 0;
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   std::vector<std::pair<std::size_t, double>> shell;
-  for (std::size_t n = 0; n < lattice_.nodes.size(); ++n) {
+  for (std::size_t n = 0; n < lattice_.lattice().nodes.size(); ++n) {
     const double r = (rest[n].cast<double>() - rest_T).norm() / options_.neighbourhood_m;
     if (r >= kShellEnd) continue;
     const double weight = r * r * (kShellEnd - r);
@@ -311,12 +403,12 @@ void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
   felt_ = surface_->vertices;
   std::vector<std::pair<Vec3, Pose>> dents;
   for (const MaterialPoint& place : places) {
-    const Vec3 rest = place_at(place, rest_->vertices);
+    const Vec3 rest = place_at(place, lattice_.rest()->vertices);
     dents.emplace_back(rest, motion_round(rest));
   }
   const double inner = kWholeDent * options_.neighbourhood_m, outer = kShellEnd * options_.neighbourhood_m;
   for (std::size_t v = 0; v < felt_.size(); ++v) {
-    const Vec3& rest = rest_->vertices[v];
+    const Vec3& rest = lattice_.rest()->vertices[v];
     const auto nearest = std::min_element(dents.begin(), dents.end(), [&](const auto& a, const auto& b) {
       return (a.first - rest).squaredNorm() < (b.first - rest).squaredNorm();
     });
@@ -343,9 +435,9 @@ double SoftOrgan::loop_stiffness(const NodeShares& place, const Vec3& direction,
 MaterialPoint SoftOrgan::nearest_place(const Vec3& tip_T) const {
   MaterialPoint place{0, {1, 0, 0}};
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < rest_->triangles.size(); ++t) {
+  for (std::size_t t = 0; t < rest()->triangles.size(); ++t) {
     const double distance =
-        (surface_->vertices[static_cast<std::size_t>(rest_->triangles[t][0])] - tip_T).squaredNorm();
+        (surface_->vertices[static_cast<std::size_t>(rest()->triangles[t][0])] - tip_T).squaredNorm();
     if (distance < least) least = distance, place.triangle = static_cast<std::int32_t>(t);
   }
   return place;

@@ -20,8 +20,9 @@
 
 #include "haptics/exchange/solved_contacts.h"
 #include "tissue/mesh/surface/triangle_surface.h"
+#include "tissue/interaction/cut_tracing.h"
+#include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"
-#include "tissue/solid/lattice.h"
 #include "tissue/solid/soft_solid.h"
 #include "tissue/solid/tissue_material.h"
 #include "tissue/surface_snapshot.h"
@@ -41,6 +42,14 @@ struct SoftOrganOptions {
 /// R.
 double far_share(double poisson);
 
+/// What came of an attempt to cut.
+struct OrganCut {
+  CutRefusal refusal = CutRefusal::kNothingThere;
+  double length_m = 0, depth_m = 0, area_m2 = 0;  ///< of the line; the greatest; of one wall
+  Vec3 middle_rest_T = Vec3::Zero();              ///< of the groove's bottom
+  std::int32_t first_vertex = 0;                  ///< of those that it added to the surface
+};
+
 class SoftOrgan {
  public:
   /// @param lattice over the surface at rest, of the edge that the options name.
@@ -53,8 +62,15 @@ class SoftOrgan {
   /// @param more springs of this step besides the contacts': a grip. Their forces are filled in.
   void step(const SolvedContacts& contacts, const Vec3* tip_T, std::span<SoftSpring> more = {});
 
+  /// Cuts what lies within a blade, as the organ lies now. A refused cut leaves everything as it was.
+  OrganCut cut(const Blade& blade, const CutTracingOptions& options = {});
+  /// All cuts so far, as playback makes them again (cut_bytes).
+  std::span<const std::string> cuts() const { return cuts_; }
+  /// Vertices of the surface that the last cut added.
+  std::span<const VertexOrigin> added() const { return added_; }
+
   std::uint64_t topology() const { return surface_->topology; }
-  const TriangleSurface& rest() const { return *rest_; }
+  const SurfacePtr& rest() const { return lattice_.rest(); }
   const TissueSolid& material() const { return material_; }
   NodeShares shares_of(const MaterialPoint& place) const;
   /// Of a spring that holds on to a place, as the loop may render it within a step, N/m.
@@ -82,6 +98,10 @@ class SoftOrgan {
   double elastic_part(double force_n) const;
   void remember(std::span<const Pressed> pressed);
   std::vector<Pressed> press(const SolvedContacts& contacts) const;
+  /// A place that is told in the triangles before the last cut, in those of now. triangle -1: it is gone.
+  MaterialPoint place_now(const MaterialPoint& before) const;
+  /// A direction of the organ as it lies now, back at rest.
+  Vec3 turned_to_rest(const MaterialPoint& place, const Vec3& vector_T) const;
   /// How the neighbourhood of a place has moved as a whole, from its rest.
   Pose motion_round(const Vec3& rest_T) const;
   /// The surface with the neighbourhoods of these places at rest, carried along as a whole.
@@ -93,10 +113,12 @@ class SoftOrgan {
 
   TissueSolid material_;
   SoftOrganOptions options_;
-  Lattice lattice_;
+  CutLattice lattice_;
   EmbeddedSurface embedded_;
   SoftSolid solid_;
-  SurfacePtr rest_, surface_;
+  std::vector<std::string> cuts_;
+  std::vector<VertexOrigin> added_;
+  SurfacePtr surface_;
   std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
   double energy_ = 0;  ///< of the solid after the last step, J

@@ -225,17 +225,18 @@ SoftSolid::SoftSolid(SoftSolid&&) noexcept = default;
 
 SoftSolid::SoftSolid(std::span<const Vec3> nodes, std::span<const SoftCell> cells,
                      std::span<const TissueSolid> materials, const SoftSolidOptions& options)
-    : options_(options) {
+    : options_(options), cells_(cells.begin(), cells.end()), materials_(materials.begin(), materials.end()) {
   for (const Vec3& node : nodes) rest_.push_back(node.cast<float>());
   rest_.push_back(Vec3f::Zero());  // what lanes without a cell hang on
   position_ = rest_;
   const std::size_t count = rest_.size();
   velocity_.assign(count, Vec3f::Zero());
   elastic_ = load_ = right_ = residual_ = direction_ = product_ = preconditioned_ = velocity_;
-  mass_.assign(count, 0);
   support_.assign(count, 0);
   diagonal_.assign(count, 0);
   stiffness_diagonal_.assign(count, 0);
+  root_.resize(count - 1);
+  std::iota(root_.begin(), root_.end(), 0);
 
   Vec3 low = Vec3::Constant(1e9);
   for (const Vec3& node : nodes) low = low.cwiseMin(node);
@@ -256,43 +257,161 @@ SoftSolid::SoftSolid(std::span<const Vec3> nodes, std::span<const SoftCell> cell
                        i);
   }
   std::sort(order.begin(), order.end());
-  groups_.resize((cells.size() + kLanes - 1) / kLanes);
-  groups_of_node_.resize(count);
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    Group& group = groups_[g];
+  lane_.resize(cells.size());
+  for (std::size_t at = 0; at < order.size(); ++at) lane_[order[at].second] = at;
+  add_groups();
+  for (std::size_t cell = 0; cell < cells_.size(); ++cell) fill_lane(cell);
+  spread_cells();
+  prepare();
+}
+
+void SoftSolid::add_groups() {
+  while (groups_.size() * kLanes < cells_.size()) {
+    all_groups_.push_back(static_cast<std::int32_t>(groups_.size()));
+    Group& group = groups_.emplace_back();
     std::memset(&group, 0, sizeof group);
-    all_groups_.push_back(static_cast<std::int32_t>(g));
     for (std::size_t l = 0; l < kLanes; ++l) {
       for (std::size_t c = 0; c < kAxes; ++c) group.rotation[c][c][l] = 1;
       group.factor[l] = 1;
-      for (auto& corner : group.node) corner[l] = static_cast<std::int32_t>(count - 1);
-      if (kLanes * g + l >= order.size()) continue;
-      const SoftCell& cell = cells[order[kLanes * g + l].second];
-      const TissueSolid& material = materials[static_cast<std::size_t>(cell.material)];
-      const double shear = material.young_pa / (2 * (1 + material.poisson));
-      const double bulk = material.young_pa / (3 * (1 - 2 * material.poisson));
-      const double cube = std::pow(options.edge_m, 3);
-      group.mu[l] = static_cast<float>(cell.fill * options.edge_m * shear);
-      group.kappa[l] = static_cast<float>(cell.fill * options.edge_m * bulk);
-      group.volume[l] = static_cast<float>(cell.fill * cube);
-      group.instant[l] = static_cast<float>(1 / (1 - material.prony[0].share - material.prony[1].share));
-      for (std::size_t i = 0; i < 2; ++i) {
-        const double tau = material.prony[i].tau_s;
-        group.share[i][l] = static_cast<float>(material.prony[i].share);
-        group.keep[i][l] = static_cast<float>(tau / (tau + options.step_s));
-      }
-      group.stiffening[l] = static_cast<float>(material.stiffening);
-      for (std::size_t a = 0; a < kCubeCorners; ++a) {
-        group.node[a][l] = cell.node[a];
-        mass_[static_cast<std::size_t>(cell.node[a])] +=
-            static_cast<float>(material.density_kg_m3 * cell.fill * cube / kCubeCorners);
-        auto& of_node = groups_of_node_[static_cast<std::size_t>(cell.node[a])];
-        if (of_node.empty() || of_node.back() != static_cast<std::int32_t>(g))
-          of_node.push_back(static_cast<std::int32_t>(g));
-      }
     }
   }
+  // Lanes without a cell stand behind all others and hang on the last node.
+  for (std::size_t at = cells_.size(); at < groups_.size() * kLanes; ++at)
+    for (auto& corner : groups_[at / kLanes].node) corner[at % kLanes] = static_cast<std::int32_t>(rest_.size() - 1);
+}
+
+void SoftSolid::fill_lane(std::size_t number) {
+  Group& group = groups_[lane_[number] / kLanes];
+  const std::size_t l = lane_[number] % kLanes;
+  const SoftCell& cell = cells_[number];
+  const TissueSolid& material = materials_[static_cast<std::size_t>(cell.material)];
+  const double shear = material.young_pa / (2 * (1 + material.poisson));
+  const double bulk = material.young_pa / (3 * (1 - 2 * material.poisson));
+  group.mu[l] = static_cast<float>(cell.fill * options_.edge_m * shear);
+  group.kappa[l] = static_cast<float>(cell.fill * options_.edge_m * bulk);
+  group.volume[l] = static_cast<float>(cell.fill * std::pow(options_.edge_m, 3));
+  group.instant[l] = static_cast<float>(1 / (1 - material.prony[0].share - material.prony[1].share));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double tau = material.prony[i].tau_s;
+    group.share[i][l] = static_cast<float>(material.prony[i].share);
+    group.keep[i][l] = static_cast<float>(tau / (tau + options_.step_s));
+  }
+  group.stiffening[l] = static_cast<float>(material.stiffening);
+  for (std::size_t a = 0; a < kCubeCorners; ++a) group.node[a][l] = cell.node[a];
+}
+
+void SoftSolid::spread_cells() {
+  mass_.assign(rest_.size(), 0);
+  groups_of_node_.assign(rest_.size(), {});
+  std::vector<std::size_t> order(cells_.size());
+  for (std::size_t cell = 0; cell < cells_.size(); ++cell) order[lane_[cell]] = cell;
+  for (const std::size_t number : order) {
+    const SoftCell& cell = cells_[number];
+    const double density = materials_[static_cast<std::size_t>(cell.material)].density_kg_m3;
+    const auto group = static_cast<std::int32_t>(lane_[number] / kLanes);
+    for (const std::int32_t node : cell.node) {
+      mass_[static_cast<std::size_t>(node)] +=
+          static_cast<float>(density * cell.fill * std::pow(options_.edge_m, 3) / kCubeCorners);
+      auto& of_node = groups_of_node_[static_cast<std::size_t>(node)];
+      if (of_node.empty() || of_node.back() != group) of_node.push_back(group);
+    }
+  }
+}
+
+void SoftSolid::sever(std::span<const std::int32_t> node_parent, std::span<const SoftCellChange> cells) {
+  const std::size_t before = node_count();
+  const auto insert = [&](auto& values) {  // the last one stays that of lanes without a cell
+    values.resize(rest_.size() - 1 + node_parent.size() + 1);
+    values.back() = values[before];
+    for (std::size_t i = 0; i < node_parent.size(); ++i)
+      values[before + i] = values[static_cast<std::size_t>(node_parent[i])];
+  };
+  for (auto* values : {&position_, &velocity_, &load_}) insert(*values);
+  insert(support_);
+  insert(rest_);
+  for (const std::int32_t parent : node_parent) root_.push_back(root_[static_cast<std::size_t>(parent)]);
+  for (auto* values : {&elastic_, &right_, &residual_, &direction_, &product_, &preconditioned_})
+    values->assign(rest_.size(), Vec3f::Zero());
+  for (auto* values : {&diagonal_, &stiffness_diagonal_}) values->assign(rest_.size(), 0);
+
+  const std::size_t known = cells_.size();
+  for (const SoftCellChange& change : cells) {
+    const auto number = static_cast<std::size_t>(change.number);
+    if (number >= cells_.size()) {
+      cells_.push_back(cells_[static_cast<std::size_t>(change.parent)]);
+      lane_.push_back(cells_.size() - 1);
+    }
+    cells_[number].node = change.node;
+    cells_[number].fill = change.fill;
+  }
+  add_groups();
+  for (const SoftCellChange& change : cells) {
+    const auto number = static_cast<std::size_t>(change.number);
+    if (number >= known) copy_lane(lane_[static_cast<std::size_t>(change.parent)], lane_[number]);
+    fill_lane(number);
+  }
+  const std::vector<float> mass_before = mass_;
+  spread_cells();
+  // Supports and loads of a node are shared with those severed from it, by mass.
+  std::vector<float> together(before, 0);
+  for (std::size_t n = 0; n < node_count(); ++n)
+    if (n < before || node_parent[n - before] >= 0) {
+      const std::size_t of = n < before ? n : static_cast<std::size_t>(node_parent[n - before]);
+      together[of] += mass_[n];
+    }
+  for (std::size_t n = 0; n < node_count(); ++n) {
+    const std::size_t of = n < before ? n : static_cast<std::size_t>(node_parent[n - before]);
+    if (!(together[of] > 0)) continue;
+    support_[n] *= mass_[n] / together[of];
+    load_[n] *= mass_[n] / together[of];
+  }
+  release();
   prepare();
+}
+
+void SoftSolid::copy_lane(std::size_t from, std::size_t to) {
+  static_assert(sizeof(Group) % (kLanes * sizeof(float)) == 0, "a group is rows of one number a lane");
+  const auto* source = reinterpret_cast<const char*>(&groups_[from / kLanes]) + from % kLanes * sizeof(float);
+  auto* target = reinterpret_cast<char*>(&groups_[to / kLanes]) + to % kLanes * sizeof(float);
+  for (std::size_t row = 0; row < sizeof(Group); row += kLanes * sizeof(float))
+    std::memcpy(target + row, source + row, sizeof(float));
+}
+
+void SoftSolid::release() {
+  // A cell under the tension s draws its corners together with s fill edge^2 / 4 along every axis.
+  std::vector<Vec3> drawn(node_count(), Vec3::Zero());
+  // All that was one node turns with the cell that has most tissue: were each half to turn with its own, a loose one
+  // could be driven round and round.
+  std::vector<std::size_t> lane_of(node_count(), 0);
+  std::vector<double> most(node_count(), 0);
+  std::vector<int> severed(node_count(), 0);
+  for (const std::int32_t root : root_) ++severed[static_cast<std::size_t>(root)];
+  for (std::size_t number = 0; number < cells_.size(); ++number) {
+    const SoftCell& cell = cells_[number];
+    const TissueSolid& material = materials_[static_cast<std::size_t>(cell.material)];
+    const double force =
+        material.residual_strain * material.young_pa * cell.fill * options_.edge_m * options_.edge_m / 4;
+    for (std::size_t a = 0; a < kCubeCorners; ++a) {
+      const auto node = static_cast<std::size_t>(cell.node[a]);
+      for (std::size_t axis = 0; axis < kAxes; ++axis)
+        drawn[node][static_cast<Eigen::Index>(axis)] += (a >> axis & 1) != 0 ? -force : force;
+      const auto root = static_cast<std::size_t>(root_[node]);
+      if (cell.fill > most[root]) most[root] = cell.fill, lane_of[root] = lane_[number];
+    }
+  }
+  std::vector<Vec3> whole(node_count(), Vec3::Zero());
+  std::vector<double> mass(node_count(), 0);
+  for (std::size_t n = 0; n < node_count(); ++n) {
+    whole[static_cast<std::size_t>(root_[n])] += drawn[n];
+    mass[static_cast<std::size_t>(root_[n])] += static_cast<double>(mass_[n]);
+  }
+  released_.clear();
+  for (std::size_t n = 0; n < node_count(); ++n) {
+    const auto root = static_cast<std::size_t>(root_[n]);
+    if (severed[root] < 2 || !(mass[root] > 0)) continue;
+    const Vec3 force = drawn[n] - static_cast<double>(mass_[n]) / mass[root] * whole[root];
+    released_.push_back({n, lane_of[root], force.cast<float>()});
+  }
 }
 
 void SoftSolid::hold(std::int32_t node, double stiffness_n_per_m) {
@@ -363,7 +482,18 @@ TROCAR_LANES_CLONED void SoftSolid::prepare() {
     for (auto& component : f) to_corners(component);
     scatter(f, group.node, elastic_.data());
   }
+  for (const Release& r : released_) elastic_[r.node] += turned(r);
   set_diagonal();
+}
+
+Vec3f SoftSolid::turned(const Release& release) const {
+  const Group& group = groups_[release.lane / kLanes];
+  const std::size_t l = release.lane % kLanes;
+  Vec3f force = Vec3f::Zero();
+  for (std::size_t c = 0; c < kAxes; ++c)
+    for (std::size_t k = 0; k < kAxes; ++k)
+      force[static_cast<Eigen::Index>(c)] += group.rotation[c][k][l] * release.force[static_cast<Eigen::Index>(k)];
+  return force;
 }
 
 void SoftSolid::set_diagonal() {
@@ -542,6 +672,8 @@ double SoftSolid::energy_j() const {
     energy += 0.5 * static_cast<double>(support_[n]) * static_cast<double>((position_[n] - rest_[n]).squaredNorm());
     energy += 0.5 * static_cast<double>(mass_[n]) * static_cast<double>(velocity_[n].squaredNorm());
   }
+  for (const Release& r : released_)
+    energy -= static_cast<double>(turned(r).dot(position_[r.node] - rest_[r.node]));
   return energy;
 }
 

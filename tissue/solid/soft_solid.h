@@ -43,6 +43,14 @@ struct SoftSolidOptions {
   int most_iterations = 60;
 };
 
+/// A cell after a cut: one that was there, with other corners or another fill, or a new one.
+struct SoftCellChange {
+  std::int32_t number = 0;  ///< new ones count up from cell_count()
+  std::int32_t parent = 0;  ///< whose state it begins with
+  std::array<std::int32_t, 8> node{};
+  double fill = 0;
+};
+
 /// A place on or in the solid as shares of its nodes.
 struct NodeShares {
   std::vector<std::int32_t> node;
@@ -72,12 +80,19 @@ class SoftSolid {
   /// Constant force on a node, N; zero again by the opposite.
   void load(std::int32_t node, const Vec3& force_n);
 
+  /// Doubles nodes and cells where tissue is severed. Positions, velocities, strain and what relaxes are carried over;
+  /// mass, supports and loads are shared. What the severed halves held each other with, the tension at rest
+  /// (TissueSolid::residual_strain), draws them apart from now on.
+  /// @param node_parent of each new node, whose number follows the last one's.
+  void sever(std::span<const std::int32_t> node_parent, std::span<const SoftCellChange> cells);
+
   /// One step. @param springs their force_n is filled in.
   void step(std::span<SoftSpring> springs = {});
   /// Static equilibrium by steps without inertia; for tests and studies. @return steps taken
   int settle(std::span<SoftSpring> springs = {}, double still_m = 1e-7, int most_steps = 200);
 
   std::size_t node_count() const { return rest_.size() - 1; }
+  std::size_t cell_count() const { return cells_.size(); }
   std::span<const Vec3f> rest() const { return {rest_.data(), node_count()}; }
   std::span<const Vec3f> position() const { return {position_.data(), node_count()}; }
   std::span<const Vec3f> velocity() const { return {velocity_.data(), node_count()}; }
@@ -99,7 +114,18 @@ class SoftSolid {
 
  private:
   struct Group;  ///< eight cells
+  /// Tension at rest that a severed node no longer has from its other half.
+  struct Release {
+    std::size_t node = 0, lane = 0;  ///< lane of a cell that it turns with
+    Vec3f force = Vec3f::Zero();     ///< N, at rest
+  };
 
+  void add_groups();  ///< for all cells
+  void fill_lane(std::size_t cell);
+  void copy_lane(std::size_t from, std::size_t to);
+  Vec3f turned(const Release& release) const;
+  void spread_cells();  ///< masses, and what groups a node has
+  void release();
   void prepare();  ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
   void add_product(const std::vector<Vec3f>& in, std::vector<Vec3f>& out, std::span<const std::int32_t> groups) const;
   void solve(std::span<SoftSpring> springs, const std::vector<bool>& active);
@@ -108,6 +134,11 @@ class SoftSolid {
   SoftSolidOptions options_;
   std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;  ///< last, a node for lanes without a cell
   std::vector<float> mass_, support_;                               ///< of each node
+  std::vector<SoftCell> cells_;
+  std::vector<TissueSolid> materials_;
+  std::vector<std::size_t> lane_;           ///< of each cell: its group's number times the lanes and its own in it
+  std::vector<std::int32_t> root_;          ///< of each node: of which it was severed
+  std::vector<Release> released_;
   std::vector<Group> groups_;
   std::vector<std::int32_t> all_groups_;
   std::vector<std::vector<std::int32_t>> groups_of_node_;

@@ -35,6 +35,7 @@ struct TissueSolid {
   double density_kg_m3 = 1060;
   std::array<PronyBranch, 2> prony{};           ///< instantaneous modulus = young / (1 - sum of shares)
   double stiffening = 0;                        ///< c of mu = mu_0 exp(c strain), strain the equivalent (von Mises) one
+  double residual_strain = 0;                   ///< tension at rest over the modulus: what opens a wound
   double rupture_n_per_m = 300;                 ///< tension per width at which the surface tears
   double toughness_j_per_m2 = 164;              ///< energy that a cut takes per area
   double mu_static = 0.10, mu_dynamic = 0.05;   ///< of wet serosa on smooth steel

@@ -61,6 +61,7 @@ TissueSolid read_tissue(TomlTable& table) {
   if (solid.prony[0].share + solid.prony[1].share >= 1)
     table.refuse("share_1", "the shares add up to 1 or more: nothing would be left after relaxation");
   solid.stiffening = read("stiffening", "1", 0, kNoEnd);
+  solid.residual_strain = read("residual_strain", "1", 0, 0.5);
   solid.rupture_n_per_m = read("rupture_n_per_m", "N/m", kTiny, kNoEnd);
   solid.toughness_j_per_m2 = read("toughness_j_per_m2", "J/m2", kTiny, kNoEnd);
   solid.mu_static = read("mu_static", "1", 0, kNoEnd);
