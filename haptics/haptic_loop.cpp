@@ -101,6 +101,7 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
     : config_(config),
       period_s_(1 / config.daq.rate_hz),
       instrument_(config.map),
+      exchange_(std::max<std::int32_t>(1, static_cast<std::int32_t>(config.tools.size()))),
       port_(config.port),
       contact_(config.contact_law, config.tool, {.period_s = period_s_}),
       arm_passivity_(with_period(config.passivity, period_s_, config.known_delay_periods)),
@@ -160,6 +161,8 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   motion.tip_speed = twist.head<3>().norm();
   const bool clutch = (in.digital_in & kClutch) != 0;
   instrument_.update(motion.arm.X_WS, {twist.head<3>(), twist.tail<3>()}, clutch, motion.periods * period_s_);
+  if (exchange_.update((in.digital_in & kExchange) != 0, motion.periods * period_s_))
+    contact_.take(config_.tools[static_cast<std::size_t>(exchange_.index())].shape);
   motion.X_TI = instrument_.X_TI();
   motion.V_TI_T = instrument_.V_TI_T();
   periods_ += static_cast<std::uint64_t>(motion.periods);
@@ -193,14 +196,15 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
     contact_.reset();
     return contact;
   }
-  contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T, patch, motion.q[kPinchChannel]);
+  contact.tissue = contact_.update(motion.X_TI, motion.V_TI_T, patch, motion.q[kPinchChannel] * exchange_.share(),
+                                   exchange_.drawn_m());
   contact.grip = grip_block(patch.grip, motion.q[kPinchChannel]);
   const auto torque_of = [&](const Wrench& F) -> JointVector {
     Vec6 w;
     w << F.force, F.moment;
     return motion.arm.J_WS.transpose() * w;
   };
-  contact.jaw_share = rendered_share(motion.arm.det_a);
+  contact.jaw_share = rendered_share(motion.arm.det_a) * exchange_.share();
   contact.port_share =
       contact.jaw_share * instrument_.share();  // the clutch parts the arm from the scene, not the fingers
   const Wrench whole = instrument_.stylus_wrench(contact.tissue.F_I_T);
@@ -381,6 +385,8 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   s.grip_force_n = contact.grip.force_n;
   s.rendered_grip_n = torque.contact[kPinchChannel];
   publish_instrument(contact, torque, s);
+  s.instrument = exchange_.index();
+  s.pedal = (in.digital_in & kPedal) != 0 && s.loop == LoopState::kActive && exchange_.in_hand();
   s.contact = contact.tissue.contact;
   s.tip_contact = contact.tissue.tip_contact;
   s.contact_point_T = contact.tissue.point_T;

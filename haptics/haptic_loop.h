@@ -12,6 +12,7 @@
 
 #include "haptics/contact/contact_renderer.h"
 #include "haptics/contact/friction.h"
+#include "haptics/contact/instrument.h"
 #include "haptics/contact/stiffness_limit.h"
 #include "haptics/control/channel_velocity.h"
 #include "haptics/control/device_watch.h"
@@ -31,6 +32,7 @@
 #include "haptics/exchange/tick_record.h"
 #include "haptics/kinematics/hybrid_arm.h"
 #include "haptics/mapping/instrument_coupling.h"
+#include "haptics/mapping/instrument_exchange.h"
 #include "haptics/mapping/port_forces.h"
 
 namespace trocar {
@@ -39,8 +41,9 @@ struct HapticLoopConfig {
   DaqCapabilities daq;  ///< rate and DAC bits of the back-end
   DeviceModel device;
   InstrumentMap map;
-  PortParameters port;  ///< fulcrum mapping only
-  ToolShape tool;
+  PortParameters port;      ///< fulcrum mapping only
+  ToolShape tool;           ///< in hand at first
+  std::vector<Tool> tools;  ///< that the exchange switch goes through, `tool` the first; empty: `tool` alone
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityParameters passivity;  ///< arm; period_s is set from the rate
   PassivityParameters pinch_passivity = pinch_defaults();
@@ -97,14 +100,14 @@ class HapticLoop {
     ContactResult tissue;
     GripResult grip;
     ChannelVector torque = ChannelVector::Zero();  ///< conjugate to tissue and grip, times share, before passivity
-    double share = 1;                 ///< of the contact that ramp, singularity, heat, clutch and K_max let through
-    double port_share = 1;            ///< the same of the port's friction: without the stiffness limit
-    double room = 1;                  ///< share of all contact torque that the motors can give
-    double jaw_share = 1;             ///< the same of the grip, without the clutch, with its own K_max
-    StiffnessLimit limit;             ///< K_max and what it left of the spring
-    double stiffness = 0;             ///< of that spring at the stylus, N/m
-    double spring_n = 0;              ///< spring force asked at the stylus, without damping
-    Vec3 commanded_W = Vec3::Zero();  ///< force asked at the stylus
+    double share = 1;       ///< of the contact that ramp, singularity, heat, clutch, exchange and K_max let through
+    double port_share = 1;  ///< the same of the port's friction: without the stiffness limit
+    double room = 1;        ///< share of all contact torque that the motors can give
+    double jaw_share = 1;   ///< the same of the grip, without the clutch, with its own K_max
+    StiffnessLimit limit;   ///< K_max and what it left of the spring
+    double stiffness = 0;   ///< of that spring at the stylus, N/m
+    double spring_n = 0;    ///< spring force asked at the stylus, without damping
+    Vec3 commanded_W = Vec3::Zero();                  ///< force asked at the stylus
     ChannelVector port = ChannelVector::Zero();       ///< friction of the port, times share
     ChannelVector alignment = ChannelVector::Zero();  ///< spring that leads the stylus along the shaft
     double port_stored_j = 0;                         ///< in both, before share
@@ -134,6 +137,7 @@ class HapticLoop {
   std::uint64_t checked_stamp_ = ~std::uint64_t{0};  ///< patch whose triangles were checked last
   std::vector<ChannelVelocity> velocity_;            ///< one a channel, sized once
   InstrumentCoupling instrument_;
+  InstrumentExchange exchange_;
   PortForces port_;
   ContactRenderer contact_;
   PassivityController arm_passivity_;

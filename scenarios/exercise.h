@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/contact/instrument.h"
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/quantities.h"
 #include "scenarios/kinds/grasp/grasp_rules.h"
@@ -93,7 +94,8 @@ struct Exercise {
   double time_limit_s = 0;                      ///< unless the level names its own
   double start_sphere_m = 0, start_hold_s = 0;  ///< radius; time in it: READY -> ARMED -> RUN
   Vec3 start_above_m = Vec3::Zero();            ///< start sphere's centre relative to the region's centre
-  bool jaws = false;                            ///< the instrument has jaws
+  /// That can be taken in hand, the first at the start; at least one.
+  std::vector<InstrumentKind> instruments = {InstrumentKind::kProbe};
   TargetLayout layout;
   PenRules pens;            ///< reach
   double hold_s = 0;        ///< time in band, or in pose, that completes a target

@@ -12,11 +12,12 @@ constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as
 }  // namespace
 
 TissueWorld::TissueWorld(const TissueSetup& setup)
-    : organ_(setup.organ), adjacent_(setup.adjacent), tool_(setup.tool), seen_(setup.seen_T) {
+    : organ_(setup.organ), adjacent_(setup.adjacent), tools_(setup.tools), seen_(setup.seen_T) {
+  assert(!tools_.empty());
   assert(adjacent_.size() < kMaxPatchMaterials && (adjacent_.empty() || setup.rigid.empty()));
   if (setup.soft && seen_) {
     SoftOrganOptions options = setup.soft->options;
-    options.tool_radius_m = setup.tool.radius_m;
+    options.tool_radius_m = tools_.front().shape.radius_m;
     soft_.emplace(setup.soft->lattice, seen_, setup.soft->material, options);
     felt_ = *setup.organ_T;
     velocity_.assign(felt_.vertices.size(), Vec3::Zero());
@@ -26,7 +27,11 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
   } else if (setup.organ_T && !setup.organ_T->triangles.empty()) {
     extraction_.emplace(*setup.organ_T, setup.triangle_material);
   }
-  if (!setup.rigid.empty()) rigid_.emplace(setup.rigid, setup.tool);
+  if (!setup.rigid.empty()) rigid_.emplace(setup.rigid, tools_.front());
+}
+
+const Tool& TissueWorld::in_hand(const StylusState& stylus) const {
+  return tools_[std::min(static_cast<std::size_t>(std::max(0, stylus.instrument)), tools_.size() - 1)];
 }
 
 void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& patch) {
@@ -42,11 +47,13 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
   std::copy(adjacent_.begin(), adjacent_.end(), patch.material.begin() + 1);
   patch.grip = {};
   patch.held = {};
+  const Tool& tool = in_hand(state);
   const JawReading jaws{state.X_TI, state.V_TI_T, state.jaw_opening_m, state.grip_force_n};
+  if (rigid_) rigid_->take(tool);
   if (rigid_) rigid_->step(jaws, present, dt_s);
   if (rigid_) patch.held = rigid_->held();
-  if (soft_) step_soft(newest, present);
-  if (present && extraction_) extraction_->extract(state.X_TI, tool_, patch, state.jaw_opening_m);
+  if (soft_) step_soft(newest, tool, present);
+  if (present && extraction_) extraction_->extract(state.X_TI, tool.shape, patch, state.jaw_opening_m);
   if (soft_) {
     patch.material[0].stiffness_n_per_m = soft_->stiffness_n_per_m();
     patch.glide_s = soft_->solid().options().step_s;
@@ -64,16 +71,19 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
   dropped_ += static_cast<std::uint64_t>(patch.dropped);
 }
 
-void TissueWorld::step_soft(const HapticState& newest, bool present) {
+void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool present) {
   const StylusState& stylus = newest.stylus;
   std::vector<SoftSpring> springs;
-  const bool jaws = present && tool_.jaw_length_m > 0;
-  if (jaws)
+  // What the instrument in hand does in the tissue beyond touching it, before the step. One that is not here only
+  // touches.
+  const bool grasps = present && tool.kind == InstrumentKind::kGrasper;
+  if (grasps)
     grip_.reach(stylus.X_TI, stylus.jaw_opening_m, *soft_, springs);
   else
     grip_.let_go();
   soft_->step(newest.contacts, present ? &stylus.X_TI.p : nullptr, springs);
-  if (jaws) grip_.feel(stylus.X_TI, springs, *soft_);
+  // And after it.
+  if (grasps) grip_.feel(stylus.X_TI, springs, *soft_);
   const auto felt = soft_->felt();
   const double step_s = soft_->solid().options().step_s;
   for (std::size_t v = 0; v < felt.size(); ++v) {

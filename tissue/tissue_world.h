@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "haptics/contact/tool_shape.h"
+#include "haptics/contact/instrument.h"
 #include "tissue/collision/patch_extraction.h"
 #include "tissue/interaction/soft_grip.h"
 #include "tissue/mesh/surface/triangle_surface.h"
@@ -34,7 +34,7 @@ struct TissueSetup {
   std::span<const std::int32_t> triangle_material = {};
   std::vector<ContactMaterial> adjacent = {};  ///< at most kMaxPatchMaterials - 1, and only without rigid things
   RigidScene rigid;
-  ToolShape tool;
+  std::vector<Tool> tools = {Tool{}};  ///< by StylusState::instrument, at least one
   /// How the organ gives way; its vertices are then the first of organ_T. nullptr: it stands still.
   std::shared_ptr<const SoftSetup> soft = nullptr;
 };
@@ -51,16 +51,17 @@ class TissueWorld final : public World {
 
  private:
   /// Steps the organ that gives way, and tells the extraction where its surface is for the loop.
-  void step_soft(const HapticState& newest, bool present);
+  void step_soft(const HapticState& newest, const Tool& tool, bool present);
+  const Tool& in_hand(const StylusState& stylus) const;
 
   ContactMaterial organ_;
   std::vector<ContactMaterial> adjacent_;
-  ToolShape tool_;
+  std::vector<Tool> tools_;
   SurfacePtr seen_;
   std::optional<PatchExtraction> extraction_;
   std::optional<RigidWorld> rigid_;
   std::optional<SoftOrgan> soft_;
-  SoftGrip grip_;               ///< with soft_ and jaws
+  SoftGrip grip_;               ///< of a grasper, with soft_
   TriangleSurface felt_;        ///< with soft_: what the loop is given, the adjacent organs behind the organ
   std::vector<Vec3> velocity_;  ///< with soft_: of its vertices, m/s
   TissueFrame frame_;

@@ -27,9 +27,16 @@ constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a cha
 
 }  // namespace
 
+void ContactRenderer::take(const ToolShape& shape) {
+  shape_ = shape;
+  known_ = 0;
+  near_.forget();
+  friction_.reset();
+}
+
 ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& newest,
-                                      double jaw_opening_m) {
-  tool_ = tool_capsules(shape_, jaw_opening_m, newest.held);
+                                      double jaw_opening_m, double drawn_m) {
+  tool_ = tool_capsules(shape_, jaw_opening_m, newest.held, drawn_m);
   thinnest_m_ = tool_.at[0].radius_m;
   for (int c = 1; c < tool_.count; ++c) thinnest_m_ = std::min(thinnest_m_, tool_.at[c].radius_m);
   const ContactPatch& patch = glide_.follow(newest, contacts_, stored_j_, thinnest_m_);

@@ -59,12 +59,17 @@ class ContactRenderer {
     friction_.reset();
   }
 
+  /// Another instrument takes the place of the one in use, where the proxy is: it must fill no more than that one did.
+  void take(const ToolShape& shape);
+
   /// What has been looked at since this was last asked; for benchmarks and tests.
   NearPairs::Work take_work() { return std::exchange(near_.work, {}); }
 
   /// One period. @param X_TI instrument pose; @param V_TI_T its velocity, linear part at the tip.
-  /// @param jaw_opening_m gap between the ends of the jaw pads.
-  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& newest, double jaw_opening_m = 0);
+  /// @param jaw_opening_m gap between the ends of the jaw pads. @param drawn_m how far the instrument has been drawn
+  /// back along its shaft; what it holds stays.
+  ContactResult update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& newest, double jaw_opening_m = 0,
+                       double drawn_m = 0);
   /// Those that carried force in the last period; their forces add up to F_I_T.force.
   const SolvedContacts& contacts() const { return contacts_; }
 

@@ -35,7 +35,7 @@ Capsule held_capsule(const HeldObject& held) {
 
 }  // namespace
 
-ToolCapsules tool_capsules(const ToolShape& shape, double jaw_opening_m, const HeldObject& held) {
+ToolCapsules tool_capsules(const ToolShape& shape, double jaw_opening_m, const HeldObject& held, double drawn_m) {
   ToolCapsules tool;
   Capsule& shaft = tool.at[tool.count++];
   shaft.X_IC.p.z() = -shape.jaw_length_m;
@@ -46,6 +46,7 @@ ToolCapsules tool_capsules(const ToolShape& shape, double jaw_opening_m, const H
     tool.at[tool.count++] = jaw(shape, jaw_opening_m, +1);
     tool.at[tool.count++] = jaw(shape, jaw_opening_m, -1);
   }
+  for (int c = 0; c < tool.count; ++c) tool.at[c].X_IC.p.z() -= drawn_m;
   if (held.radius_m > 0) tool.at[tool.count++] = held_capsule(held);
   return tool;
 }

@@ -34,7 +34,8 @@ struct ToolCapsules {
   int count = 0;
 };
 
-/// @param jaw_opening_m clamped to what the hinge allows, 0 to 1.4 jaw lengths.
-ToolCapsules tool_capsules(const ToolShape& shape, double jaw_opening_m, const HeldObject& held);
+/// @param jaw_opening_m clamped to what the hinge allows, 0 to 1.4 jaw lengths. @param drawn_m how far shaft and jaws
+/// are drawn back along -z.
+ToolCapsules tool_capsules(const ToolShape& shape, double jaw_opening_m, const HeldObject& held, double drawn_m = 0);
 
 }  // namespace trocar

@@ -22,6 +22,8 @@ enum DigitalInput : std::uint32_t {
   kEmergencyStop = 1u << 3,  ///< emergency stop pressed: the amplifiers are off by wire
   kWatchdogFired = 1u << 4,  ///< no write for 16 ms: the board has zeroed its DACs; stays until disarmed
   kClutch = 1u << 5,         ///< foot or finger switch: the instrument is frozen while it is closed
+  kPedal = 1u << 6,          ///< foot switch: the instrument in hand is energised, or sucks, while it is closed
+  kExchange = 1u << 7,       ///< switch: each time it closes, the next instrument is taken
   kDacMismatch = 1u << 8,    ///< a DAC's register reads back another code than the one it should hold now
   kDriveFault = 1u << 16,    ///< fault output of an amplifier
   kDriveHot = 1u << 24,      ///< over-temperature output of an amplifier or motor

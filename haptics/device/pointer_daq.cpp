@@ -97,6 +97,8 @@ DaqSample PointerDaq::read() noexcept {
     sample.counts[i] = static_cast<std::int32_t>(std::lround((q_[i] - home_[i]) / count_size(transmission_[i])));
   if (holding_ && pressed_) sample.digital_in |= kDeadman;
   if (clutch_) sample.digital_in |= kClutch;
+  if (pedal_) sample.digital_in |= kPedal;
+  if (exchange_) sample.digital_in |= kExchange;
   if (!armed_) sample.digital_in |= kHomeBeam;
   return sample;
 }

@@ -3,8 +3,8 @@
 // There is no arm, no motor and no encoder, so none of them can fault, heat or weaken. The joints of the arm that would
 // hold the instrument there are what the seam asks for, and so its joint limits are the limits of the work space: a
 // pose beyond them is approached as far as they let it, first with the place, then with the turn. Codes written go
-// nowhere; home beam and enabling switch answer as a device's would. A person's clutch and missed periods are passed
-// on. Thread: the haptic task's; no call allocates, locks or throws.
+// nowhere; home beam and enabling switch answer as a device's would. A person's clutch, pedal and exchange switch and
+// missed periods are passed on. Thread: the haptic task's; no call allocates, locks or throws.
 #pragma once
 
 #include <cmath>
@@ -31,6 +31,8 @@ class PointerDaq final : public DataAcquisition, public SimulatedWorld {
 
   void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept override;
   void press_clutch(bool pressed) noexcept override { clutch_ = pressed; }
+  void press_pedal(bool pressed) noexcept override { pedal_ = pressed; }
+  void press_exchange(bool pressed) noexcept override { exchange_ = pressed; }
   void press_deadman(bool pressed) noexcept override { pressed_ = pressed; }
   HandSense sense() const noexcept override;
   void miss_sync() noexcept override { ++missed_; }
@@ -44,7 +46,7 @@ class PointerDaq final : public DataAcquisition, public SimulatedWorld {
   ChannelVector home_, q_;
   Pose wanted_BS_;
   double jaw_m_;
-  bool holding_ = false, pressed_ = true, clutch_ = false, armed_ = false;
+  bool holding_ = false, pressed_ = true, clutch_ = false, pedal_ = false, exchange_ = false, armed_ = false;
   std::uint32_t missed_ = 0;
   std::uint64_t sync_ = 0;
 };

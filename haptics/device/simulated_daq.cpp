@@ -120,6 +120,8 @@ std::uint32_t SimulatedDaq::digital_inputs() const noexcept {
   if (hand_.holding() && pressed_ && !opened) in |= kDeadman;
   if (hand_.fault()) in |= kHandFault;
   if (clutch_pressed_) in |= kClutch;
+  if (pedal_pressed_) in |= kPedal;
+  if (exchange_pressed_) in |= kExchange;
   if (plant_.clamped() && carried_s_ < 0) in |= kHomeBeam;
   if (faults_.lasts(InjectedFaultKind::kEmergencyStop, time_s())) in |= kEmergencyStop;
   if (watchdog_fired_) in |= kWatchdogFired;

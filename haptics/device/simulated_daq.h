@@ -71,6 +71,8 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
 
   void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept override;
   void press_clutch(bool pressed) noexcept override { clutch_pressed_ = pressed; }
+  void press_pedal(bool pressed) noexcept override { pedal_pressed_ = pressed; }
+  void press_exchange(bool pressed) noexcept override { exchange_pressed_ = pressed; }
   void press_deadman(bool pressed) noexcept override { pressed_ = pressed; }
   HandSense sense() const noexcept override;
   void miss_sync() noexcept override;
@@ -128,7 +130,7 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
   DaqSample last_;
   Vec3 force_on_hand_ = Vec3::Zero(), moment_on_hand_ = Vec3::Zero();
   double force_on_finger_ = 0;
-  bool clutch_pressed_ = false;
+  bool clutch_pressed_ = false, pedal_pressed_ = false, exchange_pressed_ = false;
 };
 
 }  // namespace trocar

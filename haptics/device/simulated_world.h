@@ -26,6 +26,10 @@ class SimulatedWorld {
   virtual void set_hand_intent(const Pose& X_BS, double jaw_opening_m) noexcept = 0;
   /// The hand's clutch switch, from the next period on.
   virtual void press_clutch(bool pressed) noexcept = 0;
+  /// The pedal under the person's foot, from the next period on.
+  virtual void press_pedal(bool pressed) noexcept = 0;
+  /// The switch that asks for the next instrument, from the next period on.
+  virtual void press_exchange(bool pressed) noexcept = 0;
   /// The enabling switch in the handle, pressed at first; it counts only while the hand holds the stylus.
   virtual void press_deadman(bool pressed) noexcept = 0;
   virtual HandSense sense() const noexcept = 0;

@@ -69,10 +69,12 @@ struct StylusState {
   Vec3 contact_normal_T = Vec3::UnitZ();  ///< outward unit normal there
   double depth_m = 0;                     ///< indentation, >= 0
 
-  bool clutched = false;       ///< instrument frozen, stylus free
-  bool port_held = false;      ///< handle too near to the port: the instrument is held, the trainee must draw back
-  double depth_in_port_m = 0;  ///< of the tip beyond the port; 0 with direct mapping
-  Registration registration;   ///< what clutching has added so far
+  bool clutched = false;        ///< instrument frozen, stylus free
+  bool pedal = false;           ///< the instrument in hand is energised, or sucks; never while the loop is not active
+  std::int32_t instrument = 0;  ///< in hand: index into the exercise's list
+  bool port_held = false;       ///< handle too near to the port: the instrument is held, the trainee must draw back
+  double depth_in_port_m = 0;   ///< of the tip beyond the port; 0 with direct mapping
+  Registration registration;    ///< what clutching has added so far
 
   bool saturated = false;         ///< the torque budget cut the contact force this tick
   bool passivity_active = false;  ///< the passivity law changed the force this tick

@@ -55,6 +55,22 @@ ExerciseKind read_kind(StrictTable& document) {
   return kind_named(document.choice("kind", names))->kind;
 }
 
+/// Older files say `jaws`: whether it is a grasper.
+std::vector<InstrumentKind> read_instruments(StrictTable& document, const Exercise& exercise) {
+  const bool grasper = document.flag_or("jaws", kind_of(exercise).jaws_hold);
+  if (!document.has("instruments")) {
+    document.allow("instruments");
+    return {grasper ? InstrumentKind::kGrasper : InstrumentKind::kProbe};
+  }
+  if (document.has("jaws")) document.fail("jaws", "'jaws' must not stand beside 'instruments'");
+  std::vector<std::string> known;
+  for (const InstrumentDescription& instrument : kInstruments) known.emplace_back(instrument.name);
+  std::vector<InstrumentKind> instruments;
+  for (const std::string& name : document.choices("instruments", known, kMostInstruments))
+    instruments.push_back(*instrument_named(name));
+  return instruments;
+}
+
 }  // namespace
 
 Exercise parse_exercise(const std::string& text, const std::filesystem::path& file) {
@@ -68,7 +84,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   exercise.title = document.text("title");
   exercise.goal = document.text("goal");
   exercise.kind = read_kind(document);
-  exercise.jaws = document.flag_or("jaws", kind_of(exercise).jaws_hold);
+  exercise.instruments = read_instruments(document, exercise);
   exercise.time_limit_s = document.number("time_limit_s", 1, 3600);
   read_start(document.table("start"), exercise);
   read_targets(document.table("targets"), exercise);

@@ -181,12 +181,38 @@ std::string StrictTable::text_or(const std::string& key, const std::string& fall
   return fallback;
 }
 
+namespace {
+
+/// What to say of a word that is none of the allowed ones; empty: it is one.
+std::string choice_refusal(const std::string& key, const std::string& word, const std::vector<std::string>& allowed) {
+  if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return "";
+  const std::string near = nearest_word(word, allowed);
+  return "'" + key + "' is \"" + word + "\": known are " + joined(allowed) +
+         (near.empty() ? "" : "; did you mean '" + near + "'?");
+}
+
+}  // namespace
+
 std::string StrictTable::choice(const std::string& key, const std::vector<std::string>& allowed) {
   const std::string word = text(key);
-  if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return word;
-  const std::string near = nearest_word(word, allowed);
-  fail(key, "'" + key + "' is \"" + word + "\": known are " + joined(allowed) +
-                (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  if (const std::string refusal = choice_refusal(key, word, allowed); !refusal.empty()) fail(key, refusal);
+  return word;
+}
+
+std::vector<std::string> StrictTable::choices(const std::string& key, const std::vector<std::string>& allowed,
+                                              std::size_t most) {
+  const toml::node& value = required(*node_->table, node_->file, node_->asked, key);
+  const toml::array* array = value.as_array();
+  if (!array || array->empty() || array->size() > most)
+    fail(key, "'" + key + "' must be an array of 1 to " + std::to_string(most) + " names");
+  std::vector<std::string> words;
+  for (const toml::node& element : *array) {
+    if (!element.is_string()) throw error_at(node_->file, element.source(), "'" + key + "' must hold names in quotes");
+    words.push_back(*element.value<std::string>());
+    if (const std::string refusal = choice_refusal(key, words.back(), allowed); !refusal.empty())
+      throw error_at(node_->file, element.source(), refusal);
+  }
+  return words;
 }
 
 std::string StrictTable::choice_or(const std::string& key, const std::vector<std::string>& allowed,

@@ -40,6 +40,8 @@ class StrictTable {
   std::string text_or(const std::string& key, const std::string& fallback);
   std::string choice(const std::string& key, const std::vector<std::string>& allowed);
   std::string choice_or(const std::string& key, const std::vector<std::string>& allowed, const std::string& fallback);
+  /// Array of one to `most` of the allowed words.
+  std::vector<std::string> choices(const std::string& key, const std::vector<std::string>& allowed, std::size_t most);
   /// Array of three numbers, each in [low, high].
   Vec3 vector(const std::string& key, double low, double high);
   /// Array of two numbers, each in [low, high].

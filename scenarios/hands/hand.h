@@ -14,6 +14,8 @@ struct HandIntent {
   Pose X_TI;                    ///< wanted pose of the instrument tip in the theatre
   double jaw_opening_m = 0.02;  ///< wanted opening of the fingers at the pads
   bool clutch = false;          ///< holds the clutch: X_TI then says where the stylus would bring the instrument
+  bool pedal = false;           ///< holds the pedal down
+  bool exchange = false;        ///< presses the switch that asks for the next instrument
 };
 
 class Hand {

@@ -40,6 +40,11 @@ ScriptedMove read_move(StrictTable table) {
   move.hold_s = table.number_or("hold_s", 0, 3600, 0);
   move.jaw_m = table.number_or("jaw_mm", -20, 60, 20) * kScriptMilli;
   move.clutch = table.flag_or("clutch", false);
+  move.pedal = table.flag_or("pedal", false);
+  std::vector<std::string> known;
+  for (const InstrumentDescription& instrument : kInstruments) known.emplace_back(instrument.name);
+  if (table.has("instrument")) move.instrument = instrument_named(table.choice("instrument", known));
+  table.allow("instrument");
   table.finish();
   return move;
 }

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "haptics/contact/instrument.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -39,6 +41,10 @@ struct ScriptedMove {
   double hold_s = 0;               ///< rest at its end
   double jaw_m = 0.02;             ///< jaw opening at its end
   bool clutch = false;             ///< made with the clutch held: the stylus moves, the instrument stays
+  bool pedal = false;              ///< made with the pedal held down
+  /// Is taken in hand before the move begins; none: the one that is there. One that the exercise has not is asked for
+  /// kMostInstruments times.
+  std::optional<InstrumentKind> instrument = {};
 };
 
 /// A person who gets better: every number of the skill goes from one hand's to another's, e^(-(n - 1) / attempts) of

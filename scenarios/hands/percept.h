@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "haptics/contact/instrument.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -50,6 +51,7 @@ struct Percept {
   Vec3 felt_force_T = Vec3::Zero();  ///< handle on fingers, taken to the tip: tissue, friction, inertia (noisy), N
   double felt_grip_n = 0;            ///< pinch on the fingers, its friction included (noisy), N
   double jaw_opening_m = 0;          ///< seen opening of the jaws (delayed, noisy), m
+  InstrumentKind instrument = InstrumentKind::kProbe;  ///< in hand, as the screen says
   Cue cue = Cue::kNone;
   std::int32_t target_index = -1;        ///< which target is lit; changes when the next one lights
   Vec3 target_T = Vec3::Zero();          ///< centre of the lit target (m)

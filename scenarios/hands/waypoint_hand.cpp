@@ -5,9 +5,26 @@
 #include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
+namespace {
+
+constexpr double kPress_s = 0.100, kBetweenPresses_s = 0.350;  // s: an exchange takes 0.23 s
+
+}  // namespace
 
 Vec3 WaypointHand::goal(const ScriptedMove& move) const {
   return move.relative_to_ready ? Vec3(ready_T_ + move.to_m) : move.to_m;
+}
+
+bool WaypointHand::takes_instrument(const ScriptedMove& move, const Percept& percept, double dt_s) {
+  since_press_s_ += dt_s;
+  intent_.exchange = intent_.exchange && since_press_s_ < kPress_s;
+  if (presses_ > 0 && since_press_s_ < kBetweenPresses_s) return false;
+  const bool there = !move.instrument || percept.instrument == *move.instrument;
+  if (there || presses_ == static_cast<int>(kMostInstruments)) return true;
+  ++presses_;
+  since_press_s_ = 0;
+  intent_.exchange = true;
+  return false;
 }
 
 HandIntent WaypointHand::update(const Percept& percept, double dt_s) {
@@ -21,17 +38,21 @@ HandIntent WaypointHand::update(const Percept& percept, double dt_s) {
   }
   if (index_ >= moves_.size()) return intent_;
   const ScriptedMove& move = moves_[index_];
+  if (in_move_s_ == 0 && !takes_instrument(move, percept, dt_s)) return intent_;
   in_move_s_ += dt_s;
   const double share = minimum_jerk(in_move_s_ / move.seconds);
   intent_.X_TI.p = from_T_ + share * (goal(move) - from_T_);
   intent_.jaw_opening_m = from_jaw_m_ + share * (move.jaw_m - from_jaw_m_);
   intent_.clutch = move.clutch;
+  intent_.pedal = move.pedal;
   if (in_move_s_ >= move.seconds + move.hold_s) {
     if (move.clutch)
-      intent_ = {{intent_.X_TI.R, from_T_}, intent_.jaw_opening_m, false};  // the instrument stayed there
+      intent_ = {.X_TI = {intent_.X_TI.R, from_T_}, .jaw_opening_m = intent_.jaw_opening_m};  // it stayed there
     from_T_ = intent_.X_TI.p;
     from_jaw_m_ = intent_.jaw_opening_m;
     in_move_s_ = 0;
+    presses_ = 0;
+    intent_.pedal = false;
     ++index_;
   }
   return intent_;

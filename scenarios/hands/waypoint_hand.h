@@ -16,6 +16,8 @@ class WaypointHand : public Hand {
 
  private:
   Vec3 goal(const ScriptedMove& move) const;
+  /// Presses and lets go the exchange switch until the move's instrument is in hand. @return whether it is
+  bool takes_instrument(const ScriptedMove& move, const Percept& percept, double dt_s);
 
   std::vector<ScriptedMove> moves_;
   HandIntent intent_;
@@ -24,6 +26,8 @@ class WaypointHand : public Hand {
   bool seen_ = false, ready_ = false;
   std::size_t index_ = 0;
   double in_move_s_ = 0;
+  int presses_ = 0;           ///< of the exchange switch before this move
+  double since_press_s_ = 0;  ///< began
 };
 
 }  // namespace trocar

@@ -28,6 +28,8 @@ struct TraceSample {
   bool contact = false;
   bool saturated = false;
   bool passivity_active = false;
+  bool pedal = false;           ///< the instrument in hand is energised, or sucks
+  std::int32_t instrument = 0;  ///< in hand: index into the exercise's list
 };
 
 struct Trace {

@@ -94,6 +94,24 @@ TEST(TissueWorld, PickLiftAndDropTakesTheTimeOfTheFall) {
   EXPECT_NEAR(w.object(0).X_TO.p.z(), 0.010, 1e-4);
 }
 
+TEST(TissueWorld, OnlyAGrasperTakesABlockAndOneThatIsExchangedLetsGo) {
+  World w;
+  w.setup.tools.push_back(make_tool(InstrumentKind::kScissors));
+  w.state.instrument = 1;
+  w.start();
+  w.move(Vec3(0, 0, 0.008), 0.022, 0.3);
+  w.move(Vec3(0, 0, 0.008), 0.0105, 0.3);
+  EXPECT_EQ(w.world->frame().grip, GripState::kEmpty);
+  EXPECT_EQ(w.patch->held.radius_m, 0);
+  w.move(Vec3(0, 0, 0.008), 0.022, 0.3);
+  w.state.instrument = 0;
+  w.move(Vec3(0, 0, 0.008), 0.0105, 0.3);
+  EXPECT_EQ(w.world->frame().grip, GripState::kHolding);
+  w.state.instrument = 1;
+  w.step(1);
+  EXPECT_EQ(w.world->frame().grip, GripState::kEmpty);
+}
+
 TEST(TissueWorld, AHeldBlockPushesAnotherAndThePairIsListed) {
   World w;
   w.start();

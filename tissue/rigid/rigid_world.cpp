@@ -44,7 +44,7 @@ CapsuleShape in_theatre(const Pose& X_TI, const Capsule& capsule) {
 
 }  // namespace
 
-RigidWorld::RigidWorld(const RigidScene& scene, const ToolShape& tool)
+RigidWorld::RigidWorld(const RigidScene& scene, const Tool& tool)
     : scene_(scene), tool_(tool), dynamics_(dynamics_of(scene)) {
   if (scene.blocks.size() > kMaxObjects) {
     throw InputError("a scene holds at most " + std::to_string(kMaxObjects) + " blocks, not " +
@@ -69,7 +69,7 @@ RigidWorld::RigidWorld(const RigidScene& scene, const ToolShape& tool)
 }
 
 void RigidWorld::step(const JawReading& jaws, bool present, double dt_s) {
-  if (present) {
+  if (present && tool_.kind == InstrumentKind::kGrasper) {
     grip_.update(jaws, board_, floor_z_m_, dt_s, bodies_, foams_);
   } else {
     grip_.reset(bodies_);
@@ -79,7 +79,7 @@ void RigidWorld::step(const JawReading& jaws, bool present, double dt_s) {
 }
 
 std::vector<Pusher> RigidWorld::pushers(const JawReading& jaws) const {
-  const ToolCapsules tool = tool_capsules(tool_, jaws.opening_m, {});
+  const ToolCapsules tool = tool_capsules(tool_.shape, jaws.opening_m, {});
   std::vector<Pusher> out;
   for (int c = 0; c < tool.count; ++c) {
     Pusher pusher;
@@ -94,7 +94,7 @@ std::vector<Pusher> RigidWorld::pushers(const JawReading& jaws) const {
 }
 
 bool RigidWorld::near_tool(const JawReading& jaws, const RigidBody& body) const {
-  const ToolCapsules tool = tool_capsules(tool_, jaws.opening_m, grip_.held(bodies_));
+  const ToolCapsules tool = tool_capsules(tool_.shape, jaws.opening_m, grip_.held(bodies_));
   for (int c = 0; c < tool.count; ++c) {
     const CapsuleShape shape = in_theatre(jaws.X_TI, tool.at[static_cast<std::size_t>(c)]);
     const Vec3 way = shape.to_T - shape.from_T;
@@ -138,7 +138,7 @@ void RigidWorld::add_pair(std::int32_t a, std::int32_t b, const RigidContacts& c
 }
 
 void RigidWorld::list_tool_pairs(const JawReading& jaws) {
-  const ToolCapsules tool = tool_capsules(tool_, jaws.opening_m, {});
+  const ToolCapsules tool = tool_capsules(tool_.shape, jaws.opening_m, {});
   for (int c = 0; c < tool.count; ++c) {
     const CapsuleShape shape = in_theatre(jaws.X_TI, tool.at[static_cast<std::size_t>(c)]);
     const std::int32_t party = c == 0 ? kPartyShaft : kPartyJaw;

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "haptics/contact/tool_shape.h"
+#include "haptics/contact/instrument.h"
 #include "haptics/exchange/contact_patch.h"
 #include "tissue/rigid/block_dynamics.h"
 #include "tissue/rigid/foam_grip.h"
@@ -23,7 +23,10 @@ inline constexpr std::int32_t kFirstRigidId = 1 << 28;  ///< patch triangles of 
 class RigidWorld {
  public:
   /// @throws InputError when there are more blocks or kinds than frame and patch hold.
-  RigidWorld(const RigidScene& scene, const ToolShape& tool);
+  RigidWorld(const RigidScene& scene, const Tool& tool);
+
+  /// The instrument in hand from now on. Only a grasper takes blocks.
+  void take(const Tool& tool) { tool_ = tool; }
 
   /// @param present the instrument is in the scene: it meets the blocks.
   void step(const JawReading& jaws, bool present, double dt_s);
@@ -43,7 +46,7 @@ class RigidWorld {
   bool near_tool(const JawReading& jaws, const RigidBody& body) const;
 
   RigidScene scene_;
-  ToolShape tool_;
+  Tool tool_;
   double floor_z_m_ = 0;
   RigidMaterial board_;
   std::vector<RigidBody> bodies_;

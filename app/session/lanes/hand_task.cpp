@@ -81,6 +81,8 @@ Percept HandTask::perceive(std::uint64_t tick) {
   draw_eye_error(status);
   Percept percept;
   percept.t_s = state.t_s;
+  const std::vector<InstrumentKind>& instruments = scene_.setup.exercise.instruments;
+  percept.instrument = instruments[std::min(static_cast<std::size_t>(state.instrument), instruments.size() - 1)];
   percept.device_ready = static_cast<double>(active_ticks_) > (scene_.loop.daq.motors ? kReadyAfter_s : 0) * rate;
   const Seen seen = see();
   percept.tip_T = seen.X_TI.p + eye_error_;
@@ -121,6 +123,8 @@ void HandTask::run(std::uint64_t tick) {
   }
   world_.set_hand_intent(stylus_W_, intent.jaw_opening_m);
   world_.press_clutch(intent.clutch);
+  world_.press_pedal(intent.pedal);
+  world_.press_exchange(intent.exchange);
   ++periods_;
 }
 

@@ -19,6 +19,8 @@ TraceSample trace_sample(const TickRecord& record) {
   sample.contact = state.contact;
   sample.saturated = state.saturated;
   sample.passivity_active = state.passivity_active;
+  sample.pedal = state.pedal;
+  sample.instrument = state.instrument;
   sample.stiffness_n_per_m = record.stiffness_n_per_m;
   if (record.stiffness_n_per_m > 0) sample.k_max_n_per_m = record.k_max_n_per_m;
   return sample;

@@ -12,7 +12,8 @@ void StateHash::add(const TickRecord& r) {
   add(std::uint64_t{r.amplifiers_armed} | std::uint64_t(s.loop) << 8 | std::uint64_t(s.fault.code) << 16 |
       std::uint64_t{s.contact} << 24 | std::uint64_t{s.saturated} << 25 | std::uint64_t{s.passivity_active} << 26 |
       std::uint64_t{s.tip_contact} << 27 | std::uint64_t{s.clutched} << 28 | std::uint64_t{s.port_held} << 29 |
-      std::uint64_t{static_cast<std::uint8_t>(s.fault.channel)} << 32);
+      std::uint64_t{s.pedal} << 30 | std::uint64_t{static_cast<std::uint8_t>(s.fault.channel)} << 32 |
+      std::uint64_t{static_cast<std::uint8_t>(s.instrument)} << 40);
   add(std::uint64_t{r.warnings} << 8 | r.in.valid);
   add(s.fault.tick);
   add(s.fault.value);

@@ -79,7 +79,7 @@ class TissueTask final : public Task {
                                                      .triangle_material = scene.adjacent.triangle_material,
                                                      .adjacent = scene.adjacent.materials,
                                                      .rigid = scene.board.rigid,
-                                                     .tool = scene.loop.tool,
+                                                     .tools = scene.loop.tools,
                                                      .soft = scene.soft});
   }
   void tell(std::uint64_t tick, std::uint64_t seen_period) {

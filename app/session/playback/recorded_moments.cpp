@@ -100,6 +100,8 @@ TickRecord record_of(const RecordedTick& row, double rate_hz, const InstrumentDe
   stylus.depth_in_port_m = detail.depth_in_port_m;
   stylus.saturated = sample.saturated;
   stylus.passivity_active = sample.passivity_active;
+  stylus.pedal = sample.pedal;
+  stylus.instrument = sample.instrument;
   return record;
 }
 

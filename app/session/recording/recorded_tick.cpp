@@ -49,7 +49,8 @@ RecordedTick quantise(std::uint64_t tick, const DaqSample& input, const TraceSam
   row.stiffness = to_quanta(sample.stiffness_n_per_m, kPerStiffness);
   row.k_max = to_quanta(sample.k_max_n_per_m, kPerStiffness);
   row.flags = static_cast<std::uint8_t>((sample.contact ? kFlagContact : 0) | (sample.saturated ? kFlagSaturated : 0) |
-                                        (sample.passivity_active ? kFlagPassivityActive : 0));
+                                        (sample.passivity_active ? kFlagPassivityActive : 0) |
+                                        (sample.pedal ? kFlagPedal : 0) | sample.instrument << kFirstInstrumentBit);
   row.loop_state = static_cast<std::uint8_t>(loop);
   row.phase = phase;
   return row;
@@ -71,6 +72,8 @@ TraceSample dequantise(const RecordedTick& row, double rate_hz) {
   sample.contact = (row.flags & kFlagContact) != 0;
   sample.saturated = (row.flags & kFlagSaturated) != 0;
   sample.passivity_active = (row.flags & kFlagPassivityActive) != 0;
+  sample.pedal = (row.flags & kFlagPedal) != 0;
+  sample.instrument = row.flags >> kFirstInstrumentBit;
   return sample;
 }
 

@@ -26,7 +26,10 @@ enum RecordedFlag : std::uint8_t {
   kFlagContact = 1u << 0,
   kFlagSaturated = 1u << 1,
   kFlagPassivityActive = 1u << 2,
+  kFlagPedal = 1u << 3,
 };
+/// The four bits above are the instrument in hand; recordings from before there was a choice have none of them.
+inline constexpr int kFirstInstrumentBit = 4;
 
 struct RecordedTick {
   std::uint64_t tick = 0;  ///< SYNC period of the tick; increases, skips missed ones; time = tick / rate
@@ -42,7 +45,7 @@ struct RecordedTick {
   /// 0.1 N/m: asked of the device and K_max there, 0 while nothing is touched; formats 1 and 2 do not have them
   std::int32_t stiffness = kNotRepresentable, k_max = kNotRepresentable;
   std::uint8_t valid = 0x7F;    ///< bit i: channel i latched correctly
-  std::uint8_t flags = 0;       ///< RecordedFlag bits
+  std::uint8_t flags = 0;       ///< RecordedFlag bits and the instrument in hand
   std::uint8_t loop_state = 0;  ///< LoopState
   std::uint8_t phase = 0;       ///< Phase of the director (scenarios/director/director.h), opaque here
 

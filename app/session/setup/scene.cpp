@@ -115,7 +115,6 @@ constexpr double kNoticedForce = 0.1;  // share by which a force must differ to 
 constexpr double kPointerAwake_s = 0.01;
 constexpr double kEntryAside = 0.025, kEntryAbove = 0.015;  // m from the start ball, towards the resting instrument
 constexpr double kLatticeCell = 0.010;                      // m
-constexpr double kJawLength = 0.020;                        // m, of the grasper that the exercises with objects use
 
 /// The loop's map is set before: pens turn from the resting instrument.
 Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
@@ -183,7 +182,7 @@ void place(Scene& scene) {
   scene.adjacent = place_adjacent_organs(scene.organ, *scene.organ_T, scene.placement.X_TO, exercise, materials);
 }
 
-/// Organ, board, force scale, and the instrument that the exercise takes.
+/// Organ, board, force scale, and the instruments that the exercise takes.
 void set_stage(Scene& scene) {
   const Exercise& exercise = scene.setup.exercise;
   std::optional<ShaftRoom> room;
@@ -194,7 +193,8 @@ void set_stage(Scene& scene) {
   const ShaftRoom* behind_tip = room ? &*room : nullptr;
   scene.board = lay_out(scene, scene.setup.board, behind_tip);
   if (kind_of(exercise).on_organ) require_reach(scene);
-  if (exercise.jaws) scene.loop.tool.jaw_length_m = kJawLength;
+  for (const InstrumentKind kind : exercise.instruments) scene.loop.tools.push_back(make_tool(kind, scene.loop.tool));
+  scene.loop.tool = scene.loop.tools.front().shape;
   scene.loop.map.force_scale = force_scale(scene, behind_tip);
   require_force(scene);
 }

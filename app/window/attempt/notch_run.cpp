@@ -55,7 +55,7 @@ class WallsTask final : public Task {
   static TissueSetup setup_of(const Scene& scene) {
     TissueSetup setup;
     setup.organ_T = scene.organ_T.get();
-    setup.tool = scene.loop.tool;
+    setup.tools = {{InstrumentKind::kProbe, scene.loop.tool}};
     return setup;
   }
   Inlet<HapticState>& state_;

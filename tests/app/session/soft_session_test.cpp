@@ -101,7 +101,7 @@ TEST(SoftSession, OneStiffnessIsNotTheOther) {
 TEST(SoftSession, AnExerciseRunsOnTissueThatGivesWay) {
   const Scene scene = soft_scene("stiff", "surface-touch");
   ASSERT_TRUE(scene.soft);
-  EXPECT_FALSE(scene.setup.exercise.jaws);
+  EXPECT_EQ(scene.setup.exercise.instruments, std::vector{InstrumentKind::kProbe});
   EXPECT_FALSE(soft_scene("still", "surface-touch").soft);
 }
 

@@ -1,6 +1,7 @@
 // The shipped exercise loads; every mistake in a file is refused at its place and by its name.
 #include "scenarios/files/exercise_loader.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -42,6 +43,32 @@ TEST(ExerciseLoader, ReadsTheShippedExercise) {
   EXPECT_DOUBLE_EQ(e.levels[0].band_low_n, 0.4);
   EXPECT_DOUBLE_EQ(e.levels[0].band_high_n, 0.8);
   EXPECT_DOUBLE_EQ(e.levels[0].force_scale, 0.82);
+}
+
+TEST(ExerciseLoader, NamesItsInstrumentsOrSaysWhetherItIsAGrasper) {
+  using enum InstrumentKind;
+  const auto with = [](const std::string& line) { return edited("hold_s = 1.0", "hold_s = 1.0\n" + line); };
+  const auto of = [](const std::string& text) { return parse_exercise(text, "tools.toml").instruments; };
+  EXPECT_EQ(of(shipped_text()), std::vector{kProbe});
+  EXPECT_EQ(of(with("jaws = true")), std::vector{kGrasper}) << "as older files say it";
+  EXPECT_EQ(load_exercise(kExercises / "limited-grasp.toml").instruments, std::vector{kGrasper}) << "its kind takes it";
+  EXPECT_EQ(of(with("instruments = [\"hook\", \"clip-applier\", \"probe\"]")),
+            (std::vector{kHook, kClipApplier, kProbe}));
+  EXPECT_EQ(load_exercise(kExercises / "ungraded/free-play.toml").instruments,
+            (std::vector{kGrasper, kScissors, kHook, kClipApplier, kSuction}));
+
+  const auto line_of = [](const std::string& text, const std::string& what) {
+    return std::to_string(std::count(text.begin(), text.begin() + static_cast<long>(text.find(what)), '\n') + 1);
+  };
+  const std::string wrong = with("instruments = [\"hook\", \"scissor\"]");
+  EXPECT_NE(refusal(wrong).find(":" + line_of(wrong, "scissor") + ":24: "), std::string::npos) << refusal(wrong);
+  EXPECT_NE(refusal(wrong).find("did you mean 'scissors'?"), std::string::npos) << refusal(wrong);
+  for (const char* bad : {"instruments = []", "instruments = \"hook\"", "instruments = [1]"})
+    EXPECT_NE(refusal(with(bad)).find("'instruments'"), std::string::npos) << bad;
+  std::string many = "instruments = [\"hook\"";
+  for (std::size_t n = 0; n < kMostInstruments; ++n) many += ", \"hook\"";
+  EXPECT_NE(refusal(with(many + "]")).find("1 to 16 names"), std::string::npos);
+  EXPECT_NE(refusal(with("jaws = false\ninstruments = [\"hook\"]")).find("must not stand beside"), std::string::npos);
 }
 
 TEST(ExerciseLoader, FrictionOfTheSurfaceIsOptional) {

@@ -8,6 +8,7 @@
 #include "scenarios/hands/make_hand.h"
 #include "scenarios/hands/minimum_jerk.h"
 #include "scenarios/hands/skilled_hand.h"
+#include "scenarios/hands/waypoint_hand.h"
 
 namespace trocar::hand_parts_test {
 namespace {
@@ -287,6 +288,52 @@ TEST(WaypointHand, FollowsItsMovesFromWhereItWasReady) {
   EXPECT_NEAR((intent.X_TI.p - Vec3(0.010, 0.005, 0.040)).norm(), 0, 1e-12);
   EXPECT_NEAR(intent.jaw_opening_m, 0.003, 1e-12);
   EXPECT_NEAR((intent.X_TI.R - ready_at(ready).R_TI).norm(), 0, 1e-12) << "orientation as seen when ready";
+}
+
+TEST(WaypointHand, TakesTheInstrumentOfAMoveBeforeItAndHoldsThePedalThrough) {
+  using enum InstrumentKind;
+  const HandScript script = parse_hand_script(
+      "name = \"hook\"\nkind = \"waypoints\"\n"
+      "[[move]]\nto_mm = [0, 0, 0]\nseconds = 0.2\n"
+      "[[move]]\nto_mm = [0, 0, 10]\nseconds = 0.5\ninstrument = \"hook\"\npedal = true\n"
+      "[[move]]\nto_mm = [0, 0, 20]\nseconds = 0.2\n",
+      "hook.toml");
+  const auto hand = make_hand(script, 1);
+  const std::array<InstrumentKind, 3> list{kGrasper, kScissors, kHook};
+  std::size_t in_hand = 0;
+  int presses = 0, with_pedal = 0;
+  bool pressed = false, exchanged_in_move = false;
+  double highest_before_hook = 0, z_m = 0;
+  for (int k = 0; k < 3000; ++k) {
+    Percept percept = ready_at(Vec3::Zero());
+    percept.instrument = list[in_hand];
+    const HandIntent intent = hand->update(percept, kDt);
+    if (intent.exchange && !pressed) in_hand = (in_hand + 1) % list.size(), ++presses;
+    pressed = intent.exchange;
+    with_pedal += intent.pedal;
+    z_m = intent.X_TI.p.z();
+    exchanged_in_move |= intent.exchange && z_m > 0;
+    if (list[in_hand] != kHook) highest_before_hook = std::max(highest_before_hook, z_m);
+  }
+  EXPECT_EQ(presses, 2);
+  EXPECT_EQ(list[in_hand], kHook) << "and stays in hand";
+  EXPECT_EQ(highest_before_hook, 0);
+  EXPECT_FALSE(exchanged_in_move);
+  EXPECT_NEAR(with_pedal, 500, 2);
+  EXPECT_NEAR(z_m, 0.020, 1e-12);
+}
+
+TEST(WaypointHand, GoesOnWithoutAnInstrumentThatTheExerciseHasNot) {
+  WaypointHand hand({{.to_m = {0, 0, 0.01}, .seconds = 0.1, .instrument = InstrumentKind::kHook}});
+  HandIntent intent;
+  int presses = 0;
+  for (int k = 0; k < 8000; ++k) {
+    const bool was = intent.exchange;
+    intent = hand.update(ready_at(Vec3::Zero()), kDt);
+    presses += intent.exchange && !was;
+  }
+  EXPECT_EQ(presses, 16);
+  EXPECT_NEAR(intent.X_TI.p.z(), 0.01, 1e-12);
 }
 
 TEST(IdleHand, NeverMovesWhateverItSees) {

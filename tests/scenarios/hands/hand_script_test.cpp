@@ -98,6 +98,9 @@ TEST(HandScripts, MovesWithBadNumbersAreRefused) {
   refused("to_mm = [0, 0, 0]\nseconds = 0\n");
   refused("to_mm = [0, 0, 0]\n");
   refused("to_mm = [0, 0, 0]\nseconds = 1\nfrom = \"moon\"\n");
+  refused("to_mm = [0, 0, 0]\nseconds = 1\npedal = 1\n");
+  refused("to_mm = [0, 0, 0]\nseconds = 1\ninstrument = \"sicssors\"\n");
+  refused("to_mm = [0, 0, 0]\nseconds = 1\npedals = true\n");
   EXPECT_THROW(parse_hand_script("name = \"x\"\nkind = \"waypoints\"\n", "x.toml"), InputError);
 }
 

@@ -30,7 +30,7 @@ struct WorldRig {
   WorldRig() {
     setup.rigid.board = BoardPlate{};
     setup.rigid.blocks = {foam_block(Vec3(0, 0, 0.010)), foam_block(Vec3(0.032, 0, 0.010), 1)};
-    setup.tool.jaw_length_m = 0.020;
+    setup.tools = {make_tool(InstrumentKind::kGrasper)};
     state.X_TI.R << 1, 0, 0, 0, -1, 0, 0, 0, -1;
     state.X_TI.p = Vec3(0, 0, 0.060);
     state.jaw_opening_m = 0.022;

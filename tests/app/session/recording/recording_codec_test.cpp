@@ -79,6 +79,20 @@ TEST(Quantise, KeepsDeviceInputAndFlagsExactly) {
   EXPECT_TRUE(flags.contact && flags.passivity_active && !flags.saturated);
 }
 
+TEST(Quantise, KeepsThePedalAndTheInstrumentInHand) {
+  TraceSample sample;
+  sample.contact = true;
+  EXPECT_EQ(quantise(1, {}, sample, LoopState::kActive, 4).flags, kFlagContact) << "unused they leave a row as it was";
+  for (std::int32_t instrument = 0; instrument < 16; ++instrument) {
+    sample.instrument = instrument;
+    sample.pedal = instrument % 3 == 0;
+    const TraceSample back = dequantise(quantise(1, {}, sample, LoopState::kActive, 4), 1000);
+    EXPECT_EQ(back.instrument, instrument);
+    EXPECT_EQ(back.pedal, sample.pedal);
+    EXPECT_TRUE(back.contact && !back.saturated);
+  }
+}
+
 TEST(TickCodec, ReturnsArbitraryRowsExactly) {
   TickEncoder encoder;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -97,8 +97,7 @@ TEST(AdjacentOrgans, ThePatchGivesEachTriangleItsMaterial) {
                      .organ = place.exercise.surface,
                      .triangle_material = all.triangle_material,
                      .adjacent = all.materials,
-                     .rigid = {},
-                     .tool = {}});
+                     .rigid = {}});
   StylusState state;
   state.X_TI.p = Vec3(0.081, 0, 0.005);
   const auto patch = std::make_unique<ContactPatch>();
