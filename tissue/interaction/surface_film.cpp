@@ -1,17 +1,21 @@
 #include "tissue/interaction/surface_film.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace trocar {
 namespace {
 
 constexpr double kLeastArea = 1e-9;                            // m2 of a vertex: triangles without area hold liquid too
-constexpr double kLeastCotangent = 0.002, kMostCotangent = 5;  // of an edge's weight: liquid runs along every edge
-constexpr double kDryHeight = 1e-7;                            // m: thinner is dry
-constexpr std::uint32_t kRestingEvery = 16, kSlopeEvery = 8;   // steps
-constexpr double kLevelling = 0.125;                           // share of the volume that would level two neighbours
-constexpr double kDissolvingHeight = 20e-6;                    // m of water that dissolves a stain
+constexpr float kLeastCotangent = 0.002F, kMostCotangent = 5;  // of an edge's weight: liquid runs along every edge
+constexpr double kRunsFrom = 3e-6;    // m beyond what clings: thinner runs less than 0.1 mm in a second
+constexpr double kSlowBelow = 60e-6;  // m beyond what clings: blood runs less than 4 mm/s, and is run in longer steps
+constexpr double kDryHeight = 1e-7;   // m: thinner is dry
+constexpr std::uint32_t kRestingEvery = 16, kSlopeEvery = 8, kShownEvery = 4, kSlowEvery = 4;  // steps
+constexpr double kLevelling = 0.125;         // share of the volume that would level two neighbours
+constexpr double kDissolvingHeight = 20e-6;  // m of water that dissolves a stain
 
 /// Of the angle at a in a triangle; 0 where there is none.
 double cotangent(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -29,86 +33,126 @@ SurfaceFilm::SurfaceFilm(const TriangleSurface& rest_T, const SurfaceFilmOptions
 }
 
 void SurfaceFilm::build(const TriangleSurface& rest_T) {
-  const std::size_t count = rest_T.vertices.size();
-  triangles_ = rest_T.triangles;
-  std::erase_if(triangles_, [count](const auto& corners) {
+  const std::size_t count = rest_T.vertices.size(), before = cells_.size();
+  assert(count >= before);
+  auto triangles = rest_T.triangles;
+  std::erase_if(triangles, [count](const auto& corners) {
     return std::ranges::any_of(corners, [count](std::int32_t v) { return v < 0 || v >= static_cast<int>(count); });
   });
+  // What lies at vertices of the same triangles as before is taken over.
+  std::vector<char> fresh(count, 0);
+  std::fill(fresh.begin() + static_cast<std::ptrdiff_t>(before), fresh.end(), 1);
+  const auto mark = [&](const std::vector<std::array<std::int32_t, 3>>& list, std::size_t t) {
+    if (t >= list.size()) return;
+    for (const std::int32_t v : list[t]) fresh[static_cast<std::size_t>(v)] = 1;
+  };
+  for (std::size_t t = 0; t < std::max(triangles.size(), triangles_.size()); ++t) {
+    if (t < triangles.size() && t < triangles_.size() && triangles[t] == triangles_[t]) continue;
+    mark(triangles, t);
+    mark(triangles_, t);
+  }
+  triangles_ = std::move(triangles);
   cells_.resize(count);
+  feet_.resize(count);
   change_.assign(count, {});
   blood_shown_.resize(count, 0);
   wet_shown_.resize(count, 0);
-  build_areas(rest_T);
-  build_neighbours(rest_T);
-  floor_m_ = options_.floor_m;
-  if (!std::isfinite(floor_m_)) {
-    floor_m_ = std::numeric_limits<double>::infinity();
-    for (const Vec3& vertex : rest_T.vertices)
-      if (vertex.z() < floor_m_) floor_m_ = vertex.z();
-    if (!std::isfinite(floor_m_)) floor_m_ = 0;
-  }
+  build_corners(fresh);
+  build_areas(rest_T, fresh);
+  build_neighbours(rest_T, fresh);
+  find_floor(rest_T);
 }
 
-void SurfaceFilm::build_areas(const TriangleSurface& rest_T) {
-  for (Cell& cell : cells_) cell.area = 0;
-  corner_begin_.assign(cells_.size() + 1, 0);
-  for (const auto& triangle : triangles_) {
-    const auto at = [&](int i) -> const Vec3& {
-      return rest_T.vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(i)])];
-    };
-    const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
-    for (const std::int32_t v : triangle) {
-      if (std::isfinite(area)) cells_[static_cast<std::size_t>(v)].area += area / 3;
-      ++corner_begin_[static_cast<std::size_t>(v) + 1];
-    }
-  }
-  for (Cell& cell : cells_) cell.area = std::max(cell.area, kLeastArea);
-  for (std::size_t v = 0; v < cells_.size(); ++v) corner_begin_[v + 1] += corner_begin_[v];
-  corner_triangles_.resize(3 * triangles_.size());
-  std::vector<std::int32_t> next(corner_begin_.begin(), corner_begin_.end() - 1);
+void SurfaceFilm::find_floor(const TriangleSurface& rest_T) {
+  floor_m_ = options_.floor_m;
+  if (std::isfinite(floor_m_)) return;
+  floor_m_ = std::numeric_limits<double>::infinity();
+  for (const Vec3& vertex : rest_T.vertices)
+    if (vertex.z() < floor_m_) floor_m_ = vertex.z();
+  if (!std::isfinite(floor_m_)) floor_m_ = 0;
+}
+
+void SurfaceFilm::build_corners(const std::vector<char>& fresh) {
+  std::vector<std::int32_t> begin(cells_.size() + 1, 0);
+  for (std::size_t v = 0; v + 1 < corner_begin_.size(); ++v)
+    if (fresh[v] == 0) begin[v + 1] = corner_begin_[v + 1] - corner_begin_[v];
+  for (const auto& triangle : triangles_)
+    for (const std::int32_t v : triangle) begin[static_cast<std::size_t>(v) + 1] += fresh[static_cast<std::size_t>(v)];
+  for (std::size_t v = 0; v < cells_.size(); ++v) begin[v + 1] += begin[v];
+  std::vector<std::int32_t> corners(static_cast<std::size_t>(begin.back()));
+  for (std::size_t v = 0; v + 1 < corner_begin_.size(); ++v)
+    if (fresh[v] == 0)
+      std::copy(corner_triangles_.begin() + corner_begin_[v], corner_triangles_.begin() + corner_begin_[v + 1],
+                corners.begin() + begin[v]);
+  std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (const std::int32_t v : triangles_[t])
-      corner_triangles_[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<std::int32_t>(t);
+      if (fresh[static_cast<std::size_t>(v)] != 0)
+        corners[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<std::int32_t>(t);
+  corner_begin_ = std::move(begin);
+  corner_triangles_ = std::move(corners);
 }
 
-void SurfaceFilm::build_neighbours(const TriangleSurface& rest_T) {
-  neighbour_begin_.assign(1, 0);
-  neighbours_.clear();
-  neighbours_.reserve(3 * triangles_.size());
-  std::vector<double> weights;
-  std::vector<int> sides;
+void SurfaceFilm::build_areas(const TriangleSurface& rest_T, const std::vector<char>& fresh) {
   for (std::size_t v = 0; v < cells_.size(); ++v) {
-    const std::size_t begin = neighbours_.size();
-    weights.clear();
-    sides.clear();
-    const auto add = [&](std::int32_t other, double weight) {
-      if (other == static_cast<std::int32_t>(v)) return;
-      std::size_t i = begin;
-      while (i < neighbours_.size() && neighbours_[i].vertex != other) ++i;
-      if (i == neighbours_.size()) {
-        neighbours_.push_back({other, 0});
-        weights.push_back(0);
-        sides.push_back(0);
-      }
-      weights[i - begin] += weight / 2;
-      ++sides[i - begin];
-    };
+    if (fresh[v] == 0) continue;
+    double sum = 0;
     for (std::int32_t c = corner_begin_[v]; c < corner_begin_[v + 1]; ++c) {
-      const auto& t = triangles_[static_cast<std::size_t>(corner_triangles_[static_cast<std::size_t>(c)])];
-      const int k = t[0] == static_cast<int>(v) ? 0 : t[1] == static_cast<int>(v) ? 1 : 2;
-      const std::int32_t b = t[static_cast<std::size_t>((k + 1) % 3)], d = t[static_cast<std::size_t>((k + 2) % 3)];
-      const Vec3 &p = rest_T.vertices[v], &q = rest_T.vertices[static_cast<std::size_t>(b)],
-                 &r = rest_T.vertices[static_cast<std::size_t>(d)];
-      add(b, cotangent(r, p, q));
-      add(d, cotangent(q, p, r));
+      const auto& triangle = triangles_[static_cast<std::size_t>(corner_triangles_[static_cast<std::size_t>(c)])];
+      const auto at = [&](std::size_t i) -> const Vec3& {
+        return rest_T.vertices[static_cast<std::size_t>(triangle[i])];
+      };
+      const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+      if (std::isfinite(area)) sum += area / 3;
     }
-    cells_[v].rim = false;
-    for (std::size_t i = begin; i < neighbours_.size(); ++i) {
-      neighbours_[i].weight = static_cast<float>(std::clamp(weights[i - begin], kLeastCotangent, kMostCotangent));
-      cells_[v].rim = cells_[v].rim || sides[i - begin] == 1;
-    }
-    neighbour_begin_.push_back(static_cast<std::int32_t>(neighbours_.size()));
+    cells_[v].area = std::max(sum, kLeastArea);
+    feet_[v].area = static_cast<float>(cells_[v].area);
   }
+}
+
+void SurfaceFilm::build_neighbours(const TriangleSurface& rest_T, const std::vector<char>& fresh) {
+  std::vector<std::int32_t> begin(1, 0);
+  std::vector<Neighbour> neighbours;
+  begin.reserve(cells_.size() + 1);
+  neighbours.reserve(3 * triangles_.size());
+  for (std::size_t v = 0; v < cells_.size(); ++v) {
+    if (fresh[v] == 0)
+      neighbours.insert(neighbours.end(), neighbours_.begin() + neighbour_begin_[v],
+                        neighbours_.begin() + neighbour_begin_[v + 1]);
+    else
+      add_neighbours(v, rest_T, neighbours);
+    begin.push_back(static_cast<std::int32_t>(neighbours.size()));
+  }
+  neighbour_begin_ = std::move(begin);
+  neighbours_ = std::move(neighbours);
+}
+
+void SurfaceFilm::add_neighbours(std::size_t v, const TriangleSurface& rest_T, std::vector<Neighbour>& out) {
+  const std::size_t begin = out.size();
+  std::vector<int> sides;  // triangles at each edge
+  const auto add = [&](std::int32_t other, double weight) {
+    if (other == static_cast<std::int32_t>(v)) return;
+    std::size_t i = begin;
+    while (i < out.size() && out[i].vertex != other) ++i;
+    if (i == out.size()) {
+      out.push_back({other, 0});
+      sides.push_back(0);
+    }
+    out[i].weight += static_cast<float>(weight / 2);
+    ++sides[i - begin];
+  };
+  for (std::int32_t c = corner_begin_[v]; c < corner_begin_[v + 1]; ++c) {
+    const auto& t = triangles_[static_cast<std::size_t>(corner_triangles_[static_cast<std::size_t>(c)])];
+    const int k = t[0] == static_cast<int>(v) ? 0 : t[1] == static_cast<int>(v) ? 1 : 2;
+    const std::int32_t b = t[static_cast<std::size_t>((k + 1) % 3)], d = t[static_cast<std::size_t>((k + 2) % 3)];
+    const Vec3 &p = rest_T.vertices[v], &q = rest_T.vertices[static_cast<std::size_t>(b)],
+               &r = rest_T.vertices[static_cast<std::size_t>(d)];
+    add(b, cotangent(r, p, q));
+    add(d, cotangent(q, p, r));
+  }
+  cells_[v].rim = std::ranges::find(sides, 1) != sides.end();
+  for (std::size_t i = begin; i < out.size(); ++i)
+    out[i].weight = std::clamp(out[i].weight, kLeastCotangent, kMostCotangent);
 }
 
 void SurfaceFilm::activate(std::int32_t vertex) {
@@ -166,13 +210,15 @@ void SurfaceFilm::irrigate(const Irrigation& jet, std::span<const Vec3> vertices
   double nearest = jet.reach_m;
   for (std::size_t v = 0; v < cells_.size(); ++v) {
     const Vec3 way = vertices_T[v] - jet.tip_T;
-    const double distance = way.norm();
-    if (!(distance < jet.reach_m) || way.dot(direction) < cosine * distance) continue;
-    if (area_vector(static_cast<std::int32_t>(v), vertices_T).dot(direction) >= 0) continue;
-    met.emplace_back(static_cast<std::int32_t>(v), distance);
-    nearest = std::min(nearest, distance);
+    const double along = way.dot(direction);
+    if (!(along > 0 && along < nearest + kDeep) || along * along < cosine * cosine * way.squaredNorm()) continue;
+    met.emplace_back(static_cast<std::int32_t>(v), along);
+    nearest = std::min(nearest, along);
   }
-  std::erase_if(met, [&](const auto& place) { return place.second > nearest + kDeep; });
+  std::erase_if(met, [&](const auto& place) {
+    return place.second > std::min(nearest + kDeep, jet.reach_m) ||
+           area_vector(place.first, vertices_T).dot(direction) >= 0;
+  });
   double area = 0;
   for (const auto& place : met) area += area_m2(place.first);
   for (const auto& place : met) add_water(place.first, volume * area_m2(place.first) / area);
@@ -209,18 +255,14 @@ Liquids SurfaceFilm::suck(const Suction& suction, std::span<const Vec3> vertices
   return taken;
 }
 
-double SurfaceFilm::level(std::size_t vertex, std::span<const Vec3> vertices_T) const {
-  // What has become wet in this step had no height at its beginning.
-  const Cell& cell = cells_[vertex];
-  return cell.sloped ? cell.level : vertices_T[vertex].z();
-}
-
 void SurfaceFilm::find_levels(std::span<const Vec3> vertices_T) {
+  for (std::size_t v = 0; v < cells_.size(); ++v) feet_[v].level_m = static_cast<float>(vertices_T[v].z() - floor_m_);
   for (const std::int32_t vertex : active_) {
     const auto v = static_cast<std::size_t>(vertex);
     Cell& cell = cells_[v];
     if (!cell.sloped || (static_cast<std::uint32_t>(vertex) + steps_) % kSlopeEvery == 0) find_slope(v, vertices_T);
-    cell.level = vertices_T[v].z() + cell.rise * height(cell);
+    feet_[v].level_m += cell.rise * static_cast<float>(height(cell));
+    feet_[v].wet = true;
   }
 }
 
@@ -232,32 +274,38 @@ void SurfaceFilm::find_slope(std::size_t vertex, std::span<const Vec3> vertices_
   cell.sloped = true;
   cell.faces_down = n_z < 0;
   cell.overhangs = n_z < options_.overhang;
-  cell.rise = cell.faces_down ? 0 : std::max(n_z, options_.steepest_rise);
+  cell.rise = cell.faces_down ? 0 : static_cast<float>(std::max(n_z, options_.steepest_rise));
 }
 
-bool SurfaceFilm::run_down(std::size_t vertex, double moving_m, std::span<const Vec3> vertices_T, double step_s) {
+bool SurfaceFilm::run_down(std::size_t vertex, double moving_m, double step_s) {
   constexpr std::size_t kMostNeighbours = 24;
+  constexpr double kTallest = 1e3;  // m
   const Cell& cell = cells_[vertex];
   const double sum = cell.blood + cell.water, blood_share = cell.blood / sum;
   const double viscosity = options_.water_pa_s + blood_share * (options_.blood_pa_s - options_.water_pa_s);
   const double limited = std::min(moving_m, options_.thickest_m);
   const double mobility = options_.density_kg_per_m3 * kGravity / (3 * viscosity) * moving_m * limited * limited;
-  const double here = level(vertex, vertices_T);
-  std::array<double, kMostNeighbours> flow{};
-  std::array<std::int32_t, kMostNeighbours> to{};
+  const float here = feet_[vertex].level_m;
+  const bool advances = moving_m > options_.advance_m;
+  std::array<double, kMostNeighbours> flow;  // the first `lower` are filled: cleared, they cost as much as the rest
+  std::array<std::int32_t, kMostNeighbours> to;
   std::size_t lower = 0;
+  bool slopes = false;
   double out = 0;
   for (std::int32_t i = neighbour_begin_[vertex]; i < neighbour_begin_[vertex + 1]; ++i) {
     const Neighbour& neighbour = neighbours_[static_cast<std::size_t>(i)];
     const auto other = static_cast<std::size_t>(neighbour.vertex);
-    const double fall = here - level(other, vertices_T);
-    if (!(fall > 0) || !std::isfinite(fall) || lower == kMostNeighbours) continue;
-    const double levelling = kLevelling * fall * std::min(cell.area, cells_[other].area);
+    const Foot& foot = feet_[other];
+    const auto fall = static_cast<double>(here - foot.level_m);
+    if (!(fall > 0 && fall < kTallest) || lower == kMostNeighbours) continue;  // NaN is none
+    slopes = true;
+    if (!foot.wet && !advances) continue;
+    const double levelling = kLevelling * fall * std::min(cell.area, static_cast<double>(foot.area));
     flow[lower] = std::min(step_s * mobility * static_cast<double>(neighbour.weight) * fall, levelling);
     to[lower] = neighbour.vertex;
     out += flow[lower++];
   }
-  if (lower == 0) return false;
+  if (lower == 0) return slopes;
   const double most = options_.most_share * moving_m * cell.area;
   const double scale = (out > most ? most / out : 1) / sum;
   for (std::size_t i = 0; i < lower; ++i) {
@@ -265,7 +313,7 @@ bool SurfaceFilm::run_down(std::size_t vertex, double moving_m, std::span<const 
     change_[vertex].blood -= part.blood, change_[vertex].water -= part.water;
     Liquids& there = change_[static_cast<std::size_t>(to[i])];
     there.blood += part.blood, there.water += part.water;
-    activate(to[i]);
+    if (!feet_[static_cast<std::size_t>(to[i])].wet) activate(to[i]);
   }
   return true;
 }
@@ -312,11 +360,12 @@ void SurfaceFilm::settle(double step_s) {
         cell.dried += cell.blood, evaporated_ += cell.water;
         cell.blood = cell.water = 0;
         cell.active = cell.sloped = false;
+        feet_[i].wet = false;
         show(i);
         continue;
       }
     }
-    if (changed || due) show(i);
+    if (due || (changed && (static_cast<std::uint32_t>(v) + steps_) % kShownEvery == 0)) show(i);
     active_[kept++] = v;
   }
   active_.resize(kept);
@@ -331,14 +380,17 @@ void SurfaceFilm::show(std::size_t vertex) {
 
 void SurfaceFilm::step(std::span<const Vec3> vertices_T, double step_s) {
   ++steps_;
+  if (active_.empty()) return;
   find_levels(vertices_T);
   const std::size_t count = active_.size();  // those that become wet now run from the next step on
   for (std::size_t k = 0; k < count; ++k) {
     const auto v = static_cast<std::size_t>(active_[k]);
     const Cell& cell = cells_[v];
     const double moving = height(cell) - options_.cling_m;
-    if (!(moving > 0)) continue;
-    const bool lowest = !run_down(v, moving, vertices_T, step_s);
+    if (!(moving > kRunsFrom)) continue;
+    const bool slow = moving < kSlowBelow;
+    if (slow && (static_cast<std::uint32_t>(active_[k]) + steps_) % kSlowEvery != 0) continue;
+    const bool lowest = !run_down(v, moving, slow ? kSlowEvery * step_s : step_s);
     if (cell.rim || cell.overhangs || (lowest && cell.faces_down)) drip(v, step_s);
   }
   settle(step_s);
@@ -386,6 +438,7 @@ void SurfaceFilm::reset() {
     cell.active = cell.sloped = cell.faces_down = cell.overhangs = false;
   }
   std::ranges::fill(change_, Liquids{});
+  for (Foot& foot : feet_) foot.wet = false;
   std::ranges::fill(blood_shown_, 0.0F);
   std::ranges::fill(wet_shown_, 0.0F);
   active_.clear();

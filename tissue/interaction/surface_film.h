@@ -5,8 +5,9 @@
 //
 //   flow       lubrication: flux a width q = rho g h^3 / (3 mu) times the fall of phi = z + n_z h along the DEFORMED
 //              surface, in finite volumes on the mesh's edges (cotangent weights). h is what does not cling; h^2 is
-//              limited, and so is what leaves a vertex in a step, so that the explicit step never overshoots. Blood and
-//              water go together, mixed: water dilutes, and what runs off carries blood away.
+//              limited, and so is what leaves a vertex in a step, so that the explicit step never overshoots. Dry
+//              places are wetted by a film of some thickness only: rivulets. Blood and water go together, mixed: water
+//              dilutes, and what runs off carries blood away.
 //   dripping   an overhanging place, the lowest of those that face down, and the rim of an open surface let go of what
 //              surface tension does not hold; it falls into the pool, a basin with a level floor under the organ
 //   drying     blood dries to a stain, water evaporates, water dissolves the stain again; exponentials
@@ -33,16 +34,17 @@ struct SurfaceFilmOptions {
   double water_pa_s = 0.7e-3;       ///< at 37 C
   double density_kg_per_m3 = 1040;  ///< between water and blood (1060)
   double cling_m = 20e-6;           ///< layer that does not run; unchecked
-  double thickest_m = 0.3e-3;       ///< h^2 of the flux is not larger: there lubrication ends (0.1 m/s on a wall)
-  double most_share = 0.5;          ///< of what can run, that leaves a vertex in a step
-  double steepest_rise = 0.2;       ///< least n_z with which liquid rises: a cleft between walls fills
-  double overhang = -0.3;           ///< n_z below which a thick film lets go wherever it is; unchecked
-  double hang_m = 0.4e-3;           ///< layer that hangs under a place; unchecked
-  double drip_s = 0.3;              ///< time constant of what drips; unchecked
-  double dry_s = 400;               ///< time constant of a thin film of blood drying; unchecked
-  double dissolve_s = 15;           ///< of a stain under water; unchecked
-  double evaporate_s = 240;         ///< of a thin film of water in moist gas; unchecked
-  double blood_shown_m = 60e-6;     ///< h0: whole blood absorbs green light within some 50 um; unchecked
+  double advance_m = 0.2e-3;     ///< what runs is thinner: it does not wet a dry place (pinned contact line); unchecked
+  double thickest_m = 0.3e-3;    ///< h^2 of the flux is not larger: there lubrication ends (0.1 m/s on a wall)
+  double most_share = 0.5;       ///< of what can run, that leaves a vertex in a step
+  double steepest_rise = 0.2;    ///< least n_z with which liquid rises: a cleft between walls fills
+  double overhang = -0.3;        ///< n_z below which a thick film lets go wherever it is; unchecked
+  double hang_m = 0.4e-3;        ///< layer that hangs under a place; unchecked
+  double drip_s = 0.3;           ///< time constant of what drips; unchecked
+  double dry_s = 400;            ///< time constant of a thin film of blood drying; unchecked
+  double dissolve_s = 15;        ///< of a stain under water; unchecked
+  double evaporate_s = 240;      ///< of a thin film of water in moist gas; unchecked
+  double blood_shown_m = 60e-6;  ///< h0: whole blood absorbs green light within some 50 um; unchecked
   double wet_shown_m = 15e-6;
   double pool_area_m2 = 0.01;                                 ///< of the basin: 100 mL stand 10 mm high; unchecked
   double floor_m = std::numeric_limits<double>::quiet_NaN();  ///< z of its floor; NaN: the lowest vertex at rest
@@ -113,8 +115,14 @@ class SurfaceFilm {
   struct Cell {
     double blood = 0, water = 0, dried = 0;  ///< m3
     double area = 0;                         ///< m2, at rest
-    double rise = 1, level = 0;              ///< of phi with height; phi, m
+    float rise = 1;                          ///< of phi with height
     bool faces_down = false, overhangs = false, rim = false, active = false, sloped = false;
+  };
+  /// What a higher neighbour reads of a vertex, as it is at the beginning of a step.
+  struct Foot {
+    float level_m = 0;  ///< phi, from the floor
+    float area = 0;     ///< m2
+    bool wet = false;
   };
   struct Neighbour {
     std::int32_t vertex = 0;
@@ -122,14 +130,17 @@ class SurfaceFilm {
   };
   double height(const Cell& cell) const { return (cell.blood + cell.water) / cell.area; }
   void find_levels(std::span<const Vec3> vertices_T);
-  double level(std::size_t vertex, std::span<const Vec3> vertices_T) const;
   void activate(std::int32_t vertex);
   void build(const TriangleSurface& rest_T);
-  void build_areas(const TriangleSurface& rest_T);
-  void build_neighbours(const TriangleSurface& rest_T);
+  void find_floor(const TriangleSurface& rest_T);
+  /// @param fresh of each vertex: whether its triangles have changed
+  void build_corners(const std::vector<char>& fresh);
+  void build_areas(const TriangleSurface& rest_T, const std::vector<char>& fresh);
+  void build_neighbours(const TriangleSurface& rest_T, const std::vector<char>& fresh);
+  void add_neighbours(std::size_t v, const TriangleSurface& rest_T, std::vector<Neighbour>& out);
   void find_slope(std::size_t vertex, std::span<const Vec3> vertices_T);
   /// Lets liquid run from a vertex to its lower neighbours. @returns whether it has any
-  bool run_down(std::size_t vertex, double moving_m, std::span<const Vec3> vertices_T, double step_s);
+  bool run_down(std::size_t vertex, double moving_m, double step_s);
   void drip(std::size_t vertex, double step_s);
   void dry(Cell& cell, double step_s) const;
   void settle(double step_s);
@@ -140,6 +151,7 @@ class SurfaceFilm {
   std::vector<Cell> cells_;
   std::vector<std::int32_t> neighbour_begin_, corner_begin_, corner_triangles_;
   std::vector<Neighbour> neighbours_;
+  std::vector<Foot> feet_;
   std::vector<Liquids> change_;       ///< of this step, at every vertex
   std::vector<std::int32_t> active_;  ///< vertices with liquid, as they became wet
   std::vector<float> blood_shown_, wet_shown_;

@@ -294,6 +294,31 @@ TEST(SurfaceFilm, NewVerticesTakeOverAShareAndNothingIsLost) {
   expect_closed(film.account());
 }
 
+TEST(SurfaceFilm, AGrownSurfaceRunsAsOneMadeAnew) {
+  TriangleSurface plane = sheet(21, [](double x, double) { return -x; });
+  SurfaceFilm grown(plane);
+  for (std::size_t t = 100; t < 400; t += 30) {
+    const auto [a, b, c] = plane.triangles[t];
+    const auto fresh = static_cast<std::int32_t>(plane.vertices.size());
+    Vec3 middle = Vec3::Zero();
+    for (const std::int32_t v : {a, b, c}) middle += plane.vertices[static_cast<std::size_t>(v)] / 3;
+    plane.vertices.push_back(middle);
+    plane.triangles[t] = {a, b, fresh};
+    plane.triangles.push_back({b, c, fresh});
+    plane.triangles.push_back({c, a, fresh});
+    grown.grow(plane, {{a, b, 0.5}});
+  }
+  SurfaceFilm anew(plane);
+  for (SurfaceFilm* film : {&grown, &anew}) {
+    for (int i = 0; i < 100; ++i) {
+      film->add_blood(vertex(3, 10), kDrop / 10);
+      film->step(plane.vertices, kStep);
+    }
+  }
+  EXPECT_EQ(grown.blood(), anew.blood());
+  EXPECT_EQ(grown.account().pool.blood, anew.account().pool.blood);
+}
+
 TEST(SurfaceFilm, NeverNegativeAndClosedUnderAnything) {
   const TriangleSurface ball = test::sphere({0, 0, 0.1}, 0.03, 3);
   SurfaceFilm film(ball);
