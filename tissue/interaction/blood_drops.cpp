@@ -7,7 +7,7 @@ namespace trocar {
 namespace {
 
 constexpr double kFinestCell = 0.006;    // m
-constexpr int kMostCells = 64;           // along an axis
+constexpr int kMostCellsAlong = 64;      // along an axis
 constexpr int kGridLasts = 5;            // steps
 constexpr double kLongestFlight = 2;     // s: it has left the scene, into the pool
 constexpr double kFurthestPart = 0.004;  // m that a drop flies between two looks
@@ -44,9 +44,9 @@ void BloodDrops::fill_grid(std::span<const Vec3> vertices_T) {
     if (vertex.allFinite()) box.extend(vertex);
   if (box.isEmpty()) box.extend(Vec3::Zero());
   low_T_ = box.min();
-  cell_m_ = std::max(kFinestCell, box.sizes().maxCoeff() / kMostCells);
+  cell_m_ = std::max(kFinestCell, box.sizes().maxCoeff() / kMostCellsAlong);
   for (int axis = 0; axis < 3; ++axis)
-    size_[axis] = std::min(kMostCells, static_cast<int>(box.sizes()[axis] / cell_m_)) + 1;
+    size_[axis] = std::min(kMostCellsAlong, static_cast<int>(box.sizes()[axis] / cell_m_)) + 1;
   begin_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
   std::vector<std::int32_t> cell(vertices_T.size(), -1);
   for (std::size_t v = 0; v < vertices_T.size(); ++v) {

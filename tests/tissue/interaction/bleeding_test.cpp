@@ -71,11 +71,11 @@ TEST(Bleeding, OozesByAreaAtThePortalPressure) {
 
 TEST(Bleeding, ClotsWithItsTimeConstant) {
   BleedingOptions options = steady();
-  options.clot_s = 20;
-  Rig rig(options);
+  options.clot_s = 4;
+  Rig rig(options, 3);
   const std::array<std::int32_t, 1> top = {kTop};
   rig.bleeding.add_wound(top, 1e-4, 0.002);
-  EXPECT_NEAR(rig.lost_in(200), 6.7e-4 * 1e-4 * 1e6 * 20, 0.002);
+  EXPECT_NEAR(rig.lost_in(50), 6.7e-4 * 1e-4 * 1e6 * 4, 0.0005);
 }
 
 TEST(Bleeding, WoundsNearAnotherWidenIt) {
@@ -299,7 +299,7 @@ TEST(Bleeding, ADropFliesAParabolaAndLandsWhereItMeetsTheSurface) {
 TEST(Bleeding, PressureFallsWithTheBloodThatIsLost) {
   BleedingOptions options = steady();
   options.circulation.blood_m3 = 1e-5;
-  Rig rig(options);
+  Rig rig(options, 3);
   const std::array<std::int32_t, 1> top = {kTop};
   rig.bleeding.add_wound(top, 1e-3, 0.002);
   rig.run(60);
