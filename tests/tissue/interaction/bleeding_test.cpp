@@ -294,6 +294,10 @@ TEST(Bleeding, ADropFliesAParabolaAndLandsWhereItMeetsTheSurface) {
   drops.launch({{0.2, 0, 0.1}, Vec3::Zero(), 1e-8, 0});
   for (int i = 0; i < 50; ++i) drops.step(ball.vertices, kStep, film);
   EXPECT_NEAR(film.account().pool.blood, 1e-8, 1e-20) << "beside the organ";
+  SurfaceFilm high(ball, {.floor_m = -1000});
+  drops.launch({{0.2, 0, 0.1}, Vec3::Zero(), 1e-8, 0});
+  for (int i = 0; i < 250; ++i) drops.step(ball.vertices, kStep, high);
+  EXPECT_NEAR(high.account().pool.blood, 1e-8, 1e-20) << "out of the scene";
 }
 
 TEST(Bleeding, PressureFallsWithTheBloodThatIsLost) {

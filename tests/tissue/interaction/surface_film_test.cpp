@@ -217,6 +217,11 @@ TEST(SurfaceFilm, WaterOfAJetMeetsWhatFacesItAndWashesBloodAway) {
   for (std::size_t v = 0; v < ball.vertices.size(); ++v)
     if (ball.vertices[v].z() < 0.1) {
       EXPECT_EQ(film.at(static_cast<std::int32_t>(v)).water, 0) << "not through the ball";
+    } else {
+      const Vec3 way = ball.vertices[v] - jet.tip_T;
+      EXPECT_EQ(film.at(static_cast<std::int32_t>(v)).water > 0,
+                std::hypot(way.x(), way.y()) < -std::tan(0.2) * way.z())
+          << "in the cone";
     }
   for (int i = 0; i < 300; ++i) {
     film.irrigate(jet, ball.vertices, kStep);
