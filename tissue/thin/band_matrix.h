@@ -24,24 +24,19 @@ class BandMatrix {
 
   /// @return false when it is not positive: what was in it is lost.
   bool factor() {
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      Row& row = rows_[r];
-      const std::size_t first = r - std::min(r, kBand);
-      for (std::size_t c = first; c < r; ++c) {
-        const Row& other = rows_[c];
-        double sum = row[c + kBand - r];
-        for (std::size_t k = std::max(first, c - std::min(c, kBand)); k < c; ++k)
-          sum -= row[k + kBand - r] * other[k + kBand - c];
-        row[c + kBand - r] = sum;  // still times D of its column
+    const std::size_t n = rows_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const double pivot = rows_[k][kBand];
+      if (!(pivot > 0)) return false;
+      const std::size_t below = std::min(kBand, n - 1 - k);
+      std::array<double, kBand> column{};
+      for (std::size_t i = 0; i < below; ++i) column[i] = rows_[k + 1 + i][kBand - 1 - i];
+      for (std::size_t i = 0; i < below; ++i) {
+        const double scaled = column[i] / pivot;
+        double* row = rows_[k + 1 + i].data() + (kBand - i);  // of column k + 1
+        for (std::size_t c = 0; c <= i; ++c) row[c] -= scaled * column[c];
+        row[-1] = scaled;
       }
-      double diagonal = row[kBand];
-      for (std::size_t c = first; c < r; ++c) {
-        const double scaled = row[c + kBand - r] / rows_[c][kBand];
-        diagonal -= scaled * row[c + kBand - r];
-        row[c + kBand - r] = scaled;
-      }
-      if (!(diagonal > 0)) return false;
-      row[kBand] = diagonal;
     }
     return true;
   }
@@ -49,8 +44,9 @@ class BandMatrix {
   /// After factor(): the solution in place of the right-hand side.
   void solve(std::vector<double>& x) const {
     const std::size_t n = rows_.size();
-    for (std::size_t r = 0; r < n; ++r)
-      for (std::size_t c = r - std::min(r, kBand); c < r; ++c) x[r] -= rows_[r][c + kBand - r] * x[c];
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = 0; i < std::min(kBand, n - 1 - k); ++i)
+        x[k + 1 + i] -= rows_[k + 1 + i][kBand - 1 - i] * x[k];
     for (std::size_t r = 0; r < n; ++r) x[r] /= rows_[r][kBand];
     for (std::size_t r = n; r-- > 0;)
       for (std::size_t c = r - std::min(r, kBand); c < r; ++c) x[c] -= rows_[r][c + kBand - r] * x[r];

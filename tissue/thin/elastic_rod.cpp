@@ -18,7 +18,7 @@ constexpr double kStaticInertia = 1e-5;   // of the inertia, left so that a free
 constexpr double kSufficientDescent = 1e-4;  // Armijo
 constexpr int kMostHalvings = 12;
 
-bool is_sound(const RodSpring& spring) {
+bool acts(const RodSpring& spring) {
   return std::isfinite(spring.arc_m) && spring.direction.allFinite() && std::isfinite(spring.stiffness_n_per_m) &&
          spring.stiffness_n_per_m >= 0 && std::isfinite(spring.stretch_m);
 }
@@ -356,7 +356,7 @@ double ElasticRod::inertia_objective(const Trial& trial) const {
 double ElasticRod::spring_objective(std::span<const RodSpring> springs, const Trial& trial) const {
   double sum = 0;
   for (const RodSpring& spring : springs) {
-    if (!is_sound(spring)) continue;
+    if (!acts(spring)) continue;
     const double stretch = spring_stretch(spring, trial);
     if (!spring.pushes_only || stretch > 0) sum += 0.5 * spring.stiffness_n_per_m * stretch * stretch;
   }
@@ -499,7 +499,7 @@ void ElasticRod::add_anchors(const Trial& trial) {
 
 void ElasticRod::add_springs(std::span<const RodSpring> springs, const Trial& trial) {
   for (const RodSpring& spring : springs) {
-    if (!is_sound(spring)) continue;
+    if (!acts(spring)) continue;
     const double stretch = spring_stretch(spring, trial);
     if (spring.pushes_only && stretch <= 0) continue;
     const auto [at, share] = spread(spring.arc_m);
@@ -586,7 +586,7 @@ void ElasticRod::step(std::span<RodSpring> springs) {
 void ElasticRod::accept(std::span<RodSpring> springs) {
   for (RodSpring& spring : springs) {
     spring.force_n = 0;
-    if (!is_sound(spring)) continue;
+    if (!acts(spring)) continue;
     const double stretch = spring_stretch(spring, now_);
     if (!spring.pushes_only || stretch > 0) spring.force_n = spring.stiffness_n_per_m * stretch;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tissue/thin/rod_contact.h"
 #include "tissue/thin/rod_in_jaws.h"
 #include "tissue/thin/rod_section.h"
 
@@ -13,15 +14,7 @@ constexpr std::size_t kMostRodPlaces = 4;
 constexpr double kTakesRod = 0.1, kKeepsRod = 0.05;  // N of squeeze, as SoftGrip
 constexpr double kBeyondPads = 0.001;                // m
 constexpr double kGripSampling = 0.0005;             // m
-constexpr double kRingCompliance = 0.149;            // of P R^3 / (E I), a ring pressed along two lines (Roark)
 constexpr int kSpringAxes = 3;
-
-/// Of a ring of this rod, force per length over what its diameter loses, N/m2.
-double ring_stiffness(const RodOptions& rod) {
-  const double mean = rod.outer_radius_m - rod.wall_m / 2;
-  const double plate = rod.young_pa / (1 - rod.poisson * rod.poisson) * std::pow(rod.wall_m, 3) / 12;
-  return plate / (kRingCompliance * std::pow(mean, 3));
-}
 
 }  // namespace
 
@@ -158,9 +151,7 @@ void RodGrip::feel(const Pose& X_TI, std::span<const RodSpring> springs, const E
     arc += place.arc_m / static_cast<double>(places_.size());
   }
   const Vec3 direction = pull > 0 ? Vec3(pull_T_.normalized()) : Vec3::UnitZ();
-  // The rod's own compliance holds the springs in it: k in series with what is left of it.
-  const double k = options_.hold_n_per_m;
-  hold_.stiffness_n_per_m = std::clamp(k * (1 - k * rod.compliance(arc, direction)), 1.0, k);
+  hold_.stiffness_n_per_m = loop_stiffness(rod, arc, direction, options_.hold_n_per_m);
   hold_.anchor_T = X_TI * hold_.point_I + pull_T_ / hold_.stiffness_n_per_m;
 }
 

@@ -7,8 +7,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kOnClip = 0.0003;    // m beside a clip's edge in which the blades meet it
-constexpr double kHalfClip = 0.0006;  // m, half of what a clip takes of the rod
+constexpr double kOnClip = 0.0003;  // m beside a clip's edge in which the blades meet it
 
 double wall_area(const RodOptions& rod) {
   return std::numbers::pi * (rod.outer_radius_m * rod.outer_radius_m - rod.inner_radius_m() * rod.inner_radius_m());
@@ -35,7 +34,7 @@ std::vector<RodCut> RodScissors::step(const Pose& X_TI, double opening_m, std::s
     }
     for (const RodCrossing& crossing : crossings) {
       const bool on_clip = std::any_of(rods[r].clips.begin(), rods[r].clips.end(), [&](double arc) {
-        return std::abs(arc - crossing.arc_m) < kHalfClip + kOnClip;
+        return std::abs(arc - crossing.arc_m) < options_.clip_width_m / 2 + kOnClip;
       });
       jammed_ = jammed_ || on_clip;
       const double way = 2 * rod.outer_radius_m - options_.shut_opening_m;

@@ -16,6 +16,7 @@ namespace trocar {
 
 struct ScissorsOptions {
   double blade_m = 0.015, width_m = 0.002;  ///< (unchecked)
+  double clip_width_m = 0.0012;             ///< along the rod, as ClipOptions
   double toughness_j_per_m2 = 500;          ///< of the rod's wall; 0: cuts freely
   double shut_opening_m = 0.0005;           ///< blades have passed one another (a choice)
   double through_share = 0.95;              ///< of the width between them from which on nothing is left (a choice)
