@@ -54,6 +54,19 @@ struct TissueMark {
   bool operator==(const TissueMark&) const = default;
 };
 
+/// What has been done to an organ so far, and how it stands.
+struct SurgeryState {
+  std::int32_t cuts = 0, tears = 0, clips = 0;
+  std::int32_t refusals = 0;  ///< closings of blades or clip applier that did nothing
+  std::int32_t refusal = 0;   ///< of the last closing: CutRefusal; 0: it did what it should
+  std::int32_t wounds = 0;
+  double blood_ml = 0, blood_ml_per_min = 0, sucked_ml = 0;
+  double heat_j = 0;     ///< delivered to tissue
+  double contact_c = 0;  ///< of the tissue under an energised instrument; 0: none touches
+
+  bool operator==(const SurgeryState&) const = default;
+};
+
 struct TissueFrame {
   std::uint64_t stamp = 0;  ///< frame number, from 1
   double t_s = 0;           ///< loop time of the state that it was made from
@@ -68,6 +81,7 @@ struct TissueFrame {
   std::array<TissueMark, kMaxTissueMarks> mark;
   double smoke_per_m = 0;               ///< extinction of the smoke in the cavity, 1/m: sight falls as exp(-k d)
   double lens_fog = 0, lens_blood = 0;  ///< on the scope's lens, 0 clean .. 1 blind
+  SurgeryState surgery;
 
   bool held() const { return grip == GripState::kHolding || grip == GripState::kSlipping; }
 };

@@ -23,7 +23,11 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
     velocity_.assign(felt_.vertices.size(), Vec3::Zero());
     organ_.mu_static = setup.soft->material.mu_static;
     organ_.mu_dynamic = setup.soft->material.mu_dynamic;
-    extraction_.emplace(felt_, setup.triangle_material);
+    triangle_material_.assign(setup.triangle_material.begin(), setup.triangle_material.end());
+    organ_vertices_ = seen_->vertices.size();
+    organ_triangles_ = seen_->triangles.size();
+    actions_.emplace(*soft_);
+    extraction_.emplace(felt_, triangle_material_);
   } else if (setup.organ_T && !setup.organ_T->triangles.empty()) {
     extraction_.emplace(*setup.organ_T, setup.triangle_material);
   }
@@ -40,7 +44,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
   ++frame_.stamp;
   frame_.t_s = state.t_s;
   patch.stamp = frame_.stamp;
-  patch.topology = seen_ ? seen_->topology : 0;
+  patch.topology = soft_ ? soft_->topology() : seen_ ? seen_->topology : 0;
   patch.clear();
   patch.reach_m = kPatchRadius;
   patch.material[0] = organ_;
@@ -59,11 +63,14 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     patch.glide_s = soft_->solid().options().step_s;
     patch.follows = frame_.stamp - 1;
     patch.given_j = soft_->given_j();
-    patch.hold = grip_.hold();
-    patch.grip = grip_.block();
-    grip_.clear(patch);
-    frame_.grip = grip_.state();
-    frame_.slipped_m = grip_.slipped_m();
+    patch.topology = soft_->topology();  // a cut in this step has changed it
+    patch.hold = actions_->grip().hold();
+    patch.grip = actions_->block();
+    actions_->grip().clear(patch);
+    frame_.grip = actions_->grip().state();
+    frame_.slipped_m = actions_->grip().slipped_m();
+    frame_.surgery = actions_->state();
+    frame_.smoke_per_m = actions_->smoke_per_m();
   }
   if (present && rigid_) rigid_->add_to(jaws, patch);
   enclose(patch, patch.balls);
@@ -72,18 +79,11 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
 }
 
 void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool present) {
-  const StylusState& stylus = newest.stylus;
   std::vector<SoftSpring> springs;
-  // What the instrument in hand does in the tissue beyond touching it, before the step. One that is not here only
-  // touches.
-  const bool grasps = present && tool.kind == InstrumentKind::kGrasper;
-  if (grasps)
-    grip_.reach(stylus.X_TI, stylus.jaw_opening_m, *soft_, springs);
-  else
-    grip_.let_go();
-  soft_->step(newest.contacts, present ? &stylus.X_TI.p : nullptr, springs);
-  // And after it.
-  if (grasps) grip_.feel(stylus.X_TI, springs, *soft_);
+  const bool cut = actions_->before(newest, tool, present, *soft_, springs);
+  if (cut) take_cut_surface();
+  soft_->step(newest.contacts, present ? &newest.stylus.X_TI.p : nullptr, springs);
+  actions_->after(newest, tool, present, springs, *soft_);
   const auto felt = soft_->felt();
   const double step_s = soft_->solid().options().step_s;
   for (std::size_t v = 0; v < felt.size(); ++v) {
@@ -93,9 +93,38 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
   extraction_->refit(velocity_);
 }
 
+void TissueWorld::take_cut_surface() {
+  // The felt vertices of before stay where they were; the adjacent organs' move behind the organ's new ones.
+  const auto& organ = *soft_->rest();
+  const auto shift = static_cast<std::int32_t>(organ.vertices.size() - organ_vertices_);
+  TriangleSurface felt;
+  felt.vertices.assign(felt_.vertices.begin(), felt_.vertices.begin() + static_cast<std::ptrdiff_t>(organ_vertices_));
+  felt.vertices.insert(felt.vertices.end(), soft_->felt().begin() + static_cast<std::ptrdiff_t>(organ_vertices_),
+                       soft_->felt().end());
+  felt.vertices.insert(felt.vertices.end(), felt_.vertices.begin() + static_cast<std::ptrdiff_t>(organ_vertices_),
+                       felt_.vertices.end());
+  felt.triangles = organ.triangles;
+  for (std::size_t t = organ_triangles_; t < felt_.triangles.size(); ++t) {
+    auto triangle = felt_.triangles[t];
+    for (std::int32_t& corner : triangle) corner += shift;
+    felt.triangles.push_back(triangle);
+  }
+  if (!triangle_material_.empty())
+    triangle_material_.insert(triangle_material_.begin() + static_cast<std::ptrdiff_t>(organ_triangles_),
+                              organ.triangles.size() - organ_triangles_, 0);
+  felt_ = std::move(felt);
+  velocity_.assign(felt_.vertices.size(), Vec3::Zero());
+  organ_vertices_ = organ.vertices.size();
+  organ_triangles_ = organ.triangles.size();
+  extraction_.emplace(felt_, triangle_material_);
+}
+
 TissueShape TissueWorld::shape() const {
   if (!soft_) return {};
-  return {.topology = soft_->topology(), .nodes_T = soft_->solid().position(), .fields = {}, .changes = {}};
+  return {.topology = soft_->topology(),
+          .nodes_T = soft_->solid().position(),
+          .fields = soft_->fields(),
+          .changes = soft_->cuts()};
 }
 
 }  // namespace trocar

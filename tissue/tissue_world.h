@@ -10,7 +10,7 @@
 
 #include "haptics/contact/instrument.h"
 #include "tissue/collision/patch_extraction.h"
-#include "tissue/interaction/soft_grip.h"
+#include "tissue/interaction/instrument_actions.h"
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/rigid/rigid_scene.h"
 #include "tissue/rigid/rigid_world.h"
@@ -52,6 +52,8 @@ class TissueWorld final : public World {
  private:
   /// Steps the organ that gives way, and tells the extraction where its surface is for the loop.
   void step_soft(const HapticState& newest, const Tool& tool, bool present);
+  /// The organ has been cut: felt_ has its new triangles, the adjacent organs' behind them.
+  void take_cut_surface();
   const Tool& in_hand(const StylusState& stylus) const;
 
   ContactMaterial organ_;
@@ -61,7 +63,9 @@ class TissueWorld final : public World {
   std::optional<PatchExtraction> extraction_;
   std::optional<RigidWorld> rigid_;
   std::optional<SoftOrgan> soft_;
-  SoftGrip grip_;               ///< of a grasper, with soft_
+  std::optional<InstrumentActions> actions_;              ///< with soft_
+  std::size_t organ_vertices_ = 0, organ_triangles_ = 0;  ///< of felt_, before those of the adjacent organs
+  std::vector<std::int32_t> triangle_material_;           ///< with soft_: of felt_
   TriangleSurface felt_;        ///< with soft_: what the loop is given, the adjacent organs behind the organ
   std::vector<Vec3> velocity_;  ///< with soft_: of its vertices, m/s
   TissueFrame frame_;

@@ -14,10 +14,10 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Edge = std::pair<std::int32_t, std::int32_t>;  // lower vertex first
 
-constexpr double kLeastShare = 0.02;      // of an edge from its ends, where a line may cross it
-constexpr double kEndRoom = 0.15;         // the same of an end on the way through its triangle
-constexpr double kNearMiss = 0.003;       // m from the outline, at which a lone crossing still counts
-constexpr double kLeastSideways = 0.3;    // share of the surface's normal that lies in the blade's plane
+constexpr double kLeastShare = 0.02;    // of an edge from its ends, where a line may cross it
+constexpr double kEndRoom = 0.15;       // the same of an end on the way through its triangle
+constexpr double kNearMiss = 0.003;     // m from the outline, at which a lone crossing still counts
+constexpr double kLeastSideways = 0.3;  // share of the surface's normal that lies in the blade's plane
 constexpr std::size_t kMostCrossings = 64;
 
 struct Crossing {

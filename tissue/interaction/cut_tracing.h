@@ -18,7 +18,8 @@ struct Blade {
   std::vector<Eigen::Vector2d> outline;  ///< y, z in B, convex, counter-clockwise seen against x; m
 };
 
-/// Two straight blades of this length from the hinge, opened so far at their ends, that close on what lies between them.
+/// Two straight blades of this length from the hinge, opened so far at their ends, that close on what lies between
+/// them.
 Blade scissor_blade(const Pose& X_TI, double length_m, double opening_m);
 /// The track of an edge from one place to another. @param inward unit, along the edge into the tissue
 Blade track_blade(const Vec3& from_T, const Vec3& to_T, const Vec3& inward_T, double depth_m, double above_m);
@@ -27,11 +28,11 @@ enum class CutRefusal : std::uint8_t { kNone, kNothingThere, kTooShallow, kTooFi
 std::string_view refusal_words(CutRefusal refusal);
 
 struct CutTracingOptions {
-  double bite_m = 0.0008;        ///< beyond the outline: how far an edge bites into what it lies against
-  double taper_m = 0.003;        ///< from each end, over which the bite grows
-  double least_depth_m = 0.0005; ///< of the deepest place
-  double least_edge_m = 0.0006;  ///< of a triangle that the line runs through: finer ones are not divided any more
-  double gape_per_depth = 0.35;  ///< lips at once apart by this of the depth: what opens below the cells
+  double bite_m = 0.0008;         ///< beyond the outline: how far an edge bites into what it lies against
+  double taper_m = 0.003;         ///< from each end, over which the bite grows
+  double least_depth_m = 0.0005;  ///< of the deepest place
+  double least_edge_m = 0.0006;   ///< of a triangle that the line runs through: finer ones are not divided any more
+  double gape_per_depth = 0.35;   ///< lips at once apart by this of the depth: what opens below the cells
   double most_gape_m = 0.002;
 };
 

@@ -63,6 +63,18 @@ void SoftGrip::let_go() {
   state_ = GripState::kEmpty;
 }
 
+void SoftGrip::follow_cut(const SoftOrgan& organ) {
+  for (Place& place : places_) place.shares = organ.shares_of({place.triangle, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
+  if (!no_contact_.empty()) no_contact_.resize(organ.rest()->triangles.size(), false);
+}
+
+Vec3 SoftGrip::middle_T(const SoftOrgan& organ) const {
+  Vec3 sum = Vec3::Zero();
+  for (const Place& place : places_)
+    sum += middle(*organ.surface(), place.triangle) / static_cast<double>(places_.size());
+  return sum;
+}
+
 bool SoftGrip::jaws_clear(const Pose& X_TI, const SoftOrgan& organ) const {
   const Pose X_IT = X_TI.inverse();
   for (std::size_t t = 0; t < no_contact_.size(); ++t) {

@@ -37,9 +37,13 @@ class SoftGrip {
   /// After it. @param springs those that reach() added, their forces filled in
   void feel(const Pose& X_TI, std::span<const SoftSpring> springs, const SoftOrgan& organ);
   void let_go();
+  /// The organ has been cut: what is held is held by the pieces there are now.
+  void follow_cut(const SoftOrgan& organ);
 
   GripState state() const { return state_; }
   double slipped_m() const { return slipped_m_; }
+  /// Middle of what is held, in T; where nothing is, the origin.
+  Vec3 middle_T(const SoftOrgan& organ) const;
   double squeeze_n() const { return squeeze_n_; }  ///< of the pads on the fold
   Vec3 pull_T() const { return pull_T_; }          ///< of the tissue on the jaws, N
   GripBlock block() const { return block_; }

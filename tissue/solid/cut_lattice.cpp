@@ -17,9 +17,10 @@ namespace {
 
 constexpr int kCubes = 4;  // along a cell's edge
 constexpr int kInCell = kCubes * kCubes * kCubes;
-constexpr std::array<int, 3> kStride{1, kCubes, kCubes * kCubes};
-constexpr int kLeastPart = kInCell / 16;        // cubes
-constexpr int kLeastOfSection = 4;  // a cell is cut whole once a quarter of its section is: 16 links, fewer at the surface
+constexpr std::array<int, 3> kStride{1, kCubes, kCubes* kCubes};
+constexpr int kLeastPart = kInCell / 16;  // cubes
+constexpr int kLeastOfSection =
+    4;  // a cell is cut whole once a quarter of its section is: 16 links, fewer at the surface
 constexpr double kAboveSurface = 1.5;           // cubes by which a sheet stands out of the surface
 const Vec3 kCentre(0.50137, 0.49859, 0.50073);  // of a cube: on no plane that somebody would cut along
 constexpr double kBeside = 0.0003;              // m from a sheet: which side is meant
@@ -105,9 +106,7 @@ void join(std::vector<std::size_t>& parent, std::size_t a, std::size_t b) {
   parent[std::max(a, b)] = std::min(a, b);
 }
 
-Vec3 normal_of_sheet(const std::array<Vec3, 3>& sheet) {
-  return (sheet[1] - sheet[0]).cross(sheet[2] - sheet[0]);
-}
+Vec3 normal_of_sheet(const std::array<Vec3, 3>& sheet) { return (sheet[1] - sheet[0]).cross(sheet[2] - sheet[0]); }
 
 }  // namespace
 
@@ -137,15 +136,14 @@ void CutLattice::fill_blocks() {
   const double step = lattice_.cell_m / kCubes;
   const Vec3 first = lattice_.origin_m + lattice_.cell_m * Vec3(low[0], low[1], low[2]) + Vec3::Constant(step / 2);
   const auto mark = [&](int i, int j, int k) {
-    const auto block = block_of_.find(
-        {low[0] + i / kCubes, low[1] + j / kCubes, low[2] + k / kCubes});
+    const auto block = block_of_.find({low[0] + i / kCubes, low[1] + j / kCubes, low[2] + k / kCubes});
     if (block != block_of_.end())
       blocks_[static_cast<std::size_t>(block->second)].inside |=
           bit(i % kCubes + kCubes * (j % kCubes) + kCubes * kCubes * (k % kCubes));
   };
-  for_inside_samples(*rest_, first, step,
-                     {(high[0] - low[0] + 1) * kCubes, (high[1] - low[1] + 1) * kCubes, (high[2] - low[2] + 1) * kCubes},
-                     mark);
+  for_inside_samples(
+      *rest_, first, step,
+      {(high[0] - low[0] + 1) * kCubes, (high[1] - low[1] + 1) * kCubes, (high[2] - low[2] + 1) * kCubes}, mark);
   for (const Vec3& vertex : rest_->vertices) {
     const Vec3 at = (vertex - first) / step + Vec3::Constant(0.5);
     if (at.minCoeff() >= 0) mark(static_cast<int>(at[0]), static_cast<int>(at[1]), static_cast<int>(at[2]));
@@ -283,9 +281,8 @@ void CutLattice::split(std::int32_t number, LatticeChange& change) {
     return steps;
   };
   for (const std::uint64_t crumb : crumbs)
-    *std::min_element(parts.begin(), parts.end(), [&](std::uint64_t a, std::uint64_t b) {
-      return grow_to(crumb, a) < grow_to(crumb, b);
-    }) |= crumb;
+    *std::min_element(parts.begin(), parts.end(),
+                      [&](std::uint64_t a, std::uint64_t b) { return grow_to(crumb, a) < grow_to(crumb, b); }) |= crumb;
   // Each present cell stays the part with most of its cubes.
   std::vector<std::uint64_t> now(block.parts.size(), 0);
   std::vector<std::pair<std::size_t, std::uint64_t>> made;  // of which present one, cubes
@@ -331,7 +328,8 @@ void CutLattice::cut_off(std::int32_t number, std::uint64_t crumb) {
   };
   bool cut = false;  // else it is one of the lattice's own
   each([&](const Block& of, std::uint64_t link, std::size_t axis, bool) { cut |= (of.broken[axis] & link) != 0; });
-  if (cut) each([&](Block& of, std::uint64_t link, std::size_t axis, bool leads_out) {
+  if (cut)
+    each([&](Block& of, std::uint64_t link, std::size_t axis, bool leads_out) {
       if (leads_out) of.broken[axis] |= link;
     });
 }
@@ -415,8 +413,7 @@ void CutLattice::share_nodes(const std::vector<std::int32_t>& touched, LatticeCh
     for (const std::int32_t cell : blocks_[static_cast<std::size_t>(block)].cells) changed.insert(cell);
   for (const std::int32_t cell : changed)
     if (!made.contains(cell)) change.cells.push_back({cell, cell});
-  std::sort(change.cells.begin(), change.cells.end(),
-            [](const auto& a, const auto& b) { return a.number < b.number; });
+  std::sort(change.cells.begin(), change.cells.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
 }
 
 std::size_t CutLattice::components() const {
@@ -497,7 +494,8 @@ void CutLattice::embed(std::size_t first_new, const std::vector<std::int32_t>& t
     if (cell < 0) continue;
     e.cell = cell;
     const Place& place = lattice_.cells[static_cast<std::size_t>(cell)].place;
-    e.other = other >= 0 && other != cell && lattice_.cells[static_cast<std::size_t>(other)].place == place ? other : -1;
+    e.other =
+        other >= 0 && other != cell && lattice_.cells[static_cast<std::size_t>(other)].place == place ? other : -1;
     const Vec3 local = ((rest_->vertices[v] - lattice_.origin_m) / lattice_.cell_m - Vec3(place[0], place[1], place[2]))
                            .cwiseMax(0)
                            .cwiseMin(1);
@@ -515,8 +513,8 @@ void CutLattice::embed(std::size_t first_new, const std::vector<std::int32_t>& t
 bool CutLattice::holds(const Vec3& place) const {
   const Vec3 at = (place - lattice_.origin_m) / lattice_.cell_m;
   const Vec3 cell = at.array().floor();
-  const Block* block = block_at({static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]),
-                                 static_cast<std::int32_t>(cell[2])});
+  const Block* block = block_at(
+      {static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]), static_cast<std::int32_t>(cell[2])});
   if (block == nullptr) return false;
   const Vec3 cube = ((at - cell) * kCubes).array().floor().cwiseMin(kCubes - 1);
   return (block->inside & bit(static_cast<int>(cube.dot(Vec3(kStride[0], kStride[1], kStride[2]))))) != 0;

@@ -53,11 +53,11 @@ class CutLattice {
   using Sheet = std::array<Vec3, 3>;  ///< a triangle
   /// The small cubes of a cell of the lattice as it was built; bit i + 4 j + 16 k.
   struct Block {
-    std::uint64_t inside = 0;                   ///< tissue, or beside it
-    std::array<std::uint64_t, 3> broken{};      ///< links to the next one along each axis
-    std::vector<std::int32_t> cells;            ///< numbers of the cells that it is now
-    std::vector<std::uint64_t> parts;           ///< their cubes
-    std::vector<Sheet> sheets;                  ///< that have cut it
+    std::uint64_t inside = 0;               ///< tissue, or beside it
+    std::array<std::uint64_t, 3> broken{};  ///< links to the next one along each axis
+    std::vector<std::int32_t> cells;        ///< numbers of the cells that it is now
+    std::vector<std::uint64_t> parts;       ///< their cubes
+    std::vector<Sheet> sheets;              ///< that have cut it
   };
 
   const Block* block_at(const Place& place) const;

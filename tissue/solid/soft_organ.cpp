@@ -24,10 +24,10 @@ constexpr double kNoForce = 1e-6;     // N
 constexpr int kShiftRounds = 12;
 constexpr int kStillEvery = 4;  // steps between looks at what the lattice has of a place: it changes as the tool slides
 constexpr double kWholeDent = 0.7, kShellEnd = 1.3;  // of the neighbourhood: undone as a whole, and no longer
-constexpr double kLeastVolume = 0.2;    // of a cell, below which and above whose inverse its gradient is not trusted
-constexpr double kBelowBottom = 1.3;    // of a groove's depth: so much of it must still lie in the tissue
-constexpr int kShortenings = 4;         // halvings of a depth that goes through
-constexpr std::size_t kFewestNodes = 8;              // that a motion is read from
+constexpr double kLeastVolume = 0.2;     // of a cell, below which and above whose inverse its gradient is not trusted
+constexpr double kBelowBottom = 1.3;     // of a groove's depth: so much of it must still lie in the tissue
+constexpr int kShortenings = 4;          // halvings of a depth that goes through
+constexpr std::size_t kFewestNodes = 8;  // that a motion is read from
 
 // Read off the lattice itself: on cells of 5 mm a clamped ball of 60 mm in a half-space is softer than one of 30 mm by
 // gamma / (pi E*) (1 / R1 - 1 / R2); cells of 4 mm give 1-2 % more. A ball that only bore the far field of a point
@@ -53,9 +53,9 @@ std::vector<SoftCell> soft_cells(const Lattice& lattice) {
 
 Vec3 place_at_corners(const Barycentric& weight, const std::array<std::int32_t, 3>& corner,
                       std::span<const Vec3> vertices) {
-  return interpolate(weight, {vertices[static_cast<std::size_t>(corner[0])],
-                              vertices[static_cast<std::size_t>(corner[1])],
-                              vertices[static_cast<std::size_t>(corner[2])]});
+  return interpolate(weight,
+                     {vertices[static_cast<std::size_t>(corner[0])], vertices[static_cast<std::size_t>(corner[1])],
+                      vertices[static_cast<std::size_t>(corner[2])]});
 }
 
 double relaxed_share(const TissueSolid& material, double step_s) {
@@ -174,8 +174,9 @@ Vec3 SoftOrgan::turned_to_rest(const MaterialPoint& place, const Vec3& vector_T)
   Mat3 F = Mat3::Zero();
   for (std::size_t k = 0; k < 8; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      F.col(static_cast<Eigen::Index>(axis)) += ((k >> axis & 1) != 0 ? 1 : -1) / (4 * lattice.cell_m) *
-                                                solid_.position()[static_cast<std::size_t>(cell.corners[k])].cast<double>();
+      F.col(static_cast<Eigen::Index>(axis)) +=
+          ((k >> axis & 1) != 0 ? 1 : -1) / (4 * lattice.cell_m) *
+          solid_.position()[static_cast<std::size_t>(cell.corners[k])].cast<double>();
   const double det = F.determinant();
   if (!(det > kLeastVolume && det < 1 / kLeastVolume)) return vector_T;
   return F.inverse() * vector_T;
@@ -208,7 +209,8 @@ OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
   cuts_.push_back(cut_bytes(traced.cut));
   added_ = std::move(change.added);
   embedded_ = EmbeddedSurface(lattice_.lattice(), lattice_.rest());
-  surface_ = embedded_.at(solid_.position());
+  for (ShapeField& field : fields_) grow_values(field.value, added_);
+  surface_ = embedded_.at(solid_.position(), fields_);
   const std::size_t known = felt_.size();
   felt_.resize(surface_->vertices.size());
   std::copy(surface_->vertices.begin() + static_cast<std::ptrdiff_t>(known), surface_->vertices.end(),
@@ -310,22 +312,29 @@ void SoftOrgan::remember(std::span<const Pressed> pressed) {
   memory_.elastic_n = elastic;
 }
 
+std::optional<MaterialPoint> SoftOrgan::place_of(const SolvedContacts& contacts, int contact) const {
+  MaterialPoint place = contacts.at[static_cast<std::size_t>(contact)].place;
+  const bool of_before = lattice_.previous() && contacts.topology == lattice_.previous()->topology;
+  if (contacts.topology != topology() && !of_before) return std::nullopt;
+  for (const double weight : place.weight)
+    if (!std::isfinite(weight)) return std::nullopt;
+  if (contacts.topology != topology()) place = place_now(place);
+  if (place.triangle < 0 || place.triangle >= static_cast<std::int32_t>(rest()->triangles.size())) return std::nullopt;
+  return place;
+}
+
 std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts) const {
   std::vector<Pressed> pressed;
   for (int i = 0; i < contacts.count; ++i) {
-    SolvedContact contact = contacts.at[static_cast<std::size_t>(i)];
-    if (contacts.topology != topology()) contact.place = place_now(contact.place);
-    const bool known =
-        contact.place.triangle >= 0 && contact.place.triangle < static_cast<std::int32_t>(rest()->triangles.size());
-    const bool sound = contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() &&
-                       contact.normal_T.allFinite() &&
-                       std::all_of(contact.place.weight.begin(), contact.place.weight.end(),
-                                   [](double weight) { return std::isfinite(weight); });
-    if (!known || !sound) continue;
-    Pressed p{contact.place, {}, contact.normal_T, contact.tool_T};
+    const SolvedContact& contact = contacts.at[static_cast<std::size_t>(i)];
+    const std::optional<MaterialPoint> place = place_of(contacts, i);
+    const bool sound =
+        contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() && contact.normal_T.allFinite();
+    if (!place || !sound) continue;
+    Pressed p{*place, {}, contact.normal_T, contact.tool_T};
     p.share = contact.share;
     p.force = std::max(0.0, contact.force_T.dot(contact.normal_T));
-    p.shares = shares_of(contact.place, elastic_part(p.force / p.share));
+    p.shares = shares_of(*place, elastic_part(p.force / p.share));
     p.tangential = contact.force_T - contact.force_T.dot(contact.normal_T) * contact.normal_T;
     p.stiffness = p.share / sub_cell_compliance(elastic_part(p.force / p.share));
     pressed.push_back(std::move(p));
@@ -335,8 +344,7 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
 
 void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::span<SoftSpring> more) {
   std::vector<Pressed> pressed;
-  const bool of_before = lattice_.previous() && contacts.topology == lattice_.previous()->topology;
-  if (tip_T != nullptr && (contacts.topology == topology() || of_before)) pressed = press(contacts);
+  if (tip_T != nullptr) pressed = press(contacts);
   std::vector<SoftSpring> springs;
   for (const Pressed& p : pressed) {
     // Elastic force linear about that of the last tick, k (d - d0) + F0; with what the branches take of its change.
@@ -367,7 +375,7 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   force_ = 0;
   for (std::size_t i = 0; i < pressed.size(); ++i) force_ += pressed[i].force = springs[i].force_n;
   remember(pressed);
-  surface_ = embedded_.at(solid_.position());
+  surface_ = embedded_.at(solid_.position(), fields_);
   find_felt(pressed, tip_T);
 }
 

@@ -15,12 +15,15 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "haptics/exchange/solved_contacts.h"
-#include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/soft_solid.h"
@@ -68,6 +71,14 @@ class SoftOrgan {
   std::span<const std::string> cuts() const { return cuts_; }
   /// Vertices of the surface that the last cut added.
   std::span<const VertexOrigin> added() const { return added_; }
+
+  /// What the surface bears from the next step on: fields at its vertices. A cut carries them over.
+  void wear(std::vector<ShapeField> fields) { fields_ = std::move(fields); }
+  std::span<const ShapeField> fields() const { return fields_; }
+  /// Where a contact of the loop lies now; nullopt: not on the organ.
+  std::optional<MaterialPoint> place_of(const SolvedContacts& contacts, int contact) const;
+  Vec3 rest_place(const MaterialPoint& place) const { return place_at(place, lattice_.rest()->vertices); }
+  Vec3 place_T(const MaterialPoint& place) const { return place_at(place, surface_->vertices); }
 
   std::uint64_t topology() const { return surface_->topology; }
   const SurfacePtr& rest() const { return lattice_.rest(); }
@@ -118,6 +129,7 @@ class SoftOrgan {
   SoftSolid solid_;
   std::vector<std::string> cuts_;
   std::vector<VertexOrigin> added_;
+  std::vector<ShapeField> fields_;
   SurfacePtr surface_;
   std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;

@@ -672,8 +672,7 @@ double SoftSolid::energy_j() const {
     energy += 0.5 * static_cast<double>(support_[n]) * static_cast<double>((position_[n] - rest_[n]).squaredNorm());
     energy += 0.5 * static_cast<double>(mass_[n]) * static_cast<double>(velocity_[n].squaredNorm());
   }
-  for (const Release& r : released_)
-    energy -= static_cast<double>(turned(r).dot(position_[r.node] - rest_[r.node]));
+  for (const Release& r : released_) energy -= static_cast<double>(turned(r).dot(position_[r.node] - rest_[r.node]));
   return energy;
 }
 

@@ -136,8 +136,8 @@ class SoftSolid {
   std::vector<float> mass_, support_;                               ///< of each node
   std::vector<SoftCell> cells_;
   std::vector<TissueSolid> materials_;
-  std::vector<std::size_t> lane_;           ///< of each cell: its group's number times the lanes and its own in it
-  std::vector<std::int32_t> root_;          ///< of each node: of which it was severed
+  std::vector<std::size_t> lane_;   ///< of each cell: its group's number times the lanes and its own in it
+  std::vector<std::int32_t> root_;  ///< of each node: of which it was severed
   std::vector<Release> released_;
   std::vector<Group> groups_;
   std::vector<std::int32_t> all_groups_;

@@ -94,6 +94,18 @@ void StateHash::add(const TissueFrame& frame) {
     add(pair.force_n);
   }
   add_marks(frame);
+  add_surgery(frame.surgery);
+}
+
+/// Nothing while nothing has been done to an organ: runs without it keep their hash.
+void StateHash::add_surgery(const SurgeryState& surgery) {
+  if (surgery == SurgeryState{}) return;
+  for (const std::int32_t number :
+       {surgery.cuts, surgery.tears, surgery.clips, surgery.refusals, surgery.refusal, surgery.wounds})
+    add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(number)));
+  for (const double value :
+       {surgery.blood_ml, surgery.blood_ml_per_min, surgery.sucked_ml, surgery.heat_j, surgery.contact_c})
+    add(value);
 }
 
 /// Nothing at all while the tissue is unmarked and the air and the lens are clear: runs without them keep their hash.

@@ -44,6 +44,7 @@ class StateHash {
 
  private:
   void add_marks(const TissueFrame& frame);
+  void add_surgery(const SurgeryState& surgery);
   std::uint64_t state_ = 0;
 };
 

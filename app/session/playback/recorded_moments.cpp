@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "haptics/input_error.h"
-#include "tissue/solid/embedded_surface.h"
+#include "tissue/tissue_world.h"
 
 namespace trocar {
 namespace {
@@ -196,16 +196,32 @@ std::optional<RecordedShape> RecordedMoments::shape_at(double t_s) const {
   return shape_of(row.tick);
 }
 
+const EmbeddedSurface* RecordedMoments::embedded_for(std::uint64_t topology) const {
+  const std::uint64_t whole = scene_.embedded->topology();
+  if (topology == whole) return scene_.embedded.get();
+  if (topology < whole || topology - whole > track_.changes().size() || !scene_.soft) return nullptr;
+  if (!cut_ || cut_->rest()->topology > topology) cut_.emplace(scene_.soft->lattice, scene_.embedded->rest());
+  const std::uint64_t before = cut_->rest()->topology;
+  while (cut_->rest()->topology < topology) {
+    LatticeChange change;
+    const std::string& bytes = track_.changes()[cut_->rest()->topology - whole].bytes;
+    if (!cut_->cut(parse_cut(bytes), change)) return nullptr;
+  }
+  if (!cut_surface_ || before != topology) cut_surface_.emplace(cut_->lattice(), cut_->rest());
+  return &*cut_surface_;
+}
+
 /// The same as before while nothing has moved, so that nobody draws it anew; nullptr where the scene has another
 /// topology.
 SurfacePtr RecordedMoments::surface_of(std::uint64_t period) const {
   if (!scene_.embedded) return nullptr;
   std::optional<RecordedShape> shape = shape_of(period);
-  if (!shape || shape->topology != scene_.embedded->topology() || shape->nodes_T.size() != scene_.embedded->nodes())
-    return nullptr;
-  if (last_surface_ && shape->nodes_T == last_shape_.nodes_T && shape->fields == last_shape_.fields)
+  const EmbeddedSurface* embedded = shape ? embedded_for(shape->topology) : nullptr;
+  if (embedded == nullptr || shape->nodes_T.size() != embedded->nodes()) return nullptr;
+  if (last_surface_ && shape->topology == last_shape_.topology && shape->nodes_T == last_shape_.nodes_T &&
+      shape->fields == last_shape_.fields)
     return last_surface_;
-  last_surface_ = scene_.embedded->at(shape->nodes_T, shape->fields);
+  last_surface_ = embedded->at(shape->nodes_T, shape->fields);
   last_shape_ = std::move(*shape);
   return last_surface_;
 }

@@ -13,6 +13,8 @@
 
 #include "app/session/recording/recording_reader.h"
 #include "app/session/run_moment.h"
+#include "tissue/solid/cut_lattice.h"
+#include "tissue/solid/embedded_surface.h"
 
 namespace trocar {
 
@@ -42,6 +44,8 @@ class RecordedMoments {
   const RecordedTick& row_at(double t_s) const;
   std::optional<RecordedShape> shape_of(std::uint64_t period) const;
   SurfacePtr surface_of(std::uint64_t period) const;
+  /// The organ's surface on its nodes after the cuts that make up a topology; nullptr: there are none such.
+  const EmbeddedSurface* embedded_for(std::uint64_t topology) const;
 
   const Scene& scene_;
   double rate_hz_;
@@ -52,6 +56,8 @@ class RecordedMoments {
   mutable std::optional<RunMoment> last_;
   mutable RecordedShape last_shape_;  ///< of last_surface_
   mutable SurfacePtr last_surface_;
+  mutable std::optional<CutLattice> cut_;  ///< after the last cuts asked for
+  mutable std::optional<EmbeddedSurface> cut_surface_;
 };
 
 }  // namespace trocar

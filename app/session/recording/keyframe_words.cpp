@@ -191,6 +191,13 @@ void walk_frame(Words& words, Frame& f) {
   }
 }
 
+template <typename Words, typename Surgery>
+void walk_surgery(Words& words, Surgery& s) {
+  for (auto* number : {&s.cuts, &s.tears, &s.clips, &s.refusals, &s.refusal, &s.wounds}) words.whole(*number);
+  for (auto* number : {&s.blood_ml, &s.blood_ml_per_min, &s.sucked_ml, &s.heat_j, &s.contact_c}) words.rounded(*number);
+}
+
+/// What has been done to an organ follows, where something has.
 template <typename Words, typename Keyframe>
 void walk(Words& words, Keyframe& k) {
   walk_instrument(words, k.instrument);
@@ -205,12 +212,14 @@ void walk(Words& words, Keyframe& k) {
 std::vector<std::uint64_t> words_of(const TissueKeyframe& keyframe) {
   WordsOut words;
   walk(words, keyframe);
+  if (keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
   return std::move(words.words);
 }
 
 void read_words(std::span<const std::uint64_t> words, TissueKeyframe& keyframe) {
   WordsIn in(words);
   walk(in, keyframe);
+  if (!in.done()) walk_surgery(in, keyframe.tissue.surgery);
   if (!in.done()) throw InputError("words of a keyframe are left over");
 }
 

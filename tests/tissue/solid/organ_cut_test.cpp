@@ -43,8 +43,8 @@ void expect_manifold(const TriangleSurface& surface, int genus = 0) {
     } while (at != first[v] && steps <= round[v]);
     ASSERT_EQ(steps, round[v]) << "vertex " << v;
   }
-  const auto euler = std::int64_t(surface.vertices.size()) - std::int64_t(edges.size() / 2) +
-                     std::int64_t(surface.triangles.size());
+  const auto euler =
+      std::int64_t(surface.vertices.size()) - std::int64_t(edges.size() / 2) + std::int64_t(surface.triangles.size());
   EXPECT_EQ(euler, 2 - 2 * genus);
 }
 

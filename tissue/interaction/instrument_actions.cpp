@@ -1,0 +1,245 @@
+#include "tissue/interaction/instrument_actions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace trocar {
+namespace {
+
+constexpr double kAboveHook = 0.004;   // m that a hook's blade stands out of the tissue
+constexpr double kRinseBelow = 0.008;  // m of opening: fingers that rinse
+constexpr double kLeastForce = 1e-3;   // N of a contact that presses or passes current
+
+/// The strongest contact on the organ.
+struct Touch {
+  MaterialPoint place;
+  Vec3 normal_T = Vec3::UnitZ(), tool_T = Vec3::Zero();
+  double force_n = 0;
+};
+std::optional<Touch> strongest_touch(const SolvedContacts& contacts, const SoftOrgan& organ) {
+  std::optional<Touch> best;
+  for (int i = 0; i < contacts.count; ++i) {
+    const SolvedContact& contact = contacts.at[static_cast<std::size_t>(i)];
+    const double force = contact.force_T.dot(contact.normal_T);
+    if (!(force > kLeastForce) || (best && force <= best->force_n)) continue;
+    if (const auto place = organ.place_of(contacts, i)) best = Touch{*place, contact.normal_T, contact.tool_T, force};
+  }
+  return best;
+}
+
+}  // namespace
+
+InstrumentActions::InstrumentActions(const SoftOrgan& organ, const InstrumentActionsOptions& options)
+    : options_(options), bleeding_(*organ.rest()), heat_(organ.rest()) {}
+
+bool InstrumentActions::before(const HapticState& newest, const Tool& tool, bool present, SoftOrgan& organ,
+                               std::vector<SoftSpring>& springs) {
+  const StylusState& stylus = newest.stylus;
+  cut_now_ = false;
+  blades_ = {};
+  const bool grasps = present && tool.kind == InstrumentKind::kGrasper;
+  if (grasps) {
+    tear(organ, stylus);
+    grip_.reach(stylus.X_TI, stylus.jaw_opening_m, organ, springs);
+  } else {
+    grip_.let_go();
+  }
+  if (!present) {
+    widest_m_ = 0;
+    hook_draws_ = false;
+    return cut_now_;
+  }
+  if (tool.kind == InstrumentKind::kScissors) {
+    if (closes(stylus.jaw_opening_m))
+      cut_between_blades(stylus, organ);
+    else
+      feel_blades(stylus, organ);
+  } else if (tool.kind == InstrumentKind::kClipApplier) {
+    if (closes(stylus.jaw_opening_m)) set_clip(stylus);
+  } else {
+    widest_m_ = 0;
+  }
+  if (tool.kind == InstrumentKind::kHook)
+    draw_hook(newest, organ);
+  else
+    hook_draws_ = false;
+  return cut_now_;
+}
+
+void InstrumentActions::after(const HapticState& newest, const Tool& tool, bool present,
+                              std::span<const SoftSpring> springs, SoftOrgan& organ) {
+  const StylusState& stylus = newest.stylus;
+  if (present && tool.kind == InstrumentKind::kGrasper) grip_.feel(stylus.X_TI, springs, organ);
+  bool sucks = false;
+  state_.contact_c = 0;
+  if (present) {
+    press_wounds(newest, organ);
+    if (tool.kind == InstrumentKind::kSuction) {
+      sucks = stylus.pedal;
+      if (sucks) bleeding_.suck({.tip_T = stylus.X_TI.p});
+      if (stylus.jaw_opening_m < kRinseBelow)
+        bleeding_.irrigate({.tip_T = stylus.X_TI.p, .direction_T = stylus.X_TI.R.col(2)});
+    }
+  }
+  energise(newest, tool, organ);
+  const double step_s = organ.solid().options().step_s;
+  bleeding_.step(organ.surface()->vertices, step_s);
+  clear_smoke(sucks);
+  const BloodLedger ledger = bleeding_.ledger();
+  state_.wounds = static_cast<std::int32_t>(bleeding_.wounds());
+  state_.blood_ml = ledger.lost_ml;
+  state_.blood_ml_per_min = ledger.rate_ml_per_min;
+  state_.sucked_ml = ledger.sucked_ml + ledger.water_sucked_ml;
+  state_.heat_j = heat_.ledger().delivered_j;
+  dress(organ);
+}
+
+bool InstrumentActions::closes(double opening_m) {
+  widest_m_ = std::max(widest_m_, opening_m);
+  return widest_m_ >= options_.opened_m && opening_m <= options_.closed_m;
+}
+
+void InstrumentActions::refuse(CutRefusal why) {
+  ++state_.refusals;
+  state_.refusal = static_cast<std::int32_t>(why);
+}
+
+void InstrumentActions::cut_between_blades(const StylusState& stylus, SoftOrgan& organ) {
+  cut(scissor_blade(stylus.X_TI, options_.blades_m, widest_m_), organ);
+  widest_m_ = 0;
+}
+
+void InstrumentActions::feel_blades(const StylusState& stylus, const SoftOrgan& organ) {
+  if (widest_m_ < options_.opened_m) return;
+  // The energy of the cut over the way of closing: a spring that holds it when the blades have closed.
+  const TracedCut ahead = trace_cut(*organ.surface(), scissor_blade(stylus.X_TI, options_.blades_m, widest_m_));
+  if (ahead.refusal != CutRefusal::kNone) return;
+  blades_.thickness_m = widest_m_;
+  blades_.stiffness_n_per_m = 2 * organ.material().toughness_j_per_m2 * ahead.area_m2 / (widest_m_ * widest_m_);
+}
+
+WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
+  const OrganCut made = organ.cut(blade);
+  if (made.refusal != CutRefusal::kNone) {
+    refuse(made.refusal);
+    return -1;
+  }
+  cut_now_ = true;
+  ++state_.cuts;
+  state_.refusal = 0;
+  grip_.follow_cut(organ);
+  const std::vector<VertexOrigin> added(organ.added().begin(), organ.added().end());
+  bleeding_.grow(*organ.rest(), added);
+  heat_.grow(organ.rest(), added);
+  std::vector<std::int32_t> bottom;  // begin, three of each crossing, end
+  for (std::size_t i = 3; i < added.size(); i += 3) bottom.push_back(made.first_vertex + static_cast<std::int32_t>(i));
+  return bleeding_.add_wound(bottom, 2 * made.area_m2, made.depth_m);
+}
+
+void InstrumentActions::set_clip(const StylusState& stylus) {
+  widest_m_ = 0;
+  const Vec3 jaws_T = stylus.X_TI * Vec3(0, 0, -options_.applier_m / 2);
+  WoundId nearest = -1;
+  double least = options_.clip_reach_m;
+  for (WoundId id = 0; id < static_cast<WoundId>(bleeding_.wounds()); ++id) {
+    const double distance = (bleeding_.wound(id).place_T - jaws_T).norm();
+    if (distance < least) least = distance, nearest = id;
+  }
+  if (nearest < 0) return refuse(CutRefusal::kNothingThere);
+  bleeding_.clip_wound(nearest, 1);
+  ++state_.clips;
+  state_.refusal = 0;
+}
+
+void InstrumentActions::tear(SoftOrgan& organ, const StylusState& stylus) {
+  const double limit = organ.material().rupture_n_per_m * options_.tear_width_m;
+  overloaded_s_ = grip_.pull_T().norm() > limit ? overloaded_s_ + organ.solid().options().step_s : 0;
+  if (overloaded_s_ < options_.tear_after_s) return;
+  overloaded_s_ = 0;
+  // Across the pull, at the edge of what the pads hold, along their hinge.
+  const Vec3 pull = grip_.pull_T().normalized(), middle = grip_.middle_T(organ);
+  const Vec3 along = (stylus.X_TI.R.col(0) - stylus.X_TI.R.col(0).dot(pull) * pull).normalized();
+  const double half = options_.tear_length_m / 2;
+  if (cut(track_blade(middle - half * along, middle + half * along, pull, options_.tear_depth_m, options_.tear_depth_m),
+          organ) >= 0) {
+    --state_.cuts;
+    ++state_.tears;
+  }
+  grip_.let_go();
+}
+
+void InstrumentActions::draw_hook(const HapticState& newest, SoftOrgan& organ) {
+  const auto touch = newest.stylus.pedal ? strongest_touch(newest.contacts, organ) : std::nullopt;
+  const bool vaporises = touch && heat_.temperature_c(organ.rest_place(touch->place)) > options_.coagulates_c;
+  if (!vaporises) {
+    hook_draws_ = false;
+    return;
+  }
+  if (!hook_draws_) hook_from_T_ = touch->tool_T;
+  hook_draws_ = true;
+  const Vec3 way = touch->tool_T - hook_from_T_;
+  if ((way - way.dot(touch->normal_T) * touch->normal_T).norm() < options_.track_m) return;
+  const WoundId wound =
+      cut(track_blade(hook_from_T_, touch->tool_T, -touch->normal_T, options_.track_depth_m, kAboveHook), organ);
+  hook_from_T_ = touch->tool_T;
+  if (wound >= 0) bleeding_.coagulate(wound, 0.8);  // its walls have been boiling
+}
+
+void InstrumentActions::energise(const HapticState& newest, const Tool& tool, const SoftOrgan& organ) {
+  HeatSource source;
+  const bool live = newest.stylus.pedal && describe(tool.kind).powered && tool.kind != InstrumentKind::kSuction;
+  std::optional<Touch> touch;
+  if (live) touch = strongest_touch(newest.contacts, organ);
+  if (touch) {
+    const bool hook = tool.kind == InstrumentKind::kHook, grasper = tool.kind == InstrumentKind::kGrasper;
+    source.rest_T = organ.rest_place(touch->place);
+    source.radius_m = hook ? options_.hook_edge_m : options_.pad_contact_m;
+    source.power_w = hook ? options_.cut_w : grasper ? options_.soft_w : options_.forced_w;
+    source.mode = hook ? HeatMode::kCut : grasper ? HeatMode::kSoftCoagulation : HeatMode::kForcedCoagulation;
+    source.tool = newest.stylus.instrument;
+  }
+  heat_.step({&source, touch ? std::size_t{1} : std::size_t{0}});
+  if (!touch) return;
+  state_.contact_c = heat_.given().front().contact_c;
+  if (state_.contact_c > options_.coagulates_c)
+    bleeding_.coagulate(organ.place_T(touch->place), std::max(source.radius_m, options_.pad_contact_m),
+                        std::min(1.0, options_.coagulates_per_s * organ.solid().options().step_s));
+}
+
+void InstrumentActions::press_wounds(const HapticState& newest, const SoftOrgan& organ) {
+  if (bleeding_.wounds() == 0) return;
+  const double area = std::numbers::pi * options_.press_radius_m * options_.press_radius_m;
+  for (int i = 0; i < newest.contacts.count; ++i) {
+    const SolvedContact& contact = newest.contacts.at[static_cast<std::size_t>(i)];
+    const double force = contact.force_T.dot(contact.normal_T);
+    if (!(force > kLeastForce)) continue;
+    if (const auto place = organ.place_of(newest.contacts, i))
+      bleeding_.press(organ.place_T(*place), options_.press_radius_m, force / area);
+  }
+}
+
+void InstrumentActions::clear_smoke(bool sucked) {
+  const double steam = heat_.ledger().steam_j;
+  smoke_per_m_ += options_.smoke_per_j * (steam - steam_seen_j_);
+  steam_seen_j_ = steam;
+  smoke_per_m_ *= 1 - 0.01 / (sucked ? options_.smoke_sucked_s : options_.smoke_s);
+  if (smoke_per_m_ < 1e-6) smoke_per_m_ = 0;
+}
+
+void InstrumentActions::dress(SoftOrgan& organ) const {
+  // An organ that nothing was done to bears nothing: no picture and no recording looks at it.
+  std::vector<ShapeField> fields;
+  if (bleeding_.wounds() > 0 || bleeding_.ledger().water_given_ml > 0) {
+    fields.push_back({"blood", FieldPlace::kVertices, bleeding_.blood()});
+    fields.push_back({"wet", FieldPlace::kVertices, bleeding_.wet()});
+  }
+  if (heat_.blocks() > 0 || state_.heat_j > 0) {
+    fields.push_back({"char", FieldPlace::kVertices, heat_.charred()});
+    fields.push_back({"whitening", FieldPlace::kVertices, heat_.white()});
+  }
+  organ.wear(std::move(fields));
+}
+
+}  // namespace trocar
