@@ -57,7 +57,7 @@ RodSurface::RodSurface(const ElasticRod& rod, int sides) : sides_(sides), drawn_
   follow(rod);
 }
 
-void RodSurface::add_ring(std::int32_t id) {
+void RodSurface::add_ring([[maybe_unused]] std::int32_t id) {
   assert(static_cast<std::size_t>(id) == rings_.size());
   rings_.push_back({static_cast<std::int32_t>(arcs_.size())});
   arcs_.resize(arcs_.size() + static_cast<std::size_t>(sides_));
