@@ -10,7 +10,7 @@
 namespace trocar {
 namespace {
 
-using Corners = std::array<std::int32_t, 3>;
+using WallTriangle = std::array<std::int32_t, 3>;  // corners of a triangle
 
 constexpr double kLeastTurn = 0.2;  // cosine up to which a lip that gapes may turn a triangle beside it
 constexpr int kNarrowings = 4;      // halvings of the gape before it is given up
@@ -70,7 +70,7 @@ class GrooveCutter {
       does_not_fit(cut_.crossings.size() - 1, "does not go into the last triangle");
   }
 
-  static bool has_edge(const Corners& triangle, std::int32_t from, std::int32_t to) {
+  static bool has_edge(const WallTriangle& triangle, std::int32_t from, std::int32_t to) {
     for (std::size_t k = 0; k < 3; ++k)
       if (triangle[k] == from && triangle[(k + 1) % 3] == to) return true;
     return false;
@@ -105,7 +105,7 @@ class GrooveCutter {
   }
 
   /// The first of the pieces takes the triangle's number.
-  void replace(std::int32_t triangle, const std::vector<Corners>& pieces) {
+  void replace(std::int32_t triangle, const std::vector<WallTriangle>& pieces) {
     out_.surface.triangles[static_cast<std::size_t>(triangle)] = pieces.front();
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       out_.surface.triangles.push_back(pieces[i]);
@@ -116,8 +116,8 @@ class GrooveCutter {
   void open_end(std::int32_t triangle, std::int32_t middle, std::size_t crossing) {
     const CutCrossing& over = cut_.crossings[crossing];
     const Lips& lips = lips_[crossing];
-    const Corners corners = out_.surface.triangles[static_cast<std::size_t>(triangle)];
-    std::vector<Corners> pieces;
+    const WallTriangle corners = out_.surface.triangles[static_cast<std::size_t>(triangle)];
+    std::vector<WallTriangle> pieces;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t from = corners[k], to = corners[(k + 1) % 3];
       const bool crossed = (from == over.left && to == over.right) || (from == over.right && to == over.left);
@@ -138,14 +138,14 @@ class GrooveCutter {
     const bool left = in.left == out.left;  // the corner alone lies left
     const std::int32_t alone = left ? in.left : in.right;
     const auto lip = [&](std::size_t i, bool of_left) { return of_left ? lips_[i].left : lips_[i].right; };
-    Corners corners = out_.surface.triangles[static_cast<std::size_t>(triangle)];
+    WallTriangle corners = out_.surface.triangles[static_cast<std::size_t>(triangle)];
     while (corners[0] != alone) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
     // Counter-clockwise: alone, over the one crossing, d, e, over the other.
     const std::int32_t d = corners[1], e = corners[2];
     const bool in_first = d == in.left || d == in.right;
     const std::size_t first = in_first ? crossing : crossing + 1, second = in_first ? crossing + 1 : crossing;
     const std::int32_t m = lip(first, !left), n = lip(second, !left);
-    std::vector<Corners> pieces{{alone, lip(first, left), lip(second, left)}};
+    std::vector<WallTriangle> pieces{{alone, lip(first, left), lip(second, left)}};
     if ((at(m) - at(e)).squaredNorm() <= (at(d) - at(n)).squaredNorm()) {
       pieces.push_back({m, d, e});
       pieces.push_back({m, e, n});
@@ -156,7 +156,7 @@ class GrooveCutter {
     replace(triangle, pieces);
   }
 
-  void wall(const Corners& corners) {
+  void wall(const WallTriangle& corners) {
     out_.walls.push_back(static_cast<std::int32_t>(out_.surface.triangles.size()));
     out_.surface.triangles.push_back(corners);
   }
@@ -185,9 +185,9 @@ class GrooveCutter {
       const Vec3 place = at(lip);
       const double room = (left ? crossing.share : 1 - crossing.share) * length / 2;
       double move = std::min(crossing.gape_m / 2, room);
-      const std::vector<Corners> beside = outside_round(lip);
+      const std::vector<WallTriangle> beside = outside_round(lip);
       std::vector<Vec3> normals;
-      for (const Corners& t : beside) normals.push_back(normal_of(t));
+      for (const WallTriangle& t : beside) normals.push_back(normal_of(t));
       for (int narrowing = 0;; ++narrowing, move /= 2) {
         out_.surface.vertices[static_cast<std::size_t>(lip)] =
             narrowing < kNarrowings ? Vec3(place + (left ? -move : move) / length * along) : place;
@@ -198,10 +198,10 @@ class GrooveCutter {
     }
   }
   /// The triangles at a vertex but for the groove's own walls.
-  std::vector<Corners> outside_round(std::int32_t vertex) const {
-    std::vector<Corners> out;
+  std::vector<WallTriangle> outside_round(std::int32_t vertex) const {
+    std::vector<WallTriangle> out;
     const auto take = [&](std::size_t t) {
-      const Corners& corners = out_.surface.triangles[t];
+      const WallTriangle& corners = out_.surface.triangles[t];
       if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) out.push_back(corners);
     };
     take(static_cast<std::size_t>(cut_.begin.triangle));
@@ -213,7 +213,7 @@ class GrooveCutter {
     // Three more of each end's five or four pieces stand behind, two more of each triangle between.
     return static_cast<std::size_t>(out_.walls.front()) - 2 * 3 - 2 * (cut_.crossings.size() - 1);
   }
-  Vec3 normal_of(const Corners& t) const { return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).normalized(); }
+  Vec3 normal_of(const WallTriangle& t) const { return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0])).normalized(); }
 
   const SurfaceCut& cut_;
   Groove out_;
