@@ -77,5 +77,15 @@ TEST(RodOnSolid, LosesWhatAShakeHasGivenIt) {
   EXPECT_LT(swing, 1e-5);
 }
 
+TEST(RodOnSolid, WithItsForceAloneItWouldShakeItselfLoose) {
+  Pulled with_stiffness, force_alone;
+  for (int i = 0; i < 200; ++i) {
+    with_stiffness.step(Vec3(0, 0, 5e-5 * std::min(i, 100)));
+    force_alone.step(Vec3(0, 0, 5e-5 * std::min(i, 100)), true);
+  }
+  EXPECT_TRUE(with_stiffness.rod.anchored(RodEnd::kStart));
+  EXPECT_FALSE(force_alone.rod.anchored(RodEnd::kStart)) << "what anchor_springs() is for";
+}
+
 }  // namespace
 }  // namespace trocar::rod_on_solid_test
