@@ -117,6 +117,8 @@ class ElasticRod {
   bool anchored(RodEnd end) const { return hung(end).on; }
   /// Of the rod ON what the end hangs on, after the step: N, and N m about the end's node.
   Wrench anchor_load(RodEnd end) const { return {hung(end).force, hung(end).moment}; }
+  /// How far the anchor was expected to go in the step: the load is that at the end of this way, m.
+  Vec3 anchor_way(RodEnd end) const { return options_.step_s * hung(end).to.velocity; }
   /// How much that force grows with the anchor's displacement within a step, N/m, symmetric, positive: what holds the
   /// rod feels it as a spring of this stiffness, so that the two may step in turn. Zero without an anchor.
   Mat3 anchor_stiffness(RodEnd end) const;

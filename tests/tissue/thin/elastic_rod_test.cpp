@@ -81,6 +81,7 @@ TEST(ElasticRod, GradientOfABendIsItsFiniteDifference) {
     const SegmentFrame a = frame_of(ea, any(random), {}), b = frame_of(eb, any(random), {});
     const BendStrain here = bend_strain(a, b, 0);
     const BendGradient g = bend_gradient(a, b, here);
+    EXPECT_NEAR(bend_strain(a, b, here[2] + 6 * std::numbers::pi)[2], here[2] + 6 * std::numbers::pi, 1e-9);
     constexpr double kStep = 1e-6;
     for (int c = 0; c < 3; ++c) {
       const Vec3 way = kStep * Vec3::Unit(c);
@@ -518,8 +519,8 @@ std::vector<Vec3> after_anything(unsigned seed, int steps) {
   return places;
 }
 
-TEST(ElasticRod, StaysFiniteThroughTenThousandRandomSteps) {
-  for (unsigned seed = 0; seed < 10; ++seed)
+TEST(ElasticRod, StaysFiniteThroughFiveThousandRandomSteps) {
+  for (unsigned seed = 0; seed < 5; ++seed)
     for (const Vec3& place : after_anything(seed, 1000)) {
       EXPECT_TRUE(place.allFinite());
       EXPECT_LT(place.norm(), 50) << "flung away";
