@@ -124,6 +124,24 @@ class HeatGrid {
                          k + HeatBlock::kEdge * index[2]));
     });
   }
+  /// Mean between the middles of the cubes round a place, of tissue and, if asked for, of what is vaporised; wider
+  /// where there is none next to it. @param value (block, cell). @return `none` where nothing is
+  template <typename Value>
+  double mean_round(const Vec3& place, double none, bool with_vaporised, Value value) const {
+    for (const double width : {1.0, 2.0}) {
+      double sum = 0, weights = 0;
+      const Vec3 reach = Vec3::Constant(width * edge_m_);
+      for_cells(place - reach, place + reach, [&](const HeatBlock& block, std::size_t cell, const Vec3& at) {
+        if (block.state[cell] == HeatCell::kOutside) return;
+        if (block.state[cell] == HeatCell::kVaporised && !with_vaporised) return;
+        const double weight = (1 - (at - place).array().abs() / reach[0]).max(0.0).prod();
+        sum += weight * value(block, cell);
+        weights += weight;
+      });
+      if (weights > 0) return sum / weights;
+    }
+    return none;
+  }
   std::size_t blocks() const;  ///< with tissue in them
 
  private:

@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "haptics/input_error.h"
+#include "tissue/interaction/heat_conduction.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kKelvin = 273.15, kGasConstant = 8.314;
-constexpr double kRateStep = 0.1;       // K of the tables of rates: linear between within 0.02 %
 constexpr double kArrives = 0.1;        // K at a block's face that the block beside takes part
 constexpr double kCooled = 0.05;        // K below which a block sleeps
 constexpr double kStableShare = 0.9;    // of the step at which a cube gives away all it has above its surroundings
-constexpr double kQuietSteps = 10;      // taken as one while nothing is heated
+constexpr double kCoolingSteps = 4;     // taken as one while nothing is heated
+constexpr double kQuietSteps = 10;      // and nothing is destroyed
 constexpr float kMostDamage = 100;      // Omega that is counted
 constexpr double kLeastDamage = 1e-3;   // Omega that counts as none between cubes
 constexpr float kUnhurt = 0.01f;        // Omega of a block that may be freed
@@ -24,37 +24,19 @@ constexpr double kContactReach = 0.87;  // edges of a cube, half its diagonal: f
 constexpr double kTipIsWarm = 0.5;      // K between tip and tissue
 constexpr double kFadesOver = 3;        // radii of the contact within which its current is counted
 
-/// Shares of a cube's middle at a distance, by the tent of a half-width.
-double tent(const Vec3& apart, double half_width_m) {
-  double share = 1;
-  for (int axis = 0; axis < 3; ++axis) share *= std::max(0.0, 1 - std::abs(apart[axis]) / half_width_m);
-  return share;
-}
+using HeatRowOfBlock = Eigen::Array<double, HeatBlock::kEdge, 1>;
 
-using HeatRow = Eigen::Array<float, HeatBlock::kEdge, 1>;  ///< cubes along x
-using HeatRowDouble = Eigen::Array<double, HeatBlock::kEdge, 1>;
-
-Vec3 all_axes(double length_m) { return Vec3::Constant(length_m); }
-
-/// The rate at a temperature, linear in a table that begins at its first one; constant beyond its end.
-double rate_in(const std::vector<double>& table, double above_first_k) {
-  const double at = above_first_k / kRateStep;
-  const auto below = static_cast<std::size_t>(at);
-  if (below + 1 >= table.size()) return table.back();
-  return table[below] + (at - static_cast<double>(below)) * (table[below + 1] - table[below]);
-}
+Vec3 heat_round(double reach_m) { return Vec3::Constant(reach_m); }
 
 }  // namespace
 
-double ArrheniusLaw::rate_per_s(double temperature_c) const {
-  return frequency_per_s * std::exp(-energy_j_per_mol / (kGasConstant * (temperature_c + kKelvin)));
-}
-
-TissueHeat::TissueHeat(SurfacePtr rest_T, const TissueHeatOptions& options) : options_(options), grid_(options.edge_m) {
+TissueHeat::TissueHeat(SurfacePtr rest_T, const TissueHeatOptions& options)
+    : options_(options),
+      grid_(options.edge_m),
+      cell_rate_(options.cells, options.damage_from_c, options.boil_c),
+      collagen_rate_(options.collagen, options.damage_from_c, options.boil_c) {
   check_options();
-  tabulate_rates();
   grid_.set_surface(std::move(rest_T));
-  set_reach();
   reset();
 }
 
@@ -77,29 +59,16 @@ void TissueHeat::check_options() const {
   require(o.look_every > 0 && o.char_s > 0, "looks and char");
 }
 
-void TissueHeat::tabulate_rates() {
-  const auto count = static_cast<std::size_t>((options_.boil_c - options_.damage_from_c) / kRateStep) + 2;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double temperature_c = options_.damage_from_c + kRateStep * static_cast<double>(i);
-    cell_rate_.push_back(options_.cells.rate_per_s(temperature_c));
-    collagen_rate_.push_back(options_.collagen.rate_per_s(temperature_c));
-  }
-}
-
 void TissueHeat::reset() {
   awake_.clear();
   grid_.clear();
-  const std::size_t vertices = grid_.surface().vertices.size();
-  white_.assign(vertices, 0);
-  charred_.assign(vertices, 0);
-  looked_.assign(vertices, 0);
+  looks_.reset(grid_.surface());
   given_.clear();
   vaporised_.clear();
   tips_.clear();
   ledger_ = {};
   hottest_k_ = pending_s_ = 0;
   steps_ = 0;
-  ++looks_;
 }
 
 // ---- properties of a cube
@@ -123,20 +92,27 @@ double TissueHeat::most_stable_step_s() const {
 
 // ---- a step
 
+bool TissueHeat::heats(const HeatSource& source) const {
+  return source.radius_m > 0 && source.rest_T.allFinite() &&
+         (source.power_w > 0 || tip_c(source.tool) - options_.body_c > kTipIsWarm);
+}
+
 void TissueHeat::step(std::span<const HeatSource> sources) {
   vaporised_.clear();
   given_.assign(sources.size(), {});
   ++steps_;
   cool_tips(options_.step_s);
-  const bool quiet = sources.empty() && hottest_k_ + options_.body_c < options_.damage_from_c;
-  if (quiet) {
-    if (!awake_.empty()) pending_s_ += options_.step_s;
-    if (pending_s_ > (kQuietSteps - 0.5) * options_.step_s) advance({}, std::exchange(pending_s_, 0));
-  } else {
-    if (pending_s_ > 0) advance({}, std::exchange(pending_s_, 0));
-    advance(sources, options_.step_s);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    given_[i].offered_j = sources[i].power_w * options_.step_s;
+    ledger_.offered_j += given_[i].offered_j;
   }
-  if (steps_ % options_.look_every == 0) look_again();
+  const bool heated = std::any_of(sources.begin(), sources.end(), [this](const HeatSource& s) { return heats(s); });
+  const double together = hottest_c() < options_.damage_from_c ? kQuietSteps : kCoolingSteps;
+  if (!heated && !awake_.empty()) pending_s_ += options_.step_s;
+  if (pending_s_ > 0 && (heated || pending_s_ > (together - 0.5) * options_.step_s))
+    advance({}, std::exchange(pending_s_, 0));
+  if (heated) advance(sources, options_.step_s);
+  if (steps_ % options_.look_every == 0) looks_.renew(grid_);
 }
 
 void TissueHeat::advance(std::span<const HeatSource> sources, double seconds) {
@@ -144,21 +120,32 @@ void TissueHeat::advance(std::span<const HeatSource> sources, double seconds) {
   const double dt = seconds / parts;
   for (int part = 0; part < static_cast<int>(parts); ++part) {
     for (std::size_t i = 0; i < sources.size(); ++i) heat(sources[i], dt, given_[i]);
-    for (HeatBlock* block : awake_) conduct(*block, dt);
+    conduct_all(dt);
     hottest_k_ = 0;
     for (HeatBlock* block : awake_) settle(*block, dt);
   }
   spread_and_sleep();
 }
 
+void TissueHeat::conduct_all(double dt) {
+  const double edge = options_.edge_m;
+  const ConductionTerms terms{edge, options_.perfusion_w_per_m3_k * grid_.volume_m3(),
+                              options_.gas_w_per_m2_k * edge * edge};
+  for (HeatBlock* block : awake_) {
+    const HeatLoss loss = conduct(*block, terms, dt);
+    ledger_.perfused_j += loss.perfused_j;
+    ledger_.to_gas_j += loss.to_gas_j;
+  }
+}
+
 // ---- sources and tips
 
 TissueHeat::Spread TissueHeat::spread_of(const HeatSource& source) {
   Spread spread;
-  const double a = source.radius_m, edge = options_.edge_m;
+  const double a = std::min(source.radius_m, options_.most_radius_m), edge = options_.edge_m;
   const double fades_at = source.mode == HeatMode::kCut ? std::min(a, options_.spark_radius_m) : a;
   const double reach = std::max(a + std::min(kFadesOver * a, options_.most_spread_m), kContactReach * edge + a);
-  const Vec3 low = source.rest_T - all_axes(reach), high = source.rest_T + all_axes(reach);
+  const Vec3 low = source.rest_T - heat_round(reach), high = source.rest_T + heat_round(reach);
   grid_.for_indices(low, high, [&](const HeatBlock::Index& index) { wake(index); });
   double sum = 0, nearest = reach;
   grid_.for_cells(low, high, [&](HeatBlock& block, std::size_t cell, const Vec3& middle) {
@@ -187,16 +174,12 @@ double TissueHeat::contact_rise(const Spread& spread) const {
 }
 
 void TissueHeat::heat(const HeatSource& source, double dt, HeatGiven& given) {
-  const double offered = source.power_w * dt;
-  given.offered_j += offered;
-  ledger_.offered_j += offered;
-  if (source.radius_m <= 0 || (source.power_w <= 0 && tip(source.tool) < kTipIsWarm)) return;
+  if (!heats(source)) return;
   const Spread spread = spread_of(source);
   if (spread.cube.empty()) return;
   given.touches = true;
-  const double contact_k = contact_rise(spread);
-  given.contact_c = options_.body_c + contact_k;
-  exchange_with_tip(source, spread, contact_k, dt);
+  given.contact_c = options_.body_c + contact_rise(spread);
+  exchange_with_tip(source, spread, dt);
   if (source.power_w > 0) deliver(source, spread, dt, given);
 }
 
@@ -237,99 +220,24 @@ void TissueHeat::cool_tips(double dt) {
   for (double& rise_k : tips_) rise_k *= std::exp(-dt / options_.tip_cools_s);
 }
 
-/// Both ways, until they are as warm as one another; more into the tissue than its cap no tip ever has.
-void TissueHeat::exchange_with_tip(const HeatSource& source, const Spread& spread, double contact_k, double dt) {
-  double holds = 0, shares = 0;
-  for (std::size_t i = 0; i < spread.cube.size(); ++i)
-    if (spread.under[i]) {
-      holds += capacity(spread.cube[i].block->water[spread.cube[i].cell]);
-      shares += spread.share[i];
-    }
-  const double conductance = 4 * options_.conductivity_w_per_m_k * source.radius_m;
-  const double both = 1 / (1 / holds + 1 / options_.tip_j_per_k);
-  const double joule = (tip(source.tool) - contact_k) * std::min(conductance * dt, both / 2);
-  if (std::abs(tip(source.tool) - contact_k) < kTipIsWarm) return;
-  tip(source.tool) -= joule / options_.tip_j_per_k;
-  ledger_.from_tip_j += joule;
-  for (std::size_t i = 0; i < spread.cube.size(); ++i)
-    if (spread.under[i]) {
-      const auto [block, cell] = spread.cube[i];
-      block->rise_k[cell] += joule * spread.share[i] / shares / capacity(block->water[cell]);
-      boil(*block, cell);
-    }
-}
-
-// ---- conduction, blood and gas
-
-namespace {
-
-/// Rise, conductivity and whether it is tissue (1 or 0), of a block and one cube round it.
-struct HeatPadded {
-  static constexpr int kEdge = HeatBlock::kEdge + 2;
-  std::array<float, kEdge * kEdge * kEdge> rise{}, conductivity{}, tissue{};
-
-  static std::size_t at(int i, int j, int k) { return static_cast<std::size_t>(i + kEdge * (j + kEdge * k)); }
-  void copy(const HeatBlock& block, std::size_t from, std::size_t to) {
-    rise[to] = static_cast<float>(block.rise_k[from]);
-    conductivity[to] = block.conductivity[from];
-    tissue[to] = block.state[from] == HeatCell::kTissue ? 1.0f : 0.0f;
+/// Each cube under the contact comes nearer to the tip's temperature and never past it, nor the tip past theirs.
+void TissueHeat::exchange_with_tip(const HeatSource& source, const Spread& spread, double dt) {
+  double shares = 0, given_j = 0;
+  for (std::size_t i = 0; i < spread.cube.size(); ++i) shares += spread.under[i] ? spread.share[i] : 0;
+  const double passes_j_per_k =
+      std::min(4 * options_.conductivity_w_per_m_k * source.radius_m * dt, options_.tip_j_per_k / 2);
+  for (std::size_t i = 0; i < spread.cube.size(); ++i) {
+    if (!spread.under[i]) continue;
+    const auto [block, cell] = spread.cube[i];
+    const double holds_j_per_k = capacity(block->water[cell]);
+    const double joule = (tip(source.tool) - block->rise_k[cell]) *
+                         std::min(passes_j_per_k * spread.share[i] / shares, holds_j_per_k / 2);
+    block->rise_k[cell] += joule / holds_j_per_k;
+    given_j += joule;
+    boil(*block, cell);
   }
-  explicit HeatPadded(const HeatBlock& block) {
-    constexpr int e = HeatBlock::kEdge;
-    for (int k = 0; k < e; ++k)
-      for (int j = 0; j < e; ++j)
-        for (int i = 0; i < e; ++i) copy(block, HeatBlock::cell(i, j, k), at(i + 1, j + 1, k + 1));
-    for (std::size_t side = 0; side < block.beside.size(); ++side)
-      if (block.beside[side] != nullptr) copy_side(*block.beside[side], side);
-  }
-  void copy_side(const HeatBlock& beside, std::size_t side) {
-    constexpr int e = HeatBlock::kEdge;
-    const int from = side % 2 == 0 ? e - 1 : 0, to = side % 2 == 0 ? 0 : e + 1;
-    for (int v = 0; v < e; ++v)
-      for (int u = 0; u < e; ++u) {
-        if (side / 2 == 0) copy(beside, HeatBlock::cell(from, u, v), at(to, u + 1, v + 1));
-        if (side / 2 == 1) copy(beside, HeatBlock::cell(u, from, v), at(u + 1, to, v + 1));
-        if (side / 2 == 2) copy(beside, HeatBlock::cell(u, v, from), at(u + 1, v + 1, to));
-      }
-  }
-};
-
-HeatRow heat_row(const float* first) { return Eigen::Map<const HeatRow>(first); }
-
-}  // namespace
-
-/// Eight cubes at a time. What passes between two cubes is the same number from either.
-void TissueHeat::conduct(HeatBlock& block, double dt) {
-  constexpr int kEdge = HeatBlock::kEdge, kRow = HeatPadded::kEdge;
-  constexpr std::array<std::ptrdiff_t, 6> kBeside{-1, 1, -kRow, kRow, -kRow * kRow, kRow * kRow};
-  const HeatPadded padded(block);
-  const auto blood_w_per_k = static_cast<float>(options_.perfusion_w_per_m3_k * grid_.volume_m3());
-  const auto gas_w_per_k = static_cast<float>(options_.gas_w_per_m2_k * options_.edge_m * options_.edge_m);
-  const auto half_edge = static_cast<float>(options_.edge_m / 2);
-  HeatRow perfused = HeatRow::Zero(), to_gas = HeatRow::Zero();
-  for (int k = 0; k < kEdge; ++k)
-    for (int j = 0; j < kEdge; ++j) {
-      const std::size_t c = HeatBlock::cell(0, j, k), p = HeatPadded::at(1, j + 1, k + 1);
-      const HeatRow rise = heat_row(&padded.rise[p]), conducts = heat_row(&padded.conductivity[p]),
-                    tissue = heat_row(&padded.tissue[p]);
-      HeatRow flow = HeatRow::Zero(), open = HeatRow::Constant(6);
-      for (const std::ptrdiff_t n : kBeside) {
-        const HeatRow beside = heat_row(&padded.tissue[p] + n);
-        flow += (heat_row(&padded.conductivity[p] + n) * tissue + conducts * beside) *
-                (heat_row(&padded.rise[p] + n) - rise);
-        open -= beside;
-      }
-      const HeatRow flows = (1 - heat_row(&block.damage[c])).max(0.0f);
-      const HeatRow skin = Eigen::Map<const Eigen::Array<bool, kEdge, 1>>(&block.skin[c]).cast<float>();
-      const HeatRow blood = blood_w_per_k * tissue * flows * rise, gas = gas_w_per_k * tissue * skin * open * rise;
-      const HeatRow warms = static_cast<float>(dt) * (half_edge * flow - blood - gas) / heat_row(&block.capacity[c]);
-      Eigen::Map<HeatRowDouble>(&block.next_k[c]) =
-          Eigen::Map<const HeatRowDouble>(&block.rise_k[c]) + warms.cast<double>();
-      perfused += blood;
-      to_gas += gas;
-    }
-  ledger_.perfused_j += dt * perfused.cast<double>().sum();
-  ledger_.to_gas_j += dt * to_gas.cast<double>().sum();
+  tip(source.tool) -= given_j / options_.tip_j_per_k;
+  ledger_.from_tip_j += given_j;
 }
 
 // ---- what heat does
@@ -338,8 +246,8 @@ void TissueHeat::settle(HeatBlock& block, double dt) {
   const double hurts_k = options_.damage_from_c - options_.body_c;
   block.hottest_k = 0;
   for (std::size_t row = 0; row < HeatBlock::kCells; row += HeatBlock::kEdge) {
-    Eigen::Map<HeatRowDouble> rise(&block.rise_k[row]), next(&block.next_k[row]);
-    const HeatRowDouble mean = (rise + next) / 2;
+    Eigen::Map<HeatRowOfBlock> rise(&block.rise_k[row]), next(&block.next_k[row]);
+    const HeatRowOfBlock mean = (rise + next) / 2;
     rise = next;
     if (std::max(mean.maxCoeff(), rise.maxCoeff()) > hurts_k)
       for (std::size_t i = 0; i < HeatBlock::kEdge; ++i) settle(block, row + i, mean[static_cast<Eigen::Index>(i)], dt);
@@ -380,13 +288,12 @@ void TissueHeat::boil(HeatBlock& block, std::size_t cell) {
 }
 
 void TissueHeat::hurt(HeatBlock& block, std::size_t cell, double temperature_c, double dt) {
-  const double above = temperature_c - options_.damage_from_c;
   const auto add = [dt](float& omega, double rate) {
     omega = std::min(kMostDamage, omega + static_cast<float>(dt * rate));
   };
   block.looks_different = block.looks_different || block.damage[cell] < 1;
-  add(block.damage[cell], rate_in(cell_rate_, above));
-  add(block.collagen[cell], rate_in(collagen_rate_, above));
+  add(block.damage[cell], cell_rate_.rate_per_s(temperature_c));
+  add(block.collagen[cell], collagen_rate_.rate_per_s(temperature_c));
   if (temperature_c <= options_.char_from_c || block.water[cell] > options_.char_dry || block.charred[cell] >= 1)
     return;
   const double full = (temperature_c - options_.char_from_c) / (options_.char_full_c - options_.char_from_c);
@@ -421,7 +328,7 @@ HeatBlock* TissueHeat::wake(const HeatBlock::Index& index) {
   if (fresh) {
     block->capacity.fill(static_cast<float>(capacity(1)));
     set_conductivity(*block);
-    add_watchers(*block, 0);
+    looks_.watch(*block, grid_, 0);
   }
   block->wanted = true;
   if (!block->awake) {
@@ -478,87 +385,20 @@ void TissueHeat::spread_and_sleep() {
   awake_ = std::move(still);
 }
 
-// ---- looks
-
-void TissueHeat::set_reach() {
-  const TriangleSurface& surface = grid_.surface();
-  std::vector<double> sum(surface.vertices.size(), 0), count(surface.vertices.size(), 0);
-  for (const auto& triangle : surface.triangles)
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const auto a = static_cast<std::size_t>(triangle[corner]),
-                 b = static_cast<std::size_t>(triangle[(corner + 1) % 3]);
-      const double length = (surface.vertices[a] - surface.vertices[b]).norm();
-      sum[a] += length;
-      sum[b] += length;
-      ++count[a];
-      ++count[b];
-    }
-  reach_.resize(surface.vertices.size());
-  for (std::size_t v = 0; v < reach_.size(); ++v)
-    reach_[v] = static_cast<float>(
-        std::clamp(count[v] > 0 ? sum[v] / count[v] : 0, options_.least_reach_m, options_.most_reach_m));
-}
-
-void TissueHeat::add_watchers(HeatBlock& block, std::size_t first_vertex) {
-  const double half = options_.edge_m * HeatBlock::kEdge / 2;
-  const Vec3 middle = 2 * half * (Vec3(block.index[0], block.index[1], block.index[2]) + all_axes(0.5));
-  const auto& vertices = grid_.surface().vertices;
-  for (std::size_t v = first_vertex; v < vertices.size(); ++v)
-    if ((vertices[v] - middle).cwiseAbs().maxCoeff() < half + reach_[v] + options_.edge_m)
-      block.watchers.push_back(static_cast<std::int32_t>(v));
-}
-
-HeatLook TissueHeat::look_of_vertex(std::size_t vertex) const {
-  const Vec3& at = grid_.surface().vertices[vertex];
-  const double reach = reach_[vertex], edge = options_.edge_m;
-  HeatLook look;
-  grid_.for_cells(at - all_axes(reach + edge), at + all_axes(reach + edge),
-                  [&](const HeatBlock& block, std::size_t cell, const Vec3& middle) {
-                    const bool seen = block.skin[cell] || block.state[cell] == HeatCell::kVaporised;
-                    if (!seen || block.damage[cell] <= 0) return;
-                    const double away = std::max(0.0, (middle - at).norm() - edge) / reach;
-                    const auto share = static_cast<float>(std::max(0.0, 1 - away));
-                    look.white = std::max(look.white, share * std::min(1.0f, block.damage[cell]));
-                    look.charred = std::max(look.charred, share * block.charred[cell]);
-                  });
-  return look;
-}
-
-void TissueHeat::look_again() {
-  bool any = false;
-  grid_.for_blocks([&](HeatBlock& block) {
-    if (!std::exchange(block.looks_different, false)) return;
-    if (!std::exchange(any, true)) ++looks_;
-    for (const std::int32_t vertex : block.watchers) {
-      const auto v = static_cast<std::size_t>(vertex);
-      if (std::exchange(looked_[v], looks_) == looks_) continue;
-      const HeatLook look = look_of_vertex(v);
-      white_[v] = look.white;
-      charred_[v] = look.charred;
-    }
-  });
-}
-
 void TissueHeat::grow(SurfacePtr rest_T, const std::vector<VertexOrigin>& added) {
-  const std::size_t before = white_.size();
+  const std::size_t before = grid_.surface().vertices.size();
+  if (rest_T->vertices.size() != before + added.size())
+    throw InputError("heat in tissue: " + std::to_string(before) + " vertices and " + std::to_string(added.size()) +
+                     " new ones are not " + std::to_string(rest_T->vertices.size()));
   grid_.set_surface(std::move(rest_T));
   grid_.forget_empty();
-  set_reach();
-  const auto& vertices = grid_.surface().vertices;
-  if (vertices.size() != before + added.size())
-    throw InputError("heat in tissue: the surface has grown by " + std::to_string(vertices.size() - before) +
-                     " vertices, not by " + std::to_string(added.size()));
-  white_.resize(vertices.size(), 0);
-  charred_.resize(vertices.size(), 0);
-  looked_.resize(vertices.size(), 0);
+  looks_.grow(grid_.surface());
   grid_.for_blocks([&](HeatBlock& block) {
-    const std::size_t watchers = block.watchers.size();
-    add_watchers(block, before);
-    if (block.watchers.size() == watchers) return;
+    if (!looks_.watch(block, grid_, before)) return;
     block.looks_different = true;
     examine_again(block);
   });
-  look_again();
+  looks_.renew(grid_);
 }
 
 void TissueHeat::examine_again(HeatBlock& block) {
@@ -571,62 +411,53 @@ void TissueHeat::examine_again(HeatBlock& block) {
 
 // ---- questions
 
-template <typename Value>
-double TissueHeat::mean_round(const Vec3& rest_T, double none, bool with_vaporised, Value value) const {
-  for (const double width : {1.0, 2.0}) {
-    double sum = 0, weights = 0;
-    const Vec3 reach = all_axes(width * options_.edge_m);
-    grid_.for_cells(rest_T - reach, rest_T + reach, [&](const HeatBlock& block, std::size_t cell, const Vec3& middle) {
-      if (block.state[cell] == HeatCell::kOutside) return;
-      if (!with_vaporised && block.state[cell] == HeatCell::kVaporised) return;
-      const double weight = tent(middle - rest_T, reach[0]);
-      sum += weight * value(block, cell);
-      weights += weight;
-    });
-    if (weights > 0) return sum / weights;
-  }
-  return none;
+Vec3 TissueHeat::at_rest(const MaterialPoint& place) const {
+  const auto& [a, b, c] = grid_.surface().triangles[static_cast<std::size_t>(place.triangle)];
+  const auto& vertices = grid_.surface().vertices;
+  return interpolate(place.weight, {vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)],
+                                    vertices[static_cast<std::size_t>(c)]});
 }
 
-double TissueHeat::temperature_c(const Vec3& rest_T) const {
-  return options_.body_c + mean_round(rest_T, 0, false, [](const HeatBlock& b, std::size_t c) { return b.rise_k[c]; });
+double TissueHeat::temperature_at(const Vec3& rest_T) const {
+  return options_.body_c +
+         grid_.mean_round(rest_T, 0, false, [](const HeatBlock& b, std::size_t c) { return b.rise_k[c]; });
 }
 
-double TissueHeat::damage(const Vec3& rest_T) const {
-  const double mean = mean_round(rest_T, std::log(kLeastDamage), true, [](const HeatBlock& b, std::size_t c) {
+double TissueHeat::damage_at(const Vec3& rest_T) const {
+  const double mean = grid_.mean_round(rest_T, std::log(kLeastDamage), true, [](const HeatBlock& b, std::size_t c) {
     return std::log(double(b.damage[c]) + kLeastDamage);
   });
   return std::max(0.0, std::exp(mean) - kLeastDamage);
 }
 
-double TissueHeat::softened(const Vec3& rest_T) const {
-  return mean_round(rest_T, 0, true,
-                    [](const HeatBlock& b, std::size_t c) { return 1 - std::exp(-double(b.collagen[c])); });
+double TissueHeat::softened_at(const Vec3& rest_T) const {
+  return grid_.mean_round(rest_T, 0, true,
+                          [](const HeatBlock& b, std::size_t c) { return 1 - std::exp(-double(b.collagen[c])); });
 }
 
-HeatLook TissueHeat::look(const Vec3& rest_T) const {
+HeatLook TissueHeat::look_at(const Vec3& rest_T) const {
   const double charred =
-      mean_round(rest_T, 0, true, [](const HeatBlock& b, std::size_t c) { return double(b.charred[c]); });
-  return {static_cast<float>(std::min(1.0, damage(rest_T))), static_cast<float>(charred)};
+      grid_.mean_round(rest_T, 0, true, [](const HeatBlock& b, std::size_t c) { return double(b.charred[c]); });
+  return {static_cast<float>(std::min(1.0, damage_at(rest_T))), static_cast<float>(charred)};
 }
 
-bool TissueHeat::vaporised(const Vec3& rest_T) const {
+bool TissueHeat::vaporised_at(const Vec3& rest_T) const {
   const double reach = 0.5 * options_.edge_m;
   bool gone = false;
   grid_.for_cells(
-      rest_T - all_axes(reach), rest_T + all_axes(reach),
+      rest_T - heat_round(reach), rest_T + heat_round(reach),
       [&](const HeatBlock& b, std::size_t c, const Vec3&) { gone = gone || b.state[c] == HeatCell::kVaporised; });
   return gone;
 }
 
-bool TissueHeat::sealed(const Vec3& rest_T, const Vec3& axis, double radius_m) const {
+bool TissueHeat::sealed_at(const Vec3& rest_T, const Vec3& axis, double radius_m) const {
   const Vec3 u = axis.unitOrthogonal(), v = axis.normalized().cross(u);
   const int rings = std::max(1, static_cast<int>(std::ceil(2 * radius_m / options_.edge_m)));
   for (int ring = 0; ring <= rings; ++ring) {
     const int places = std::max(1, 6 * ring);
     for (int i = 0; i < places; ++i) {
       const double turn = 2 * std::numbers::pi * i / places, radius = radius_m * ring / rings;
-      if (damage(rest_T + radius * (std::cos(turn) * u + std::sin(turn) * v)) < 1) return false;
+      if (damage_at(rest_T + radius * (std::cos(turn) * u + std::sin(turn) * v)) < 1) return false;
     }
   }
   return true;

@@ -14,7 +14,7 @@
 // than it has above its surroundings: temperatures stay within those of their neighbours, sources stop at their cap, so
 // no temperature ever exceeds it. Surfaces lose to the gas; else they are insulated, and so is the edge of the blocks
 // that exist: these grow as soon as 0.1 K arrive, sleep when cooled, and are freed when nothing happened in them.
-// When nothing is heated and all is cooler than 43 C, ten steps are taken as one.
+// When nothing is heated four steps are taken as one, ten when all is cooler than 43 C.
 //
 // Temperatures in deg C, differences in K. Frame T at rest, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
@@ -23,17 +23,14 @@
 #include <span>
 #include <vector>
 
+#include "haptics/exchange/material_point.h"
+#include "tissue/interaction/arrhenius.h"
 #include "tissue/interaction/heat_grid.h"
+#include "tissue/interaction/heat_looks.h"
 #include "tissue/mesh/surface/surface_growth.h"
 #include "tissue/surface_snapshot.h"
 
 namespace trocar {
-
-/// First-order decay of what heat destroys: A exp(-Ea / R T).
-struct ArrheniusLaw {
-  double frequency_per_s = 0, energy_j_per_mol = 0;
-  double rate_per_s(double temperature_c) const;
-};
 
 /// [M] from memory, not verified; [C] a choice. Liver.
 struct TissueHeatOptions {
@@ -54,7 +51,7 @@ struct TissueHeatOptions {
   double water_j_per_kg_k = 4186;  ///< heat that leaves with it
   double latent_j_per_kg = 2.257e6;
 
-  ArrheniusLaw cells{7.39e39, 257.7e3};         ///< [M], see tissue.md 3
+  ArrheniusLaw cells{7.39e39, 257.7e3};         ///< [M] cells of liver and skin
   ArrheniusLaw collagen{1.606e45, 306e3};       ///< [M] rat skin
   double damage_from_c = 43;                    ///< below it nothing is destroyed: the law alone would kill at 37 C
   double char_from_c = 150, char_full_c = 200;  ///< [C]
@@ -69,10 +66,9 @@ struct TissueHeatOptions {
   double tip_cools_s = 8;         ///< along the shaft, [C]
   double tip_power_share = 0.05;  ///< of sparks (cut, forced coagulation), [C]
 
+  double most_radius_m = 0.010;    ///< of a contact that is counted
   double most_spread_m = 0.006;    ///< of the current beyond the contact
   double spark_radius_m = 0.0003;  ///< a of a cut, whose sparks go to what is nearest, [C]
-  double least_reach_m = 0.0005;   ///< smallest radius of the look of a vertex
-  double most_reach_m = 0.006;     ///< largest: a vertex shows what happened that far round it, fading
   int look_every = 4;              ///< steps between two looks of the vertices
 };
 
@@ -123,11 +119,6 @@ struct HeatLedger {
   }
 };
 
-/// Shares 0 .. 1 of what is seen.
-struct HeatLook {
-  float white = 0, charred = 0;
-};
-
 class TissueHeat {
  public:
   /// @param rest_T closed, undeformed. @throws InputError when an option is out of range.
@@ -142,18 +133,19 @@ class TissueHeat {
 
   const std::vector<HeatGiven>& given() const { return given_; }              ///< by source of the last step
   const std::vector<VaporisedCube>& vaporised() const { return vaporised_; }  ///< in the last step
-  const std::vector<float>& white() const { return white_; }                  ///< share by vertex
-  const std::vector<float>& charred() const { return charred_; }
-  std::uint64_t looks() const { return looks_; }  ///< changes whenever white() or charred() may have
+  const std::vector<float>& white() const { return looks_.white(); }          ///< share by vertex
+  const std::vector<float>& charred() const { return looks_.charred(); }
+  std::uint64_t looks() const { return looks_.number(); }  ///< changes whenever white() or charred() may have
 
+  Vec3 at_rest(const MaterialPoint& place) const;  ///< of the surface
   // Of a place at rest, between the cubes' middles; body_c and 0 where nothing has been heated or nothing is tissue.
-  double temperature_c(const Vec3& rest_T) const;
-  double damage(const Vec3& rest_T) const;    ///< Omega of cells
-  double softened(const Vec3& rest_T) const;  ///< share of the collagen that is denatured
-  HeatLook look(const Vec3& rest_T) const;    ///< finer than the vertices'
-  bool vaporised(const Vec3& rest_T) const;   ///< its cube is tissue no more
+  double temperature_at(const Vec3& rest_T) const;
+  double damage_at(const Vec3& rest_T) const;    ///< Omega of cells
+  double softened_at(const Vec3& rest_T) const;  ///< share of the collagen that is denatured
+  HeatLook look_at(const Vec3& rest_T) const;    ///< finer than the vertices'
+  bool vaporised_at(const Vec3& rest_T) const;   ///< its cube is tissue no more
   /// Omega >= 1 over the whole section. @param axis along the vessel, any length. @param radius_m outer
-  bool sealed(const Vec3& rest_T, const Vec3& axis, double radius_m) const;
+  bool sealed_at(const Vec3& rest_T, const Vec3& axis, double radius_m) const;
   double tip_c(int tool) const;
 
   HeatLedger ledger() const;
@@ -171,24 +163,22 @@ class TissueHeat {
     std::vector<bool> under;    ///< the contact itself
   };
   void check_options() const;
-  void tabulate_rates();
   double capacity(double water) const;  ///< of a cube with this share of water, J/K
   double latent_j() const;              ///< of all water of a cube
   double room_j(const HeatBlock& block, std::size_t cell, HeatMode mode) const;
   void set_conductivity(HeatBlock& block);
   HeatBlock* wake(const HeatBlock::Index& index);
-  void add_watchers(HeatBlock& block, std::size_t first_vertex);
   void examine_again(HeatBlock& block);
-  void set_reach();
+  bool heats(const HeatSource& source) const;
   Spread spread_of(const HeatSource& source);
   double contact_rise(const Spread& spread) const;
   void heat(const HeatSource& source, double dt, HeatGiven& given);
   void deliver(const HeatSource& source, const Spread& spread, double dt, HeatGiven& given);
-  void exchange_with_tip(const HeatSource& source, const Spread& spread, double contact_k, double dt);
+  void exchange_with_tip(const HeatSource& source, const Spread& spread, double dt);
   void cool_tips(double dt);
   double& tip(int tool);
   void advance(std::span<const HeatSource> sources, double seconds);
-  void conduct(HeatBlock& block, double dt);
+  void conduct_all(double dt);
   void settle(HeatBlock& block, double dt);
   void settle(HeatBlock& block, std::size_t cell, double mean_k, double dt);
   void boil(HeatBlock& block, std::size_t cell);
@@ -196,18 +186,12 @@ class TissueHeat {
   void vaporise(HeatBlock& block, std::size_t cell);
   void spread_and_sleep();
   bool unhurt(const HeatBlock& block) const;
-  void look_again();
-  HeatLook look_of_vertex(std::size_t vertex) const;
-  /// Weighted mean over tissue round a place. @param value (block, cell)
-  template <typename Value>
-  double mean_round(const Vec3& rest_T, double none, bool with_vaporised, Value value) const;
 
   TissueHeatOptions options_;
   HeatGrid grid_;
-  std::vector<double> cell_rate_, collagen_rate_;  ///< 1/s, by temperature from damage_from_c on
-  std::vector<float> white_, charred_, reach_;     ///< by vertex; reach in m
-  std::vector<HeatBlock*> awake_;                  ///< by index
-  std::vector<std::uint64_t> looked_;              ///< by vertex: the last look in which it was renewed
+  HeatLooks looks_;
+  ArrheniusTable cell_rate_, collagen_rate_;
+  std::vector<HeatBlock*> awake_;  ///< by index
   std::vector<HeatGiven> given_;
   std::vector<VaporisedCube> vaporised_;
   std::vector<double> tips_;  ///< rise by tool, K
@@ -215,7 +199,6 @@ class TissueHeat {
   double hottest_k_ = 0;
   double pending_s_ = 0;  ///< of quiet steps not yet taken
   std::int64_t steps_ = 0;
-  std::uint64_t looks_ = 0;
 };
 
 }  // namespace trocar
