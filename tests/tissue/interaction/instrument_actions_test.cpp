@@ -1,0 +1,242 @@
+// What instruments do to an organ: each by what its user does and sees.
+#include "tissue/interaction/instrument_actions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/tissue/solid/soft_organ_rig.h"
+#include "tests/support/repeats.h"
+#include "tissue/tissue_world.h"
+
+namespace trocar {
+namespace {
+
+using test::from_above;
+
+/// An ellipsoid in a world of its own, its pole up, and an instrument over it.
+class Theatre {
+ public:
+  explicit Theatre(InstrumentKind kind, double edge_m = 0.010) : rest_(test::ellipsoid({0.06, 0.05, 0.035}, 40)) {
+    auto soft = std::make_shared<SoftSetup>();
+    soft->material.residual_strain = 0.06;
+    soft->options.solid.edge_m = edge_m;
+    soft->lattice = build_lattice(*rest_, {.cell_m = edge_m}).lattice;
+    setup_.organ_T = rest_.get();
+    setup_.seen_T = rest_;
+    setup_.tools = {make_tool(kind)};
+    setup_.soft = soft;
+    world_ = std::make_unique<TissueWorld>(setup_);
+    state_.stylus.instrument = 0;
+  }
+
+  /// One step of the world; what presses is what lies deepest under the tip, at 150 N/m.
+  void step(const Vec3& tip, double opening_m, bool pedal = false, bool present = true) {
+    state_.stylus.t_s += 0.01;
+    state_.stylus.X_TI = from_above(tip);
+    state_.stylus.jaw_opening_m = opening_m;
+    state_.stylus.pedal = pedal;
+    touch(tip);
+    world_->step(state_, present, *patch_);
+  }
+  void wait(int steps) {
+    for (int i = 0; i < steps; ++i) step({0, 0, 0.2}, 0.02);
+  }
+  /// Scissors from above, open, pressed in by so much, closed.
+  void snip(double x, double y, double in_m) {
+    for (double o = 0.002; o <= 0.012; o += 0.002) step({x, y, top(x, y) - in_m}, o);
+    for (double o = 0.012; o >= 0; o -= 0.002) step({x, y, top(x, y) - in_m}, o);
+    wait(1);
+  }
+  static double top(double x, double y) { return 0.035 * std::sqrt(1 - std::pow(x / 0.06, 2) - std::pow(y / 0.05, 2)); }
+
+  const TissueFrame& frame() const { return world_->frame(); }
+  const SurgeryState& surgery() const { return world_->frame().surgery; }
+  const ContactPatch& patch() const { return *patch_; }
+  TissueWorld& world() { return *world_; }
+  float most(const std::string& field) const {
+    for (const SurfaceField& f : world_->surface()->fields)
+      if (f.name == field) return *std::max_element(f.value.begin(), f.value.end());
+    return 0;
+  }
+  bool presses = true;
+
+ private:
+  void touch(const Vec3& tip) {
+    SolvedContacts& contacts = state_.contacts;
+    contacts = {};
+    contacts.topology = world_->surface()->topology;
+    if (!presses || patch_->stamp == 0) return;
+    // The patch's nearest vertex above the tip.
+    double least = 0.006;
+    for (int i = 0; i < patch_->count; ++i) {
+      const Vec3 at = interpolate({1. / 3, 1. / 3, 1. / 3}, patch_->corners(i));
+      const double aside = std::hypot(at.x() - tip.x(), at.y() - tip.y());
+      if (aside >= least || at.z() < tip.z()) continue;
+      least = aside;
+      contacts.count = 1;
+      SolvedContact& c = contacts.at[0];
+      c.place = {patch_->triangle[std::size_t(i)].id, {1. / 3, 1. / 3, 1. / 3}};
+      c.normal_T = Vec3::UnitZ();
+      c.tool_T = tip;
+      c.share = 1;
+      c.force_T = Vec3(0, 0, std::min(3.0, 150 * (at.z() - tip.z())));
+    }
+  }
+
+  SurfacePtr rest_;
+  TissueSetup setup_;
+  std::unique_ptr<TissueWorld> world_;
+  HapticState state_;
+  std::unique_ptr<ContactPatch> patch_ = std::make_unique<ContactPatch>();
+};
+
+TEST(InstrumentActions, ScissorsCutWhatLiesBetweenThem) {
+  Theatre theatre(InstrumentKind::kScissors);
+  theatre.presses = false;
+  theatre.snip(0, 0, 0.006);
+  EXPECT_EQ(theatre.surgery().cuts, 1);
+  EXPECT_EQ(theatre.surgery().refusals, 0);
+  EXPECT_EQ(theatre.world().surface()->topology, 1U);
+  EXPECT_EQ(theatre.patch().topology, 1U);
+  EXPECT_EQ(theatre.world().shape().changes.size(), 1U);
+  // It bleeds: some tenths of a millilitre in ten seconds, seen as blood on the surface.
+  theatre.wait(1000);
+  EXPECT_GT(theatre.surgery().blood_ml, 0.05);
+  EXPECT_LT(theatre.surgery().blood_ml, 20);
+  EXPECT_GT(theatre.most("blood"), 0.5F);
+}
+
+TEST(InstrumentActions, TheFingersFeelTheEnergyOfTheCutWhileTheBladesClose) {
+  Theatre theatre(InstrumentKind::kScissors);
+  theatre.presses = false;
+  for (double o = 0.002; o <= 0.012; o += 0.002) theatre.step({0, 0, 0.029}, o);
+  const GripBlock block = theatre.patch().grip;
+  EXPECT_NEAR(block.thickness_m, 0.012, 1e-3);
+  // 164 J/m2 over the area ahead: between a quarter and all of a square of 12 mm by 6 mm.
+  const double energy = 0.5 * block.stiffness_n_per_m * block.thickness_m * block.thickness_m;
+  EXPECT_GT(energy, 164 * 0.25 * 0.012 * 0.006);
+  EXPECT_LT(energy, 164 * 0.012 * 0.006);
+  for (double o = 0.012; o >= 0; o -= 0.002) theatre.step({0, 0, 0.029}, o);
+  theatre.step({0, 0, 0.029}, 0);
+  EXPECT_EQ(theatre.patch().grip.stiffness_n_per_m, 0) << "cut through: nothing resists";
+}
+
+TEST(InstrumentActions, ScissorsInTheAirRefuseAndSayWhy) {
+  Theatre theatre(InstrumentKind::kScissors);
+  theatre.snip(0, 0, -0.030);
+  EXPECT_EQ(theatre.surgery().cuts, 0);
+  EXPECT_EQ(theatre.surgery().refusals, 1);
+  EXPECT_EQ(CutRefusal(theatre.surgery().refusal), CutRefusal::kNothingThere);
+  // Closed jaws that were never open cut nothing either.
+  for (int i = 0; i < 20; ++i) theatre.step({0, 0, 0.03}, 0);
+  EXPECT_EQ(theatre.surgery().refusals, 1);
+}
+
+TEST(InstrumentActions, AHookDrawnAlongWithThePedalCutsAndWithoutItDoesNot) {
+  for (const bool pedal : {false, true}) {
+    Theatre theatre(InstrumentKind::kHook);
+    theatre.step({-0.01, 0, 0.05}, 0);
+    for (double x = -0.01; x <= 0.01; x += 0.00005) theatre.step({x, 0, Theatre::top(x, 0) - 0.002}, 0, pedal);
+    if (pedal) {
+      EXPECT_GE(theatre.surgery().cuts, 2);
+      EXPECT_GT(theatre.surgery().heat_j, 5);
+      EXPECT_GT(theatre.most("char"), 0.1F);
+      EXPECT_GT(theatre.frame().smoke_per_m, 0);
+    } else {
+      EXPECT_EQ(theatre.surgery(), SurgeryState{});
+      EXPECT_TRUE(theatre.world().surface()->fields.empty());
+    }
+  }
+}
+
+TEST(InstrumentActions, CoagulationStopsAWoundThatOozes) {
+  const auto rate_after = [](bool pedal) {
+    Theatre theatre(InstrumentKind::kScissors);
+    theatre.presses = false;
+    theatre.snip(0, 0, 0.005);
+    theatre.presses = true;
+    for (int i = 0; i < 400; ++i) theatre.step({0, 0, Theatre::top(0, 0) - 0.001}, 0, pedal);
+    theatre.wait(300);
+    return theatre.surgery().blood_ml_per_min;
+  };
+  const double open = rate_after(false), closed = rate_after(true);
+  EXPECT_GT(open, 0.3);
+  EXPECT_LT(closed, 0.3 * open);
+}
+
+TEST(InstrumentActions, AClipClosesTheWoundBetweenTheJawsAndElseIsRefused) {
+  Theatre theatre(InstrumentKind::kClipApplier);
+  const auto close = [&](double z) {
+    for (double o = 0.006; o >= 0; o -= 0.002) theatre.step({0, 0, z}, o);
+  };
+  close(0.035);
+  EXPECT_EQ(theatre.surgery().clips, 0);
+  EXPECT_EQ(theatre.surgery().refusals, 1) << "no wound there";
+}
+
+TEST(InstrumentActions, SuctionTakesBloodAndTheAccountCloses) {
+  Theatre theatre(InstrumentKind::kSuction);
+  for (int i = 0; i < 200; ++i) theatre.step({0, 0, 0.05}, 0.002);  // rinses
+  EXPECT_GT(theatre.most("wet"), 0.3F);
+  for (int i = 0; i < 200; ++i) theatre.step({0, 0, 0.036}, 0.02, true);
+  EXPECT_GT(theatre.surgery().sucked_ml, 0.1);
+}
+
+TEST(InstrumentActions, PulledTooHardAFoldTearsOut) {
+  Theatre theatre(InstrumentKind::kGrasper);
+  theatre.presses = false;
+  for (double o = 0.012; o >= 0; o -= 0.0005) theatre.step({0, 0, 0.033}, o);
+  ASSERT_TRUE(theatre.frame().held());
+  for (double z = 0.033; z < 0.12 && theatre.frame().held(); z += 0.0005) theatre.step({0, 0, z}, 0);
+  EXPECT_FALSE(theatre.frame().held());
+  theatre.wait(300);
+  // Nothing of the hold is left; a tear is there when the pads hold better than the capsule.
+  double off = 0;
+  const auto surface = theatre.world().surface();
+  for (std::size_t v = 0; v < surface->vertices.size(); ++v)
+    off = std::max(off, (surface->vertices[v] - surface->rest->vertices[v]).norm());
+  EXPECT_LT(off, theatre.surgery().tears > 0 ? 5e-3 : 5e-4);
+}
+
+/// Every instrument anywhere, opening, closing, energised: nothing breaks, and afterwards the organ lies as it did.
+TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
+  const int ticks = test::repeats("ACTION_TICKS", 6000);
+  for (const InstrumentKind kind : {InstrumentKind::kScissors, InstrumentKind::kGrasper, InstrumentKind::kHook,
+                                    InstrumentKind::kClipApplier, InstrumentKind::kSuction}) {
+    Theatre theatre(kind, 0.0125);
+    std::mt19937 random(3);
+    const auto share = [&] { return double(random()) / double(std::mt19937::max()); };
+    Vec3 tip(0, 0, 0.05), to = tip;
+    double opening = 0.01, wanted = 0.01;
+    bool pedal = false;
+    for (int i = 0; i < ticks / 5; ++i) {
+      if (i % 20 == 0) {
+        to = {0.10 * (share() - 0.5), 0.08 * (share() - 0.5), 0.01 + 0.05 * share()};
+        wanted = share() < 0.5 ? 0 : 0.02 * share();
+        pedal = share() < 0.4;
+        if (share() < 0.02) tip = to;  // a jump
+      }
+      tip += 0.1 * (to - tip);
+      opening += 0.2 * (wanted - opening);
+      theatre.step(tip, opening < 1e-4 ? 0 : opening, pedal, share() > 0.001);
+    }
+    const auto surface = theatre.world().surface();
+    for (const Vec3& vertex : surface->vertices) ASSERT_TRUE(vertex.allFinite());
+    theatre.wait(200);
+    const auto nodes = theatre.world().shape().nodes_T;
+    const std::vector<NodePlace> before(nodes.begin(), nodes.end());
+    theatre.wait(1);
+    float moved = 0;
+    for (std::size_t n = 0; n < before.size(); ++n)
+      moved = std::max(moved, (theatre.world().shape().nodes_T[n] - before[n]).norm());
+    EXPECT_LT(moved, 1e-4F) << "in a step of 10 ms";
+    std::printf("%s: %d cuts, %d tears, %d clips, %d refused, %.1f mL, %.0f J\n", describe(kind).name,
+                theatre.surgery().cuts, theatre.surgery().tears, theatre.surgery().clips, theatre.surgery().refusals,
+                theatre.surgery().blood_ml, theatre.surgery().heat_j);
+  }
+}
+
+}  // namespace
+}  // namespace trocar
