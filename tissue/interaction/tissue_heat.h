@@ -2,7 +2,8 @@
 //
 //   rho c dT/dt = div(k(T) grad T) - w (1 - Omega) (T - T_body) + q          Pennes 1948; w in W/(m3 K)
 //   q           of a contact of radius a: P g(r) / sum of g, g = 1 / (1 + (r/a)^2)^2, the current's spread into a
-//               half-space (far away r^-4), nothing beyond a + min(3 a, 6 mm)
+//               half-space (far away r^-4), nothing beyond a + min(3 a, 6 mm); of a cut, whose sparks go to what is
+//               nearest, a in g is 0.3 mm
 //   boiling     at 100 C the excess turns water into steam; a cube without water heats on and chars, or, under a cut,
 //               is vaporised: tissue no more, heat and steam gone with it
 //   damage      dOmega/dt = A exp(-Ea / R T), cells and collagen each; cells are white at 1, blood no longer flows
@@ -89,7 +90,7 @@ struct HeatSource {
 
 /// What became of a source in a step.
 struct HeatGiven {
-  bool touches = false;    ///< tissue is there
+  bool touches = false;    ///< power or a warm tip, and tissue is there
   double offered_j = 0;    ///< power times step
   double delivered_j = 0;  ///< to tissue and tip: less without contact and at the cap
   double contact_c = 0;    ///< mean of the tissue under the contact

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -155,12 +156,12 @@ TEST(TissueHeat, BloodLeavesTheSteadyProfileOfPennes) {
   o.perfusion_w_per_m3_k = 150e3;
   o.damage_from_c = 4000;  // blood flows on
   o.step_s = 0.1;
-  TissueHeat heat(block(0.04), o);
-  const double power = 0.5, length = std::sqrt(o.conductivity_w_per_m_k / o.perfusion_w_per_m3_k);
+  TissueHeat heat(block(0.02), o);
+  const double power = 5, length = std::sqrt(o.conductivity_w_per_m_k / o.perfusion_w_per_m3_k);
   run(heat, at(kMiddle, power, HeatMode::kSoftCoagulation, kTiny), 1000);
   for (double r = 0.004; r < 0.011; r += 0.001) {  // four cubes and more: nearer, a cube is no point
     const double exact = power / (4 * std::numbers::pi * o.conductivity_w_per_m_k * r) * std::exp(-r / length);
-    EXPECT_NEAR(heat.temperature_at(kMiddle + Vec3(0, r, 0)) - o.body_c, exact, 0.05 + 0.04 * exact) << r;
+    EXPECT_NEAR(heat.temperature_at(kMiddle + Vec3(0, r, 0)) - o.body_c, exact, 0.05 + 0.05 * exact) << r;
   }
   const HeatLedger l = heat.ledger();
   EXPECT_GT(l.perfused_j, 0.6 * l.delivered_j);
@@ -169,9 +170,10 @@ TEST(TissueHeat, BloodLeavesTheSteadyProfileOfPennes) {
 TEST(TissueHeat, StepsThatAreTooLongAreDivided) {
   TissueHeatOptions o;
   o.edge_m = 0.0002;
+  o.step_s = 0.05;
   TissueHeat heat(block(0.01), o);
   ASSERT_LT(heat.most_stable_step_s(), o.step_s);
-  run(heat, at({0, 0, 0.01}, 5, HeatMode::kForcedCoagulation, 0.0003), 30);
+  run(heat, at({0, 0, 0.01}, 5, HeatMode::kForcedCoagulation, 0.0003), 10);
   EXPECT_GT(heat.hottest_c(), 90);
   for (double x = -0.003; x < 0.003; x += 1e-4)
     for (double z = 0.007; z < 0.01; z += 1e-4) {
@@ -196,7 +198,9 @@ TEST(TissueHeat, OptionsThatMakeNoSenseAreRefused) {
 // ---- joules
 
 TEST(TissueHeat, EveryJouleIsAccountedFor) {
-  TissueHeat heat(slab(0.03, 0.06, 0.003));
+  TissueHeatOptions o;
+  o.perfusion_w_per_m3_k = 400e3;  // cools soon
+  TissueHeat heat(slab(0.03, 0.06, 0.003), o);
   double given = 0;
   const auto drag = [&](HeatMode mode, double y) {
     for (int i = 0; i < 150; ++i) {
@@ -308,7 +312,14 @@ TEST(TissueHeat, ACutVaporisesWhatItTouchesAndThenTouchesNothing) {
   const HeatLedger l = heat.ledger();
   const TissueHeatOptions o;
   EXPECT_GT(l.steam_j, static_cast<double>(gone.size()) * o.water_kg_m3 * o.latent_j_per_kg * 1e-9);
-  EXPECT_GT(heat.look_at({0, 0, -0.002}).charred, 0.2) << "walls";
+  int walls = 0;
+  for (const VaporisedCube& cube : gone) {
+    const Vec3 below = cube.middle_T - Vec3(0, 0, cube.edge_m);
+    if (heat.vaporised_at(below)) continue;
+    ++walls;
+    EXPECT_GT(heat.look_at(below).charred, 0.99 * o.char_left_by_cut);
+  }
+  EXPECT_GT(walls, 0);
 }
 
 TEST(TissueHeat, OnlyACutVaporisesAndOnlySparksChar) {
@@ -471,7 +482,7 @@ TEST(TissueHeat, WarmTissueCoolsAndNothingOfItIsKept) {
   EXPECT_TRUE(heat.cold());
   EXPECT_EQ(heat.blocks(), 0u);
 
-  run(heat, at({0, 0, 0.02}, 30), 200);
+  run(heat, at({0, 0, 0.02}, 30), 100);
   const double deep = heat.damage_at({0, 0, 0.019});
   cool(heat, 60000);
   EXPECT_TRUE(heat.cold());
