@@ -172,8 +172,10 @@ void InstrumentActions::tear(SoftOrgan& organ, const StylusState& stylus) {
 
 void InstrumentActions::draw_hook(const HapticState& newest, SoftOrgan& organ) {
   const auto touch = newest.stylus.pedal ? strongest_touch(newest.contacts, organ) : std::nullopt;
-  const bool vaporises = touch && heat_.temperature_c(organ.rest_place(touch->place)) > options_.coagulates_c;
-  if (!vaporises) {
+  // What boils or is gone already; a moment without, and the edge only rests there.
+  const bool hot = state_.contact_c > options_.coagulates_c || !heat_.vaporised().empty();
+  cold_s_ = hot ? 0 : cold_s_ + organ.solid().options().step_s;
+  if (!touch || cold_s_ > options_.hook_waits_s) {
     hook_draws_ = false;
     return;
   }
@@ -204,7 +206,7 @@ void InstrumentActions::energise(const HapticState& newest, const Tool& tool, co
   if (!touch) return;
   state_.contact_c = heat_.given().front().contact_c;
   if (state_.contact_c > options_.coagulates_c)
-    bleeding_.coagulate(organ.place_T(touch->place), std::max(source.radius_m, options_.pad_contact_m),
+    bleeding_.coagulate(organ.place_T(touch->place), std::max(source.radius_m, options_.coagulates_m),
                         std::min(1.0, options_.coagulates_per_s * organ.solid().options().step_s));
 }
 

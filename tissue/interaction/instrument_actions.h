@@ -31,6 +31,8 @@ struct InstrumentActionsOptions {
   double track_m = 0.003, track_depth_m = 0.0025;     ///< of a hook's edge, per cut; its depth
   double cut_w = 40, forced_w = 25, soft_w = 20;      ///< delivered powers; unchecked
   double hook_edge_m = 0.001, pad_contact_m = 0.003;  ///< radii of contacts of current
+  double hook_waits_s = 0.3;                          ///< without boiling, after which a track is over
+  double coagulates_m = 0.004;                        ///< of wounds round the contact
   double coagulates_c = 65;                           ///< under which heat closes no vessel
   double coagulates_per_s = 2;                        ///< share of what still bleeds there
   double tear_width_m = 0.025;                        ///< of the capsule round a held fold, that bears the pull
@@ -85,6 +87,7 @@ class InstrumentActions {
   double widest_m_ = 0;
   double overloaded_s_ = 0;  ///< of a held fold
   bool cut_now_ = false;     ///< in this step
+  double cold_s_ = 1;        ///< since the hook last boiled anything
   bool hook_draws_ = false;
   Vec3 hook_from_T_ = Vec3::Zero();
   double smoke_per_m_ = 0, steam_seen_j_ = 0;

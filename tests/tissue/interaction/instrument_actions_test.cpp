@@ -155,10 +155,10 @@ TEST(InstrumentActions, CoagulationStopsAWoundThatOozes) {
   const auto rate_after = [](bool pedal) {
     Theatre theatre(InstrumentKind::kScissors);
     theatre.presses = false;
-    theatre.snip(0, 0, 0.005);
+    theatre.snip(0, 0, 0.002);
     theatre.presses = true;
-    for (int i = 0; i < 400; ++i) theatre.step({0, 0, Theatre::top(0, 0) - 0.001}, 0, pedal);
-    theatre.wait(300);
+    for (int i = 0; i < 600; ++i) theatre.step({0, -0.006 + 2e-5 * i, Theatre::top(0, 0) - 0.001}, 0, pedal);
+    theatre.wait(200);
     return theatre.surgery().blood_ml_per_min;
   };
   const double open = rate_after(false), closed = rate_after(true);
