@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/picture/attempt/attempt_scene.h"
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
 #include "app/picture/scene/scope_optics.h"
@@ -37,6 +38,13 @@ void add_band_notice(const SessionView& view, const std::vector<ForceBar>& bars,
 void add_map_notices(const StylusState& stylus, std::vector<HudNotice>& notices) {
   if (stylus.port_held) notices.push_back({"Held near the port: draw back", HudNotice::Kind::kWarning});
   if (stylus.clutched) notices.push_back({"Clutch: the instrument stands still", HudNotice::Kind::kInfo});
+}
+
+/// Where there are several to choose from. Behind what stands in the way of the hand: only two notices are shown.
+void add_instrument_notices(const SessionView& view, std::vector<HudNotice>& notices) {
+  const bool several = view.scene.setup.exercise.instruments.size() > 1;
+  if (view.record.stylus.pedal) notices.push_back({"Pedal down", HudNotice::Kind::kWarning});
+  if (several) notices.push_back({describe(in_hand(view)).title, HudNotice::Kind::kInfo});
 }
 
 std::vector<HudRow> device_rows(const SessionView& view) {
@@ -105,6 +113,7 @@ Hud attempt_hud(const SessionView& view, const Camera& camera, const std::string
   if (status.demand.oriented) hud.dial = shown_dial(view, camera);
   add_map_notices(view.record.stylus, hud.notices);
   add_band_notice(view, hud.bars, hud.notices);
+  add_instrument_notices(view, hud.notices);
   hud.steps = steps(scene, status);
   hud.rows = picture_of(exercise).rows(scene, status);
   hud.device = device_rows(view);

@@ -160,6 +160,11 @@ void fit_dimple(double tip_radius_m, SceneView& out) {
 
 }  // namespace
 
+InstrumentKind in_hand(const SessionView& view) {
+  const std::vector<InstrumentKind>& all = view.scene.setup.exercise.instruments;
+  return all[std::min(static_cast<std::size_t>(view.record.stylus.instrument), all.size() - 1)];
+}
+
 SceneView attempt_scene(const SessionView& view) {
   const StylusState& stylus = view.record.stylus;
   SceneView out;
@@ -185,6 +190,7 @@ SceneView attempt_scene(const SessionView& view) {
     const Vec3 half(0.5 * object.size_m.x(), 0.5 * object.size_m.y(), 0);
     out.stage_T.extend(Vec3(object.X_TO.p - half - Vec3(0, 0, object.size_m.z()))).extend(Vec3(object.X_TO.p + half));
   }
+  out.instrument = in_hand(view);
   out.X_TI = stylus.X_TI;
   out.shaft_radius_m = view.scene.loop.tool.radius_m;
   out.shaft_length_m = view.scene.loop.tool.shaft_length_m;

@@ -12,6 +12,9 @@ namespace trocar {
 /// The moment as a scene, without its head-up display.
 SceneView attempt_scene(const SessionView& view);
 
+/// Of the exercise's instruments the one that is in hand.
+InstrumentKind in_hand(const SessionView& view);
+
 /// Scope that frames the exercise: on an organ from the trainee's side over the board region, otherwise so that all
 /// that belongs to the board fits into the field.
 Camera attempt_camera(const Scene& scene);

@@ -23,9 +23,9 @@ std::vector<ForceBar> touch_bars(const SessionView& view) {
   ForceBar tip =
       force_bar("Tip force", view.record.stylus.F_I_T.force.norm(), free ? WantedForce{} : band, *limits.tip_n);
   tip.peak_n = status.peak_force_n;
-  if (free) return {tip};
-  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n, {exercise.grip.low_n, exercise.grip.high_n},
-                            *limits.grip_n);
+  if (free && exercise.instruments.front() == InstrumentKind::kProbe) return {tip};
+  const WantedForce wanted = free ? WantedForce{} : WantedForce{exercise.grip.low_n, exercise.grip.high_n};
+  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n, wanted, *limits.grip_n);
   if (level.force_display != "always") {
     const bool shown = level.force_display == "band" && status.force_shown;
     tip.hidden = gripping || !shown;

@@ -28,6 +28,12 @@ PictureMesh loft(int rings, int around, const std::function<Vec3(int, int)>& at,
   return mesh;
 }
 
+void append(PictureMesh& mesh, const PictureMesh& part) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const std::uint32_t index : part.indices) mesh.indices.push_back(first + index);
+}
+
 PictureMesh turned(const std::vector<ProfilePoint>& profile, int around) {
   return loft(
       static_cast<int>(profile.size()), around,

@@ -15,6 +15,9 @@ namespace trocar {
 PictureMesh loft(int rings, int around, const std::function<Vec3(int, int)>& at,
                  const std::function<float(int)>& accent);
 
+/// Puts a part to a mesh.
+void append(PictureMesh& mesh, const PictureMesh& part);
+
 /// One point of a profile turned about z.
 struct ProfilePoint {
   double z, radius;

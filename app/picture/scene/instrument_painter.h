@@ -1,6 +1,6 @@
-// Draws the instruments: shaft and the two jaws, each posed from its InstrumentView.
+// Draws the instruments: body and, where it has them, two jaws, each posed from its InstrumentView.
 //
-// Meshes are kept by size of the shaft. Frame T, m. Thread: the one on which the context is current.
+// Meshes are kept by kind and size of the shaft. Frame T, m. Thread: the one on which the context is current.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ class InstrumentPainter {
 
  private:
   struct Meshes {
-    GpuMesh shaft, jaw;
+    GpuMesh body, jaw;
   };
   void draw_parts(Program& program, const InstrumentView& instrument);
-  std::map<std::array<long, 2>, Meshes> meshes_;
+  std::map<std::array<long, 3>, Meshes> meshes_;
 };
 
 }  // namespace trocar

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/picture/scene/scene_object.h"
+#include "haptics/contact/instrument.h"
 #include "haptics/quantities.h"
 #include "tissue/surface_snapshot.h"
 #include "tissue/tissue_frame.h"
@@ -108,6 +109,7 @@ struct InstrumentView {
   double shaft_radius_m = 0.0025, shaft_length_m = 0.30;
   double jaw_opening_m = 0;
   bool roll_stripe = false;
+  InstrumentKind kind = InstrumentKind::kGrasper;
 };
 
 /// An organ beside the one in the middle.
@@ -123,7 +125,8 @@ struct SceneView {
   std::vector<TargetMark> targets;
   std::vector<SceneObject> objects;  ///< board, blocks, rings, ghost pens, port
   Eigen::AlignedBox3d stage_T;       ///< without an organ: work space that the box trainer surrounds
-  Pose X_TI;                         ///< instrument tip, z along the shaft towards the tip
+  InstrumentKind instrument = InstrumentKind::kGrasper;
+  Pose X_TI;  ///< instrument tip, z along the shaft towards the tip
   double shaft_radius_m = 0.0025, shaft_length_m = 0.30;
   double jaw_opening_m = 0;      ///< between the jaws' tips
   bool roll_stripe = false;      ///< paint a stripe along the upper jaw's side (+y of I)

@@ -29,6 +29,8 @@ void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double
   const double closing = entry_T_ && percept.felt_grip_n > 0 ? kFingerPress : kFingerSpeed;
   intent_.jaw_opening_m += std::clamp(close, -closing * dt_s, kFingerSpeed * dt_s);
   intent_.clutch = wanted.clutch;
+  intent_.pedal = wanted.pedal;
+  intent_.exchange = wanted.exchange;
 }
 
 HandIntent PersonHand::update(const Percept& percept, double dt_s) {

@@ -108,6 +108,10 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   AtHand out;
   out.now = hand;
   out.jaws = kind_of(s.scene.setup.exercise).jaws_hold || status.cue == Cue::kGrip;
+  const std::vector<InstrumentKind>& instruments = s.scene.setup.exercise.instruments;
+  out.in_tissue = !out.jaws && instruments.front() != InstrumentKind::kProbe;
+  const auto in_hand = std::min(static_cast<std::size_t>(record.stylus.instrument), instruments.size() - 1);
+  out.jaws_apart = out.in_tissue && describe(instruments[in_hand]).jaw_length_m > 0;
   out.touching = record.stylus.contact;
   if (out.touching) out.normal_T = record.stylus.contact_normal_T;
   out.gripping = record.stylus.grip_force_n > 0;

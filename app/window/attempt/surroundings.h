@@ -1,5 +1,5 @@
 // What a person's hand is at, for Steering: what it touches, whether something is to be gripped, and the ground that
-// the tip glides over.
+// the tip glides over. Where instruments are worked in tissue the jaws are no matter of the act button.
 //
 // Before the clock runs the ground is the height of the start ball, so that two directions find it. Then, where the
 // level lets a pointer glide: the organ from above, the height of the lit pen's tip, and over a board with blocks a

@@ -80,6 +80,8 @@ enum PadButton : std::uint32_t {
   kPadY = 1u << 3,
   kPadLeftBumper = 1u << 4,
   kPadRightBumper = 1u << 5,
+  kPadLeftThumb = 1u << 9,  ///< the sticks pressed
+  kPadRightThumb = 1u << 10,
   kPadUp = 1u << 11,
   kPadRight = 1u << 12,
   kPadDown = 1u << 13,

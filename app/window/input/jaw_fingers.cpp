@@ -36,4 +36,11 @@ void JawFingers::advance(const Wish& wish, double dt_s) {
   if (opening_) opening_m_ = finger_toward(opening_m_, widest_m_, step);
 }
 
+void JawFingers::work(const Work& wish, double dt_s) {
+  const double to = wish.close ? kTightest_m : wish.shut ? 0 : widest_m_;
+  opening_m_ = finger_toward(opening_m_, to, kWorkSpeed_m_per_s * dt_s);
+  if (wish.close && wish.gripping) opening_m_ = std::max(opening_m_, wish.fingers_m - kAhead_m);
+  used_ = opening_ = false;
+}
+
 }  // namespace trocar

@@ -9,9 +9,10 @@ namespace trocar {
 
 class JawFingers {
  public:
-  static constexpr double kTightest_m = -0.010;   ///< the fingers press beyond what they hold
-  static constexpr double kSpeed_m_per_s = 0.04;  ///< open to closed in half a second
-  static constexpr double kAhead_m = 0.002;       ///< of the fingers that are at the object
+  static constexpr double kTightest_m = -0.010;       ///< the fingers press beyond what they hold
+  static constexpr double kSpeed_m_per_s = 0.04;      ///< open to closed in half a second
+  static constexpr double kWorkSpeed_m_per_s = 0.05;  ///< in tissue: 0.4 s
+  static constexpr double kAhead_m = 0.002;           ///< of the fingers that are at the object
 
   void begin(double opening_m);
   struct Wish {
@@ -23,6 +24,14 @@ class JawFingers {
     double fingers_m = 0.02;  ///< opening that the hand has reached
   };
   void advance(const Wish& wish, double dt_s);
+  /// In tissue, with a control of their own: held, they close, else they are open; shut while the tip presses.
+  struct Work {
+    bool close = false;       ///< held
+    bool shut = false;        ///< the tip presses: closed, not squeezing
+    bool gripping = false;    ///< the jaws feel something between them
+    double fingers_m = 0.02;  ///< opening that the hand has reached
+  };
+  void work(const Work& wish, double dt_s);
   double opening_m() const { return opening_m_; }
 
  private:

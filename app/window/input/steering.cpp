@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/window/input/jaw_fingers.h"
 #include "app/window/input/stick_curve.h"
@@ -118,6 +119,7 @@ struct Steering::State {
   Eigen::Vector2d moved_px = Eigen::Vector2d::Zero(), dragged_px = Eigen::Vector2d::Zero(),
                   scoped_px = Eigen::Vector2d::Zero();
   double wheel_m = 0, roll_wheel = 0, scope_wheel = 0;
+  bool exchange_pressed = false;  ///< however short
 
   bool on(Action action) const { return held.contains(action); }
   bool pad_on(std::uint32_t button) const { return (pad_buttons & button) != 0; }
@@ -132,6 +134,7 @@ struct Steering::State {
     pad_buttons = space_mouse_buttons = 0;
     moved_px = dragged_px = scoped_px = Eigen::Vector2d::Zero();
     wheel_m = roll_wheel = scope_wheel = 0;
+    exchange_pressed = false;
   }
 
   /// As the event says, or as the keys themselves were seen.
@@ -157,6 +160,7 @@ struct Steering::State {
     held[*action] = 0;
     if (*action <= Action::kWithdraw) kind = InputKind::kKeyboard;
     if (*action == Action::kLevel) scope.level();
+    if (*action == Action::kExchange) exchange_pressed = true;
     return true;
   }
 
@@ -282,14 +286,15 @@ struct Steering::State {
     return out;
   }
 
-  bool act_held() const {
-    return left || on(Action::kAct) || pad_on(kPadA) || std::max(pad[4], pad[5]) > kTrigger ||
+  /// The triggers act, too, but where the right one closes the jaws and the left one is the pedal.
+  bool act_held(bool triggers) const {
+    return left || on(Action::kAct) || pad_on(kPadA) || (triggers && std::max(pad[4], pad[5]) > kTrigger) ||
            (space_mouse_buttons & 1u) != 0;
   }
 
   /// Held, let go of, or clicked. A click takes back at once.
-  void act(double dt_s) {
-    const bool held_now = act_held();
+  void act(bool triggers, double dt_s) {
+    const bool held_now = act_held(triggers);
     let_go = acting && !held_now;
     let_off = (let_go && acted_s < kClick_s) || on(Action::kLetOff) || (space_mouse_buttons & 2u) != 0 || pad_on(kPadY);
     acted_s = held_now ? acted_s + dt_s : 0;
@@ -409,23 +414,40 @@ struct Steering::State {
     intent.clutch = clutch;
   }
 
+  void hold_switches(const AtHand& around) {
+    intent.pedal = on(Action::kPedal) || (around.in_tissue && pad[4] > kTrigger);
+    intent.exchange = std::exchange(exchange_pressed, false) || on(Action::kExchange) || pad_on(kPadRightThumb);
+  }
+
+  void move_jaws(const AtHand& around, double dt_s) {
+    if (around.jaws_apart)
+      jaw.work({.close = on(Action::kGrip) || pad[5] > kTrigger,
+                .shut = acting || !act_way_T.isZero(),
+                .gripping = around.gripping,
+                .fingers_m = around.now.jaw_opening_m},
+               dt_s);
+    else
+      jaw.advance({.used = around.jaws,
+                   .close = acting,
+                   .let_go = let_go,
+                   .open = let_off,
+                   .gripping = around.gripping,
+                   .fingers_m = around.now.jaw_opening_m},
+                  dt_s);
+    intent.jaw_opening_m = jaw.opening_m();
+  }
+
   void advance(double dt_s, const Camera& camera, double height_px, const AtHand& around) {
     const double dt = std::clamp(dt_s, 0.0, kLongestStep);
     const View view = view_of(camera, intent.X_TI.p, height_px);
     const Wish now = wish(dt, view, height_px);
     hold_clutch();
-    act(dt);
+    hold_switches(around);
+    act(!around.in_tissue, dt);
     move_tip(now, view, camera, around, dt);
     turn_wrist(now, view, dt);
     move_scope(dt, height_px);
-    jaw.advance({.used = around.jaws,
-                 .close = acting,
-                 .let_go = let_go,
-                 .open = let_off,
-                 .gripping = around.gripping,
-                 .fingers_m = around.now.jaw_opening_m},
-                dt);
-    intent.jaw_opening_m = jaw.opening_m();
+    move_jaws(around, dt);
     for (auto& [action, since] : held) since += dt;
     moved_px = dragged_px = scoped_px = Eigen::Vector2d::Zero();
     wheel_m = roll_wheel = scope_wheel = 0;

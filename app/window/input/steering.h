@@ -8,6 +8,8 @@
 //
 // One button acts: it presses the closed tip on to what lies below and into it, or closes the jaws where something is
 // to be gripped. Held, the force grows; let go, it stays; a click lets off. Over a ground the tip glides at a height.
+// Where instruments are worked in tissue the jaws have a control of their own: held, they close, and let go, they open;
+// act presses with closed jaws. Pedal and exchange switch are handed on as they are held.
 // Frame T, m, rad. Same events and same steps give the same intents. Thread: the
 // window's.
 #pragma once
@@ -35,6 +37,9 @@ struct SteeringOptions {
 struct AtHand {
   HandIntent now = {};                  ///< where the hand has got to: the tip and the fingers
   bool jaws = true;                     ///< something is to be gripped: the act button closes the jaws, else it presses
+  bool in_tissue = false;               ///< instruments are worked in tissue: act presses, a pad's triggers are
+                                        ///< jaws and pedal
+  bool jaws_apart = false;              ///< there, and the instrument in hand has jaws
   bool touching = false;                ///< the instrument feels a force
   Vec3 normal_T = Vec3::UnitZ();        ///< out of what it touches
   bool gripping = false;                ///< so do the jaws

@@ -1,6 +1,7 @@
 #include "app/window/run/first_run_hints.h"
 
 #include <cmath>
+#include <utility>
 
 #include "scenarios/kinds/kind.h"
 
@@ -49,11 +50,21 @@ void FirstRunHints::turns(const InputEvent& event, std::optional<Action> action)
   done_[3] = done_[3] || rolled;
 }
 
+void FirstRunHints::works(const InputEvent& event, std::optional<Action> action) {
+  const bool pad = event.kind == InputEvent::Kind::kPad;
+  done_[2] = done_[2] || action == Action::kGrip || (pad && event.axis[5] > kPushed);
+  done_[3] = done_[3] || action == Action::kExchange || (pad && (event.buttons & kPadRightThumb) != 0);
+  done_[4] = done_[4] || action == Action::kPedal || (pad && event.axis[4] > kPushed);
+}
+
 void FirstRunHints::saw(const InputEvent& event, const KeyMap& keys) {
   using Kind = InputEvent::Kind;
   const auto action = event.kind == Kind::kKeyDown ? keys.action_of(event.key) : std::nullopt;
   if (action && *action <= Action::kDown) done_[0] = true;
-  if (tries_ != Tries::kActs) turns(event, action);
+  if (tries_ == Tries::kWorks)
+    works(event, action);
+  else if (tries_ != Tries::kActs)
+    turns(event, action);
   const bool wheel = event.kind == Kind::kWheel && !dragging_;
   if (action == Action::kInsert || action == Action::kWithdraw || wheel) done_[1] = true;
   const bool key = event.kind == Kind::kKeyDown || event.kind == Kind::kKeyUp;
@@ -75,12 +86,28 @@ void FirstRunHints::saw(const InputEvent& event, const KeyMap& keys) {
   }
 }
 
+std::vector<FirstRunHints::Hint> FirstRunHints::working(const Translator& words, const KeyMap& keys,
+                                                        InputKind kind) const {
+  const auto name = [&](Action action) { return words.name(key_name(keys.key_of(action))); };
+  const bool pad = kind == InputKind::kPad;
+  return {
+      {pad ? words("Right trigger, held: close the jaws") : words("{0}, held: close the jaws", {name(Action::kGrip)}),
+       done_[2]},
+      {pad ? words("Right stick pressed: next instrument") : words("{0}: next instrument", {name(Action::kExchange)}),
+       done_[3]},
+      {pad ? words("Left trigger, held: the pedal") : words("{0}, held: the pedal", {name(Action::kPedal)}), done_[4]}};
+}
+
 std::vector<FirstRunHints::Hint> FirstRunHints::marks(const Translator& words, const KeyMap& keys,
                                                       InputKind kind) const {
   const auto name = [&](Action action) { return words.name(key_name(keys.key_of(action))); };
   const auto hints = [&](const std::string& move, const std::string& deeper, const std::string& act,
                          const std::string& let_off, const std::string& lean, const std::string& roll) {
     std::vector<Hint> out{{move, done_[0]}, {deeper, done_[1]}};
+    if (tries_ == Tries::kWorks) {
+      for (Hint& hint : working(words, keys, kind)) out.push_back(std::move(hint));
+      return out;
+    }
     if (tries_ != Tries::kRolls) out.push_back({tries_ == Tries::kActs ? act : lean, done_[2]});
     out.push_back({tries_ == Tries::kActs ? let_off : roll, done_[3]});
     return out;
@@ -114,6 +141,7 @@ std::vector<FirstRunHints::Hint> FirstRunHints::marks(const Translator& words, c
 
 FirstRunHints::Tries hand_tries(const Exercise& exercise, const ExerciseLevel& level) {
   using Tries = FirstRunHints::Tries;
+  if (exercise.instruments.size() > 1) return Tries::kWorks;
   if (!kind_of(exercise).oriented) return Tries::kActs;
   return level.mapping == Mapping::kFulcrum ? Tries::kRolls : Tries::kTurns;
 }

@@ -25,7 +25,8 @@ class FirstRunHints {
   enum class Tries : std::uint8_t {
     kActs,   ///< press or grip, and let off
     kTurns,  ///< lean the shaft and roll it
-    kRolls   ///< through a port it cannot be leant
+    kRolls,  ///< through a port it cannot be leant
+    kWorks   ///< in tissue: grip, exchange, pedal
   };
 
   /// @param wanted false: it has nothing to say.
@@ -38,13 +39,16 @@ class FirstRunHints {
 
  private:
   static constexpr double kLinger_s = 2;
-  bool all() const { return done_[0] && done_[1] && done_[2] && done_[3]; }
+  bool all() const { return done_[0] && done_[1] && done_[2] && done_[3] && (done_[4] || tries_ != Tries::kWorks); }
+  std::vector<Hint> working(const Translator& words, const KeyMap& keys, InputKind kind) const;
+  void works(const InputEvent& event, std::optional<Action> action);
   void acts(bool held);
   void turns(const InputEvent& event, std::optional<Action> action);
 
   bool wanted_ = false;
   Tries tries_ = Tries::kActs;
-  std::array<bool, 4> done_{};  ///< moved, deeper; pressed or gripped and let off, or leant and rolled
+  /// Moved, deeper; pressed or gripped and let off, or leant and rolled, or gripped, exchanged and the pedal pressed.
+  std::array<bool, 5> done_{};
   bool acting_ = false, dragging_ = false;
   double acted_s_ = 0;
   double way_px_ = 0, last_x_ = -1, last_y_ = -1, over_s_ = 0;

@@ -34,6 +34,11 @@ void key_tables(Ui& ui, const PracticeModel& model) {
       "Move: the tip; at L1 it keeps its height by itself. Wheel: deeper, back. Left button held: press, or close the "
       "jaws; let go, the force stays; a click lets off. Right button held: lean the shaft, with the wheel roll it. "
       "Middle button held: move the scope."));
+  const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
+  ui.text(
+      w("In free play {0} held closes the jaws and the left button presses with closed ones; {1} takes the next "
+        "instrument, {2} held is its pedal. On a pad: right trigger, right stick pressed, left trigger.",
+        {key(Action::kGrip), key(Action::kExchange), key(Action::kPedal)}));
   ui.gap();
   for (const bool steering : {true, false}) {
     ui.heading(steering ? w("Steering with keys") : w("Commands"));

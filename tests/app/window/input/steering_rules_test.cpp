@@ -326,6 +326,43 @@ TEST(SteeringClutch, TheInstrumentIsWhereItStoodWhenTheClutchIsLetGo) {
   EXPECT_EQ(s.tip(), stood);
 }
 
+TEST(SteeringSwitches, PedalIsHeldAndAnExchangeIsNeverTooShort) {
+  Steered s;
+  s.press('F');
+  EXPECT_TRUE(s.run(kStep_s).pedal);
+  s.release('F');
+  EXPECT_FALSE(s.run(kStep_s).pedal);
+  s.press('T');
+  s.release('T');  // within one picture
+  EXPECT_TRUE(s.run(kStep_s).exchange);
+  EXPECT_FALSE(s.run(kStep_s).exchange);
+  s.press('T');
+  EXPECT_TRUE(s.run(0.5).exchange) << "held, it is one press all the same: the loop counts its beginning";
+  s.press('F');
+  s.steering.handle(event_of(InputEvent::Kind::kFocusLost));
+  EXPECT_FALSE(s.run(kStep_s).pedal || s.steering.intent().exchange);
+}
+
+TEST(SteeringJaws, InTissueHaveAKeyOfTheirOwnAndAreClosedWhileTheTipPresses) {
+  Steered s;
+  s.around.jaws = false;
+  s.around.in_tissue = s.around.jaws_apart = true;
+  s.press('G');
+  EXPECT_NEAR(s.run(0.4).jaw_opening_m, 0, 1e-9);
+  s.release('G');
+  EXPECT_DOUBLE_EQ(s.run(0.5).jaw_opening_m, 0.02);
+  s.press(kKeySpace);
+  EXPECT_DOUBLE_EQ(s.run(0.6).jaw_opening_m, 0);
+  s.release(kKeySpace);
+  EXPECT_DOUBLE_EQ(s.run(0.6).jaw_opening_m, 0) << "pressed on, they stay closed";
+  s.press('X');
+  s.run(0.6);
+  s.release('X');
+  EXPECT_DOUBLE_EQ(s.run(0.6).jaw_opening_m, 0.02);
+  s.around.jaws_apart = false;  // a hook
+  EXPECT_DOUBLE_EQ(s.run(1).jaw_opening_m, 0);
+}
+
 TEST(SteeringOptions, LikeAFulcrumTurnsThePlaneRoundAndLeavesTheDepth) {
   SteeringOptions options;
   options.like_a_fulcrum = true;

@@ -90,6 +90,24 @@ TEST(SteeringPad, ActLetOffAndClutchAreButtons) {
   EXPECT_FALSE(s.run(kStep_s).clutch);
 }
 
+TEST(SteeringPad, InTissueTheTriggersAreJawsAndPedal) {
+  Steered s;
+  s.around.jaws = false;
+  s.around.in_tissue = s.around.jaws_apart = true;
+  s.sticks(Kind::kPad, {0, 0, 0, 0, 1, 0});
+  EXPECT_TRUE(s.run(0.1).pedal);
+  EXPECT_DOUBLE_EQ(s.steering.intent().jaw_opening_m, 0.02) << "the pedal is no act";
+  const Vec3 tip = s.tip();
+  s.sticks(Kind::kPad, {0, 0, 0, 0, 0, 1});
+  EXPECT_NEAR(s.run(0.4).jaw_opening_m, 0, 1e-9);
+  EXPECT_FALSE(s.steering.intent().pedal);
+  EXPECT_EQ(s.tip(), tip) << "closing presses nothing";
+  s.sticks(Kind::kPad, {}, kPadRightThumb);
+  EXPECT_TRUE(s.run(kStep_s).exchange);
+  s.sticks(Kind::kPad, {});
+  EXPECT_FALSE(s.run(kStep_s).exchange);
+}
+
 TEST(SteeringSpaceMouse, SixAxesAreRatesOfTheTarget) {
   const Axes axes = axes_of(front_camera());
   const auto tip = [](const std::array<double, 6>& axis) {

@@ -54,6 +54,28 @@ TEST(FirstRunHints, TicksWhatTheMouseHasDoneAndThenFallsSilent) {
   EXPECT_FALSE(hints.speaks());
 }
 
+TEST(FirstRunHints, InTissueTheyAreOfJawsInstrumentsAndPedal) {
+  FirstRunHints hints;
+  hints.begin(true, FirstRunHints::Tries::kWorks);
+  const auto marks = hints.marks(Translator(), KeyMap(), InputKind::kMouse);
+  ASSERT_EQ(marks.size(), 5U);
+  EXPECT_EQ(marks[2].text, "G, held: close the jaws");
+  EXPECT_EQ(hints.marks(Translator(), KeyMap(), InputKind::kPad)[3].text, "Right stick pressed: next instrument");
+  for (const std::int32_t key : std::initializer_list<std::int32_t>{'G', 'T', 'F', kKeyPageUp}) {
+    InputEvent down = event(Kind::kKeyDown);
+    down.key = key;
+    hints.saw(down, KeyMap());
+  }
+  EXPECT_EQ(done(hints), (std::vector<bool>{false, true, true, true, true}));
+  hints.pass(9);
+  EXPECT_TRUE(hints.speaks());
+  InputEvent right = event(Kind::kKeyDown);
+  right.key = kKeyRight;
+  hints.saw(right, KeyMap());
+  hints.pass(3);
+  EXPECT_FALSE(hints.speaks());
+}
+
 TEST(FirstRunHints, WhereTheShaftIsTurnedTheyAreOfLeanAndRoll) {
   FirstRunHints hints;
   hints.begin(true, FirstRunHints::Tries::kTurns);

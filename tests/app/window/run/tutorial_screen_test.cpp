@@ -64,6 +64,12 @@ class TutorialBench : public LoopBench {
     event.wheel = notches;
     turn({event});
   }
+  void key_goes(Kind kind, std::int32_t which) {
+    InputEvent event;
+    event.kind = kind;
+    event.key = which;
+    turn({event});
+  }
   void button(Kind kind) { turn({pointer(kind, at_x_, at_y_)}); }
   void click() {
     button(Kind::kButtonDown);
@@ -197,12 +203,21 @@ TEST_F(TutorialBench, FreePlayHasAnOrganAndItsForceAndKeepsNothing) {
   EXPECT_TRUE(seen.hud.steps.empty());
   EXPECT_TRUE(seen.hud.rows.empty());
   EXPECT_LT(seen.hud.elapsed_s, 0) << "no clock";
-  ASSERT_EQ(seen.hud.bars.size(), 1U);
+  ASSERT_EQ(seen.hud.bars.size(), 2U) << "of the tip and of the jaws";
   ASSERT_TRUE(go_to([this] { return model_->running()->scene().board.centre_T; }, 0.004));
   button(Kind::kButtonDown);
   EXPECT_TRUE(until([this] { return now().record.stylus.F_I_T.force.norm() > 0.2; }));
   button(Kind::kButtonUp);
   keep_picture("free");
+  EXPECT_EQ(seen.hud.notices.back().text, "Grasper");
+  key_goes(Kind::kKeyDown, 'F');
+  EXPECT_TRUE(until([this] { return now().record.stylus.pedal; }));
+  EXPECT_EQ(stage().view.hud.notices.front().text, "Pedal down");
+  key_goes(Kind::kKeyUp, 'F');
+  tap('T');
+  EXPECT_TRUE(until([this] { return now().record.stylus.instrument == 1 && !now().record.stylus.pedal; }));
+  EXPECT_EQ(stage().view.instrument, InstrumentKind::kScissors);
+  EXPECT_EQ(stage().view.hud.notices.back().text, "Scissors");
   tap(kKeyEscape);
   EXPECT_EQ(loop_->here(), ScreenName::kStart);
   EXPECT_EQ(model_->running(), nullptr);
