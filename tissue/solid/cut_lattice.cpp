@@ -26,6 +26,7 @@ const Vec3 kCentre(0.50137, 0.49859, 0.50073);  // of a cube: on no plane that s
 constexpr double kBeside = 0.0003;              // m from a sheet: which side is meant
 constexpr double kStraight = 5e-5;              // m from a sheet, within which a point of its line is left out
 constexpr double kSeam = 1e-6;                  // of a sheet's triangle, beyond its edges: seams let no link through
+constexpr std::size_t kRemembered = 8;          // surfaces of before
 constexpr double kFar = 2;                      // cells: half the size of the plane that breaks the rest of a section
 
 int at_axis(int cube, std::size_t axis) { return cube / kStride[axis] % kCubes; }
@@ -152,6 +153,13 @@ void CutLattice::fill_blocks() {
     block.inside = block.inside == 0 ? ~std::uint64_t{0} : grown(block.inside);
     block.parts = {block.inside};
   }
+}
+
+SurfacePtr CutLattice::rest_of(std::uint64_t topology) const {
+  if (rest_->topology == topology) return rest_;
+  for (const SurfacePtr& surface : before_)
+    if (surface->topology == topology) return surface;
+  return nullptr;
 }
 
 const CutLattice::Block* CutLattice::block_at(const Place& place) const {
@@ -588,7 +596,8 @@ bool CutLattice::cut(const SurfaceCut& cut, LatticeChange& change) {
     else
       next.probe_.push_back({place + side * aside, place + side * aside});
   }
-  next.previous_ = rest_;
+  next.before_.push_back(rest_);
+  if (next.before_.size() > kRemembered) next.before_.erase(next.before_.begin());
   next.rest_ = std::move(snapshot);
   next.embed(rest_->vertices.size(), touched);
   made.added = std::move(groove.added);

@@ -39,8 +39,8 @@ class CutLattice {
 
   const Lattice& lattice() const { return lattice_; }
   const SurfacePtr& rest() const { return rest_; }  ///< with another topology after every cut
-  /// As it was before the last cut, for places that are still told in its triangles; nullptr: there was none.
-  const SurfacePtr& previous() const { return previous_; }
+  /// As it was some cuts ago, for places that are still told in its triangles; nullptr: too long ago, or never.
+  SurfacePtr rest_of(std::uint64_t topology) const;
 
   /// Whether a place at rest lies in the tissue, to a quarter of a cell.
   bool holds(const Vec3& place) const;
@@ -79,7 +79,8 @@ class CutLattice {
   std::int32_t cell_for(const Vec3& probe) const;
 
   Lattice lattice_;
-  SurfacePtr rest_, previous_;
+  SurfacePtr rest_;
+  std::vector<SurfacePtr> before_;  ///< the last few, oldest first
   std::map<Place, std::int32_t> block_of_;
   std::vector<Block> blocks_;
   std::vector<Place> place_;

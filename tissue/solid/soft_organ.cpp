@@ -139,11 +139,10 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
   return out;
 }
 
-MaterialPoint SoftOrgan::place_now(const MaterialPoint& before) const {
+MaterialPoint SoftOrgan::place_now(const MaterialPoint& before, const SurfaceSnapshot& old) const {
   // Vertices keep their numbers: of a triangle that was divided the piece is taken in which the place lies.
-  const SurfacePtr& old = lattice_.previous();
-  if (!old || before.triangle < 0 || before.triangle >= static_cast<std::int32_t>(old->triangles.size())) return {};
-  const auto was = old->triangles[static_cast<std::size_t>(before.triangle)];
+  if (before.triangle < 0 || before.triangle >= static_cast<std::int32_t>(old.triangles.size())) return {};
+  const auto was = old.triangles[static_cast<std::size_t>(before.triangle)];
   if (was == rest()->triangles[static_cast<std::size_t>(before.triangle)]) return before;
   const Vec3 place = place_at_corners(before.weight, was, rest()->vertices);
   MaterialPoint best;
@@ -162,7 +161,7 @@ MaterialPoint SoftOrgan::place_now(const MaterialPoint& before) const {
     if (distance < least) least = distance, best = {static_cast<std::int32_t>(t), weight};
   };
   look(static_cast<std::size_t>(before.triangle));
-  for (std::size_t t = old->triangles.size(); t < rest()->triangles.size(); ++t) look(t);
+  for (std::size_t t = old.triangles.size(); t < rest()->triangles.size(); ++t) look(t);
   return best;
 }
 
@@ -314,11 +313,11 @@ void SoftOrgan::remember(std::span<const Pressed> pressed) {
 
 std::optional<MaterialPoint> SoftOrgan::place_of(const SolvedContacts& contacts, int contact) const {
   MaterialPoint place = contacts.at[static_cast<std::size_t>(contact)].place;
-  const bool of_before = lattice_.previous() && contacts.topology == lattice_.previous()->topology;
-  if (contacts.topology != topology() && !of_before) return std::nullopt;
+  const SurfacePtr told_of = lattice_.rest_of(contacts.topology);
+  if (!told_of) return std::nullopt;
   for (const double weight : place.weight)
     if (!std::isfinite(weight)) return std::nullopt;
-  if (contacts.topology != topology()) place = place_now(place);
+  if (told_of != rest()) place = place_now(place, *told_of);
   if (place.triangle < 0 || place.triangle >= static_cast<std::int32_t>(rest()->triangles.size())) return std::nullopt;
   return place;
 }

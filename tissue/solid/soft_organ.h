@@ -109,8 +109,8 @@ class SoftOrgan {
   double elastic_part(double force_n) const;
   void remember(std::span<const Pressed> pressed);
   std::vector<Pressed> press(const SolvedContacts& contacts) const;
-  /// A place that is told in the triangles before the last cut, in those of now. triangle -1: it is gone.
-  MaterialPoint place_now(const MaterialPoint& before) const;
+  /// A place that is told in the triangles of before some cuts, in those of now. triangle -1: it is gone.
+  MaterialPoint place_now(const MaterialPoint& before, const SurfaceSnapshot& old) const;
   /// A direction of the organ as it lies now, back at rest.
   Vec3 turned_to_rest(const MaterialPoint& place, const Vec3& vector_T) const;
   /// How the neighbourhood of a place has moved as a whole, from its rest.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "tests/tissue/solid/soft_organ_rig.h"
 #include "tests/support/repeats.h"
+#include "tests/tissue/solid/soft_organ_rig.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {
