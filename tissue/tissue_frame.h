@@ -61,6 +61,7 @@ struct SurgeryState {
   std::int32_t refusal = 0;   ///< of the last closing: CutRefusal; 0: it did what it should
   std::int32_t wounds = 0;
   double blood_ml = 0, blood_ml_per_min = 0, sucked_ml = 0;
+  double cut_m2 = 0;     ///< of all cuts and tears, one wall of each
   double heat_j = 0;     ///< delivered to tissue
   double contact_c = 0;  ///< of the tissue under an energised instrument; 0: none touches
 

@@ -62,6 +62,7 @@ constexpr std::array kStudies{
     KnownStudy{"indentation", indentation_study},
     KnownStudy{"relaxation", relaxation_study},
     KnownStudy{"grasp", grasp_study},
+    KnownStudy{"cutting", cutting_study},
     KnownStudy{"multirate", multirate_study},
     KnownStudy{"tissue-scaling", tissue_scaling_study},
 };

@@ -116,8 +116,9 @@ void InstrumentActions::feel_blades(const StylusState& stylus, const SoftOrgan& 
   // The energy of the cut over the way of closing: a spring that holds it when the blades have closed.
   const TracedCut ahead = trace_cut(*organ.surface(), scissor_blade(stylus.X_TI, options_.blades_m, widest_m_));
   if (ahead.refusal != CutRefusal::kNone) return;
+  const double way = widest_m_ - options_.closed_m;
   blades_.thickness_m = widest_m_;
-  blades_.stiffness_n_per_m = 2 * organ.material().toughness_j_per_m2 * ahead.area_m2 / (widest_m_ * widest_m_);
+  blades_.stiffness_n_per_m = 2 * organ.material().toughness_j_per_m2 * ahead.area_m2 / (way * way);
 }
 
 WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
@@ -128,6 +129,7 @@ WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
   }
   cut_now_ = true;
   ++state_.cuts;
+  state_.cut_m2 += made.area_m2;
   state_.refusal = 0;
   grip_.follow_cut(organ);
   const std::vector<VertexOrigin> added(organ.added().begin(), organ.added().end());

@@ -103,8 +103,8 @@ void StateHash::add_surgery(const SurgeryState& surgery) {
   for (const std::int32_t number :
        {surgery.cuts, surgery.tears, surgery.clips, surgery.refusals, surgery.refusal, surgery.wounds})
     add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(number)));
-  for (const double value :
-       {surgery.blood_ml, surgery.blood_ml_per_min, surgery.sucked_ml, surgery.heat_j, surgery.contact_c})
+  for (const double value : {surgery.blood_ml, surgery.blood_ml_per_min, surgery.sucked_ml, surgery.cut_m2,
+                             surgery.heat_j, surgery.contact_c})
     add(value);
 }
 

@@ -194,7 +194,8 @@ void walk_frame(Words& words, Frame& f) {
 template <typename Words, typename Surgery>
 void walk_surgery(Words& words, Surgery& s) {
   for (auto* number : {&s.cuts, &s.tears, &s.clips, &s.refusals, &s.refusal, &s.wounds}) words.whole(*number);
-  for (auto* number : {&s.blood_ml, &s.blood_ml_per_min, &s.sucked_ml, &s.heat_j, &s.contact_c}) words.rounded(*number);
+  for (auto* number : {&s.blood_ml, &s.blood_ml_per_min, &s.sucked_ml, &s.cut_m2, &s.heat_j, &s.contact_c})
+    words.rounded(*number);
 }
 
 /// What has been done to an organ follows, where something has.

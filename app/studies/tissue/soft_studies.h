@@ -1,5 +1,5 @@
-// `trocar study indentation | relaxation | grasp | multirate | tissue-scaling`: tissue that gives way beside converged
-// numbers, published ranges, other ways between its rate and the loop's, and its cost.
+// `trocar study indentation | relaxation | grasp | cutting | multirate | tissue-scaling`: tissue that gives way beside
+// converged numbers, published ranges, other ways between its rate and the loop's, and its cost.
 #pragma once
 
 #include "app/studies/study.h"
@@ -12,6 +12,8 @@ StudyResult indentation_study(const StudyRequest& request);
 StudyResult relaxation_study(const StudyRequest& request);
 /// A fold held by the jaws and pulled: what holds, what slips, what is left afterwards.
 StudyResult grasp_study(const StudyRequest& request);
+/// Cuts: how wounds open by tension at rest and cell size, what blades take, what a cut costs.
+StudyResult cutting_study(const StudyRequest& request);
 /// The same press by ours, the held force, a linear coupling and the thesis' law.
 StudyResult multirate_study(const StudyRequest& request);
 /// Time of a step over the number of nodes.
