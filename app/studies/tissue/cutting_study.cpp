@@ -14,7 +14,7 @@ namespace trocar {
 namespace {
 
 constexpr double kLength = 0.020, kDepth = 0.012;  // m, of the cut that all lines speak of
-const Vec3 kHalf(0.060, 0.050, 0.035);             // m, of the ellipsoid
+const Vec3 kCutOrgan(0.060, 0.050, 0.035);         // m, of the ellipsoid
 constexpr int kStepsToRest = 150;
 constexpr double kWristDown = -1;
 
@@ -35,7 +35,7 @@ SoftOrgan cut_organ(const SurfacePtr& rest, double edge_m, double residual_strai
 }
 
 double top_of(double x, double y) {
-  return kHalf.z() * std::sqrt(1 - std::pow(x / kHalf.x(), 2) - std::pow(y / kHalf.y(), 2));
+  return kCutOrgan.z() * std::sqrt(1 - std::pow(x / kCutOrgan.x(), 2) - std::pow(y / kCutOrgan.y(), 2));
 }
 
 Blade cut_on_top(double x, double y) {
@@ -205,7 +205,7 @@ void study_blade(StudyResult& study, const SurfacePtr& rest) {
   const auto step = [&](double next) {
     state.stylus.t_s += 0.01;
     state.stylus.X_TI.R = Vec3(1, kWristDown, kWristDown).asDiagonal();
-    state.stylus.X_TI.p = Vec3(0, 0, kHalf.z() - 0.006);
+    state.stylus.X_TI.p = Vec3(0, 0, kCutOrgan.z() - 0.006);
     state.stylus.jaw_opening_m = next;
     world.step(state, true, *patch);
     const double force = patch->grip.stiffness_n_per_m * std::max(0.0, patch->grip.thickness_m - next);
@@ -233,7 +233,7 @@ void study_blade(StudyResult& study, const SurfacePtr& rest) {
 
 StudyResult cutting_study(const StudyRequest& request) {
   StudyResult study{"cutting", "none: blades at prescribed places, tissue of 5 kPa", {}, {}};
-  const SurfacePtr rest = still_surface(ellipsoid_surface(kHalf, 48));
+  const SurfacePtr rest = still_surface(ellipsoid_surface(kCutOrgan, 48));
   study_opening(study, rest, request.quick);
   study_blade(study, rest);
   study_cost(study, rest, request.quick);
