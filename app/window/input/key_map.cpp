@@ -1,6 +1,7 @@
 #include "app/window/input/key_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "haptics/input_error.h"
@@ -73,6 +74,19 @@ bool stays(Action action) { return action == Action::kMenu || action == Action::
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
+}
+
+/// Came when people had files of their own already.
+constexpr std::array kLateActions{Action::kGrip, Action::kPedal, Action::kExchange};
+
+/// Its default, or where another action has been given that, what that one has left.
+std::int32_t key_left_for(Action action, const std::map<Action, std::int32_t>& keys) {
+  std::int32_t key = default_keys().at(action);
+  const auto takes = [&](const auto& own) { return own.first != action && own.second == key; };
+  for (auto taker = std::find_if(keys.begin(), keys.end(), takes); taker != keys.end();
+       taker = std::find_if(keys.begin(), keys.end(), takes))
+    key = default_keys().at(taker->first);
+  return key;
 }
 
 /// @throws InputError when this key cannot be this action's.
@@ -158,6 +172,8 @@ void KeyMap::apply(const std::map<std::string, std::string>& changes) {
     check_pair(found->action, key);
     keys[found->action] = key;
   }
+  for (const Action late : kLateActions)
+    if (!changes.contains(named(late).name)) keys[late] = key_left_for(late, keys);
   std::map<std::int32_t, Action> taken;
   for (const auto& [action, key] : keys) {
     const auto [at, fresh] = taken.emplace(key, action);

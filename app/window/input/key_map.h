@@ -71,6 +71,7 @@ class KeyMap {
   void assign(Action action, std::int32_t key);
   /// Only what differs from the defaults.
   std::map<std::string, std::string> changes() const;
+  /// Jaws, pedal and exchange yield: older files may have given their keys away.
   /// @throws InputError naming an unknown action, key, or one that is given twice.
   void apply(const std::map<std::string, std::string>& changes);
 

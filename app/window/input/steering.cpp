@@ -36,6 +36,7 @@ constexpr double kApproach = 0.012;                         // m/s towards what 
 constexpr double kToGround_s = 0.25;                        // over a ground: faster from high above,
 constexpr double kGroundSlow = 0.004, kGroundFast = 0.040;  // within these, m/s
 constexpr double kPress = 0.003;                            // m/s into what is touched: 0.45 N/s at 150 N/m
+constexpr double kShut = 0.001;                             // m: jaws between which nothing is taken
 constexpr double kAhead = 0.0015;                           // m that the target may be deeper than the tip
 constexpr double kLetOff = 0.10;                            // m/s back
 constexpr double kFeltGain = 0.3;                           // of sideways movements, while something is touched
@@ -334,6 +335,7 @@ struct Steering::State {
     if (returning) act_way_T = toward(act_way_T, Vec3::Zero(), kLetOff * dt_s);
     if (act_way_T.isZero()) returning = false;
     if (!acting || around.jaws || returning) return;
+    if (around.jaws_apart && !gripping() && around.now.jaw_opening_m > kShut) return;  // else it would take a fold
     const Vec3& tip = around.now.X_TI.p;
     if (around.touching) {
       act_way_T -= kPress * dt_s * around.normal_T;
@@ -414,6 +416,9 @@ struct Steering::State {
     intent.clutch = clutch;
   }
 
+  /// The jaws' own control.
+  bool gripping() const { return on(Action::kGrip) || pad[5] > kTrigger; }
+
   void hold_switches(const AtHand& around) {
     intent.pedal = on(Action::kPedal) || (around.in_tissue && pad[4] > kTrigger);
     intent.exchange = std::exchange(exchange_pressed, false) || on(Action::kExchange) || pad_on(kPadRightThumb);
@@ -421,7 +426,7 @@ struct Steering::State {
 
   void move_jaws(const AtHand& around, double dt_s) {
     if (around.jaws_apart)
-      jaw.work({.close = on(Action::kGrip) || pad[5] > kTrigger,
+      jaw.work({.close = gripping(),
                 .shut = acting || !act_way_T.isZero(),
                 .gripping = around.gripping,
                 .fingers_m = around.now.jaw_opening_m},

@@ -69,6 +69,16 @@ TEST(KeyMap, ChangesComeBackAsTheyWere) {
   EXPECT_TRUE(again.changes().empty());
 }
 
+TEST(KeyMap, AFileFromBeforeAnActionMayHaveGivenItsKeyAway) {
+  KeyMap keys;
+  keys.apply({{"guidance", "G"}, {"mark", "F"}, {"pause", "M"}, {"picture", "Y"}});
+  EXPECT_EQ(keys.key_of(Action::kGuidance), 'G');
+  EXPECT_EQ(keys.key_of(Action::kGrip), kKeyF5) << "what guidance has left";
+  EXPECT_EQ(keys.key_of(Action::kPedal), 'P') << "mark has F, pause has mark's";
+  EXPECT_EQ(keys.key_of(Action::kExchange), 'T');
+  EXPECT_NE(refusal({{"guidance", "G"}, {"grip", "G"}}).find("both have G"), std::string::npos);
+}
+
 TEST(KeyMap, SomeKeysStay) {
   KeyMap keys;
   EXPECT_THROW(keys.assign(Action::kMenu, 'K'), InputError);

@@ -352,7 +352,10 @@ TEST(SteeringJaws, InTissueHaveAKeyOfTheirOwnAndAreClosedWhileTheTipPresses) {
   s.release('G');
   EXPECT_DOUBLE_EQ(s.run(0.5).jaw_opening_m, 0.02);
   s.press(kKeySpace);
-  EXPECT_DOUBLE_EQ(s.run(0.6).jaw_opening_m, 0);
+  const Vec3 above = s.tip();
+  EXPECT_EQ(s.run(0.3).X_TI.p, above) << "no press with open jaws: they would take a fold";
+  EXPECT_DOUBLE_EQ(s.run(0.3).jaw_opening_m, 0);
+  EXPECT_GT((s.tip() - above).norm(), 0.001);
   s.release(kKeySpace);
   EXPECT_DOUBLE_EQ(s.run(0.6).jaw_opening_m, 0) << "pressed on, they stay closed";
   s.press('X');

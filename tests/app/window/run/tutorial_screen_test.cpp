@@ -225,6 +225,26 @@ TEST_F(TutorialBench, FreePlayHasAnOrganAndItsForceAndKeepsNothing) {
   EXPECT_TRUE(model_->past().empty());
 }
 
+TEST_F(TutorialBench, InFreePlayAFoldIsTakenByTheKeyOfTheJawsAndLetGo) {
+  ModelOptions free = bench_.options();
+  free.free_play = true;
+  open(free);
+  ASSERT_TRUE(runs());
+  pointer_by(0, 0);
+  ASSERT_TRUE(go_to([this] { return model_->running()->scene().board.start_T; }, 0.004));
+  ASSERT_TRUE(until([this] { return now().status.phase == Phase::kRun; }));
+  ASSERT_TRUE(go_to([this] { return model_->running()->scene().board.centre_T; }, 0.004));
+  EXPECT_TRUE(until([this] { return now().record.stylus.jaw_opening_m > 0.018; })) << "open at rest";
+  for (int notch = 0; notch < 8; ++notch) wheel(1);  // 16 mm, from 8 mm above
+  for (int i = 0; i < 30; ++i) turn();
+  key_goes(Kind::kKeyDown, 'G');
+  EXPECT_TRUE(until([this] { return now().tissue.held(); }));
+  EXPECT_GT(stage().view.hud.bars.back().value_n, 0.1) << "the jaws' bar";
+  keep_picture("fold");
+  key_goes(Kind::kKeyUp, 'G');
+  EXPECT_TRUE(until([this] { return !now().tissue.held(); }));
+}
+
 TEST_F(TutorialBench, ThePauseOffersTheStartPageAndAFreshBeginning) {
   ASSERT_EQ(model_->begin_play(Play::kTutorial), "");
   loop_->go(ScreenName::kRun);
