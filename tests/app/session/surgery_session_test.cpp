@@ -14,7 +14,7 @@
 namespace trocar::surgery_session_test {
 namespace {
 
-/// Scissors down with open blades, closed, up; then the hook, energised, drawn along beside it.
+/// Scissors down with open blades, squeezed shut, up; then the hook, energised, drawn along beside it.
 std::vector<ScriptedMove> cut_and_burn() {
   const auto move = [](double x_mm, double y_mm, double z_mm, double seconds, double jaw_mm, InstrumentKind kind,
                        bool pedal = false) {
@@ -26,7 +26,7 @@ std::vector<ScriptedMove> cut_and_burn() {
                         .instrument = kind};
   };
   const auto scissors = InstrumentKind::kScissors, hook = InstrumentKind::kHook;
-  return {move(0, 0, 45, 2, 12, scissors),    move(0, 0, -9, 1.5, 14, scissors), move(0, 0, -9, 0.6, 0, scissors),
+  return {move(0, 0, 45, 2, 12, scissors),    move(0, 0, -9, 1.5, 14, scissors), move(0, 0, -9, 0.6, -15, scissors),
           move(0, 0, 30, 0.8, 0, scissors),   move(20, -12, 15, 1, 10, hook),    move(20, -12, -4, 0.8, 10, hook, true),
           move(20, 6, -4, 3, 10, hook, true), move(20, 6, 30, 1, 10, hook)};
 }
