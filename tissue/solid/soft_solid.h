@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "haptics/quantities.h"
+#include "tissue/solid/node_levels.h"
 #include "tissue/solid/tissue_material.h"
 
 namespace trocar {
@@ -88,6 +89,8 @@ class SoftSolid {
 
   /// One step. @param springs their force_n is filled in.
   void step(std::span<SoftSpring> springs = {});
+  /// Of the last step's solves, products with the matrix beyond the first of each.
+  int iterations() const { return iterations_; }
   /// Static equilibrium by steps without inertia; for tests and studies. @return steps taken
   int settle(std::span<SoftSpring> springs = {}, double still_m = 1e-7, int most_steps = 200);
 
@@ -113,23 +116,33 @@ class SoftSolid {
   double compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia) const;
 
  private:
-  struct Group;  ///< eight cells
+  struct Group;    ///< eight cells, as the matrix knows them
+  struct History;  ///< of the same
   /// Tension at rest that a severed node no longer has from its other half.
   struct Release {
     std::size_t node = 0, lane = 0;  ///< lane of a cell that it turns with
     Vec3f force = Vec3f::Zero();     ///< N, at rest
   };
 
-  void add_groups();  ///< for all cells
+  void add_groups();   ///< for all cells
+  void resize_rows();  ///< what is computed anew in every step
+  void find_levels();
   void fill_lane(std::size_t cell);
   void copy_lane(std::size_t from, std::size_t to);
   Vec3f turned(const Release& release) const;
   void spread_cells();  ///< masses, and what groups a node has
   void release();
   void prepare();  ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
-  void add_product(const std::vector<Vec3f>& in, std::vector<Vec3f>& out, std::span<const std::int32_t> groups) const;
+  /// out += K in, of these groups.
+  void add_product(std::span<const NodeRow> in, std::span<NodeRow> out, std::span<const std::int32_t> groups) const;
+  void multiply(std::span<const SoftSpring> springs, const std::vector<bool>& active, const std::vector<NodeRow>& in,
+                std::vector<NodeRow>& out) const;
+  void predict();  ///< the guess that the solve begins with
+  void set_right(std::span<const SoftSpring> springs, const std::vector<bool>& active);
+  void set_inverse(std::span<const SoftSpring> springs, const std::vector<bool>& active);
   void solve(std::span<SoftSpring> springs, const std::vector<bool>& active);
   void set_diagonal();
+  float inertia() const;  ///< (1 + h alpha) / h^2: of a kilogram in the step's matrix, N/m
 
   SoftSolidOptions options_;
   std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;  ///< last, a node for lanes without a cell
@@ -140,12 +153,15 @@ class SoftSolid {
   std::vector<std::int32_t> root_;  ///< of each node: of which it was severed
   std::vector<Release> released_;
   std::vector<Group> groups_;
+  std::vector<History> histories_;
   std::vector<std::int32_t> all_groups_;
   std::vector<std::vector<std::int32_t>> groups_of_node_;
-  std::vector<float> diagonal_;  ///< of the step's matrix, without springs
-  std::vector<float> stiffness_diagonal_;
-  std::vector<Vec3f> right_, residual_, direction_, product_, preconditioned_, guess_, velocity_next_;
-  std::vector<float> inverse_;
+  std::vector<float> stiffness_diagonal_, shift_;  ///< of the step's matrix: of the cells, and inertia and supports
+  NodeLevels levels_;
+  std::vector<Vec3f> guess_, velocity_next_, velocity_before_, change_;
+  std::vector<NodeRow> right_, residual_, direction_, product_, scaled_, solution_;
+  std::vector<float> inverse_;  ///< of the diagonal with springs
+  int iterations_ = 0;
   bool statics_ = false;  ///< settle(): without inertia
 };
 
