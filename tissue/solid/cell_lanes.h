@@ -10,8 +10,6 @@
 // Thread: any.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -122,26 +120,40 @@ TROCAR_INLINE void press(const Lane (*growth)[kAxes], Lane pressure, Lane (*f)[k
   }
 }
 
+/// e^x less 1 for x of at most 2.5, to 3e-7 of it. No library's: theirs differ from processor to processor.
+TROCAR_INLINE Lane exponential_less_one(Lane x) {
+  const Lane y = x * (1.0F / 16);
+  Lane less_one = y * (1.0F + y * (0.5F + y * (1.0F / 6 + y * (1.0F / 24 + y * (1.0F / 120)))));
+  TROCAR_UNROLLED
+  for (int doubled = 0; doubled < 4; ++doubled) less_one *= 2.0F + less_one;
+  return less_one;
+}
+
 /// Volume of a cell less that at rest, over that at rest, from the mean gradient 1 + e of its turned corners, and how
 /// it grows with e: the cofactors.
 TROCAR_INLINE Lane volume_change(const Lane (*e)[kAxes], Lane (*growth)[kAxes]) {
   Lane g[kAxes][kAxes], beyond{};
-  for (int c = 0; c < kAxes; ++c)
-    for (int k = 0; k < kAxes; ++k)
-      for (int l = 0; l < kLanes; ++l) g[c][k][l] = std::clamp(e[c][k][l], -kMostGradient, kMostGradient);
+  const Lane most = all(kMostGradient);
+  TROCAR_UNROLLED
+  for (int i = 0; i < kAxes * kAxes; ++i) {
+    const Lane value = e[i / kAxes][i % kAxes], above = value > most ? most : value;
+    g[i / kAxes][i % kAxes] = above < -most ? -most : above;
+  }
   Lane change = g[0][0] + g[1][1] + g[2][2];
+  TROCAR_UNROLLED
   for (int c = 0; c < kAxes; ++c) {
     const int d = (c + 1) % kAxes, f = (c + 2) % kAxes;
     change += g[d][d] * g[f][f] - g[d][f] * g[f][d];
     change += g[0][c] * (g[1][d] * g[2][f] - g[1][f] * g[2][d]);
   }
   for (int c = 0; c < kAxes; ++c) g[c][c] += 1.0F;
-  for (int c = 0; c < kAxes; ++c)
-    for (int k = 0; k < kAxes; ++k) {
-      const int d = (c + 1) % kAxes, f = (c + 2) % kAxes, m = (k + 1) % kAxes, n = (k + 2) % kAxes;
-      growth[c][k] = g[d][m] * g[f][n] - g[d][n] * g[f][m];
-      beyond += growth[c][k] * (e[c][k] - (c == k ? g[c][k] - 1.0F : g[c][k]));
-    }
+  TROCAR_UNROLLED
+  for (int i = 0; i < kAxes * kAxes; ++i) {
+    const int c = i / kAxes, k = i % kAxes;
+    const int d = (c + 1) % kAxes, f = (c + 2) % kAxes, m = (k + 1) % kAxes, n = (k + 2) % kAxes;
+    growth[c][k] = g[d][m] * g[f][n] - g[d][n] * g[f][m];
+    beyond += growth[c][k] * (e[c][k] - (c == k ? g[c][k] - 1.0F : g[c][k]));
+  }
   return change + beyond;
 }
 
@@ -204,26 +216,32 @@ TROCAR_INLINE void turn(const Lane (*R)[kAxes], Lane (*v)[kCubeCorners]) {
 TROCAR_INLINE void follow_rotation(const Lane (*F)[kAxes], Lane (*R)[kAxes]) {
   for (int step = 0; step < kRotationSteps; ++step) {
     Lane w[kAxes]{}, weight{};
+    TROCAR_UNROLLED
     for (int k = 0; k < kAxes; ++k) {
+      TROCAR_UNROLLED
       for (int c = 0; c < kAxes; ++c) {
         const int d = (c + 1) % kAxes, e = (c + 2) % kAxes;
         w[c] += R[d][k] * F[e][k] - R[e][k] * F[d][k];
       }
       weight += R[0][k] * F[0][k] + R[1][k] * F[1][k] + R[2][k] * F[2][k];
     }
-    for (int l = 0; l < kLanes; ++l) weight[l] = std::fabs(weight[l]) + kNoGradient;
+    weight = (weight < 0.0F ? -weight : weight) + kNoGradient;
     Lane q[kAxes];
     // Half the angle, for the Cayley map. Near a stretch S the torque of a turn v is (tr S - S) v, 2/3 of tr S v at
     // rest: with that and not with all of tr S nothing is left of a turn of an undeformed cell.
+    TROCAR_UNROLLED
     for (int c = 0; c < kAxes; ++c) q[c] = 0.75F * w[c] / weight;
     const Lane scale = 2.0F / (1.0F + q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
+    TROCAR_UNROLLED
     for (int k = 0; k < kAxes; ++k) {
       const Lane r[kAxes] = {R[0][k], R[1][k], R[2][k]};
       Lane t[kAxes];
+      TROCAR_UNROLLED
       for (int c = 0; c < kAxes; ++c) {
         const int d = (c + 1) % kAxes, e = (c + 2) % kAxes;
         t[c] = r[c] + (q[d] * r[e] - q[e] * r[d]);
       }
+      TROCAR_UNROLLED
       for (int c = 0; c < kAxes; ++c) {
         const int d = (c + 1) % kAxes, e = (c + 2) % kAxes;
         R[c][k] = r[c] + scale * (q[d] * t[e] - q[e] * t[d]);

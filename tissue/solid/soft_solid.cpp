@@ -13,7 +13,7 @@
 namespace trocar {
 namespace {
 
-constexpr float kMostStiffening = 8;  // times the small-strain modulus
+constexpr float kMostExponent = 2.0794415F;  // ln 8: the most by which strain stiffens
 constexpr int kActiveSetPasses = 3;
 constexpr int kMostLocal = 80;            // iterations of a clamped neighbourhood
 constexpr double kLocalTolerance = 1e-6;  // of its energy: 0.1 % of the displacement
@@ -22,12 +22,25 @@ constexpr double kLooseFit = 1e-3;        // of the edge, between a cell's corne
 Vec3f as_vector(const Vec3f& value) { return value; }
 Vec3f as_vector(const NodeRow& row) { return {row.at[0], row.at[1], row.at[2]}; }
 
+/// Of the lattice that the nodes lie on.
+std::vector<std::array<std::int32_t, 3>> grid_places(std::span<const Vec3> nodes, double edge_m) {
+  Vec3 low = Vec3::Constant(1e9);
+  for (const Vec3& node : nodes) low = low.cwiseMin(node);
+  std::vector<std::array<std::int32_t, 3>> out;
+  for (const Vec3& node : nodes) {
+    const Vec3 at = (node - low) / edge_m + Vec3::Constant(0.5);
+    out.push_back(
+        {static_cast<std::int32_t>(at[0]), static_cast<std::int32_t>(at[1]), static_cast<std::int32_t>(at[2])});
+  }
+  return out;
+}
+
 /// Spreads the bits of a lattice index: cells of one neighbourhood stand together.
-std::uint64_t interleaved(const std::array<std::uint32_t, 3>& at) {
+std::uint64_t interleaved(const std::array<std::int32_t, 3>& at) {
   std::uint64_t key = 0;
   for (unsigned bit = 0; bit < 21; ++bit)
     for (unsigned axis = 0; axis < kAxes; ++axis)
-      key |= static_cast<std::uint64_t>(at[axis] >> bit & 1U) << (kAxes * bit + axis);
+      key |= static_cast<std::uint64_t>(at[axis] >> bit & 1) << (kAxes * bit + axis);
   return key;
 }
 
@@ -44,13 +57,12 @@ struct alignas(kLanes * sizeof(float)) SoftSolid::Group {
 /// The rest of what is known of them.
 struct alignas(kLanes * sizeof(float)) SoftSolid::History {
   Lane strain[kAxes][kCubeCorners];   ///< R^T x - X, in modes
-  Lane held[2][kAxes][kCubeCorners];  ///< strain that the branches still hold, in modes
+  Lane held[kAxes][kCubeCorners][2];  ///< strain that the branches still hold, in modes
   Lane swollen, held_swollen[2];      ///< change of volume, as strain is in modes, and what the branches hold of it
   Lane mu, kappa;                     ///< long-term, with fill and edge
   Lane instant;                       ///< instantaneous over long-term
   Lane share[2], keep[2];             ///< g_i and a_i
   Lane stiffening;                    ///< c
-  Lane factor;                        ///< of strain stiffening, at the present place
   Lane volume;                        ///< of tissue, m3, for the record
 };
 
@@ -71,8 +83,7 @@ SoftSolid::SoftSolid(std::span<const Vec3> nodes, std::span<const SoftCell> cell
   root_.resize(count - 1);
   std::iota(root_.begin(), root_.end(), 0);
 
-  Vec3 low = Vec3::Constant(1e9);
-  for (const Vec3& node : nodes) low = low.cwiseMin(node);
+  const std::vector<std::array<std::int32_t, 3>> places = grid_places(nodes, options.edge_m);
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Vec3 first = nodes[static_cast<std::size_t>(cells[i].node[0])];
@@ -84,16 +95,13 @@ SoftSolid::SoftSolid(std::span<const Vec3> nodes, std::span<const SoftCell> cell
     }
     if (cells[i].material < 0 || cells[i].material >= static_cast<std::int32_t>(materials.size()))
       throw InputError("cell " + std::to_string(i) + " of the lattice has a material that there is not");
-    const Vec3 place = (first - low) / options.edge_m + Vec3::Constant(0.5);
-    order.emplace_back(interleaved({static_cast<std::uint32_t>(place[0]), static_cast<std::uint32_t>(place[1]),
-                                    static_cast<std::uint32_t>(place[2])}),
-                       i);
+    order.emplace_back(interleaved(places[static_cast<std::size_t>(cells[i].node[0])]), i);
   }
   std::sort(order.begin(), order.end());
   lane_.resize(cells.size());
   for (std::size_t at = 0; at < order.size(); ++at) lane_[order[at].second] = at;
   add_groups();
-  find_levels();
+  levels_ = NodeLevels(places);
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) fill_lane(cell);
   spread_cells();
   prepare();
@@ -107,7 +115,6 @@ void SoftSolid::add_groups() {
     std::memset(&group, 0, sizeof group);
     std::memset(&history, 0, sizeof history);
     for (std::size_t c = 0; c < kAxes; ++c) group.rotation[c][c] = all(1);
-    history.factor = all(1);
   }
   // Lanes without a cell stand behind all others and hang on the last node.
   for (std::size_t at = cells_.size(); at < groups_.size() * kLanes; ++at)
@@ -116,20 +123,8 @@ void SoftSolid::add_groups() {
 
 void SoftSolid::resize_rows() {
   const std::size_t count = rest_.size();
-  for (auto* rows : {&right_, &residual_, &direction_, &product_, &scaled_, &solution_}) rows->assign(count, NodeRow{});
+  for (auto* rows : {&right_, &residual_, &direction_, &product_, &solution_}) rows->assign(count, NodeRow{});
   for (auto* values : {&stiffness_diagonal_, &shift_, &inverse_}) values->assign(count, 0);
-}
-
-void SoftSolid::find_levels() {
-  Vec3f low = Vec3f::Constant(1e9F);
-  for (const Vec3f& place : rest()) low = low.cwiseMin(place);
-  std::vector<std::array<std::int32_t, 3>> places;
-  for (const Vec3f& place : rest()) {
-    const Vec3f at = (place - low) / static_cast<float>(options_.edge_m);
-    places.push_back({static_cast<std::int32_t>(std::lround(at[0])), static_cast<std::int32_t>(std::lround(at[1])),
-                      static_cast<std::int32_t>(std::lround(at[2]))});
-  }
-  levels_ = NodeLevels(places);
 }
 
 void SoftSolid::fill_lane(std::size_t number) {
@@ -186,7 +181,7 @@ void SoftSolid::sever(std::span<const std::int32_t> node_parent, std::span<const
   for (const std::int32_t parent : node_parent) root_.push_back(root_[static_cast<std::size_t>(parent)]);
   elastic_.assign(rest_.size(), Vec3f::Zero());
   resize_rows();
-  find_levels();
+  levels_.add_doubles(node_parent);
 
   const std::size_t known = cells_.size();
   for (const SoftCellChange& change : cells) {
@@ -287,70 +282,84 @@ void SoftSolid::place(std::span<const Vec3f> position) {
   prepare();
 }
 
-TROCAR_LANES_CLONED void SoftSolid::prepare() {
-  const FloatCube& cube = float_cube();
-  const auto quarter = static_cast<float>(4 * options_.edge_m);
-  for (std::size_t n = 0; n < rest_.size(); ++n) {
-    solution_[n] = {{position_[n][0], position_[n][1], position_[n][2], 0}};
-    product_[n] = {};
+/// What the branches hold grows by what the cell was strained since, and decays. In modes. @return what pulls: the
+/// strain and what is still held of it at the end of the step
+TROCAR_INLINE Lane relax(Lane now, Lane& before, Lane* held, const Lane* gain, const Lane* keep) {
+  const Lane change = now - before;
+  before = now;
+  TROCAR_UNROLLED
+  for (int i = 0; i < 2; ++i) {
+    held[i] = keep[i] * (held[i] + gain[i] * change);
+    now += keep[i] * held[i];
   }
+  return now;
+}
+
+/// Of strain stiffening, from the equivalent strain by the energy of the change of shape: w = mu/2 u K u / V = 3/2 mu
+/// e^2.
+TROCAR_INLINE Lane stiffer(const FloatCube& cube, const Lane (*u)[kCubeCorners], Lane stiffening, float edge_m) {
+  Lane f[kAxes][kCubeCorners], strain{};
+  stiffen(cube, u, all(1), f);
+  TROCAR_UNROLLED
+  for (int c = 0; c < kAxes; ++c) {
+    TROCAR_UNROLLED
+    for (int m = 1; m < kCubeCorners; ++m) strain += u[c][m] * f[c][m];
+  }
+  for (int l = 0; l < kLanes; ++l) strain[l] = std::sqrt(std::max(0.0F, strain[l]) / (3 * edge_m * edge_m));
+  const Lane exponent = stiffening * strain, most = all(kMostExponent);
+  return 1.0F + exponential_less_one(exponent < most ? exponent : most);
+}
+
+TROCAR_LANES_CLONED void SoftSolid::prepare_groups() {
+  const FloatCube& cube = float_cube();
+  const auto edge = static_cast<float>(options_.edge_m);
+  const float quarter = 4 * edge, per_quarter = 1 / quarter;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     History& history = histories_[g];
-    Lane v[kAxes][kCubeCorners], f[kAxes][kCubeCorners];
+    Lane v[kAxes][kCubeCorners], f[kAxes][kCubeCorners], F[kAxes][kAxes];
     gather(solution_.data(), group.node, v);
     for (auto& component : v) to_modes(component);
-    Lane F[kAxes][kAxes];
-    for (int c = 0; c < kAxes; ++c)
-      for (int k = 0; k < kAxes; ++k) F[c][k] = v[c][1 << k] / quarter;
+    const auto find_gradient = [&] {
+      TROCAR_UNROLLED
+      for (int i = 0; i < kAxes * kAxes; ++i) F[i / kAxes][i % kAxes] = v[i / kAxes][1 << i % kAxes] * per_quarter;
+    };
+    find_gradient();
     follow_rotation(F, group.rotation);
     turn_back(group.rotation, v);
     for (int c = 0; c < kAxes; ++c) {
       v[c][0] = Lane{};
       v[c][1 << c] -= quarter;
     }
-    for (int c = 0; c < kAxes; ++c)
-      for (int k = 0; k < kAxes; ++k) F[c][k] = v[c][1 << k] / quarter;
-    const Lane swollen = quarter * volume_change(F, group.growth);
-    // What the branches hold grows by what the cell was strained since, and decays.
-    for (int i = 0; i < 2; ++i)
-      for (int c = 0; c < kAxes; ++c)
-        for (int m = 0; m < kCubeCorners; ++m)
-          history.held[i][c][m] = history.keep[i] * (history.held[i][c][m] + history.share[i] * history.instant *
-                                                                                 (v[c][m] - history.strain[c][m]));
-    for (int i = 0; i < 2; ++i)
-      history.held_swollen[i] = history.keep[i] * (history.held_swollen[i] +
-                                                   history.share[i] * history.instant * (swollen - history.swollen));
-    std::memcpy(history.strain, v, sizeof v);
-    history.swollen = swollen;
-    // Equivalent strain from the energy of the change of shape: w = mu/2 u K u / V = 3/2 mu e^2.
-    stiffen(cube, v, all(1), f);
-    Lane shape{};
-    for (int c = 0; c < kAxes; ++c)
-      for (int m = 1; m < kCubeCorners; ++m) shape += v[c][m] * f[c][m];
-    const auto square = static_cast<float>(options_.edge_m * options_.edge_m);
-    for (int l = 0; l < kLanes; ++l) {
-      const float strain = std::sqrt(std::max(0.0F, shape[l]) / (3 * square));
-      history.factor[l] = std::min(kMostStiffening, std::exp(history.stiffening[l] * strain));
+    find_gradient();
+    const Lane gain[2] = {history.share[0] * history.instant, history.share[1] * history.instant};
+    const Lane swollen =
+        relax(quarter * volume_change(F, group.growth), history.swollen, history.held_swollen, gain, history.keep);
+    const Lane factor = stiffer(cube, v, history.stiffening, edge);
+    for (int c = 0; c < kAxes; ++c) {
+      TROCAR_UNROLLED
+      for (int m = 1; m < kCubeCorners; ++m)
+        v[c][m] = relax(v[c][m], history.strain[c][m], history.held[c][m], gain, history.keep);
     }
-    const Lane algorithmic =
-        history.instant * (1.0F - history.share[0] - history.share[1] + history.share[0] * history.keep[0] +
-                           history.share[1] * history.keep[1]);
-    const Lane mu = history.mu * history.factor, kappa = history.kappa * history.factor;
+    const Lane mu = history.mu * factor, kappa = history.kappa * factor;
+    const Lane lasting = history.instant * (1.0F - history.share[0] - history.share[1]);
+    const Lane algorithmic = lasting + gain[0] * history.keep[0] + gain[1] * history.keep[1];
     group.step_mu = mu * algorithmic;
     group.step_kappa = kappa * algorithmic;
-    for (int c = 0; c < kAxes; ++c)
-      for (int m = 0; m < kCubeCorners; ++m)
-        v[c][m] = -(v[c][m] + history.keep[0] * history.held[0][c][m] + history.keep[1] * history.held[1][c][m]);
-    stiffen(cube, v, mu, f);
-    press(group.growth,
-          -cube.dilatation * kappa *
-              (swollen + history.keep[0] * history.held_swollen[0] + history.keep[1] * history.held_swollen[1]),
-          f);
+    stiffen(cube, v, -mu, f);
+    press(group.growth, -cube.dilatation * kappa * swollen, f);
     turn(group.rotation, f);
     for (auto& component : f) to_corners(component);
     scatter(f, group.node, product_.data());
   }
+}
+
+void SoftSolid::prepare() {
+  for (std::size_t n = 0; n < rest_.size(); ++n) {
+    solution_[n] = {{position_[n][0], position_[n][1], position_[n][2], 0}};
+    product_[n] = {};
+  }
+  prepare_groups();
   for (std::size_t n = 0; n < rest_.size(); ++n) elastic_[n] = as_vector(product_[n]);
   for (const Release& r : released_) elastic_[r.node] += turned(r);
   set_diagonal();
@@ -438,7 +447,7 @@ TROCAR_LANES_CLONED double dot(const std::vector<NodeRow>& a, const std::vector<
   return together(even + odd);
 }
 
-/// to = factor of + what is there times keep, each node with its own factor.
+/// Each row times its own factor.
 TROCAR_LANES_CLONED void scale(const std::vector<float>& factor, const std::vector<NodeRow>& of,
                                std::vector<NodeRow>& to) {
   for (std::size_t n = 0; n < of.size(); ++n) set(to[n], factor[n] * row(of[n]));
@@ -447,27 +456,24 @@ TROCAR_LANES_CLONED void scale(const std::vector<float>& factor, const std::vect
 struct Progress {
   double residual = 0, scaled = 0;  ///< r . r and r . z
 };
-/// x += alpha d, r -= alpha q, z = inverse r.
+/// x += alpha d, r -= alpha q. @param inverse z = inverse r
 TROCAR_LANES_CLONED Progress move(float alpha, const std::vector<NodeRow>& d, const std::vector<NodeRow>& q,
-                                  const std::vector<float>& inverse, std::vector<NodeRow>& x, std::vector<NodeRow>& r,
-                                  std::vector<NodeRow>& z) {
+                                  const std::vector<float>& inverse, std::vector<NodeRow>& x, std::vector<NodeRow>& r) {
   Sum residual{}, scaled{};
   for (std::size_t n = 0; n < d.size(); ++n) {
     set(x[n], row(x[n]) + alpha * row(d[n]));
-    const Row left = row(r[n]) - alpha * row(q[n]), next = inverse[n] * left;
+    const Row left = row(r[n]) - alpha * row(q[n]);
     set(r[n], left);
-    set(z[n], next);
     residual += squares(left, left);
-    scaled += squares(left, next);
+    scaled += squares(left, inverse[n] * left);
   }
   return {together(residual), together(scaled)};
 }
 
 }  // namespace
 
-void SoftSolid::multiply(std::span<const SoftSpring> springs, const std::vector<bool>& active,
-                         const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const {
-  scale(shift_, in, out);
+void SoftSolid::add_stiffness(std::span<const SoftSpring> springs, const std::vector<bool>& active,
+                              const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const {
   add_product(in, out, all_groups_);
   for (std::size_t s = 0; s < springs.size(); ++s) {
     if (!active[s]) continue;
@@ -509,22 +515,23 @@ void SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& ac
   set_right(springs, active);
   set_inverse(springs, active);
   for (std::size_t n = 0; n < rest_.size(); ++n) solution_[n] = {{guess_[n][0], guess_[n][1], guess_[n][2], 0}};
-  multiply(springs, active, solution_, product_);
+  scale(shift_, solution_, product_);
+  add_stiffness(springs, active, solution_, product_);
   residual_ = right_;
   direction_.assign(rest_.size(), NodeRow{});
   const double enough = options_.tolerance * options_.tolerance * dot(right_, right_);
-  // The first move only takes the product off the right-hand side.
-  Progress progress = move(1, direction_, product_, inverse_, solution_, residual_, scaled_);
+  // The first move, along nothing, only takes the product off the right-hand side.
+  Progress progress = move(1, direction_, product_, inverse_, solution_, residual_);
   double rho = 0;
   for (int iteration = 0; iteration < options_.most_iterations && progress.residual > enough; ++iteration) {
-    const double next = progress.scaled + levels_.restrict(residual_);
-    levels_.advance(scaled_, rho > 0 ? static_cast<float>(next / rho) : 0.0F, direction_);
+    const double next = progress.scaled + levels_.coarsen(residual_);
+    levels_.advance(inverse_, residual_, rho > 0 ? static_cast<float>(next / rho) : 0.0F, shift_, direction_, product_);
     rho = next;
-    multiply(springs, active, direction_, product_);
+    add_stiffness(springs, active, direction_, product_);
     const double curvature = dot(direction_, product_);
     if (!(rho > 0 && curvature > 0)) break;
     ++iterations_;
-    progress = move(static_cast<float>(rho / curvature), direction_, product_, inverse_, solution_, residual_, scaled_);
+    progress = move(static_cast<float>(rho / curvature), direction_, product_, inverse_, solution_, residual_);
   }
   for (std::size_t n = 0; n < rest_.size(); ++n) velocity_next_[n] = as_vector(solution_[n]);
 }

@@ -126,17 +126,18 @@ class SoftSolid {
 
   void add_groups();   ///< for all cells
   void resize_rows();  ///< what is computed anew in every step
-  void find_levels();
   void fill_lane(std::size_t cell);
   void copy_lane(std::size_t from, std::size_t to);
   Vec3f turned(const Release& release) const;
   void spread_cells();  ///< masses, and what groups a node has
   void release();
   void prepare();  ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
+  void prepare_groups();
   /// out += K in, of these groups.
   void add_product(std::span<const NodeRow> in, std::span<NodeRow> out, std::span<const std::int32_t> groups) const;
-  void multiply(std::span<const SoftSpring> springs, const std::vector<bool>& active, const std::vector<NodeRow>& in,
-                std::vector<NodeRow>& out) const;
+  /// out += K in and what springs give, all of the matrix but what shift_ has of it.
+  void add_stiffness(std::span<const SoftSpring> springs, const std::vector<bool>& active,
+                     const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const;
   void predict();  ///< the guess that the solve begins with
   void set_right(std::span<const SoftSpring> springs, const std::vector<bool>& active);
   void set_inverse(std::span<const SoftSpring> springs, const std::vector<bool>& active);
@@ -159,7 +160,7 @@ class SoftSolid {
   std::vector<float> stiffness_diagonal_, shift_;  ///< of the step's matrix: of the cells, and inertia and supports
   NodeLevels levels_;
   std::vector<Vec3f> guess_, velocity_next_, velocity_before_, change_;
-  std::vector<NodeRow> right_, residual_, direction_, product_, scaled_, solution_;
+  std::vector<NodeRow> right_, residual_, direction_, product_, solution_;
   std::vector<float> inverse_;  ///< of the diagonal with springs
   int iterations_ = 0;
   bool statics_ = false;  ///< settle(): without inertia
