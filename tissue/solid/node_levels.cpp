@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "tissue/solid/cell_lanes.h"
@@ -16,18 +17,73 @@ constexpr std::size_t kFewestNodes = 40;  // of a level that is worth a coarser 
 // residual, fewest iterations with 0.4 (cells of 12.5 to 4 mm).
 constexpr float kStiffnessCoarser = 0.4F;
 
-using Place = std::array<std::int32_t, 3>;
+/// Sets that grow together; the first member stands for all.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : first_(count) { std::iota(first_.begin(), first_.end(), 0); }
+  std::int32_t first(std::int32_t member) {
+    while (at(member) != member) member = at(member) = at(at(member));
+    return member;
+  }
+  void unite(std::int32_t a, std::int32_t b) {
+    a = first(a);
+    b = first(b);
+    at(std::max(a, b)) = std::min(a, b);
+  }
 
-/// The coarser grid points whose shares make up a grid point.
-std::vector<Place> parents_of(const Place& at) {
-  std::vector<Place> out{{at[0] / 2, at[1] / 2, at[2] / 2}};
-  for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    if (at[axis] % 2 == 0) continue;
-    const std::size_t count = out.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      out.push_back(out[i]);
-      ++out.back()[axis];
+ private:
+  std::int32_t& at(std::int32_t member) { return first_[static_cast<std::size_t>(member)]; }
+  std::vector<std::int32_t> first_;
+};
+
+std::array<std::int32_t, 3> halved(const std::array<std::int32_t, 3>& place) {
+  return {place[0] / 2, place[1] / 2, place[2] / 2};
+}
+
+/// Cells in the order of the coarser places in which they lie.
+std::vector<std::size_t> by_coarser_place(std::span<const PlacedCell> cells) {
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto key = [&](std::size_t i) {
+    const auto [x, y, z] = halved(cells[i].place);
+    return std::tuple(z, y, x, i);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
+/// Which coarser cell each is a part of. The nodes of the coarser ones are not known yet.
+std::vector<std::int32_t> join_cells(std::span<const PlacedCell> cells, std::size_t node_count,
+                                     std::vector<PlacedCell>& coarser) {
+  const std::vector<std::size_t> order = by_coarser_place(cells);
+  Sets together(order.size());
+  std::vector<std::int32_t> last_at(node_count, -1);  // of a node, where in the order it was met last
+  const auto place = [&](std::int32_t at) { return halved(cells[order[static_cast<std::size_t>(at)]].place); };
+  for (std::int32_t at = 0; at < static_cast<std::int32_t>(order.size()); ++at)
+    for (const std::int32_t node : cells[order[static_cast<std::size_t>(at)]].node) {
+      std::int32_t& last = last_at[static_cast<std::size_t>(node)];
+      if (last >= 0 && place(last) == place(at)) together.unite(last, at);
+      last = at;
     }
+  std::vector<std::int32_t> number(order.size()), part_of(cells.size());
+  for (std::int32_t at = 0; at < static_cast<std::int32_t>(order.size()); ++at) {
+    const std::int32_t first = together.first(at);
+    if (first == at) {
+      number[static_cast<std::size_t>(at)] = static_cast<std::int32_t>(coarser.size());
+      coarser.push_back({place(at), {}});
+    }
+    part_of[order[static_cast<std::size_t>(at)]] = number[static_cast<std::size_t>(first)];
+  }
+  return part_of;
+}
+
+/// The corner of a cell at b where a cell at a has its corner, or -1.
+int same_corner(const std::array<std::int32_t, 3>& a, int corner, const std::array<std::int32_t, 3>& b) {
+  int out = 0;
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const int bit = a[axis] + (corner >> axis & 1) - b[axis];
+    if (bit < 0 || bit > 1) return -1;
+    out |= bit << axis;
   }
   return out;
 }
@@ -45,6 +101,7 @@ TROCAR_INLINE Row coarser_mean(const Level& level, std::size_t n) {
   const auto value = [&](int i) __attribute__((always_inline)) {
     return row(level.value[static_cast<std::size_t>(parent[i])]);
   };
+  if (count == 0) return Row{};
   if (count == 1) return value(0);
   if (count == 2) return 0.5F * (value(0) + value(1));
   const Row four = (value(0) + value(1)) + (value(2) + value(3));
@@ -56,44 +113,67 @@ float inverse_or_none(float value) { return value > 0 ? 1 / value : 0; }
 
 }  // namespace
 
-NodeLevels::NodeLevels(std::span<const Place> place) {
-  std::vector<Place> finer(place.begin(), place.end());
-  const auto before = [](const Place& a, const Place& b) {
-    return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
-  };
-  while (levels_.size() < kMostLevels && finer.size() > kFewestNodes) {
-    std::vector<Place> coarser;
-    for (const Place& at : finer)
-      for (const Place& parent : parents_of(at)) coarser.push_back(parent);
-    const std::vector<Place> parents = coarser;
-    std::sort(coarser.begin(), coarser.end(), before);
-    coarser.erase(std::unique(coarser.begin(), coarser.end()), coarser.end());
+NodeLevels::NodeLevels(std::span<const PlacedCell> cells, std::size_t node_count) {
+  std::vector<PlacedCell> coarser;
+  while (levels_.size() < kMostLevels && node_count > kFewestNodes) {
     Level level;
-    for (const Place& at : parents)
-      level.parent.push_back(
-          static_cast<std::int32_t>(std::lower_bound(coarser.begin(), coarser.end(), at, before) - coarser.begin()));
-    level.first_parent = {0};
-    for (const Place& at : finer)
-      level.first_parent.push_back(level.first_parent.back() + (1 << (at[0] % 2 + at[1] % 2 + at[2] % 2)));
-    level.stiffness.resize(coarser.size());
-    level.outside = level.inverse = level.stiffness;
-    level.value.resize(coarser.size());
+    coarser = find_parents(cells, node_count, level);
     find_children(level);
+    cells = coarser;
+    node_count = level.value.size();
     levels_.push_back(std::move(level));
-    finer = std::move(coarser);
   }
 }
 
-void NodeLevels::add_doubles(std::span<const std::int32_t> node) {
-  if (levels_.empty()) return;
-  Level& level = levels_.front();
-  for (const std::int32_t original : node) {
-    for (std::int32_t i = level.first_parent[static_cast<std::size_t>(original)];
-         i < level.first_parent[static_cast<std::size_t>(original) + 1]; ++i)
-      level.parent.push_back(level.parent[static_cast<std::size_t>(i)]);
+std::vector<PlacedCell> NodeLevels::find_parents(std::span<const PlacedCell> cells, std::size_t node_count,
+                                                 Level& level) {
+  std::vector<PlacedCell> coarser;
+  const std::vector<std::int32_t> part_of = join_cells(cells, node_count, coarser);
+  // Corners of coarser cells are one node where finer cells of both share a node.
+  struct Seen {
+    std::int32_t in = -1, where = 0;  // coarser cell; place in it, two bits an axis
+  };
+  Sets corners(kCubeCorners * coarser.size());
+  std::vector<Seen> seen(node_count);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (int a = 0; a < kCubeCorners; ++a) {
+      const std::int32_t here = part_of[i];
+      const auto& place = coarser[static_cast<std::size_t>(here)].place;
+      Seen& node = seen[static_cast<std::size_t>(cells[i].node[static_cast<std::size_t>(a)])];
+      if (node.in < 0) {
+        node.in = here;
+        for (std::size_t axis = 0; axis < kAxes; ++axis)
+          node.where |= (cells[i].place[axis] - 2 * place[axis] + (a >> axis & 1)) << 2 * axis;
+      }
+      for (int c = 0; c < kCubeCorners && node.in != here; ++c) {
+        const int there = same_corner(place, c, coarser[static_cast<std::size_t>(node.in)].place);
+        if (there >= 0) corners.unite(kCubeCorners * here + c, kCubeCorners * node.in + there);
+      }
+    }
+  std::vector<std::int32_t> number(kCubeCorners * coarser.size(), -1);
+  std::int32_t count = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const auto first = static_cast<std::size_t>(corners.first(static_cast<std::int32_t>(i)));
+    if (first == i) number[i] = count++;
+    coarser[i / kCubeCorners].node[i % kCubeCorners] = number[i] = number[first];
+  }
+  level.first_parent = {0};
+  for (const Seen& node : seen) {
+    for (int c = 0; c < kCubeCorners && node.in >= 0; ++c) {
+      bool has_part = true;
+      for (int axis = 0; axis < kAxes; ++axis) {
+        const int where = node.where >> 2 * axis & 3;
+        has_part = has_part && (where == 1 || where == 2 * (c >> axis & 1));
+      }
+      if (has_part)
+        level.parent.push_back(coarser[static_cast<std::size_t>(node.in)].node[static_cast<std::size_t>(c)]);
+    }
     level.first_parent.push_back(static_cast<std::int32_t>(level.parent.size()));
   }
-  find_children(level);
+  level.stiffness.resize(static_cast<std::size_t>(count));
+  level.outside = level.inverse = level.stiffness;
+  level.value.resize(static_cast<std::size_t>(count));
+  return coarser;
 }
 
 void NodeLevels::find_children(Level& level) {
@@ -104,6 +184,7 @@ void NodeLevels::find_children(Level& level) {
   level.child.resize(level.parent.size());
   for (std::size_t n = 0; n + 1 < level.first_parent.size(); ++n) {
     const std::int32_t first = level.first_parent[n], end = level.first_parent[n + 1];
+    if (first == end) continue;
     const auto halvings = static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(end - first)) - 1);
     for (std::int32_t i = first; i < end; ++i) {
       std::int32_t& at = next[static_cast<std::size_t>(level.parent[static_cast<std::size_t>(i)])];

@@ -8,8 +8,11 @@
 // is multilevel diagonal scaling (Bramble, Pasciak, Xu 1990; Zhang 1992): symmetric and positive definite whatever the
 // D_l > 0, so conjugate gradients may use it, and without any coarser matrix. The diagonal of the stiffness goes down
 // with the spacing as that of an element does, edge^3 / edge^2; that of masses and springs to the outside is their sum.
-// What is isotropic stays so however the tissue turned. Nodes doubled by a cut take from the same coarser ones. Sums in
-// fixed order. Thread: that of the solid.
+// What is isotropic stays so however the tissue turned.
+//
+// A cut goes through all levels (Dick, Georgii, Westermann 2011): a coarser cell is what hangs together of the finer
+// ones in its place, and neighbours share corners where finer cells of theirs share a node. So both lips of a cut have
+// coarser nodes of their own. Sums in fixed order. Thread: that of the solid.
 #pragma once
 
 #include <array>
@@ -21,12 +24,15 @@
 
 namespace trocar {
 
+/// A cube of a lattice: several may have one place.
+struct PlacedCell {
+  std::array<std::int32_t, 3> place{};  ///< >= 0
+  std::array<std::int32_t, 8> node{};   ///< corners: bits 1 = +x, 2 = +y, 4 = +z
+};
+
 class NodeLevels {
  public:
-  /// @param place grid point of each node, >= 0
-  explicit NodeLevels(std::span<const std::array<std::int32_t, 3>> place = {});
-  /// More nodes, each at the place of an earlier one.
-  void add_doubles(std::span<const std::int32_t> node);
+  explicit NodeLevels(std::span<const PlacedCell> cells = {}, std::size_t node_count = 0);
 
   /// Without springs. @param stiffness, outside: of each node, the diagonal of what cells give and that of all else.
   /// N/m
@@ -55,6 +61,8 @@ class NodeLevels {
     std::vector<float> stiffness, outside, inverse;
     std::vector<NodeRow> value;
   };
+  /// @return the coarser cells, with the numbers of the level's nodes
+  static std::vector<PlacedCell> find_parents(std::span<const PlacedCell> cells, std::size_t node_count, Level& level);
   static void find_children(Level& level);
   static void coarsen_onto(Level& level, const NodeRow* finer);
 

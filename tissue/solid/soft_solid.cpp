@@ -101,7 +101,8 @@ SoftSolid::SoftSolid(std::span<const Vec3> nodes, std::span<const SoftCell> cell
   lane_.resize(cells.size());
   for (std::size_t at = 0; at < order.size(); ++at) lane_[order[at].second] = at;
   add_groups();
-  levels_ = NodeLevels(places);
+  for (const SoftCell& cell : cells_) places_.push_back(places[static_cast<std::size_t>(cell.node[0])]);
+  find_levels();
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) fill_lane(cell);
   spread_cells();
   prepare();
@@ -125,6 +126,12 @@ void SoftSolid::resize_rows() {
   const std::size_t count = rest_.size();
   for (auto* rows : {&right_, &residual_, &direction_, &product_, &solution_}) rows->assign(count, NodeRow{});
   for (auto* values : {&stiffness_diagonal_, &shift_, &inverse_}) values->assign(count, 0);
+}
+
+void SoftSolid::find_levels() {
+  std::vector<PlacedCell> cells;
+  for (std::size_t i = 0; i < cells_.size(); ++i) cells.push_back({places_[i], cells_[i].node});
+  levels_ = NodeLevels(cells, node_count());
 }
 
 void SoftSolid::fill_lane(std::size_t number) {
@@ -181,13 +188,13 @@ void SoftSolid::sever(std::span<const std::int32_t> node_parent, std::span<const
   for (const std::int32_t parent : node_parent) root_.push_back(root_[static_cast<std::size_t>(parent)]);
   elastic_.assign(rest_.size(), Vec3f::Zero());
   resize_rows();
-  levels_.add_doubles(node_parent);
 
   const std::size_t known = cells_.size();
   for (const SoftCellChange& change : cells) {
     const auto number = static_cast<std::size_t>(change.number);
     if (number >= cells_.size()) {
       cells_.push_back(cells_[static_cast<std::size_t>(change.parent)]);
+      places_.push_back(places_[static_cast<std::size_t>(change.parent)]);
       lane_.push_back(cells_.size() - 1);
     }
     cells_[number].node = change.node;
@@ -199,7 +206,6 @@ void SoftSolid::sever(std::span<const std::int32_t> node_parent, std::span<const
     if (number >= known) copy_lane(lane_[static_cast<std::size_t>(change.parent)], lane_[number]);
     fill_lane(number);
   }
-  const std::vector<float> mass_before = mass_;
   spread_cells();
   // Supports and loads of a node are shared with those severed from it, by mass.
   std::vector<float> together(before, 0);
@@ -215,6 +221,7 @@ void SoftSolid::sever(std::span<const std::int32_t> node_parent, std::span<const
     load_[n] *= mass_[n] / together[of];
   }
   release();
+  find_levels();
   prepare();
 }
 

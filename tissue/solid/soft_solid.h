@@ -124,7 +124,8 @@ class SoftSolid {
     Vec3f force = Vec3f::Zero();     ///< N, at rest
   };
 
-  void add_groups();   ///< for all cells
+  void add_groups();  ///< for all cells
+  void find_levels();
   void resize_rows();  ///< what is computed anew in every step
   void fill_lane(std::size_t cell);
   void copy_lane(std::size_t from, std::size_t to);
@@ -149,6 +150,7 @@ class SoftSolid {
   std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;  ///< last, a node for lanes without a cell
   std::vector<float> mass_, support_;                               ///< of each node
   std::vector<SoftCell> cells_;
+  std::vector<std::array<std::int32_t, 3>> places_;  ///< of each cell in the lattice
   std::vector<TissueSolid> materials_;
   std::vector<std::size_t> lane_;   ///< of each cell: its group's number times the lanes and its own in it
   std::vector<std::int32_t> root_;  ///< of each node: of which it was severed
