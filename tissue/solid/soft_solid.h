@@ -9,9 +9,10 @@
 // dissipative. Strains and not forces, so that stiffening leaves nothing behind on a closed path. A step is implicit
 // Euler with one linearisation,
 //   [(1 + h alpha) M + h^2 (K_alg + K_support + sum k J^T J)] v = M v0 + h f(x0),  x = x0 + h v,
-// by conjugate gradients from the last velocity. Nothing is assembled: products go cell by cell, eight cells a vector,
-// in the Walsh basis. The same operations in the same order on every machine: float without contraction, sums in eight
-// lanes.
+// by conjugate gradients, from the last velocity and as much of its last change as would have been right a step ago,
+// preconditioned on ever coarser lattices (node_levels.h). Nothing is assembled: products go cell by cell, eight cells
+// a vector, in the Walsh basis (cell_lanes.h); the solver divides all by h^2. The same operations in the same order on
+// every machine: float without contraction, sums by component, no library's exponential.
 //
 // Positions in the frame that the nodes came in, m; SI. Thread: tissue task; same input, same bytes.
 #pragma once
@@ -89,7 +90,7 @@ class SoftSolid {
 
   /// One step. @param springs their force_n is filled in.
   void step(std::span<SoftSpring> springs = {});
-  /// Of the last step's solves, products with the matrix beyond the first of each.
+  /// Of all solves of the last step.
   int iterations() const { return iterations_; }
   /// Static equilibrium by steps without inertia; for tests and studies. @return steps taken
   int settle(std::span<SoftSpring> springs = {}, double still_m = 1e-7, int most_steps = 200);
