@@ -9,9 +9,10 @@
 // dissipative. Strains and not forces, so that stiffening leaves nothing behind on a closed path. A step is implicit
 // Euler with one linearisation,
 //   [(1 + h alpha) M + h^2 (K_alg + K_support + sum k J^T J)] v = M v0 + h f(x0),  x = x0 + h v,
-// by conjugate gradients from the last velocity. Nothing is assembled: products go cell by cell, eight cells a vector,
-// in the Walsh basis. The same operations in the same order on every machine: float without contraction, sums in eight
-// lanes.
+// by conjugate gradients, from the last velocity and as much of its last change as would have been right a step ago,
+// preconditioned on ever coarser lattices (node_levels.h). Nothing is assembled: products go cell by cell, eight cells
+// a vector, in the Walsh basis (cell_lanes.h); the solver divides all by h^2. The same operations in the same order on
+// every machine: float without contraction, sums by component, no library's exponential.
 //
 // Positions in the frame that the nodes came in, m; SI. Thread: tissue task; same input, same bytes.
 #pragma once
@@ -23,6 +24,7 @@
 #include <vector>
 
 #include "haptics/quantities.h"
+#include "tissue/solid/node_levels.h"
 #include "tissue/solid/tissue_material.h"
 
 namespace trocar {
@@ -88,6 +90,8 @@ class SoftSolid {
 
   /// One step. @param springs their force_n is filled in.
   void step(std::span<SoftSpring> springs = {});
+  /// Of all solves of the last step.
+  int iterations() const { return iterations_; }
   /// Static equilibrium by steps without inertia; for tests and studies. @return steps taken
   int settle(std::span<SoftSpring> springs = {}, double still_m = 1e-7, int most_steps = 200);
 
@@ -113,7 +117,8 @@ class SoftSolid {
   double compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia) const;
 
  private:
-  struct Group;  ///< eight cells
+  struct Group;    ///< eight cells, as the matrix knows them
+  struct History;  ///< of the same
   /// Tension at rest that a severed node no longer has from its other half.
   struct Release {
     std::size_t node = 0, lane = 0;  ///< lane of a cell that it turns with
@@ -121,31 +126,46 @@ class SoftSolid {
   };
 
   void add_groups();  ///< for all cells
+  void find_levels();
+  void resize_rows();  ///< what is computed anew in every step
   void fill_lane(std::size_t cell);
   void copy_lane(std::size_t from, std::size_t to);
   Vec3f turned(const Release& release) const;
   void spread_cells();  ///< masses, and what groups a node has
   void release();
   void prepare();  ///< rotations, relaxation, elastic force and the factors of the matrix at the present place
-  void add_product(const std::vector<Vec3f>& in, std::vector<Vec3f>& out, std::span<const std::int32_t> groups) const;
+  void prepare_groups();
+  /// out += K in, of these groups.
+  void add_product(std::span<const NodeRow> in, std::span<NodeRow> out, std::span<const std::int32_t> groups) const;
+  /// out += K in and what springs give, all of the matrix but what shift_ has of it.
+  void add_stiffness(std::span<const SoftSpring> springs, const std::vector<bool>& active,
+                     const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const;
+  void predict();  ///< the guess that the solve begins with
+  void set_right(std::span<const SoftSpring> springs, const std::vector<bool>& active);
+  void set_inverse(std::span<const SoftSpring> springs, const std::vector<bool>& active);
   void solve(std::span<SoftSpring> springs, const std::vector<bool>& active);
   void set_diagonal();
+  float inertia() const;  ///< (1 + h alpha) / h^2: of a kilogram in the step's matrix, N/m
 
   SoftSolidOptions options_;
   std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;  ///< last, a node for lanes without a cell
   std::vector<float> mass_, support_;                               ///< of each node
   std::vector<SoftCell> cells_;
+  std::vector<std::array<std::int32_t, 3>> places_;  ///< of each cell in the lattice
   std::vector<TissueSolid> materials_;
   std::vector<std::size_t> lane_;   ///< of each cell: its group's number times the lanes and its own in it
   std::vector<std::int32_t> root_;  ///< of each node: of which it was severed
   std::vector<Release> released_;
   std::vector<Group> groups_;
+  std::vector<History> histories_;
   std::vector<std::int32_t> all_groups_;
   std::vector<std::vector<std::int32_t>> groups_of_node_;
-  std::vector<float> diagonal_;  ///< of the step's matrix, without springs
-  std::vector<float> stiffness_diagonal_;
-  std::vector<Vec3f> right_, residual_, direction_, product_, preconditioned_, guess_, velocity_next_;
-  std::vector<float> inverse_;
+  std::vector<float> stiffness_diagonal_, shift_;  ///< of the step's matrix: of the cells, and inertia and supports
+  NodeLevels levels_;
+  std::vector<Vec3f> guess_, velocity_next_, velocity_before_, change_;
+  std::vector<NodeRow> right_, residual_, direction_, product_, solution_;
+  std::vector<float> inverse_;  ///< of the diagonal with springs
+  int iterations_ = 0;
   bool statics_ = false;  ///< settle(): without inertia
 };
 

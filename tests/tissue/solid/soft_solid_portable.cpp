@@ -1,7 +1,9 @@
 // The soft solid once more, without the clones that the processor chooses among: what any machine computes.
 #define TROCAR_LANES_CLONED
 #define SoftSolid PortableSoftSolid
-#include "tissue/solid/soft_solid.cpp"  // NOLINT(bugprone-suspicious-include)
+#define NodeLevels PortableNodeLevels
+#include "tissue/solid/node_levels.cpp"  // NOLINT(bugprone-suspicious-include)
+#include "tissue/solid/soft_solid.cpp"   // NOLINT(bugprone-suspicious-include)
 
 #include "tests/tissue/solid/soft_solid_path.h"
 
