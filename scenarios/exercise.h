@@ -6,6 +6,7 @@
 // uses _mm and _deg keys. Frame T.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -18,6 +19,7 @@
 #include "scenarios/kinds/reach/reach_rules.h"
 #include "scenarios/kinds/touch/touch_rules.h"
 #include "scenarios/scoring/rubric.h"
+#include "tissue/thin/duct_setup.h"
 
 namespace trocar {
 
@@ -86,6 +88,17 @@ struct TargetLayout {
   double wrong_place_m = 0;  ///< disc: first contact further than this outside is a wrong place
 };
 
+/// A duct or vessel beside the organ; only where the organ gives way.
+struct DuctPlan {
+  std::string name;          ///< "cystic duct"
+  std::string material;      ///< of assets/tissues.toml
+  std::string organ;         ///< material of the organs that have it; others go without
+  std::vector<Vec3> path_m;  ///< from the region's centre, axes of T; what its ends hang on moves them there
+  double outer_radius_m = 0, wall_m = 0;
+  std::array<DuctHold, 2> ends{};
+  DuctContent content = DuctContent::kNothing;
+};
+
 struct Exercise {
   ExerciseKind kind = ExerciseKind::kTouch;
   std::string id, title, version;               ///< "surface-touch"
@@ -104,6 +117,7 @@ struct Exercise {
   double retract_height_m = 0;  ///< of the ideal path between targets
   GripTask grip;                ///< touch
   GraspRules grasp;             ///< grasp
+  std::vector<DuctPlan> ducts;
   std::vector<ExerciseLevel> levels;
   Rubric rubric;  ///< of the first level
   std::filesystem::path file;

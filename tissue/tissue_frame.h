@@ -58,12 +58,14 @@ struct TissueMark {
 struct SurgeryState {
   std::int32_t cuts = 0, tears = 0, clips = 0;
   std::int32_t refusals = 0;  ///< closings of blades or clip applier that did nothing
-  std::int32_t refusal = 0;   ///< of the last closing: CutRefusal; 0: it did what it should
+  std::int32_t refusal = 0;   ///< of the last closing: closing_words() (thin/duct_system.h); 0: it did what it should
   std::int32_t wounds = 0;
   double blood_ml = 0, blood_ml_per_min = 0, sucked_ml = 0;
-  double cut_m2 = 0;     ///< of all cuts and tears, one wall of each
-  double heat_j = 0;     ///< delivered to tissue
-  double contact_c = 0;  ///< of the tissue under an energised instrument; 0: none touches
+  double cut_m2 = 0;            ///< of all cuts and tears, one wall of each
+  double heat_j = 0;            ///< delivered to tissue
+  double contact_c = 0;         ///< of the tissue under an energised instrument; 0: none touches
+  std::int32_t bile_leaks = 0;  ///< places from which bile comes now
+  double bile_ml = 0;           ///< that has come from them
 
   bool operator==(const SurgeryState&) const = default;
 };

@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kFirstStep = 0.01;    // s
 constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as more
+constexpr double kFeed = 0.2;          // m of a vessel of the same radius: the resistance before it; unchecked
+constexpr double kBed = 2e-12;         // m3/(Pa s) of the capillaries behind a vessel; unchecked
 
 }  // namespace
 
@@ -19,14 +21,23 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
     SoftOrganOptions options = setup.soft->options;
     options.tool_radius_m = tools_.front().shape.radius_m;
     soft_.emplace(setup.soft->lattice, seen_, setup.soft->material, options);
-    felt_ = *setup.organ_T;
-    velocity_.assign(felt_.vertices.size(), Vec3::Zero());
     organ_.mu_static = setup.soft->material.mu_static;
     organ_.mu_dynamic = setup.soft->material.mu_dynamic;
-    triangle_material_.assign(setup.triangle_material.begin(), setup.triangle_material.end());
-    organ_vertices_ = seen_->vertices.size();
-    organ_triangles_ = seen_->triangles.size();
+    const auto own = static_cast<std::int32_t>(seen_->vertices.size());
+    adjacent_T_.vertices.assign(setup.organ_T->vertices.begin() + own, setup.organ_T->vertices.end());
+    for (std::size_t t = seen_->triangles.size(); t < setup.organ_T->triangles.size(); ++t) {
+      const auto& [a, b, c] = setup.organ_T->triangles[t];
+      adjacent_T_.triangles.push_back({a - own, b - own, c - own});
+      adjacent_material_.push_back(setup.triangle_material.empty() ? 0 : setup.triangle_material[t]);
+    }
+    if (!setup.ducts.empty()) {
+      ducts_.emplace(setup.ducts, *soft_, options.tool_radius_m);
+      last_topology_ = soft_->topology();
+    }
     actions_.emplace(*soft_);
+    hang_vessels();
+    gather_felt();
+    std::copy(setup.organ_T->vertices.begin(), setup.organ_T->vertices.end(), felt_.vertices.begin());  // not rounded
     extraction_.emplace(felt_, triangle_material_);
   } else if (setup.organ_T && !setup.organ_T->triangles.empty()) {
     extraction_.emplace(*setup.organ_T, setup.triangle_material);
@@ -71,6 +82,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     frame_.slipped_m = actions_->grip().slipped_m();
     frame_.surgery = actions_->state();
     frame_.smoke_per_m = actions_->smoke_per_m();
+    if (ducts_) add_ducts(patch);
   }
   if (present && rigid_) rigid_->add_to(jaws, patch);
   enclose(patch, patch.balls);
@@ -79,48 +91,180 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
 }
 
 void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool present) {
+  // Jaws that have a duct between them do nothing to the organ: to it they are a probe.
+  const bool taken = ducts_ && ducts_->jaws_taken(newest.stylus, tool, present);
+  const Tool probe{InstrumentKind::kProbe, tool.shape};
+  const Tool& on_organ = taken ? probe : tool;
   std::vector<SoftSpring> springs;
-  const bool cut = actions_->before(newest, tool, present, *soft_, springs);
-  if (cut) take_cut_surface();
+  bool cut = actions_->before(newest, on_organ, present, *soft_, springs);
+  const std::size_t own = springs.size();
+  if (ducts_) {
+    if (cut) {
+      last_topology_ = soft_->topology() - 1;
+      last_first_duct_triangle_ = first_duct_triangle_;
+    }
+    ducts_->step(newest, duct_contacts(newest.contacts), tool, present, *soft_, springs);
+    tell_vessels();
+    cut = cut || ducts_->grown();
+  }
+  if (cut) gather_felt();
   soft_->step(newest.contacts, present ? &newest.stylus.X_TI.p : nullptr, springs);
-  actions_->after(newest, tool, present, springs, *soft_);
-  const auto felt = soft_->felt();
+  actions_->after(newest, on_organ, present, std::span(springs).first(own), *soft_);
   const double step_s = soft_->solid().options().step_s;
-  for (std::size_t v = 0; v < felt.size(); ++v) {
-    velocity_[v] = (felt[v] - felt_.vertices[v]) / step_s;
-    felt_.vertices[v] = felt[v];
+  const auto follow = [&](std::size_t first, std::span<const Vec3> places) {
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      velocity_[first + v] = (places[v] - felt_.vertices[first + v]) / step_s;
+      felt_.vertices[first + v] = places[v];
+    }
+  };
+  follow(0, soft_->felt());
+  if (ducts_) {
+    follow(organ_vertices_ + adjacent_T_.vertices.size(), ducts_->contact().vertices);
+    keep_changes();
   }
   extraction_->refit(velocity_);
 }
 
-void TissueWorld::take_cut_surface() {
-  // The felt vertices of before stay where they were; the adjacent organs' move behind the organ's new ones.
+void TissueWorld::gather_felt() {
+  // What was there stays where it was, so that its velocity is that of the step; what is new stands.
   const auto& organ = *soft_->rest();
-  const auto shift = static_cast<std::int32_t>(organ.vertices.size() - organ_vertices_);
+  const std::size_t known_organ = organ_vertices_, tail = organ_vertices_ + adjacent_T_.vertices.size();
   TriangleSurface felt;
-  felt.vertices.assign(felt_.vertices.begin(), felt_.vertices.begin() + static_cast<std::ptrdiff_t>(organ_vertices_));
-  felt.vertices.insert(felt.vertices.end(), soft_->felt().begin() + static_cast<std::ptrdiff_t>(organ_vertices_),
-                       soft_->felt().end());
-  felt.vertices.insert(felt.vertices.end(), felt_.vertices.begin() + static_cast<std::ptrdiff_t>(organ_vertices_),
-                       felt_.vertices.end());
+  felt.vertices.assign(soft_->felt().begin(), soft_->felt().end());
+  std::copy_n(felt_.vertices.begin(), std::min(known_organ, felt_.vertices.size()), felt.vertices.begin());
   felt.triangles = organ.triangles;
-  for (std::size_t t = organ_triangles_; t < felt_.triangles.size(); ++t) {
-    auto triangle = felt_.triangles[t];
-    for (std::int32_t& corner : triangle) corner += shift;
-    felt.triangles.push_back(triangle);
+  std::vector<std::int32_t> material(organ.triangles.size(), 0);
+  const auto append = [&](const TriangleSurface& more) {
+    const auto first = static_cast<std::int32_t>(felt.vertices.size());
+    felt.vertices.insert(felt.vertices.end(), more.vertices.begin(), more.vertices.end());
+    for (const auto& [a, b, c] : more.triangles) felt.triangles.push_back({first + a, first + b, first + c});
+    return static_cast<std::size_t>(first);
+  };
+  append(adjacent_T_);
+  material.insert(material.end(), adjacent_material_.begin(), adjacent_material_.end());
+  if (ducts_) {
+    first_duct_triangle_ = static_cast<std::int32_t>(felt.triangles.size());
+    const std::size_t first = append(ducts_->contact());
+    for (std::size_t v = tail; v < felt_.vertices.size(); ++v) felt.vertices[first + v - tail] = felt_.vertices[v];
+    for (const std::int32_t duct : ducts_->duct_of_triangle())
+      material.push_back(duct_material(static_cast<std::size_t>(duct)));
   }
-  if (!triangle_material_.empty())
-    triangle_material_.insert(triangle_material_.begin() + static_cast<std::ptrdiff_t>(organ_triangles_),
-                              organ.triangles.size() - organ_triangles_, 0);
   felt_ = std::move(felt);
+  triangle_material_ = std::move(material);
   velocity_.assign(felt_.vertices.size(), Vec3::Zero());
   organ_vertices_ = organ.vertices.size();
-  organ_triangles_ = organ.triangles.size();
   extraction_.emplace(felt_, triangle_material_);
+}
+
+/// Behind those of the adjacent organs; where the patch has no room for more, that of the last place.
+std::int32_t TissueWorld::duct_material(std::size_t duct) const {
+  return static_cast<std::int32_t>(std::min<std::size_t>(1 + adjacent_.size() + duct, kMaxPatchMaterials - 1));
+}
+
+DuctContacts TissueWorld::duct_contacts(const SolvedContacts& contacts) const {
+  if (contacts.topology == soft_->topology() && last_first_duct_triangle_ < 0) return {contacts, first_duct_triangle_};
+  // The organ has more triangles since its last cut: those of the ducts begin later.
+  if (contacts.topology == last_topology_) return {contacts, last_first_duct_triangle_};
+  return {contacts, contacts.topology == soft_->topology() ? first_duct_triangle_ : -1};
+}
+
+void TissueWorld::hang_vessels() {
+  if (!ducts_) return;
+  VesselFlow flow;
+  for (std::size_t d = 0; d < ducts_->size(); ++d) {
+    vessel_.push_back(-1);
+    const DuctSetup& setup = ducts_->setup(d);
+    if (setup.content != DuctContent::kBlood) continue;
+    const double radius = setup.outer_radius_m - setup.wall_m;
+    const std::int32_t source = flow.add_node({Supply::kArterial, 0}), begin = flow.add_node({}),
+                       end = flow.add_node({Supply::kNone, kBed});
+    flow.add_vessel({source, begin, radius, kFeed});
+    vessel_.back() = flow.add_vessel({begin, end, radius, ducts_->tube(d).rod.length_m()});
+  }
+  actions_->bleeding().hang(flow);
+}
+
+void TissueWorld::tell_vessels() {
+  for (const DuctChange& change : ducts_->changed()) {
+    const auto duct = static_cast<std::size_t>(change.duct);
+    const ElasticRod& rod = ducts_->tube(duct).rod;
+    if (vessel_[duct] < 0) continue;
+    const double at = change.arc_m / rod.length_m();
+    switch (change.kind) {
+      case DuctChange::Kind::kCut:
+      case DuctChange::Kind::kTorn:
+      case DuctChange::Kind::kAvulsed: {
+        // Both ends bleed onto the organ where it is nearest.
+        const MaterialPoint place = soft_->nearest_place(rod.place_at(change.arc_m));
+        actions_->bleeding().cut_vessel(vessel_[duct], at, place, place);
+        break;
+      }
+      case DuctChange::Kind::kClipped:
+      case DuctChange::Kind::kSealed:
+        actions_->bleeding().clip_vessel(vessel_[duct], at, change.share);
+        break;
+      case DuctChange::Kind::kNicked:
+        break;
+    }
+  }
+}
+
+void TissueWorld::add_ducts(ContactPatch& patch) {
+  for (std::size_t d = 0; d < ducts_->size(); ++d)
+    patch.material[static_cast<std::size_t>(duct_material(d))] = ducts_->material(d);
+  clear_taken(patch);
+  if (ducts_->block().stiffness_n_per_m > 0) patch.grip = ducts_->block();
+  if (ducts_->hold().stiffness_n_per_m > 0) patch.hold = ducts_->hold();
+  if (ducts_->grip() > frame_.grip) {
+    frame_.grip = ducts_->grip();
+    frame_.slipped_m = ducts_->slipped_m();
+  }
+  SurgeryState& surgery = frame_.surgery;
+  const std::int32_t closings = surgery.cuts + surgery.clips + surgery.refusals;
+  if (closings != organ_closings_) refusal_ = surgery.refusal;
+  organ_closings_ = closings;
+  if (ducts_->closing()) refusal_ = *ducts_->closing();
+  surgery.refusal = refusal_;
+  surgery.cuts += ducts_->cuts();
+  surgery.tears += ducts_->tears();
+  surgery.clips += ducts_->clips();
+  surgery.refusals += ducts_->refusals();
+  surgery.bile_leaks = ducts_->bile_leaks();
+  surgery.bile_ml = ducts_->bile_ml();
+}
+
+void TissueWorld::clear_taken(ContactPatch& patch) const {
+  for (std::int32_t i = 0; i < patch.count;) {
+    const std::int32_t triangle = patch.triangle[static_cast<std::size_t>(i)].id - first_duct_triangle_;
+    if (triangle >= 0 && !ducts_->felt(triangle))
+      patch.triangle[static_cast<std::size_t>(i)] = patch.triangle[static_cast<std::size_t>(--patch.count)];
+    else
+      ++i;
+  }
+}
+
+void TissueWorld::keep_changes() {
+  for (; organ_cuts_kept_ < soft_->cuts().size(); ++organ_cuts_kept_)
+    changes_.push_back(soft_->cuts()[organ_cuts_kept_]);
+  for (const DuctChange& change : ducts_->changed()) changes_.push_back(duct_change_bytes(change));
+  nodes_.assign(soft_->solid().position().begin(), soft_->solid().position().end());
+  ducts_->add_nodes(nodes_);
+}
+
+std::span<const SurfacePtr> TissueWorld::ducts() const {
+  return ducts_ ? ducts_->seen() : std::span<const SurfacePtr>{};
 }
 
 TissueShape TissueWorld::shape() const {
   if (!soft_) return {};
+  if (ducts_ && !nodes_.empty()) {
+    const std::size_t organ = soft_->solid().position().size();
+    return {.topology = seen_->topology + changes_.size(),
+            .nodes_T = nodes_,
+            .fields = soft_->fields(),
+            .changes = changes_,
+            .ducts_T = std::span(nodes_).subspan(organ)};
+  }
   return {.topology = soft_->topology(),
           .nodes_T = soft_->solid().position(),
           .fields = soft_->fields(),

@@ -1,4 +1,5 @@
-// The world: an organ that stands still or gives way, if the exercise has one, and rigid things, if it has any.
+// The world: an organ that stands still or gives way, if the exercise has one, ducts and vessels on one that gives way,
+// and rigid things, if it has any.
 //
 // Frame T, SI units. Thread: tissue task.
 #pragma once
@@ -15,6 +16,7 @@
 #include "tissue/rigid/rigid_scene.h"
 #include "tissue/rigid/rigid_world.h"
 #include "tissue/solid/soft_organ.h"
+#include "tissue/thin/duct_system.h"
 #include "tissue/world.h"
 
 namespace trocar {
@@ -37,6 +39,7 @@ struct TissueSetup {
   std::vector<Tool> tools = {Tool{}};  ///< by StylusState::instrument, at least one
   /// How the organ gives way; its vertices are then the first of organ_T. nullptr: it stands still.
   std::shared_ptr<const SoftSetup> soft = nullptr;
+  std::vector<DuctSetup> ducts = {};  ///< only with `soft`
 };
 
 class TissueWorld final : public World {
@@ -46,14 +49,25 @@ class TissueWorld final : public World {
   void step(const HapticState& state, bool present, ContactPatch& patch) override;
   const TissueFrame& frame() const override { return frame_; }
   SurfacePtr surface() const override { return soft_ ? soft_->surface() : seen_; }
+  std::span<const SurfacePtr> ducts() const override;
   TissueShape shape() const override;
   std::uint64_t dropped() const override { return dropped_; }
 
  private:
   /// Steps the organ that gives way, and tells the extraction where its surface is for the loop.
   void step_soft(const HapticState& newest, const Tool& tool, bool present);
-  /// The organ has been cut: felt_ has its new triangles, the adjacent organs' behind them.
-  void take_cut_surface();
+  /// What the loop is given after a cut: the organ's vertices, those of the adjacent organs, those of the ducts.
+  void gather_felt();
+  /// Where the ducts' triangles begin in the patch that the contacts are from.
+  std::int32_t duct_material(std::size_t duct) const;
+  DuctContacts duct_contacts(const SolvedContacts& contacts) const;
+  void hang_vessels();
+  /// Cuts and clips of vessels, for the blood.
+  void tell_vessels();
+  /// The ducts' part in patch and frame.
+  void add_ducts(ContactPatch& patch);
+  void clear_taken(ContactPatch& patch) const;
+  void keep_changes();
   const Tool& in_hand(const StylusState& stylus) const;
 
   ContactMaterial organ_;
@@ -63,13 +77,24 @@ class TissueWorld final : public World {
   std::optional<PatchExtraction> extraction_;
   std::optional<RigidWorld> rigid_;
   std::optional<SoftOrgan> soft_;
-  std::optional<InstrumentActions> actions_;              ///< with soft_
-  std::size_t organ_vertices_ = 0, organ_triangles_ = 0;  ///< of felt_, before those of the adjacent organs
-  std::vector<std::int32_t> triangle_material_;           ///< with soft_: of felt_
-  TriangleSurface felt_;        ///< with soft_: what the loop is given, the adjacent organs behind the organ
-  std::vector<Vec3> velocity_;  ///< with soft_: of its vertices, m/s
+  std::optional<InstrumentActions> actions_;     ///< with soft_
+  std::optional<DuctSystem> ducts_;              ///< with soft_
+  std::size_t organ_vertices_ = 0;               ///< of felt_, before those of the adjacent organs
+  std::vector<std::int32_t> triangle_material_;  ///< with soft_: of felt_
+  TriangleSurface adjacent_T_;  ///< with soft_: the adjacent organs alone, their corners counted from 0
+  std::vector<std::int32_t> adjacent_material_;  ///< of its triangles
+  TriangleSurface felt_;                         ///< with soft_: what the loop is given: organ, adjacent organs, ducts
+  std::vector<Vec3> velocity_;                   ///< with soft_: of its vertices, m/s
   TissueFrame frame_;
   std::uint64_t dropped_ = 0;
+  // With ducts_:
+  std::vector<std::int32_t> vessel_;  ///< of each in Bleeding's network; -1: carries no blood
+  std::vector<NodePlace> nodes_;      ///< of the organ, then theirs
+  std::vector<std::string> changes_;  ///< of organ and ducts, in order
+  std::size_t organ_cuts_kept_ = 0;
+  std::uint64_t last_topology_ = 0;  ///< of the organ before its last cut, when the ducts began at
+  std::int32_t first_duct_triangle_ = 0, last_first_duct_triangle_ = -1;
+  std::int32_t organ_closings_ = 0, refusal_ = 0;
 };
 
 }  // namespace trocar

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/exchange/solved_contacts.h"
@@ -25,6 +26,8 @@ class World {
   virtual const TissueFrame& frame() const = 0;
   /// The organ after the step; nullptr: none is to be seen.
   virtual SurfacePtr surface() const = 0;
+  /// Ducts and vessels after the step, one surface each; empty: there are none.
+  virtual std::span<const SurfacePtr> ducts() const { return {}; }
   /// What deforms, after the step. A world with a shape is played from what was recorded of it and not solved again.
   virtual TissueShape shape() const { return {}; }
   /// Triangles in reach that did not fit into a patch, over the run.

@@ -114,7 +114,13 @@ class ObserverTask final : public Task {
     if (!observe_) return;
     const TickRecord& record = rig_.records->newest(tick);
     const ExerciseFrame& frame = rig_.observer_frames->newest(tick);
-    observe_({rig_.scene, record, {frame.status, rig_.scene.board}, record.stylus.t_s, &frame.tissue, frame.organ_T});
+    observe_({rig_.scene,
+              record,
+              {frame.status, rig_.scene.board},
+              record.stylus.t_s,
+              &frame.tissue,
+              frame.organ_T,
+              frame.ducts_T});
   }
 
  private:

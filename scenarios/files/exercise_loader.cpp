@@ -7,6 +7,7 @@
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "scenarios/director/director.h"
+#include "scenarios/files/duct_reader.h"
 #include "scenarios/files/file_units.h"
 #include "scenarios/files/level_reader.h"
 #include "scenarios/files/strict_toml.h"
@@ -90,6 +91,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   read_targets(document.table("targets"), exercise);
   read_force(document.table("force"), exercise);
   kind_of(exercise).read(document, exercise);
+  exercise.ducts = read_ducts(document);
   read_levels(document, exercise);
   for (ExerciseLevel& level : exercise.levels) {
     level.rubric = read_rubric(document.table("rubric"), level);

@@ -263,6 +263,24 @@ std::vector<std::pair<double, double>> StrictTable::pairs(const std::string& key
   return result;
 }
 
+std::vector<Vec3> StrictTable::vectors(const std::string& key, std::size_t least, double low, double high) {
+  const toml::node& value = required(*node_->table, node_->file, node_->asked, key);
+  const toml::array* array = value.as_array();
+  if (!array || array->size() < least)
+    fail(key, "'" + key + "' must be an array of at least " + std::to_string(least) + " points [x, y, z]");
+  std::vector<Vec3> result;
+  for (const toml::node& element : *array) {
+    const toml::array* point = element.as_array();
+    if (!point || point->size() != 3)
+      throw error_at(node_->file, element.source(), "'" + key + "' must hold points [x, y, z]");
+    Vec3 read;
+    for (std::size_t i = 0; i < 3; ++i)
+      read[static_cast<Eigen::Index>(i)] = checked_number(*point->get(i), node_->file, key, low, high);
+    result.push_back(read);
+  }
+  return result;
+}
+
 StrictTable StrictTable::table(const std::string& key) {
   const toml::node& value = required(*node_->table, node_->file, node_->asked, key);
   if (!value.is_table()) fail(key, "'" + key + "' must be a table [" + key + "]");

@@ -48,6 +48,8 @@ class StrictTable {
   std::pair<double, double> pair(const std::string& key, double low, double high);
   /// Array of at least one such pair.
   std::vector<std::pair<double, double>> pairs(const std::string& key, double low, double high);
+  /// Array of at least `least` arrays of three such numbers.
+  std::vector<Vec3> vectors(const std::string& key, std::size_t least, double low, double high);
   Vec3 vector_or(const std::string& key, double low, double high, const Vec3& fallback);
   /// Number or the given word, which reads as `meaning`.
   double number_or_word(const std::string& key, double low, double high, const std::string& word, double meaning);

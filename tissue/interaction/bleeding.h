@@ -93,6 +93,10 @@ class Bleeding {
   /// Of an organ whose vessels are known: cuts then meet those of cut_vessel() alone, and ooze.
   Bleeding(const TriangleSurface& rest_T, const BleedingOptions& options, const VesselFlow& vessels);
 
+  /// Vessels beside the organ's own: cut_vessel() and clip_vessel() name them; cuts of the organ do not meet them.
+  /// Before any is cut.
+  void hang(const VesselFlow& vessels) { whole_vessels_ = vessels_ = vessels; }
+
   /// @returns its number; that of a wound so near that this one widens it; -1 for a place that is not there or an area
   /// that is not positive
   WoundId add_wound(const MaterialPoint& place, double area_m2, double depth_m);

@@ -58,6 +58,7 @@ class InstrumentActions {
   const SoftGrip& grip() const { return grip_; }
   GripBlock block() const { return blades_.stiffness_n_per_m > 0 ? blades_ : grip_.block(); }
   const Bleeding& bleeding() const { return bleeding_; }
+  Bleeding& bleeding() { return bleeding_; }  ///< for what bleeds beside the organ
   const TissueHeat& heat() const { return heat_; }
   const SurgeryState& state() const { return state_; }
   double smoke_per_m() const { return smoke_per_m_; }

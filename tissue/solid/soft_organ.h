@@ -80,6 +80,9 @@ class SoftOrgan {
   Vec3 rest_place(const MaterialPoint& place) const { return place_at(place, lattice_.rest()->vertices); }
   Vec3 place_T(const MaterialPoint& place) const { return place_at(place, surface_->vertices); }
 
+  /// Near a place in T: a corner of the triangle whose first one is nearest.
+  MaterialPoint nearest_place(const Vec3& place_T) const;
+
   std::uint64_t topology() const { return surface_->topology; }
   const SurfacePtr& rest() const { return lattice_.rest(); }
   const TissueSolid& material() const { return material_; }
@@ -119,7 +122,6 @@ class SoftOrgan {
   void undo_dents(std::span<const MaterialPoint> places);
   /// Of the place within a step of the loop, m/N. Keeps what the lattice has of it for the next solve.
   double compliance_at(const NodeShares& place, const Vec3& direction, double force_n);
-  MaterialPoint nearest_place(const Vec3& tip_T) const;
   void find_felt(std::span<const Pressed> pressed, const Vec3* tip_T);
 
   TissueSolid material_;

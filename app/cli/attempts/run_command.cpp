@@ -96,6 +96,8 @@ void say_beginning(const Scene& scene, std::ostream& err) {
   if (!turned.empty()) err << "trocar: " << turned << '\n';
   for (const std::string& name : scene.adjacent.set_aside)
     err << "trocar: " << name << " lies over the region and is set aside: neither seen nor felt\n";
+  for (const std::string& name : scene.ducts_left_out)
+    err << "trocar: " << name << " finds no place on this organ and is left out\n";
   for (const std::string& doubt : device_doubts(scene.setup.device, plant)) err << "trocar: " << doubt << '\n';
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/picture/kinds/board_object.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "tissue/thin/duct_tube.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar {
@@ -175,6 +176,9 @@ SceneView attempt_scene(const SessionView& view) {
     out.targets = marks(view.director);
     for (const AdjacentOrgan& organ : view.scene.adjacent.organs)
       out.adjacent.push_back({organ.surface_T, organ.material});
+    const std::vector<SurfacePtr>& ducts_T = view.ducts_T.empty() ? view.scene.ducts_T : view.ducts_T;
+    for (std::size_t i = 0; i < ducts_T.size(); ++i)
+      out.adjacent.push_back({ducts_T[i], view.scene.ducts[i].material.name});
   }
   picture_of(view.scene.setup.exercise).add_objects(view, out.objects);
   auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "scenarios/director/director.h"
 #include "tissue/surface_snapshot.h"
@@ -13,6 +14,7 @@ struct ExerciseFrame {
   DirectorStatus status;
   TissueFrame tissue;
   SurfacePtr organ_T;
+  std::vector<SurfacePtr> ducts_T;  ///< as World::ducts()
 };
 
 /// One step of the tissue task for the recorder: the schedule of the run, and the phase that a row shows.

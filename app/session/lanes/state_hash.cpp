@@ -106,6 +106,9 @@ void StateHash::add_surgery(const SurgeryState& surgery) {
   for (const double value : {surgery.blood_ml, surgery.blood_ml_per_min, surgery.sucked_ml, surgery.cut_m2,
                              surgery.heat_j, surgery.contact_c})
     add(value);
+  if (surgery.bile_leaks == 0 && surgery.bile_ml == 0) return;
+  add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(surgery.bile_leaks)));
+  add(surgery.bile_ml);
 }
 
 /// Nothing at all while the tissue is unmarked and the air and the lens are clear: runs without them keep their hash.

@@ -167,7 +167,9 @@ RunMoment RecordedMoments::at(double t_s) const {
   moment.tissue = between(a->tissue, b->tissue, share, later_s);
   moment.t_s = moment.record.stylus.t_s;
   moment.seen = true;
-  moment.organ_T = surface_of(row.tick);
+  make_surfaces(row.tick);
+  moment.organ_T = last_surface_;
+  moment.ducts_T = last_ducts_;
   last_ = moment;
   return moment;
 }
@@ -197,33 +199,55 @@ std::optional<RecordedShape> RecordedMoments::shape_at(double t_s) const {
 }
 
 const EmbeddedSurface* RecordedMoments::embedded_for(std::uint64_t topology) const {
+  // Every change of organ or ducts makes another topology; the organ's own counts its cuts alone.
   const std::uint64_t whole = scene_.embedded->topology();
-  if (topology == whole) return scene_.embedded.get();
-  if (topology < whole || topology - whole > track_.changes().size() || !scene_.soft) return nullptr;
-  if (!cut_ || cut_->rest()->topology > topology) cut_.emplace(scene_.soft->lattice, scene_.embedded->rest());
+  if (topology < whole || topology - whole > track_.changes().size()) return nullptr;
+  std::vector<const std::string*> cuts;
+  for (std::uint64_t i = 0; i < topology - whole; ++i)
+    if (!is_duct_change(track_.changes()[i].bytes)) cuts.push_back(&track_.changes()[i].bytes);
+  if (cuts.empty()) return scene_.embedded.get();
+  if (!scene_.soft) return nullptr;
+  const std::uint64_t wanted = whole + cuts.size();
+  if (!cut_ || cut_->rest()->topology > wanted) cut_.emplace(scene_.soft->lattice, scene_.embedded->rest());
   const std::uint64_t before = cut_->rest()->topology;
-  while (cut_->rest()->topology < topology) {
+  while (cut_->rest()->topology < wanted) {
     LatticeChange change;
-    const std::string& bytes = track_.changes()[cut_->rest()->topology - whole].bytes;
-    if (!cut_->cut(parse_cut(bytes), change)) return nullptr;
+    if (!cut_->cut(parse_cut(*cuts[cut_->rest()->topology - whole]), change)) return nullptr;
   }
-  if (!cut_surface_ || before != topology) cut_surface_.emplace(cut_->lattice(), cut_->rest());
+  if (!cut_surface_ || before != wanted) cut_surface_.emplace(cut_->lattice(), cut_->rest());
   return &*cut_surface_;
 }
 
-/// The same as before while nothing has moved, so that nobody draws it anew; nullptr where the scene has another
+const DuctPlayback* RecordedMoments::ducts_for(std::uint64_t topology) const {
+  if (scene_.ducts.empty()) return nullptr;
+  const std::uint64_t made = topology - scene_.embedded->topology();
+  if (!ducts_ || ducts_changes_ != made) {
+    std::vector<std::string> changes;
+    for (std::uint64_t i = 0; i < made; ++i) changes.push_back(track_.changes()[i].bytes);
+    ducts_.emplace(scene_.ducts, changes);
+    ducts_changes_ = made;
+  }
+  return &*ducts_;
+}
+
+/// The same as before while nothing has moved, so that nobody draws it anew; none where the scene has another
 /// topology.
-SurfacePtr RecordedMoments::surface_of(std::uint64_t period) const {
-  if (!scene_.embedded) return nullptr;
-  std::optional<RecordedShape> shape = shape_of(period);
+void RecordedMoments::make_surfaces(std::uint64_t period) const {
+  std::optional<RecordedShape> shape = scene_.embedded ? shape_of(period) : std::nullopt;
   const EmbeddedSurface* embedded = shape ? embedded_for(shape->topology) : nullptr;
-  if (embedded == nullptr || shape->nodes_T.size() != embedded->nodes()) return nullptr;
+  const DuctPlayback* ducts = embedded ? ducts_for(shape->topology) : nullptr;
+  if (embedded == nullptr || shape->nodes_T.size() != embedded->nodes() + (ducts ? ducts->nodes() : 0)) {
+    last_surface_ = nullptr;
+    last_ducts_.clear();
+    return;
+  }
   if (last_surface_ && shape->topology == last_shape_.topology && shape->nodes_T == last_shape_.nodes_T &&
       shape->fields == last_shape_.fields)
-    return last_surface_;
-  last_surface_ = embedded->at(shape->nodes_T, shape->fields);
+    return;
+  const std::span<const NodePlace> nodes(shape->nodes_T);
+  last_surface_ = embedded->at(nodes.first(embedded->nodes()), shape->fields);
+  last_ducts_ = ducts ? ducts->at(nodes.subspan(embedded->nodes())) : std::vector<SurfacePtr>{};
   last_shape_ = std::move(*shape);
-  return last_surface_;
 }
 
 std::size_t RecordedMoments::bytes() const { return rows_.size() * sizeof(RecordedTick) + track_.bytes(); }

@@ -15,6 +15,7 @@
 #include "app/session/run_moment.h"
 #include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"
+#include "tissue/thin/duct_tube.h"
 
 namespace trocar {
 
@@ -43,7 +44,9 @@ class RecordedMoments {
  private:
   const RecordedTick& row_at(double t_s) const;
   std::optional<RecordedShape> shape_of(std::uint64_t period) const;
-  SurfacePtr surface_of(std::uint64_t period) const;
+  /// Organ and ducts, as last_surface_ and last_ducts_.
+  void make_surfaces(std::uint64_t period) const;
+  const DuctPlayback* ducts_for(std::uint64_t topology) const;
   /// The organ's surface on its nodes after the cuts that make up a topology; nullptr: there are none such.
   const EmbeddedSurface* embedded_for(std::uint64_t topology) const;
 
@@ -56,6 +59,9 @@ class RecordedMoments {
   mutable std::optional<RunMoment> last_;
   mutable RecordedShape last_shape_;  ///< of last_surface_
   mutable SurfacePtr last_surface_;
+  mutable std::vector<SurfacePtr> last_ducts_;
+  mutable std::optional<DuctPlayback> ducts_;  ///< after as many changes as:
+  mutable std::uint64_t ducts_changes_ = 0;
   mutable std::optional<CutLattice> cut_;  ///< after the last cuts asked for
   mutable std::optional<EmbeddedSurface> cut_surface_;
 };

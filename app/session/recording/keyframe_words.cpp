@@ -198,6 +198,15 @@ void walk_surgery(Words& words, Surgery& s) {
     words.rounded(*number);
 }
 
+/// What has come of ducts follows that.
+template <typename Words, typename Surgery>
+void walk_bile(Words& words, Surgery& s) {
+  words.whole(s.bile_leaks);
+  words.rounded(s.bile_ml);
+}
+
+bool leaks_bile(const SurgeryState& s) { return s.bile_leaks != 0 || s.bile_ml != 0; }
+
 /// What has been done to an organ follows, where something has.
 template <typename Words, typename Keyframe>
 void walk(Words& words, Keyframe& k) {
@@ -213,7 +222,10 @@ void walk(Words& words, Keyframe& k) {
 std::vector<std::uint64_t> words_of(const TissueKeyframe& keyframe) {
   WordsOut words;
   walk(words, keyframe);
-  if (keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
+  if (keyframe.tissue.surgery != SurgeryState{}) {
+    walk_surgery(words, keyframe.tissue.surgery);
+    if (leaks_bile(keyframe.tissue.surgery)) walk_bile(words, keyframe.tissue.surgery);
+  }
   return std::move(words.words);
 }
 
@@ -221,6 +233,7 @@ void read_words(std::span<const std::uint64_t> words, TissueKeyframe& keyframe) 
   WordsIn in(words);
   walk(in, keyframe);
   if (!in.done()) walk_surgery(in, keyframe.tissue.surgery);
+  if (!in.done()) walk_bile(in, keyframe.tissue.surgery);
   if (!in.done()) throw InputError("words of a keyframe are left over");
 }
 

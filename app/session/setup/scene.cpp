@@ -1,6 +1,7 @@
 #include "app/session/setup/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -21,6 +22,7 @@
 #include "scenarios/layout/shaft_room.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/tissue_table.h"
+#include "tissue/thin/duct_tube.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {
@@ -115,6 +117,7 @@ constexpr double kNoticedForce = 0.1;  // share by which a force must differ to 
 constexpr double kPointerAwake_s = 0.01;
 constexpr double kEntryAside = 0.025, kEntryAbove = 0.015;  // m from the start ball, towards the resting instrument
 constexpr double kLatticeCell = 0.010;                      // m
+constexpr double kDuctReach = 0.015;  // m from where a duct's end is drawn to the organ on which it hangs
 
 /// The loop's map is set before: pens turn from the resting instrument.
 Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
@@ -152,6 +155,44 @@ void require_force(const Scene& scene) {
   throw InputError(words.str());
 }
 
+/// A path whose ends lie where they hang, the points between moved along with them; nothing: one finds no place.
+std::optional<std::vector<Vec3>> hung_path(const DuctPlan& plan, const TriangleSurface& organ_T) {
+  std::array<Vec3, 2> shift{Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (plan.ends[end] == DuctHold::kFixed) continue;
+    const Vec3& drawn = end == 0 ? plan.path_m.front() : plan.path_m.back();
+    const auto nearest = std::min_element(
+        organ_T.vertices.begin(), organ_T.vertices.end(),
+        [&](const Vec3& a, const Vec3& b) { return (a - drawn).squaredNorm() < (b - drawn).squaredNorm(); });
+    shift[end] = *nearest - drawn;
+    if (shift[end].norm() > kDuctReach) return std::nullopt;
+  }
+  std::vector<Vec3> path = plan.path_m;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(path.size() - 1);
+    path[i] += (1 - share) * shift[0] + share * shift[1];
+  }
+  return path;
+}
+
+/// The ducts of the exercise that this organ has. @throws InputError: a tissue that is not known.
+void hang_ducts(Scene& scene, const TissueTable& tissues) {
+  const Exercise& exercise = scene.setup.exercise;
+  for (const DuctPlan& plan : exercise.ducts) {
+    if (!tissues.knows(plan.material))
+      throw InputError(exercise.file.string() + ": duct '" + plan.name + "': 'material': no tissue is called '" +
+                       plan.material + "'");
+    auto path = plan.organ == scene.organ.material ? hung_path(plan, *scene.organ_T) : std::nullopt;
+    if (!path) {
+      scene.ducts_left_out.push_back(plan.name);
+      continue;
+    }
+    scene.ducts.push_back({plan.name, std::move(*path), plan.outer_radius_m, plan.wall_m,
+                           stiffness_choice(tissues.find(plan.material), scene.setup.tissue), plan.ends, plan.content});
+  }
+  scene.ducts_T = drawn_tubes(scene.ducts);
+}
+
 /// Lays a lattice over the organ where it lies. @throws InputError: a tissue that is none.
 void soften(Scene& scene) {
   const TissueTable tissues = TissueTable::load(find_assets().assets / "tissues.toml");
@@ -167,6 +208,7 @@ void soften(Scene& scene) {
   soft->lattice = build_lattice(*scene.organ_T, options).lattice;
   scene.embedded = std::make_shared<EmbeddedSurface>(soft->lattice, scene.organ_T);
   scene.soft = std::move(soft);
+  hang_ducts(scene, tissues);
 }
 
 /// Lays the organ, and what lies round it, into the theatre.

@@ -81,6 +81,9 @@ struct Scene {
   SurfacePtr organ_T = still_surface({});           ///< shared by all who show it
   std::shared_ptr<const SoftSetup> soft;            ///< how it gives way; nullptr: it stands still
   std::shared_ptr<const EmbeddedSurface> embedded;  ///< the organ on the nodes that deform; nullptr: it stands still
+  std::vector<DuctSetup> ducts;                     ///< with `soft`, those that the exercise names
+  std::vector<std::string> ducts_left_out;          ///< names of those that find no place on this organ
+  std::vector<SurfacePtr> ducts_T;                  ///< as they lie before a run
   AdjacentOrgans adjacent;                          ///< what lies round the organ, when it is one of several
   Board board;
   HapticLoopConfig loop;

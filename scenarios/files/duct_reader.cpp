@@ -1,0 +1,62 @@
+#include "scenarios/files/duct_reader.h"
+
+#include <algorithm>
+
+#include "scenarios/files/file_units.h"
+
+namespace trocar {
+namespace {
+
+using file_units::kMilli;
+
+constexpr std::size_t kMostDucts = 4;
+constexpr double kLeastLength = 0.010, kLeastStep = 0.001;  // m of a path, and between two of its points
+
+DuctHold hold_named(const std::string& word) { return word == "organ" ? DuctHold::kOrgan : DuctHold::kFixed; }
+
+DuctContent content_named(const std::string& word) {
+  return word == "bile" ? DuctContent::kBile : word == "blood" ? DuctContent::kBlood : DuctContent::kNothing;
+}
+
+DuctPlan read_duct(StrictTable table) {
+  DuctPlan duct;
+  duct.name = table.text("name");
+  duct.material = table.text("material");
+  duct.organ = table.text("organ");
+  duct.content = content_named(table.choice("carries", {"bile", "blood", "nothing"}));
+  duct.outer_radius_m = table.number("diameter_mm", 1, 10) / 2 * kMilli;
+  duct.wall_m = table.number("wall_mm", 0.1, 5) * kMilli;
+  if (duct.wall_m >= duct.outer_radius_m) table.fail("wall_mm", "'wall_mm' must be less than half of 'diameter_mm'");
+  duct.ends = {hold_named(table.choice("from", {"organ", "bed"})), hold_named(table.choice("to", {"organ", "bed"}))};
+  duct.path_m = table.vectors("path_mm", 2, -200, 200);
+  double length = 0;
+  for (Vec3& point : duct.path_m) point *= kMilli;
+  for (std::size_t i = 1; i < duct.path_m.size(); ++i) {
+    const double step = (duct.path_m[i] - duct.path_m[i - 1]).norm();
+    if (step < kLeastStep) table.fail("path_mm", "'path_mm' has two points less than 1 mm apart");
+    length += step;
+  }
+  if (length < kLeastLength) table.fail("path_mm", "'path_mm' is shorter than 10 mm");
+  table.finish();
+  return duct;
+}
+
+}  // namespace
+
+std::vector<DuctPlan> read_ducts(StrictTable& document) {
+  std::vector<DuctPlan> ducts;
+  if (!document.has("ducts")) {
+    document.allow("ducts");
+    return ducts;
+  }
+  for (StrictTable& table : document.tables("ducts")) {
+    DuctPlan duct = read_duct(table);
+    const bool twice = std::any_of(ducts.begin(), ducts.end(), [&](const DuctPlan& d) { return d.name == duct.name; });
+    if (twice) table.fail("name", "two ducts are called '" + duct.name + "'");
+    if (ducts.size() == kMostDucts) table.fail("name", "there are more than four ducts");
+    ducts.push_back(std::move(duct));
+  }
+  return ducts;
+}
+
+}  // namespace trocar

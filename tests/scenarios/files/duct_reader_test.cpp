@@ -1,0 +1,64 @@
+// Ducts of an exercise file: those of free play, and every mistake in one at its place.
+#include "scenarios/files/duct_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "scenarios/files/exercise_loader.h"
+#include "tests/scenarios/support/bad_exercise.h"
+
+namespace trocar::duct_reader_test {
+namespace {
+
+const std::filesystem::path kExercises = std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises";
+
+std::string free_play() { return read_text_file((kExercises / "ungraded/free-play.toml").string()); }
+
+std::string refused(const std::string& from, const std::string& to) {
+  return test::refusal(test::edited(free_play(), from, to));
+}
+
+TEST(DuctReader, ReadsThoseOfFreePlayAndNoneWhereNoneAreNamed) {
+  const Exercise e = load_exercise(kExercises / "ungraded/free-play.toml");
+  ASSERT_EQ(e.ducts.size(), 2U);
+  const DuctPlan &duct = e.ducts[0], &artery = e.ducts[1];
+  EXPECT_EQ(duct.name, "cystic duct");
+  EXPECT_EQ(duct.material, "duct");
+  EXPECT_EQ(duct.organ, "liver");
+  EXPECT_EQ(duct.content, DuctContent::kBile);
+  EXPECT_DOUBLE_EQ(duct.outer_radius_m, 0.0015);
+  EXPECT_DOUBLE_EQ(duct.wall_m, 0.0005);
+  EXPECT_EQ(duct.ends, (std::array{DuctHold::kOrgan, DuctHold::kFixed}));
+  EXPECT_EQ(artery.content, DuctContent::kBlood);
+  EXPECT_EQ(artery.ends, (std::array{DuctHold::kFixed, DuctHold::kOrgan}));
+  for (const DuctPlan& plan : e.ducts) {
+    const double length = (plan.path_m.back() - plan.path_m.front()).norm();
+    EXPECT_GT(length, 0.030);
+    EXPECT_LT(length, 0.045);
+  }
+  EXPECT_TRUE(load_exercise(kExercises / "surface-touch.toml").ducts.empty());
+}
+
+TEST(DuctReader, NamesTheMistakeAndItsPlace) {
+  const auto expect = [](const std::string& from, const std::string& to, const std::string& words) {
+    const std::string message = refused(from, to);
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_EQ(message.find("bad.toml:"), 0U) << message;
+    EXPECT_NE(message.find_first_of("0123456789"), std::string::npos) << message;
+  };
+  expect("wall_mm = 0.5", "wall_mm = 1.5", "'wall_mm' must be less than half of 'diameter_mm'");
+  expect("wall_mm = 0.5", "walls_mm = 0.5", "wall_mm");
+  expect("carries = \"bile\"", "carries = \"milk\"", "carries");
+  expect("to = \"bed\"", "to = \"sky\"", "'to'");
+  expect("path_mm = [[47, 0, -20], [72, -25, -43]]", "path_mm = [[47, 0, -20]]", "at least 2 points");
+  expect("[[47, 0, -20], [72, -25, -43]]", "[[47, 0], [72, -25, -43]]", "must hold points");
+  expect("[[47, 0, -20], [72, -25, -43]]", "[[47, 0, -20], [47, 0, -20]]", "1 mm apart");
+  expect("[[47, 0, -20], [72, -25, -43]]", "[[47, 0, -20], [47, 5, -20]]", "shorter than 10 mm");
+  expect("[[47, 0, -20], [72, -25, -43]]", "[[47, 0, -20], [72, -25, -430]]", "path_mm");
+  expect("name = \"cystic artery\"", "name = \"cystic duct\"", "two ducts are called 'cystic duct'");
+  expect("organ = \"liver\"\ncarries = \"bile\"", "carries = \"bile\"", "organ");
+}
+
+}  // namespace
+}  // namespace trocar::duct_reader_test

@@ -1,0 +1,349 @@
+// A duct and an artery beside an organ that gives way, in a world: seen, touched, held, clipped, cut; what comes out of
+// them; and what a recording knows of it.
+#include "tissue/thin/duct_system.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/input_error.h"
+#include "tests/tissue/solid/soft_organ_rig.h"
+#include "tissue/tissue_world.h"
+
+namespace trocar::duct_system_test {
+namespace {
+
+using test::from_above;
+
+constexpr double kMiddle = 0.078;  // m along x: between organ and bed
+constexpr double kBeside = 0.016;  // m from the duct to the artery
+constexpr double kTip = 0.005;     // m of the tips below what they close on
+
+DuctSetup duct(const std::string& name, double y_m, DuctContent content) {
+  DuctSetup setup;
+  setup.name = name;
+  setup.material.name = content == DuctContent::kBlood ? "artery" : "duct";
+  setup.material.young_pa = 350000;
+  setup.material.poisson = 0.49;
+  setup.material.stiffening = 4;
+  setup.material.rupture_n_per_m = 480;
+  setup.material.toughness_j_per_m2 = 500;
+  setup.content = content;
+  const auto organ = test::ellipsoid({0.06, 0.05, 0.035}, 40);
+  const Vec3 wanted(0.06, y_m, 0);
+  const Vec3 on = *std::min_element(organ->vertices.begin(), organ->vertices.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - wanted).squaredNorm() < (b - wanted).squaredNorm();
+  });
+  setup.path_T = {on, {0.098, y_m, 0}};
+  if (content == DuctContent::kBlood) {
+    setup.outer_radius_m = 0.001;
+    setup.wall_m = 0.0004;
+    std::swap(setup.path_T[0], setup.path_T[1]);
+    setup.ends = {DuctHold::kFixed, DuctHold::kOrgan};
+  }
+  return setup;
+}
+
+class Theatre {
+ public:
+  explicit Theatre(InstrumentKind kind) : rest_(test::ellipsoid({0.06, 0.05, 0.035}, 40)) {
+    auto soft = std::make_shared<SoftSetup>();
+    soft->options.solid.edge_m = 0.010;
+    soft->lattice = build_lattice(*rest_, {.cell_m = 0.010}).lattice;
+    setup_.organ_T = rest_.get();
+    setup_.seen_T = rest_;
+    setup_.tools = {make_tool(kind), make_tool(InstrumentKind::kScissors), make_tool(InstrumentKind::kClipApplier)};
+    setup_.soft = soft;
+    setup_.ducts = {duct("cystic duct", 0, DuctContent::kBile), duct("cystic artery", kBeside, DuctContent::kBlood)};
+    world_ = std::make_unique<TissueWorld>(setup_);
+  }
+  /// Lets what hangs come to rest first.
+  void settle() { wait(60); }
+  void wait(int steps) {
+    for (int i = 0; i < steps; ++i) step(from_above({0, 0, 0.2}), 0.02);
+  }
+  void step(const Pose& X, double opening_m, bool pedal = false) {
+    state_.stylus.t_s += 0.01;
+    state_.stylus.X_TI = X;
+    state_.stylus.jaw_opening_m = opening_m;
+    state_.stylus.pedal = pedal;
+    world_->step(state_, true, *patch_);
+  }
+  /// Jaws over a place, open, closed and held so.
+  void close(const Vec3& at, double turn = 0, double most_m = 0.012, bool pedal = false) {
+    Pose X = from_above(at - Vec3(0, 0, kTip));
+    X.R = Mat3(X.R * Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix());
+    for (double o = most_m; o > 0; o -= 0.0005) step(X, o, pedal);
+    for (int i = 0; i < 5; ++i) step(X, 0, pedal);
+  }
+  void open(const Vec3& at) {
+    for (double o = 0; o < 0.012; o += 0.001) step(from_above(at - Vec3(0, 0, kTip)), o);
+    for (double z = 0; z < 0.05; z += 0.002) step(from_above(at + Vec3(0, 0, z)), 0.012);
+  }
+  void take(std::int32_t instrument) { state_.stylus.instrument = instrument; }
+  HapticState& state() { return state_; }
+  ContactPatch& patch() { return *patch_; }
+  TissueWorld& world() { return *world_; }
+  const TissueSetup& setup() const { return setup_; }
+  const SurgeryState& surgery() const { return world_->frame().surgery; }
+  /// The middle of what is drawn of a duct near its middle.
+  Vec3 middle(std::size_t d) const {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (const Vec3& v : world_->ducts()[d]->vertices)
+      if (std::abs(v.x() - kMiddle) < 0.003) sum += v, ++count;
+    return sum / count;
+  }
+  int triangles_of(std::int32_t material) const {
+    int count = 0;
+    for (int i = 0; i < patch_->count; ++i) count += patch_->triangle[std::size_t(i)].material == material;
+    return count;
+  }
+
+ private:
+  SurfacePtr rest_;
+  TissueSetup setup_;
+  std::unique_ptr<TissueWorld> world_;
+  HapticState state_;
+  std::unique_ptr<ContactPatch> patch_ = std::make_unique<ContactPatch>();
+};
+
+constexpr std::int32_t kGrasp = 0, kCut = 1, kClip = 2;
+
+TEST(DuctSystem, IsSeenAndLiesInThePatchWithItsOwnMaterial) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.settle();
+  ASSERT_EQ(t.world().ducts().size(), 2U);
+  EXPECT_LT((t.middle(0) - Vec3(kMiddle, 0, 0)).norm(), 0.001);
+  t.step(from_above({kMiddle, 0, 0.008}), 0);
+  EXPECT_GT(t.triangles_of(1), 20);
+  EXPECT_GT(t.triangles_of(2), 0);
+  EXPECT_NEAR(t.patch().material[1].stiffness_n_per_m, 132, 30) << "of a ring that is pressed";
+  EXPECT_EQ(t.surgery(), SurgeryState{});
+  EXPECT_EQ(t.world().shape().topology, 0U);
+  EXPECT_GT(t.world().shape().ducts_T.size(), 30U);
+}
+
+TEST(DuctSystem, IsPushedByWhatTheLoopSolvesAndGoesBack) {
+  Theatre t(InstrumentKind::kProbe);
+  t.settle();
+  const double before = t.middle(0).z();
+  for (int i = 0; i < 40; ++i) {
+    SolvedContacts contacts;
+    double least = 1;
+    for (int k = 0; k < t.patch().count; ++k) {
+      const PatchTriangle& triangle = t.patch().triangle[std::size_t(k)];
+      const Vec3 at = interpolate({1. / 3, 1. / 3, 1. / 3}, t.patch().corners(k));
+      if (triangle.material != 1 || triangle.normal.z() < 0.8 || std::abs(at.x() - kMiddle) > least) continue;
+      least = std::abs(at.x() - kMiddle);
+      contacts.count = 1;
+      SolvedContact& c = contacts.at[0];
+      c.place = {triangle.id, {1. / 3, 1. / 3, 1. / 3}};
+      c.normal_T = Vec3::UnitZ();
+      c.tool_T = Vec3(at.x(), at.y(), before - 0.002);
+      c.force_T = Vec3(0, 0, 0.1);
+    }
+    t.state().contacts = contacts;
+    t.step(from_above({kMiddle, 0, 0.004}), 0);
+  }
+  EXPECT_LT(t.middle(0).z(), before - 0.001);
+  EXPECT_LT(std::abs(t.middle(1).z()), 0.001) << "the other one is not touched";
+  t.state().contacts = {};
+  t.wait(100);
+  EXPECT_NEAR(t.middle(0).z(), before, 1e-4);
+}
+
+TEST(DuctSystem, AGrasperHoldsItPullsItAndTheOrganBehindIt) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.settle();
+  const Vec3 at = t.middle(0);
+  const auto tip = [&] {
+    double far = 0;
+    for (const Vec3& v : t.world().surface()->vertices)
+      if (std::hypot(v.y(), v.z()) < 0.002) far = std::max(far, v.x());
+    return far;
+  };
+  const double organ_before = tip();
+  t.close(at);
+  EXPECT_EQ(t.world().frame().grip, GripState::kHolding);
+  EXPECT_EQ(t.triangles_of(1), 0) << "what the jaws have is no contact";
+  EXPECT_GT(t.patch().hold.stiffness_n_per_m, 0);
+  for (double x = 0; x < 0.006; x += 2e-4) t.step(from_above(at + Vec3(x, 0, -kTip)), 0);
+  for (int i = 0; i < 30; ++i) t.step(from_above(at + Vec3(0.006, 0, -kTip)), 0);
+  EXPECT_GT(tip(), organ_before + 2e-4);
+  const Vec3 pull = t.patch().hold.anchor_T - t.state().stylus.X_TI * t.patch().hold.point_I;
+  EXPECT_LT(pull.x() * t.patch().hold.stiffness_n_per_m, -0.05) << "N on the jaws";
+  t.open(at + Vec3(0.006, 0, 0));
+  EXPECT_EQ(t.world().frame().grip, GripState::kEmpty);
+  t.wait(200);
+  EXPECT_NEAR(tip(), organ_before, 2e-4);
+}
+
+TEST(DuctSystem, AClipIsRefusedForAReasonOfItsOwnNumberOrPlaced) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.take(kClip);
+  t.settle();
+  const Vec3 at = t.middle(0);
+  t.close(at, 0.7, 0.008);
+  EXPECT_EQ(t.surgery().clips, 0);
+  EXPECT_EQ(t.surgery().refusals, 1);
+  EXPECT_EQ(t.surgery().refusal, refusal_code(ClipRefusal::kAngle));
+  EXPECT_EQ(closing_words(t.surgery().refusal), sentence(ClipRefusal::kAngle));
+  EXPECT_EQ(closing_words(static_cast<std::int32_t>(CutRefusal::kTooFine)), refusal_words(CutRefusal::kTooFine));
+  EXPECT_EQ(closing_words(0), "");
+  t.open(at);
+  t.close(at, 0, 0.008);
+  EXPECT_EQ(t.surgery().clips, 1);
+  EXPECT_EQ(t.surgery().refusal, 0);
+  t.open(at);
+  EXPECT_EQ(t.surgery().bile_leaks, 0);
+}
+
+TEST(DuctSystem, JawsThatCloseOnADuctDoNothingToTheOrganAndThoseBesideItDo) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.take(kCut);
+  t.settle();
+  t.close(t.middle(0));
+  EXPECT_EQ(t.surgery().cuts, 1);
+  EXPECT_EQ(t.world().surface()->topology, 0U);
+  EXPECT_EQ(t.world().ducts()[0]->topology, 1U);
+  EXPECT_EQ(t.world().ducts()[1]->topology, 0U);
+  EXPECT_EQ(t.world().shape().topology, 1U);
+  t.wait(5);
+  t.close({0, 0, 0.034});
+  EXPECT_EQ(t.surgery().cuts, 2);
+  EXPECT_EQ(t.world().surface()->topology, 1U);
+  EXPECT_EQ(t.world().shape().topology, 2U);
+  ASSERT_EQ(t.world().shape().changes.size(), 2U);
+  EXPECT_TRUE(is_duct_change(t.world().shape().changes[0]));
+  EXPECT_FALSE(is_duct_change(t.world().shape().changes[1]));
+}
+
+TEST(DuctSystem, ACutArteryBleedsUnlessItIsClippedOnBothSides) {
+  const auto bleeds_ml = [](int clips) {
+    Theatre t(InstrumentKind::kGrasper);
+    t.settle();
+    const Vec3 at = t.middle(1);
+    t.take(kClip);
+    for (int i = 0; i < clips; ++i) {
+      const Vec3 place = at + Vec3(i == 0 ? 0.006 : -0.006, 0, 0);  // the first where the blood comes from
+      t.close(place, 0, 0.008);
+      t.open(place);
+    }
+    EXPECT_EQ(t.surgery().clips, clips);
+    t.take(kCut);
+    t.close(at);
+    t.open(at);
+    EXPECT_EQ(t.surgery().cuts, 1);
+    t.wait(1000);
+    return t.surgery().blood_ml;
+  };
+  const double open = bleeds_ml(0), both = bleeds_ml(2);
+  EXPECT_GT(open, 1) << "mL in ten seconds";
+  EXPECT_LT(open, 15);
+  EXPECT_LT(bleeds_ml(1), 0.3 * open) << "what runs back from the organ is little";
+  EXPECT_EQ(both, 0);
+}
+
+TEST(DuctSystem, ACutDuctLeaksBileUntilBothStumpsAreClipped) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.settle();
+  const Vec3 at = t.middle(0);
+  t.take(kCut);
+  t.close(at);
+  t.open(at);
+  t.wait(100);
+  EXPECT_EQ(t.surgery().bile_leaks, 2);
+  EXPECT_GT(t.surgery().bile_ml, 0.005);
+  EXPECT_EQ(t.surgery().blood_ml, 0);
+  t.take(kClip);
+  for (const double side : {-0.009, 0.009}) {
+    t.close(at + Vec3(side, 0, 0), 0, 0.008);
+    t.open(at + Vec3(side, 0, 0));
+  }
+  EXPECT_EQ(t.surgery().clips, 2) << closing_words(t.surgery().refusal);
+  EXPECT_EQ(t.surgery().bile_leaks, 0);
+}
+
+TEST(DuctSystem, HeldWithCurrentItIsSealedAndTheArteryThenDoesNotBleed) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.settle();
+  const Vec3 at = t.middle(1);
+  for (const double side : {0.007, -0.007}) {
+    t.close(at + Vec3(side, 0, 0));
+    for (int i = 0; i < 220; ++i) t.step(from_above(at + Vec3(side, 0, -kTip)), 0, true);
+    t.open(at + Vec3(side, 0, 0));
+  }
+  t.take(kCut);
+  t.close(at);
+  t.open(at);
+  t.wait(300);
+  EXPECT_EQ(t.surgery().cuts, 1);
+  EXPECT_EQ(t.surgery().blood_ml, 0);
+}
+
+TEST(DuctSystem, TubesMadeFromRecordedNodesAndChangesLieWhereTheyLay) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.settle();
+  const Vec3 at = t.middle(0);
+  t.take(kClip);
+  t.close(at + Vec3(0.006, 0, 0), 0, 0.008);
+  t.open(at + Vec3(0.006, 0, 0));
+  t.take(kCut);
+  t.close(at);
+  t.take(kGrasp);
+  t.wait(10);
+  const TissueShape shape = t.world().shape();
+  ASSERT_EQ(shape.changes.size(), 2U);
+  const DuctPlayback playback(t.setup().ducts, {shape.changes.begin(), shape.changes.end()});
+  ASSERT_EQ(playback.nodes(), shape.ducts_T.size());
+  const auto made = playback.at(shape.ducts_T);
+  for (std::size_t d = 0; d < 2; ++d) {
+    const SurfaceSnapshot& was = *t.world().ducts()[d];
+    EXPECT_EQ(made[d]->triangles, was.triangles);
+    ASSERT_EQ(made[d]->vertices.size(), was.vertices.size());
+    double off = 0;
+    for (std::size_t v = 0; v < was.vertices.size(); ++v)
+      off = std::max(off, (made[d]->vertices[v] - was.vertices[v]).norm());
+    EXPECT_LT(off, 3e-4) << "rings may be turned a little";
+  }
+  EXPECT_EQ(playback.at(shape.ducts_T)[0]->vertices, made[0]->vertices) << "whatever was shown before";
+  const DuctPlayback whole(t.setup().ducts, {});
+  EXPECT_LT(whole.nodes(), playback.nodes());
+}
+
+TEST(DuctSystem, AChangeIsReadBackFromItsBytesAndWhatIsNoneIsRefused) {
+  DuctChange change{DuctChange::Kind::kClipped, 1, 0.0123, 0.75, {1, 2, 3}, Mat3::Identity()};
+  change.rotation_rod(0, 2) = -0.5;
+  const std::string bytes = duct_change_bytes(change);
+  const DuctChange read = parse_duct_change(bytes);
+  EXPECT_EQ(read.kind, change.kind);
+  EXPECT_EQ(read.duct, 1);
+  EXPECT_EQ(read.arc_m, change.arc_m);
+  EXPECT_EQ(read.share, change.share);
+  EXPECT_EQ(read.offset_rod, change.offset_rod);
+  EXPECT_EQ(read.rotation_rod, change.rotation_rod);
+  EXPECT_THROW(parse_duct_change(bytes.substr(0, bytes.size() - 1)), InputError);
+  EXPECT_THROW(parse_duct_change(bytes + "x"), InputError);
+  EXPECT_THROW(parse_duct_change("nonsense that is long enough to be read as a change of a duct"), InputError);
+  const std::vector<DuctSetup> one{duct("cystic duct", 0, DuctContent::kBile)};
+  EXPECT_THROW(DuctPlayback(one, std::vector<std::string>{bytes}), InputError) << "there is no second duct";
+}
+
+TEST(DuctSystem, ADuctThatEndsBesideTheOrganIsRefusedByName) {
+  TissueSetup setup = Theatre(InstrumentKind::kProbe).setup();
+  const auto organ = test::ellipsoid({0.06, 0.05, 0.035}, 40);
+  setup.organ_T = organ.get();
+  setup.seen_T = organ;
+  setup.ducts[1].path_T[1].x() += 0.01;
+  try {
+    const TissueWorld world(setup);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("cystic artery"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace trocar::duct_system_test
