@@ -80,8 +80,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     actions_->grip().clear(patch);
     frame_.grip = actions_->grip().state();
     frame_.slipped_m = actions_->grip().slipped_m();
-    frame_.surgery = actions_->state();
-    frame_.smoke_per_m = actions_->smoke_per_m();
+    actions_->tell(*soft_, frame_);
     if (ducts_) add_ducts(patch);
   }
   if (present && rigid_) rigid_->add_to(jaws, patch);
@@ -224,11 +223,15 @@ void TissueWorld::add_ducts(ContactPatch& patch) {
   if (closings != organ_closings_) refusal_ = surgery.refusal;
   organ_closings_ = closings;
   if (ducts_->closing()) refusal_ = *ducts_->closing();
+  if (ducts_->closing().value_or(0) != 0) refused_s_ = frame_.t_s;
+  surgery.refused_s = std::max(surgery.refused_s, refused_s_);
   surgery.refusal = refusal_;
   surgery.cuts += ducts_->cuts();
   surgery.tears += ducts_->tears();
   surgery.clips += ducts_->clips();
   surgery.refusals += ducts_->refusals();
+  for (const Pose& clip : ducts_->clip_poses())
+    if (frame_.clip_count < kMaxClipsSeen) frame_.clip[static_cast<std::size_t>(frame_.clip_count++)] = clip;
   surgery.bile_leaks = ducts_->bile_leaks();
   surgery.bile_ml = ducts_->bile_ml();
 }

@@ -63,7 +63,7 @@ std::optional<JawSpace> jaw_space(const DuctSystemOptions& options, InstrumentKi
 
 std::string_view closing_words(std::int32_t refusal) {
   if (refusal == kBladesOnClip) return "The blades stand on a clip.";
-  if (refusal > 0 && refusal <= static_cast<std::int32_t>(CutRefusal::kPieceOff))
+  if (refusal > 0 && refusal <= static_cast<std::int32_t>(CutRefusal::kNoWound))
     return refusal_words(static_cast<CutRefusal>(refusal));
   const std::int32_t of_clip = refusal - kFirstClipRefusal;
   if (of_clip > 0 && of_clip <= static_cast<std::int32_t>(ClipRefusal::kNotShut))

@@ -193,21 +193,25 @@ void walk_frame(Words& words, Frame& f) {
 
 template <typename Words, typename Surgery>
 void walk_surgery(Words& words, Surgery& s) {
-  for (auto* number : {&s.cuts, &s.tears, &s.clips, &s.refusals, &s.refusal, &s.wounds}) words.whole(*number);
-  for (auto* number : {&s.blood_ml, &s.blood_ml_per_min, &s.sucked_ml, &s.cut_m2, &s.heat_j, &s.contact_c})
+  for (auto* number : {&s.cuts, &s.tears, &s.clips, &s.refusals, &s.refusal, &s.wounds, &s.bile_leaks})
+    words.whole(*number);
+  for (auto* number : {&s.blood_ml, &s.blood_ml_per_min, &s.sucked_ml, &s.bile_ml, &s.cut_m2, &s.cut_m, &s.heat_j,
+                       &s.contact_c, &s.refused_s})
     words.rounded(*number);
 }
 
-/// What has come of ducts follows that.
-template <typename Words, typename Surgery>
-void walk_bile(Words& words, Surgery& s) {
-  words.whole(s.bile_leaks);
-  words.rounded(s.bile_ml);
+template <typename Words, typename Frame>
+void walk_clips_and_drops(Words& words, Frame& f) {
+  words.count(f.clip_count, f.clip.size());
+  words.count(f.drop_count, f.drop.size());
+  for (std::int32_t i = 0; i < f.clip_count; ++i) pose(words, f.clip[static_cast<std::size_t>(i)]);
+  for (std::int32_t i = 0; i < f.drop_count; ++i) {
+    rounded(words, f.drop[static_cast<std::size_t>(i)].place_T);
+    words.rounded(f.drop[static_cast<std::size_t>(i)].radius_m);
+  }
 }
 
-bool leaks_bile(const SurgeryState& s) { return s.bile_leaks != 0 || s.bile_ml != 0; }
-
-/// What has been done to an organ follows, where something has.
+/// What has been done to an organ follows, where something has, and behind it clips and drops, where there are some.
 template <typename Words, typename Keyframe>
 void walk(Words& words, Keyframe& k) {
   walk_instrument(words, k.instrument);
@@ -222,10 +226,9 @@ void walk(Words& words, Keyframe& k) {
 std::vector<std::uint64_t> words_of(const TissueKeyframe& keyframe) {
   WordsOut words;
   walk(words, keyframe);
-  if (keyframe.tissue.surgery != SurgeryState{}) {
-    walk_surgery(words, keyframe.tissue.surgery);
-    if (leaks_bile(keyframe.tissue.surgery)) walk_bile(words, keyframe.tissue.surgery);
-  }
+  const bool more = keyframe.tissue.clip_count > 0 || keyframe.tissue.drop_count > 0;
+  if (more || keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
+  if (more) walk_clips_and_drops(words, keyframe.tissue);
   return std::move(words.words);
 }
 
@@ -233,7 +236,7 @@ void read_words(std::span<const std::uint64_t> words, TissueKeyframe& keyframe) 
   WordsIn in(words);
   walk(in, keyframe);
   if (!in.done()) walk_surgery(in, keyframe.tissue.surgery);
-  if (!in.done()) walk_bile(in, keyframe.tissue.surgery);
+  if (!in.done()) walk_clips_and_drops(in, keyframe.tissue);
   if (!in.done()) throw InputError("words of a keyframe are left over");
 }
 
