@@ -460,19 +460,20 @@ TROCAR_LANES_CLONED void scale(const std::vector<float>& factor, const std::vect
   for (std::size_t n = 0; n < of.size(); ++n) set(to[n], factor[n] * row(of[n]));
 }
 
-struct Progress {
+struct Remainder {
   double residual = 0, scaled = 0;  ///< r . r and r . z
 };
 /// x += alpha d, r -= alpha q. @param inverse z = inverse r
-TROCAR_LANES_CLONED Progress move(float alpha, const std::vector<NodeRow>& d, const std::vector<NodeRow>& q,
-                                  const std::vector<float>& inverse, std::vector<NodeRow>& x, std::vector<NodeRow>& r) {
+TROCAR_LANES_CLONED Remainder go_along(float alpha, const std::vector<NodeRow>& d, const std::vector<NodeRow>& q,
+                                       const std::vector<float>& inverse, std::vector<NodeRow>& x,
+                                       std::vector<NodeRow>& r) {
   Sum residual{}, scaled{};
   for (std::size_t n = 0; n < d.size(); ++n) {
     set(x[n], row(x[n]) + alpha * row(d[n]));
-    const Row left = row(r[n]) - alpha * row(q[n]);
-    set(r[n], left);
-    residual += squares(left, left);
-    scaled += squares(left, inverse[n] * left);
+    const Row next = row(r[n]) - alpha * row(q[n]);
+    set(r[n], next);
+    residual += squares(next, next);
+    scaled += squares(next, inverse[n] * next);
   }
   return {together(residual), together(scaled)};
 }
@@ -528,17 +529,17 @@ void SoftSolid::solve(std::span<SoftSpring> springs, const std::vector<bool>& ac
   direction_.assign(rest_.size(), NodeRow{});
   const double enough = options_.tolerance * options_.tolerance * dot(right_, right_);
   // The first move, along nothing, only takes the product off the right-hand side.
-  Progress progress = move(1, direction_, product_, inverse_, solution_, residual_);
+  Remainder left = go_along(1, direction_, product_, inverse_, solution_, residual_);
   double rho = 0;
-  for (int iteration = 0; iteration < options_.most_iterations && progress.residual > enough; ++iteration) {
-    const double next = progress.scaled + levels_.coarsen(residual_);
+  for (int iteration = 0; iteration < options_.most_iterations && left.residual > enough; ++iteration) {
+    const double next = left.scaled + levels_.coarsen(residual_);
     levels_.advance(inverse_, residual_, rho > 0 ? static_cast<float>(next / rho) : 0.0F, shift_, direction_, product_);
     rho = next;
     add_stiffness(springs, active, direction_, product_);
     const double curvature = dot(direction_, product_);
     if (!(rho > 0 && curvature > 0)) break;
     ++iterations_;
-    progress = move(static_cast<float>(rho / curvature), direction_, product_, inverse_, solution_, residual_);
+    left = go_along(static_cast<float>(rho / curvature), direction_, product_, inverse_, solution_, residual_);
   }
   for (std::size_t n = 0; n < rest_.size(); ++n) velocity_next_[n] = as_vector(solution_[n]);
 }

@@ -334,6 +334,16 @@ StudyResult tissue_scaling_study(const StudyRequest& request) {
                            mean <= most,
                            "Mean over 150 steps: solid, clamped neighbourhood, surface, patch."});
   }
+  if (!request.quick) {
+    const double growth = curves.series[0].y.back() / curves.series[1].y.back();
+    study.cases.push_back({"growth with the nodes, 12.5 to 5 mm cells, over linear",
+                           "1",
+                           growth,
+                           {},
+                           "<= 1",
+                           growth <= 1,
+                           "Of the mean step."});
+  }
   study.curves.push_back(curves);
   return study;
 }
