@@ -176,11 +176,11 @@ void mark(inout Surface s, inout vec3 n, vec4 coarse, vec4 middle, vec4 fine) {
 
   // A thin film stains what is under it, a body of blood hides it, and the thicker the darker.
   float stain = smoothstep(0.14, 0.30, there.x), blood = smoothstep(0.21, 0.34, there.x), deep = smoothstep(0.26, 0.80, there.x);
-  vec3 through = s.base * vec3(0.82, 0.20, 0.17) + vec3(0.030, 0.0, 0.0);
-  vec3 body = mix(vec3(0.30, 0.0110, 0.0075), vec3(0.088, 0.0016, 0.0020), deep);
+  vec3 through = s.base * vec3(0.70, 0.22, 0.20);
+  vec3 body = mix(vec3(0.185, 0.0060, 0.0045), vec3(0.080, 0.0016, 0.0020), deep);
   s.base = mix(s.base, mix(through, body, 0.98 * blood), stain);
   s.bump *= 1.0 - 0.72 * blood;
-  s.film = mix(s.film, mix(1.5, 2.6, blood), stain);
+  s.film = mix(s.film, mix(1.0, 0.42, blood), stain);
   s.sharp = mix(s.sharp, 0.85, blood);
   // A pool's rim is rounded: the film tilts down the slope of the field.
   vec3 dx = dFdx(v_position), dy = dFdy(v_position);
@@ -205,12 +205,12 @@ const vec3 kRaw = vec3(0.600, 0.270, 0.150), kSepta = vec3(0.70, 0.420, 0.270);
 #else
 const vec3 kRaw = vec3(0.420, 0.060, 0.045), kSepta = vec3(0.56, 0.200, 0.150);
 #endif
-const vec3 kCapsule = vec3(0.62, 0.43, 0.34);
+const vec3 kCapsule = vec3(0.46, 0.20, 0.15);
 
 float cut_rim(vec4 grain) {
   bool wall = v_cut > 1.5;
   float from_lip = (wall ? v_cut - 2.0 : 1.0 - v_cut) + 0.30 * (grain.w - 0.5);
-  return 1.0 - smoothstep(wall ? 0.25 : 0.15, wall ? 0.70 : 0.42, from_lip);
+  return 1.0 - smoothstep(wall ? 0.05 : 0.10, wall ? 0.30 : 0.36, from_lip);
 }
 
 // Granular and moist; grain: lobules of a millimetre.
@@ -223,7 +223,9 @@ void lay_open(inout Surface s, inout vec3 n, vec4 grain, vec4 middle) {
     s.sharp = 0.35;
     n = normalize(n + 0.55 * (grain.xyz * 2.0 - 1.0));
   }
-  s.base = mix(s.base, kCapsule, 0.85 * cut_rim(grain));
+  float rim = cut_rim(grain);
+  s.base = mix(s.base, kCapsule, 0.8 * rim);
+  s.film *= 1.0 - 0.5 * rim;
 }
 
 // Under a film of blood a wound stays a wound: dark to its ground, its lip a paler line where the film is thin.
