@@ -14,6 +14,8 @@ namespace trocar {
 inline constexpr int kMaxObjects = 16;
 inline constexpr int kMaxContactPairs = 32;
 inline constexpr int kMaxTissueMarks = 32;
+inline constexpr int kMaxClipsSeen = 32;
+inline constexpr int kMaxDropsSeen = 64;
 
 enum class ObjectMotion : std::uint8_t { kResting, kMoving, kHeld };
 
@@ -63,8 +65,16 @@ struct SurgeryState {
   double blood_ml = 0, blood_ml_per_min = 0, sucked_ml = 0;
   double heat_j = 0;     ///< delivered to tissue
   double contact_c = 0;  ///< of the tissue under an energised instrument; 0: none touches
+  double cut_m = 0;      ///< length of the last cut or tear
+  double refused_s = 0;  ///< loop time of the last refusal
 
   bool operator==(const SurgeryState&) const = default;
+};
+
+/// Blood in the air.
+struct DropState {
+  Vec3 place_T = Vec3::Zero();
+  double radius_m = 0;
 };
 
 struct TissueFrame {
@@ -82,6 +92,9 @@ struct TissueFrame {
   double smoke_per_m = 0;               ///< extinction of the smoke in the cavity, 1/m: sight falls as exp(-k d)
   double lens_fog = 0, lens_blood = 0;  ///< on the scope's lens, 0 clean .. 1 blind
   SurgeryState surgery;
+  std::int32_t clip_count = 0, drop_count = 0;
+  std::array<Pose, kMaxClipsSeen> clip;  ///< X_TC of clips on wounds, as they were set; C: thin/clip.h
+  std::array<DropState, kMaxDropsSeen> drop;
 
   bool held() const { return grip == GripState::kHolding || grip == GripState::kSlipping; }
 };

@@ -69,8 +69,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     actions_->grip().clear(patch);
     frame_.grip = actions_->grip().state();
     frame_.slipped_m = actions_->grip().slipped_m();
-    frame_.surgery = actions_->state();
-    frame_.smoke_per_m = actions_->smoke_per_m();
+    actions_->tell(*soft_, frame_);
   }
   if (present && rigid_) rigid_->add_to(jaws, patch);
   enclose(patch, patch.balls);

@@ -1,7 +1,8 @@
 // Wet tissue under a scope's own light (recipe: solid noise at the rest position, wrapped diffuse per channel, two-lobe wet film).
 // One of LOOK_LIVER, LOOK_GALLBLADDER, LOOK_WALL, LOOK_FAT, LOOK_SPLEEN, LOOK_KIDNEY, LOOK_PANCREAS, LOOK_DUCT, LOOK_ARTERY,
 // LOOK_VEIN, LOOK_BONE is defined, else plain flesh (stomach, bowel). DIMPLED: dented by the tip. MARKED: bears blood, char,
-// whitening, wet, with FIELDS those of its vertices too. DEFORMED: has left its rest, to which its texture sticks. PRESET_LOW: plain
+// whitening, wet, with FIELDS those of its vertices too. CUT: wall of a cut and what lies beside its lip.
+// DEFORMED: has left its rest, to which its texture sticks. PRESET_LOW: plain
 // Phong of the same colours; PRESET_SOFT: without the finest octave.
 in vec3 v_position;
 in vec3 v_rest;
@@ -16,6 +17,9 @@ in vec3 v_place;
 #endif
 #ifdef FIELDS
 in vec4 v_fields;  // blood, char, whitening, wet
+#endif
+#ifdef CUT
+in float v_cut;  // app/picture/models/cut_seams.h: from 2 on a wall, mm below the lip; below 1 outside, mm from it
 #endif
 out vec4 colour;
 uniform sampler3D u_noise;
@@ -170,16 +174,70 @@ void mark(inout Surface s, inout vec3 n, vec4 coarse, vec4 middle, vec4 fine) {
   s.film *= 1.0 + 0.9 * wet;
   s.sharp = max(s.sharp, 0.8 * wet);
 
-  float blood = smoothstep(0.235, 0.275, there.x), deep = smoothstep(0.26, 0.62, there.x);
-  s.base = mix(s.base, mix(vec3(0.34, 0.012, 0.008), vec3(0.175, 0.0036, 0.0036), deep), 0.97 * blood);
+  // A thin film stains what is under it, a body of blood hides it, and the thicker the darker.
+  float stain = smoothstep(0.14, 0.30, there.x), blood = smoothstep(0.21, 0.34, there.x), deep = smoothstep(0.26, 0.80, there.x);
+  vec3 through = s.base * vec3(0.70, 0.22, 0.20);
+  vec3 body = mix(vec3(0.185, 0.0060, 0.0045), vec3(0.080, 0.0016, 0.0020), deep);
+  s.base = mix(s.base, mix(through, body, 0.98 * blood), stain);
   s.bump *= 1.0 - 0.72 * blood;
-  s.film = mix(s.film, 3.0, blood);
+  s.film = mix(s.film, mix(1.0, 0.42, blood), stain);
   s.sharp = mix(s.sharp, 0.85, blood);
   // A pool's rim is rounded: the film tilts down the slope of the field.
   vec3 dx = dFdx(v_position), dy = dFdy(v_position);
   vec3 slope = dFdx(there.x) * dx / max(dot(dx, dx), 1e-12) + dFdy(there.x) * dy / max(dot(dy, dy), 1e-12);
-  float rim = blood * (1.0 - smoothstep(0.27, 0.46, there.x));
+  float rim = blood * (1.0 - smoothstep(0.30, 0.52, there.x));
   n = normalize(n - rim * 0.0042 * slope);
+}
+#endif
+
+#ifdef CUT
+// Raw tissue by its capillaries' colour, and what runs between its lobules.
+#if defined(LOOK_LIVER)
+const vec3 kRaw = vec3(0.235, 0.017, 0.010), kSepta = vec3(0.34, 0.075, 0.045);
+#elif defined(LOOK_SPLEEN)
+const vec3 kRaw = vec3(0.165, 0.010, 0.018), kSepta = vec3(0.30, 0.060, 0.075);
+#elif defined(LOOK_KIDNEY)
+const vec3 kRaw = vec3(0.260, 0.034, 0.020), kSepta = vec3(0.42, 0.130, 0.080);
+#elif defined(LOOK_FAT)
+const vec3 kRaw = vec3(0.780, 0.400, 0.090), kSepta = vec3(0.62, 0.230, 0.080);
+#elif defined(LOOK_PANCREAS)
+const vec3 kRaw = vec3(0.600, 0.270, 0.150), kSepta = vec3(0.70, 0.420, 0.270);
+#else
+const vec3 kRaw = vec3(0.420, 0.060, 0.045), kSepta = vec3(0.56, 0.200, 0.150);
+#endif
+const vec3 kCapsule = vec3(0.46, 0.20, 0.15);
+
+float cut_rim(vec4 grain) {
+  bool wall = v_cut > 1.5;
+  float from_lip = (wall ? v_cut - 2.0 : 1.0 - v_cut) + 0.30 * (grain.w - 0.5);
+  return 1.0 - smoothstep(wall ? 0.05 : 0.10, wall ? 0.30 : 0.36, from_lip);
+}
+
+// Granular and moist; grain: lobules of a millimetre.
+void lay_open(inout Surface s, inout vec3 n, vec4 grain, vec4 middle) {
+  if (v_cut > 1.5) {
+    s.base = mix(kRaw * (0.50 + 0.55 * middle.w), kSepta, 0.75 * smoothstep(0.50, 0.68, grain.w));
+    s.base *= 0.55 + 0.9 * smoothstep(0.26, 0.50, grain.w);
+    s.bump = 1.5;
+    s.film = 1.35;
+    s.sharp = 0.35;
+    n = normalize(n + 0.55 * (grain.xyz * 2.0 - 1.0));
+  }
+  float rim = cut_rim(grain);
+  s.base = mix(s.base, kCapsule, 0.8 * rim);
+  s.film *= 1.0 - 0.5 * rim;
+}
+
+// Under a film of blood a wound stays a wound: dark to its ground, its lip a paler line where the film is thin.
+void keep_open(inout Surface s, vec4 grain) {
+  if (v_cut > 1.5) {
+    s.base *= mix(1.0, 0.42, smoothstep(0.3, 3.5, v_cut - 2.0));
+    s.film *= mix(1.0, 0.55, smoothstep(0.3, 3.5, v_cut - 2.0));
+  }
+#ifdef MARKED
+  float covered = 1.0 - smoothstep(0.010, 0.045, s.base.g);
+  s.base = mix(s.base, vec3(0.36, 0.050, 0.035), 0.5 * cut_rim(grain) * covered);
+#endif
 }
 #endif
 
@@ -267,8 +325,15 @@ void main() {
 #ifdef DIMPLED
   n = press(s, n);
 #endif
+#ifdef CUT
+  vec4 grain = textureLod(u_noise, rest_mm * 0.155 + 0.21, 0.0);
+  lay_open(s, n, grain, middle);
+#endif
 #ifdef MARKED
   mark(s, n, coarse, middle, fine);
+#endif
+#ifdef CUT
+  keep_open(s, grain);
 #endif
   vec3 to_lamp = lamp.xyz - v_position;
   vec3 lit = lit_by_lamp(s, n, normalize(to_lamp), normalize(eye.xyz - v_position), coarse, middle, fine);

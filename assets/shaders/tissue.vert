@@ -18,6 +18,9 @@ out vec3 v_place;  // deformed, before breath and dent
 layout(location = 5) in vec4 a_fields;
 out vec4 v_fields;
 #endif
+#ifdef CUT
+out float v_cut;
+#endif
 uniform vec3 u_breath;  // how far breathing has moved this part
 invariant gl_Position;
 
@@ -38,6 +41,9 @@ void main() {
 #endif
 #ifdef FIELDS
   v_fields = a_fields;
+#endif
+#ifdef CUT
+  v_cut = a_light.y;
 #endif
   gl_Position = view_projection * vec4(p, 1.0);
 }

@@ -4,6 +4,7 @@
 
 #include "scenarios/director/exercise_task.h"
 #include "scenarios/director/safety_watch.h"
+#include "scenarios/director/surgery_watch.h"
 #include "scenarios/kinds/kind.h"
 
 namespace trocar {
@@ -43,6 +44,7 @@ struct Director::State {
   DirectorStatus status;
   EventLog log;
   SafetyWatch watch;
+  SurgeryWatch surgery;
   std::vector<std::unique_ptr<ExerciseTask>> tasks;
   std::size_t current = 0;
   double last_s = -1, waiting_s = 0, in_start_s = 0, start_s = 0;
@@ -113,6 +115,7 @@ void Director::State::describe_run(const TaskInput& input) {
 void Director::State::run(const StylusState& state, const TissueFrame* tissue, double dt_s) {
   status.run_time_s = log.t_s - start_s;
   watch.update(state, dt_s, tasks[current]->object(), log);
+  if (tissue) surgery.update(tissue->surgery, dt_s, log);
   const TaskInput input{state, tissue, dt_s, watch.too_hard()};
   tasks[current]->update(input, log);
   describe_run(input);
@@ -146,6 +149,7 @@ void Director::update(const StylusState& state, const TissueFrame* tissue) {
   if (s.status.phase == Phase::kRun) {
     s.run(state, tissue, dt_s);
   } else {
+    if (tissue) s.surgery.skip(tissue->surgery);
     s.wait_for_start(state, dt_s);
   }
 }

@@ -24,6 +24,9 @@ inline constexpr EventType kStart{"START"}, kDone{"DONE"}, kTimeout{"TIMEOUT"}, 
 // Its safety watch
 inline constexpr EventType kExcessForce{"EXCESS_FORCE"}, kCriticalForce{"CRITICAL_FORCE"},
     kToolCollision{"TOOL_COLLISION"}, kDeviceLimit{"DEVICE_LIMIT"}, kClutch{"CLUTCH"}, kPortHold{"PORT_HOLD"};
+// Its watch on surgery, where tissue gives way
+inline constexpr EventType kCut{"CUT"}, kTear{"TEAR"}, kClip{"CLIP"}, kRefused{"REFUSED"}, kBleeding{"BLEEDING"},
+    kBurn{"BURN"};
 // Every kind of exercise
 inline constexpr EventType kTargetLit{"TARGET_LIT"}, kTargetHeld{"TARGET_HELD"};
 // Touch

@@ -271,6 +271,8 @@ std::string_view refusal_words(CutRefusal refusal) {
       return "the cut would go through the organ";
     case CutRefusal::kPieceOff:
       return "the cut would take a piece off";
+    case CutRefusal::kNoWound:
+      return "no wound between the jaws";
   }
   return "?";
 }

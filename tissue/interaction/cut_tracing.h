@@ -24,7 +24,8 @@ Blade scissor_blade(const Pose& X_TI, double length_m, double opening_m);
 /// The track of an edge from one place to another. @param inward unit, along the edge into the tissue
 Blade track_blade(const Vec3& from_T, const Vec3& to_T, const Vec3& inward_T, double depth_m, double above_m);
 
-enum class CutRefusal : std::uint8_t { kNone, kNothingThere, kTooShallow, kTooFine, kThrough, kPieceOff };
+enum class CutRefusal : std::uint8_t { kNone, kNothingThere, kTooShallow, kTooFine, kThrough, kPieceOff, kNoWound };
+/// kNoWound is the clip applier's.
 std::string_view refusal_words(CutRefusal refusal);
 
 struct CutTracingOptions {

@@ -29,6 +29,36 @@ std::optional<Touch> strongest_touch(const SolvedContacts& contacts, const SoftO
   return best;
 }
 
+/// Of three places: the first, x to the second, z out of their plane.
+Pose frame_of(const std::array<std::int32_t, 3>& vertices, const std::vector<Vec3>& at) {
+  const Vec3 &a = at[static_cast<std::size_t>(vertices[0])], &b = at[static_cast<std::size_t>(vertices[1])],
+             &c = at[static_cast<std::size_t>(vertices[2])];
+  Pose X;
+  X.p = a;
+  X.R.col(0) = (b - a).normalized();
+  X.R.col(2) = (b - a).cross(c - a).normalized();
+  X.R.col(1) = X.R.col(2).cross(X.R.col(0));
+  return X;
+}
+
+/// The triangle of the outside whose middle is nearest, but for slivers.
+std::array<std::int32_t, 3> triangle_near(const SurfaceSnapshot& surface, const Vec3& place_T) {
+  constexpr double kSliver = 1e-7;  // m2, twice its area
+  std::array<std::int32_t, 3> nearest{};
+  double least = INFINITY;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (!surface.inside.empty() && surface.inside[t]) continue;
+    const auto corner = [&](std::size_t k) {
+      return surface.vertices[static_cast<std::size_t>(surface.triangles[t][k])];
+    };
+    const double distance = ((corner(0) + corner(1) + corner(2)) / 3 - place_T).squaredNorm();
+    if (distance >= least || (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() < kSliver) continue;
+    least = distance;
+    nearest = surface.triangles[t];
+  }
+  return nearest;
+}
+
 }  // namespace
 
 InstrumentActions::InstrumentActions(const SoftOrgan& organ, const InstrumentActionsOptions& options)
@@ -37,6 +67,7 @@ InstrumentActions::InstrumentActions(const SoftOrgan& organ, const InstrumentAct
 bool InstrumentActions::before(const HapticState& newest, const Tool& tool, bool present, SoftOrgan& organ,
                                std::vector<SoftSpring>& springs) {
   const StylusState& stylus = newest.stylus;
+  now_s_ = stylus.t_s;
   cut_now_ = false;
   blades_ = {};
   const bool grasps = present && tool.kind == InstrumentKind::kGrasper;
@@ -57,7 +88,7 @@ bool InstrumentActions::before(const HapticState& newest, const Tool& tool, bool
     else
       feel_blades(stylus, organ);
   } else if (tool.kind == InstrumentKind::kClipApplier) {
-    if (closes(stylus.jaw_opening_m)) set_clip(stylus);
+    if (closes(stylus.jaw_opening_m)) set_clip(stylus, organ);
   } else {
     widest_m_ = 0;
   }
@@ -104,6 +135,7 @@ bool InstrumentActions::closes(double opening_m) {
 void InstrumentActions::refuse(CutRefusal why) {
   ++state_.refusals;
   state_.refusal = static_cast<std::int32_t>(why);
+  state_.refused_s = now_s_;
 }
 
 void InstrumentActions::cut_between_blades(const StylusState& stylus, SoftOrgan& organ) {
@@ -128,6 +160,7 @@ WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
   }
   cut_now_ = true;
   ++state_.cuts;
+  state_.cut_m = made.length_m;
   state_.refusal = 0;
   grip_.follow_cut(organ);
   const std::vector<VertexOrigin> added(organ.added().begin(), organ.added().end());
@@ -138,7 +171,7 @@ WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
   return bleeding_.add_wound(bottom, 2 * made.area_m2, made.depth_m);
 }
 
-void InstrumentActions::set_clip(const StylusState& stylus) {
+void InstrumentActions::set_clip(const StylusState& stylus, const SoftOrgan& organ) {
   widest_m_ = 0;
   const Vec3 jaws_T = stylus.X_TI * Vec3(0, 0, -options_.applier_m / 2);
   WoundId nearest = -1;
@@ -147,10 +180,12 @@ void InstrumentActions::set_clip(const StylusState& stylus) {
     const double distance = (bleeding_.wound(id).place_T - jaws_T).norm();
     if (distance < least) least = distance, nearest = id;
   }
-  if (nearest < 0) return refuse(CutRefusal::kNothingThere);
+  if (nearest < 0) return refuse(CutRefusal::kNoWound);
   bleeding_.clip_wound(nearest, 1);
   ++state_.clips;
   state_.refusal = 0;
+  const auto beside = triangle_near(*organ.surface(), bleeding_.wound(nearest).place_T);
+  clips_.push_back({beside, frame_of(beside, organ.surface()->vertices).inverse() * stylus.X_TI});
 }
 
 void InstrumentActions::tear(SoftOrgan& organ, const StylusState& stylus) {
@@ -228,6 +263,23 @@ void InstrumentActions::clear_smoke(bool sucked) {
   steam_seen_j_ = steam;
   smoke_per_m_ *= 1 - 0.01 / (sucked ? options_.smoke_sucked_s : options_.smoke_s);
   if (smoke_per_m_ < 1e-6) smoke_per_m_ = 0;
+}
+
+void InstrumentActions::tell(const SoftOrgan& organ, TissueFrame& frame) const {
+  frame.surgery = state_;
+  frame.smoke_per_m = smoke_per_m_;
+  frame.clip_count = 0;
+  for (const SetClip& clip : clips_) {
+    if (frame.clip_count == kMaxClipsSeen) break;
+    frame.clip[static_cast<std::size_t>(frame.clip_count++)] =
+        frame_of(clip.vertices, organ.surface()->vertices) * clip.X_VC;
+  }
+  frame.drop_count = 0;
+  for (const BloodDrop& drop : bleeding_.drops()) {
+    if (frame.drop_count == kMaxDropsSeen) break;
+    frame.drop[static_cast<std::size_t>(frame.drop_count++)] = {
+        drop.place_T, std::cbrt(0.75 * std::numbers::inv_pi * drop.volume_m3)};
+  }
 }
 
 void InstrumentActions::dress(SoftOrgan& organ) const {

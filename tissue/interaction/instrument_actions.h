@@ -5,13 +5,15 @@
 //   scissors  closing cuts what lies between the blades; the fingers feel the energy that the cut takes. Pedal: the
 //             blades coagulate what they touch
 //   hook      pedal: vaporises what it touches; drawn along, it cuts
-//   clip applier  closing sets a clip on the wound between its jaws
+//   clip applier  closing sets a clip on the wound between its jaws, which stays and moves with the tissue
 //   suction   pedal: takes blood and water away; fingers closed: rinses
 // Every instrument presses on wounds that it stands on. A closing that does nothing tells why (CutRefusal). Order of a
 // step: before() what acts on the organ as it lies, then the organ's own step, then after(). Frame T, SI. Thread:
 // tissue task. Same input, same bytes.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -61,13 +63,15 @@ class InstrumentActions {
   const TissueHeat& heat() const { return heat_; }
   const SurgeryState& state() const { return state_; }
   double smoke_per_m() const { return smoke_per_m_; }
+  /// Counts, smoke, clips and drops as they are now.
+  void tell(const SoftOrgan& organ, TissueFrame& frame) const;
 
  private:
   /// Of jaws: how far open since they last closed. @return whether they close in this step
   bool closes(double opening_m);
   void cut_between_blades(const StylusState& stylus, SoftOrgan& organ);
   void feel_blades(const StylusState& stylus, const SoftOrgan& organ);
-  void set_clip(const StylusState& stylus);
+  void set_clip(const StylusState& stylus, const SoftOrgan& organ);
   void tear(SoftOrgan& organ, const StylusState& stylus);
   void draw_hook(const HapticState& newest, SoftOrgan& organ);
   /// @return the wound; -1 where nothing was cut
@@ -78,6 +82,12 @@ class InstrumentActions {
   void clear_smoke(bool sucked);
   void dress(SoftOrgan& organ) const;
 
+  /// A clip goes with the triangle of the surface that it was set beside, by vertices: a cut may divide the triangle.
+  struct SetClip {
+    std::array<std::int32_t, 3> vertices{};
+    Pose X_VC;  ///< in the frame of these vertices
+  };
+
   InstrumentActionsOptions options_;
   SoftGrip grip_;
   Bleeding bleeding_;
@@ -85,11 +95,13 @@ class InstrumentActions {
   SurgeryState state_;
   GripBlock blades_;
   double widest_m_ = 0;
+  double now_s_ = 0;         ///< of the loop
   double overloaded_s_ = 0;  ///< of a held fold
   bool cut_now_ = false;     ///< in this step
   double cold_s_ = 1;        ///< since the hook last boiled anything
   bool hook_draws_ = false;
   Vec3 hook_from_T_ = Vec3::Zero();
+  std::vector<SetClip> clips_;
   double smoke_per_m_ = 0, steam_seen_j_ = 0;
 };
 

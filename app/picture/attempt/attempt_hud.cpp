@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/picture/attempt/attempt_scene.h"
+#include "app/picture/attempt/surgery_hud.h"
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
 #include "app/picture/scene/scope_optics.h"
@@ -113,9 +114,14 @@ Hud attempt_hud(const SessionView& view, const Camera& camera, const std::string
   if (status.demand.oriented) hud.dial = shown_dial(view, camera);
   add_map_notices(view.record.stylus, hud.notices);
   add_band_notice(view, hud.bars, hud.notices);
+  add_surgery_notices(view, hud.notices);
   add_instrument_notices(view, hud.notices);
-  hud.steps = steps(scene, status);
-  hud.rows = picture_of(exercise).rows(scene, status);
+  if (plays_freely(scene)) {
+    hud.rows = free_play_rows(view);
+  } else {
+    hud.steps = steps(scene, status);
+    hud.rows = picture_of(exercise).rows(scene, status);
+  }
   hud.device = device_rows(view);
   hud.toast = status.message;
   hud.toast_hint = status.hint;

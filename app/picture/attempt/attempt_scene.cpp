@@ -6,6 +6,7 @@
 
 #include "app/picture/kinds/board_object.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "tissue/thin/clip.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar {
@@ -20,6 +21,8 @@ constexpr double kSleeveInside = 0.025;  // m of the port's tube on the scope's 
 
 const Vec3 kBoardLines(0.44, 0.44, 0.42);
 const Vec3 kNeutralFoam(0.45, 0.43, 0.38);
+const Vec3 kTitanium(0.62, 0.61, 0.60), kDarkBlood(0.16, 0.004, 0.004);
+constexpr double kClosedGap = 0.0004;  // m that tissue keeps between a closed clip's legs
 
 std::vector<TargetMark> marks(const DirectorView& director) {
   std::vector<TargetMark> out;
@@ -92,6 +95,28 @@ void add_marks(const TissueFrame& tissue, SceneView& out) {
   out.smoke_per_m = tissue.smoke_per_m;
   out.lens.fog = tissue.lens_fog;
   out.lens.blood = tissue.lens_blood;
+}
+
+/// Clips on wounds, and blood in the air.
+void add_clips_and_drops(const TissueFrame& tissue, std::vector<SceneObject>& out) {
+  for (std::int32_t i = 0; i < tissue.clip_count; ++i) {
+    SceneObject clip;
+    clip.shape = Shape::kClip;
+    clip.look = Look::kSteel;
+    clip.colour = kTitanium;
+    clip.size_m = {ClipOptions{}.width_m, kClosedGap, ClipOptions{}.length_m};
+    clip.X_TO = tissue.clip[static_cast<std::size_t>(i)];
+    out.push_back(clip);
+  }
+  for (std::int32_t i = 0; i < tissue.drop_count; ++i) {
+    const DropState& drop = tissue.drop[static_cast<std::size_t>(i)];
+    SceneObject bead;
+    bead.shape = Shape::kSphere;
+    bead.colour = kDarkBlood;
+    bead.size_m = Vec3::Constant(2 * drop.radius_m);
+    bead.X_TO.p = drop.place_T;
+    out.push_back(bead);
+  }
 }
 
 }  // namespace
@@ -204,6 +229,7 @@ SceneView attempt_scene(const SessionView& view) {
     if (out.organ->rest) fit_dimple(view.scene.loop.tool.radius_m, out);
   }
   if (view.tissue) add_marks(*view.tissue, out);
+  if (view.tissue) add_clips_and_drops(*view.tissue, out.objects);
   out.camera = attempt_camera(view.scene);
   return out;
 }

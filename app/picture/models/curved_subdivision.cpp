@@ -23,17 +23,20 @@ void check_count(std::size_t got, std::size_t wanted) {
 
 }  // namespace
 
-CurvedSubdivision::CurvedSubdivision(const TriangleSurface& surface, std::size_t max_triangles) {
-  stages_.push_back({surface, {}});
+CurvedSubdivision::CurvedSubdivision(const TriangleSurface& surface, std::size_t max_triangles,
+                                     std::vector<bool> straight) {
+  if (!straight.empty()) check_count(straight.size(), surface.vertices.size());
+  stages_.push_back({surface, {}, std::move(straight)});
   if (surface.volume_m3() < 0)  // inside out: culling would show the far wall
     for (auto& triangle : stages_[0].surface.triangles) std::swap(triangle[1], triangle[2]);
   while (!fine().triangles.empty() && fine().triangles.size() * 4 <= max_triangles) {
-    stages_.push_back(split(fine()));
+    stages_.push_back(split(stages_.back()));
     place_midpoints(stages_.size() - 1);
   }
 }
 
-CurvedSubdivision::Stage CurvedSubdivision::split(const TriangleSurface& surface) {
+CurvedSubdivision::Stage CurvedSubdivision::split(const Stage& stage) {
+  const TriangleSurface& surface = stage.surface;
   Stage out;
   out.surface.vertices = surface.vertices;
   out.surface.triangles.reserve(surface.triangles.size() * 4);
@@ -55,16 +58,26 @@ CurvedSubdivision::Stage CurvedSubdivision::split(const TriangleSurface& surface
     out.surface.triangles.push_back({ab, bc, ca});
   }
   out.surface.vertices.resize(surface.vertices.size() + out.edges.size());
+  out.straight = stage.straight;
+  for (const auto& [a, b] : out.edges) {
+    if (stage.straight.empty()) break;
+    out.straight.push_back(stage.straight[static_cast<std::size_t>(a)] && stage.straight[static_cast<std::size_t>(b)]);
+  }
   return out;
 }
 
 void CurvedSubdivision::place_midpoints(std::size_t stage) {
   const TriangleSurface& coarse = stages_[stage - 1].surface;
+  const std::vector<bool>& straight = stages_[stage].straight;
   const std::vector<Vec3> normals = coarse.vertex_normals();
   std::size_t at = coarse.vertices.size();
   for (const auto& [a, b] : stages_[stage].edges) {
     const auto first = static_cast<std::size_t>(a), second = static_cast<std::size_t>(b);
     const Vec3 flat = 0.5 * (coarse.vertices[first] + coarse.vertices[second]);
+    if (!straight.empty() && straight[at]) {
+      stages_[stage].surface.vertices[at++] = flat;
+      continue;
+    }
     const Vec3 curved = 0.5 * (onto_plane(flat, coarse.vertices[first], normals[first]) +
                                onto_plane(flat, coarse.vertices[second], normals[second]));
     stages_[stage].surface.vertices[at++] = flat + kCurvature * (curved - flat);

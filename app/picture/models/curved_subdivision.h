@@ -3,6 +3,7 @@
 //   Phong tessellation (Boubekeur and Alexa 2008): m = (a + b)/2,  m' = m + k ((P_a(m) + P_b(m))/2 - m),
 //   P_i(m): m dropped onto the plane through vertex i along its normal; k = 0.55.
 //
+// Between two vertices that are called straight k is 0: there two sheets with different normals may meet without a gap.
 // Triangles are made once; vertices are computed anew wherever the surface's own have moved to, in time linear in them.
 // The collision surface is untouched. Frame and unit of the surface (T, m). Thread: plain value.
 #pragma once
@@ -19,7 +20,8 @@ namespace trocar {
 class CurvedSubdivision {
  public:
   /// Refines while the result has at most `max_triangles`. Closed stays closed; a surface inside out is turned.
-  CurvedSubdivision(const TriangleSurface& surface, std::size_t max_triangles);
+  /// @param straight of its vertices; empty: none is.
+  CurvedSubdivision(const TriangleSurface& surface, std::size_t max_triangles, std::vector<bool> straight = {});
 
   /// The finest surface. Its first vertices are the surface's own.
   const TriangleSurface& fine() const { return stages_.back().surface; }
@@ -34,8 +36,9 @@ class CurvedSubdivision {
   struct Stage {
     TriangleSurface surface;
     std::vector<std::array<std::int32_t, 2>> edges;  ///< its last vertices lie on these of the stage before, in order
+    std::vector<bool> straight;                      ///< of its vertices; empty: none is
   };
-  static Stage split(const TriangleSurface& surface);
+  static Stage split(const Stage& stage);
   void place_midpoints(std::size_t stage);
 
   std::vector<Stage> stages_;

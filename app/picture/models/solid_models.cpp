@@ -1,10 +1,12 @@
 #include "app/picture/models/solid_models.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "app/picture/models/loft.h"
+#include "tissue/thin/clip.h"
 
 namespace trocar {
 namespace {
@@ -140,6 +142,25 @@ PictureMesh build_board(const Vec3& size) {
   return board;
 }
 
+/// Bent of flat wire: every face has its own normal.
+PictureMesh build_clip(const Vec3& size) {
+  const TriangleSurface model = clip_model({.length_m = size.z(), .width_m = size.x()}, size.y(), size.y());
+  PictureMesh mesh;
+  for (const auto& [a, b, c] : model.triangles) {
+    const std::array<Vec3, 3> corner = {model.vertices[static_cast<std::size_t>(a)],
+                                        model.vertices[static_cast<std::size_t>(b)],
+                                        model.vertices[static_cast<std::size_t>(c)]};
+    const Eigen::Vector3f n = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized().cast<float>();
+    for (const Vec3& p : corner) {
+      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back({{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
+                               {n.x(), n.y(), n.z()},
+                               {1.0F, 0.0F}});
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 PictureMesh build_rounded_box(const Vec3& size_m, double round_m, int cells) {
@@ -166,6 +187,8 @@ PictureMesh build_solid(SceneObject::Shape shape, const Vec3& size_m) {
       return build_board(size_m);
     case SceneObject::Shape::kSleeve:
       return build_sleeve(size_m.x(), size_m.z());
+    case SceneObject::Shape::kClip:
+      return build_clip(size_m);
   }
   return {};
 }

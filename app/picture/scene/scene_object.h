@@ -1,4 +1,4 @@
-// A rigid or soft thing in the picture that is not the organ: task board, foam block, ring, pen, port.
+// A rigid or soft thing in the picture that is not the organ: task board, foam block, ring, pen, port, clip, drop.
 //
 // Frame O: the object's own; X_TO places it in T. Metres; colours are linear reflectances, 0..1. Thread: plain value.
 #pragma once
@@ -19,6 +19,7 @@ struct SceneObject {
     kSphere,    ///< size: diameter
     kBoard,     ///< slab below z = 0 with printed marks on its upper face; size: edges, thickness
     kSleeve,    ///< port: open tube along z with a slanted end at the origin, head at -length; size: bore, -, length
+    kClip,      ///< closed V of wire, frame C of tissue/thin/clip.h; size: width, gap between the legs, length
   } shape = Shape::kBox;
   enum class Look : std::uint8_t { kPlastic, kFoam, kSteel, kBoard } look = Look::kPlastic;
   /// State is told by shape as well as by colour: a waiting ghost is broken into dashes, a lit one is whole and pulses.

@@ -282,12 +282,20 @@ void TissuePainter::draw_part(TissuePart& part, const ProgramBinder& bind, const
   };
   draw(defines);
   part.gpu().draw();
-  if (!part.marked()) return;
-  defines.emplace_back("MARKED");
-  if (part.bears_fields()) defines.emplace_back("FIELDS");
-  draw(defines).bind_block("Marks", 1);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 1, mark_block_.id());
-  part.draw_marked();
+  if (part.bears_marks()) {
+    defines.emplace_back("MARKED");
+    if (part.bears_fields()) defines.emplace_back("FIELDS");
+    glBindBufferBase(GL_UNIFORM_BUFFER, 1, mark_block_.id());
+  }
+  if (part.marked()) {
+    draw(defines).bind_block("Marks", 1);
+    part.draw_marked();
+  }
+  if (part.cut()) {
+    defines.emplace_back("CUT");
+    draw(defines).bind_block("Marks", 1);
+    part.draw_cut();
+  }
 }
 
 void TissuePainter::draw(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {

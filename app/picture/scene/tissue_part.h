@@ -2,6 +2,7 @@
 //
 // An organ is meshed from its surface at rest. Afterwards only vertices move: texture, marks and targets lie at rest
 // places, which stay an attribute. Light is that of now: an organ's own folds and hollows, and what stands close.
+// The walls of cuts are a sheet of their own with a sharp lip, drawn in their own look with what is close to the lip.
 // Fields that are shown, each 0 to 1 at every vertex of the surface: "blood", "char", "whitening", "wet". Frame T, m.
 // Thread: the one on which the context is current.
 #pragma once
@@ -15,6 +16,7 @@
 
 #include "app/picture/gl/gl_objects.h"
 #include "app/picture/models/curved_subdivision.h"
+#include "app/picture/models/cut_seams.h"
 #include "app/picture/models/picture_mesh.h"
 #include "tissue/surface_snapshot.h"
 #include "tissue/tissue_frame.h"
@@ -51,10 +53,14 @@ class TissuePart {
   void darken_by(const TissuePart& other) { darken_beside(vertices_, *other.grid_); }
   void send() { gpu_.move(vertices_); }
 
-  /// Bears marks from now on. Those of its triangles, and those with a field, are its marked ones.
+  /// Bears marks from now on. Those of its triangles, and those with a field, are its marked ones, but
+  /// for those that are drawn as a cut.
   void mark(const std::vector<TissueMark>& marks);
   bool marked() const { return marked_count_ > 0; }
   void draw_marked() const { gpu_.draw_subset(marked_, marked_count_); }
+  bool bears_marks() const { return bears_fields() || !under_marks_.empty(); }
+  bool cut() const { return cut_count_ > 0; }
+  void draw_cut() const { gpu_.draw_subset(cut_, cut_count_); }
   const GpuMesh& gpu() const { return gpu_; }
 
   std::string look = {};       ///< #define of assets/shaders/tissue.frag
@@ -63,8 +69,12 @@ class TissuePart {
  private:
   void show_fields(const SurfaceSnapshot& surface);
   void gather_marked();
+  void find_cuts(const std::vector<bool>& inside);
+  /// Walls are darker the deeper they go; places near a cut know how far its lip is.
+  void show_cuts(std::vector<PictureVertex>& vertices) const;
 
   std::weak_ptr<const SurfaceSnapshot> rest_, shown_;
+  CutSeams seams_;
   std::optional<CurvedSubdivision> subdivision_;
   PictureMesh mesh_;
   std::vector<PictureVertex> steady_, vertices_;
@@ -74,8 +84,10 @@ class TissuePart {
   bool moves_ = false;
   std::vector<std::array<std::uint8_t, 4>> fields_;
   std::vector<std::uint32_t> under_marks_;
-  GlObject marked_;
-  int marked_count_ = 0;
+  std::vector<float> cut_places_;   ///< of each vertex of the mesh; empty: nothing is cut
+  std::vector<bool> cut_triangle_;  ///< of each triangle of the mesh: drawn as a cut; empty: none is
+  GlObject marked_, cut_;
+  int marked_count_ = 0, cut_count_ = 0;
 };
 
 }  // namespace trocar

@@ -95,6 +95,7 @@ void StateHash::add(const TissueFrame& frame) {
   }
   add_marks(frame);
   add_surgery(frame.surgery);
+  add_clips_and_drops(frame);
 }
 
 /// Nothing while nothing has been done to an organ: runs without it keep their hash.
@@ -106,6 +107,19 @@ void StateHash::add_surgery(const SurgeryState& surgery) {
   for (const double value :
        {surgery.blood_ml, surgery.blood_ml_per_min, surgery.sucked_ml, surgery.heat_j, surgery.contact_c})
     add(value);
+}
+
+void StateHash::add_clips_and_drops(const TissueFrame& frame) {
+  if (frame.clip_count == 0 && frame.drop_count == 0) return;
+  add(static_cast<std::uint64_t>(frame.clip_count) << 32 | static_cast<std::uint32_t>(frame.drop_count));
+  for (int i = 0; i < frame.clip_count; ++i) {
+    add(frame.clip[static_cast<std::size_t>(i)].R);
+    add(frame.clip[static_cast<std::size_t>(i)].p);
+  }
+  for (int i = 0; i < frame.drop_count; ++i) {
+    add(frame.drop[static_cast<std::size_t>(i)].place_T);
+    add(frame.drop[static_cast<std::size_t>(i)].radius_m);
+  }
 }
 
 /// Nothing at all while the tissue is unmarked and the air and the lens are clear: runs without them keep their hash.

@@ -55,6 +55,8 @@ TissueFrame between(const TissueFrame& a, const TissueFrame& b, double share, do
     object.size_m += share * (b.object[i].size_m - a.object[i].size_m);
     object.velocity_T += share * (b.object[i].velocity_T - a.object[i].velocity_T);
   }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a.clip_count); ++i)
+    out.clip[i] = between(a.clip[i], b.clip[i], share);
   for (const auto number :
        {&TissueFrame::slipped_m, &TissueFrame::smoke_per_m, &TissueFrame::lens_fog, &TissueFrame::lens_blood})
     out.*number = std::lerp(a.*number, b.*number, share);

@@ -197,7 +197,25 @@ void walk_surgery(Words& words, Surgery& s) {
   for (auto* number : {&s.blood_ml, &s.blood_ml_per_min, &s.sucked_ml, &s.heat_j, &s.contact_c}) words.rounded(*number);
 }
 
-/// What has been done to an organ follows, where something has.
+template <typename Words, typename Frame>
+void walk_clips_and_drops(Words& words, Frame& f) {
+  words.rounded(f.surgery.cut_m);
+  words.rounded(f.surgery.refused_s);
+  words.count(f.clip_count, f.clip.size());
+  words.count(f.drop_count, f.drop.size());
+  for (std::int32_t i = 0; i < f.clip_count; ++i) pose(words, f.clip[static_cast<std::size_t>(i)]);
+  for (std::int32_t i = 0; i < f.drop_count; ++i) {
+    rounded(words, f.drop[static_cast<std::size_t>(i)].place_T);
+    words.rounded(f.drop[static_cast<std::size_t>(i)].radius_m);
+  }
+}
+
+/// Whether there is something for walk_clips_and_drops().
+bool more_than_counts(const TissueFrame& f) {
+  return f.clip_count > 0 || f.drop_count > 0 || f.surgery.cut_m > 0 || f.surgery.refused_s > 0;
+}
+
+/// What has been done to an organ follows, where something has, and behind it clips and drops, where there are some.
 template <typename Words, typename Keyframe>
 void walk(Words& words, Keyframe& k) {
   walk_instrument(words, k.instrument);
@@ -212,7 +230,9 @@ void walk(Words& words, Keyframe& k) {
 std::vector<std::uint64_t> words_of(const TissueKeyframe& keyframe) {
   WordsOut words;
   walk(words, keyframe);
-  if (keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
+  const bool more = more_than_counts(keyframe.tissue);
+  if (more || keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
+  if (more) walk_clips_and_drops(words, keyframe.tissue);
   return std::move(words.words);
 }
 
@@ -220,6 +240,7 @@ void read_words(std::span<const std::uint64_t> words, TissueKeyframe& keyframe) 
   WordsIn in(words);
   walk(in, keyframe);
   if (!in.done()) walk_surgery(in, keyframe.tissue.surgery);
+  if (!in.done()) walk_clips_and_drops(in, keyframe.tissue);
   if (!in.done()) throw InputError("words of a keyframe are left over");
 }
 

@@ -44,7 +44,9 @@ bool runs_on(const DirectorStatus& a, const DirectorStatus& b) {
 }
 
 bool runs_on(const TissueFrame& a, const TissueFrame& b) {
-  const auto steps = [](const TissueFrame& f) { return std::tie(f.object_count, f.grip, f.grip_object, f.mark_count); };
+  const auto steps = [](const TissueFrame& f) {
+    return std::tie(f.object_count, f.grip, f.grip_object, f.mark_count, f.clip_count);
+  };
   return steps(a) == steps(b) &&
          std::equal(a.object.begin(), a.object.begin() + a.object_count, b.object.begin(),
                     [](const ObjectState& x, const ObjectState& y) { return x.crushed == y.crushed; });

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "tests/tissue/solid/soft_organ_rig.h"
 #include "tests/support/repeats.h"
+#include "tests/tissue/solid/soft_organ_rig.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {
@@ -25,7 +25,7 @@ class Theatre {
     soft->lattice = build_lattice(*rest_, {.cell_m = edge_m}).lattice;
     setup_.organ_T = rest_.get();
     setup_.seen_T = rest_;
-    setup_.tools = {make_tool(kind)};
+    setup_.tools = {make_tool(kind), make_tool(InstrumentKind::kClipApplier)};
     setup_.soft = soft;
     world_ = std::make_unique<TissueWorld>(setup_);
     state_.stylus.instrument = 0;
@@ -49,6 +49,7 @@ class Theatre {
     for (double o = 0.012; o >= 0; o -= 0.002) step({x, y, top(x, y) - in_m}, o);
     wait(1);
   }
+  void take(int instrument) { state_.stylus.instrument = instrument; }
   static double top(double x, double y) { return 0.035 * std::sqrt(1 - std::pow(x / 0.06, 2) - std::pow(y / 0.05, 2)); }
 
   const TissueFrame& frame() const { return world_->frame(); }
@@ -129,6 +130,8 @@ TEST(InstrumentActions, ScissorsInTheAirRefuseAndSayWhy) {
   EXPECT_EQ(theatre.surgery().cuts, 0);
   EXPECT_EQ(theatre.surgery().refusals, 1);
   EXPECT_EQ(CutRefusal(theatre.surgery().refusal), CutRefusal::kNothingThere);
+  EXPECT_GT(theatre.surgery().refused_s, 0);
+  EXPECT_EQ(theatre.frame().clip_count, 0);
   // Closed jaws that were never open cut nothing either.
   for (int i = 0; i < 20; ++i) theatre.step({0, 0, 0.03}, 0);
   EXPECT_EQ(theatre.surgery().refusals, 1);
@@ -173,7 +176,33 @@ TEST(InstrumentActions, AClipClosesTheWoundBetweenTheJawsAndElseIsRefused) {
   };
   close(0.035);
   EXPECT_EQ(theatre.surgery().clips, 0);
-  EXPECT_EQ(theatre.surgery().refusals, 1) << "no wound there";
+  EXPECT_EQ(theatre.surgery().refusals, 1);
+  EXPECT_EQ(CutRefusal(theatre.surgery().refusal), CutRefusal::kNoWound);
+  EXPECT_EQ(theatre.frame().clip_count, 0);
+}
+
+TEST(InstrumentActions, AClipStaysOnItsWoundAndMovesWithTheTissue) {
+  Theatre theatre(InstrumentKind::kScissors);
+  theatre.presses = false;
+  theatre.snip(0, 0, 0.006);
+  EXPECT_NEAR(theatre.surgery().cut_m, 0.010, 0.008);
+  theatre.wait(300);
+  const double open = theatre.surgery().blood_ml_per_min;
+  theatre.take(1);
+  for (double o = 0.006; o >= 0; o -= 0.002) theatre.step({0, 0, 0.031}, o);
+  ASSERT_EQ(theatre.surgery().clips, 1);
+  ASSERT_EQ(theatre.frame().clip_count, 1);
+  const Vec3 set = theatre.frame().clip[0].p;
+  EXPECT_LT((set - Vec3(0, 0, 0.031)).norm(), 1e-3) << "where the jaws closed";
+  EXPECT_NEAR(theatre.frame().clip[0].R.determinant(), 1, 1e-9);
+  // Pressed down beside it, it goes along; let go, it comes back.
+  theatre.presses = true;
+  for (int i = 0; i < 100; ++i) theatre.step({0.008, 0, 0.028}, 0);
+  const Vec3 pressed = theatre.frame().clip[0].p;
+  EXPECT_LT(pressed.z(), set.z() - 0.0005);
+  theatre.wait(500);
+  EXPECT_LT((theatre.frame().clip[0].p - set).norm(), 0.3 * (pressed - set).norm());
+  EXPECT_LE(theatre.surgery().blood_ml_per_min, open);
 }
 
 TEST(InstrumentActions, SuctionTakesBloodAndTheAccountCloses) {

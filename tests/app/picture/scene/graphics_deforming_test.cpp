@@ -9,6 +9,8 @@
 #include "tests/support/headless_fixture.h"
 #include "tests/support/picture_probe.h"
 #include "tests/support/procedural_scene.h"
+#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/groove.h"
 
 namespace trocar::graphics_deforming_test {
 namespace {
@@ -172,6 +174,39 @@ TEST_F(Deforming, TheTipDentsTheSurfaceWhereItIsNow) {
   const Image dented = draw();
   EXPECT_LT((middle_of_change(plain, dented) - pixel(at)).norm(), 12);
   EXPECT_GT(mean_at(dented, pixel(at), 2)[1], 1.2 * mean_at(plain, pixel(at), 2)[1]) << "pressed pale";
+}
+
+/// The organ with a cut of 24 mm, 7 mm deep, that runs away from the scope; its walls known as such or not.
+SurfacePtr cut_open(const SurfaceSnapshot& rest, const Vec3& middle, bool known, float blood) {
+  const Vec3 half(0, 0.012, 0);
+  const TracedCut traced = trace_cut(rest, track_blade(middle - half, middle + half, -Vec3::UnitZ(), 0.007, 0.008));
+  EXPECT_EQ(traced.refusal, CutRefusal::kNone) << refusal_words(traced.refusal);
+  const Groove groove = cut_groove(rest, traced.cut);
+  auto cut = std::make_shared<SurfaceSnapshot>();
+  static_cast<TriangleSurface&>(*cut) = groove.surface;
+  if (known) cut->inside.assign(cut->triangles.size(), false);
+  for (const std::int32_t wall : groove.walls)
+    if (known) cut->inside[static_cast<std::size_t>(wall)] = true;
+  std::vector<SurfaceField> fields;
+  if (blood > 0) fields.push_back({"blood", std::vector<float>(cut->vertices.size(), blood)});
+  return moved_surface(cut, cut->vertices, std::move(fields));
+}
+
+TEST_F(Deforming, ACutIsAnOpenWoundAlsoUnderAFilmOfBlood) {
+  const Vec3 middle = spot(0.002, 0.004);
+  const auto seen = [&](bool known, float blood) {
+    view_.organ = cut_open(*rest_, middle, known, blood);
+    return draw();
+  };
+  const Eigen::Vector2d there = pixel(middle - Vec3(0, 0, 0.001)), beside = pixel(middle + Vec3(0.007, 0, 0));
+  for (const float blood : {0.0F, 0.4F}) {
+    const Image skin = seen(false, blood), open = seen(true, blood);
+    EXPECT_LT(brightness(mean_at(open, there, 2)), 0.75 * brightness(mean_at(skin, there, 2))) << blood;
+    EXPECT_LT(brightness(mean_at(open, there, 2)), 0.6 * brightness(mean_at(open, beside, 4))) << blood;
+    EXPECT_NEAR(brightness(mean_at(open, beside, 4)), brightness(mean_at(skin, beside, 4)),
+                0.15 * brightness(mean_at(skin, beside, 4)))
+        << "the outside is no wound";
+  }
 }
 
 TEST_F(Deforming, FieldsAreSeenWhereTheyAreAndNowhereElse) {

@@ -134,6 +134,15 @@ TEST(TissueCodec, EveryFieldOfAMomentComesBack) {
   k.tissue.mark_count = 1;
   k.tissue.mark[0] = {TissueMarkKind::kChar, Vec3(0.25, 0.5, -0.5), 0.0078125, 0.5};
   k.tissue.smoke_per_m = 2;
+  k.tissue.surgery.cuts = 2;
+  k.tissue.surgery.refusal = 3;
+  k.tissue.surgery.blood_ml = 1.5;
+  k.tissue.surgery.cut_m = 0.0078125;
+  k.tissue.surgery.refused_s = 12.5;
+  k.tissue.clip_count = 2;
+  k.tissue.clip[1] = {k.instrument.R_TI, Vec3(0.03, 0.02, 0.01)};
+  k.tissue.drop_count = kMaxDropsSeen;
+  k.tissue.drop.back() = {Vec3(0.125, 0.25, 0.5), 0.0009765625};
   k.instrument.fault = {FaultCode::kOverheat, 4, 123456789012345, 101.5};
   k.instrument.port_held = true;
   k.instrument.contact_point_T = Vec3(0.5, 0.25, 0.125);
@@ -157,11 +166,19 @@ TEST(TissueCodec, EveryFieldOfAMomentComesBack) {
   EXPECT_EQ(is.tissue.pair[0].force_n, 0.125);
   EXPECT_EQ(is.tissue.mark[0], k.tissue.mark[0]);
   EXPECT_EQ(is.tissue.smoke_per_m, 2);
+  EXPECT_EQ(is.tissue.surgery, k.tissue.surgery);
+  EXPECT_EQ(is.tissue.clip_count, 2);
+  EXPECT_LT((is.tissue.clip[1].R - k.instrument.R_TI).norm(), 1e-6);
+  EXPECT_LT((is.tissue.clip[1].p - k.tissue.clip[1].p).norm(), 1e-8);
+  EXPECT_EQ(is.tissue.drop_count, kMaxDropsSeen);
+  EXPECT_EQ(is.tissue.drop.back().place_T, k.tissue.drop.back().place_T);
+  EXPECT_EQ(is.tissue.drop.back().radius_m, k.tissue.drop.back().radius_m);
   EXPECT_EQ(is.instrument.fault.tick, 123456789012345u);
   EXPECT_EQ(is.instrument.fault.value, 101.5);
   EXPECT_TRUE(is.instrument.port_held);
   EXPECT_EQ(is.instrument.contact_point_T, k.instrument.contact_point_T);
   EXPECT_EQ(TissueDecoder(file.track).at(2)->tissue.object_count, 0);
+  EXPECT_EQ(TissueDecoder(file.track).at(2)->tissue.clip_count, 0);
 }
 
 TEST(TissueCodec, ASeekGivesWhatPlayingFromTheStartGives) {

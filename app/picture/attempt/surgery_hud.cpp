@@ -1,0 +1,58 @@
+#include "app/picture/attempt/surgery_hud.h"
+
+#include <string>
+
+#include "app/picture/attempt/attempt_scene.h"
+#include "app/picture/kinds/hud_parts.h"
+#include "tissue/interaction/cut_tracing.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kTold_s = 3;  // that a refusal stays in sight
+constexpr double kFast = 5;    // mL/min: moderate bleeding (tissue/interaction/bleeding.h)
+
+bool gives_way(const SessionView& view) { return view.scene.soft && view.tissue; }
+
+std::string refusal_told(InstrumentKind kind, CutRefusal why) {
+  const bool clips = kind == InstrumentKind::kClipApplier;
+  return (clips ? "No clip set: " : "Not cut: ") + std::string(refusal_words(why));
+}
+
+}  // namespace
+
+bool plays_freely(const Scene& scene) {
+  const Exercise& exercise = scene.setup.exercise;
+  return exercise.kind == ExerciseKind::kTouch && scene.board.targets.empty();
+}
+
+std::vector<HudRow> free_play_rows(const SessionView& view) {
+  std::vector<HudRow> rows{{"Instrument", std::string(describe(in_hand(view)).title), ""},
+                           {"Pedal", view.record.stylus.pedal ? "down" : "up", ""}};
+  if (!gives_way(view)) return rows;
+  const SurgeryState& done = view.tissue->surgery;
+  for (const auto& [name, count] :
+       {std::pair("Cuts", done.cuts), std::pair("Tears", done.tears), std::pair("Clips set", done.clips)})
+    rows.push_back({name, std::to_string(count), ""});
+  rows.push_back({"Blood lost", hud_number("%.1f", done.blood_ml), "mL", true});
+  rows.push_back({"Bleeding now", hud_number("%.1f", done.blood_ml_per_min), "mL/min", true});
+  rows.push_back({"Sucked off", hud_number("%.1f", done.sucked_ml), "mL"});
+  const bool touches = done.contact_c > 0;
+  rows.push_back({"Tissue", touches ? hud_number("%.0f", done.contact_c) : "-", touches ? "°C" : "", true});
+  return rows;
+}
+
+void add_surgery_notices(const SessionView& view, std::vector<HudNotice>& notices) {
+  if (!gives_way(view)) return;
+  const SurgeryState& done = view.tissue->surgery;
+  const InstrumentKind kind = in_hand(view);
+  const bool closes = kind == InstrumentKind::kScissors || kind == InstrumentKind::kClipApplier;
+  const auto why = static_cast<CutRefusal>(done.refusal);
+  if (closes && why != CutRefusal::kNone && view.tissue->t_s - done.refused_s < kTold_s)
+    notices.push_back({refusal_told(kind, why), HudNotice::Kind::kWarning});
+  if (done.blood_ml_per_min > kFast)
+    notices.push_back(
+        {"Bleeding: " + hud_number("%.0f", done.blood_ml_per_min) + " mL/min", HudNotice::Kind::kTooMuch});
+}
+
+}  // namespace trocar
