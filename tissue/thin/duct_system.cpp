@@ -14,6 +14,7 @@ namespace trocar {
 namespace {
 
 constexpr double kOffOrgan = 0.002;       // m of a drawn end from the organ's nearest vertex
+constexpr double kLooseLoad = 1e-3;       // N/m of a spring that is a force
 constexpr double kAnchorage = 2000;       // N/m (a choice)
 constexpr double kSampling = 0.001;       // m along a rod between jaws
 constexpr double kClear = 0.001;          // m beyond the jaws in which a rod is no contact
@@ -96,6 +97,10 @@ DuctSystem::DuctSystem(std::span<const DuctSetup> ducts, const SoftOrgan& organ,
   between_.assign(ducts_.size(), false);
   find_places(organ);
   anchor(organ);
+  for (Duct& duct : ducts_) {
+    duct.tube.rod.settle();
+    for (std::size_t end = 0; end < 2; ++end) duct.rest_load[end] = duct.tube.rod.anchor_load(kEnds[end]).force;
+  }
   follow();
   grown_ = false;
 }
@@ -127,6 +132,21 @@ void DuctSystem::anchor(const SoftOrgan& organ) {
         duct.tube.rod.anchor(kEnds[end], {.position = end == 0 ? duct.setup.path_T.front() : duct.setup.path_T.back(),
                                           .stiffness_n_per_m = kAnchorage});
     }
+}
+
+void DuctSystem::add_loads(const Duct& duct, std::vector<SoftSpring>& springs) const {
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (duct.vertex[end] < 0) continue;
+    const Vec3& rest = duct.rest_load[end];
+    if (duct.tube.rod.anchored(kEnds[end])) {
+      for (SoftSpring spring : anchor_springs(duct.tube.rod, kEnds[end], duct.place[end])) {
+        spring.stretch_m += spring.direction.dot(rest) / spring.stiffness_n_per_m;
+        springs.push_back(std::move(spring));
+      }
+    } else if (rest.norm() > 0) {  // it came off
+      springs.push_back({duct.place[end], rest.normalized(), kLooseLoad, rest.norm() / kLooseLoad, false, 0});
+    }
+  }
 }
 
 bool DuctSystem::jaws_taken(const StylusState& stylus, const Tool& tool, bool present) const {
@@ -201,12 +221,7 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
   take_events();
   for (Duct& duct : ducts_) duct.tube.clips.step(duct.tube.rod, duct.tube.lumen);
   follow();
-  for (const Duct& duct : ducts_)
-    for (std::size_t end = 0; end < 2; ++end) {
-      if (duct.vertex[end] < 0 || !duct.tube.rod.anchored(kEnds[end])) continue;
-      const auto pulls = anchor_springs(duct.tube.rod, kEnds[end], duct.place[end]);
-      springs.insert(springs.end(), pulls.begin(), pulls.end());
-    }
+  for (const Duct& duct : ducts_) add_loads(duct, springs);
   const bool leaks = std::any_of(ducts_.begin(), ducts_.end(), [&](const Duct& duct) {
     const auto ends = duct.tube.lumen.ends(duct.tube.rod);
     return duct.setup.content == DuctContent::kBile && ends.size() > 2 && ends[1].outside && !tight(duct, ends[1]);

@@ -2,10 +2,12 @@
 //
 // One step, before the organ's own: lumen.begin, jaws (grip, clip applier, scissors), heat, anchors where the organ is
 // and is going, rod.step, clips.step, surfaces; then springs of the ends for the organ's step (rod_on_solid.h). An end
-// on the organ hangs on the vertex nearest to it. A rod that lies between the jaws is taken by them and is then no
-// contact; the organ is not (jaws_taken). Contact surface: a coarse tube a duct, one behind the other; numbers stay
-// through cuts, whose new ones follow behind all. Contacts of the loop push the rod by dent_stiffness(), which is the
-// stiffness of its material in the patch: at the place of the solve the loop's force is the solved one.
+// on the organ hangs on the vertex nearest to it. An organ lies as it is drawn under the tension of its ducts: what it
+// feels of them is what their pull has changed, all of it once a duct is cut. A rod that lies between the jaws is taken
+// by them and is then no contact; the organ is not (jaws_taken). Contact surface: a coarse tube a duct, one behind the
+// other; numbers stay through cuts, whose new ones follow behind all. Contacts of the loop push the rod by
+// dent_stiffness(), which is the stiffness of its material in the patch: at the place of the solve the loop's force is
+// the solved one.
 //
 // What bleeds is told by changed(): the caller knows the circulation. T, SI. Thread: tissue task. Same input, same
 // bytes.
@@ -105,6 +107,7 @@ class DuctSystem {
     RodGrip grip, clasp;                         ///< of a grasper, of a clip applier
     std::array<std::int32_t, 2> vertex{-1, -1};  ///< of the organ, for each end; -1: fixed
     std::array<NodeShares, 2> place{};
+    std::array<Vec3, 2> rest_load{Vec3::Zero(), Vec3::Zero()};  ///< on what the ends hang on, before a run
     double hot_s = 0;
   };
   /// A run of vertices and triangles of one duct's tube in contact_.
@@ -115,6 +118,7 @@ class DuctSystem {
   };
   void find_places(const SoftOrgan& organ);
   void anchor(const SoftOrgan& organ);
+  void add_loads(const Duct& duct, std::vector<SoftSpring>& springs) const;
   std::vector<ClipSurroundings::Rod> rods(std::vector<std::vector<double>>& arcs) const;
   void use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ);
   void use_applier(const StylusState& stylus, std::span<const ClipSurroundings::Rod> rods, const SoftOrgan& organ);

@@ -194,7 +194,7 @@ AttemptResult run_attempt(const RunOptions& options, const Scene& scene, const A
   const AttemptResult result = kept_result(start, id, outcome, recording);
   store_or_say(store, id, result);
   if (!result.device.reason.empty()) err << "trocar: " << result.device.reason << '\n';
-  if (outcome.patch_triangles_dropped > 0) {
+  if (outcome.patch_triangles_dropped > 0 && !patch_fit(scene).whole()) {
     err << "trocar: the surface is finer than need be: " << patch_fit(scene).words() << '\n';
   }
   return result;

@@ -125,6 +125,24 @@ TEST(DuctSystem, IsSeenAndLiesInThePatchWithItsOwnMaterial) {
   EXPECT_GT(t.world().shape().ducts_T.size(), 30U);
 }
 
+TEST(DuctSystem, TheOrganLiesAsItIsDrawnUntilADuctIsCutAndThenGoesBackFromIt) {
+  Theatre t(InstrumentKind::kGrasper);
+  const auto end = [&] {
+    const auto& vertices = t.world().surface()->vertices;
+    const Vec3 on = t.setup().ducts[0].path_T[0];
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (t.world().surface()->rest->vertices[v] == on) return Vec3(vertices[v] - on);
+    return Vec3(Vec3::Constant(1));
+  };
+  t.wait(150);
+  EXPECT_LT(end().norm(), 5e-5);
+  t.take(kCut);
+  t.close(t.middle(0));
+  t.open(t.middle(0));
+  t.wait(100);
+  EXPECT_LT(end().x(), -2e-4);
+}
+
 TEST(DuctSystem, IsPushedByWhatTheLoopSolvesAndGoesBack) {
   Theatre t(InstrumentKind::kProbe);
   t.settle();
