@@ -17,7 +17,7 @@
 #include "app/picture/models/show_scene.h"
 #include "app/picture/scene/renderer.h"
 #include "tests/support/board_scene.h"
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 #include "tissue/mesh/surface/groove.h"
 #include "tissue/organ/organ.h"
 

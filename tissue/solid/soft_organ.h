@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "haptics/exchange/solved_contacts.h"
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"

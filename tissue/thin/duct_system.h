@@ -23,7 +23,7 @@
 
 #include "haptics/contact/instrument.h"
 #include "haptics/exchange/solved_contacts.h"
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 #include "tissue/solid/soft_organ.h"
 #include "tissue/thin/clip_applier.h"
 #include "tissue/thin/duct_tube.h"

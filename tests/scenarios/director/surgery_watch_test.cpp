@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 
 namespace trocar::surgery_watch_test {
 namespace {

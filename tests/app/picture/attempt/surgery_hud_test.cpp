@@ -7,7 +7,7 @@
 
 #include "app/picture/attempt/attempt_picture.h"
 #include "scenarios/files/exercise_loader.h"
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar::surgery_hud_test {

@@ -9,7 +9,7 @@
 
 #include "app/picture/models/curved_subdivision.h"
 #include "tests/support/procedural_scene.h"
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 #include "tissue/mesh/surface/groove.h"
 
 namespace trocar::cut_seams_test {

@@ -9,7 +9,7 @@
 #include "tests/support/headless_fixture.h"
 #include "tests/support/picture_probe.h"
 #include "tests/support/procedural_scene.h"
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 #include "tissue/mesh/surface/groove.h"
 
 namespace trocar::graphics_deforming_test {

@@ -1,4 +1,4 @@
-#include "tissue/interaction/cut_tracing.h"
+#include "tissue/mesh/surface/cut_tracing.h"
 
 #include <algorithm>
 #include <cmath>
