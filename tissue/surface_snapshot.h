@@ -25,7 +25,7 @@ struct SurfaceField {
 struct SurfaceSnapshot : TriangleSurface {
   std::uint64_t topology = 0;  ///< as long as it is the same, so are the triangles, and vertex i is the same place
   std::vector<SurfaceField> fields = {};
-  std::vector<bool> inside = {};  ///< of each triangle: the wall of a cut; empty: none is
+  std::vector<bool> inside = {};                          ///< of each triangle: the wall of a cut; empty: none is
   std::shared_ptr<const SurfaceSnapshot> rest = nullptr;  ///< undeformed, same triangles; none: this one is
 };
 using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;

@@ -16,8 +16,8 @@ EmbeddedSurface::EmbeddedSurface(const Lattice& lattice, SurfacePtr rest)
   for (const Embedding& e : lattice.embedding) {
     vertices_.push_back({lattice.cells[static_cast<std::size_t>(e.cell)].corners, e.weights});
     if (e.other < 0) continue;
-    halved_.push_back({static_cast<std::int32_t>(vertices_.size()) - 1,
-                       lattice.cells[static_cast<std::size_t>(e.other)].corners});
+    halved_.push_back(
+        {static_cast<std::int32_t>(vertices_.size()) - 1, lattice.cells[static_cast<std::size_t>(e.other)].corners});
   }
 }
 
