@@ -231,7 +231,7 @@ TEST(InstrumentActions, PulledTooHardAFoldTearsOut) {
 
 /// Every instrument anywhere, opening, closing, energised: nothing breaks, and afterwards the organ lies as it did.
 TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
-  const int ticks = test::repeats("ACTION_TICKS", 6000);
+  const int ticks = test::repeats("ACTION_TICKS", 3000);
   for (const InstrumentKind kind : {InstrumentKind::kScissors, InstrumentKind::kGrasper, InstrumentKind::kHook,
                                     InstrumentKind::kClipApplier, InstrumentKind::kSuction}) {
     Theatre theatre(kind, 0.0125);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/input_error.h"
+#include "tests/support/repeats.h"
 #include "tests/tissue/solid/soft_organ_rig.h"
 
 namespace trocar {
@@ -264,8 +265,7 @@ void cut_at_random(int cuts, unsigned seed) {
   EXPECT_LT(fastest, 5e-3);
   EXPECT_LT(farthest, 0.05);
 }
-TEST(OrganCut, AtRandomStaysSound) { cut_at_random(60, 1); }
-TEST(OrganCutLong, FiveHundredAtRandom) { cut_at_random(500, 2); }
+TEST(OrganCut, AtRandomStaysSound) { cut_at_random(test::repeats("ORGAN_CUTS", 60), 1); }
 
 }  // namespace
 }  // namespace trocar
