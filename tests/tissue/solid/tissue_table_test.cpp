@@ -26,9 +26,9 @@ std::string entry(const std::string& name) {
          number("poisson", "0.45", "0.45, 0.49", "1") + number("density_kg_m3", "1060", "1000, 1100", "kg/m3") +
          number("share_1", "0.35", "0.2, 0.7", "1") + number("tau_1_s", "0.1", "0.1, 0.2", "s") +
          number("share_2", "0.25", "0.2, 0.7", "1") + number("tau_2_s", "5", "2, 9", "s") +
-         number("stiffening", "3", "0, 6", "1") + number("rupture_n_per_m", "300", "50, 600", "N/m") +
-         number("toughness_j_per_m2", "164", "80, 330", "J/m2") + number("mu_static", "0.1", "0, 0.2", "1") +
-         number("mu_dynamic", "0.05", "0, 0.2", "1");
+         number("stiffening", "3", "0, 6", "1") + number("residual_strain", "0.06", "0, 0.2", "1") +
+         number("rupture_n_per_m", "300", "50, 600", "N/m") + number("toughness_j_per_m2", "164", "80, 330", "J/m2") +
+         number("mu_static", "0.1", "0, 0.2", "1") + number("mu_dynamic", "0.05", "0, 0.2", "1");
 }
 
 std::string refusal(const std::string& text) {
@@ -112,15 +112,15 @@ TEST(TissueTable, RefusesNumbersThatCannotBe) {
   EXPECT_CONTAINS(refusal_with("2000, 9000", "0, 9000"), "range reaches beyond what young_pa can be");
   EXPECT_CONTAINS(refusal_with("0.45, 0.49", "0.45, 0.496"), "t.toml:5:35: range reaches beyond what poisson can be");
   EXPECT_CONTAINS(refusal_with("value = 0.25", "value = 0.65"), "t.toml:7:11: the shares add up to 1 or more");
-  EXPECT_CONTAINS(refusal_with("value = 0.05", "value = 0.15"), "t.toml:15:14: mu_dynamic must lie in 0..mu_static");
+  EXPECT_CONTAINS(refusal_with("value = 0.05", "value = 0.15"), "t.toml:16:14: mu_dynamic must lie in 0..mu_static");
 }
 
 TEST(TissueTable, RefusesKeysAndNamesThatItDoesNotKnow) {
-  EXPECT_CONTAINS(refusal(entry("soft_tissue") + "colour = 'red'\n"), "t.toml:16:1: unknown key \"colour\"");
+  EXPECT_CONTAINS(refusal(entry("soft_tissue") + "colour = 'red'\n"), "t.toml:17:1: unknown key \"colour\"");
   EXPECT_CONTAINS(refusal_with("checked = true", "checked = true, page = 3"), "unknown key \"page\"");
   EXPECT_CONTAINS(refusal_with("tau_2_s", "tau_3_s"), "key \"tau_2_s\" is missing");
   EXPECT_CONTAINS(refusal(entry("soft_tissue") + entry("liver") + entry("liver")),
-                  "t.toml:32:8: two tissues are named \"liver\"");
+                  "t.toml:34:8: two tissues are named \"liver\"");
   EXPECT_CONTAINS(refusal(entry("liver")), "no tissue is named \"soft_tissue\"");
 }
 
