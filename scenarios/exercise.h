@@ -19,6 +19,7 @@
 #include "scenarios/kinds/reach/reach_rules.h"
 #include "scenarios/kinds/touch/touch_rules.h"
 #include "scenarios/scoring/rubric.h"
+#include "tissue/interaction/breathing.h"
 #include "tissue/thin/duct_setup.h"
 
 namespace trocar {
@@ -118,6 +119,7 @@ struct Exercise {
   GripTask grip;                ///< touch
   GraspRules grasp;             ///< grasp
   std::vector<DuctPlan> ducts;
+  Breathing breathing;  ///< only where the organ gives way
   std::vector<ExerciseLevel> levels;
   Rubric rubric;  ///< of the first level
   std::filesystem::path file;

@@ -1,6 +1,7 @@
 #include "tissue/tissue_world.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace trocar {
@@ -21,6 +22,7 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
     SoftOrganOptions options = setup.soft->options;
     options.tool_radius_m = tools_.front().shape.radius_m;
     soft_.emplace(setup.soft->lattice, seen_, setup.soft->material, options);
+    breathing_ = setup.soft->breathing;
     organ_.mu_static = setup.soft->material.mu_static;
     organ_.mu_dynamic = setup.soft->material.mu_dynamic;
     const auto own = static_cast<std::int32_t>(seen_->vertices.size());
@@ -107,6 +109,8 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
     cut = cut || ducts_->grown();
   }
   if (cut) gather_felt();
+  const Vec3 shift_T = bed_shift(breathing_, frame_.t_s);
+  soft_->carry(shift_T);
   soft_->step(newest.contacts, present ? &newest.stylus.X_TI.p : nullptr, springs);
   actions_->after(newest, on_organ, present, std::span(springs).first(own), *soft_);
   const double step_s = soft_->solid().options().step_s;
@@ -117,6 +121,8 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
     }
   };
   follow(0, soft_->felt());
+  for (std::size_t v = 0; v < adjacent_T_.vertices.size(); ++v)  // they go along as they are
+    follow(organ_vertices_ + v, std::array{Vec3(adjacent_T_.vertices[v] + shift_T)});
   if (ducts_) {
     follow(organ_vertices_ + adjacent_T_.vertices.size(), ducts_->contact().vertices);
     keep_changes();
@@ -147,7 +153,10 @@ void TissueWorld::gather_felt() {
     for (const auto& [a, b, c] : more.triangles) felt.triangles.push_back({first + a, first + b, first + c});
     return static_cast<std::size_t>(first);
   };
-  append(adjacent_T_);
+  const std::size_t beside = append(adjacent_T_);
+  if (known_organ > 0)
+    std::copy_n(felt_.vertices.begin() + static_cast<std::ptrdiff_t>(known_organ), adjacent_T_.vertices.size(),
+                felt.vertices.begin() + static_cast<std::ptrdiff_t>(beside));
   material.insert(material.end(), adjacent_material_.begin(), adjacent_material_.end());
   if (ducts_) {
     first_duct_triangle_ = static_cast<std::int32_t>(felt.triangles.size());

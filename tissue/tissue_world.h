@@ -11,6 +11,7 @@
 
 #include "haptics/contact/instrument.h"
 #include "tissue/collision/patch_extraction.h"
+#include "tissue/interaction/breathing.h"
 #include "tissue/interaction/instrument_actions.h"
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/rigid/rigid_scene.h"
@@ -26,6 +27,7 @@ struct SoftSetup {
   TissueSolid material;
   SoftOrganOptions options;
   Lattice lattice;  ///< over the organ as it lies in T
+  Breathing breathing = {};
 };
 
 struct TissueSetup {
@@ -74,6 +76,7 @@ class TissueWorld final : public World {
   std::vector<ContactMaterial> adjacent_;
   std::vector<Tool> tools_;
   SurfacePtr seen_;
+  Breathing breathing_;
   std::optional<PatchExtraction> extraction_;
   std::optional<RigidWorld> rigid_;
   std::optional<SoftOrgan> soft_;

@@ -72,6 +72,22 @@ std::vector<InstrumentKind> read_instruments(StrictTable& document, const Exerci
   return instruments;
 }
 
+/// Whole organs lie still in older files.
+Breathing read_breathing(StrictTable& document) {
+  Breathing breathing;
+  if (!document.has("breathing")) {
+    document.allow("breathing");
+    return breathing;
+  }
+  StrictTable table = document.table("breathing");
+  breathing.per_min = table.number("per_min", 1, 60);
+  breathing.depth_m = table.number("depth_mm", 0, 20) * kMilli;
+  breathing.beats_per_min = table.number_or("beats_per_min", 0, 200, 0);
+  breathing.beat_m = table.number_or("beat_mm", 0, 3, 0) * kMilli;
+  table.finish();
+  return breathing;
+}
+
 }  // namespace
 
 Exercise parse_exercise(const std::string& text, const std::filesystem::path& file) {
@@ -92,6 +108,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   read_force(document.table("force"), exercise);
   kind_of(exercise).read(document, exercise);
   exercise.ducts = read_ducts(document);
+  exercise.breathing = read_breathing(document);
   read_levels(document, exercise);
   for (ExerciseLevel& level : exercise.levels) {
     level.rubric = read_rubric(document.table("rubric"), level);

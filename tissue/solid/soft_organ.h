@@ -65,6 +65,9 @@ class SoftOrgan {
   /// @param more springs of this step besides the contacts': a grip. Their forces are filled in.
   void step(const SolvedContacts& contacts, const Vec3* tip_T, std::span<SoftSpring> more = {});
 
+  /// Moves the bed to so far from where it lay at first.
+  void carry(const Vec3& shift_T) { energy_ += solid_.carry(shift_T); }
+
   /// Cuts what lies within a blade, as the organ lies now. A refused cut leaves everything as it was.
   OrganCut cut(const Blade& blade, const CutTracingOptions& options = {});
   /// All cuts so far, as playback makes them again (cut_bytes).

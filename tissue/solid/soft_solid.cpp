@@ -278,6 +278,14 @@ void SoftSolid::hold(std::int32_t node, double stiffness_n_per_m) {
   support_[static_cast<std::size_t>(node)] += static_cast<float>(stiffness_n_per_m);
   shift_[static_cast<std::size_t>(node)] += static_cast<float>(stiffness_n_per_m);
 }
+double SoftSolid::carry(const Vec3& shift) {
+  const Vec3f before = carried_, further = shift.cast<float>() - before;
+  carried_ += further;
+  double work = 0;
+  for (std::size_t n = 0; n < node_count(); ++n)
+    work += static_cast<double>(support_[n] * further.dot(rest_[n] - position_[n] + before + 0.5F * further));
+  return work;
+}
 void SoftSolid::load(std::int32_t node, const Vec3& force_n) {
   load_[static_cast<std::size_t>(node)] += force_n.cast<float>();
 }
@@ -495,7 +503,7 @@ void SoftSolid::set_right(std::span<const SoftSpring> springs, const std::vector
   const float per_step = 1 / static_cast<float>(options_.step_s), weight = statics_ ? 0 : per_step * per_step;
   for (std::size_t n = 0; n < rest_.size(); ++n) {
     const Vec3f value = weight * mass_[n] * velocity_[n] +
-                        per_step * (elastic_[n] + load_[n] + support_[n] * (rest_[n] - position_[n]));
+                        per_step * (elastic_[n] + load_[n] + support_[n] * (rest_[n] - position_[n] + carried_));
     right_[n] = {{value[0], value[1], value[2], 0}};
   }
   for (std::size_t s = 0; s < springs.size(); ++s) {
@@ -620,7 +628,8 @@ double SoftSolid::energy_j() const {
     }
   }
   for (std::size_t n = 0; n < rest_.size(); ++n) {
-    energy += 0.5 * static_cast<double>(support_[n]) * static_cast<double>((position_[n] - rest_[n]).squaredNorm());
+    energy += 0.5 * static_cast<double>(support_[n]) *
+              static_cast<double>((position_[n] - rest_[n] - carried_).squaredNorm());
     energy += 0.5 * static_cast<double>(mass_[n]) * static_cast<double>(velocity_[n].squaredNorm());
   }
   for (const Release& r : released_) energy -= static_cast<double>(turned(r).dot(position_[r.node] - rest_[r.node]));

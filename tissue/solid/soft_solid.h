@@ -79,6 +79,8 @@ class SoftSolid {
 
   /// Adds a spring to where the node rests, the same in every direction. N/m
   void hold(std::int32_t node, double stiffness_n_per_m);
+  /// Moves what all supports rest on to so far from where it was at first. @return the work that this does, J
+  double carry(const Vec3& shift);
   /// Constant force on a node, N; zero again by the opposite.
   void load(std::int32_t node, const Vec3& force_n);
 
@@ -149,6 +151,7 @@ class SoftSolid {
 
   SoftSolidOptions options_;
   std::vector<Vec3f> rest_, position_, velocity_, elastic_, load_;  ///< last, a node for lanes without a cell
+  Vec3f carried_ = Vec3f::Zero();                                   ///< of what the supports rest on
   std::vector<float> mass_, support_;                               ///< of each node
   std::vector<SoftCell> cells_;
   std::vector<std::array<std::int32_t, 3>> places_;  ///< of each cell in the lattice

@@ -201,6 +201,7 @@ SceneView attempt_scene(const SessionView& view) {
     out.targets = marks(view.director);
     for (const AdjacentOrgan& organ : view.scene.adjacent.organs)
       out.adjacent.push_back({organ.surface_T, organ.material});
+    if (view.scene.soft) out.breath_T = bed_shift(view.scene.setup.exercise.breathing, stylus.t_s);
     const std::vector<SurfacePtr>& ducts_T = view.ducts_T.empty() ? view.scene.ducts_T : view.ducts_T;
     for (std::size_t i = 0; i < ducts_T.size(); ++i)
       out.adjacent.push_back({ducts_T[i], view.scene.ducts[i].material.name});

@@ -199,12 +199,4 @@ SceneView show_scene(const std::string& name, std::uint64_t seed) {
   return name == "board" ? board() : with_fields(abdomen(seed), name, seed);
 }
 
-Vec3 breath_at(double t_s) {
-  const double phase = t_s * 14.0 / 60.0;
-  const double share = phase - std::floor(phase);
-  const double in = share < 0.4 ? 0.5 - 0.5 * std::cos(std::numbers::pi * share / 0.4)
-                                : 0.5 + 0.5 * std::cos(std::numbers::pi * (share - 0.4) / 0.6);
-  return in * Vec3(0, -0.0030, -0.0026);
-}
-
 }  // namespace trocar

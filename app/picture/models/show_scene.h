@@ -22,7 +22,4 @@ SceneView show_scene(const std::string& name, std::uint64_t seed = 1);
 /// The same organs with other fields: cheap. @param abdomen of show_scene().
 SceneView with_fields(const SceneView& abdomen, const std::string& name, std::uint64_t seed = 1);
 
-/// How far breathing has moved the organs at a time: 14 breaths a minute, 4 mm, quick in and slow out.
-Vec3 breath_at(double t_s);
-
 }  // namespace trocar

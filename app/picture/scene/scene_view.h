@@ -137,7 +137,7 @@ struct SceneView {
   std::vector<TissueMark> marks = {};  ///< blood, char, whitening, wet; the first kMaxTissueMarks are drawn
   double smoke_per_m = 0;              ///< extinction of the smoke
   LensState lens;
-  Vec3 breath_T = Vec3::Zero();  ///< how far breathing has moved the organs just now; scenery, not felt
+  Vec3 breath_T = Vec3::Zero();  ///< how far breathing has moved the organs just now, but for those that give way
   Camera camera;
   Hud hud;
 };

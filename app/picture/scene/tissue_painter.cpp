@@ -273,8 +273,8 @@ void TissuePainter::draw_part(TissuePart& part, const ProgramBinder& bind, const
   if (is_organ && has_dimple(view)) defines.emplace_back("DIMPLED");
   if (part.moves()) defines.emplace_back("DEFORMED");
   defines.push_back(part.look);
-  // The lining hangs on the wall, the fat on what lies under it: the organs breathe most.
-  const double share = wall_ && &part == &*wall_ ? 0.0 : fat_ && &part == &*fat_ ? 0.4 : 1.0;
+  // The lining hangs on the wall, the fat on what lies under it: the organs breathe most. What gives way has moved.
+  const double share = part.moves() || (wall_ && &part == &*wall_) ? 0.0 : fat_ && &part == &*fat_ ? 0.4 : 1.0;
   const auto draw = [&](const std::vector<std::string>& with) -> Program& {
     Program& program = bind("tissue", "tissue", with);
     set_vector(program.uniform("u_breath"), share * view.breath_T);
@@ -319,7 +319,7 @@ void TissuePainter::draw_decals(const ProgramBinder& bind, const SceneView& view
     const Vec3 normal = mark.normal_T.normalized();
     Vec3 across = optics.right() - normal * normal.dot(optics.right());
     across = across.norm() > 1e-6 ? Vec3(across.normalized()) : normal.unitOrthogonal();
-    set_vector(program.uniform("u_breath"), view.breath_T);
+    set_vector(program.uniform("u_breath"), (organ_->moves() ? 0.0 : 1.0) * view.breath_T);
     set_vector(program.uniform("u_mark"), mark.centre_T, mark.radius_m);
     set_vector(program.uniform("u_across"), across);
     set_vector(program.uniform("u_up"), normal.cross(across));

@@ -203,6 +203,7 @@ void soften(Scene& scene) {
     throw InputError(std::string("tissue: ") + error.what());
   }
   soft->options.solid.edge_m = kLatticeCell;
+  soft->breathing = scene.setup.exercise.breathing;
   LatticeOptions options;
   options.cell_m = kLatticeCell;
   soft->lattice = build_lattice(*scene.organ_T, options).lattice;

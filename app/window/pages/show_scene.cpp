@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/picture/models/show_scene.h"
+#include "tissue/interaction/breathing.h"
 
 namespace trocar {
 namespace {
@@ -22,7 +23,7 @@ Vec3 sway(double t_s, double phase_s) {
 
 SceneView show_view(const SceneView& still, double t_s) {
   SceneView view = still;
-  view.breath_T = breath_at(t_s);
+  view.breath_T = bed_shift({14, 0.004}, t_s);
   view.X_TI.p += sway(t_s, 0);
   view.jaw_opening_m = std::max(0.0, view.jaw_opening_m + kJaws_m * wave(t_s, 5.3));
   double phase_s = 3;

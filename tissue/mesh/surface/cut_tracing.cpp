@@ -20,7 +20,7 @@ constexpr double kNearMiss = 0.003;     // m from the outline, at which a lone c
 constexpr double kLeastSideways = 0.3;  // share of the surface's normal that lies in the blade's plane
 constexpr std::size_t kMostCrossings = 64;
 
-struct Crossing {
+struct LineCrossing {
   std::array<std::int32_t, 2> triangle{-1, -1};
   double share = 0;  ///< from the edge's lower vertex
   Vec2 place = Vec2::Zero();
@@ -104,7 +104,7 @@ class Section {
     const auto& corners = now_.triangles[static_cast<std::size_t>(triangle)];
     const bool ordered = corners[k] < corners[next];
     const std::size_t low = ordered ? k : next, high = ordered ? next : k;
-    Crossing& crossing = crossings_[{corners[low], corners[high]}];
+    LineCrossing& crossing = crossings_[{corners[low], corners[high]}];
     if (crossing.triangle[0] >= 0) {
       crossing.triangle[1] = triangle;
       return;
@@ -142,7 +142,7 @@ class Section {
     while (line.edges.size() < kMostCrossings) {
       const std::int32_t here = line.triangles.back();
       const Edge next = other_edge(here, line.edges.back());
-      const Crossing& crossing = crossings_.at(next);
+      const LineCrossing& crossing = crossings_.at(next);
       if (!crossing.inside || crossing.triangle[1] < 0) return;
       const std::int32_t beyond = crossing.triangle[crossing.triangle[0] == here ? 1 : 0];
       if (!seen.insert(beyond).second) return;
@@ -169,9 +169,9 @@ class Section {
 
   /// The point within a first or last triangle at which the line runs out.
   MaterialPoint run_out(std::int32_t triangle, const Edge& edge) const {
-    const Crossing& in = crossings_.at(edge);
+    const LineCrossing& in = crossings_.at(edge);
     const Edge beyond = other_edge(triangle, edge);
-    const Crossing& out = crossings_.at(beyond);
+    const LineCrossing& out = crossings_.at(beyond);
     double share = in.inside ? 1 : kEndRoom;
     const double a = outside_by(blade_.outline, in.place), b = outside_by(blade_.outline, out.place);
     if (in.inside && b > 0) share = -a / (b - a);
@@ -207,7 +207,7 @@ class Section {
     out.length_m = along.back();
     double before = 0;
     for (std::size_t i = 0; i < line.edges.size(); ++i) {
-      const Crossing& crossing = crossings_.at(line.edges[i]);
+      const LineCrossing& crossing = crossings_.at(line.edges[i]);
       const double to_end = std::min(along[i + 1], along.back() - along[i + 1]);
       const double depth = (crossing.inside ? way_out(blade_.outline, crossing.place, inward) : 0) +
                            options_.bite_m * std::min(1.0, to_end / options_.taper_m);
@@ -235,7 +235,7 @@ class Section {
   const TriangleSurface& now_;
   const Blade& blade_;
   const CutTracingOptions& options_;
-  std::map<Edge, Crossing> crossings_;
+  std::map<Edge, LineCrossing> crossings_;
   std::map<std::int32_t, std::vector<Edge>> edges_;  ///< crossed ones of a triangle
 };
 

@@ -107,16 +107,6 @@ TEST(ShowScene, FieldsAreThereAndLieOnTissue) {
 
 TEST(ShowScene, RefusesUnknownNames) { EXPECT_THROW(show_scene("theatre"), std::invalid_argument); }
 
-TEST(Breath, IsSmallPeriodicAndAlwaysTheSameWay) {
-  const double period = 60.0 / 14;
-  for (double t = 0; t < 6; t += 0.05) {
-    EXPECT_LE(breath_at(t).norm(), 0.0041);
-    EXPECT_LE(breath_at(t).y(), 0);
-    EXPECT_TRUE(breath_at(t).isApprox(breath_at(t + period), 1e-6) || breath_at(t).norm() < 1e-9);
-    EXPECT_LT((breath_at(t + 0.01) - breath_at(t)).norm(), 1.2e-4);  // no jump where one breath meets the next
-  }
-}
-
 TEST(MarkBlock, HoldsPlaceKindAndStrength) {
   const MarkBlock block = make_mark_block(
       {{TissueMarkKind::kChar, Vec3(1, 2, 3), 0.5, 0.25}, {TissueMarkKind::kWet, Vec3::Zero(), 0.1, 7}});
