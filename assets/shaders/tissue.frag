@@ -177,10 +177,10 @@ void mark(inout Surface s, inout vec3 n, vec4 coarse, vec4 middle, vec4 fine) {
   // A thin film stains what is under it, a body of blood hides it, and the thicker the darker.
   float stain = smoothstep(0.14, 0.30, there.x), blood = smoothstep(0.21, 0.34, there.x), deep = smoothstep(0.26, 0.80, there.x);
   vec3 through = s.base * vec3(0.70, 0.22, 0.20);
-  vec3 body = mix(vec3(0.185, 0.0060, 0.0045), vec3(0.080, 0.0016, 0.0020), deep);
+  vec3 body = mix(vec3(0.300, 0.0090, 0.0070), vec3(0.110, 0.0022, 0.0024), deep);
   s.base = mix(s.base, mix(through, body, 0.98 * blood), stain);
   s.bump *= 1.0 - 0.72 * blood;
-  s.film = mix(s.film, mix(1.0, 0.42, blood), stain);
+  s.film = mix(s.film, mix(1.2, 1.5, blood), stain);
   s.sharp = mix(s.sharp, 0.85, blood);
   // A pool's rim is rounded: the film tilts down the slope of the field.
   vec3 dx = dFdx(v_position), dy = dFdy(v_position);

@@ -170,11 +170,12 @@ void Bleeding::clip_vessel(std::int32_t vessel, double at, double share) {
   vessels_.clip(vessel, at, share);
 }
 
-void Bleeding::clip_wound(WoundId id, double share) {
-  if (id < 0 || static_cast<std::size_t>(id) >= wounds_.size() || !std::isfinite(share)) return;
+void Bleeding::clip_wound(WoundId id, double share, double spanned_m2) {
+  if (id < 0 || static_cast<std::size_t>(id) >= wounds_.size() || !std::isfinite(share + spanned_m2)) return;
   Wound& wound = wounds_[static_cast<std::size_t>(id)];
   const double open = 1 - std::clamp(share, 0.0, 1.0);
   for (CutVessel& vessel : wound.vessels) vessel.lumen = std::min(vessel.lumen, open);
+  wound.oozing = std::max(0.0, wound.oozing - std::max(0.0, spanned_m2));
   if (wound.end >= 0)
     vessels_.clip(vessels_.open_ends()[static_cast<std::size_t>(wound.end)].vessel, wound.end_at, share);
 }
@@ -278,8 +279,8 @@ void Bleeding::spurt(Wound& wound, double volume_m3, double speed, std::span<con
 
 void Bleeding::bleed(Wound& wound, const BloodPressures& pressures, std::span<const Vec3> vertices_T, double step_s) {
   double flow = wound.end < 0 ? ooze(wound, pressures) : 0, fast = 0, speed = 0;
-  const auto add = [&](const Jet& jet) {
-    const double share = jet.speed > options_.spurt_speed_m_per_s ? options_.spurt_share : 0;
+  const auto add = [&](const Jet& jet, bool arterial) {
+    const double share = arterial && jet.speed > options_.spurt_speed_m_per_s ? options_.spurt_share : 0;
     flow += jet.flow;
     fast += share * jet.flow;
     if (share > 0) speed = std::max(speed, jet.speed);
@@ -287,11 +288,11 @@ void Bleeding::bleed(Wound& wound, const BloodPressures& pressures, std::span<co
   for (CutVessel& vessel : wound.vessels) {
     const Jet jet = vessel_jet(wound, vessel, pressures);
     vessel.flow = jet.flow;
-    add(jet);
+    add(jet, vessel.size.supply == Supply::kArterial);
   }
   if (wound.end >= 0) {
     const OpenEnd& end = vessels_.open_ends()[static_cast<std::size_t>(wound.end)];
-    add({end.flow_m3_per_s, end.speed_m_per_s});
+    add({end.flow_m3_per_s, end.speed_m_per_s}, true);
   }
   wound.flow = flow;
   wound.mean_flow += (1 - std::exp(-step_s / options_.mean_over_s)) * (flow - wound.mean_flow);
@@ -336,9 +337,10 @@ void Bleeding::step(std::span<const Vec3> vertices_T, double step_s) {
   drops_.step(vertices_T, step_s, film_);
 }
 
-void Bleeding::grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added) {
+void Bleeding::grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added,
+                    const std::vector<bool>& inside) {
   rest_ = rest_T;
-  film_.grow(rest_T, added);
+  film_.grow(rest_T, added, inside);
 }
 
 void Bleeding::reset() {

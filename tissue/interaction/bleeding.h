@@ -50,17 +50,18 @@ struct BleedingOptions {
   VesselFlowOptions flow;        ///< viscosity, jets and spasm, also of vessels without a network
   double ooze_m_per_s = 6.7e-4;  ///< q: 4 mL/min of 1 cm2 ("mild"); unchecked
   std::vector<VesselSize> vessels = liver_vessels();
-  double patch_m = 0.005;            ///< edge of the cells of space that have one draw of vessels each
-  double merge_m = 0.004;            ///< wounds nearer than that at rest are one
-  double clot_s = 240;               ///< time constant: bleeding time is 2 to 9 min; unchecked
-  double pressed_clots_faster = 4;   ///< unchecked
-  double clots_up_to_m = 0.35e-3;    ///< radius of vessels that clot; unchecked
-  double seals_up_to_m = 1.25e-3;    ///< radius of vessels that heat closes; unchecked
-  double spurt_speed_m_per_s = 1.5;  ///< of a jet that spurts: arteries do, portal branches do not
-  double spurt_share = 0.5;          ///< of its flow; unchecked
-  double drop_m3 = 15e-9;            ///< 3 mm across
-  double drop_speed_share = 0.4;     ///< of the jet's; unchecked
-  double mean_over_s = 2;            ///< time constant of the rates that are told
+  double patch_m = 0.005;           ///< edge of the cells of space that have one draw of vessels each
+  double merge_m = 0.004;           ///< wounds nearer than that at rest are one
+  double clot_s = 240;              ///< time constant: bleeding time is 2 to 9 min; unchecked
+  double pressed_clots_faster = 4;  ///< unchecked
+  double clots_up_to_m = 0.35e-3;   ///< radius of vessels that clot; unchecked
+  double seals_up_to_m = 1.25e-3;   ///< radius of vessels that heat closes; unchecked
+  double spurt_speed_m_per_s =
+      0.5;                        ///< from which an arterial jet spurts: 13 mm high; portal branches do not; unchecked
+  double spurt_share = 0.5;       ///< of its flow; unchecked
+  double drop_m3 = 15e-9;         ///< 3 mm across
+  double drop_speed_share = 0.4;  ///< of the jet's; unchecked
+  double mean_over_s = 2;         ///< time constant of the rates that are told
 };
 
 using WoundId = std::int32_t;  ///< -1: none
@@ -105,8 +106,8 @@ class Bleeding {
   /// @returns the first of two numbers that follow each other; -1 as above
   WoundId cut_vessel(std::int32_t vessel, double at, const MaterialPoint& from_end, const MaterialPoint& to_end);
   void clip_vessel(std::int32_t vessel, double at, double share);
-  /// On the vessels of a wound: 1 closes them, less lets some through.
-  void clip_wound(WoundId wound, double share);
+  /// On the vessels of a wound: 1 closes them, less lets some through. What of its faces is spanned oozes no longer.
+  void clip_wound(WoundId wound, double share, double spanned_m2 = 0);
   /// Heat: takes this share of what still bleeds. Vessels that are too large stay as they are.
   void coagulate(WoundId wound, double share);
   /// Of all wounds within the radius, as far as it covers them.
@@ -117,7 +118,9 @@ class Bleeding {
   void suck(const Suction& suction);
   /// @param vertices_T of the surface as it is now, as many as it has at rest
   void step(std::span<const Vec3> vertices_T, double step_s);
-  void grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added);
+  /// @param inside of each triangle: the wall of a cut; empty: none is
+  void grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added,
+            const std::vector<bool>& inside = {});
   /// No wound, no blood, all vessels whole; the surface stays as it is.
   void reset();
 

@@ -166,7 +166,7 @@ WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
   state_.refusal = 0;
   grip_.follow_cut(organ);
   const std::vector<VertexOrigin> added(organ.added().begin(), organ.added().end());
-  bleeding_.grow(*organ.rest(), added);
+  bleeding_.grow(*organ.rest(), added, organ.rest()->inside);
   heat_.grow(organ.rest(), added);
   std::vector<std::int32_t> bottom;  // begin, three of each crossing, end
   for (std::size_t i = 3; i < added.size(); i += 3) bottom.push_back(made.first_vertex + static_cast<std::int32_t>(i));
@@ -183,7 +183,7 @@ void InstrumentActions::set_clip(const StylusState& stylus, const SoftOrgan& org
     if (distance < least) least = distance, nearest = id;
   }
   if (nearest < 0) return refuse(CutRefusal::kNoWound);
-  bleeding_.clip_wound(nearest, 1);
+  bleeding_.clip_wound(nearest, 1, 2 * options_.applier_m * bleeding_.wound(nearest).depth_m);
   ++state_.clips;
   state_.refusal = 0;
   const auto beside = triangle_near(*organ.surface(), bleeding_.wound(nearest).place_T);

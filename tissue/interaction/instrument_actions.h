@@ -37,8 +37,8 @@ struct InstrumentActionsOptions {
   double coagulates_m = 0.004;                        ///< of wounds round the contact
   double coagulates_c = 65;                           ///< under which heat closes no vessel
   double coagulates_per_s = 2;                        ///< share of what still bleeds there
-  double tear_width_m = 0.025;                        ///< of the capsule round a held fold, that bears the pull
-  double tear_after_s = 0.02;                         ///< above its limit
+  double tear_width_m = 0.010;  ///< of the capsule that bears the pull: both faces of a fold as wide as the pads
+  double tear_after_s = 0.02;   ///< above its limit
   double tear_length_m = 0.012, tear_depth_m = 0.004;
   double clip_reach_m = 0.006;    ///< from the jaws to the wound
   double press_radius_m = 0.004;  ///< of a tool on a wound

@@ -14,6 +14,7 @@ constexpr double kRunsFrom = 3e-6;    // m beyond what clings: thinner runs less
 constexpr double kSlowBelow = 60e-6;  // m beyond what clings: blood runs less than 4 mm/s, and is run in longer steps
 constexpr double kDryHeight = 1e-7;   // m: thinner is dry
 constexpr std::uint32_t kRestingEvery = 16, kSlopeEvery = 8, kShownEvery = 4, kSlowEvery = 4;  // steps
+constexpr float kCleftRise = 3;              // of what fills a cut, over its walls; unchecked
 constexpr double kLevelling = 0.125;         // share of the volume that would level two neighbours
 constexpr double kDissolvingHeight = 20e-6;  // m of water that dissolves a stain
 
@@ -268,10 +269,22 @@ void SurfaceFilm::find_levels(std::span<const Vec3> vertices_T) {
 
 void SurfaceFilm::find_slope(std::size_t vertex, std::span<const Vec3> vertices_T) {
   Cell& cell = cells_[vertex];
-  const Vec3 area = area_vector(static_cast<std::int32_t>(vertex), vertices_T);
+  Vec3 area = Vec3::Zero();
+  for (std::int32_t c = corner_begin_[vertex]; c < corner_begin_[vertex + 1]; ++c) {
+    const auto t = static_cast<std::size_t>(corner_triangles_[static_cast<std::size_t>(c)]);
+    if (t < inside_.size() && inside_[t]) continue;
+    const auto& [a, b, d] = triangles_[t];
+    const Vec3& p = vertices_T[static_cast<std::size_t>(a)];
+    area += (vertices_T[static_cast<std::size_t>(b)] - p).cross(vertices_T[static_cast<std::size_t>(d)] - p);
+  }
   const double size = area.norm();
-  const double n_z = size > 0 && std::isfinite(size) ? area.z() / size : 1;
   cell.sloped = true;
+  if (!(size > 0)) {  // in a cut, whose walls lie close together
+    cell.faces_down = cell.overhangs = false;
+    cell.rise = kCleftRise;
+    return;
+  }
+  const double n_z = std::isfinite(size) ? area.z() / size : 1;
   cell.faces_down = n_z < 0;
   cell.overhangs = n_z < options_.overhang;
   cell.rise = cell.faces_down ? 0 : static_cast<float>(std::max(n_z, options_.steepest_rise));
@@ -396,7 +409,9 @@ void SurfaceFilm::step(std::span<const Vec3> vertices_T, double step_s) {
   settle(step_s);
 }
 
-void SurfaceFilm::grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added) {
+void SurfaceFilm::grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added,
+                       const std::vector<bool>& inside) {
+  inside_ = inside;
   const std::size_t before = cells_.size();
   std::vector<Liquids> old_height(before);
   std::vector<double> old_stain(before);

@@ -95,7 +95,9 @@ class SurfaceFilm {
   void step(std::span<const Vec3> vertices_T, double step_s);
   /// The surface has got more vertices and other triangles; those that were there keep their numbers and nearly all of
   /// their liquid: a new vertex takes over a share from those that it comes from.
-  void grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added);
+  /// @param inside of each triangle: the wall of a cut. Liquid fills a cut and does not drip out of it; empty: none is
+  void grow(const TriangleSurface& rest_T, const std::vector<VertexOrigin>& added,
+            const std::vector<bool>& inside = {});
   void reset();
 
   const std::vector<float>& blood() const { return blood_shown_; }  ///< 0 .. 1 at every vertex
@@ -148,6 +150,7 @@ class SurfaceFilm {
 
   SurfaceFilmOptions options_;
   std::vector<std::array<std::int32_t, 3>> triangles_;
+  std::vector<bool> inside_;  ///< of each triangle: the wall of a cut
   std::vector<Cell> cells_;
   std::vector<std::int32_t> neighbour_begin_, corner_begin_, corner_triangles_;
   std::vector<Neighbour> neighbours_;

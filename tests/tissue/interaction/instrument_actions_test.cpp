@@ -188,8 +188,11 @@ TEST(InstrumentActions, AClipStaysOnItsWoundAndMovesWithTheTissue) {
   EXPECT_NEAR(theatre.surgery().cut_m, 0.010, 0.008);
   theatre.wait(300);
   theatre.take(1);
+  const double bled = theatre.surgery().blood_ml_per_min;
   for (double o = 0.006; o >= 0; o -= 0.002) theatre.step({0, 0, 0.025}, o);
   ASSERT_EQ(theatre.surgery().clips, 1);
+  theatre.wait(400);
+  EXPECT_LT(theatre.surgery().blood_ml_per_min, 0.3 * bled) << "the faces that it presses together ooze no longer";
   ASSERT_EQ(theatre.frame().clip_count, 1);
   const Vec3 set = theatre.frame().clip[0].p;
   EXPECT_LT((set - Vec3(0, 0, 0.025)).norm(), 1e-3) << "where the jaws closed";

@@ -324,6 +324,29 @@ TEST(SurfaceFilm, AGrownSurfaceRunsAsOneMadeAnew) {
   EXPECT_EQ(grown.account().pool.blood, anew.account().pool.blood);
 }
 
+TEST(SurfaceFilm, NothingDripsOutOfACutThatFills) {
+  // What lies in the wall of a cut falls onto the other wall, however it faces.
+  const TriangleSurface ball = test::sphere({0, 0, 0.1}, 0.03, 3);
+  const auto facing = [&](double n_z) {
+    return static_cast<std::int32_t>(
+        std::ranges::min_element(ball.vertices, {},
+                                 [&](const Vec3& p) { return std::abs((p.z() - 0.1) / 0.03 - n_z); }) -
+        ball.vertices.begin());
+  };
+  const std::int32_t cut = facing(-0.6);
+  std::vector<bool> inside;
+  for (const auto& triangle : ball.triangles) inside.push_back(std::ranges::find(triangle, cut) != triangle.end());
+  SurfaceFilm whole(ball), opened(ball);
+  opened.grow(ball, {}, inside);
+  for (SurfaceFilm* film : {&whole, &opened}) {
+    film->add_blood(cut, 0.7e-3 * film->area_m2(cut));  // more than hangs, less than runs off at once
+    run(*film, ball, 0.05);
+    expect_closed(film->account());
+  }
+  EXPECT_GT(whole.account().pool.blood, 0);
+  EXPECT_EQ(opened.account().pool.blood, 0);
+}
+
 TEST(SurfaceFilm, NeverNegativeAndClosedUnderAnything) {
   const TriangleSurface ball = test::sphere({0, 0, 0.1}, 0.03, 3);
   SurfaceFilm film(ball);
