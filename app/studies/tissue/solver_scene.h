@@ -1,9 +1,9 @@
 // One organ under one load, for solvers to be set side by side: what presses, what holds, what is right.
 //
 // An ellipsoid of 200 x 150 x 80 mm, 5 kPa, nu 0.45, on the bed of soft_organ.h, pressed in the middle of its top by a
-// tent of pressure of 20 mm. So little that every law is Hooke's: 0.2 N sink 1 mm, and of that 0.3 % is the law's own.
-// Load, bed and displacements are those of the vertices of one fine surface, embedded in every solver's mesh. What is
-// right comes from ten-node tetrahedra (quadratic_reference.h). Frame as the ellipsoid's, SI. Thread: any.
+// tent of pressure of 20 mm. So little that every law is Hooke's: 0.2 N sink 1 mm, and 0.2 % of that is the law's own
+// curve. Load, bed and displacements are those of the vertices of one fine surface, embedded in every solver's mesh.
+// What is right comes from ten-node tetrahedra (quadratic_reference.h). Frame as the ellipsoid's, SI. Thread: any.
 #pragma once
 
 #include <cstdint>

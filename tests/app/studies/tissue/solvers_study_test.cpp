@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/studies/tissue/corotational_solid.h"
+#include "app/studies/tissue/soft_studies.h"
 #include "app/studies/tissue/xpbd_solid.h"
 
 namespace trocar::solvers_study_test {
@@ -103,6 +104,13 @@ TEST(SolverPeers, ABeamOfCubesIsNearerToTimoshenkosThanTheSameNodesInTetrahedra)
   EXPECT_LT(run_beam({.kind = SolverKind::kCorotational}).over_timoshenko, 0.9);
   EXPECT_LT(run_beam({.kind = SolverKind::kXpbd, .substeps = 20}).over_timoshenko, 0.93);
 }
+
+#ifdef NDEBUG  // times of a build without optimisation tell nothing
+TEST(SolverPeers, OursHasTheLeastErrorInAnyTime) {
+  for (const StudyCase& c : solvers_study({.quick = true}).cases)
+    EXPECT_TRUE(c.met) << c.name << ": " << c.value << ", asked for " << c.bar;
+}
+#endif
 
 }  // namespace
 }  // namespace trocar::solvers_study_test
