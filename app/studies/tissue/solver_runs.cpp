@@ -67,7 +67,7 @@ void press_organ(const SolverScene& scene, const std::vector<NodeShares>& surfac
   };
   Timed timed;
   std::vector<Vec3> mean(surface.size(), Vec3::Zero());
-  double share = 0, work = 0, before = 0, made = 0, mean_pressed = 0, early = 0;
+  double share = 0, work = 0, most_work = 0, before = 0, made = 0, mean_pressed = 0, early = 0;
   const auto at = [&](double time) { return static_cast<int>(std::lround(time / step_s)); };
   const double last = at(kLast);
   for (int step = 1; step <= at(kRunEnd); ++step) {
@@ -80,6 +80,7 @@ void press_organ(const SolverScene& scene, const std::vector<NodeShares>& surfac
       pressed -= scene.force_n[v] * displacement_at(solver, surface[v]).z() / scene.options.force_n;
     work += share * scene.options.force_n * (pressed - before);
     before = pressed;
+    most_work = std::max(most_work, work);
     made = std::max(made, solver.energy_j() - work);
     if (step == at(kRamp)) early = pressed;
     if (step <= at(kRunEnd) - at(kLast)) continue;
@@ -87,7 +88,7 @@ void press_organ(const SolverScene& scene, const std::vector<NodeShares>& surfac
     for (std::size_t v = 0; v < surface.size(); ++v) mean[v] += displacement_at(solver, surface[v]) / last;
   }
   out.step_ms = timed.median_ms();
-  out.energy_made = made / work;
+  out.energy_made = made / most_work;
   out.early = early / mean_pressed;
   out.load_error = mean_pressed / scene.pressed_m - 1;
   double wrong = 0, right = 0;

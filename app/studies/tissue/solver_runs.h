@@ -28,7 +28,7 @@ struct SolverRun {
   double load_error = 0;     ///< of the load's displacement, over the right one; mean of the last half second
   double surface_error = 0;  ///< rms over the surface, over that of the right displacement
   double early = 0;          ///< the load's displacement at 0.1 s, over its mean of the last half second
-  double energy_made = 0;    ///< most that the body holds beyond what the load has done, over all that the load did
+  double energy_made = 0;    ///< most that the body holds beyond what the load has done, over the most that it did
 };
 
 /// The load grows for 0.1 s and stays till 1.5 s. The motion of every body is damped by 5 1/s, so that it does not

@@ -88,7 +88,7 @@ std::string run_row(const SolverRun& run, double early) {
                 kSolverNames[static_cast<std::size_t>(choice.kind)], substeps.c_str(),
                 kMeshNames[static_cast<std::size_t>(choice.mesh)], choice.cell_m * 1e3, run.nodes, run.elements,
                 run.step_ms, percent(run.surface_error).c_str(), percent(run.load_error).c_str(),
-                percent(run.early / early - 1).c_str(), std::max(0.0, run.energy_made));
+                percent(run.early / early - 1).c_str(), run.energy_made);
   return row;
 }
 
