@@ -104,26 +104,6 @@ struct alignas(kLanes * sizeof(float)) CorotationalSolid::Turned {
 
 CorotationalSolid::~CorotationalSolid() = default;
 
-CorotationalSolid::CorotationalSolid(const PeerBody& body, const CorotationalOptions& options)
-    : options_(options), groups_(grouped(body, by_place(body.mesh))), mass_(masses(body)) {
-  turned_.resize(groups_.size());
-  for (Turned& turned : turned_)
-    for (int i = 0; i < kAxes * kAxes; ++i) turned.rotation[i / kAxes][i % kAxes] = all(i % (kAxes + 1) == 0 ? 1 : 0);
-  support_.assign(mass_.size(), 0);
-  for (auto* rows : {&displacement_, &velocity_, &load_, &elastic_, &diagonal_, &inverse_, &right_, &residual_,
-                     &direction_, &product_})
-    rows->assign(mass_.size(), NodeRow{});
-  prepare();
-}
-
-void CorotationalSolid::hold(std::int32_t node, double stiffness_n_per_m) {
-  support_[static_cast<std::size_t>(node)] += static_cast<float>(stiffness_n_per_m);
-}
-void CorotationalSolid::load(std::int32_t node, const Vec3& force_n) {
-  for (std::size_t c = 0; c < kAxes; ++c)
-    load_[static_cast<std::size_t>(node)].at[c] += static_cast<float>(force_n[static_cast<Eigen::Index>(c)]);
-}
-
 TROCAR_LANES_CLONED void CorotationalSolid::prepare() {
   std::fill(elastic_.begin(), elastic_.end(), NodeRow{});
   std::fill(diagonal_.begin(), diagonal_.end(), NodeRow{});
@@ -154,6 +134,26 @@ TROCAR_LANES_CLONED void CorotationalSolid::prepare() {
     }
     add_to_corners(f, group, diagonal_.data());
   }
+}
+
+CorotationalSolid::CorotationalSolid(const PeerBody& body, const CorotationalOptions& options)
+    : options_(options), groups_(grouped(body, by_place(body.mesh))), mass_(masses(body)) {
+  turned_.resize(groups_.size());
+  for (Turned& turned : turned_)
+    for (int i = 0; i < kAxes * kAxes; ++i) turned.rotation[i / kAxes][i % kAxes] = all(i % (kAxes + 1) == 0 ? 1 : 0);
+  support_.assign(mass_.size(), 0);
+  for (auto* rows : {&displacement_, &velocity_, &load_, &elastic_, &diagonal_, &inverse_, &right_, &residual_,
+                     &direction_, &product_})
+    rows->assign(mass_.size(), NodeRow{});
+  prepare();
+}
+
+void CorotationalSolid::hold(std::int32_t node, double stiffness_n_per_m) {
+  support_[static_cast<std::size_t>(node)] += static_cast<float>(stiffness_n_per_m);
+}
+void CorotationalSolid::load(std::int32_t node, const Vec3& force_n) {
+  for (std::size_t c = 0; c < kAxes; ++c)
+    load_[static_cast<std::size_t>(node)].at[c] += static_cast<float>(force_n[static_cast<Eigen::Index>(c)]);
 }
 
 TROCAR_LANES_CLONED void CorotationalSolid::add_product(const std::vector<NodeRow>& in,
