@@ -64,6 +64,7 @@ constexpr std::array kStudies{
     KnownStudy{"grasp", grasp_study},
     KnownStudy{"cutting", cutting_study},
     KnownStudy{"multirate", multirate_study},
+    KnownStudy{"solvers", solvers_study},
     KnownStudy{"tissue-scaling", tissue_scaling_study},
 };
 

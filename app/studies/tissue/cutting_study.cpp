@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,12 +16,6 @@ constexpr double kLength = 0.020, kDepth = 0.012;  // m, of the cut that all lin
 const Vec3 kCutOrgan(0.060, 0.050, 0.035);         // m, of the ellipsoid
 constexpr int kStepsToRest = 150;
 constexpr double kWristDown = -1;
-
-double thread_cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 SoftOrgan cut_organ(const SurfacePtr& rest, double edge_m, double residual_strain) {
   TissueSolid material;

@@ -15,12 +15,6 @@ constexpr double kLoopPeriod = 1e-3;
 constexpr double kEncoderStep = 3e-5;  // m of the tip to one count of an encoder
 constexpr int kHandSubsteps = 100;     // of the hand in a tick
 
-double thread_cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 Pose pointing_down(const Vec3& tip_T) {
   Pose X;
   X.R = Vec3(1, -1, -1).asDiagonal();
@@ -35,6 +29,12 @@ SoftOrgan organ_on(const SurfacePtr& rest, const SoftBenchSetup& setup) {
 }
 
 }  // namespace
+
+double thread_cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 TriangleSurface ellipsoid_surface(const Vec3& half_m, int rows) {
   TriangleSurface out;

@@ -32,6 +32,9 @@ struct SoftBenchSetup {
   int rows = 60;                  ///< of triangles from pole to pole
 };
 
+/// CPU time of this thread so far.
+double thread_cpu_s();
+
 /// Ellipsoid about the origin with rings of triangles. @param half_m half axes
 TriangleSurface ellipsoid_surface(const Vec3& half_m, int rows);
 

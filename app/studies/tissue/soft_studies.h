@@ -1,5 +1,6 @@
-// `trocar study indentation | relaxation | grasp | cutting | multirate | tissue-scaling`: tissue that gives way beside
-// converged numbers, published ranges, other ways between its rate and the loop's, and its cost.
+// `trocar study indentation | relaxation | grasp | cutting | multirate | solvers | tissue-scaling`: tissue that gives
+// way beside converged numbers, published ranges, other ways between its rate and the loop's, other solvers, and its
+// cost.
 #pragma once
 
 #include "app/studies/study.h"
@@ -16,6 +17,8 @@ StudyResult grasp_study(const StudyRequest& request);
 StudyResult cutting_study(const StudyRequest& request);
 /// The same press by ours, the held force, a linear coupling and the thesis' law.
 StudyResult multirate_study(const StudyRequest& request);
+/// The same organ by ours, corotational linear tetrahedra and XPBD: error at equal time.
+StudyResult solvers_study(const StudyRequest& request);
 /// Time of a step over the number of nodes.
 StudyResult tissue_scaling_study(const StudyRequest& request);
 
