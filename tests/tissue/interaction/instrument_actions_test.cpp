@@ -21,7 +21,8 @@ using test::from_above;
 class Theatre {
  public:
   explicit Theatre(InstrumentKind kind) : Theatre({kind, InstrumentKind::kClipApplier}, 0.010) {}
-  Theatre(std::initializer_list<InstrumentKind> kinds, double edge_m) : rest_(test::ellipsoid({0.06, 0.05, 0.035}, 40)) {
+  Theatre(std::initializer_list<InstrumentKind> kinds, double edge_m)
+      : rest_(test::ellipsoid({0.06, 0.05, 0.035}, 40)) {
     auto soft = std::make_shared<SoftSetup>();
     soft->material.residual_strain = 0.06;
     soft->options.solid.edge_m = edge_m;
