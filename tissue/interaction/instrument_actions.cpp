@@ -150,7 +150,7 @@ void InstrumentActions::feel_blades(const StylusState& stylus, const SoftOrgan& 
   if (ahead.refusal != CutRefusal::kNone) return;
   const double way = widest_m_ - options_.closed_m;
   blades_.thickness_m = widest_m_;
-  blades_.stiffness_n_per_m = 2 * organ.material().toughness_j_per_m2 * ahead.area_m2 / (way * way);
+  blades_.stiffness_n_per_m = 2 * organ.material(ahead.cut.crossings.front().triangle).toughness_j_per_m2 * ahead.area_m2 / (way * way);
 }
 
 WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
@@ -191,7 +191,7 @@ void InstrumentActions::set_clip(const StylusState& stylus, const SoftOrgan& org
 }
 
 void InstrumentActions::tear(SoftOrgan& organ, const StylusState& stylus) {
-  const double limit = organ.material().rupture_n_per_m * options_.tear_width_m;
+  const double limit = grip_.rupture_n_per_m(organ) * options_.tear_width_m;
   overloaded_s_ = grip_.pull_T().norm() > limit ? overloaded_s_ + organ.solid().options().step_s : 0;
   if (overloaded_s_ < options_.tear_after_s) return;
   overloaded_s_ = 0;
