@@ -92,6 +92,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   read_force(document.table("force"), exercise);
   kind_of(exercise).read(document, exercise);
   exercise.ducts = read_ducts(document);
+  exercise.bed = read_bed(document);
   read_levels(document, exercise);
   for (ExerciseLevel& level : exercise.levels) {
     level.rubric = read_rubric(document.table("rubric"), level);

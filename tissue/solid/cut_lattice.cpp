@@ -606,6 +606,8 @@ bool CutLattice::cut(const SurfaceCut& cut, LatticeChange& change) {
   static_cast<TriangleSurface&>(*snapshot) = std::move(groove.surface);
   snapshot->topology = rest_->topology + 1;
   snapshot->inside = rest_->inside;
+  snapshot->part = rest_->part;
+  if (!snapshot->part.empty()) snapshot->part.resize(snapshot->triangles.size(), static_cast<std::uint8_t>(part));
   snapshot->inside.resize(snapshot->triangles.size(), false);
   for (const std::int32_t wall : groove.walls) snapshot->inside[static_cast<std::size_t>(wall)] = true;
   // Where each new vertex looks for its side: a little off the sheet, and into the tissue.

@@ -11,11 +11,11 @@
 namespace trocar {
 namespace {
 
-constexpr double kLooks = 0.012;        // m from the nearest vertex of part 0: beyond, nothing touches
-constexpr double kNear = 0.005;         // m of a gap that may close within
-constexpr std::size_t kFarEvery = 4;    // steps, between which others are looked at
-constexpr double kLeastGap = -0.003;    // m of surfaces that interpenetrate at rest
-constexpr float kRamp = 1e-3F;          // of a tie's stiffness, below which it is left out
+constexpr double kLooks = 0.012;      // m from the nearest vertex of part 0: beyond, nothing touches
+constexpr double kNear = 0.005;       // m of a gap that may close within
+constexpr std::size_t kFarEvery = 4;  // steps, between which others are looked at
+constexpr double kLeastGap = -0.003;  // m of surfaces that interpenetrate at rest
+constexpr float kRamp = 1e-3F;        // of a tie's stiffness, below which it is left out
 
 std::array<Vec3, 3> corners(const std::array<std::int32_t, 3>& triangle, const TriangleSurface& surface) {
   return {surface.vertices[static_cast<std::size_t>(triangle[0])],
@@ -61,9 +61,7 @@ OrganBed::OrganBed(const CutLattice& lattice, const BedOptions& options, double 
   hang_links(lattice);
 }
 
-double OrganBed::stiffness() const {
-  return 2 * strength_ * strength_ / energy_per_m2_;
-}
+double OrganBed::stiffness() const { return 2 * strength_ * strength_ / energy_per_m2_; }
 
 double OrganBed::left_at(double way_m) const {
   const double peak = strength_ / stiffness(), end = 2 * energy_per_m2_ / strength_;
@@ -104,8 +102,8 @@ void OrganBed::find_touchers(const CutLattice& lattice) {
   for (std::size_t v = 0; v < rest.vertices.size(); ++v)
     if (lattice.part_of(static_cast<std::int32_t>(v)) == 0) below.push_back(static_cast<std::int32_t>(v));
   const std::size_t known = touchers_.size();
-  for (std::size_t v = known == 0 ? 0 : static_cast<std::size_t>(touchers_.back().vertex) + 1;
-       v < rest.vertices.size(); ++v) {
+  for (std::size_t v = known == 0 ? 0 : static_cast<std::size_t>(touchers_.back().vertex) + 1; v < rest.vertices.size();
+       ++v) {
     if (lattice.part_of(static_cast<std::int32_t>(v)) != 1) continue;
     Toucher& made = touchers_.emplace_back();
     made.vertex = static_cast<std::int32_t>(v);
@@ -151,8 +149,8 @@ void OrganBed::find_links(const CutLattice& lattice) {
         foot.normal.dot(normals[static_cast<std::size_t>(toucher.vertex)]) > options_.facing_cosine)
       continue;
     const auto& facing = rest.triangles[static_cast<std::size_t>(foot.triangle)];
-    const auto below = static_cast<std::size_t>(
-        std::max_element(foot.weight.begin(), foot.weight.end()) - foot.weight.begin());
+    const auto below =
+        static_cast<std::size_t>(std::max_element(foot.weight.begin(), foot.weight.end()) - foot.weight.begin());
     links_.push_back({toucher.vertex, facing[below], facing, toucher.area_m2});
     area_ += toucher.area_m2;
   }
@@ -222,8 +220,8 @@ void OrganBed::add_contacts(const CutLattice& lattice, const SurfaceSnapshot& su
     if (rise < static_cast<double>(kRamp)) continue;
     const double force = in < ramp ? rise * in / 2 : rise * (in - ramp / 2);
     contact_energy_ += in < ramp ? rise * in * in / 6 : rise * (ramp * ramp / 6 + (in - ramp) * in / 2);
-    const Vec3 under = interpolate(foot.weight, corners(surface.triangles[static_cast<std::size_t>(foot.triangle)],
-                                                        *lattice.rest()));
+    const Vec3 under =
+        interpolate(foot.weight, corners(surface.triangles[static_cast<std::size_t>(foot.triangle)], *lattice.rest()));
     SoftTie& tie = ties.emplace_back();
     set_places(lattice.lattice(),
                lattice.hang(lattice.rest()->vertices[static_cast<std::size_t>(toucher.vertex)], toucher.vertex),
@@ -254,10 +252,11 @@ void OrganBed::wear(const SoftSolid& solid, double step_s) {
     taken_ += held - holds - static_cast<double>(tie.force_n.dot(link.apart - before));
     if (link.free()) freed_.push_back(static_cast<std::int32_t>(i));
   }
-  if (freed_.empty()) return;
-  free_area_ = 0;  // in the order of the whole: when all are free it is all of it
-  for (const Link& link : links_)
+  free_area_ = damage_ = 0;  // in the order of the whole: when all are free it is all of it
+  for (const Link& link : links_) {
     if (link.free()) free_area_ += link.area_m2;
+    damage_ += link.free() ? link.area_m2 : link.damage * link.area_m2;
+  }
 }
 
 void OrganBed::soften(std::size_t link, double softened) {
@@ -275,9 +274,18 @@ int OrganBed::vaporise(const Vec3& place_T, double radius_m, const SurfaceSnapsh
     const Vec3 below = closest_point_on_triangle(above, facing);
     if (off_segment(place_T, above, below) > radius_m) continue;
     link.furthest_m = end;
+    link.vaporised = true;
     ++count;
   }
   return count;
+}
+
+bool faces(const CutLattice& lattice, const BedOptions& options) {
+  try {
+    return !OrganBed(lattice, options, 1).links().empty();
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 }  // namespace trocar

@@ -1,6 +1,7 @@
 // Two blocks of tissue, one on the other with a bed between them, and a hand that pulls on the upper one.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -18,8 +19,7 @@ inline TriangleSurface divided_box(const Vec3& low, const Vec3& high, double edg
     const auto [entry, fresh] = number.try_emplace(at, std::int32_t(s.vertices.size()));
     if (fresh) {
       Vec3 p;
-      for (int a = 0; a < 3; ++a)
-        p[a] = low[a] + (high[a] - low[a]) * at[std::size_t(a)] / count[std::size_t(a)];
+      for (int a = 0; a < 3; ++a) p[a] = low[a] + (high[a] - low[a]) * at[std::size_t(a)] / count[std::size_t(a)];
       s.vertices.push_back(p);
     }
     return entry->second;
@@ -60,7 +60,8 @@ struct BedScene {
     above.poisson = 0.49;
   }
   SurfacePtr lower() const {
-    return still_surface(divided_box({0, -below_m.y() / 2, -below_m.z()}, {below_m.x(), below_m.y() / 2, 0}, 2 * triangle_m));
+    return still_surface(
+        divided_box({0, -below_m.y() / 2, -below_m.z()}, {below_m.x(), below_m.y() / 2, 0}, 2 * triangle_m));
   }
   SurfacePtr upper() const {
     return still_surface(divided_box({0.01, -above_m.y() / 2, gap_m},
@@ -72,16 +73,7 @@ struct BedScene {
     const SurfacePtr first = lower(), second = upper();
     const Lattice one = build_lattice(*first, {.cell_m = edge_m}).lattice;
     const Lattice two = build_lattice(*second, {.cell_m = edge_m, .grid_m = one.origin_m}).lattice;
-    auto both = std::make_shared<SurfaceSnapshot>();
-    both->vertices = first->vertices;
-    both->triangles = first->triangles;
-    append(*second, *both);
-    return SoftOrgan(beside(one, two), both, std::array{below, above}, options, bed);
-  }
-  static void append(const TriangleSurface& more, TriangleSurface& to) {
-    const auto shift = std::int32_t(to.vertices.size());
-    to.vertices.insert(to.vertices.end(), more.vertices.begin(), more.vertices.end());
-    for (const auto& [a, b, c] : more.triangles) to.triangles.push_back({a + shift, b + shift, c + shift});
+    return SoftOrgan(beside(one, two), both_surfaces(*first, *second), std::array{below, above}, options, bed);
   }
 };
 
@@ -98,6 +90,10 @@ class BedHand {
       if (!holds(at)) continue;
       places_.push_back({place, organ.shares_of(place), at});
     }
+    constexpr std::size_t kMost = 40;  // of places: a hand of hundreds is most of the step
+    const std::size_t stride = (places_.size() + kMost - 1) / kMost;
+    for (std::size_t i = 0; stride > 1 && i * stride < places_.size(); ++i) places_[i] = places_[i * stride];
+    if (stride > 1) places_.resize((places_.size() + stride - 1) / stride);
     stiffness_ = stiffness_n_per_m / double(places_.size());
   }
   /// One step with the hand moved by `by` from where it took hold. @return its force on the organ, N
@@ -105,7 +101,8 @@ class BedHand {
     std::vector<SoftSpring> springs;
     for (const Place& p : places_)
       for (int axis = 0; axis < 3; ++axis)
-        springs.push_back({p.shares, Vec3::Unit(axis), stiffness_, (organ.place_T(p.place) - p.from - by)[axis], false, 0});
+        springs.push_back(
+            {p.shares, Vec3::Unit(axis), stiffness_, (organ.place_T(p.place) - p.from - by)[axis], false, 0});
     organ.step({}, nullptr, springs);
     Vec3 force = Vec3::Zero();
     for (const SoftSpring& s : springs) force -= s.force_n * s.direction;
