@@ -177,6 +177,7 @@ void OrganBed::bind(const CutLattice& lattice, const SurfaceSnapshot& surface, S
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
     SoftTie& tie = ties.emplace_back(hung_[i]);
+    if (link.free()) continue;
     tie.normal = normal_of(corners(link.facing, surface)).cast<float>();
     // A link that parts on as it does will bear less at the end of the step: with what it bears now, a peel would take
     // more than G.

@@ -482,6 +482,7 @@ TROCAR_LANES_CLONED Remainder go_along(float alpha, const std::vector<NodeRow>& 
 
 void SoftSolid::add_ties(const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const {
   for (const SoftTie& tie : ties_) {
+    if (tie.all_n_per_m == 0 && tie.along_n_per_m == 0) continue;
     Row apart{};
     for (std::size_t i = 0; i < SoftTie::kNodes; ++i)
       apart += tie.share[i] * row(in[static_cast<std::size_t>(tie.node[i])]);
