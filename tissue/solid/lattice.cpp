@@ -43,8 +43,7 @@ Box box_round(const TriangleSurface& surface, double cell_m, const std::optional
       throw InputError("cells of " + std::to_string(cell_m * 1e3) + " mm would be more than " +
                        std::to_string(kMostCells) + " over this organ: choose a longer edge");
     box.cells[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(cells);
-    box.origin_m[axis] =
-        grid_m ? (*grid_m)[axis] + first * cell_m : bounds.center()[axis] - cells * cell_m / 2;
+    box.origin_m[axis] = grid_m ? (*grid_m)[axis] + first * cell_m : bounds.center()[axis] - cells * cell_m / 2;
   }
   return box;
 }
@@ -203,7 +202,8 @@ Lattice beside(Lattice first, const Lattice& more) {
       place[axis] += static_cast<std::int32_t>(steps[static_cast<Eigen::Index>(axis)]);
     return place;
   };
-  const auto nodes = static_cast<std::int32_t>(first.nodes.size()), cells = static_cast<std::int32_t>(first.cells.size());
+  const auto nodes = static_cast<std::int32_t>(first.nodes.size()),
+             cells = static_cast<std::int32_t>(first.cells.size());
   std::int32_t parts = 0;
   for (const LatticeCell& cell : first.cells) parts = std::max(parts, cell.part + 1);
   for (const auto& node : more.nodes) first.nodes.push_back(moved(node));

@@ -111,8 +111,7 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, std::span
   for (const LatticeCell& cell : lattice.cells)
     for (const std::int32_t node : cell.corners) part_of_node_[static_cast<std::size_t>(node)] = cell.part;
   support();
-  if (bed && materials.size() > 1)
-    bed_.emplace(lattice_, *bed, std::min(materials[0].young_pa, materials[1].young_pa));
+  if (bed && materials.size() > 1) bed_.emplace(lattice_, *bed, std::min(materials[0].young_pa, materials[1].young_pa));
   stiffness_ = 1 / half_space_compliance(parts_.front(), 0);
   energy_ = solid_.energy_j();
 }
@@ -249,7 +248,8 @@ double SoftOrgan::contact_radius(const Part& of, double force_n) const {
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) const {
   const std::int32_t own = part_of(place.triangle);
-  const double reach = kSpread * contact_radius(part(place.triangle), force_n), whole = 2.0 / 3 * std::numbers::pi * reach * reach;
+  const double reach = kSpread * contact_radius(part(place.triangle), force_n),
+               whole = 2.0 / 3 * std::numbers::pi * reach * reach;
   const Vec3 middle = place_at(place, rest()->vertices);
   std::vector<std::pair<std::int32_t, double>> sum;
   double given = 0;
@@ -506,9 +506,9 @@ void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   const MaterialPoint& place = touching ? strongest->place : places.front();
   if (part_of(place.triangle) != looked_at_) looks_ = 0, looked_at_ = part_of(place.triangle);
   const Part& of = part(place.triangle);
-  const double compliance =
-      touching ? compliance_at(of, strongest->shares, direction, strongest->force / strongest->share)
-               : compliance_at(of, shares_of(place, 0), direction, 0);
+  const double compliance = touching
+                                ? compliance_at(of, strongest->shares, direction, strongest->force / strongest->share)
+                                : compliance_at(of, shares_of(place, 0), direction, 0);
   stiffness_ = std::min(options_.most_stiffness_n_per_m, 1 / compliance);
   // Where the loop's linear law would give another force at the tool's place, all of it moves by the difference.
   Vec3 displaced = Vec3::Zero(), shift = Vec3::Zero();

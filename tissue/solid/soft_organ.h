@@ -162,14 +162,14 @@ class SoftOrgan {
   double stiffness_ = 0, force_ = 0, given_ = 0;
   double energy_ = 0;  ///< of solid and bed after the last step, J
   struct Memory {
-    std::array<double, 2> held{};     ///< N, by the branches
-    double elastic_n = 0;             ///< of the last step
-    Vec3 rest_T = Vec3::Zero();       ///< place of the strongest contact, at rest
-    std::int32_t part = 0;            ///< on which it lies
+    std::array<double, 2> held{};          ///< N, by the branches
+    double elastic_n = 0;                  ///< of the last step
+    Vec3 rest_T = Vec3::Zero();            ///< place of the strongest contact, at rest
+    std::int32_t part = 0;                 ///< on which it lies
     double carried(const Part& of) const;  ///< N that the next step begins with beside its own elastic force
   };
   Memory memory_;
-  int looks_ = 0;              ///< of compliance_at(), on one part
+  int looks_ = 0;  ///< of compliance_at(), on one part
   std::int32_t looked_at_ = 0;
   double longest_edge_m_ = 0;  ///< from a triangle's first corner
   double sub_cell_ = 0;        ///< compliance that the lattice already has at the last place, long-term, m/N
