@@ -12,12 +12,12 @@ namespace trocar {
 namespace {
 
 constexpr double kLooks = 0.012;      // m from the nearest vertex of part 0: beyond, nothing touches
-constexpr double kNear = 0.005;       // m of a gap that may close within
+constexpr double kMayTouch = 0.005;   // m of a gap that may close within
 constexpr std::size_t kFarEvery = 4;  // steps, between which others are looked at
 constexpr double kLeastGap = -0.003;  // m of surfaces that interpenetrate at rest
 constexpr float kRamp = 1e-3F;        // of a tie's stiffness, below which it is left out
 
-std::array<Vec3, 3> corners(const std::array<std::int32_t, 3>& triangle, const TriangleSurface& surface) {
+std::array<Vec3, 3> corners_in(const std::array<std::int32_t, 3>& triangle, const TriangleSurface& surface) {
   return {surface.vertices[static_cast<std::size_t>(triangle[0])],
           surface.vertices[static_cast<std::size_t>(triangle[1])],
           surface.vertices[static_cast<std::size_t>(triangle[2])]};
@@ -117,7 +117,7 @@ void OrganBed::find_touchers(const CutLattice& lattice) {
     const auto v = static_cast<std::size_t>(toucher.vertex);
     toucher.area_m2 = 0;
     for (std::size_t i = first_round_[v]; i < first_round_[v + 1]; ++i) {
-      const auto corner = corners(rest.triangles[static_cast<std::size_t>(round_[i])], rest);
+      const auto corner = corners_in(rest.triangles[static_cast<std::size_t>(round_[i])], rest);
       toucher.area_m2 += (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / 6;
     }
   }
@@ -128,7 +128,7 @@ OrganBed::Foot OrganBed::foot_round(std::int32_t vertex, const Vec3& place, cons
   double least = std::numeric_limits<double>::infinity();
   const auto v = static_cast<std::size_t>(vertex);
   for (std::size_t i = first_round_[v]; i < first_round_[v + 1]; ++i) {
-    const auto corner = corners(surface.triangles[static_cast<std::size_t>(round_[i])], surface);
+    const auto corner = corners_in(surface.triangles[static_cast<std::size_t>(round_[i])], surface);
     const Vec3 there = closest_point_on_triangle(place, corner);
     const double distance = (there - place).squaredNorm();
     if (distance >= least) continue;
@@ -178,7 +178,7 @@ void OrganBed::bind(const CutLattice& lattice, const SurfaceSnapshot& surface, S
     const Link& link = links_[i];
     SoftTie& tie = ties.emplace_back(hung_[i]);
     if (link.free()) continue;
-    tie.normal = normal_of(corners(link.facing, surface)).cast<float>();
+    tie.normal = normal_of(corners_in(link.facing, surface)).cast<float>();
     // A link that parts on as it does will bear less at the end of the step: with what it bears now, a peel would take
     // more than G.
     const double furthest = std::max(link.furthest_m, way(2 * solid.apart(tie) - link.apart, tie.normal));
@@ -213,7 +213,7 @@ void OrganBed::add_contacts(const CutLattice& lattice, const SurfaceSnapshot& su
     toucher.near = least < kLooks * kLooks;
     if (!toucher.near) continue;
     const Foot foot = foot_round(toucher.nearest, place, surface);
-    toucher.near = foot.gap_m < kNear;
+    toucher.near = foot.gap_m < kMayTouch;
     const double in = toucher.begins_m - foot.gap_m, ramp = options_.contact_m;
     // Deeper than that, the surface is another side of the organ.
     if (!(in > 0) || in > kLooks) continue;
@@ -221,8 +221,8 @@ void OrganBed::add_contacts(const CutLattice& lattice, const SurfaceSnapshot& su
     if (rise < static_cast<double>(kRamp)) continue;
     const double force = in < ramp ? rise * in / 2 : rise * (in - ramp / 2);
     contact_energy_ += in < ramp ? rise * in * in / 6 : rise * (ramp * ramp / 6 + (in - ramp) * in / 2);
-    const Vec3 under =
-        interpolate(foot.weight, corners(surface.triangles[static_cast<std::size_t>(foot.triangle)], *lattice.rest()));
+    const Vec3 under = interpolate(
+        foot.weight, corners_in(surface.triangles[static_cast<std::size_t>(foot.triangle)], *lattice.rest()));
     SoftTie& tie = ties.emplace_back();
     set_places(lattice.lattice(),
                lattice.hang(lattice.rest()->vertices[static_cast<std::size_t>(toucher.vertex)], toucher.vertex),
@@ -270,7 +270,7 @@ int OrganBed::vaporise(const Vec3& place_T, double radius_m, const SurfaceSnapsh
   const double end = 2 * energy_per_m2_ / strength_;
   for (Link& link : links_) {
     if (link.free() || link.furthest_m >= end) continue;
-    const auto facing = corners(link.facing, surface);
+    const auto facing = corners_in(link.facing, surface);
     const Vec3& above = surface.vertices[static_cast<std::size_t>(link.vertex)];
     const Vec3 below = closest_point_on_triangle(above, facing);
     if (off_segment(place_T, above, below) > radius_m) continue;

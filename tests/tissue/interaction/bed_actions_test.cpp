@@ -6,7 +6,7 @@
 #include "tests/tissue/solid/bed_rig.h"
 #include "tissue/tissue_world.h"
 
-namespace trocar {
+namespace trocar::bed_actions_test {
 namespace {
 
 /// The two blocks of the rig in a world of their own, and an instrument from above.
@@ -74,4 +74,4 @@ TEST(BedActions, LiveHookGoesThroughTheFibres) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::bed_actions_test

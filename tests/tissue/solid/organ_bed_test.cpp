@@ -12,7 +12,7 @@
 #include "tests/support/repeats.h"
 #include "tests/tissue/solid/bed_rig.h"
 
-namespace trocar {
+namespace trocar::organ_bed_test {
 namespace {
 
 using test::BedHand;
@@ -204,9 +204,9 @@ void pull_at_random(SoftOrgan& organ, unsigned seed, int pulls) {
 
 TEST(OrganBed, BearsRandomPulls) {
   BedScene scene;
-  SoftOrgan organ = scene.made();
   const int rounds = test::repeats("BED_ROUNDS", 8);
   for (int round = 0; round < rounds; ++round) {
+    SoftOrgan organ = scene.made();
     pull_at_random(organ, unsigned(round), 100);
     for (const Vec3f& p : organ.solid().position()) {
       ASSERT_TRUE(p.allFinite());
@@ -231,4 +231,4 @@ TEST(OrganBed, SameInputSameBytes) {
 }
 
 }  // namespace
-}  // namespace trocar
+}  // namespace trocar::organ_bed_test
