@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,14 @@ struct DuctPlan {
   DuctContent content = DuctContent::kNothing;
 };
 
+/// A neighbour of the organ that gives way with it, bound to it until it is peeled off; only where the organ gives way.
+struct BedPlan {
+  std::string organ;      ///< material of the organs that have it; others go without
+  std::string neighbour;  ///< name of the organ of the scene that is bound
+  std::string material;   ///< of the neighbour, of assets/tissues.toml
+  double strength_pa = 0, energy_j_per_m2 = 0, reach_m = 0;
+};
+
 struct Exercise {
   ExerciseKind kind = ExerciseKind::kTouch;
   std::string id, title, version;               ///< "surface-touch"
@@ -120,6 +129,7 @@ struct Exercise {
   GraspRules grasp;             ///< grasp
   std::vector<DuctPlan> ducts;
   Breathing breathing;  ///< only where the organ gives way
+  std::optional<BedPlan> bed;
   std::vector<ExerciseLevel> levels;
   Rubric rubric;  ///< of the first level
   std::filesystem::path file;

@@ -26,6 +26,7 @@ struct SurfaceSnapshot : TriangleSurface {
   std::uint64_t topology = 0;  ///< as long as it is the same, so are the triangles, and vertex i is the same place
   std::vector<SurfaceField> fields = {};
   std::vector<bool> inside = {};                          ///< of each triangle: the wall of a cut; empty: none is
+  std::vector<std::uint8_t> part = {};                    ///< of each triangle, of two organs: whose; empty: of one
   std::shared_ptr<const SurfaceSnapshot> rest = nullptr;  ///< undeformed, same triangles; none: this one is
 };
 using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
@@ -48,8 +49,21 @@ inline SurfacePtr moved_surface(const SurfacePtr& rest, std::vector<Vec3> vertic
   snapshot->triangles = rest->triangles;
   snapshot->topology = rest->topology;
   snapshot->inside = rest->inside;
+  snapshot->part = rest->part;
   snapshot->fields = std::move(fields);
   snapshot->rest = rest;
+  return snapshot;
+}
+
+/// Two closed surfaces as parts of one, the second one's vertices and triangles behind the first's.
+inline SurfacePtr both_surfaces(const TriangleSurface& first, const TriangleSurface& second) {
+  auto snapshot = std::make_shared<SurfaceSnapshot>();
+  static_cast<TriangleSurface&>(*snapshot) = first;
+  const auto shift = static_cast<std::int32_t>(first.vertices.size());
+  snapshot->vertices.insert(snapshot->vertices.end(), second.vertices.begin(), second.vertices.end());
+  for (const auto& [a, b, c] : second.triangles) snapshot->triangles.push_back({a + shift, b + shift, c + shift});
+  snapshot->part.resize(first.triangles.size(), 0);
+  snapshot->part.resize(snapshot->triangles.size(), 1);
   return snapshot;
 }
 

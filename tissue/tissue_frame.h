@@ -70,6 +70,8 @@ struct SurgeryState {
   double contact_c = 0;  ///< of the tissue under an energised instrument; 0: none touches
   double refused_s = 0;  ///< loop time of the last refusal
   double bile_ml = 0;    ///< that has come from leaks
+  double bed_free = 0;   ///< share of the bed between two organs that is peeled off, 0 .. 1, and
+  double bed_hurt = 0;   ///< mean damage of it
 
   bool operator==(const SurgeryState&) const = default;
 };

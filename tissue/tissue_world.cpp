@@ -21,7 +21,9 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
   if (setup.soft && seen_) {
     SoftOrganOptions options = setup.soft->options;
     options.tool_radius_m = tools_.front().shape.radius_m;
-    soft_.emplace(setup.soft->lattice, seen_, setup.soft->material, options);
+    std::vector<TissueSolid> materials{setup.soft->material};
+    if (setup.soft->neighbour) materials.push_back(*setup.soft->neighbour);
+    soft_.emplace(setup.soft->lattice, seen_, materials, options, setup.soft->bed);
     breathing_ = setup.soft->breathing;
     organ_.mu_static = setup.soft->material.mu_static;
     organ_.mu_dynamic = setup.soft->material.mu_dynamic;

@@ -26,7 +26,9 @@ namespace trocar {
 struct SoftSetup {
   TissueSolid material;
   SoftOrganOptions options;
-  Lattice lattice;  ///< over the organ as it lies in T
+  Lattice lattice;  ///< over the organ as it lies in T, a bound neighbour beside it
+  std::optional<TissueSolid> neighbour = {};
+  std::optional<BedOptions> bed = {};  ///< that binds it
   Breathing breathing = {};
 };
 

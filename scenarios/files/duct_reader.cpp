@@ -10,6 +10,7 @@ namespace {
 using file_units::kMilli;
 
 constexpr std::size_t kMostDucts = 4;
+constexpr double kKilo = 1e3;
 constexpr double kLeastLength = 0.010, kLeastStep = 0.001;  // m of a path, and between two of its points
 
 DuctHold hold_named(const std::string& word) { return word == "organ" ? DuctHold::kOrgan : DuctHold::kFixed; }
@@ -57,6 +58,22 @@ std::vector<DuctPlan> read_ducts(StrictTable& document) {
     ducts.push_back(std::move(duct));
   }
   return ducts;
+}
+
+std::optional<BedPlan> read_bed(StrictTable& document) {
+  if (!document.has("bed")) {
+    document.allow("bed");
+    return std::nullopt;
+  }
+  StrictTable table = document.table("bed");
+  BedPlan bed;
+  bed.organ = table.text("organ");
+  bed.neighbour = table.text("neighbour");
+  bed.material = table.text("material");
+  bed.strength_pa = table.number("strength_kpa", 0.1, 1000) * kKilo;
+  bed.energy_j_per_m2 = table.number("energy_j_per_m2", 0.1, 10000);
+  bed.reach_m = table.number("gap_mm", 0.1, 20) * kMilli;
+  return bed;
 }
 
 }  // namespace trocar

@@ -109,6 +109,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   kind_of(exercise).read(document, exercise);
   exercise.ducts = read_ducts(document);
   exercise.breathing = read_breathing(document);
+  exercise.bed = read_bed(document);
   read_levels(document, exercise);
   for (ExerciseLevel& level : exercise.levels) {
     level.rubric = read_rubric(document.table("rubric"), level);

@@ -115,6 +115,7 @@ void InstrumentActions::after(const HapticState& newest, const Tool& tool, bool 
     }
   }
   energise(newest, tool, organ);
+  work_bed(stylus, present && stylus.pedal && tool.kind == InstrumentKind::kHook, organ);
   const double step_s = organ.solid().options().step_s;
   bleeding_.step(organ.surface()->vertices, step_s);
   clear_smoke(sucks);
@@ -150,7 +151,8 @@ void InstrumentActions::feel_blades(const StylusState& stylus, const SoftOrgan& 
   if (ahead.refusal != CutRefusal::kNone) return;
   const double way = widest_m_ - options_.closed_m;
   blades_.thickness_m = widest_m_;
-  blades_.stiffness_n_per_m = 2 * organ.material().toughness_j_per_m2 * ahead.area_m2 / (way * way);
+  blades_.stiffness_n_per_m =
+      2 * organ.material(ahead.cut.crossings.front().triangle).toughness_j_per_m2 * ahead.area_m2 / (way * way);
 }
 
 WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
@@ -191,7 +193,7 @@ void InstrumentActions::set_clip(const StylusState& stylus, const SoftOrgan& org
 }
 
 void InstrumentActions::tear(SoftOrgan& organ, const StylusState& stylus) {
-  const double limit = organ.material().rupture_n_per_m * options_.tear_width_m;
+  const double limit = grip_.rupture_n_per_m(organ) * options_.tear_width_m;
   overloaded_s_ = grip_.pull_T().norm() > limit ? overloaded_s_ + organ.solid().options().step_s : 0;
   if (overloaded_s_ < options_.tear_after_s) return;
   overloaded_s_ = 0;
@@ -245,6 +247,21 @@ void InstrumentActions::energise(const HapticState& newest, const Tool& tool, co
   if (state_.contact_c > options_.coagulates_c)
     bleeding_.coagulate(organ.place_T(touch->place), std::max(source.radius_m, options_.coagulates_m),
                         std::min(1.0, options_.coagulates_per_s * organ.solid().options().step_s));
+}
+
+void InstrumentActions::work_bed(const StylusState& stylus, bool hook_live, SoftOrgan& organ) {
+  OrganBed* bed = organ.bed();
+  if (bed == nullptr) return;
+  for (const std::int32_t freed : bed->freed()) {
+    const OrganBed::Link& link = bed->links()[static_cast<std::size_t>(freed)];
+    if (!link.vaporised) bleeding_.add_wound(std::span(&link.below, 1), options_.bed_oozes * link.area_m2, 0);
+  }
+  if (!heat_.cold())
+    for (std::size_t i = 0; i < bed->links().size(); ++i)
+      bed->soften(i, heat_.softened_at(organ.rest()->vertices[static_cast<std::size_t>(bed->links()[i].vertex)]));
+  if (hook_live) bed->vaporise(stylus.X_TI.p, options_.hook_bed_m, *organ.surface());
+  state_.bed_free = bed->free_share();
+  state_.bed_hurt = bed->damage_share();
 }
 
 void InstrumentActions::press_wounds(const HapticState& newest, const SoftOrgan& organ) {

@@ -7,9 +7,10 @@
 //   hook      pedal: vaporises what it touches; drawn along, it cuts
 //   clip applier  closing sets a clip on the wound between its jaws, which stays and moves with the tissue
 //   suction   pedal: takes blood and water away; fingers closed: rinses
-// Every instrument presses on wounds that it stands on. A closing that does nothing tells why (CutRefusal). Order of a
-// step: before() what acts on the organ as it lies, then the organ's own step, then after(). Frame T, SI. Thread:
-// tissue task. Same input, same bytes.
+// A bed between two organs (solid/organ_bed.h) is weakened by heat, goes where a live hook reaches its fibres, and
+// oozes where it has been peeled. Every instrument presses on wounds that it stands on. A closing that does nothing
+// tells why (CutRefusal). Order of a step: before() what acts on the organ as it lies, then the organ's own step, then
+// after(). Frame T, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
 
 #include <array>
@@ -33,6 +34,8 @@ struct InstrumentActionsOptions {
   double track_m = 0.003, track_depth_m = 0.0025;     ///< of a hook's edge, per cut; its depth
   double cut_w = 40, forced_w = 25, soft_w = 20;      ///< delivered powers; unchecked
   double hook_edge_m = 0.001, pad_contact_m = 0.003;  ///< radii of contacts of current
+  double hook_bed_m = 0.002;                          ///< from the hook's tip to fibres of a bed that it vaporises
+  double bed_oozes = 0.02;                            ///< share of the peeled bed that is a wound; unchecked
   double hook_waits_s = 0.3;                          ///< without boiling, after which a track is over
   double coagulates_m = 0.004;                        ///< of wounds round the contact
   double coagulates_c = 65;                           ///< under which heat closes no vessel
@@ -79,6 +82,7 @@ class InstrumentActions {
   WoundId cut(const Blade& blade, SoftOrgan& organ);
   void refuse(CutRefusal why);
   void energise(const HapticState& newest, const Tool& tool, const SoftOrgan& organ);
+  void work_bed(const StylusState& stylus, bool hook_live, SoftOrgan& organ);
   void press_wounds(const HapticState& newest, const SoftOrgan& organ);
   void clear_smoke(bool sucked);
   void dress(SoftOrgan& organ) const;

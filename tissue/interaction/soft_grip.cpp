@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trocar {
 namespace {
@@ -68,6 +69,11 @@ void SoftGrip::follow_cut(const SoftOrgan& organ) {
   if (!no_contact_.empty()) no_contact_.resize(organ.rest()->triangles.size(), false);
 }
 
+double SoftGrip::rupture_n_per_m(const SoftOrgan& organ) const {
+  return places_.empty() ? std::numeric_limits<double>::infinity()
+                         : organ.material(places_.front().triangle).rupture_n_per_m;
+}
+
 Vec3 SoftGrip::middle_T(const SoftOrgan& organ) const {
   Vec3 sum = Vec3::Zero();
   for (const Place& place : places_)
@@ -98,7 +104,7 @@ void SoftGrip::reach(const Pose& X_TI, double opening_m, const SoftOrgan& organ,
       return;
     }
     if (state_ == GripState::kEmpty) {
-      const TissueSolid& tissue = organ.material();
+      const TissueSolid& tissue = organ.material(fold.front());
       const double area = options_.pad_length_m * options_.pad_width_m;
       block_.thickness_m = std::min(options_.fold_m, opening_m);
       block_.stiffness_n_per_m =

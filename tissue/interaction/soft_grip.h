@@ -44,6 +44,8 @@ class SoftGrip {
   double slipped_m() const { return slipped_m_; }
   /// Middle of what is held, in T; where nothing is, the origin.
   Vec3 middle_T(const SoftOrgan& organ) const;
+  /// Of the part that is held, tension per width; of nothing, infinity.
+  double rupture_n_per_m(const SoftOrgan& organ) const;
   double squeeze_n() const { return squeeze_n_; }  ///< of the pads on the fold
   Vec3 pull_T() const { return pull_T_; }          ///< of the tissue on the jaws, N
   GripBlock block() const { return block_; }

@@ -117,8 +117,8 @@ CutLattice::CutLattice(Lattice lattice, SurfacePtr rest) : lattice_(std::move(la
                      " vertices is not that of a surface of " + std::to_string(rest_->vertices.size()));
   for (std::size_t c = 0; c < lattice_.cells.size(); ++c) {
     const LatticeCell& cell = lattice_.cells[c];
-    block_of_[cell.place] = static_cast<std::int32_t>(c);
-    place_.push_back(cell.place);
+    place_.push_back({cell.place, cell.part});
+    block_of_[place_.back()] = static_cast<std::int32_t>(c);
     fill_.push_back(cell.fill);
     blocks_.emplace_back().cells = {static_cast<std::int32_t>(c)};
   }
@@ -136,23 +136,59 @@ void CutLattice::fill_blocks() {
     }
   const double step = lattice_.cell_m / kCubes;
   const Vec3 first = lattice_.origin_m + lattice_.cell_m * Vec3(low[0], low[1], low[2]) + Vec3::Constant(step / 2);
-  const auto mark = [&](int i, int j, int k) {
-    const auto block = block_of_.find({low[0] + i / kCubes, low[1] + j / kCubes, low[2] + k / kCubes});
+  const auto mark = [&](int i, int j, int k, std::int32_t part) {
+    const auto block = block_of_.find({{low[0] + i / kCubes, low[1] + j / kCubes, low[2] + k / kCubes}, part});
     if (block != block_of_.end())
       blocks_[static_cast<std::size_t>(block->second)].inside |=
           bit(i % kCubes + kCubes * (j % kCubes) + kCubes * kCubes * (k % kCubes));
   };
-  for_inside_samples(
-      *rest_, first, step,
-      {(high[0] - low[0] + 1) * kCubes, (high[1] - low[1] + 1) * kCubes, (high[2] - low[2] + 1) * kCubes}, mark);
-  for (const Vec3& vertex : rest_->vertices) {
-    const Vec3 at = (vertex - first) / step + Vec3::Constant(0.5);
-    if (at.minCoeff() >= 0) mark(static_cast<int>(at[0]), static_cast<int>(at[1]), static_cast<int>(at[2]));
+  std::int32_t parts = 0;
+  for (const Place& place : place_) parts = std::max(parts, place.part + 1);
+  for (std::int32_t part = 0; part < parts; ++part)
+    for_inside_samples(
+        surface_of(part), first, step,
+        {(high[0] - low[0] + 1) * kCubes, (high[1] - low[1] + 1) * kCubes, (high[2] - low[2] + 1) * kCubes},
+        [&](int i, int j, int k) { mark(i, j, k, part); });
+  for (std::size_t v = 0; v < rest_->vertices.size(); ++v) {
+    const Vec3 at = (rest_->vertices[v] - first) / step + Vec3::Constant(0.5);
+    if (at.minCoeff() >= 0)
+      mark(static_cast<int>(at[0]), static_cast<int>(at[1]), static_cast<int>(at[2]),
+           part_of(static_cast<std::int32_t>(v)));
   }
   for (Block& block : blocks_) {
     block.inside = block.inside == 0 ? ~std::uint64_t{0} : grown(block.inside);
     block.parts = {block.inside};
   }
+}
+
+TriangleSurface CutLattice::surface_of(std::int32_t part) const {
+  TriangleSurface out{rest_->vertices, {}};
+  for (const auto& triangle : rest_->triangles)
+    if (part_of(triangle[0]) == part) out.triangles.push_back(triangle);
+  return out;
+}
+
+std::int32_t CutLattice::part_of(std::int32_t vertex) const {
+  const Embedding& e = lattice_.embedding[static_cast<std::size_t>(vertex)];
+  return lattice_.cells[static_cast<std::size_t>(e.cell)].part;
+}
+
+CutLattice::Place CutLattice::place_of(const Vec3& at_rest, std::int32_t part) const {
+  const Vec3 cell = ((at_rest - lattice_.origin_m) / lattice_.cell_m).array().floor();
+  return {{static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]), static_cast<std::int32_t>(cell[2])},
+          part};
+}
+
+Embedding CutLattice::hang(const Vec3& place, std::int32_t vertex) const {
+  Embedding out{lattice_.embedding[static_cast<std::size_t>(vertex)].cell};
+  const auto& at = lattice_.cells[static_cast<std::size_t>(out.cell)].place;
+  const Vec3 local = (place - lattice_.origin_m) / lattice_.cell_m - Vec3(at[0], at[1], at[2]);
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    for (int axis = 0; axis < 3; ++axis) weight *= (corner >> axis & 1) != 0 ? local[axis] : 1 - local[axis];
+    out.weights[corner] = static_cast<float>(weight);
+  }
+  return out;
 }
 
 SurfacePtr CutLattice::rest_of(std::uint64_t topology) const {
@@ -173,18 +209,13 @@ Vec3 CutLattice::cube_centre(const Place& place, int cube) const {
          step * (Vec3(at_axis(cube, 0), at_axis(cube, 1), at_axis(cube, 2)) + kCentre);
 }
 
-std::vector<std::int32_t> CutLattice::sever(std::span<const Sheet> sheets) {
+std::vector<std::int32_t> CutLattice::sever(std::span<const Sheet> sheets, std::int32_t part) {
   std::set<std::int32_t> touched;
   const double step = lattice_.cell_m / kCubes;
   for (const Sheet& sheet : sheets) {
     const Vec3 low = sheet[0].cwiseMin(sheet[1]).cwiseMin(sheet[2]) - Vec3::Constant(step);
     const Vec3 high = sheet[0].cwiseMax(sheet[1]).cwiseMax(sheet[2]);
-    Place from{}, to{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<Eigen::Index>(axis);
-      from[axis] = static_cast<std::int32_t>(std::floor((low[a] - lattice_.origin_m[a]) / lattice_.cell_m));
-      to[axis] = static_cast<std::int32_t>(std::floor((high[a] - lattice_.origin_m[a]) / lattice_.cell_m));
-    }
+    const Place from = place_of(low, part), to = place_of(high, part);
     for (Place at = from; at[2] <= to[2]; ++at[2])
       for (at[1] = from[1]; at[1] <= to[1]; ++at[1])
         for (at[0] = from[0]; at[0] <= to[0]; ++at[0]) {
@@ -451,10 +482,8 @@ std::size_t CutLattice::components() const {
   return count;
 }
 
-std::int32_t CutLattice::cell_for(const Vec3& probe) const {
-  const Vec3 at = (probe - lattice_.origin_m) / lattice_.cell_m;
-  const Place here{static_cast<std::int32_t>(std::floor(at[0])), static_cast<std::int32_t>(std::floor(at[1])),
-                   static_cast<std::int32_t>(std::floor(at[2]))};
+std::int32_t CutLattice::cell_for(const Vec3& probe, std::int32_t part) const {
+  const Place here = place_of(probe, part);
   // The nearest cube of the block there, else of those beside it, that no sheet stands before.
   struct Candidate {
     double distance;
@@ -466,15 +495,15 @@ std::int32_t CutLattice::cell_for(const Vec3& probe) const {
     std::vector<Candidate> candidates;
     for (int step = 0; step < 27; ++step) {
       if (beside == (step == 13)) continue;
-      const Place place{here[0] + step % 3 - 1, here[1] + step / 3 % 3 - 1, here[2] + step / 9 - 1};
+      const Place place{{here[0] + step % 3 - 1, here[1] + step / 3 % 3 - 1, here[2] + step / 9 - 1}, part};
       const Block* block = block_at(place);
       if (block == nullptr) continue;
       if (block->parts.size() == 1 && !beside) return block->cells.front();
-      for (std::size_t part = 0; part < block->parts.size(); ++part)
+      for (std::size_t piece = 0; piece < block->parts.size(); ++piece)
         for (int cube = 0; cube < kInCell; ++cube) {
-          if ((block->parts[part] & bit(cube)) == 0) continue;
+          if ((block->parts[piece] & bit(cube)) == 0) continue;
           const Vec3 centre = cube_centre(place, cube);
-          candidates.push_back({(centre - probe).squaredNorm(), block->cells[part], centre, block});
+          candidates.push_back({(centre - probe).squaredNorm(), block->cells[piece], centre, block});
         }
     }
     if (candidates.empty()) continue;
@@ -489,19 +518,19 @@ std::int32_t CutLattice::cell_for(const Vec3& probe) const {
   return -1;
 }
 
-void CutLattice::embed(std::size_t first_new, const std::vector<std::int32_t>& touched) {
+void CutLattice::embed(std::size_t first_new, const std::vector<std::int32_t>& touched, std::int32_t part) {
   lattice_.embedding.resize(rest_->vertices.size());
   const std::set<std::int32_t> blocks(touched.begin(), touched.end());
   for (std::size_t v = 0; v < rest_->vertices.size(); ++v) {
     Embedding& e = lattice_.embedding[v];
     if (v < first_new) {
-      const std::int32_t block = block_of_.at(lattice_.cells[static_cast<std::size_t>(e.cell)].place);
-      if (!blocks.contains(block)) continue;
+      const LatticeCell& of = lattice_.cells[static_cast<std::size_t>(e.cell)];
+      if (!blocks.contains(block_of_.at({of.place, of.part}))) continue;
     }
-    const std::int32_t cell = cell_for(probe_[v][0]), other = cell_for(probe_[v][1]);
+    const std::int32_t cell = cell_for(probe_[v][0], part), other = cell_for(probe_[v][1], part);
     if (cell < 0) continue;
     e.cell = cell;
-    const Place& place = lattice_.cells[static_cast<std::size_t>(cell)].place;
+    const auto& place = lattice_.cells[static_cast<std::size_t>(cell)].place;
     e.other =
         other >= 0 && other != cell && lattice_.cells[static_cast<std::size_t>(other)].place == place ? other : -1;
     const Vec3 local = ((rest_->vertices[v] - lattice_.origin_m) / lattice_.cell_m - Vec3(place[0], place[1], place[2]))
@@ -518,11 +547,10 @@ void CutLattice::embed(std::size_t first_new, const std::vector<std::int32_t>& t
   }
 }
 
-bool CutLattice::holds(const Vec3& place) const {
+bool CutLattice::holds(const Vec3& place, std::int32_t part) const {
   const Vec3 at = (place - lattice_.origin_m) / lattice_.cell_m;
   const Vec3 cell = at.array().floor();
-  const Block* block = block_at(
-      {static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]), static_cast<std::int32_t>(cell[2])});
+  const Block* block = block_at(place_of(place, part));
   if (block == nullptr) return false;
   const Vec3 cube = ((at - cell) * kCubes).array().floor().cwiseMin(kCubes - 1);
   return (block->inside & bit(static_cast<int>(cube.dot(Vec3(kStride[0], kStride[1], kStride[2]))))) != 0;
@@ -564,7 +592,8 @@ bool CutLattice::cut(const SurfaceCut& cut, LatticeChange& change) {
   }
 
   CutLattice next = *this;
-  std::vector<std::int32_t> touched = next.sever(sheets);
+  const std::int32_t part = part_of(cut.crossings.front().left);
+  std::vector<std::int32_t> touched = next.sever(sheets, part);
   for (const std::int32_t block : std::vector<std::int32_t>(touched)) next.sever_rest(block, touched);
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
@@ -577,6 +606,8 @@ bool CutLattice::cut(const SurfaceCut& cut, LatticeChange& change) {
   static_cast<TriangleSurface&>(*snapshot) = std::move(groove.surface);
   snapshot->topology = rest_->topology + 1;
   snapshot->inside = rest_->inside;
+  snapshot->part = rest_->part;
+  if (!snapshot->part.empty()) snapshot->part.resize(snapshot->triangles.size(), static_cast<std::uint8_t>(part));
   snapshot->inside.resize(snapshot->triangles.size(), false);
   for (const std::int32_t wall : groove.walls) snapshot->inside[static_cast<std::size_t>(wall)] = true;
   // Where each new vertex looks for its side: a little off the sheet, and into the tissue.
@@ -599,7 +630,7 @@ bool CutLattice::cut(const SurfaceCut& cut, LatticeChange& change) {
   next.before_.push_back(rest_);
   if (next.before_.size() > kRemembered) next.before_.erase(next.before_.begin());
   next.rest_ = std::move(snapshot);
-  next.embed(rest_->vertices.size(), touched);
+  next.embed(rest_->vertices.size(), touched, part);
   made.added = std::move(groove.added);
   change = std::move(made);
   *this = std::move(next);

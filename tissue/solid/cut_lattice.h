@@ -42,14 +42,22 @@ class CutLattice {
   /// As it was some cuts ago, for places that are still told in its triangles; nullptr: too long ago, or never.
   SurfacePtr rest_of(std::uint64_t topology) const;
 
-  /// Whether a place at rest lies in the tissue, to a quarter of a cell.
-  bool holds(const Vec3& place) const;
+  /// Of several organs on one grid: whose vertex it is.
+  std::int32_t part_of(std::int32_t vertex) const;
+  /// Whether a place at rest lies in the tissue of a part, to a quarter of a cell.
+  bool holds(const Vec3& place, std::int32_t part = 0) const;
+  /// How a place at rest hangs on the cell of a part that is nearest to a vertex of it: weights of a place outside the
+  /// cell go beyond 0 and 1.
+  Embedding hang(const Vec3& place, std::int32_t vertex) const;
   /// @param cut depths at rest. @return false: it would take a piece off, and nothing is done.
   /// @throws InputError as cut_groove().
   bool cut(const SurfaceCut& cut, LatticeChange& change);
 
  private:
-  using Place = std::array<std::int32_t, 3>;
+  struct Place : std::array<std::int32_t, 3> {
+    std::int32_t part = 0;  ///< places of different parts are never neighbours
+    auto operator<=>(const Place&) const = default;
+  };
   using Sheet = std::array<Vec3, 3>;  ///< a triangle
   /// The small cubes of a cell of the lattice as it was built; bit i + 4 j + 16 k.
   struct Block {
@@ -63,8 +71,8 @@ class CutLattice {
   const Block* block_at(const Place& place) const;
   void fill_blocks();
   Vec3 cube_centre(const Place& place, int cube) const;
-  /// Breaks what the sheets cross. @return numbers of the blocks with newly broken links
-  std::vector<std::int32_t> sever(std::span<const Sheet> sheets);
+  /// Breaks what the sheets cross of a part. @return numbers of the blocks with newly broken links
+  std::vector<std::int32_t> sever(std::span<const Sheet> sheets, std::int32_t part);
   /// Where half of a block's section is broken: the rest.
   void sever_rest(std::int32_t block, std::vector<std::int32_t>& touched);
   void split(std::int32_t block, LatticeChange& change);
@@ -74,9 +82,11 @@ class CutLattice {
   bool linked(const Block& a, std::size_t part_a, const Block& b, std::size_t part_b, std::size_t axis) const;
   void share_nodes(const std::vector<std::int32_t>& touched, LatticeChange& change);
   std::size_t components() const;  ///< that hang together over whole faces
-  void embed(std::size_t first_new, const std::vector<std::int32_t>& touched);
+  void embed(std::size_t first_new, const std::vector<std::int32_t>& touched, std::int32_t part);
   /// The cell of a place's own side. -1: no block there.
-  std::int32_t cell_for(const Vec3& probe) const;
+  std::int32_t cell_for(const Vec3& probe, std::int32_t part) const;
+  Place place_of(const Vec3& at_rest, std::int32_t part) const;
+  TriangleSurface surface_of(std::int32_t part) const;
 
   Lattice lattice_;
   SurfacePtr rest_;

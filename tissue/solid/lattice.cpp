@@ -27,21 +27,23 @@ struct Box {
   Place cells;
 };
 
-/// Just large enough, centred on the surface.
-Box box_round(const TriangleSurface& surface, double cell_m) {
+/// Just large enough, centred on the surface where no grid is given.
+Box box_round(const TriangleSurface& surface, double cell_m, const std::optional<Vec3>& grid_m) {
   if (!(cell_m > 0) || !std::isfinite(cell_m)) throw InputError("the lattice's cell must be longer than 0 m");
   if (surface.triangles.empty()) throw InputError("an empty surface has no lattice");
   const auto bounds = surface.bounds();
   Box box;
   double count = 1;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double cells = std::max(1.0, std::ceil(bounds.sizes()[axis] / cell_m + 1e-6));
+    const double first = grid_m ? std::floor((bounds.min()[axis] - (*grid_m)[axis]) / cell_m) : 0;
+    const double cells = grid_m ? std::floor((bounds.max()[axis] - (*grid_m)[axis]) / cell_m) + 1 - first
+                                : std::max(1.0, std::ceil(bounds.sizes()[axis] / cell_m + 1e-6));
     count *= cells;
     if (!(count <= static_cast<double>(kMostCells)))
       throw InputError("cells of " + std::to_string(cell_m * 1e3) + " mm would be more than " +
                        std::to_string(kMostCells) + " over this organ: choose a longer edge");
     box.cells[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(cells);
-    box.origin_m[axis] = bounds.center()[axis] - cells * cell_m / 2;
+    box.origin_m[axis] = grid_m ? (*grid_m)[axis] + first * cell_m : bounds.center()[axis] - cells * cell_m / 2;
   }
   return box;
 }
@@ -172,7 +174,7 @@ std::size_t count_components(const Lattice& lattice) {
 }  // namespace
 
 BuiltLattice build_lattice(const TriangleSurface& surface, const LatticeOptions& options, const LabelVolume* labels) {
-  const Box box = box_round(surface, options.cell_m);
+  const Box box = box_round(surface, options.cell_m, options.grid_m);
   report(options.progress, "filling the lattice", 0);
   const Cells counted = count_cells(surface, box, options, labels);
   BuiltLattice built;
@@ -187,6 +189,36 @@ BuiltLattice build_lattice(const TriangleSurface& surface, const LatticeOptions&
   built.facts.components = count_components(lattice);
   built.facts.volume_error_pct = (built.facts.sampled_volume_ml / (surface.volume_m3() * 1e6) - 1) * 100;
   return built;
+}
+
+Lattice beside(Lattice first, const Lattice& more) {
+  const Vec3 way = (more.origin_m - first.origin_m) / first.cell_m;
+  const Vec3 steps = way.array().round();
+  constexpr double kOffGrid = 1e-6;  // of an edge
+  if (more.cell_m != first.cell_m || (way - steps).norm() > kOffGrid)
+    throw InputError("two lattices that are laid beside each other have one edge and one grid");
+  const auto moved = [&](std::array<std::int32_t, 3> place) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      place[axis] += static_cast<std::int32_t>(steps[static_cast<Eigen::Index>(axis)]);
+    return place;
+  };
+  const auto nodes = static_cast<std::int32_t>(first.nodes.size()),
+             cells = static_cast<std::int32_t>(first.cells.size());
+  std::int32_t parts = 0;
+  for (const LatticeCell& cell : first.cells) parts = std::max(parts, cell.part + 1);
+  for (const auto& node : more.nodes) first.nodes.push_back(moved(node));
+  for (LatticeCell cell : more.cells) {
+    cell.place = moved(cell.place);
+    for (std::int32_t& corner : cell.corners) corner += nodes;
+    cell.part += parts;
+    first.cells.push_back(cell);
+  }
+  for (Embedding e : more.embedding) {
+    e.cell += cells;
+    if (e.other >= 0) e.other += cells;
+    first.embedding.push_back(e);
+  }
+  return first;
 }
 
 }  // namespace trocar

@@ -24,6 +24,7 @@ struct LatticeOptions {
   double cell_m = 0.010;  ///< edge of a cell
   double least_fill =
       0.15;  ///< cells with less are counted as this full (floored), so that none is too soft to compute
+  std::optional<Vec3> grid_m = {};  ///< a corner of the grid, which another lattice lies on; none: just round the organ
   Progress progress = {};
 };
 
@@ -32,6 +33,7 @@ struct LatticeCell {
   std::array<std::int32_t, 8> corners{};  ///< nodes; corner bits 1 = +x, 2 = +y, 4 = +z
   double fill = 0;                        ///< share of the cell inside the surface, floored at least_fill
   std::int32_t label = 0;                 ///< of most of its samples; 0 where no label map was given
+  std::int32_t part = 0;                  ///< of several organs on one grid: whose; no file keeps it
 };
 
 struct Embedding {
@@ -75,6 +77,10 @@ struct BuiltLattice {
 /// @throws InputError when the cell is too small (more than 500 000 cells) or not positive
 BuiltLattice build_lattice(const TriangleSurface& surface, const LatticeOptions& options,
                            const LabelVolume* labels = nullptr);
+
+/// Both on one grid, as parts that share no node: cells, nodes and vertices of `more` behind those of the first.
+/// @param more built with a corner of the first's grid. @throws InputError: another edge or another grid
+Lattice beside(Lattice first, const Lattice& more);
 
 /// The file's bytes (magic "TROCLAT1", little endian, sha256-stable).
 std::string lattice_bytes(const Lattice& lattice);

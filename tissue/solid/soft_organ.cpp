@@ -47,7 +47,7 @@ std::vector<Vec3> node_places(const Lattice& lattice) {
 
 std::vector<SoftCell> soft_cells(const Lattice& lattice) {
   std::vector<SoftCell> out;
-  for (const LatticeCell& cell : lattice.cells) out.push_back({cell.corners, cell.fill, 0});
+  for (const LatticeCell& cell : lattice.cells) out.push_back({cell.corners, cell.fill, cell.part});
   return out;
 }
 
@@ -88,36 +88,51 @@ struct SoftOrgan::Pressed {
 
 SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const TissueSolid& material,
                      const SoftOrganOptions& options)
-    : material_(material),
-      options_(options),
+    : SoftOrgan(lattice, rest_T, std::span(&material, 1), options) {}
+
+SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, std::span<const TissueSolid> materials,
+                     const SoftOrganOptions& options, const std::optional<BedOptions>& bed)
+    : options_(options),
       lattice_(lattice, rest_T),
       embedded_(lattice, rest_T),
-      solid_(node_places(lattice), soft_cells(lattice), std::span(&material, 1), options.solid),
+      solid_(node_places(lattice), soft_cells(lattice), materials, options.solid),
       surface_(embedded_.at(solid_.position())),
-      felt_(surface_->vertices),
-      relaxed_share_(relaxed_share(material, options.solid.step_s)) {
-  const double left = 1 - material.prony[0].share - material.prony[1].share;
-  for (std::size_t i = 0; i < memory_.held.size(); ++i) {
-    const PronyBranch& branch = material.prony[i];
-    memory_.gain[i] = branch.share / left;
-    memory_.keep[i] = branch.tau_s / (branch.tau_s + options.solid.step_s);
+      felt_(surface_->vertices) {
+  for (const TissueSolid& material : materials) {
+    Part& made = parts_.emplace_back(Part{material, relaxed_share(material, options.solid.step_s)});
+    const double left = 1 - material.prony[0].share - material.prony[1].share;
+    for (std::size_t i = 0; i < made.gain.size(); ++i) {
+      const PronyBranch& branch = material.prony[i];
+      made.gain[i] = branch.share / left;
+      made.keep[i] = branch.tau_s / (branch.tau_s + options.solid.step_s);
+    }
   }
+  part_of_node_.assign(lattice.nodes.size(), 0);
+  for (const LatticeCell& cell : lattice.cells)
+    for (const std::int32_t node : cell.corners) part_of_node_[static_cast<std::size_t>(node)] = cell.part;
+  support();
+  if (bed && materials.size() > 1) bed_.emplace(lattice_, *bed, std::min(materials[0].young_pa, materials[1].young_pa));
+  stiffness_ = 1 / half_space_compliance(parts_.front(), 0);
+  energy_ = solid_.energy_j();
+}
+
+void SoftOrgan::support() {
   for (const auto& triangle : rest()->triangles) {
     const Vec3 a = rest()->vertices[static_cast<std::size_t>(triangle[0])];
     const Vec3 ab = rest()->vertices[static_cast<std::size_t>(triangle[1])] - a;
     const Vec3 ac = rest()->vertices[static_cast<std::size_t>(triangle[2])] - a;
     const Vec3 twice = ab.cross(ac);
     longest_edge_m_ = std::max({longest_edge_m_, ab.norm(), ac.norm()});
-    if (twice.z() >= options.bed_cosine * twice.norm()) continue;
+    const bool first = lattice_.part_of(triangle[0]) == 0;
+    if (first && twice.z() >= options_.bed_cosine * twice.norm()) continue;
+    const double per_area = first ? options_.bed_n_per_m3 : options_.tether_n_per_m3;
     for (const std::int32_t vertex : triangle) {
       const Embedding& e = lattice_.lattice().embedding[static_cast<std::size_t>(vertex)];
       const LatticeCell& cell = lattice_.lattice().cells[static_cast<std::size_t>(e.cell)];
       for (std::size_t k = 0; k < 8; ++k)
-        solid_.hold(cell.corners[k], options.bed_n_per_m3 * twice.norm() / 6 * static_cast<double>(e.weights[k]));
+        solid_.hold(cell.corners[k], per_area * twice.norm() / 6 * static_cast<double>(e.weights[k]));
     }
   }
-  stiffness_ = 1 / half_space_compliance(0);
-  energy_ = solid_.energy_j();
 }
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
@@ -185,13 +200,14 @@ OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
   TracedCut traced = trace_cut(*surface_, blade, options);
   OrganCut out{traced.refusal, traced.length_m, traced.depth_m, traced.area_m2};
   if (out.refusal != CutRefusal::kNone) return out;
+  const std::int32_t part = lattice_.part_of(traced.cut.crossings.front().left);
   for (CutCrossing& crossing : traced.cut.crossings) {
     crossing.depth_m = turned_to_rest({crossing.triangle, {1, 0, 0}}, crossing.depth_m);
     const Vec3 left = rest()->vertices[static_cast<std::size_t>(crossing.left)];
     const Vec3 lip = left + crossing.share * (rest()->vertices[static_cast<std::size_t>(crossing.right)] - left);
     // No deeper than the organ: a groove has a bottom.
     int shortenings = 0;
-    while (!lattice_.holds(lip + kBelowBottom * crossing.depth_m) && shortenings++ < kShortenings)
+    while (!lattice_.holds(lip + kBelowBottom * crossing.depth_m, part) && shortenings++ < kShortenings)
       crossing.depth_m /= 2;
     if (shortenings > kShortenings) return out.refusal = CutRefusal::kThrough, out;
     out.middle_rest_T += (lip + crossing.depth_m) / static_cast<double>(traced.cut.crossings.size());
@@ -205,6 +221,8 @@ OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
     cells.push_back({number, parent, cell.corners, cell.fill});
   }
   if (!cells.empty()) solid_.sever(change.node_parent, cells);
+  part_of_node_.resize(part_of_node_.size() + change.node_parent.size(), part);
+  if (bed_) bed_->follow_cut(lattice_);
   cuts_.push_back(cut_bytes(traced.cut));
   added_ = std::move(change.added);
   embedded_ = EmbeddedSurface(lattice_.lattice(), lattice_.rest());
@@ -214,7 +232,7 @@ OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
   felt_.resize(surface_->vertices.size());
   std::copy(surface_->vertices.begin() + static_cast<std::ptrdiff_t>(known), surface_->vertices.end(),
             felt_.begin() + static_cast<std::ptrdiff_t>(known));
-  energy_ = solid_.energy_j();
+  energy_ = solid_.energy_j() + (bed_ ? bed_->energy_j() : 0);
   return out;
 }
 
@@ -222,14 +240,16 @@ Vec3 SoftOrgan::place_at(const MaterialPoint& place, std::span<const Vec3> verti
   return place_at_corners(place.weight, rest()->triangles[static_cast<std::size_t>(place.triangle)], vertices);
 }
 
-double SoftOrgan::contact_radius(double force_n) const {
+double SoftOrgan::contact_radius(const Part& of, double force_n) const {
   const double radius = options_.tool_radius_m;
-  return std::clamp(std::cbrt(0.75 * std::max(0.0, force_n) * radius / plane_modulus(material_)), kLeastContact,
+  return std::clamp(std::cbrt(0.75 * std::max(0.0, force_n) * radius / plane_modulus(of.material)), kLeastContact,
                     std::max(kLeastContact, radius));
 }
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) const {
-  const double reach = kSpread * contact_radius(force_n), whole = 2.0 / 3 * std::numbers::pi * reach * reach;
+  const std::int32_t own = part_of(place.triangle);
+  const double reach = kSpread * contact_radius(part(place.triangle), force_n),
+               whole = 2.0 / 3 * std::numbers::pi * reach * reach;
   const Vec3 middle = place_at(place, rest()->vertices);
   std::vector<std::pair<std::int32_t, double>> sum;
   double given = 0;
@@ -243,6 +263,7 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) cons
     std::array<Vec3, 3> corner;
     const Vec3& first = rest()->vertices[static_cast<std::size_t>(rest()->triangles[t][0])];
     if ((first - middle).squaredNorm() > (reach + longest_edge_m_) * (reach + longest_edge_m_)) continue;
+    if (part_of(static_cast<std::int32_t>(t)) != own) continue;
     for (std::size_t k = 0; k < 3; ++k) corner[k] = rest()->vertices[static_cast<std::size_t>(rest()->triangles[t][k])];
     const double area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / (kParts * kParts);
     // The centres of the triangle's equal parts, those that stand and those that hang.
@@ -268,20 +289,20 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) cons
   return out;
 }
 
-double SoftOrgan::half_space_compliance(double force_n) const {
-  return 1 / (2 * plane_modulus(material_) * contact_radius(force_n));
+double SoftOrgan::half_space_compliance(const Part& of, double force_n) const {
+  return 1 / (2 * plane_modulus(of.material) * contact_radius(of, force_n));
 }
 
-double SoftOrgan::half_space_depth(double force_n) const {
-  const double modulus = plane_modulus(material_), radius = options_.tool_radius_m;
+double SoftOrgan::half_space_depth(const Part& of, double force_n) const {
+  const double modulus = plane_modulus(of.material), radius = options_.tool_radius_m;
   // Linear below the least and above the greatest contact, tangent to Hertz' law at both.
-  const double bounded = contact_radius(force_n);
+  const double bounded = contact_radius(of, force_n);
   const double there = 4.0 / 3 * modulus * bounded * bounded * bounded / radius;
   return bounded * bounded / radius + (force_n - there) / (2 * modulus * bounded);
 }
 
-double SoftOrgan::sub_cell_compliance(double force_n) const {
-  const double half_space = half_space_compliance(force_n);
+double SoftOrgan::sub_cell_compliance(const Part& of, double force_n) const {
+  const double half_space = half_space_compliance(of, force_n);
   return std::max(kLeastSubCell * half_space, half_space - sub_cell_);
 }
 
@@ -289,9 +310,9 @@ double SoftOrgan::elastic_part(double force_n) const {
   return std::max(0.0, force_n - memory_.held[0] - memory_.held[1]);
 }
 
-double SoftOrgan::Memory::carried() const {
+double SoftOrgan::Memory::carried(const Part& of) const {
   double sum = 0;
-  for (std::size_t i = 0; i < held.size(); ++i) sum += keep[i] * (held[i] - gain[i] * elastic_n);
+  for (std::size_t i = 0; i < held.size(); ++i) sum += of.keep[i] * (held[i] - of.gain[i] * elastic_n);
   return sum;
 }
 
@@ -301,13 +322,16 @@ void SoftOrgan::remember(std::span<const Pressed> pressed) {
   const bool touching = strongest != pressed.end() && strongest->force > 0;
   if (touching) {
     const Vec3 rest = place_at(strongest->place, lattice_.rest()->vertices);
-    if ((rest - memory_.rest_T).norm() > kOtherPlace) memory_.held = {}, memory_.elastic_n = 0;
+    const std::int32_t on = part_of(strongest->place.triangle);
+    if ((rest - memory_.rest_T).norm() > kOtherPlace || on != memory_.part) memory_.held = {}, memory_.elastic_n = 0;
     memory_.rest_T = rest;
+    memory_.part = on;
   }
+  const Part& of = parts_[static_cast<std::size_t>(memory_.part)];
   const double elastic =
-      touching ? std::max(0.0, relaxed_share_ * (strongest->force / strongest->share - memory_.carried())) : 0;
+      touching ? std::max(0.0, of.relaxed_share * (strongest->force / strongest->share - memory_.carried(of))) : 0;
   for (std::size_t i = 0; i < memory_.held.size(); ++i)
-    memory_.held[i] = memory_.keep[i] * (memory_.held[i] + memory_.gain[i] * (elastic - memory_.elastic_n));
+    memory_.held[i] = of.keep[i] * (memory_.held[i] + of.gain[i] * (elastic - memory_.elastic_n));
   memory_.elastic_n = elastic;
 }
 
@@ -335,7 +359,7 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
     p.force = std::max(0.0, contact.force_T.dot(contact.normal_T));
     p.shares = shares_of(*place, elastic_part(p.force / p.share));
     p.tangential = contact.force_T - contact.force_T.dot(contact.normal_T) * contact.normal_T;
-    p.stiffness = p.share / sub_cell_compliance(elastic_part(p.force / p.share));
+    p.stiffness = p.share / sub_cell_compliance(part(place->triangle), elastic_part(p.force / p.share));
     pressed.push_back(std::move(p));
   }
   return pressed;
@@ -348,7 +372,9 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   for (const Pressed& p : pressed) {
     // Elastic force linear about that of the last tick, k (d - d0) + F0; with what the branches take of its change.
     const double whole = elastic_part(p.force / p.share), slope = p.stiffness / p.share;
-    const double depth0 = half_space_depth(whole) - whole * (half_space_compliance(whole) - 1 / slope);
+    const Part& of = part(p.place.triangle);
+    const double carried = part_of(p.place.triangle) == memory_.part ? memory_.carried(of) : 0;
+    const double depth0 = half_space_depth(of, whole) - whole * (half_space_compliance(of, whole) - 1 / slope);
     // The place as the middle of all that is pressed has moved.
     Vec3 there = place_at(p.place, rest()->vertices);
     for (std::size_t i = 0; i < p.shares.node.size(); ++i) {
@@ -356,8 +382,8 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
       there += static_cast<double>(p.shares.share[i]) * (solid_.position()[n] - solid_.rest()[n]).cast<double>();
     }
     const double depth = p.normal.dot(there - p.tool);
-    springs.push_back({p.shares, p.normal, p.stiffness / relaxed_share_,
-                       depth - depth0 + whole / slope + relaxed_share_ * memory_.carried() / slope, true, 0});
+    springs.push_back({p.shares, p.normal, p.stiffness / of.relaxed_share,
+                       depth - depth0 + whole / slope + of.relaxed_share * carried / slope, true, 0});
   }
   for (const Pressed& p : pressed) {
     const double drag = p.tangential.norm();
@@ -367,9 +393,11 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   }
   const std::size_t own = springs.size();
   springs.insert(springs.end(), more.begin(), more.end());
+  if (bed_) bed_->bind(lattice_, *surface_, solid_);
   solid_.step(springs);
+  if (bed_) bed_->wear(solid_, options_.solid.step_s);
   for (std::size_t s = own; s < springs.size(); ++s) more[s - own].force_n = springs[s].force_n;
-  const double before = std::exchange(energy_, solid_.energy_j());
+  const double before = std::exchange(energy_, solid_.energy_j() + (bed_ ? bed_->energy_j() : 0));
   given_ = std::max(0.0, before - energy_);
   force_ = 0;
   for (std::size_t i = 0; i < pressed.size(); ++i) force_ += pressed[i].force = springs[i].force_n;
@@ -378,7 +406,7 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   find_felt(pressed, tip_T);
 }
 
-Pose SoftOrgan::motion_round(const Vec3& rest_T) const {
+Pose SoftOrgan::motion_round(const Vec3& rest_T, std::int32_t part) const {
   // Weighted by a shell at the neighbourhood's edge, where the dent has died away (Kabsch 1976).
   const auto rest = solid_.rest(), position = solid_.position();
   double sum = 0;
@@ -386,7 +414,7 @@ Pose SoftOrgan::motion_round(const Vec3& rest_T) const {
   std::vector<std::pair<std::size_t, double>> shell;
   for (std::size_t n = 0; n < lattice_.lattice().nodes.size(); ++n) {
     const double r = (rest[n].cast<double>() - rest_T).norm() / options_.neighbourhood_m;
-    if (r >= kShellEnd) continue;
+    if (r >= kShellEnd || part_of_node_[n] != part) continue;
     const double weight = r * r * (kShellEnd - r);
     shell.emplace_back(n, weight);
     from += weight * rest[n].cast<double>();
@@ -408,30 +436,40 @@ Pose SoftOrgan::motion_round(const Vec3& rest_T) const {
 
 void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
   felt_ = surface_->vertices;
-  std::vector<std::pair<Vec3, Pose>> dents;
+  struct Dent {
+    Vec3 rest;
+    std::int32_t part;
+    Pose motion;
+  };
+  std::vector<Dent> dents;
   for (const MaterialPoint& place : places) {
     const Vec3 rest = place_at(place, lattice_.rest()->vertices);
-    dents.emplace_back(rest, motion_round(rest));
+    const std::int32_t part = part_of(place.triangle);
+    dents.push_back({rest, part, motion_round(rest, part)});
   }
   const double inner = kWholeDent * options_.neighbourhood_m, outer = kShellEnd * options_.neighbourhood_m;
   for (std::size_t v = 0; v < felt_.size(); ++v) {
     const Vec3& rest = lattice_.rest()->vertices[v];
-    const auto nearest = std::min_element(dents.begin(), dents.end(), [&](const auto& a, const auto& b) {
-      return (a.first - rest).squaredNorm() < (b.first - rest).squaredNorm();
-    });
-    const double along = std::clamp((outer - (nearest->first - rest).norm()) / (outer - inner), 0.0, 1.0);
-    if (along > 0) felt_[v] += along * along * (3 - 2 * along) * (nearest->second * rest - felt_[v]);
+    const std::int32_t part = lattice_.part_of(static_cast<std::int32_t>(v));
+    const Dent* nearest = nullptr;
+    for (const Dent& dent : dents)
+      if (dent.part == part &&
+          (nearest == nullptr || (dent.rest - rest).squaredNorm() < (nearest->rest - rest).squaredNorm()))
+        nearest = &dent;
+    if (nearest == nullptr) continue;
+    const double along = std::clamp((outer - (nearest->rest - rest).norm()) / (outer - inner), 0.0, 1.0);
+    if (along > 0) felt_[v] += along * along * (3 - 2 * along) * (nearest->motion * rest - felt_[v]);
   }
 }
 
-double SoftOrgan::compliance_at(const NodeShares& place, const Vec3& direction, double force_n) {
+double SoftOrgan::compliance_at(const Part& of, const NodeShares& place, const Vec3& direction, double force_n) {
   const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
   if (looks_++ % kStillEvery == 0) {
-    const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / relaxed_share_;
-    sub_cell_ =
-        still + far_share(material_.poisson) / (std::numbers::pi * plane_modulus(material_) * options_.neighbourhood_m);
+    const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / of.relaxed_share;
+    sub_cell_ = still + far_share(of.material.poisson) /
+                            (std::numbers::pi * plane_modulus(of.material) * options_.neighbourhood_m);
   }
-  return relaxed_share_ * sub_cell_compliance(elastic_part(force_n)) + answer;
+  return of.relaxed_share * sub_cell_compliance(of, elastic_part(force_n)) + answer;
 }
 
 double SoftOrgan::loop_stiffness(const NodeShares& place, const Vec3& direction, double spring_n_per_m) const {
@@ -465,8 +503,12 @@ void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   undo_dents(places);
   const Vec3 way = *tip_T - place_at(places.front(), surface_->vertices);
   const Vec3 direction = touching ? strongest->normal : way.norm() > kLeastContact ? way.normalized() : Vec3::UnitZ();
-  const double compliance = touching ? compliance_at(strongest->shares, direction, strongest->force / strongest->share)
-                                     : compliance_at(shares_of(places.front(), 0), direction, 0);
+  const MaterialPoint& place = touching ? strongest->place : places.front();
+  if (part_of(place.triangle) != looked_at_) looks_ = 0, looked_at_ = part_of(place.triangle);
+  const Part& of = part(place.triangle);
+  const double compliance = touching
+                                ? compliance_at(of, strongest->shares, direction, strongest->force / strongest->share)
+                                : compliance_at(of, shares_of(place, 0), direction, 0);
   stiffness_ = std::min(options_.most_stiffness_n_per_m, 1 / compliance);
   // Where the loop's linear law would give another force at the tool's place, all of it moves by the difference.
   Vec3 displaced = Vec3::Zero(), shift = Vec3::Zero();

@@ -10,6 +10,9 @@
 // At the place of the solve the loop's force then is the solved one whatever that stiffness is; it is never softer than
 // the truth (tissue.md 2.4). docs/tissue.md tells why.
 //
+// Two organs may be parts of one: their lattices beside each other (lattice.h), their closed surfaces one behind the
+// other, each part of its own material, bound by a bed (organ_bed.h) and solved together.
+//
 // Frame T, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
 
@@ -26,6 +29,7 @@
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"
+#include "tissue/solid/organ_bed.h"
 #include "tissue/solid/soft_solid.h"
 #include "tissue/solid/tissue_material.h"
 #include "tissue/surface_snapshot.h"
@@ -37,6 +41,7 @@ struct SoftOrganOptions {
   double tool_radius_m = 0.0025;
   double bed_n_per_m3 = 2e5;            ///< support of what faces down, per area: 5 kPa at 25 mm; a choice
   double bed_cosine = -0.2;             ///< faces whose normal's z is below it lie on the bed
+  double tether_n_per_m3 = 2e3;         ///< per area of a second part: what brings it back, some N/m; a choice
   double neighbourhood_m = 0.030;       ///< radius of the clamped neighbourhood
   double most_stiffness_n_per_m = 250;  ///< K_max of the loop, in scene newtons
 };
@@ -58,6 +63,10 @@ class SoftOrgan {
   /// @param lattice over the surface at rest, of the edge that the options name.
   SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, const TissueSolid& material,
             const SoftOrganOptions& options);
+  /// Of several parts. @param materials by part. @param bed between the first two; none: they do not know each other
+  /// @throws InputError: a part without a material, surfaces that do not face each other.
+  SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, std::span<const TissueSolid> materials,
+            const SoftOrganOptions& options, const std::optional<BedOptions>& bed = std::nullopt);
 
   /// One step of options.solid.step_s.
   /// @param contacts of the newest tick; those on triangles beyond the organ's are left out
@@ -88,7 +97,13 @@ class SoftOrgan {
 
   std::uint64_t topology() const { return surface_->topology; }
   const SurfacePtr& rest() const { return lattice_.rest(); }
-  const TissueSolid& material() const { return material_; }
+  /// Of the part that a triangle belongs to.
+  const TissueSolid& material(std::int32_t triangle) const { return part(triangle).material; }
+  std::int32_t part_of(std::int32_t triangle) const {
+    return lattice_.part_of(rest()->triangles[static_cast<std::size_t>(triangle)][0]);
+  }
+  OrganBed* bed() { return bed_ ? &*bed_ : nullptr; }  ///< nullptr: none
+  const OrganBed* bed() const { return bed_ ? &*bed_ : nullptr; }
   NodeShares shares_of(const MaterialPoint& place) const;
   /// Of a spring that holds on to a place, as the loop may render it within a step, N/m.
   double loop_stiffness(const NodeShares& place, const Vec3& direction, double spring_n_per_m) const;
@@ -101,16 +116,23 @@ class SoftOrgan {
 
  private:
   struct Pressed;
+  struct Part {
+    TissueSolid material;
+    double relaxed_share = 1;  ///< long-term modulus over that of a step
+    // The sub-cell law relaxes as the solid does: its branches hold forces s_i <- a_i (s_i + g_i / g_inf dF).
+    std::array<double, 2> gain{}, keep{};  ///< g_i / g_inf; a_i
+  };
+  const Part& part(std::int32_t triangle) const { return parts_[static_cast<std::size_t>(part_of(triangle))]; }
   /// The same of all that a tool presses there with this force.
   NodeShares shares_of(const MaterialPoint& place, double force_n) const;
   /// Of the tool with a half-space, m.
-  double contact_radius(double force_n) const;
+  double contact_radius(const Part& of, double force_n) const;
   Vec3 place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const;
   /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
-  double half_space_compliance(double force_n) const;
-  double half_space_depth(double force_n) const;
+  double half_space_compliance(const Part& of, double force_n) const;
+  double half_space_depth(const Part& of, double force_n) const;
   /// Of that what the lattice does not have, m/N. @param force_n elastic
-  double sub_cell_compliance(double force_n) const;
+  double sub_cell_compliance(const Part& of, double force_n) const;
   /// What of a contact's force its branches do not hold, N.
   double elastic_part(double force_n) const;
   void remember(std::span<const Pressed> pressed);
@@ -119,37 +141,40 @@ class SoftOrgan {
   MaterialPoint place_now(const MaterialPoint& before, const SurfaceSnapshot& old) const;
   /// A direction of the organ as it lies now, back at rest.
   Vec3 turned_to_rest(const MaterialPoint& place, const Vec3& vector_T) const;
-  /// How the neighbourhood of a place has moved as a whole, from its rest.
-  Pose motion_round(const Vec3& rest_T) const;
+  /// How the neighbourhood of a place has moved as a whole, from its rest, with its part.
+  Pose motion_round(const Vec3& rest_T, std::int32_t part) const;
   /// The surface with the neighbourhoods of these places at rest, carried along as a whole.
   void undo_dents(std::span<const MaterialPoint> places);
   /// Of the place within a step of the loop, m/N. Keeps what the lattice has of it for the next solve.
-  double compliance_at(const NodeShares& place, const Vec3& direction, double force_n);
+  double compliance_at(const Part& of, const NodeShares& place, const Vec3& direction, double force_n);
+  void support();  ///< springs to the outside
   void find_felt(std::span<const Pressed> pressed, const Vec3* tip_T);
 
-  TissueSolid material_;
+  std::vector<Part> parts_;
   SoftOrganOptions options_;
   CutLattice lattice_;
   EmbeddedSurface embedded_;
   SoftSolid solid_;
+  std::vector<std::int32_t> part_of_node_;
+  std::optional<OrganBed> bed_;
   std::vector<std::string> cuts_;
   std::vector<VertexOrigin> added_;
   std::vector<ShapeField> fields_;
   SurfacePtr surface_;
   std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
-  double energy_ = 0;  ///< of the solid after the last step, J
-  /// The sub-cell law relaxes as the solid does: its branches hold forces s_i <- a_i (s_i + g_i / g_inf dF).
+  double energy_ = 0;  ///< of solid and bed after the last step, J
   struct Memory {
-    std::array<double, 2> held{}, gain{}, keep{};  ///< N; g_i / g_inf; a_i
-    double elastic_n = 0;                          ///< of the last step
-    Vec3 rest_T = Vec3::Zero();                    ///< place of the strongest contact, at rest
-    double carried() const;                        ///< N that the next step begins with beside its own elastic force
+    std::array<double, 2> held{};          ///< N, by the branches
+    double elastic_n = 0;                  ///< of the last step
+    Vec3 rest_T = Vec3::Zero();            ///< place of the strongest contact, at rest
+    std::int32_t part = 0;                 ///< on which it lies
+    double carried(const Part& of) const;  ///< N that the next step begins with beside its own elastic force
   };
   Memory memory_;
-  int looks_ = 0;              ///< of compliance_at()
+  int looks_ = 0;  ///< of compliance_at(), on one part
+  std::int32_t looked_at_ = 0;
   double longest_edge_m_ = 0;  ///< from a triangle's first corner
-  double relaxed_share_ = 1;   ///< long-term modulus over that of a step
   double sub_cell_ = 0;        ///< compliance that the lattice already has at the last place, long-term, m/N
 };
 

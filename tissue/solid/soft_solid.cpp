@@ -125,7 +125,7 @@ void SoftSolid::add_groups() {
 void SoftSolid::resize_rows() {
   const std::size_t count = rest_.size();
   for (auto* rows : {&right_, &residual_, &direction_, &product_, &solution_}) rows->assign(count, NodeRow{});
-  for (auto* values : {&stiffness_diagonal_, &shift_, &inverse_}) values->assign(count, 0);
+  for (auto* values : {&stiffness_diagonal_, &shift_, &inverse_, &tie_diagonal_}) values->assign(count, 0);
 }
 
 void SoftSolid::find_levels() {
@@ -488,9 +488,33 @@ TROCAR_LANES_CLONED Remainder go_along(float alpha, const std::vector<NodeRow>& 
 
 }  // namespace
 
+void SoftSolid::add_ties(const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const {
+  for (const SoftTie& tie : ties_) {
+    if (tie.all_n_per_m == 0 && tie.along_n_per_m == 0) continue;
+    Row apart{};
+    for (std::size_t i = 0; i < SoftTie::kNodes; ++i)
+      apart += tie.share[i] * row(in[static_cast<std::size_t>(tie.node[i])]);
+    const Row normal{tie.normal[0], tie.normal[1], tie.normal[2], 0};
+    const Row across = normal * apart;
+    const Row force = tie.all_n_per_m * apart + tie.along_n_per_m * (across[0] + across[1] + across[2]) * normal;
+    for (std::size_t i = 0; i < SoftTie::kNodes; ++i) {
+      NodeRow& to = out[static_cast<std::size_t>(tie.node[i])];
+      set(to, row(to) + tie.share[i] * force);
+    }
+  }
+}
+
+Vec3f SoftSolid::apart(const SoftTie& tie) const {
+  Vec3f sum = Vec3f::Zero();
+  for (std::size_t i = 0; i < SoftTie::kNodes; ++i)
+    sum += tie.share[i] * position_[static_cast<std::size_t>(tie.node[i])];
+  return sum;
+}
+
 void SoftSolid::add_stiffness(std::span<const SoftSpring> springs, const std::vector<bool>& active,
                               const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const {
   add_product(in, out, all_groups_);
+  add_ties(in, out);
   for (std::size_t s = 0; s < springs.size(); ++s) {
     if (!active[s]) continue;
     const Vec3f direction = springs[s].direction.cast<float>();
@@ -511,10 +535,20 @@ void SoftSolid::set_right(std::span<const SoftSpring> springs, const std::vector
     const auto force = static_cast<float>(-springs[s].stiffness_n_per_m * springs[s].stretch_m);
     spread(springs[s].place, per_step * force * springs[s].direction.cast<float>(), right_);
   }
+  for (const SoftTie& tie : ties_)
+    for (std::size_t i = 0; i < SoftTie::kNodes; ++i)
+      for (Eigen::Index c = 0; c < kAxes; ++c)
+        right_[static_cast<std::size_t>(tie.node[i])].at[c] += per_step * tie.share[i] * tie.force_n[c];
 }
 
 void SoftSolid::set_inverse(std::span<const SoftSpring> springs, const std::vector<bool>& active) {
-  for (std::size_t n = 0; n < rest_.size(); ++n) inverse_[n] = stiffness_diagonal_[n] + shift_[n];
+  std::fill(tie_diagonal_.begin(), tie_diagonal_.end(), 0.0F);
+  for (const SoftTie& tie : ties_) {
+    const float stiffness = tie.all_n_per_m + tie.along_n_per_m / kAxes;
+    for (std::size_t i = 0; i < SoftTie::kNodes; ++i)
+      tie_diagonal_[static_cast<std::size_t>(tie.node[i])] += stiffness * tie.share[i] * tie.share[i];
+  }
+  for (std::size_t n = 0; n < rest_.size(); ++n) inverse_[n] = stiffness_diagonal_[n] + shift_[n] + tie_diagonal_[n];
   levels_.reset();
   for (std::size_t s = 0; s < springs.size(); ++s) {
     if (!active[s]) continue;
@@ -588,6 +622,12 @@ void SoftSolid::step(std::span<SoftSpring> springs) {
   }
   for (SoftSpring& spring : springs)
     if (spring.pushes_only) spring.force_n = std::max(0.0, spring.force_n);
+  for (SoftTie& tie : ties_) {
+    Vec3f gained = Vec3f::Zero();
+    for (std::size_t i = 0; i < SoftTie::kNodes; ++i)
+      gained += h * tie.share[i] * velocity_next_[static_cast<std::size_t>(tie.node[i])];
+    tie.force_n -= tie.all_n_per_m * gained + tie.along_n_per_m * tie.normal.dot(gained) * tie.normal;
+  }
   for (std::size_t n = 0; n < rest_.size(); ++n) position_[n] += h * velocity_next_[n];
   velocity_before_ = velocity_;
   velocity_ = velocity_next_;
@@ -678,7 +718,7 @@ double SoftSolid::compliance(const NodeShares& place, const Vec3& direction, dou
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::size_t n = index(nodes[i]);
     shift[i] = support_[n] + weight * mass_[n];
-    inverse[i] = 1 / (stiffness_diagonal_[n] + shift[i]);
+    inverse[i] = 1 / (stiffness_diagonal_[n] + shift[i] + tie_diagonal_[n]);
     set(d[n], inverse[i] * row(r[n]));
     rho += sum_of(row(r[n]) * row(d[n]));
   }
@@ -688,6 +728,7 @@ double SoftSolid::compliance(const NodeShares& place, const Vec3& direction, dou
       for (const auto& corner : groups_[index(g)].node)
         for (const std::int32_t n : corner) product[index(n)] = {};
     add_product(d, product, groups);
+    add_ties(d, product);
     double curvature = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const std::size_t n = index(nodes[i]);

@@ -69,6 +69,18 @@ struct SoftSpring {
   double force_n = 0;        ///< after the step: k stretch, along -direction on the solid
 };
 
+/// A bond between two places of the solid: what it pulls with now, and how that grows as they part. Cheaper than the
+/// three springs that it stands for, and it stays from step to step.
+struct SoftTie {
+  static constexpr std::size_t kNodes = 16;  ///< eight of each place
+  std::array<std::int32_t, kNodes> node{};
+  std::array<float, kNodes> share{};  ///< > 0 of the one place, < 0 of the other, sum 0; all 0: no bond
+  Vec3f normal = Vec3f::UnitZ();      ///< unit
+  float all_n_per_m = 0;              ///< in every direction, and
+  float along_n_per_m = 0;            ///< along the normal besides
+  Vec3f force_n = Vec3f::Zero();      ///< on the one place, its opposite on the other: before the step, then after it
+};
+
 class SoftSolid {
  public:
   /// @param nodes rest positions. @throws InputError: a cell that is no cube of the edge, a material that is none.
@@ -92,6 +104,11 @@ class SoftSolid {
 
   /// One step. @param springs their force_n is filled in.
   void step(std::span<SoftSpring> springs = {});
+  /// Between places of the solid, from the next step on.
+  std::vector<SoftTie>& ties() { return ties_; }
+  const std::vector<SoftTie>& ties() const { return ties_; }
+  /// What the places of a tie are apart now, m.
+  Vec3f apart(const SoftTie& tie) const;
   /// Of all solves of the last step.
   int iterations() const { return iterations_; }
   /// Static equilibrium by steps without inertia; for tests and studies. @return steps taken
@@ -142,6 +159,7 @@ class SoftSolid {
   /// out += K in and what springs give, all of the matrix but what shift_ has of it.
   void add_stiffness(std::span<const SoftSpring> springs, const std::vector<bool>& active,
                      const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const;
+  void add_ties(const std::vector<NodeRow>& in, std::vector<NodeRow>& out) const;
   void predict();  ///< the guess that the solve begins with
   void set_right(std::span<const SoftSpring> springs, const std::vector<bool>& active);
   void set_inverse(std::span<const SoftSpring> springs, const std::vector<bool>& active);
@@ -159,6 +177,7 @@ class SoftSolid {
   std::vector<std::size_t> lane_;   ///< of each cell: its group's number times the lanes and its own in it
   std::vector<std::int32_t> root_;  ///< of each node: of which it was severed
   std::vector<Release> released_;
+  std::vector<SoftTie> ties_;
   std::vector<Group> groups_;
   std::vector<History> histories_;
   std::vector<std::int32_t> all_groups_;
@@ -167,7 +186,8 @@ class SoftSolid {
   NodeLevels levels_;
   std::vector<Vec3f> guess_, velocity_next_, velocity_before_, change_;
   std::vector<NodeRow> right_, residual_, direction_, product_, solution_;
-  std::vector<float> inverse_;  ///< of the diagonal with springs
+  std::vector<float> inverse_;       ///< of the diagonal with springs
+  std::vector<float> tie_diagonal_;  ///< of the last step
   int iterations_ = 0;
   bool statics_ = false;  ///< settle(): without inertia
 };

@@ -198,6 +198,8 @@ SceneView attempt_scene(const SessionView& view) {
   if (kind.on_organ) {
     out.organ = view.organ_T ? view.organ_T : view.scene.organ_T;
     out.material = view.scene.organ.material;
+    for (const Organ& other : view.scene.organ.adjacent)
+      if (other.name == view.scene.bound) out.second_material = other.material;
     out.targets = marks(view.director);
     for (const AdjacentOrgan& organ : view.scene.adjacent.organs)
       out.adjacent.push_back({organ.surface_T, organ.material});

@@ -119,8 +119,9 @@ struct AdjacentOrganView {
 };
 
 struct SceneView {
-  SurfacePtr organ;      ///< already in T; shared between frames
-  std::string material;  ///< selects the tissue look: "liver", "gallbladder", ...
+  SurfacePtr organ;             ///< already in T; shared between frames
+  std::string material;         ///< selects the tissue look: "liver", "gallbladder", ...
+  std::string second_material;  ///< of the organ's second part (SurfaceSnapshot::part); empty: it has none
   std::vector<AdjacentOrganView> adjacent;
   std::vector<TargetMark> targets;
   std::vector<SceneObject> objects;  ///< board, blocks, rings, ghost pens, port

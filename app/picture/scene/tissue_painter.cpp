@@ -110,7 +110,7 @@ std::string tissue_look(const std::string& material) {
 
 std::vector<TissuePart*> TissuePainter::parts() {
   std::vector<TissuePart*> all;
-  for (auto* one : {&organ_, &fat_, &wall_})
+  for (auto* one : {&organ_, &second_, &fat_, &wall_})
     if (*one) all.push_back(&**one);
   for (TissuePart& one : adjacent_) all.push_back(&one);
   return all;
@@ -131,8 +131,13 @@ void TissuePainter::build(const SceneView& view, const PresetTraits& traits) {
     before.clear();
     organ_.reset();
   }
-  if (!organ_ || !organ_->made_from(view.organ)) organ_.emplace(view.organ, traits.organ_triangles);
+  if (!organ_ || !organ_->made_from(view.organ)) {
+    organ_.emplace(view.organ, traits.organ_triangles);
+    second_.reset();
+    if (!surface_at_rest(view.organ)->part.empty()) second_.emplace(view.organ, traits.adjacent_triangles, 1);
+  }
   Eigen::AlignedBox3d bounds = organ_->box_at_rest();
+  if (second_) bounds.extend(second_->box_at_rest());
   for (const AdjacentOrganView* other : drawn_beside(view)) {
     const auto same = std::find_if(before.begin(), before.end(),
                                    [&](const TissuePart& part) { return part.made_from(other->surface); });
@@ -196,6 +201,7 @@ void TissuePainter::follow(const SceneView& view, bool built) {
     built = built || (stood && part.moves());
   };
   follow(*organ_, view.organ);
+  if (second_) follow(*second_, view.organ);
   std::size_t i = 0;
   for (const AdjacentOrganView* other : drawn_beside(view)) follow(adjacent_[i++], other->surface);
   if (built) {
@@ -221,6 +227,7 @@ void TissuePainter::prepare(const SceneView& view, const PresetTraits& traits) {
   }
   follow(view, build_anew);
   organ_->look = tissue_look(view.material);
+  if (second_) second_->look = tissue_look(view.second_material);
   if (fat_) fat_->look = bed_look(view);
   wall_->look = "LOOK_WALL";
   std::size_t i = 0;
@@ -254,13 +261,15 @@ void TissuePainter::prepare_decals(const SceneView& view) {
 }
 
 void TissuePainter::draw_still_shadows() {
-  if (organ_ && !organ_->moves()) organ_->gpu().draw();
+  for (auto* one : {&organ_, &second_})
+    if (*one && !(*one)->moves()) (*one)->gpu().draw();
   for (const TissuePart& one : adjacent_)
     if (!one.moves()) one.gpu().draw();
 }
 
 void TissuePainter::draw_moving_shadows() {
-  if (organ_ && organ_->moves()) organ_->gpu().draw();
+  for (auto* one : {&organ_, &second_})
+    if (*one && (*one)->moves()) (*one)->gpu().draw();
   for (const TissuePart& one : adjacent_)
     if (one.moves()) one.gpu().draw();
 }
@@ -300,7 +309,7 @@ void TissuePainter::draw_part(TissuePart& part, const ProgramBinder& bind, const
 
 void TissuePainter::draw(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics) {
   for (TissuePart& one : adjacent_) draw_part(one, bind, view, optics);
-  for (auto* one : {&organ_, &fat_, &wall_})
+  for (auto* one : {&organ_, &second_, &fat_, &wall_})
     if (*one) draw_part(**one, bind, view, optics);
   if (organ_) draw_decals(bind, view, optics);
 }

@@ -54,7 +54,7 @@ class TissuePainter {
   void draw_part(TissuePart& part, const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics);
   void draw_decals(const ProgramBinder& bind, const SceneView& view, const ScopeOptics& optics);
 
-  std::optional<TissuePart> organ_, fat_, wall_;
+  std::optional<TissuePart> organ_, second_, fat_, wall_;  ///< second_: the part that is bound to the organ
   std::vector<TissuePart> adjacent_;
   std::vector<Decal> decals_;
   std::vector<TissueMark> marks_;

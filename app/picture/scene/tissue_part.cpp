@@ -17,6 +17,28 @@ constexpr float kBesideLip = 1;          // mm from the lip that are drawn as a 
 constexpr float kDark_mm = 3;            // of depth in which a wall loses light
 constexpr float kLeftDeep = 0.30F;       // of the light, far down
 
+/// One of the parts of a surface. @param vertices of the surface, that it has
+SurfaceSnapshot part_of(const SurfaceSnapshot& surface, std::uint8_t part, std::vector<std::int32_t>& vertices) {
+  SurfaceSnapshot out;
+  std::vector<std::int32_t> number(surface.vertices.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (surface.part[t] != part) continue;
+    auto triangle = surface.triangles[t];
+    for (std::int32_t& corner : triangle) {
+      std::int32_t& now = number[static_cast<std::size_t>(corner)];
+      if (now < 0) {
+        now = static_cast<std::int32_t>(vertices.size());
+        vertices.push_back(corner);
+        out.vertices.push_back(surface.vertices[static_cast<std::size_t>(corner)]);
+      }
+      corner = now;
+    }
+    out.triangles.push_back(triangle);
+    if (!surface.inside.empty()) out.inside.push_back(surface.inside[t]);
+  }
+  return out;
+}
+
 }  // namespace
 
 TissuePart::TissuePart(PictureMesh scenery) : mesh_(std::move(scenery)) {
@@ -25,8 +47,10 @@ TissuePart::TissuePart(PictureMesh scenery) : mesh_(std::move(scenery)) {
   gpu_ = GpuMesh(mesh_);
 }
 
-TissuePart::TissuePart(const SurfacePtr& surface, std::size_t max_triangles) : rest_(surface_at_rest(surface)) {
-  const SurfaceSnapshot& rest = *surface_at_rest(surface);
+TissuePart::TissuePart(const SurfacePtr& surface, std::size_t max_triangles, std::uint8_t part)
+    : rest_(surface_at_rest(surface)) {
+  const SurfaceSnapshot& whole = *surface_at_rest(surface);
+  const SurfaceSnapshot rest = whole.part.empty() ? whole : part_of(whole, part, own_vertices_);
   seams_ = open_seams(rest);
   subdivision_.emplace(seams_.surface, max_triangles, seams_.straight);
   own_grid_.emplace(subdivision_->fine());
@@ -69,11 +93,12 @@ bool TissuePart::follow(const SurfacePtr& surface) {
   shown_ = surface;
   moves_ = moves_ || surface->rest;
   if (moves_) {
-    const TriangleSurface& fine = subdivision_->move(seams_.at_twins_too(surface->vertices));
+    const std::vector<Vec3> vertices = own(surface->vertices);
+    const TriangleSurface& fine = subdivision_->move(seams_.at_twins_too(vertices));
     grid_.emplace(fine, *own_grid_);
     steady_ = bake_vertices(fine, *grid_);
     show_cuts(steady_);
-    box_ = surface->bounds();
+    box_ = TriangleSurface{vertices, {}}.bounds();
   }
   show_fields(*surface);
   return true;
@@ -85,7 +110,7 @@ void TissuePart::show_fields(const SurfaceSnapshot& surface) {
   for (const SurfaceField& field : surface.fields) {
     const auto name = std::find(kFieldNames.begin(), kFieldNames.end(), field.name);
     if (name == kFieldNames.end()) continue;
-    const std::vector<float> values = subdivision_->spread(seams_.at_twins_too(field.value));
+    const std::vector<float> values = subdivision_->spread(seams_.at_twins_too(own(field.value)));
     fields_.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
       fields_[i][static_cast<std::size_t>(name - kFieldNames.begin())] =

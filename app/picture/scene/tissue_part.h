@@ -26,8 +26,8 @@ namespace trocar {
 class TissuePart {
  public:
   explicit TissuePart(PictureMesh scenery);
-  /// An organ at rest. @param surface not empty, wherever it is now.
-  TissuePart(const SurfacePtr& surface, std::size_t max_triangles);
+  /// An organ at rest. @param surface not empty, wherever it is now. @param part of it, where it has several
+  TissuePart(const SurfacePtr& surface, std::size_t max_triangles, std::uint8_t part = 0);
 
   /// Whether an organ's surface is this one, wherever it has moved to.
   bool made_from(const SurfacePtr& surface) const { return rest_.lock() == surface_at_rest(surface); }
@@ -73,7 +73,17 @@ class TissuePart {
   /// Walls are darker the deeper they go; places near a cut know how far its lip is.
   void show_cuts(std::vector<PictureVertex>& vertices) const;
 
+  /// Of values at the surface's vertices, those at its own.
+  template <typename Value>
+  std::vector<Value> own(const std::vector<Value>& values) const {
+    if (own_vertices_.empty()) return values;
+    std::vector<Value> out;
+    for (const std::int32_t vertex : own_vertices_) out.push_back(values[static_cast<std::size_t>(vertex)]);
+    return out;
+  }
+
   std::weak_ptr<const SurfaceSnapshot> rest_, shown_;
+  std::vector<std::int32_t> own_vertices_;  ///< of a surface of several parts; empty: all
   CutSeams seams_;
   std::optional<CurvedSubdivision> subdivision_;
   PictureMesh mesh_;

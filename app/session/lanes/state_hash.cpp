@@ -107,6 +107,9 @@ void StateHash::add_surgery(const SurgeryState& surgery) {
   for (const double value : {surgery.blood_ml, surgery.blood_ml_per_min, surgery.sucked_ml, surgery.bile_ml,
                              surgery.cut_m2, surgery.cut_m, surgery.heat_j, surgery.contact_c, surgery.refused_s})
     add(value);
+  if (surgery.bed_hurt == 0) return;  // runs without a bed, or on one that is whole, keep their hash
+  add(surgery.bed_free);
+  add(surgery.bed_hurt);
 }
 
 void StateHash::add_clips_and_drops(const TissueFrame& frame) {

@@ -211,7 +211,14 @@ void walk_clips_and_drops(Words& words, Frame& f) {
   }
 }
 
-/// What has been done to an organ follows, where something has, and behind it clips and drops, where there are some.
+template <typename Words, typename Surgery>
+void walk_bed(Words& words, Surgery& s) {
+  words.rounded(s.bed_free);
+  words.rounded(s.bed_hurt);
+}
+
+/// What has been done to an organ follows, where something has, behind it clips and drops, where there are some, and
+/// last the bed, where it is hurt.
 template <typename Words, typename Keyframe>
 void walk(Words& words, Keyframe& k) {
   walk_instrument(words, k.instrument);
@@ -226,9 +233,11 @@ void walk(Words& words, Keyframe& k) {
 std::vector<std::uint64_t> words_of(const TissueKeyframe& keyframe) {
   WordsOut words;
   walk(words, keyframe);
-  const bool more = keyframe.tissue.clip_count > 0 || keyframe.tissue.drop_count > 0;
+  const bool bed = keyframe.tissue.surgery.bed_hurt != 0;
+  const bool more = bed || keyframe.tissue.clip_count > 0 || keyframe.tissue.drop_count > 0;
   if (more || keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
   if (more) walk_clips_and_drops(words, keyframe.tissue);
+  if (bed) walk_bed(words, keyframe.tissue.surgery);
   return std::move(words.words);
 }
 
@@ -237,6 +246,7 @@ void read_words(std::span<const std::uint64_t> words, TissueKeyframe& keyframe) 
   walk(in, keyframe);
   if (!in.done()) walk_surgery(in, keyframe.tissue.surgery);
   if (!in.done()) walk_clips_and_drops(in, keyframe.tissue);
+  if (!in.done()) walk_bed(in, keyframe.tissue.surgery);
   if (!in.done()) throw InputError("words of a keyframe are left over");
 }
 

@@ -52,11 +52,13 @@ void append(const TriangleSurface& surface, std::int32_t material, AdjacentOrgan
 }  // namespace
 
 AdjacentOrgans place_adjacent_organs(const Organ& organ, const TriangleSurface& organ_T, const Pose& X_TO,
-                                     const Exercise& exercise, const MaterialTable& materials) {
+                                     const Exercise& exercise, const MaterialTable& materials,
+                                     const std::string& bound) {
   AdjacentOrgans all;
   append(organ_T, 0, all);
   const HeightField field(organ_T);
   for (const Organ& other : organ.adjacent) {
+    if (other.name == bound) continue;
     SurfacePtr surface_T = still_surface(other.surface.transformed(X_TO));
     if (covers_region(*surface_T, field, exercise.layout)) {
       all.set_aside.push_back(other.name);

@@ -31,7 +31,9 @@ struct AdjacentOrgans {
 
 /// @param organ with adjacent organs. @param organ_T placed. @param X_TO its pose
 /// @param exercise its region and the surface that it sets for the organ
+/// @param bound name of one that organ_T holds already; empty: none
 AdjacentOrgans place_adjacent_organs(const Organ& organ, const TriangleSurface& organ_T, const Pose& X_TO,
-                                     const Exercise& exercise, const MaterialTable& materials);
+                                     const Exercise& exercise, const MaterialTable& materials,
+                                     const std::string& bound = {});
 
 }  // namespace trocar

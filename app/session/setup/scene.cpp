@@ -193,6 +193,36 @@ void hang_ducts(Scene& scene, const TissueTable& tissues) {
   scene.ducts_T = drawn_tubes(scene.ducts);
 }
 
+/// Binds the neighbour that the exercise names, where this organ's scene has one that faces it.
+void bind_neighbour(Scene& scene, const TissueTable& tissues, SoftSetup& soft) {
+  const std::optional<BedPlan>& plan = scene.setup.exercise.bed;
+  if (!plan || plan->organ != scene.organ.material) return;
+  const std::vector<Organ>& others = scene.organ.adjacent;
+  const auto other =
+      std::find_if(others.begin(), others.end(), [&](const Organ& o) { return o.name == plan->neighbour; });
+  if (other == others.end()) return;
+  if (!tissues.knows(plan->material))
+    throw InputError(scene.setup.exercise.file.string() + ": bed: 'material': no tissue is called '" + plan->material +
+                     "'");
+  const TriangleSurface surface_T = other->surface.transformed(scene.placement.X_TO);
+  LatticeOptions options;
+  options.cell_m = kLatticeCell;
+  options.grid_m = soft.lattice.origin_m;
+  const Lattice both = beside(soft.lattice, build_lattice(surface_T, options).lattice);
+  const SurfacePtr both_T = both_surfaces(*scene.organ_T, surface_T);
+  const TissueSolid neighbour = stiffness_choice(tissues.find(plan->material), scene.setup.tissue);
+  BedOptions bed;
+  bed.strength_pa = plan->strength_pa;
+  bed.energy_j_per_m2 = plan->energy_j_per_m2;
+  bed.reach_m = plan->reach_m;
+  if (!faces(CutLattice(both, both_T), bed)) return;
+  soft.lattice = both;
+  soft.neighbour = neighbour;
+  soft.bed = bed;
+  scene.organ_T = both_T;
+  scene.bound = other->name;
+}
+
 /// Lays a lattice over the organ where it lies. @throws InputError: a tissue that is none.
 void soften(Scene& scene) {
   const TissueTable tissues = TissueTable::load(find_assets().assets / "tissues.toml");
@@ -207,6 +237,7 @@ void soften(Scene& scene) {
   LatticeOptions options;
   options.cell_m = kLatticeCell;
   soft->lattice = build_lattice(*scene.organ_T, options).lattice;
+  bind_neighbour(scene, tissues, *soft);
   scene.embedded = std::make_shared<EmbeddedSurface>(soft->lattice, scene.organ_T);
   scene.soft = std::move(soft);
   hang_ducts(scene, tissues);
@@ -222,7 +253,8 @@ void place(Scene& scene) {
   if (scene.setup.tissue != kStillTissue) soften(scene);
   if (scene.organ.adjacent.empty()) return;
   const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
-  scene.adjacent = place_adjacent_organs(scene.organ, *scene.organ_T, scene.placement.X_TO, exercise, materials);
+  scene.adjacent =
+      place_adjacent_organs(scene.organ, *scene.organ_T, scene.placement.X_TO, exercise, materials, scene.bound);
 }
 
 /// Organ, board, force scale, and the instruments that the exercise takes.

@@ -78,7 +78,8 @@ struct Scene {
   ExerciseLevel level;
   Organ organ;
   OrganPlacement placement;
-  SurfacePtr organ_T = still_surface({});           ///< shared by all who show it
+  SurfacePtr organ_T = still_surface({});           ///< shared by all who show it; with a bound neighbour as a part
+  std::string bound;                                ///< name of that adjacent organ; empty: none gives way with it
   std::shared_ptr<const SoftSetup> soft;            ///< how it gives way; nullptr: it stands still
   std::shared_ptr<const EmbeddedSurface> embedded;  ///< the organ on the nodes that deform; nullptr: it stands still
   std::vector<DuctSetup> ducts;                     ///< with `soft`, those that the exercise names

@@ -60,5 +60,19 @@ TEST(DuctReader, NamesTheMistakeAndItsPlace) {
   expect("organ = \"liver\"\ncarries = \"bile\"", "carries = \"bile\"", "organ");
 }
 
+TEST(BedReader, ReadsThatOfFreePlayAndNoneWhereNoneIsNamed) {
+  const std::optional<BedPlan> bed = load_exercise(kExercises / "ungraded/free-play.toml").bed;
+  ASSERT_TRUE(bed);
+  EXPECT_EQ(bed->organ, "liver");
+  EXPECT_EQ(bed->neighbour, "gallbladder");
+  EXPECT_EQ(bed->material, "filled_gallbladder");
+  EXPECT_DOUBLE_EQ(bed->strength_pa, 20e3);
+  EXPECT_DOUBLE_EQ(bed->energy_j_per_m2, 40);
+  EXPECT_DOUBLE_EQ(bed->reach_m, 0.0035);
+  EXPECT_FALSE(load_exercise(kExercises / "surface-touch.toml").bed);
+  EXPECT_NE(refused("strength_kpa = 20", "strength_kpa = 0").find("strength_kpa"), std::string::npos);
+  EXPECT_NE(refused("neighbour = \"gallbladder\"", "neighbor = \"gallbladder\"").find("neighbo"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace trocar::duct_reader_test

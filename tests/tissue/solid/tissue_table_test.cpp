@@ -44,8 +44,8 @@ std::string refusal_with(const std::string& old_text, const std::string& new_tex
 
 TEST(TissueTable, TheShippedOneHasEveryNumberOfEveryTissueWithItsSource) {
   const TissueTable table = TissueTable::load(kAssets / "tissues.toml");
-  for (const char* name : {"liver", "capsule", "gallbladder", "duct", "artery", "vein", "spleen", "kidney", "bowel",
-                           "fat", "connective_bed", "abdominal_wall", "soft_tissue"})
+  for (const char* name : {"liver", "capsule", "gallbladder", "filled_gallbladder", "duct", "artery", "vein", "spleen",
+                           "kidney", "bowel", "fat", "connective_bed", "abdominal_wall", "soft_tissue"})
     EXPECT_EQ(table.find(name).name, name);
   for (const TissueSolid& tissue : table.all())
     for (const auto& [key, number] : tissue.sources) {
