@@ -35,7 +35,7 @@ std::vector<HudRow> free_play_rows(const SessionView& view) {
   for (const auto& [name, count] :
        {std::pair("Cuts", done.cuts), std::pair("Tears", done.tears), std::pair("Clips set", done.clips)})
     rows.push_back({name, std::to_string(count), ""});
-  if (view.scene.soft->bed) rows.push_back({"Bed peeled off", hud_number("%.0f", 100 * done.bed_free), "%"});
+  if (!view.scene.bound.empty()) rows.push_back({"Bed peeled off", hud_number("%.0f", 100 * done.bed_free), "%"});
   rows.push_back({"Blood lost", hud_number("%.1f", done.blood_ml), "mL", true});
   rows.push_back({"Bleeding now", hud_number("%.1f", done.blood_ml_per_min), "mL/min", true});
   rows.push_back({"Sucked off", hud_number("%.1f", done.sucked_ml), "mL"});

@@ -9,16 +9,24 @@
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/files/strict_toml.h"
 #include "scenarios/hands/waypoint_hand.h"
+#include "tests/scenarios/support/bad_exercise.h"
 #include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar::soft_session_test {
 namespace {
 
+/// Free play on a bed that lies still, so that where the organ is can be told.
+Exercise still_play(const std::filesystem::path& file) {
+  std::string text = test::edited(read_text_file(file.string()), "depth_mm = 4", "depth_mm = 0");
+  return parse_exercise(test::edited(text, "beat_mm = 0.4", "beat_mm = 0"), file);
+}
+
 Scene soft_scene(const std::string& tissue, const std::string& exercise = "free-play") {
   const AssetRoots assets = find_assets();
   AttemptSetup setup;
-  setup.exercise = exercise == "free-play" ? load_exercise(assets.exercises / "ungraded" / "free-play.toml")
+  setup.exercise = exercise == "free-play" ? still_play(assets.exercises / "ungraded" / "free-play.toml")
                                            : find_exercise(exercise, assets.exercises);
   setup.organ = "phantom-liver";
   setup.hand = "waypoints";

@@ -74,5 +74,16 @@ TEST(BedReader, ReadsThatOfFreePlayAndNoneWhereNoneIsNamed) {
   EXPECT_NE(refused("neighbour = \"gallbladder\"", "neighbor = \"gallbladder\"").find("neighbo"), std::string::npos);
 }
 
+TEST(ExerciseLoader, ReadsHowTheBedBreathesAndNamesItsMistakes) {
+  const Breathing breathing = load_exercise(kExercises / "ungraded/free-play.toml").breathing;
+  EXPECT_DOUBLE_EQ(breathing.per_min, 14);
+  EXPECT_DOUBLE_EQ(breathing.depth_m, 0.004);
+  EXPECT_DOUBLE_EQ(breathing.beats_per_min, 70);
+  EXPECT_EQ(load_exercise(kExercises / "surface-touch.toml").breathing.per_min, 0);
+  EXPECT_NE(refused("per_min = 14", "per_min = -1").find("'per_min'"), std::string::npos);
+  EXPECT_NE(refused("depth_mm = 4", "depth_mm = 40").find("'depth_mm'"), std::string::npos);
+  EXPECT_NE(refused("beat_mm = 0.4", "beats_mm = 0.4").find("beats_mm"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace trocar::duct_reader_test
