@@ -44,6 +44,8 @@ class CutLattice {
 
   /// Whether a place at rest lies in the tissue, to a quarter of a cell.
   bool holds(const Vec3& place) const;
+  /// Of a place at rest, or of one just outside: the cell of its own side of every cut. -1: none is near.
+  std::int32_t cell_for(const Vec3& place) const;
   /// @param cut depths at rest. @return false: it would take a piece off, and nothing is done.
   /// @throws InputError as cut_groove().
   bool cut(const SurfaceCut& cut, LatticeChange& change);
@@ -75,8 +77,6 @@ class CutLattice {
   void share_nodes(const std::vector<std::int32_t>& touched, LatticeChange& change);
   std::size_t components() const;  ///< that hang together over whole faces
   void embed(std::size_t first_new, const std::vector<std::int32_t>& touched);
-  /// The cell of a place's own side. -1: no block there.
-  std::int32_t cell_for(const Vec3& probe) const;
 
   Lattice lattice_;
   SurfacePtr rest_;
