@@ -9,11 +9,11 @@
 namespace trocar {
 namespace {
 
-constexpr double kLongestCut = 0.005;   // m, in a step: no jump goes through an organ
-constexpr double kSkin = 5e-5;          // m of tissue before the surface, which only a puncture opens
-constexpr double kFarFromEntry = 0.002; // m of way after which what lies outside has come out, whatever its direction
-constexpr double kFollows = 0.001;      // m of cutting on in which the end comes to lie before the tip
-constexpr double kTearsOut = 0.015;     // m of a place from the axis: the needle is no longer in it
+constexpr double kLongestCut = 0.005;    // m, in a step: no jump goes through an organ
+constexpr double kSkin = 5e-5;           // m of tissue before the surface, which only a puncture opens
+constexpr double kFarFromEntry = 0.002;  // m of way after which what lies outside has come out, whatever its direction
+constexpr double kFollows = 0.001;       // m of cutting on in which the end comes to lie before the tip
+constexpr double kTearsOut = 0.015;      // m of a place from the axis: the needle is no longer in it
 
 }  // namespace
 
@@ -79,7 +79,8 @@ void NeedlePath::add_springs(const OrganView& view, const NeedleShape& shape, co
     springs.push_back({{place.shares, outward, share * options.across_n_per_m, beside.outward_m, false, 0}, at});
     springs.push_back({{place.shares, X_TN.R.col(2), share * options.across_n_per_m, beside.across_m, false, 0}, at});
     if (slides(place))
-      springs.push_back({{place.shares, along_T, share * options.along_n_per_m, place.arc - place.stuck, false, 0}, at});
+      springs.push_back(
+          {{place.shares, along_T, share * options.along_n_per_m, place.arc - place.stuck, false, 0}, at});
   }
   if (through_ || places_.back().shares.node.empty()) return;
   const Vec3 tip = X_TN * shape.place(shape.length_m), ahead = X_TN.R * shape.tangent(shape.length_m);
@@ -141,7 +142,8 @@ NeedlePath::Event NeedlePath::feel(const OrganView& view, const NeedleShape& sha
   load_ = across.norm();
   came_out_ = false;
   end_force_ = 0;
-  if (s < springs.size()) cut_on(view, options, shape, X_TN, springs[s].soft.force_n, springs[s].soft.stiffness_n_per_m);
+  if (s < springs.size())
+    cut_on(view, options, shape, X_TN, springs[s].soft.force_n, springs[s].soft.stiffness_n_per_m);
   const double step_s = view.organ.solid().options().step_s;
   overload_s_ = load_ > pull_out_force(view.organ.material(), bridge_m(), options) ? overload_s_ + step_s : 0;
   if (overload_s_ >= options.overload_s || furthest_m(view.organ, shape, X_TN) > kTearsOut) return Event::kTore;

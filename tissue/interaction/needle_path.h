@@ -22,14 +22,15 @@ struct NeedleTissueOptions {
   double across_n_per_m = 1000, along_n_per_m = 400;  ///< of each place (choices)
   double tip_n_per_m = 1000;                          ///< of what the tip presses (a choice)
   double spacing_m = 0.003;                           ///< between places
-  double friction_n_per_m = 10;  ///< a metre inside; 10 to 20 of a needle of 1.3 mm in bovine liver, from memory: unchecked
-  double puncture_over_cut = 2.5;      ///< force that opens the surface over that of cutting on; unchecked
-  double most_contact_m2 = 4e-6;       ///< of what presses, beyond which nothing is punctured (tissue.md 3)
-  double touch_friction = 0.5;         ///< of the point on the surface; unchecked
-  double free_share = 0.25;            ///< of the springs' stiffness when nothing holds the needle: else it drags
-  double most_pull_out_n = 4.62;       ///< human small bowel 4.62 +- 1.40 N, doi 10.1115/1.4063951
-  double least_bridge_m = 0.003;       ///< of tissue between two holes, that its strength is counted over (a choice)
-  double overload_s = 0.020;           ///< how long a limit must be passed (tissue.md 3)
+  double friction_n_per_m =
+      10;  ///< a metre inside; 10 to 20 of a needle of 1.3 mm in bovine liver, from memory: unchecked
+  double puncture_over_cut = 2.5;  ///< force that opens the surface over that of cutting on; unchecked
+  double most_contact_m2 = 4e-6;   ///< of what presses, beyond which nothing is punctured (tissue.md 3)
+  double touch_friction = 0.5;     ///< of the point on the surface; unchecked
+  double free_share = 0.25;        ///< of the springs' stiffness when nothing holds the needle: else it drags
+  double most_pull_out_n = 4.62;   ///< human small bowel 4.62 +- 1.40 N, doi 10.1115/1.4063951
+  double least_bridge_m = 0.003;   ///< of tissue between two holes, that its strength is counted over (a choice)
+  double overload_s = 0.020;       ///< how long a limit must be passed (tissue.md 3)
 };
 
 /// With which the tip cuts on, N: J times the width of the wire.
@@ -59,8 +60,8 @@ class NeedlePath {
   NeedlePath(const OrganView& view, const NeedleShape& shape, const Vec3& entry_rest_T, std::int32_t number);
 
   /// Before the organ's step. @param share of the springs' stiffness
-  void add_springs(const OrganView& view, const NeedleShape& shape, const NeedleTissueOptions& options, const Pose& X_TN,
-                   double share, std::vector<NeedleSpring>& springs);
+  void add_springs(const OrganView& view, const NeedleShape& shape, const NeedleTissueOptions& options,
+                   const Pose& X_TN, double share, std::vector<NeedleSpring>& springs);
   enum class Event : std::uint8_t { kNone, kCameOut, kTore };
   /// After it. @param springs those that add_springs() added, with their forces
   Event feel(const OrganView& view, const NeedleShape& shape, const NeedleTissueOptions& options, const Pose& X_TN,
@@ -69,14 +70,14 @@ class NeedlePath {
   void follow_cut(const SoftOrgan& organ);
 
   std::int32_t number() const { return number_; }
-  bool through() const { return through_; }                  ///< the tip has come out
-  double inside_m() const { return inside_; }                ///< of the needle, in the last step
-  double entry_arc_m() const { return places_.front().arc; } ///< where on the needle the holes are, as BesideNeedle
+  bool through() const { return through_; }                   ///< the tip has come out
+  double inside_m() const { return inside_; }                 ///< of the needle, in the last step
+  double entry_arc_m() const { return places_.front().arc; }  ///< where on the needle the holes are, as BesideNeedle
   double end_arc_m() const { return places_.back().arc; }
   const Vec3& entry_rest_T() const { return places_.front().rest; }
   const Vec3& end_rest_T() const { return places_.back().rest; }
   double bridge_m() const { return (end_rest_T() - entry_rest_T()).norm(); }
-  double load_n() const { return load_; }  ///< across the needle, in the last step
+  double load_n() const { return load_; }            ///< across the needle, in the last step
   double end_force_n() const { return end_force_; }  ///< of the tip on what is before it
   /// Of all places that are held from the axis, the most, m.
   double furthest_m(const SoftOrgan& organ, const NeedleShape& shape, const Pose& X_TN) const;
@@ -85,7 +86,7 @@ class NeedlePath {
   struct Place {
     Vec3 rest = Vec3::Zero();
     NodeShares shares;
-    double arc = 0;       ///< on the needle now
+    double arc = 0;  ///< on the needle now
     bool held = false;
     double stuck = 0;     ///< arc at which friction holds it, and
     double foreseen = 0;  ///< how far that has gone ahead

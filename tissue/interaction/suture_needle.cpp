@@ -10,15 +10,16 @@ namespace {
 constexpr double kTakesWire = 0.1, kKeepsWire = 0.05;  // N of squeeze, as SoftGrip
 constexpr double kWireReach = 0.001;                   // m beyond the pads
 constexpr double kWireSampling = 0.0005;               // m
-constexpr double kSteepEnough = 0.17;   // cosine to the inward normal from which a point does not slide off
-constexpr double kDeepestTouch = 0.004; // m under the surface: what is deeper has got there without touching
-constexpr double kTouchEnds = 2e-4;     // m over the surface
-constexpr double kPressed = 5e-4;       // m round the surface in which the wire lies in its dent (a choice)
-constexpr double kLies = 50;            // N/m of the surface under a free needle (a choice)
-constexpr double kFreeDamping = 5;      // 1/s, of a free needle's motion (a choice)
+constexpr double kSteepEnough = 0.17;    // cosine to the inward normal from which a point does not slide off
+constexpr double kDeepestTouch = 0.004;  // m under the surface: what is deeper has got there without touching
+constexpr double kTouchEnds = 2e-4;      // m over the surface
+constexpr double kPressed = 5e-4;        // m round the surface in which the wire lies in its dent (a choice)
+constexpr double kLies = 50;             // N/m of the surface under a free needle (a choice)
+constexpr double kFreeDamping = 5;       // 1/s, of a free needle's motion (a choice)
 constexpr double kMostWay = 0.02, kMostTurn = 0.5, kMostSlipTurn = 0.05;  // m, rad in a step
-constexpr double kLeastHold = 1;        // N/m of what the hand feels
-constexpr double kThreadHold = 250;     // N/m, most of the thread alone
+constexpr double kLeastNeedleHold = 1;                                    // N/m of what the hand feels
+constexpr std::uint64_t kLooksEvery = 4;  // steps between looks at what the organ has of the needle's places
+constexpr double kThreadHold = 250;       // N/m, most of the thread alone
 
 Mat3 cross_matrix(const Vec3& v) {
   Mat3 out;
@@ -157,7 +158,8 @@ void SutureNeedle::go_free(const OrganView& view, const ThreadPull& thread) {
   for (std::size_t i = 0; i < kMasses; ++i) {
     const Vec3 place = X_TN_ * shape_.place(shape_.length_m * (static_cast<double>(i) + 0.5) / kMasses);
     const Vec3 speed = speed_.linear + speed_.angular.cross(place - step.middle);
-    step.add(place, mass * (speed / h + Vec3(0, 0, -kGravity)), mass * (1 + h * kFreeDamping) / (h * h) * Mat3::Identity());
+    step.add(place, mass * (speed / h + Vec3(0, 0, -kGravity)),
+             mass * (1 + h * kFreeDamping) / (h * h) * Mat3::Identity());
   }
   std::vector<NeedleSpring> springs;
   add_springs(view, springs);
@@ -251,8 +253,7 @@ void SutureNeedle::feel_paths(const OrganView& view, std::span<const NeedleSprin
   std::size_t first = 0;
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     NeedlePath& path = paths_[i];
-    const NeedlePath::Event event =
-        path.feel(view, shape_, tissue_, X_TN_, springs.subspan(first, path_springs_[i]));
+    const NeedlePath::Event event = path.feel(view, shape_, tissue_, X_TN_, springs.subspan(first, path_springs_[i]));
     first += path_springs_[i];
     if (event == NeedlePath::Event::kTore) {
       tell(NeedleEvent::Kind::kTorn, path, path.load_n());
@@ -261,8 +262,7 @@ void SutureNeedle::feel_paths(const OrganView& view, std::span<const NeedleSprin
     } else if (path.entry_arc_m() > shape_.length_m) {
       tell(NeedleEvent::Kind::kWithdrawn, path, 0);
     } else {
-      if (event == NeedlePath::Event::kCameOut)
-        tell(NeedleEvent::Kind::kExit, path, path.end_force_n());
+      if (event == NeedlePath::Event::kCameOut) tell(NeedleEvent::Kind::kExit, path, path.end_force_n());
       left.push_back(std::move(path));
     }
   }
@@ -274,14 +274,11 @@ void SutureNeedle::feel_jaws(const OrganView& view, const DriverJaws& jaws, cons
   const double kept = pull > most ? most / pull : 1, most_turn = most * driver_.lever_m, turn = load_.moment.norm();
   double stiffness = 0, turning = 0;
   const Vec3 about = X_TN_ * shape_.place(held_arc_);
-  NodeShares all;
   for (const NeedleSpring& spring : springs_) {
     stiffness += spring.soft.stiffness_n_per_m;
     turning += spring.soft.stiffness_n_per_m * (spring.at_T - about).squaredNorm();
-    all.node.insert(all.node.end(), spring.soft.place.node.begin(), spring.soft.place.node.end());
-    for (const float share : spring.soft.place.share)
-      all.share.push_back(share / static_cast<float>(springs_.size()));
   }
+  const double of_tissue = stiffness;
   stiffness += thread.stiffness.trace() / 3;
   turning += thread.stiffness.trace() / 3 * (swage_T() - about).squaredNorm();
   state_ = GripState::kHolding;
@@ -300,10 +297,21 @@ void SutureNeedle::feel_jaws(const OrganView& view, const DriverJaws& jaws, cons
   if (load_.force.norm() <= 0) return;
   const Vec3 direction = load_.force.normalized();
   hold_.point_I = X_IN_ * shape_.place(held_arc_);
-  hold_.stiffness_n_per_m =
-      springs_.empty() ? std::clamp(direction.dot(thread.stiffness * direction), kLeastHold, kThreadHold)
-                       : view.organ.loop_stiffness(all, direction, stiffness);
+  hold_.stiffness_n_per_m = springs_.empty()
+                                ? std::clamp(direction.dot(thread.stiffness * direction), kLeastNeedleHold, kThreadHold)
+                                : loop_stiffness(view.organ, direction, of_tissue);
   hold_.anchor_T = jaws.X_TI * hold_.point_I + load_.force / hold_.stiffness_n_per_m;
+}
+
+double SutureNeedle::loop_stiffness(const SoftOrgan& organ, const Vec3& direction, double spring_n_per_m) {
+  if (looks_++ % kLooksEvery != 0 && looked_springs_ == springs_.size()) return looked_;
+  NodeShares all;
+  for (const NeedleSpring& spring : springs_) {
+    all.node.insert(all.node.end(), spring.soft.place.node.begin(), spring.soft.place.node.end());
+    for (const float share : spring.soft.place.share) all.share.push_back(share / static_cast<float>(springs_.size()));
+  }
+  looked_springs_ = springs_.size();
+  return looked_ = organ.loop_stiffness(all, direction, spring_n_per_m);
 }
 
 void SutureNeedle::follow_cut(const SoftOrgan& organ) {

@@ -1,9 +1,10 @@
 // A curved needle: in the jaws of a needle driver, free, or hanging on its thread; what its point opens and passes.
 //
 //   held    closed jaws on the wire hold it where it lies between the pads; it is as rigid as the hand is, and what
-//           tissue and thread do on it is felt. Beyond 2 mu N it slides in the pads, beyond 2 mu N times the pads' lever
-//           it turns in them
-//   free    a rigid body of five points of mass: springs to the tissue's places that it runs through, the thread's pull,
+//           tissue and thread do on it is felt. Beyond 2 mu N it slides in the pads, beyond 2 mu N times the pads'
+//           lever it turns in them
+//   free    a rigid body of five points of mass: springs to the tissue's places that it runs through, the thread's
+//   pull,
 //           gravity, and the surface that it lies on, one implicit step
 //   point   on the surface it presses a spring of the organ's step. From the puncture force on, if no more than 4 mm2
 //           of the needle press, the surface opens and a NeedlePath begins
@@ -32,9 +33,9 @@ struct NeedleDriverOptions {
 
 /// Of the thread at the needle's end, as ElasticRod tells it of an anchor.
 struct ThreadPull {
-  Vec3 force = Vec3::Zero();        ///< at the end of the way, N
-  Mat3 stiffness = Mat3::Zero();    ///< within a step
-  Vec3 way = Vec3::Zero();          ///< that the end was expected to go
+  Vec3 force = Vec3::Zero();      ///< at the end of the way, N
+  Mat3 stiffness = Mat3::Zero();  ///< within a step
+  Vec3 way = Vec3::Zero();        ///< that the end was expected to go
 };
 
 /// An instrument's jaws that may hold a needle; absent: let go.
@@ -105,6 +106,8 @@ class SutureNeedle {
   void feel_touch(const OrganView& view, std::span<const NeedleSpring> springs);
   void feel_paths(const OrganView& view, std::span<const NeedleSpring> springs);
   void feel_jaws(const OrganView& view, const DriverJaws& jaws, const ThreadPull& thread);
+  /// Of tissue at the needle's places, for the hand within a step.
+  double loop_stiffness(const SoftOrgan& organ, const Vec3& direction, double spring_n_per_m);
   void tell(NeedleEvent::Kind kind, const NeedlePath& path, double force_n);
   double swing_m() const { return shape_.radius_m(); }
   Vec3 middle_N() const;
@@ -125,6 +128,9 @@ class SutureNeedle {
   std::array<std::int32_t, 3> lies_on_{-1, -1, -1};
   double touch_n_ = 0, touch_area_ = 0, tissue_n_ = 0;
   std::vector<NeedleSpring> springs_;
+  std::uint64_t looks_ = 0;
+  std::size_t looked_springs_ = 0;
+  double looked_ = 0;
   std::vector<NeedleEvent> events_;
   Wrench load_;
   GripBlock block_;

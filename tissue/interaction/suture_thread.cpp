@@ -8,23 +8,25 @@
 namespace trocar {
 namespace {
 
-constexpr double kSwageAnchor = 2000;      // N/m (a choice)
-constexpr double kOffSwage = 3e-4;         // m of thread that the swage keeps out of any hole
-constexpr double kTailEnd = 5e-4;          // m before its end, at which the tail has gone through
-constexpr double kRoundHole = 0.004;       // m of thread beside a hole that the surface does not push
-constexpr double kSurfaceSeen = 0.008;     // m from the surface's nearest vertex
-constexpr double kSurfacePush = 30;        // N/m under the surface (a choice)
-constexpr double kShaftPush = 200;         // N/m in the shaft (a choice)
-constexpr double kShaftBehind = 0.15;      // m of shaft that the thread may touch
-constexpr double kKnotDraws = 0.002;       // m by which a knot draws its limbs together in a step
-constexpr double kBesideKnot = 0.001;      // m between a knot and the hole beside it
-constexpr double kLimbFrom = 0.003;        // m from a hole at which a knot may be tied
-constexpr double kTied = 0.1;              // N in both limbs that a knot is drawn tight with
-constexpr double kHitchPull = 0.3, kSlack = 0.2;  // N in one limb, and share of it in the other: a half hitch
-constexpr double kLoopLeft = 0.006;        // m of a closed loop beyond the tissue in it
-constexpr double kBeyondKnot = 0.006;      // m behind a knot where a limb's tension is read
-constexpr double kThreadSampling = 0.001;  // m
+constexpr double kSwageAnchor = 2000;                 // N/m (a choice)
+constexpr double kOffSwage = 3e-4;                    // m of thread that the swage keeps out of any hole
+constexpr double kTailEnd = 5e-4;                     // m before its end, at which the tail has gone through
+constexpr double kLeastInside = 0.5;                  // of the bridge at rest, thread in it
+constexpr double kRoundHole = 0.004;                  // m of thread beside a hole that the surface does not push
+constexpr double kSurfaceSeen = 0.008;                // m from the surface's nearest vertex
+constexpr double kSurfacePush = 30;                   // N/m under the surface (a choice)
+constexpr double kShaftPush = 200;                    // N/m in the shaft (a choice)
+constexpr double kShaftBehind = 0.15;                 // m of shaft that the thread may touch
+constexpr double kKnotDraws = 0.002;                  // m by which a knot draws its limbs together in a step
+constexpr double kBesideKnot = 0.001;                 // m between a knot and the hole beside it
+constexpr double kLimbFrom = 0.003;                   // m from a hole at which a knot may be tied
+constexpr double kTied = 0.1;                         // N in both limbs that a knot is drawn tight with
+constexpr double kHitchPull = 0.3, kSlackLimb = 0.2;  // N in one limb, and share of it in the other: a half hitch
+constexpr double kLoopLeft = 0.006;                   // m of a closed loop beyond the tissue in it
+constexpr double kBeyondKnot = 0.006;                 // m behind a knot where a limb's tension is read
+constexpr double kThreadSampling = 0.001;             // m
 constexpr int kRingAxes = 3;
+constexpr int kNewton = 2;  // steps of Newton's method: the next step goes on from there
 
 RodOptions rod_of(const SutureThreadOptions& o, double step_s) {
   RodOptions rod;
@@ -40,6 +42,7 @@ RodOptions rod_of(const SutureThreadOptions& o, double step_s) {
   rod.mass_damping_per_s = o.damping_per_s;
   rod.gravity_m_s2 = {0, 0, -kGravity};
   rod.step_s = step_s;
+  rod.most_iterations = kNewton;
   return rod;
 }
 
@@ -113,8 +116,7 @@ std::vector<Vec3> SutureThread::limb(Limb limb) const {
   const StitchHole& from = limb == Limb::kLong ? stitch.exit : stitch.entry;
   out.push_back(from.at_T);
   for (const RodNode& node : rod_.nodes())
-    if (limb == Limb::kLong ? node.arc_m < from.ring.arc_m : node.arc_m > from.ring.arc_m)
-      out.push_back(node.position);
+    if (limb == Limb::kLong ? node.arc_m < from.ring.arc_m : node.arc_m > from.ring.arc_m) out.push_back(node.position);
   if (limb == Limb::kLong) std::reverse(out.begin() + 1, out.end());
   return out;
 }
@@ -220,10 +222,10 @@ void SutureThread::feel_stitches(const OrganView& view, std::span<const RodSprin
       hole->ring.take(of_holes.subspan(next, kRingAxes));
       next += kRingAxes;
       hole->ring.add_loads(rod_, hole->shares, options_.ring_n_per_m, springs);
-      // Thread does not get lost in the tissue, nor comes from there: holes keep their order, and their bridge.
-      const double bridge = stitch.exit.threaded ? stitch.bridge_m() : 0;
+      // Holes keep their order, and some thread between them however the tissue there is squeezed.
+      const double bridge = stitch.exit.threaded ? kLeastInside * stitch.bridge_m() : 0;
       const bool first = hole == &stitch.exit;
-      const double from = !first ? (stitch.exit.threaded ? stitch.exit.ring.arc_m + bridge : 0)
+      const double from = !first                     ? (stitch.exit.threaded ? stitch.exit.ring.arc_m + bridge : 0)
                           : i + 1 < stitches_.size() ? stitches_[i + 1].entry.ring.arc_m
                                                      : kOffSwage;
       const double to = first   ? stitch.entry.ring.arc_m - bridge
@@ -242,8 +244,12 @@ void SutureThread::feel_stitches(const OrganView& view, std::span<const RodSprin
     const bool torn = stitch.over_s >= tissue_.overload_s;
     const bool drawn = tied_round(stitch) && stitch.entry.ring.arc_m > rod_.length_m() - kTailEnd;
     if (torn || drawn)
-      events_.push_back({torn ? ThreadEvent::Kind::kPulledOut : ThreadEvent::Kind::kDrawnThrough, {},
-                         stitch.entry.rest_T, stitch.exit.rest_T, stitch.load_n, stitch.entry.ring.arc_m});
+      events_.push_back({torn ? ThreadEvent::Kind::kPulledOut : ThreadEvent::Kind::kDrawnThrough,
+                         {},
+                         stitch.entry.rest_T,
+                         stitch.exit.rest_T,
+                         stitch.load_n,
+                         stitch.entry.ring.arc_m});
     return torn || drawn;
   };
   const bool last_gone = !stitches_.empty() && gone(stitches_.back());
@@ -273,7 +279,7 @@ void SutureThread::feel_knot(std::span<const RodSpring> springs) {
   const double of_long = tension_at(knot_->of_long.arc_m - kBeyondKnot),
                of_tail = tension_at(knot_->of_tail.arc_m + kBeyondKnot);
   const double less = std::min(of_long, of_tail), more = std::max(of_long, of_tail);
-  const bool hitch = more > kHitchPull && less < kSlack * more;
+  const bool hitch = more > kHitchPull && less < kSlackLimb * more;
   if (!hitch && less < kTied) return;
   knot_->tight = true;
   knot_->throws.back().hitch = hitch;
@@ -294,6 +300,7 @@ void SutureThread::watch_throws(const Around& around) {
 }
 
 void SutureThread::tie(const Throw& made) {
+  if (stitches_.empty() || !tied_round(stitches_.back())) return;
   const Stitch& stitch = stitches_.back();
   events_.push_back({ThreadEvent::Kind::kThrow, made, stitch.entry.rest_T, stitch.exit.rest_T});
   if (knot_) {

@@ -24,16 +24,16 @@
 namespace trocar {
 
 struct SutureThreadOptions {
-  double radius_m = 0.00011;       ///< USP 3-0: 0.200 to 0.249 mm across
-  double young_pa = 1e9;           ///< E A of 38 N: polypropylene; unchecked
-  double density_kg_m3 = 1300;     ///< unchecked
-  double spacing_m = 0.004;        ///< between nodes
-  double swage_n = 6.7;            ///< that the needle comes off at, USP mean of 3-0; unchecked
-  double break_n = 17.4;           ///< that the thread breaks at, USP knot pull of 3-0; unchecked
-  double friction_n_per_m = 15;    ///< of a metre in tissue; unchecked
-  double edge_friction = 0.15;     ///< of what presses at a hole's edge; unchecked
-  double ring_n_per_m = 1000;      ///< of a hole's edge and of a knot (a choice)
-  double damping_per_s = 10;       ///< of the motion of the whole: it does not fly about (a choice)
+  double radius_m = 0.00011;     ///< USP 3-0: 0.200 to 0.249 mm across
+  double young_pa = 1e9;         ///< E A of 38 N: polypropylene; unchecked
+  double density_kg_m3 = 1300;   ///< unchecked
+  double spacing_m = 0.004;      ///< between nodes
+  double swage_n = 6.7;          ///< that the needle comes off at, USP mean of 3-0; unchecked
+  double break_n = 17.4;         ///< that the thread breaks at, USP knot pull of 3-0; unchecked
+  double friction_n_per_m = 15;  ///< of a metre in tissue; unchecked
+  double edge_friction = 0.15;   ///< of what presses at a hole's edge; unchecked
+  double ring_n_per_m = 1000;    ///< of a hole's edge and of a knot (a choice)
+  double damping_per_s = 10;     ///< of the motion of the whole: it does not fly about (a choice)
   KnotHold knot = {};
 };
 
@@ -45,7 +45,7 @@ struct StitchHole {
 };
 
 struct Stitch {
-  std::int32_t path = 0;  ///< of the needle that made it
+  std::int32_t path = 0;   ///< of the needle that made it
   StitchHole entry, exit;  ///< the exit is not threaded while the needle is in it
   double load_n = 0, over_s = 0;
 
@@ -60,7 +60,7 @@ struct Knot {
 
 struct ThreadEvent {
   enum class Kind : std::uint8_t { kThrow, kTight, kUndone, kPulledOut, kDrawnThrough, kBroke, kOffNeedle } kind{};
-  Throw made;                                                 ///< kThrow
+  Throw made;                                                   ///< kThrow
   Vec3 entry_rest_T = Vec3::Zero(), end_rest_T = Vec3::Zero();  ///< of the stitch
   double force_n = 0, arc_m = 0;
 };
@@ -87,12 +87,15 @@ class SutureThread {
   /// The needle's way is no more: neither is its stitch, unless it came out.
   void drop(std::int32_t path);
 
+  /// A throw has been drawn through on the last stitch: where its limbs are nearest. Without one, nothing.
+  void tie(const Throw& made);
+
   const ElasticRod& rod() const { return rod_; }
   std::span<const Stitch> stitches() const { return stitches_; }
   const std::optional<Knot>& knot() const { return knot_; }  ///< of the last stitch
   const ThrowWatch& watch() const { return watch_; }
   const RodGrip& grip() const { return grip_; }
-  ThreadPull pull() const;  ///< on the needle
+  ThreadPull pull() const;                                            ///< on the needle
   const std::vector<ThreadEvent>& events() const { return events_; }  ///< of the last step
   bool between(const Pose& X_TI, double opening_m) const;
 
@@ -106,7 +109,6 @@ class SutureThread {
   void feel_stitches(const OrganView& view, std::span<const RodSpring> of_holes, std::vector<SoftSpring>& springs);
   void feel_knot(std::span<const RodSpring> springs);
   void watch_throws(const Around& around);
-  void tie(const Throw& made);
   void take_rod_events();
 
   SutureThreadOptions options_;

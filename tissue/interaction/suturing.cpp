@@ -162,7 +162,6 @@ void Suturing::before(const HapticState& newest, const Tool& tool, bool present,
   const auto driver = jaws(newest.stylus, tool, present);
   const std::size_t first = springs.size();
   std::vector<SoftSpring> of_needle;
-  pull_ = thread_.pull();
   needle_.before(view, driver, pull_, of_needle);
   SutureThread::Around around{.swage_T = needle_.swage_T(), .swage_way = needle_.swage_way(), .jaws = {}, .X_TI = {}};
   if (driver && needle_.state() == GripState::kEmpty) around.jaws = driver;
@@ -195,10 +194,8 @@ void Suturing::take_needle_events(const SoftOrgan& organ) {
     const SutureEvent::Kind kind = kind_of(event.kind);
     if (kind == SutureEvent::Kind::kStitch) thread_.come_out(organ, event);
     if (kind == SutureEvent::Kind::kNeedleTorn || kind == SutureEvent::Kind::kWithdrawn) thread_.drop(event.path);
-    events_.push_back({.kind = kind,
-                       .entry_rest_T = event.entry_rest_T,
-                       .exit_rest_T = event.end_rest_T,
-                       .force_n = event.force_n});
+    events_.push_back(
+        {.kind = kind, .entry_rest_T = event.entry_rest_T, .exit_rest_T = event.end_rest_T, .force_n = event.force_n});
   }
 }
 
@@ -242,9 +239,7 @@ void Suturing::count(const SutureEvent& event) {
   }
 }
 
-KnotKind Suturing::knot() const {
-  return thread_.knot() ? knot_kind(thread_.knot()->throws) : KnotKind::kNone;
-}
+KnotKind Suturing::knot() const { return thread_.knot() ? knot_kind(thread_.knot()->throws) : KnotKind::kNone; }
 
 GripState Suturing::grip() const {
   return needle_.state() != GripState::kEmpty ? needle_.state() : thread_.grip().state();

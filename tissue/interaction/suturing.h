@@ -1,8 +1,8 @@
 // A needle with its thread, what is stitched and tied with it, for the world: before and after the organ's step.
 //
 // Order of a step: the instrument's jaws and the needle, the thread, then the organ with the springs of both, then what
-// the needle has cut, slid and opened by it. What changes for good is told as events; they and the nodes (add_nodes) are
-// what a recording keeps (SuturePlayback). T, SI. Thread: tissue task. Same input, same bytes.
+// the needle has cut, slid and opened by it. What changes for good is told as events; they and the nodes (add_nodes)
+// are what a recording keeps (SuturePlayback). T, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ namespace trocar {
 
 struct SutureSetup {
   NeedleShape needle = {};
-  Pose X_TN = {};                        ///< where it lies before a run
-  double thread_m = 0.15;                ///< from the needle to the end
-  Vec3 thread_along_T = Vec3::UnitX();   ///< how it lies at first: straight
+  Pose X_TN = {};                                    ///< where it lies before a run
+  double thread_m = 0.15;                            ///< from the needle to the end
+  Vec3 thread_along_T = Vec3::UnitX();               ///< how it lies at first: straight
   InstrumentKind driver = InstrumentKind::kGrasper;  ///< whose jaws hold needle and thread
   SutureThreadOptions thread = {};
   NeedleTissueOptions tissue = {};
@@ -34,20 +34,20 @@ struct SutureSetup {
 struct SutureEvent {
   /// As recordings keep them.
   enum class Kind : std::uint8_t {
-    kTaken = 0,         ///< the needle by the jaws
+    kTaken = 0,  ///< the needle by the jaws
     kLetGo = 1,
-    kPuncture = 2,      ///< its point has gone in,
-    kExit = 3,          ///< and has come out
-    kWithdrawn = 4,     ///< it has been drawn back out of the tissue
-    kStitch = 5,        ///< it has gone through: the thread is in both holes
-    kNeedleTorn = 6,    ///< it has torn out sideways
+    kPuncture = 2,    ///< its point has gone in,
+    kExit = 3,        ///< and has come out
+    kWithdrawn = 4,   ///< it has been drawn back out of the tissue
+    kStitch = 5,      ///< it has gone through: the thread is in both holes
+    kNeedleTorn = 6,  ///< it has torn out sideways
     kThrow = 7,
-    kTight = 8,         ///< a throw has been drawn tight
-    kUndone = 9,        ///< the knot has slipped off an end
-    kPulledOut = 10,    ///< a stitch has torn out: the tissue between its holes is open
-    kDrawnThrough = 11, ///< the thread's end has slipped through a stitch
-    kBroke = 12,        ///< the thread, at arc_m
-    kOffNeedle = 13     ///< the needle has come off
+    kTight = 8,          ///< a throw has been drawn tight
+    kUndone = 9,         ///< the knot has slipped off an end
+    kPulledOut = 10,     ///< a stitch has torn out: the tissue between its holes is open
+    kDrawnThrough = 11,  ///< the thread's end has slipped through a stitch
+    kBroke = 12,         ///< the thread, at arc_m
+    kOffNeedle = 13      ///< the needle has come off
   } kind = Kind::kTaken;
   Vec3 entry_rest_T = Vec3::Zero(), exit_rest_T = Vec3::Zero();  ///< of the organ at rest
   double force_n = 0, arc_m = 0;
@@ -74,6 +74,9 @@ class Suturing {
   bool jaws_taken(const StylusState& stylus, const Tool& tool, bool present) const;
   /// Puts the needle between the jaws. @param X_IN of the needle in the instrument
   void load(const Pose& X_TI, const Pose& X_IN);
+
+  /// For tests and scenes: as if a throw had just been drawn through.
+  void tie(const Throw& made) { thread_.tie(made); }
 
   /// Before the organ's step. @param springs of it, to which needle and thread add theirs
   void before(const HapticState& newest, const Tool& tool, bool present, const SoftOrgan& organ,

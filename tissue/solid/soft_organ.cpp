@@ -167,8 +167,8 @@ Mat3 SoftOrgan::gradient_within(const Vec3& rest_T) const {
 Vec3 SoftOrgan::place_T(const NodeShares& place) const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < place.node.size(); ++i)
-    sum += static_cast<double>(place.share[i]) *
-           solid_.position()[static_cast<std::size_t>(place.node[i])].cast<double>();
+    sum +=
+        static_cast<double>(place.share[i]) * solid_.position()[static_cast<std::size_t>(place.node[i])].cast<double>();
   return sum;
 }
 

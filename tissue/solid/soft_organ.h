@@ -89,7 +89,8 @@ class SoftOrgan {
   NodeShares shares_of(const MaterialPoint& place) const;
   /// Of a place inside the organ at rest, or just outside; nothing where no cell is near.
   NodeShares shares_within(const Vec3& rest_T) const;
-  /// How the tissue there is turned and stretched now, dx / dX; the identity where no cell is near or one is turned out.
+  /// How the tissue there is turned and stretched now, dx / dX; the identity where no cell is near or one is turned
+  /// out.
   Mat3 gradient_within(const Vec3& rest_T) const;
   /// Where such a place is now.
   Vec3 place_T(const NodeShares& place) const;

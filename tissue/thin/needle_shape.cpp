@@ -34,8 +34,8 @@ TriangleSurface needle_tube(const NeedleShape& shape, int sides, int rings) {
     const Vec3 outward(std::cos(angle), std::sin(angle), 0);
     for (int s = 0; s < sides; ++s) {
       const double turn = 2 * std::numbers::pi * s / sides;
-      out.vertices.push_back(shape.place(arc) + shape.radius_at(arc) * (std::cos(turn) * outward +
-                                                                        std::sin(turn) * Vec3::UnitZ()));
+      out.vertices.push_back(shape.place(arc) +
+                             shape.radius_at(arc) * (std::cos(turn) * outward + std::sin(turn) * Vec3::UnitZ()));
     }
   }
   const auto id = [sides](int r, int s) { return r * sides + s % sides; };

@@ -13,12 +13,12 @@
 namespace trocar {
 
 struct NeedleShape {
-  double length_m = 0.026;          ///< along the arc: "26 mm, 1/2 circle", as packs of 3-0 name it
-  double circle = 0.5;              ///< share of a whole circle: 1/2, 3/8
-  double wire_radius_m = 0.0003;    ///< unchecked
-  double taper_m = 0.006;           ///< of the point; unchecked
-  double tip_radius_m = 0.00005;    ///< unchecked
-  double density_kg_m3 = 7900;      ///< of steel
+  double length_m = 0.026;        ///< along the arc: "26 mm, 1/2 circle", as packs of 3-0 name it
+  double circle = 0.5;            ///< share of a whole circle: 1/2, 3/8
+  double wire_radius_m = 0.0003;  ///< unchecked
+  double taper_m = 0.006;         ///< of the point; unchecked
+  double tip_radius_m = 0.00005;  ///< unchecked
+  double density_kg_m3 = 7900;    ///< of steel
 
   double radius_m() const { return length_m / (2 * std::numbers::pi * circle); }
   double mass_kg() const { return density_kg_m3 * std::numbers::pi * wire_radius_m * wire_radius_m * length_m; }
@@ -30,9 +30,9 @@ struct NeedleShape {
 
 /// A place beside the needle, as the needle sees it.
 struct BesideNeedle {
-  double arc_m = 0;     ///< of the nearest place of the whole circle: below 0 behind the swage, beyond length ahead
-  double outward_m = 0; ///< from the axis, away from the middle of the circle
-  double across_m = 0;  ///< from the plane of the circle
+  double arc_m = 0;      ///< of the nearest place of the whole circle: below 0 behind the swage, beyond length ahead
+  double outward_m = 0;  ///< from the axis, away from the middle of the circle
+  double across_m = 0;   ///< from the plane of the circle
 };
 BesideNeedle beside_needle(const NeedleShape& shape, const Vec3& place_N);
 

@@ -7,15 +7,16 @@
 namespace trocar {
 namespace {
 
-constexpr double kWound = 0.7, kOff = 0.35;       // turns from which a limb counts as wound, and below which as off
-constexpr double kShaftSeen = 0.15;               // m of the shaft behind the tip
-constexpr double kAhead = 0.002;                  // m before the tip
-constexpr double kWithin = 0.02;                  // m from its axis
-constexpr double kOneThrow = 0.35;                // linking that makes a throw
-constexpr double kHalfTurn = 0.5;                 // of linking
-constexpr double kQuiet = 0.2;                    // of the density's peak, below which throws are apart
-constexpr std::size_t kGap = 2;                   // segments without density within a throw: some have no length
-constexpr double kStraight = 0.5;                 // share of the other limb's bend, below which a limb went straight
+constexpr double kWrapped = 0.7, kWrapOff = 0.35;  // turns from which a limb counts as wound, and below which as off
+constexpr double kShaftSeen = 0.15;                // m of the shaft behind the tip
+constexpr double kBeyondTip = 0.002;               // m before the tip
+constexpr double kNearShaft = 0.02;                // m from its axis
+constexpr double kOneThrow = 0.35;                 // linking that makes a throw
+constexpr double kHalfTurn = 0.5;                  // of linking
+constexpr double kQuiet = 0.2;                     // of the peak by length, below which throws are apart
+constexpr double kShortestPart = 1e-6;             // m of a segment
+constexpr std::size_t kThrowGap = 2;               // segments without density within a throw: some have no length
+constexpr double kStraightLimb = 0.5;              // share of the other limb's bend, below which a limb went straight
 
 /// Solid angle share of two segments, signed: what they add to the linking number.
 double linking_of(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) {
@@ -42,21 +43,24 @@ double bend_between(std::span<const Vec3> line, std::size_t from, std::size_t to
   return sum;
 }
 
-/// Runs of one sign whose density stands out.
+/// Runs of one sign whose linking by length stands out.
 struct ThrowRun {
   std::size_t from = 0, to = 0;
   double linking = 0;
 };
-std::vector<ThrowRun> runs_of(const std::vector<double>& density) {
-  double peak = 0;
-  for (const double value : density) peak = std::max(peak, std::abs(value));
+std::vector<ThrowRun> throw_runs(std::span<const Vec3> line, std::span<const Vec3> other) {
+  const std::vector<double> part = linking(line, other);
+  std::vector<double> density;
+  for (std::size_t i = 0; i < part.size(); ++i)
+    density.push_back(std::abs(part[i]) / std::max((line[i + 1] - line[i]).norm(), kShortestPart));
+  const double peak = density.empty() ? 0 : *std::max_element(density.begin(), density.end());
   std::vector<ThrowRun> runs;
-  for (std::size_t i = 0; i < density.size(); ++i) {
-    if (std::abs(density[i]) < kQuiet * peak) continue;
-    const bool same = !runs.empty() && i <= runs.back().to + kGap && (runs.back().linking > 0) == (density[i] > 0);
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (density[i] <= kQuiet * peak) continue;
+    const bool same = !runs.empty() && i <= runs.back().to + kThrowGap && (runs.back().linking > 0) == (part[i] > 0);
     if (!same) runs.push_back({i, i, 0});
     runs.back().to = i + 1;
-    runs.back().linking += density[i];
+    runs.back().linking += part[i];
   }
   std::erase_if(runs, [](const ThrowRun& run) { return std::abs(run.linking) < kOneThrow; });
   return runs;
@@ -132,7 +136,7 @@ std::vector<double> linking(std::span<const Vec3> a, std::span<const Vec3> b) {
 }
 
 std::vector<Throw> read_throws(std::span<const Vec3> a, std::span<const Vec3> b) {
-  const std::vector<ThrowRun> of_a = runs_of(linking(a, b)), of_b = runs_of(linking(b, a));
+  const std::vector<ThrowRun> of_a = throw_runs(a, b), of_b = throw_runs(b, a);
   std::vector<Throw> throws;
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     const double size = std::abs(of_a[i].linking);
@@ -143,7 +147,7 @@ std::vector<Throw> read_throws(std::span<const Vec3> a, std::span<const Vec3> b)
     if (of_b.size() == of_a.size()) {
       const double bend_a = bend_between(a, of_a[i].from, of_a[i].to + 1);
       const double bend_b = bend_between(b, of_b[i].from, of_b[i].to + 1);
-      next.hitch = std::min(bend_a, bend_b) < kStraight * std::max(bend_a, bend_b);
+      next.hitch = std::min(bend_a, bend_b) < kStraightLimb * std::max(bend_a, bend_b);
     }
     throws.push_back(next);
   }
@@ -154,7 +158,7 @@ void ThrowWatch::reset() { *this = {}; }
 
 std::optional<Throw> ThrowWatch::step(const Seen& seen) {
   const auto turns = [&](Limb limb) {
-    return turns_about(limb == Limb::kLong ? seen.long_T : seen.tail_T, seen.X_TI, -kShaftSeen, kAhead, kWithin);
+    return turns_about(limb == Limb::kLong ? seen.long_T : seen.tail_T, seen.X_TI, -kShaftSeen, kBeyondTip, kNearShaft);
   };
   if (caught_) {
     turns_ = turns(wound_);
@@ -162,14 +166,14 @@ std::optional<Throw> ThrowWatch::step(const Seen& seen) {
       caught_ = false;  // let go with the turns still on: nothing has been drawn through
       return std::nullopt;
     }
-    if (std::abs(turns_) > kOff) return std::nullopt;
+    if (std::abs(turns_) > kWrapOff) return std::nullopt;
     caught_ = false;
     return next_;
   }
   const double of_long = turns(Limb::kLong), of_tail = turns(Limb::kTail);
   const bool by_long = seen.held ? *seen.held == Limb::kTail : std::abs(of_long) >= std::abs(of_tail);
   turns_ = by_long ? of_long : of_tail;
-  if (!seen.held || std::abs(turns_) < kWound) return std::nullopt;
+  if (!seen.held || std::abs(turns_) < kWrapped) return std::nullopt;
   caught_ = true;
   wound_ = by_long ? Limb::kLong : Limb::kTail;
   // Drawn back through the turns, what is held runs outwards against the shaft's direction.

@@ -22,8 +22,8 @@ namespace trocar {
 
 struct Throw {
   int turns = 1;
-  int sense = 1;      ///< +1 or -1
-  bool hitch = false; ///< one limb stayed straight
+  int sense = 1;       ///< +1 or -1
+  bool hitch = false;  ///< one limb stayed straight
 
   bool operator==(const Throw&) const = default;
 };
@@ -46,8 +46,8 @@ double holding_force(std::span<const Throw> throws, const KnotHold& hold = {});
 /// two heights. @param line in T
 double turns_about(std::span<const Vec3> line_T, const Pose& X_TI, double from_z, double to_z, double within_m);
 
-/// Gauss linking of two open lines: the sum over all pairs of segments (Klenin and Langowski 2000). Of closed ones it is
-/// a whole number. @return for each segment of `a`, what it has of it
+/// Gauss linking of two open lines: the sum over all pairs of segments (Klenin and Langowski 2000). Of closed ones it
+/// is a whole number. @return for each segment of `a`, what it has of it
 std::vector<double> linking(std::span<const Vec3> a, std::span<const Vec3> b);
 
 /// Throws in the order in which they lie outwards from the stitch.

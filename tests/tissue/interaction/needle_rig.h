@@ -12,7 +12,7 @@
 namespace trocar::test {
 
 struct NeedleRig {
-  static constexpr double kTop = 0.035;  // m, of the organ
+  static constexpr double kTop = 0.035;   // m, of the organ
   static constexpr double kOver = 0.002;  // m of the circle's middle over it
 
   explicit NeedleRig(const TissueSolid& tissue = {}, const NeedleTissueOptions& options = {})

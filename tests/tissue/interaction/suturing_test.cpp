@@ -51,10 +51,6 @@ struct Sewn {
     ++steps;
     jaws = X_TI;
     for (const SutureEvent& event : suturing.events()) all.push_back(event);
-    if (getenv("DBG")) {
-      for (const SutureEvent& event : suturing.events()) printf("%d event %d force %.3f arc %.4f\n", steps, int(event.kind), event.force_n, event.arc_m);
-      if (!suturing.thread().stitches().empty() && steps % 20 == 0) { auto& l = last(); printf("%d entry arc %.4f f %.3f (%.3f %.3f %.3f) exit %d arc %.4f f %.3f (%.3f %.3f %.3f) load %.3f needle %.3f swage T %.3f\n", steps, l.entry.ring.arc_m, l.entry.ring.force_T.norm(), l.entry.ring.force_T.x(), l.entry.ring.force_T.y(), l.entry.ring.force_T.z(), l.exit.threaded, l.exit.ring.arc_m, l.exit.ring.force_T.norm(), l.exit.ring.force_T.x(), l.exit.ring.force_T.y(), l.exit.ring.force_T.z(), l.load_n, suturing.needle().load_T().force.norm(), suturing.thread().pull().force.norm()); }
-    }
   }
   bool told(Kind kind) const {
     return std::any_of(all.begin(), all.end(), [kind](const SutureEvent& event) { return event.kind == kind; });
@@ -152,7 +148,7 @@ TEST(Suturing, PulledHarderThanTheTissueBearsAStitchTearsOut) {
   Sewn s(0.15, {}, {.friction_n_per_m = 1000});
   s.stitch();
   const double limit = pull_out_force(s.organ.material(), s.last().bridge_m(), s.setup.tissue);
-  EXPECT_NEAR(limit, 4.62, 0.25);
+  EXPECT_NEAR(limit, std::min(4.62, 300 * s.last().bridge_m()), 1e-9);
   double most = 0;
   for (int i = 0; i < 900 && !s.told(Kind::kPulledOut); ++i) {
     s.move(s.jaws.p + Vec3(0, 0, 1e-4), 0, 1);
@@ -211,16 +207,21 @@ TEST(Suturing, AtRandomAllStaysFiniteAndTheSameInputGivesTheSameBytes) {
     for (int i = 0; i < steps; ++i) {
       X.p += Vec3(way(random), way(random), way(random));
       X.p = X.p.cwiseMax(Vec3(-0.04, -0.04, kTop - 0.015)).cwiseMin(Vec3(0.04, 0.04, kTop + 0.04));
-      X.R = Mat3(X.R * Eigen::AngleAxisd(turn(random), Vec3(turn(random), turn(random), 0.1).normalized())
-                           .toRotationMatrix());
+      X.R = Mat3(
+          X.R * Eigen::AngleAxisd(turn(random), Vec3(turn(random), turn(random), 0.1).normalized()).toRotationMatrix());
       X.R = Eigen::Quaterniond(X.R).normalized().toRotationMatrix();
       if (chance(random) < 0.02) opening = chance(random) < 0.5 ? 0.006 : 0.0;
-      if (i % 500 == 0) s.suturing.load(X, s.X_IN), opening = 0;
+      if (i % 1000 == 0) s.suturing.load(Sewn::turned(0) * s.X_IN.inverse(), s.X_IN);
+      if (i % 1000 < 400) {  // driven, not steadily, then whatever comes
+        X = Sewn::turned(0.01 * (i % 1000) * (0.9 + 0.1 * chance(random))) * s.X_IN.inverse();
+        opening = 0;
+      }
       s.step(X, opening, chance(random) > 0.01);
       for (const RodNode& node : s.suturing.thread().rod().nodes()) sound = sound && node.position.allFinite();
       sound = sound && s.suturing.needle().X_TN().p.allFinite() && s.organ.surface()->vertices[0].allFinite();
     }
     EXPECT_TRUE(sound);
+    EXPECT_GT(s.suturing.counts().punctures, 0);
     EXPECT_EQ(s.suturing.thread().rod().held_steps(), 0U);
     std::printf("%d steps at random, thread of 300 mm: %d punctures, %d tears, %.3f ms CPU a step\n", steps,
                 s.suturing.counts().punctures, s.suturing.counts().tears, 1e3 * s.cpu_s / s.steps);
@@ -233,14 +234,46 @@ TEST(Suturing, AtRandomAllStaysFiniteAndTheSameInputGivesTheSameBytes) {
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(NodePlace)), 0);
 }
 
+TEST(Suturing, AKnotHoldsByItsThrows) {
+  // The thread's own friction is small; only the knot keeps the loop from being drawn through.
+  const auto drawn = [](const std::vector<Throw>& throws) {
+    Sewn s(0.15, {}, {.friction_n_per_m = 2, .edge_friction = 0});
+    s.stitch();
+    s.move(s.jaws.p + Vec3(0, 0, 0.03), 0, 100);
+    for (const Throw& made : throws) s.suturing.tie(made);
+    double most = 0;
+    for (int i = 0; i < 350; ++i) {
+      s.move(s.jaws.p + Vec3(0, 0, 4e-4), 0, 1);
+      if (i > 150) most = std::max(most, s.suturing.needle().load_T().force.norm());
+    }
+    return most;
+  };
+  const double none = drawn({}), half = drawn({{1, 1}}), granny = drawn({{1, 1}, {1, 1}}),
+               square = drawn({{1, 1}, {1, -1}});
+  std::printf(
+      "most force on a thread drawn by 140 mm: %.2f N without a knot, %.2f half knot, %.2f granny, %.2f square\n", none,
+      half, granny, square);
+  EXPECT_LT(none, half);
+  EXPECT_LT(half, granny);
+  EXPECT_GE(square, 0.95 * granny) << "neither slips: the tissue comes along";
+}
+
 TEST(Suturing, PrintsWhatAStepCosts) {
   Sewn s(0.30);
+  const auto print = [&s](const char* what) {
+    std::printf("thread of 300 mm, %s: %.3f ms CPU a step beside the organ's own\n", what, 1e3 * s.cpu_s / s.steps);
+    s.cpu_s = s.steps = 0;
+  };
+  for (int i = 0; i <= 400; ++i) s.step(Sewn::turned(0.005 * i) * s.X_IN.inverse(), 0);
+  print("needle driven");
+  for (int i = 0; i < 100; ++i) s.step(s.jaws, 0);
+  print("needle held in tissue");
   s.stitch();
-  s.move(s.jaws.p + Vec3(0, 0, 0.04), 0, 200);
   s.cpu_s = s.steps = 0;
-  for (int i = 0; i < 300; ++i) s.step(s.jaws, 0);
-  std::printf("thread of 300 mm in a stitch, needle held: %.3f ms CPU a step beside the organ's own\n",
-              1e3 * s.cpu_s / s.steps);
+  s.move(s.jaws.p + Vec3(0, 0, 0.04), 0, 200);
+  print("drawn through a stitch");
+  for (int i = 0; i < 200; ++i) s.step(s.jaws, 0);
+  print("held in a stitch");
 }
 
 }  // namespace

@@ -97,9 +97,8 @@ TEST(Throws, AreTheSameFromWhereverOneLooks) {
       EXPECT_EQ(there[i].turns, std::abs(made[i]));
       EXPECT_EQ(there[i].sense * there[0].sense, (made[i] > 0) == (made[0] > 0) ? 1 : -1);
     }
-    const Mat3 turn = Eigen::Quaterniond(some(random), some(random), some(random), some(random))
-                          .normalized()
-                          .toRotationMatrix();
+    const Mat3 turn =
+        Eigen::Quaterniond(some(random), some(random), some(random), some(random)).normalized().toRotationMatrix();
     for (Line* line : {&limbs.a, &limbs.b})
       for (Vec3& place : *line) place = turn * place + Vec3(0.1, 0.2, 0.3);
     EXPECT_EQ(read_throws(limbs.a, limbs.b), there);
@@ -131,8 +130,7 @@ Line wound(double turns, double radius = 0.003) {
     line.push_back({radius * std::cos(at), radius * std::sin(at), 0.01 + 0.004 * i / count});
   }
   const double end = 2 * std::numbers::pi * turns;
-  for (int i = 1; i <= 20; ++i)
-    line.push_back(line.back() + 0.0015 * Vec3(std::cos(end), std::sin(end), 0));
+  for (int i = 1; i <= 20; ++i) line.push_back(line.back() + 0.0015 * Vec3(std::cos(end), std::sin(end), 0));
   return line;
 }
 
