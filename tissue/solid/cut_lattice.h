@@ -49,6 +49,8 @@ class CutLattice {
   /// How a place at rest hangs on the cell of a part that is nearest to a vertex of it: weights of a place outside the
   /// cell go beyond 0 and 1.
   Embedding hang(const Vec3& place, std::int32_t vertex) const;
+  /// Of a place at rest, or of one just outside: the cell of a part on its own side of every cut. -1: none is near.
+  std::int32_t cell_for(const Vec3& place, std::int32_t part = 0) const;
   /// @param cut depths at rest. @return false: it would take a piece off, and nothing is done.
   /// @throws InputError as cut_groove().
   bool cut(const SurfaceCut& cut, LatticeChange& change);
@@ -83,8 +85,6 @@ class CutLattice {
   void share_nodes(const std::vector<std::int32_t>& touched, LatticeChange& change);
   std::size_t components() const;  ///< that hang together over whole faces
   void embed(std::size_t first_new, const std::vector<std::int32_t>& touched, std::int32_t part);
-  /// The cell of a place's own side. -1: no block there.
-  std::int32_t cell_for(const Vec3& probe, std::int32_t part) const;
   Place place_of(const Vec3& at_rest, std::int32_t part) const;
   TriangleSurface surface_of(std::int32_t part) const;
 

@@ -154,6 +154,39 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
   return out;
 }
 
+NodeShares SoftOrgan::shares_within(const Vec3& rest_T) const {
+  const std::int32_t number = lattice_.cell_for(rest_T);
+  if (number < 0) return {};
+  const Lattice& lattice = lattice_.lattice();
+  const LatticeCell& cell = lattice.cells[static_cast<std::size_t>(number)];
+  const Vec3 at =
+      (rest_T - lattice.origin_m) / lattice.cell_m - Vec3(cell.place[0], cell.place[1], cell.place[2]);  // 0..1 inside
+  NodeShares out;
+  for (std::size_t k = 0; k < 8; ++k) {
+    double share = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double along = at[static_cast<Eigen::Index>(axis)];
+      share *= (k >> axis & 1) != 0 ? along : 1 - along;
+    }
+    out.node.push_back(cell.corners[k]);
+    out.share.push_back(static_cast<float>(share));
+  }
+  return out;
+}
+
+Mat3 SoftOrgan::gradient_within(const Vec3& rest_T) const {
+  const std::int32_t number = lattice_.cell_for(rest_T);
+  return number < 0 ? Mat3::Identity() : mean_gradient(number);
+}
+
+Vec3 SoftOrgan::place_T(const NodeShares& place) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < place.node.size(); ++i)
+    sum +=
+        static_cast<double>(place.share[i]) * solid_.position()[static_cast<std::size_t>(place.node[i])].cast<double>();
+  return sum;
+}
+
 MaterialPoint SoftOrgan::place_now(const MaterialPoint& before, const SurfaceSnapshot& old) const {
   // Vertices keep their numbers: of a triangle that was divided the piece is taken in which the place lies.
   if (before.triangle < 0 || before.triangle >= static_cast<std::int32_t>(old.triangles.size())) return {};
@@ -181,10 +214,13 @@ MaterialPoint SoftOrgan::place_now(const MaterialPoint& before, const SurfaceSna
 }
 
 Vec3 SoftOrgan::turned_to_rest(const MaterialPoint& place, const Vec3& vector_T) const {
-  // By the mean gradient of the cell under the place.
-  const Lattice& lattice = lattice_.lattice();
   const auto vertex = static_cast<std::size_t>(rest()->triangles[static_cast<std::size_t>(place.triangle)][0]);
-  const LatticeCell& cell = lattice.cells[static_cast<std::size_t>(lattice.embedding[vertex].cell)];
+  return mean_gradient(lattice_.lattice().embedding[vertex].cell).inverse() * vector_T;
+}
+
+Mat3 SoftOrgan::mean_gradient(std::int32_t number) const {
+  const Lattice& lattice = lattice_.lattice();
+  const LatticeCell& cell = lattice.cells[static_cast<std::size_t>(number)];
   Mat3 F = Mat3::Zero();
   for (std::size_t k = 0; k < 8; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -192,8 +228,7 @@ Vec3 SoftOrgan::turned_to_rest(const MaterialPoint& place, const Vec3& vector_T)
           ((k >> axis & 1) != 0 ? 1 : -1) / (4 * lattice.cell_m) *
           solid_.position()[static_cast<std::size_t>(cell.corners[k])].cast<double>();
   const double det = F.determinant();
-  if (!(det > kLeastVolume && det < 1 / kLeastVolume)) return vector_T;
-  return F.inverse() * vector_T;
+  return det > kLeastVolume && det < 1 / kLeastVolume ? F : Mat3::Identity();
 }
 
 OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {

@@ -97,14 +97,21 @@ class SoftOrgan {
 
   std::uint64_t topology() const { return surface_->topology; }
   const SurfacePtr& rest() const { return lattice_.rest(); }
-  /// Of the part that a triangle belongs to.
-  const TissueSolid& material(std::int32_t triangle) const { return part(triangle).material; }
+  /// Of the part that a triangle belongs to; the first one is the organ's own.
+  const TissueSolid& material(std::int32_t triangle = 0) const { return part(triangle).material; }
   std::int32_t part_of(std::int32_t triangle) const {
     return lattice_.part_of(rest()->triangles[static_cast<std::size_t>(triangle)][0]);
   }
   OrganBed* bed() { return bed_ ? &*bed_ : nullptr; }  ///< nullptr: none
   const OrganBed* bed() const { return bed_ ? &*bed_ : nullptr; }
   NodeShares shares_of(const MaterialPoint& place) const;
+  /// Of a place inside the organ at rest, or just outside; nothing where no cell is near.
+  NodeShares shares_within(const Vec3& rest_T) const;
+  /// How the tissue there is turned and stretched now, dx / dX; the identity where no cell is near or one is turned
+  /// out.
+  Mat3 gradient_within(const Vec3& rest_T) const;
+  /// Where such a place is now.
+  Vec3 place_T(const NodeShares& place) const;
   /// Of a spring that holds on to a place, as the loop may render it within a step, N/m.
   double loop_stiffness(const NodeShares& place, const Vec3& direction, double spring_n_per_m) const;
   const SurfacePtr& surface() const { return surface_; }   ///< as it is
@@ -141,6 +148,7 @@ class SoftOrgan {
   MaterialPoint place_now(const MaterialPoint& before, const SurfaceSnapshot& old) const;
   /// A direction of the organ as it lies now, back at rest.
   Vec3 turned_to_rest(const MaterialPoint& place, const Vec3& vector_T) const;
+  Mat3 mean_gradient(std::int32_t cell) const;
   /// How the neighbourhood of a place has moved as a whole, from its rest, with its part.
   Pose motion_round(const Vec3& rest_T, std::int32_t part) const;
   /// The surface with the neighbourhoods of these places at rest, carried along as a whole.
