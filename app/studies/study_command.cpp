@@ -63,6 +63,7 @@ constexpr std::array kStudies{
     KnownStudy{"relaxation", relaxation_study},
     KnownStudy{"grasp", grasp_study},
     KnownStudy{"cutting", cutting_study},
+    KnownStudy{"suturing", suturing_study},
     KnownStudy{"multirate", multirate_study},
     KnownStudy{"solvers", solvers_study},
     KnownStudy{"tissue-scaling", tissue_scaling_study},

@@ -1,6 +1,6 @@
-// `trocar study indentation | relaxation | grasp | cutting | multirate | solvers | tissue-scaling`: tissue that gives
-// way beside converged numbers, published ranges, other ways between its rate and the loop's, other solvers, and its
-// cost.
+// `trocar study indentation | relaxation | grasp | cutting | suturing | multirate | solvers | tissue-scaling`: tissue
+// that gives way beside converged numbers, published ranges, other ways between its rate and the loop's, other solvers,
+// and its cost.
 #pragma once
 
 #include "app/studies/study.h"
@@ -15,6 +15,7 @@ StudyResult relaxation_study(const StudyRequest& request);
 StudyResult grasp_study(const StudyRequest& request);
 /// Cuts: how wounds open by tension at rest and cell size, what blades take, what a cut costs.
 StudyResult cutting_study(const StudyRequest& request);
+StudyResult suturing_study(const StudyRequest& request);
 /// The same press by ours, the held force, a linear coupling and the thesis' law.
 StudyResult multirate_study(const StudyRequest& request);
 /// The same organ by ours, corotational linear tetrahedra and XPBD: error at equal time.
