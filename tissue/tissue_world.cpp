@@ -203,6 +203,11 @@ void TissueWorld::hang_vessels() {
 }
 
 void TissueWorld::tell_vessels() {
+  for (std::size_t d = 0; d < vessel_.size(); ++d) {
+    if (vessel_[d] < 0) continue;
+    const auto [arc_m, share] = ducts_->pressed(d).value_or(std::pair(0.0, 0.0));
+    actions_->bleeding().pinch_vessel(vessel_[d], arc_m / ducts_->tube(d).rod.length_m(), share);
+  }
   for (const DuctChange& change : ducts_->changed()) {
     const auto duct = static_cast<std::size_t>(change.duct);
     const ElasticRod& rod = ducts_->tube(duct).rod;
@@ -245,6 +250,11 @@ void TissueWorld::add_ducts(ContactPatch& patch) {
   if (ducts_->closing().value_or(0) != 0) refused_s_ = frame_.t_s;
   surgery.refused_s = std::max(surgery.refused_s, refused_s_);
   surgery.refusal = refusal_;
+  const std::int32_t organ_done = surgery.cuts + surgery.tears, ducts_done = ducts_->cuts() + ducts_->tears();
+  if (ducts_done != duct_cuts_) duct_cut_last_ = true;
+  if (organ_done != organ_cuts_) duct_cut_last_ = false;
+  organ_cuts_ = organ_done, duct_cuts_ = ducts_done;
+  if (duct_cut_last_) surgery.cut_m = 0;  // no line of the organ's
   surgery.cuts += ducts_->cuts();
   surgery.tears += ducts_->tears();
   surgery.clips += ducts_->clips();

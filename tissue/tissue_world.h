@@ -99,7 +99,8 @@ class TissueWorld final : public World {
   std::size_t organ_cuts_kept_ = 0;
   std::uint64_t last_topology_ = 0;  ///< of the organ before its last cut, when the ducts began at
   std::int32_t first_duct_triangle_ = 0, last_first_duct_triangle_ = -1;
-  std::int32_t organ_closings_ = 0, refusal_ = 0;
+  std::int32_t organ_closings_ = 0, refusal_ = 0, organ_cuts_ = 0, duct_cuts_ = 0;
+  bool duct_cut_last_ = false;
   double refused_s_ = 0;  ///< loop time at which a closing on a duct was refused last
 };
 

@@ -61,7 +61,7 @@ void ContactRenderer::add_hold(const Pose& X_TI, const GripHold& hold, ContactRe
   result.spring_I_T = result.spring_I_T + pull;
   result.stored_j += 0.5 * hold.stiffness_n_per_m * stretch.squaredNorm();
   if (result.contact || stretch.norm() < kArrived) return;
-  result.contact = true;
+  result.contact = result.tip_contact = true;  // the jaws, not the shaft
   result.point_T = point;
   result.normal_T = stretch.normalized();
   result.depth_m = stretch.norm();

@@ -1,5 +1,6 @@
 #include "scenarios/director/surgery_watch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -9,6 +10,7 @@ namespace trocar {
 namespace {
 
 constexpr double kBleeds = 0.5, kDry = 0.25, kDry_s = 1;       // mL/min, below which it has stopped, for so long
+constexpr double kWorse = 3;                                   // mL/min beyond twice what was told
 constexpr double kTold_ml = 10;                                // of blood from one event to the next
 constexpr double kBurn_c = 60, kCooled_c = 55, kAway_s = 0.2;  // of the tissue under the instrument
 
@@ -31,7 +33,9 @@ void SurgeryWatch::update(const SurgeryState& now, double dt_s, EventLog& log) {
 void SurgeryWatch::tell_blood(const SurgeryState& now, double dt_s, EventLog& log) {
   const bool begins = bleeds_.update(now.blood_ml_per_min, dt_s);
   const bool further = std::floor(now.blood_ml / kTold_ml) > std::floor(seen_.blood_ml / kTold_ml);
-  if (begins || further)
+  const bool worse = now.blood_ml_per_min > 2 * told_ml_per_min_ + kWorse;
+  told_ml_per_min_ = begins || worse ? now.blood_ml_per_min : std::min(told_ml_per_min_, now.blood_ml_per_min);
+  if (begins || further || worse)
     log.add(event_type::kBleeding, further ? Severity::kMinor : Severity::kInfo, -1, now.blood_ml, "mL");
 }
 

@@ -22,6 +22,7 @@ class SurgeryWatch {
 
   SurgeryState seen_;
   ThresholdMonitor bleeds_, burns_;
+  double told_ml_per_min_ = 0;
 };
 
 }  // namespace trocar

@@ -170,6 +170,11 @@ void Bleeding::clip_vessel(std::int32_t vessel, double at, double share) {
   vessels_.clip(vessel, at, share);
 }
 
+void Bleeding::pinch_vessel(std::int32_t vessel, double at, double share) {
+  if (vessel < 0 || static_cast<std::size_t>(vessel) >= vessels_.vessels() || !std::isfinite(at + share)) return;
+  vessels_.pinch(vessel, at, share);
+}
+
 void Bleeding::clip_wound(WoundId id, double share, double spanned_m2) {
   if (id < 0 || static_cast<std::size_t>(id) >= wounds_.size() || !std::isfinite(share + spanned_m2)) return;
   Wound& wound = wounds_[static_cast<std::size_t>(id)];

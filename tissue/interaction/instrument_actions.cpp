@@ -177,11 +177,12 @@ WoundId InstrumentActions::cut(const Blade& blade, SoftOrgan& organ) {
 
 void InstrumentActions::set_clip(const StylusState& stylus, const SoftOrgan& organ) {
   widest_m_ = 0;
-  const Vec3 jaws_T = stylus.X_TI * Vec3(0, 0, -options_.applier_m / 2);
+  const Vec3 along_T = stylus.X_TI.R.col(2);
   WoundId nearest = -1;
   double least = options_.clip_reach_m;
   for (WoundId id = 0; id < static_cast<WoundId>(bleeding_.wounds()); ++id) {
-    const double distance = (bleeding_.wound(id).place_T - jaws_T).norm();
+    const Vec3 way = bleeding_.wound(id).place_T - stylus.X_TI.p;
+    const double distance = (way - std::clamp(way.dot(along_T), -options_.applier_m, 0.0) * along_T).norm();
     if (distance < least) least = distance, nearest = id;
   }
   if (nearest < 0) return refuse(CutRefusal::kNoWound);

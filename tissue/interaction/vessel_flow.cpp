@@ -93,6 +93,11 @@ void VesselFlow::seal(std::int32_t vessel, double at, double share) {
   close(vessel, {std::clamp(at, 0.0, 1.0), std::clamp(share, 0.0, 1.0), options_.seal_holds_pa});
 }
 
+void VesselFlow::pinch(std::int32_t vessel, double at, double share) {
+  vessels_[static_cast<std::size_t>(vessel)].pinched = {std::clamp(at, 0.0, 1.0), std::clamp(share, 0.0, 1.0),
+                                                        options_.pinch_holds_pa};
+}
+
 void VesselFlow::press(std::int32_t vessel, double pressure_pa) {
   vessels_[static_cast<std::size_t>(vessel)].pressed_pa = std::max(0.0, pressure_pa);
 }
@@ -103,13 +108,15 @@ VesselFlow::Element VesselFlow::piece(State& state, double low, double high) con
   Element out;
   out.resistance = poiseuille_resistance(options_.viscosity_pa_s, radius, length);
   out.pressed_pa = state.pressed_pa;
-  for (const Closure& closure : state.closures) {
-    if (closure.at < low || closure.at > high) continue;
+  const auto narrow = [&](const Closure& closure) {
+    if (closure.at < low || closure.at > high) return;
     const bool shut = closure.share >= kFull;
     const double left = 1 - (shut ? options_.leak_share : closure.share);
     out.resistance += poiseuille_resistance(options_.viscosity_pa_s, radius, options_.closure_m) / (left * left);
     if (shut) out.holds_pa += closure.holds_pa;
-  }
+  };
+  for (const Closure& closure : state.closures) narrow(closure);
+  if (state.pinched.share > 0) narrow(state.pinched);
   return out;
 }
 

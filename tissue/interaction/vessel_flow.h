@@ -50,6 +50,7 @@ struct VesselFlowOptions {
   double closure_m = 0.0015;           ///< length of a vessel that a clip presses; unchecked
   double leak_share = 0.9;             ///< of the lumen that a full closure still takes when it leaks
   double clip_holds_pa = 300 * kMmHg;  ///< titanium clips hold it (tissue.md 3)
+  double pinch_holds_pa = 20000;       ///< between pads (unchecked)
   double seal_holds_pa = 300 * kMmHg;  ///< of a bipolar seal of a small artery; unchecked
 };
 
@@ -75,6 +76,8 @@ class VesselFlow {
   void seal(std::int32_t vessel, double at, double share);
   /// Until the next: pressure from outside beside the surroundings', Pa.
   void press(std::int32_t vessel, double pressure_pa);
+  /// Until the next: jaws that press it together there. 0: none
+  void pinch(std::int32_t vessel, double at, double share);
   void solve(const BloodPressures& pressures);
 
   std::size_t nodes() const { return nodes_.size(); }
@@ -92,6 +95,7 @@ class VesselFlow {
   struct State {
     Vessel vessel;
     std::vector<Closure> closures;
+    Closure pinched;
     double cut_low = 2, cut_high = -1;  ///< first and last cut; none: low > high
     double pressed_pa = 0;
     std::array<double, 2> flow{};  ///< into the vessel at `from`, at `to`

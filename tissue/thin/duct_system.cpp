@@ -415,6 +415,14 @@ bool DuctSystem::tight(const Duct& duct, const LumenEnd& end) const {
                      });
 }
 
+std::optional<std::pair<double, double>> DuctSystem::pressed(std::size_t duct) const {
+  const Duct& one = ducts_[duct];
+  for (const RodGrip* grip : {&one.grip, &one.clasp})
+    if (const auto arc_m = grip->pressed_arc_m())
+      return std::pair(*arc_m, one.tube.lumen.shape_at(one.tube.rod, *arc_m).flatness);
+  return std::nullopt;
+}
+
 std::int32_t DuctSystem::bile_leaks() const {
   std::int32_t count = 0;
   for (const Duct& duct : ducts_) {

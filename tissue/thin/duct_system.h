@@ -19,6 +19,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "haptics/contact/instrument.h"
@@ -86,9 +87,11 @@ class DuctSystem {
   GripBlock block() const { return block_; }
   GripHold hold() const { return hold_; }
 
-  std::span<const SurfacePtr> seen() const { return seen_; }        ///< for pictures, one a duct
-  void add_nodes(std::vector<NodePlace>& nodes_T) const;            ///< of all, for TissueShape
-  std::vector<Pose> clip_poses() const;                             ///< of all clips that are on, frame of clip_model()
+  std::span<const SurfacePtr> seen() const { return seen_; }  ///< for pictures, one a duct
+  void add_nodes(std::vector<NodePlace>& nodes_T) const;      ///< of all, for TissueShape
+  std::vector<Pose> clip_poses() const;                       ///< of all clips that are on, frame of clip_model()
+  /// Share of a duct's lumen that the jaws press shut, and where. nullopt: they do not.
+  std::optional<std::pair<double, double>> pressed(std::size_t duct) const;
   std::span<const DuctChange> changed() const { return changed_; }  ///< in the last step
   /// What the closing of jaws in the last step came to: 0, or why nothing came of it (refusal_code).
   std::optional<std::int32_t> closing() const { return closing_; }

@@ -151,7 +151,8 @@ void RodGrip::feel(const Pose& X_TI, std::span<const RodSpring> springs, const E
     arc += place.arc_m / static_cast<double>(places_.size());
   }
   const Vec3 direction = pull > 0 ? Vec3(pull_T_.normalized()) : Vec3::UnitZ();
-  hold_.stiffness_n_per_m = loop_stiffness(rod, arc, direction, options_.hold_n_per_m);
+  hold_.stiffness_n_per_m =
+      std::min(options_.most_loop_n_per_m, loop_stiffness(rod, arc, direction, options_.hold_n_per_m));
   hold_.anchor_T = X_TI * hold_.point_I + pull_T_ / hold_.stiffness_n_per_m;
 }
 

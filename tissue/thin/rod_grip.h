@@ -8,6 +8,7 @@
 // y = 0). SI. Thread: tissue task. Let go, nothing is left.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct RodGripOptions {
   double pad_length_m = 0.020, pad_width_m = 0.005;  ///< as SoftGripOptions
   double friction = 0.6;                             ///< pads on wet tissue, 0.11 smooth to 0.83 profiled [M]
   double hold_n_per_m = 600;                         ///< of all springs together
+  double most_loop_n_per_m = 250;                    ///< of the hold in the loop, as SoftOrganOptions
   double most_stiffness_n_per_m = 2000;              ///< of the squeezed walls (a choice: fingers feel them hard)
 };
 
@@ -33,6 +35,11 @@ class RodGrip {
   void reach(const Pose& X_TI, double opening_m, const ElasticRod& rod, std::vector<RodSpring>& springs);
   /// What the pads do to the lumen, after reach() and Lumen::begin().
   void press(Lumen& lumen) const;
+  /// Of the middle of what is between the pads; nullopt: nothing.
+  std::optional<double> pressed_arc_m() const {
+    if (state_ == GripState::kEmpty || between_.empty()) return std::nullopt;
+    return (between_.front() + between_.back()) / 2;
+  }
   /// After the step. @param springs those that reach() added, their forces filled in
   void feel(const Pose& X_TI, std::span<const RodSpring> springs, const ElasticRod& rod);
   void let_go();

@@ -38,6 +38,7 @@ std::vector<HudRow> free_play_rows(const SessionView& view) {
   if (!view.scene.bound.empty()) rows.push_back({"Bed peeled off", hud_number("%.0f", 100 * done.bed_free), "%"});
   rows.push_back({"Blood lost", hud_number("%.1f", done.blood_ml), "mL", true});
   rows.push_back({"Bleeding now", hud_number("%.1f", done.blood_ml_per_min), "mL/min", true});
+  if (done.bile_leaks > 0) rows.push_back({"Bile lost", hud_number("%.1f", done.bile_ml), "mL", true});
   rows.push_back({"Sucked off", hud_number("%.1f", done.sucked_ml), "mL"});
   const bool touches = done.contact_c > 0;
   rows.push_back({"Tissue", touches ? hud_number("%.0f", done.contact_c) : "-", touches ? "°C" : "", true});
@@ -48,8 +49,12 @@ void add_surgery_notices(const SessionView& view, std::vector<HudNotice>& notice
   if (!gives_way(view)) return;
   const SurgeryState& done = view.tissue->surgery;
   const InstrumentKind kind = in_hand(view);
-  const bool closes = kind == InstrumentKind::kScissors || kind == InstrumentKind::kClipApplier;
   const std::int32_t why = done.refusal;
+  // What was refused to another instrument is not told of this one.
+  const bool closes = why == static_cast<std::int32_t>(CutRefusal::kNoWound) ? kind == InstrumentKind::kClipApplier
+                      : why < kFirstClipRefusal
+                          ? kind == InstrumentKind::kScissors
+                          : kind == InstrumentKind::kScissors || kind == InstrumentKind::kClipApplier;
   if (closes && why != 0 && view.tissue->t_s - done.refused_s < kTold_s)
     notices.push_back({refusal_told(kind, why), HudNotice::Kind::kWarning});
   if (done.blood_ml_per_min > kFast)

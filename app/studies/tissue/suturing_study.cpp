@@ -18,7 +18,7 @@ struct StitchRig {
   StitchRig(double thread_m, const NeedleTissueOptions& tissue, const SutureThreadOptions& thread)
       : rest(still_surface(ellipsoid_surface({0.06, 0.05, kTop}, 48))),
         organ(build_lattice(*rest, {}).lattice, rest, material, {}),
-        setup{.X_TN = turned(0), .thread_m = thread_m, .tissue = tissue, .thread = thread},
+        setup{.X_TN = turned(0), .thread_m = thread_m, .thread = thread, .tissue = tissue},
         suturing(setup, organ) {
     jaws = from_above(turned(0) * setup.needle.place(0.3 * setup.needle.length_m) - 2 * kPadsDeep * Vec3::UnitZ());
     X_IN = jaws.inverse() * turned(0);
