@@ -138,6 +138,20 @@ TEST(VesselFlow, AClipBeforeACutStopsWhatComesThroughAWholeVessel) {
   EXPECT_EQ(s.out(), 0);
 }
 
+TEST(VesselFlow, JawsThatHoldItStopItUntilTheyLetGo) {
+  Single s;
+  s.flow.cut(0, 0.5);
+  s.flow.solve(pressures(12000));
+  const double open = s.out();
+  s.flow.pinch(0, 0.3, 1);
+  s.flow.solve(pressures(12000));
+  EXPECT_EQ(s.out(), 0);
+  EXPECT_GT(s.out(false), 0) << "the other stump is not held";
+  s.flow.pinch(0, 0.3, 0);
+  s.flow.solve(pressures(12000));
+  EXPECT_NEAR(s.out(), open, 1e-9 * open);
+}
+
 TEST(VesselFlow, ASealTakesAShareOfTheLumenOrAll) {
   Single s;
   s.flow.cut(0, 0.5);
