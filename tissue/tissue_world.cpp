@@ -123,8 +123,9 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
     }
   };
   follow(0, soft_->felt());
-  for (std::size_t v = 0; v < adjacent_T_.vertices.size(); ++v)  // they go along as they are
-    follow(organ_vertices_ + v, std::array{Vec3(adjacent_T_.vertices[v] + shift_T)});
+  if (breathing_.depth_m > 0 || breathing_.beat_m > 0)
+    for (std::size_t v = 0; v < adjacent_T_.vertices.size(); ++v)  // they go along as they are
+      follow(organ_vertices_ + v, std::array{Vec3(adjacent_T_.vertices[v] + shift_T)});
   if (ducts_) {
     follow(organ_vertices_ + adjacent_T_.vertices.size(), ducts_->contact().vertices);
     keep_changes();

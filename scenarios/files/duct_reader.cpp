@@ -73,6 +73,7 @@ std::optional<BedPlan> read_bed(StrictTable& document) {
   bed.strength_pa = table.number("strength_kpa", 0.1, 1000) * kKilo;
   bed.energy_j_per_m2 = table.number("energy_j_per_m2", 0.1, 10000);
   bed.reach_m = table.number("gap_mm", 0.1, 20) * kMilli;
+  table.finish();
   return bed;
 }
 

@@ -72,7 +72,7 @@ std::vector<InstrumentKind> read_instruments(StrictTable& document, const Exerci
   return instruments;
 }
 
-/// Whole organs lie still in older files.
+/// Files without the table: all lies still.
 Breathing read_breathing(StrictTable& document) {
   Breathing breathing;
   if (!document.has("breathing")) {

@@ -280,6 +280,7 @@ void SoftSolid::hold(std::int32_t node, double stiffness_n_per_m) {
 }
 double SoftSolid::carry(const Vec3& shift) {
   const Vec3f before = carried_, further = shift.cast<float>() - before;
+  if (further.isZero(0)) return 0;
   carried_ += further;
   double work = 0;
   for (std::size_t n = 0; n < node_count(); ++n)

@@ -51,11 +51,10 @@ void add_surgery_notices(const SessionView& view, std::vector<HudNotice>& notice
   const InstrumentKind kind = in_hand(view);
   const std::int32_t why = done.refusal;
   // What was refused to another instrument is not told of this one.
-  const bool closes = why == static_cast<std::int32_t>(CutRefusal::kNoWound) ? kind == InstrumentKind::kClipApplier
-                      : why < kFirstClipRefusal
-                          ? kind == InstrumentKind::kScissors
-                          : kind == InstrumentKind::kScissors || kind == InstrumentKind::kClipApplier;
-  if (closes && why != 0 && view.tissue->t_s - done.refused_s < kTold_s)
+  const bool no_wound = why == static_cast<std::int32_t>(CutRefusal::kNoWound), of_duct = why >= kFirstClipRefusal;
+  const bool concerns = (kind == InstrumentKind::kScissors && !no_wound) ||
+                        (kind == InstrumentKind::kClipApplier && (no_wound || of_duct));
+  if (concerns && why != 0 && view.tissue->t_s - done.refused_s < kTold_s)
     notices.push_back({refusal_told(kind, why), HudNotice::Kind::kWarning});
   if (done.blood_ml_per_min > kFast)
     notices.push_back(

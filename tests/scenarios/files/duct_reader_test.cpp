@@ -71,6 +71,7 @@ TEST(BedReader, ReadsThatOfFreePlayAndNoneWhereNoneIsNamed) {
   EXPECT_DOUBLE_EQ(bed->reach_m, 0.0035);
   EXPECT_FALSE(load_exercise(kExercises / "surface-touch.toml").bed);
   EXPECT_NE(refused("strength_kpa = 20", "strength_kpa = 0").find("strength_kpa"), std::string::npos);
+  EXPECT_NE(refused("gap_mm = 3.5", "gap_mm = 3.5\ngape_mm = 3").find("unknown key 'gape_mm'"), std::string::npos);
   EXPECT_NE(refused("neighbour = \"gallbladder\"", "neighbor = \"gallbladder\"").find("neighbo"), std::string::npos);
 }
 
