@@ -25,6 +25,27 @@ double cotangent(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::isfinite(value) ? value : 0;
 }
 
+std::span<const std::int32_t> corners_at(std::span<const std::int32_t> triangles, std::span<const std::int32_t> begin,
+                                         std::int32_t vertex) {
+  const auto v = static_cast<std::size_t>(vertex);
+  return triangles.subspan(static_cast<std::size_t>(begin[v]), static_cast<std::size_t>(begin[v + 1] - begin[v]));
+}
+
+/// A third of the area vectors of a vertex's triangles, but for those left out.
+Vec3 summed_area(std::span<const std::array<std::int32_t, 3>> triangles, std::span<const std::int32_t> at_vertex,
+                 std::span<const Vec3> vertices_T, const std::vector<bool>& left_out) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t number : at_vertex) {
+    const auto t = static_cast<std::size_t>(number);
+    if (t < left_out.size() && left_out[t]) continue;
+    const auto& [a, b, c] = triangles[t];
+    const Vec3 &p = vertices_T[static_cast<std::size_t>(a)], &q = vertices_T[static_cast<std::size_t>(b)],
+               &r = vertices_T[static_cast<std::size_t>(c)];
+    sum += (q - p).cross(r - p) / 6;
+  }
+  return sum;
+}
+
 double part_in(double step_s, double constant_s) { return 1 - std::exp(-step_s / constant_s); }
 
 }  // namespace
@@ -190,15 +211,7 @@ double SurfaceFilm::add_to_pool(const Liquids& volume) {
 }
 
 Vec3 SurfaceFilm::area_vector(std::int32_t vertex, std::span<const Vec3> vertices_T) const {
-  const auto v = static_cast<std::size_t>(vertex);
-  Vec3 sum = Vec3::Zero();
-  for (std::int32_t c = corner_begin_[v]; c < corner_begin_[v + 1]; ++c) {
-    const auto& t = triangles_[static_cast<std::size_t>(corner_triangles_[static_cast<std::size_t>(c)])];
-    const Vec3 &p = vertices_T[static_cast<std::size_t>(t[0])], &q = vertices_T[static_cast<std::size_t>(t[1])],
-               &r = vertices_T[static_cast<std::size_t>(t[2])];
-    sum += (q - p).cross(r - p) / 6;
-  }
-  return sum;
+  return summed_area(triangles_, corners_at(corner_triangles_, corner_begin_, vertex), vertices_T, {});
 }
 
 void SurfaceFilm::irrigate(const Irrigation& jet, std::span<const Vec3> vertices_T, double step_s) {
@@ -269,14 +282,8 @@ void SurfaceFilm::find_levels(std::span<const Vec3> vertices_T) {
 
 void SurfaceFilm::find_slope(std::size_t vertex, std::span<const Vec3> vertices_T) {
   Cell& cell = cells_[vertex];
-  Vec3 area = Vec3::Zero();
-  for (std::int32_t c = corner_begin_[vertex]; c < corner_begin_[vertex + 1]; ++c) {
-    const auto t = static_cast<std::size_t>(corner_triangles_[static_cast<std::size_t>(c)]);
-    if (t < inside_.size() && inside_[t]) continue;
-    const auto& [a, b, d] = triangles_[t];
-    const Vec3& p = vertices_T[static_cast<std::size_t>(a)];
-    area += (vertices_T[static_cast<std::size_t>(b)] - p).cross(vertices_T[static_cast<std::size_t>(d)] - p);
-  }
+  const Vec3 area = summed_area(
+      triangles_, corners_at(corner_triangles_, corner_begin_, static_cast<std::int32_t>(vertex)), vertices_T, inside_);
   const double size = area.norm();
   cell.sloped = true;
   if (!(size > 0)) {  // in a cut, whose walls lie close together
