@@ -109,6 +109,20 @@ struct BedPlan {
   double strength_pa = 0, energy_j_per_m2 = 0, reach_m = 0;
 };
 
+/// How the organ lies, as an assistant holds it: turned from where a patient on the back has it, another organ of the
+/// scene in the middle.
+struct LiePlan {
+  Vec3 turned_rad = Vec3::Zero();  ///< about the axes of T, x first
+  std::string middle;              ///< name of that one; where it is not there, the organ lies as ever
+};
+
+/// A curved needle with its thread, that a needle driver brings in; only where the organ gives way.
+struct SuturePlan {
+  double needle_m = 0.026;  ///< along its arc
+  double circle = 0.5;      ///< share of a whole circle
+  double thread_m = 0.15;
+};
+
 struct Exercise {
   ExerciseKind kind = ExerciseKind::kTouch;
   std::string id, title, version;               ///< "surface-touch"
@@ -130,6 +144,8 @@ struct Exercise {
   std::vector<DuctPlan> ducts;
   Breathing breathing;  ///< only where the organ gives way
   std::optional<BedPlan> bed;
+  std::optional<SuturePlan> suture;
+  std::optional<LiePlan> lie;
   std::vector<ExerciseLevel> levels;
   Rubric rubric;  ///< of the first level
   std::filesystem::path file;

@@ -76,6 +76,18 @@ struct SurgeryState {
   bool operator==(const SurgeryState&) const = default;
 };
 
+/// What has been stitched so far, and how it stands.
+struct SutureState {
+  std::int32_t needles = 0;  ///< that have been brought in, each with its thread
+  std::int32_t punctures = 0, stitches = 0, throws = 0;
+  std::int32_t tears = 0;  ///< of needle or thread out of the tissue
+  std::int32_t knot = 0;   ///< on the last stitch: KnotKind (thin/throws.h)
+  bool held = false;       ///< the needle, by jaws
+  double pull_n = 0;       ///< of tissue and thread on the needle that is held
+
+  bool operator==(const SutureState&) const = default;
+};
+
 /// Blood in the air.
 struct DropState {
   Vec3 place_T = Vec3::Zero();
@@ -97,6 +109,7 @@ struct TissueFrame {
   double smoke_per_m = 0;               ///< extinction of the smoke in the cavity, 1/m: sight falls as exp(-k d)
   double lens_fog = 0, lens_blood = 0;  ///< on the scope's lens, 0 clean .. 1 blind
   SurgeryState surgery;
+  SutureState suture;
   std::int32_t clip_count = 0, drop_count = 0;
   std::array<Pose, kMaxClipsSeen> clip;  ///< X_TC of clips on wounds, as they were set; C: thin/clip.h
   std::array<DropState, kMaxDropsSeen> drop;

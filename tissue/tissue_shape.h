@@ -28,11 +28,11 @@ struct ShapeField {
 
 struct TissueShape {
   std::uint64_t topology = 0;          ///< as long as it is the same, node i is the same place
-  std::span<const NodePlace> nodes_T;  ///< of the organ, then those of ducts; empty: nothing deforms
+  std::span<const NodePlace> nodes_T;  ///< of the organ, then those of its thin parts; empty: nothing deforms
   std::span<const ShapeField> fields;
   /// Every change of topology since the beginning, in order, in bytes that the world alone can read.
   std::span<const std::string> changes;
-  std::span<const NodePlace> ducts_T = {};  ///< the last ones of nodes_T
+  std::span<const NodePlace> thin_T = {};  ///< the last ones of nodes_T
 };
 
 }  // namespace trocar

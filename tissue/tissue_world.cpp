@@ -37,7 +37,9 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
     if (!setup.ducts.empty()) {
       ducts_.emplace(setup.ducts, *soft_, options.tool_radius_m);
       last_topology_ = soft_->topology();
+      thin_.assign(ducts_->seen().begin(), ducts_->seen().end());
     }
+    suture_ = setup.suture;
     actions_.emplace(*soft_);
     hang_vessels();
     gather_felt();
@@ -86,6 +88,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     frame_.slipped_m = actions_->grip().slipped_m();
     actions_->tell(*soft_, frame_);
     if (ducts_) add_ducts(patch);
+    if (suturing_) add_suture(patch);
   }
   if (present && rigid_) rigid_->add_to(jaws, patch);
   enclose(patch, patch.balls);
@@ -94,8 +97,10 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
 }
 
 void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool present) {
-  // Jaws that have a duct between them do nothing to the organ: to it they are a probe.
-  const bool taken = ducts_ && ducts_->jaws_taken(newest.stylus, tool, present);
+  bring_needle(newest.stylus, tool, present);
+  // Jaws that have a duct, needle or thread between them do nothing to the organ: to it they are a probe.
+  const bool sews = suturing_ && suturing_->jaws_taken(newest.stylus, tool, present);
+  const bool taken = sews || (ducts_ && ducts_->jaws_taken(newest.stylus, tool, present));
   const Tool probe{InstrumentKind::kProbe, tool.shape};
   const Tool& on_organ = taken ? probe : tool;
   std::vector<SoftSpring> springs;
@@ -106,15 +111,23 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
       last_topology_ = soft_->topology() - 1;
       last_first_duct_triangle_ = first_duct_triangle_;
     }
-    ducts_->step(newest, duct_contacts(newest.contacts), tool, present, *soft_, springs);
+    ducts_->step(newest, duct_contacts(newest.contacts), sews ? probe : tool, present, *soft_, springs);
     tell_vessels();
     cut = cut || ducts_->grown();
   }
+  const std::size_t before_suture = springs.size();
+  if (suturing_) suturing_->before(newest, tool, present, *soft_, springs);
   if (cut) gather_felt();
   const Vec3 shift_T = bed_shift(breathing_, frame_.t_s);
   soft_->carry(shift_T);
   soft_->step(newest.contacts, present ? &newest.stylus.X_TI.p : nullptr, springs);
   actions_->after(newest, on_organ, present, std::span(springs).first(own), *soft_);
+  if (suturing_) {
+    suturing_->after(newest, tool, present, std::span(springs).subspan(before_suture), *soft_);
+    for (const SutureEvent& event : suturing_->events())
+      if (event.kind == SutureEvent::Kind::kPulledOut || event.kind == SutureEvent::Kind::kNeedleTorn)
+        actions_->tear_open(event.entry_rest_T, event.exit_rest_T);
+  }
   const double step_s = soft_->solid().options().step_s;
   const auto follow = [&](std::size_t first, std::span<const Vec3> places) {
     for (std::size_t v = 0; v < places.size(); ++v) {
@@ -128,8 +141,8 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
       follow(organ_vertices_ + v, std::array{Vec3(adjacent_T_.vertices[v] + shift_T)});
   if (ducts_) {
     follow(organ_vertices_ + adjacent_T_.vertices.size(), ducts_->contact().vertices);
-    keep_changes();
   }
+  if (ducts_ || suture_) keep_changes();
   extraction_->refit(velocity_);
 }
 
@@ -276,27 +289,56 @@ void TissueWorld::clear_taken(ContactPatch& patch) const {
   }
 }
 
+void TissueWorld::bring_needle(const StylusState& stylus, const Tool& tool, bool present) {
+  if (!suture_) return;
+  const bool drives = present && tool.kind == InstrumentKind::kNeedleDriver, taken_up = drives && !drives_;
+  drives_ = drives;
+  if (!taken_up || (suturing_ && (suturing_->sewn_in() || suturing_->needle().held()))) return;
+  SutureSetup setup = *suture_;
+  const Pose X_IN = needle_in_jaws(setup.needle);
+  setup.X_TN = stylus.X_TI * X_IN;
+  setup.thread_along_T = -stylus.X_TI.R.col(2);
+  const SutureCounts so_far = suturing_ ? suturing_->counts() : SutureCounts{};
+  suturing_.emplace(setup, *soft_, so_far);
+  suturing_->load(stylus.X_TI, X_IN);
+}
+
+void TissueWorld::add_suture(ContactPatch& patch) {
+  if (suturing_->block().stiffness_n_per_m > 0) patch.grip = suturing_->block();
+  if (suturing_->hold().stiffness_n_per_m > 0) patch.hold = suturing_->hold();
+  if (suturing_->grip() > frame_.grip) {
+    frame_.grip = suturing_->grip();
+    frame_.slipped_m = suturing_->slipped_m();
+  }
+  frame_.suture = suturing_->state();
+}
+
 void TissueWorld::keep_changes() {
   for (; organ_cuts_kept_ < soft_->cuts().size(); ++organ_cuts_kept_)
     changes_.push_back(soft_->cuts()[organ_cuts_kept_]);
-  for (const DuctChange& change : ducts_->changed()) changes_.push_back(duct_change_bytes(change));
   nodes_.assign(soft_->solid().position().begin(), soft_->solid().position().end());
-  ducts_->add_nodes(nodes_);
-}
-
-std::span<const SurfacePtr> TissueWorld::ducts() const {
-  return ducts_ ? ducts_->seen() : std::span<const SurfacePtr>{};
+  thin_.clear();
+  if (ducts_) {
+    for (const DuctChange& change : ducts_->changed()) changes_.push_back(duct_change_bytes(change));
+    ducts_->add_nodes(nodes_);
+    thin_.assign(ducts_->seen().begin(), ducts_->seen().end());
+  }
+  if (suturing_) {
+    for (const SutureEvent& event : suturing_->events()) changes_.push_back(suture_event_bytes(event));
+    suturing_->add_nodes(nodes_);
+    thin_.insert(thin_.end(), suturing_->seen().begin(), suturing_->seen().end());
+  }
 }
 
 TissueShape TissueWorld::shape() const {
   if (!soft_) return {};
-  if (ducts_ && !nodes_.empty()) {
+  if (!nodes_.empty()) {
     const std::size_t organ = soft_->solid().position().size();
     return {.topology = seen_->topology + changes_.size(),
             .nodes_T = nodes_,
             .fields = soft_->fields(),
             .changes = changes_,
-            .ducts_T = std::span(nodes_).subspan(organ)};
+            .thin_T = std::span(nodes_).subspan(organ)};
   }
   return {.topology = soft_->topology(),
           .nodes_T = soft_->solid().position(),

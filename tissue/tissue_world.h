@@ -13,6 +13,7 @@
 #include "tissue/collision/patch_extraction.h"
 #include "tissue/interaction/breathing.h"
 #include "tissue/interaction/instrument_actions.h"
+#include "tissue/interaction/suturing.h"
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/rigid/rigid_scene.h"
 #include "tissue/rigid/rigid_world.h"
@@ -44,6 +45,8 @@ struct TissueSetup {
   /// How the organ gives way; its vertices are then the first of organ_T. nullptr: it stands still.
   std::shared_ptr<const SoftSetup> soft = nullptr;
   std::vector<DuctSetup> ducts = {};  ///< only with `soft`
+  /// A needle that the driver brings in, its X_TN and the thread's way found then; only with `soft`. nullptr: none.
+  std::shared_ptr<const SutureSetup> suture = nullptr;
 };
 
 class TissueWorld final : public World {
@@ -53,7 +56,7 @@ class TissueWorld final : public World {
   void step(const HapticState& state, bool present, ContactPatch& patch) override;
   const TissueFrame& frame() const override { return frame_; }
   SurfacePtr surface() const override { return soft_ ? soft_->surface() : seen_; }
-  std::span<const SurfacePtr> ducts() const override;
+  std::span<const SurfacePtr> thin() const override { return thin_; }
   TissueShape shape() const override;
   std::uint64_t dropped() const override { return dropped_; }
 
@@ -70,6 +73,9 @@ class TissueWorld final : public World {
   void tell_vessels();
   /// The ducts' part in patch and frame.
   void add_ducts(ContactPatch& patch);
+  /// A driver that is taken in hand, or comes into the scene, has a needle in its jaws, unless the last one is in tissue.
+  void bring_needle(const StylusState& stylus, const Tool& tool, bool present);
+  void add_suture(ContactPatch& patch);
   void clear_taken(ContactPatch& patch) const;
   void keep_changes();
   const Tool& in_hand(const StylusState& stylus) const;
@@ -84,6 +90,9 @@ class TissueWorld final : public World {
   std::optional<SoftOrgan> soft_;
   std::optional<InstrumentActions> actions_;     ///< with soft_
   std::optional<DuctSystem> ducts_;              ///< with soft_
+  std::shared_ptr<const SutureSetup> suture_;    ///< with soft_
+  std::optional<Suturing> suturing_;             ///< with suture_, since a needle was brought in
+  bool drives_ = false;                          ///< the driver is in hand, in the scene
   std::size_t organ_vertices_ = 0;               ///< of felt_, before those of the adjacent organs
   std::vector<std::int32_t> triangle_material_;  ///< with soft_: of felt_
   TriangleSurface adjacent_T_;  ///< with soft_: the adjacent organs alone, their corners counted from 0
@@ -92,10 +101,12 @@ class TissueWorld final : public World {
   std::vector<Vec3> velocity_;                   ///< with soft_: of its vertices, m/s
   TissueFrame frame_;
   std::uint64_t dropped_ = 0;
+  // With ducts_ or suture_:
+  std::vector<SurfacePtr> thin_;      ///< of the ducts, then of needle and thread
+  std::vector<NodePlace> nodes_;      ///< of the organ, then theirs
+  std::vector<std::string> changes_;  ///< of organ, ducts and suture, in order
   // With ducts_:
   std::vector<std::int32_t> vessel_;  ///< of each in Bleeding's network; -1: carries no blood
-  std::vector<NodePlace> nodes_;      ///< of the organ, then theirs
-  std::vector<std::string> changes_;  ///< of organ and ducts, in order
   std::size_t organ_cuts_kept_ = 0;
   std::uint64_t last_topology_ = 0;  ///< of the organ before its last cut, when the ducts began at
   std::int32_t first_duct_triangle_ = 0, last_first_duct_triangle_ = -1;

@@ -26,8 +26,9 @@ class World {
   virtual const TissueFrame& frame() const = 0;
   /// The organ after the step; nullptr: none is to be seen.
   virtual SurfacePtr surface() const = 0;
-  /// Ducts and vessels after the step, one surface each; empty: there are none.
-  virtual std::span<const SurfacePtr> ducts() const { return {}; }
+  /// The thin parts after the step, one surface each: ducts and vessels, then a needle and its thread; empty: there are
+  /// none.
+  virtual std::span<const SurfacePtr> thin() const { return {}; }
   /// What deforms, after the step. A world with a shape is played from what was recorded of it and not solved again.
   virtual TissueShape shape() const { return {}; }
   /// Triangles in reach that did not fit into a patch, over the run.

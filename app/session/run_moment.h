@@ -22,13 +22,13 @@ struct RunMoment {
   bool seen = false;             ///< false: nothing has been seen of the run yet
   std::uint64_t steered = 0;     ///< number of the newest intent of a person that the device had felt by then; 0: none
   SurfacePtr organ_T = nullptr;  ///< the organ as it was; nullptr: as the scene has it
-  std::vector<SurfacePtr> ducts_T = {};  ///< the ducts as they were; empty: as the scene has them
+  std::vector<SurfacePtr> thin_T = {};  ///< the thin parts as they were; empty: as the scene has them
 };
 
 /// The moment as pictures and displays take it. Refers to both arguments.
 inline SessionView view_of(const Scene& scene, const RunMoment& moment) {
   return {scene,          moment.record, {moment.status, scene.board}, moment.t_s, &moment.tissue,
-          moment.organ_T, moment.ducts_T};
+          moment.organ_T, moment.thin_T};
 }
 
 }  // namespace trocar

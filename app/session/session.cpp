@@ -120,7 +120,7 @@ class ObserverTask final : public Task {
               record.stylus.t_s,
               &frame.tissue,
               frame.organ_T,
-              frame.ducts_T});
+              frame.thin_T});
   }
 
  private:

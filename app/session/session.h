@@ -45,7 +45,7 @@ struct SessionView {
   double t_s;
   const TissueFrame* tissue = nullptr;   ///< newest frame of the world's objects; nullptr: none known
   SurfacePtr organ_T = nullptr;          ///< newest of the organ; nullptr: as the scene has it
-  std::vector<SurfacePtr> ducts_T = {};  ///< of the ducts; empty: as the scene has them
+  std::vector<SurfacePtr> thin_T = {};  ///< of the thin parts; empty: as the scene has them
 };
 using SessionObserver = std::function<void(const SessionView&)>;
 

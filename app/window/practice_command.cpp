@@ -133,10 +133,11 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
       practice->add_option("--level", o.model.level, "Level: L1, L2, L3 or exam")->capture_default_str();
   practice->add_option("--trainee", o.model.trainee,
                        "Trainee code, created when new (default: a guest, until signed in)");
-  practice
-      ->add_flag("--free", o.model.free_play, "Straight to free play on the organ: no clock, no score, nothing kept")
-      ->excludes(exercise)
-      ->excludes(level);
+  for (const auto& [flag, play, words] :
+       {std::tuple("--free", Play::kFree, "Straight to free play on the organ: no clock, no score, nothing kept"),
+        std::tuple("--gallbladder", Play::kGallbladder, "Straight to a gallbladder on its bed, likewise"),
+        std::tuple("--stitching", Play::kStitching, "Straight to a needle and its thread, likewise")})
+    practice->add_flag_callback(flag, [&o, play] { o.model.play = play; }, words)->excludes(exercise)->excludes(level);
   practice
       ->add_option("--input", o.model.input,
                    "What steers: auto (the first that moves), mouse, keyboard, gamepad, spacemouse or device")

@@ -14,7 +14,7 @@
 
 namespace trocar {
 
-enum class InstrumentKind : std::uint8_t { kProbe, kGrasper, kScissors, kHook, kClipApplier, kSuction };
+enum class InstrumentKind : std::uint8_t { kProbe, kGrasper, kScissors, kHook, kClipApplier, kSuction, kNeedleDriver };
 
 struct InstrumentDescription {
   InstrumentKind kind;
@@ -24,13 +24,14 @@ struct InstrumentDescription {
   bool powered;         ///< the pedal does something: current, or suction
 };
 
-inline constexpr std::array<InstrumentDescription, 6> kInstruments{{
+inline constexpr std::array<InstrumentDescription, 7> kInstruments{{
     {InstrumentKind::kProbe, "probe", "Probe", 0, false},
     {InstrumentKind::kGrasper, "grasper", "Grasper", 0.020, true},
     {InstrumentKind::kScissors, "scissors", "Scissors", 0.016, true},
     {InstrumentKind::kHook, "hook", "Hook", 0, true},
     {InstrumentKind::kClipApplier, "clip-applier", "Clip applier", 0.010, false},
     {InstrumentKind::kSuction, "suction", "Suction", 0, true},
+    {InstrumentKind::kNeedleDriver, "needle-driver", "Needle driver", 0.014, false},
 }};
 
 /// Most instruments that an exercise takes: what a recording's row has room for.

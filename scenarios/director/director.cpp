@@ -115,7 +115,10 @@ void Director::State::describe_run(const TaskInput& input) {
 void Director::State::run(const StylusState& state, const TissueFrame* tissue, double dt_s) {
   status.run_time_s = log.t_s - start_s;
   watch.update(state, dt_s, tasks[current]->object(), log);
-  if (tissue) surgery.update(tissue->surgery, dt_s, log);
+  if (tissue) {
+    surgery.update(tissue->surgery, dt_s, log);
+    surgery.update(tissue->suture, log);
+  }
   const TaskInput input{state, tissue, dt_s, watch.too_hard()};
   tasks[current]->update(input, log);
   describe_run(input);
@@ -149,7 +152,7 @@ void Director::update(const StylusState& state, const TissueFrame* tissue) {
   if (s.status.phase == Phase::kRun) {
     s.run(state, tissue, dt_s);
   } else {
-    if (tissue) s.surgery.skip(tissue->surgery);
+    if (tissue) s.surgery.skip(*tissue);
     s.wait_for_start(state, dt_s);
   }
 }

@@ -30,6 +30,17 @@ void SurgeryWatch::update(const SurgeryState& now, double dt_s, EventLog& log) {
   seen_ = now;
 }
 
+void SurgeryWatch::update(const SutureState& now, EventLog& log) {
+  const auto tell = [&](EventType type, std::int32_t before, std::int32_t count) {
+    for (std::int32_t i = before; i < count; ++i) log.add(type, Severity::kInfo, -1, i + 1);
+  };
+  tell(event_type::kNeedle, sewn_.needles, now.needles);
+  tell(event_type::kPuncture, sewn_.punctures, now.punctures);
+  tell(event_type::kStitch, sewn_.stitches, now.stitches);
+  tell(event_type::kThrow, sewn_.throws, now.throws);
+  sewn_ = now;
+}
+
 void SurgeryWatch::tell_blood(const SurgeryState& now, double dt_s, EventLog& log) {
   const bool begins = bleeds_.update(now.blood_ml_per_min, dt_s);
   const bool further = std::floor(now.blood_ml / kTold_ml) > std::floor(seen_.blood_ml / kTold_ml);

@@ -1,6 +1,7 @@
-// The watch on what is done to an organ that gives way: CUT, TEAR, CLIP, REFUSED, BLEEDING, BURN.
+// The watch on what is done to an organ that gives way: CUT, TEAR, CLIP, REFUSED, BLEEDING, BURN, NEEDLE, PUNCTURE,
+// STITCH, THROW.
 //
-// It tells what SurgeryState counts from one step to the next; nobody grades it. Frame T, SI units, blood in mL,
+// It tells what SurgeryState and SutureState count from one step to the next; nobody grades it. Frame T, SI units, blood in mL,
 // temperatures in deg C. Deterministic. Thread: the tissue task's.
 #pragma once
 
@@ -14,13 +15,15 @@ class SurgeryWatch {
  public:
   SurgeryWatch();
   /// What was done before the run is nobody's event.
-  void skip(const SurgeryState& now) { seen_ = now; }
+  void skip(const TissueFrame& now) { seen_ = now.surgery, sewn_ = now.suture; }
   void update(const SurgeryState& now, double dt_s, EventLog& log);
+  void update(const SutureState& now, EventLog& log);
 
  private:
   void tell_blood(const SurgeryState& now, double dt_s, EventLog& log);
 
   SurgeryState seen_;
+  SutureState sewn_;
   ThresholdMonitor bleeds_, burns_;
   double told_ml_per_min_ = 0;
 };

@@ -60,6 +60,35 @@ std::vector<DuctPlan> read_ducts(StrictTable& document) {
   return ducts;
 }
 
+std::optional<SuturePlan> read_suture(StrictTable& document, const std::vector<InstrumentKind>& instruments) {
+  if (!document.has("suture")) {
+    document.allow("suture");
+    return std::nullopt;
+  }
+  StrictTable table = document.table("suture");
+  const bool driven = std::find(instruments.begin(), instruments.end(), InstrumentKind::kNeedleDriver) != instruments.end();
+  if (!driven) document.fail("suture", "'suture' needs a 'needle-driver' among the 'instruments'");
+  SuturePlan suture;
+  suture.needle_m = table.number("needle_mm", 10, 50) * kMilli;
+  suture.circle = table.number("circle", 0.25, 0.7);
+  suture.thread_m = table.number("thread_mm", 50, 300) * kMilli;
+  table.finish();
+  return suture;
+}
+
+std::optional<LiePlan> read_lie(StrictTable& document) {
+  if (!document.has("lie")) {
+    document.allow("lie");
+    return std::nullopt;
+  }
+  StrictTable table = document.table("lie");
+  LiePlan lie;
+  lie.turned_rad = table.vector("turned_deg", -180, 180) * file_units::kDegrees;
+  lie.middle = table.text("middle");
+  table.finish();
+  return lie;
+}
+
 std::optional<BedPlan> read_bed(StrictTable& document) {
   if (!document.has("bed")) {
     document.allow("bed");

@@ -1,4 +1,5 @@
-// The tables [[ducts]] and [bed] of an exercise file: ducts and vessels beside the organ, and the organ bound to it.
+// The tables [[ducts]], [bed], [lie] and [suture] of an exercise file: ducts and vessels beside the organ, the organ
+// bound to it, how it lies, a needle with its thread.
 //
 // Thread: loading only.
 #pragma once
@@ -15,5 +16,9 @@ namespace trocar {
 std::vector<DuctPlan> read_ducts(StrictTable& document);
 /// @return none where the file names none. @throws InputError with line and column
 std::optional<BedPlan> read_bed(StrictTable& document);
+/// @return none where the file names none. @throws InputError with line and column
+std::optional<LiePlan> read_lie(StrictTable& document);
+/// @return none where the file names none. @throws InputError with line and column, also without a driver for it
+std::optional<SuturePlan> read_suture(StrictTable& document, const std::vector<InstrumentKind>& instruments);
 
 }  // namespace trocar

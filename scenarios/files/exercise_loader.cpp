@@ -110,6 +110,8 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   exercise.ducts = read_ducts(document);
   exercise.breathing = read_breathing(document);
   exercise.bed = read_bed(document);
+  exercise.lie = read_lie(document);
+  exercise.suture = read_suture(document, exercise.instruments);
   read_levels(document, exercise);
   for (ExerciseLevel& level : exercise.levels) {
     level.rubric = read_rubric(document.table("rubric"), level);

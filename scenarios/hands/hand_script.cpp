@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "haptics/input_error.h"
+#include "scenarios/files/file_units.h"
 #include "scenarios/files/strict_toml.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kScriptMilli = 1e-3;
+constexpr double kScriptMilli = file_units::kMilli;
 
 HandSkill read_skill(StrictTable table) {
   HandSkill skill;
@@ -34,7 +35,12 @@ HandSkill read_skill(StrictTable table) {
 
 ScriptedMove read_move(StrictTable table) {
   ScriptedMove move;
-  move.to_m = table.vector("to_mm", -1000, 1000) * kScriptMilli;
+  if (table.has("about_mm"))
+    move.about_m = table.vector("about_mm", -1000, 1000) * kScriptMilli;
+  else
+    move.to_m = table.vector("to_mm", -1000, 1000) * kScriptMilli;
+  table.allow("about_mm");
+  move.roll_rad = table.number_or("roll_deg", -360, 360, 0) * file_units::kDegrees;
   move.relative_to_ready = table.choice_or("from", {"theatre", "ready"}, "theatre") == "ready";
   move.seconds = table.number("seconds", 0.01, 600);
   move.hold_s = table.number_or("hold_s", 0, 3600, 0);

@@ -33,11 +33,14 @@ struct HandSkill {
   double population_cv = 0;       ///< spread between persons: each parameter times a log-normal of this CV
 };
 
-/// One straight minimum-jerk move of a fixed script.
+/// One minimum-jerk move of a fixed script: straight, or round a line along the shaft.
 struct ScriptedMove {
   Vec3 to_m = Vec3::Zero();        ///< goal of the tip
   bool relative_to_ready = false;  ///< to_m counts from where the tip was when the device became ready; else from T
-  double seconds = 0;              ///< duration of the move
+  /// The tip goes round the line through this place along the shaft by the move's roll, and `to_m` is not read.
+  std::optional<Vec3> about_m = {};
+  double roll_rad = 0;  ///< by which the instrument is turned about its shaft over the move
+  double seconds = 0;   ///< duration of the move
   double hold_s = 0;               ///< rest at its end
   double jaw_m = 0.02;             ///< jaw opening at its end
   bool clutch = false;             ///< made with the clutch held: the stylus moves, the instrument stays

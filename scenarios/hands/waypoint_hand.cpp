@@ -33,6 +33,7 @@ HandIntent WaypointHand::update(const Percept& percept, double dt_s) {
     seen_ = true;
     ready_ = percept.device_ready;
     ready_T_ = from_T_ = intent_.X_TI.p;
+    R_from_ = intent_.X_TI.R;
     from_jaw_m_ = intent_.jaw_opening_m;
     return intent_;
   }
@@ -41,14 +42,20 @@ HandIntent WaypointHand::update(const Percept& percept, double dt_s) {
   if (in_move_s_ == 0 && !takes_instrument(move, percept, dt_s)) return intent_;
   in_move_s_ += dt_s;
   const double share = minimum_jerk(in_move_s_ / move.seconds);
-  intent_.X_TI.p = from_T_ + share * (goal(move) - from_T_);
+  const Mat3 rolled = Eigen::AngleAxisd(share * move.roll_rad, Vec3::UnitZ()).toRotationMatrix();
+  intent_.X_TI.R = R_from_ * rolled;
+  if (move.about_m)
+    intent_.X_TI.p = *move.about_m + R_from_ * rolled * R_from_.transpose() * (from_T_ - *move.about_m);
+  else
+    intent_.X_TI.p = from_T_ + share * (goal(move) - from_T_);
   intent_.jaw_opening_m = from_jaw_m_ + share * (move.jaw_m - from_jaw_m_);
   intent_.clutch = move.clutch;
   intent_.pedal = move.pedal;
   if (in_move_s_ >= move.seconds + move.hold_s) {
     if (move.clutch)
-      intent_ = {.X_TI = {intent_.X_TI.R, from_T_}, .jaw_opening_m = intent_.jaw_opening_m};  // it stayed there
+      intent_ = {.X_TI = {R_from_, from_T_}, .jaw_opening_m = intent_.jaw_opening_m};  // it stayed there
     from_T_ = intent_.X_TI.p;
+    R_from_ = intent_.X_TI.R;
     from_jaw_m_ = intent_.jaw_opening_m;
     in_move_s_ = 0;
     presses_ = 0;

@@ -1,4 +1,4 @@
-// A hand that follows a fixed list of straight minimum-jerk moves and then stays; with an empty list it holds still.
+// A hand that follows a fixed list of minimum-jerk moves and then stays; with an empty list it holds still.
 // For tests and studies. Frame T, m. Thread: the hand task's; does not allocate after construction.
 #pragma once
 
@@ -22,6 +22,7 @@ class WaypointHand : public Hand {
   std::vector<ScriptedMove> moves_;
   HandIntent intent_;
   Vec3 ready_T_ = Vec3::Zero(), from_T_ = Vec3::Zero();
+  Mat3 R_from_ = Mat3::Identity();
   double from_jaw_m_ = 0;
   bool seen_ = false, ready_ = false;
   std::size_t index_ = 0;

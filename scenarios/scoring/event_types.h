@@ -26,7 +26,7 @@ inline constexpr EventType kExcessForce{"EXCESS_FORCE"}, kCriticalForce{"CRITICA
     kToolCollision{"TOOL_COLLISION"}, kDeviceLimit{"DEVICE_LIMIT"}, kClutch{"CLUTCH"}, kPortHold{"PORT_HOLD"};
 // Its watch on surgery, where tissue gives way
 inline constexpr EventType kCut{"CUT"}, kTear{"TEAR"}, kClip{"CLIP"}, kRefused{"REFUSED"}, kBleeding{"BLEEDING"},
-    kBurn{"BURN"};
+    kBurn{"BURN"}, kNeedle{"NEEDLE"}, kPuncture{"PUNCTURE"}, kStitch{"STITCH"}, kThrow{"THROW"};
 // Every kind of exercise
 inline constexpr EventType kTargetLit{"TARGET_LIT"}, kTargetHeld{"TARGET_HELD"};
 // Touch

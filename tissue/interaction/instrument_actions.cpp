@@ -41,6 +41,12 @@ Pose frame_of(const std::array<std::int32_t, 3>& vertices, const std::vector<Vec
   return X;
 }
 
+Vec3 outward_at(const SurfaceSnapshot& surface, std::int32_t triangle) {
+  const auto& [a, b, c] = surface.triangles[static_cast<std::size_t>(triangle)];
+  const auto at = [&](std::int32_t v) { return surface.vertices[static_cast<std::size_t>(v)]; };
+  return (at(b) - at(a)).cross(at(c) - at(a)).normalized();
+}
+
 /// The triangle of the outside whose middle is nearest, but for slivers.
 std::array<std::int32_t, 3> triangle_near(const SurfaceSnapshot& surface, const Vec3& place_T) {
   constexpr double kSliver = 1e-7;  // m2, twice its area
@@ -70,6 +76,7 @@ bool InstrumentActions::before(const HapticState& newest, const Tool& tool, bool
   now_s_ = stylus.t_s;
   cut_now_ = false;
   blades_ = {};
+  open_torn(organ);
   const bool grasps = present && tool.kind == InstrumentKind::kGrasper;
   if (grasps) {
     tear(organ, stylus);
@@ -202,12 +209,21 @@ void InstrumentActions::tear(SoftOrgan& organ, const StylusState& stylus) {
   const Vec3 pull = grip_.pull_T().normalized(), middle = grip_.middle_T(organ);
   const Vec3 along = (stylus.X_TI.R.col(0) - stylus.X_TI.R.col(0).dot(pull) * pull).normalized();
   const double half = options_.tear_length_m / 2;
-  if (cut(track_blade(middle - half * along, middle + half * along, pull, options_.tear_depth_m, options_.tear_depth_m),
-          organ) >= 0) {
-    --state_.cuts;
-    ++state_.tears;
-  }
+  tear_at(middle - half * along, middle + half * along, pull, organ);
   grip_.let_go();
+}
+
+void InstrumentActions::tear_at(const Vec3& from_T, const Vec3& to_T, const Vec3& into_T, SoftOrgan& organ) {
+  if (cut(track_blade(from_T, to_T, into_T, options_.tear_depth_m, options_.tear_depth_m), organ) < 0) return;
+  --state_.cuts;
+  ++state_.tears;
+}
+
+void InstrumentActions::open_torn(SoftOrgan& organ) {
+  for (const auto& [from, to] : std::exchange(torn_, {})) {
+    const Vec3 from_T = organ.place_T(organ.shares_within(from)), to_T = organ.place_T(organ.shares_within(to));
+    tear_at(from_T, to_T, -outward_at(*organ.surface(), organ.nearest_place((from_T + to_T) / 2).triangle), organ);
+  }
 }
 
 void InstrumentActions::draw_hook(const HapticState& newest, SoftOrgan& organ) {

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "haptics/contact/instrument.h"
@@ -60,6 +61,9 @@ class InstrumentActions {
   void after(const HapticState& newest, const Tool& tool, bool present, std::span<const SoftSpring> springs,
              SoftOrgan& organ);
 
+  /// Before the next step: the tissue between two places of it at rest, that a thread or needle has torn out of, is open.
+  void tear_open(const Vec3& from_rest_T, const Vec3& to_rest_T) { torn_.push_back({from_rest_T, to_rest_T}); }
+
   const SoftGrip& grip() const { return grip_; }
   GripBlock block() const { return blades_.stiffness_n_per_m > 0 ? blades_ : grip_.block(); }
   const Bleeding& bleeding() const { return bleeding_; }
@@ -77,6 +81,8 @@ class InstrumentActions {
   void feel_blades(const StylusState& stylus, const SoftOrgan& organ);
   void set_clip(const StylusState& stylus, const SoftOrgan& organ);
   void tear(SoftOrgan& organ, const StylusState& stylus);
+  void tear_at(const Vec3& from_T, const Vec3& to_T, const Vec3& into_T, SoftOrgan& organ);
+  void open_torn(SoftOrgan& organ);
   void draw_hook(const HapticState& newest, SoftOrgan& organ);
   /// @return the wound; -1 where nothing was cut
   WoundId cut(const Blade& blade, SoftOrgan& organ);
@@ -107,6 +113,7 @@ class InstrumentActions {
   bool hook_draws_ = false;
   Vec3 hook_from_T_ = Vec3::Zero();
   std::vector<SetClip> clips_;
+  std::vector<std::pair<Vec3, Vec3>> torn_;  ///< by thread or needle, since the last step
   double smoke_per_m_ = 0, steam_seen_j_ = 0;
 };
 

@@ -8,6 +8,7 @@
 // the needle has left is not held; with the path gone nothing is left. T, SI. Thread: tissue task.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,6 +45,7 @@ double pull_out_force(const TissueSolid& tissue, double bridge_m, const NeedleTi
 struct OrganView {
   const SoftOrgan& organ;
   const SurfaceWalk& walk;
+  double floor_m = -INFINITY;  ///< z of what lies under it, that nothing falls through
 };
 
 /// Of the organ's step, with the place of the needle that it pulls on.

@@ -173,6 +173,8 @@ void SutureNeedle::go_free(const OrganView& view, const ThreadPull& thread) {
   if (paths_.empty()) {
     for (std::size_t i = 0; i < lies_on_.size(); ++i) {
       const Vec3 place = X_TN_ * shape_.place(shape_.length_m * static_cast<double>(i) / 2);
+      if (const double under = view.floor_m - place.z(); under > 0)
+        step.add(place, kLies * under * Vec3::UnitZ(), kLies * Mat3::Identity());
       const SurfaceFoot foot = view.walk.foot(view.organ.surface()->vertices, place, lies_on_[i]);
       const double deep = shape_.wire_radius_m - foot.height_m;
       if (deep <= 0 || deep > swing_m()) continue;

@@ -137,6 +137,8 @@ void SutureThread::push_off_organ(const OrganView& view, std::vector<RodSpring>&
       return arc > from && arc < stitch.entry.ring.arc_m + kRoundHole;
     });
     const Vec3& place = nodes[i].position;
+    if (const double under = view.floor_m - place.z(); under > 0)
+      springs.push_back({arc, -Vec3::UnitZ(), kSurfacePush, under, true, 0});
     vertex_[i] = view.walk.nearest(surface.vertices, place, vertex_[i]);
     if (in_hole || (surface.vertices[static_cast<std::size_t>(vertex_[i])] - place).norm() > kSurfaceSeen) continue;
     const SurfaceFoot foot = view.walk.foot(surface.vertices, place, vertex_[i]);

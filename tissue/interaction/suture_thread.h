@@ -89,6 +89,8 @@ class SutureThread {
 
   /// A throw has been drawn through on the last stitch: where its limbs are nearest. Without one, nothing.
   void tie(const Throw& made);
+  /// The thread is cut through.
+  void sever(double arc_m) { rod_.sever(arc_m); }
 
   const ElasticRod& rod() const { return rod_; }
   std::span<const Stitch> stitches() const { return stitches_; }

@@ -1,8 +1,10 @@
 #include "tissue/interaction/suturing.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "haptics/input_error.h"
 
@@ -12,6 +14,14 @@ namespace {
 constexpr std::int32_t kSutureMark = -43;  // where a cut of an organ has a triangle, as DuctChange
 constexpr int kThreadSides = 6;
 constexpr std::size_t kNeedlePlaces = 3;
+constexpr double kUnderOrgan = 0.005;  // m of the organ's lowest place over what a lost needle lies on
+constexpr double kShutOn = 0.00005;  // m by which fingers that hold a needle are nearer than its wire is wide
+
+double lowest(const TriangleSurface& surface) {
+  double z = INFINITY;
+  for (const Vec3& vertex : surface.vertices) z = std::min(z, vertex.z());
+  return z;
+}
 
 std::vector<Vec3> drawn_thread(const SutureSetup& setup) {
   const Vec3 swage = setup.X_TN * setup.needle.place(0);
@@ -72,6 +82,17 @@ SutureEvent::Kind kind_of(ThreadEvent::Kind kind) {
   return SutureEvent::Kind::kOffNeedle;
 }
 
+bool in_scene(const StylusState& stylus, bool present) {
+  return present && stylus.X_TI.p.allFinite() && stylus.X_TI.R.allFinite() && std::isfinite(stylus.jaw_opening_m);
+}
+
+/// Those that take needle and thread.
+std::optional<DriverJaws> driver_jaws(const StylusState& stylus, const Tool& tool, bool present) {
+  const bool drives = tool.kind == InstrumentKind::kNeedleDriver || tool.kind == InstrumentKind::kGrasper;
+  if (!drives || !in_scene(stylus, present)) return std::nullopt;
+  return DriverJaws{stylus.X_TI, stylus.jaw_opening_m};
+}
+
 void add_rod_nodes(const ElasticRod& rod, std::vector<NodePlace>& nodes_T) {
   const std::size_t first = nodes_T.size();
   nodes_T.resize(first + rod.nodes().size());
@@ -106,7 +127,7 @@ SutureEvent parse_suture_event(std::string_view bytes) {
   SutureEvent event;
   if (take_of_suture<std::int32_t>(bytes) != kSutureMark) throw InputError("a change of the tissue is not a suture's");
   const auto kind = take_of_suture<std::uint8_t>(bytes);
-  if (kind > static_cast<std::uint8_t>(SutureEvent::Kind::kOffNeedle))
+  if (kind > static_cast<std::uint8_t>(SutureEvent::Kind::kSnipped))
     throw InputError("an event of a suture is unknown");
   event.kind = static_cast<SutureEvent::Kind>(kind);
   for (Vec3* place : {&event.entry_rest_T, &event.exit_rest_T})
@@ -122,26 +143,44 @@ SutureEvent parse_suture_event(std::string_view bytes) {
   return event;
 }
 
-Suturing::Suturing(const SutureSetup& setup, const SoftOrgan& organ)
+Pose needle_in_jaws(const NeedleShape& needle) {
+  constexpr double kHeldAt = 0.25, kBehindTip = 0.002;  // of its length; m
+  const double arc = kHeldAt * needle.length_m;
+  Pose X_NI;
+  X_NI.R.col(0) = -needle.tangent(arc);
+  X_NI.R.col(1) = -needle.place(arc).normalized();
+  X_NI.R.col(2) = X_NI.R.col(0).cross(X_NI.R.col(1));
+  X_NI.p = needle.place(arc) + kBehindTip * X_NI.R.col(2);
+  return X_NI.inverse();
+}
+
+Suturing::Suturing(const SutureSetup& setup, const SoftOrgan& organ, const SutureCounts& so_far)
     : setup_(setup),
       topology_(organ.topology()),
       walk_(*organ.rest()),
+      floor_m_(lowest(*organ.rest()) - kUnderOrgan),
       needle_(setup.needle, setup.X_TN, setup.tissue, setup.jaws),
       thread_(drawn_thread(setup), setup.thread, setup.tissue, organ.solid().options().step_s),
       tube_(still_surface(needle_tube(setup.needle))),
       thread_seen_(thread_.rod(), kThreadSides),
-      seen_{needle_surface(tube_, setup.X_TN), thread_seen_.surface()} {}
+      seen_{needle_surface(tube_, setup.X_TN), thread_seen_.surface()},
+      counts_(so_far) {}
 
-void Suturing::load(const Pose& X_TI, const Pose& X_IN) { needle_.load(X_TI, X_IN); }
+void Suturing::load(const Pose& X_TI, const Pose& X_IN) {
+  needle_.load(X_TI, X_IN);
+  locked_ = true;
+}
 
-std::optional<DriverJaws> Suturing::jaws(const StylusState& stylus, const Tool& tool, bool present) const {
-  const bool sound = stylus.X_TI.p.allFinite() && stylus.X_TI.R.allFinite() && std::isfinite(stylus.jaw_opening_m);
-  if (!present || tool.kind != setup_.driver || !sound) return std::nullopt;
-  return DriverJaws{stylus.X_TI, stylus.jaw_opening_m};
+std::optional<DriverJaws> Suturing::locked_jaws(const StylusState& stylus, const Tool& tool, bool present) const {
+  auto jaws = driver_jaws(stylus, tool, present);
+  if (jaws && locked_) jaws->opening_m = 0;
+  return jaws;
 }
 
 bool Suturing::jaws_taken(const StylusState& stylus, const Tool& tool, bool present) const {
-  const auto driver = jaws(stylus, tool, present);
+  if (tool.kind == InstrumentKind::kScissors && in_scene(stylus, present))
+    return thread_.between(stylus.X_TI, stylus.jaw_opening_m);
+  const auto driver = locked_jaws(stylus, tool, present);
   return driver && (needle_.held() || needle_.between(driver->X_TI, driver->opening_m) ||
                     thread_.between(driver->X_TI, driver->opening_m));
 }
@@ -157,16 +196,20 @@ void Suturing::follow(const SoftOrgan& organ) {
 void Suturing::before(const HapticState& newest, const Tool& tool, bool present, const SoftOrgan& organ,
                       std::vector<SoftSpring>& springs) {
   events_.clear();
+  if (std::exchange(new_, false)) events_.push_back({.kind = SutureEvent::Kind::kBroughtIn});
   follow(organ);
-  const OrganView view{organ, walk_};
-  const auto driver = jaws(newest.stylus, tool, present);
+  const OrganView view{organ, walk_, floor_m_};
+  if (newest.stylus.jaw_opening_m < 2 * setup_.needle.wire_radius_m - kShutOn) locked_ = false;
+  const auto driver = locked_jaws(newest.stylus, tool, present);
   const std::size_t first = springs.size();
   std::vector<SoftSpring> of_needle;
   needle_.before(view, driver, pull_, of_needle);
   SutureThread::Around around{.swage_T = needle_.swage_T(), .swage_way = needle_.swage_way(), .jaws = {}, .X_TI = {}};
   if (driver && needle_.state() == GripState::kEmpty) around.jaws = driver;
-  if (present && newest.stylus.X_TI.p.allFinite() && newest.stylus.X_TI.R.allFinite())
+  if (in_scene(newest.stylus, present)) {
     around.tool = &tool, around.X_TI = newest.stylus.X_TI;
+    if (tool.kind == InstrumentKind::kScissors) snip(newest.stylus);
+  }
   for (const NeedlePath& path : needle_.paths()) {
     if (path.entry_arc_m() > 0) thread_.drop(path.number());
     thread_.enter(organ, path);
@@ -179,8 +222,8 @@ void Suturing::before(const HapticState& newest, const Tool& tool, bool present,
 
 void Suturing::after(const HapticState& newest, const Tool& tool, bool present, std::span<const SoftSpring> springs,
                      const SoftOrgan& organ) {
-  const OrganView view{organ, walk_};
-  needle_.after(view, jaws(newest.stylus, tool, present), pull_, springs.subspan(of_thread_));
+  const OrganView view{organ, walk_, floor_m_};
+  needle_.after(view, locked_jaws(newest.stylus, tool, present), pull_, springs.subspan(of_thread_));
   take_needle_events(organ);
   take_thread_events();
   for (const SutureEvent& event : events_) count(event);
@@ -209,6 +252,9 @@ void Suturing::take_thread_events() {
 
 void Suturing::count(const SutureEvent& event) {
   switch (event.kind) {
+    case SutureEvent::Kind::kBroughtIn:
+      ++counts_.needles;
+      break;
     case SutureEvent::Kind::kTaken:
       ++counts_.regrasps;
       break;
@@ -235,8 +281,29 @@ void Suturing::count(const SutureEvent& event) {
     case SutureEvent::Kind::kDrawnThrough:
     case SutureEvent::Kind::kBroke:
     case SutureEvent::Kind::kOffNeedle:
+    case SutureEvent::Kind::kSnipped:
       break;
   }
+}
+
+void Suturing::snip(const StylusState& stylus) {
+  const ClipSurroundings::Rod thread{&thread_.rod()};
+  for (const RodCut& cut : scissors_.step(stylus.X_TI, stylus.jaw_opening_m, std::span(&thread, 1))) {
+    if (cut.share < 1) continue;  // a thread is not nicked
+    thread_.sever(cut.arc_m);
+    events_.push_back({.kind = SutureEvent::Kind::kSnipped, .arc_m = cut.arc_m});
+  }
+}
+
+SutureState Suturing::state() const {
+  return {.needles = counts_.needles,
+          .punctures = counts_.punctures,
+          .stitches = counts_.stitches,
+          .throws = counts_.throws,
+          .tears = counts_.tears,
+          .knot = static_cast<std::int32_t>(knot()),
+          .held = needle_.held(),
+          .pull_n = needle_.held() ? needle_.load_T().force.norm() : 0};
 }
 
 KnotKind Suturing::knot() const { return thread_.knot() ? knot_kind(thread_.knot()->throws) : KnotKind::kNone; }
@@ -269,16 +336,20 @@ SuturePlayback::SuturePlayback(const SutureSetup& setup, std::span<const std::st
       thread_(rod_, kThreadSides),
       tube_(still_surface(needle_tube(setup.needle))),
       radius_m_(setup.needle.radius_m()) {
+  std::vector<SutureEvent> events;
   for (const std::string& bytes : changes) {
     if (!is_suture_event(bytes)) continue;
-    const SutureEvent event = parse_suture_event(bytes);
-    if (event.kind != SutureEvent::Kind::kBroke) continue;
+    events.push_back(parse_suture_event(bytes));
+    if (events.back().kind == SutureEvent::Kind::kBroughtIn) there_ = true, events.clear();
+  }
+  for (const SutureEvent& event : events) {
+    if (event.kind != SutureEvent::Kind::kBroke && event.kind != SutureEvent::Kind::kSnipped) continue;
     rod_.sever(event.arc_m);
     thread_.follow(rod_);  // one break after the other: its surface grows by each
   }
 }
 
-std::size_t SuturePlayback::nodes() const { return kNeedlePlaces + rod_.nodes().size(); }
+std::size_t SuturePlayback::nodes() const { return there_ ? kNeedlePlaces + rod_.nodes().size() : 0; }
 
 Pose SuturePlayback::needle_at(std::span<const NodePlace> nodes_T) const {
   Pose X;
@@ -292,6 +363,7 @@ Pose SuturePlayback::needle_at(std::span<const NodePlace> nodes_T) const {
 
 std::vector<SurfacePtr> SuturePlayback::at(std::span<const NodePlace> nodes_T) const {
   assert(nodes_T.size() == nodes());
+  if (!there_) return {};
   ElasticRod rod = rod_;  // from the same state each time: the rings' turn hangs on no earlier moment
   RodSurface thread = thread_;
   std::vector<Vec3> places;

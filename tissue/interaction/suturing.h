@@ -15,6 +15,7 @@
 #include "haptics/contact/instrument.h"
 #include "haptics/exchange/solved_contacts.h"
 #include "tissue/interaction/suture_thread.h"
+#include "tissue/thin/rod_scissors.h"
 #include "tissue/thin/rod_surface.h"
 #include "tissue/tissue_shape.h"
 
@@ -22,14 +23,17 @@ namespace trocar {
 
 struct SutureSetup {
   NeedleShape needle = {};
-  Pose X_TN = {};                                    ///< where it lies before a run
-  double thread_m = 0.15;                            ///< from the needle to the end
-  Vec3 thread_along_T = Vec3::UnitX();               ///< how it lies at first: straight
-  InstrumentKind driver = InstrumentKind::kGrasper;  ///< whose jaws hold needle and thread
+  Pose X_TN = {};                       ///< where it is at first
+  double thread_m = 0.15;               ///< from the needle to the end
+  Vec3 thread_along_T = Vec3::UnitX();  ///< how it lies at first: straight
   SutureThreadOptions thread = {};
   NeedleTissueOptions tissue = {};
   NeedleDriverOptions jaws = {};
 };
+
+/// X_IN of a needle that is brought in: held at a quarter of its length from the swage, at the tip of the jaws, across the jaws, its circle across
+/// the shaft, so that rolling the shaft turns the needle as it is bent.
+Pose needle_in_jaws(const NeedleShape& needle);
 
 struct SutureEvent {
   /// As recordings keep them.
@@ -47,7 +51,9 @@ struct SutureEvent {
     kPulledOut = 10,     ///< a stitch has torn out: the tissue between its holes is open
     kDrawnThrough = 11,  ///< the thread's end has slipped through a stitch
     kBroke = 12,         ///< the thread, at arc_m
-    kOffNeedle = 13      ///< the needle has come off
+    kOffNeedle = 13,     ///< the needle has come off
+    kBroughtIn = 14,     ///< a needle with a new thread; what there was of another is gone
+    kSnipped = 15        ///< the thread, at arc_m
   } kind = Kind::kTaken;
   Vec3 entry_rest_T = Vec3::Zero(), exit_rest_T = Vec3::Zero();  ///< of the organ at rest
   double force_n = 0, arc_m = 0;
@@ -63,12 +69,13 @@ bool is_suture_event(std::string_view bytes);
 SutureEvent parse_suture_event(std::string_view bytes);
 
 struct SutureCounts {
-  std::int32_t punctures = 0, exits = 0, stitches = 0, throws = 0, tears = 0, regrasps = 0;
+  std::int32_t needles = 0, punctures = 0, exits = 0, stitches = 0, throws = 0, tears = 0, regrasps = 0;
 };
 
 class Suturing {
  public:
-  Suturing(const SutureSetup& setup, const SoftOrgan& organ);
+  /// @param so_far of needles before it
+  Suturing(const SutureSetup& setup, const SoftOrgan& organ, const SutureCounts& so_far = {});
 
   /// Whether the jaws have needle or thread between them: to the organ they are a probe then.
   bool jaws_taken(const StylusState& stylus, const Tool& tool, bool present) const;
@@ -89,6 +96,9 @@ class Suturing {
   const SutureThread& thread() const { return thread_; }
   const SutureCounts& counts() const { return counts_; }
   std::span<const SutureEvent> events() const { return events_; }  ///< of the last step
+  SutureState state() const;
+  /// The needle is in tissue, or its thread in a stitch.
+  bool sewn_in() const { return !needle_.paths().empty() || !thread_.stitches().empty(); }
   KnotKind knot() const;
   GripState grip() const;
   double slipped_m() const { return thread_.grip().slipped_m(); }
@@ -100,8 +110,10 @@ class Suturing {
   void add_nodes(std::vector<NodePlace>& nodes_T) const;
 
  private:
-  std::optional<DriverJaws> jaws(const StylusState& stylus, const Tool& tool, bool present) const;
+  /// Those of a driver; shut as long as the fingers have not closed since the needle was brought in between them.
+  std::optional<DriverJaws> locked_jaws(const StylusState& stylus, const Tool& tool, bool present) const;
   void follow(const SoftOrgan& organ);
+  void snip(const StylusState& stylus);
   void take_needle_events(const SoftOrgan& organ);
   void take_thread_events();
   void count(const SutureEvent& event);
@@ -109,6 +121,7 @@ class Suturing {
   SutureSetup setup_;
   std::uint64_t topology_;
   SurfaceWalk walk_;
+  double floor_m_;
   SutureNeedle needle_;
   SutureThread thread_;
   SurfacePtr tube_;
@@ -118,15 +131,17 @@ class Suturing {
   std::size_t of_thread_ = 0;  ///< springs of the last step
   std::vector<SutureEvent> events_;
   SutureCounts counts_;
+  RodScissors scissors_;
+  bool new_ = true, locked_ = false;
 };
 
-/// Needle and thread from recorded nodes.
+/// Needle and thread from recorded nodes, since the last one was brought in.
 class SuturePlayback {
  public:
   /// @param changes of the recording, those of sutures are taken
   SuturePlayback(const SutureSetup& setup, std::span<const std::string> changes);
 
-  std::size_t nodes() const;
+  std::size_t nodes() const;  ///< 0: no needle has been brought in
   Pose needle_at(std::span<const NodePlace> nodes_T) const;
   /// @param nodes_T as many as nodes(), as add_nodes() told them. @return needle, then thread
   std::vector<SurfacePtr> at(std::span<const NodePlace> nodes_T) const;
@@ -136,6 +151,7 @@ class SuturePlayback {
   RodSurface thread_;
   SurfacePtr tube_;
   double radius_m_;
+  bool there_ = false;  ///< a needle has been brought in
 };
 
 }  // namespace trocar

@@ -55,6 +55,7 @@ std::optional<JawSpace> jaw_space(const DuctSystemOptions& options, InstrumentKi
     case InstrumentKind::kProbe:
     case InstrumentKind::kHook:
     case InstrumentKind::kSuction:
+    case InstrumentKind::kNeedleDriver:
       break;
   }
   return std::nullopt;

@@ -23,6 +23,9 @@ constexpr double kSleeveInside = 0.025;  // m of the port's tube on the scope's 
 const Vec3 kBoardLines(0.44, 0.44, 0.42);
 const Vec3 kNeutralFoam(0.45, 0.43, 0.38);
 const Vec3 kTitanium(0.62, 0.61, 0.60), kDarkBlood(0.16, 0.004, 0.004);
+const Vec3 kNeedleColour(0.58, 0.58, 0.60), kThreadColour(0.06, 0.10, 0.42);
+constexpr std::size_t kOfSuture = 2;   // needle and thread, the last thin parts
+constexpr double kOnNeedle = 0.0006;   // m of opening of jaws that hold a needle
 constexpr double kClosedGap = 0.0004;  // m that tissue keeps between a closed clip's legs
 
 std::vector<TargetMark> marks(const DirectorView& director) {
@@ -204,9 +207,13 @@ SceneView attempt_scene(const SessionView& view) {
     for (const AdjacentOrgan& organ : view.scene.adjacent.organs)
       out.adjacent.push_back({organ.surface_T, organ.material});
     if (view.scene.soft) out.breath_T = bed_shift(view.scene.setup.exercise.breathing, stylus.t_s);
-    const std::vector<SurfacePtr>& ducts_T = view.ducts_T.empty() ? view.scene.ducts_T : view.ducts_T;
-    for (std::size_t i = 0; i < ducts_T.size(); ++i)
-      out.adjacent.push_back({ducts_T[i], view.scene.ducts[i].material.name});
+    const std::vector<SurfacePtr>& thin_T = view.thin_T.empty() ? view.scene.thin_T : view.thin_T;
+    const std::size_t ducts = std::min(thin_T.size(), view.scene.ducts.size());
+    for (std::size_t i = 0; i < ducts; ++i) out.adjacent.push_back({thin_T[i], view.scene.ducts[i].material.name});
+    if (thin_T.size() >= ducts + kOfSuture) {
+      out.wires.push_back({thin_T[ducts], SceneObject::Look::kSteel, kNeedleColour});
+      out.wires.push_back({thin_T[ducts + 1], SceneObject::Look::kPlastic, kThreadColour});
+    }
   }
   picture_of(view.scene.setup.exercise).add_objects(view, out.objects);
   auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
@@ -227,6 +234,7 @@ SceneView attempt_scene(const SessionView& view) {
   out.shaft_radius_m = view.scene.loop.tool.radius_m;
   out.shaft_length_m = view.scene.loop.tool.shaft_length_m;
   out.jaw_opening_m = stylus.jaw_opening_m;
+  if (view.tissue && view.tissue->suture.held) out.jaw_opening_m = std::min(out.jaw_opening_m, kOnNeedle);
   out.roll_stripe = kind.oriented;
   const bool pulls = view.tissue && view.tissue->held();  // on a fold, which is no dent
   if (stylus.contact && kind.on_organ && !pulls) {

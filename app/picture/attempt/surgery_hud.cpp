@@ -5,6 +5,7 @@
 #include "app/picture/attempt/attempt_scene.h"
 #include "app/picture/kinds/hud_parts.h"
 #include "tissue/thin/duct_system.h"
+#include "tissue/thin/throws.h"
 
 namespace trocar {
 namespace {
@@ -18,6 +19,15 @@ std::string refusal_told(InstrumentKind kind, std::int32_t why) {
   if (why >= kFirstClipRefusal) return std::string(closing_words(why));
   const bool clips = kind == InstrumentKind::kClipApplier;
   return (clips ? "No clip set: " : "Not cut: ") + std::string(closing_words(why));
+}
+
+void add_suture_rows(const SutureState& sewn, std::vector<HudRow>& rows) {
+  for (const auto& [name, count] :
+       {std::pair("Punctures", sewn.punctures), std::pair("Stitches", sewn.stitches), std::pair("Throws", sewn.throws)})
+    rows.push_back({name, std::to_string(count), ""});
+  const auto knot = static_cast<KnotKind>(sewn.knot);
+  rows.push_back({"Knot", knot == KnotKind::kNone ? "-" : knot_name(knot), ""});
+  rows.push_back({"Pull on the needle", sewn.held ? hud_number("%.1f", sewn.pull_n) : "-", sewn.held ? "N" : "", true});
 }
 
 }  // namespace
@@ -36,6 +46,7 @@ std::vector<HudRow> free_play_rows(const SessionView& view) {
        {std::pair("Cuts", done.cuts), std::pair("Tears", done.tears), std::pair("Clips set", done.clips)})
     rows.push_back({name, std::to_string(count), ""});
   if (!view.scene.bound.empty()) rows.push_back({"Bed peeled off", hud_number("%.0f", 100 * done.bed_free), "%"});
+  if (view.scene.setup.exercise.suture) add_suture_rows(view.tissue->suture, rows);
   rows.push_back({"Blood lost", hud_number("%.1f", done.blood_ml), "mL", true});
   rows.push_back({"Bleeding now", hud_number("%.1f", done.blood_ml_per_min), "mL/min", true});
   if (done.bile_leaks > 0) rows.push_back({"Bile lost", hud_number("%.1f", done.bile_ml), "mL", true});

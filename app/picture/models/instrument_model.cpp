@@ -139,6 +139,23 @@ PictureMesh clip_jaw(double radius_m) {
       [](int) { return 1.0F; });
 }
 
+/// One jaw of the needle driver: short and stout, flat inside.
+PictureMesh driver_jaw(double radius_m) {
+  constexpr int kRings = 36, kAround = 20;
+  const double length = drawn_jaw_length_m(InstrumentKind::kNeedleDriver) + kBeyond;
+  return loft(
+      kRings, kAround,
+      [&](int i, int j) {
+        const double along = static_cast<double>(i) / (kRings - 1);
+        const double nose = std::sqrt(std::max(0.0, 1 - std::pow(along, 12.0)));
+        const double half_width = 0.72 * radius_m * (1 - 0.25 * along) * nose,
+                     height = 0.80 * radius_m * (1 - 0.35 * along) * nose;
+        const double angle = 2 * std::numbers::pi * j / kAround, s = std::sin(angle);
+        return Vec3(half_width * std::cos(angle), s > 0 ? height * s : 0.0, along * length);
+      },
+      [](int) { return 1.0F; });
+}
+
 struct Shape {
   double jaw_length_m;
   PictureMesh (*body)(double radius_m, double length_m);
@@ -161,7 +178,8 @@ const std::array<Shape, kInstruments.size()>& shapes() {
        {describe(kScissors).jaw_length_m, hinged_body<kScissors>, blade},
        {0, hook_body, no_jaw},
        {describe(kClipApplier).jaw_length_m, hinged_body<kClipApplier>, clip_jaw},
-       {0, suction_body, no_jaw}}};
+       {0, suction_body, no_jaw},
+       {describe(kNeedleDriver).jaw_length_m, hinged_body<kNeedleDriver>, driver_jaw}}};
   return table;
 }
 

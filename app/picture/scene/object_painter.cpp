@@ -76,6 +76,18 @@ void set_casters(Program& program, const SceneView& view) {
   glUniform1i(program.uniform("u_above_count"), static_cast<int>(n));
 }
 
+PictureMesh wire_mesh(const SurfaceSnapshot& surface) {
+  PictureMesh mesh;
+  const std::vector<Vec3> normals = TriangleSurface{surface.vertices, surface.triangles}.vertex_normals();
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    const Eigen::Vector3f place = surface.vertices[v].cast<float>(), normal = normals[v].cast<float>();
+    mesh.vertices.push_back({{place.x(), place.y(), place.z()}, {normal.x(), normal.y(), normal.z()}, {1, 1}});
+  }
+  for (const auto& triangle : surface.triangles)
+    for (const std::int32_t v : triangle) mesh.indices.push_back(static_cast<std::uint32_t>(v));
+  return mesh;
+}
+
 }  // namespace
 
 GpuMesh& ObjectPainter::mesh_of(const SceneObject& object) {
@@ -96,9 +108,17 @@ void ObjectPainter::draw(Program& program, const SceneObject& object) {
   mesh_of(object).draw();
 }
 
-void ObjectPainter::draw_shadows(Program& depth, const std::vector<SceneObject>& objects) {
-  for (const SceneObject& object : objects)
+void ObjectPainter::draw_shadows(Program& depth, const SceneView& view) {
+  for (const SceneObject& object : view.objects)
     if (!is_ghost(object)) draw(depth, object);
+  for (const WireView& wire : view.wires) draw_wire(depth, wire);
+}
+
+/// Few vertices, elsewhere in every picture: nothing is kept.
+void ObjectPainter::draw_wire(Program& program, const WireView& wire) {
+  const Eigen::Matrix4f model = Eigen::Matrix4f::Identity();
+  glUniformMatrix4fv(program.uniform("u_model"), 1, GL_FALSE, model.data());
+  GpuMesh(wire_mesh(*wire.surface)).draw();
 }
 
 void ObjectPainter::draw_solids(const ProgramBinder& bind, const SceneView& view) {
@@ -113,6 +133,15 @@ void ObjectPainter::draw_solids(const ProgramBinder& bind, const SceneView& view
     glUniform1f(program.uniform("u_wear"), static_cast<float>(std::clamp(object.wear, 0.0, 1.0)));
     if (object.look == SceneObject::Look::kBoard) set_casters(program, view);
     draw(program, object);
+  }
+  for (const WireView& wire : view.wires) {
+    SceneObject looks_so;
+    looks_so.look = wire.look;
+    Program& program = bind("object", "object", defines_of(looks_so));
+    set_object_vector(program.uniform("u_colour"), wire.colour);
+    set_object_vector(program.uniform("u_accent"), wire.colour);
+    glUniform1f(program.uniform("u_wear"), 0);
+    draw_wire(program, wire);
   }
 }
 

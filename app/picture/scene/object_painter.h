@@ -22,13 +22,14 @@ using ProgramBinder =
 class ObjectPainter {
  public:
   /// Into the shadow map, with a bound depth program.
-  void draw_shadows(Program& depth, const std::vector<SceneObject>& objects);
+  void draw_shadows(Program& depth, const SceneView& view);
   void draw_solids(const ProgramBinder& bind, const SceneView& view);
   void draw_ghosts(const ProgramBinder& bind, const SceneView& view);
 
  private:
   GpuMesh& mesh_of(const SceneObject& object);
   void draw(Program& program, const SceneObject& object);
+  void draw_wire(Program& program, const WireView& wire);
   std::map<std::array<long, 4>, GpuMesh> meshes_;
 };
 

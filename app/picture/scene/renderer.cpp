@@ -124,7 +124,7 @@ void Renderer::Impl::shadow_pass(const SceneView& view, const ScopeOptics& optic
   glCullFace(GL_BACK);
   instruments.draw_shadows(program, view);
   glCullFace(GL_FRONT);
-  objects.draw_shadows(program, view.objects);
+  objects.draw_shadows(program, view);
   const Eigen::Matrix4f here = Eigen::Matrix4f::Identity();
   glUniformMatrix4fv(program.uniform("u_model"), 1, GL_FALSE, here.data());
   tissue.draw_moving_shadows();

@@ -118,11 +118,19 @@ struct AdjacentOrganView {
   std::string material;  ///< selects the look
 };
 
+/// A needle, a thread: thin and of no tissue.
+struct WireView {
+  SurfacePtr surface;  ///< in T, its vertices told round the wire
+  SceneObject::Look look = SceneObject::Look::kSteel;
+  Vec3 colour = Vec3::Constant(0.5);
+};
+
 struct SceneView {
   SurfacePtr organ;             ///< already in T; shared between frames
   std::string material;         ///< selects the tissue look: "liver", "gallbladder", ...
   std::string second_material;  ///< of the organ's second part (SurfaceSnapshot::part); empty: it has none
   std::vector<AdjacentOrganView> adjacent;
+  std::vector<WireView> wires;
   std::vector<TargetMark> targets;
   std::vector<SceneObject> objects;  ///< board, blocks, rings, ghost pens, port
   Eigen::AlignedBox3d stage_T;       ///< without an organ: work space that the box trainer surrounds

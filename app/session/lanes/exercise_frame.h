@@ -14,7 +14,7 @@ struct ExerciseFrame {
   DirectorStatus status;
   TissueFrame tissue;
   SurfacePtr organ_T;
-  std::vector<SurfacePtr> ducts_T;  ///< as World::ducts()
+  std::vector<SurfacePtr> thin_T;  ///< as World::thin()
 };
 
 /// One step of the tissue task for the recorder: the schedule of the run, and the phase that a row shows.

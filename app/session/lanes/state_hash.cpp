@@ -95,6 +95,7 @@ void StateHash::add(const TissueFrame& frame) {
   }
   add_marks(frame);
   add_surgery(frame.surgery);
+  add_suture(frame.suture);
   add_clips_and_drops(frame);
 }
 
@@ -110,6 +111,16 @@ void StateHash::add_surgery(const SurgeryState& surgery) {
   if (surgery.bed_hurt == 0) return;  // runs without a bed, or on one that is whole, keep their hash
   add(surgery.bed_free);
   add(surgery.bed_hurt);
+}
+
+/// Nothing where no needle has been brought in: such runs keep their hash.
+void StateHash::add_suture(const SutureState& suture) {
+  if (suture == SutureState{}) return;
+  for (const std::int32_t number :
+       {suture.needles, suture.punctures, suture.stitches, suture.throws, suture.tears, suture.knot})
+    add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(number)));
+  add(std::uint64_t{suture.held});
+  add(suture.pull_n);
 }
 
 void StateHash::add_clips_and_drops(const TissueFrame& frame) {

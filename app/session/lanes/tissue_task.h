@@ -61,7 +61,7 @@ class TissueTask final : public Task {
     if (patch.grip.stiffness_n_per_m <= 0) patch.grip = director_.status().grip;
     hash_.add(patch);
     hash_.add(world_->frame());
-    for (const NodePlace& node : world_->shape().ducts_T) hash_.add(node);
+    for (const NodePlace& node : world_->shape().thin_T) hash_.add(node);
     hash_.add(director_.status());
     keyframes_.tell(state.stylus, director_.status(), *world_);  // before the step: who has that has its keyframe
     tell(tick, state.stylus.period);
@@ -82,7 +82,8 @@ class TissueTask final : public Task {
                                                      .rigid = scene.board.rigid,
                                                      .tools = scene.loop.tools,
                                                      .soft = scene.soft,
-                                                     .ducts = scene.ducts});
+                                                     .ducts = scene.ducts,
+                                                     .suture = scene.suture});
   }
   void tell(std::uint64_t tick, std::uint64_t seen_period) {
     for (Outlet<ExerciseFrame>* outlet : {ports_.hand, ports_.observer}) {
@@ -91,7 +92,7 @@ class TissueTask final : public Task {
       frame.status = director_.status();
       frame.tissue = world_->frame();
       frame.organ_T = world_->surface();
-      frame.ducts_T.assign(world_->ducts().begin(), world_->ducts().end());
+      frame.thin_T.assign(world_->thin().begin(), world_->thin().end());
       outlet->commit();
     }
     if (ports_.steps) ports_.steps->push({seen_period, static_cast<std::uint8_t>(director_.status().phase)});

@@ -74,7 +74,7 @@ void MomentStore::add(const RunMoment& moment) {
   const std::lock_guard lock(mutex_);
   last_s_ = moment.t_s;
   if (since_++ % step_ != 0) return;
-  kept_.push_back({moment.record, moment.status, packed(moment.tissue), moment.t_s, moment.organ_T, moment.ducts_T});
+  kept_.push_back({moment.record, moment.status, packed(moment.tissue), moment.t_s, moment.organ_T, moment.thin_T});
   if (kept_.size() > most_) thin();
 }
 
@@ -84,7 +84,7 @@ RunMoment MomentStore::at(double t_s) const {
   const auto after =
       std::upper_bound(kept_.begin(), kept_.end(), t_s, [](double t, const Kept& k) { return t < k.t_s; });
   const Kept& kept = after == kept_.begin() ? kept_.front() : *std::prev(after);
-  return {kept.record, kept.status, unpacked(kept.tissue), kept.t_s, true, 0, kept.organ_T, kept.ducts_T};
+  return {kept.record, kept.status, unpacked(kept.tissue), kept.t_s, true, 0, kept.organ_T, kept.thin_T};
 }
 
 std::size_t MomentStore::size() const {

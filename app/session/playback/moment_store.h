@@ -37,7 +37,7 @@ class MomentStore {
     std::vector<std::uint64_t> tissue = {};  ///< runs of words: place << 32 | count, then they
     double t_s = 0;
     SurfacePtr organ_T = nullptr;
-    std::vector<SurfacePtr> ducts_T = {};
+    std::vector<SurfacePtr> thin_T = {};
   };
   void thin();
 

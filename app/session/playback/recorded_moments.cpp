@@ -171,7 +171,7 @@ RunMoment RecordedMoments::at(double t_s) const {
   moment.seen = true;
   make_surfaces(row.tick);
   moment.organ_T = last_surface_;
-  moment.ducts_T = last_ducts_;
+  moment.thin_T = last_thin_;
   last_ = moment;
   return moment;
 }
@@ -201,12 +201,13 @@ std::optional<RecordedShape> RecordedMoments::shape_at(double t_s) const {
 }
 
 const EmbeddedSurface* RecordedMoments::embedded_for(std::uint64_t topology) const {
-  // Every change of organ or ducts makes another topology; the organ's own counts its cuts alone.
+  // Every change of organ, ducts or suture makes another topology; the organ's own counts its cuts alone.
   const std::uint64_t whole = scene_.embedded->topology();
   if (topology < whole || topology - whole > track_.changes().size()) return nullptr;
   std::vector<const std::string*> cuts;
   for (std::uint64_t i = 0; i < topology - whole; ++i)
-    if (!is_duct_change(track_.changes()[i].bytes)) cuts.push_back(&track_.changes()[i].bytes);
+    if (const std::string& bytes = track_.changes()[i].bytes; !is_duct_change(bytes) && !is_suture_event(bytes))
+      cuts.push_back(&bytes);
   if (cuts.empty()) return scene_.embedded.get();
   if (!scene_.soft) return nullptr;
   const std::uint64_t wanted = whole + cuts.size();
@@ -220,16 +221,24 @@ const EmbeddedSurface* RecordedMoments::embedded_for(std::uint64_t topology) con
   return &*cut_surface_;
 }
 
-const DuctPlayback* RecordedMoments::ducts_for(std::uint64_t topology) const {
-  if (scene_.ducts.empty()) return nullptr;
+const RecordedMoments::ThinParts& RecordedMoments::thin_for(std::uint64_t topology) const {
   const std::uint64_t made = topology - scene_.embedded->topology();
-  if (!ducts_ || ducts_changes_ != made) {
-    std::vector<std::string> changes;
-    for (std::uint64_t i = 0; i < made; ++i) changes.push_back(track_.changes()[i].bytes);
-    ducts_.emplace(scene_.ducts, changes);
-    ducts_changes_ = made;
-  }
-  return &*ducts_;
+  if (thin_ && thin_->changes == made) return *thin_;
+  std::vector<std::string> changes;
+  for (std::uint64_t i = 0; i < made; ++i) changes.push_back(track_.changes()[i].bytes);
+  thin_.emplace().changes = made;
+  if (!scene_.ducts.empty()) thin_->ducts.emplace(scene_.ducts, changes);
+  if (scene_.suture) thin_->suture.emplace(*scene_.suture, changes);
+  return *thin_;
+}
+
+std::vector<SurfacePtr> RecordedMoments::ThinParts::at(std::span<const NodePlace> nodes_T) const {
+  const std::size_t of_ducts = ducts ? ducts->nodes() : 0;
+  std::vector<SurfacePtr> parts;
+  if (ducts) parts = ducts->at(nodes_T.first(of_ducts));
+  if (suture)
+    for (SurfacePtr& part : suture->at(nodes_T.subspan(of_ducts))) parts.push_back(std::move(part));
+  return parts;
 }
 
 /// The same as before while nothing has moved, so that nobody draws it anew; none where the scene has another
@@ -237,10 +246,10 @@ const DuctPlayback* RecordedMoments::ducts_for(std::uint64_t topology) const {
 void RecordedMoments::make_surfaces(std::uint64_t period) const {
   std::optional<RecordedShape> shape = scene_.embedded ? shape_of(period) : std::nullopt;
   const EmbeddedSurface* embedded = shape ? embedded_for(shape->topology) : nullptr;
-  const DuctPlayback* ducts = embedded ? ducts_for(shape->topology) : nullptr;
-  if (embedded == nullptr || shape->nodes_T.size() != embedded->nodes() + (ducts ? ducts->nodes() : 0)) {
+  const ThinParts* thin = embedded ? &thin_for(shape->topology) : nullptr;
+  if (embedded == nullptr || shape->nodes_T.size() != embedded->nodes() + thin->nodes()) {
     last_surface_ = nullptr;
-    last_ducts_.clear();
+    last_thin_.clear();
     return;
   }
   if (last_surface_ && shape->topology == last_shape_.topology && shape->nodes_T == last_shape_.nodes_T &&
@@ -248,7 +257,7 @@ void RecordedMoments::make_surfaces(std::uint64_t period) const {
     return;
   const std::span<const NodePlace> nodes(shape->nodes_T);
   last_surface_ = embedded->at(nodes.first(embedded->nodes()), shape->fields);
-  last_ducts_ = ducts ? ducts->at(nodes.subspan(embedded->nodes())) : std::vector<SurfacePtr>{};
+  last_thin_ = thin->at(nodes.subspan(embedded->nodes()));
   last_shape_ = std::move(*shape);
 }
 

@@ -13,6 +13,7 @@
 
 #include "app/session/recording/recording_reader.h"
 #include "app/session/run_moment.h"
+#include "tissue/interaction/suturing.h"
 #include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/thin/duct_tube.h"
@@ -44,9 +45,17 @@ class RecordedMoments {
  private:
   const RecordedTick& row_at(double t_s) const;
   std::optional<RecordedShape> shape_of(std::uint64_t period) const;
-  /// Organ and ducts, as last_surface_ and last_ducts_.
+  /// Organ and thin parts, as last_surface_ and last_thin_.
   void make_surfaces(std::uint64_t period) const;
-  const DuctPlayback* ducts_for(std::uint64_t topology) const;
+  struct ThinParts {
+    std::optional<DuctPlayback> ducts;
+    std::optional<SuturePlayback> suture;
+    std::uint64_t changes = 0;  ///< that they are after
+
+    std::size_t nodes() const { return (ducts ? ducts->nodes() : 0) + (suture ? suture->nodes() : 0); }
+    std::vector<SurfacePtr> at(std::span<const NodePlace> nodes_T) const;
+  };
+  const ThinParts& thin_for(std::uint64_t topology) const;
   /// The organ's surface on its nodes after the cuts that make up a topology; nullptr: there are none such.
   const EmbeddedSurface* embedded_for(std::uint64_t topology) const;
 
@@ -59,9 +68,8 @@ class RecordedMoments {
   mutable std::optional<RunMoment> last_;
   mutable RecordedShape last_shape_;  ///< of last_surface_
   mutable SurfacePtr last_surface_;
-  mutable std::vector<SurfacePtr> last_ducts_;
-  mutable std::optional<DuctPlayback> ducts_;  ///< after as many changes as:
-  mutable std::uint64_t ducts_changes_ = 0;
+  mutable std::vector<SurfacePtr> last_thin_;
+  mutable std::optional<ThinParts> thin_;
   mutable std::optional<CutLattice> cut_;  ///< after the last cuts asked for
   mutable std::optional<EmbeddedSurface> cut_surface_;
 };

@@ -117,7 +117,7 @@ void RecordedRun::State::make(const std::function<bool(double)>& progress) {
   int percent = -1;
   const auto keep = [&](const SessionView& view) {
     moments.add({view.record, view.director.status(), view.tissue ? *view.tissue : TissueFrame{}, view.t_s, true, 0,
-                 view.organ_T, view.ducts_T});
+                 view.organ_T, view.thin_T});
     const double share = end_s > 0 ? std::min(1.0, view.t_s / end_s) : 1;
     const bool told = static_cast<int>(100 * share) == percent;
     percent = static_cast<int>(100 * share);

@@ -217,8 +217,15 @@ void walk_bed(Words& words, Surgery& s) {
   words.rounded(s.bed_hurt);
 }
 
-/// What has been done to an organ follows, where something has, behind it clips and drops, where there are some, and
-/// last the bed, where it is hurt.
+template <typename Words, typename Suture>
+void walk_suture(Words& words, Suture& s) {
+  for (auto* number : {&s.needles, &s.punctures, &s.stitches, &s.throws, &s.tears, &s.knot}) words.whole(*number);
+  words.whole(s.held);
+  words.rounded(s.pull_n);
+}
+
+/// What has been done to an organ follows, where something has, behind it clips and drops, where there are some, then
+/// the bed, where it is hurt, and last what is stitched; each also where something behind it follows.
 template <typename Words, typename Keyframe>
 void walk(Words& words, Keyframe& k) {
   walk_instrument(words, k.instrument);
@@ -233,11 +240,13 @@ void walk(Words& words, Keyframe& k) {
 std::vector<std::uint64_t> words_of(const TissueKeyframe& keyframe) {
   WordsOut words;
   walk(words, keyframe);
-  const bool bed = keyframe.tissue.surgery.bed_hurt != 0;
+  const bool suture = keyframe.tissue.suture != SutureState{};
+  const bool bed = suture || keyframe.tissue.surgery.bed_hurt != 0;
   const bool more = bed || keyframe.tissue.clip_count > 0 || keyframe.tissue.drop_count > 0;
   if (more || keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
   if (more) walk_clips_and_drops(words, keyframe.tissue);
   if (bed) walk_bed(words, keyframe.tissue.surgery);
+  if (suture) walk_suture(words, keyframe.tissue.suture);
   return std::move(words.words);
 }
 
@@ -247,6 +256,7 @@ void read_words(std::span<const std::uint64_t> words, TissueKeyframe& keyframe) 
   if (!in.done()) walk_surgery(in, keyframe.tissue.surgery);
   if (!in.done()) walk_clips_and_drops(in, keyframe.tissue);
   if (!in.done()) walk_bed(in, keyframe.tissue.surgery);
+  if (!in.done()) walk_suture(in, keyframe.tissue.suture);
   if (!in.done()) throw InputError("words of a keyframe are left over");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -20,9 +21,11 @@
 #include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
 #include "scenarios/layout/shaft_room.h"
+#include "tissue/interaction/suturing.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/tissue_table.h"
 #include "tissue/thin/duct_tube.h"
+#include "tissue/theatre_frame.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {
@@ -190,7 +193,7 @@ void hang_ducts(Scene& scene, const TissueTable& tissues) {
     scene.ducts.push_back({plan.name, std::move(*path), plan.outer_radius_m, plan.wall_m,
                            stiffness_choice(tissues.find(plan.material), scene.setup.tissue), plan.ends, plan.content});
   }
-  scene.ducts_T = drawn_tubes(scene.ducts);
+  scene.thin_T = drawn_tubes(scene.ducts);
 }
 
 /// Binds the neighbour that the exercise names, where this organ's scene has one that faces it.
@@ -241,14 +244,47 @@ void soften(Scene& scene) {
   scene.embedded = std::make_shared<EmbeddedSurface>(soft->lattice, scene.organ_T);
   scene.soft = std::move(soft);
   hang_ducts(scene, tissues);
+  if (const auto& plan = scene.setup.exercise.suture) {
+    SutureSetup suture;
+    suture.needle.length_m = plan->needle_m;
+    suture.needle.circle = plan->circle;
+    suture.thread_m = plan->thread_m;
+    suture.jaws.pad_length_m = describe(InstrumentKind::kNeedleDriver).jaw_length_m;
+    scene.suture = std::make_shared<const SutureSetup>(suture);
+  }
+}
+
+/// As the exercise has it lie; nullopt: it says nothing of it, or this organ has not the one that is to be in the
+/// middle.
+std::optional<Pose> lying(const Exercise& exercise, const Organ& organ) {
+  if (!exercise.lie) return std::nullopt;
+  const auto middle = std::find_if(organ.adjacent.begin(), organ.adjacent.end(),
+                                   [&](const Organ& other) { return other.name == exercise.lie->middle; });
+  if (middle == organ.adjacent.end() || middle->surface.vertices.empty()) return std::nullopt;
+  Pose X_TO{theatre_from_ras(), Vec3::Zero()};
+  for (const int axis : {0, 1, 2})
+    X_TO.R = Mat3(Eigen::AngleAxisd(exercise.lie->turned_rad[axis], Vec3::Unit(axis)) * X_TO.R);
+  Vec3 sum = Vec3::Zero();
+  double top = -INFINITY;
+  for (const Vec3& vertex : middle->surface.vertices) {
+    sum += X_TO.R * vertex;
+    top = std::max(top, (X_TO.R * vertex).z());
+  }
+  const Vec3 centre = sum / static_cast<double>(middle->surface.vertices.size());
+  X_TO.p = -Vec3(centre.x(), centre.y(), top);
+  return X_TO;
 }
 
 /// Lays the organ, and what lies round it, into the theatre.
 void place(Scene& scene) {
   const Exercise& exercise = scene.setup.exercise;
-  scene.placement = scene.setup.placement
-                        ? *scene.setup.placement
-                        : place_organ(scene.organ.surface, exercise, scene.level, {scene.loop.tool, scene.loop.map});
+  const Instrument instrument{scene.loop.tool, scene.loop.map};
+  if (scene.setup.placement)
+    scene.placement = *scene.setup.placement;
+  else if (const auto X_TO = lying(exercise, scene.organ))
+    scene.placement = measure_placement(scene.organ.surface, *X_TO, exercise.layout, instrument);
+  else
+    scene.placement = place_organ(scene.organ.surface, exercise, scene.level, instrument);
   scene.organ_T = still_surface(scene.organ.surface.transformed(scene.placement.X_TO));
   if (scene.setup.tissue != kStillTissue) soften(scene);
   if (scene.organ.adjacent.empty()) return;

@@ -117,7 +117,7 @@ void AttemptRunner::State::show(const SessionView& view) {
   moment.status = view.director.status();
   if (view.tissue) moment.tissue = *view.tissue;
   moment.organ_T = view.organ_T;
-  moment.ducts_T = view.ducts_T;
+  moment.thin_T = view.thin_T;
   moment.t_s = view.t_s;
   moment.seen = true;
   moments.publish();

@@ -96,8 +96,8 @@ struct PracticeLoop::State {
 PracticeLoop::PracticeLoop(PracticeModel& model, GraphicsContext& context, bool to_window)
     : state_(std::make_unique<State>(model, context, to_window)) {
   const bool briefing = model.exercise_given() && make_screen(ScreenName::kBriefing);
-  if (model.free_play_given())
-    state_->show_play(Play::kFree);
+  if (const auto play = model.play_given())
+    state_->show_play(*play);
   else
     state_->show(briefing ? ScreenName::kBriefing : ScreenName::kStart);
 }

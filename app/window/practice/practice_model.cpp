@@ -1,6 +1,7 @@
 #include "app/window/practice/practice_model.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <numbers>
 #include <thread>
@@ -19,6 +20,9 @@
 
 namespace trocar {
 namespace {
+
+/// Of what nobody grades, in the order of Play.
+constexpr std::array kFileOfPlay{"", "tutorial.toml", "free-play.toml", "gallbladder.toml", "stitching.toml"};
 
 constexpr const char* kTutorialOrgan = "phantom-liver";
 constexpr int kHeldBackFrom = 5;                      // wrong PINs in a row, that the audit trail tells of
@@ -226,7 +230,7 @@ const Exercise& PracticeModel::exercise() const {
 
 bool PracticeModel::exercise_given() const { return !state_->options.exercise.empty(); }
 
-bool PracticeModel::free_play_given() const { return state_->options.free_play; }
+std::optional<Play> PracticeModel::play_given() const { return state_->options.play; }
 
 LevelProgress PracticeModel::progress(const std::string& id, const std::string& of_level) const {
   const auto& all = state_->exercises;
@@ -353,8 +357,7 @@ std::string PracticeModel::begin_play(Play what) {
     if (s.settings.note.empty()) settings_changed();  // a file that cannot be read waits for a person's own change
   }
   try {
-    const std::filesystem::path file =
-        s.assets.exercises / "ungraded" / (tutorial ? "tutorial.toml" : "free-play.toml");
+    const std::filesystem::path file = s.assets.exercises / "ungraded" / kFileOfPlay.at(static_cast<std::size_t>(what));
     AttemptRequest request = s.request(load_exercise(file), "L1", tutorial ? kTutorialOrgan : organ);
     request.graded = false;
     if (!tutorial && s.options.tissue.empty()) request.setup.tissue = kNormalTissue;
@@ -368,7 +371,7 @@ Play PracticeModel::playing() const { return state_->play; }
 
 bool PracticeModel::tutorial_due() const {
   const State& s = *state_;
-  return !s.settings.tutorial_seen && !s.scripted() && !exercise_given() && !free_play_given();
+  return !s.settings.tutorial_seen && !s.scripted() && !exercise_given() && !play_given();
 }
 
 AttemptRunner* PracticeModel::running() { return state_->runner.get(); }

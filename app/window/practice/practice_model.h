@@ -23,12 +23,15 @@
 
 namespace trocar {
 
+/// What runs: an attempt, or what nobody grades and nothing keeps.
+enum class Play : std::uint8_t { kAttempt, kTutorial, kFree, kGallbladder, kStitching };
+
 struct ModelOptions {
   std::filesystem::path database = {};  ///< empty: the default; ":memory:" keeps nothing
   std::string trainee = {};             ///< code, empty: guest
   std::string exercise = {};            ///< straight to its briefing
   std::string level = "L1";
-  bool free_play = false;  ///< straight to free play on the organ
+  std::optional<Play> play = {};  ///< straight to it
   std::string organ = "phantom-liver";
   std::string tissue = {};  ///< as AttemptSetup::tissue; empty: gives way in free play, stands still elsewhere
   std::string input = "auto";
@@ -40,9 +43,6 @@ struct ModelOptions {
   std::string scope = {};                 ///< "0" or "30" degrees of the tip; given: this time only
   StepGate* steps = nullptr;              ///< as AttemptRequest::steps
 };
-
-/// What runs: an attempt, or what nobody grades and nothing keeps.
-enum class Play : std::uint8_t { kAttempt, kTutorial, kFree };
 
 class PracticeModel {
  public:
@@ -95,7 +95,7 @@ class PracticeModel {
   std::string exercise_id, level = "L1", organ = "phantom-liver";
   const Exercise& exercise() const;  ///< the chosen one
   bool exercise_given() const;       ///< by the options: straight to its briefing
-  bool free_play_given() const;      ///< likewise
+  std::optional<Play> play_given() const;  ///< likewise
   LevelProgress progress(const std::string& exercise_id, const std::string& level) const;
   /// What to do next, and why: exercise id, level, one sentence.
   struct Advice {

@@ -129,7 +129,7 @@ void RunScreen::State::begin(PracticeModel& model) {
   if (play == Play::kTutorial) tutorial.emplace();
   const LevelProgress progress = model.progress(model.exercise_id, model.level);
   const bool first = play == Play::kAttempt && model.is_guest() && progress.passed == 0 && progress.attempts <= 1;
-  hints.begin(first || play == Play::kFree, hand_tries(scene.setup.exercise, scene.level));
+  hints.begin(first || play > Play::kTutorial, hand_tries(scene.setup.exercise, scene.level));
   begun = true;
 }
 

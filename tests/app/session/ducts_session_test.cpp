@@ -52,7 +52,7 @@ struct Ducts {
   bool held = false;
   double pulled_m = 0;
   SurgeryState last;
-  std::vector<SurfacePtr> ducts_T;
+  std::vector<SurfacePtr> thin_T;
 };
 
 Ducts run(const Scene& scene, const std::vector<ScriptedMove>& moves, double most_s,
@@ -66,9 +66,9 @@ Ducts run(const Scene& scene, const std::vector<ScriptedMove>& moves, double mos
     now_s = view.t_s;
     out.held = out.held || (view.tissue && view.tissue->held());
     if (view.tissue) out.last = view.tissue->surgery;
-    if (view.ducts_T.empty()) return;
-    out.ducts_T = view.ducts_T;
-    const SurfaceSnapshot& tube = *view.ducts_T[0];
+    if (view.thin_T.empty()) return;
+    out.thin_T = view.thin_T;
+    const SurfaceSnapshot& tube = *view.thin_T[0];
     if (!tube.rest || tube.topology > 0) return;
     for (std::size_t v = 0; v < tube.vertices.size(); ++v)
       out.pulled_m = std::max(out.pulled_m, (tube.vertices[v] - tube.rest->vertices[v]).norm());
@@ -82,7 +82,7 @@ TEST(DuctsSession, IsHeldClippedTwiceAndCutBetweenReplaysToTheBitAndPlaysWithout
   const std::filesystem::path file = folder / "ducts.trec";
   const Scene scene = ducts_scene("normal");
   ASSERT_EQ(scene.ducts.size(), 2U);
-  EXPECT_EQ(scene.ducts_T.size(), 2U);
+  EXPECT_EQ(scene.thin_T.size(), 2U);
   std::vector<ScriptedMove> moves{{.to_m = {0, 0, 0.045}, .seconds = 2, .hold_s = 0.5, .jaw_m = 0.012}};
   add_closing(moves, scene, 0.5, InstrumentKind::kGrasper, 0.008);
   add_closing(moves, scene, 0.35, InstrumentKind::kClipApplier);
@@ -96,8 +96,8 @@ TEST(DuctsSession, IsHeldClippedTwiceAndCutBetweenReplaysToTheBitAndPlaysWithout
   EXPECT_EQ(ran.last.cuts, 1) << closing_words(ran.last.refusal);
   EXPECT_EQ(ran.last.blood_ml, 0);
   EXPECT_EQ(ran.last.bile_leaks, 0);
-  ASSERT_EQ(ran.ducts_T.size(), 2U);
-  EXPECT_EQ(ran.ducts_T[0]->topology, 1U);
+  ASSERT_EQ(ran.thin_T.size(), 2U);
+  EXPECT_EQ(ran.thin_T[0]->topology, 1U);
 
   const RecordedSetup recorded = parse_scene_json(ran.recording.session, "ducts");
   const Scene again = build_scene(recorded.setup, find_assets(), recorded.daq);
@@ -105,13 +105,13 @@ TEST(DuctsSession, IsHeldClippedTwiceAndCutBetweenReplaysToTheBitAndPlaysWithout
 
   const RecordedRun played(file, find_assets());
   const RunMoment first = played.at(1), last = played.at(played.end_s());
-  ASSERT_EQ(first.ducts_T.size(), 2U);
-  EXPECT_EQ(first.ducts_T[0]->topology, 0U);
-  ASSERT_EQ(last.ducts_T.size(), 2U);
-  EXPECT_EQ(last.ducts_T[0]->triangles, ran.ducts_T[0]->triangles);
-  ASSERT_EQ(last.ducts_T[0]->vertices.size(), ran.ducts_T[0]->vertices.size());
-  for (std::size_t v = 0; v < ran.ducts_T[0]->vertices.size(); ++v)
-    EXPECT_LT((last.ducts_T[0]->vertices[v] - ran.ducts_T[0]->vertices[v]).norm(), 6e-4) << v;
+  ASSERT_EQ(first.thin_T.size(), 2U);
+  EXPECT_EQ(first.thin_T[0]->topology, 0U);
+  ASSERT_EQ(last.thin_T.size(), 2U);
+  EXPECT_EQ(last.thin_T[0]->triangles, ran.thin_T[0]->triangles);
+  ASSERT_EQ(last.thin_T[0]->vertices.size(), ran.thin_T[0]->vertices.size());
+  for (std::size_t v = 0; v < ran.thin_T[0]->vertices.size(); ++v)
+    EXPECT_LT((last.thin_T[0]->vertices[v] - ran.thin_T[0]->vertices[v]).norm(), 6e-4) << v;
   EXPECT_EQ(last.tissue.surgery.clips, 2);
 }
 

@@ -53,6 +53,24 @@ TEST_F(SurgeryWatching, ACutATearAndAClipAreToldOnceAndWhere) {
   EXPECT_EQ(of(event_type::kClip).at(0).value, 1);
 }
 
+TEST_F(SurgeryWatching, WhatIsStitchedIsToldOnce) {
+  SutureState sewn;
+  sewn.needles = 1;
+  TissueFrame before;
+  before.suture = sewn;
+  watch_.skip(before);
+  sewn.punctures = 2;
+  sewn.stitches = 1;
+  for (int i = 0; i < 5; ++i) watch_.update(sewn, log_);
+  sewn.throws = 1;
+  watch_.update(sewn, log_);
+  EXPECT_TRUE(of(event_type::kNeedle).empty()) << "before the run";
+  ASSERT_EQ(of(event_type::kPuncture).size(), 2U);
+  EXPECT_EQ(of(event_type::kPuncture)[1].value, 2);
+  EXPECT_EQ(of(event_type::kStitch).size(), 1U);
+  EXPECT_EQ(of(event_type::kThrow).size(), 1U);
+}
+
 TEST_F(SurgeryWatching, ARefusalSaysWhyEveryTime) {
   now_.refusals = 1;
   now_.refusal = static_cast<std::int32_t>(CutRefusal::kThrough);

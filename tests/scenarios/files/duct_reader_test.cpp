@@ -75,6 +75,37 @@ TEST(BedReader, ReadsThatOfFreePlayAndNoneWhereNoneIsNamed) {
   EXPECT_NE(refused("neighbour = \"gallbladder\"", "neighbor = \"gallbladder\"").find("neighbo"), std::string::npos);
 }
 
+TEST(SutureReader, ReadsThatOfStitchingAndNamesItsMistakes) {
+  const Exercise stitching = load_exercise(kExercises / "ungraded/stitching.toml");
+  ASSERT_TRUE(stitching.suture);
+  EXPECT_DOUBLE_EQ(stitching.suture->needle_m, 0.026);
+  EXPECT_DOUBLE_EQ(stitching.suture->circle, 0.5);
+  EXPECT_DOUBLE_EQ(stitching.suture->thread_m, 0.150);
+  EXPECT_EQ(stitching.instruments.front(), InstrumentKind::kNeedleDriver);
+  EXPECT_FALSE(load_exercise(kExercises / "ungraded/free-play.toml").suture);
+  const auto said = [text = stitching.text](const std::string& from, const std::string& to) {
+    return test::refusal(test::edited(text, from, to));
+  };
+  EXPECT_NE(said("needle_mm = 26", "needle_mm = 5").find("'needle_mm'"), std::string::npos);
+  EXPECT_NE(said("circle = 0.5", "circel = 0.5").find("circel"), std::string::npos);
+  EXPECT_NE(said("thread_mm = 150", "thread_mm = 3000").find("'thread_mm'"), std::string::npos);
+  const std::string without = said("\"needle-driver\", ", "");
+  EXPECT_NE(without.find("'suture' needs a 'needle-driver'"), std::string::npos) << without;
+}
+
+TEST(LieReader, ReadsThatOfTheGallbladderAndNamesItsMistakes) {
+  const Exercise gallbladder = load_exercise(kExercises / "ungraded/gallbladder.toml");
+  ASSERT_TRUE(gallbladder.lie);
+  EXPECT_EQ(gallbladder.lie->middle, "gallbladder");
+  EXPECT_GT(gallbladder.lie->turned_rad.norm(), 1);
+  EXPECT_FALSE(load_exercise(kExercises / "ungraded/free-play.toml").lie);
+  const auto said = [text = gallbladder.text](const std::string& from, const std::string& to) {
+    return test::refusal(test::edited(text, from, to));
+  };
+  EXPECT_NE(said("turned_deg = [", "turned_deg = [720, ").find("'turned_deg'"), std::string::npos);
+  EXPECT_NE(said("middle = \"gallbladder\"", "midle = \"gallbladder\"").find("midle"), std::string::npos);
+}
+
 TEST(ExerciseLoader, ReadsHowTheBedBreathesAndNamesItsMistakes) {
   const Breathing breathing = load_exercise(kExercises / "ungraded/free-play.toml").breathing;
   EXPECT_DOUBLE_EQ(breathing.per_min, 14);

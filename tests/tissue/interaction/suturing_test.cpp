@@ -258,6 +258,54 @@ TEST(Suturing, AKnotHoldsByItsThrows) {
   EXPECT_GE(square, 0.95 * granny) << "neither slips: the tissue comes along";
 }
 
+TEST(Suturing, ANewNeedleIsHeldUntilTheFingersHaveClosedOnItAndOpened) {
+  Sewn s;
+  const Pose above{s.jaws.R, s.jaws.p + Vec3(0, 0, 0.03)};
+  for (int i = 0; i < 20; ++i) s.step(above, 0.012);
+  EXPECT_TRUE(s.suturing.needle().held()) << "the fingers are still open";
+  for (int i = 0; i < 20; ++i) s.step(above, 0.0003);
+  EXPECT_TRUE(s.suturing.needle().held());
+  s.step(above, 0.012);
+  EXPECT_FALSE(s.suturing.needle().held());
+  ASSERT_FALSE(s.all.empty());
+  EXPECT_EQ(s.all.front().kind, Kind::kBroughtIn);
+  EXPECT_EQ(s.suturing.counts().needles, 1);
+}
+
+TEST(Suturing, ScissorsCutTheThreadAndPlaybackKnows) {
+  Sewn s;
+  s.stitch();
+  s.move(s.jaws.p + Vec3(0, 0, 0.05), 0, 250);
+  const std::size_t nodes = s.suturing.thread().rod().nodes().size();
+  // Across the thread, half way between the tissue and the needle.
+  const Vec3 at = s.suturing.thread().rod().place_at(s.last().exit.ring.arc_m / 2);
+  const Vec3 along = (s.suturing.thread().rod().place_at(0.4 * s.last().exit.ring.arc_m) - at).normalized();
+  Pose X;
+  X.R.col(2) = along.unitOrthogonal();
+  X.R.col(0) = along;
+  X.R.col(1) = X.R.col(2).cross(X.R.col(0));
+  X.p = at + 0.008 * X.R.col(2);
+  s.tool = make_tool(InstrumentKind::kScissors);
+  s.step(X, 0.006);
+  StylusState blades;
+  blades.X_TI = X;
+  blades.jaw_opening_m = 0.006;
+  EXPECT_TRUE(s.suturing.jaws_taken(blades, s.tool, true)) << "to the organ they are a probe";
+  for (const double opening : {0.004, 0.002, 0.0002}) s.step(X, opening);
+  ASSERT_TRUE(s.told(Kind::kSnipped));
+  EXPECT_EQ(s.suturing.thread().rod().nodes().size(), nodes + 2);
+  std::vector<std::string> changes;
+  for (const SutureEvent& event : s.all) changes.push_back(suture_event_bytes(event));
+  std::vector<NodePlace> places;
+  s.suturing.add_nodes(places);
+  const SuturePlayback playback(s.setup, changes);
+  ASSERT_EQ(playback.nodes(), places.size());
+  EXPECT_EQ(playback.at(places)[1]->triangles, s.suturing.seen()[1]->triangles);
+  changes.push_back(suture_event_bytes({.kind = Kind::kBroughtIn}));
+  EXPECT_EQ(SuturePlayback(s.setup, changes).nodes(), places.size() - 2) << "a new thread is whole";
+  EXPECT_EQ(SuturePlayback(s.setup, {}).nodes(), 0U) << "no needle has been brought in";
+}
+
 TEST(Suturing, PrintsWhatAStepCosts) {
   Sewn s(0.30);
   const auto print = [&s](const char* what) {

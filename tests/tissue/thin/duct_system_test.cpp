@@ -91,7 +91,7 @@ class Theatre {
   Vec3 middle(std::size_t d) const {
     Vec3 sum = Vec3::Zero();
     int count = 0;
-    for (const Vec3& v : world_->ducts()[d]->vertices)
+    for (const Vec3& v : world_->thin()[d]->vertices)
       if (std::abs(v.x() - kMiddle) < 0.003) sum += v, ++count;
     return sum / count;
   }
@@ -114,7 +114,7 @@ constexpr std::int32_t kGrasp = 0, kCut = 1, kClip = 2;
 TEST(DuctSystem, IsSeenAndLiesInThePatchWithItsOwnMaterial) {
   Theatre t(InstrumentKind::kGrasper);
   t.settle();
-  ASSERT_EQ(t.world().ducts().size(), 2U);
+  ASSERT_EQ(t.world().thin().size(), 2U);
   EXPECT_LT((t.middle(0) - Vec3(kMiddle, 0, 0)).norm(), 0.001);
   t.step(from_above({kMiddle, 0, 0.008}), 0);
   EXPECT_GT(t.triangles_of(1), 20);
@@ -122,7 +122,7 @@ TEST(DuctSystem, IsSeenAndLiesInThePatchWithItsOwnMaterial) {
   EXPECT_NEAR(t.patch().material[1].stiffness_n_per_m, 132, 30) << "of a ring that is pressed";
   EXPECT_EQ(t.surgery(), SurgeryState{});
   EXPECT_EQ(t.world().shape().topology, 0U);
-  EXPECT_GT(t.world().shape().ducts_T.size(), 30U);
+  EXPECT_GT(t.world().shape().thin_T.size(), 30U);
 }
 
 TEST(DuctSystem, TheOrganLiesAsItIsDrawnUntilADuctIsCutAndThenGoesBackFromIt) {
@@ -225,8 +225,8 @@ TEST(DuctSystem, JawsThatCloseOnADuctDoNothingToTheOrganAndThoseBesideItDo) {
   t.close(t.middle(0));
   EXPECT_EQ(t.surgery().cuts, 1);
   EXPECT_EQ(t.world().surface()->topology, 0U);
-  EXPECT_EQ(t.world().ducts()[0]->topology, 1U);
-  EXPECT_EQ(t.world().ducts()[1]->topology, 0U);
+  EXPECT_EQ(t.world().thin()[0]->topology, 1U);
+  EXPECT_EQ(t.world().thin()[1]->topology, 0U);
   EXPECT_EQ(t.world().shape().topology, 1U);
   t.wait(5);
   t.close({0, 0, 0.034});
@@ -315,10 +315,10 @@ TEST(DuctSystem, TubesMadeFromRecordedNodesAndChangesLieWhereTheyLay) {
   const TissueShape shape = t.world().shape();
   ASSERT_EQ(shape.changes.size(), 2U);
   const DuctPlayback playback(t.setup().ducts, {shape.changes.begin(), shape.changes.end()});
-  ASSERT_EQ(playback.nodes(), shape.ducts_T.size());
-  const auto made = playback.at(shape.ducts_T);
+  ASSERT_EQ(playback.nodes(), shape.thin_T.size());
+  const auto made = playback.at(shape.thin_T);
   for (std::size_t d = 0; d < 2; ++d) {
-    const SurfaceSnapshot& was = *t.world().ducts()[d];
+    const SurfaceSnapshot& was = *t.world().thin()[d];
     EXPECT_EQ(made[d]->triangles, was.triangles);
     ASSERT_EQ(made[d]->vertices.size(), was.vertices.size());
     double off = 0;
@@ -326,7 +326,7 @@ TEST(DuctSystem, TubesMadeFromRecordedNodesAndChangesLieWhereTheyLay) {
       off = std::max(off, (made[d]->vertices[v] - was.vertices[v]).norm());
     EXPECT_LT(off, 3e-4) << "rings may be turned a little";
   }
-  EXPECT_EQ(playback.at(shape.ducts_T)[0]->vertices, made[0]->vertices) << "whatever was shown before";
+  EXPECT_EQ(playback.at(shape.thin_T)[0]->vertices, made[0]->vertices) << "whatever was shown before";
   const DuctPlayback whole(t.setup().ducts, {});
   EXPECT_LT(whole.nodes(), playback.nodes());
 }

@@ -117,6 +117,27 @@ TEST_F(FreePlay, ClipsAndDropsAreSeenWhereTheyAre) {
   EXPECT_EQ(count(SceneObject::Shape::kSphere, frame_.drop[1].place_T), 1);
 }
 
+TEST(SurgeryHud, StitchingTellsWhatIsSewn) {
+  const Scene scene = built("ungraded/stitching.toml");
+  const Director director(scene.setup.exercise, scene.level, scene.board);
+  const TickRecord record;
+  TissueFrame frame;
+  const auto value = [&](const char* name) {
+    for (const HudRow& row : attempt_view({scene, record, director, 0, &frame}, "").hud.rows)
+      if (row.name == name) return row.value + row.unit;
+    return std::string("no such row");
+  };
+  EXPECT_EQ(value("Instrument"), "Needle driver");
+  EXPECT_EQ(value("Knot"), "-");
+  EXPECT_EQ(value("Pull on the needle"), "-");
+  frame.suture = {.needles = 1, .punctures = 3, .stitches = 2, .throws = 2, .knot = 2, .held = true, .pull_n = 1.26};
+  EXPECT_EQ(value("Punctures"), "3");
+  EXPECT_EQ(value("Stitches"), "2");
+  EXPECT_EQ(value("Throws"), "2");
+  EXPECT_EQ(value("Knot"), "square knot");
+  EXPECT_EQ(value("Pull on the needle"), "1.3N");
+}
+
 TEST(SurgeryHud, AnExerciseKeepsItsStepsAndRows) {
   const Scene scene = built("surface-touch.toml");
   EXPECT_FALSE(plays_freely(scene));

@@ -191,7 +191,7 @@ TEST_F(TutorialBench, WhoComesForAnExerciseIsNotTaught) {
 
 TEST_F(TutorialBench, FreePlayHasAnOrganAndItsForceAndKeepsNothing) {
   ModelOptions free = bench_.options();
-  free.free_play = true;
+  free.play = Play::kFree;
   open(free);
   ASSERT_EQ(loop_->here(), ScreenName::kRun);
   ASSERT_TRUE(runs());
@@ -227,7 +227,7 @@ TEST_F(TutorialBench, FreePlayHasAnOrganAndItsForceAndKeepsNothing) {
 
 TEST_F(TutorialBench, InFreePlayAFoldIsTakenByTheKeyOfTheJawsAndLetGo) {
   ModelOptions free = bench_.options();
-  free.free_play = true;
+  free.play = Play::kFree;
   open(free);
   ASSERT_TRUE(runs());
   pointer_by(0, 0);
