@@ -73,7 +73,8 @@ class TissueWorld final : public World {
   void tell_vessels();
   /// The ducts' part in patch and frame.
   void add_ducts(ContactPatch& patch);
-  /// A driver that is taken in hand, or comes into the scene, has a needle in its jaws, unless the last one is in tissue.
+  /// A driver that is taken in hand, or comes into the scene, has a needle in its jaws, unless the last one is in
+  /// tissue.
   void bring_needle(const StylusState& stylus, const Tool& tool, bool present);
   void add_suture(ContactPatch& patch);
   void clear_taken(ContactPatch& patch) const;

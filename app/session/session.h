@@ -43,8 +43,8 @@ struct SessionView {
   const TickRecord& record;
   const DirectorView director;
   double t_s;
-  const TissueFrame* tissue = nullptr;   ///< newest frame of the world's objects; nullptr: none known
-  SurfacePtr organ_T = nullptr;          ///< newest of the organ; nullptr: as the scene has it
+  const TissueFrame* tissue = nullptr;  ///< newest frame of the world's objects; nullptr: none known
+  SurfacePtr organ_T = nullptr;         ///< newest of the organ; nullptr: as the scene has it
   std::vector<SurfacePtr> thin_T = {};  ///< of the thin parts; empty: as the scene has them
 };
 using SessionObserver = std::function<void(const SessionView&)>;

@@ -137,7 +137,11 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
        {std::tuple("--free", Play::kFree, "Straight to free play on the organ: no clock, no score, nothing kept"),
         std::tuple("--gallbladder", Play::kGallbladder, "Straight to a gallbladder on its bed, likewise"),
         std::tuple("--stitching", Play::kStitching, "Straight to a needle and its thread, likewise")})
-    practice->add_flag_callback(flag, [&o, play] { o.model.play = play; }, words)->excludes(exercise)->excludes(level);
+    practice
+        ->add_flag_callback(
+            flag, [&o, play] { o.model.play = play; }, words)
+        ->excludes(exercise)
+        ->excludes(level);
   practice
       ->add_option("--input", o.model.input,
                    "What steers: auto (the first that moves), mouse, keyboard, gamepad, spacemouse or device")

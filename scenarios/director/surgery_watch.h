@@ -1,8 +1,8 @@
 // The watch on what is done to an organ that gives way: CUT, TEAR, CLIP, REFUSED, BLEEDING, BURN, NEEDLE, PUNCTURE,
 // STITCH, THROW.
 //
-// It tells what SurgeryState and SutureState count from one step to the next; nobody grades it. Frame T, SI units, blood in mL,
-// temperatures in deg C. Deterministic. Thread: the tissue task's.
+// It tells what SurgeryState and SutureState count from one step to the next; nobody grades it. Frame T, SI units,
+// blood in mL, temperatures in deg C. Deterministic. Thread: the tissue task's.
 #pragma once
 
 #include "scenarios/director/exercise_task.h"

@@ -66,7 +66,8 @@ std::optional<SuturePlan> read_suture(StrictTable& document, const std::vector<I
     return std::nullopt;
   }
   StrictTable table = document.table("suture");
-  const bool driven = std::find(instruments.begin(), instruments.end(), InstrumentKind::kNeedleDriver) != instruments.end();
+  const bool driven =
+      std::find(instruments.begin(), instruments.end(), InstrumentKind::kNeedleDriver) != instruments.end();
   if (!driven) document.fail("suture", "'suture' needs a 'needle-driver' among the 'instruments'");
   SuturePlan suture;
   suture.needle_m = table.number("needle_mm", 10, 50) * kMilli;

@@ -41,10 +41,10 @@ struct ScriptedMove {
   std::optional<Vec3> about_m = {};
   double roll_rad = 0;  ///< by which the instrument is turned about its shaft over the move
   double seconds = 0;   ///< duration of the move
-  double hold_s = 0;               ///< rest at its end
-  double jaw_m = 0.02;             ///< jaw opening at its end
-  bool clutch = false;             ///< made with the clutch held: the stylus moves, the instrument stays
-  bool pedal = false;              ///< made with the pedal held down
+  double hold_s = 0;    ///< rest at its end
+  double jaw_m = 0.02;  ///< jaw opening at its end
+  bool clutch = false;  ///< made with the clutch held: the stylus moves, the instrument stays
+  bool pedal = false;   ///< made with the pedal held down
   /// Is taken in hand before the move begins; none: the one that is there. One that the exercise has not is asked for
   /// kMostInstruments times.
   std::optional<InstrumentKind> instrument = {};

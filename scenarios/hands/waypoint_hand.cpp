@@ -52,8 +52,7 @@ HandIntent WaypointHand::update(const Percept& percept, double dt_s) {
   intent_.clutch = move.clutch;
   intent_.pedal = move.pedal;
   if (in_move_s_ >= move.seconds + move.hold_s) {
-    if (move.clutch)
-      intent_ = {.X_TI = {R_from_, from_T_}, .jaw_opening_m = intent_.jaw_opening_m};  // it stayed there
+    if (move.clutch) intent_ = {.X_TI = {R_from_, from_T_}, .jaw_opening_m = intent_.jaw_opening_m};  // it stayed there
     from_T_ = intent_.X_TI.p;
     R_from_ = intent_.X_TI.R;
     from_jaw_m_ = intent_.jaw_opening_m;

@@ -61,7 +61,8 @@ class InstrumentActions {
   void after(const HapticState& newest, const Tool& tool, bool present, std::span<const SoftSpring> springs,
              SoftOrgan& organ);
 
-  /// Before the next step: the tissue between two places of it at rest, that a thread or needle has torn out of, is open.
+  /// Before the next step: the tissue between two places of it at rest, that a thread or needle has torn out of, is
+  /// open.
   void tear_open(const Vec3& from_rest_T, const Vec3& to_rest_T) { torn_.push_back({from_rest_T, to_rest_T}); }
 
   const SoftGrip& grip() const { return grip_; }

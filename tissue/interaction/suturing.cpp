@@ -15,7 +15,7 @@ constexpr std::int32_t kSutureMark = -43;  // where a cut of an organ has a tria
 constexpr int kThreadSides = 6;
 constexpr std::size_t kNeedlePlaces = 3;
 constexpr double kUnderOrgan = 0.005;  // m of the organ's lowest place over what a lost needle lies on
-constexpr double kShutOn = 0.00005;  // m by which fingers that hold a needle are nearer than its wire is wide
+constexpr double kShutOn = 0.00005;    // m by which fingers that hold a needle are nearer than its wire is wide
 
 double lowest(const TriangleSurface& surface) {
   double z = INFINITY;

@@ -31,8 +31,8 @@ struct SutureSetup {
   NeedleDriverOptions jaws = {};
 };
 
-/// X_IN of a needle that is brought in: held at a quarter of its length from the swage, at the tip of the jaws, across the jaws, its circle across
-/// the shaft, so that rolling the shaft turns the needle as it is bent.
+/// X_IN of a needle that is brought in: held at a quarter of its length from the swage, at the tip of the jaws, across
+/// the jaws, its circle across the shaft, so that rolling the shaft turns the needle as it is bent.
 Pose needle_in_jaws(const NeedleShape& needle);
 
 struct SutureEvent {

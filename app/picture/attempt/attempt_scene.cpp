@@ -23,10 +23,11 @@ constexpr double kSleeveInside = 0.025;  // m of the port's tube on the scope's 
 const Vec3 kBoardLines(0.44, 0.44, 0.42);
 const Vec3 kNeutralFoam(0.45, 0.43, 0.38);
 const Vec3 kTitanium(0.62, 0.61, 0.60), kDarkBlood(0.16, 0.004, 0.004);
-const Vec3 kNeedleColour(0.58, 0.58, 0.60), kThreadColour(0.06, 0.10, 0.42);
-constexpr std::size_t kOfSuture = 2;   // needle and thread, the last thin parts
-constexpr double kOnNeedle = 0.0006;   // m of opening of jaws that hold a needle
-constexpr double kClosedGap = 0.0004;  // m that tissue keeps between a closed clip's legs
+const Vec3 kNeedleColour(0.58, 0.58, 0.60), kThreadColour(0.08, 0.14, 0.62);
+constexpr double kThreadWider = 0.00015;  // m
+constexpr std::size_t kOfSuture = 2;      // needle and thread, the last thin parts
+constexpr double kOnNeedle = 0.0006;      // m of opening of jaws that hold a needle
+constexpr double kClosedGap = 0.0004;     // m that tissue keeps between a closed clip's legs
 
 std::vector<TargetMark> marks(const DirectorView& director) {
   std::vector<TargetMark> out;
@@ -212,7 +213,7 @@ SceneView attempt_scene(const SessionView& view) {
     for (std::size_t i = 0; i < ducts; ++i) out.adjacent.push_back({thin_T[i], view.scene.ducts[i].material.name});
     if (thin_T.size() >= ducts + kOfSuture) {
       out.wires.push_back({thin_T[ducts], SceneObject::Look::kSteel, kNeedleColour});
-      out.wires.push_back({thin_T[ducts + 1], SceneObject::Look::kPlastic, kThreadColour});
+      out.wires.push_back({thin_T[ducts + 1], SceneObject::Look::kPlastic, kThreadColour, kThreadWider});
     }
   }
   picture_of(view.scene.setup.exercise).add_objects(view, out.objects);

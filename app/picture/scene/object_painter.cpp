@@ -76,11 +76,12 @@ void set_casters(Program& program, const SceneView& view) {
   glUniform1i(program.uniform("u_above_count"), static_cast<int>(n));
 }
 
-PictureMesh wire_mesh(const SurfaceSnapshot& surface) {
+PictureMesh wire_mesh(const SurfaceSnapshot& surface, double wider_m) {
   PictureMesh mesh;
   const std::vector<Vec3> normals = TriangleSurface{surface.vertices, surface.triangles}.vertex_normals();
   for (std::size_t v = 0; v < normals.size(); ++v) {
-    const Eigen::Vector3f place = surface.vertices[v].cast<float>(), normal = normals[v].cast<float>();
+    const Eigen::Vector3f normal = normals[v].cast<float>();
+    const Eigen::Vector3f place = (surface.vertices[v] + wider_m * normals[v]).cast<float>();
     mesh.vertices.push_back({{place.x(), place.y(), place.z()}, {normal.x(), normal.y(), normal.z()}, {1, 1}});
   }
   for (const auto& triangle : surface.triangles)
@@ -118,7 +119,7 @@ void ObjectPainter::draw_shadows(Program& depth, const SceneView& view) {
 void ObjectPainter::draw_wire(Program& program, const WireView& wire) {
   const Eigen::Matrix4f model = Eigen::Matrix4f::Identity();
   glUniformMatrix4fv(program.uniform("u_model"), 1, GL_FALSE, model.data());
-  GpuMesh(wire_mesh(*wire.surface)).draw();
+  GpuMesh(wire_mesh(*wire.surface, wire.wider_m)).draw();
 }
 
 void ObjectPainter::draw_solids(const ProgramBinder& bind, const SceneView& view) {

@@ -123,6 +123,7 @@ struct WireView {
   SurfacePtr surface;  ///< in T, its vertices told round the wire
   SceneObject::Look look = SceneObject::Look::kSteel;
   Vec3 colour = Vec3::Constant(0.5);
+  double wider_m = 0;  ///< all round: what is thinner than a pixel is not seen
 };
 
 struct SceneView {

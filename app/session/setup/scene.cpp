@@ -24,8 +24,8 @@
 #include "tissue/interaction/suturing.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/tissue_table.h"
-#include "tissue/thin/duct_tube.h"
 #include "tissue/theatre_frame.h"
+#include "tissue/thin/duct_tube.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {

@@ -85,7 +85,7 @@ struct Scene {
   std::shared_ptr<const EmbeddedSurface> embedded;  ///< the organ on the nodes that deform; nullptr: it stands still
   std::vector<DuctSetup> ducts;                     ///< with `soft`, those that the exercise names
   std::vector<std::string> ducts_left_out;          ///< names of those that find no place on this organ
-  std::vector<SurfacePtr> thin_T;                  ///< as they lie before a run
+  std::vector<SurfacePtr> thin_T;                   ///< as they lie before a run
   std::shared_ptr<const SutureSetup> suture;        ///< with `soft`, a needle with thread; nullptr: none
   AdjacentOrgans adjacent;                          ///< what lies round the organ, when it is one of several
   Board board;

@@ -24,7 +24,7 @@ namespace {
 /// Of what nobody grades, in the order of Play.
 constexpr std::array kFileOfPlay{"", "tutorial.toml", "free-play.toml", "gallbladder.toml", "stitching.toml"};
 
-constexpr const char* kTutorialOrgan = "phantom-liver";
+constexpr const char *kTutorialOrgan = "phantom-liver", *kWithGallbladder = "phantom-abdomen";
 constexpr int kHeldBackFrom = 5;                      // wrong PINs in a row, that the audit trail tells of
 constexpr std::chrono::seconds kLongestPinWait{900};  // they double from one second on
 constexpr int kStoring_ms = 500;  // that a result may take to the database before the person is told
@@ -358,7 +358,12 @@ std::string PracticeModel::begin_play(Play what) {
   }
   try {
     const std::filesystem::path file = s.assets.exercises / "ungraded" / kFileOfPlay.at(static_cast<std::size_t>(what));
-    AttemptRequest request = s.request(load_exercise(file), "L1", tutorial ? kTutorialOrgan : organ);
+    // The liver that is there unless a person says otherwise has no gallbladder.
+    const bool lone = what == Play::kGallbladder && organ == kTutorialOrgan;
+    AttemptRequest request = s.request(load_exercise(file), "L1",
+                                       tutorial ? kTutorialOrgan
+                                       : lone   ? kWithGallbladder
+                                                : organ);
     request.graded = false;
     if (!tutorial && s.options.tissue.empty()) request.setup.tissue = kNormalTissue;
     return s.run(std::move(request), what);

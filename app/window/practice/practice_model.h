@@ -93,8 +93,8 @@ class PracticeModel {
 
   // what
   std::string exercise_id, level = "L1", organ = "phantom-liver";
-  const Exercise& exercise() const;  ///< the chosen one
-  bool exercise_given() const;       ///< by the options: straight to its briefing
+  const Exercise& exercise() const;        ///< the chosen one
+  bool exercise_given() const;             ///< by the options: straight to its briefing
   std::optional<Play> play_given() const;  ///< likewise
   LevelProgress progress(const std::string& exercise_id, const std::string& level) const;
   /// What to do next, and why: exercise id, level, one sentence.

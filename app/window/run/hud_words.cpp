@@ -54,9 +54,8 @@ const std::vector<std::string>& hud_sentences() {
         words("The blades stand on a clip."), words("Scissors"), words("Hook"), words("Clip applier"), words("Suction"),
         words("Needle driver"), words("Punctures"), words("Stitches"), words("Throws"), words("Knot"),
         words("half knot"), words("square knot"), words("surgeon's knot"), words("granny knot"), words("slip knot"),
-        words("Pull on the needle"),
-        words("plant"), words("simulated"), words("loop"), words("passivity"), words("acting"), words("ok"),
-        words("force scale"), words("motor heat"), words("depth in port"),
+        words("Pull on the needle"), words("plant"), words("simulated"), words("loop"), words("passivity"),
+        words("acting"), words("ok"), words("force scale"), words("motor heat"), words("depth in port"),
         words("No organ, no patient data · board exercise in a box trainer"), words("Organ: {0}"),
         words("Organ: {0} (synthetic)"), words("Organ: {0} · {1}"), words("Organ: {0} (synthetic) · {1}"),
         // director, and what kinds share

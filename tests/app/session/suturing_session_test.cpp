@@ -1,7 +1,8 @@
-// A stitch through the whole chain: a hand takes the needle driver, rolls the needle through the liver, takes its point,
-// draws the thread through; recorded, solved again to the bit, and played without solving.
+// A stitch through the whole chain: a hand takes the needle driver, rolls the needle through the liver, takes its
+// point, draws the thread through; recorded, solved again to the bit, and played without solving.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -18,7 +19,8 @@
 namespace trocar::suturing_session_test {
 namespace {
 
-constexpr double kOver = 0.005;  // m of the circle's middle over the surface, in the circle's plane
+constexpr double kOver = 0.004;            // m of the circle's middle over the surface, in the circle's plane
+const Vec3 kWhere(-0.036, -0.022, -0.01);  // where the shaft passes along the surface, in sight
 constexpr double kDegree = std::numbers::pi / 180;
 
 Scene stitching_scene(const std::string& tissue) {
@@ -31,15 +33,21 @@ Scene stitching_scene(const std::string& tissue) {
   return build_scene(setup, assets, backend_capabilities(setup.backend, setup.rate_hz));
 }
 
-/// Of a needle that is turned in the plane across the shaft: angles about the shaft's back, from the side, 90 degrees up.
+/// Of a needle that is turned in the plane across the shaft: angles about the shaft's back, from the side, 90 degrees
+/// off the tissue.
 struct Stitch {
-  Stitch(const Scene& scene, const Vec3& surface_T) : fulcrum(*scene.loop.map.fulcrum), r(scene.suture->needle.radius_m()) {
-    along = (surface_T - fulcrum.port_T).normalized();
+  explicit Stitch(const Scene& scene) : fulcrum(*scene.loop.map.fulcrum), r(scene.suture->needle.radius_m()) {
+    const SurfaceSnapshot& organ = *scene.organ_T;
+    const auto nearest = std::min_element(
+        organ.vertices.begin(), organ.vertices.end(),
+        [](const Vec3& a, const Vec3& b) { return (a - kWhere).squaredNorm() < (b - kWhere).squaredNorm(); });
+    const Vec3 normal = organ.vertex_normals()[static_cast<std::size_t>(nearest - organ.vertices.begin())];
+    along = (*nearest - fulcrum.port_T).normalized();
     const Vec3 swing_from = fulcrum.R_TI_reference.col(2);
     R0 = Eigen::Quaterniond::FromTwoVectors(swing_from, along).toRotationMatrix() * fulcrum.R_TI_reference;
-    up = (Vec3::UnitZ() - along.z() * along).normalized();
+    up = (normal - normal.dot(along) * along).normalized();
     side = up.cross(-along);
-    middle = surface_T + kOver * up;
+    middle = *nearest + kOver * up;
   }
   Vec3 at(double degrees) const { return std::cos(degrees * kDegree) * side + std::sin(degrees * kDegree) * up; }
   /// Of the shaft whose jaws open along this direction.
@@ -60,7 +68,7 @@ std::vector<ScriptedMove> stitch_moves(const Stitch& s) {
   const double first = s.roll_of(-s.at(kHeld)), driven = first - kTurn * kDegree;
   const double second = driven + shortest(s.roll_of(s.at(kTaken)) - driven);
   const Vec3 back = -0.03 * s.along, left = s.tip(kHeld + kTurn), taken = s.tip(kTaken);
-  std::vector<ScriptedMove> moves;
+  std::vector<ScriptedMove> moves{{.to_m = {0, 0, 0.045}, .seconds = 2, .hold_s = 0.3, .jaw_m = 0}};
   moves.push_back({.to_m = s.tip(kHeld) + back, .roll_rad = first, .seconds = 2, .hold_s = 0.3, .jaw_m = 0});
   moves.push_back({.to_m = s.tip(kHeld), .seconds = 1.5, .hold_s = 0.3, .jaw_m = 0});
   moves.push_back({.about_m = s.middle, .roll_rad = -kTurn * kDegree, .seconds = 6, .hold_s = 0.3, .jaw_m = 0});
@@ -85,7 +93,7 @@ TEST(SuturingSession, AStitchReplaysToTheBitAndPlaysWithoutSolving) {
   SutureState last;
   std::vector<SurfacePtr> thin_T;
   double held_s = 0;
-  hooks.hand = [&] { return std::make_unique<WaypointHand>(stitch_moves(Stitch(scene, Vec3::Zero()))); };
+  hooks.hand = [&] { return std::make_unique<WaypointHand>(stitch_moves(Stitch(scene))); };
   hooks.interrupted = [&] { return now_s > 34; };
   hooks.observe = [&](const SessionView& view) {
     if (view.tissue && view.tissue->suture.held) held_s += view.t_s - now_s;

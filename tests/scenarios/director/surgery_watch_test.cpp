@@ -123,7 +123,9 @@ TEST_F(SurgeryWatching, ABurnBeginsAboveSixtyDegrees) {
 TEST_F(SurgeryWatching, WhatWasDoneBeforeTheRunIsNoEvent) {
   now_.cuts = 3;
   now_.blood_ml = 25;
-  watch_.skip(now_);
+  TissueFrame before;
+  before.surgery = now_;
+  watch_.skip(before);
   feed(10);
   EXPECT_TRUE(log_.events.empty());
   now_.cuts = 4;

@@ -260,12 +260,12 @@ TEST(Suturing, AKnotHoldsByItsThrows) {
 
 TEST(Suturing, ANewNeedleIsHeldUntilTheFingersHaveClosedOnItAndOpened) {
   Sewn s;
-  const Pose above{s.jaws.R, s.jaws.p + Vec3(0, 0, 0.03)};
-  for (int i = 0; i < 20; ++i) s.step(above, 0.012);
+  const Pose still = s.jaws;
+  for (int i = 0; i < 20; ++i) s.step(still, 0.012);
   EXPECT_TRUE(s.suturing.needle().held()) << "the fingers are still open";
-  for (int i = 0; i < 20; ++i) s.step(above, 0.0003);
+  for (int i = 0; i < 20; ++i) s.step(still, 0.0003);
   EXPECT_TRUE(s.suturing.needle().held());
-  s.step(above, 0.012);
+  s.step(still, 0.012);
   EXPECT_FALSE(s.suturing.needle().held());
   ASSERT_FALSE(s.all.empty());
   EXPECT_EQ(s.all.front().kind, Kind::kBroughtIn);
@@ -277,6 +277,8 @@ TEST(Suturing, ScissorsCutTheThreadAndPlaybackKnows) {
   s.stitch();
   s.move(s.jaws.p + Vec3(0, 0, 0.05), 0, 250);
   const std::size_t nodes = s.suturing.thread().rod().nodes().size();
+  s.tool = make_tool(InstrumentKind::kScissors);
+  for (int i = 0; i < 150; ++i) s.step({s.jaws.R, Vec3(0, 0, 0.3)}, 0.006);  // the needle falls
   // Across the thread, half way between the tissue and the needle.
   const Vec3 at = s.suturing.thread().rod().place_at(s.last().exit.ring.arc_m / 2);
   const Vec3 along = (s.suturing.thread().rod().place_at(0.4 * s.last().exit.ring.arc_m) - at).normalized();
@@ -285,7 +287,6 @@ TEST(Suturing, ScissorsCutTheThreadAndPlaybackKnows) {
   X.R.col(0) = along;
   X.R.col(1) = X.R.col(2).cross(X.R.col(0));
   X.p = at + 0.008 * X.R.col(2);
-  s.tool = make_tool(InstrumentKind::kScissors);
   s.step(X, 0.006);
   StylusState blades;
   blades.X_TI = X;
