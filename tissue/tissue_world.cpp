@@ -10,6 +10,7 @@ namespace {
 constexpr double kFirstStep = 0.01;    // s
 constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as more
 constexpr double kFeed = 0.2;          // m of a vessel of the same radius: the resistance before it; unchecked
+constexpr double kBesideNick = 0.01;   // of a vessel's length
 constexpr double kBed = 2e-12;         // m3/(Pa s) of the capillaries behind a vessel; unchecked
 
 }  // namespace
@@ -227,20 +228,26 @@ void TissueWorld::tell_vessels() {
     const ElasticRod& rod = ducts_->tube(duct).rod;
     if (vessel_[duct] < 0) continue;
     const double at = change.arc_m / rod.length_m();
+    // Both ends bleed onto the organ where it is nearest.
+    const auto open = [&] {
+      const MaterialPoint place = soft_->nearest_place(rod.place_at(change.arc_m));
+      actions_->bleeding().cut_vessel(vessel_[duct], at, place, place);
+    };
     switch (change.kind) {
       case DuctChange::Kind::kCut:
       case DuctChange::Kind::kTorn:
-      case DuctChange::Kind::kAvulsed: {
-        // Both ends bleed onto the organ where it is nearest.
-        const MaterialPoint place = soft_->nearest_place(rod.place_at(change.arc_m));
-        actions_->bleeding().cut_vessel(vessel_[duct], at, place, place);
+      case DuctChange::Kind::kAvulsed:
+        open();
         break;
-      }
       case DuctChange::Kind::kClipped:
       case DuctChange::Kind::kSealed:
         actions_->bleeding().clip_vessel(vessel_[duct], at, change.share);
         break;
       case DuctChange::Kind::kNicked:
+        // A hole of that share of its lumen: two ends that are otherwise closed. What would flow on is not missed.
+        open();
+        for (const double side : {-kBesideNick, kBesideNick})
+          actions_->bleeding().clip_vessel(vessel_[duct], std::clamp(at + side, 0.0, 1.0), 1 - change.share);
         break;
     }
   }

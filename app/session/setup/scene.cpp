@@ -120,7 +120,10 @@ constexpr double kNoticedForce = 0.1;  // share by which a force must differ to 
 constexpr double kPointerAwake_s = 0.01;
 constexpr double kEntryAside = 0.025, kEntryAbove = 0.015;  // m from the start ball, towards the resting instrument
 constexpr double kLatticeCell = 0.010;                      // m
-constexpr double kDuctReach = 0.015;  // m from where a duct's end is drawn to the organ on which it hangs
+constexpr double kDuctReach = 0.015;   // m from where a duct's end is drawn to the organ on which it hangs
+constexpr double kDuctSought = 0.08;   // m from there, on other organs of its kind
+constexpr double kFacesDuct = 0.4;     // cosine between what it hangs on and its way
+constexpr double kBesideDuct = 0.008;  // m between its path and the organ
 
 /// The loop's map is set before: pens turn from the resting instrument.
 Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
@@ -158,6 +161,37 @@ void require_force(const Scene& scene) {
   throw InputError(words.str());
 }
 
+/// Of an organ that has nothing where the path was drawn: the nearest place that faces its way, with nothing of the
+/// organ beside or over the path. nullopt: there is none, or not one end hangs on it.
+std::optional<std::vector<Vec3>> path_elsewhere(const DuctPlan& plan, const TriangleSurface& organ_T) {
+  if (plan.ends[0] == plan.ends[1]) return std::nullopt;
+  const bool first = plan.ends[0] == DuctHold::kOrgan;
+  const Vec3 drawn = first ? plan.path_m.front() : plan.path_m.back(),
+             way = ((first ? plan.path_m.back() : plan.path_m.front()) - drawn).normalized();
+  double drawn_reach = 0;  // from the region's middle
+  for (const Vec3& point : plan.path_m) drawn_reach = std::max(drawn_reach, kDuctReach + point.norm());
+  const std::vector<Vec3> normals = organ_T.vertex_normals();
+  std::vector<std::size_t> facing;
+  for (std::size_t v = 0; v < normals.size(); ++v)
+    if (normals[v].dot(way) > kFacesDuct && (organ_T.vertices[v] - drawn).norm() < kDuctSought) facing.push_back(v);
+  std::sort(facing.begin(), facing.end(), [&](std::size_t a, std::size_t b) {
+    return (organ_T.vertices[a] - drawn).squaredNorm() < (organ_T.vertices[b] - drawn).squaredNorm();
+  });
+  for (const std::size_t v : facing) {
+    std::vector<Vec3> path = plan.path_m;
+    for (Vec3& point : path) point += organ_T.vertices[v] - drawn;
+    const auto free = [&](const Vec3& at) {
+      return std::none_of(organ_T.vertices.begin(), organ_T.vertices.end(), [&](const Vec3& vertex) {
+        const Vec3 off = vertex - at;
+        return off.z() > 0 ? off.head<2>().norm() < kBesideDuct : off.norm() < kBesideDuct;
+      });
+    };
+    const Vec3 end = first ? path.back() : path.front(), middle = (end + organ_T.vertices[v]) / 2;
+    if (end.norm() < drawn_reach && free(end) && free(middle)) return path;
+  }
+  return std::nullopt;
+}
+
 /// A path whose ends lie where they hang, the points between moved along with them; nothing: one finds no place.
 std::optional<std::vector<Vec3>> hung_path(const DuctPlan& plan, const TriangleSurface& organ_T) {
   std::array<Vec3, 2> shift{Vec3::Zero(), Vec3::Zero()};
@@ -168,7 +202,7 @@ std::optional<std::vector<Vec3>> hung_path(const DuctPlan& plan, const TriangleS
         organ_T.vertices.begin(), organ_T.vertices.end(),
         [&](const Vec3& a, const Vec3& b) { return (a - drawn).squaredNorm() < (b - drawn).squaredNorm(); });
     shift[end] = *nearest - drawn;
-    if (shift[end].norm() > kDuctReach) return std::nullopt;
+    if (shift[end].norm() > kDuctReach) return path_elsewhere(plan, organ_T);
   }
   std::vector<Vec3> path = plan.path_m;
   for (std::size_t i = 0; i < path.size(); ++i) {

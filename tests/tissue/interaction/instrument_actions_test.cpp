@@ -21,7 +21,7 @@ using test::from_above;
 class Theatre {
  public:
   explicit Theatre(InstrumentKind kind) : Theatre({kind, InstrumentKind::kClipApplier}, 0.010) {}
-  Theatre(std::initializer_list<InstrumentKind> kinds, double edge_m)
+  Theatre(std::initializer_list<InstrumentKind> kinds, double edge_m, bool sews = false)
       : rest_(test::ellipsoid({0.06, 0.05, 0.035}, 40)) {
     auto soft = std::make_shared<SoftSetup>();
     soft->material.residual_strain = 0.06;
@@ -32,6 +32,7 @@ class Theatre {
     setup_.tools.clear();
     for (const InstrumentKind kind : kinds) setup_.tools.push_back(make_tool(kind));
     setup_.soft = soft;
+    if (sews) setup_.suture = std::make_shared<SutureSetup>();
     world_ = std::make_unique<TissueWorld>(setup_);
     state_.stylus.instrument = 0;
   }
@@ -40,6 +41,7 @@ class Theatre {
   void step(const Vec3& tip, double opening_m, bool pedal = false, bool present = true) {
     state_.stylus.t_s += 0.01;
     state_.stylus.X_TI = from_above(tip);
+    state_.stylus.X_TI.R *= Eigen::AngleAxisd(roll_rad, Vec3::UnitZ()).toRotationMatrix();
     state_.stylus.jaw_opening_m = opening_m;
     state_.stylus.pedal = pedal;
     touch(tip);
@@ -67,6 +69,7 @@ class Theatre {
     return 0;
   }
   bool presses = true;
+  double roll_rad = 0;  ///< of the shaft
 
  private:
   void touch(const Vec3& tip) {
@@ -240,12 +243,12 @@ TEST(InstrumentActions, PulledTooHardAFoldTearsOut) {
 TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
   const int steps = test::repeats("ACTION_TICKS", 40'000) / 10;  // ticks of the loop
   Theatre theatre({InstrumentKind::kScissors, InstrumentKind::kGrasper, InstrumentKind::kHook,
-                   InstrumentKind::kClipApplier, InstrumentKind::kSuction},
-                  0.0125);
+                   InstrumentKind::kClipApplier, InstrumentKind::kSuction, InstrumentKind::kNeedleDriver},
+                  0.0125, true);
   std::mt19937 random(3);
   const auto share = [&] { return double(random()) / double(std::mt19937::max()); };
   Vec3 tip(0, 0, 0.05), to = tip;
-  double opening = 0.01, wanted = 0.01;
+  double opening = 0.01, wanted = 0.01, turned = 0;
   bool pedal = false;
   for (int i = 0; i < steps; ++i) {
     if (i % 20 == 0) {
@@ -255,10 +258,12 @@ TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
       wanted = share() < 0.5 ? 0 : 0.02 * share();
       pedal = share() < 0.4;
       if (share() < 0.02) tip = to;  // a jump
-      if (share() < 0.1) theatre.take(int(5 * share()));
+      if (share() < 0.1) theatre.take(share() < 0.5 ? 0 : int(6 * share()));
+      turned += share() < 0.3 ? 3 * (share() - 0.5) : 0;
     }
     tip += 0.1 * (to - tip);
     opening += 0.2 * (wanted - opening);
+    theatre.roll_rad += 0.1 * (turned - theatre.roll_rad);
     theatre.step(tip, opening < 1e-4 ? 0 : opening, pedal, share() > 0.001);
     if (i % 1000 != 999) continue;
     for (const Vec3& vertex : theatre.world().surface()->vertices) ASSERT_TRUE(vertex.allFinite()) << "step " << i;
@@ -273,8 +278,11 @@ TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
     moved = std::max(moved, (theatre.world().shape().nodes_T[n] - before[n]).norm());
   EXPECT_LT(moved, 1e-4F) << "in a step of 10 ms";
   const SurgeryState& done = theatre.surgery();
-  std::printf("%d steps: %d cuts, %d tears, %d clips, %d refused, %.1f mL, %.0f J\n", steps, done.cuts, done.tears,
-              done.clips, done.refusals, done.blood_ml, done.heat_j);
+  const SutureState& sewn = theatre.frame().suture;
+  std::printf(
+      "%d steps: %d cuts, %d tears, %d clips, %d refused, %.1f mL, %.0f J; %d needles, %d punctures, %d stitches\n",
+      steps, done.cuts, done.tears, done.clips, done.refusals, done.blood_ml, done.heat_j, sewn.needles, sewn.punctures,
+      sewn.stitches);
   EXPECT_GT(done.cuts, steps / 1000);
   EXPECT_GT(done.heat_j, 10);
 }

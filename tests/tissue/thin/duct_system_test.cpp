@@ -238,6 +238,28 @@ TEST(DuctSystem, JawsThatCloseOnADuctDoNothingToTheOrganAndThoseBesideItDo) {
   EXPECT_FALSE(is_duct_change(t.world().shape().changes[1]));
 }
 
+TEST(DuctSystem, ANickedArteryBleedsAndAClipBeforeItStopsThat) {
+  const auto bleeds_ml = [](bool clipped) {
+    Theatre t(InstrumentKind::kGrasper);
+    t.settle();
+    const Vec3 at = t.middle(1);
+    t.take(kClip);
+    if (clipped) t.close(at + Vec3(0.006, 0, 0), 0, 0.008), t.open(at + Vec3(0.006, 0, 0));
+    EXPECT_EQ(t.surgery().clips, clipped ? 1 : 0);
+    t.take(kCut);
+    const Vec3 half = at + Vec3(0, 0, 0.0045);  // the blades end in it
+    t.close(half);
+    t.open(half);
+    EXPECT_EQ(t.surgery().cuts, 1);
+    EXPECT_EQ(t.world().thin()[1]->topology, 0U) << "no more than nicked";
+    t.wait(1000);
+    return t.surgery().blood_ml;
+  };
+  const double open = bleeds_ml(false);
+  EXPECT_GT(open, 0.5);
+  EXPECT_LT(bleeds_ml(true), 0.2 * open) << "what still comes is from behind it";
+}
+
 TEST(DuctSystem, ACutArteryBleedsUnlessItIsClippedOnBothSides) {
   const auto bleeds_ml = [](int clips) {
     Theatre t(InstrumentKind::kGrasper);
