@@ -16,6 +16,7 @@ constexpr double kTouchEnds = 2e-4;      // m over the surface
 constexpr double kPressed = 5e-4;        // m round the surface in which the wire lies in its dent (a choice)
 constexpr double kLies = 50;             // N/m of the surface under a free needle (a choice)
 constexpr double kFreeDamping = 5;       // 1/s, of a free needle's motion (a choice)
+constexpr double kLeans = 0.002;  // N of a thread on a needle that nothing else holds (a choice): thrice its weight
 constexpr double kMostWay = 0.02, kMostTurn = 0.5, kMostSlipTurn = 0.05;  // m, rad in a step
 constexpr double kLeastNeedleHold = 1;                                    // N/m of what the hand feels
 constexpr std::uint64_t kLooksEvery = 4;  // steps between looks at what the organ has of the needle's places
@@ -169,7 +170,11 @@ void SutureNeedle::go_free(const OrganView& view, const ThreadPull& thread) {
     step.add(spring.at_T, s.stiffness_n_per_m * s.stretch_m * s.direction,
              s.stiffness_n_per_m * s.direction * s.direction.transpose());
   }
-  step.add(swage_T(), thread.force + thread.stiffness * thread.way, thread.stiffness);
+  // Off the tissue the needle is so light that a taut thread would throw it about: the tether keeps it, the thread only
+  // leans on it.
+  const Vec3 pull = thread.force + thread.stiffness * thread.way;
+  const double share = paths_.empty() ? std::min(1.0, kLeans / std::max(kLeans, pull.norm())) : 1;
+  step.add(swage_T(), share * pull, share * thread.stiffness);
   if (paths_.empty()) {
     for (std::size_t i = 0; i < lies_on_.size(); ++i) {
       const Vec3 place = X_TN_ * shape_.place(shape_.length_m * static_cast<double>(i) / 2);
@@ -190,6 +195,16 @@ void SutureNeedle::go_free(const OrganView& view, const ThreadPull& thread) {
   speed_ = {moved / h, turned / h};
 }
 
+/// Goes back, and goes on without the part of its speed that leads away.
+void SutureNeedle::keep_tethered() {
+  const Vec3 way = tether_->place_T - swage_T();
+  const double over = way.norm() - tether_->most_m;
+  if (over <= 0) return;
+  const Vec3 back = way.normalized();
+  X_TN_.p += over * back;
+  speed_.linear += std::max(0.0, -back.dot(speed_.linear)) * back;
+}
+
 void SutureNeedle::before(const OrganView& view, const std::optional<DriverJaws>& jaws, const ThreadPull& thread,
                           std::vector<SoftSpring>& springs) {
   events_.clear();
@@ -200,7 +215,9 @@ void SutureNeedle::before(const OrganView& view, const std::optional<DriverJaws>
     speed_ = {};
   } else {
     go_free(view, thread);
+    if (tether_ && paths_.empty()) keep_tethered();
   }
+  tether_.reset();
   swage_way_ = swage_T() - swage;
   find_touch(view);
   add_springs(view, springs_);

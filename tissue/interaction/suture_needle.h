@@ -60,6 +60,9 @@ class SutureNeedle {
   /// Puts it between the jaws, held. @param X_IN of the needle in the instrument
   void load(const Pose& X_TI, const Pose& X_IN);
   void place(const Pose& X_TN);  ///< at rest
+  /// In the next step, as long as it is free and in no tissue, its swage comes no further from a place than that: a
+  /// taut thread is no spring that a step could stretch.
+  void tether(const Vec3& place_T, double most_m) { tether_ = Tether{place_T, most_m}; }
 
   /// Before the organ's step. @param springs of it, to which the needle adds its own, last
   void before(const OrganView& view, const std::optional<DriverJaws>& jaws, const ThreadPull& thread,
@@ -103,6 +106,7 @@ class SutureNeedle {
   void find_touch(const OrganView& view);
   void add_springs(const OrganView& view, std::vector<NeedleSpring>& springs);
   void go_free(const OrganView& view, const ThreadPull& thread);
+  void keep_tethered();
   void feel_touch(const OrganView& view, std::span<const NeedleSpring> springs);
   void feel_paths(const OrganView& view, std::span<const NeedleSpring> springs);
   void feel_jaws(const OrganView& view, const DriverJaws& jaws, const ThreadPull& thread);
@@ -135,6 +139,11 @@ class SutureNeedle {
   Wrench load_;
   GripBlock block_;
   GripHold hold_;
+  struct Tether {
+    Vec3 place_T = Vec3::Zero();
+    double most_m = 0;
+  };
+  std::optional<Tether> tether_;
 };
 
 }  // namespace trocar

@@ -73,6 +73,21 @@ ThreadPull SutureThread::pull() const {
           rod_.anchor_way(RodEnd::kStart)};
 }
 
+std::optional<SutureThread::Held> SutureThread::held_first() const {
+  if (!rod_.anchored(RodEnd::kStart)) return std::nullopt;
+  std::optional<Held> first;
+  const auto take = [&](double arc_m, const Vec3& place_T) {
+    if (!first || arc_m < first->arc_m) first = Held{place_T, arc_m};
+  };
+  for (const Stitch& stitch : stitches_)
+    for (const StitchHole* hole : {&stitch.exit, &stitch.entry})
+      if (hole->threaded) take(hole->ring.arc_m, hole->at_T);
+  for (const double arc : grip_.arcs()) take(arc, rod_.place_at(arc));
+  const bool whole = !first || std::all_of(rod_.segments().begin(), rod_.segments().end(),
+                                           [&](const RodSegment& s) { return s.whole || s.arc_from_m > first->arc_m; });
+  return whole ? first : std::nullopt;
+}
+
 bool SutureThread::between(const Pose& X_TI, double opening_m) const {
   const RodGripOptions pads;
   return grip_.state() != GripState::kEmpty ||

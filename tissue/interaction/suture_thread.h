@@ -89,14 +89,21 @@ class SutureThread {
 
   /// A throw has been drawn through on the last stitch: where its limbs are nearest. Without one, nothing.
   void tie(const Throw& made);
-  /// The thread is cut through.
-  void sever(double arc_m) { rod_.sever(arc_m); }
+  /// Cuts the thread through.
+  /// @return where; nullopt: too near to a cut or an end
+  std::optional<double> sever(double arc_m) { return rod_.sever(arc_m); }
 
   const ElasticRod& rod() const { return rod_; }
   std::span<const Stitch> stitches() const { return stitches_; }
   const std::optional<Knot>& knot() const { return knot_; }  ///< of the last stitch
   const ThrowWatch& watch() const { return watch_; }
   const RodGrip& grip() const { return grip_; }
+  /// Where the thread is held first on its way from the needle: in a hole, by jaws. nullopt: nowhere, or it is off.
+  struct Held {
+    Vec3 place_T = Vec3::Zero();
+    double arc_m = 0;
+  };
+  std::optional<Held> held_first() const;
   ThreadPull pull() const;                                            ///< on the needle
   const std::vector<ThreadEvent>& events() const { return events_; }  ///< of the last step
   bool between(const Pose& X_TI, double opening_m) const;

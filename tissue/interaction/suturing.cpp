@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "haptics/input_error.h"
+#include "tissue/thin/rod_in_jaws.h"
 
 namespace trocar {
 namespace {
@@ -15,7 +16,8 @@ constexpr std::int32_t kSutureMark = -43;  // where a cut of an organ has a tria
 constexpr int kThreadSides = 6;
 constexpr std::size_t kNeedlePlaces = 3;
 constexpr double kUnderOrgan = 0.005;  // m of the organ's lowest place over what a lost needle lies on
-constexpr double kShutOn = 0.00005;    // m by which fingers that hold a needle are nearer than its wire is wide
+constexpr double kBladeWidth = 0.002, kBladesShut = 0.0005;  // m, as ScissorsOptions
+constexpr double kShutOn = 0.00005;  // m by which fingers that hold a needle are nearer than its wire is wide
 
 double lowest(const TriangleSurface& surface) {
   double z = INFINITY;
@@ -203,6 +205,8 @@ void Suturing::before(const HapticState& newest, const Tool& tool, bool present,
   const auto driver = locked_jaws(newest.stylus, tool, present);
   const std::size_t first = springs.size();
   std::vector<SoftSpring> of_needle;
+  if (!needle_.held())
+    if (const auto held = thread_.held_first()) needle_.tether(held->place_T, held->arc_m);
   needle_.before(view, driver, pull_, of_needle);
   SutureThread::Around around{.swage_T = needle_.swage_T(), .swage_way = needle_.swage_way(), .jaws = {}, .X_TI = {}};
   if (driver && needle_.state() == GripState::kEmpty) around.jaws = driver;
@@ -287,12 +291,16 @@ void Suturing::count(const SutureEvent& event) {
 }
 
 void Suturing::snip(const StylusState& stylus) {
-  const ClipSurroundings::Rod thread{&thread_.rod()};
-  for (const RodCut& cut : scissors_.step(stylus.X_TI, stylus.jaw_opening_m, std::span(&thread, 1))) {
-    if (cut.share < 1) continue;  // a thread is not nicked
-    thread_.sever(cut.arc_m);
-    events_.push_back({.kind = SutureEvent::Kind::kSnipped, .arc_m = cut.arc_m});
-  }
+  const double opening = stylus.jaw_opening_m;
+  if (opening > blades_m_) in_blades_.reset();
+  blades_m_ = opening;
+  const JawSpace blades{describe(InstrumentKind::kScissors).jaw_length_m, kBladeWidth, opening};
+  const std::vector<double> arcs = arcs_between(thread_.rod(), stylus.X_TI, blades, 0, kBladeWidth / 2);
+  if (!arcs.empty() && opening > kBladesShut) in_blades_ = arcs[arcs.size() / 2];
+  if (!in_blades_ || opening > kBladesShut) return;
+  if (const auto arc = thread_.sever(*in_blades_))
+    events_.push_back({.kind = SutureEvent::Kind::kSnipped, .arc_m = *arc});
+  in_blades_.reset();
 }
 
 SutureState Suturing::state() const {

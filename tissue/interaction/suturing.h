@@ -15,7 +15,6 @@
 #include "haptics/contact/instrument.h"
 #include "haptics/exchange/solved_contacts.h"
 #include "tissue/interaction/suture_thread.h"
-#include "tissue/thin/rod_scissors.h"
 #include "tissue/thin/rod_surface.h"
 #include "tissue/tissue_shape.h"
 
@@ -131,7 +130,8 @@ class Suturing {
   std::size_t of_thread_ = 0;  ///< springs of the last step
   std::vector<SutureEvent> events_;
   SutureCounts counts_;
-  RodScissors scissors_;
+  double blades_m_ = 0;              ///< opening of scissors in the last step, and
+  std::optional<double> in_blades_;  ///< arc of the thread between them as they close
   bool new_ = true, locked_ = false;
 };
 

@@ -12,6 +12,7 @@ constexpr double kLeastRingStiffness = 1e-3;  // N/m: a load without stiffness i
 // Two rings on one taut rod both answer its tension, and so do those of a knot: each takes a share.
 constexpr double kAnswers = 0.3, kForesees = 0.3;
 constexpr double kFastest = 0.01;  // m in a step
+constexpr double kGoesOn = 0.05;   // of friction's limit: pulled with less, a slack rod does not slide on
 
 /// Direction of the rod before and behind the segment in a ring.
 std::pair<Vec3, Vec3> either_side(const ElasticRod& rod, double arc_m) {
@@ -57,7 +58,9 @@ void RodRing::settle(const ElasticRod& rod, double stiffness_n_per_m, double lim
   const Vec3 middle = both.normalized();
   const double limit = limit_n + mu * (force_T - force_T.dot(middle) * middle).norm();
   const double was = arc_m - foreseen_m;
-  const double gone = std::clamp(slide(-foreseen_m, drive, limit, stiffness_n_per_m / kAnswers), -kFastest, kFastest);
+  const bool stops = foreseen_m == 0 ? false : std::copysign(drive, -foreseen_m * drive) < kGoesOn * limit_n;
+  const double gone =
+      stops ? 0 : std::clamp(slide(-foreseen_m, drive, limit, stiffness_n_per_m / kAnswers), -kFastest, kFastest);
   arc_m = std::clamp(was - gone, std::min(from_m, to_m), std::max(from_m, to_m));
   slid_m = arc_m - was;
   foreseen_m = slid_m == 0 ? 0 : foreseen_m + kForesees * (slid_m - foreseen_m);

@@ -120,7 +120,7 @@ void study_stitch(StudyResult& study) {
   const double law = puncture_force(rig.material, rig.setup.needle, {});
   const auto force_of = [&](SutureEvent::Kind kind) { return rig.told(kind) ? rig.told(kind)->force_n : 0.0; };
   add_ratio(study, "force that opens the surface, over the law", force_of(SutureEvent::Kind::kPuncture) / law, 0.05,
-            "0.95 to 1.05", "2.5 times J times the wire's width; 2.5 is unchecked.");
+            "0.95 to 1.05", "1.5 times J times the wire's width; 1.5 is unchecked.");
   add_ratio(study, "the same where the point comes out", force_of(SutureEvent::Kind::kExit) / law, 0.05, "0.95 to 1.05",
             "The second puncture.");
   study.cases.push_back({"stitches",

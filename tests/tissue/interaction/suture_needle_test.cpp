@@ -64,7 +64,7 @@ TEST(SutureNeedle, TheShapeIsAnArc) {
 TEST(SutureNeedle, OpensTheSurfaceAtItsForceAndThenGoesOnWithLess) {
   test::NeedleRig rig;
   const double law = puncture_force(rig.organ.material(), rig.needle.shape(), {});
-  EXPECT_NEAR(law, 2.5 * 164 * 0.0006, 1e-12);
+  EXPECT_NEAR(law, 1.5 * 164 * 0.0006, 1e-12);
   double before = 0, opened = 0, angle = kEnters;
   for (; opened == 0 && angle < 1.5; angle += 0.002) {
     rig.drive(angle);
@@ -92,11 +92,12 @@ TEST(SutureNeedle, LaidFlatItPressesAndOpensNothing) {
 
 TEST(SutureNeedle, ComesOutWithASecondPuncture) {
   test::NeedleRig rig;
-  turn(rig, 0, kOut);
+  constexpr double kBefore = kOut - 0.3;
+  turn(rig, 0, kBefore);
   EXPECT_FALSE(rig.needle.paths()[0].through());
   double out = 0;
   for (int i = 0; out == 0 && i < 400; ++i) {
-    rig.drive(kOut + 0.002 * i);
+    rig.drive(kBefore + 0.002 * i);
     if (const NeedleEvent* event = told(rig.needle, Kind::kExit)) out = event->force_n;
   }
   const double law = puncture_force(rig.organ.material(), rig.needle.shape(), {});

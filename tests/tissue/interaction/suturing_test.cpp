@@ -145,14 +145,15 @@ TEST(Suturing, DrawnOutNothingIsLeft) {
 
 TEST(Suturing, PulledHarderThanTheTissueBearsAStitchTearsOut) {
   // The thread sticks: what is drawn is the tissue.
-  Sewn s(0.15, {}, {.friction_n_per_m = 1000});
+  Sewn s(0.15, {}, {.friction_n_per_m = 400});
   s.stitch();
   const double limit = pull_out_force(s.organ.material(), s.last().bridge_m(), s.setup.tissue);
   EXPECT_NEAR(limit, std::min(4.62, 300 * s.last().bridge_m()), 1e-9);
   double most = 0;
   for (int i = 0; i < 900 && !s.told(Kind::kPulledOut); ++i) {
     s.move(s.jaws.p + Vec3(0, 0, 1e-4), 0, 1);
-    if (!s.suturing.thread().stitches().empty()) most = std::max(most, s.last().load_n);
+    if (!s.suturing.thread().stitches().empty())
+      most = std::max(most, i < 20 ? 0 : s.last().load_n);  // not while the hole takes the thread over
   }
   ASSERT_TRUE(s.told(Kind::kPulledOut));
   EXPECT_NEAR(most, limit, 0.05 * limit);
@@ -278,10 +279,14 @@ TEST(Suturing, ScissorsCutTheThreadAndPlaybackKnows) {
   s.move(s.jaws.p + Vec3(0, 0, 0.05), 0, 250);
   const std::size_t nodes = s.suturing.thread().rod().nodes().size();
   s.tool = make_tool(InstrumentKind::kScissors);
-  for (int i = 0; i < 150; ++i) s.step({s.jaws.R, Vec3(0, 0, 0.3)}, 0.006);  // the needle falls
-  // Across the thread, half way between the tissue and the needle.
-  const Vec3 at = s.suturing.thread().rod().place_at(s.last().exit.ring.arc_m / 2);
-  const Vec3 along = (s.suturing.thread().rod().place_at(0.4 * s.last().exit.ring.arc_m) - at).normalized();
+  const double drawn_to = s.last().exit.ring.arc_m;
+  for (int i = 0; i < 400; ++i) s.step({s.jaws.R, Vec3(0, 0, 0.3)}, 0.006);  // the needle falls and hangs
+  ASSERT_FALSE(s.suturing.thread().stitches().empty());
+  EXPECT_NEAR(s.last().exit.ring.arc_m, drawn_to, 0.003) << "friction keeps the thread where it is";
+  // Across the thread, beside the tissue, where it hardly moves.
+  const double arc = s.last().exit.ring.arc_m - 0.006;
+  const Vec3 at = s.suturing.thread().rod().place_at(arc);
+  const Vec3 along = (s.suturing.thread().rod().place_at(arc - 0.002) - at).normalized();
   Pose X;
   X.R.col(2) = along.unitOrthogonal();
   X.R.col(0) = along;
