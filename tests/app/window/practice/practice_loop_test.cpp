@@ -49,7 +49,7 @@ TEST_F(PracticeLoopTest, KeyboardAloneQuitsThroughTheMenu) {
 TEST_F(PracticeLoopTest, KeyboardAloneSignsIn) {
   frame();
   frame();
-  tab(4);  // Try now, tutorial, free play, code
+  tab(6);  // Try now, tutorial, free play, gallbladder, stitching, code
   frame();
   frame();
   frame(typed("T-7"));
