@@ -135,8 +135,8 @@ void SoftOrgan::support() {
   }
 }
 
-NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
-  NodeShares out;
+template <class Take>
+void SoftOrgan::each_share(const MaterialPoint& place, Take take) const {
   const Lattice& lattice = lattice_.lattice();
   const auto& triangle = rest()->triangles[static_cast<std::size_t>(place.triangle)];
   for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -145,12 +145,17 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
     for (const std::int32_t number : {e.cell, e.other}) {
       if (number < 0) continue;
       const LatticeCell& cell = lattice.cells[static_cast<std::size_t>(number)];
-      for (std::size_t k = 0; k < 8; ++k) {
-        out.node.push_back(cell.corners[k]);
-        out.share.push_back(weight * e.weights[k]);
-      }
+      for (std::size_t k = 0; k < 8; ++k) take(cell.corners[k], weight * e.weights[k]);
     }
   }
+}
+
+NodeShares SoftOrgan::shares_of(const MaterialPoint& place) const {
+  NodeShares out;
+  each_share(place, [&](std::int32_t node, float share) {
+    out.node.push_back(node);
+    out.share.push_back(share);
+  });
   return out;
 }
 
@@ -285,21 +290,22 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) cons
   const std::int32_t own = part_of(place.triangle);
   const double reach = kSpread * contact_radius(part(place.triangle), force_n),
                whole = 2.0 / 3 * std::numbers::pi * reach * reach;
-  const Vec3 middle = place_at(place, rest()->vertices);
+  const std::vector<Vec3>& vertices = rest()->vertices;
+  const auto& triangles = rest()->triangles;
+  const Vec3 middle = place_at(place, vertices);
   std::vector<std::pair<std::int32_t, double>> sum;
   double given = 0;
   const auto add = [&](const MaterialPoint& at, double share) {
-    const NodeShares point = shares_of(at);
-    for (std::size_t i = 0; i < point.node.size(); ++i)
-      sum.emplace_back(point.node[i], share * static_cast<double>(point.share[i]));
+    each_share(
+        at, [&](std::int32_t node, float of_point) { sum.emplace_back(node, share * static_cast<double>(of_point)); });
     given += share;
   };
-  for (std::size_t t = 0; t < rest()->triangles.size(); ++t) {
+  const double near = (reach + longest_edge_m_) * (reach + longest_edge_m_);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
     std::array<Vec3, 3> corner;
-    const Vec3& first = rest()->vertices[static_cast<std::size_t>(rest()->triangles[t][0])];
-    if ((first - middle).squaredNorm() > (reach + longest_edge_m_) * (reach + longest_edge_m_)) continue;
+    if ((vertices[static_cast<std::size_t>(triangles[t][0])] - middle).squaredNorm() > near) continue;
     if (part_of(static_cast<std::int32_t>(t)) != own) continue;
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = rest()->vertices[static_cast<std::size_t>(rest()->triangles[t][k])];
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = vertices[static_cast<std::size_t>(triangles[t][k])];
     const double area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm() / (kParts * kParts);
     // The centres of the triangle's equal parts, those that stand and those that hang.
     for (int i = 0; i < kParts; ++i)
@@ -312,15 +318,18 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) cons
         }
   }
   if (given < 1) add(place, 1 - given);
-  std::stable_sort(sum.begin(), sum.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Summed node by node, in the order of the points: a sort of all of them costs more than all the rest.
   NodeShares out;
+  std::vector<float> of_node(solid_.node_count(), 0);
+  std::vector<bool> met(solid_.node_count(), false);
   for (const auto& [node, share] : sum) {
-    if (out.node.empty() || out.node.back() != node) {
-      out.node.push_back(node);
-      out.share.push_back(0);
-    }
-    out.share.back() += static_cast<float>(share / given);
+    const auto n = static_cast<std::size_t>(node);
+    if (!met[n]) out.node.push_back(node);
+    met[n] = true;
+    of_node[n] += static_cast<float>(share / given);
   }
+  std::sort(out.node.begin(), out.node.end());
+  for (const std::int32_t node : out.node) out.share.push_back(of_node[static_cast<std::size_t>(node)]);
   return out;
 }
 
@@ -485,7 +494,7 @@ void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
   const double inner = kWholeDent * options_.neighbourhood_m, outer = kShellEnd * options_.neighbourhood_m;
   for (std::size_t v = 0; v < felt_.size(); ++v) {
     const Vec3& rest = lattice_.rest()->vertices[v];
-    const std::int32_t part = lattice_.part_of(static_cast<std::int32_t>(v));
+    const std::int32_t part = parts_.size() > 1 ? lattice_.part_of(static_cast<std::int32_t>(v)) : 0;
     const Dent* nearest = nullptr;
     for (const Dent& dent : dents)
       if (dent.part == part &&

@@ -100,6 +100,7 @@ class SoftOrgan {
   /// Of the part that a triangle belongs to; the first one is the organ's own.
   const TissueSolid& material(std::int32_t triangle = 0) const { return part(triangle).material; }
   std::int32_t part_of(std::int32_t triangle) const {
+    if (parts_.size() < 2) return 0;
     return lattice_.part_of(rest()->triangles[static_cast<std::size_t>(triangle)][0]);
   }
   OrganBed* bed() { return bed_ ? &*bed_ : nullptr; }  ///< nullptr: none
@@ -130,6 +131,9 @@ class SoftOrgan {
     std::array<double, 2> gain{}, keep{};  ///< g_i / g_inf; a_i
   };
   const Part& part(std::int32_t triangle) const { return parts_[static_cast<std::size_t>(part_of(triangle))]; }
+  /// Takes node and share of one after the other; a node may come again.
+  template <class Take>
+  void each_share(const MaterialPoint& place, Take take) const;
   /// The same of all that a tool presses there with this force.
   NodeShares shares_of(const MaterialPoint& place, double force_n) const;
   /// Of the tool with a half-space, m.
