@@ -75,7 +75,8 @@ TEST(Scripts, EveryLibraryThatCMakeLooksForIsOnTheList) {
                                                                    {"CLI11", "libcli11-dev"},
                                                                    {"tomlplusplus", "libtomlplusplus-dev"},
                                                                    {"GTest", "libgtest-dev"},
-                                                                   {"benchmark", "libbenchmark-dev"}};
+                                                                   {"benchmark", "libbenchmark-dev"},
+                                                                   {"embree", "libembree-dev"}};
   static const std::regex kFind(R"(find_package\((\w+))");
   std::size_t seen = 0;
   for (const auto& entry : fs::recursive_directory_iterator(kRoot)) {
