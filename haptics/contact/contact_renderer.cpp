@@ -24,6 +24,9 @@ constexpr double kShareSlack = 1e-5;     // m beyond the radius within which a t
 constexpr double kSameNormal = 0.9998;   // cosine of 1.1 deg: contacts closer than this are one
 constexpr double kSamePoint = 5e-4;      // m
 constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a change of material
+constexpr double kIdleTurn = 0.009;      // rad a period that the force may turn as the proxy slides on: 0.5 deg
+constexpr double kRounding = 3e-3;       // m that the instrument moves for one rad more
+constexpr int kTurnHalvings = 5;         // of the way that the proxy slides
 
 }  // namespace
 
@@ -110,12 +113,10 @@ ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& 
 
 void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch) {
   const double turn = turn_to(axes);
-  // The proxy slides no further than this in one period.
-  double allowance = kIdleTravel + 1.5 * (goal - last_goal_).norm();
+  const double moved = (goal - last_goal_).norm();
   last_goal_ = goal;
   touch_count_ = 0;
-  const double stride = 0.5 * thinnest_m_;
-  const int turns = std::clamp(static_cast<int>(std::ceil(turn / stride)), 1, kMaxSteps);
+  const int turns = std::clamp(static_cast<int>(std::ceil(turn / (0.5 * thinnest_m_))), 1, kMaxSteps);
   const CapsuleAxes before = axes_;
   for (int i = 1; i <= turns; ++i) {
     const double s = static_cast<double>(i) / turns;
@@ -126,6 +127,35 @@ void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, cons
     near_.turn(before, axes, 1.0 / turns);
     project(patch, kSlideSlack);  // the instrument may have turned into the surface
   }
+  // The proxy slides no further than this in one period, and no further than its force may turn.
+  const double allowance = kIdleTravel + 1.5 * moved, most_turn = kIdleTurn + moved / kRounding;
+  const Vec3 from = proxy_;
+  const double whole = slide(goal, allowance, patch);
+  const auto holds = [&] { return !push_.isZero(0) && turned() <= most_turn; };
+  if (last_push_.isZero(0) || holds()) return;
+  const auto holds_after = [&](double way) {
+    near_.travel((from - proxy_).norm());
+    proxy_ = from;
+    project(patch, kSlideSlack);
+    slide(goal, way, patch);
+    return holds();
+  };
+  // If it turns without a slide a wall is met: that is not held back.
+  double least = 0, most = holds_after(0) ? whole : 0;
+  for (int i = 0; i < kTurnHalvings && most > 0; ++i) {
+    const double middle = (least + most) / 2;
+    (holds_after(middle) ? least : most) = middle;
+  }
+  holds_after(most > 0 ? least : allowance);
+}
+
+double ContactRenderer::turned() const {
+  return std::acos(std::min(1.0, push_.dot(last_push_) / (push_.norm() * last_push_.norm())));
+}
+
+double ContactRenderer::slide(const Vec3& goal, double allowance, const ContactPatch& patch) {
+  double way = 0;
+  const double stride = 0.5 * thinnest_m_;
   for (int slides = 0, falls = 0; slides < kMaxSteps && falls < kMostFall;) {
     // In the air, slid off an edge, it carries nothing however deep the instrument is: it falls until it lands.
     const bool in_air = touch_count_ == 0;
@@ -136,7 +166,10 @@ void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, cons
     if (length < kArrived) break;
     const double travel = std::min({length, stride, in_air ? stride : allowance});
     proxy_ += step * (travel / length);
-    if (!in_air) allowance -= travel;
+    if (!in_air) {
+      allowance -= travel;
+      way += travel;
+    }
     near_.travel(travel);
     project(patch, kSlideSlack);
     if (in_air && touch_count_ > 0) allowance = std::max(allowance, kIdleTravel);
@@ -144,6 +177,9 @@ void ContactRenderer::move_proxy(const Vec3& goal, const CapsuleAxes& axes, cons
   // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.
   project(patch, kShareSlack);
   if (touch_count_ == 0) lean_on_nearest(goal, patch);
+  const Vec3 y = proxy_ - goal;
+  push_ = touch_count_ == 0 || y.norm() < kArrived ? Vec3(Vec3::Zero()) : Vec3(y - share_out(y));
+  return way;
 }
 
 void ContactRenderer::lean_on_nearest(const Vec3& goal, const ContactPatch& patch) {
@@ -174,6 +210,7 @@ CapsuleAxes ContactRenderer::place_capsules(const Pose& X_TI) {
   }
   if (!started_) {
     proxy_ = last_goal_ = X_TI.p;
+    last_push_.setZero();
     axes_ = axes;
     started_ = true;
   }
@@ -190,8 +227,8 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
 
   ContactResult result;
   const Vec3 y = proxy_ - goal;
-  const bool free = touch_count_ == 0 || y.norm() < kArrived;
-  if (!free) share_out(y);
+  const bool free = push_.isZero(0);
+  last_push_ = push_;
   const Touch* largest = &touch_[0];
   for (int i = 0; !free && i < touch_count_; ++i) {
     if (touch_[i].share > largest->share) largest = &touch_[i];
@@ -203,9 +240,9 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
   }
   blend_material(patch, travel);
   list_pressed(patch);
-  const double approach = approach_speed(V_TI_T, y.norm());
+  const double depth = push_.norm(), approach = approach_speed(V_TI_T, depth);
   const double damping = result.damping_factor = std::max(0.0, 1 + 1.5 * blend_.damping_s_per_m * approach);
-  glide_.dissipated((damping - 1) * blend_.stiffness_n_per_m * y.norm() * approach * glide_.period_s());
+  glide_.dissipated((damping - 1) * blend_.stiffness_n_per_m * depth * approach * glide_.period_s());
   for (int i = 0; i < contacts_.count; ++i) {
     const PressedPlace& p = pressed_[i];
     const Vec3 force = blend_.stiffness_n_per_m * p.share * p.normal;
@@ -213,15 +250,15 @@ ContactResult ContactRenderer::proxy_law(const Pose& X_TI, const Twist& V_TI_T, 
     result.spring_I_T.moment += (p.foot - proxy_).cross(force);
     contacts_.at[i].force_T = force * damping;
     contacts_.at[i].tool_T = p.foot - y;
-    contacts_.at[i].share = std::clamp(p.share / std::max(kArrived, p.normal.dot(y)), 0.0, 1.0);
+    contacts_.at[i].share = std::clamp(p.share / std::max(kArrived, p.normal.dot(push_)), 0.0, 1.0);
   }
   result.F_I_T = result.spring_I_T * damping;
   result.contact = true;
   result.tip_contact = largest->at_tip;
   result.point_T = largest->point;
-  result.normal_T = y.normalized();
-  result.depth_m = y.norm();
-  result.stored_j = stored_j_ = 0.5 * blend_.stiffness_n_per_m * y.squaredNorm();
+  result.normal_T = push_ / depth;
+  result.depth_m = depth;
+  result.stored_j = stored_j_ = 0.5 * blend_.stiffness_n_per_m * depth * depth;
   add_friction(X_TI, V_TI_T, patch, result);
   return result;
 }

@@ -6,7 +6,9 @@
 // short. At rest y is the shortest displacement that frees the instrument and F = k y; the moment is that of the
 // contact forces about the tip (virtual work of V = k |y|^2 / 2, so the law is conservative). One k serves all
 // contacts: that of the touched materials by the force they carry; where it changes it follows over 2 mm of travel, so
-// that no border between materials is a step. The radius rounds convex edges: the normal turns continuously. Damping
+// that no border between materials is a step. The radius rounds convex edges: the normal turns continuously; where that
+// is too fast (deep, or over facets) the proxy lags behind, so that the force turns no faster than over an edge of 3 mm
+// and 0.5 deg a period: V then counts what contacts carry of y, and sliding on only lowers it. Damping
 // multiplies the force by 1 + 1.5 c v, v the speed at which instrument and surface approach, bounded below by 0: it
 // never pulls (Hunt and Crossley 1975, exponent 1). Friction comes on top (contact_friction.h). Zilles and Salisbury
 // 1995 (god-object), Ortega, Redon and Coquillart 2007 (6-DOF god-object).
@@ -90,8 +92,12 @@ class ContactRenderer {
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch);
   /// Where the axes of all capsules lie now; on the first call the proxy begins there.
   CapsuleAxes place_capsules(const Pose& X_TI);
-  /// Moves the proxy to where it rests this period and lists what it touches.
+  /// Moves the proxy to where it rests this period and shares out the force to what it touches.
   void move_proxy(const Vec3& goal, const CapsuleAxes& axes, const ContactPatch& patch);
+  /// @return m that it has gone along the surface
+  double slide(const Vec3& goal, double allowance, const ContactPatch& patch);
+  /// By how much the force has turned since the last period, rad; both carry some.
+  double turned() const;
   ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
   /// The period ended in the middle of a slide, a hair off the surface: brings the proxy to what it slides along.
   void lean_on_nearest(const Vec3& goal, const ContactPatch& patch);
@@ -119,8 +125,9 @@ class ContactRenderer {
   ContactLaw law_;
   ToolShape shape_;
   bool started_ = false;
-  Vec3 proxy_ = Vec3::Zero();      ///< tip centre of the proxy, T
-  Vec3 last_goal_ = Vec3::Zero();  ///< tip of the instrument one period ago, T
+  Vec3 proxy_ = Vec3::Zero();                            ///< tip centre of the proxy, T
+  Vec3 last_goal_ = Vec3::Zero();                        ///< tip of the instrument one period ago, T
+  Vec3 push_ = Vec3::Zero(), last_push_ = Vec3::Zero();  ///< of y what the contacts carry, now and one period ago, m
   ToolCapsules tool_;
   int known_ = 0;          ///< capsules of the last period
   double thinnest_m_ = 0;  ///< least radius in tool_

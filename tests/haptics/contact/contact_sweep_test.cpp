@@ -130,6 +130,21 @@ TEST_F(ContactSweep, AlongASphereOfEightThousandTriangles) {
   EXPECT_GT(steps.least_n, 0.5) << "the facets lie a little under the sphere, never lost";
 }
 
+TEST_F(ContactSweep, DeeperThanTheTipFacetsAreNoSteps) {
+  // The proxy would go from facet to facet, 11 deg apart, at once, however slowly the tool moves.
+  const TriangleSurface ball = test::sphere(3, 0.04);
+  for (const int speed : {1, 5}) {  // 10 and 50 mm/s
+    const auto place = [speed](int k) {
+      const double angle = -0.3 + k * speed * kStep / 0.04;
+      return tip_down(Vec3(std::sin(angle), 0.1, std::cos(angle)).normalized() * (0.04 + kRadius - 0.004));
+    };
+    test::patch_near(ball, {0, 0, 0.04}, 0.025, *patch);
+    const Steps steps = sweep(*patch, 2000 / speed, place);
+    EXPECT_LT(steps.turn_deg, 2.0) << speed;
+    EXPECT_GT(steps.least_n, 0.9) << "never lost";
+  }
+}
+
 /// Both faces of a sheet 2 mm thick about z = 0.
 void thin_sheet(ContactPatch& patch) {
   test::add_sheet(patch, {-0.03, -0.03, 0.001}, {0.06, 0, 0}, {0, 0.06, 0}, 6);
