@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kAboveHook = 0.004;   // m that a hook's blade stands out of the tissue
 constexpr double kRinseBelow = 0.008;  // m of opening: fingers that rinse
+constexpr double kLeastTear = 1e-3;    // m between two holes
 constexpr double kLeastForce = 1e-3;   // N of a contact that presses or passes current
 
 /// The strongest contact on the organ.
@@ -221,7 +222,10 @@ void InstrumentActions::tear_at(const Vec3& from_T, const Vec3& to_T, const Vec3
 
 void InstrumentActions::open_torn(SoftOrgan& organ) {
   for (const auto& [from, to] : std::exchange(torn_, {})) {
-    const Vec3 from_T = organ.place_T(organ.shares_within(from)), to_T = organ.place_T(organ.shares_within(to));
+    const NodeShares at_from = organ.shares_within(from), at_to = organ.shares_within(to);
+    if (at_from.node.empty() || at_to.node.empty()) continue;  // what it was torn out of is gone
+    const Vec3 from_T = organ.place_T(at_from), to_T = organ.place_T(at_to);
+    if ((to_T - from_T).norm() < kLeastTear) continue;
     tear_at(from_T, to_T, -outward_at(*organ.surface(), organ.nearest_place((from_T + to_T) / 2).triangle), organ);
   }
 }
