@@ -1,6 +1,7 @@
 #include "haptics/contact/gliding_patch.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace trocar {
 
@@ -33,12 +34,36 @@ void GlidingPatch::dissipated(double energy_j) {
   tank_j_ = std::min(parameters_.tank_j, tank_j_ + std::max(0.0, energy_j));
 }
 
+GlidingPatch::Places GlidingPatch::places_in_present(const ContactPatch& newest) const {
+  if (newest.follows == stamp_) return newest.previous;
+  // A patch between them was lost: the triangles' ids tell.
+  Places places;
+  places.fill(-1);
+  std::array<std::int16_t, kMaxPatchTriangles> by_id;
+  const auto last = by_id.begin() + present_.count;
+  std::iota(by_id.begin(), last, std::int16_t{0});
+  const auto id = [this](std::int16_t i) { return present_.triangle[static_cast<std::size_t>(i)].id; };
+  std::sort(by_id.begin(), last, [&](std::int16_t a, std::int16_t b) { return id(a) < id(b); });
+  for (int t = 0; t < newest.count; ++t) {
+    const PatchTriangle& triangle = newest.triangle[static_cast<std::size_t>(t)];
+    const auto found =
+        std::lower_bound(by_id.begin(), last, triangle.id, [&](std::int16_t i, std::int32_t of) { return id(i) < of; });
+    if (found == last || id(*found) != triangle.id) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      places[static_cast<std::size_t>(triangle.corner[c])] =
+          present_.triangle[static_cast<std::size_t>(*found)].corner[c];
+  }
+  return places;
+}
+
 void GlidingPatch::take(const ContactPatch& newest) {
-  const bool known = stamp_ != 0 && newest.follows == stamp_ && newest.topology == present_.topology;
+  const bool known = stamp_ != 0 && newest.topology == present_.topology;
+  Places places;
+  if (known) places = places_in_present(newest);
   longest_m_ = 0;
   for (int i = 0; i < newest.vertex_count; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const std::int16_t before = known ? newest.previous[at] : std::int16_t{-1};
+    const std::int16_t before = known ? places[at] : std::int16_t{-1};
     end_[at] = newest.vertex[at];
     start_[at] = before >= 0 ? present_.vertex[static_cast<std::size_t>(before)]
                              : Vec3(newest.vertex[at] - newest.glide_s * newest.velocity[at]);

@@ -47,6 +47,9 @@ class GlidingPatch {
   double force_share() const { return force_share_; }  ///< 1 while patches come
 
  private:
+  using Places = std::array<std::int16_t, kMaxPatchVertices>;
+  /// Where each vertex of the newest patch is in the present one, -1: not there. Of one topology.
+  Places places_in_present(const ContactPatch& newest) const;
   void take(const ContactPatch& newest);
   /// What the rest of the way costs at the present forces, J.
   double cost_of_rest(const SolvedContacts& pressed, double stored_j) const;

@@ -106,18 +106,28 @@ Vec3 SoftBench::bridged(const ContactResult& contact, const Vec3& tip_T) const {
   return solved_force_.z() > 0 ? Vec3(0, 0, std::max(0.0, force)) : Vec3::Zero();
 }
 
-Vec3 SoftBench::tick(const Vec3& tip_T, const Vec3& velocity_T) {
-  const Pose X_TI = pointing_down(tip_T);
-  const auto period = static_cast<std::uint64_t>(period_);
-  if (tick_ % period == 0) step_tissue(X_TI);
-  if (tick_ % period == static_cast<std::uint64_t>(setup_.patch_delay) % period && made_->stamp > 0) {
-    std::swap(seen_, made_);
-    solved_force_ = made_force_;
-    solved_tip_ = made_tip_;
+void SoftBench::receive() {
+  if (due_ != static_cast<std::int64_t>(tick_)) return;
+  std::swap(seen_, made_);
+  solved_force_ = made_force_;
+  solved_tip_ = made_tip_;
+  due_ = -1;
+}
+
+ContactResult SoftBench::tick(const Pose& X_TI, const Twist& V_TI_T, const TissueNews& news) {
+  receive();
+  if (tick_ % static_cast<std::uint64_t>(period_) == 0 && !news.stalled) {
+    step_tissue(X_TI);
+    const int delay = news.delay < 0 ? setup_.patch_delay % period_ : news.delay;
+    due_ = news.lost ? -1 : static_cast<std::int64_t>(tick_) + delay;
+    receive();
   }
   ++tick_;
-  if (seen_->stamp == 0) return Vec3::Zero();
-  return bridged(renderer_.update(X_TI, {velocity_T, Vec3::Zero()}, *seen_), tip_T);
+  return seen_->stamp == 0 ? ContactResult{} : renderer_.update(X_TI, V_TI_T, *seen_);
+}
+
+Vec3 SoftBench::tick(const Vec3& tip_T, const Vec3& velocity_T) {
+  return bridged(tick(pointing_down(tip_T), {velocity_T, Vec3::Zero()}, {}), tip_T);
 }
 
 PressMeasures press(const SoftBenchSetup& setup, const SoftHand& hand, double depth_m) {

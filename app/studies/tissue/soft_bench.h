@@ -38,12 +38,23 @@ double thread_cpu_s();
 /// Ellipsoid about the origin with rings of triangles. @param half_m half axes
 TriangleSurface ellipsoid_surface(const Vec3& half_m, int rows);
 
+/// What becomes of the tissue's step, where one is due.
+struct TissueNews {
+  bool stalled = false;  ///< it is not made
+  bool lost = false;     ///< its patch never arrives
+  int delay = -1;        ///< ticks to the one that sees its patch, at most a period; -1: as set up
+};
+
 class SoftBench {
  public:
   explicit SoftBench(const SoftBenchSetup& setup);
 
   /// One tick. @param tip_T centre of the tip's sphere. @return force on the tool
   Vec3 tick(const Vec3& tip_T, const Vec3& velocity_T);
+  /// One tick of ours with the tool in any pose.
+  ContactResult tick(const Pose& X_TI, const Twist& V_TI_T, const TissueNews& news);
+  /// Of the dent in the patch that the loop sees, N/m.
+  double seen_stiffness() const { return seen_->material[0].stiffness_n_per_m; }
 
   /// Centre of the tip when it just touches at this place of the top.
   Vec3 touching(double x_m, double y_m) const;
@@ -54,6 +65,7 @@ class SoftBench {
 
  private:
   void step_tissue(const Pose& X_TI);
+  void receive();
   Vec3 bridged(const ContactResult& contact, const Vec3& tip_T) const;
 
   SoftBenchSetup setup_;
@@ -68,6 +80,7 @@ class SoftBench {
   Vec3 solved_force_ = Vec3::Zero(), solved_tip_ = Vec3::Zero();  ///< of the patch that is seen
   Vec3 made_force_ = Vec3::Zero(), made_tip_ = Vec3::Zero();
   std::uint64_t tick_ = 0, stamp_ = 0;
+  std::int64_t due_ = -1;  ///< tick at which the loop sees the patch that was made last; -1: never
   double tissue_cpu_s_ = 0;
   int steps_ = 0, period_;
 };
