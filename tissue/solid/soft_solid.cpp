@@ -602,9 +602,13 @@ void SoftSolid::predict() {
 
 void SoftSolid::step(std::span<SoftSpring> springs) {
   const auto h = static_cast<float>(options_.step_s);
-  std::vector<bool> active(springs.size(), true);
   predict();
   iterations_ = 0;
+  // What the guess says: a contact that it has off the tissue would cost a solve to let go.
+  std::vector<bool> active(springs.size());
+  for (std::size_t s = 0; s < springs.size(); ++s)
+    active[s] = !springs[s].pushes_only ||
+                springs[s].stretch_m + h * springs[s].direction.cast<float>().dot(at(springs[s].place, guess_)) > 0;
   for (int pass = 0; pass < kActiveSetPasses; ++pass) {
     solve(springs, active);
     bool changed = false;
