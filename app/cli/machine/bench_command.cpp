@@ -16,6 +16,7 @@
 #include "app/cli/machine/bench_compiler.h"
 #include "app/cli/machine/bench_contact.h"
 #include "app/cli/machine/bench_pictures.h"
+#include "app/cli/machine/bench_tissue.h"
 #include "app/session/recording/recording_reader.h"
 #include "app/session/session.h"
 #include "app/window/practice/latency_bench.h"
@@ -135,6 +136,38 @@ void print_contact(const nlohmann::ordered_json& rows, std::ostream& out) {
   }
 }
 
+/// A step of an organ that gives way, on cells of three sizes, whole and after 200 cuts.
+nlohmann::ordered_json tissue_by_size(std::ostream& err) {
+  constexpr int kCuts = 200, kSteps = 200;
+  nlohmann::ordered_json json;
+  for (const double edge_m : {0.0140, 0.0074, 0.00435}) {
+    err << "trocar: a step of tissue on cells of " << 1e3 * edge_m << " mm, whole and after " << kCuts << " cuts\n";
+    TissueCost cost = tissue_cost(edge_m, kCuts, kSteps);
+    json.push_back({{"cells_mm", 1e3 * edge_m},
+                    {"nodes", cost.nodes},
+                    {"triangles", cost.triangles},
+                    {"cuts", cost.cuts},
+                    {"nodes_cut", cost.nodes_cut},
+                    {"triangles_cut", cost.triangles_cut},
+                    {"whole_us", percentiles(cost.whole)},
+                    {"cut_us", percentiles(cost.cut)}});
+  }
+  return json;
+}
+
+void print_tissue(const nlohmann::ordered_json& rows, std::ostream& out) {
+  out << "\na step of tissue (10 ms), probe pressing at 2 Hz; median and p99, ms CPU\n"
+      << "   nodes  triangles           whole    cuts   nodes  triangles       after them    ratio\n";
+  for (const auto& row : rows) {
+    const auto ms = [&](const char* of, const char* share) { return 1e-3 * row[of][share].get<double>(); };
+    out << std::setw(8) << row["nodes"].get<int>() << std::setw(11) << row["triangles"].get<int>() << std::setw(8)
+        << ms("whole_us", "median") << std::setw(8) << ms("whole_us", "p99") << std::setw(8) << row["cuts"].get<int>()
+        << std::setw(8) << row["nodes_cut"].get<int>() << std::setw(11) << row["triangles_cut"].get<int>()
+        << std::setw(9) << ms("cut_us", "median") << std::setw(8) << ms("cut_us", "p99") << std::setw(9)
+        << ms("cut_us", "median") / ms("whole_us", "median") << '\n';
+  }
+}
+
 /// From a person's event to the frame that shows it; says why not where there is no OpenGL.
 nlohmann::ordered_json input_to_picture(const AssetRoots& assets, std::ostream& err) {
   constexpr double kSeconds = 8;
@@ -222,6 +255,7 @@ nlohmann::ordered_json loop_figures(const BenchOptions& options, const AssetRoot
   StageTimes fixed = fixed_work(10000);
   json["stages_us"]["fixed work (the machine)"] = percentiles(fixed);
   json["contact_us"] = contact_by_size(err);
+  json["tissue_step"] = tissue_by_size(err);
   return json;
 }
 
@@ -235,6 +269,7 @@ void print_stages(const nlohmann::ordered_json& json, std::ostream& out) {
     out << '\n';
   }
   print_contact(json["contact_us"], out);
+  print_tissue(json["tissue_step"], out);
 }
 
 }  // namespace

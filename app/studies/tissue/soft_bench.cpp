@@ -66,13 +66,22 @@ SoftBench::SoftBench(const SoftBenchSetup& setup)
       organ_(organ_on(rest_, setup)),
       felt_(*rest_),
       velocity_(felt_.vertices.size(), Vec3::Zero()),
-      extraction_(felt_),
+      extraction_(std::in_place, felt_),
       renderer_(setup.bridge == RateBridge::kThesis ? ContactLaw::kThesis : ContactLaw::kProxy, tool_),
       period_(static_cast<int>(std::lround(setup.organ.solid.step_s / kLoopPeriod))) {}
 
 Vec3 SoftBench::touching(double x_m, double y_m) const {
   const double x = x_m / kOrganHalf.x(), y = y_m / kOrganHalf.y();
   return {x_m, y_m, kOrganHalf.z() * std::sqrt(1 - x * x - y * y) + tool_.radius_m};
+}
+
+bool SoftBench::cut(const Blade& blade) {
+  if (organ_.cut(blade).refusal != CutRefusal::kNone) return false;
+  felt_.vertices.assign(organ_.felt().begin(), organ_.felt().end());
+  felt_.triangles = organ_.rest()->triangles;
+  velocity_.assign(felt_.vertices.size(), Vec3::Zero());
+  extraction_.emplace(felt_);
+  return true;
 }
 
 void SoftBench::step_tissue(const Pose& X_TI) {
@@ -84,9 +93,10 @@ void SoftBench::step_tissue(const Pose& X_TI) {
     velocity_[v] = (now[v] - felt_.vertices[v]) / setup_.organ.solid.step_s;
     felt_.vertices[v] = now[v];
   }
-  extraction_.refit(velocity_);
-  extraction_.extract(X_TI, tool_, *made_);
+  extraction_->refit(velocity_);
+  extraction_->extract(X_TI, tool_, *made_);
   made_->stamp = ++stamp_;
+  made_->topology = organ_.topology();
   made_->follows = stamp_ - 1;
   made_->glide_s = setup_.bridge == RateBridge::kGliding ? setup_.organ.solid.step_s : 0;
   made_->moving = setup_.bridge == RateBridge::kGliding;

@@ -56,6 +56,9 @@ class SoftBench {
   /// Of the dent in the patch that the loop sees, N/m.
   double seen_stiffness() const { return seen_->material[0].stiffness_n_per_m; }
 
+  /// Cuts the organ; the next step feels it. @return false: refused
+  bool cut(const Blade& blade);
+
   /// Centre of the tip when it just touches at this place of the top.
   Vec3 touching(double x_m, double y_m) const;
   double tissue_force_n() const { return organ_.force_n(); }
@@ -74,7 +77,7 @@ class SoftBench {
   SoftOrgan organ_;
   TriangleSurface felt_;
   std::vector<Vec3> velocity_;
-  PatchExtraction extraction_;
+  std::optional<PatchExtraction> extraction_;
   ContactRenderer renderer_;
   std::unique_ptr<ContactPatch> seen_ = std::make_unique<ContactPatch>(), made_ = std::make_unique<ContactPatch>();
   Vec3 solved_force_ = Vec3::Zero(), solved_tip_ = Vec3::Zero();  ///< of the patch that is seen
