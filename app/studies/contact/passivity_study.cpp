@@ -14,7 +14,7 @@ constexpr double kPressTravel = 0.105;  // m of the fastest press
 constexpr double kReacts = 0.45;        // s after touch at which the operator stiffens
 constexpr double kWatched = 2.5;        // s after touch
 constexpr double kThesisOff = 0.66, kThesisOn = 0.17, kThesisGravity = 0.08;  // s, figures 4.15, 4.16, 4.18
-constexpr std::size_t kQuickPresses = 5, kQuickHands = 4, kSettlingHands = 120;
+constexpr std::size_t kQuickGridPresses = 5, kQuickHands = 4, kSettlingHands = 120;
 constexpr double kSettlingWatched = 1.5;  // s after touch
 
 const std::string kSettled =
@@ -145,8 +145,8 @@ const LawTally& tally_of(const GridResult& grid, const char* name) {
 }
 
 void passivity_laws(StudyResult& study, const StudyRequest& request) {
-  const GridResult grid =
-      run_grid(grid_cases(request.seed, request.quick ? kQuickPresses : kGridPresses, request.nominal), grid_laws());
+  const GridResult grid = run_grid(
+      grid_cases(request.seed, request.quick ? kQuickGridPresses : kGridPresses, request.nominal), grid_laws());
   const int presses = static_cast<int>(grid.cases.size());
   const auto share = [&](const LawTally& t) { return static_cast<double>(t.stable) / presses; };
   const LawTally &off = tally_of(grid, "off"), &thesis = tally_of(grid, "thesis"), &on = tally_of(grid, "budgeted"),

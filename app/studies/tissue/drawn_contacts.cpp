@@ -48,15 +48,15 @@ struct Body {
 
   /// A tick under the contact's wrench, held.
   void move(const DrawnContact& draw, HandModel& hand, const Wrench& contact) {
-    constexpr double kStep = kTick / kParts;
+    constexpr double kPartOfTick = kTick / kParts;
     for (int i = 0; i < kParts; ++i) {
-      const Wrench all = hand.update(motion, kStep).stylus_B + contact;
-      motion.V_BS.linear += kStep / draw.mass_kg * all.force;
-      motion.V_BS.angular += kStep / draw.inertia_kg_m2 * all.moment;
-      motion.X_BS.p += kStep * motion.V_BS.linear;
-      const double angle = kStep * motion.V_BS.angular.norm();
+      const Wrench all = hand.update(motion, kPartOfTick).stylus_B + contact;
+      motion.V_BS.linear += kPartOfTick / draw.mass_kg * all.force;
+      motion.V_BS.angular += kPartOfTick / draw.inertia_kg_m2 * all.moment;
+      motion.X_BS.p += kPartOfTick * motion.V_BS.linear;
+      const double angle = kPartOfTick * motion.V_BS.angular.norm();
       if (angle > 0) motion.X_BS.R = turn(angle, motion.V_BS.angular.normalized()) * motion.X_BS.R;
-      energy_j += kStep * (contact.force.dot(motion.V_BS.linear) + contact.moment.dot(motion.V_BS.angular));
+      energy_j += kPartOfTick * (contact.force.dot(motion.V_BS.linear) + contact.moment.dot(motion.V_BS.angular));
     }
     most_j = std::max(most_j, energy_j);
   }
