@@ -298,7 +298,8 @@ void TissueWorld::clear_taken(ContactPatch& patch) const {
 
 void TissueWorld::bring_needle(const StylusState& stylus, const Tool& tool, bool present) {
   if (!suture_) return;
-  const bool drives = present && tool.kind == InstrumentKind::kNeedleDriver, taken_up = drives && !drives_;
+  const bool sound = stylus.X_TI.p.allFinite() && stylus.X_TI.R.allFinite();
+  const bool drives = present && sound && tool.kind == InstrumentKind::kNeedleDriver, taken_up = drives && !drives_;
   drives_ = drives;
   if (!taken_up || (suturing_ && (suturing_->sewn_in() || suturing_->needle().held()))) return;
   SutureSetup setup = *suture_;

@@ -164,7 +164,8 @@ TEST(BenchContact, FeelsTheSurfaceInEveryTickHoweverFineItIs) {
     EXPECT_EQ(cost.fresh.us.size(), 40u) << "every tenth tick sees a new patch";
     ASSERT_EQ(cost.least.us.size(), 400u);
     EXPECT_LE(cost.least.percentile(0.5), cost.step.percentile(0.5));
-    EXPECT_LE(cost.lists, 0.2) << "one with each patch, and one more before the next";
+    EXPECT_LE(cost.lists, 0.25)
+        << "one with each patch, one more before the next, and where the way that the force may turn is sought";
     EXPECT_LT(cost.measured, 20) << "of up to 512 triangles in the patch; a count, the same on every machine";
     EXPECT_GT(cost.measured, 1);
   }
